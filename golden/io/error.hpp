@@ -1,0 +1,26 @@
+// What goes wrong outside the program: each kind is one exit status of the command line.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace quadrille::golden {
+
+/// A usage or input error (exit status 2). The message names the place, what is wrong and what would be right:
+/// "file:line: what is wrong; what would be right".
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The environment lacks something, such as a tool (exit status 3). The message names it and the way to get it.
+struct EnvironmentError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// InputError for a place in a text file; line is 1-based, 0 means the file as a whole.
+inline InputError input_error(const std::string& file, std::size_t line, const std::string& what) {
+  return InputError(file + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": " + what);
+}
+
+}  // namespace quadrille::golden

@@ -1,0 +1,35 @@
+// A rendered frame in floating point, with what is known about each pixel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace quadrille::golden {
+
+/// FrameImage::quad where nothing was drawn.
+inline constexpr std::uint32_t no_quad = 0xffffffff;
+
+/// Channels of width × height values, rows from the top, pixels from the left.
+struct FrameImage {
+  /// Black, transparent, depth 1 (the far plane), weights 0, no_quad. Throws InputError for sizes
+  /// outside 1..max_image_side.
+  FrameImage(int frame_width, int frame_height);
+
+  std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+
+  int width, height;
+  std::vector<float> r, g, b, a;
+  std::vector<float> z;                      ///< window z in [0, 1]
+  std::array<std::vector<float>, 4> lambda;  ///< weights of the four vertices
+  std::vector<std::uint32_t> quad;           ///< quad id
+  std::map<std::string, std::vector<float>>
+      error;  ///< optional layers, named by the channel they judge: "L0" becomes `error.L0`
+};
+
+}  // namespace quadrille::golden

@@ -1,0 +1,148 @@
+#include "golden/io/obj.hpp"
+
+#include "golden/io/error.hpp"
+#include "golden/io/text_input.hpp"
+
+#include <charconv>
+#include <initializer_list>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace quadrille::golden {
+namespace {
+
+class ObjParser {
+ public:
+  explicit ObjParser(const std::string& name) : name_(name) {}
+
+  Mesh parse(std::string_view text) {
+    TokenLines lines(text, TokenLines::Continuation::backslash);
+    std::vector<Token> tokens;
+    while (lines.next(tokens)) statement(tokens);
+    if (mesh_.faces.empty()) {
+      throw input_error(name_, 0, "no face was found; an OBJ file with at least one 'f' statement is expected");
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  void statement(std::span<const Token> tokens) {
+    const std::string_view keyword = tokens.front().text;
+    if (keyword == "v") {
+      numbers(tokens, {3, 4, 6, 7}, "3 coordinates, optionally a weight, optionally a colour of 3 numbers");
+      mesh_.positions.push_back({values_[0], values_[1], values_[2]});
+    } else if (keyword == "vt") {
+      numbers(tokens, {1, 2, 3}, "1 to 3 coordinates");
+      mesh_.texcoords.push_back({values_[0], values_.size() > 1 ? values_[1] : 0.0});
+    } else if (keyword == "vn") {
+      numbers(tokens, {3}, "3 coordinates");
+      mesh_.normals.push_back({values_[0], values_[1], values_[2]});
+    } else if (keyword == "f") {
+      face(tokens);
+    } else {
+      ++mesh_.skipped_lines;
+    }
+  }
+
+  /// The statement's arguments into values_.
+  void numbers(std::span<const Token> tokens, std::initializer_list<std::size_t> counts, const char* expected) {
+    const std::string keyword(tokens.front().text);
+    values_.clear();
+    for (std::size_t i = 1; i < tokens.size(); ++i) {
+      const Number number = parse_number(tokens[i].text);
+      if (!number.problem.empty()) {
+        throw input_error(name_, tokens[i].line,
+                          "'" + keyword + "' number " + std::to_string(i) + " is " + quoted(tokens[i].text) +
+                              ", which " + std::string(number.problem) +
+                              "; a finite decimal number such as -1.5e-3 is expected");
+      }
+      values_.push_back(number.value);
+    }
+    for (const std::size_t count : counts) {
+      if (count == values_.size()) return;
+    }
+    throw input_error(name_, tokens.front().line,
+                      "'" + keyword + "' has " + std::to_string(values_.size()) + " numbers; it takes " + expected);
+  }
+
+  void face(std::span<const Token> tokens) {
+    if (tokens.size() < 4) {
+      throw input_error(name_, tokens.front().line,
+                        "face has " + std::to_string(tokens.size() - 1) + " corners; at least 3 are needed");
+    }
+    Face face;
+    face.reserve(tokens.size() - 1);
+    for (std::size_t i = 1; i < tokens.size(); ++i) {
+      const Corner corner = parse_corner(tokens[i], i);
+      if (i > 1 && ((corner.texcoord < 0) != (face[0].texcoord < 0) || (corner.normal < 0) != (face[0].normal < 0))) {
+        throw input_error(name_, tokens[i].line,
+                          place(tokens[i], i) + " has another form than corner 1, " + quoted(tokens[1].text) +
+                              "; all corners of a face must give the same indices");
+      }
+      face.push_back(corner);
+    }
+    mesh_.faces.push_back(std::move(face));
+  }
+
+  Corner parse_corner(const Token& token, std::size_t number) const {
+    // Fields between slashes: position, texture coordinate, normal.
+    std::vector<std::string_view> fields;
+    for (std::string_view rest = token.text;;) {
+      const std::size_t slash = rest.find('/');
+      fields.push_back(rest.substr(0, slash));
+      if (slash == std::string_view::npos) break;
+      rest.remove_prefix(slash + 1);
+    }
+    const bool known_form = fields.size() <= 3 && !fields.front().empty() && !fields.back().empty();
+    if (!known_form) {
+      throw input_error(name_, token.line, place(token, number) + "; the forms a, a/b, a//c and a/b/c are known");
+    }
+    Corner corner;
+    corner.position = index(fields[0], mesh_.positions.size(), "position", token, number);
+    if (fields.size() > 1 && !fields[1].empty()) {
+      corner.texcoord = index(fields[1], mesh_.texcoords.size(), "texture coordinate", token, number);
+    }
+    if (fields.size() > 2) corner.normal = index(fields[2], mesh_.normals.size(), "normal", token, number);
+    return corner;
+  }
+
+  /// 0-based index of an element defined so far.
+  int index(std::string_view field, std::size_t defined, const std::string& kind, const Token& token,
+            std::size_t number) const {
+    const auto failure = [&](const std::string& problem) {
+      const std::string n = std::to_string(defined);
+      const std::string range = defined == 0 ? "none is defined before this line"
+                                             : "before this line 1 to " + n + " (or -" + n + " to -1) are defined";
+      return input_error(name_, token.line,
+                         place(token, number) + ": " + kind + " index " + quoted(field) + " " + problem + "; " + range);
+    };
+    long long value = 0;
+    const char* const end = field.data() + field.size();
+    const auto [rest, error] = std::from_chars(field.data(), end, value);
+    if (error == std::errc::result_out_of_range && rest == end) throw failure("is out of range");
+    if (error != std::errc() || rest != end) throw failure("is not an integer");
+    if (value == 0) throw failure("is 0, and indices start at 1");
+    const auto count = static_cast<long long>(defined);
+    const long long absolute = value > 0 ? value - 1 : count + value;
+    if (absolute < 0 || absolute >= count || absolute > std::numeric_limits<int>::max())
+      throw failure("is out of range");
+    return static_cast<int>(absolute);
+  }
+
+  static std::string place(const Token& token, std::size_t number) {
+    return "face corner " + std::to_string(number) + " is " + quoted(token.text);
+  }
+
+  const std::string& name_;
+  Mesh mesh_;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+Mesh load_obj(const std::string& path) { return parse_obj(read_file(path, "an OBJ mesh"), path); }
+
+Mesh parse_obj(std::string_view text, const std::string& name) { return ObjParser(name).parse(text); }
+
+}  // namespace quadrille::golden

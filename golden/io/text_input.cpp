@@ -1,0 +1,137 @@
+#include "golden/io/text_input.hpp"
+
+#include "golden/io/error.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+namespace quadrille::golden {
+
+std::string read_file(const std::string& path, std::string_view what) {
+  const auto failure = [&](int error) {
+    return InputError(path + ": cannot be read: " + std::strerror(error) + "; " + std::string(what) +
+                      " is expected here");
+  };
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) throw failure(errno);
+  std::string bytes;
+  std::array<char, 1 << 16> block;
+  for (;;) {
+    const ssize_t got = ::read(fd, block.data(), block.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) {
+      const int error = errno;
+      ::close(fd);
+      throw failure(error);
+    }
+    if (got == 0) break;
+    bytes.append(block.data(), static_cast<std::size_t>(got));
+  }
+  ::close(fd);
+  return bytes;
+}
+
+std::string quoted(std::string_view token) {
+  constexpr std::size_t longest = 40;
+  constexpr std::string_view hex = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : token.substr(0, longest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f) {
+      out += c;
+    } else {
+      out += "\\x";
+      out += hex[byte >> 4];
+      out += hex[byte & 15];
+    }
+  }
+  return out + (token.size() > longest ? "…\"" : "\"");
+}
+
+std::size_t line_at(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+Number parse_number(std::string_view token) {
+  // from_chars knows no '+', although printf("%+g") writes it; "+-1" must stay an error.
+  if (token.size() > 1 && token[0] == '+' && token[1] != '-') token.remove_prefix(1);
+  Number number;
+  const char* const end = token.data() + token.size();
+  const auto [rest, error] = std::from_chars(token.data(), end, number.value, std::chars_format::general);
+  if (error == std::errc::invalid_argument || rest != end) {
+    number.problem = "is not a number";
+  } else if (error == std::errc::result_out_of_range) {
+    number.problem = "is outside the range of a double";
+  } else if (!std::isfinite(number.value)) {
+    number.problem = "is not finite";
+  } else if (std::abs(number.value) > max_input_magnitude) {
+    number.problem = "has a magnitude above 2^80";
+  }
+  return number;
+}
+
+TokenLines::TokenLines(std::string_view text, Continuation continuation) : text_(text), continuation_(continuation) {
+  if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
+}
+
+std::size_t TokenLines::line_end_size() const {
+  if (pos_ >= text_.size()) return 0;
+  if (text_[pos_] == '\n') return 1;
+  if (text_[pos_] != '\r') return 0;
+  return pos_ + 1 < text_.size() && text_[pos_ + 1] == '\n' ? 2 : 1;
+}
+
+bool TokenLines::next(std::vector<Token>& tokens) {
+  tokens.clear();
+  const auto start_line = [&](std::size_t end_size) {
+    pos_ += end_size;
+    ++line_;
+    line_start_ = pos_;
+  };
+  // Size of a backslash and the line end that it hides, 0 if there is none.
+  const auto joint_size = [&]() -> std::size_t {
+    if (continuation_ == Continuation::none || text_[pos_] != '\\') return 0;
+    ++pos_;
+    const std::size_t end_size = line_end_size();
+    --pos_;
+    return end_size == 0 ? 0 : end_size + 1;
+  };
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; };
+
+  while (pos_ < text_.size()) {
+    if (const std::size_t end_size = line_end_size()) {
+      start_line(end_size);
+      if (!tokens.empty()) return true;
+    } else if (text_[pos_] == '#') {
+      pos_ = std::min(text_.find_first_of("\r\n", pos_), text_.size());
+    } else if (is_blank(text_[pos_])) {
+      ++pos_;
+    } else if (const std::size_t joint = joint_size()) {
+      start_line(joint);
+    } else {
+      const std::size_t begin = pos_;
+      while (pos_ < text_.size() && !is_blank(text_[pos_]) && text_[pos_] != '#' && line_end_size() == 0 &&
+             joint_size() == 0) {
+        ++pos_;
+      }
+      tokens.push_back({text_.substr(begin, pos_ - begin), line_, begin - line_start_ + 1});
+    }
+  }
+  return !tokens.empty();
+}
+
+}  // namespace quadrille::golden

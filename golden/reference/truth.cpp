@@ -1,0 +1,433 @@
+#include "golden/reference/truth.hpp"
+
+#include "golden/reference/float128.hpp"
+#include "golden/reference/port_number.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace quadrille::golden {
+
+namespace {
+
+constexpr std::array<int, 5> edge_from{0, 1, 2, 3, 2};
+constexpr std::array<int, 5> edge_to{1, 2, 3, 0, 0};
+constexpr int diagonal = 4;
+
+enum class Singular : std::uint8_t { none, one_edge, two_edge, one_corner, two_corner };
+
+template <class Number>
+int sign_of(const Number& value) {
+  return (value > 0) - (value < 0);
+}
+
+__float128 magnitude(__float128 value) { return value < 0 ? -value : value; }
+
+/// S_i = V_i - w_i p and the five edge functions at one pixel, with their signs after the tie rule.
+template <class Coord, class Product>
+struct PixelEdges {
+  std::array<Coord, 4> sx, sy;
+  std::array<Product, 5> e;
+  std::array<int, 5> sign;
+  bool tie = false;
+
+  PixelEdges(const detail::TruthGeometry<Coord, Product>& g, int px, int py) {
+    for (int i = 0; i < 4; ++i) {
+      sx[i] = g.x[i] - g.w[i] * px;
+      sy[i] = g.y[i] - g.w[i] * py;
+    }
+    for (int j = 0; j < 5; ++j) {
+      const int a = edge_from[j], b = edge_to[j];
+      e[j] = static_cast<Product>(sx[a]) * sy[b] - static_cast<Product>(sy[a]) * sx[b];
+      sign[j] = sign_of(e[j]);
+      if (sign[j] == 0) {
+        sign[j] = g.tie_sign[j];
+        tie = true;
+      }
+    }
+  }
+
+  bool at_corner(int i) const { return sx[i] == 0 && sy[i] == 0; }
+  Product dot(int i) const {
+    const int n = (i + 1) & 3;
+    return static_cast<Product>(sx[i]) * sx[n] + static_cast<Product>(sy[i]) * sy[n];
+  }
+  Product square(int i) const { return static_cast<Product>(sx[i]) * sx[i] + static_cast<Product>(sy[i]) * sy[i]; }
+};
+
+/// Expression (12) for one orientation: +1 when its first clause holds, 2 for the second, 0 for neither. An all-zero
+/// edge (sign 0) is false here and false negated, in either orientation.
+int clause_of_12(const std::array<int, 5>& sign, int orientation) {
+  const auto is = [&](int edge, int wanted) { return sign[edge] == wanted * orientation; };
+  if (is(diagonal, 1) && is(0, 1) && is(1, 1) && (is(2, 1) || is(3, 1))) return 1;
+  if (is(diagonal, -1) && is(2, 1) && is(3, 1) && (is(0, 1) || is(1, 1))) return 2;
+  return 0;
+}
+
+/// M_i up to a common factor; spread_i = (|t_{i-1}| + |t_i|) / R_i in the same scale.
+struct Weights {
+  std::array<__float128, 4> m{}, spread{};
+  Singular singular = Singular::none;
+  int edge = 0;           ///< the edge of Singular::one_edge
+  bool collinear = true;  ///< every A_i is 0: the pixel's ray lies in the plane of all edges
+};
+
+template <class Coord, class Product>
+Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float128, 4>& k) {
+  Weights out;
+  for (int i = 0; i < 4; ++i) out.collinear = out.collinear && p.e[i] == 0;
+
+  int corners = 0;
+  std::array<int, 2> corner{};
+  for (int i = 0; i < 4; ++i) {
+    if (!p.at_corner(i)) continue;
+    if (corners < 2) corner[corners] = i;
+    ++corners;
+  }
+  if (corners >= 2) {
+    // Three or four coincident corners are never covered: too many all-zero edges.
+    out.singular = Singular::two_corner;
+    out.m[corner[0]] = k[corner[1]];
+    out.m[corner[1]] = k[corner[0]];
+    return out;
+  }
+  if (corners == 1) {
+    out.singular = Singular::one_corner;
+    out.m[corner[0]] = 1;
+    return out;
+  }
+
+  std::array<Product, 4> dot;
+  int edges = 0;
+  std::array<int, 2> edge{};
+  for (int i = 0; i < 4; ++i) {
+    dot[i] = p.dot(i);
+    if (p.e[i] != 0 || !(dot[i] < 0)) continue;
+    if (edges < 2) edge[edges] = i;
+    ++edges;
+  }
+
+  std::array<__float128, 4> rho, length;
+  for (int i = 0; i < 4; ++i) {
+    const auto square = static_cast<__float128>(p.square(i));
+    rho[i] = rsqrt(square);
+    length[i] = square * rho[i];
+  }
+
+  if (edges >= 2) {
+    // Three or four edges at once happen only in a quad that is seen edge on; its first two decide.
+    out.singular = Singular::two_edge;
+    const auto sum_on = [&](int i) { return rho[i] * k[i] + rho[(i + 1) & 3] * k[(i + 1) & 3]; };
+    for (int side = 0; side < 2; ++side) {
+      const __float128 other = sum_on(edge[1 - side]);
+      for (const int i : {edge[side], (edge[side] + 1) & 3}) out.m[i] += rho[i] * other;
+    }
+    return out;
+  }
+  if (edges == 1) {
+    out.singular = Singular::one_edge;
+    out.edge = edge[0];
+  }
+
+  // t_i = n_i / d_i by whichever of the two equal forms has no cancellation.
+  std::array<__float128, 4> n, d;
+  for (int i = 0; i < 4; ++i) {
+    const auto area = static_cast<__float128>(p.e[i]);
+    const __float128 both = length[i] * length[(i + 1) & 3];
+    if (dot[i] < 0) {
+      n[i] = both - static_cast<__float128>(dot[i]);
+      d[i] = area;
+    } else {
+      n[i] = area;
+      d[i] = both + static_cast<__float128>(dot[i]);
+    }
+  }
+  // M_i = (n_{i-1}/d_{i-1} + n_i/d_i) rho_i, times d_0 d_1 d_2 d_3, so that an edge through the pixel (d_i = 0) is
+  // exact.
+  std::array<__float128, 4> pair;  // d_i d_{i+1}
+  for (int i = 0; i < 4; ++i) pair[i] = d[i] * d[(i + 1) & 3];
+  for (int i = 0; i < 4; ++i) {
+    const int before = (i + 3) & 3;
+    const __float128 left = n[before] * d[i], right = n[i] * d[before];
+    const __float128 factor = pair[(i + 1) & 3] * rho[i];
+    out.m[i] = (left + right) * factor;
+    const bool cancels = (left < 0 && right > 0) || (left > 0 && right < 0);
+    out.spread[i] = cancels ? magnitude((left - right) * factor) : magnitude(out.m[i]);
+  }
+  return out;
+}
+
+/// sum(M w) is 0 as an identity, not merely small: sum(M_i V_i) is a multiple of the pixel's ray and lies in the plane
+/// of the vertices, so if that plane holds the eye but not the ray the multiple is 0; and on an antipodal edge the
+/// interpolation runs through the eye.
+template <class Coord, class Product>
+bool w_sum_vanishes(const detail::TruthGeometry<Coord, Product>& g, const Weights& weights) {
+  if (weights.singular == Singular::one_edge && g.antipodal[weights.edge]) return true;
+  return g.flat && !weights.collinear && (weights.singular == Singular::none || weights.singular == Singular::one_edge);
+}
+
+template <class Coord, class Product>
+bool in_front(const detail::TruthGeometry<Coord, Product>& g, const Weights& weights,
+              const std::array<__float128, 4>& k, const std::array<__float128, 4>& w) {
+  if (w_sum_vanishes(g, weights)) return false;
+  __float128 sum_k = 0, sum_w = 0;
+  for (int i = 0; i < 4; ++i) {
+    sum_k += weights.m[i] * k[i];
+    sum_w += weights.m[i] * w[i];
+  }
+  return sign_of(sum_k) * sign_of(sum_w) > 0;
+}
+
+template <class Coord, class Product>
+Coverage cover_pixel(const detail::TruthGeometry<Coord, Product>& g, const PixelEdges<Coord, Product>& p,
+                     bool homogeneous, int& clause) {
+  Coverage out;
+  out.eye_in_hull = g.eye_in_hull;
+  out.flags = static_cast<std::uint8_t>((p.tie ? flag_tie : 0) | (homogeneous ? flag_homogeneous : 0));
+  int orientation = 1;
+  clause = clause_of_12(p.sign, 1);
+  if (clause == 0) {
+    orientation = -1;
+    clause = clause_of_12(p.sign, -1);
+  }
+  if (clause == 0) return out;
+  out.covered = true;
+  out.front = orientation < 0;
+  out.visible = !g.eye_in_hull && orientation * (clause == 1 ? g.det_012 : g.det_023) > 0;
+  return out;
+}
+
+void check_draw(const DrawState& draw) {
+  if (draw.attributes < 0 || draw.attributes > max_attribute_slots) {
+    throw std::invalid_argument("attributes must be 0 to " + std::to_string(max_attribute_slots) + ", not " +
+                                std::to_string(draw.attributes));
+  }
+}
+
+void refuse_vertex(std::uint32_t quad, int vertex, const char* why) {
+  throw std::invalid_argument("quad " + std::to_string(quad) + ", vertex " + std::to_string(vertex) + ": " + why);
+}
+
+PixelRect scissor_of(const DrawState& draw) {
+  return {draw.scissor_x0, draw.scissor_y0, draw.scissor_x1, draw.scissor_y1};
+}
+
+PixelRect meet(const PixelRect& a, const PixelRect& b) {
+  PixelRect out{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+  return out.empty() ? PixelRect{} : out;
+}
+
+/// Half-open range of pixels whose centres x satisfy low - 1 <= x <= high + 1: one pixel to spare for rounding.
+PixelRect around(double low_x, double low_y, double high_x, double high_y) {
+  const auto whole = [](double v) { return static_cast<int>(std::clamp(v, -1e9, 1e9)); };
+  return {whole(std::floor(low_x) - 1), whole(std::floor(low_y) - 1), whole(std::ceil(high_x) + 2),
+          whole(std::ceil(high_y) + 2)};
+}
+
+}  // namespace
+
+namespace detail {
+
+template <class Coord, class Product>
+void TruthGeometry<Coord, Product>::finish() {
+  const auto times = [](Coord a, Coord b) { return static_cast<Product>(a) * b; };
+  for (int j = 0; j < 5; ++j) {
+    // E(x, y) = constant + x dx + y dy, the cross product of the two vertices (Olano & Greer 1997).
+    const int a = edge_from[j], b = edge_to[j];
+    const Product constant = times(x[a], y[b]) - times(y[a], x[b]);
+    const Product dx = times(y[a], w[b]) - times(w[a], y[b]);
+    const Product dy = times(w[a], x[b]) - times(x[a], w[b]);
+    tie_sign[j] = static_cast<std::int8_t>(dx != 0 ? sign_of(dx) : sign_of(dy));
+    if (j != diagonal && constant == 0 && dx == 0 && dy == 0) {
+      antipodal[j] = times(x[a], x[b]) + times(y[a], y[b]) + times(w[a], w[b]) < 0;
+    }
+  }
+  const auto det = [&](int a, int b, int c) {
+    return sign_of(x[a] * (times(y[b], w[c]) - times(w[b], y[c])) + y[a] * (times(w[b], x[c]) - times(x[b], w[c])) +
+                   w[a] * (times(x[b], y[c]) - times(y[b], x[c])));
+  };
+  det_012 = det(0, 1, 2);
+  det_023 = det(0, 2, 3);
+  // Coefficients of the linear relation sum(c_i V_i) = 0: of one sign exactly when the eye is in the hull.
+  const std::array<int, 4> relation{det(1, 2, 3), -det_023, det(0, 1, 3), -det_012};
+  const bool positive = std::ranges::any_of(relation, [](int s) { return s > 0; });
+  const bool negative = std::ranges::any_of(relation, [](int s) { return s < 0; });
+  flat = !positive && !negative;
+  eye_in_hull = !(positive && negative);
+}
+
+template struct TruthGeometry<std::int64_t, __int128>;
+template struct TruthGeometry<__float128, __float128>;
+
+}  // namespace detail
+
+TruthQuad::TruthQuad(const SnappedQuad& quad, const Config& config, const DrawState& draw)
+    : attributes_(draw.attributes), perspective_(draw.perspective) {
+  check_draw(draw);
+  const int frac = config.frac();
+  const std::int32_t one = std::int32_t{1} << frac;
+  Exact g;
+  std::int64_t low_x = std::numeric_limits<std::int64_t>::max(), low_y = low_x;
+  std::int64_t high_x = std::numeric_limits<std::int64_t>::min(), high_y = high_x;
+  for (int i = 0; i < 4; ++i) {
+    const SnappedVertex& v = quad.vertex[i];
+    if (v.x == 0 && v.y == 0 && v.w == 0) refuse_vertex(quad.id, i, "(0, 0, 0) is no point");
+    g.x[i] = v.x;
+    g.y[i] = v.y;
+    g.w[i] = v.w;
+    homogeneous_ = homogeneous_ || v.w != one;
+    low_x = std::min(low_x, g.x[i]);
+    low_y = std::min(low_y, g.y[i]);
+    high_x = std::max(high_x, g.x[i]);
+    high_y = std::max(high_y, g.y[i]);
+    w_[i] = std::ldexp(static_cast<double>(v.w), -frac);
+    k_[i] = port_value(v.k, config.significand_bits);
+    z_[i] = port_value(v.z, config.significand_bits);
+    for (int a = 0; a < attributes_; ++a) b_[a][i] = port_value(v.attribute[a], config.significand_bits);
+  }
+  g.finish();
+  geometry_ = g;
+  unit_w_ = !homogeneous_;
+  bounds_ = meet(scissor_of(draw), scissor_of(draw));
+  if (!homogeneous_) {
+    // Right shifts round down: first centre at or after the low side, last at or before the high side.
+    const auto down = [&](std::int64_t v) { return static_cast<int>(v >> frac); };
+    bounds_ = meet(bounds_, {-down(-low_x), -down(-low_y), down(high_x) + 1, down(high_y) + 1});
+  }
+}
+
+TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
+    : attributes_(draw.attributes), perspective_(draw.perspective), unit_w_(true) {
+  check_draw(draw);
+  Rounded g;
+  double low_x = std::numeric_limits<double>::infinity(), low_y = low_x, high_x = -low_x, high_y = -low_x;
+  for (int i = 0; i < 4; ++i) {
+    const WindowVertex& v = quad.vertex[i];
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w)) {
+      refuse_vertex(quad.id, i, "not finite");
+    }
+    if (v.x == 0 && v.y == 0 && v.w == 0) refuse_vertex(quad.id, i, "(0, 0, *, 0) is no point");
+    const __float128 w = v.w;
+    g.x[i] = v.x - w / 2;
+    g.y[i] = v.y - w / 2;
+    g.w[i] = w;
+    homogeneous_ = homogeneous_ || !(v.w > 0);
+    unit_w_ = unit_w_ && v.w == 1;
+    w_[i] = w;
+    k_[i] = 1;
+    z_[i] = v.z;
+    for (int a = 0; a < attributes_; ++a) {
+      const double value = a < static_cast<int>(quad.attribute[i].size()) ? quad.attribute[i][a] : 0.0;
+      b_[a][i] = perspective_ ? static_cast<__float128>(value) : w * value;
+    }
+    if (v.w > 0) {
+      low_x = std::min(low_x, v.x / v.w - 0.5);
+      low_y = std::min(low_y, v.y / v.w - 0.5);
+      high_x = std::max(high_x, v.x / v.w - 0.5);
+      high_y = std::max(high_y, v.y / v.w - 0.5);
+    }
+  }
+  g.finish();
+  geometry_ = g;
+  bounds_ = meet(scissor_of(draw), scissor_of(draw));
+  if (!homogeneous_) bounds_ = meet(bounds_, around(low_x, low_y, high_x, high_y));
+}
+
+Coverage TruthQuad::cover(int px, int py) const {
+  return std::visit(
+      [&](const auto& g) {
+        const PixelEdges p(g, px, py);
+        int clause = 0;
+        Coverage out = cover_pixel(g, p, homogeneous_, clause);
+        if (out.covered && out.eye_in_hull) out.visible = in_front(g, weights_at(p, k_), k_, w_);
+        return out;
+      },
+      geometry_);
+}
+
+std::array<__float128, 4> TruthQuad::homogeneous_weights(int px, int py) const {
+  return std::visit([&](const auto& g) { return weights_at(PixelEdges(g, px, py), k_).m; }, geometry_);
+}
+
+ReferenceSample TruthQuad::sample(int px, int py) const {
+  return std::visit(
+      [&](const auto& g) {
+        ReferenceSample out;
+        const PixelEdges p(g, px, py);
+        int clause = 0;
+        const Coverage coverage = cover_pixel(g, p, homogeneous_, clause);
+        out.covered = coverage.covered;
+        out.front = coverage.front;
+        out.visible = coverage.visible;
+        out.eye_in_hull = coverage.eye_in_hull;
+        out.flags = coverage.flags;
+        if (!out.covered) return out;
+
+        const Weights weights = weights_at(p, k_);
+        switch (weights.singular) {
+          case Singular::none:
+            break;
+          case Singular::one_edge:
+            out.flags |= flag_on_edge;
+            break;
+          case Singular::two_edge:
+            out.flags |= flag_two_edge;
+            break;
+          case Singular::one_corner:
+            out.flags |= flag_on_vertex;
+            break;
+          case Singular::two_corner:
+            out.flags |= flag_two_corner;
+            break;
+        }
+
+        std::array<__float128, 4> mk, mw;
+        __float128 sum_k = 0, sum_w = 0, sum_z = 0, size_w = 0;
+        for (int i = 0; i < 4; ++i) {
+          mk[i] = weights.m[i] * k_[i];
+          mw[i] = unit_w_ ? weights.m[i] : weights.m[i] * w_[i];
+          sum_k += mk[i];
+          sum_w += mw[i];
+          size_w += magnitude(mw[i]);
+          sum_z += weights.m[i] * z_[i];
+        }
+        if (w_sum_vanishes(g, weights)) sum_w = 0;
+
+        // Sums that may cancel are finished above in 113 bits; 64 bits suffice for the quotients that become doubles.
+        const auto narrow = [](__float128 v) { return static_cast<long double>(v); };
+        const int facing = sign_of(sum_k);
+        if (out.eye_in_hull) out.visible = facing * sign_of(sum_w) > 0;
+        if (size_w > 0) {
+          out.visible_margin = static_cast<double>(facing * (narrow(sum_w) / narrow(size_w)));
+        }
+        if (sum_w != 0) {
+          const long double per_w = 1.0L / narrow(sum_w);
+          out.z = static_cast<double>(narrow(sum_z) * per_w);
+          out.z_condition = static_cast<double>(std::abs(narrow(size_w) * per_w));
+        } else {
+          out.z_condition = std::numeric_limits<double>::infinity();
+        }
+        if (weights.singular == Singular::none && sum_k != 0) {
+          long double spread = 0;
+          for (int i = 0; i < 4; ++i) spread += narrow(weights.spread[i]) * narrow(k_[i]);
+          out.condition = static_cast<double>(spread / std::abs(narrow(sum_k)));
+        }
+        const auto& part = perspective_ ? mk : mw;
+        const __float128 whole = perspective_ ? sum_k : sum_w;
+        if (whole == 0) return out;  // without perspective and nothing in front of the eye: no weights
+        const long double per_whole = 1.0L / narrow(whole);
+        for (int i = 0; i < 4; ++i) out.lambda[i] = static_cast<double>(narrow(part[i]) * per_whole);
+        for (int a = 0; a < attributes_; ++a) {
+          __float128 sum_b = 0;
+          for (int i = 0; i < 4; ++i) sum_b += weights.m[i] * b_[a][i];
+          out.attribute[a] = static_cast<double>(narrow(sum_b) * per_whole);
+        }
+        return out;
+      },
+      geometry_);
+}
+
+}  // namespace quadrille::golden

@@ -1,0 +1,112 @@
+// The truth that every other body is measured against: homogeneous, switched mean value coordinates of Hormann and
+// Tarini, "A Quadrilateral Rendering Primitive" (2004), with exact integers where the input is integer and 113-bit
+// floating point behind them. No epsilon decides anything here.
+#pragma once
+
+#include "golden/reference/sample.hpp"
+#include "model/config.hpp"
+#include "model/records.hpp"
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+#include <variant>
+
+namespace quadrille::golden {
+
+/// Half-open rectangle of pixels: x0 <= x < x1, y0 <= y < y1; empty when x0 >= x1 or y0 >= y1.
+struct PixelRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
+/// The part of a ReferenceSample that needs no weights (save `visible` when `eye_in_hull`).
+struct Coverage {
+  bool covered = false;  ///< inside by expression (12) with ties as if the pixel centre were moved by (+eps, +eps^2)
+  bool front = false;    ///< counter-clockwise as seen on the screen: the negated form of (12), for y points down
+  bool visible = false;  ///< in front of the eye; false where not covered
+  bool eye_in_hull = false;  ///< the eye is in the convex hull of the four vertices: `visible` is the sign of sum(M w)
+  std::uint8_t flags = 0;    ///< flag_tie and flag_homogeneous
+};
+
+namespace detail {
+
+/// Four homogeneous vertices relative to pixel centres, and what depends on them alone. Coord = int64 with Product =
+/// __int128 (every product and sum below exact for any int32 vertices and pixels), or __float128 for both.
+/// Edges are numbered 01, 12, 23, 30, and 20 (the diagonal).
+template <class Coord, class Product>
+struct TruthGeometry {
+  std::array<Coord, 4> x{}, y{}, w{};
+  std::array<std::int8_t, 5> tie_sign{};  ///< sign of an edge function that is 0 at the pixel; 0 for an all-zero edge
+  std::array<bool, 4> antipodal{};        ///< V_{i+1} = -c V_i, c > 0: the eye lies on the edge
+  int det_012 = 0, det_023 = 0;           ///< signs of V_i . (V_j x V_k)
+  bool flat = false;                      ///< all four determinants are 0: eye and vertices lie in one plane
+  bool eye_in_hull = false;
+
+  void finish();
+};
+
+}  // namespace detail
+
+/// One quad, ready to be asked about any pixel. Two ways in:
+///  - snapped: X, Y, W in units of 2^-frac relative to pixel centres at the integers; k, Z, b the rounded numbers of
+///  the
+///    port. A, D and R^2 are exact integers, hence coverage, ties and singular classes are exact.
+///  - as given: pixel centres at +0.5, k = 1, Z = z~, b = a (w a without perspective). The same formulas in __float128;
+///    edge functions round at 113 bits, so a tie is recognised when that rounding gives 0.
+/// The weights carry a relative error of about 2^-108 times `ReferenceSample::condition`; results are rounded to
+/// double.
+class TruthQuad {
+ public:
+  /// Uses config.frac() and config.significand_bits only; the truth never drops bits of D and R^2. Throws
+  /// std::invalid_argument when a vertex is (0, 0, 0) or draw.attributes is out of range.
+  TruthQuad(const SnappedQuad& quad, const Config& config, const DrawState& draw);
+  /// Attributes beyond the vector given for a vertex count as 0. Throws std::invalid_argument for a vertex that is
+  /// (0, 0, *, 0) or not finite, or draw.attributes out of range. flag_homogeneous means w <= 0: the guard band is a
+  /// matter of snapping.
+  TruthQuad(const WindowQuad& quad, const DrawState& draw);
+
+  /// Everything about pixel (px, py): eq. (10), (11), (4) and (12) of the paper. Scissor, cull mode, znear and zfar are
+  /// not applied. Where the pixel is not covered only `covered`, `eye_in_hull` and `flags` (tie, homogeneous) are set.
+  ///
+  /// With M_i = (t_{i-1} + t_i) / R_i: lambda'_i = M_i k_i / sum(M k), z = sum(M Z) / sum(M W), attribute =
+  /// sum(M b) / sum(M k). Without perspective lambda_i = M_i W_i / sum(M W), attribute = sum(M b) / sum(M W).
+  /// Singular pixels, in this order (the first that applies gives M and the flag):
+  ///   two corners i, j at the pixel    M_i = k_j, M_j = k_i              lambda' = 1/2 each
+  ///   one corner                       M_i = 1                           lambda' = 1
+  ///   two edges (A = 0, D < 0) at once M_i = rho_i * sum over the other edge of rho k, added for a vertex on both;
+  ///                                    rho = 1/R                         lambda' = mean of the two edge interpolations
+  ///   one edge                         the general form gives the linear interpolation along the edge
+  /// visible_margin is signed so that it is positive in front of the eye, and exactly 0 where sum(M w) vanishes
+  /// identically (eye and vertices in a plane without the pixel's ray; an antipodal edge). Where sum(M W) = 0, z is 0
+  /// and z_condition infinite.
+  ReferenceSample sample(int px, int py) const;
+
+  /// The coverage part of sample() alone, without any weight (unless eye_in_hull).
+  Coverage cover(int px, int py) const;
+
+  /// M_0..M_3 up to a common factor of either sign, at any pixel, inside or not (eq. 8 in homogeneous form; at singular
+  /// pixels as listed at sample()).
+  std::array<__float128, 4> homogeneous_weights(int px, int py) const;
+
+  /// Contains every covered pixel of the scissor; the whole scissor when a vertex is not ordinary (snapped: W is not 1;
+  /// as given: w <= 0).
+  PixelRect bounds() const { return bounds_; }
+
+ private:
+  using Exact = detail::TruthGeometry<std::int64_t, __int128>;
+  using Rounded = detail::TruthGeometry<__float128, __float128>;
+
+  std::variant<Exact, Rounded> geometry_;
+  std::array<__float128, 4> k_{}, z_{}, w_{};  ///< real values, w_ in units of 1
+  std::array<std::array<__float128, 4>, max_attribute_slots> b_{};
+  int attributes_ = 0;
+  bool perspective_ = true;
+  bool homogeneous_ = false;
+  bool unit_w_ = false;  ///< every w is exactly 1
+  PixelRect bounds_;
+};
+
+}  // namespace quadrille::golden

@@ -1,0 +1,265 @@
+#include "golden/scenes/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace quadrille::golden {
+namespace {
+
+Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Nothing for a zero or non-finite vector. Scaled first, so that no square overflows or vanishes.
+std::optional<Vec3> normalised(const Vec3& v) {
+  const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
+  const Vec3 scaled{v[0] / largest, v[1] / largest, v[2] / largest};
+  const double length = std::sqrt(dot(scaled, scaled));
+  return Vec3{scaled[0] / length, scaled[1] / length, scaled[2] / length};
+}
+
+bool finite(const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+void check_size(int width, int height) {
+  if (width < 1 || height < 1) {
+    throw std::invalid_argument("size " + std::to_string(width) + "x" + std::to_string(height) + ": must be at least 1x1");
+  }
+}
+
+Matrix4 multiply(const Matrix4& a, const Matrix4& b) {
+  Matrix4 product{};
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      for (std::size_t k = 0; k < 4; ++k) product[row * 4 + column] += a[row * 4 + k] * b[k * 4 + column];
+    }
+  }
+  return product;
+}
+
+const Vec3& position_of(const Mesh& mesh, std::size_t face, const Corner& corner) {
+  if (corner.position < 0 || static_cast<std::size_t>(corner.position) >= mesh.positions.size()) {
+    throw std::invalid_argument("face " + std::to_string(face) + ": position index " + std::to_string(corner.position) +
+                                " is out of range");
+  }
+  return mesh.positions[static_cast<std::size_t>(corner.position)];
+}
+
+void check_face(const Mesh& mesh, std::size_t face) {
+  const Face& corners = mesh.faces[face];
+  if (corners.size() < 3) {
+    throw std::invalid_argument("face " + std::to_string(face) + ": only " + std::to_string(corners.size()) + " corner(s)");
+  }
+  for (const Corner& corner : corners) {
+    position_of(mesh, face, corner);
+    if (corner.texcoord >= 0 && static_cast<std::size_t>(corner.texcoord) >= mesh.texcoords.size()) {
+      throw std::invalid_argument("face " + std::to_string(face) + ": texture coordinate index " +
+                                  std::to_string(corner.texcoord) + " is out of range");
+    }
+    if (corner.normal >= 0 && static_cast<std::size_t>(corner.normal) >= mesh.normals.size()) {
+      throw std::invalid_argument("face " + std::to_string(face) + ": normal index " + std::to_string(corner.normal) +
+                                  " is out of range");
+    }
+  }
+}
+
+}  // namespace
+
+int attribute_count(AttributeSet set) {
+  switch (set) {
+    case AttributeSet::none: return 0;
+    case AttributeSet::uv: return 2;
+    case AttributeSet::normal: return 3;
+    case AttributeSet::weights: return 4;
+    case AttributeSet::uv_normal: return 5;
+  }
+  return 0;
+}
+
+AttributeSet attributes_for_shade(std::string_view shade) {
+  if (shade == "uv" || shade == "texture") return AttributeSet::uv;
+  if (shade == "normal") return AttributeSet::normal;
+  if (shade == "lambda") return AttributeSet::weights;
+  if (shade == "depth" || shade == "quad") return AttributeSet::none;
+  throw std::invalid_argument("unknown shading mode '" + std::string(shade) +
+                              "' (uv, texture, normal, lambda, depth, quad)");
+}
+
+Matrix4 camera_matrix(const Camera& camera, int width, int height) {
+  check_size(width, height);
+  if (camera.matrix) {
+    for (const double m : *camera.matrix) {
+      if (!std::isfinite(m)) throw std::invalid_argument("camera: the matrix has a number that is not finite");
+    }
+    return *camera.matrix;
+  }
+  if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up)) {
+    throw std::invalid_argument("camera: eye, target and up must be finite");
+  }
+  if (!(camera.fovy > 0 && camera.fovy < 180)) throw std::invalid_argument("camera: fovy must lie between 0 and 180 degrees");
+  if (!(camera.near > 0) || !(camera.far > camera.near) || !std::isfinite(camera.far)) {
+    throw std::invalid_argument("camera: 0 < near < far is required");
+  }
+  const auto forward = normalised(camera.target - camera.eye);
+  if (!forward) throw std::invalid_argument("camera: eye and target are the same point");
+  const auto up = normalised(camera.up);
+  const auto side = up ? normalised(cross(*forward, *up)) : std::nullopt;
+  if (!side) throw std::invalid_argument("camera: up is zero or parallel to the direction of view");
+  const Vec3 top = cross(*side, *forward);
+
+  const Matrix4 view{(*side)[0],     (*side)[1],     (*side)[2],     -dot(*side, camera.eye),
+                     top[0],         top[1],         top[2],         -dot(top, camera.eye),
+                     -(*forward)[0], -(*forward)[1], -(*forward)[2], dot(*forward, camera.eye),
+                     0,              0,              0,              1};
+  const double focal = 1 / std::tan(camera.fovy * std::numbers::pi / 360);
+  const double aspect = static_cast<double>(width) / height;
+  const double depth = camera.far - camera.near;
+  const Matrix4 perspective{focal / aspect, 0, 0, 0,
+                            0, focal, 0, 0,
+                            0, 0, -(camera.far + camera.near) / depth, -2 * camera.far * camera.near / depth,
+                            0, 0, -1, 0};
+  return multiply(perspective, view);
+}
+
+WindowVertex project_point(const Matrix4& m, const Vec3& p, int width, int height) {
+  std::array<double, 4> clip{};
+  for (std::size_t row = 0; row < 4; ++row) {
+    clip[row] = m[row * 4] * p[0] + m[row * 4 + 1] * p[1] + m[row * 4 + 2] * p[2] + m[row * 4 + 3];
+  }
+  return {(clip[0] + clip[3]) / 2 * width, (clip[3] - clip[1]) / 2 * height, (clip[2] + clip[3]) / 2, clip[3]};
+}
+
+Camera frame_mesh(const Mesh& mesh, int width, int height) {
+  check_size(width, height);
+  Vec3 low{}, high{};
+  bool any = false;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    for (const Corner& corner : mesh.faces[f]) {
+      const Vec3& p = position_of(mesh, f, corner);
+      for (std::size_t i = 0; i < 3; ++i) {
+        low[i] = any ? std::min(low[i], p[i]) : p[i];
+        high[i] = any ? std::max(high[i], p[i]) : p[i];
+      }
+      any = true;
+    }
+  }
+  const Vec3 centre{low[0] / 2 + high[0] / 2, low[1] / 2 + high[1] / 2, low[2] / 2 + high[2] / 2};
+  double radius = 0;
+  for (const Face& face : mesh.faces) {
+    for (const Corner& corner : face) {
+      const Vec3 d = mesh.positions[static_cast<std::size_t>(corner.position)] - centre;
+      radius = std::max(radius, std::hypot(d[0], d[1], d[2]));
+    }
+  }
+  if (radius == 0) radius = std::max({1.0, std::abs(centre[0]), std::abs(centre[1]), std::abs(centre[2])}) * 0x1p-10;
+  radius *= 1.05;
+
+  // The sphere touches the sides of the frustum at distance r / sin(half the narrower angle).
+  const double half_height = std::tan(auto_frame_fovy * std::numbers::pi / 360);
+  const double half_width = half_height * width / height;
+  const double half = std::min(half_height, half_width);
+  const double distance = radius * std::sqrt(1 + half * half) / half;
+  const Vec3 direction = *normalised(auto_frame_direction);
+  Camera camera;
+  camera.target = centre;
+  for (std::size_t i = 0; i < 3; ++i) camera.eye[i] = centre[i] + distance * direction[i];
+  camera.fovy = auto_frame_fovy;
+  camera.near = std::max(distance - radius, distance * 0x1p-10);
+  camera.far = distance + radius;
+  return camera;
+}
+
+std::vector<Vec3> smooth_normals(const Mesh& mesh) {
+  std::vector<Vec3> normals(mesh.positions.size(), Vec3{});
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const Face& face = mesh.faces[f];
+    Vec3 area{};
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const Vec3& a = position_of(mesh, f, face[i]);
+      const Vec3& b = position_of(mesh, f, face[(i + 1) % face.size()]);
+      area[0] += (a[1] - b[1]) * (a[2] + b[2]);
+      area[1] += (a[2] - b[2]) * (a[0] + b[0]);
+      area[2] += (a[0] - b[0]) * (a[1] + b[1]);
+    }
+    for (const Corner& corner : face) {
+      for (std::size_t i = 0; i < 3; ++i) normals[static_cast<std::size_t>(corner.position)][i] += area[i];
+    }
+  }
+  for (Vec3& n : normals) n = normalised(n).value_or(Vec3{0, 0, 1});
+  return normals;
+}
+
+Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int height, const ProjectOptions& options) {
+  const Matrix4 matrix = camera_matrix(camera, width, height);
+  const AttributeSet set = options.attributes;
+  const bool wants_uv = set == AttributeSet::uv || set == AttributeSet::uv_normal;
+  const bool wants_normal = set == AttributeSet::normal || set == AttributeSet::uv_normal;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) check_face(mesh, f);
+
+  std::vector<Vec3> smooth;
+  if (wants_normal) {
+    const bool missing = std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) {
+      return std::any_of(face.begin(), face.end(), [](const Corner& c) { return c.normal < 0; });
+    });
+    if (missing) smooth = smooth_normals(mesh);
+  }
+
+  Projection result;
+  const auto emit = [&](std::size_t face, bool textured, const std::array<const Corner*, 4>& corners) {
+    static constexpr std::array<Vec2, 4> unit_square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    const bool triangle = corners[2] == corners[3];
+    WindowQuad quad;
+    quad.id = static_cast<std::uint32_t>(face);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Corner& corner = *corners[i];
+      quad.vertex[i] = project_point(matrix, mesh.positions[static_cast<std::size_t>(corner.position)], width, height);
+      std::vector<double>& attribute = quad.attribute[i];
+      if (set == AttributeSet::weights) {
+        attribute.assign(4, 0.0);
+        attribute[i] = 1;
+      }
+      if (wants_uv) {
+        const Vec2& uv = textured ? mesh.texcoords[static_cast<std::size_t>(corner.texcoord)]
+                                  : unit_square[triangle ? std::min<std::size_t>(i, 2) : i];
+        attribute.insert(attribute.end(), uv.begin(), uv.end());
+      }
+      if (wants_normal) {
+        const Vec3 normal = corner.normal >= 0
+                                ? normalised(mesh.normals[static_cast<std::size_t>(corner.normal)]).value_or(Vec3{0, 0, 1})
+                                : smooth[static_cast<std::size_t>(corner.position)];
+        attribute.insert(attribute.end(), normal.begin(), normal.end());
+      }
+    }
+    result.triangles += triangle ? 1 : 0;
+    result.quads.push_back(std::move(quad));
+  };
+
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const Face& face = mesh.faces[f];
+    if (face.size() > 4) {
+      if (options.strict) {
+        throw std::invalid_argument("face " + std::to_string(f) + ": " + std::to_string(face.size()) +
+                                    " corners (strict: at most 4)");
+      }
+      ++result.fanned_faces;
+    }
+    const bool textured = std::all_of(face.begin(), face.end(), [](const Corner& c) { return c.texcoord >= 0; });
+    const std::size_t before = result.quads.size();
+    for (std::size_t i = 1; i + 1 < face.size(); i += 2) {
+      const std::size_t last = std::min(i + 2, face.size() - 1);
+      emit(f, textured, {&face[0], &face[i], &face[i + 1], &face[last]});
+    }
+    if (face.size() > 4) result.fan_primitives += result.quads.size() - before;
+  }
+  return result;
+}
+
+}  // namespace quadrille::golden

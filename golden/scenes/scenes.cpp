@@ -1,0 +1,77 @@
+#include "golden/scenes/scenes.hpp"
+
+#include "golden/scenes/scene_builders.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace quadrille::golden {
+namespace {
+
+std::vector<SceneEntry> all_entries() {
+  std::vector<SceneEntry> all;
+  for (const auto part : {figure_scenes(), exterior_scenes(), surface_scenes()}) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+Scene build(const SceneEntry& entry) {
+  Scene scene = entry.build();
+  scene.name = entry.name;
+  scene.title = entry.title;
+  scene.paper = entry.paper;
+  return scene;
+}
+
+/// Levenshtein distance.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+void add_quad(Mesh& mesh, const std::array<Vec3, 4>& corners) {
+  static constexpr std::array<Vec2, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  Face face;
+  for (std::size_t i = 0; i < 4; ++i) {
+    face.push_back({static_cast<int>(mesh.positions.size()), static_cast<int>(mesh.texcoords.size()), -1});
+    mesh.positions.push_back(corners[i]);
+    mesh.texcoords.push_back(square[i]);
+  }
+  mesh.faces.push_back(std::move(face));
+}
+
+std::vector<SceneInfo> list_scenes() {
+  std::vector<SceneInfo> list;
+  for (const SceneEntry& entry : all_entries()) {
+    const Scene scene = build(entry);
+    list.push_back({scene.name, scene.title, scene.paper, scene.mesh.faces.size()});
+  }
+  return list;
+}
+
+Scene make_scene(std::string_view name) {
+  const auto entries = all_entries();
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const SceneEntry& e) { return e.name == name; });
+  if (found != entries.end()) return build(*found);
+  const auto nearest = std::min_element(entries.begin(), entries.end(), [&](const SceneEntry& a, const SceneEntry& b) {
+    return edit_distance(name, a.name) < edit_distance(name, b.name);
+  });
+  throw std::invalid_argument("no scene '" + std::string(name) + "'; did you mean '" + std::string(nearest->name) + "'?");
+}
+
+std::vector<WindowQuad> scene_quads(const Scene& scene, int width, int height, AttributeSet attributes) {
+  return project_mesh(scene.mesh, scene.camera, width, height, {attributes, false}).quads;
+}
+
+}  // namespace quadrille::golden

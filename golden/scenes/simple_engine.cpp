@@ -1,0 +1,59 @@
+#include "golden/scenes/simple_engine.hpp"
+
+#include <cmath>
+
+namespace quadrille::golden {
+
+std::optional<SimpleSample> simple_sample(const std::array<WindowVertex, 4>& quad, double x, double y) {
+  std::array<double, 4> sx{}, sy{}, r{}, a{}, t{}, m{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    sx[i] = quad[i].x - quad[i].w * x;
+    sy[i] = quad[i].y - quad[i].w * y;
+    r[i] = std::sqrt(sx[i] * sx[i] + sy[i] * sy[i]);
+    if (r[i] == 0) return std::nullopt;
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t j = (i + 1) & 3;
+    a[i] = sx[i] * sy[j] - sy[i] * sx[j];
+  }
+  // Expression (12), for either orientation.
+  const double a20 = sx[2] * sy[0] - sy[2] * sx[0];
+  bool inside = false;
+  for (const double o : {1.0, -1.0}) {
+    const bool e01 = o * a[0] > 0, e12 = o * a[1] > 0, e23 = o * a[2] > 0, e30 = o * a[3] > 0, e20 = o * a20 > 0;
+    inside = inside || (e20 && e01 && e12 && (e23 || e30)) || (!e20 && e23 && e30 && (e01 || e12));
+  }
+  if (!inside) return std::nullopt;
+
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t j = (i + 1) & 3;
+    const double rr = r[i] * r[j], d = sx[i] * sx[j] + sy[i] * sy[j];
+    t[i] = d < 0 ? (rr - d) / a[i] : a[i] / (rr + d);
+    if (!std::isfinite(t[i])) return std::nullopt;
+  }
+  double sum = 0, sum_w = 0, sum_z = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    m[i] = (t[(i + 3) & 3] + t[i]) / r[i];
+    sum += m[i];
+    sum_w += m[i] * quad[i].w;
+    sum_z += m[i] * quad[i].z;
+  }
+  if (!(sum * sum_w > 0)) return std::nullopt;
+  SimpleSample sample;
+  for (std::size_t i = 0; i < 4; ++i) sample.lambda[i] = m[i] / sum;
+  sample.z = sum_z / sum_w;
+  return sample;
+}
+
+int visible_probes(const std::array<WindowVertex, 4>& quad, int width, int height) {
+  int visible = 0;
+  for (int j = 0; j < 16; ++j) {
+    for (int i = 0; i < 16; ++i) {
+      const int x = (2 * i + 1) * width / 32, y = (2 * j + 1) * height / 32;
+      visible += simple_sample(quad, x + 0.5, y + 0.5) ? 1 : 0;
+    }
+  }
+  return visible;
+}
+
+}  // namespace quadrille::golden

@@ -1,0 +1,170 @@
+#include "model/config.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace quadrille {
+namespace {
+
+struct Entry {
+  ConfigKey key;
+  int Config::*member;
+};
+
+constexpr std::array entries{
+    Entry{{"viewport_bits", 6, 14, 12, "bits", "pixel x and y lie in [0, 2^viewport_bits)"}, &Config::viewport_bits},
+    Entry{{"guard_bits", 1, 4, 3, "bits", "guard band: |X| <= 2^(viewport_bits + guard_bits) pixels"}, &Config::guard_bits},
+    Entry{{"subpixel_bits", 2, 8, 8, "bits", "fraction bits of an ordinary vertex position"}, &Config::subpixel_bits},
+    Entry{{"homogeneous_frac_bits", 4, 10, 7, "bits", "further fraction bits of a homogeneous vertex"},
+          &Config::homogeneous_frac_bits},
+    Entry{{"quadratic_frac_bits", 0, 36, -1, "bits", "kept fraction bits of D and r²; auto: all, 2·(subpixel + homogeneous)"},
+          &Config::quadratic_frac_bits},
+    Entry{{"significand_bits", 8, 26, 18, "bits", "s: bits of every multiplier operand after normalisation, tables included"},
+          &Config::significand_bits},
+    Entry{{"notch_exact", 0, 1, 1, "", "half-angle cure of the cancellation at reflex corners"}, &Config::notch_exact},
+    Entry{{"rsqrt_segments_log2", 3, 10, -1, "log2", "rsqrt table segments per octave; auto: ceil((s-4)/3), degree 1 ceil(s/2), from 3 to 10"},
+          &Config::rsqrt_segments_log2},
+    Entry{{"rsqrt_degree", 1, 2, 2, "", "polynomial degree of the rsqrt table"}, &Config::rsqrt_degree},
+    Entry{{"recip_segments_log2", 3, 10, -1, "log2", "reciprocal table segments; auto: ceil((s-2)/3), degree 1 ceil((s+1)/2), from 3 to 10"},
+          &Config::recip_segments_log2},
+    Entry{{"recip_degree", 1, 2, 2, "", "polynomial degree of the reciprocal table"}, &Config::recip_degree},
+    Entry{{"align_guard_bits", 0, 6, 2, "bits", "fraction bits kept below the s bits of the largest term of a sum"},
+          &Config::align_guard_bits},
+    Entry{{"attribute_slots", 1, 8, 4, "", "attributes per vertex at the port"}, &Config::attribute_slots},
+    Entry{{"attribute_int_bits", 1, 8, 3, "bits", "integer bits of an output attribute, sign apart"}, &Config::attribute_int_bits},
+    Entry{{"attribute_frac_bits", 8, 30, -1, "bits", "fraction bits of an output attribute, at least s; auto: s + 2"},
+          &Config::attribute_frac_bits},
+    Entry{{"depth_bits", 8, 30, 24, "bits", "fraction bits of window z"}, &Config::depth_bits},
+    Entry{{"tile_log2", 2, 4, 3, "log2 px", "tile edge, also the width of a stamp; a block is 8x8 tiles"}, &Config::tile_log2},
+    Entry{{"pixels_per_clock", 1, 1, 1, "", "lanes of the fragment port (one so far)"}, &Config::pixels_per_clock},
+    Entry{{"quad_slots_log2", 1, 4, 3, "log2", "quads in flight between setup and their last fragment"}, &Config::quad_slots_log2},
+    Entry{{"tile_slots_log2", 1, 4, 2, "log2", "tile contexts in flight"}, &Config::tile_slots_log2},
+    Entry{{"stamp_fifo_log2", 1, 5, 3, "log2", "covered stamps that may wait"}, &Config::stamp_fifo_log2},
+    Entry{{"quad_id_bits", 8, 32, 24, "bits", "width of the quad id"}, &Config::quad_id_bits},
+};
+
+constexpr auto key_list = [] {
+  std::array<ConfigKey, entries.size()> list{};
+  for (std::size_t i = 0; i < entries.size(); ++i) list[i] = entries[i].key;
+  return list;
+}();
+
+/// Levenshtein distance, for "did you mean".
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+const Entry& find(std::string_view key) {
+  const Entry* nearest = &entries.front();
+  for (const Entry& e : entries) {
+    if (e.key.name == key) return e;
+    if (edit_distance(key, e.key.name) < edit_distance(key, nearest->key.name)) nearest = &e;
+  }
+  throw ConfigError("unknown configuration key '" + std::string(key) + "'; the nearest is '" +
+                    std::string(nearest->key.name) + "'");
+}
+
+int ceil_div(int a, int b) { return (a + b - 1) / b; }
+
+void require(bool ok, const std::string& rule) {
+  if (!ok) throw ConfigError("impossible configuration: " + rule);
+}
+
+}  // namespace
+
+std::span<const ConfigKey> Config::keys() { return key_list; }
+
+int Config::get(std::string_view key) const { return this->*find(key).member; }
+
+void Config::set(std::string_view key, int value) {
+  const Entry& e = find(key);
+  const bool automatic = value == -1 && e.key.standard == -1;
+  if (!automatic && (value < e.key.minimum || value > e.key.maximum)) {
+    throw ConfigError("configuration key '" + std::string(key) + "' = " + std::to_string(value) + " is outside " +
+                      std::to_string(e.key.minimum) + ".." + std::to_string(e.key.maximum) +
+                      (e.key.standard == -1 ? " (or -1 for auto)" : ""));
+  }
+  this->*e.member = value;
+}
+
+int Config::quadratic_frac() const { return quadratic_frac_bits == -1 ? 2 * frac() : quadratic_frac_bits; }
+
+int Config::rsqrt_segments() const {
+  if (rsqrt_segments_log2 != -1) return rsqrt_segments_log2;
+  const int s = significand_bits;
+  return std::clamp(rsqrt_degree == 2 ? ceil_div(s - 4, 3) : ceil_div(s, 2), 3, 10);
+}
+
+int Config::recip_segments() const {
+  if (recip_segments_log2 != -1) return recip_segments_log2;
+  const int s = significand_bits;
+  return std::clamp(recip_degree == 2 ? ceil_div(s - 2, 3) : ceil_div(s + 1, 2), 3, 10);
+}
+
+int Config::attribute_frac() const { return attribute_frac_bits == -1 ? significand_bits + 2 : attribute_frac_bits; }
+
+void Config::validate() const {
+  for (const Entry& e : entries) {
+    Config scratch;
+    scratch.set(e.key.name, this->*e.member);
+  }
+  require(val_bits() <= 64, "VAL_BITS = 2·(viewport_bits + guard_bits + subpixel_bits + homogeneous_frac_bits) + 3 (4 when guard_bits = 1) = " +
+                                std::to_string(val_bits()) + " exceeds 64; lower one of these four");
+  require(quadratic_frac() <= 2 * frac(), "quadratic_frac_bits = " + std::to_string(quadratic_frac()) +
+                                              " exceeds the 2·(subpixel_bits + homogeneous_frac_bits) = " + std::to_string(2 * frac()) +
+                                              " fraction bits that D and r² have");
+  // |S| <= 2^pos_int + the viewport + one block, and |A|, |D|, r² <= 2 |S|^2 must fit the sign and VAL_BITS - 1 bits.
+  const double reach = 1.0 + std::ldexp(1.0, -guard_bits) + std::ldexp(1.0, tile_log2 + 3 - pos_int());
+  require(2 * reach * reach <= std::ldexp(1.0, val_bits() - 1 - 2 * (pos_int() + frac())),
+          "a block of 8 tiles reaches too far outside the viewport for VAL_BITS; raise viewport_bits or guard_bits, or lower tile_log2");
+  require(attribute_frac() >= significand_bits, "attribute_frac_bits = " + std::to_string(attribute_frac()) +
+                                                    " is below significand_bits = " + std::to_string(significand_bits) +
+                                                    "; outputs keep at least s fraction bits");
+  require(attribute_frac() <= 30, "attribute_frac_bits exceeds 30");
+  require(rsqrt_segments() <= significand_bits - 2, "rsqrt_segments_log2 must be at most significand_bits - 2");
+  require(recip_segments() <= significand_bits - 2, "recip_segments_log2 must be at most significand_bits - 2");
+  require(tile_log2 < viewport_bits, "tile_log2 must be below viewport_bits");
+}
+
+std::vector<DerivedWidth> Config::derived() const {
+  return {
+      {"POS_INT", pos_int(), "viewport_bits + guard_bits: integer bits of a position, sign apart"},
+      {"FRAC", frac(), "subpixel_bits + homogeneous_frac_bits: fraction bits of X, Y, W"},
+      {"T_BITS", t_bits(), "POS_INT + FRAC + 2, signed: |X| reaches 2^(POS_INT+FRAC) inclusive, and S = X - W·x adds less than that again"},
+      {"W_BITS", w_bits(), "FRAC + 2, signed: |W| reaches 1 inclusive"},
+      {"VAL_BITS", val_bits(), "2·(POS_INT + FRAC) + 3 (4 for one guard bit), signed: |A|, |D|, r² <= 2·max|S|²"},
+      {"GRAD_BITS", grad_bits(), "T_BITS + W_BITS - 1, signed: two products T·W"},
+      {"CURV_BITS", curv_bits(), "2·FRAC + 2, signed: |W·W'| reaches 1 inclusive"},
+      {"QDROP", qdrop(), "2·FRAC - quadratic_frac_bits: low bits of D and r² that are dropped"},
+      {"QVAL_BITS", qval_bits(), "VAL_BITS - QDROP"},
+      {"QGRAD_BITS", qgrad_bits(), "GRAD_BITS - QDROP"},
+      {"QCURV_BITS", qcurv_bits(), "CURV_BITS - QDROP"},
+      {"QUADRATIC_FRAC", quadratic_frac(), "quadratic_frac_bits, resolved"},
+      {"EXP_BITS", exp_bits, "signed: products of seven ratios >= 2^-64 and a port exponent stay within ±2^11"},
+      {"PORT_EXP_BITS", port_exp_bits, "signed: inputs are refused outside 2^±80, so k, Z, b stay within ±2^8"},
+      {"PREC_BITS", prec_bits(), "S - 1 + align_guard_bits: fraction bits of an aligned sum"},
+      {"TABLE_GUARD", table_guard, "accumulator bits of a table below its S-bit result"},
+      {"RSQRT_SEGMENTS", rsqrt_segments(), "rsqrt_segments_log2, resolved: cubic error of a segment about 1/8 ulp"},
+      {"RECIP_SEGMENTS", recip_segments(), "recip_segments_log2, resolved: cubic error of a segment about 1/8 ulp"},
+      {"ATTRIBUTE_FRAC", attribute_frac(), "attribute_frac_bits, resolved: output truncation is 1/4 of 2^-s"},
+      {"TILE", tile(), "2^tile_log2 pixels"},
+      {"TC_BITS", tc_bits(), "viewport_bits - tile_log2 + 1: tile coordinate or count"},
+      {"ATTR_PORT_BITS", attr_port_bits(), "sign + PORT_EXP_BITS + S"},
+      {"ATTR_OUT_BITS", attr_out_bits(), "sign + attribute_int_bits + ATTRIBUTE_FRAC"},
+  };
+}
+
+}  // namespace quadrille

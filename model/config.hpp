@@ -1,0 +1,103 @@
+// The configuration: every width of the machine, from one list. C++ reads it at run time; the RTL gets the same keys as
+// macros QUADRILLE_<KEY> (rtl/quadrille_pkg.sv) and derives its widths itself; a test proves both sides equal.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quadrille {
+
+/// A configuration that cannot be built; the message names the rule that it breaks and a way out.
+struct ConfigError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// One key of the configuration, for listings, sweeps and error messages.
+struct ConfigKey {
+  std::string_view name;
+  int minimum, maximum, standard;  ///< standard -1: derived ("auto")
+  std::string_view unit, meaning;
+};
+
+/// A derived quantity with the reason for its value.
+struct DerivedWidth {
+  std::string name;
+  int value;
+  std::string reason;
+};
+
+struct Config {
+  // Keys, as given; -1 = auto where the key allows it. Read the resolved values below the line.
+  int viewport_bits = 12;
+  int guard_bits = 3;
+  int subpixel_bits = 8;
+  int homogeneous_frac_bits = 7;
+  int quadratic_frac_bits = -1;
+  int significand_bits = 18;
+  int notch_exact = 1;
+  int rsqrt_segments_log2 = -1;
+  int rsqrt_degree = 2;
+  int recip_segments_log2 = -1;
+  int recip_degree = 2;
+  int align_guard_bits = 2;
+  int attribute_slots = 4;
+  int attribute_int_bits = 3;
+  int attribute_frac_bits = -1;
+  int depth_bits = 24;
+  int tile_log2 = 3;
+  int pixels_per_clock = 1;
+  int quad_slots_log2 = 3;
+  int tile_slots_log2 = 2;
+  int stamp_fifo_log2 = 3;
+  int quad_id_bits = 24;
+
+  /// The keys in order, with range, default, unit and meaning.
+  static std::span<const ConfigKey> keys();
+  /// Value of a key by name; throws ConfigError for an unknown name (the nearest one is suggested).
+  int get(std::string_view key) const;
+  /// Sets a key; throws ConfigError for an unknown name or a value outside the key's range.
+  void set(std::string_view key, int value);
+  /// Throws ConfigError when the combination cannot be built.
+  void validate() const;
+
+  // ---- resolved and derived (each formula has its reason in derived()) ----
+  int quadratic_frac() const;   ///< kept fraction bits of D and R²
+  int rsqrt_segments() const;   ///< log2 of the segments per octave
+  int recip_segments() const;
+  int attribute_frac() const;
+  int pos_int() const { return viewport_bits + guard_bits; }
+  int frac() const { return subpixel_bits + homogeneous_frac_bits; }
+  int t_bits() const { return pos_int() + frac() + 2; }
+  int w_bits() const { return frac() + 2; }
+  int val_bits() const { return 2 * (pos_int() + frac()) + (guard_bits >= 2 ? 3 : 4); }
+  int grad_bits() const { return t_bits() + w_bits() - 1; }
+  int curv_bits() const { return 2 * frac() + 2; }
+  int qdrop() const { return 2 * frac() - quadratic_frac(); }
+  int qval_bits() const { return val_bits() - qdrop(); }
+  int qgrad_bits() const { return grad_bits() - qdrop(); }
+  int qcurv_bits() const { return curv_bits() - qdrop(); }
+  int prec_bits() const { return significand_bits - 1 + align_guard_bits; }
+  int tile() const { return 1 << tile_log2; }
+  int tc_bits() const { return viewport_bits - tile_log2 + 1; }
+  int attr_port_bits() const { return 1 + port_exp_bits + significand_bits; }
+  int attr_out_bits() const { return 1 + attribute_int_bits + attribute_frac(); }
+  int quad_slots() const { return 1 << quad_slots_log2; }
+  int tile_slots() const { return 1 << tile_slots_log2; }
+  int stamp_fifo() const { return 1 << stamp_fifo_log2; }
+
+  static constexpr int exp_bits = 12;
+  static constexpr int port_exp_bits = 9;
+  static constexpr int table_guard = 3;
+  static constexpr int block_tiles = 8;
+
+  /// Every derived width (upper-case names of rtl/quadrille_pkg.sv) with its reason.
+  std::vector<DerivedWidth> derived() const;
+
+  friend bool operator==(const Config&, const Config&) = default;
+};
+
+}  // namespace quadrille

@@ -1,0 +1,21 @@
+#include "model/pixel_pipeline.hpp"
+
+namespace quadrille {
+
+void mean_value_ratios(PixelTrace& p, const PipelineContext& c) {
+  constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}}};
+  const RawProduct one = raw_product(c.format.one(), c.format.one());
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Fp scale = fp_multiply(p.rho[pair[k][0]], p.rho[pair[k][1]], c.format);
+    RawProduct cosine = raw_product(p.d_fp[k], scale);
+    cosine.neg = false;
+    const Fp u = fp_sum({one, cosine}, c.format);  // 1 + |cos α|
+    Fp v = fp_multiply(p.a_fp[k], scale, c.format);  // |sin α|
+    v.neg = false;
+    const bool obtuse = p.d_fp[k].neg;
+    p.n[k] = obtuse ? u : v;
+    p.dn[k] = obtuse ? v : u;
+  }
+}
+
+}  // namespace quadrille

@@ -1,0 +1,62 @@
+#include "model/pixel_pipeline.hpp"
+
+namespace quadrille {
+namespace {
+
+Fp from_port(const PortNumber& n) { return {n.neg, n.exp, n.sig}; }
+
+Fp from_w(std::int32_t w, const Config& config, const SignificandFormat& f) {
+  const std::int64_t wide = w;
+  Fp r = fp_from_magnitude(static_cast<std::uint64_t>(wide < 0 ? -wide : wide), -config.frac(), f);
+  r.neg = w < 0;
+  return r;
+}
+
+}  // namespace
+
+PipelineContext::PipelineContext(const Config& c, const DrawState& s)
+    : config(c),
+      state(s),
+      format{c.significand_bits, c.align_guard_bits},
+      rsqrt_table(make_rsqrt_table(c)),
+      recip_table(make_recip_table(c)),
+      znear(depth_code(s.znear, c)),
+      zfar(depth_code(s.zfar, c)),
+      quadratic_bias(-c.qdrop()),
+      attribute_frac(c.attribute_frac()) {}
+
+QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Config& config, const DrawState& state) {
+  const SignificandFormat f{config.significand_bits, config.align_guard_bits};
+  QuadData d;
+  d.id = quad.id;
+  d.homogeneous = setup.homogeneous;
+  d.hull = setup.hull;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const SnappedVertex& v = quad.vertex[i];
+    d.w[i] = from_w(v.w, config, f);
+    d.k[i] = state.perspective ? from_port(v.k) : d.w[i];
+    d.z[i] = from_port(v.z);
+    for (std::size_t j = 0; j < max_attribute_slots; ++j) d.b[i][j] = from_port(v.attribute[j]);
+  }
+  return d;
+}
+
+void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, int dx, int row,
+                    const PipelineContext& c) {
+  p.valid = true;
+  p.slot = tile.slot;
+  p.quad = quad.id;
+  p.x = (tile.tile_x << c.config.tile_log2) + dx;
+  p.y = (tile.tile_y << c.config.tile_log2) + row;
+  p.homogeneous = quad.homogeneous;
+  p.hull = quad.hull;
+  forward_difference(p, tile, constants, dx, row);
+  normalise(p, c);
+  rsqrt_stage(p, c);
+  mean_value_ratios(p, c);
+  mean_value_weights(p, quad, c);
+  interpolate(p, quad, c);
+  fragment_output(p, quad, c);
+}
+
+}  // namespace quadrille

@@ -1,0 +1,58 @@
+// The pixel pipeline as pure functions, one per RTL module, in the order in which a pixel meets them. Formats and truncations:
+// rtl/README.md sections 2 and 5. Each function fills its part of PixelTrace from the parts before.
+//
+// This is the plain integer form, the oracle of the quick one (untimed model).
+#pragma once
+
+#include "model/rsqrt.hpp"
+#include "model/reciprocal.hpp"
+#include "model/significand.hpp"
+#include "model/tile_walk.hpp"
+
+namespace quadrille {
+
+/// What the back half needs of a quad: the slot bank's contents.
+struct QuadData {
+  std::uint32_t id = 0;
+  bool homogeneous = false, hull = false;
+  std::array<Fp, 4> k{};    ///< k_eff: k, or W when perspective is off
+  std::array<Fp, 4> w{};    ///< W truncated to S bits
+  std::array<Fp, 4> z{};    ///< Z
+  std::array<std::array<Fp, max_attribute_slots>, 4> b{};
+};
+
+QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Config& config, const DrawState& state);
+
+/// Everything constant over a draw that the stages look up.
+struct PipelineContext {
+  PipelineContext(const Config& c, const DrawState& s);
+
+  Config config;
+  DrawState state;
+  SignificandFormat format;
+  Table rsqrt_table, recip_table;
+  std::uint32_t znear, zfar;
+  int quadratic_bias;  ///< exponent of A's bit 0 relative to D's and r²'s: −QDROP
+  int attribute_frac;
+};
+
+/// Stage 1. A, D, r² at pixel (dx, row) of the tile: value + dx·gx + row·gy + q(dx² + row²). Exact.
+void forward_difference(PixelTrace& p, const TileEntry& tile, const QuadConstants& quad, int dx, int row);
+/// Stages 2-3. S-bit significands of A, D, r² and the singular class (DESIGN section 1, in its priority).
+void normalise(PixelTrace& p, const PipelineContext& c);
+/// Stages 4-6. ρ_i = r_i^-1, faithful.
+void rsqrt_stage(PixelTrace& p, const PipelineContext& c);
+/// Stages 7-10. t_i = n_i / d_i by the switch on D's sign, for the four edges and both diagonals; |n|, |d| <= 2.
+void mean_value_ratios(PixelTrace& p, const PipelineContext& c);
+/// Stages 11-17. M_i, up to a common factor; Hormann & Tarini eq. (8), division-free.
+void mean_value_weights(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
+/// Stages 18-20. The sums of eqs. (4), (10), (11).
+void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
+/// Stages 21-25. Two reciprocals, fixed point, flags, discard.
+void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
+
+/// All of them.
+void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, int dx, int row,
+                    const PipelineContext& c);
+
+}  // namespace quadrille

@@ -1,0 +1,107 @@
+#include "model/quad_setup.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace quadrille {
+namespace {
+
+using Wide = __int128;
+
+struct Vector3 {
+  std::int64_t x, y, w;
+};
+
+// Vertex pairs of the linear functions and of the quadratic ones.
+constexpr std::array<std::array<std::size_t, 2>, linear_count> edge_pair{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}}};
+constexpr std::array<std::array<std::size_t, 2>, quadratic_count> dot_pair{
+    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}, {0, 0}, {1, 1}, {2, 2}, {3, 3}}};
+
+/// V_i × V_j: its components are the coefficients (gx, gy, value) of the homogeneous edge function E_ij.
+LinearForm cross(const Vector3& a, const Vector3& b) {
+  return {a.x * b.y - a.y * b.x, a.y * b.w - a.w * b.y, a.w * b.x - a.x * b.w};
+}
+
+QuadraticForm dot(const Vector3& a, const Vector3& b, int drop) {
+  return {(a.x * b.x + a.y * b.y) >> drop, -(a.x * b.w + a.w * b.x) >> drop, -(a.y * b.w + a.w * b.y) >> drop, (a.w * b.w) >> drop};
+}
+
+Wide determinant(const LinearForm& edge, const Vector3& v) {
+  return static_cast<Wide>(edge.gx) * v.x + static_cast<Wide>(edge.gy) * v.y + static_cast<Wide>(edge.value) * v.w;
+}
+
+int sign(Wide v) { return (v > 0) - (v < 0); }
+
+struct Range {
+  int lo, hi;  // inclusive pixels
+};
+
+/// Pixels whose centre may be covered, along one axis.
+Range pixel_range(const std::array<std::int64_t, 4>& v, int frac, int scissor_lo, int scissor_hi) {
+  const auto [low, high] = std::minmax_element(v.begin(), v.end());
+  const std::int64_t first = -(-*low >> frac);  // ceil
+  const std::int64_t last = *high >> frac;      // floor
+  return {static_cast<int>(std::max<std::int64_t>(first, scissor_lo)), static_cast<int>(std::min<std::int64_t>(last, scissor_hi - 1))};
+}
+
+/// Eye inside the tetrahedron of the four vertices (or on its boundary): DESIGN section 3.
+bool eye_in_hull(Wide d012, Wide d023, Wide d123, Wide d013) {
+  const std::array<int, 4> s{sign(d123), -sign(d023), sign(d013), -sign(d012)};
+  const bool any_positive = std::any_of(s.begin(), s.end(), [](int v) { return v > 0; });
+  const bool any_negative = std::any_of(s.begin(), s.end(), [](int v) { return v < 0; });
+  return !(any_positive && any_negative);
+}
+
+}  // namespace
+
+SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const DrawState& state) {
+  const int frac = config.frac();
+  SetupResult r;
+  std::array<Vector3, 4> v{};
+  r.homogeneous = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    v[i] = {quad.vertex[i].x, quad.vertex[i].y, quad.vertex[i].w};
+    if (v[i].w != std::int64_t{1} << frac) r.homogeneous = true;
+  }
+
+  // Tiles to walk: the bounding box, or the scissor's far corner when a vertex is not ordinary.
+  Range x{0, state.scissor_x1 - 1};
+  Range y{0, state.scissor_y1 - 1};
+  bool empty = state.scissor_x0 >= state.scissor_x1 || state.scissor_y0 >= state.scissor_y1;
+  if (!r.homogeneous) {
+    x = pixel_range({v[0].x, v[1].x, v[2].x, v[3].x}, frac, state.scissor_x0, state.scissor_x1);
+    y = pixel_range({v[0].y, v[1].y, v[2].y, v[3].y}, frac, state.scissor_y0, state.scissor_y1);
+    empty = x.lo > x.hi || y.lo > y.hi;
+  }
+  if (!empty) {
+    r.tile_x0 = x.lo >> config.tile_log2;
+    r.tile_y0 = y.lo >> config.tile_log2;
+    r.tiles_x = (x.hi >> config.tile_log2) - r.tile_x0 + 1;
+    r.tiles_y = (y.hi >> config.tile_log2) - r.tile_y0 + 1;
+  }
+
+  // Translate to the first tile's origin pixel.
+  for (Vector3& t : v) {
+    t.x -= t.w * (r.tile_x0 << config.tile_log2);
+    t.y -= t.w * (r.tile_y0 << config.tile_log2);
+  }
+  for (std::size_t k = 0; k < linear_count; ++k) r.linear[k] = cross(v[edge_pair[k][0]], v[edge_pair[k][1]]);
+  for (std::size_t k = 0; k < quadratic_count; ++k) r.quadratic[k] = dot(v[dot_pair[k][0]], v[dot_pair[k][1]], config.qdrop());
+
+  r.visible = 0xf;
+  if (r.homogeneous) {
+    const Wide d012 = determinant(r.linear[0], v[2]);
+    const Wide d023 = determinant(r.linear[2], v[0]);
+    const Wide d123 = determinant(r.linear[1], v[3]);
+    const Wide d013 = determinant(r.linear[3], v[1]);
+    r.hull = eye_in_hull(d012, d023, d123, d013);
+    if (!r.hull)
+      r.visible = static_cast<std::uint8_t>((d012 > 0 ? 1 : 0) | (d023 > 0 ? 2 : 0) | (d012 < 0 ? 4 : 0) | (d023 < 0 ? 8 : 0));
+  }
+  return r;
+}
+
+int quad_setup_clocks(bool homogeneous) { return 1 + (homogeneous ? 37 : 8) + 2; }
+
+}  // namespace quadrille

@@ -1,0 +1,18 @@
+// Twin of rtl/reciprocal.sv.
+#pragma once
+
+#include "model/significand.hpp"
+#include "model/table_polynomial.hpp"
+
+namespace quadrille {
+
+/// 1/a with a's sign; zero gives zero. Error below 1 ulp of S bits (faithful) with the automatic table sizes; exact for powers of two.
+inline Fp reciprocal(const Fp& a, const Table& table, const SignificandFormat& f) {
+  if (a.sig == 0) return {};
+  const std::uint32_t fraction = a.sig - (std::uint32_t{1} << (f.s - 1));
+  if (fraction == 0) return {a.neg, -a.exp, a.sig};
+  const std::uint32_t dx = fraction & ((std::uint32_t{1} << table.rest_bits) - 1);
+  return {a.neg, -a.exp - 1, table_polynomial(table.entries[fraction >> table.rest_bits], dx, table.rest_bits, f.s)};
+}
+
+}  // namespace quadrille

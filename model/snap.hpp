@@ -1,0 +1,30 @@
+// Snapping: floating-point vertices in, the integers of the machine's port out (DESIGN "Snapping, per vertex, from that vertex
+// alone"). Depends on nothing but the vertex and the draw's configuration, so two quads that share a vertex see the same integers.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+
+#include <stdexcept>
+
+namespace quadrille {
+
+/// A vertex that is no point of the machine's input space. vertex: 0-3.
+struct SnapError : std::runtime_error {
+  SnapError(std::uint32_t quad, int vertex, const std::string& what);
+  std::uint32_t quad;
+  int vertex;
+};
+
+/// x, y, w in units of 2^-FRAC relative to pixel centres. Ordinary (w > 0 and inside the guard band after rounding): position to
+/// nearest on the 2^-subpixel_bits grid, W = 1, k = 1/w. Otherwise k > 0 such that max(|X|/2^pos_int, |Y|/2^pos_int, |W|) = 1,
+/// rounded to nearest on the 2^-FRAC grid. Throws SnapError for NaN, infinity, (0,0,0), magnitudes outside 2^±80 and attributes
+/// that do not fit attribute_int_bits.
+SnappedVertex snap_vertex(const WindowVertex& v, const double* attributes, int attribute_count, const Config& config,
+                          const DrawState& state);
+SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawState& state);
+
+/// All four W are exactly 1: the machine's narrow case.
+bool is_ordinary(const SnappedQuad& quad, const Config& config);
+
+}  // namespace quadrille

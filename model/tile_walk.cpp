@@ -1,0 +1,123 @@
+#include "model/tile_walk.hpp"
+
+namespace quadrille {
+namespace {
+
+// Sums of in-range terms can pass through values outside 64 bits when a corner outside the viewport is composed term by term;
+// two's complement makes the final value right, so additions wrap.
+std::int64_t wrap_add(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
+}  // namespace
+
+bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull) {
+  EdgeSign e[5];
+  for (std::size_t k = 0; k < 5; ++k) {
+    const std::int64_t sx = quad.gx[k] * (extent - 1);
+    const std::int64_t sy = quad.gy[k] * (extent - 1);
+    const std::int64_t lo = wrap_add(at.linear[k], std::min<std::int64_t>(sx, 0) + std::min<std::int64_t>(sy, 0));
+    const std::int64_t hi = wrap_add(at.linear[k], std::max<std::int64_t>(sx, 0) + std::max<std::int64_t>(sy, 0));
+    e[k] = {hi > 0 || (hi == 0 && quad.tie_pos[k]), lo < 0 || (lo == 0 && quad.tie_neg[k])};
+  }
+  const ClauseResult c = inside_expression(e, quad.visible);
+  return (c.back && cull != Cull::back) || (c.front && cull != Cull::front);
+}
+
+void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy) {
+  for (std::size_t k = 0; k < linear_count; ++k)
+    at.linear[k] = wrap_add(at.linear[k], wrap_add(quad.gx[k] * dx, quad.gy[k] * dy));
+  for (std::size_t k = 0; k < quadratic_count; ++k) {
+    QuadraticForm& f = at.quadratic[k];
+    f.value = wrap_add(f.value, wrap_add(wrap_add(f.gx * dx, f.gy * dy), quad.q[k] * (dx * dx + dy * dy)));
+    f.gx += 2 * quad.q[k] * dx;
+    f.gy += 2 * quad.q[k] * dy;
+  }
+}
+
+void TileWalk::take(const SetupResult& setup) {
+  slot_ = setup.slot;
+  quad_ = QuadConstants(setup);
+  for (std::size_t k = 0; k < linear_count; ++k) block_.linear[k] = setup.linear[k].value;
+  block_.quadratic = setup.quadratic;
+  bx_ = by_ = 0;
+  block_right_ = true;
+  state_ = quad_.tiles_x == 0 || quad_.tiles_y == 0 ? State::end : State::block;
+}
+
+bool TileWalk::hit() const {
+  if (state_ == State::block) return !reject_ || may_cover(block_, quad_, tile_ * Config::block_tiles, cull_);
+  if (state_ == State::tile) return !reject_ || may_cover(at_, quad_, tile_, cull_);
+  return false;
+}
+
+TileEntry TileWalk::entry() const {
+  TileEntry e;
+  e.slot = slot_;
+  if (state_ == State::end) {
+    e.end = true;
+    return e;
+  }
+  e.tile_x = quad_.tile_x0 + bx_ * Config::block_tiles + tx_;
+  e.tile_y = quad_.tile_y0 + by_ * Config::block_tiles + ty_;
+  e.linear = at_.linear;
+  e.quadratic = at_.quadratic;
+  for (std::size_t k = 0; k < quadratic_count; ++k) e.quadratic[k].q = quad_.q[k];
+  return e;
+}
+
+void TileWalk::advance() {
+  switch (state_) {
+    case State::idle:
+      break;
+    case State::end:
+      state_ = State::idle;
+      break;
+    case State::block:
+      if (hit()) {
+        at_ = block_;
+        tx_ = ty_ = 0;
+        tile_right_ = true;
+        state_ = State::tile;
+      } else {
+        step_block();
+      }
+      break;
+    case State::tile: {
+      const int nx = tiles_in_block(quad_.tiles_x, bx_);
+      const int ny = tiles_in_block(quad_.tiles_y, by_);
+      if (tile_right_ ? tx_ + 1 < nx : tx_ > 0) {
+        const int step = tile_right_ ? 1 : -1;
+        tx_ += step;
+        walk_step(at_, quad_, step * tile_, 0);
+      } else if (ty_ + 1 < ny) {
+        ++ty_;
+        tile_right_ = !tile_right_;
+        walk_step(at_, quad_, 0, tile_);
+      } else {
+        step_block();
+      }
+      break;
+    }
+  }
+}
+
+void TileWalk::step_block() {
+  const int blocks_x = (quad_.tiles_x + Config::block_tiles - 1) / Config::block_tiles;
+  const int blocks_y = (quad_.tiles_y + Config::block_tiles - 1) / Config::block_tiles;
+  const int size = tile_ * Config::block_tiles;
+  state_ = State::block;
+  if (block_right_ ? bx_ + 1 < blocks_x : bx_ > 0) {
+    const int step = block_right_ ? 1 : -1;
+    bx_ += step;
+    walk_step(block_, quad_, step * size, 0);
+  } else if (by_ + 1 < blocks_y) {
+    ++by_;
+    block_right_ = !block_right_;
+    walk_step(block_, quad_, 0, size);
+  } else {
+    state_ = State::end;
+  }
+}
+
+}  // namespace quadrille

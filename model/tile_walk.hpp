@@ -1,0 +1,103 @@
+// Twin of rtl/tile_walk.sv: three-valued coverage of a square of pixels, and the serpentine walk over blocks and tiles.
+//
+// The walk is one state machine that both models run: the clocked shell once per clock, the untimed model in a loop. A step back
+// subtracts what a step forth adds; forward differences of exact integers are reversible, so no row start is kept.
+#pragma once
+
+#include "model/stages.hpp"
+
+#include <algorithm>
+
+namespace quadrille {
+
+/// A sign that an edge function can take: with ties, E = 0 counts by the direction of (+ε, +ε²), and an all-zero edge has none.
+struct EdgeSign {
+  bool positive, negative;
+};
+
+/// Expression (12) of Hormann & Tarini and its negation, each clause masked by `visible` (SetupResult::visible).
+struct ClauseResult {
+  bool back, front;  ///< the positive form (clockwise on a y-down screen) and the negated form
+};
+
+inline bool tie_positive(const LinearForm& e) { return e.gx > 0 || (e.gx == 0 && e.gy > 0); }
+inline bool tie_negative(const LinearForm& e) { return e.gx < 0 || (e.gx == 0 && e.gy < 0); }
+
+inline ClauseResult inside_expression(const EdgeSign* e, unsigned visible) {
+  const bool p1 = e[4].positive && e[0].positive && e[1].positive && (e[2].positive || e[3].positive) && (visible & 1);
+  const bool p2 = e[4].negative && e[2].positive && e[3].positive && (e[0].positive || e[1].positive) && (visible & 2);
+  const bool n1 = e[4].negative && e[0].negative && e[1].negative && (e[2].negative || e[3].negative) && (visible & 4);
+  const bool n2 = e[4].positive && e[2].negative && e[3].negative && (e[0].negative || e[1].negative) && (visible & 8);
+  return {p1 || p2, n1 || n2};
+}
+
+/// What tile_walk needs of a quad; constant while the quad is drawn.
+struct QuadConstants {
+  std::array<std::int64_t, linear_count> gx{}, gy{};
+  std::array<std::int64_t, quadratic_count> q{};
+  std::array<bool, 5> tie_pos{}, tie_neg{};
+  unsigned visible = 0;
+  int tile_x0 = 0, tile_y0 = 0, tiles_x = 0, tiles_y = 0;
+
+  explicit QuadConstants(const SetupResult& s) : visible(s.visible), tile_x0(s.tile_x0), tile_y0(s.tile_y0), tiles_x(s.tiles_x), tiles_y(s.tiles_y) {
+    for (std::size_t k = 0; k < linear_count; ++k) {
+      gx[k] = s.linear[k].gx;
+      gy[k] = s.linear[k].gy;
+    }
+    for (std::size_t k = 0; k < quadratic_count; ++k) q[k] = s.quadratic[k].q;
+    for (std::size_t k = 0; k < 5; ++k) {
+      tie_pos[k] = tie_positive(s.linear[k]);
+      tie_neg[k] = tie_negative(s.linear[k]);
+    }
+  }
+  QuadConstants() = default;
+};
+
+/// Values of all functions at one pixel, with the gradients that change on the way.
+struct WalkState {
+  std::array<std::int64_t, linear_count> linear{};
+  std::array<QuadraticForm, quadratic_count> quadratic{};
+};
+
+/// False only when no pixel of the extent×extent square at the state's origin can be drawn.
+bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull);
+
+/// Moves the origin by (dx, dy) pixels; exact.
+void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy);
+
+/// The state machine.
+class TileWalk {
+ public:
+  enum class State { idle, block, tile, end };
+
+  TileWalk() = default;
+  TileWalk(const Config& config, const DrawState& state) : tile_(config.tile()), cull_(state.cull), reject_(state.skip & skip_hierarchical_tiles) {}
+
+  State state() const { return state_; }
+  const QuadConstants& constants() const { return quad_; }
+
+  /// Loads a quad (state idle).
+  void take(const SetupResult& setup);
+  /// The square under test may be drawn: a BLOCK is entered, a TILE is pushed.
+  bool hit() const;
+  /// Ring entry of the current tile, or the end entry in state END.
+  TileEntry entry() const;
+  /// One clock's work, once the entry (if any) has been accepted. Never call it for a hit tile or END while the ring is full.
+  void advance();
+
+ private:
+  void step_block();
+  static int tiles_in_block(int tiles, int block) { return std::min(Config::block_tiles, tiles - block * Config::block_tiles); }
+
+  int tile_ = 8;
+  Cull cull_ = Cull::none;
+  bool reject_ = true;
+  State state_ = State::idle;
+  std::uint32_t slot_ = 0;
+  QuadConstants quad_;
+  WalkState block_, at_;
+  int bx_ = 0, by_ = 0, tx_ = 0, ty_ = 0;
+  bool block_right_ = true, tile_right_ = true;
+};
+
+}  // namespace quadrille

@@ -1,0 +1,41 @@
+// The untimed model: quads in, fragments out, the RTL's bits and order without its clocks.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace quadrille {
+
+/// What a draw did; every counter is exact and deterministic.
+struct DrawStats {
+  std::uint64_t quads = 0, homogeneous_quads = 0, hull_quads = 0;
+  std::uint64_t blocks_tested = 0, tiles_tested = 0, tiles_entered = 0, stamps_covered = 0;
+  std::uint64_t pixels = 0;        ///< covered pixels that entered the pipeline
+  std::uint64_t fragments = 0;     ///< of these, not discarded
+  std::uint64_t on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0, cured = 0, saturated = 0;
+
+  DrawStats& operator+=(const DrawStats& other);
+};
+
+class UntimedModel {
+ public:
+  UntimedModel(const Config& config, const DrawState& state);
+  ~UntimedModel();
+  UntimedModel(UntimedModel&&) noexcept;
+  UntimedModel& operator=(UntimedModel&&) noexcept;
+
+  /// Draws one quad; `sink` gets its fragments in traversal order, in batches.
+  void draw(const SnappedQuad& quad, const std::function<void(std::span<const Fragment>)>& sink);
+  const DrawStats& stats() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quadrille
