@@ -46,8 +46,8 @@ struct VertexAssembly {
 
 /// The control half of quad_setup; the bits come from the function of that name at start.
 struct SetupUnit {
-  bool busy = false;   ///< PREP, RUN, DRAIN or DONE
-  int remaining = 0;   ///< clocks before DONE
+  bool busy = false;  ///< PREP, RUN, DRAIN or DONE
+  int remaining = 0;  ///< clocks before DONE
   SetupResult result;
 
   bool done() const { return busy && remaining == 0; }

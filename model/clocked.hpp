@@ -1,5 +1,5 @@
-// The clocked shell: predicts valid, ready and every payload of the RTL on every clock. It holds control state only; every bit
-// of arithmetic comes from the pure functions of the stage files. See rtl/README.md sections 4 to 6.
+// The clocked shell: predicts valid, ready and every payload of the RTL on every clock. It holds control state only;
+// every bit of arithmetic comes from the pure functions of the stage files. See rtl/README.md sections 4 to 6.
 //
 // Use, once per clock:  comb(inputs) -> outputs  (any number of times; changes nothing),  then  clock(inputs).
 #pragma once
@@ -13,32 +13,32 @@
 namespace quadrille {
 
 struct ClockedInputs {
-  bool reset = false;            ///< rst_ni = 0
+  bool reset = false;  ///< rst_ni = 0
   bool vertex_valid = false;
   bool fragment_ready = false;
-  std::uint32_t vertex_id = 0;   ///< quad id of the beat
-  SnappedVertex vertex;          ///< the beat, when vertex_valid
+  std::uint32_t vertex_id = 0;  ///< quad id of the beat
+  SnappedVertex vertex;         ///< the beat, when vertex_valid
 };
 
 /// A boundary that carries a beat in this clock, or nullptr.
 struct ClockedProbes {
-  const SetupResult* setup = nullptr;    ///< taken by the walk in this clock
-  const TileEntry* tile = nullptr;       ///< pushed in this clock
-  const StampEntry* stamp = nullptr;     ///< pushed in this clock
-  const PixelTrace* diff = nullptr;      ///< stage 1 register holds a pixel
-  const PixelTrace* norm = nullptr;      ///< stage 3
-  const PixelTrace* rsqrt = nullptr;     ///< stage 6
-  const PixelTrace* ratio = nullptr;     ///< stage 10
-  const PixelTrace* weight = nullptr;    ///< stage 17
-  const PixelTrace* sum = nullptr;       ///< stage 20
+  const SetupResult* setup = nullptr;  ///< taken by the walk in this clock
+  const TileEntry* tile = nullptr;     ///< pushed in this clock
+  const StampEntry* stamp = nullptr;   ///< pushed in this clock
+  const PixelTrace* diff = nullptr;    ///< stage 1 register holds a pixel
+  const PixelTrace* norm = nullptr;    ///< stage 3
+  const PixelTrace* rsqrt = nullptr;   ///< stage 6
+  const PixelTrace* ratio = nullptr;   ///< stage 10
+  const PixelTrace* weight = nullptr;  ///< stage 17
+  const PixelTrace* sum = nullptr;     ///< stage 20
 };
 
 struct ClockedOutputs {
   bool vertex_ready = false;
   bool fragment_valid = false;
   bool busy = false;
-  Fragment fragment;             ///< all zero when not valid
-  ClockedProbes probes;          ///< valid until the next clock()
+  Fragment fragment;     ///< all zero when not valid
+  ClockedProbes probes;  ///< valid until the next clock()
 };
 
 class ClockedModel {

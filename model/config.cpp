@@ -15,31 +15,39 @@ struct Entry {
 
 constexpr std::array entries{
     Entry{{"viewport_bits", 6, 14, 12, "bits", "pixel x and y lie in [0, 2^viewport_bits)"}, &Config::viewport_bits},
-    Entry{{"guard_bits", 1, 4, 3, "bits", "guard band: |X| <= 2^(viewport_bits + guard_bits) pixels"}, &Config::guard_bits},
+    Entry{{"guard_bits", 1, 4, 3, "bits", "guard band: |X| <= 2^(viewport_bits + guard_bits) pixels"},
+          &Config::guard_bits},
     Entry{{"subpixel_bits", 2, 8, 8, "bits", "fraction bits of an ordinary vertex position"}, &Config::subpixel_bits},
     Entry{{"homogeneous_frac_bits", 4, 10, 7, "bits", "further fraction bits of a homogeneous vertex"},
           &Config::homogeneous_frac_bits},
-    Entry{{"quadratic_frac_bits", 0, 36, -1, "bits", "kept fraction bits of D and r²; auto: all, 2·(subpixel + homogeneous)"},
+    Entry{{"quadratic_frac_bits", 0, 36, -1, "bits",
+           "kept fraction bits of D and r²; auto: all, 2·(subpixel + homogeneous)"},
           &Config::quadratic_frac_bits},
-    Entry{{"significand_bits", 8, 26, 18, "bits", "s: bits of every multiplier operand after normalisation, tables included"},
+    Entry{{"significand_bits", 8, 26, 18, "bits",
+           "s: bits of every multiplier operand after normalisation, tables included"},
           &Config::significand_bits},
     Entry{{"notch_exact", 0, 1, 1, "", "half-angle cure of the cancellation at reflex corners"}, &Config::notch_exact},
-    Entry{{"rsqrt_segments_log2", 3, 10, -1, "log2", "rsqrt table segments per octave; auto: ceil((s-4)/3), degree 1 ceil(s/2), from 3 to 10"},
+    Entry{{"rsqrt_segments_log2", 3, 10, -1, "log2",
+           "rsqrt table segments per octave; auto: ceil((s-4)/3), degree 1 ceil(s/2), from 3 to 10"},
           &Config::rsqrt_segments_log2},
     Entry{{"rsqrt_degree", 1, 2, 2, "", "polynomial degree of the rsqrt table"}, &Config::rsqrt_degree},
-    Entry{{"recip_segments_log2", 3, 10, -1, "log2", "reciprocal table segments; auto: ceil((s-2)/3), degree 1 ceil((s+1)/2), from 3 to 10"},
+    Entry{{"recip_segments_log2", 3, 10, -1, "log2",
+           "reciprocal table segments; auto: ceil((s-2)/3), degree 1 ceil((s+1)/2), from 3 to 10"},
           &Config::recip_segments_log2},
     Entry{{"recip_degree", 1, 2, 2, "", "polynomial degree of the reciprocal table"}, &Config::recip_degree},
     Entry{{"align_guard_bits", 0, 6, 2, "bits", "fraction bits kept below the s bits of the largest term of a sum"},
           &Config::align_guard_bits},
     Entry{{"attribute_slots", 1, 8, 4, "", "attributes per vertex at the port"}, &Config::attribute_slots},
-    Entry{{"attribute_int_bits", 1, 8, 3, "bits", "integer bits of an output attribute, sign apart"}, &Config::attribute_int_bits},
+    Entry{{"attribute_int_bits", 1, 8, 3, "bits", "integer bits of an output attribute, sign apart"},
+          &Config::attribute_int_bits},
     Entry{{"attribute_frac_bits", 8, 30, -1, "bits", "fraction bits of an output attribute, at least s; auto: s + 2"},
           &Config::attribute_frac_bits},
     Entry{{"depth_bits", 8, 30, 24, "bits", "fraction bits of window z"}, &Config::depth_bits},
-    Entry{{"tile_log2", 2, 4, 3, "log2 px", "tile edge, also the width of a stamp; a block is 8x8 tiles"}, &Config::tile_log2},
+    Entry{{"tile_log2", 2, 4, 3, "log2 px", "tile edge, also the width of a stamp; a block is 8x8 tiles"},
+          &Config::tile_log2},
     Entry{{"pixels_per_clock", 1, 1, 1, "", "lanes of the fragment port (one so far)"}, &Config::pixels_per_clock},
-    Entry{{"quad_slots_log2", 1, 4, 3, "log2", "quads in flight between setup and their last fragment"}, &Config::quad_slots_log2},
+    Entry{{"quad_slots_log2", 1, 4, 3, "log2", "quads in flight between setup and their last fragment"},
+          &Config::quad_slots_log2},
     Entry{{"tile_slots_log2", 1, 4, 2, "log2", "tile contexts in flight"}, &Config::tile_slots_log2},
     Entry{{"stamp_fifo_log2", 1, 5, 3, "log2", "covered stamps that may wait"}, &Config::stamp_fifo_log2},
     Entry{{"quad_id_bits", 8, 32, 24, "bits", "width of the quad id"}, &Config::quad_id_bits},
@@ -121,15 +129,18 @@ void Config::validate() const {
     Config scratch;
     scratch.set(e.key.name, this->*e.member);
   }
-  require(val_bits() <= 64, "VAL_BITS = 2·(viewport_bits + guard_bits + subpixel_bits + homogeneous_frac_bits) + 3 (4 when guard_bits = 1) = " +
-                                std::to_string(val_bits()) + " exceeds 64; lower one of these four");
+  require(val_bits() <= 64,
+          "VAL_BITS = 2·(viewport_bits + guard_bits + subpixel_bits + homogeneous_frac_bits) + 3 (4 when guard_bits = "
+          "1) = " +
+              std::to_string(val_bits()) + " exceeds 64; lower one of these four");
   require(quadratic_frac() <= 2 * frac(), "quadratic_frac_bits = " + std::to_string(quadratic_frac()) +
-                                              " exceeds the 2·(subpixel_bits + homogeneous_frac_bits) = " + std::to_string(2 * frac()) +
-                                              " fraction bits that D and r² have");
+                                              " exceeds the 2·(subpixel_bits + homogeneous_frac_bits) = " +
+                                              std::to_string(2 * frac()) + " fraction bits that D and r² have");
   // |S| <= 2^pos_int + the viewport + one block, and |A|, |D|, r² <= 2 |S|^2 must fit the sign and VAL_BITS - 1 bits.
   const double reach = 1.0 + std::ldexp(1.0, -guard_bits) + std::ldexp(1.0, tile_log2 + 3 - pos_int());
   require(2 * reach * reach <= std::ldexp(1.0, val_bits() - 1 - 2 * (pos_int() + frac())),
-          "a block of 8 tiles reaches too far outside the viewport for VAL_BITS; raise viewport_bits or guard_bits, or lower tile_log2");
+          "a block of 8 tiles reaches too far outside the viewport for VAL_BITS; raise viewport_bits or guard_bits, or "
+          "lower tile_log2");
   require(attribute_frac() >= significand_bits, "attribute_frac_bits = " + std::to_string(attribute_frac()) +
                                                     " is below significand_bits = " + std::to_string(significand_bits) +
                                                     "; outputs keep at least s fraction bits");
@@ -143,7 +154,8 @@ std::vector<DerivedWidth> Config::derived() const {
   return {
       {"POS_INT", pos_int(), "viewport_bits + guard_bits: integer bits of a position, sign apart"},
       {"FRAC", frac(), "subpixel_bits + homogeneous_frac_bits: fraction bits of X, Y, W"},
-      {"T_BITS", t_bits(), "POS_INT + FRAC + 2, signed: |X| reaches 2^(POS_INT+FRAC) inclusive, and S = X - W·x adds less than that again"},
+      {"T_BITS", t_bits(),
+       "POS_INT + FRAC + 2, signed: |X| reaches 2^(POS_INT+FRAC) inclusive, and S = X - W·x adds less than that again"},
       {"W_BITS", w_bits(), "FRAC + 2, signed: |W| reaches 1 inclusive"},
       {"VAL_BITS", val_bits(), "2·(POS_INT + FRAC) + 3 (4 for one guard bit), signed: |A|, |D|, r² <= 2·max|S|²"},
       {"GRAD_BITS", grad_bits(), "T_BITS + W_BITS - 1, signed: two products T·W"},

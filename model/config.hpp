@@ -65,8 +65,8 @@ struct Config {
   void validate() const;
 
   // ---- resolved and derived (each formula has its reason in derived()) ----
-  int quadratic_frac() const;   ///< kept fraction bits of D and R²
-  int rsqrt_segments() const;   ///< log2 of the segments per octave
+  int quadratic_frac() const;  ///< kept fraction bits of D and R²
+  int rsqrt_segments() const;  ///< log2 of the segments per octave
   int recip_segments() const;
   int attribute_frac() const;
   int pos_int() const { return viewport_bits + guard_bits; }

@@ -33,7 +33,8 @@ void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext&
 
   bool saturated = false;
   for (int j = 0; j < c.state.attributes; ++j) {
-    const Fixed a = to_fixed(p.num_a[static_cast<std::size_t>(j)], rec_k, c.config.attribute_int_bits, c.attribute_frac, c.format);
+    const Fixed a =
+        to_fixed(p.num_a[static_cast<std::size_t>(j)], rec_k, c.config.attribute_int_bits, c.attribute_frac, c.format);
     saturated |= a.overflow;
     const auto q = static_cast<std::int64_t>(a.q);
     g.attribute[static_cast<std::size_t>(j)] = a.neg ? -q : q;
@@ -46,8 +47,9 @@ void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext&
     discard |= (z.neg && z.q != 0) || z.q < c.znear || z.q > c.zfar;
     g.depth = static_cast<std::uint32_t>(z.q);
   }
-  g.flags = static_cast<std::uint8_t>((p.on_edge ? flag_on_edge : 0) | (p.on_vertex ? flag_on_vertex : 0) | (p.two_corner ? flag_two_corner : 0) |
-                                      (p.two_edge ? flag_two_edge : 0) | (p.tie ? flag_tie : 0) | (p.homogeneous ? flag_homogeneous : 0) |
+  g.flags = static_cast<std::uint8_t>((p.on_edge ? flag_on_edge : 0) | (p.on_vertex ? flag_on_vertex : 0) |
+                                      (p.two_corner ? flag_two_corner : 0) | (p.two_edge ? flag_two_edge : 0) |
+                                      (p.tie ? flag_tie : 0) | (p.homogeneous ? flag_homogeneous : 0) |
                                       (p.cured ? flag_cured : 0) | (saturated ? flag_saturated : 0));
   p.drawn = p.valid && !discard;
 }

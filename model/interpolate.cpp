@@ -4,7 +4,8 @@ namespace quadrille {
 
 void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c) {
   const auto weighted_sum = [&](const Fp& v0, const Fp& v1, const Fp& v2, const Fp& v3) {
-    return fp_sum({raw_product(p.m[0], v0), raw_product(p.m[1], v1), raw_product(p.m[2], v2), raw_product(p.m[3], v3)}, c.format);
+    return fp_sum({raw_product(p.m[0], v0), raw_product(p.m[1], v1), raw_product(p.m[2], v2), raw_product(p.m[3], v3)},
+                  c.format);
   };
   p.den_k = weighted_sum(quad.k[0], quad.k[1], quad.k[2], quad.k[3]);
   p.den_w = weighted_sum(quad.w[0], quad.w[1], quad.w[2], quad.w[3]);

@@ -9,7 +9,7 @@ void mean_value_ratios(PixelTrace& p, const PipelineContext& c) {
     const Fp scale = fp_multiply(p.rho[pair[k][0]], p.rho[pair[k][1]], c.format);
     RawProduct cosine = raw_product(p.d_fp[k], scale);
     cosine.neg = false;
-    const Fp u = fp_sum({one, cosine}, c.format);  // 1 + |cos α|
+    const Fp u = fp_sum({one, cosine}, c.format);    // 1 + |cos α|
     Fp v = fp_multiply(p.a_fp[k], scale, c.format);  // |sin α|
     v.neg = false;
     const bool obtuse = p.d_fp[k].neg;

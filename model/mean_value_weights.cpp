@@ -33,7 +33,8 @@ Singular on_vertex(const PixelTrace& p, const PipelineContext& c) {
   return s;
 }
 
-/// `edge_sum[i]` = |ρ_i k_i + ρ_{i+1} k_{i+1}|. Each edge's own interpolation is ρ k over that sum; crossing the sums gives their mean.
+/// `edge_sum[i]` = |ρ_i k_i + ρ_{i+1} k_{i+1}|. Each edge's own interpolation is ρ k over that sum; crossing the sums
+/// gives their mean.
 Singular two_edge(const PixelTrace& p, const std::array<Fp, 4>& edge_sum, const PipelineContext& c) {
   const auto is_on = [&](std::size_t e) { return p.a[e] == 0 && p.d[e] < 0; };
   std::size_t a = 0;

@@ -41,8 +41,8 @@ QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Conf
   return d;
 }
 
-void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, int dx, int row,
-                    const PipelineContext& c) {
+void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, int dx,
+                    int row, const PipelineContext& c) {
   p.valid = true;
   p.slot = tile.slot;
   p.quad = quad.id;

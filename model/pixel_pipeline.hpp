@@ -1,11 +1,11 @@
-// The pixel pipeline as pure functions, one per RTL module, in the order in which a pixel meets them. Formats and truncations:
-// rtl/README.md sections 2 and 5. Each function fills its part of PixelTrace from the parts before.
+// The pixel pipeline as pure functions, one per RTL module, in the order in which a pixel meets them. Formats and
+// truncations: rtl/README.md sections 2 and 5. Each function fills its part of PixelTrace from the parts before.
 //
 // This is the plain integer form, the oracle of the quick one (untimed model).
 #pragma once
 
-#include "model/rsqrt.hpp"
 #include "model/reciprocal.hpp"
+#include "model/rsqrt.hpp"
 #include "model/significand.hpp"
 #include "model/tile_walk.hpp"
 
@@ -15,9 +15,9 @@ namespace quadrille {
 struct QuadData {
   std::uint32_t id = 0;
   bool homogeneous = false, hull = false;
-  std::array<Fp, 4> k{};    ///< k_eff: k, or W when perspective is off
-  std::array<Fp, 4> w{};    ///< W truncated to S bits
-  std::array<Fp, 4> z{};    ///< Z
+  std::array<Fp, 4> k{};  ///< k_eff: k, or W when perspective is off
+  std::array<Fp, 4> w{};  ///< W truncated to S bits
+  std::array<Fp, 4> z{};  ///< Z
   std::array<std::array<Fp, max_attribute_slots>, 4> b{};
 };
 
@@ -52,7 +52,7 @@ void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 
 /// All of them.
-void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, int dx, int row,
-                    const PipelineContext& c);
+void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, int dx,
+                    int row, const PipelineContext& c);
 
 }  // namespace quadrille

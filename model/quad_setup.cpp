@@ -14,7 +14,8 @@ struct Vector3 {
 };
 
 // Vertex pairs of the linear functions and of the quadratic ones.
-constexpr std::array<std::array<std::size_t, 2>, linear_count> edge_pair{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}}};
+constexpr std::array<std::array<std::size_t, 2>, linear_count> edge_pair{
+    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}}};
 constexpr std::array<std::array<std::size_t, 2>, quadratic_count> dot_pair{
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}, {0, 0}, {1, 1}, {2, 2}, {3, 3}}};
 
@@ -24,7 +25,8 @@ LinearForm cross(const Vector3& a, const Vector3& b) {
 }
 
 QuadraticForm dot(const Vector3& a, const Vector3& b, int drop) {
-  return {(a.x * b.x + a.y * b.y) >> drop, -(a.x * b.w + a.w * b.x) >> drop, -(a.y * b.w + a.w * b.y) >> drop, (a.w * b.w) >> drop};
+  return {(a.x * b.x + a.y * b.y) >> drop, -(a.x * b.w + a.w * b.x) >> drop, -(a.y * b.w + a.w * b.y) >> drop,
+          (a.w * b.w) >> drop};
 }
 
 Wide determinant(const LinearForm& edge, const Vector3& v) {
@@ -42,7 +44,8 @@ Range pixel_range(const std::array<std::int64_t, 4>& v, int frac, int scissor_lo
   const auto [low, high] = std::minmax_element(v.begin(), v.end());
   const std::int64_t first = -(-*low >> frac);  // ceil
   const std::int64_t last = *high >> frac;      // floor
-  return {static_cast<int>(std::max<std::int64_t>(first, scissor_lo)), static_cast<int>(std::min<std::int64_t>(last, scissor_hi - 1))};
+  return {static_cast<int>(std::max<std::int64_t>(first, scissor_lo)),
+          static_cast<int>(std::min<std::int64_t>(last, scissor_hi - 1))};
 }
 
 /// Eye inside the tetrahedron of the four vertices (or on its boundary): DESIGN section 3.
@@ -87,7 +90,8 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
     t.y -= t.w * (r.tile_y0 << config.tile_log2);
   }
   for (std::size_t k = 0; k < linear_count; ++k) r.linear[k] = cross(v[edge_pair[k][0]], v[edge_pair[k][1]]);
-  for (std::size_t k = 0; k < quadratic_count; ++k) r.quadratic[k] = dot(v[dot_pair[k][0]], v[dot_pair[k][1]], config.qdrop());
+  for (std::size_t k = 0; k < quadratic_count; ++k)
+    r.quadratic[k] = dot(v[dot_pair[k][0]], v[dot_pair[k][1]], config.qdrop());
 
   r.visible = 0xf;
   if (r.homogeneous) {
@@ -97,7 +101,8 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
     const Wide d013 = determinant(r.linear[3], v[1]);
     r.hull = eye_in_hull(d012, d023, d123, d013);
     if (!r.hull)
-      r.visible = static_cast<std::uint8_t>((d012 > 0 ? 1 : 0) | (d023 > 0 ? 2 : 0) | (d012 < 0 ? 4 : 0) | (d023 < 0 ? 8 : 0));
+      r.visible =
+          static_cast<std::uint8_t>((d012 > 0 ? 1 : 0) | (d023 > 0 ? 2 : 0) | (d012 < 0 ? 4 : 0) | (d023 < 0 ? 8 : 0));
   }
   return r;
 }

@@ -28,19 +28,19 @@ enum SkipBit : std::uint32_t { skip_hierarchical_tiles = 1u << 0 };
 
 /// Constant over a draw, given to model and RTL alike.
 struct DrawState {
-  int width = 512, height = 512;           ///< viewport in pixels, at most 2^viewport_bits each
-  int scissor_x0 = 0, scissor_y0 = 0;      ///< half-open pixel rectangle, inside the viewport
+  int width = 512, height = 512;       ///< viewport in pixels, at most 2^viewport_bits each
+  int scissor_x0 = 0, scissor_y0 = 0;  ///< half-open pixel rectangle, inside the viewport
   int scissor_x1 = 512, scissor_y1 = 512;
   Cull cull = Cull::none;
   bool perspective = true;
   bool depth = true;
-  double znear = 0.0, zfar = 1.0;          ///< window z interval; fragments outside are discarded (depth on)
-  int attributes = 4;                      ///< attributes in use, at most attribute_slots
+  double znear = 0.0, zfar = 1.0;  ///< window z interval; fragments outside are discarded (depth on)
+  int attributes = 4;              ///< attributes in use, at most attribute_slots
   std::uint32_t skip = skip_hierarchical_tiles;
 };
 
-/// Significand number at the port: value = (-1)^neg * sig * 2^(exp - (S-1)); sig has exactly S = significand_bits bits, or
-/// the number is zero and all three fields are 0.
+/// Significand number at the port: value = (-1)^neg * sig * 2^(exp - (S-1)); sig has exactly S = significand_bits bits,
+/// or the number is zero and all three fields are 0.
 struct PortNumber {
   bool neg = false;
   std::int32_t exp = 0;
@@ -49,13 +49,14 @@ struct PortNumber {
 
 inline constexpr int max_attribute_slots = 8;
 
-/// One vertex beat: integers only. x, y, w in units of 2^-FRAC, relative to pixel CENTRES (pixel (x, y) has its centre at
-/// the integers x, y); FRAC = subpixel_bits + homogeneous_frac_bits. The vertex is k times the given one.
+/// One vertex beat: integers only. x, y, w in units of 2^-FRAC, relative to pixel CENTRES (pixel (x, y) has its centre
+/// at the integers x, y); FRAC = subpixel_bits + homogeneous_frac_bits. The vertex is k times the given one.
 struct SnappedVertex {
   std::int32_t x = 0, y = 0, w = 0;
-  PortNumber k;                                             ///< k > 0, rounded to nearest
-  PortNumber z;                                             ///< Z = k * z~
-  std::array<PortNumber, max_attribute_slots> attribute{};  ///< b = k_eff * a; k_eff = k, or W as a real number when perspective is off
+  PortNumber k;  ///< k > 0, rounded to nearest
+  PortNumber z;  ///< Z = k * z~
+  std::array<PortNumber, max_attribute_slots>
+      attribute{};  ///< b = k_eff * a; k_eff = k, or W as a real number when perspective is off
 };
 
 struct SnappedQuad {
@@ -65,17 +66,19 @@ struct SnappedQuad {
 
 /// Bits of Fragment::flags.
 enum FragmentFlag : std::uint8_t {
-  flag_on_edge = 1u << 0,      ///< the pixel centre is exactly on one edge
-  flag_on_vertex = 1u << 1,    ///< exactly one corner is at the pixel centre
-  flag_two_corner = 1u << 2,   ///< two corners are at the pixel centre
-  flag_two_edge = 1u << 3,     ///< on two edges at once: the mean of the two edge interpolations
-  flag_tie = 1u << 4,          ///< some edge function of expression (12), the diagonal included, is exactly 0
-  flag_homogeneous = 1u << 5,  ///< the quad has a vertex that is not ordinary (behind the eye, or outside the guard band)
-  flag_cured = 1u << 6,        ///< the notch cure was used
-  flag_saturated = 1u << 7,    ///< an attribute in use was clamped to its format
+  flag_on_edge = 1u << 0,     ///< the pixel centre is exactly on one edge
+  flag_on_vertex = 1u << 1,   ///< exactly one corner is at the pixel centre
+  flag_two_corner = 1u << 2,  ///< two corners are at the pixel centre
+  flag_two_edge = 1u << 3,    ///< on two edges at once: the mean of the two edge interpolations
+  flag_tie = 1u << 4,         ///< some edge function of expression (12), the diagonal included, is exactly 0
+  flag_homogeneous =
+      1u << 5,               ///< the quad has a vertex that is not ordinary (behind the eye, or outside the guard band)
+  flag_cured = 1u << 6,      ///< the notch cure was used
+  flag_saturated = 1u << 7,  ///< an attribute in use was clamped to its format
 };
 
-/// One fragment. depth: unsigned, depth_bits fraction bits, in [0, 1]. attribute: signed, attribute_frac_bits fraction bits.
+/// One fragment. depth: unsigned, depth_bits fraction bits, in [0, 1]. attribute: signed, attribute_frac_bits fraction
+/// bits.
 struct Fragment {
   std::uint32_t quad = 0;
   std::uint16_t x = 0, y = 0;

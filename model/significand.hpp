@@ -1,5 +1,5 @@
-// Arithmetic on significand numbers (rtl/README.md section 2): fp_multiply, fp_sum and their helpers. Everything truncates
-// toward zero; this is the only place where the machine rounds behind the exact front.
+// Arithmetic on significand numbers (rtl/README.md section 2): fp_multiply, fp_sum and their helpers. Everything
+// truncates toward zero; this is the only place where the machine rounds behind the exact front.
 #pragma once
 
 #include "model/stages.hpp"
@@ -51,8 +51,8 @@ inline Fp fp_multiply(const Fp& a, const Fp& b, const SignificandFormat& f) {
   return {r.neg, r.exp + carry, static_cast<std::uint32_t>(r.p >> (f.s - 1 + carry))};
 }
 
-/// Sum of up to four raw products: each term truncated at S-1+G fraction bits of the largest exponent, the sum truncated to S
-/// bits. Error below n·2^-(S-1+G) of 2^E plus one truncation, E the largest exponent.
+/// Sum of up to four raw products: each term truncated at S-1+G fraction bits of the largest exponent, the sum
+/// truncated to S bits. Error below n·2^-(S-1+G) of 2^E plus one truncation, E the largest exponent.
 inline Fp fp_sum(std::span<const RawProduct> terms, const SignificandFormat& f) {
   std::int32_t largest = INT32_MIN;
   for (const RawProduct& t : terms)

@@ -48,8 +48,8 @@ struct Position {
 };
 
 Position snap_position(const WindowVertex& v, const Config& config) {
-  // Half a pixel first: pixel centres become integers. long double holds x − w/2 of two doubles to 2^-64 relative, far below
-  // the grid wherever the result is in the guard band.
+  // Half a pixel first: pixel centres become integers. long double holds x − w/2 of two doubles to 2^-64 relative, far
+  // below the grid wherever the result is in the guard band.
   const long double x = static_cast<long double>(v.x) - static_cast<long double>(v.w) / 2;
   const long double y = static_cast<long double>(v.y) - static_cast<long double>(v.w) / 2;
   const long double w = v.w;
@@ -59,12 +59,16 @@ Position snap_position(const WindowVertex& v, const Config& config) {
     const long double gx = rintl(ldexpl(x / w, config.subpixel_bits));
     const long double gy = rintl(ldexpl(y / w, config.subpixel_bits));
     if (fabsl(gx) < limit && fabsl(gy) < limit)
-      return {static_cast<std::int32_t>(gx) * (1 << lift), static_cast<std::int32_t>(gy) * (1 << lift), 1 << config.frac(), 1 / w};
+      return {static_cast<std::int32_t>(gx) * (1 << lift), static_cast<std::int32_t>(gy) * (1 << lift),
+              1 << config.frac(), 1 / w};
   }
-  const long double extent = fmaxl(fmaxl(ldexpl(fabsl(x), -config.pos_int()), ldexpl(fabsl(y), -config.pos_int())), fabsl(w));
+  const long double extent =
+      fmaxl(fmaxl(ldexpl(fabsl(x), -config.pos_int()), ldexpl(fabsl(y), -config.pos_int())), fabsl(w));
   if (extent == 0) throw Rejected{"(x, y, w) is (0, 0, 0) after the half-pixel shift, which is no point"};
   const long double k = 1 / extent;
-  const auto grid = [&](long double value) { return static_cast<std::int32_t>(rintl(ldexpl(value / extent, config.frac()))); };
+  const auto grid = [&](long double value) {
+    return static_cast<std::int32_t>(rintl(ldexpl(value / extent, config.frac())));
+  };
   return {grid(x), grid(y), grid(w), k};
 }
 
@@ -73,7 +77,8 @@ SnappedVertex snap_or_reject(const WindowVertex& v, const double* attributes, in
   if (!finite(v)) throw Rejected{"a coordinate is NaN or infinite"};
   if (v.x == 0 && v.y == 0 && v.w == 0) throw Rejected{"(x, y, w) is (0, 0, 0), which is no point"};
   const double extent = std::fmax(std::fmax(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.w));
-  if (extent > largest_magnitude || std::fabs(v.z) > largest_magnitude) throw Rejected{"a coordinate is larger than 2^80"};
+  if (extent > largest_magnitude || std::fabs(v.z) > largest_magnitude)
+    throw Rejected{"a coordinate is larger than 2^80"};
   if (extent < 1 / largest_magnitude) throw Rejected{"x, y and w are all smaller than 2^-80"};
 
   const Position p = snap_position(v, config);
@@ -88,8 +93,8 @@ SnappedVertex snap_or_reject(const WindowVertex& v, const double* attributes, in
   for (int j = 0; j < attribute_count; ++j) {
     if (!std::isfinite(attributes[j])) throw Rejected{"attribute " + std::to_string(j) + " is NaN or infinite"};
     if (std::fabs(attributes[j]) >= limit)
-      throw Rejected{"attribute " + std::to_string(j) + " = " + std::to_string(attributes[j]) + " does not fit attribute_int_bits = " +
-                     std::to_string(config.attribute_int_bits)};
+      throw Rejected{"attribute " + std::to_string(j) + " = " + std::to_string(attributes[j]) +
+                     " does not fit attribute_int_bits = " + std::to_string(config.attribute_int_bits)};
     out.attribute[static_cast<std::size_t>(j)] = round_to_port(scale * static_cast<long double>(attributes[j]), config);
   }
   return out;
@@ -120,7 +125,8 @@ SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawSt
     const std::vector<double>& a = quad.attribute[static_cast<std::size_t>(i)];
     const int count = std::min<int>(static_cast<int>(a.size()), config.attribute_slots);
     try {
-      out.vertex[static_cast<std::size_t>(i)] = snap_or_reject(quad.vertex[static_cast<std::size_t>(i)], a.data(), count, config, state);
+      out.vertex[static_cast<std::size_t>(i)] =
+          snap_or_reject(quad.vertex[static_cast<std::size_t>(i)], a.data(), count, config, state);
     } catch (const Rejected& r) {
       throw SnapError(quad.id, i, describe(quad.vertex[static_cast<std::size_t>(i)]) + ": " + r.what);
     }

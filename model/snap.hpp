@@ -1,5 +1,6 @@
-// Snapping: floating-point vertices in, the integers of the machine's port out (DESIGN "Snapping, per vertex, from that vertex
-// alone"). Depends on nothing but the vertex and the draw's configuration, so two quads that share a vertex see the same integers.
+// Snapping: floating-point vertices in, the integers of the machine's port out (DESIGN "Snapping, per vertex, from that
+// vertex alone"). Depends on nothing but the vertex and the draw's configuration, so two quads that share a vertex see
+// the same integers.
 #pragma once
 
 #include "model/config.hpp"
@@ -16,10 +17,10 @@ struct SnapError : std::runtime_error {
   int vertex;
 };
 
-/// x, y, w in units of 2^-FRAC relative to pixel centres. Ordinary (w > 0 and inside the guard band after rounding): position to
-/// nearest on the 2^-subpixel_bits grid, W = 1, k = 1/w. Otherwise k > 0 such that max(|X|/2^pos_int, |Y|/2^pos_int, |W|) = 1,
-/// rounded to nearest on the 2^-FRAC grid. Throws SnapError for NaN, infinity, (0,0,0), magnitudes outside 2^±80 and attributes
-/// that do not fit attribute_int_bits.
+/// x, y, w in units of 2^-FRAC relative to pixel centres. Ordinary (w > 0 and inside the guard band after rounding):
+/// position to nearest on the 2^-subpixel_bits grid, W = 1, k = 1/w. Otherwise k > 0 such that max(|X|/2^pos_int,
+/// |Y|/2^pos_int, |W|) = 1, rounded to nearest on the 2^-FRAC grid. Throws SnapError for NaN, infinity, (0,0,0),
+/// magnitudes outside 2^±80 and attributes that do not fit attribute_int_bits.
 SnappedVertex snap_vertex(const WindowVertex& v, const double* attributes, int attribute_count, const Config& config,
                           const DrawState& state);
 SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawState& state);

@@ -1,8 +1,8 @@
 // What crosses each stage boundary of the machine, as plain records, and the order of their bits.
 //
 // visit(record, config, f) calls f(name, index, width, value) for every field in the order of the packed struct of
-// rtl/README.md section 6, most significant member first; inside a flat array element 0 is the least significant, so arrays are
-// visited from the last element down. The test bench packs and names bits from this one list.
+// rtl/README.md section 6, most significant member first; inside a flat array element 0 is the least significant, so
+// arrays are visited from the last element down. The test bench packs and names bits from this one list.
 #pragma once
 
 #include "model/config.hpp"
@@ -13,8 +13,8 @@
 
 namespace quadrille {
 
-inline constexpr int linear_count = 6;     ///< E01 E12 E23 E30 E20 E13
-inline constexpr int quadratic_count = 10; ///< D01 D12 D23 D30 D20 D13 R²0 R²1 R²2 R²3
+inline constexpr int linear_count = 6;      ///< E01 E12 E23 E30 E20 E13
+inline constexpr int quadratic_count = 10;  ///< D01 D12 D23 D30 D20 D13 R²0 R²1 R²2 R²3
 
 /// Significand number inside the pipeline: value = (-1)^neg sig 2^(exp - (S-1)); zero has all fields 0.
 struct Fp {
@@ -201,7 +201,8 @@ void visit(const Fragment& g, const Config& c, F&& f) {
   for (int i = c.attribute_slots; i-- > 0;) f("attr", i, c.attr_out_bits(), g.attribute[i]);
 }
 
-inline void visit_port_number(auto&& f, const Config& c, const char* neg, const char* exp, const char* sig, int i, const PortNumber& p) {
+inline void visit_port_number(auto&& f, const Config& c, const char* neg, const char* exp, const char* sig, int i,
+                              const PortNumber& p) {
   f(neg, i, 1, p.neg);
   f(exp, i, Config::port_exp_bits, p.exp);
   f(sig, i, c.significand_bits, p.sig);
@@ -217,10 +218,12 @@ void visit_vertex(std::uint32_t id, const SnappedVertex& v, const Config& c, F&&
   f("k_exp", -1, Config::port_exp_bits, v.k.exp);
   f("k_sig", -1, c.significand_bits, v.k.sig);
   visit_port_number(f, c, "z_neg", "z_exp", "z_sig", -1, v.z);
-  for (int i = c.attribute_slots; i-- > 0;) visit_port_number(f, c, "attr_neg", "attr_exp", "attr_sig", i, v.attribute[i]);
+  for (int i = c.attribute_slots; i-- > 0;)
+    visit_port_number(f, c, "attr_neg", "attr_exp", "attr_sig", i, v.attribute[i]);
 }
 
-/// The draw state as the packed state_t. znear, zfar: fixed point, depth_bits fraction bits (rounding in draw_state.cpp).
+/// The draw state as the packed state_t. znear, zfar: fixed point, depth_bits fraction bits (rounding in
+/// draw_state.cpp).
 std::uint32_t depth_code(double z, const Config& c);
 
 template <class F>

@@ -10,7 +10,9 @@ struct StampMasks {
   std::uint32_t mask = 0, front = 0, tie = 0;
 };
 
-/// Exact. `entry` is the ring entry, `row` 0..TILE-1. Source: Hormann & Tarini expression (12); ties as DESIGN section 3.
-StampMasks stamp_coverage(const TileEntry& entry, const QuadConstants& quad, int row, const Config& config, const DrawState& state);
+/// Exact. `entry` is the ring entry, `row` 0..TILE-1. Source: Hormann & Tarini expression (12); ties as DESIGN
+/// section 3.
+StampMasks stamp_coverage(const TileEntry& entry, const QuadConstants& quad, int row, const Config& config,
+                          const DrawState& state);
 
 }  // namespace quadrille

@@ -8,12 +8,13 @@
 namespace quadrille {
 namespace {
 
-// Coefficients come from long double arithmetic with correctly rounded operations only (+ - * / sqrt), so they are the same
-// on every x86-64 machine.
+// Coefficients come from long double arithmetic with correctly rounded operations only (+ - * / sqrt), so they are the
+// same on every x86-64 machine.
 using Real = long double;
 
 /// Units (2^-(S + table_guard)) added to c0 so that the evaluated polynomial is never below the function: approximation
-/// (<= 1 unit at the automatic segment counts), coefficient rounding (1.5 units at most) and the truncation of t0 and t1.
+/// (<= 1 unit at the automatic segment counts), coefficient rounding (1.5 units at most) and the truncation of t0 and
+/// t1.
 constexpr int bias_units = 3;
 
 /// Interpolates f on [x0, x0 + h] in `degree + 1` Chebyshev points; returns y = a0 + a1·u + a2·u², u in [0, 1].
@@ -29,8 +30,8 @@ void fit(F f, Real x0, Real h, int degree, Real a[3]) {
     a[1] = d01 - a[2] * (u[0] + u[1]);
     a[0] = y[0] - u[0] * (d01 - a[2] * u[1]);
   } else {
-    // The minimax line of a convex function: the chord, lowered by half of its largest error; the nodes of degree 1 give it to
-    // first order.
+    // The minimax line of a convex function: the chord, lowered by half of its largest error; the nodes of degree 1
+    // give it to first order.
     const Real k = sqrtl(0.5L);
     const Real u[2] = {(1 - k) / 2, (1 + k) / 2};
     const Real y[2] = {f(x0 + h * u[0]), f(x0 + h * u[1])};
@@ -49,7 +50,9 @@ TableEntry make_entry(F f, Real x0, Real h, int degree, const Config& config, co
   const auto c1 = static_cast<std::int64_t>(floorl(-a[1] * unit + 0.5L));
   const auto c2 = static_cast<std::int64_t>(floorl(a[2] * unit + 0.5L));
   if (c1 < 0 || static_cast<Real>(c1) >= limit || c2 < 0 || static_cast<Real>(c2) >= limit || c1 < c2)
-    throw ConfigError(std::string("impossible configuration: a coefficient of the table does not fit significand_bits; raise ") + key);
+    throw ConfigError(
+        std::string("impossible configuration: a coefficient of the table does not fit significand_bits; raise ") +
+        key);
   return {static_cast<std::uint32_t>(floorl(a[0] * unit + 0.5L)) + bias_units, static_cast<std::uint32_t>(c1),
           static_cast<std::uint32_t>(c2)};
 }
@@ -66,8 +69,8 @@ void emit_rom(std::ostringstream& out, const char* name, const Table& table, con
       << ":0] index);\n    case (index)\n";
   for (std::size_t i = 0; i < table.entries.size(); ++i) {
     const TableEntry& e = table.entries[i];
-    out << "      " << index_bits << "'d" << i << ": " << name << " = {" << s + 4 << "'d" << e.c0 << ", " << s << "'d" << e.c1
-        << ", " << s << "'d" << e.c2 << "};\n";
+    out << "      " << index_bits << "'d" << i << ": " << name << " = {" << s + 4 << "'d" << e.c0 << ", " << s << "'d"
+        << e.c1 << ", " << s << "'d" << e.c2 << "};\n";
   }
   out << "      default: " << name << " = '0;\n    endcase\n  endfunction\n";
 }
@@ -81,7 +84,8 @@ Table make_rsqrt_table(const Config& config) {
   for (int octave = 0; octave < 2; ++octave)
     for (int i = 0; i < n; ++i) {
       const Real h = ldexpl(1.0L, octave - table.segments_log2);
-      table.entries.push_back(make_entry(f, ldexpl(1.0L, octave) + static_cast<Real>(i) * h, h, config.rsqrt_degree, config, "rsqrt_segments_log2"));
+      table.entries.push_back(make_entry(f, ldexpl(1.0L, octave) + static_cast<Real>(i) * h, h, config.rsqrt_degree,
+                                         config, "rsqrt_segments_log2"));
     }
   return table;
 }
@@ -92,7 +96,8 @@ Table make_recip_table(const Config& config) {
   const auto f = [](Real x) { return 1 / x; };
   for (int i = 0; i < n; ++i) {
     const Real h = ldexpl(1.0L, -table.segments_log2);
-    table.entries.push_back(make_entry(f, 1 + static_cast<Real>(i) * h, h, config.recip_degree, config, "recip_segments_log2"));
+    table.entries.push_back(
+        make_entry(f, 1 + static_cast<Real>(i) * h, h, config.recip_degree, config, "recip_segments_log2"));
   }
   return table;
 }

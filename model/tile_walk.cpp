@@ -3,8 +3,8 @@
 namespace quadrille {
 namespace {
 
-// Sums of in-range terms can pass through values outside 64 bits when a corner outside the viewport is composed term by term;
-// two's complement makes the final value right, so additions wrap.
+// Sums of in-range terms can pass through values outside 64 bits when a corner outside the viewport is composed term by
+// term; two's complement makes the final value right, so additions wrap.
 std::int64_t wrap_add(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }

@@ -1,7 +1,8 @@
 // Twin of rtl/tile_walk.sv: three-valued coverage of a square of pixels, and the serpentine walk over blocks and tiles.
 //
-// The walk is one state machine that both models run: the clocked shell once per clock, the untimed model in a loop. A step back
-// subtracts what a step forth adds; forward differences of exact integers are reversible, so no row start is kept.
+// The walk is one state machine that both models run: the clocked shell once per clock, the untimed model in a loop. A
+// step back subtracts what a step forth adds; forward differences of exact integers are reversible, so no row start is
+// kept.
 #pragma once
 
 #include "model/stages.hpp"
@@ -10,7 +11,8 @@
 
 namespace quadrille {
 
-/// A sign that an edge function can take: with ties, E = 0 counts by the direction of (+ε, +ε²), and an all-zero edge has none.
+/// A sign that an edge function can take: with ties, E = 0 counts by the direction of (+ε, +ε²), and an all-zero edge
+/// has none.
 struct EdgeSign {
   bool positive, negative;
 };
@@ -39,7 +41,8 @@ struct QuadConstants {
   unsigned visible = 0;
   int tile_x0 = 0, tile_y0 = 0, tiles_x = 0, tiles_y = 0;
 
-  explicit QuadConstants(const SetupResult& s) : visible(s.visible), tile_x0(s.tile_x0), tile_y0(s.tile_y0), tiles_x(s.tiles_x), tiles_y(s.tiles_y) {
+  explicit QuadConstants(const SetupResult& s)
+      : visible(s.visible), tile_x0(s.tile_x0), tile_y0(s.tile_y0), tiles_x(s.tiles_x), tiles_y(s.tiles_y) {
     for (std::size_t k = 0; k < linear_count; ++k) {
       gx[k] = s.linear[k].gx;
       gy[k] = s.linear[k].gy;
@@ -71,7 +74,8 @@ class TileWalk {
   enum class State { idle, block, tile, end };
 
   TileWalk() = default;
-  TileWalk(const Config& config, const DrawState& state) : tile_(config.tile()), cull_(state.cull), reject_(state.skip & skip_hierarchical_tiles) {}
+  TileWalk(const Config& config, const DrawState& state)
+      : tile_(config.tile()), cull_(state.cull), reject_(state.skip & skip_hierarchical_tiles) {}
 
   State state() const { return state_; }
   const QuadConstants& constants() const { return quad_; }
@@ -82,12 +86,15 @@ class TileWalk {
   bool hit() const;
   /// Ring entry of the current tile, or the end entry in state END.
   TileEntry entry() const;
-  /// One clock's work, once the entry (if any) has been accepted. Never call it for a hit tile or END while the ring is full.
+  /// One clock's work, once the entry (if any) has been accepted. Never call it for a hit tile or END while the ring is
+  /// full.
   void advance();
 
  private:
   void step_block();
-  static int tiles_in_block(int tiles, int block) { return std::min(Config::block_tiles, tiles - block * Config::block_tiles); }
+  static int tiles_in_block(int tiles, int block) {
+    return std::min(Config::block_tiles, tiles - block * Config::block_tiles);
+  }
 
   int tile_ = 8;
   Cull cull_ = Cull::none;

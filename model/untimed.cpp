@@ -1,10 +1,13 @@
 #include "model/untimed.hpp"
 
-#include "model/pixel_pipeline.hpp"
+#include "model/pixel_lanes.hpp"
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <vector>
 
 namespace quadrille {
 
@@ -30,16 +33,24 @@ DrawStats& DrawStats::operator+=(const DrawStats& o) {
 
 struct UntimedModel::Impl {
   PipelineContext context;
+  LaneTables tables;
+  bool plain;
   TileWalk walk;
   DrawStats stats;
   std::vector<Fragment> batch;
 
-  Impl(const Config& config, const DrawState& state) : context(config, state), walk(config, state) {}
+  // Covered pixels of the current tile, in order.
+  int pixels = 0;
+  std::array<int, 256> dx{}, row{};
+  std::array<bool, 256> front{}, tie{};
 
-  void count(const PixelTrace& p) {
+  Impl(const Config& config, const DrawState& state, PixelEngine engine)
+      : context(config, state), tables(context), plain(engine == PixelEngine::plain), walk(config, state) {}
+
+  void deliver(const Fragment& fragment, bool drawn) {
     ++stats.pixels;
-    stats.fragments += p.drawn;
-    const unsigned flags = p.fragment.flags;
+    stats.fragments += drawn;
+    const unsigned flags = fragment.flags;
     stats.on_edge += (flags & flag_on_edge) != 0;
     stats.on_vertex += (flags & flag_on_vertex) != 0;
     stats.two_corner += (flags & flag_two_corner) != 0;
@@ -47,29 +58,76 @@ struct UntimedModel::Impl {
     stats.tie += (flags & flag_tie) != 0;
     stats.cured += (flags & flag_cured) != 0;
     stats.saturated += (flags & flag_saturated) != 0;
+    if (drawn) batch.push_back(fragment);
   }
 
-  void draw_tile(const TileEntry& tile, const QuadData& data) {
+  void draw_plain(const TileEntry& tile, const QuadData& data, int i) {
+    const auto n = static_cast<std::size_t>(i);
+    PixelTrace p;
+    p.front = front[n];
+    p.tie = tie[n];
+    pixel_pipeline(p, tile, walk.constants(), data, dx[n], row[n], context);
+    deliver(p.fragment, p.drawn);
+  }
+
+  void draw_lanes(const TileEntry& tile, const QuadData& data, const QuadLanes& values, int begin) {
+    const int count = std::min(lanes, pixels - begin);
+    int lane_dx[lanes], lane_row[lanes];
+    for (int l = 0; l < lanes; ++l) {
+      const auto n = static_cast<std::size_t>(begin + std::min(l, count - 1));
+      lane_dx[l] = dx[n];
+      lane_row[l] = row[n];
+    }
+    LaneResult r;
+    pixel_lanes(tile, walk.constants(), data, values, context, tables, lane_dx, lane_row, r);
+    for (int l = 0; l < count; ++l) {
+      const int i = begin + l;
+      if (r.singular >> l & 1) {
+        draw_plain(tile, data, i);
+        continue;
+      }
+      const auto bit = [&](unsigned mask, int flag) { return (mask >> l & 1) != 0 ? flag : 0; };
+      Fragment g;
+      g.quad = data.id;
+      g.x = static_cast<std::uint16_t>((tile.tile_x << context.config.tile_log2) + lane_dx[l]);
+      g.y = static_cast<std::uint16_t>((tile.tile_y << context.config.tile_log2) + lane_row[l]);
+      g.front = front[static_cast<std::size_t>(i)];
+      g.flags = static_cast<std::uint8_t>(
+          bit(r.on_edge, flag_on_edge) | bit(r.cured, flag_cured) | bit(r.saturated, flag_saturated) |
+          (tie[static_cast<std::size_t>(i)] ? flag_tie : 0) | (data.homogeneous ? flag_homogeneous : 0));
+      g.depth = r.depth[static_cast<std::size_t>(l)];
+      for (std::size_t j = 0; j < static_cast<std::size_t>(context.state.attributes); ++j)
+        g.attribute[j] = r.attribute[j][static_cast<std::size_t>(l)];
+      deliver(g, r.drawn >> l & 1);
+    }
+  }
+
+  void draw_tile(const TileEntry& tile, const QuadData& data, const QuadLanes& values) {
     ++stats.tiles_entered;
-    for (int row = 0; row < context.config.tile(); ++row) {
-      const StampMasks masks = stamp_coverage(tile, walk.constants(), row, context.config, context.state);
+    pixels = 0;
+    for (int r = 0; r < context.config.tile(); ++r) {
+      const StampMasks masks = stamp_coverage(tile, walk.constants(), r, context.config, context.state);
       stats.stamps_covered += masks.mask != 0;
       for (std::uint32_t rest = masks.mask; rest != 0; rest &= rest - 1) {
-        const int dx = std::countr_zero(rest);
-        PixelTrace p;
-        p.front = masks.front >> dx & 1;
-        p.tie = masks.tie >> dx & 1;
-        pixel_pipeline(p, tile, walk.constants(), data, dx, row, context);
-        count(p);
-        if (p.drawn) batch.push_back(p.fragment);
+        const int bit = std::countr_zero(rest);
+        const auto n = static_cast<std::size_t>(pixels++);
+        dx[n] = bit;
+        row[n] = r;
+        front[n] = masks.front >> bit & 1;
+        tie[n] = masks.tie >> bit & 1;
       }
+    }
+    if (plain) {
+      for (int i = 0; i < pixels; ++i) draw_plain(tile, data, i);
+    } else {
+      for (int i = 0; i < pixels; i += lanes) draw_lanes(tile, data, values, i);
     }
   }
 };
 
-UntimedModel::UntimedModel(const Config& config, const DrawState& state) {
+UntimedModel::UntimedModel(const Config& config, const DrawState& state, PixelEngine engine) {
   config.validate();
-  impl_ = std::make_unique<Impl>(config, state);
+  impl_ = std::make_unique<Impl>(config, state, engine);
 }
 UntimedModel::~UntimedModel() = default;
 UntimedModel::UntimedModel(UntimedModel&&) noexcept = default;
@@ -81,6 +139,7 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
   Impl& m = *impl_;
   const SetupResult setup = quad_setup(quad, m.context.config, m.context.state);
   const QuadData data = quad_data(quad, setup, m.context.config, m.context.state);
+  const QuadLanes values(data, m.context);
   ++m.stats.quads;
   m.stats.homogeneous_quads += setup.homogeneous;
   m.stats.hull_quads += setup.hull;
@@ -89,7 +148,7 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
     const bool tile = m.walk.state() == TileWalk::State::tile;
     ++(tile ? m.stats.tiles_tested : m.stats.blocks_tested);
     if (tile && m.walk.hit()) {
-      m.draw_tile(m.walk.entry(), data);
+      m.draw_tile(m.walk.entry(), data, values);
       if (!m.batch.empty()) sink(m.batch);
       m.batch.clear();
     }

@@ -15,16 +15,20 @@ namespace quadrille {
 struct DrawStats {
   std::uint64_t quads = 0, homogeneous_quads = 0, hull_quads = 0;
   std::uint64_t blocks_tested = 0, tiles_tested = 0, tiles_entered = 0, stamps_covered = 0;
-  std::uint64_t pixels = 0;        ///< covered pixels that entered the pipeline
-  std::uint64_t fragments = 0;     ///< of these, not discarded
+  std::uint64_t pixels = 0;     ///< covered pixels that entered the pipeline
+  std::uint64_t fragments = 0;  ///< of these, not discarded
   std::uint64_t on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0, cured = 0, saturated = 0;
 
   DrawStats& operator+=(const DrawStats& other);
 };
 
+/// Two forms of the pixel pipeline with the same bits: plain integers, one pixel at a time (the oracle), or eight
+/// pixels at once in masked double precision.
+enum class PixelEngine { plain, lanes };
+
 class UntimedModel {
  public:
-  UntimedModel(const Config& config, const DrawState& state);
+  UntimedModel(const Config& config, const DrawState& state, PixelEngine engine = PixelEngine::lanes);
   ~UntimedModel();
   UntimedModel(UntimedModel&&) noexcept;
   UntimedModel& operator=(UntimedModel&&) noexcept;

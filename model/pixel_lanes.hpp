@@ -1,0 +1,47 @@
+// The pixel pipeline on eight pixels of one tile at once, in double precision: the quick twin of pixel_pipeline.hpp,
+// bit for bit.
+//
+// A significand number is a double whose mantissa is cut to S bits by an AND mask, so truncation toward zero costs one
+// instruction; products of two S-bit significands (S <= 26) are exact in 53 bits, aligned sums are too, and all
+// exponents stay far inside a double's range. Nothing here ever rounds.
+#pragma once
+
+#include "model/pixel_pipeline.hpp"
+
+namespace quadrille {
+
+inline constexpr int lanes = 8;
+
+/// A quad's data as doubles; see QuadData.
+struct QuadLanes {
+  std::array<double, 4> k{}, w{}, z{};
+  std::array<std::array<double, 4>, max_attribute_slots> b{};  ///< [attribute][vertex]
+
+  QuadLanes() = default;
+  QuadLanes(const QuadData& quad, const PipelineContext& c);
+};
+
+/// The tables as doubles, for the lanes.
+struct LaneTables {
+  struct Entry {
+    double c0, c1, c2;
+  };
+  std::vector<Entry> rsqrt, recip;
+
+  explicit LaneTables(const PipelineContext& c);
+};
+
+/// Results of up to eight pixels. Bit l of a mask is lane l.
+struct LaneResult {
+  unsigned drawn = 0;
+  unsigned singular = 0;  ///< corner or two-edge pixels: not computed here, take the plain pipeline
+  unsigned on_edge = 0, cured = 0, saturated = 0;
+  std::array<std::uint32_t, lanes> depth{};
+  std::array<std::array<std::int64_t, lanes>, max_attribute_slots> attribute{};
+};
+
+/// Pixels (dx[l], row[l]) of `tile`; every lane must hold a covered pixel (repeat one to fill).
+void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, const QuadLanes& values,
+                 const PipelineContext& c, const LaneTables& tables, const int* dx, const int* row, LaneResult& out);
+
+}  // namespace quadrille

@@ -1,0 +1,41 @@
+# Sourced by the other scripts: installs what is missing, configures and builds the release preset.
+# Works on a bare Debian 12: as root, through sudo, or by printing the one line to run.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+
+packages=(
+  g++ make cmake ninja-build   # the build; make is what verilated objects are built with
+  verilator yosys              # RTL simulation, synthesis and round trip
+  libgtest-dev libopenexr-dev libpng-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libboost-dev
+  clang-format                 # the format test
+  python3                      # mutation tests
+)
+
+install_packages() {
+  local missing=() p
+  for p in "${packages[@]}"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$p" 2>/dev/null)" = installed ] || missing+=("$p")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  local run=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if command -v sudo >/dev/null; then
+      run=(sudo)
+    else
+      echo "These packages are missing. As root, run:" >&2
+      echo "  apt-get update && apt-get install -y --no-install-recommends ${missing[*]}" >&2
+      exit 3
+    fi
+  fi
+  echo "Installing: ${missing[*]}"
+  "${run[@]}" apt-get update -q || exit 3
+  "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" || exit 3
+}
+
+# build PRESET
+build() {
+  cmake --preset "$1" >"$root/.configure.log" 2>&1 || { cat "$root/.configure.log" >&2; exit 1; }
+  rm -f "$root/.configure.log"
+  cmake --build --preset "$1" -j "$(nproc)"
+}
