@@ -30,7 +30,7 @@ class CameraParser {
                         std::string("the file holds a JSON ") + root_.type_name() + "; an object is expected");
     for (const auto& [key, value] : root_.items()) {
       if (std::find(known_fields.begin(), known_fields.end(), key) == known_fields.end()) {
-        throw input_error(name_, line_of(key), "field " + quoted(key) + " is unknown; " + expected_fields);
+        throw input_error(name_, line_of(key), "field " + in_quotes(key) + " is unknown; " + expected_fields);
       }
     }
     Camera camera;
@@ -54,7 +54,7 @@ class CameraParser {
       // The library keeps the last of several equal keys; here they are most likely a slip.
       if (event == json::parse_event_t::key && depth == 1 && !seen.insert(parsed.get<std::string>()).second) {
         const std::string key = parsed.get<std::string>();
-        throw input_error(name_, line_of(key), "field " + quoted(key) + " is given twice; give it once");
+        throw input_error(name_, line_of(key), "field " + in_quotes(key) + " is given twice; give it once");
       }
       return true;
     };
@@ -66,7 +66,7 @@ class CameraParser {
       const std::size_t colon = message.find(": ");
       throw input_error(
           name_, line_at(text_, error.byte > 0 ? error.byte - 1 : 0),
-          "JSON " + sanitised(message.substr(colon == std::string::npos ? 0 : colon + 2)) + "; " + expected_fields);
+          "JSON " + printable(message.substr(colon == std::string::npos ? 0 : colon + 2)) + "; " + expected_fields);
     } catch (const json::exception& error) {
       const std::string message = error.what();  // a number beyond double; its digits are in single quotes
       const std::size_t open = message.find('\'');
@@ -74,8 +74,9 @@ class CameraParser {
       const std::string digits =
           open < close && close != std::string::npos ? message.substr(open + 1, close - open - 1) : std::string();
       const std::size_t at = digits.empty() ? std::string::npos : text_.find(digits);
-      throw input_error(name_, at == std::string::npos ? 0 : line_at(text_, at),
-                        "number " + quoted(digits) + " is outside the range of a double; finite numbers are expected");
+      throw input_error(
+          name_, at == std::string::npos ? 0 : line_at(text_, at),
+          "number " + in_quotes(digits) + " is outside the range of a double; finite numbers are expected");
     }
   }
 
@@ -118,7 +119,8 @@ class CameraParser {
 
   const json& field(const std::string& key) const {
     const auto found = root_.find(key);
-    if (found == root_.end()) throw input_error(name_, 0, "field " + quoted(key) + " is missing; " + expected_fields);
+    if (found == root_.end())
+      throw input_error(name_, 0, "field " + in_quotes(key) + " is missing; " + expected_fields);
     return *found;
   }
 
@@ -144,19 +146,13 @@ class CameraParser {
   }
 
   InputError failure(const std::string& key, const std::string& problem, const std::string& expected) const {
-    return input_error(name_, line_of(key), "field " + quoted(key) + " " + problem + "; " + expected);
+    return input_error(name_, line_of(key), "field " + in_quotes(key) + " " + problem + "; " + expected);
   }
 
   /// Line where a field is named, 0 if it is spelt with escapes.
   std::size_t line_of(const std::string& key) const {
     const std::size_t at = text_.find("\"" + key + "\"");
     return at == std::string_view::npos ? 0 : line_at(text_, at);
-  }
-
-  static std::string sanitised(const std::string& message) {
-    std::string out;
-    for (const char c : message) out += c >= 0x20 && c < 0x7f ? c : '?';
-    return out;
   }
 
   std::string_view text_;

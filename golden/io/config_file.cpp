@@ -43,11 +43,8 @@ void parse_config(std::string_view text, const std::string& name, Config& config
   try {
     table = toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    // The description may quote raw bytes of the file.
-    std::string description;
-    for (const char c : error.description()) description += c >= 0x20 && c < 0x7f ? c : '?';
     throw input_error(name, error.source().begin.line,
-                      "TOML: " + description + "; lines such as significand_bits = 18 are expected");
+                      "TOML: " + printable(error.description()) + "; lines such as significand_bits = 18 are expected");
   }
 
   // The table is sorted by name; the first error of the file is the one to report.
@@ -70,15 +67,15 @@ void parse_config(std::string_view text, const std::string& name, Config& config
       }
       const auto* integer = node.as_integer();
       if (integer == nullptr)
-        throw failure("key " + quoted(key) + " holds " + type_name(node.type()) + "; an integer is expected");
+        throw failure("key " + in_quotes(key) + " holds " + type_name(node.type()) + "; an integer is expected");
       const std::int64_t value = integer->get();
       if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max()) {
-        throw failure("key " + quoted(key) + " is " + std::to_string(value) +
+        throw failure("key " + in_quotes(key) + " is " + std::to_string(value) +
                       ", far out of range; see 'quadrille config'");
       }
       result.set(key, static_cast<int>(value));
     } catch (const ConfigError& error) {
-      throw failure(error.what());
+      throw failure(printable(error.what()));
     }
   }
   config = result;

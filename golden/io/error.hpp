@@ -20,7 +20,9 @@ struct EnvironmentError : std::runtime_error {
 
 /// InputError for a place in a text file; line is 1-based, 0 means the file as a whole.
 inline InputError input_error(const std::string& file, std::size_t line, const std::string& what) {
-  return InputError(file + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": " + what);
+  std::string message = file;
+  if (line > 0) message.append(":").append(std::to_string(line));
+  return InputError(message.append(": ").append(what));
 }
 
 }  // namespace quadrille::golden

@@ -53,7 +53,7 @@ class ObjParser {
       const Number number = parse_number(tokens[i].text);
       if (!number.problem.empty()) {
         throw input_error(name_, tokens[i].line,
-                          "'" + keyword + "' number " + std::to_string(i) + " is " + quoted(tokens[i].text) +
+                          "'" + keyword + "' number " + std::to_string(i) + " is " + in_quotes(tokens[i].text) +
                               ", which " + std::string(number.problem) +
                               "; a finite decimal number such as -1.5e-3 is expected");
       }
@@ -77,7 +77,7 @@ class ObjParser {
       const Corner corner = parse_corner(tokens[i], i);
       if (i > 1 && ((corner.texcoord < 0) != (face[0].texcoord < 0) || (corner.normal < 0) != (face[0].normal < 0))) {
         throw input_error(name_, tokens[i].line,
-                          place(tokens[i], i) + " has another form than corner 1, " + quoted(tokens[1].text) +
+                          place(tokens[i], i) + " has another form than corner 1, " + in_quotes(tokens[1].text) +
                               "; all corners of a face must give the same indices");
       }
       face.push_back(corner);
@@ -114,8 +114,9 @@ class ObjParser {
       const std::string n = std::to_string(defined);
       const std::string range = defined == 0 ? "none is defined before this line"
                                              : "before this line 1 to " + n + " (or -" + n + " to -1) are defined";
-      return input_error(name_, token.line,
-                         place(token, number) + ": " + kind + " index " + quoted(field) + " " + problem + "; " + range);
+      return input_error(
+          name_, token.line,
+          place(token, number) + ": " + kind + " index " + in_quotes(field) + " " + problem + "; " + range);
     };
     long long value = 0;
     const char* const end = field.data() + field.size();
@@ -131,7 +132,7 @@ class ObjParser {
   }
 
   static std::string place(const Token& token, std::size_t number) {
-    return "face corner " + std::to_string(number) + " is " + quoted(token.text);
+    return "face corner " + std::to_string(number) + " is " + in_quotes(token.text);
   }
 
   const std::string& name_;

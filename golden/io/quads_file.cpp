@@ -71,7 +71,7 @@ class QuadsParser {
       const Number number = parse_number(tokens[i].text);
       if (!number.problem.empty()) {
         throw input_error(name_, tokens[i].line,
-                          place(tokens[i], i) + " is " + quoted(tokens[i].text) + ", which " +
+                          place(tokens[i], i) + " is " + in_quotes(tokens[i].text) + ", which " +
                               std::string(number.problem) +
                               "; a finite decimal number of magnitude up to 2^80 is expected");
       }

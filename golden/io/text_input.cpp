@@ -38,7 +38,7 @@ std::string read_file(const std::string& path, std::string_view what) {
   return bytes;
 }
 
-std::string quoted(std::string_view token) {
+std::string in_quotes(std::string_view token) {
   constexpr std::size_t longest = 40;
   constexpr std::string_view hex = "0123456789abcdef";
   std::string out = "\"";
@@ -53,6 +53,12 @@ std::string quoted(std::string_view token) {
     }
   }
   return out + (token.size() > longest ? "…\"" : "\"");
+}
+
+std::string printable(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c >= 0x20 && c < 0x7f ? c : '?';
+  return out;
 }
 
 std::size_t line_at(std::string_view text, std::size_t offset) {

@@ -15,7 +15,10 @@ inline constexpr double max_input_magnitude = 0x1p80;
 std::string read_file(const std::string& path, std::string_view what);
 
 /// The token in double quotes, for messages: control and non-ASCII bytes as \xNN, long ones shortened.
-std::string quoted(std::string_view token);
+std::string in_quotes(std::string_view token);
+
+/// The text with control and non-ASCII bytes replaced by '?', for messages of libraries that may quote the file.
+std::string printable(std::string_view text);
 
 /// 1-based line number of a byte offset.
 std::size_t line_at(std::string_view text, std::size_t offset);

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Lockstep campaign: scenes, stress families and meshes under several stall and gap probabilities.
+
+Runs `quadrille cosim` for each input and pattern, adds up the reports and fails when anything differed, when a fragment stream
+changed with the stall pattern, or when fewer fragments were compared than promised.
+
+  scripts/campaign.py                    the whole campaign (at least 2 million fragments; about 20 minutes)
+  scripts/campaign.py --short            the form for continuous integration (at least 200,000 fragments)
+  scripts/campaign.py --meshes DIR       OBJ files to add (default: ../shared/meshes when it is there)
+"""
+import argparse
+import glob
+import json
+import os
+import subprocess
+import sys
+
+FAMILIES = (
+    "general perspective any_w near_edge on_edge near_vertex on_vertex sliver collapsed_edge straight_corner reflex bowtie "
+    "tiny huge eye_crossing eye_in_hull w_zero shared_edge shared_vertex coplanar long_span coincident"
+).split()
+PATTERNS = [(0, 0), (0.1, 0.1), (0.5, 0.5), (0.9, 0.9)]
+# Fragments of each kind that must have been compared, whole campaign and short form.
+KINDS = {"eye_crossing": (10_000, 1_000), "near_edge": (10_000, 1_000), "near_vertex": (10_000, 1_000), "tiny": (10_000, 1_000)}
+FRAGMENTS = (2_000_000, 200_000)
+
+
+def main():
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadrille", default=os.path.join(root, "build/release/quadrille"), help="the program")
+    parser.add_argument("--short", action="store_true")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--meshes", default=os.path.join(root, "../shared/meshes"))
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="configuration, as for quadrille")
+    args = parser.parse_args()
+
+    size = "256x256" if args.short else "512x512"
+    limit = 4_000 if args.short else 60_000
+    inputs = [["--scene", name["name"]] for name in json.loads(run([args.quadrille, "scenes", "--json"]))]
+    inputs += [["--stress", family, "--count", "150" if args.short else "2000"] for family in FAMILIES]
+    inputs += [["--mesh", mesh] for mesh in sorted(glob.glob(os.path.join(args.meshes, "*.obj")))]
+    patterns = PATTERNS[:1] + PATTERNS[2:3] if args.short else PATTERNS
+
+    total = {"fragments": 0, "cycles": 0, "bits": 0, "mismatches": 0, "cycle_mismatches": 0, "reference": 0, "beyond": 0}
+    kinds = dict.fromkeys(KINDS, 0)
+    worst = 0.0
+    failures = []
+    for source in inputs:
+        hashes = set()
+        for index, (stall, gap) in enumerate(patterns):
+            command = [args.quadrille, "cosim", *source, "--size", size, "--seed", str(args.seed), "--stall", str(stall), "--gap", str(gap),
+                       "--limit-fragments", str(limit), "--no-alone", "--quiet", "--json", "-"]
+            command += [part for setting in args.set for part in ("--set", setting)]
+            if index > 0:
+                command.append("--no-snapping-error")
+            report = json.loads(run(command, failures))
+            total["fragments"] += report["fragments"]
+            total["cycles"] += report["cycles_rtl"]
+            total["bits"] += report["compared_bits"]
+            total["mismatches"] += report["mismatches"]
+            total["cycle_mismatches"] += report["cycle_mismatches"]
+            total["reference"] += report["reference_mismatches"]
+            total["beyond"] += report["beyond_bound"]
+            for kind in kinds:
+                kinds[kind] += report["counts"][kind]
+            worst = max(worst, report.get("worst", {}).get("error_over_bound", 0))
+            hashes.add((report["fragments"], report["fragment_hash"]))
+        if len(hashes) != 1:
+            failures.append(f"{' '.join(source)}: the fragment stream depends on the stall pattern")
+        print(f"{' '.join(source):60s} {report['fragments']:8d} fragments x {len(patterns)}", flush=True)
+
+    form = 1 if args.short else 0
+    print(f"\n{len(inputs)} inputs, stall and gap {[p[0] for p in patterns]}, seed {args.seed}")
+    print(f"{total['fragments']} fragments, {total['cycles']} cycles, {total['bits']} bits compared")
+    print(f"{total['mismatches']} mismatches, {total['cycle_mismatches']} cycle mismatches, {total['reference']} coverage differences, "
+          f"{total['beyond']} weights beyond the bound; worst {100 * worst:.1f} % of the bound")
+    print(", ".join(f"{kind} {count}" for kind, count in kinds.items()))
+    for key in ("mismatches", "cycle_mismatches", "reference", "beyond"):
+        if total[key]:
+            failures.append(f"{key}: {total[key]}")
+    if total["fragments"] < FRAGMENTS[form]:
+        failures.append(f"only {total['fragments']} fragments were compared, {FRAGMENTS[form]} are promised")
+    for kind, count in kinds.items():
+        if count < KINDS[kind][form]:
+            failures.append(f"only {count} fragments of kind {kind}, {KINDS[kind][form]} are promised")
+    for failure in failures:
+        print("FAILED: " + failure, file=sys.stderr)
+    return 1 if failures else 0
+
+
+def run(command, failures=None):
+    """Standard output of a command; a failed one is recorded, or ends the campaign when it printed no report."""
+    result = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if result.returncode != 0:
+        if failures is None or not result.stdout:
+            sys.exit(f"FAILED: {' '.join(command)} ended with status {result.returncode}")
+        failures.append(f"{' '.join(command)}: status {result.returncode}")
+    return result.stdout
+
+
+if __name__ == "__main__":
+    sys.exit(main())
