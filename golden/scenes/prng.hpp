@@ -9,8 +9,8 @@
 
 namespace quadrille::golden {
 
-/// xoshiro256** (Blackman, Vigna 2018), its state filled by splitmix64. Every derived number uses only integer arithmetic and
-/// the exactly rounded + − × ÷, so sequences are bit-identical everywhere.
+/// xoshiro256** (Blackman, Vigna 2018), its state filled by splitmix64. Every derived number uses only integer
+/// arithmetic and the exactly rounded + − × ÷, so sequences are bit-identical everywhere.
 class Prng {
  public:
   explicit Prng(std::uint64_t seed) {
@@ -36,7 +36,9 @@ class Prng {
   }
 
   /// Integer in [0, n), n ≥ 1. Bias below n/2^64.
-  std::uint64_t below(std::uint64_t n) { return static_cast<std::uint64_t>((static_cast<unsigned __int128>(next()) * n) >> 64); }
+  std::uint64_t below(std::uint64_t n) {
+    return static_cast<std::uint64_t>((static_cast<unsigned __int128>(next()) * n) >> 64);
+  }
   /// Integer in [lo, hi], both included; lo when the range is empty.
   std::int64_t integer(std::int64_t lo, std::int64_t hi) {
     return hi <= lo ? lo : lo + static_cast<std::int64_t>(below(static_cast<std::uint64_t>(hi - lo) + 1));
@@ -47,7 +49,8 @@ class Prng {
   bool chance(double probability) { return uniform() < probability; }
   double sign() { return (next() >> 63) != 0 ? -1.0 : 1.0; }
 
-  /// 2^e(lo..hi) with a uniform exponent, linear inside an octave: spreads over orders of magnitude without a logarithm.
+  /// 2^e(lo..hi) with a uniform exponent, linear inside an octave: spreads over orders of magnitude without a
+  /// logarithm.
   double log2_spread(double lo_exponent, double hi_exponent) {
     const double e = uniform(lo_exponent, hi_exponent);
     const double whole = std::floor(e);

@@ -35,7 +35,8 @@ Vec3 checks(double u, double v, int count) {
 /// Smooth noise on a lattice of columns × rows cells that wraps in u, in [0, 1].
 double noise(double u, double v, int columns, int rows) {
   const auto lattice = [&](int i, int j) {
-    std::uint32_t h = static_cast<std::uint32_t>((i % columns) * 73856093) ^ static_cast<std::uint32_t>(j * 19349663 + columns);
+    std::uint32_t h = static_cast<std::uint32_t>(i % columns) * 73856093u ^ static_cast<std::uint32_t>(j) * 19349663u;
+    h += static_cast<std::uint32_t>(columns);
     h = (h ^ (h >> 15)) * 0x2c1b3c6du;
     h = (h ^ (h >> 12)) * 0x297a2d39u;
     h ^= h >> 15;
@@ -53,8 +54,9 @@ double noise(double u, double v, int columns, int rows) {
 Vec3 globe(double u, double v) {
   const double height = 0.6 * noise(u, v, 6, 4) + 0.28 * noise(u, v, 14, 9) + 0.12 * noise(u, v, 40, 24);
   const double latitude = std::abs(2 * v - 1);
-  Vec3 colour = height < 0.53 ? mix({0.05, 0.15, 0.40}, {0.20, 0.50, 0.75}, std::clamp(height / 0.53, 0.0, 1.0))
-                              : mix({0.25, 0.55, 0.20}, {0.75, 0.65, 0.40}, std::clamp((height - 0.53) / 0.2, 0.0, 1.0));
+  Vec3 colour = height < 0.47
+                    ? mix({0.05, 0.15, 0.40}, {0.20, 0.50, 0.75}, std::clamp(height / 0.47, 0.0, 1.0))
+                    : mix({0.25, 0.55, 0.20}, {0.75, 0.65, 0.40}, std::clamp((height - 0.47) / 0.2, 0.0, 1.0));
   colour = mix(colour, {0.95, 0.97, 1.0}, std::clamp((latitude - 0.85 + 0.1 * (height - 0.5)) / 0.05, 0.0, 1.0));
   const double line = std::min(line_distance(u * 24), line_distance(v * 12));
   return mix({0.02, 0.02, 0.05}, colour, std::clamp((line - 0.03) / 0.02, 0.0, 1.0));
@@ -64,9 +66,12 @@ Vec3 globe(double u, double v) {
 
 std::string_view texture_name(TextureKind kind) {
   switch (kind) {
-    case TextureKind::checker: return "checker";
-    case TextureKind::fine: return "fine";
-    case TextureKind::globe: return "globe";
+    case TextureKind::checker:
+      return "checker";
+    case TextureKind::fine:
+      return "fine";
+    case TextureKind::globe:
+      return "globe";
   }
   return "";
 }
@@ -74,9 +79,12 @@ std::string_view texture_name(TextureKind kind) {
 Vec3 procedural_texture(TextureKind kind, double u, double v) {
   const double s = wrap(u), t = wrap(v);
   switch (kind) {
-    case TextureKind::checker: return checks(s, t, 8);
-    case TextureKind::fine: return checks(s, t, 16);
-    case TextureKind::globe: return globe(s, t);
+    case TextureKind::checker:
+      return checks(s, t, 8);
+    case TextureKind::fine:
+      return checks(s, t, 16);
+    case TextureKind::globe:
+      return globe(s, t);
   }
   return {};
 }
@@ -86,7 +94,8 @@ std::vector<Vec3> procedural_image(TextureKind kind, int width, int height) {
   std::vector<Vec3> image;
   image.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) image.push_back(procedural_texture(kind, (x + 0.5) / width, 1 - (y + 0.5) / height));
+    for (int x = 0; x < width; ++x)
+      image.push_back(procedural_texture(kind, (x + 0.5) / width, 1 - (y + 0.5) / height));
   }
   return image;
 }

@@ -31,7 +31,8 @@ bool finite(const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) &
 
 void check_size(int width, int height) {
   if (width < 1 || height < 1) {
-    throw std::invalid_argument("size " + std::to_string(width) + "x" + std::to_string(height) + ": must be at least 1x1");
+    throw std::invalid_argument("size " + std::to_string(width) + "x" + std::to_string(height) +
+                                ": must be at least 1x1");
   }
 }
 
@@ -56,7 +57,8 @@ const Vec3& position_of(const Mesh& mesh, std::size_t face, const Corner& corner
 void check_face(const Mesh& mesh, std::size_t face) {
   const Face& corners = mesh.faces[face];
   if (corners.size() < 3) {
-    throw std::invalid_argument("face " + std::to_string(face) + ": only " + std::to_string(corners.size()) + " corner(s)");
+    throw std::invalid_argument("face " + std::to_string(face) + ": only " + std::to_string(corners.size()) +
+                                " corner(s)");
   }
   for (const Corner& corner : corners) {
     position_of(mesh, face, corner);
@@ -75,11 +77,16 @@ void check_face(const Mesh& mesh, std::size_t face) {
 
 int attribute_count(AttributeSet set) {
   switch (set) {
-    case AttributeSet::none: return 0;
-    case AttributeSet::uv: return 2;
-    case AttributeSet::normal: return 3;
-    case AttributeSet::weights: return 4;
-    case AttributeSet::uv_normal: return 5;
+    case AttributeSet::none:
+      return 0;
+    case AttributeSet::uv:
+      return 2;
+    case AttributeSet::normal:
+      return 3;
+    case AttributeSet::weights:
+      return 4;
+    case AttributeSet::uv_normal:
+      return 5;
   }
   return 0;
 }
@@ -104,7 +111,8 @@ Matrix4 camera_matrix(const Camera& camera, int width, int height) {
   if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up)) {
     throw std::invalid_argument("camera: eye, target and up must be finite");
   }
-  if (!(camera.fovy > 0 && camera.fovy < 180)) throw std::invalid_argument("camera: fovy must lie between 0 and 180 degrees");
+  if (!(camera.fovy > 0 && camera.fovy < 180))
+    throw std::invalid_argument("camera: fovy must lie between 0 and 180 degrees");
   if (!(camera.near > 0) || !(camera.far > camera.near) || !std::isfinite(camera.far)) {
     throw std::invalid_argument("camera: 0 < near < far is required");
   }
@@ -115,17 +123,31 @@ Matrix4 camera_matrix(const Camera& camera, int width, int height) {
   if (!side) throw std::invalid_argument("camera: up is zero or parallel to the direction of view");
   const Vec3 top = cross(*side, *forward);
 
-  const Matrix4 view{(*side)[0],     (*side)[1],     (*side)[2],     -dot(*side, camera.eye),
-                     top[0],         top[1],         top[2],         -dot(top, camera.eye),
-                     -(*forward)[0], -(*forward)[1], -(*forward)[2], dot(*forward, camera.eye),
-                     0,              0,              0,              1};
+  const Matrix4 view{(*side)[0],
+                     (*side)[1],
+                     (*side)[2],
+                     -dot(*side, camera.eye),
+                     top[0],
+                     top[1],
+                     top[2],
+                     -dot(top, camera.eye),
+                     -(*forward)[0],
+                     -(*forward)[1],
+                     -(*forward)[2],
+                     dot(*forward, camera.eye),
+                     0,
+                     0,
+                     0,
+                     1};
   const double focal = 1 / std::tan(camera.fovy * std::numbers::pi / 360);
   const double aspect = static_cast<double>(width) / height;
   const double depth = camera.far - camera.near;
-  const Matrix4 perspective{focal / aspect, 0, 0, 0,
-                            0, focal, 0, 0,
-                            0, 0, -(camera.far + camera.near) / depth, -2 * camera.far * camera.near / depth,
-                            0, 0, -1, 0};
+  Matrix4 perspective{};
+  perspective[0] = focal / aspect;
+  perspective[5] = focal;
+  perspective[10] = -(camera.far + camera.near) / depth;
+  perspective[11] = -2 * camera.far * camera.near / depth;
+  perspective[14] = -1;
   return multiply(perspective, view);
 }
 
@@ -232,9 +254,10 @@ Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int h
         attribute.insert(attribute.end(), uv.begin(), uv.end());
       }
       if (wants_normal) {
-        const Vec3 normal = corner.normal >= 0
-                                ? normalised(mesh.normals[static_cast<std::size_t>(corner.normal)]).value_or(Vec3{0, 0, 1})
-                                : smooth[static_cast<std::size_t>(corner.position)];
+        const Vec3 normal =
+            corner.normal >= 0
+                ? normalised(mesh.normals[static_cast<std::size_t>(corner.normal)]).value_or(Vec3{0, 0, 1})
+                : smooth[static_cast<std::size_t>(corner.position)];
         attribute.insert(attribute.end(), normal.begin(), normal.end());
       }
     }

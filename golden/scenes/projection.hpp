@@ -31,36 +31,41 @@ struct ProjectOptions {
 };
 
 struct Projection {
-  std::vector<WindowQuad> quads;    ///< id = 0-based face index; the primitives of one fanned face share it
-  std::size_t triangles = 0;        ///< primitives drawn as (a, b, c, c), those of fans included
-  std::size_t fanned_faces = 0;     ///< faces with more than four corners
-  std::size_t fan_primitives = 0;   ///< quads and triangles that those faces became
+  std::vector<WindowQuad> quads;   ///< id = 0-based face index; the primitives of one fanned face share it
+  std::size_t triangles = 0;       ///< primitives drawn as (a, b, c, c), those of fans included
+  std::size_t fanned_faces = 0;    ///< faces with more than four corners
+  std::size_t fan_primitives = 0;  ///< quads and triangles that those faces became
 };
 
-/// clip = M · (x, y, z, 1), NDC y up, z −1..1 (OpenGL's look-at times perspective when the camera has no matrix; aspect =
-/// width / height). Uses tan of libm: the last bit may differ between C libraries. Throws std::invalid_argument for a size
-/// below 1, non-finite numbers, eye = target, up parallel to the view, fovy outside (0, 180), near ≤ 0, far ≤ near.
+/// clip = M · (x, y, z, 1), NDC y up, z −1..1 (OpenGL's look-at times perspective when the camera has no matrix; aspect
+/// = width / height). Uses tan of libm: the last bit may differ between C libraries. Throws std::invalid_argument for a
+/// size below 1, non-finite numbers, eye = target, up parallel to the view, fovy outside (0, 180), near ≤ 0, far ≤
+/// near.
 Matrix4 camera_matrix(const Camera& camera, int width, int height);
 
 /// x̃ = (clip.x + clip.w)/2 · width, ỹ = (clip.w − clip.y)/2 · height (y down), z̃ = (clip.z + clip.w)/2, w = clip.w.
 WindowVertex project_point(const Matrix4& matrix, const Vec3& point, int width, int height);
 
-/// The direction from the target to the eye of an automatic camera, before normalisation, and its vertical field of view.
+/// The direction from the target to the eye of an automatic camera, before normalisation, and its vertical field of
+/// view.
 inline constexpr Vec3 auto_frame_direction{0.5, 0.4, 1.0};
 inline constexpr double auto_frame_fovy = 35;
 
-/// A camera that shows the whole mesh: from auto_frame_direction, up = +y, fovy 35 degrees; the sphere around the bounding
-/// box's centre that holds every vertex of a face fits the narrower field of view with 5 % to spare, near and far likewise.
+/// A camera that shows the whole mesh: from auto_frame_direction, up = +y, fovy 35 degrees; the sphere around the
+/// bounding box's centre that holds every vertex of a face fits the narrower field of view with 5 % to spare, near and
+/// far likewise.
 Camera frame_mesh(const Mesh& mesh, int width, int height);
 
-/// One unit normal per position: the sum of the vector areas (Newell) of the faces around it; (0, 0, 1) where that is zero.
+/// One unit normal per position: the sum of the vector areas (Newell) of the faces around it; (0, 0, 1) where that is
+/// zero.
 std::vector<Vec3> smooth_normals(const Mesh& mesh);
 
-/// Faces in order. A triangle (a, b, c) becomes (a, b, c, c); a face with n > 4 corners a fan from its first corner, as quads
-/// then (n odd) a triangle. A face in which a corner has no texture coordinate gets the unit square (0,0) (1,0) (1,1) (0,1) per
-/// primitive (a triangle: its fourth corner repeats the third); a corner without normal gets the smooth one. Normals are
-/// normalised. Throws std::invalid_argument with the face number for fewer than three corners, an index out of range, and with
-/// `strict` for more than four corners.
-Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int height, const ProjectOptions& options = {});
+/// Faces in order. A triangle (a, b, c) becomes (a, b, c, c); a face with n > 4 corners a fan from its first corner, as
+/// quads then (n odd) a triangle. A face in which a corner has no texture coordinate gets the unit square (0,0) (1,0)
+/// (1,1) (0,1) per primitive (a triangle: its fourth corner repeats the third); a corner without normal gets the smooth
+/// one. Normals are normalised. Throws std::invalid_argument with the face number for fewer than three corners, an
+/// index out of range, and with `strict` for more than four corners.
+Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int height,
+                        const ProjectOptions& options = {});
 
 }  // namespace quadrille::golden

@@ -23,8 +23,8 @@ std::int64_t orient(const Point& a, const Point& b, const Point& c) {
 
 std::int64_t centre_below(std::int64_t x) { return ((x - 128) >> 8) * pixel + 128; }
 
-/// 0: the diagonal 0-2 splits the quad into two triangles of positive or zero area, not both zero; 1: the diagonal 1-3 does;
-/// -1: neither, the quad is not a positively oriented simple one.
+/// 0: the diagonal 0-2 splits the quad into two triangles of positive or zero area, not both zero; 1: the diagonal 1-3
+/// does; -1: neither, the quad is not a positively oriented simple one.
 int valid_diagonal(const Point& a, const Point& b, const Point& c, const Point& d) {
   const auto both = [](std::int64_t s, std::int64_t t) { return s >= 0 && t >= 0 && s + t > 0; };
   if (both(orient(a, b, c), orient(a, c, d))) return 0;
@@ -96,7 +96,8 @@ std::vector<Triangle> triangulate(const Grid& grid, Prng& rng) {
   std::vector<Triangle> triangles;
   for (int j = 0; j < grid.rows; ++j) {
     for (int i = 0; i < grid.columns; ++i) {
-      const std::array<int, 4> c{grid.index(i, j), grid.index(i + 1, j), grid.index(i + 1, j + 1), grid.index(i, j + 1)};
+      const std::array<int, 4> c{grid.index(i, j), grid.index(i + 1, j), grid.index(i + 1, j + 1),
+                                 grid.index(i, j + 1)};
       int diagonal = grid.diagonal(i, j);
       if (diagonal == 0 && rng.chance(0.5)) {  // a convex cell may be cut either way
         const int other = valid_diagonal(grid.at(i + 1, j), grid.at(i + 1, j + 1), grid.at(i, j + 1), grid.at(i, j));
@@ -155,9 +156,11 @@ std::vector<std::array<int, 4>> join_pairs(const std::vector<Triangle>& triangle
 
 RandomMesh make_random_mesh(std::uint64_t seed, const RandomMeshOptions& o) {
   const auto share = [](double s) { return s >= 0 && s <= 1; };
-  if (o.columns < 1 || o.rows < 1 || o.width < o.columns + 2 || o.height < o.rows + 2 || o.width > 32768 || o.height > 32768) {
+  if (o.columns < 1 || o.rows < 1 || o.width < o.columns + 2 || o.height < o.rows + 2 || o.width > 32768 ||
+      o.height > 32768) {
     throw std::invalid_argument("random mesh: " + std::to_string(o.columns) + "x" + std::to_string(o.rows) +
-                                " cells do not fit a viewport of " + std::to_string(o.width) + "x" + std::to_string(o.height));
+                                " cells do not fit a viewport of " + std::to_string(o.width) + "x" +
+                                std::to_string(o.height));
   }
   if (!share(o.tie_share) || !share(o.triangle_share) || !(o.jitter >= 0 && o.jitter <= 4)) {
     throw std::invalid_argument("random mesh: shares lie between 0 and 1, jitter between 0 and 4");
@@ -187,7 +190,9 @@ RandomMesh make_random_mesh(std::uint64_t seed, const RandomMeshOptions& o) {
   }
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     std::array<int, 4>& cell = mesh.cells[c];
-    const auto point = [&](std::size_t i) -> const Point& { return mesh.vertices[static_cast<std::size_t>(cell[i & 3])]; };
+    const auto point = [&](std::size_t i) -> const Point& {
+      return mesh.vertices[static_cast<std::size_t>(cell[i & 3])];
+    };
     bool triangle = false, reflex = false;
     for (std::size_t i = 0; i < 4; ++i) {
       triangle = triangle || cell[i] == cell[(i + 1) & 3];
@@ -205,7 +210,8 @@ RandomMesh make_random_mesh(std::uint64_t seed, const RandomMeshOptions& o) {
     quad.id = static_cast<std::uint32_t>(c);
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t v = static_cast<std::size_t>(cell[i]);
-      const double x = static_cast<double>(mesh.vertices[v][0]) / pixel, y = static_cast<double>(mesh.vertices[v][1]) / pixel;
+      const double x = static_cast<double>(mesh.vertices[v][0]) / pixel,
+                   y = static_cast<double>(mesh.vertices[v][1]) / pixel;
       quad.vertex[i] = {x * w[v], y * w[v], z[v] * w[v], w[v]};
       quad.attribute[i].assign(4, 0.0);
       quad.attribute[i][i] = 1;

@@ -21,11 +21,11 @@ struct RandomMeshOptions {
 
 /// Window positions in units of 1/256 px (y down, pixel (px, py) has its centre at (256 px + 128, 256 py + 128)).
 struct RandomMesh {
-  std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;               ///< the rectangle that the cells tile
+  std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< the rectangle that the cells tile
   std::vector<std::array<std::int64_t, 2>> vertices;
-  std::vector<std::array<int, 4>> cells;                     ///< vertex indices as drawn; a triangle repeats one
-  std::size_t triangles = 0, concave = 0, clockwise = 0;     ///< clockwise: as seen on the screen
-  std::vector<WindowQuad> quads;                             ///< one per cell, id = index, attributes = the four weights
+  std::vector<std::array<int, 4>> cells;                  ///< vertex indices as drawn; a triangle repeats one
+  std::size_t triangles = 0, concave = 0, clockwise = 0;  ///< clockwise: as seen on the screen
+  std::vector<WindowQuad> quads;                          ///< one per cell, id = index, attributes = the four weights
 
   /// Whether the top-left rule gives this pixel to the rectangle: then exactly one cell draws it, else none.
   bool expected(int px, int py) const {
@@ -34,12 +34,12 @@ struct RandomMesh {
   }
 };
 
-/// A jittered grid, every cell cut into two triangles, most of which are then joined in random pairs. Each vertex moves only
-/// where all cells around it stay simple with positive area (exact orientations of the two triangles of one diagonal; straight
-/// corners are allowed), so the winding numbers of the cells add up to the rectangle's: every point is covered exactly once.
-/// Windings, start corners and order of the cells are random. Integer arithmetic throughout but for the jitter's draw.
-/// Throws std::invalid_argument when the viewport is too small for the grid (one pixel per cell and one to spare) or an option
-/// is out of range (shares 0 to 1, jitter 0 to 4).
+/// A jittered grid, every cell cut into two triangles, most of which are then joined in random pairs. Each vertex moves
+/// only where all cells around it stay simple with positive area (exact orientations of the two triangles of one
+/// diagonal; straight corners are allowed), so the winding numbers of the cells add up to the rectangle's: every point
+/// is covered exactly once. Windings, start corners and order of the cells are random. Integer arithmetic throughout
+/// but for the jitter's draw. Throws std::invalid_argument when the viewport is too small for the grid (one pixel per
+/// cell and one to spare) or an option is out of range (shares 0 to 1, jitter 0 to 4).
 RandomMesh make_random_mesh(std::uint64_t seed, const RandomMeshOptions& options = {});
 
 }  // namespace quadrille::golden

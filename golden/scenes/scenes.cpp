@@ -10,7 +10,8 @@ namespace {
 
 std::vector<SceneEntry> all_entries() {
   std::vector<SceneEntry> all;
-  for (const auto part : {figure_scenes(), exterior_scenes(), surface_scenes()}) all.insert(all.end(), part.begin(), part.end());
+  for (const auto part : {figure_scenes(), exterior_scenes(), surface_scenes()})
+    all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
@@ -67,7 +68,8 @@ Scene make_scene(std::string_view name) {
   const auto nearest = std::min_element(entries.begin(), entries.end(), [&](const SceneEntry& a, const SceneEntry& b) {
     return edit_distance(name, a.name) < edit_distance(name, b.name);
   });
-  throw std::invalid_argument("no scene '" + std::string(name) + "'; did you mean '" + std::string(nearest->name) + "'?");
+  throw std::invalid_argument("no scene '" + std::string(name) + "'; did you mean '" + std::string(nearest->name) +
+                              "'?");
 }
 
 std::vector<WindowQuad> scene_quads(const Scene& scene, int width, int height, AttributeSet attributes) {

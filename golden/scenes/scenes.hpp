@@ -31,11 +31,13 @@ struct Scene {
 /// All scenes in their stated order.
 std::vector<SceneInfo> list_scenes();
 
-/// Throws std::invalid_argument naming the nearest scene for an unknown name. Scenes other than `sphere` are built from decimal
-/// constants and + − × ÷ √ only; `sphere` and every camera use sin, cos, tan of libm, whose last bit may differ between machines.
+/// Throws std::invalid_argument naming the nearest scene for an unknown name. Scenes other than `sphere` are built from
+/// decimal constants and + − × ÷ √ only; `sphere` and every camera use sin, cos, tan of libm, whose last bit may differ
+/// between machines.
 Scene make_scene(std::string_view name);
 
 /// The scene's quads for a viewport.
-std::vector<WindowQuad> scene_quads(const Scene& scene, int width, int height, AttributeSet attributes = AttributeSet::weights);
+std::vector<WindowQuad> scene_quads(const Scene& scene, int width, int height,
+                                    AttributeSet attributes = AttributeSet::weights);
 
 }  // namespace quadrille::golden

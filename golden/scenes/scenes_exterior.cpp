@@ -33,9 +33,10 @@ constexpr std::array<Vec2, 4> convex{{{-0.55, -0.45}, {0.5, -0.5}, {0.45, 0.4}, 
 constexpr std::array<Vec2, 4> concave{{{-0.6, -0.55}, {0.6, -0.35}, {-0.1, -0.1}, {-0.4, 0.65}}};
 constexpr std::array<Vec2, 4> crossed{{{-0.6, -0.5}, {0.55, 0.45}, {0.5, -0.45}, {-0.5, 0.55}}};
 
-Scene with_w(const std::array<Vec2, 4>& shape, const std::array<double, 4>& w) {
+/// The shape, moved by `shift` so that its visible part fills more of the screen.
+Scene with_w(const std::array<Vec2, 4>& shape, const std::array<double, 4>& w, const Vec2& shift = {0, 0}) {
   std::array<ScreenPoint, 4> points{};
-  for (std::size_t i = 0; i < 4; ++i) points[i] = {shape[i][0], shape[i][1], w[i]};
+  for (std::size_t i = 0; i < 4; ++i) points[i] = {shape[i][0] + shift[0], shape[i][1] + shift[1], w[i]};
   return exterior(points);
 }
 
@@ -55,10 +56,10 @@ Scene fig9_f() { return with_w(concave, {-1.0, -1.2, 0.9, 1.1}); }
 Scene fig9_g() { return with_w(crossed, {1.0, -0.8, -1.1, 1.3}); }
 Scene fig9_h() { return with_w(convex, {1.0, -0.8, 1.3, -0.9}); }
 Scene fig9_i() { return with_w(concave, {1.0, -0.9, 1.2, -1.0}); }
-Scene fig9_j() { return with_w(crossed, {1.0, -0.8, 1.2, -1.1}); }
-Scene fig9_k() { return with_w(convex, {-1.0, 0.8, -1.2, -1.5}); }
-Scene fig9_l() { return with_w(concave, {-1.2, 0.9, -0.8, -1.0}); }
-Scene fig9_m() { return with_w(crossed, {-1.0, 0.8, -1.2, -0.9}); }
+Scene fig9_j() { return with_w(crossed, {1.0, -0.8, 1.2, -1.1}, {0.35, 0.1}); }
+Scene fig9_k() { return with_w(convex, {-1.0, 0.8, -1.2, -1.5}, {-0.8, 0.8}); }
+Scene fig9_l() { return with_w(concave, {1.0, -1.2, -0.8, -0.9}, {0.9, 0.9}); }
+Scene fig9_m() { return with_w(crossed, {-1.0, 0.8, -1.2, -0.9}, {-0.9, -1.0}); }
 
 /// A tetrahedron of corners around the eye, turned so that no face is seen head on.
 Scene eye_in_hull() {
@@ -85,7 +86,8 @@ constexpr std::array<SceneEntry, 15> entries{{
     {"fig9_k", "Exterior quad: convex shape, three vertices behind", fig9, fig9_k},
     {"fig9_l", "Exterior quad: concave shape, three vertices behind", fig9, fig9_l},
     {"fig9_m", "Exterior quad: crossed shape, three vertices behind", fig9, fig9_m},
-    {"eye_in_hull", "The eye inside the tetrahedron of the four vertices", "Hormann & Tarini 2004, section 3.2", eye_in_hull},
+    {"eye_in_hull", "The eye inside the tetrahedron of the four vertices", "Hormann & Tarini 2004, section 3.2",
+     eye_in_hull},
 }};
 
 }  // namespace

@@ -42,7 +42,8 @@ Scene convex() { return saddle_from({0.8, 1.0, 4.2}); }
 Scene concave() { return saddle_from({2.4, 2.9, 2.0}); }
 Scene crossed() { return saddle_from({4.2, 0.7, 0.9}); }
 
-/// The saddle turned about a vertical axis in six steps of about 30 degrees (Pythagorean rotations, so no sine is needed).
+/// The saddle turned about a vertical axis in six steps of about 30 degrees (Pythagorean rotations, so no sine is
+/// needed).
 Scene bowtie() {
   static constexpr std::array<std::array<double, 2>, 6> turn{
       {{1, 0}, {15.0 / 17, 8.0 / 17}, {8.0 / 17, 15.0 / 17}, {0, 1}, {-8.0 / 17, 15.0 / 17}, {-15.0 / 17, 8.0 / 17}}};
@@ -53,11 +54,11 @@ Scene bowtie() {
     std::array<Vec3, 4> corners{};
     for (std::size_t k = 0; k < 4; ++k) {
       const Vec3& p = saddle[k];
-      corners[k] = {2.4 * column + c * p[0] + s * p[2], 3.2 * row + p[1] * 0.9 + 0.25 * p[0], c * p[2] - s * p[0]};
+      corners[k] = {2.3 * column + c * p[0] + s * p[2], 3.2 * row + p[1] * 0.9 + 0.25 * p[0], c * p[2] - s * p[0]};
     }
     add_quad(scene.mesh, corners);
   }
-  scene.camera = look_from({0, 0.6, 9.5}, {0, 0, 0}, 45);
+  scene.camera = look_from({0, 0.5, 8.6}, {0, 0, 0}, 45);
   return scene;
 }
 
@@ -66,7 +67,8 @@ constexpr std::array<SceneEntry, 6> entries{{
     {"fig7_floor", "A floor in perspective", "Hormann & Tarini 2004, fig. 7", floor_quad},
     {"fig10_convex", "A non-planar quad that projects to a convex shape", "Hormann & Tarini 2004, fig. 10", convex},
     {"fig10_concave", "The same quad, projecting to a concave shape", "Hormann & Tarini 2004, fig. 10", concave},
-    {"fig10_crossed", "The same quad, projecting to a self-intersecting shape", "Hormann & Tarini 2004, fig. 10", crossed},
+    {"fig10_crossed", "The same quad, projecting to a self-intersecting shape", "Hormann & Tarini 2004, fig. 10",
+     crossed},
     {"bowtie", "A non-planar quad turning through bow-tie shapes, six steps", "Bloomenthal 2022, fig. 15", bowtie},
 }};
 

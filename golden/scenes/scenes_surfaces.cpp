@@ -1,4 +1,5 @@
-// Quad meshes: Bloomenthal's sphere with collapsed pole edges, and a smooth mesh with normals in place of a Phong-shaded head.
+// Quad meshes: Bloomenthal's sphere with collapsed pole edges, and a smooth mesh with normals in place of a
+// Phong-shaded head.
 #include "golden/scenes/scene_builders.hpp"
 
 #include <cmath>
@@ -24,8 +25,8 @@ Scene sphere() {
     const double latitude = std::numbers::pi * (static_cast<double>(j) / bands - 0.5);
     for (int i = 0; i < segments; ++i) {
       const double longitude = 2 * std::numbers::pi * i / segments;
-      mesh.positions.push_back({std::cos(latitude) * std::sin(longitude), std::sin(latitude),
-                                std::cos(latitude) * std::cos(longitude)});
+      mesh.positions.push_back(
+          {std::cos(latitude) * std::sin(longitude), std::sin(latitude), std::cos(latitude) * std::cos(longitude)});
     }
   }
   mesh.normals = mesh.positions;
@@ -118,7 +119,8 @@ Scene phong_mesh() {
 }
 
 constexpr std::array<SceneEntry, 2> entries{{
-    {"sphere", "A textured sphere of 16 × 8 quads with collapsed edges at the poles", "Bloomenthal 2022, fig. 9", sphere},
+    {"sphere", "A textured sphere of 16 × 8 quads with collapsed edges at the poles", "Bloomenthal 2022, fig. 9",
+     sphere},
     {"phong_mesh", "A smooth quad mesh with a normal at every vertex", "Hormann & Tarini 2004, fig. 11", phong_mesh},
 }};
 

@@ -1,5 +1,5 @@
-// A small double-precision quad engine for choosing and testing inputs: the homogeneous form of the weights, without tie rules
-// and without bounds. It is no reference.
+// A small double-precision quad engine for choosing and testing inputs: the homogeneous form of the weights, without
+// tie rules and without bounds. It is no reference.
 #pragma once
 
 #include "model/records.hpp"
@@ -14,8 +14,8 @@ struct SimpleSample {
   double z = 0;                    ///< window z
 };
 
-/// What quad shows at window position (x, y): nothing outside it or behind the eye; depth is not clipped. Points on an edge
-/// may go either way. + − × ÷ √ only, so the answer is the same on every machine.
+/// What quad shows at window position (x, y): nothing outside it or behind the eye; depth is not clipped. Points on an
+/// edge may go either way. + − × ÷ √ only, so the answer is the same on every machine.
 std::optional<SimpleSample> simple_sample(const std::array<WindowVertex, 4>& quad, double x, double y);
 
 /// Number of visible samples among 16 × 16 pixel centres spread evenly over the viewport.

@@ -1,0 +1,64 @@
+// Stress families: quads that contain, on purpose, the conditions under which a quad rasterizer goes wrong.
+#pragma once
+
+#include "model/records.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace quadrille::golden {
+
+enum class StressFamily {
+  general,
+  perspective,
+  any_w,
+  near_edge,
+  on_edge,
+  near_vertex,
+  on_vertex,
+  sliver,
+  collapsed_edge,
+  straight_corner,
+  reflex,
+  bowtie,
+  tiny,
+  huge,
+  eye_crossing,
+  eye_in_hull,
+  w_zero,
+  shared_edge,
+  shared_vertex,
+  coplanar,
+  long_span,
+  coincident,
+};
+
+struct StressFamilyInfo {
+  StressFamily family;
+  std::string_view name;
+  std::string_view stresses;  ///< what the family holds and what that is hard on
+  std::string_view knob;      ///< what the knob scales
+};
+
+/// All families in the order of the enumeration.
+std::span<const StressFamilyInfo> stress_families();
+std::string_view stress_family_name(StressFamily family);
+/// Throws std::invalid_argument listing the families for an unknown name.
+StressFamily parse_stress_family(std::string_view name);
+
+/// `count` quads of a family for a viewport, id = index. The same arguments give the same bits on every machine, and
+/// the geometry does not depend on `attributes`. Slots 0-3 hold the weights (1,0,0,0) (0,1,0,0) …, further ones random
+/// values in [−1, 1]. Positions and w are finite, zero or of magnitude 2^−80 to 2^80; x̃ = ỹ = w = 0 does not occur.
+/// Families of ordinary vertices use depths in [0.1, 0.9]; those with w ≤ 0 use z̃ = a w − b with small b, as a camera
+/// does, so that visible pixels lie in [0, 1] unless they are very close to the eye (coplanar: one depth for all
+/// corners). Families in which chance alone gives few visible pixels (any_w, huge, eye_crossing, eye_in_hull, w_zero)
+/// draw until some of 256 probes are visible, 64 times at most. Knob 1 is the standard setting, more or less of it as
+/// the table says; it must lie in [2^−6, 2^6]. Throws std::invalid_argument for a knob, size or attribute count out of
+/// range.
+std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std::uint64_t seed, double knob = 1.0,
+                                    int width = 512, int height = 512, int attributes = 4);
+
+}  // namespace quadrille::golden
