@@ -21,7 +21,8 @@ struct ExactCoverage {
 ///
 /// Legitimate differences from expression (12) with the integer visibility rule:
 ///  - an all-zero edge between antipodal neighbours (V_{i+1} = -c V_i, the eye on the edge): (12) counts it as false in
-///    either sense and drops the quad's other triangle where this sum keeps it. All-zero edges of coincident neighbours
+///    either sense, and E20 then contradicts the neighbouring edge in both clauses, so (12) covers nothing at all; this
+///    sum keeps the quad's other triangle. All-zero edges of coincident neighbours
 ///    (V_{i+1} = +c V_i) and an all-zero diagonal make no difference;
 ///  - the eye in the convex hull of the four vertices: coverage agrees, but visibility is decided there by the sign of
 ///    sum(M w) of the mean value surface, not by that of either triangle.

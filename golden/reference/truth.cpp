@@ -24,7 +24,17 @@ int sign_of(const Number& value) {
   return (value > 0) - (value < 0);
 }
 
-__float128 magnitude(__float128 value) { return value < 0 ? -value : value; }
+// Both are bit operations in line; comparisons of __float128 are library calls.
+__float128 magnitude(__float128 value) { return __builtin_fabsq(value); }
+bool negative(__float128 value) { return __builtin_signbit(value) != 0; }
+
+/// sum(a_i b_i)
+__float128 inner(const std::array<__float128, 4>& a, const std::array<__float128, 4>& b) {
+  return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
+}
+
+/// sum(a_i)
+__float128 total(const std::array<__float128, 4>& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
 /// S_i = V_i - w_i p and the five edge functions at one pixel, with their signs after the tie rule.
 template <class Coord, class Product>
@@ -58,7 +68,7 @@ struct PixelEdges {
   Product square(int i) const { return static_cast<Product>(sx[i]) * sx[i] + static_cast<Product>(sy[i]) * sy[i]; }
 };
 
-/// Expression (12) for one orientation: +1 when its first clause holds, 2 for the second, 0 for neither. An all-zero
+/// Expression (12) for one orientation: 1 when its first clause holds, 2 for the second, 0 for neither. An all-zero
 /// edge (sign 0) is false here and false negated, in either orientation.
 int clause_of_12(const std::array<int, 5>& sign, int orientation) {
   const auto is = [&](int edge, int wanted) { return sign[edge] == wanted * orientation; };
@@ -71,7 +81,7 @@ int clause_of_12(const std::array<int, 5>& sign, int orientation) {
 struct Weights {
   std::array<__float128, 4> m{}, spread{};
   Singular singular = Singular::none;
-  int edge = 0;           ///< the edge of Singular::one_edge
+  bool cancels = false;   ///< some spread_i is not |M_i|
   bool collinear = true;  ///< every A_i is 0: the pixel's ray lies in the plane of all edges
 };
 
@@ -127,10 +137,7 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
     }
     return out;
   }
-  if (edges == 1) {
-    out.singular = Singular::one_edge;
-    out.edge = edge[0];
-  }
+  if (edges == 1) out.singular = Singular::one_edge;
 
   // t_i = n_i / d_i by whichever of the two equal forms has no cancellation.
   std::array<__float128, 4> n, d;
@@ -145,40 +152,33 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
       d[i] = both + static_cast<__float128>(dot[i]);
     }
   }
-  // M_i = (n_{i-1}/d_{i-1} + n_i/d_i) rho_i, times d_0 d_1 d_2 d_3, so that an edge through the pixel (d_i = 0) is
-  // exact.
-  std::array<__float128, 4> pair;  // d_i d_{i+1}
-  for (int i = 0; i < 4; ++i) pair[i] = d[i] * d[(i + 1) & 3];
+  // T_i = t_i d_0 d_1 d_2 d_3, M_i = (T_{i-1} + T_i) rho_i: no division, and exact on an edge through the pixel, where
+  // d_i = 0.
+  const __float128 d01 = d[0] * d[1], d23 = d[2] * d[3];
+  const std::array<__float128, 4> t{n[0] * d[1] * d23, n[1] * d[0] * d23, n[2] * d[3] * d01, n[3] * d[2] * d01};
   for (int i = 0; i < 4; ++i) {
-    const int before = (i + 3) & 3;
-    const __float128 left = n[before] * d[i], right = n[i] * d[before];
-    const __float128 factor = pair[(i + 1) & 3] * rho[i];
-    out.m[i] = (left + right) * factor;
-    const bool cancels = (left < 0 && right > 0) || (left > 0 && right < 0);
-    out.spread[i] = cancels ? magnitude((left - right) * factor) : magnitude(out.m[i]);
+    const __float128 left = t[(i + 3) & 3], right = t[i];
+    out.m[i] = (left + right) * rho[i];
+    // Where a term is 0 either branch gives the same.
+    const bool cancels = negative(left) != negative(right);
+    out.spread[i] = magnitude(cancels ? (left - right) * rho[i] : out.m[i]);
+    out.cancels = out.cancels || cancels;
   }
   return out;
 }
 
 /// sum(M w) is 0 as an identity, not merely small: sum(M_i V_i) is a multiple of the pixel's ray and lies in the plane
-/// of the vertices, so if that plane holds the eye but not the ray the multiple is 0; and on an antipodal edge the
-/// interpolation runs through the eye.
+/// of the vertices, so if that plane holds the eye but not the ray the multiple is 0.
 template <class Coord, class Product>
 bool w_sum_vanishes(const detail::TruthGeometry<Coord, Product>& g, const Weights& weights) {
-  if (weights.singular == Singular::one_edge && g.antipodal[weights.edge]) return true;
-  return g.flat && !weights.collinear && (weights.singular == Singular::none || weights.singular == Singular::one_edge);
+  return g.flat && !weights.collinear;
 }
 
 template <class Coord, class Product>
 bool in_front(const detail::TruthGeometry<Coord, Product>& g, const Weights& weights,
               const std::array<__float128, 4>& k, const std::array<__float128, 4>& w) {
   if (w_sum_vanishes(g, weights)) return false;
-  __float128 sum_k = 0, sum_w = 0;
-  for (int i = 0; i < 4; ++i) {
-    sum_k += weights.m[i] * k[i];
-    sum_w += weights.m[i] * w[i];
-  }
-  return sign_of(sum_k) * sign_of(sum_w) > 0;
+  return sign_of(inner(weights.m, k)) * sign_of(inner(weights.m, w)) > 0;
 }
 
 template <class Coord, class Product>
@@ -235,15 +235,11 @@ template <class Coord, class Product>
 void TruthGeometry<Coord, Product>::finish() {
   const auto times = [](Coord a, Coord b) { return static_cast<Product>(a) * b; };
   for (int j = 0; j < 5; ++j) {
-    // E(x, y) = constant + x dx + y dy, the cross product of the two vertices (Olano & Greer 1997).
+    // E(x, y) = x dx + y dy + constant, the cross product of the two vertices (Olano & Greer 1997).
     const int a = edge_from[j], b = edge_to[j];
-    const Product constant = times(x[a], y[b]) - times(y[a], x[b]);
     const Product dx = times(y[a], w[b]) - times(w[a], y[b]);
     const Product dy = times(w[a], x[b]) - times(x[a], w[b]);
     tie_sign[j] = static_cast<std::int8_t>(dx != 0 ? sign_of(dx) : sign_of(dy));
-    if (j != diagonal && constant == 0 && dx == 0 && dy == 0) {
-      antipodal[j] = times(x[a], x[b]) + times(y[a], y[b]) + times(w[a], w[b]) < 0;
-    }
   }
   const auto det = [&](int a, int b, int c) {
     return sign_of(x[a] * (times(y[b], w[c]) - times(w[b], y[c])) + y[a] * (times(w[b], x[c]) - times(x[b], w[c])) +
@@ -384,16 +380,15 @@ ReferenceSample TruthQuad::sample(int px, int py) const {
             break;
         }
 
-        std::array<__float128, 4> mk, mw;
-        __float128 sum_k = 0, sum_w = 0, sum_z = 0, size_w = 0;
+        const std::array<__float128, 4>& m = weights.m;
+        std::array<__float128, 4> mk, mw = m, size;
         for (int i = 0; i < 4; ++i) {
-          mk[i] = weights.m[i] * k_[i];
-          mw[i] = unit_w_ ? weights.m[i] : weights.m[i] * w_[i];
-          sum_k += mk[i];
-          sum_w += mw[i];
-          size_w += magnitude(mw[i]);
-          sum_z += weights.m[i] * z_[i];
+          mk[i] = m[i] * k_[i];
+          if (!unit_w_) mw[i] = m[i] * w_[i];
+          size[i] = magnitude(mw[i]);
         }
+        const __float128 sum_k = total(mk), sum_z = inner(m, z_), size_w = total(size);
+        __float128 sum_w = total(mw);
         if (w_sum_vanishes(g, weights)) sum_w = 0;
 
         // Sums that may cancel are finished above in 113 bits; 64 bits suffice for the quotients that become doubles.
@@ -410,7 +405,8 @@ ReferenceSample TruthQuad::sample(int px, int py) const {
         } else {
           out.z_condition = std::numeric_limits<double>::infinity();
         }
-        if (weights.singular == Singular::none && sum_k != 0) {
+        // Inside, the M_i have one sign: where nothing cancels the quotient is 1.
+        if (weights.singular == Singular::none && weights.cancels) {
           long double spread = 0;
           for (int i = 0; i < 4; ++i) spread += narrow(weights.spread[i]) * narrow(k_[i]);
           out.condition = static_cast<double>(spread / std::abs(narrow(sum_k)));
@@ -421,9 +417,7 @@ ReferenceSample TruthQuad::sample(int px, int py) const {
         const long double per_whole = 1.0L / narrow(whole);
         for (int i = 0; i < 4; ++i) out.lambda[i] = static_cast<double>(narrow(part[i]) * per_whole);
         for (int a = 0; a < attributes_; ++a) {
-          __float128 sum_b = 0;
-          for (int i = 0; i < 4; ++i) sum_b += weights.m[i] * b_[a][i];
-          out.attribute[a] = static_cast<double>(narrow(sum_b) * per_whole);
+          out.attribute[a] = static_cast<double>(narrow(inner(m, b_[a])) * per_whole);
         }
         return out;
       },

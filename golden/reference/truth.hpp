@@ -28,7 +28,7 @@ struct Coverage {
   bool front = false;    ///< counter-clockwise as seen on the screen: the negated form of (12), for y points down
   bool visible = false;  ///< in front of the eye; false where not covered
   bool eye_in_hull = false;  ///< the eye is in the convex hull of the four vertices: `visible` is the sign of sum(M w)
-  std::uint8_t flags = 0;    ///< flag_tie and flag_homogeneous
+  std::uint8_t flags = 0;    ///< flag_tie (an all-zero edge function counts as 0) and flag_homogeneous
 };
 
 namespace detail {
@@ -40,7 +40,6 @@ template <class Coord, class Product>
 struct TruthGeometry {
   std::array<Coord, 4> x{}, y{}, w{};
   std::array<std::int8_t, 5> tie_sign{};  ///< sign of an edge function that is 0 at the pixel; 0 for an all-zero edge
-  std::array<bool, 4> antipodal{};        ///< V_{i+1} = -c V_i, c > 0: the eye lies on the edge
   int det_012 = 0, det_023 = 0;           ///< signs of V_i . (V_j x V_k)
   bool flat = false;                      ///< all four determinants are 0: eye and vertices lie in one plane
   bool eye_in_hull = false;
@@ -80,7 +79,7 @@ class TruthQuad {
   ///                                    rho = 1/R                         lambda' = mean of the two edge interpolations
   ///   one edge                         the general form gives the linear interpolation along the edge
   /// visible_margin is signed so that it is positive in front of the eye, and exactly 0 where sum(M w) vanishes
-  /// identically (eye and vertices in a plane without the pixel's ray; an antipodal edge). Where sum(M W) = 0, z is 0
+  /// identically (eye and vertices in a plane without the pixel's ray). Where sum(M W) = 0, z is 0
   /// and z_condition infinite.
   ReferenceSample sample(int px, int py) const;
 
