@@ -220,7 +220,7 @@ struct ClockedModel::Impl {
     }
     in_use += (starting ? 1u : 0u) - (release ? 1u : 0u);
     if (accept) {
-      assembly.quad.id = in.vertex_id;
+      if (assembly.count == 0) assembly.quad.id = in.vertex_id;
       assembly.quad.vertex[static_cast<std::size_t>(assembly.count)] = in.vertex;
       assembly.full = assembly.count == 3;
       assembly.count = (assembly.count + 1) % 4;

@@ -27,12 +27,12 @@ constexpr std::array entries{
            "s: bits of every multiplier operand after normalisation, tables included"},
           &Config::significand_bits},
     Entry{{"notch_exact", 0, 1, 1, "", "half-angle cure of the cancellation at reflex corners"}, &Config::notch_exact},
-    Entry{{"rsqrt_segments_log2", 3, 10, -1, "log2",
-           "rsqrt table segments per octave; auto: ceil((s-4)/3), degree 1 ceil(s/2), from 3 to 10"},
+    Entry{{"rsqrt_segments_log2", 3, 14, -1, "log2",
+           "rsqrt table segments per octave; auto: ceil((s-4)/3), degree 1 ceil(s/2), at least 3"},
           &Config::rsqrt_segments_log2},
     Entry{{"rsqrt_degree", 1, 2, 2, "", "polynomial degree of the rsqrt table"}, &Config::rsqrt_degree},
-    Entry{{"recip_segments_log2", 3, 10, -1, "log2",
-           "reciprocal table segments; auto: ceil((s-2)/3), degree 1 ceil((s+1)/2), from 3 to 10"},
+    Entry{{"recip_segments_log2", 3, 14, -1, "log2",
+           "reciprocal table segments; auto: ceil((s-2)/3), degree 1 ceil((s+1)/2), at least 3"},
           &Config::recip_segments_log2},
     Entry{{"recip_degree", 1, 2, 2, "", "polynomial degree of the reciprocal table"}, &Config::recip_degree},
     Entry{{"align_guard_bits", 0, 6, 2, "bits", "fraction bits kept below the s bits of the largest term of a sum"},
@@ -113,13 +113,13 @@ int Config::quadratic_frac() const { return quadratic_frac_bits == -1 ? 2 * frac
 int Config::rsqrt_segments() const {
   if (rsqrt_segments_log2 != -1) return rsqrt_segments_log2;
   const int s = significand_bits;
-  return std::clamp(rsqrt_degree == 2 ? ceil_div(s - 4, 3) : ceil_div(s, 2), 3, 10);
+  return std::clamp(rsqrt_degree == 2 ? ceil_div(s - 4, 3) : ceil_div(s, 2), 3, 14);
 }
 
 int Config::recip_segments() const {
   if (recip_segments_log2 != -1) return recip_segments_log2;
   const int s = significand_bits;
-  return std::clamp(recip_degree == 2 ? ceil_div(s - 2, 3) : ceil_div(s + 1, 2), 3, 10);
+  return std::clamp(recip_degree == 2 ? ceil_div(s - 2, 3) : ceil_div(s + 1, 2), 3, 14);
 }
 
 int Config::attribute_frac() const { return attribute_frac_bits == -1 ? significand_bits + 2 : attribute_frac_bits; }

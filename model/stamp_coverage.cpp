@@ -22,7 +22,7 @@ StampMasks stamp_coverage(const TileEntry& entry, const QuadConstants& quad, int
     }
     pos[k] = p | (quad.tie_pos[k] ? z : 0);
     neg[k] = n | (quad.tie_neg[k] ? z : 0);
-    zero |= z;
+    if (quad.tie_pos[k] || quad.tie_neg[k]) zero |= z;  // an all-zero edge decides nothing
   }
   const auto clause = [&](int bit, std::uint32_t value) { return quad.visible >> bit & 1 ? value : 0; };
   std::uint32_t back =

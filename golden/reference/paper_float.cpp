@@ -57,9 +57,10 @@ ReferenceSample PaperFloatQuad::sample(int px, int py) const {
     const double sjx = x_[j] - w_[j] * vx, sjy = y_[j] - w_[j] * vy;
     const double e = six * sjy - siy * sjx;
     if (e != 0) return sign(e);
-    tie = true;
     const double dx = y_[i] * w_[j] - w_[i] * y_[j];
-    return dx != 0 ? sign(dx) : sign(w_[i] * x_[j] - x_[i] * w_[j]);
+    const double by_tie = dx != 0 ? sign(dx) : sign(w_[i] * x_[j] - x_[i] * w_[j]);
+    tie = tie || by_tie != 0;  // an all-zero edge decides nothing
+    return by_tie;
   };
   const double e01 = edge(0, 1), e12 = edge(1, 2), e23 = edge(2, 3), e30 = edge(3, 0), e20 = edge(2, 0);
   const auto inside = [&](double o) {

@@ -55,7 +55,7 @@ struct PixelEdges {
       sign[j] = sign_of(e[j]);
       if (sign[j] == 0) {
         sign[j] = g.tie_sign[j];
-        tie = true;
+        tie = tie || sign[j] != 0;  // an all-zero edge decides nothing
       }
     }
   }
@@ -281,6 +281,7 @@ TruthQuad::TruthQuad(const SnappedQuad& quad, const Config& config, const DrawSt
     high_y = std::max(high_y, g.y[i]);
     w_[i] = std::ldexp(static_cast<double>(v.w), -frac);
     k_[i] = port_value(v.k, config.significand_bits);
+    crossing_[i] = perspective_ ? k_[i] : w_[i];
     z_[i] = port_value(v.z, config.significand_bits);
     for (int a = 0; a < attributes_; ++a) b_[a][i] = port_value(v.attribute[a], config.significand_bits);
   }
@@ -314,6 +315,7 @@ TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
     unit_w_ = unit_w_ && v.w == 1;
     w_[i] = w;
     k_[i] = 1;
+    crossing_[i] = perspective_ ? k_[i] : w_[i];
     z_[i] = v.z;
     for (int a = 0; a < attributes_; ++a) {
       const double value = a < static_cast<int>(quad.attribute[i].size()) ? quad.attribute[i][a] : 0.0;
@@ -338,14 +340,14 @@ Coverage TruthQuad::cover(int px, int py) const {
         const PixelEdges p(g, px, py);
         int clause = 0;
         Coverage out = cover_pixel(g, p, homogeneous_, clause);
-        if (out.covered && out.eye_in_hull) out.visible = in_front(g, weights_at(p, k_), k_, w_);
+        if (out.covered && out.eye_in_hull) out.visible = in_front(g, weights_at(p, crossing_), k_, w_);
         return out;
       },
       geometry_);
 }
 
 std::array<__float128, 4> TruthQuad::homogeneous_weights(int px, int py) const {
-  return std::visit([&](const auto& g) { return weights_at(PixelEdges(g, px, py), k_).m; }, geometry_);
+  return std::visit([&](const auto& g) { return weights_at(PixelEdges(g, px, py), crossing_).m; }, geometry_);
 }
 
 ReferenceSample TruthQuad::sample(int px, int py) const {
@@ -362,7 +364,7 @@ ReferenceSample TruthQuad::sample(int px, int py) const {
         out.flags = coverage.flags;
         if (!out.covered) return out;
 
-        const Weights weights = weights_at(p, k_);
+        const Weights weights = weights_at(p, crossing_);
         switch (weights.singular) {
           case Singular::none:
             break;

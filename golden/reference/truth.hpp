@@ -100,6 +100,7 @@ class TruthQuad {
 
   std::variant<Exact, Rounded> geometry_;
   std::array<__float128, 4> k_{}, z_{}, w_{};  ///< real values, w_ in units of 1
+  std::array<__float128, 4> crossing_{};       ///< what singular pixels cross: k, or w without perspective
   std::array<std::array<__float128, 4>, max_attribute_slots> b_{};
   int attributes_ = 0;
   bool perspective_ = true;

@@ -1,0 +1,155 @@
+// Quotients to fixed point, discard, output register. Stages 24 (raw products numerator * reciprocal) and 25 (the port).
+//
+// Attribute: two's complement, ATTRIBUTE_INT_BITS and ATTRIBUTE_FRAC_BITS, truncated toward zero, saturated. Depth: unsigned,
+// 1 integer bit, DEPTH_BITS fraction bits. A pixel is discarded outside [znear, zfar], for negative depth, and, in a quad whose hull
+// holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_24_i is the pixel's valid at stage 24.
+module fragment_output #(
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
+    localparam int E = quadrille_pkg::EXP_BITS,
+    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int DB = quadrille_pkg::DEPTH_BITS,
+    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
+    localparam int ID = quadrille_pkg::QUAD_ID_BITS,
+    localparam int FB = quadrille_pkg::FRAGMENT_BITS
+) (
+    input logic clk_i,
+    input logic rst_ni,
+    input logic en_i,
+    // Draw state
+    input logic depth_on_i,
+    input logic [DB:0] znear_i,
+    input logic [DB:0] zfar_i,
+    input logic [3:0] attributes_i,
+    // stage 23
+    input logic [N-1:0] attr_neg_i,
+    input logic [N*E-1:0] attr_exp_i,
+    input logic [N*S-1:0] attr_sig_i,
+    input logic z_neg_i,
+    input logic [E-1:0] z_exp_i,
+    input logic [S-1:0] z_sig_i,
+    input logic rk_neg_i,
+    input logic [E-1:0] rk_exp_i,
+    input logic [S-1:0] rk_sig_i,
+    input logic rw_neg_i,
+    input logic [E-1:0] rw_exp_i,
+    input logic [S-1:0] rw_sig_i,
+    // stage 24
+    input logic valid_24_i,
+    input logic [ID-1:0] id_i,
+    input logic hull_i,
+    input logic homogeneous_i,
+    input logic [V-1:0] x_i,
+    input logic [V-1:0] y_i,
+    input logic front_i,
+    input logic tie_i,
+    input logic [12:0] class_i,
+    // stage 25
+    output logic valid_o,
+    output logic [FB-1:0] fragment_o
+);
+  // ---- Attributes ---------------------------------------------------------------------------------------------------------
+  logic [N-1:0] overflow;
+  logic [N*AO-1:0] attr;
+
+  for (genvar g = 0; g < N; g++) begin : gen_attribute
+    logic neg_24;
+    logic [E-1:0] exp_24;
+    logic [2*S-1:0] prod_24;
+    logic used, saturated;
+    logic [AO-2:0] fixed;
+
+    fp_raw_product u_product (
+        .clk_i,
+        .en_i,
+        .neg_i(attr_neg_i[g] ^ rk_neg_i),
+        .a_exp_i(attr_exp_i[g*E+:E]),
+        .a_sig_i(attr_sig_i[g*S+:S]),
+        .b_exp_i(rk_exp_i),
+        .b_sig_i(rk_sig_i),
+        .neg_o(neg_24),
+        .exp_o(exp_24),
+        .prod_o(prod_24)
+    );
+
+    fixed_point #(
+        .INT_BITS(quadrille_pkg::ATTRIBUTE_INT_BITS),
+        .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS)
+    ) u_fixed (
+        .exp_i(exp_24),
+        .prod_i(prod_24),
+        .overflow_o(saturated),
+        .fixed_o(fixed)
+    );
+
+    assign used = attributes_i > 4'(g);
+    assign overflow[g] = used && saturated;
+    assign attr[g*AO+:AO] = !used ? '0 : neg_24 ? AO'(0) - {1'b0, fixed} : {1'b0, fixed};
+  end
+
+  // ---- Depth --------------------------------------------------------------------------------------------------------------
+  logic z_neg_24, w_zero_24, w_neg_24;
+  logic [E-1:0] z_exp_24;
+  logic [2*S-1:0] z_prod_24;
+  logic z_saturated;
+  logic [DB:0] z_fixed, z;
+  logic z_below;
+  logic discard;
+
+  fp_raw_product u_product_z (
+      .clk_i,
+      .en_i,
+      .neg_i(z_neg_i ^ rw_neg_i),
+      .a_exp_i(z_exp_i),
+      .a_sig_i(z_sig_i),
+      .b_exp_i(rw_exp_i),
+      .b_sig_i(rw_sig_i),
+      .neg_o(z_neg_24),
+      .exp_o(z_exp_24),
+      .prod_o(z_prod_24)
+  );
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      w_zero_24 <= rw_sig_i == '0;
+      w_neg_24 <= rw_neg_i;
+    end
+  end
+
+  fixed_point #(
+      .INT_BITS(1),
+      .FRAC_BITS(DB)
+  ) u_fixed_z (
+      .exp_i(z_exp_24),
+      .prod_i(z_prod_24),
+      .overflow_o(z_saturated),
+      .fixed_o(z_fixed)
+  );
+
+  assign z = (w_zero_24 || z_saturated) ? '1 : z_fixed;
+  assign z_below = !w_zero_24 && z_neg_24 && z != '0;
+  assign discard = (hull_i && (w_zero_24 || w_neg_24)) || (depth_on_i && (z_below || z < znear_i || z > zfar_i));
+
+  // ---- Output register ----------------------------------------------------------------------------------------------------
+  logic two_corner, on_vertex, two_edge, on_edge, cured;
+  logic [7:0] flags;
+  logic valid_d;
+  logic [FB-1:0] fragment_d;
+  logic unused_class;
+
+  assign {two_corner, on_vertex, two_edge, on_edge, cured} = class_i[12:8];
+  assign unused_class = ^class_i[7:0];
+  assign flags = {overflow != '0, cured, homogeneous_i, tie_i, two_edge, two_corner, on_vertex, on_edge};
+  assign valid_d = valid_24_i && !discard;
+  assign fragment_d = {id_i, x_i, y_i, front_i, flags, depth_on_i ? z : (DB + 1)'(0), attr};
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      valid_o <= 1'b0;
+      fragment_o <= '0;
+    end else if (en_i) begin
+      valid_o <= valid_d;
+      fragment_o <= valid_d ? fragment_d : '0;
+    end
+  end
+endmodule

@@ -1,0 +1,209 @@
+// The quad slots: allocation, and everything that a pixel needs to know about its quad, read by slot index.
+//
+// Two banks. Vertex bank, written at start: id, k_eff (k, or W without perspective), W, Z, b as significand numbers with port
+// exponents. Function bank, written at take: gx, gy of the linear and q of the quadratic functions, visibility, hull, homogeneous.
+// Reads are combinational; a slot lives from start until the end beat leaves the pipeline. Not reset, except the pointers.
+module quad_slots #(
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
+    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
+    localparam int W = quadrille_pkg::W_BITS,
+    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
+    localparam int AP = quadrille_pkg::ATTR_PORT_BITS,
+    localparam int ID = quadrille_pkg::QUAD_ID_BITS,
+    localparam int GRAD = quadrille_pkg::GRAD_BITS,
+    localparam int QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
+) (
+    input logic clk_i,
+    input logic rst_ni,
+    // Allocation
+    input logic start_i,
+    input logic release_i,
+    output logic [SLOT-1:0] alloc_o,
+    output logic available_o,
+    output logic busy_o,
+    // Vertex bank, written at start
+    input logic perspective_i,
+    input logic [ID-1:0] id_i,
+    input logic [4*W-1:0] w_i,
+    input logic [4*PE-1:0] k_exp_i,
+    input logic [4*S-1:0] k_sig_i,
+    input logic [3:0] z_neg_i,
+    input logic [4*PE-1:0] z_exp_i,
+    input logic [4*S-1:0] z_sig_i,
+    input logic [4*N*AP-1:0] attr_i,
+    // Function bank, written at take
+    input logic take_i,
+    input logic [SLOT-1:0] take_slot_i,
+    input logic [6*GRAD-1:0] lin_gx_i,
+    input logic [6*GRAD-1:0] lin_gy_i,
+    input logic [10*QCURV-1:0] quad_q_i,
+    input logic [3:0] visible_i,
+    input logic hull_i,
+    input logic homogeneous_i,
+    // Read for coverage
+    input logic [SLOT-1:0] stamp_slot_i,
+    output logic [5*GRAD-1:0] stamp_gx_o,
+    output logic [5*GRAD-1:0] stamp_gy_o,
+    output logic [3:0] stamp_visible_o,
+    // Read for emission
+    input logic [SLOT-1:0] emit_slot_i,
+    output logic [6*GRAD-1:0] emit_gx_o,
+    output logic [6*GRAD-1:0] emit_gy_o,
+    output logic [10*QCURV-1:0] emit_q_o,
+    // Read of k_eff for the weights' products (stage 10) and overrides (stage 14)
+    input logic [SLOT-1:0] product_slot_i,
+    output logic [3:0] product_k_neg_o,
+    output logic [4*PE-1:0] product_k_exp_o,
+    output logic [4*S-1:0] product_k_sig_o,
+    input logic [SLOT-1:0] override_slot_i,
+    output logic [4*PE-1:0] override_k_exp_o,
+    output logic [4*S-1:0] override_k_sig_o,
+    // Read for interpolation (stage 17): term sets k_eff, W, Z, b0, b1, ..., each of four vertices
+    input logic [SLOT-1:0] blend_slot_i,
+    output logic [(3+N)*4-1:0] blend_neg_o,
+    output logic [(3+N)*4*PE-1:0] blend_exp_o,
+    output logic [(3+N)*4*S-1:0] blend_sig_o,
+    // Read for the output (stage 24)
+    input logic [SLOT-1:0] output_slot_i,
+    output logic [ID-1:0] output_id_o,
+    output logic output_hull_o,
+    output logic output_homogeneous_o
+);
+  localparam int SLOTS = 1 << SLOT;
+  localparam logic [quadrille_pkg::EXP_BITS-1:0] W_BIAS =
+      quadrille_pkg::EXP_BITS'(0) - quadrille_pkg::EXP_BITS'(quadrille_pkg::FRAC);
+
+  // ---- Allocation ---------------------------------------------------------------------------------------------------------
+  logic [SLOT-1:0] alloc_q;
+  logic [SLOT:0] in_use_q;
+
+  assign alloc_o = alloc_q;
+  assign available_o = in_use_q < (SLOT + 1)'(SLOTS);
+  assign busy_o = in_use_q != '0;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      alloc_q <= '0;
+      in_use_q <= '0;
+    end else begin
+      if (start_i) alloc_q <= alloc_q + SLOT'(1);
+      in_use_q <= in_use_q + (SLOT + 1)'(start_i) - (SLOT + 1)'(release_i);
+    end
+  end
+
+  // ---- Vertex bank: one memory per vertex and term set --------------------------------------------------------------------
+  for (genvar v = 0; v < 4; v++) begin : gen_vertex
+    logic w_neg, k_neg;
+    logic [W-1:0] w_magnitude;
+    logic [PE-1:0] w_exp_port, k_exp;
+    logic [quadrille_pkg::EXP_BITS-1:0] w_exp;
+    logic [S-1:0] w_sig, k_sig;
+
+    assign w_neg = w_i[v*W+W-1];
+    assign w_magnitude = w_neg ? W'(0) - w_i[v*W+:W] : w_i[v*W+:W];
+    assign w_exp_port = w_exp[PE-1:0];  // -FRAC..0: fits
+    logic unused;
+    assign unused = ^w_exp[quadrille_pkg::EXP_BITS-1:PE];
+
+    fp_normalise #(.WIDTH(W)) u_w (
+        .magnitude_i(w_magnitude),
+        .bias_i(W_BIAS),
+        .exp_o(w_exp),
+        .sig_o(w_sig)
+    );
+
+    assign k_neg = perspective_i ? 1'b0 : w_neg;
+    assign k_exp = perspective_i ? k_exp_i[v*PE+:PE] : w_exp_port;
+    assign k_sig = perspective_i ? k_sig_i[v*S+:S] : w_sig;
+
+    for (genvar t = 0; t < 3 + N; t++) begin : gen_term
+      localparam int WORD = 1 + PE + S;
+      logic [WORD-1:0] bank_q[0:SLOTS-1];
+      logic [WORD-1:0] write_word, blend_word;
+
+      if (t == 0) begin : gen_k
+        logic [WORD-1:0] product_word, override_word;
+        assign write_word = {k_neg, k_exp, k_sig};
+        assign product_word = bank_q[product_slot_i];
+        assign override_word = bank_q[override_slot_i];
+        assign product_k_neg_o[v] = product_word[WORD-1];
+        assign product_k_exp_o[v*PE+:PE] = product_word[S+:PE];
+        assign product_k_sig_o[v*S+:S] = product_word[0+:S];
+        assign override_k_exp_o[v*PE+:PE] = override_word[S+:PE];
+        assign override_k_sig_o[v*S+:S] = override_word[0+:S];
+        logic unused_neg;
+        assign unused_neg = override_word[WORD-1];  // magnitude only
+      end else if (t == 1) begin : gen_w
+        assign write_word = {w_neg, w_exp_port, w_sig};
+      end else if (t == 2) begin : gen_z
+        assign write_word = {z_neg_i[v], z_exp_i[v*PE+:PE], z_sig_i[v*S+:S]};
+      end else begin : gen_b
+        assign write_word = attr_i[(v*N+t-3)*AP+:AP];
+      end
+
+      always_ff @(posedge clk_i) if (start_i) bank_q[alloc_q] <= write_word;
+
+      assign blend_word = bank_q[blend_slot_i];
+      assign blend_neg_o[t*4+v] = blend_word[WORD-1];
+      assign blend_exp_o[(t*4+v)*PE+:PE] = blend_word[S+:PE];
+      assign blend_sig_o[(t*4+v)*S+:S] = blend_word[0+:S];
+    end
+  end
+
+  logic [ID-1:0] id_q[0:SLOTS-1];
+
+  always_ff @(posedge clk_i) if (start_i) id_q[alloc_q] <= id_i;
+
+  assign output_id_o = id_q[output_slot_i];
+
+  // ---- Function bank ------------------------------------------------------------------------------------------------------
+  for (genvar g = 0; g < 6; g++) begin : gen_linear
+    logic [GRAD-1:0] gx_q[0:SLOTS-1];
+    logic [GRAD-1:0] gy_q[0:SLOTS-1];
+
+    always_ff @(posedge clk_i) begin
+      if (take_i) begin
+        gx_q[take_slot_i] <= lin_gx_i[g*GRAD+:GRAD];
+        gy_q[take_slot_i] <= lin_gy_i[g*GRAD+:GRAD];
+      end
+    end
+
+    assign emit_gx_o[g*GRAD+:GRAD] = gx_q[emit_slot_i];
+    assign emit_gy_o[g*GRAD+:GRAD] = gy_q[emit_slot_i];
+    if (g < 5) begin : gen_stamp
+      assign stamp_gx_o[g*GRAD+:GRAD] = gx_q[stamp_slot_i];
+      assign stamp_gy_o[g*GRAD+:GRAD] = gy_q[stamp_slot_i];
+    end
+  end
+
+  for (genvar g = 0; g < 10; g++) begin : gen_quadratic
+    logic [QCURV-1:0] curv_q[0:SLOTS-1];
+
+    always_ff @(posedge clk_i) if (take_i) curv_q[take_slot_i] <= quad_q_i[g*QCURV+:QCURV];
+
+    assign emit_q_o[g*QCURV+:QCURV] = curv_q[emit_slot_i];
+  end
+
+  logic [3:0] visible_q[0:SLOTS-1];
+  logic [1:0] class_q[0:SLOTS-1];
+
+  always_ff @(posedge clk_i) begin
+    if (take_i) begin
+      visible_q[take_slot_i] <= visible_i;
+      class_q[take_slot_i] <= {hull_i, homogeneous_i};
+    end
+  end
+
+  assign stamp_visible_o = visible_q[stamp_slot_i];
+  assign {output_hull_o, output_homogeneous_o} = class_q[output_slot_i];
+
+`ifndef YOSYS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      assert (!start_i || available_o);
+      assert (!release_i || busy_o);
+    end
+  end
+`endif
+endmodule

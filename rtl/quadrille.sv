@@ -1,0 +1,457 @@
+// Quadrille: rasterizer whose primitive is the quadrilateral, with mean value coordinates. Top level: wiring only.
+//
+//     vertex_assembly -> quad_setup -> tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit -> pixel_pipeline
+//
+// Number formats, ports and clocks: README.md. Both streams are valid/ready: valid never depends on ready, payload is stable while
+// valid and not ready. state_i is static while busy_o. A pixel emitted in clock t is at the port in clock t + 26 without stalls.
+module quadrille (
+    input logic clk_i,
+    input logic rst_ni,
+    input quadrille_pkg::state_t state_i,
+    input quadrille_pkg::vertex_t vertex_i,
+    input logic vertex_valid_i,
+    output logic vertex_ready_o,
+`ifdef QUADRILLE_PROBES
+    output logic probe_setup_valid_o,
+    output quadrille_pkg::probe_setup_t probe_setup_o,
+    output logic probe_tile_valid_o,
+    output quadrille_pkg::probe_tile_t probe_tile_o,
+    output logic probe_stamp_valid_o,
+    output quadrille_pkg::probe_stamp_t probe_stamp_o,
+    output logic probe_diff_valid_o,
+    output quadrille_pkg::probe_diff_t probe_diff_o,
+    output logic probe_norm_valid_o,
+    output quadrille_pkg::probe_norm_t probe_norm_o,
+    output logic probe_rsqrt_valid_o,
+    output quadrille_pkg::probe_rsqrt_t probe_rsqrt_o,
+    output logic probe_ratio_valid_o,
+    output quadrille_pkg::probe_ratio_t probe_ratio_o,
+    output logic probe_weight_valid_o,
+    output quadrille_pkg::probe_weight_t probe_weight_o,
+    output logic probe_sum_valid_o,
+    output quadrille_pkg::probe_sum_t probe_sum_o,
+`endif
+    output quadrille_pkg::fragment_t fragment_o,
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] fragment_mask_o,
+    output logic fragment_valid_o,
+    input logic fragment_ready_i,
+    output logic busy_o
+);
+  localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
+  localparam int PE = quadrille_pkg::PORT_EXP_BITS;
+  localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS;
+  localparam int AP = quadrille_pkg::ATTR_PORT_BITS;
+  localparam int ID = quadrille_pkg::QUAD_ID_BITS;
+  localparam int V = quadrille_pkg::VIEWPORT_BITS;
+  localparam int T = quadrille_pkg::T_BITS;
+  localparam int W = quadrille_pkg::W_BITS;
+  localparam int TC = quadrille_pkg::TC_BITS;
+  localparam int VAL = quadrille_pkg::VAL_BITS;
+  localparam int GRAD = quadrille_pkg::GRAD_BITS;
+  localparam int QVAL = quadrille_pkg::QVAL_BITS;
+  localparam int QGRAD = quadrille_pkg::QGRAD_BITS;
+  localparam int QCURV = quadrille_pkg::QCURV_BITS;
+  localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2;
+  localparam int RING = quadrille_pkg::TILE_SLOTS_LOG2;
+  localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
+  localparam int TILE = quadrille_pkg::TILE;
+  localparam int SETS = 3 + N;
+
+  config_check u_config_check ();
+
+  // ---- Draw state ---------------------------------------------------------------------------------------------------------
+  logic [V:0] scissor_x0, scissor_y0, scissor_x1, scissor_y1;
+  logic [1:0] cull;
+  logic unused_skip;
+
+  assign scissor_x0 = state_i.scissor_x0;
+  assign scissor_y0 = state_i.scissor_y0;
+  assign scissor_x1 = state_i.scissor_x1;
+  assign scissor_y1 = state_i.scissor_y1;
+  assign cull = state_i.cull;
+  assign unused_skip = ^state_i.skip[7:1];
+
+  // ---- Vertices -----------------------------------------------------------------------------------------------------------
+  logic start, full, assembly_busy;
+  logic [ID-1:0] quad_id;
+  logic [4*T-1:0] quad_x, quad_y;
+  logic [4*W-1:0] quad_w;
+  logic [4*PE-1:0] quad_k_exp, quad_z_exp;
+  logic [4*S-1:0] quad_k_sig, quad_z_sig;
+  logic [3:0] quad_z_neg;
+  logic [4*N*AP-1:0] quad_attr;
+
+  vertex_assembly u_assembly (
+      .clk_i,
+      .rst_ni,
+      .vertex_i,
+      .vertex_valid_i,
+      .vertex_ready_o,
+      .start_i(start),
+      .full_o(full),
+      .busy_o(assembly_busy),
+      .id_o(quad_id),
+      .x_o(quad_x),
+      .y_o(quad_y),
+      .w_o(quad_w),
+      .k_exp_o(quad_k_exp),
+      .k_sig_o(quad_k_sig),
+      .z_neg_o(quad_z_neg),
+      .z_exp_o(quad_z_exp),
+      .z_sig_o(quad_z_sig),
+      .attr_o(quad_attr)
+  );
+
+  // ---- Setup --------------------------------------------------------------------------------------------------------------
+  logic setup_idle, setup_done, take;
+  logic slot_available, slots_busy, slot_release;
+  logic [SLOT-1:0] alloc_slot, setup_slot;
+  logic [TC-1:0] tile_x0, tile_y0, tiles_x, tiles_y;
+  logic homogeneous, hull;
+  logic [3:0] visible;
+  logic [6*VAL-1:0] setup_lin_value;
+  logic [6*GRAD-1:0] setup_lin_gx, setup_lin_gy;
+  logic [10*QVAL-1:0] setup_quad_value;
+  logic [10*QGRAD-1:0] setup_quad_gx, setup_quad_gy;
+  logic [10*QCURV-1:0] setup_quad_q;
+
+  assign start = full && setup_idle && slot_available;
+  assign busy_o = assembly_busy || slots_busy;
+
+  quad_setup u_setup (
+      .clk_i,
+      .rst_ni,
+      .start_i(start),
+      .slot_i(alloc_slot),
+      .x_i(quad_x),
+      .y_i(quad_y),
+      .w_i(quad_w),
+      .scissor_x0_i(scissor_x0),
+      .scissor_y0_i(scissor_y0),
+      .scissor_x1_i(scissor_x1),
+      .scissor_y1_i(scissor_y1),
+      .idle_o(setup_idle),
+      .take_i(take),
+      .done_o(setup_done),
+      .slot_o(setup_slot),
+      .tile_x0_o(tile_x0),
+      .tile_y0_o(tile_y0),
+      .tiles_x_o(tiles_x),
+      .tiles_y_o(tiles_y),
+      .homogeneous_o(homogeneous),
+      .hull_o(hull),
+      .visible_o(visible),
+      .lin_value_o(setup_lin_value),
+      .lin_gx_o(setup_lin_gx),
+      .lin_gy_o(setup_lin_gy),
+      .quad_value_o(setup_quad_value),
+      .quad_gx_o(setup_quad_gx),
+      .quad_gy_o(setup_quad_gy),
+      .quad_q_o(setup_quad_q)
+  );
+
+  // ---- Quad slots ---------------------------------------------------------------------------------------------------------
+  logic [SLOT-1:0] stamp_slot, head_slot, product_slot, override_slot, blend_slot, output_slot;
+  logic [5*GRAD-1:0] stamp_gx, stamp_gy;
+  logic [3:0] stamp_visible;
+  logic [6*GRAD-1:0] emit_gx, emit_gy;
+  logic [10*QCURV-1:0] emit_q;
+  logic [3:0] product_k_neg;
+  logic [4*PE-1:0] product_k_exp, override_k_exp;
+  logic [4*S-1:0] product_k_sig, override_k_sig;
+  logic [SETS*4-1:0] blend_neg;
+  logic [SETS*4*PE-1:0] blend_exp;
+  logic [SETS*4*S-1:0] blend_sig;
+  logic [ID-1:0] output_id;
+  logic output_hull, output_homogeneous;
+
+  quad_slots u_slots (
+      .clk_i,
+      .rst_ni,
+      .start_i(start),
+      .release_i(slot_release),
+      .alloc_o(alloc_slot),
+      .available_o(slot_available),
+      .busy_o(slots_busy),
+      .perspective_i(state_i.perspective),
+      .id_i(quad_id),
+      .w_i(quad_w),
+      .k_exp_i(quad_k_exp),
+      .k_sig_i(quad_k_sig),
+      .z_neg_i(quad_z_neg),
+      .z_exp_i(quad_z_exp),
+      .z_sig_i(quad_z_sig),
+      .attr_i(quad_attr),
+      .take_i(take),
+      .take_slot_i(setup_slot),
+      .lin_gx_i(setup_lin_gx),
+      .lin_gy_i(setup_lin_gy),
+      .quad_q_i(setup_quad_q),
+      .visible_i(visible),
+      .hull_i(hull),
+      .homogeneous_i(homogeneous),
+      .stamp_slot_i(stamp_slot),
+      .stamp_gx_o(stamp_gx),
+      .stamp_gy_o(stamp_gy),
+      .stamp_visible_o(stamp_visible),
+      .emit_slot_i(head_slot),
+      .emit_gx_o(emit_gx),
+      .emit_gy_o(emit_gy),
+      .emit_q_o(emit_q),
+      .product_slot_i(product_slot),
+      .product_k_neg_o(product_k_neg),
+      .product_k_exp_o(product_k_exp),
+      .product_k_sig_o(product_k_sig),
+      .override_slot_i(override_slot),
+      .override_k_exp_o(override_k_exp),
+      .override_k_sig_o(override_k_sig),
+      .blend_slot_i(blend_slot),
+      .blend_neg_o(blend_neg),
+      .blend_exp_o(blend_exp),
+      .blend_sig_o(blend_sig),
+      .output_slot_i(output_slot),
+      .output_id_o(output_id),
+      .output_hull_o(output_hull),
+      .output_homogeneous_o(output_homogeneous)
+  );
+
+  // ---- Walk ---------------------------------------------------------------------------------------------------------------
+  logic ring_full, tile_push, tile_end;
+  logic [SLOT-1:0] tile_slot;
+  logic [TC-1:0] tile_x, tile_y;
+  logic [6*VAL-1:0] tile_lin_value;
+  logic [10*QVAL-1:0] tile_quad_value;
+  logic [10*QGRAD-1:0] tile_quad_gx, tile_quad_gy;
+
+  tile_walk u_walk (
+      .clk_i,
+      .rst_ni,
+      .cull_i(cull),
+      .reject_tiles_i(state_i.skip[0]),
+      .setup_done_i(setup_done),
+      .take_o(take),
+      .slot_i(setup_slot),
+      .tile_x0_i(tile_x0),
+      .tile_y0_i(tile_y0),
+      .tiles_x_i(tiles_x),
+      .tiles_y_i(tiles_y),
+      .visible_i(visible),
+      .lin_value_i(setup_lin_value),
+      .lin_gx_i(setup_lin_gx),
+      .lin_gy_i(setup_lin_gy),
+      .quad_value_i(setup_quad_value),
+      .quad_gx_i(setup_quad_gx),
+      .quad_gy_i(setup_quad_gy),
+      .quad_q_i(setup_quad_q),
+      .ring_full_i(ring_full),
+      .push_o(tile_push),
+      .end_o(tile_end),
+      .slot_o(tile_slot),
+      .tile_x_o(tile_x),
+      .tile_y_o(tile_y),
+      .lin_value_o(tile_lin_value),
+      .quad_value_o(tile_quad_value),
+      .quad_gx_o(tile_quad_gx),
+      .quad_gy_o(tile_quad_gy)
+  );
+
+  // ---- Tile ring ----------------------------------------------------------------------------------------------------------
+  logic [RING:0] stamp_ptr, head_ptr;
+  logic stamp_present, stamp_end, head_valid;
+  logic [TC-1:0] stamp_tile_x, stamp_tile_y, head_tile_x, head_tile_y;
+  logic [5*VAL-1:0] stamp_lin_value;
+  logic [6*VAL-1:0] head_lin_value;
+  logic [10*QVAL-1:0] head_quad_value;
+  logic [10*QGRAD-1:0] head_quad_gx, head_quad_gy;
+
+  tile_ring u_ring (
+      .clk_i,
+      .rst_ni,
+      .push_i(tile_push),
+      .full_o(ring_full),
+      .end_i(tile_end),
+      .slot_i(tile_slot),
+      .tile_x_i(tile_x),
+      .tile_y_i(tile_y),
+      .lin_value_i(tile_lin_value),
+      .quad_value_i(tile_quad_value),
+      .quad_gx_i(tile_quad_gx),
+      .quad_gy_i(tile_quad_gy),
+      .stamp_ptr_i(stamp_ptr),
+      .stamp_present_o(stamp_present),
+      .stamp_end_o(stamp_end),
+      .stamp_slot_o(stamp_slot),
+      .stamp_tile_x_o(stamp_tile_x),
+      .stamp_tile_y_o(stamp_tile_y),
+      .stamp_lin_value_o(stamp_lin_value),
+      .head_valid_i(head_valid),
+      .head_ptr_i(head_ptr),
+      .head_slot_o(head_slot),
+      .head_tile_x_o(head_tile_x),
+      .head_tile_y_o(head_tile_y),
+      .head_lin_value_o(head_lin_value),
+      .head_quad_value_o(head_quad_value),
+      .head_quad_gx_o(head_quad_gx),
+      .head_quad_gy_o(head_quad_gy)
+  );
+
+  // ---- Coverage and its FIFO ----------------------------------------------------------------------------------------------
+  localparam int STAMP = 1 + RING + 1 + TILE_LOG2 + 3 * TILE;  // {end, tile pointer, row, mask, front, tie}
+  logic fifo_full, stamp_push, stamp_push_end, pop;
+  logic [TILE_LOG2-1:0] stamp_row, head_row;
+  logic [TILE-1:0] stamp_mask, stamp_front, stamp_tie;
+  logic [TILE-1:0] head_mask, head_front, head_tie;
+  logic head_end;
+  logic [STAMP-1:0] stamp;
+
+  stamp_coverage u_coverage (
+      .clk_i,
+      .rst_ni,
+      .cull_i(cull),
+      .scissor_x0_i(scissor_x0),
+      .scissor_y0_i(scissor_y0),
+      .scissor_x1_i(scissor_x1),
+      .scissor_y1_i(scissor_y1),
+      .stamp_ptr_o(stamp_ptr),
+      .present_i(stamp_present),
+      .end_i(stamp_end),
+      .tile_x_i(stamp_tile_x),
+      .tile_y_i(stamp_tile_y),
+      .lin_value_i(stamp_lin_value),
+      .lin_gx_i(stamp_gx),
+      .lin_gy_i(stamp_gy),
+      .visible_i(stamp_visible),
+      .fifo_full_i(fifo_full),
+      .push_o(stamp_push),
+      .end_o(stamp_push_end),
+      .row_o(stamp_row),
+      .mask_o(stamp_mask),
+      .front_o(stamp_front),
+      .tie_o(stamp_tie)
+  );
+
+  assign stamp = {stamp_push_end, stamp_ptr, stamp_row, stamp_mask, stamp_front, stamp_tie};
+
+  sync_fifo #(
+      .WIDTH(STAMP),
+      .DEPTH_LOG2(quadrille_pkg::STAMP_FIFO_LOG2)
+  ) u_fifo (
+      .clk_i,
+      .rst_ni,
+      .push_i(stamp_push),
+      .data_i(stamp),
+      .full_o(fifo_full),
+      .pop_i(pop),
+      .valid_o(head_valid),
+      .data_o({head_end, head_ptr, head_row, head_mask, head_front, head_tie})
+  );
+
+  // ---- Pixels -------------------------------------------------------------------------------------------------------------
+  logic en;
+  logic emit_valid, emit_end, emit_front, emit_tie;
+  logic [TILE_LOG2-1:0] emit_dx;
+
+  pixel_emit u_emit (
+      .clk_i,
+      .rst_ni,
+      .en_i(en),
+      .head_valid_i(head_valid),
+      .head_end_i(head_end),
+      .head_mask_i(head_mask),
+      .head_front_i(head_front),
+      .head_tie_i(head_tie),
+      .pop_o(pop),
+      .valid_o(emit_valid),
+      .end_o(emit_end),
+      .dx_o(emit_dx),
+      .front_o(emit_front),
+      .tie_o(emit_tie)
+  );
+
+  pixel_pipeline u_pipeline (
+      .clk_i,
+      .rst_ni,
+      .en_o(en),
+      .depth_on_i(state_i.depth),
+      .znear_i(state_i.znear),
+      .zfar_i(state_i.zfar),
+      .attributes_i(state_i.attributes),
+      .valid_i(emit_valid),
+      .end_i(emit_end),
+      .slot_i(head_slot),
+      .x_i(V'({head_tile_x, emit_dx})),
+      .y_i(V'({head_tile_y, head_row})),
+      .row_i(head_row),
+      .dx_i(emit_dx),
+      .front_i(emit_front),
+      .tie_i(emit_tie),
+      .lin_value_i(head_lin_value),
+      .lin_gx_i(emit_gx),
+      .lin_gy_i(emit_gy),
+      .quad_value_i(head_quad_value),
+      .quad_gx_i(head_quad_gx),
+      .quad_gy_i(head_quad_gy),
+      .quad_q_i(emit_q),
+      .product_slot_o(product_slot),
+      .product_k_neg_i(product_k_neg),
+      .product_k_exp_i(product_k_exp),
+      .product_k_sig_i(product_k_sig),
+      .override_slot_o(override_slot),
+      .override_k_exp_i(override_k_exp),
+      .override_k_sig_i(override_k_sig),
+      .blend_slot_o(blend_slot),
+      .blend_neg_i(blend_neg),
+      .blend_exp_i(blend_exp),
+      .blend_sig_i(blend_sig),
+      .output_slot_o(output_slot),
+      .output_id_i(output_id),
+      .output_hull_i(output_hull),
+      .output_homogeneous_i(output_homogeneous),
+      .release_o(slot_release),
+`ifdef QUADRILLE_PROBES
+      .probe_diff_valid_o,
+      .probe_diff_o,
+      .probe_norm_valid_o,
+      .probe_norm_o,
+      .probe_rsqrt_valid_o,
+      .probe_rsqrt_o,
+      .probe_ratio_valid_o,
+      .probe_ratio_o,
+      .probe_weight_valid_o,
+      .probe_weight_o,
+      .probe_sum_valid_o,
+      .probe_sum_o,
+`endif
+      .fragment_valid_o,
+      .fragment_ready_i,
+      .fragment_o(fragment_o)
+  );
+
+  assign fragment_mask_o = {quadrille_pkg::PIXELS_PER_CLOCK{fragment_valid_o}};
+
+`ifdef QUADRILLE_PROBES
+  // ---- Probes of the front end --------------------------------------------------------------------------------------------
+  assign probe_setup_valid_o = take;
+  assign probe_setup_o = {
+    setup_slot,
+    tile_x0,
+    tile_y0,
+    tiles_x,
+    tiles_y,
+    homogeneous,
+    hull,
+    visible,
+    setup_lin_value,
+    setup_lin_gx,
+    setup_lin_gy,
+    setup_quad_value,
+    setup_quad_gx,
+    setup_quad_gy,
+    setup_quad_q
+  };
+  assign probe_tile_valid_o = tile_push;
+  assign probe_tile_o = {tile_end, tile_slot, tile_x, tile_y, tile_lin_value, tile_quad_value, tile_quad_gx, tile_quad_gy};
+  assign probe_stamp_valid_o = stamp_push;
+  assign probe_stamp_o = stamp;
+`endif
+endmodule

@@ -1,0 +1,317 @@
+// Widths, number formats and port structs of Quadrille: the only place where a width is computed.
+//
+// Every configuration key is a macro QUADRILLE_<KEY> (set with -D), with its default here. -1 asks for the automatic value
+// where README.md section 1 gives one. Every derived width stands once, with its reason. All are `verilator public` so that
+// the C++ model reads back the very numbers that the RTL was built with.
+`ifndef QUADRILLE_VIEWPORT_BITS
+`define QUADRILLE_VIEWPORT_BITS 12
+`endif
+`ifndef QUADRILLE_GUARD_BITS
+`define QUADRILLE_GUARD_BITS 3
+`endif
+`ifndef QUADRILLE_SUBPIXEL_BITS
+`define QUADRILLE_SUBPIXEL_BITS 8
+`endif
+`ifndef QUADRILLE_HOMOGENEOUS_FRAC_BITS
+`define QUADRILLE_HOMOGENEOUS_FRAC_BITS 7
+`endif
+`ifndef QUADRILLE_QUADRATIC_FRAC_BITS
+`define QUADRILLE_QUADRATIC_FRAC_BITS -1
+`endif
+`ifndef QUADRILLE_SIGNIFICAND_BITS
+`define QUADRILLE_SIGNIFICAND_BITS 18
+`endif
+`ifndef QUADRILLE_NOTCH_EXACT
+`define QUADRILLE_NOTCH_EXACT 1
+`endif
+`ifndef QUADRILLE_RSQRT_SEGMENTS_LOG2
+`define QUADRILLE_RSQRT_SEGMENTS_LOG2 -1
+`endif
+`ifndef QUADRILLE_RSQRT_DEGREE
+`define QUADRILLE_RSQRT_DEGREE 2
+`endif
+`ifndef QUADRILLE_RECIP_SEGMENTS_LOG2
+`define QUADRILLE_RECIP_SEGMENTS_LOG2 -1
+`endif
+`ifndef QUADRILLE_RECIP_DEGREE
+`define QUADRILLE_RECIP_DEGREE 2
+`endif
+`ifndef QUADRILLE_ALIGN_GUARD_BITS
+`define QUADRILLE_ALIGN_GUARD_BITS 2
+`endif
+`ifndef QUADRILLE_ATTRIBUTE_SLOTS
+`define QUADRILLE_ATTRIBUTE_SLOTS 4
+`endif
+`ifndef QUADRILLE_ATTRIBUTE_INT_BITS
+`define QUADRILLE_ATTRIBUTE_INT_BITS 3
+`endif
+`ifndef QUADRILLE_ATTRIBUTE_FRAC_BITS
+`define QUADRILLE_ATTRIBUTE_FRAC_BITS -1
+`endif
+`ifndef QUADRILLE_DEPTH_BITS
+`define QUADRILLE_DEPTH_BITS 24
+`endif
+`ifndef QUADRILLE_TILE_LOG2
+`define QUADRILLE_TILE_LOG2 3
+`endif
+`ifndef QUADRILLE_PIXELS_PER_CLOCK
+`define QUADRILLE_PIXELS_PER_CLOCK 1
+`endif
+`ifndef QUADRILLE_QUAD_SLOTS_LOG2
+`define QUADRILLE_QUAD_SLOTS_LOG2 3
+`endif
+`ifndef QUADRILLE_TILE_SLOTS_LOG2
+`define QUADRILLE_TILE_SLOTS_LOG2 2
+`endif
+`ifndef QUADRILLE_STAMP_FIFO_LOG2
+`define QUADRILLE_STAMP_FIFO_LOG2 3
+`endif
+`ifndef QUADRILLE_QUAD_ID_BITS
+`define QUADRILLE_QUAD_ID_BITS 24
+`endif
+
+package quadrille_pkg;
+
+  // ---- Configuration keys -------------------------------------------------------------------------------------------------
+  localparam int VIEWPORT_BITS /*verilator public*/ = `QUADRILLE_VIEWPORT_BITS;
+  localparam int GUARD_BITS /*verilator public*/ = `QUADRILLE_GUARD_BITS;
+  localparam int SUBPIXEL_BITS /*verilator public*/ = `QUADRILLE_SUBPIXEL_BITS;
+  localparam int HOMOGENEOUS_FRAC_BITS /*verilator public*/ = `QUADRILLE_HOMOGENEOUS_FRAC_BITS;
+  localparam int SIGNIFICAND_BITS /*verilator public*/ = `QUADRILLE_SIGNIFICAND_BITS;
+  localparam int NOTCH_EXACT /*verilator public*/ = `QUADRILLE_NOTCH_EXACT;
+  localparam int RSQRT_DEGREE /*verilator public*/ = `QUADRILLE_RSQRT_DEGREE;
+  localparam int RECIP_DEGREE /*verilator public*/ = `QUADRILLE_RECIP_DEGREE;
+  localparam int ALIGN_GUARD_BITS /*verilator public*/ = `QUADRILLE_ALIGN_GUARD_BITS;
+  localparam int ATTRIBUTE_SLOTS /*verilator public*/ = `QUADRILLE_ATTRIBUTE_SLOTS;
+  localparam int ATTRIBUTE_INT_BITS /*verilator public*/ = `QUADRILLE_ATTRIBUTE_INT_BITS;
+  localparam int DEPTH_BITS /*verilator public*/ = `QUADRILLE_DEPTH_BITS;
+  localparam int TILE_LOG2 /*verilator public*/ = `QUADRILLE_TILE_LOG2;
+  localparam int PIXELS_PER_CLOCK /*verilator public*/ = `QUADRILLE_PIXELS_PER_CLOCK;
+  localparam int QUAD_SLOTS_LOG2 /*verilator public*/ = `QUADRILLE_QUAD_SLOTS_LOG2;
+  localparam int TILE_SLOTS_LOG2 /*verilator public*/ = `QUADRILLE_TILE_SLOTS_LOG2;
+  localparam int STAMP_FIFO_LOG2 /*verilator public*/ = `QUADRILLE_STAMP_FIFO_LOG2;
+  localparam int QUAD_ID_BITS /*verilator public*/ = `QUADRILLE_QUAD_ID_BITS;
+
+  // ---- Keys with an automatic value ---------------------------------------------------------------------------------------
+  localparam int QUADRATIC_FRAC_KEY = `QUADRILLE_QUADRATIC_FRAC_BITS;
+  localparam int RSQRT_SEGMENTS_KEY = `QUADRILLE_RSQRT_SEGMENTS_LOG2;
+  localparam int RECIP_SEGMENTS_KEY = `QUADRILLE_RECIP_SEGMENTS_LOG2;
+  localparam int ATTRIBUTE_FRAC_KEY = `QUADRILLE_ATTRIBUTE_FRAC_BITS;
+
+  // fraction bits of X, Y, W at the port
+  localparam int FRAC /*verilator public*/ = SUBPIXEL_BITS + HOMOGENEOUS_FRAC_BITS;
+  // a product of two positions has 2 FRAC fraction bits: keep all unless told otherwise
+  localparam int QUADRATIC_FRAC_BITS /*verilator public*/ = (QUADRATIC_FRAC_KEY < 0) ? 2 * FRAC : QUADRATIC_FRAC_KEY;
+  // segments for a table error below one unit: the error falls by 2^3 (degree 2) or 2^2 (degree 1) per doubling
+  localparam int RSQRT_AUTO = (RSQRT_DEGREE == 1) ? (SIGNIFICAND_BITS + 1) / 2 : (SIGNIFICAND_BITS - 4 + 2) / 3;
+  localparam int RSQRT_SEGMENTS_LOG2 /*verilator public*/ =
+      (RSQRT_SEGMENTS_KEY >= 0) ? RSQRT_SEGMENTS_KEY : (RSQRT_AUTO < 3) ? 3 : RSQRT_AUTO;
+  localparam int RECIP_AUTO = (RECIP_DEGREE == 1) ? (SIGNIFICAND_BITS + 2) / 2 : (SIGNIFICAND_BITS - 2 + 2) / 3;
+  localparam int RECIP_SEGMENTS_LOG2 /*verilator public*/ =
+      (RECIP_SEGMENTS_KEY >= 0) ? RECIP_SEGMENTS_KEY : (RECIP_AUTO < 3) ? 3 : RECIP_AUTO;
+  // two bits below the significand, so that the output grid adds little to the arithmetic error
+  localparam int ATTRIBUTE_FRAC_BITS /*verilator public*/ = (ATTRIBUTE_FRAC_KEY < 0) ? SIGNIFICAND_BITS + 2 : ATTRIBUTE_FRAC_KEY;
+
+  // ---- Derived widths -----------------------------------------------------------------------------------------------------
+  // integer bits of a position, sign apart
+  localparam int POS_INT /*verilator public*/ = VIEWPORT_BITS + GUARD_BITS;
+  // signed: |X| <= 2^(POS_INT+FRAC) inclusive, and S = X - W x adds less than the same again
+  localparam int T_BITS /*verilator public*/ = POS_INT + FRAC + 2;
+  // signed: |W| <= 2^FRAC inclusive
+  localparam int W_BITS /*verilator public*/ = FRAC + 2;
+  // signed A, D, R^2 <= 2 max|S|^2, max|S| <= 2^(POS_INT+FRAC) (1 + 2^-GUARD_BITS + a block)
+  localparam int VAL_BITS /*verilator public*/ = 2 * (POS_INT + FRAC) + ((GUARD_BITS >= 2) ? 3 : 4);
+  // signed first differences: two products |T| |W|, |W| has one bit less than its width allows
+  localparam int GRAD_BITS /*verilator public*/ = T_BITS + W_BITS - 1;
+  // signed W W'
+  localparam int CURV_BITS /*verilator public*/ = 2 * FRAC + 2;
+  // low bits of D and R^2 that are dropped (arithmetic shift right)
+  localparam int QDROP /*verilator public*/ = 2 * FRAC - QUADRATIC_FRAC_BITS;
+  localparam int QVAL_BITS /*verilator public*/ = VAL_BITS - QDROP;
+  localparam int QGRAD_BITS /*verilator public*/ = GRAD_BITS - QDROP;
+  localparam int QCURV_BITS /*verilator public*/ = CURV_BITS - QDROP;
+  // signed exponents inside: products of seven ratios >= 2^-64 and a port exponent stay within +-2^11
+  localparam int EXP_BITS /*verilator public*/ = 12;
+  // signed exponents of k, Z, b at the port
+  localparam int PORT_EXP_BITS /*verilator public*/ = 9;
+  // fraction bits of an aligned sum
+  localparam int PREC_BITS /*verilator public*/ = SIGNIFICAND_BITS - 1 + ALIGN_GUARD_BITS;
+  // bits of a table's accumulator below the result
+  localparam int TABLE_GUARD /*verilator public*/ = 3;
+  // tile edge and stamp width in pixels; a block is BLOCK_TILES x BLOCK_TILES tiles
+  localparam int TILE /*verilator public*/ = 1 << TILE_LOG2;
+  localparam int BLOCK_LOG2 /*verilator public*/ = 3;
+  localparam int BLOCK_TILES /*verilator public*/ = 1 << BLOCK_LOG2;
+  // tile coordinate or tile count: the count reaches 2^(VIEWPORT_BITS-TILE_LOG2) inclusive
+  localparam int TC_BITS /*verilator public*/ = VIEWPORT_BITS - TILE_LOG2 + 1;
+  // {neg, exp, sig}
+  localparam int ATTR_PORT_BITS /*verilator public*/ = 1 + PORT_EXP_BITS + SIGNIFICAND_BITS;
+  // two's complement
+  localparam int ATTR_OUT_BITS /*verilator public*/ = 1 + ATTRIBUTE_INT_BITS + ATTRIBUTE_FRAC_BITS;
+  // operands of a dot unit: T_BITS <= 32, and the unsigned low halves of the determinants need a sign bit
+  localparam int DOT_BITS /*verilator public*/ = 33;
+  // a.b +- c.d
+  localparam int DOT_OUT_BITS /*verilator public*/ = 2 * DOT_BITS + 1;
+  // V . (V' x V''): three terms |T| |GRAD| or |W| |VAL|
+  localparam int DET_BITS /*verilator public*/ = T_BITS + GRAD_BITS + 4;
+  // clocks from emission to the port
+  localparam int LATENCY /*verilator public*/ = 26;
+
+  // ---- Ports --------------------------------------------------------------------------------------------------------------
+  typedef struct packed {
+    logic [QUAD_ID_BITS-1:0] id;
+    logic [T_BITS-1:0] x;
+    logic [T_BITS-1:0] y;
+    logic [W_BITS-1:0] w;
+    logic [PORT_EXP_BITS-1:0] k_exp;
+    logic [SIGNIFICAND_BITS-1:0] k_sig;
+    logic z_neg;
+    logic [PORT_EXP_BITS-1:0] z_exp;
+    logic [SIGNIFICAND_BITS-1:0] z_sig;
+    logic [ATTRIBUTE_SLOTS*ATTR_PORT_BITS-1:0] attr;
+  } vertex_t;
+
+  typedef struct packed {
+    logic [VIEWPORT_BITS:0] scissor_x0;
+    logic [VIEWPORT_BITS:0] scissor_y0;
+    logic [VIEWPORT_BITS:0] scissor_x1;
+    logic [VIEWPORT_BITS:0] scissor_y1;
+    logic [1:0] cull;
+    logic perspective;
+    logic depth;
+    logic [DEPTH_BITS:0] znear;
+    logic [DEPTH_BITS:0] zfar;
+    logic [3:0] attributes;
+    logic [7:0] skip;
+  } state_t;
+
+  typedef struct packed {
+    logic [QUAD_ID_BITS-1:0] quad;
+    logic [VIEWPORT_BITS-1:0] x;
+    logic [VIEWPORT_BITS-1:0] y;
+    logic front;
+    logic [7:0] flags;
+    logic [DEPTH_BITS:0] depth;
+    logic [ATTRIBUTE_SLOTS*ATTR_OUT_BITS-1:0] attr;
+  } fragment_t;
+
+  localparam int FRAGMENT_BITS /*verilator public*/ =
+      QUAD_ID_BITS + 2 * VIEWPORT_BITS + 1 + 8 + DEPTH_BITS + 1 + ATTRIBUTE_SLOTS * ATTR_OUT_BITS;
+
+  // ---- Probes (README.md section 6) ---------------------------------------------------------------------------------------
+  typedef struct packed {
+    logic [QUAD_SLOTS_LOG2-1:0] slot;
+    logic [TC_BITS-1:0] tile_x0;
+    logic [TC_BITS-1:0] tile_y0;
+    logic [TC_BITS-1:0] tiles_x;
+    logic [TC_BITS-1:0] tiles_y;
+    logic homogeneous;
+    logic hull;
+    logic [3:0] visible;
+    logic [6*VAL_BITS-1:0] lin_value;
+    logic [6*GRAD_BITS-1:0] lin_gx;
+    logic [6*GRAD_BITS-1:0] lin_gy;
+    logic [10*QVAL_BITS-1:0] quad_value;
+    logic [10*QGRAD_BITS-1:0] quad_gx;
+    logic [10*QGRAD_BITS-1:0] quad_gy;
+    logic [10*QCURV_BITS-1:0] quad_q;
+  } probe_setup_t;
+
+  typedef struct packed {
+    logic end_token;
+    logic [QUAD_SLOTS_LOG2-1:0] slot;
+    logic [TC_BITS-1:0] tile_x;
+    logic [TC_BITS-1:0] tile_y;
+    logic [6*VAL_BITS-1:0] lin_value;
+    logic [10*QVAL_BITS-1:0] quad_value;
+    logic [10*QGRAD_BITS-1:0] quad_gx;
+    logic [10*QGRAD_BITS-1:0] quad_gy;
+  } probe_tile_t;
+
+  typedef struct packed {
+    logic end_token;
+    logic [TILE_SLOTS_LOG2:0] tile_ptr;
+    logic [TILE_LOG2-1:0] row;
+    logic [TILE-1:0] mask;
+    logic [TILE-1:0] front;
+    logic [TILE-1:0] tie;
+  } probe_stamp_t;
+
+  typedef struct packed {
+    logic [QUAD_SLOTS_LOG2-1:0] slot;
+    logic [VIEWPORT_BITS-1:0] x;
+    logic [VIEWPORT_BITS-1:0] y;
+    logic front;
+    logic tie;
+    logic [6*VAL_BITS-1:0] a;
+    logic [6*QVAL_BITS-1:0] d;
+    logic [4*QVAL_BITS-1:0] r2;
+  } probe_diff_t;
+
+  typedef struct packed {
+    logic two_corner;
+    logic on_vertex;
+    logic two_edge;
+    logic on_edge;
+    logic [5:0] a_neg;
+    logic [6*EXP_BITS-1:0] a_exp;
+    logic [6*SIGNIFICAND_BITS-1:0] a_sig;
+    logic [5:0] d_neg;
+    logic [6*EXP_BITS-1:0] d_exp;
+    logic [6*SIGNIFICAND_BITS-1:0] d_sig;
+    logic [4*EXP_BITS-1:0] r2_exp;
+    logic [4*SIGNIFICAND_BITS-1:0] r2_sig;
+  } probe_norm_t;
+
+  typedef struct packed {
+    logic [4*EXP_BITS-1:0] exp;
+    logic [4*SIGNIFICAND_BITS-1:0] sig;
+  } probe_rsqrt_t;
+
+  typedef struct packed {
+    logic [6*EXP_BITS-1:0] n_exp;
+    logic [6*SIGNIFICAND_BITS-1:0] n_sig;
+    logic [6*EXP_BITS-1:0] d_exp;
+    logic [6*SIGNIFICAND_BITS-1:0] d_sig;
+  } probe_ratio_t;
+
+  typedef struct packed {
+    logic [4*EXP_BITS-1:0] exp;
+    logic [4*SIGNIFICAND_BITS-1:0] sig;
+  } probe_weight_t;
+
+  typedef struct packed {
+    logic [ATTRIBUTE_SLOTS-1:0] attr_neg;
+    logic [ATTRIBUTE_SLOTS*EXP_BITS-1:0] attr_exp;
+    logic [ATTRIBUTE_SLOTS*SIGNIFICAND_BITS-1:0] attr_sig;
+    logic z_neg;
+    logic [EXP_BITS-1:0] z_exp;
+    logic [SIGNIFICAND_BITS-1:0] z_sig;
+    logic den_k_neg;
+    logic [EXP_BITS-1:0] den_k_exp;
+    logic [SIGNIFICAND_BITS-1:0] den_k_sig;
+    logic den_w_neg;
+    logic [EXP_BITS-1:0] den_w_exp;
+    logic [SIGNIFICAND_BITS-1:0] den_w_sig;
+  } probe_sum_t;
+
+  // ---- Function pairs: 0-3 the edges 01 12 23 30, 4 the diagonal 20, 5 the diagonal 13, 6-9 the squares 00 11 22 33 -------
+  function automatic logic [1:0] pair_first(input logic [3:0] k);
+    case (k)
+      4'd0, 4'd6: pair_first = 2'd0;
+      4'd1, 4'd5, 4'd7: pair_first = 2'd1;
+      4'd2, 4'd4, 4'd8: pair_first = 2'd2;
+      default: pair_first = 2'd3;
+    endcase
+  endfunction
+
+  function automatic logic [1:0] pair_second(input logic [3:0] k);
+    case (k)
+      4'd3, 4'd4, 4'd6: pair_second = 2'd0;
+      4'd0, 4'd7: pair_second = 2'd1;
+      4'd1, 4'd8: pair_second = 2'd2;
+      default: pair_second = 2'd3;
+    endcase
+  endfunction
+
+endpackage

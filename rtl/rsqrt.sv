@@ -1,0 +1,60 @@
+// 1/sqrt(a) of an unsigned significand number by table. Latency 3, one result per enabled clock.
+//
+// a = sig 2^(exp-(S-1)); p = exp & 1, h = floor(exp/2): 1/sqrt(a) = 2^-h / sqrt(2^p m), m in [1, 2). An exact power of four is
+// exact; every other argument gives a significand in [1/2, 1) from the table {p, top bits of m}. Zero gives zero.
+module rsqrt #(
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
+    localparam int E = quadrille_pkg::EXP_BITS
+) (
+    input logic clk_i,
+    input logic en_i,
+    input logic [E-1:0] exp_i,
+    input logic [S-1:0] sig_i,
+    output logic [E-1:0] exp_o,
+    output logic [S-1:0] sig_o
+);
+  localparam int K = quadrille_pkg::RSQRT_SEGMENTS_LOG2;
+  localparam int R = S - 1 - K;
+  localparam int DX_BITS = (R < 1) ? 1 : R;
+
+  logic zero;
+  logic exact;
+  logic [E-1:0] half;
+  logic [E-1:0] exp_d;
+  logic [3*S+3:0] word;
+  logic [DX_BITS-1:0] dx;
+
+  assign zero = sig_i == '0;
+  assign exact = (sig_i[S-2:0] == '0) && !exp_i[0];
+  assign half = {exp_i[E-1], exp_i[E-1:1]};
+  assign exp_d = zero ? '0 : exact ? E'(0) - half : ~half;  // -h or -h-1
+  assign word = quadrille_tables_pkg::rsqrt_rom({exp_i[0], sig_i[S-2-:K]});
+  if (R < 1) begin : gen_no_dx
+    assign dx = '0;
+  end else begin : gen_dx
+    assign dx = sig_i[DX_BITS-1:0];
+  end
+
+  logic [S-1:0] poly;
+
+  table_polynomial #(.SEGMENTS_LOG2(K)) u_polynomial (
+      .clk_i,
+      .en_i,
+      .word_i(word),
+      .dx_i(dx),
+      .sig_o(poly)
+  );
+
+  logic zero_q, exact_q;
+  logic [E-1:0] exp_q;
+
+  delay_line #(.WIDTH(E + 2), .DEPTH(3)) u_delay (
+      .clk_i,
+      .en_i,
+      .data_i({zero, exact, exp_d}),
+      .data_o({zero_q, exact_q, exp_q})
+  );
+
+  assign exp_o = exp_q;
+  assign sig_o = zero_q ? '0 : exact_q ? {1'b1, (S - 1)'(0)} : poly;
+endmodule

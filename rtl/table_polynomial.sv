@@ -1,0 +1,50 @@
+// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function. Latency 3, one result per enabled clock.
+//
+// word_i = {C0[S+4], C1[S], C2[S]} unsigned, dx_i = the low R bits of the argument below the segment's index, read as a fraction
+// of the segment. Two multipliers of S x R bits, truncated; the accumulator has TABLE_GUARD bits below the result, which is
+// clamped to [2^(S-1), 2^S - 1]. A degree 1 table has C2 = 0 in every word.
+module table_polynomial #(
+    parameter int SEGMENTS_LOG2 = 5,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
+    localparam int R = S - 1 - SEGMENTS_LOG2,
+    localparam int DX_BITS = (R < 1) ? 1 : R
+) (
+    input logic clk_i,
+    input logic en_i,
+    input logic [3*S+3:0] word_i,
+    input logic [DX_BITS-1:0] dx_i,
+    output logic [S-1:0] sig_o
+);
+  localparam int C0_BITS = S + 4;
+
+  // Stage 1: inner factor.
+  logic [S-1:0] inner_d, inner_q;
+  logic [C0_BITS-1:0] c0_q;
+  logic [DX_BITS-1:0] dx_q;
+
+  assign inner_d = word_i[S+:S] - S'(((S + DX_BITS)'(word_i[0+:S]) * (S + DX_BITS)'(dx_i)) >> R);
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      inner_q <= inner_d;
+      c0_q <= word_i[2*S+:C0_BITS];
+      dx_q <= dx_i;
+    end
+  end
+
+  // Stage 2: outer product.
+  logic [C0_BITS-1:0] outer_d, outer_q;
+
+  assign outer_d = c0_q - C0_BITS'(((S + DX_BITS)'(inner_q) * (S + DX_BITS)'(dx_q)) >> R);
+
+  always_ff @(posedge clk_i) if (en_i) outer_q <= outer_d;
+
+  // Stage 3: drop the guard bits, clamp.
+  logic [S:0] value;
+
+  assign value = (S + 1)'(outer_q >> quadrille_pkg::TABLE_GUARD);
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) sig_o <= value[S] ? '1 : !value[S-1] ? {1'b1, (S - 1)'(0)} : value[S-1:0];
+  end
+endmodule

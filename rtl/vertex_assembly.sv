@@ -1,0 +1,103 @@
+// Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i clears it.
+//
+// vertex_ready_o is a register's output (it depends neither on valid nor on start_i). The quad's id is that of v0.
+// Does not judge a vertex. Vertex i's field is at [i*width +: width] of each flat output.
+module vertex_assembly #(
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
+    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
+    localparam int T = quadrille_pkg::T_BITS,
+    localparam int W = quadrille_pkg::W_BITS,
+    localparam int ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
+) (
+    input logic clk_i,
+    input logic rst_ni,
+    input quadrille_pkg::vertex_t vertex_i,
+    input logic vertex_valid_i,
+    output logic vertex_ready_o,
+    input logic start_i,
+    output logic full_o,
+    output logic busy_o,
+    output logic [quadrille_pkg::QUAD_ID_BITS-1:0] id_o,
+    output logic [4*T-1:0] x_o,
+    output logic [4*T-1:0] y_o,
+    output logic [4*W-1:0] w_o,
+    output logic [4*PE-1:0] k_exp_o,
+    output logic [4*S-1:0] k_sig_o,
+    output logic [3:0] z_neg_o,
+    output logic [4*PE-1:0] z_exp_o,
+    output logic [4*S-1:0] z_sig_o,
+    output logic [4*ATTR-1:0] attr_o
+);
+  logic [1:0] count_q;
+  logic full_q;
+  logic accept;
+
+  assign accept = vertex_valid_i && !full_q;
+  assign vertex_ready_o = !full_q;
+  assign full_o = full_q;
+  assign busy_o = full_q || (count_q != 2'd0);
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      count_q <= 2'd0;
+      full_q <= 1'b0;
+    end else begin
+      if (accept) count_q <= count_q + 2'd1;
+      if (accept && count_q == 2'd3) full_q <= 1'b1;
+      else if (start_i) full_q <= 1'b0;
+    end
+  end
+
+  // Plain copies of the fields: a struct is not read inside a generate loop.
+  logic [T-1:0] x, y;
+  logic [W-1:0] w;
+  logic [PE-1:0] k_exp, z_exp;
+  logic [S-1:0] k_sig, z_sig;
+  logic z_neg;
+  logic [ATTR-1:0] attr;
+
+  assign x = vertex_i.x;
+  assign y = vertex_i.y;
+  assign w = vertex_i.w;
+  assign k_exp = vertex_i.k_exp;
+  assign k_sig = vertex_i.k_sig;
+  assign z_neg = vertex_i.z_neg;
+  assign z_exp = vertex_i.z_exp;
+  assign z_sig = vertex_i.z_sig;
+  assign attr = vertex_i.attr;
+
+  always_ff @(posedge clk_i) if (accept && count_q == 2'd0) id_o <= vertex_i.id;
+
+  for (genvar g = 0; g < 4; g++) begin : gen_vertex
+    logic [T-1:0] x_q, y_q;
+    logic [W-1:0] w_q;
+    logic [PE-1:0] k_exp_q, z_exp_q;
+    logic [S-1:0] k_sig_q, z_sig_q;
+    logic z_neg_q;
+    logic [ATTR-1:0] attr_q;
+
+    always_ff @(posedge clk_i) begin
+      if (accept && count_q == g) begin
+        x_q <= x;
+        y_q <= y;
+        w_q <= w;
+        k_exp_q <= k_exp;
+        k_sig_q <= k_sig;
+        z_neg_q <= z_neg;
+        z_exp_q <= z_exp;
+        z_sig_q <= z_sig;
+        attr_q <= attr;
+      end
+    end
+
+    assign x_o[g*T+:T] = x_q;
+    assign y_o[g*T+:T] = y_q;
+    assign w_o[g*W+:W] = w_q;
+    assign k_exp_o[g*PE+:PE] = k_exp_q;
+    assign k_sig_o[g*S+:S] = k_sig_q;
+    assign z_neg_o[g] = z_neg_q;
+    assign z_exp_o[g*PE+:PE] = z_exp_q;
+    assign z_sig_o[g*S+:S] = z_sig_q;
+    assign attr_o[g*ATTR+:ATTR] = attr_q;
+  end
+endmodule
