@@ -1,0 +1,171 @@
+// The rsqrt and reciprocal tables over their whole domain, judged by exact integer comparisons.
+#include "model/tables.hpp"
+
+#include "model/reciprocal.hpp"
+#include "model/rsqrt.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace quadrille {
+namespace {
+
+using UWide = unsigned __int128;
+
+/// Errors in ulp of the S-bit result, signed: result minus exact value.
+struct Findings {
+  double lowest = 0, highest = 0;
+  std::uint64_t cases = 0, unfaithful = 0, rises = 0;  ///< rises: places where a larger argument gave a larger result
+
+  double worst() const { return std::max(-lowest, highest); }
+  bool faithful() const { return unfaithful == 0; }
+};
+
+Config config_for(int s, int degree) {
+  Config c;
+  c.significand_bits = s;
+  c.rsqrt_degree = c.recip_degree = degree;
+  c.validate();
+  return c;
+}
+
+/// Every argument in [1, 2). Exact result 2^(2S-1) / sig in units of 2^-S: |y - exact| < 1 is |y·sig - 2^(2S-1)| < sig.
+Findings check_reciprocal(const Config& c) {
+  const int s = c.significand_bits;
+  const SignificandFormat f{s, 2};
+  const Table table = make_recip_table(c);
+  Findings r;
+  std::uint64_t before = 1ull << s;
+  for (std::uint64_t sig = 1ull << (s - 1); sig < 1ull << s; ++sig) {
+    const Fp got = reciprocal({false, 0, static_cast<std::uint32_t>(sig)}, table, f);
+    const std::uint64_t y = static_cast<std::uint64_t>(got.sig) << (got.exp + 1);  // exp is 0 or -1
+    const std::int64_t off = static_cast<std::int64_t>(y * sig) - static_cast<std::int64_t>(1ull << (2 * s - 1));
+    const double ulp = static_cast<double>(off) / static_cast<double>(sig);
+    r.lowest = std::min(r.lowest, ulp);
+    r.highest = std::max(r.highest, ulp);
+    r.unfaithful += static_cast<std::uint64_t>(off < 0 ? -off : off) >= sig;
+    r.rises += y > before;
+    before = y;
+    ++r.cases;
+  }
+  return r;
+}
+
+/// Every argument in [1, 4). Exact result e = sqrt(2^(3S-1-p) / sig) in units of 2^-S: y - 1 < e < y + 1 by squares.
+Findings check_rsqrt(const Config& c) {
+  const int s = c.significand_bits;
+  const SignificandFormat f{s, 2};
+  const Table table = make_rsqrt_table(c);
+  Findings r;
+  std::uint64_t before = 1ull << s;
+  for (int p = 0; p < 2; ++p) {
+    const UWide square = static_cast<UWide>(1) << (3 * s - 1 - p);
+    for (std::uint64_t sig = 1ull << (s - 1); sig < 1ull << s; ++sig) {
+      const Fp got = rsqrt({false, p, static_cast<std::uint32_t>(sig)}, table, f);
+      const std::uint64_t y = static_cast<std::uint64_t>(got.sig) << (got.exp + 1);
+      const UWide over = static_cast<UWide>((y + 1) * (y + 1)) * sig,
+                  under = static_cast<UWide>((y - 1) * (y - 1)) * sig;
+      r.unfaithful += !(under < square && square < over);
+      const auto off = static_cast<__int128>(static_cast<UWide>(y * y) * sig) - static_cast<__int128>(square);
+      const double exact = std::sqrt(std::ldexp(1.0, 3 * s - 1 - p) / static_cast<double>(sig));
+      const double ulp = static_cast<double>(off) / (static_cast<double>(sig) * (static_cast<double>(y) + exact));
+      r.lowest = std::min(r.lowest, ulp);
+      r.highest = std::max(r.highest, ulp);
+      r.rises += y > before;
+      before = y;
+      ++r.cases;
+    }
+  }
+  return r;
+}
+
+void print(const char* name, const Config& c, int segments, int degree, const Findings& r) {
+  std::printf("| %-10s | %2d | %d | %4d | %+.4f .. %+.4f | %s | %s | %llu |\n", name, c.significand_bits, degree,
+              1 << segments, r.lowest, r.highest, r.faithful() ? "yes" : "NO ",
+              r.rises == 0 ? "yes" : ("no, " + std::to_string(r.rises) + " steps up").c_str(),
+              static_cast<unsigned long long>(r.cases));
+}
+
+class TableAtWidth : public testing::TestWithParam<int> {};
+
+/// The contract of model/rsqrt.hpp and model/reciprocal.hpp: below 1 ulp with the automatic segments, for every S.
+TEST_P(TableAtWidth, FaithfulWithAutomaticSegments) {
+  const int s = GetParam();
+  const Config c = config_for(s, 2);
+  const Findings rs = check_rsqrt(c), rc = check_reciprocal(c);
+  print("rsqrt", c, c.rsqrt_segments(), 2, rs);
+  print("reciprocal", c, c.recip_segments(), 2, rc);
+  EXPECT_EQ(rs.cases, 1ull << s);
+  EXPECT_EQ(rc.cases, 1ull << (s - 1));
+  EXPECT_EQ(rs.unfaithful, 0u) << rs.worst() << " ulp";
+  EXPECT_EQ(rc.unfaithful, 0u) << rc.worst() << " ulp";
+  EXPECT_LT(rs.worst(), 1.0);
+  EXPECT_LT(rc.worst(), 1.0);
+}
+TEST_P(TableAtWidth, FaithfulAtDegreeOne) {
+  const Config c = config_for(GetParam(), 1);
+  const Findings rs = check_rsqrt(c), rc = check_reciprocal(c);
+  print("rsqrt", c, c.rsqrt_segments(), 1, rs);
+  print("reciprocal", c, c.recip_segments(), 1, rc);
+  EXPECT_EQ(rs.unfaithful, 0u) << rs.worst() << " ulp";
+  EXPECT_EQ(rc.unfaithful, 0u) << rc.worst() << " ulp";
+  EXPECT_LT(rs.worst(), 1.0);
+  EXPECT_LT(rc.worst(), 1.0);
+}
+INSTANTIATE_TEST_SUITE_P(EveryWidth, TableAtWidth, testing::Range(8, 27), testing::PrintToStringParamName());
+
+TEST(Tables, PowersOfTwoAreExactAndExponentsFollow) {
+  for (int s = 8; s <= 26; s += 3) {
+    const Config c = config_for(s, 2);
+    const SignificandFormat f{s, 2};
+    const Table rt = make_rsqrt_table(c), rc = make_recip_table(c);
+    const std::uint32_t one = 1u << (s - 1);
+    EXPECT_EQ(rsqrt({}, rt, f), Fp{});
+    EXPECT_EQ(reciprocal({}, rc, f), Fp{});
+    for (int e = -300; e <= 300; ++e) {
+      EXPECT_EQ(reciprocal({(e & 1) != 0, e, one}, rc, f), (Fp{(e & 1) != 0, -e, one}));
+      EXPECT_EQ(rsqrt({false, 2 * e, one}, rt, f), (Fp{false, -e, one}));
+      // A factor of 4 in the argument is a factor of 1/2 in the result, one of 2 is 1/2 in the reciprocal.
+      const std::uint32_t sig = one + (one >> 1) + 5;
+      for (int p = 0; p < 2; ++p) {
+        const Fp at = rsqrt({false, p, sig}, rt, f), moved = rsqrt({false, p + 2 * e, sig}, rt, f);
+        EXPECT_EQ(moved, (Fp{false, at.exp - e, at.sig}));
+      }
+      const Fp at = reciprocal({false, 0, sig}, rc, f), moved = reciprocal({true, e, sig}, rc, f);
+      EXPECT_EQ(moved, (Fp{true, at.exp - e, at.sig}));
+    }
+  }
+}
+
+/// Coefficients fit the ROM word {C0: S+4, C1: S, C2: S bits} and the package holds exactly these words.
+TEST(Tables, CoefficientsFitAndThePackageHoldsThem) {
+  for (int s = 8; s <= 26; ++s)
+    for (int degree = 1; degree <= 2; ++degree) {
+      const Config c = config_for(s, degree);
+      const Table tables[] = {make_rsqrt_table(c), make_recip_table(c)};
+      ASSERT_EQ(tables[0].entries.size(), 2ull << c.rsqrt_segments());
+      ASSERT_EQ(tables[1].entries.size(), 1ull << c.recip_segments());
+      std::string text = tables_package(c);
+      std::size_t at = 0;
+      for (const Table& t : tables) {
+        EXPECT_EQ(t.rest_bits, s - 1 - t.segments_log2);
+        for (std::size_t i = 0; i < t.entries.size(); ++i) {
+          const TableEntry& e = t.entries[i];
+          ASSERT_LT(e.c0, 1ull << (s + 4));
+          ASSERT_LT(e.c1, 1ull << s);
+          ASSERT_LT(e.c2, 1ull << s);
+          ASSERT_TRUE(degree == 2 || e.c2 == 0);
+          const std::string word = std::to_string(s + 4) + "'d" + std::to_string(e.c0) + ", " + std::to_string(s) +
+                                   "'d" + std::to_string(e.c1) + ", " + std::to_string(s) + "'d" + std::to_string(e.c2);
+          at = text.find(word, at);
+          ASSERT_NE(at, std::string::npos) << "entry " << i << " of S = " << s;
+        }
+      }
+    }
+}
+
+}  // namespace
+}  // namespace quadrille

@@ -1,0 +1,70 @@
+// `--name value` options of the campaign programs, and work shared by threads.
+#pragma once
+
+#include <atomic>
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace quadrille::campaign {
+
+/// Options with their defaults; anything unknown, or not a list of numbers, ends the program with status 2.
+class Options {
+ public:
+  Options(int argc, char** argv, std::map<std::string, std::string> defaults) : values_(std::move(defaults)) {
+    for (int i = 1; i < argc; i += 2) {
+      const std::string_view name = argv[i];
+      const auto found = name.starts_with("--") ? values_.find(std::string(name.substr(2))) : values_.end();
+      if (found == values_.end() || i + 1 == argc) {
+        std::cerr << argv[0] << ": " << (found == values_.end() ? "unknown option " : "no value for ") << name
+                  << "; options are";
+        for (const auto& [key, value] : values_) std::cerr << " --" << key << " " << (value.empty() ? "''" : value);
+        std::cerr << "\n";
+        std::exit(2);
+      }
+      found->second = argv[i + 1];
+    }
+  }
+
+  std::string text(const std::string& name) const { return values_.at(name); }
+  std::uint64_t number(const std::string& name) const { return numbers(name).at(0); }
+  std::vector<std::uint64_t> numbers(const std::string& name) const {
+    const std::string& all = values_.at(name);
+    std::vector<std::uint64_t> out;
+    for (const char *p = all.data(), *end = p + all.size();; ++p) {
+      std::uint64_t v = 0;
+      const auto [next, error] = std::from_chars(p, end, v);
+      if (error != std::errc() || (next != end && *next != ',')) {
+        std::cerr << "--" << name << " " << all << " is not a list of numbers\n";
+        std::exit(2);
+      }
+      out.push_back(v);
+      if (next == end) return out;
+      p = next;
+    }
+  }
+
+ private:
+  std::map<std::string, std::string> values_;
+};
+
+/// Calls work(i) for i in [0, count) on `threads` threads (0: one per processor). Results must not depend on the order.
+template <class F>
+void for_each_index(std::size_t count, std::uint64_t threads, F work) {
+  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  std::atomic<std::size_t> next{0};
+  std::vector<std::thread> pool;
+  for (std::uint64_t t = 0; t < threads; ++t)
+    pool.emplace_back([&] {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    });
+  for (std::thread& t : pool) t.join();
+}
+
+}  // namespace quadrille::campaign

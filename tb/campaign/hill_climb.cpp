@@ -1,0 +1,331 @@
+// Hill climbing over quads and pixels for the largest arithmetic error of a weight: |λ' of the untimed model − λ' of
+// the truth on the same snapped input|, in units of 2^-s. Bound: 8 units (2^-(s-3)), notch_exact on.
+//
+// The climb itself looks at one pixel through the pure functions of the model and compares with an 80-bit evaluation of
+// the truth's formulas; the verdict on every climb's summit comes from UntimedModel against TruthQuad. Starts are the
+// stress families. Everything follows from --seed, whatever the number of threads.
+#include "tb/campaign/campaign_options.hpp"
+
+#include "golden/reference/truth.hpp"
+#include "golden/scenes/prng.hpp"
+#include "golden/scenes/stress.hpp"
+#include "model/pixel_pipeline.hpp"
+#include "model/quad_setup.hpp"
+#include "model/snap.hpp"
+#include "model/stamp_coverage.hpp"
+#include "model/untimed.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+namespace quadrille::campaign {
+namespace {
+
+using golden::Prng;
+
+constexpr double bound_units = 8;  ///< 2^-(s-3) in units of 2^-s
+constexpr int viewport = 512;
+
+struct Candidate {
+  WindowQuad quad;
+  int x = 0, y = 0;
+};
+
+struct Error {
+  double units = -1;  ///< largest |Δλ'|·2^s over the four weights
+  double condition = 0;
+  unsigned flags = 0;
+};
+
+/// λ' by the truth's formulas in 80-bit arithmetic on exact integers; nothing at singular pixels.
+std::optional<std::array<long double, 4>> quick_truth(const SnappedQuad& q, int px, int py,
+                                                      const std::array<double, 4>& k) {
+  using Wide = __int128;
+  std::int64_t x[4], y[4];
+  long double length[4];
+  for (std::size_t i = 0; i < 4; ++i) {
+    x[i] = q.vertex[i].x - std::int64_t{q.vertex[i].w} * px;
+    y[i] = q.vertex[i].y - std::int64_t{q.vertex[i].w} * py;
+    const Wide r2 = static_cast<Wide>(x[i]) * x[i] + static_cast<Wide>(y[i]) * y[i];
+    if (r2 == 0) return std::nullopt;
+    length[i] = std::sqrt(static_cast<long double>(r2));
+  }
+  long double t[4];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t j = (i + 1) & 3;
+    const Wide a = static_cast<Wide>(x[i]) * y[j] - static_cast<Wide>(y[i]) * x[j];
+    const Wide d = static_cast<Wide>(x[i]) * x[j] + static_cast<Wide>(y[i]) * y[j];
+    const long double area = static_cast<long double>(a), dot = static_cast<long double>(d),
+                      both = length[i] * length[j];
+    if (d < 0 && a == 0) return std::nullopt;
+    t[i] = d < 0 ? (both - dot) / area : area / (both + dot);
+  }
+  std::array<long double, 4> lambda;
+  long double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    lambda[i] = (t[(i + 3) & 3] + t[i]) / length[i] * static_cast<long double>(k[i]);
+    sum += lambda[i];
+  }
+  for (long double& l : lambda) l /= sum;
+  return lambda;
+}
+
+class Climber {
+ public:
+  explicit Climber(const Config& c) : config_(c), state_(draw_state()), context_(c, state_), model_(c, state_) {}
+
+  static DrawState draw_state() {
+    DrawState s;
+    s.width = s.height = s.scissor_x1 = s.scissor_y1 = viewport;
+    s.depth = false;  // no fragment may be lost to depth
+    return s;
+  }
+
+  /// The quick measure: one pixel; −1 where the pixel is not drawn or singular.
+  double measure(const Candidate& at) const {
+    SnappedQuad q;
+    try {
+      q = snap_quad(at.quad, config_, state_);
+    } catch (const SnapError&) {
+      return -1;
+    }
+    const SetupResult setup = quad_setup(q, config_, state_);
+    const QuadConstants constants(setup);
+    TileEntry tile;
+    tile.tile_x = at.x >> config_.tile_log2;
+    tile.tile_y = at.y >> config_.tile_log2;
+    WalkState walk;
+    for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
+    walk.quadratic = setup.quadratic;
+    walk_step(walk, constants, (tile.tile_x - setup.tile_x0) * config_.tile(),
+              (tile.tile_y - setup.tile_y0) * config_.tile());
+    tile.linear = walk.linear;
+    tile.quadratic = walk.quadratic;
+    const int dx = at.x & (config_.tile() - 1), row = at.y & (config_.tile() - 1);
+    if (!(stamp_coverage(tile, constants, row, config_, state_).mask >> dx & 1)) return -1;
+    std::array<double, 4> k;
+    for (std::size_t i = 0; i < 4; ++i)
+      k[i] = std::ldexp(static_cast<double>(q.vertex[i].k.sig), q.vertex[i].k.exp - (config_.significand_bits - 1));
+    const auto truth = quick_truth(q, at.x, at.y, k);
+    if (!truth) return -1;
+    PixelTrace p;
+    pixel_pipeline(p, tile, constants, quad_data(q, setup, config_, state_), dx, row, context_);
+    if (!p.drawn) return -1;
+    double worst = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      worst = std::max(worst, std::fabs(lambda(p.fragment, i) - static_cast<double>((*truth)[i])));
+    return std::ldexp(worst, config_.significand_bits);
+  }
+
+  /// The verdict: the fragment as the untimed model draws it against TruthQuad.
+  Error judge(const Candidate& at) {
+    const SnappedQuad q = snap_quad(at.quad, config_, state_);
+    const golden::TruthQuad truth(q, config_, state_);
+    Error e;
+    model_.draw(q, [&](std::span<const Fragment> fragments) {
+      for (const Fragment& f : fragments) {
+        if (f.x != at.x || f.y != at.y) continue;
+        const golden::ReferenceSample s = truth.sample(at.x, at.y);
+        if (!s.covered) continue;
+        e.condition = s.condition;
+        e.flags = f.flags;
+        for (std::size_t i = 0; i < 4; ++i)
+          e.units = std::max(e.units, std::ldexp(std::fabs(lambda(f, i) - s.lambda[i]), config_.significand_bits));
+      }
+    });
+    return e;
+  }
+
+ private:
+  double lambda(const Fragment& f, std::size_t i) const {
+    return std::ldexp(static_cast<double>(f.attribute[i]), -config_.attribute_frac());
+  }
+
+  Config config_;
+  DrawState state_;
+  PipelineContext context_;
+  UntimedModel model_;
+};
+
+Candidate mutate(const Candidate& from, Prng& rng) {
+  Candidate c = from;
+  const auto step = [&] { return rng.sign() * rng.log2_spread(-9, rng.chance(0.3) ? 8 : 2); };
+  const auto moved = [](WindowVertex& v, double dx, double dy) {
+    const double scale = v.w != 0 ? std::fabs(v.w) : 1;
+    v.x += scale * dx;
+    v.y += scale * dy;
+  };
+  for (std::uint64_t changes = 1 + rng.below(3); changes > 0; --changes) {
+    WindowVertex& v = c.quad.vertex[rng.below(4)];
+    switch (rng.below(9)) {
+      case 0:
+      case 1:
+        moved(v, step(), step());
+        break;
+      case 2:
+        moved(v, rng.chance(0.5) ? 1 / 256.0 : -1 / 256.0, 0);
+        break;
+      case 3:
+        moved(v, 0, rng.chance(0.5) ? 1 / 256.0 : -1 / 256.0);
+        break;
+      case 4: {  // the same position, another w
+        const double f = rng.chance(0.5) ? rng.log2_spread(-2, 2) : 1 + rng.uniform(-0.01, 0.01);
+        v.x *= f, v.y *= f, v.z *= f, v.w *= f;
+        break;
+      }
+      case 5:
+        v.w *= 1 + rng.uniform(-0.1, 0.1);
+        break;
+      case 6:
+        c.x = std::min(viewport - 1, std::max(0, c.x + static_cast<int>(rng.integer(-3, 3))));
+        c.y = std::min(viewport - 1, std::max(0, c.y + static_cast<int>(rng.integer(-3, 3))));
+        break;
+      case 7: {  // the whole quad against the pixel
+        const double dx = step(), dy = step();
+        for (WindowVertex& u : c.quad.vertex) moved(u, dx, dy);
+        break;
+      }
+      default:  // closer to the pixel or farther from it
+        if (v.w > 0) {
+          const double f = rng.log2_spread(-2, 1), px = c.x + 0.5, py = c.y + 0.5;
+          v.x = v.w * (px + (v.x / v.w - px) * f);
+          v.y = v.w * (py + (v.y / v.w - py) * f);
+        } else {
+          moved(v, step(), step());
+        }
+    }
+  }
+  return c;
+}
+
+struct Summit {
+  Candidate at;
+  Error error;
+  std::uint64_t evaluations = 0;
+};
+
+/// One climb from one quad of a family.
+Summit climb(Climber& climber, const WindowQuad& start, std::uint64_t steps, std::uint64_t seed) {
+  Prng rng(seed);
+  Candidate best{start, 0, 0};
+  double units = -1;
+  Summit out;
+  // The worst of some drawn pixels, found by throwing darts at the bounding box.
+  double lo[2] = {0, 0}, hi[2] = {viewport - 1.0, viewport - 1.0};
+  bool ordinary = true;
+  for (const WindowVertex& v : start.vertex) ordinary = ordinary && v.w > 0;
+  if (ordinary) {
+    for (int axis = 0; axis < 2; ++axis) {
+      double low = viewport, high = 0;
+      for (const WindowVertex& v : start.vertex) {
+        low = std::min(low, (axis == 0 ? v.x : v.y) / v.w);
+        high = std::max(high, (axis == 0 ? v.x : v.y) / v.w);
+      }
+      lo[axis] = std::max(0.0, std::floor(low) - 1);
+      hi[axis] = std::min(viewport - 1.0, std::ceil(high));
+    }
+  }
+  for (int dart = 0, hits = 0; dart < 400 && hits < 40; ++dart) {
+    Candidate c{start, static_cast<int>(rng.uniform(lo[0], hi[0] + 1)),
+                static_cast<int>(rng.uniform(lo[1], hi[1] + 1))};
+    c.x = std::min(viewport - 1, std::max(0, c.x));
+    c.y = std::min(viewport - 1, std::max(0, c.y));
+    const double u = climber.measure(c);
+    ++out.evaluations;
+    hits += u >= 0;
+    if (u > units) units = u, best = c;
+  }
+  if (units < 0) return out;
+  for (std::uint64_t n = 0; n < steps; ++n) {
+    const Candidate c = mutate(best, rng);
+    const double u = climber.measure(c);
+    ++out.evaluations;
+    if (u >= units) units = u, best = c;
+  }
+  out.at = best;
+  out.error = climber.judge(best);
+  return out;
+}
+
+void print_witness(const Candidate& c) {
+  std::printf("# pixel (%d, %d)\n", c.x, c.y);
+  for (const WindowVertex& v : c.quad.vertex) std::printf("%.17g %.17g %.17g %.17g  ", v.x, v.y, v.z, v.w);
+  std::printf("1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n");
+}
+
+int run(int argc, char** argv) {
+  const Options options(argc, argv,
+                        {{"significand-bits", "12,18,24"},
+                         {"starts", "40"},
+                         {"steps", "2000"},
+                         {"seed", "1"},
+                         {"threads", "0"},
+                         {"notch-exact", "1"},
+                         {"align-guard-bits", "2"},
+                         {"bound", "8"}});
+  const std::uint64_t starts = options.number("starts"), seed = options.number("seed");
+  const auto limit = static_cast<double>(options.number("bound"));
+  static_assert(bound_units == 8);
+  const auto families = golden::stress_families();
+  bool ok = true;
+  std::printf("hill climbing: %zu families x %llu starts x %llu steps, seed %llu; |Δλ'| in units of 2^-s, bound %g\n",
+              families.size(), static_cast<unsigned long long>(starts),
+              static_cast<unsigned long long>(options.number("steps")), static_cast<unsigned long long>(seed), limit);
+  for (const std::uint64_t bits : options.numbers("significand-bits")) {
+    Config config;
+    config.set("significand_bits", static_cast<int>(bits));
+    config.set("notch_exact", static_cast<int>(options.number("notch-exact")));
+    config.set("align_guard_bits", static_cast<int>(options.number("align-guard-bits")));
+    config.validate();
+    std::vector<std::vector<WindowQuad>> quads;
+    for (const auto& info : families)
+      quads.push_back(golden::make_stress(info.family, starts, seed * 1000 + bits, 1.0, viewport, viewport, 4));
+    std::vector<Summit> summits(families.size() * starts);
+    for_each_index(summits.size(), options.number("threads"), [&](std::size_t i) {
+      Climber climber(config);
+      summits[i] = climb(climber, quads[i / starts][i % starts], options.number("steps"),
+                         seed * 0x9e3779b97f4a7c15u + bits * 1000003 + i);
+    });
+    const Summit* worst = nullptr;
+    std::uint64_t evaluations = 0;
+    for (std::size_t f = 0; f < families.size(); ++f) {
+      const Summit* top = nullptr;
+      std::uint64_t climbed = 0;
+      for (std::size_t i = f * starts; i < (f + 1) * starts; ++i) {
+        evaluations += summits[i].evaluations;
+        if (summits[i].error.units < 0) continue;
+        ++climbed;
+        if (top == nullptr || summits[i].error.units > top->error.units) top = &summits[i];
+      }
+      if (top == nullptr) {
+        std::printf("s %2d %-16s nothing drawn\n", static_cast<int>(bits), std::string(families[f].name).c_str());
+        continue;
+      }
+      std::printf("s %2d %-16s %6.3f units (condition %.2g, flags 0x%02x, %llu climbs)\n", static_cast<int>(bits),
+                  std::string(families[f].name).c_str(), top->error.units, top->error.condition, top->error.flags,
+                  static_cast<unsigned long long>(climbed));
+      if (worst == nullptr || top->error.units > worst->error.units) worst = top;
+    }
+    if (worst == nullptr) {
+      std::printf("s %2d: nothing was drawn at all\n", static_cast<int>(bits));
+      return 1;
+    }
+    std::printf("s %2d worst: %.3f units after %llu evaluations, witness:\n", static_cast<int>(bits),
+                worst->error.units, static_cast<unsigned long long>(evaluations));
+    print_witness(worst->at);
+    std::fflush(stdout);
+    if (!(worst->error.units <= limit)) {
+      ok = false;
+      std::printf("s %2d: BOUND EXCEEDED\n", static_cast<int>(bits));
+    }
+  }
+  return ok ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace quadrille::campaign
+
+int main(int argc, char** argv) { return quadrille::campaign::run(argc, argv); }

@@ -1,0 +1,228 @@
+// Throughput and latency of the clocked model without stalls or gaps: covered pixels per clock, clocks of the setup,
+// and that setup hides behind drawing.
+#include "golden/scenes/prng.hpp"
+#include "model/clocked.hpp"
+#include "model/snap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace quadrille::campaign {
+namespace {
+
+using golden::Prng;
+
+constexpr std::uint64_t most_setup_clocks = 16, most_setup_clocks_homogeneous = 48;
+constexpr double turned_squares_per_clock = 0.95, concave_per_clock = 0.85;
+constexpr int pipeline_latency = 26;  ///< rtl/README.md section 5: emission to port
+
+struct Session {
+  std::uint64_t clocks = 0;                    ///< from the first beat until idle
+  std::uint64_t fragments = 0;                 ///< accepted at the port
+  std::vector<std::uint64_t> accepted, taken;  ///< per quad: clock of the fourth beat, clock of the setup probe
+};
+
+Session run(const std::vector<SnappedQuad>& quads, const Config& config, const DrawState& state) {
+  ClockedModel model(config, state);
+  ClockedInputs in;
+  in.reset = true;
+  model.clock(in);
+  in.reset = false;
+  in.fragment_ready = true;
+  Session r;
+  std::size_t beat = 0;
+  for (; r.clocks < 100'000'000; ++r.clocks) {
+    in.vertex_valid = beat < 4 * quads.size();
+    if (in.vertex_valid) {
+      in.vertex_id = quads[beat / 4].id;
+      in.vertex = quads[beat / 4].vertex[beat % 4];
+    }
+    const ClockedOutputs o = model.comb(in);
+    if (o.fragment_valid) ++r.fragments;
+    if (o.probes.setup != nullptr) r.taken.push_back(r.clocks);
+    if (in.vertex_valid && o.vertex_ready && ++beat % 4 == 0) r.accepted.push_back(r.clocks);
+    if (!in.vertex_valid && !o.busy) return r;
+    model.clock(in);
+  }
+  ADD_FAILURE() << "the machine does not become idle";
+  return r;
+}
+
+DrawState draw_state() {
+  DrawState s;
+  s.depth = false;  // every covered pixel becomes a fragment
+  return s;
+}
+
+SnappedQuad snapped(const double (&p)[4][2], std::uint32_t id, const Config& config) {
+  WindowQuad q;
+  q.id = id;
+  for (std::size_t i = 0; i < 4; ++i) q.vertex[i] = {p[i][0], p[i][1], 0.5, 1};
+  return snap_quad(q, config, draw_state());
+}
+
+std::vector<SnappedQuad> turned_squares(int count, const Config& config, std::uint64_t seed) {
+  Prng rng(seed);
+  std::vector<SnappedQuad> out;
+  for (int n = 0; n < count; ++n) {
+    const double angle = rng.uniform(0, 2 * std::acos(-1.0)), cx = rng.uniform(30, 480), cy = rng.uniform(30, 480);
+    double p[4][2];
+    for (int i = 0; i < 4; ++i) {
+      p[i][0] = cx + 16 * std::sqrt(2.0) * std::cos(angle + i * std::acos(0.0));
+      p[i][1] = cy + 16 * std::sqrt(2.0) * std::sin(angle + i * std::acos(0.0));
+    }
+    out.push_back(snapped(p, static_cast<std::uint32_t>(n), config));
+  }
+  return out;
+}
+
+/// Simple quads with one reflex corner, scaled to a bounding box of 32x32 pixels.
+std::vector<SnappedQuad> concave_quads(int count, const Config& config, std::uint64_t seed) {
+  Prng rng(seed);
+  std::vector<SnappedQuad> out;
+  while (static_cast<int>(out.size()) < count) {
+    double p[4][2];
+    for (auto& v : p) v[0] = rng.uniform(), v[1] = rng.uniform();
+    int left = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& a = p[i];
+      const auto& b = p[(i + 1) & 3];
+      const auto& c = p[(i + 2) & 3];
+      left += (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0;
+    }
+    // One turn against the three others is a simple concave quad; two and two is a bow-tie.
+    if (left != 1 && left != 3) continue;
+    const double ox = rng.uniform(0, 470), oy = rng.uniform(0, 470);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto [low, high] = std::minmax({p[0][axis], p[1][axis], p[2][axis], p[3][axis]});
+      for (auto& v : p) v[axis] = (axis == 0 ? ox : oy) + 32 * (v[axis] - low) / (high - low);
+    }
+    out.push_back(snapped(p, static_cast<std::uint32_t>(out.size()), config));
+  }
+  return out;
+}
+
+/// Convex quads of about `extent` pixels with one vertex that is homogeneous (W < 1) but where the ordinary one would
+/// be.
+std::vector<SnappedQuad> homogeneous_quads(int count, double extent, const Config& config, std::uint64_t seed) {
+  Prng rng(seed);
+  std::vector<SnappedQuad> out;
+  for (int n = 0; n < count; ++n) {
+    const double x = rng.uniform(0, 60), y = rng.uniform(0, 60);
+    const double p[4][2] = {{x, y}, {x + extent, y}, {x + extent, y + extent}, {x, y + extent}};
+    SnappedQuad q = snapped(p, static_cast<std::uint32_t>(n), config);
+    q.vertex[2].x /= 2, q.vertex[2].y /= 2, q.vertex[2].w /= 2;
+    q.vertex[2].k.exp -= 1;
+    out.push_back(q);
+  }
+  return out;
+}
+
+double pixels_per_clock(const Session& r) { return static_cast<double>(r.fragments) / static_cast<double>(r.clocks); }
+
+TEST(Throughput, TurnedSquares) {
+  const Config config;
+  const Session r = run(turned_squares(1000, config, 1), config, draw_state());
+  std::printf("1000 turned 32x32 quads: %llu pixels in %llu clocks, %.4f per clock\n",
+              static_cast<unsigned long long>(r.fragments), static_cast<unsigned long long>(r.clocks),
+              pixels_per_clock(r));
+  EXPECT_NEAR(static_cast<double>(r.fragments), 1024e3, 2e3);
+  EXPECT_GE(pixels_per_clock(r), turned_squares_per_clock);
+  EXPECT_LE(pixels_per_clock(r), 1.0);
+}
+
+TEST(Throughput, ConcaveQuads) {
+  const Config config;
+  const Session r = run(concave_quads(1000, config, 2), config, draw_state());
+  std::printf("1000 concave quads of 32x32: %llu pixels in %llu clocks, %.4f per clock\n",
+              static_cast<unsigned long long>(r.fragments), static_cast<unsigned long long>(r.clocks),
+              pixels_per_clock(r));
+  EXPECT_GT(r.fragments, 200'000u);
+  EXPECT_GE(pixels_per_clock(r), concave_per_clock);
+}
+
+/// One quad in an idle machine: clocks from the accepted fourth beat to the setup probe.
+std::uint64_t setup_latency(const SnappedQuad& quad, const Config& config) {
+  const Session r = run({quad}, config, draw_state());
+  EXPECT_EQ(r.taken.size(), 1u);
+  EXPECT_EQ(r.accepted.size(), 1u);
+  return r.taken.empty() || r.accepted.empty() ? 0 : r.taken[0] - r.accepted[0];
+}
+
+TEST(Throughput, SetupLatency) {
+  const Config config;
+  std::uint64_t ordinary = 0, homogeneous = 0;
+  for (const SnappedQuad& q : turned_squares(20, config, 3)) ordinary = std::max(ordinary, setup_latency(q, config));
+  for (const SnappedQuad& q : homogeneous_quads(20, 8, config, 3))
+    homogeneous = std::max(homogeneous, setup_latency(q, config));
+  std::printf("fourth beat to taken: %llu clocks ordinary, %llu homogeneous\n",
+              static_cast<unsigned long long>(ordinary), static_cast<unsigned long long>(homogeneous));
+  EXPECT_GT(ordinary, 0u);
+  EXPECT_LE(ordinary, most_setup_clocks);
+  EXPECT_GT(homogeneous, ordinary);
+  EXPECT_LE(homogeneous, most_setup_clocks_homogeneous);
+}
+
+/// Quads without a pixel, back to back: the interval between two of them is the setup's own.
+TEST(Throughput, SetupInitiationInterval) {
+  const Config config;
+  for (const bool homogeneous : {false, true}) {
+    auto quads = homogeneous ? homogeneous_quads(200, 8, config, 4) : turned_squares(200, config, 4);
+    DrawState state = draw_state();
+    state.scissor_x1 = state.scissor_x0 = 100;  // empty
+    const Session r = run(quads, config, state);
+    ASSERT_EQ(r.taken.size(), quads.size());
+    std::uint64_t most = 0, least = ~0ull;
+    for (std::size_t i = 1; i < r.taken.size(); ++i) {
+      most = std::max(most, r.taken[i] - r.taken[i - 1]);
+      least = std::min(least, r.taken[i] - r.taken[i - 1]);
+    }
+    std::printf("setup interval, %s: %llu to %llu clocks\n", homogeneous ? "homogeneous" : "ordinary",
+                static_cast<unsigned long long>(least), static_cast<unsigned long long>(most));
+    EXPECT_LE(most, homogeneous ? most_setup_clocks_homogeneous : most_setup_clocks);
+    EXPECT_EQ(r.fragments, 0u);
+  }
+}
+
+/// Setup of the next quad runs while this one is drawn: quads whose drawing takes longer than their setup cost their
+/// drawing alone; a machine without overlap would need the sum of the single runs.
+TEST(Throughput, SetupHidesBehindDrawing) {
+  const Config config;
+  for (const bool homogeneous : {false, true}) {
+    std::vector<SnappedQuad> quads = homogeneous ? homogeneous_quads(300, 12, config, 5) : std::vector<SnappedQuad>();
+    if (!homogeneous) {
+      Prng rng(6);
+      for (std::uint32_t n = 0; n < 300; ++n) {
+        const double x = rng.uniform(0, 400), y = rng.uniform(0, 400);
+        const double p[4][2] = {{x, y}, {x + 6, y}, {x + 6, y + 6}, {x, y + 6}};
+        quads.push_back(snapped(p, n, config));
+      }
+    }
+    DrawState state = draw_state();
+    if (homogeneous) {
+      // Such quads walk all tiles up to the scissor's far corner; a small one keeps the walk below the drawing.
+      state.scissor_x1 = state.scissor_y1 = 80;
+    }
+    std::uint64_t alone = 0, setup = 0;
+    for (const SnappedQuad& q : quads) {
+      const Session single = run({q}, config, state);
+      alone += single.clocks;
+      setup += single.taken.at(0) - single.accepted.at(0);
+    }
+    const Session r = run(quads, config, state);
+    std::printf("%s: %llu pixels, %llu clocks overlapped, %llu one by one, of these %llu setup\n",
+                homogeneous ? "homogeneous 12x12" : "ordinary 6x6", static_cast<unsigned long long>(r.fragments),
+                static_cast<unsigned long long>(r.clocks), static_cast<unsigned long long>(alone),
+                static_cast<unsigned long long>(setup));
+    // Pixels alone bound it from below; all of the setup and pipeline latency must have gone.
+    EXPECT_LE(r.clocks, alone - setup - quads.size() * static_cast<std::uint64_t>(pipeline_latency - 4));
+    // What is left over the pixels is the walk over empty tiles.
+    EXPECT_LE(static_cast<double>(r.clocks), (homogeneous ? 1.15 : 1.05) * static_cast<double>(r.fragments) + 200);
+  }
+}
+
+}  // namespace
+}  // namespace quadrille::campaign

@@ -1,0 +1,54 @@
+#include "tb/commands/choices.hpp"
+
+#include "tb/commands/errors.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace quadrille::cli {
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string nearest(std::string_view name, std::span<const std::string> choices) {
+  const std::string* best = nullptr;
+  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 2) + 1;
+  for (const std::string& choice : choices) {
+    std::size_t distance = edit_distance(name, choice);
+    if (!name.empty() && choice.find(name) != std::string::npos) distance = std::min<std::size_t>(distance, 1);
+    if (distance < best_distance) best_distance = distance, best = &choice;
+  }
+  return best ? *best : std::string{};
+}
+
+std::size_t choose(std::string_view what, std::string_view name, std::span<const std::string> choices) {
+  const auto found = std::find(choices.begin(), choices.end(), name);
+  if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+  std::string message = "unknown " + std::string(what) + " \"" + std::string(name) + "\"";
+  if (const std::string near = nearest(name, choices); !near.empty()) message += "; did you mean \"" + near + "\"?";
+  message += " (choices:";
+  for (const std::string& choice : choices) message += " " + choice;
+  throw UsageError(message + ")");
+}
+
+std::size_t choose(std::string_view what, std::string_view name, std::initializer_list<std::string_view> choices) {
+  const std::vector<std::string> list(choices.begin(), choices.end());
+  return choose(what, name, list);
+}
+
+}  // namespace quadrille::cli

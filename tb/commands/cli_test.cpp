@@ -1,0 +1,372 @@
+// Runs the built program: exit statuses and messages for bad input, bytes that do not depend on threads, reports, and
+// files that survive failed runs.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "quadrille-cli-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    directory_ = name;
+  }
+  void TearDown() override {
+    fs::permissions(directory_, fs::perms::owner_all, fs::perm_options::add);
+    fs::remove_all(directory_);
+  }
+
+  fs::path file(const std::string& name) const { return directory_ / name; }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name), std::ios::binary) << text;
+    return file(name).string();
+  }
+
+  /// `arguments` as a shell line, `environment` before the program.
+  Outcome run(const std::string& arguments, const std::string& environment = {}) const {
+    const std::string out = file("stdout").string(), err = file("stderr").string();
+    const std::string line = "cd '" + directory_.string() + "' && " + environment + " '" QUADRILLE_PROGRAM "' " +
+                             arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+  }
+
+  /// A run that must fail with `status`, one line "quadrille: …" that contains every piece, and nothing on standard
+  /// output.
+  void refuses(int status, const std::string& arguments, const std::vector<std::string>& pieces) const {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("quadrille: ", 0), 0u) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    for (const std::string& piece : pieces)
+      EXPECT_NE(outcome.err.find(piece), std::string::npos) << piece << " in: " << outcome.err;
+  }
+
+ private:
+  fs::path directory_;
+};
+
+constexpr const char* good_quad = "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n";
+
+TEST_F(Cli, HelpAndVersion) {
+  for (const char* command : {"", "cosim", "render", "fragments", "config", "scenes", "bench"}) {
+    const Outcome help = run(std::string(command) + " --help");
+    EXPECT_EQ(help.status, 0) << command;
+    EXPECT_NE(help.out.find("Examples:"), std::string::npos) << command;
+    const Outcome version = run(std::string(command) + " --version");
+    EXPECT_EQ(version.status, 0) << command;
+    EXPECT_EQ(version.out.rfind("quadrille ", 0), 0u) << command;
+  }
+}
+
+TEST_F(Cli, UsageErrors) {
+  refuses(2, "", {"subcommand"});
+  refuses(2, "rendre", {"unknown command", "did you mean \"render\"", "cosim"});
+  refuses(2, "render --png a.png", {"one input is needed", "--scene"});
+  refuses(2, "render --scene sphere --quads a.quads --png a.png", {"one input is needed"});
+  refuses(2, "render --scene sphere", {"--out", "--png"});
+  refuses(2, "render --scene shpere --png a.png", {"unknown scene", "did you mean \"sphere\"", "phong_mesh"});
+  refuses(2, "render --engine modle --scene sphere --png a.png", {"unknown engine", "did you mean \"model\"", "truth"});
+  refuses(2, "render --shade textur --scene sphere --png a.png", {"unknown shading", "did you mean \"texture\""});
+  refuses(2, "render --sceen sphere --png a.png", {"--sceen", "did you mean --scene"});
+  refuses(2, "render --snap off --scene sphere --png a.png", {"float and truth"});
+  refuses(2, "render --snap maybe --engine truth --scene sphere --png a.png", {"choices: on off"});
+  refuses(2, "render --camera c.json --scene sphere --png a.png", {"--camera goes with --mesh"});
+  refuses(2, "render --cull bak --scene sphere --png a.png", {"did you mean \"back\""});
+  refuses(2, "render --scissor 1,2,3 --scene sphere --png a.png", {"X0,Y0,X1,Y1"});
+  refuses(2, "render --scissor 0,0,9999,3 --scene sphere --png a.png", {"inside the viewport"});
+  refuses(2, "render --znear 0.5 --zfar 0.25 --scene sphere --png a.png", {"znear <= zfar"});
+  refuses(2, "render --threads -1 --scene sphere --png a.png", {"--threads"});
+  refuses(2, "render --seed x --scene sphere --png a.png", {"--seed"});
+  refuses(2, "cosim --stress genral", {"unknown stress family", "did you mean \"general\""});
+  refuses(2, "cosim --scene fig7_floor --stall 1", {"--stall"});
+  refuses(2, "cosim --scene fig7_floor --gap -0.5", {"--gap"});
+  refuses(2, "cosim --scene all --png a.png", {"one input"});
+  refuses(2, "fragments --scene sphere", {"--out"});
+  refuses(2, "fragments --scene sphere --out - --json -", {"standard output"});
+  refuses(2, "fragments --scene sphere --quad 128 --out -", {"128 quads"});
+  refuses(2, "fragments --scene sphere --pixel 512,0 --out -", {"--pixel"});
+  refuses(2, "config --quiet --verbose", {"--quiet"});
+}
+
+TEST_F(Cli, Sizes) {
+  for (const char* size : {"0x5", "5x0", "-3x5", "5", "axb", "5x5x5", "99999999999x1", "4097x1"})
+    refuses(2, std::string("render --scene sphere --png a.png --size ") + size, {"--size"});
+  EXPECT_EQ(run("render --scene sphere --png a.png --size 1x1 --quiet").status, 0);
+  EXPECT_EQ(run("render --scene sphere --png a.png --size 8x70 --quiet").status, 0);
+  EXPECT_EQ(run("render --scene sphere --png a.png --size 100x100 --set viewport_bits=7 --quiet").status, 0);
+  refuses(2, "render --scene sphere --png a.png --size 200x100 --set viewport_bits=7", {"viewport_bits = 7"});
+}
+
+TEST_F(Cli, BadConfigurations) {
+  refuses(2, "config --set significand_bit=3", {"significand_bit", "'significand_bits'"});
+  refuses(2, "config --set significand_bits=99", {"significand_bits", "8..26"});
+  refuses(2, "config --set significand_bits=x", {"significand_bits", "\"x\""});
+  refuses(2, "config --set significand_bits", {"KEY=VALUE"});
+  refuses(2, "config --set =3", {"KEY=VALUE"});
+  refuses(2, "config --config missing.toml", {"missing.toml"});
+  write("a.toml", "significand_bits = 18\nnonsense = 4\n");
+  refuses(2, "config --config a.toml", {"a.toml:2", "nonsense"});
+  write("b.toml", "significand_bits = \n");
+  refuses(2, "config --config b.toml", {"b.toml:1"});
+  write("c.toml", "significand_bits = 1e3\n");
+  refuses(2, "config --config c.toml", {"c.toml:1", "integer"});
+  refuses(2, "config --set viewport_bits=14 --set guard_bits=4 --set homogeneous_frac_bits=10", {"quadrille: "});
+}
+
+TEST_F(Cli, BadQuads) {
+  refuses(2, "fragments --quads missing.quads --out -", {"missing.quads"});
+  const auto bad = [&](const std::string& text, const std::vector<std::string>& pieces) {
+    write("a.quads", text);
+    refuses(2, "fragments --quads a.quads --out a.csv", pieces);
+    EXPECT_FALSE(fs::exists(file("a.csv")));
+  };
+  bad("", {"a.quads"});
+  bad("# only a comment\n", {"a.quads"});
+  bad(std::string("# comment\n") + good_quad + "1 2 3\n", {"a.quads:3"});
+  bad("10 10 0.5 x  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n", {"a.quads:1", "x"});
+  bad("10 10 0.5 1  nan 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n", {"a.quads:1"});
+  bad("10 10 0.5 1  inf 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n", {"a.quads:1"});
+  bad("10 10 0.5 1  1e300 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n", {"a.quads:1"});
+  bad("10 10 0.5 1  0 0 0.5 0  42 44 0.5 1  8 40 0.5 1\n", {"a.quads:1"});
+  bad("1e-30 0 0 0  10 0 0 1  42 44 0.5 1  8 40 0.5 1\n", {"a.quads:1", "quad 0, vertex 0"});
+  bad(std::string("\n# two\n") + "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1  1 2 3 400\n",
+      {"a.quads:3", "quad 0, vertex 3", "attribute_int_bits"});
+  bad(std::string(good_quad) + "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1  1 2 3 4\n", {"a.quads:2"});
+}
+
+TEST_F(Cli, BadMeshesAndCameras) {
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  const auto bad = [&](const std::string& text, const std::vector<std::string>& pieces) {
+    write("a.obj", text);
+    refuses(2, "render --mesh a.obj --png a.png", pieces);
+  };
+  bad(square + "f 1 2\n", {"a.obj:5"});
+  bad(square + "f 1\n", {"a.obj:5"});
+  bad(square + "f 1 2 9\n", {"a.obj:5", "9"});
+  bad(square + "f 1 2 x 4\n", {"a.obj:5"});
+  bad(square + "f 0 1 2\n", {"a.obj:5"});
+  bad("v 0 0 nan\n", {"a.obj:1"});
+  bad("v 0 zero 0\n", {"a.obj:1"});
+  bad("", {"a.obj"});
+  refuses(2, "render --mesh missing.obj --png a.png", {"missing.obj"});
+
+  write("a.obj", square + "f 1 2 3 4\n");
+  const auto camera = [&](const std::string& text, const std::vector<std::string>& pieces) {
+    write("c.json", text);
+    refuses(2, "render --mesh a.obj --camera c.json --png a.png", pieces);
+  };
+  camera("{", {"c.json"});
+  camera(R"({"matrix": [1, 2, 3]})", {"c.json", "16"});
+  camera(R"({"eye": [0, 0, 5]})", {"c.json"});
+  camera(R"({"eye":[0,0,5],"target":[0,0,5],"up":[0,1,0],"fovy":40,"near":1,"far":9})", {"c.json"});
+  refuses(2, "render --mesh a.obj --camera missing.json --png a.png", {"missing.json"});
+  refuses(2, "render --mesh a.obj --texture missing.png --shade texture --png a.png", {"missing.png"});
+  write("not.png", "not a picture");
+  refuses(2, "render --mesh a.obj --texture not.png --shade texture --png a.png", {"not.png"});
+
+  write("five.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n");
+  refuses(2, "render --strict --mesh five.obj --png a.png", {"5 corners"});
+  EXPECT_EQ(run("render --mesh five.obj --png a.png --quiet").status, 0);
+}
+
+TEST_F(Cli, MissingNormalsAreSaid) {
+  write("a.quads", good_quad);
+  refuses(2, "render --quads a.quads --shade normal --png a.png", {"no normal"});
+}
+
+TEST_F(Cli, UnwritableOutputs) {
+  refuses(2, "render --scene sphere --png missing/a.png", {"missing/a.png", "cannot be written"});
+  refuses(2, "render --scene sphere --out .", {"directory"});
+  refuses(2, "fragments --scene bowtie --out missing/a.csv", {"missing/a.csv"});
+  refuses(2, "cosim --scene bowtie --json missing/a.json", {"missing/a.json"});
+  refuses(2, "config --json missing/a.json", {"missing/a.json"});
+  refuses(2, "config --emit-tables missing/a.sv", {"missing/a.sv"});
+}
+
+TEST_F(Cli, OldOutputsSurviveFailedRuns) {
+  for (const char* name : {"a.exr", "a.png", "a.csv", "a.json"}) write(name, "old");
+  write("a.quads", std::string(good_quad) + "1e-30 0 0 0  10 0 0 1  42 44 0.5 1  8 40 0.5 1\n");
+  EXPECT_EQ(run("render --quads a.quads --out a.exr --png a.png --json a.json").status, 2);
+  EXPECT_EQ(run("fragments --quads a.quads --out a.csv --json a.json").status, 2);
+  for (const char* name : {"a.exr", "a.png", "a.csv", "a.json"}) EXPECT_EQ(read(file(name)), "old") << name;
+  // A disk that is full for files of this size: the writer fails half-way.
+  EXPECT_NE(
+      run("render --scene sphere --size 256x256 --out a.exr --no-error --quiet", "ulimit -f 8; trap '' XFSZ;").status,
+      0);
+  EXPECT_EQ(read(file("a.exr")), "old");
+  std::size_t entries = 0;
+  for (const auto& entry : fs::directory_iterator(file(""))) entries += entry.path().extension() != ".quads" ? 1 : 0;
+  EXPECT_EQ(entries, 6u) << "temporary files are left";  // the four, stdout, stderr
+}
+
+TEST_F(Cli, SameBytesForAnyNumberOfThreads) {
+  const auto compare = [&](const std::string& arguments, const std::vector<std::string>& names) {
+    SCOPED_TRACE(arguments);
+    std::vector<std::string> first;
+    for (const char* threads : {"1", "2", "4", "7"}) {
+      const Outcome outcome = run(arguments + " --quiet --threads " + threads);
+      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        if (threads == std::string("1")) first.push_back(read(file(names[i])));
+        ASSERT_FALSE(first[i].empty());
+        EXPECT_EQ(read(file(names[i])), first[i]) << names[i] << " with " << threads << " threads";
+      }
+    }
+  };
+  for (const char* engine : {"model", "float", "truth"}) {
+    for (const char* scene : {"sphere", "fig9_h", "phong_mesh"})
+      compare(std::string("render --size 96x80 --out a.exr --png a.png --engine ") + engine + " --scene " + scene,
+              {"a.exr", "a.png"});
+    compare(std::string("fragments --size 64x64 --stress general --count 100 --out a.csv --engine ") + engine,
+            {"a.csv"});
+  }
+}
+
+TEST_F(Cli, ModelAgreesWithTruth) {
+  ASSERT_EQ(run("render --scene bowtie --size 128x128 --out a.exr --json a.json --quiet").status, 0);
+  const json report = json::parse(read(file("a.json")));
+  EXPECT_GT(report["fragments"], 1000);
+  EXPECT_GT(report["error_max"], 0.0);
+  EXPECT_LE(report["error_max"], 0x1p-15);
+}
+
+TEST_F(Cli, FragmentTable) {
+  write("a.quads",
+        std::string("# one\n") + "10 10 0.5 1  20 10 0.5 1  20 20 0.5 1  10 20 0.5 1   0 0  1 0  1 1  0 1\n");
+  for (const char* engine : {"model", "float", "truth"}) {
+    const Outcome outcome = run(std::string("fragments --size 64x64 --quads a.quads --out - --engine ") + engine);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.substr(0, outcome.out.find('\n')), "quad,x,y,front,flags,l0,l1,l2,l3,z,a0,a1");
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 101);
+  }
+  const Outcome one = run("fragments --size 64x64 --quads a.quads --out - --pixel 10,10 --no-depth --quad 0");
+  EXPECT_EQ(std::count(one.out.begin(), one.out.end(), '\n'), 2);
+  EXPECT_NE(one.out.find(",,"), std::string::npos) << "z is empty with depth off";
+  // More attributes than the machine's slots, and weights where slots are few.
+  write("b.quads",
+        "10 10 0.5 1  20 10 0.5 1  20 20 0.5 1  10 20 0.5 1   0 0 1 2 3 4  1 0 1 2 3 4  1 1 1 2 3 4  0 1 1 2 3 4\n");
+  EXPECT_EQ(run("fragments --size 64x64 --quads b.quads --out b.csv --quiet").status, 0);
+  EXPECT_EQ(run("fragments --size 64x64 --quads b.quads --out c.csv --quiet --set attribute_slots=1").status, 0);
+  EXPECT_EQ(run("fragments --size 64x64 --quads b.quads --out d.csv --quiet --set attribute_slots=8").status, 0);
+  EXPECT_EQ(read(file("b.csv")), read(file("c.csv")));
+  EXPECT_EQ(read(file("b.csv")), read(file("d.csv")));
+}
+
+TEST_F(Cli, Reports) {
+  const auto fields = [&](const std::string& arguments, const std::vector<std::string>& names) {
+    const Outcome outcome = run(arguments + " --json -");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json report = json::parse(outcome.out);
+    for (const char* name : {"schema_version", "version", "config", "seed", "command"})
+      EXPECT_TRUE(report.contains(name)) << name;
+    for (const std::string& name : names) EXPECT_TRUE(report.contains(name)) << name;
+  };
+  fields("render --scene sphere --size 32x32 --png a.png", {"quads", "fragments", "undefined", "wall_seconds"});
+  fields("fragments --scene sphere --size 32x32 --out a.csv", {"quads", "fragments", "undefined", "wall_seconds"});
+  fields("config --set significand_bits=12", {"keys", "derived"});
+  fields("bench --no-rtl --repeat 1 --fragments 1000 --size 64x64 --quad-size 16", {"speed", "quads", "threads"});
+  const json scenes = json::parse(run("scenes --json").out);
+  ASSERT_TRUE(scenes.is_array());
+  EXPECT_GE(scenes.size(), 8u);
+  for (const json& scene : scenes)
+    for (const char* name : {"name", "title", "paper", "quads"}) EXPECT_TRUE(scene.contains(name)) << name;
+}
+
+TEST_F(Cli, TablesGoToAFile) {
+  ASSERT_EQ(run("config --emit-tables a.sv").status, 0);
+  EXPECT_NE(read(file("a.sv")).find("package quadrille_tables_pkg"), std::string::npos);
+  const Outcome markdown = run("config --markdown");
+  EXPECT_NE(markdown.out.find("| `significand_bits` | 18 |"), std::string::npos);
+}
+
+TEST_F(Cli, NoVerilator) {
+  const Outcome outcome = run("cosim --scene bowtie", "PATH=/nonexistent QUADRILLE_CACHE=cache");
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.err.rfind("quadrille: ", 0), 0u) << outcome.err;
+  EXPECT_NE(outcome.err.find("verilator"), std::string::npos) << outcome.err;
+}
+
+// These build the default configuration's simulators, or find them in the cache.
+using CliCosim = Cli;
+
+TEST_F(CliCosim, ReportHasEveryField) {
+  const Outcome outcome = run("cosim --scene bowtie --size 64x64 --json a.json --png a.png --out a.exr");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("\nOK\n"), std::string::npos);
+  const json report = json::parse(read(file("a.json")));
+  for (const char* name : {"schema_version", "version", "config", "seed", "command", "quads", "fragments", "mismatches",
+                           "cycles_rtl", "cycles_model", "cycle_mismatches", "covered_pixels_per_clock", "wall_seconds",
+                           "rtl_cycles_per_second", "rtl_alone_cycles_per_second", "error", "bound", "worst", "counts"})
+    EXPECT_TRUE(report.contains(name)) << name;
+  for (const char* part : {"snapping", "arithmetic"})
+    for (const char* name : {"lambda_max", "lambda_p999", "lambda_rms", "attribute_max", "depth_max"})
+      EXPECT_TRUE(report["error"][part].contains(name)) << part << name;
+  for (const char* name : {"eye_crossing_quads", "on_edge", "on_vertex", "two_edge", "tie"})
+    EXPECT_TRUE(report["counts"].contains(name)) << name;
+  EXPECT_EQ(report["mismatches"], 0);
+  EXPECT_EQ(report["cycle_mismatches"], 0);
+  EXPECT_EQ(report["cycles_rtl"], report["cycles_model"]);
+  EXPECT_GT(report["fragments"], 100);
+  EXPECT_LE(report["error"]["arithmetic"]["lambda_max"], report["bound"]["lambda_max"]);
+  // The printed command line gives the worst fragment back.
+  const std::string reproduce = report["worst"]["reproduce"];
+  const Outcome again = run(reproduce.substr(std::string("quadrille ").size()));
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(std::count(again.out.begin(), again.out.end(), '\n'), 2) << again.out;
+}
+
+TEST_F(CliCosim, FragmentsDoNotDependOnStallsOrThreads) {
+  std::string hash;
+  json error;
+  for (const char* options : {"--threads 1", "--threads 4", "--stall 0.5 --gap 0.5", "--stall 0.9 --threads 2"}) {
+    const Outcome outcome =
+        run(std::string("cosim --stress any_w --count 4 --size 48x48 --no-alone --json - ") + options);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json report = json::parse(outcome.out);
+    if (hash.empty()) hash = report["fragment_hash"], error = report["error"];
+    EXPECT_EQ(report["fragment_hash"], hash) << options;
+    EXPECT_EQ(report["error"], error) << options;
+  }
+}
+
+TEST_F(CliCosim, RtlDrawsWhatTheModelDraws) {
+  ASSERT_EQ(run("fragments --scene fig9_a --size 48x48 --engine rtl --stall 0.3 --gap 0.3 --out a.csv --quiet").status,
+            0);
+  ASSERT_EQ(run("fragments --scene fig9_a --size 48x48 --engine model --out b.csv --quiet").status, 0);
+  EXPECT_FALSE(read(file("a.csv")).empty());
+  EXPECT_EQ(read(file("a.csv")), read(file("b.csv")));
+}
+
+TEST_F(CliCosim, NothingComparedIsAFailure) {
+  write("off.quads", "-20 10 0.5 1  -10 12 0.5 1  -10 44 0.5 1  -20 40 0.5 1\n");
+  const Outcome outcome = run("cosim --quads off.quads --size 64x64");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("no fragment was compared"), std::string::npos) << outcome.err;
+}
+
+}  // namespace

@@ -1,0 +1,15 @@
+// The commands of the program; each adds its options and, when chosen, sets Invocation::run.
+#pragma once
+
+#include "tb/commands/options.hpp"
+
+namespace quadrille::cli {
+
+void add_cosim_command(CLI::App& app, Invocation& invocation);
+void add_render_command(CLI::App& app, Invocation& invocation);
+void add_fragments_command(CLI::App& app, Invocation& invocation);
+void add_config_command(CLI::App& app, Invocation& invocation);
+void add_scenes_command(CLI::App& app, Invocation& invocation);
+void add_bench_command(CLI::App& app, Invocation& invocation);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,120 @@
+// quadrille config: every key and every derived width of a configuration.
+#include "tb/commands/commands.hpp"
+
+#include "golden/io/atomic_file.hpp"
+#include "golden/io/json_report.hpp"
+#include "model/tables.hpp"
+#include "tb/commands/errors.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace quadrille::cli {
+namespace {
+
+struct ConfigOptions {
+  CommonOptions common;
+  std::string emit_tables;
+  bool markdown = false;
+};
+
+std::string value_text(int value) { return value == -1 ? "auto" : std::to_string(value); }
+
+/// Bytes of UTF-8 text that are not continuation bytes: its width in a terminal.
+int columns(std::string_view text) {
+  return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::string padded(std::string text, int width) {
+  text.append(static_cast<std::size_t>(std::max(0, width - columns(text))), ' ');
+  return text;
+}
+
+std::string text_listing(const Config& config) {
+  std::string text = padded("key", 23) + padded("value", 7) + padded("default", 9) + padded("range", 9) +
+                     padded("unit", 9) + "meaning\n";
+  for (const ConfigKey& key : Config::keys()) {
+    const int value = config.get(key.name);
+    text += padded(std::string(key.name), 23) + padded(value_text(value), 7) + padded(value_text(key.standard), 9) +
+            padded(std::to_string(key.minimum) + "-" + std::to_string(key.maximum), 9) +
+            padded(std::string(key.unit), 9) + std::string(key.meaning) + (value != key.standard ? " *" : "") + "\n";
+  }
+  text += "\n" + padded("derived", 23) + padded("value", 7) + "reason\n";
+  for (const DerivedWidth& width : config.derived())
+    text += padded(width.name, 23) + padded(std::to_string(width.value), 7) + width.reason + "\n";
+  return text;
+}
+
+/// '|' would end a cell.
+std::string cell(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return result;
+}
+
+std::string markdown_listing(const Config& config) {
+  std::string text = "| key | default | range | unit | meaning |\n|---|---|---|---|---|\n";
+  for (const ConfigKey& key : Config::keys())
+    text += "| `" + std::string(key.name) + "` | " + value_text(key.standard) + " | " + std::to_string(key.minimum) +
+            "–" + std::to_string(key.maximum) + " | " + cell(key.unit) + " | " + cell(key.meaning) + " |\n";
+  text += "\n| derived | value | reason |\n|---|---|---|\n";
+  for (const DerivedWidth& width : config.derived())
+    text += "| `" + width.name + "` | " + std::to_string(width.value) + " | " + cell(width.reason) + " |\n";
+  return text;
+}
+
+int list_config(const ConfigOptions& options, const std::vector<std::string>& arguments) {
+  const Config config = options.common.config();
+  if (!options.emit_tables.empty()) {
+    if (options.emit_tables == "-" && options.common.json == "-")
+      throw UsageError("--emit-tables - and --json - both want standard output");
+    golden::write_file(options.emit_tables, tables_package(config), golden::AtomicFile::Dash::standard_output);
+  }
+  if (!options.common.json.empty()) {
+    nlohmann::ordered_json json = golden::begin_report(config, options.common.seed, arguments);
+    json["keys"] = nlohmann::ordered_json::array();
+    for (const ConfigKey& key : Config::keys())
+      json["keys"].push_back({{"name", key.name},
+                              {"value", config.get(key.name)},
+                              {"default", key.standard},
+                              {"minimum", key.minimum},
+                              {"maximum", key.maximum},
+                              {"unit", key.unit},
+                              {"meaning", key.meaning}});
+    json["derived"] = nlohmann::ordered_json::array();
+    for (const DerivedWidth& width : config.derived())
+      json["derived"].push_back({{"name", width.name}, {"value", width.value}, {"reason", width.reason}});
+    golden::save_json(options.common.json, json);
+  }
+  std::FILE* text = options.common.text();
+  if (text && options.emit_tables != "-" && (options.emit_tables.empty() || options.markdown) &&
+      options.common.json != "-")
+    std::fputs((options.markdown ? markdown_listing(config) : text_listing(config)).c_str(), text);
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_config_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command =
+      app.add_subcommand("config", "List the configuration: every key, every derived width with its reason");
+  command->footer(
+      "A star marks keys that differ from their defaults; \"auto\" is written as -1 or auto.\n\n"
+      "Examples:\n"
+      "  quadrille config --set significand_bits=24\n"
+      "  quadrille config --config wide.toml --emit-tables quadrille_tables_pkg.sv\n"
+      "  quadrille config --json -");
+  const auto options = std::make_shared<ConfigOptions>();
+  options->common.add_to(*command, false);
+  command
+      ->add_option("--emit-tables", options->emit_tables,
+                   "Write the package of the rsqrt and reciprocal tables; - is standard output")
+      ->type_name("F.sv");
+  command->add_flag("--markdown", options->markdown, "The listing as Markdown tables");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] { return list_config(*options, invocation.arguments); };
+  });
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,549 @@
+// quadrille cosim: the RTL and its model in lockstep on real quads, the fragments compared with the truth as they come.
+#include "tb/commands/commands.hpp"
+
+#include "golden/io/exr.hpp"
+#include "golden/io/json_report.hpp"
+#include "model/snap.hpp"
+#include "tb/commands/check.hpp"
+#include "tb/commands/errors.hpp"
+#include "tb/commands/input.hpp"
+#include "tb/commands/options.hpp"
+#include "tb/commands/output.hpp"
+#include "tb/commands/progress.hpp"
+#include "tb/lockstep.hpp"
+#include "tb/render/frame.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace quadrille::cli {
+namespace {
+
+struct CosimOptions {
+  CommonOptions common;
+  StateOptions state;
+  InputOptions input;
+  double stall = 0, gap = 0;
+  std::uint64_t limit_fragments = 0;
+  std::string trace, out, png, texture, shade, rtl;
+  bool no_snapping = false, no_alone = false;
+};
+
+constexpr std::uint64_t alone_fragments = 200'000;  ///< enough to time the RTL alone
+
+/// One input: what ran and what was found.
+struct InputResult {
+  std::string name, option;
+  std::size_t quads = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
+  std::uint64_t quads_drawn = 0, eye_crossing_quads = 0, homogeneous_quads = 0, tiny_quads = 0;
+  std::uint64_t passes = 0, fragments = 0, pixels = 0, mismatches = 0, cycles_rtl = 0, cycles_model = 0,
+                cycle_mismatches = 0, compared_bits = 0;
+  std::uint64_t pass_cycles = 0;  ///< of all passes
+  std::uint64_t alone_cycles = 0;
+  double alone_seconds = 0, seconds = 0, loop_seconds = 0;
+  bool complete = true;
+  std::optional<std::string> first_divergence;
+  std::uint64_t fragment_hash = 0;
+  CheckResult check;
+
+  bool ok() const { return mismatches == 0 && cycle_mismatches == 0 && check.ok(); }
+};
+
+void merge(InputResult& sum, const InputResult& part) {
+  sum.quads += part.quads;
+  sum.triangles += part.triangles;
+  sum.fanned_faces += part.fanned_faces;
+  sum.fan_primitives += part.fan_primitives;
+  sum.skipped_lines += part.skipped_lines;
+  sum.quads_drawn += part.quads_drawn;
+  sum.eye_crossing_quads += part.eye_crossing_quads;
+  sum.homogeneous_quads += part.homogeneous_quads;
+  sum.tiny_quads += part.tiny_quads;
+  sum.passes += part.passes;
+  sum.fragments += part.fragments;
+  sum.pixels += part.pixels;
+  sum.mismatches += part.mismatches;
+  sum.cycles_rtl += part.cycles_rtl;
+  sum.cycles_model += part.cycles_model;
+  sum.cycle_mismatches += part.cycle_mismatches;
+  sum.compared_bits += part.compared_bits;
+  sum.pass_cycles += part.pass_cycles;
+  sum.alone_cycles += part.alone_cycles;
+  sum.alone_seconds += part.alone_seconds;
+  sum.seconds += part.seconds;
+  sum.loop_seconds += part.loop_seconds;
+  sum.complete = sum.complete && part.complete;
+  if (!sum.first_divergence && part.first_divergence) sum.first_divergence = part.name + ": " + *part.first_divergence;
+  sum.fragment_hash = sum.fragment_hash * 0x100000001b3u ^ part.fragment_hash;
+  sum.check.merge(part.check);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+class CosimRun {
+ public:
+  CosimRun(const CosimOptions& options, std::vector<std::string> arguments)
+      : options_(options), arguments_(std::move(arguments)), config_(options.common.config()) {}
+
+  int run() {
+    check_options();
+    std::vector<InputOptions> inputs = list_inputs();
+    std::vector<InputResult> results;
+    for (const InputOptions& input : inputs) {
+      results.push_back(run_input(input));
+      if (std::FILE* text = options_.common.text(); text && inputs.size() > 1)
+        print_row(text, results.back(), results.size() == 1);
+    }
+    InputResult total;
+    for (const InputResult& result : results) merge(total, result);
+    total.name = results.size() == 1 ? results.front().name : "all";
+    total.option = results.size() == 1 ? results.front().option : "--scene all";
+
+    const bool ok = std::all_of(results.begin(), results.end(), [](const InputResult& r) { return r.ok(); });
+    if (std::FILE* text = options_.common.text()) print_summary(text, total, ok);
+    if (!options_.common.json.empty()) golden::save_json(options_.common.json, report(total, results, ok));
+    for (const InputResult& result : results) complain(result);
+    return ok ? exit_ok : exit_mismatch;
+  }
+
+ private:
+  void check_options() const {
+    const auto probability = [](const char* name, double p) {
+      if (!(p >= 0 && p < 1)) throw UsageError(std::string(name) + ": a probability from 0 to below 1 is required");
+    };
+    probability("--stall", options_.stall);
+    probability("--gap", options_.gap);
+    for (const std::string& file : {options_.trace, options_.out, options_.png, options_.common.json})
+      check_writable(file);
+    if (all_scenes() && (!options_.out.empty() || !options_.png.empty() || !options_.trace.empty()))
+      throw UsageError("--out, --png and --trace are for one input, not for all scenes");
+  }
+
+  bool all_scenes() const { return inputs_given(options_.input) == 0 || options_.input.scene == "all"; }
+
+  std::vector<InputOptions> list_inputs() const {
+    if (!all_scenes()) return {options_.input};
+    if (inputs_given(options_.input) > 1) throw UsageError("--scene all goes with no other input");
+    std::vector<InputOptions> inputs;
+    for (const std::string& name : scene_names()) {
+      inputs.push_back(options_.input);
+      inputs.back().scene = name;
+    }
+    return inputs;
+  }
+
+  InputResult run_input(const InputOptions& input_options) {
+    const auto start = std::chrono::steady_clock::now();
+    DrawState state = options_.state.state(options_.common, config_);
+    const DrawInput input = load_input(input_options, options_.shade, state.width, state.height, options_.common.seed);
+    state.perspective = state.perspective && input.perspective;
+    check_quad_count(input.quads.size(), config_);
+
+    InputResult result;
+    result.name = input.name;
+    result.option = input.option;
+    result.quads = input.quads.size();
+    result.triangles = input.triangles;
+    result.fanned_faces = input.fanned_faces;
+    result.fan_primitives = input.fan_primitives;
+    result.skipped_lines = input.skipped_lines;
+
+    std::unique_ptr<FrameBuffer> frame;
+    ShadeSettings shading;
+    if (!options_.out.empty() || !options_.png.empty()) {
+      frame = std::make_unique<FrameBuffer>(state.width, state.height, state.depth);
+      shading.shade = input.shade;
+      shading.slots = shade_slots(input.shade, input);
+      shading.texture = make_texture(options_.texture, input);
+      shading.to_eye = input.to_eye;
+      shading.depth = state.depth;
+      shading.threads = options_.common.thread_count();
+    }
+
+    // The weights first, then the attributes of the input in passes of their own.
+    std::vector<Pass> passes = plan_passes(0, true, config_);
+    const std::size_t weight_passes = passes.size();
+    if (input.attributes > 0)
+      for (Pass& pass : plan_passes(input.attributes, false, config_)) passes.push_back(std::move(pass));
+
+    // With several weight passes a picture needs whole samples: they are collected in order first.
+    std::vector<Sample> samples;
+    for (std::size_t p = 0; p < passes.size(); ++p) {
+      run_pass(input, state, passes[p], p, weight_passes, frame.get(), samples, result);
+      if (result.mismatches != 0 || result.cycle_mismatches != 0) break;  // more of the same is of no use
+    }
+    result.passes = passes.size();
+
+    if (frame && result.fragments > 0) {
+      golden::FrameImage image = shade_frame(*frame, shading);
+      if (!options_.out.empty()) {
+        add_error_layers(*frame, input.quads, config_, state, true, options_.common.thread_count(), image);
+        golden::save_exr(options_.out, image);
+      }
+      if (!options_.png.empty()) save_frame_png(options_.png, image);
+    }
+    result.seconds = seconds_since(start);
+    return result;
+  }
+
+  void run_pass(const DrawInput& input, const DrawState& draw_state, const Pass& pass, std::size_t number,
+                std::size_t weight_passes, FrameBuffer* frame, std::vector<Sample>& samples, InputResult& result) {
+    const bool first = number == 0;
+    DrawState state = draw_state;
+    state.attributes = static_cast<int>(pass.columns.size());
+    std::vector<SnappedQuad> snapped;
+    snapped.reserve(input.quads.size());
+    try {
+      for (std::size_t i = 0; i < input.quads.size(); ++i)
+        snapped.push_back(snap_as(pass_quad(input.quads[i], pass), static_cast<std::uint32_t>(i), config_, state));
+    } catch (const SnapError& error) {
+      throw UsageError(describe(error, input));
+    }
+
+    tb::LockstepOptions lockstep;
+    lockstep.config = config_;
+    lockstep.state = state;
+    lockstep.seed = options_.common.seed;
+    lockstep.stall = options_.stall;
+    lockstep.gap = options_.gap;
+    lockstep.limit_fragments = options_.limit_fragments;
+    lockstep.source = options_.rtl;
+    PartialFile trace(first ? options_.trace : std::string{});
+    if (trace.active()) lockstep.trace = trace.path();
+    Progress progress(input.name + (first ? "" : ", attributes"), 1000, options_.common.show_progress());
+    lockstep.progress = [&](double part) { progress.set(static_cast<std::uint64_t>(part * 1000)); };
+
+    const unsigned threads = options_.common.thread_count();
+    WorkQueue queue(threads - 1, std::size_t{16} * threads);
+    FragmentChecker::Settings check_settings;
+    check_settings.config = config_;
+    check_settings.state = state;
+    check_settings.pass = pass;
+    check_settings.first_pass = first;
+    check_settings.snapping = !options_.no_snapping;
+    check_settings.apply_bound = bound_applies();
+    FragmentChecker checker(check_settings, input.quads, snapped, queue);
+
+    std::size_t position = 0;
+    const tb::LockstepReport report = tb::run_lockstep(snapped, lockstep, [&](const Fragment& fragment) {
+      checker.fragment(fragment);
+      if (frame && fragment.quad < input.quads.size() && fragment.x < state.width && fragment.y < state.height)
+        picture(fragment, pass, number, weight_passes, input, *frame, samples, position);
+    });
+    const auto drawn = std::chrono::steady_clock::now();
+    checker.finish(report.complete);
+    queue.drain();
+    const double seconds = report.wall_seconds + seconds_since(drawn);  // without building the RTL
+    progress.finish();
+    if (trace.active()) trace.commit();
+    if (frame && number + 1 == weight_passes) {
+      frame->add(samples);
+      samples.clear();
+    }
+
+    result.mismatches += report.mismatches;
+    result.cycle_mismatches += report.cycle_mismatches;
+    result.compared_bits += report.compared_bits;
+    result.pass_cycles += report.cycles_rtl;
+    result.loop_seconds += seconds;
+    if (!result.first_divergence) result.first_divergence = report.first_divergence;
+    CheckResult check = checker.result();
+    if (!first) check.compared = 0;  // the same fragments again
+    result.check.merge(check);
+    if (!first) return;
+
+    result.quads_drawn = report.quads;
+    result.fragments = report.fragments;
+    result.pixels = report.pixels;
+    result.cycles_rtl = report.cycles_rtl;
+    result.cycles_model = report.cycles_model;
+    result.fragment_hash = report.fragment_hash;
+    result.complete = report.complete;
+    for (std::size_t i = 0; i < report.quads; ++i) {
+      result.eye_crossing_quads += is_eye_crossing(snapped[i]) ? 1 : 0;
+      result.homogeneous_quads += is_ordinary(snapped[i], config_) ? 0 : 1;
+      result.tiny_quads += is_tiny(snapped[i], config_) ? 1 : 0;
+    }
+    if (!options_.no_alone && report.agreed()) time_alone(snapped, lockstep, report, result);
+  }
+
+  /// The RTL without probes and comparison, on the same quads; its fragments must be the same ones.
+  static void time_alone(std::span<const SnappedQuad> snapped, tb::LockstepOptions options,
+                         const tb::LockstepReport& lockstep, InputResult& result) {
+    options.trace.reset();
+    options.progress = nullptr;
+    const bool whole = options.limit_fragments == 0 && lockstep.fragments <= alone_fragments;
+    if (!whole) options.limit_fragments = std::min(alone_fragments, std::max<std::uint64_t>(1, lockstep.fragments));
+    const tb::RtlRun alone = tb::run_rtl_alone(snapped, options);
+    result.alone_cycles = alone.cycles;
+    result.alone_seconds = alone.seconds;
+    if (whole && alone.fragment_hash != lockstep.fragment_hash) {
+      ++result.mismatches;
+      result.first_divergence = "the RTL alone gives other fragments than in lockstep";
+    }
+  }
+
+  static void picture(const Fragment& fragment, const Pass& pass, std::size_t number, std::size_t weight_passes,
+                      const DrawInput& input, FrameBuffer& frame, std::vector<Sample>& samples, std::size_t& position,
+                      const Config& config) {
+    if (number >= weight_passes) {
+      frame.amend(fragment, fragment.quad, pass, config);
+    } else if (number == 0) {
+      Sample& sample = samples.emplace_back();
+      sample.index = fragment.quad;
+      sample.quad = input.quads[fragment.quad].id;
+      read_columns(fragment, pass, config, sample);
+    } else if (position < samples.size()) {
+      read_columns(fragment, pass, config, samples[position++]);
+    }
+  }
+  void picture(const Fragment& fragment, const Pass& pass, std::size_t number, std::size_t weight_passes,
+               const DrawInput& input, FrameBuffer& frame, std::vector<Sample>& samples, std::size_t& position) const {
+    picture(fragment, pass, number, weight_passes, input, frame, samples, position, config_);
+  }
+
+  /// The bound is a statement about exact A, D and R².
+  bool bound_applies() const { return config_.qdrop() == 0; }
+
+  std::string reproduce(const InputResult& result, const CheckResult::Worst& worst) const {
+    std::string text = "quadrille fragments --engine model " + result.option;
+    if (!options_.common.config_file.empty()) text += " --config " + one(options_.common.config_file);
+    for (const std::string& setting : options_.common.settings) text += " --set " + one(setting);
+    text += " --size " + options_.common.size + " --seed " + std::to_string(options_.common.seed) +
+            options_.state.spelled();
+    return text + " --quad " + std::to_string(worst.place.index) + " --pixel " + std::to_string(worst.place.x) + "," +
+           std::to_string(worst.place.y) + " --out -";
+  }
+  static std::string one(const std::string& argument) { return golden::command_line(std::span(&argument, 1)); }
+
+  nlohmann::ordered_json error_json(const ErrorStats& lambda, const ErrorStats& attribute,
+                                    const ErrorStats& depth) const {
+    return {{"lambda_max", lambda.max()},       {"lambda_p999", lambda.p999()},       {"lambda_rms", lambda.rms()},
+            {"attribute_max", attribute.max()}, {"attribute_p999", attribute.p999()}, {"depth_max", depth.max()},
+            {"depth_p999", depth.p999()},       {"fragments", lambda.count()}};
+  }
+
+  nlohmann::ordered_json result_json(const InputResult& r) const {
+    const CheckResult& c = r.check;
+    nlohmann::ordered_json json;
+    json["input"] = r.name;
+    json["ok"] = r.ok();
+    json["complete"] = r.complete;
+    json["quads"] = r.quads;
+    json["quads_drawn"] = r.quads_drawn;
+    json["triangles"] = r.triangles;
+    json["fanned_faces"] = r.fanned_faces;
+    json["fan_primitives"] = r.fan_primitives;
+    json["skipped_lines"] = r.skipped_lines;
+    json["passes"] = r.passes;
+    json["fragments"] = r.fragments;
+    json["mismatches"] = r.mismatches;
+    json["reference_mismatches"] = c.mismatches;
+    json["beyond_bound"] = c.beyond_bound;
+    json["cycles_rtl"] = r.cycles_rtl;
+    json["cycles_model"] = r.cycles_model;
+    json["cycle_mismatches"] = r.cycle_mismatches;
+    json["compared_bits"] = r.compared_bits;
+    json["covered_pixels"] = r.pixels;
+    json["covered_pixels_per_clock"] = ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl));
+    char hash[20];
+    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(r.fragment_hash));
+    json["fragment_hash"] = hash;
+    json["error"] = {{"arithmetic", error_json(c.arithmetic_lambda, c.arithmetic_attribute, c.arithmetic_depth)},
+                     {"snapping", error_json(c.snapping_lambda, c.snapping_attribute, c.snapping_depth)}};
+    json["bound"] = {{"lambda_max", weight_bound(config_)},
+                     {"times_condition", config_.notch_exact == 0},
+                     {"applies", bound_applies()},
+                     {"held", bound_applies() && c.beyond_bound == 0},
+                     {"exempt_fragments", c.bound_exempt}};
+    if (c.worst.ratio >= 0) {
+      json["worst"] = {
+          {"quad", c.worst.place.quad}, {"position", c.worst.place.index}, {"x", c.worst.place.x},
+          {"y", c.worst.place.y},       {"weight", c.worst.weight},        {"lambda_error", c.worst.error},
+          {"bound", c.worst.bound},     {"condition", c.worst.condition},  {"error_over_bound", c.worst.ratio}};
+      if (r.name != "all") json["worst"]["reproduce"] = reproduce(r, c.worst);
+    }
+    json["counts"] = {{"eye_crossing_quads", r.eye_crossing_quads},
+                      {"homogeneous_quads", r.homogeneous_quads},
+                      {"tiny_quads", r.tiny_quads},
+                      {"eye_crossing", c.eye_crossing},
+                      {"homogeneous", c.homogeneous},
+                      {"on_edge", c.on_edge},
+                      {"on_vertex", c.on_vertex},
+                      {"two_corner", c.two_corner},
+                      {"two_edge", c.two_edge},
+                      {"tie", c.tie},
+                      {"near_edge", c.near_edge},
+                      {"near_vertex", c.near_vertex},
+                      {"tiny", c.tiny},
+                      {"cured", c.cured},
+                      {"saturated", c.saturated},
+                      {"undefined", 0},
+                      {"discarded", c.discarded},
+                      {"coverage_flips", c.coverage_flips},
+                      {"tolerated_visible", c.tolerated_visible},
+                      {"tolerated_depth", c.tolerated_depth}};
+    if (r.first_divergence) json["first_divergence"] = *r.first_divergence;
+    if (c.first.any) json["first_reference_difference"] = c.first.text;
+    const double rate = ratio(static_cast<double>(r.pass_cycles), r.loop_seconds);
+    const double alone = ratio(static_cast<double>(r.alone_cycles), r.alone_seconds);
+    json["wall_seconds"] = r.seconds;
+    json["rtl_cycles_per_second"] = rate;
+    json["rtl_alone_cycles_per_second"] = alone;
+    json["rtl_alone_over_lockstep"] = ratio(alone, rate);
+    return json;
+  }
+
+  nlohmann::ordered_json report(const InputResult& total, const std::vector<InputResult>& results, bool ok) const {
+    nlohmann::ordered_json json = golden::begin_report(config_, options_.common.seed, arguments_);
+    json.update(result_json(total));
+    json["ok"] = ok;
+    json["stall"] = options_.stall;
+    json["gap"] = options_.gap;
+    json["size"] = options_.common.size;
+    if (results.size() > 1) {
+      json["inputs"] = nlohmann::ordered_json::array();
+      for (const InputResult& result : results) json["inputs"].push_back(result_json(result));
+      const auto worst = std::max_element(
+          results.begin(), results.end(),
+          [](const InputResult& a, const InputResult& b) { return a.check.worst.ratio < b.check.worst.ratio; });
+      if (worst->check.worst.ratio >= 0) {
+        json["worst"] = result_json(*worst)["worst"];
+        json["worst"]["input"] = worst->name;
+      }
+    }
+    return json;
+  }
+
+  static void print_row(std::FILE* out, const InputResult& r, bool head) {
+    if (head)
+      std::fprintf(out, "%-22s %7s %10s %11s %5s  %-9s %-9s %s\n", "input", "quads", "fragments", "cycles", "px/ck",
+                   "max error", "of bound", "");
+    std::fprintf(out, "%-22s %7zu %10llu %11llu %5.2f  %-9.2e %8.1f%% %s\n", r.name.c_str(), r.quads,
+                 static_cast<unsigned long long>(r.fragments), static_cast<unsigned long long>(r.cycles_rtl),
+                 ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl)),
+                 r.check.arithmetic_lambda.max(), 100 * std::max(0.0, r.check.worst.ratio), r.ok() ? "ok" : "FAILED");
+    std::fflush(out);
+  }
+
+  void print_summary(std::FILE* out, const InputResult& r, bool ok) const {
+    const CheckResult& c = r.check;
+    const auto n = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+    std::fprintf(out, "\n%s  (%s; seed %llu, stall %g, gap %g; configuration %s)\n\n", r.name.c_str(),
+                 options_.common.size.c_str(), n(options_.common.seed), options_.stall, options_.gap,
+                 summary(config_).c_str());
+    std::fprintf(out, "  lockstep       %llu quads, %llu fragments, %llu cycles%s\n", n(r.quads_drawn), n(r.fragments),
+                 n(r.cycles_rtl), r.complete ? "" : " (ended early)");
+    if (r.fanned_faces)
+      std::fprintf(out, "                 %zu faces with more than four corners cut into %zu primitives\n",
+                   r.fanned_faces, r.fan_primitives);
+    std::fprintf(out, "                 %llu bit mismatches, %llu cycle mismatches; %llu bits compared\n",
+                 n(r.mismatches), n(r.cycle_mismatches), n(r.compared_bits));
+    std::fprintf(out, "  coverage       %llu fragments against the truth, %llu differ\n", n(c.compared),
+                 n(c.mismatches));
+    std::fprintf(out, "  throughput     %.3f covered pixels per clock\n",
+                 ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl)));
+    std::fprintf(out, "\n  error                   max        p99.9      rms        attribute  depth\n");
+    const auto row = [&](const char* name, const ErrorStats& l, const ErrorStats& a, const ErrorStats& d) {
+      std::fprintf(out, "    %-18s %9.2e  %9.2e  %9.2e  %9.2e  %9.2e\n", name, l.max(), l.p999(), l.rms(), a.max(),
+                   d.max());
+    };
+    row("arithmetic", c.arithmetic_lambda, c.arithmetic_attribute, c.arithmetic_depth);
+    if (!options_.no_snapping) row("snapping", c.snapping_lambda, c.snapping_attribute, c.snapping_depth);
+    if (!bound_applies())
+      std::fprintf(out, "    bound              none: quadratic_frac_bits drops bits of D and R^2\n");
+    else
+      std::fprintf(out, "    bound              %9.2e%s  %s, worst %.1f %% of it\n", weight_bound(config_),
+                   config_.notch_exact ? "" : " x max(1, condition)", c.beyond_bound == 0 ? "held" : "EXCEEDED",
+                   100 * std::max(0.0, c.worst.ratio));
+    std::fprintf(out, "\n  fragments of   eye-crossing quads %llu (%llu quads), under-4-px quads %llu\n",
+                 n(c.eye_crossing), n(r.eye_crossing_quads), n(c.tiny));
+    std::fprintf(out, "                 within 1/16 px of an edge %llu, within 1 px of a vertex %llu\n", n(c.near_edge),
+                 n(c.near_vertex));
+    std::fprintf(out, "                 on an edge %llu, a vertex %llu, two corners %llu, two edges %llu, ties %llu\n",
+                 n(c.on_edge), n(c.on_vertex), n(c.two_corner), n(c.two_edge), n(c.tie));
+    if (options_.common.verbose)
+      std::fprintf(out,
+                   "                 notch cure %llu, saturated %llu, discarded by z %llu, moved by snapping %llu, "
+                   "tolerated %llu + %llu\n",
+                   n(c.cured), n(c.saturated), n(c.discarded), n(c.coverage_flips), n(c.tolerated_visible),
+                   n(c.tolerated_depth));
+    const double rate = ratio(static_cast<double>(r.pass_cycles), r.loop_seconds);
+    const double alone = ratio(static_cast<double>(r.alone_cycles), r.alone_seconds);
+    std::fprintf(out, "\n  speed          %.0f cycles/s with all comparisons", rate);
+    if (alone > 0) std::fprintf(out, "; RTL alone %.0f (%.1f x)", alone, ratio(alone, rate));
+    std::fprintf(out, "; %.1f s in all\n\n%s\n", r.seconds, ok ? "OK" : "FAILED");
+  }
+
+  static void complain(const InputResult& r) {
+    if (r.first_divergence)
+      std::fprintf(stderr, "quadrille: %s: lockstep: %s\n", r.name.c_str(), r.first_divergence->c_str());
+    if (r.check.first.any)
+      std::fprintf(stderr, "quadrille: %s: %llu differences from the truth; the first: %s\n", r.name.c_str(),
+                   static_cast<unsigned long long>(r.check.mismatches), r.check.first.text.c_str());
+    if (r.check.beyond_bound)
+      std::fprintf(
+          stderr,
+          "quadrille: %s: %llu weights beyond the bound; the worst: quad %u, pixel (%d, %d), error %.3e, bound %.3e\n",
+          r.name.c_str(), static_cast<unsigned long long>(r.check.beyond_bound), r.check.worst.place.quad,
+          r.check.worst.place.x, r.check.worst.place.y, r.check.worst.error, r.check.worst.bound);
+    if (r.check.compared == 0)
+      std::fprintf(stderr, "quadrille: %s: no fragment was compared, so nothing was shown\n", r.name.c_str());
+  }
+
+  const CosimOptions options_;
+  const std::vector<std::string> arguments_;
+  const Config config_;
+};
+
+}  // namespace
+
+void add_cosim_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("cosim", "RTL and model in lockstep, their fragments against the truth");
+  command->footer(
+      "Without an input all built-in scenes run. Exit status 0 only if at least one fragment was compared, nothing\n"
+      "differed and the error bound held.\n\n"
+      "Examples:\n"
+      "  quadrille cosim --scene fig7_floor --png floor.png\n"
+      "  quadrille cosim --mesh pawn.obj --stall 0.5 --gap 0.1 --json report.json\n"
+      "  quadrille cosim --stress eye_crossing --count 200 --set significand_bits=24\n"
+      "  quadrille cosim --scene sphere --limit-fragments 2000 --trace sphere.fst");
+  const auto options = std::make_shared<CosimOptions>();
+  options->input.add_to(*command);
+  options->common.add_to(*command);
+  options->state.add_to(*command);
+  command->add_option("--stall", options->stall, "Probability per clock that the output is not ready")
+      ->type_name("P")
+      ->capture_default_str();
+  command->add_option("--gap", options->gap, "Probability per clock that no vertex is offered")
+      ->type_name("P")
+      ->capture_default_str();
+  command
+      ->add_option("--limit-fragments", options->limit_fragments, "End each input after so many fragments; 0: no limit")
+      ->type_name("N");
+  command->add_option("--trace", options->trace, "Waveform of the RTL")->type_name("F.fst");
+  command->add_option("--out", options->out, "Picture of the RTL's fragments, with weights and errors")
+      ->type_name("F.exr");
+  command->add_option("--png", options->png, "The same to look at")->type_name("F.png");
+  command->add_option("--texture", options->texture, "Picture instead of the scene's own pattern")->type_name("F.png");
+  command
+      ->add_option("--shade", options->shade,
+                   "uv, texture, normal, lambda, depth or quad; default: what suits the input")
+      ->type_name("MODE");
+  command->add_option("--rtl", options->rtl, "Verilog instead of the project's: a directory or one file")
+      ->type_name("PATH");
+  command->add_flag("--no-snapping-error", options->no_snapping, "Do not measure the error of snapping (quicker)");
+  command->add_flag("--no-alone", options->no_alone, "Do not time the RTL alone");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] { return CosimRun(*options, invocation.arguments).run(); };
+  });
+}
+
+}  // namespace quadrille::cli

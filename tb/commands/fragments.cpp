@@ -1,0 +1,155 @@
+// quadrille fragments: every fragment of every quad as a table, without depth test.
+#include "tb/commands/commands.hpp"
+
+#include "golden/io/fragment_csv.hpp"
+#include "golden/io/json_report.hpp"
+#include "model/snap.hpp"
+#include "tb/commands/choices.hpp"
+#include "tb/commands/errors.hpp"
+#include "tb/commands/input.hpp"
+#include "tb/commands/output.hpp"
+#include "tb/commands/progress.hpp"
+#include "tb/render/engine.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <memory>
+
+namespace quadrille::cli {
+namespace {
+
+struct FragmentsOptions {
+  CommonOptions common;
+  StateOptions state;
+  InputOptions input;
+  std::string engine = "model", snap = "on", out, pixel, shade;
+  std::int64_t quad = -1;
+  double stall = 0, gap = 0;
+};
+
+/// "X,Y" inside the viewport.
+std::pair<int, int> parse_pixel(const std::string& text, const DrawState& state) {
+  int x = -1, y = -1;
+  const char* end = text.data() + text.size();
+  const auto [comma, error] = std::from_chars(text.data(), end, x);
+  const bool first = error == std::errc{} && comma != end && *comma == ',';
+  const auto [last, second] =
+      first ? std::from_chars(comma + 1, end, y) : std::from_chars_result{end, std::errc::invalid_argument};
+  if (!first || second != std::errc{} || last != end || x < 0 || y < 0 || x >= state.width || y >= state.height)
+    throw UsageError("--pixel " + text + ": expected X,Y inside the viewport, such as --pixel 10,20");
+  return {x, y};
+}
+
+int fragments(const FragmentsOptions& options, const std::vector<std::string>& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  EngineSettings settings;
+  settings.kind = engine_kind(options.engine);
+  settings.config = options.common.config();
+  settings.state = options.state.state(options.common, settings.config);
+  settings.snap = choose("--snap value", options.snap, {"on", "off"}) == 0;
+  settings.threads = options.common.thread_count();
+  settings.seed = options.common.seed;
+  settings.stall = options.stall;
+  settings.gap = options.gap;
+  const bool machine = settings.kind == EngineKind::rtl || settings.kind == EngineKind::model;
+  if (machine && !settings.snap)
+    throw UsageError("--snap off is for the engines float and truth; the machine takes snapped quads only");
+  if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
+  if (options.out == "-" && options.common.json == "-")
+    throw UsageError("--out - and --json - both want standard output");
+  for (const std::string& file : {options.out, options.common.json}) check_writable(file);
+
+  const int width = settings.state.width, height = settings.state.height;
+  DrawInput input = load_input(options.input, options.shade, width, height, options.common.seed);
+  settings.state.perspective = settings.state.perspective && input.perspective;
+  if (options.quad >= 0) {
+    if (static_cast<std::uint64_t>(options.quad) >= input.quads.size())
+      throw UsageError("--quad " + std::to_string(options.quad) + ": " + input.name + " has " +
+                       std::to_string(input.quads.size()) + " quads, counted from 0");
+    input.quads = {input.quads[static_cast<std::size_t>(options.quad)]};
+  }
+  std::pair<int, int> pixel{-1, -1};
+  if (!options.pixel.empty()) pixel = parse_pixel(options.pixel, settings.state);
+
+  std::vector<golden::FragmentRow> rows;
+  std::uint64_t undefined = 0;
+  try {
+    Progress progress("fragments of " + input.name, input.quads.size(), options.common.show_progress());
+    make_engine(settings)->draw(input.quads, input.attributes, true, [&](std::span<const Sample> samples) {
+      for (const Sample& sample : samples) {
+        if (pixel.first >= 0 && (sample.x != pixel.first || sample.y != pixel.second)) continue;
+        rows.push_back(
+            {sample.quad, sample.x, sample.y, sample.front, sample.flags, sample.lambda, sample.z, sample.attribute});
+        if (sample.undefined) rows.back().flags |= flag_undefined, ++undefined;
+      }
+      progress.set(samples.back().index + 1);
+    });
+  } catch (const SnapError& error) {
+    throw UsageError(describe(error, input));
+  }
+  golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
+
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!options.common.json.empty()) {
+    nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
+    json["input"] = input.name;
+    json["engine"] = options.engine;
+    json["snap"] = settings.snap;
+    json["quads"] = input.quads.size();
+    json["fragments"] = rows.size();
+    json["undefined"] = undefined;
+    json["wall_seconds"] = seconds;
+    golden::save_json(options.common.json, json);
+  }
+  if (std::FILE* text = options.common.text(); text && options.out != "-") {
+    std::fprintf(text, "%s by %s: %zu quads, %zu fragments", input.name.c_str(), options.engine.c_str(),
+                 input.quads.size(), rows.size());
+    if (undefined) std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(undefined));
+    std::fprintf(text, ", %.2f s\n", seconds);
+  }
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_fragments_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("fragments", "Write every fragment as a table, without depth test");
+  command->footer(
+      "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,a0,...; sorted by quad, y, x; 17 significant digits. Flags: 1 on an "
+      "edge,\n"
+      "2 on a vertex, 4 two corners, 8 two edges, 16 tie, 32 homogeneous, 64 notch cure, 128 saturated; float engine: "
+      "256\n"
+      "undefined (its numbers are not to be used).\n\n"
+      "Examples:\n"
+      "  quadrille fragments --quads some.quads --out some.csv\n"
+      "  quadrille fragments --engine truth --snap off --scene bowtie --size 64x64 --out -\n"
+      "  quadrille fragments --engine rtl --mesh pawn.obj --quad 17 --out pawn17.csv");
+  const auto options = std::make_shared<FragmentsOptions>();
+  options->input.add_to(*command);
+  options->common.add_to(*command);
+  options->state.add_to(*command);
+  command->add_option("--engine", options->engine, "rtl, model, float (the paper's formulas in double) or truth")
+      ->type_name("ENGINE")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "The table; - is standard output")->type_name("F.csv");
+  command->add_option("--snap", options->snap, "on or off: float and truth draw the snapped or the given quads")
+      ->type_name("on|off")
+      ->capture_default_str();
+  command->add_option("--quad", options->quad, "Only the quad at this position, counted from 0")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));
+  command->add_option("--pixel", options->pixel, "Only this pixel")->type_name("X,Y");
+  command
+      ->add_option("--shade", options->shade,
+                   "Attributes of a scene or mesh: uv, texture, normal; default: what suits the input")
+      ->type_name("MODE");
+  command->add_option("--stall", options->stall, "rtl: probability per clock that the output is not ready")
+      ->type_name("P");
+  command->add_option("--gap", options->gap, "rtl: probability per clock that no vertex is offered")->type_name("P");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] { return fragments(*options, invocation.arguments); };
+  });
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,157 @@
+// quadrille render: a depth-tested picture by any engine.
+#include "tb/commands/commands.hpp"
+
+#include "golden/io/exr.hpp"
+#include "golden/io/json_report.hpp"
+#include "model/snap.hpp"
+#include "tb/commands/choices.hpp"
+#include "tb/commands/errors.hpp"
+#include "tb/commands/input.hpp"
+#include "tb/commands/output.hpp"
+#include "tb/commands/progress.hpp"
+#include "tb/render/frame.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+namespace quadrille::cli {
+namespace {
+
+struct RenderOptions {
+  CommonOptions common;
+  StateOptions state;
+  InputOptions input;
+  std::string engine = "model", snap = "on", texture, shade, out, png;
+  double stall = 0, gap = 0;
+  bool no_error = false;
+};
+
+int render(const RenderOptions& options, const std::vector<std::string>& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  EngineSettings settings;
+  settings.kind = engine_kind(options.engine);
+  settings.config = options.common.config();
+  settings.state = options.state.state(options.common, settings.config);
+  settings.snap = choose("--snap value", options.snap, {"on", "off"}) == 0;
+  settings.threads = options.common.thread_count();
+  settings.seed = options.common.seed;
+  settings.stall = options.stall;
+  settings.gap = options.gap;
+  const bool machine = settings.kind == EngineKind::rtl || settings.kind == EngineKind::model;
+  if (machine && !settings.snap)
+    throw UsageError("--snap off is for the engines float and truth; the machine takes snapped quads only");
+  if (options.out.empty() && options.png.empty()) throw UsageError("--out F.exr or --png F.png (or both) is needed");
+  for (const std::string& file : {options.out, options.png, options.common.json}) check_writable(file);
+
+  const DrawInput input =
+      load_input(options.input, options.shade, settings.state.width, settings.state.height, options.common.seed);
+  settings.state.perspective = settings.state.perspective && input.perspective;
+  ShadeSettings shading;
+  shading.shade = input.shade;
+  shading.slots = shade_slots(input.shade, input);
+  shading.texture = make_texture(options.texture, input);
+  shading.to_eye = input.to_eye;
+  shading.depth = settings.state.depth;
+  shading.threads = settings.threads;
+
+  FrameBuffer frame(settings.state.width, settings.state.height, settings.state.depth);
+  try {
+    Progress progress("render " + input.name, input.quads.size(), options.common.show_progress());
+    make_engine(settings)->draw(input.quads, input.attributes, true, [&](std::span<const Sample> samples) {
+      frame.add(samples);
+      progress.set(samples.back().index + 1);
+    });
+  } catch (const SnapError& error) {
+    throw UsageError(describe(error, input));
+  }
+
+  golden::FrameImage image = shade_frame(frame, shading);
+  if (settings.kind != EngineKind::truth && !options.no_error && (!options.out.empty() || !options.common.json.empty()))
+    add_error_layers(frame, input.quads, settings.config, settings.state, settings.snap, settings.threads, image);
+  if (!options.out.empty()) golden::save_exr(options.out, image);
+  if (!options.png.empty()) save_frame_png(options.png, image);
+
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  double error_max = 0;
+  for (const auto& [name, layer] : image.error)
+    for (const float error : layer) error_max = std::max(error_max, std::fabs(static_cast<double>(error)));
+
+  if (!options.common.json.empty()) {
+    nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
+    json["input"] = input.name;
+    json["engine"] = options.engine;
+    json["shade"] = input.shade;
+    json["size"] = options.common.size;
+    json["quads"] = input.quads.size();
+    json["triangles"] = input.triangles;
+    json["fanned_faces"] = input.fanned_faces;
+    json["fan_primitives"] = input.fan_primitives;
+    json["skipped_lines"] = input.skipped_lines;
+    json["fragments"] = frame.fragments();
+    json["undefined"] = frame.undefined();
+    json["pixels_drawn"] = frame.pixels_drawn();
+    if (!image.error.empty()) json["error_max"] = error_max;
+    json["wall_seconds"] = seconds;
+    golden::save_json(options.common.json, json);
+  }
+  if (std::FILE* text = options.common.text()) {
+    std::fprintf(text, "%s by %s: %zu quads, %llu fragments, %llu pixels drawn", input.name.c_str(),
+                 options.engine.c_str(), input.quads.size(), static_cast<unsigned long long>(frame.fragments()),
+                 static_cast<unsigned long long>(frame.pixels_drawn()));
+    if (frame.undefined()) std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(frame.undefined()));
+    if (!image.error.empty()) std::fprintf(text, ", largest weight error %.2e", error_max);
+    std::fprintf(text, ", %.2f s\n", seconds);
+    if (input.fanned_faces)
+      std::fprintf(text, "%zu faces with more than four corners were cut into %zu primitives\n", input.fanned_faces,
+                   input.fan_primitives);
+    if (input.skipped_lines && options.common.verbose)
+      std::fprintf(text, "%zu lines of the mesh were skipped\n", input.skipped_lines);
+  }
+  if (frame.fragments() == 0)
+    std::fprintf(stderr, "quadrille: %s: nothing is visible, the picture is empty\n", input.name.c_str());
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("render", "Draw a depth-tested picture with any engine");
+  command->footer(
+      "The EXR holds R G B A, Z, the weights L0-L3, the quad id and error.L0-L3 (weights minus the truth's). The bytes "
+      "do\n"
+      "not depend on --threads.\n\n"
+      "Examples:\n"
+      "  quadrille render --scene sphere --png sphere.png\n"
+      "  quadrille render --engine rtl --mesh spot.obj --texture spot.png --shade texture --out spot.exr --png "
+      "spot.png\n"
+      "  quadrille render --engine float --snap off --scene fig8_behind --out behind.exr");
+  const auto options = std::make_shared<RenderOptions>();
+  options->input.add_to(*command);
+  options->common.add_to(*command);
+  options->state.add_to(*command);
+  command->add_option("--engine", options->engine, "rtl, model, float (the paper's formulas in double) or truth")
+      ->type_name("ENGINE")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Picture with depth, weights, ids and errors")->type_name("F.exr");
+  command->add_option("--png", options->png, "Picture to look at")->type_name("F.png");
+  command
+      ->add_option("--shade", options->shade,
+                   "uv, texture, normal, lambda, depth or quad; default: what suits the input")
+      ->type_name("MODE");
+  command->add_option("--texture", options->texture, "Picture for --shade texture instead of the input's own pattern")
+      ->type_name("F.png");
+  command->add_option("--snap", options->snap, "on or off: float and truth draw the snapped or the given quads")
+      ->type_name("on|off")
+      ->capture_default_str();
+  command->add_option("--stall", options->stall, "rtl: probability per clock that the output is not ready")
+      ->type_name("P");
+  command->add_option("--gap", options->gap, "rtl: probability per clock that no vertex is offered")->type_name("P");
+  command->add_flag("--no-error", options->no_error, "Leave the error layers out (quicker)");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] { return render(*options, invocation.arguments); };
+  });
+}
+
+}  // namespace quadrille::cli

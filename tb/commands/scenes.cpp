@@ -1,0 +1,59 @@
+// quadrille scenes: the built-in scenes.
+#include "tb/commands/commands.hpp"
+
+#include "golden/io/json_report.hpp"
+#include "golden/scenes/scenes.hpp"
+#include "golden/scenes/stress.hpp"
+#include "tb/commands/errors.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace quadrille::cli {
+namespace {
+
+struct ScenesOptions {
+  bool json = false, stress = false;
+};
+
+int list(const ScenesOptions& options) {
+  if (options.stress) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const golden::StressFamilyInfo& family : golden::stress_families()) {
+      if (options.json)
+        json.push_back({{"name", family.name}, {"stresses", family.stresses}});
+      else
+        std::printf("%-16s %s\n", std::string(family.name).c_str(), std::string(family.stresses).c_str());
+    }
+    if (options.json) golden::save_json("-", json);
+    return exit_ok;
+  }
+  const std::vector<golden::SceneInfo> scenes = golden::list_scenes();
+  if (options.json) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const golden::SceneInfo& scene : scenes)
+      json.push_back({{"name", scene.name}, {"title", scene.title}, {"paper", scene.paper}, {"quads", scene.quads}});
+    golden::save_json("-", json);
+    return exit_ok;
+  }
+  std::size_t width = 0;
+  for (const golden::SceneInfo& scene : scenes) width = std::max(width, scene.name.size());
+  for (const golden::SceneInfo& scene : scenes)
+    std::printf("%-*s %5zu %s  %s (%s)\n", static_cast<int>(width), scene.name.c_str(), scene.quads,
+                scene.quads == 1 ? "quad " : "quads", scene.title.c_str(), scene.paper.c_str());
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_scenes_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes");
+  command->footer("Examples:\n  quadrille scenes\n  quadrille scenes --json\n  quadrille scenes --stress");
+  const auto options = std::make_shared<ScenesOptions>();
+  command->add_flag("--json", options->json, "An array of name, title, paper, quads on standard output");
+  command->add_flag("--stress", options->stress, "The stress families instead");
+  command->callback([options, &invocation] { invocation.run = [options] { return list(*options); }; });
+}
+
+}  // namespace quadrille::cli

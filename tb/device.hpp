@@ -1,0 +1,63 @@
+// The machine under test as the lockstep loop sees it: pins in, pins out, one clock. The Verilated RTL is one
+// implementation (verilated_device.hpp); tests have others, broken on purpose.
+#pragma once
+
+#include "model/stages.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace quadrille::tb {
+
+/// The device cannot go on: an assertion of the RTL failed, or a waveform could not be written.
+struct DeviceError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+inline constexpr std::size_t probe_count = static_cast<std::size_t>(Boundary::fragment);  ///< boundaries setup to sum
+
+/// A boundary in this clock: 32-bit words, least significant first. words is null on a device without probes.
+struct ProbeSample {
+  bool valid = false;
+  const std::uint32_t* words = nullptr;
+};
+
+/// Everything that leaves the machine in one clock.
+struct DeviceSample {
+  bool vertex_ready = false, fragment_valid = false, busy = false;
+  std::uint32_t fragment_mask = 0;
+  const std::uint32_t* fragment = nullptr;       ///< the packed fragment_t, zero when not valid
+  std::array<ProbeSample, probe_count> probe{};  ///< indexed by Boundary
+};
+
+class Device {
+ public:
+  virtual ~Device() = default;
+
+  /// Reset input, active or not; as every input it takes effect at the next settle().
+  virtual void set_reset(bool active) = 0;
+
+  /// The packed state_t. To be changed only while the machine is not busy.
+  virtual void set_state(std::span<const std::uint32_t> words) = 0;
+
+  /// The packed vertex_t of the beat that is offered. It must stay as it is until the beat was taken.
+  virtual void set_vertex(std::span<const std::uint32_t> words) = 0;
+
+  /// vertex_valid_i and fragment_ready_i.
+  virtual void set_handshake(bool vertex_valid, bool fragment_ready) = 0;
+
+  /// Lets inputs run through to the outputs with the clock low. May be called again after further changes of the
+  /// inputs. Throws DeviceError when the device stopped, on a failed assertion say.
+  virtual void settle() = 0;
+
+  /// The outputs after settle(). Pointers in it hold until the next call of settle() or clock().
+  virtual const DeviceSample& sample() = 0;
+
+  /// The rising edge of the clock. Throws DeviceError as settle() does.
+  virtual void clock() = 0;
+};
+
+}  // namespace quadrille::tb

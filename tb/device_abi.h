@@ -1,0 +1,75 @@
+/* The C interface between the test bench and a shared object that holds one Verilated configuration of the machine.
+ * One symbol, quadrille_device_api(), returns a table of functions. Vectors are arrays of 32-bit words, least
+ * significant word first, unused top bits zero. A function that can fail returns 0 for success; last_error() says what
+ * happened. */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { quadrille_device_abi_version = 1, quadrille_probe_count = 9 };
+
+/* One boundary in this clock. words stays where it is for the device's life; its contents change with every evaluation.
+ */
+typedef struct {
+  uint32_t valid;
+  uint32_t width; /* bits; 0: built without probes */
+  const uint32_t* words;
+} quadrille_probe;
+
+/* Everything that leaves the machine in this clock. */
+typedef struct {
+  uint32_t vertex_ready, fragment_valid, fragment_mask, busy;
+  uint32_t fragment_width; /* bits */
+  const uint32_t* fragment_words;
+  quadrille_probe probe[quadrille_probe_count]; /* setup tile stamp diff norm rsqrt ratio weight sum */
+} quadrille_sample;
+
+typedef struct {
+  const char* name;
+  int64_t value;
+} quadrille_constant;
+
+typedef struct quadrille_device quadrille_device; /* opaque */
+
+typedef struct {
+  uint32_t abi_version;
+  uint32_t vertex_width, state_width; /* bits of the two input vectors */
+
+  /* A machine whose registers hold random bits from `seed`; nothing is evaluated yet. NULL: see last_error(NULL). */
+  quadrille_device* (*create)(uint64_t seed);
+  void (*destroy)(quadrille_device*);
+
+  /* Inputs. They take effect at the next settle(). */
+  void (*set_reset)(quadrille_device*, int active);
+  void (*set_state)(quadrille_device*, const uint32_t* words);
+  void (*set_vertex)(quadrille_device*, const uint32_t* words);
+  void (*set_handshake)(quadrille_device*, int vertex_valid, int fragment_ready);
+
+  /* Evaluates with the clock low; outputs then belong to the present inputs. */
+  int (*settle)(quadrille_device*);
+  /* The rising edge. */
+  int (*clock)(quadrille_device*);
+  /* The outputs after settle(). */
+  const quadrille_sample* (*sample)(quadrille_device*);
+
+  /* Waveform; trace_open fails when the object was built without tracing. */
+  int (*trace_open)(quadrille_device*, const char* path);
+  void (*trace_close)(quadrille_device*);
+
+  /* Localparams of quadrille_pkg as the RTL sees them; ends with a NULL name. */
+  const quadrille_constant* (*constants)(void);
+
+  /* Text of the last failure of this device, or of create() for NULL. */
+  const char* (*last_error)(const quadrille_device*);
+} quadrille_device_table;
+
+typedef const quadrille_device_table* (*quadrille_device_api_function)(void);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,247 @@
+// Compiled together with the Verilated class of one configuration; the other side of device_abi.h. Widths differ
+// between configurations, so a port may be a byte, a word or an array of words: everything goes through the templates
+// below.
+#include "Vquadrille.h"
+#include "device_abi.h"
+#include "verilated.h"
+#if QUADRILLE_TRACE
+#include "verilated_fst_c.h"
+#endif
+
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "device_constants.inc"  // includes the package's header and defines quadrille_constants[]
+
+namespace {
+
+// ---- ports of any width ----
+
+template <class T>
+struct PortTraits {
+  static constexpr unsigned words = (sizeof(T) + 3) / 4;
+  static constexpr bool wide = false;
+};
+template <std::size_t N>
+struct PortTraits<VlWide<N>> {
+  static constexpr unsigned words = N;
+  static constexpr bool wide = true;
+};
+
+template <class T>
+void assign(T& port, const uint32_t* words) {
+  if constexpr (PortTraits<T>::wide) {
+    std::memcpy(port.data(), words, sizeof(uint32_t) * PortTraits<T>::words);
+  } else {
+    uint64_t value = words[0];
+    if constexpr (PortTraits<T>::words > 1) value |= static_cast<uint64_t>(words[1]) << 32;
+    port = static_cast<T>(value);
+  }
+}
+
+/// Words of an output port: a wide port is read where it lies, a narrow one is copied by refresh().
+struct NarrowCopy {
+  uint32_t words[2] = {0, 0};
+};
+
+template <class T>
+const uint32_t* address(const T& port, NarrowCopy& copy) {
+  if constexpr (PortTraits<T>::wide) {
+    return port.data();
+  } else {
+    return copy.words;
+  }
+}
+
+template <class T>
+void refresh(const T& port, NarrowCopy& copy) {
+  if constexpr (!PortTraits<T>::wide) {
+    copy.words[0] = static_cast<uint32_t>(port);
+    if constexpr (PortTraits<T>::words > 1) copy.words[1] = static_cast<uint32_t>(static_cast<uint64_t>(port) >> 32);
+  }
+}
+
+std::string create_error;
+/// What $display and failing assertions print; the host's standard output belongs to reports.
+thread_local std::string printed;
+
+}  // namespace
+
+// ---- what Verilator's run time calls ----
+
+extern "C" int quadrille_device_print(const char* format, ...) {
+  char text[2048];
+  va_list arguments;
+  va_start(arguments, format);
+  const int n = std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  if (printed.size() < 16384) printed += text;
+  return n;
+}
+
+void vl_finish(const char* file, int line, const char*) {
+  throw std::runtime_error("$finish at " + std::string(file) + ":" + std::to_string(line));
+}
+void vl_stop(const char* file, int line, const char*) {
+  throw std::runtime_error("assertion or $stop at " + std::string(file) + ":" + std::to_string(line) + "\n" + printed);
+}
+void vl_fatal(const char* file, int line, const char*, const char* message) {
+  throw std::runtime_error("$fatal at " + std::string(file) + ":" + std::to_string(line) + ": " + message + "\n" +
+                           printed);
+}
+
+struct quadrille_device {
+  std::unique_ptr<VerilatedContext> context = std::make_unique<VerilatedContext>();
+  std::unique_ptr<Vquadrille> top;
+#if QUADRILLE_TRACE
+  std::unique_ptr<VerilatedFstC> trace;
+#endif
+  quadrille_sample sample{};
+  NarrowCopy fragment_copy;
+  NarrowCopy probe_copy[quadrille_probe_count];
+  std::string error;
+
+  void dump() {
+#if QUADRILLE_TRACE
+    if (trace) trace->dump(context->time());
+#endif
+    context->timeInc(1);
+  }
+
+  /// Evaluates; 0, or 1 with the error kept.
+  int evaluate(uint8_t clock) {
+    if (!error.empty()) return 1;
+    try {
+      printed.clear();
+      Verilated::threadContextp(context.get());
+      top->clk_i = clock;
+      top->eval();
+      dump();
+      return 0;
+    } catch (const std::exception& failure) {
+      error = failure.what();
+      return 1;
+    }
+  }
+};
+
+// f(index, name) for every boundary, in the order of quadrille_sample::probe.
+#define QUADRILLE_FOR_EACH_PROBE(f) \
+  f(0, setup) f(1, tile) f(2, stamp) f(3, diff) f(4, norm) f(5, rsqrt) f(6, ratio) f(7, weight) f(8, sum)
+
+namespace {
+
+quadrille_device* create(uint64_t seed) {
+  try {
+    auto device = std::make_unique<quadrille_device>();
+    Verilated::threadContextp(device->context.get());
+    device->context->threads(1);
+    device->context->randReset(2);
+    device->context->randSeed(static_cast<int>((seed ^ (seed >> 32)) & 0x7fffffff) | 1);
+#if QUADRILLE_TRACE
+    device->context->traceEverOn(true);
+#endif
+    device->top = std::make_unique<Vquadrille>(device->context.get(), "quadrille");
+    Vquadrille& top = *device->top;
+    quadrille_sample& s = device->sample;
+    s.fragment_width = QUADRILLE_WIDTH_fragment;
+    s.fragment_words = address(top.fragment_o, device->fragment_copy);
+#ifdef QUADRILLE_PROBES
+#define QUADRILLE_BIND(i, name)              \
+  s.probe[i].width = QUADRILLE_WIDTH_##name; \
+  s.probe[i].words = address(top.probe_##name##_o, device->probe_copy[i]);
+    QUADRILLE_FOR_EACH_PROBE(QUADRILLE_BIND)
+#undef QUADRILLE_BIND
+#endif
+    return device.release();
+  } catch (const std::exception& failure) {
+    create_error = failure.what();
+    return nullptr;
+  }
+}
+
+void destroy(quadrille_device* d) {
+  // Verilator's destructors ask the thread for its context, which may be that of another device, gone already.
+  Verilated::threadContextp(d->context.get());
+#if QUADRILLE_TRACE
+  if (d->trace) d->trace->close();
+#endif
+  try {
+    d->top->final();
+  } catch (const std::exception&) {  // a machine that stopped on an assertion may complain once more
+  }
+  d->top.reset();
+  delete d;
+}
+
+const quadrille_sample* sample(quadrille_device* d) {
+  const Vquadrille& top = *d->top;
+  quadrille_sample& s = d->sample;
+  s.vertex_ready = top.vertex_ready_o;
+  s.fragment_valid = top.fragment_valid_o;
+  s.fragment_mask = top.fragment_mask_o;
+  s.busy = top.busy_o;
+  refresh(top.fragment_o, d->fragment_copy);
+#ifdef QUADRILLE_PROBES
+#define QUADRILLE_REFRESH(i, name)               \
+  s.probe[i].valid = top.probe_##name##_valid_o; \
+  refresh(top.probe_##name##_o, d->probe_copy[i]);
+  QUADRILLE_FOR_EACH_PROBE(QUADRILLE_REFRESH)
+#undef QUADRILLE_REFRESH
+#endif
+  return &s;
+}
+
+int trace_open([[maybe_unused]] quadrille_device* d, [[maybe_unused]] const char* path) {
+#if QUADRILLE_TRACE
+  d->trace = std::make_unique<VerilatedFstC>();
+  Verilated::threadContextp(d->context.get());
+  d->top->trace(d->trace.get(), 99);
+  d->trace->open(path);
+  if (d->trace->isOpen()) return 0;
+  d->trace.reset();
+  d->error = std::string("cannot write ") + path;
+#else
+  d->error = "this object was built without tracing";
+#endif
+  return 1;
+}
+
+void trace_close([[maybe_unused]] quadrille_device* d) {
+#if QUADRILLE_TRACE
+  if (d->trace) d->trace->close();
+  d->trace.reset();
+#endif
+}
+
+const quadrille_device_table table = {
+    .abi_version = quadrille_device_abi_version,
+    .vertex_width = QUADRILLE_WIDTH_vertex,
+    .state_width = QUADRILLE_WIDTH_state,
+    .create = create,
+    .destroy = destroy,
+    .set_reset = [](quadrille_device* d, int active) { d->top->rst_ni = active ? 0 : 1; },
+    .set_state = [](quadrille_device* d, const uint32_t* words) { assign(d->top->state_i, words); },
+    .set_vertex = [](quadrille_device* d, const uint32_t* words) { assign(d->top->vertex_i, words); },
+    .set_handshake =
+        [](quadrille_device* d, int vertex_valid, int fragment_ready) {
+          d->top->vertex_valid_i = static_cast<CData>(vertex_valid);
+          d->top->fragment_ready_i = static_cast<CData>(fragment_ready);
+        },
+    .settle = [](quadrille_device* d) { return d->evaluate(0); },
+    .clock = [](quadrille_device* d) { return d->evaluate(1); },
+    .sample = sample,
+    .trace_open = trace_open,
+    .trace_close = trace_close,
+    .constants = [] { return quadrille_constants; },
+    .last_error = [](const quadrille_device* d) { return d ? d->error.c_str() : create_error.c_str(); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const quadrille_device_table* quadrille_device_api() {
+  return &table;
+}

@@ -1,0 +1,126 @@
+// The program `quadrille`: commands, and what ends them.
+#include "golden/io/error.hpp"
+#include "golden/io/json_report.hpp"
+#include "model/config.hpp"
+#include "model/snap.hpp"
+#include "tb/commands/choices.hpp"
+#include "tb/commands/commands.hpp"
+#include "tb/commands/errors.hpp"
+#include "tb/environment_error.hpp"
+#include "tb/lockstep.hpp"
+#include "tb/verilate.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace {
+
+using namespace quadrille;
+using namespace quadrille::cli;
+
+int fail(int status, const std::string& what) {
+  std::fprintf(stderr, "quadrille: %s\n", what.c_str());
+  return status;
+}
+
+/// Help and version requests end here too.
+int parse_failure(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  std::string place = "quadrille";
+  std::vector<std::string> options;
+  for (const CLI::App* command : app.get_subcommands()) {
+    place += " " + command->get_name();
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  }
+  std::string text = error.what();
+  // A mistyped option deserves a suggestion.
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    for (const std::string& argument : arguments) {
+      const std::string name = argument.substr(0, argument.find('='));
+      if (name.starts_with("--") && std::find(options.begin(), options.end(), name) == options.end()) {
+        if (const std::string near = nearest(name, options); !near.empty()) text += " (did you mean " + near + "?)";
+        break;
+      }
+    }
+  }
+  return fail(exit_usage, text + "; see `" + place + " --help`");
+}
+
+int run(int argc, char** argv) {
+  Invocation invocation;
+  invocation.arguments.assign(argv, argv + argc);
+  if (!invocation.arguments.empty()) invocation.arguments[0] = "quadrille";
+
+  CLI::App app("Quadrille: a rasterizer that draws quadrilaterals as one primitive (mean value coordinates).");
+  app.name("quadrille");
+  app.require_subcommand(1);
+  const std::string version = "quadrille " + std::string(golden::program_version());
+  app.set_version_flag("--version", version);
+  app.footer(
+      "Exit status: 0 done and within bounds, 1 a mismatch or a bound exceeded, 2 usage or input, 3 a missing tool.\n\n"
+      "Examples:\n"
+      "  quadrille scenes\n"
+      "  quadrille cosim --scene fig7_floor\n"
+      "  quadrille render --scene sphere --png sphere.png\n"
+      "Each command has its own --help.");
+  add_cosim_command(app, invocation);
+  add_render_command(app, invocation);
+  add_fragments_command(app, invocation);
+  add_config_command(app, invocation);
+  add_scenes_command(app, invocation);
+  add_bench_command(app, invocation);
+  std::vector<std::string> commands;
+  for (CLI::App* command : app.get_subcommands({})) {
+    command->set_version_flag("--version", version)->group("Common options");
+    commands.push_back(command->get_name());
+  }
+
+  if (argc > 1 && argv[1][0] != '-') choose("command", argv[1], commands);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return parse_failure(app, error, invocation.arguments);
+  }
+  return invocation.run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const int status = run(argc, argv);
+    if (std::fflush(stdout) != 0) return fail(exit_usage, "standard output cannot be written");
+    return status;
+  } catch (const UsageError& error) {
+    return fail(exit_usage, error.what());
+  } catch (const golden::InputError& error) {
+    return fail(exit_usage, error.what());
+  } catch (const ConfigError& error) {
+    return fail(exit_usage, error.what());
+  } catch (const SnapError& error) {
+    return fail(exit_usage, error.what());
+  } catch (const golden::EnvironmentError& error) {
+    return fail(exit_environment, error.what());
+  } catch (const tb::EnvironmentError& error) {
+    return fail(exit_environment, error.what());
+  } catch (const tb::VerilateError& error) {
+    return fail(exit_environment, error.what());
+  } catch (const tb::DeviceError& error) {
+    return fail(exit_mismatch, error.what());
+  } catch (const tb::WatchdogError& error) {
+    return fail(exit_mismatch, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(exit_environment, "out of memory");
+  } catch (const std::invalid_argument& error) {
+    return fail(exit_usage, error.what());
+  } catch (const std::exception& error) {
+    return fail(exit_mismatch, std::string("internal error: ") + error.what());
+  }
+}

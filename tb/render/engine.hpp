@@ -1,0 +1,90 @@
+// The four engines behind one interface: quads as given in, fragments as numbers out.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quadrille::cli {
+
+enum class EngineKind { rtl, model, paper_float, truth };
+
+/// "rtl", "model", "float", "truth"; throws UsageError with the choices for any other name.
+EngineKind engine_kind(std::string_view name);
+std::string_view engine_name(EngineKind kind);
+
+/// Bit of a written flags column beyond FragmentFlag: the numbers are not to be used (float engine).
+inline constexpr std::uint32_t flag_undefined = 256;
+
+/// One fragment in numbers.
+struct Sample {
+  std::uint32_t index = 0;  ///< position of the quad in the draw
+  std::uint32_t quad = 0;   ///< its id
+  std::uint16_t x = 0, y = 0;
+  bool front = false;
+  bool undefined = false;  ///< float only: the formulas divide by zero here; numbers are not to be used
+  std::uint8_t flags = 0;  ///< FragmentFlag
+  double z = 0;
+  std::array<double, 4> lambda{};
+  std::array<double, max_attribute_slots> attribute{};
+};
+
+/// Gets fragments in the order of the quads; within a quad in the engine's own order. The span lives for the call only.
+using SampleSink = std::function<void(std::span<const Sample>)>;
+
+struct EngineSettings {
+  EngineKind kind = EngineKind::model;
+  Config config;
+  DrawState state;   ///< state.attributes is set by draw()
+  bool snap = true;  ///< float and truth: on the snapped quads; rtl and model always are
+  unsigned threads = 1;
+  double stall = 0, gap = 0;  ///< rtl
+  std::uint64_t seed = 1;     ///< rtl
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  /// Draws the quads with their first `attributes` attributes (at most max_attribute_slots) and, if `weights`, the mean
+  /// value weights. The machine measures weights at its attribute outputs and draws as many times as its slots require.
+  /// What `sink` gets does not depend on the number of threads. Throws SnapError for a quad that cannot be drawn.
+  virtual void draw(std::span<const WindowQuad> quads, int attributes, bool weights, const SampleSink& sink) = 0;
+};
+
+std::unique_ptr<Engine> make_engine(const EngineSettings& settings);
+
+/// One draw of the machine: which columns its attribute slots carry. Columns 0-3 are the weights, column 4 + j
+/// attribute j.
+struct Pass {
+  std::vector<int> columns;
+};
+
+/// As few passes as the slots allow; without any column one pass with none.
+std::vector<Pass> plan_passes(int attributes, bool weights, const Config& config);
+
+/// The quad with the pass's columns as attributes.
+WindowQuad pass_quad(const WindowQuad& quad, const Pass& pass);
+
+/// Snaps a quad under another id, its position in the draw say: ids of an input may repeat. Errors name the quad's own
+/// id.
+SnappedQuad snap_as(const WindowQuad& quad, std::uint32_t id, const Config& config, const DrawState& state);
+
+/// Throws UsageError when `quads` positions do not fit the machine's quad ids.
+void check_quad_count(std::size_t quads, const Config& config);
+
+/// A machine's fragment as numbers; adds the columns of one pass to `sample`.
+void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, Sample& sample);
+
+/// The configuration that snaps `attributes` attributes whatever the machine's slots are; vertices and weights are the
+/// same.
+Config snapping_config(Config config, int attributes);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,241 @@
+#include "tb/render/frame.hpp"
+
+#include "golden/io/png.hpp"
+#include "golden/io/texture.hpp"
+#include "golden/reference/truth.hpp"
+#include "model/snap.hpp"
+#include "tb/commands/choices.hpp"
+#include "tb/commands/errors.hpp"
+#include "tb/render/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace quadrille::cli {
+namespace {
+
+using golden::Vec3;
+
+constexpr Vec3 background{0.22, 0.22, 0.23};
+constexpr Vec3 undefined_colour{1, 0, 1};
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vec3 normalised(const Vec3& v) {
+  const double length = std::sqrt(dot(v, v));
+  return length > 0 ? Vec3{v[0] / length, v[1] / length, v[2] / length} : Vec3{0, 0, 1};
+}
+
+/// In [0, 1] for any finite coordinate; 1 stays 1.
+double wrapped(double c) { return c >= 0 && c <= 1 ? c : c - std::floor(c); }
+
+/// Phong's model with one fixed light, both sides lit alike.
+Vec3 phong(Vec3 n, const Vec3& to_eye) {
+  static const Vec3 to_light = normalised({0.35, 0.8, 0.6});
+  static constexpr Vec3 base{0.78, 0.74, 0.68};
+  n = normalised(n);
+  if (dot(n, to_eye) < 0) n = {-n[0], -n[1], -n[2]};
+  const Vec3 half = normalised({to_light[0] + to_eye[0], to_light[1] + to_eye[1], to_light[2] + to_eye[2]});
+  const double diffuse = 0.18 + 0.75 * std::max(0.0, dot(n, to_light));
+  double shine = std::max(0.0, dot(n, half));
+  for (int i = 0; i < 5; ++i) shine *= shine;  // to the 32nd
+  return {base[0] * diffuse + 0.35 * shine, base[1] * diffuse + 0.35 * shine, base[2] * diffuse + 0.35 * shine};
+}
+
+/// The corners' colours, mixed by the weights.
+Vec3 weight_colour(const std::array<double, 4>& lambda) {
+  static constexpr std::array<Vec3, 4> corner{
+      {{0.90, 0.22, 0.20}, {0.20, 0.72, 0.30}, {0.22, 0.42, 0.95}, {0.96, 0.86, 0.25}}};
+  Vec3 colour{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t c = 0; c < 3; ++c) colour[c] += lambda[i] * corner[i][c];
+  return colour;
+}
+
+/// One of many well-separated colours.
+Vec3 id_colour(std::uint32_t id) {
+  std::uint32_t h = id * 0x9e3779b1u;
+  h ^= h >> 15;
+  h *= 0x85ebca6bu;
+  h ^= h >> 13;
+  const auto part = [&](int shift) { return 0.25 + 0.7 * static_cast<double>((h >> shift) & 0xff) / 255; };
+  return {part(0), part(8), part(16)};
+}
+
+std::size_t slot(int first, int offset) { return static_cast<std::size_t>(first + offset); }
+
+}  // namespace
+
+FrameBuffer::FrameBuffer(int width, int height, bool depth)
+    : width_(width),
+      height_(height),
+      depth_(depth),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+
+void FrameBuffer::add(std::span<const Sample> samples) {
+  for (const Sample& sample : samples) {
+    Pixel& pixel = pixels_[static_cast<std::size_t>(sample.y) * static_cast<std::size_t>(width_) + sample.x];
+    ++fragments_;
+    if (sample.undefined) {
+      ++undefined_;
+      if (pixel.drawn) continue;
+    } else if (depth_) {
+      const double before = pixel.drawn && !pixel.sample.undefined ? pixel.sample.z : 1;
+      if (!(sample.z < before)) continue;
+    }
+    pixel.drawn = true;
+    pixel.sample = sample;
+  }
+}
+
+void FrameBuffer::amend(const Fragment& fragment, std::uint32_t index, const Pass& pass, const Config& config) {
+  Pixel& pixel = pixels_[static_cast<std::size_t>(fragment.y) * static_cast<std::size_t>(width_) + fragment.x];
+  if (pixel.drawn && pixel.sample.index == index) read_columns(fragment, pass, config, pixel.sample);
+}
+
+std::uint64_t FrameBuffer::pixels_drawn() const {
+  return static_cast<std::uint64_t>(
+      std::count_if(pixels_.begin(), pixels_.end(), [](const Pixel& p) { return p.drawn; }));
+}
+
+TextureFunction make_texture(const std::string& file, const DrawInput& input) {
+  if (file.empty())
+    return [kind = input.texture](double u, double v) { return golden::procedural_texture(kind, u, v); };
+  const auto texture = std::make_shared<golden::Texture>(golden::load_png(file));
+  return [texture](double u, double v) {
+    const std::array<double, 4> rgba = texture->sample(u, v);
+    return Vec3{rgba[0], rgba[1], rgba[2]};
+  };
+}
+
+ShadeSlots shade_slots(const std::string& shade, const DrawInput& input) {
+  ShadeSlots slots;
+  if (input.layout == AttributeLayout::uv || input.layout == AttributeLayout::uv_normal) slots.uv = 0;
+  if (input.layout == AttributeLayout::normal) slots.normal = 0;
+  if (input.layout == AttributeLayout::uv_normal) slots.normal = 2;
+  if (input.layout == AttributeLayout::file) {
+    if (input.attributes >= 2) slots.uv = 0;
+    if (input.attributes >= 3) slots.normal = input.attributes >= 5 ? 2 : 0;
+  }
+  if (shade == "normal" && slots.normal < 0)
+    throw UsageError("--shade normal: the quads of " + input.name + " have " + std::to_string(input.attributes) +
+                     " attributes and so no normal (three, or five with texture coordinates first)");
+  return slots;
+}
+
+golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& settings) {
+  golden::FrameImage image(frame.width(), frame.height());
+  const std::size_t mode = choose("shading", settings.shade, {"uv", "texture", "normal", "lambda", "depth", "quad"});
+
+  // Depth is shown between its extremes in the frame.
+  double nearest = 1, farthest = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (!frame.drawn(x, y) || frame.shown(x, y).undefined) continue;
+      nearest = std::min(nearest, frame.shown(x, y).z);
+      farthest = std::max(farthest, frame.shown(x, y).z);
+    }
+  }
+
+  const auto colour_of = [&](const Sample& s) -> Vec3 {
+    if (s.undefined) return undefined_colour;
+    std::array<double, 2> uv{s.lambda[1] + s.lambda[2], s.lambda[2] + s.lambda[3]};  // the unit square
+    if (settings.slots.uv >= 0) uv = {s.attribute[slot(settings.slots.uv, 0)], s.attribute[slot(settings.slots.uv, 1)]};
+    switch (mode) {
+      case 0:
+        return {wrapped(uv[0]), wrapped(uv[1]), 0.25};
+      case 1:
+        return settings.texture(uv[0], uv[1]);
+      case 2:
+        return phong({s.attribute[slot(settings.slots.normal, 0)], s.attribute[slot(settings.slots.normal, 1)],
+                      s.attribute[slot(settings.slots.normal, 2)]},
+                     settings.to_eye);
+      case 3:
+        return weight_colour(s.lambda);
+      case 4: {
+        const double grey = farthest > nearest ? 0.95 - 0.8 * (s.z - nearest) / (farthest - nearest) : 0.95;
+        return {grey, grey, grey};
+      }
+      default:
+        return id_colour(s.quad);
+    }
+  };
+
+  parallel_for(static_cast<std::size_t>(frame.height()), settings.threads, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < frame.width(); ++x) {
+      if (!frame.drawn(x, y)) continue;
+      const Sample& s = frame.shown(x, y);
+      const std::size_t i = image.index(x, y);
+      const Vec3 colour = colour_of(s);
+      image.r[i] = static_cast<float>(colour[0]);
+      image.g[i] = static_cast<float>(colour[1]);
+      image.b[i] = static_cast<float>(colour[2]);
+      image.a[i] = 1;
+      image.quad[i] = s.quad;
+      if (s.undefined) continue;
+      if (settings.depth) image.z[i] = static_cast<float>(s.z);
+      for (std::size_t k = 0; k < 4; ++k) image.lambda[k][i] = static_cast<float>(s.lambda[k]);
+    }
+  });
+  return image;
+}
+
+void add_error_layers(const FrameBuffer& frame, std::span<const WindowQuad> quads, const Config& config,
+                      const DrawState& state, bool snap, unsigned threads, golden::FrameImage& image) {
+  struct Shown {
+    std::uint32_t index;
+    int x, y;
+  };
+  std::vector<Shown> shown;
+  for (int y = 0; y < frame.height(); ++y)
+    for (int x = 0; x < frame.width(); ++x)
+      if (frame.drawn(x, y) && !frame.shown(x, y).undefined) shown.push_back({frame.shown(x, y).index, x, y});
+  std::stable_sort(shown.begin(), shown.end(), [](const Shown& a, const Shown& b) { return a.index < b.index; });
+
+  std::array<std::vector<float>*, 4> layer{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    layer[k] = &image.error["L" + std::to_string(k)];
+    layer[k]->assign(image.pixels(), 0.0f);
+  }
+  DrawState weights_only = state;
+  weights_only.attributes = 0;
+  constexpr std::size_t block = 1024;
+  parallel_for((shown.size() + block - 1) / block, threads, [&](std::size_t unit) {
+    std::unique_ptr<golden::TruthQuad> truth;
+    std::uint32_t current = 0;
+    for (std::size_t n = unit * block; n < std::min(shown.size(), (unit + 1) * block); ++n) {
+      const auto [index, x, y] = shown[n];
+      if (!truth || index != current) {
+        truth = snap ? std::make_unique<golden::TruthQuad>(snap_as(quads[index], 0, config, weights_only), config,
+                                                           weights_only)
+                     : std::make_unique<golden::TruthQuad>(quads[index], weights_only);
+        current = index;
+      }
+      const golden::ReferenceSample expected = truth->sample(x, y);
+      for (std::size_t k = 0; k < 4; ++k)
+        (*layer[k])[image.index(x, y)] = static_cast<float>(frame.shown(x, y).lambda[k] - expected.lambda[k]);
+    }
+  });
+}
+
+void save_frame_png(const std::string& path, const golden::FrameImage& image) {
+  golden::Image8 picture;
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.rgba.reserve(image.pixels() * 4);
+  const auto byte = [](double value) {
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
+  };
+  for (std::size_t i = 0; i < image.pixels(); ++i) {
+    const bool drawn = image.a[i] > 0;
+    picture.rgba.push_back(byte(drawn ? static_cast<double>(image.r[i]) : background[0]));
+    picture.rgba.push_back(byte(drawn ? static_cast<double>(image.g[i]) : background[1]));
+    picture.rgba.push_back(byte(drawn ? static_cast<double>(image.b[i]) : background[2]));
+    picture.rgba.push_back(255);
+  }
+  golden::save_png(path, picture, golden::PngFormat::rgb8);
+}
+
+}  // namespace quadrille::cli

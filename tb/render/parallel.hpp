@@ -1,0 +1,97 @@
+// Work in numbered units on several threads, results consumed in the order of the numbers: what comes out does not
+// depend on the number of threads.
+#pragma once
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace quadrille::cli {
+
+/// Calls produce(unit) for unit = 0 … units-1 on `threads` threads and consume(unit, result) in order on the calling
+/// thread. At most a few results per thread wait. The exception of the lowest unit that threw is rethrown; later
+/// results are dropped.
+template <class Produce, class Consume>
+void ordered_parallel(std::size_t units, unsigned threads, Produce&& produce, Consume&& consume) {
+  using Result = decltype(produce(std::size_t{0}));
+  if (threads <= 1 || units <= 1) {
+    for (std::size_t unit = 0; unit < units; ++unit) consume(unit, produce(unit));
+    return;
+  }
+  struct Slot {
+    std::optional<Result> result;
+    std::exception_ptr error;
+  };
+  std::mutex mutex;
+  std::condition_variable room, ready;
+  std::map<std::size_t, Slot> waiting;
+  std::size_t next = 0, consumed = 0;
+  bool stop = false;
+  const std::size_t window = std::size_t{4} * threads;
+
+  auto work = [&] {
+    for (;;) {
+      std::size_t unit;
+      {
+        std::unique_lock lock(mutex);
+        room.wait(lock, [&] { return stop || next >= units || next < consumed + window; });
+        if (stop || next >= units) return;
+        unit = next++;
+      }
+      Slot slot;
+      try {
+        slot.result.emplace(produce(unit));
+      } catch (...) {
+        slot.error = std::current_exception();
+      }
+      std::lock_guard lock(mutex);
+      waiting.emplace(unit, std::move(slot));
+      ready.notify_one();
+    }
+  };
+  struct Joiner {
+    std::vector<std::thread> threads;
+    std::mutex& mutex;
+    std::condition_variable& room;
+    bool& stop;
+    ~Joiner() {
+      {
+        std::lock_guard lock(mutex);
+        stop = true;
+      }
+      room.notify_all();
+      for (std::thread& thread : threads) thread.join();
+    }
+  } joiner{{}, mutex, room, stop};
+  for (unsigned i = 0; i < std::min<std::size_t>(threads, units); ++i) joiner.threads.emplace_back(work);
+
+  for (std::size_t unit = 0; unit < units; ++unit) {
+    Slot slot;
+    {
+      std::unique_lock lock(mutex);
+      ready.wait(lock, [&] { return waiting.contains(unit); });
+      slot = std::move(waiting.at(unit));
+      waiting.erase(unit);
+      consumed = unit + 1;
+    }
+    room.notify_all();
+    if (slot.error) std::rethrow_exception(slot.error);
+    consume(unit, std::move(*slot.result));
+  }
+}
+
+/// Calls body(unit) for every unit, in any order, on `threads` threads.
+template <class Body>
+void parallel_for(std::size_t units, unsigned threads, Body&& body) {
+  ordered_parallel(
+      units, threads, [&](std::size_t unit) { return body(unit), 0; }, [](std::size_t, int) {});
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,20 @@
+// Where the program finds what it compiles on demand: the RTL and the device glue.
+//
+// Looked up in this order: the source tree that the program was built from (compile definition QUADRILLE_SOURCE_DIR),
+// then
+// `../share/quadrille` beside the directory of the running executable, which is where `cmake --install` puts both.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace quadrille::tb {
+
+/// Directory with quadrille.sv; throws EnvironmentError when there is none.
+std::filesystem::path rtl_directory();
+/// Directory with device_glue.cpp, device_abi.h and device_print.h.
+std::filesystem::path glue_directory();
+/// Every *.sv of a directory: packages first, then the rest by name. Throws EnvironmentError when there is none.
+std::vector<std::filesystem::path> rtl_sources(const std::filesystem::path& directory);
+
+}  // namespace quadrille::tb
