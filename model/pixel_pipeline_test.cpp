@@ -6,6 +6,9 @@
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 
+// After untimed.hpp, whose enumerator `lanes` it would shadow.
+#include "model/pixel_lanes.hpp"
+
 #include "golden/scenes/prng.hpp"
 #include "golden/scenes/stress.hpp"
 
@@ -140,6 +143,112 @@ INSTANTIATE_TEST_SUITE_P(EveryFamily, Engines, testing::Range(0, static_cast<int
                          [](const auto& p) {
                            return std::string(golden::stress_families()[static_cast<std::size_t>(p.param)].name);
                          });
+
+/// Bit patterns that rounding anywhere would betray: long runs of ones and single bits, up to 2^62, straight into the
+/// pipeline's front. A, D <= r² as in a real quad; everything else random.
+TEST(PixelLanes, HardBitPatterns) {
+  Prng rng(150);
+  const auto pattern = [&](int top) {
+    const int n = static_cast<int>(rng.integer(0, top));
+    const std::int64_t ones = (std::int64_t{1} << n) - 1;
+    switch (rng.below(4)) {
+      case 0:
+        return ones;
+      case 1:
+        return ones + 1;
+      case 2:  // a run of ones, a gap far below
+        return ones - (n > 20 ? std::int64_t{1} << rng.below(static_cast<std::uint64_t>(n - 1)) : 0);
+      default:
+        return static_cast<std::int64_t>(rng.next() >> (63 - n) >> 1);
+    }
+  };
+  std::uint64_t compared = 0;
+  for (int n = 0; n < 4000; ++n) {
+    Config c = random_config(rng);
+    c.attribute_slots = 4;
+    DrawState s = square(64);
+    s.depth = rng.chance(0.7);
+    const PipelineContext context(c, s);
+    const LaneTables tables(context);
+    const int S = c.significand_bits;
+    const auto number = [&](bool sign) {
+      const std::uint32_t low = 1u << (S - 1), ones = static_cast<std::uint32_t>((std::uint64_t{1} << S) - 1);
+      const std::uint32_t sig = rng.chance(0.3)   ? ones
+                                : rng.chance(0.2) ? low
+                                                  : static_cast<std::uint32_t>(low + rng.below(low));
+      return Fp{sign && rng.chance(0.5), static_cast<int>(rng.integer(-20, 20)), sig};
+    };
+    QuadData data;
+    for (std::size_t i = 0; i < 4; ++i) {
+      data.k[i] = number(false);
+      data.w[i] = number(true);
+      data.z[i] = number(true);
+      for (std::size_t j = 0; j < 4; ++j) data.b[i][j] = rng.chance(0.2) ? Fp{} : number(true);
+    }
+    const QuadLanes values(data, context);
+    for (int m = 0; m < 20; ++m) {
+      TileEntry tile;
+      for (std::int64_t& a : tile.linear) a = pattern(60) * (rng.chance(0.5) ? 1 : -1);
+      for (std::size_t k = 0; k < 6; ++k) tile.quadratic[k].value = pattern(60) * (rng.chance(0.5) ? 1 : -1);
+      for (std::size_t k = 6; k < 10; ++k) tile.quadratic[k].value = (std::int64_t{1} << 60) + pattern(62) / 2;
+      const QuadConstants constants;
+      const int zero[lanes] = {};
+      LaneResult quick;
+      pixel_lanes(tile, constants, data, values, context, tables, zero, zero, quick);
+      PixelTrace p;
+      pixel_pipeline(p, tile, constants, data, 0, 0, context);
+      ASSERT_EQ(quick.singular, p.two_corner || p.on_vertex || p.two_edge ? 0xffu : 0u);
+      if (quick.singular != 0) continue;
+      ++compared;
+      for (std::size_t l = 0; l < lanes; ++l) {
+        ASSERT_EQ(quick.drawn >> l & 1, p.drawn ? 1u : 0u);
+        ASSERT_EQ(quick.on_edge >> l & 1, p.on_edge ? 1u : 0u);
+        ASSERT_EQ(quick.cured >> l & 1, p.cured ? 1u : 0u);
+        ASSERT_EQ(quick.saturated >> l & 1, p.fragment.flags & flag_saturated ? 1u : 0u);
+        ASSERT_EQ(quick.depth[l], p.fragment.depth);
+        for (std::size_t j = 0; j < 4; ++j) ASSERT_EQ(quick.attribute[j][l], p.fragment.attribute[j]);
+      }
+    }
+  }
+  EXPECT_GT(compared, 50'000u);
+}
+
+/// Two corners at one pixel share it evenly whatever their k (DESIGN section 1).
+TEST(PixelPipeline, TwoCornersGiveHalves) {
+  const Config c;
+  DrawState s = square(16);
+  s.depth = false;
+  std::uint64_t seen = 0;
+  // Two neighbouring corners (a collapsed edge) at the centre of pixel (4, 4), which the tie rule gives to some of the
+  // turns; two opposite ones leave nothing to cover.
+  const double w[4] = {1, 4, 0.125, 2};
+  for (int turn = 0; turn < 256; ++turn) {
+    const double p[4][2] = {{4.5, 4.5},
+                            {4.5, 4.5},
+                            {1.5 + turn % 4 * 2, 1.5 + turn / 4 % 4 * 2},
+                            {1.5 + turn / 16 % 4 * 2, 1.5 + turn / 64 * 2}};
+    for (std::size_t first = 0; first < 4; ++first) {
+      WindowQuad q;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t at = (i + first) & 3;
+        q.vertex[at] = {p[i][0] * w[at], p[i][1] * w[at], 0, w[at]};
+        q.attribute[at].assign(4, 0);
+        q.attribute[at][at] = 1;
+      }
+      for (const PixelEngine engine : {PixelEngine::plain, PixelEngine::lanes})
+        for (const Fragment& f : draw_all({snap_quad(q, c, s)}, c, s, engine).fragments) {
+          if (!(f.flags & flag_two_corner)) continue;
+          ASSERT_TRUE(f.x == 4 && f.y == 4);
+          ++seen;
+          for (std::size_t i = 0; i < 4; ++i) {
+            const double half = i == first || i == ((first + 1) & 3) ? 0.5 : 0;
+            ASSERT_NEAR(std::ldexp(static_cast<double>(f.attribute[i]), -c.attribute_frac()), half, 0x1p-15);
+          }
+        }
+    }
+  }
+  EXPECT_GT(seen, 20u);
+}
 
 /// Drives the shell with random gaps and stalls, checks its handshake, returns the stream.
 std::vector<Fragment> clocked_stream(const std::vector<SnappedQuad>& quads, const Config& c, const DrawState& s,

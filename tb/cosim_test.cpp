@@ -102,12 +102,13 @@ TEST_P(Configuration, LockstepUnderEveryStallPattern) {
   const std::vector<SnappedQuad> quads = random_quads(options.config, options.state, 2024, 400);
   VerilatedDevice device(options.config, VerilateOptions{}, options.seed);  // one device for all: reset is tested too
   std::uint64_t fragments = 0, total = 0, hash = 0;
+  unsigned flags = 0;
   for (const double stall : {0.0, 0.1, 0.5, 0.9}) {
     for (const double gap : {0.0, 0.1, 0.5, 0.9}) {
       options.stall = stall;
       options.gap = gap;
       ++options.seed;
-      const LockstepReport report = run_lockstep(device, quads, options);
+      const LockstepReport report = run_lockstep(device, quads, options, [&](const Fragment& f) { flags |= f.flags; });
       ASSERT_TRUE(report.agreed()) << "stall " << stall << ", gap " << gap << ": "
                                    << report.first_divergence.value_or("");
       ASSERT_TRUE(report.complete);
@@ -123,6 +124,8 @@ TEST_P(Configuration, LockstepUnderEveryStallPattern) {
     }
   }
   EXPECT_GT(fragments, 10000u);
+  EXPECT_EQ(flags, options.config.notch_exact != 0 ? 0xffu : 0xffu & ~flag_cured)
+      << "a flag that never occurs is not tested";
   RecordProperty("fragments", std::to_string(total));
   std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
 }

@@ -29,13 +29,17 @@ WindowQuad random_quad(Random& random, int family, double edge, int attributes, 
     v = {v.x * w, v.y * w, v.z * w, w};
   };
   switch (family) {
-    case 1:  // a turned parallelogram
-      for (int i : {0, 1}) {
-        q.vertex[3].x = q.vertex[0].x + q.vertex[2].x - q.vertex[1].x;
-        q.vertex[3].y = q.vertex[0].y + q.vertex[2].y - q.vertex[1].y;
-        if (i == 0) q.vertex[1].x = q.vertex[0].x + (q.vertex[1].y - q.vertex[0].y);
+    case 1: {  // a bow-tie whose edges 01 and 23 cross at a pixel centre
+      const double x = std::floor(cx) + 0.5, y = std::floor(cy) + 0.5;
+      const double a = random.integer(-9, 9), b = random.integer(-9, 9), c = random.integer(-9, 9),
+                   d = random.integer(-9, 9);
+      const double place[4][2] = {{x - a, y - b}, {x + a, y + b}, {x - c, y - d}, {x + c, y + d}};
+      for (std::size_t i = 0; i < 4; ++i) {
+        q.vertex[i].x = place[i][0];
+        q.vertex[i].y = place[i][1];
       }
       break;
+    }
     case 2:  // pixel centres everywhere
       whole(1);
       break;
@@ -91,6 +95,15 @@ WindowQuad random_quad(Random& random, int family, double edge, int attributes, 
   return q;
 }
 
+/// Attributes four times as large as the format holds, which snapping would refuse: the output must clamp them.
+void saturate(SnappedQuad& quad) {
+  for (SnappedVertex& v : quad.vertex) {
+    for (PortNumber& b : v.attribute) {
+      if (b.sig != 0) b.exp += 2;
+    }
+  }
+}
+
 }  // namespace
 
 DrawState small_state(const Config& config, int edge) {
@@ -108,7 +121,9 @@ std::vector<SnappedQuad> random_quads(const Config& config, const DrawState& sta
                                   std::ldexp(1.0, config.attribute_int_bits));
     quad.id = static_cast<std::uint32_t>(quads.size());
     try {
-      quads.push_back(snap_quad(quad, config, state));
+      SnappedQuad snapped = snap_quad(quad, config, state);
+      if (random.chance(0.1)) saturate(snapped);
+      quads.push_back(snapped);
     } catch (const SnapError&) {  // no point of the machine's space: draw another
     }
   }

@@ -14,7 +14,8 @@ namespace quadrille::tb {
 DrawState small_state(const Config& config, int edge = 48);
 
 /// `count` snapped quads with ids 0, 1, 2 …: general, concave, bow-tie, tiny, on integer positions (exact ties, pixels
-/// on edges and vertices), collapsed edges, triangles, off screen, behind the eye, w = 0, all around the eye.
+/// on edges and vertices), collapsed edges, triangles, off screen, behind the eye, w = 0, all around the eye,
+/// attributes that saturate.
 std::vector<SnappedQuad> random_quads(const Config& config, const DrawState& state, std::uint64_t seed, int count);
 
 }  // namespace quadrille::tb

@@ -32,13 +32,15 @@ Worst measure(golden::StressFamily family, const Config& config, std::uint64_t s
   draw.depth = false;
   const int s = config.significand_bits;
   Worst worst;
-  UntimedModel model(config, draw);
+  UntimedModel model(config, draw, PixelEngine::plain), lanes(config, draw, PixelEngine::lanes);
   for (const WindowQuad& quad : golden::make_stress(family, 400, seed, 1.0, size, size, 4)) {
     if (worst.samples >= samples_per_run) break;
     const SnappedQuad snapped = snap_quad(quad, config, draw);
     const golden::TruthQuad truth(snapped, config, draw);
-    std::vector<Fragment> fragments;
+    std::vector<Fragment> fragments, quick;
     model.draw(snapped, [&](std::span<const Fragment> f) { fragments.insert(fragments.end(), f.begin(), f.end()); });
+    lanes.draw(snapped, [&](std::span<const Fragment> f) { quick.insert(quick.end(), f.begin(), f.end()); });
+    EXPECT_EQ(fragments, quick) << "the engines differ";
     std::set<std::pair<int, int>> drawn;
     for (const Fragment& f : fragments) {
       drawn.insert({f.x, f.y});

@@ -75,7 +75,12 @@ std::optional<std::array<long double, 4>> quick_truth(const SnappedQuad& q, int 
 
 class Climber {
  public:
-  explicit Climber(const Config& c) : config_(c), state_(draw_state()), context_(c, state_), model_(c, state_) {}
+  explicit Climber(const Config& c)
+      : config_(c),
+        state_(draw_state()),
+        context_(c, state_),
+        plain_(c, state_, PixelEngine::plain),
+        lanes_(c, state_, PixelEngine::lanes) {}
 
   static DrawState draw_state() {
     DrawState s;
@@ -120,12 +125,19 @@ class Climber {
     return std::ldexp(worst, config_.significand_bits);
   }
 
-  /// The verdict: the fragment as the untimed model draws it against TruthQuad.
+  /// The verdict: the fragment as the untimed model draws it, with either engine, against TruthQuad.
   Error judge(const Candidate& at) {
     const SnappedQuad q = snap_quad(at.quad, config_, state_);
     const golden::TruthQuad truth(q, config_, state_);
     Error e;
-    model_.draw(q, [&](std::span<const Fragment> fragments) {
+    for (UntimedModel* model : {&plain_, &lanes_}) judge(*model, q, truth, at, e);
+    return e;
+  }
+
+ private:
+  void judge(UntimedModel& model, const SnappedQuad& q, const golden::TruthQuad& truth, const Candidate& at,
+             Error& e) const {
+    model.draw(q, [&](std::span<const Fragment> fragments) {
       for (const Fragment& f : fragments) {
         if (f.x != at.x || f.y != at.y) continue;
         const golden::ReferenceSample s = truth.sample(at.x, at.y);
@@ -136,10 +148,8 @@ class Climber {
           e.units = std::max(e.units, std::ldexp(std::fabs(lambda(f, i) - s.lambda[i]), config_.significand_bits));
       }
     });
-    return e;
   }
 
- private:
   double lambda(const Fragment& f, std::size_t i) const {
     return std::ldexp(static_cast<double>(f.attribute[i]), -config_.attribute_frac());
   }
@@ -147,7 +157,7 @@ class Climber {
   Config config_;
   DrawState state_;
   PipelineContext context_;
-  UntimedModel model_;
+  UntimedModel plain_, lanes_;
 };
 
 Candidate mutate(const Candidate& from, Prng& rng) {
