@@ -38,7 +38,9 @@ def main():
     size = "256x256" if args.short else "512x512"
     limit = 4_000 if args.short else 60_000
     inputs = [["--scene", name["name"]] for name in json.loads(run([args.quadrille, "scenes", "--json"]))]
-    inputs += [["--stress", family, "--count", "150" if args.short else "2000"] for family in FAMILIES]
+    count = 150 if args.short else 2_000
+    # A tiny quad covers one or two pixels, so there are more of them.
+    inputs += [["--stress", family, "--count", str(10 * count if family == "tiny" else count)] for family in FAMILIES]
     inputs += [["--mesh", mesh] for mesh in sorted(glob.glob(os.path.join(args.meshes, "*.obj")))]
     patterns = PATTERNS[:1] + PATTERNS[2:3] if args.short else PATTERNS
 
