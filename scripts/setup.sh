@@ -7,7 +7,7 @@ cd "$root"
 packages=(
   g++ make cmake ninja-build   # the build; make is what verilated objects are built with
   verilator yosys              # RTL simulation, synthesis and round trip
-  libgtest-dev libopenexr-dev libpng-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libboost-dev
+  libgtest-dev libopenexr-dev libpng-dev zlib1g-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   clang-format                 # the format test
   python3                      # mutation tests
 )

@@ -106,8 +106,6 @@ int main(int argc, char** argv) {
     return fail(exit_usage, error.what());
   } catch (const SnapError& error) {
     return fail(exit_usage, error.what());
-  } catch (const golden::EnvironmentError& error) {
-    return fail(exit_environment, error.what());
   } catch (const tb::EnvironmentError& error) {
     return fail(exit_environment, error.what());
   } catch (const tb::VerilateError& error) {

@@ -17,7 +17,6 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
-#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -174,25 +173,30 @@ std::vector<fs::path> runtime_objects(const Tools& tools, const fs::path& includ
 /// What the glue has to know of the Verilated class: the width of every vector port and the constants of the package,
 /// both read from the headers that Verilator wrote, so that they are the RTL's own and no copy of the C++ side's.
 std::string device_constants(const fs::path& generated) {
-  std::ostringstream text;
-  const std::string top = read_text(generated / "Vquadrille.h");
-  const std::regex port(R"(VL_(?:IN|OUT)(?:8|16|64|W)?\(&(\w+),(\d+),(\d+))");
-  for (std::sregex_iterator match(top.begin(), top.end(), port), end; match != end; ++match) {
-    std::string name = (*match)[1];
+  std::ostringstream text, list;
+  std::istringstream top(read_text(generated / "Vquadrille.h"));
+  for (std::string line; std::getline(top, line);) {  // VL_OUTW(&fragment_o,177,0,6);
+    const std::size_t macro = std::min(line.find("VL_IN"), line.find("VL_OUT")), name_at = line.find("(&");
+    if (macro == std::string::npos || name_at == std::string::npos) continue;
+    std::istringstream fields(line.substr(name_at + 2));
+    std::string name;
+    int msb = 0, lsb = 0;
+    char comma = 0;
+    if (!std::getline(fields, name, ',') || !(fields >> msb >> comma >> lsb)) continue;
     if (name.starts_with("probe_")) name = name.substr(6);
     if (name.ends_with("_valid_o") || name.ends_with("_valid_i")) continue;
     if (name.ends_with("_i") || name.ends_with("_o")) name.resize(name.size() - 2);
-    text << "constexpr uint32_t QUADRILLE_WIDTH_" << name << " = "
-         << std::stoi((*match)[2]) - std::stoi((*match)[3]) + 1 << ";\n";
+    text << "constexpr uint32_t QUADRILLE_WIDTH_" << name << " = " << msb - lsb + 1 << ";\n";
   }
-  std::ostringstream list;
   const fs::path package = generated / "Vquadrille_quadrille_pkg.h";
   if (fs::exists(package)) {
     text << "#include \"Vquadrille_quadrille_pkg.h\"\n";
-    const std::string header = read_text(package);
-    const std::regex constant(R"(static constexpr (?:CData|SData|IData|QData|int)(?:/\*[^*]*\*/)? (\w+) =)");
-    for (std::sregex_iterator match(header.begin(), header.end(), constant), end; match != end; ++match) {
-      const std::string name = (*match)[1];
+    std::istringstream header(read_text(package));
+    for (std::string line; std::getline(header, line);) {  // static constexpr IData/*31:0*/ S = 0x12U;
+      const std::size_t equals = line.find(" =");
+      if (line.find("static constexpr") == std::string::npos || equals == std::string::npos) continue;
+      const std::size_t name_at = line.rfind(' ', equals - 1) + 1;
+      const std::string name = line.substr(name_at, equals - name_at);
       list << "    {\"" << name << "\", static_cast<int32_t>(Vquadrille_quadrille_pkg::" << name << ")},\n";
     }
   }

@@ -12,10 +12,12 @@ static_assert(probe_count == quadrille_probe_count);
 
 namespace {
 
-/// A shared object, closed at the end of the scope.
+/// A shared object. It stays in memory after the scope: Verilator's run time keeps a buffer per thread that nobody else
+/// frees.
 class Library {
  public:
-  explicit Library(const std::filesystem::path& file) : handle_(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+  explicit Library(const std::filesystem::path& file)
+      : handle_(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
     if (handle_ == nullptr) throw EnvironmentError("cannot load " + file.string() + ": " + dlerror());
   }
   ~Library() { dlclose(handle_); }

@@ -7,7 +7,8 @@
 #include "tb/verilate.hpp"
 
 #include <fstream>
-#include <regex>
+#include <sstream>
+#include <string_view>
 #include <vector>
 
 namespace quadrille::tb {
@@ -62,24 +63,25 @@ SynthesisReport yosys_synthesise(const Config& config, const fs::path& directory
   SynthesisReport report;
   // The last statistics count the whole design ("design hierarchy" sums over instances where there is more than one
   // module).
-  const std::regex line_of_cells(R"(\s+(\$\w+)\s+(\d+))"), total(R"(\s+Number of cells:\s+(\d+))");
+  constexpr std::string_view total = "Number of cells:";
   for (std::string line; std::getline(in, line);) {
-    std::smatch match;
     if (line.find("=== ") != std::string::npos) {
       report.cells = report.latches = report.flip_flops = 0;
-    } else if (std::regex_match(line, match, total)) {
-      report.cells = std::stoull(match[1]);
-    } else if (std::regex_match(line, match, line_of_cells)) {
-      const std::string cell = match[1];
-      const std::uint64_t count = std::stoull(match[2]);
+    } else if (const std::size_t at = line.find(total); at != std::string::npos) {
+      report.cells = std::stoull(line.substr(at + total.size()));
+    } else if (line.starts_with("Warning:")) {
+      ++report.warnings;
+    } else {
+      std::istringstream words(line);  // $_DFF_P_ 123
+      std::string cell, rest;
+      std::uint64_t count = 0;
+      if (!(words >> cell >> count) || words >> rest || !cell.starts_with("$")) continue;
       if (cell.starts_with("$dlatch") || cell.starts_with("$_DLATCH") || cell.starts_with("$sr") ||
           cell.starts_with("$_SR_")) {
         report.latches += count;
       } else if (cell.find("DFF") != std::string::npos || cell.find("dff") != std::string::npos) {
         report.flip_flops += count;
       }
-    } else if (line.starts_with("Warning:")) {
-      ++report.warnings;
     }
   }
   return report;

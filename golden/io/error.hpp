@@ -1,4 +1,4 @@
-// What goes wrong outside the program: each kind is one exit status of the command line.
+// What goes wrong outside the program: an input error is exit status 2 of the command line.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,6 @@ namespace quadrille::golden {
 /// A usage or input error (exit status 2). The message names the place, what is wrong and what would be right:
 /// "file:line: what is wrong; what would be right".
 struct InputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// The environment lacks something, such as a tool (exit status 3). The message names it and the way to get it.
-struct EnvironmentError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
