@@ -70,7 +70,8 @@ enum FragmentFlag : std::uint8_t {
   flag_on_vertex = 1u << 1,   ///< exactly one corner is at the pixel centre
   flag_two_corner = 1u << 2,  ///< two corners are at the pixel centre
   flag_two_edge = 1u << 3,    ///< on two edges at once: the mean of the two edge interpolations
-  flag_tie = 1u << 4,         ///< some edge function of expression (12), the diagonal included, is exactly 0 and was decided by the tie rule
+  flag_tie = 1u << 4,  ///< some edge function of expression (12), the diagonal included, is exactly 0 and was decided
+                       ///< by the tie rule
   flag_homogeneous =
       1u << 5,               ///< the quad has a vertex that is not ordinary (behind the eye, or outside the guard band)
   flag_cured = 1u << 6,      ///< the notch cure was used

@@ -107,6 +107,21 @@ bool is_eye_crossing(const SnappedQuad& quad) {
          !std::all_of(quad.vertex.begin(), quad.vertex.end(), in_front);
 }
 
+bool has_antipodal_edge(const SnappedQuad& quad) {
+  const auto antipodal = [](const SnappedVertex& a, const SnappedVertex& b) {
+    using Wide = std::int64_t;
+    const bool parallel =
+        Wide{a.y} * b.w == Wide{a.w} * b.y && Wide{a.w} * b.x == Wide{a.x} * b.w && Wide{a.x} * b.y == Wide{a.y} * b.x;
+    // Parallel vectors: the sign of any product of two components is the sign of the scale.
+    const __int128 dot =
+        static_cast<__int128>(a.x) * b.x + static_cast<__int128>(a.y) * b.y + static_cast<__int128>(a.w) * b.w;
+    return parallel && dot < 0;
+  };
+  for (std::size_t i = 0; i < 4; ++i)
+    if (antipodal(quad.vertex[i], quad.vertex[(i + 1) % 4])) return true;
+  return false;
+}
+
 bool is_tiny(const SnappedQuad& quad, const Config& config) {
   const std::int32_t one = 1 << config.frac();
   const auto [left, right] = std::minmax_element(quad.vertex.begin(), quad.vertex.end(),

@@ -69,6 +69,9 @@ struct CheckResult {
 
 /// Facts about a snapped quad that the counters need.
 bool is_eye_crossing(const SnappedQuad& quad);
+/// Two neighbouring vertices V and -c V, c > 0: the eye lies on the edge, which then has no direction and covers
+/// nothing.
+bool has_antipodal_edge(const SnappedQuad& quad);
 /// All vertices ordinary and less than 4 pixels wide and high.
 bool is_tiny(const SnappedQuad& quad, const Config& config);
 

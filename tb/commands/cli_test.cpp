@@ -362,6 +362,18 @@ TEST_F(CliCosim, RtlDrawsWhatTheModelDraws) {
   EXPECT_EQ(read(file("a.csv")), read(file("b.csv")));
 }
 
+TEST_F(CliCosim, AntipodalEdgesAreCountedAndCoverNothing) {
+  // Vertex 1 is minus vertex 0: the eye lies on that edge. The second quad is an ordinary one.
+  write("antipodal.quads", std::string("20 20 0.5 1  -20 -20 -0.5 -1  40 44 0.5 1  8 40 0.5 1\n") + good_quad);
+  const Outcome outcome = run("cosim --quads antipodal.quads --size 64x64 --no-alone --json -");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  EXPECT_EQ(report["counts"]["antipodal_quads"], 1);
+  EXPECT_EQ(report["counts"]["eye_crossing_quads"], 1);
+  EXPECT_EQ(report["counts"]["eye_crossing"], 0) << "no fragment comes from it";
+  EXPECT_GT(report["fragments"], 100);
+}
+
 TEST_F(CliCosim, NothingComparedIsAFailure) {
   write("off.quads", "-20 10 0.5 1  -10 12 0.5 1  -10 44 0.5 1  -20 40 0.5 1\n");
   const Outcome outcome = run("cosim --quads off.quads --size 64x64");

@@ -38,7 +38,7 @@ constexpr std::uint64_t alone_fragments = 200'000;  ///< enough to time the RTL 
 struct InputResult {
   std::string name, option;
   std::size_t quads = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
-  std::uint64_t quads_drawn = 0, eye_crossing_quads = 0, homogeneous_quads = 0, tiny_quads = 0;
+  std::uint64_t quads_drawn = 0, eye_crossing_quads = 0, homogeneous_quads = 0, antipodal_quads = 0, tiny_quads = 0;
   std::uint64_t passes = 0, fragments = 0, pixels = 0, mismatches = 0, cycles_rtl = 0, cycles_model = 0,
                 cycle_mismatches = 0, compared_bits = 0;
   std::uint64_t pass_cycles = 0;  ///< of all passes
@@ -61,6 +61,7 @@ void merge(InputResult& sum, const InputResult& part) {
   sum.quads_drawn += part.quads_drawn;
   sum.eye_crossing_quads += part.eye_crossing_quads;
   sum.homogeneous_quads += part.homogeneous_quads;
+  sum.antipodal_quads += part.antipodal_quads;
   sum.tiny_quads += part.tiny_quads;
   sum.passes += part.passes;
   sum.fragments += part.fragments;
@@ -269,6 +270,7 @@ class CosimRun {
     for (std::size_t i = 0; i < report.quads; ++i) {
       result.eye_crossing_quads += is_eye_crossing(snapped[i]) ? 1 : 0;
       result.homogeneous_quads += is_ordinary(snapped[i], config_) ? 0 : 1;
+      result.antipodal_quads += has_antipodal_edge(snapped[i]) ? 1 : 0;
       result.tiny_quads += is_tiny(snapped[i], config_) ? 1 : 0;
     }
     if (!options_.no_alone && report.agreed()) time_alone(snapped, lockstep, report, result);
@@ -372,6 +374,7 @@ class CosimRun {
     }
     json["counts"] = {{"eye_crossing_quads", r.eye_crossing_quads},
                       {"homogeneous_quads", r.homogeneous_quads},
+                      {"antipodal_quads", r.antipodal_quads},
                       {"tiny_quads", r.tiny_quads},
                       {"eye_crossing", c.eye_crossing},
                       {"homogeneous", c.homogeneous},
