@@ -1,9 +1,10 @@
 #include "model/config.hpp"
 
+#include "model/edit_distance.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace quadrille {
 namespace {
@@ -58,22 +59,6 @@ constexpr auto key_list = [] {
   for (std::size_t i = 0; i < entries.size(); ++i) list[i] = entries[i].key;
   return list;
 }();
-
-/// Levenshtein distance, for "did you mean".
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row.back();
-}
 
 const Entry& find(std::string_view key) {
   const Entry* nearest = &entries.front();

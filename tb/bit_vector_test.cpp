@@ -1,6 +1,6 @@
 #include "tb/bit_vector.hpp"
 
-#include "tb/random.hpp"
+#include "golden/scenes/prng.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,14 +75,14 @@ TEST(BitPacker, FragmentOfTheDefaultConfiguration) {
 }
 
 TEST(BitPacker, AgreesWithTheSlowWayOnRandomRecords) {
-  Random random(11);
+  golden::Prng random(11);
   for (int round = 0; round < 200; ++round) {
     Config config;
-    config.set("viewport_bits", random.integer(6, 12));
-    config.set("subpixel_bits", random.integer(2, 8));
-    config.set("significand_bits", random.integer(8, 26));
-    config.set("attribute_slots", random.integer(1, 8));
-    config.set("tile_log2", random.integer(2, 4));
+    config.set("viewport_bits", static_cast<int>(random.integer(6, 12)));
+    config.set("subpixel_bits", static_cast<int>(random.integer(2, 8)));
+    config.set("significand_bits", static_cast<int>(random.integer(8, 26)));
+    config.set("attribute_slots", static_cast<int>(random.integer(1, 8)));
+    config.set("tile_log2", static_cast<int>(random.integer(2, 4)));
     TileEntry tile;
     tile.slot = static_cast<std::uint32_t>(random.next());
     for (auto& v : tile.linear) v = static_cast<std::int64_t>(random.next());

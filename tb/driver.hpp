@@ -1,9 +1,9 @@
 // What drives the machine's inputs: vertex beats with random gaps, and the ready of its output with random stalls.
 #pragma once
 
+#include "golden/scenes/prng.hpp"
 #include "model/config.hpp"
 #include "model/records.hpp"
-#include "tb/random.hpp"
 
 #include <cstdint>
 #include <span>
@@ -40,7 +40,7 @@ class VertexDriver {
 
   std::span<const SnappedQuad> quads_;
   const Config& config_;
-  Random random_;
+  golden::Prng random_;
   double gap_;
   int width_;
   std::size_t next_ = 0;
@@ -58,7 +58,7 @@ class ReadyDriver {
   void advance() { ready_ = stall_ == 0 || !random_.chance(stall_); }
 
  private:
-  Random random_;
+  golden::Prng random_;
   double stall_;
   bool ready_ = true;
 };

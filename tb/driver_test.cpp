@@ -16,7 +16,7 @@ TEST(VertexDriver, OffersEveryBeatOnceAndHoldsItUntilTaken) {
   const std::vector<SnappedQuad> quads = random_quads(config, state, 1, 50);
   for (const double gap : {0.0, 0.5, 0.9}) {
     VertexDriver driver(quads, config, 7, gap);
-    Random random(3);
+    golden::Prng random(3);
     std::size_t beats = 0, low = 0;
     while (!driver.done()) {
       if (driver.valid()) {

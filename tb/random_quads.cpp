@@ -1,7 +1,7 @@
 #include "tb/random_quads.hpp"
 
+#include "golden/scenes/prng.hpp"
 #include "model/snap.hpp"
-#include "tb/random.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,9 @@ namespace quadrille::tb {
 namespace {
 
 /// One quad of family `family`, positions within `edge` pixels.
-WindowQuad random_quad(Random& random, int family, double edge, int attributes, double attribute_limit) {
+int pick(golden::Prng& random, int low, int high) { return static_cast<int>(random.integer(low, high)); }
+
+WindowQuad random_quad(golden::Prng& random, int family, double edge, int attributes, double attribute_limit) {
   WindowQuad q;
   const double size = family == 3 ? random.uniform(0.2, 4) : random.uniform(2, 24);
   const double cx = random.uniform(0, edge), cy = random.uniform(0, edge);
@@ -31,8 +33,7 @@ WindowQuad random_quad(Random& random, int family, double edge, int attributes, 
   switch (family) {
     case 1: {  // a bow-tie whose edges 01 and 23 cross at a pixel centre
       const double x = std::floor(cx) + 0.5, y = std::floor(cy) + 0.5;
-      const double a = random.integer(-9, 9), b = random.integer(-9, 9), c = random.integer(-9, 9),
-                   d = random.integer(-9, 9);
+      const double a = pick(random, -9, 9), b = pick(random, -9, 9), c = pick(random, -9, 9), d = pick(random, -9, 9);
       const double place[4][2] = {{x - a, y - b}, {x + a, y + b}, {x - c, y - d}, {x + c, y + d}};
       for (std::size_t i = 0; i < 4; ++i) {
         q.vertex[i].x = place[i][0];
@@ -48,8 +49,7 @@ WindowQuad random_quad(Random& random, int family, double edge, int attributes, 
       break;
     case 5:  // a collapsed edge
       whole(1);
-      q.vertex[static_cast<std::size_t>(random.integer(0, 3))] =
-          q.vertex[static_cast<std::size_t>(random.integer(0, 3))];
+      q.vertex[static_cast<std::size_t>(pick(random, 0, 3))] = q.vertex[static_cast<std::size_t>(pick(random, 0, 3))];
       break;
     case 6:  // a triangle
       q.vertex[3] = q.vertex[2];
@@ -61,10 +61,10 @@ WindowQuad random_quad(Random& random, int family, double edge, int attributes, 
       for (int i = 0; i < 4; ++i) perspective(i, random.uniform(-1, 1));
       break;
     case 9:  // one or two vertices behind the eye
-      for (int i = 0; i < random.integer(1, 2); ++i) perspective(random.integer(0, 3), random.uniform(-1, -0.1));
+      for (int i = 0; i < pick(random, 1, 2); ++i) perspective(pick(random, 0, 3), random.uniform(-1, -0.1));
       break;
     case 10: {  // at infinity
-      WindowVertex& v = q.vertex[static_cast<std::size_t>(random.integer(0, 3))];
+      WindowVertex& v = q.vertex[static_cast<std::size_t>(pick(random, 0, 3))];
       v = {v.x - edge / 2, v.y - edge / 2, 0.5, 0.0};
       break;
     }
@@ -114,10 +114,10 @@ DrawState small_state(const Config& config, int edge) {
 }
 
 std::vector<SnappedQuad> random_quads(const Config& config, const DrawState& state, std::uint64_t seed, int count) {
-  Random random(seed, 3);
+  golden::Prng random(seed, 3);
   std::vector<SnappedQuad> quads;
   while (static_cast<int>(quads.size()) < count) {
-    WindowQuad quad = random_quad(random, random.integer(0, 13), state.width, state.attributes,
+    WindowQuad quad = random_quad(random, pick(random, 0, 13), state.width, state.attributes,
                                   std::ldexp(1.0, config.attribute_int_bits));
     quad.id = static_cast<std::uint32_t>(quads.size());
     try {

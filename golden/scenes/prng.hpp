@@ -13,7 +13,9 @@ namespace quadrille::golden {
 /// arithmetic and the exactly rounded + − × ÷, so sequences are bit-identical everywhere.
 class Prng {
  public:
-  explicit Prng(std::uint64_t seed) {
+  /// `stream` gives independent sequences for one seed.
+  explicit Prng(std::uint64_t seed, std::uint64_t stream = 0) {
+    seed ^= stream * 0xd1342543de82ef95u;
     for (std::uint64_t& word : state_) {
       seed += 0x9e3779b97f4a7c15u;
       std::uint64_t z = seed;

@@ -1,6 +1,7 @@
 #include "golden/scenes/scenes.hpp"
 
 #include "golden/scenes/scene_builders.hpp"
+#include "model/edit_distance.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -21,22 +22,6 @@ Scene build(const SceneEntry& entry) {
   scene.title = entry.title;
   scene.paper = entry.paper;
   return scene;
-}
-
-/// Levenshtein distance.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
-    }
-  }
-  return row.back();
 }
 
 }  // namespace

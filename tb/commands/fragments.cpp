@@ -23,9 +23,9 @@ struct FragmentsOptions {
   CommonOptions common;
   StateOptions state;
   InputOptions input;
-  std::string engine = "model", snap = "on", out, pixel, shade;
+  EngineOptions engine;
+  std::string out, pixel, shade;
   std::int64_t quad = -1;
-  double stall = 0, gap = 0;
 };
 
 /// "X,Y" inside the viewport.
@@ -43,18 +43,7 @@ std::pair<int, int> parse_pixel(const std::string& text, const DrawState& state)
 
 int fragments(const FragmentsOptions& options, const std::vector<std::string>& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  EngineSettings settings;
-  settings.kind = engine_kind(options.engine);
-  settings.config = options.common.config();
-  settings.state = options.state.state(options.common, settings.config);
-  settings.snap = choose("--snap value", options.snap, {"on", "off"}) == 0;
-  settings.threads = options.common.thread_count();
-  settings.seed = options.common.seed;
-  settings.stall = options.stall;
-  settings.gap = options.gap;
-  const bool machine = settings.kind == EngineKind::rtl || settings.kind == EngineKind::model;
-  if (machine && !settings.snap)
-    throw UsageError("--snap off is for the engines float and truth; the machine takes snapped quads only");
+  EngineSettings settings = options.engine.settings(options.common, options.state);
   if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
   if (options.out == "-" && options.common.json == "-")
     throw UsageError("--out - and --json - both want standard output");
@@ -94,7 +83,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   if (!options.common.json.empty()) {
     nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
     json["input"] = input.name;
-    json["engine"] = options.engine;
+    json["engine"] = options.engine.engine;
     json["snap"] = settings.snap;
     json["quads"] = input.quads.size();
     json["fragments"] = rows.size();
@@ -103,7 +92,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
     golden::save_json(options.common.json, json);
   }
   if (std::FILE* text = options.common.text(); text && options.out != "-") {
-    std::fprintf(text, "%s by %s: %zu quads, %zu fragments", input.name.c_str(), options.engine.c_str(),
+    std::fprintf(text, "%s by %s: %zu quads, %zu fragments", input.name.c_str(), options.engine.engine.c_str(),
                  input.quads.size(), rows.size());
     if (undefined) std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(undefined));
     std::fprintf(text, ", %.2f s\n", seconds);
@@ -129,13 +118,8 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
   options->input.add_to(*command);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  command->add_option("--engine", options->engine, "rtl, model, float (the paper's formulas in double) or truth")
-      ->type_name("ENGINE")
-      ->capture_default_str();
+  options->engine.add_to(*command);
   command->add_option("--out", options->out, "The table; - is standard output")->type_name("F.csv");
-  command->add_option("--snap", options->snap, "on or off: float and truth draw the snapped or the given quads")
-      ->type_name("on|off")
-      ->capture_default_str();
   command->add_option("--quad", options->quad, "Only the quad at this position, counted from 0")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));
@@ -144,9 +128,6 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
       ->add_option("--shade", options->shade,
                    "Attributes of a scene or mesh: uv, texture, normal; default: what suits the input")
       ->type_name("MODE");
-  command->add_option("--stall", options->stall, "rtl: probability per clock that the output is not ready")
-      ->type_name("P");
-  command->add_option("--gap", options->gap, "rtl: probability per clock that no vertex is offered")->type_name("P");
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return fragments(*options, invocation.arguments); };
   });

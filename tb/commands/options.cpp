@@ -159,6 +159,33 @@ std::string StateOptions::spelled() const {
   return text;
 }
 
+void EngineOptions::add_to(CLI::App& app) {
+  app.add_option("--engine", engine, "rtl, model, float (the paper's formulas in double) or truth")
+      ->type_name("ENGINE")
+      ->capture_default_str();
+  app.add_option("--snap", snap, "on or off: float and truth draw the snapped or the given quads")
+      ->type_name("on|off")
+      ->capture_default_str();
+  app.add_option("--stall", stall, "rtl: probability per clock that the output is not ready")->type_name("P");
+  app.add_option("--gap", gap, "rtl: probability per clock that no vertex is offered")->type_name("P");
+}
+
+EngineSettings EngineOptions::settings(const CommonOptions& common, const StateOptions& state) const {
+  EngineSettings s;
+  s.kind = engine_kind(engine);
+  s.config = common.config();
+  s.state = state.state(common, s.config);
+  s.snap = choose("--snap value", snap, {"on", "off"}) == 0;
+  s.threads = common.thread_count();
+  s.seed = common.seed;
+  s.stall = stall;
+  s.gap = gap;
+  const bool machine = s.kind == EngineKind::rtl || s.kind == EngineKind::model;
+  if (machine && !s.snap)
+    throw UsageError("--snap off is for the engines float and truth; the machine takes snapped quads only");
+  return s;
+}
+
 std::string summary(const Config& config) {
   std::string text;
   for (const ConfigKey& key : Config::keys()) {

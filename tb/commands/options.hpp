@@ -3,6 +3,7 @@
 
 #include "model/config.hpp"
 #include "model/records.hpp"
+#include "tb/render/engine.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -63,6 +64,16 @@ struct InputOptions {
   bool strict = false;
 
   void add_to(CLI::App& app);
+};
+
+/// --engine --snap --stall --gap
+struct EngineOptions {
+  std::string engine = "model", snap = "on";
+  double stall = 0, gap = 0;
+
+  void add_to(CLI::App& app);
+  /// Checked; throws UsageError where the engine and --snap do not go together.
+  EngineSettings settings(const CommonOptions& common, const StateOptions& state) const;
 };
 
 /// A human-readable list of the keys that differ from their defaults, "key=value key=value", or "default".

@@ -23,25 +23,14 @@ struct RenderOptions {
   CommonOptions common;
   StateOptions state;
   InputOptions input;
-  std::string engine = "model", snap = "on", texture, shade, out, png;
-  double stall = 0, gap = 0;
+  EngineOptions engine;
+  std::string texture, shade, out, png;
   bool no_error = false;
 };
 
 int render(const RenderOptions& options, const std::vector<std::string>& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  EngineSettings settings;
-  settings.kind = engine_kind(options.engine);
-  settings.config = options.common.config();
-  settings.state = options.state.state(options.common, settings.config);
-  settings.snap = choose("--snap value", options.snap, {"on", "off"}) == 0;
-  settings.threads = options.common.thread_count();
-  settings.seed = options.common.seed;
-  settings.stall = options.stall;
-  settings.gap = options.gap;
-  const bool machine = settings.kind == EngineKind::rtl || settings.kind == EngineKind::model;
-  if (machine && !settings.snap)
-    throw UsageError("--snap off is for the engines float and truth; the machine takes snapped quads only");
+  EngineSettings settings = options.engine.settings(options.common, options.state);
   if (options.out.empty() && options.png.empty()) throw UsageError("--out F.exr or --png F.png (or both) is needed");
   for (const std::string& file : {options.out, options.png, options.common.json}) check_writable(file);
 
@@ -81,7 +70,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   if (!options.common.json.empty()) {
     nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
     json["input"] = input.name;
-    json["engine"] = options.engine;
+    json["engine"] = options.engine.engine;
     json["shade"] = input.shade;
     json["size"] = options.common.size;
     json["quads"] = input.quads.size();
@@ -98,7 +87,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   }
   if (std::FILE* text = options.common.text()) {
     std::fprintf(text, "%s by %s: %zu quads, %llu fragments, %llu pixels drawn", input.name.c_str(),
-                 options.engine.c_str(), input.quads.size(), static_cast<unsigned long long>(frame.fragments()),
+                 options.engine.engine.c_str(), input.quads.size(), static_cast<unsigned long long>(frame.fragments()),
                  static_cast<unsigned long long>(frame.pixels_drawn()));
     if (frame.undefined()) std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(frame.undefined()));
     if (!image.error.empty()) std::fprintf(text, ", largest weight error %.2e", error_max);
@@ -131,9 +120,7 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
   options->input.add_to(*command);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  command->add_option("--engine", options->engine, "rtl, model, float (the paper's formulas in double) or truth")
-      ->type_name("ENGINE")
-      ->capture_default_str();
+  options->engine.add_to(*command);
   command->add_option("--out", options->out, "Picture with depth, weights, ids and errors")->type_name("F.exr");
   command->add_option("--png", options->png, "Picture to look at")->type_name("F.png");
   command
@@ -142,12 +129,6 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
       ->type_name("MODE");
   command->add_option("--texture", options->texture, "Picture for --shade texture instead of the input's own pattern")
       ->type_name("F.png");
-  command->add_option("--snap", options->snap, "on or off: float and truth draw the snapped or the given quads")
-      ->type_name("on|off")
-      ->capture_default_str();
-  command->add_option("--stall", options->stall, "rtl: probability per clock that the output is not ready")
-      ->type_name("P");
-  command->add_option("--gap", options->gap, "rtl: probability per clock that no vertex is offered")->type_name("P");
   command->add_flag("--no-error", options->no_error, "Leave the error layers out (quicker)");
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return render(*options, invocation.arguments); };
