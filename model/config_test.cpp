@@ -139,7 +139,7 @@ TEST(Config, AutomaticValues) {
 }
 
 TEST(Config, DerivedWidthsOfTheDefault) {
-  // DESIGN section 2 and rtl/README.md section 1 for viewport 12, guard 3, 8 + 7 fraction bits, S = 18, G = 2.
+  // rtl/README.md section 1 for viewport 12, guard 3, 8 + 7 fraction bits, S = 18, G = 2.
   const Config c;
   ASSERT_NO_THROW(c.validate());
   EXPECT_EQ(c.pos_int(), 15);

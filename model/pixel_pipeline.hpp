@@ -38,7 +38,7 @@ struct PipelineContext {
 
 /// Stage 1. A, D, r² at pixel (dx, row) of the tile: value + dx·gx + row·gy + q(dx² + row²). Exact.
 void forward_difference(PixelTrace& p, const TileEntry& tile, const QuadConstants& quad, int dx, int row);
-/// Stages 2-3. S-bit significands of A, D, r² and the singular class (DESIGN section 1, in its priority).
+/// Stages 2-3. S-bit significands of A, D, r² and the singular class (rtl/README.md section 5, in its priority).
 void normalise(PixelTrace& p, const PipelineContext& c);
 /// Stages 4-6. ρ_i = r_i^-1, faithful.
 void rsqrt_stage(PixelTrace& p, const PipelineContext& c);

@@ -213,7 +213,7 @@ TEST(PixelLanes, HardBitPatterns) {
   EXPECT_GT(compared, 50'000u);
 }
 
-/// Two corners at one pixel share it evenly whatever their k (DESIGN section 1).
+/// Two corners at one pixel share it evenly whatever their k.
 TEST(PixelPipeline, TwoCornersGiveHalves) {
   const Config c;
   DrawState s = square(16);
@@ -394,7 +394,7 @@ TEST(PixelPipeline, EndsFollowTheirDefinitions) {
             if (c.qdrop() == 0) {
               for (std::size_t k = 0; k < 4; ++k) ASSERT_TRUE(p.r2[k] == dot(q, k, k, x, y));
             }
-            // Singular class, DESIGN section 1: two corners, one, two edges, one edge, in this priority.
+            // Singular class: two corners, one, two edges, one edge, in this priority.
             int corners = 0, on = 0;
             for (std::size_t k = 0; k < 4; ++k) {
               corners += p.r2[k] <= 0;

@@ -33,7 +33,7 @@ struct DrawState {
   int scissor_x1 = 512, scissor_y1 = 512;
   Cull cull = Cull::none;
   bool perspective = true;
-  bool depth = true;
+  bool depth = true;  ///< window z is computed and clipped; the depth test (LESS, clear 1) is the frame buffer's
   double znear = 0.0, zfar = 1.0;  ///< window z interval; fragments outside are discarded (depth on)
   int attributes = 4;              ///< attributes in use, at most attribute_slots
   std::uint32_t skip = skip_hierarchical_tiles;

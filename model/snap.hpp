@@ -1,5 +1,5 @@
-// Snapping: floating-point vertices in, the integers of the machine's port out (DESIGN "Snapping, per vertex, from that
-// vertex alone"). Depends on nothing but the vertex and the draw's configuration, so two quads that share a vertex see
+// Snapping: floating-point vertices in, the integers of the machine's port out; the rule looks at one
+// vertex alone. It depends on nothing but the vertex and the draw's configuration, so two quads that share a vertex see
 // the same integers.
 #pragma once
 

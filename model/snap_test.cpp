@@ -1,4 +1,4 @@
-// The snapping rules of DESIGN section 2, against 113-bit arithmetic.
+// The snapping rules of snap.hpp, against 113-bit arithmetic.
 #include "model/snap.hpp"
 
 #include "golden/scenes/prng.hpp"
@@ -43,7 +43,7 @@ void expect_nearest(const PortNumber& n, Real exact, const Config& c, const char
   EXPECT_LE(static_cast<double>(absolute(value(n, c) - exact) / half_ulp), 1 + 0x1p-30) << what;
 }
 
-/// What DESIGN says about one vertex.
+/// The rule for one vertex.
 void expect_snapped(const WindowVertex& v, const SnappedVertex& s, const std::vector<double>& attributes,
                     const Config& c, const DrawState& state) {
   const Real x = static_cast<Real>(v.x) - static_cast<Real>(v.w) / 2,
@@ -174,7 +174,7 @@ TEST(Snap, HomogeneousLimitsAreHitExactly) {
 }
 
 /// The edge to a vertex that crosses the guard band: inside a 512x512 viewport the snapped edge lies within 0.0005 px
-/// of the exact one on either side of the border, so what it jumps is not more than twice that (DESIGN: <= 0.001 px).
+/// of the exact one on either side of the border, so what it jumps is not more than twice that (at most 0.001 px).
 TEST(Snap, GuardBandCrossingIsSmooth) {
   constexpr double largest_error = 0.0005;
   Prng rng(6);

@@ -10,8 +10,8 @@ struct StampMasks {
   std::uint32_t mask = 0, front = 0, tie = 0;
 };
 
-/// Exact. `entry` is the ring entry, `row` 0..TILE-1. Source: Hormann & Tarini expression (12); ties as DESIGN
-/// section 3.
+/// Exact. `entry` is the ring entry, `row` 0..TILE-1. Source: Hormann & Tarini expression (12); ties as
+/// rtl/README.md section 4.
 StampMasks stamp_coverage(const TileEntry& entry, const QuadConstants& quad, int row, const Config& config,
                           const DrawState& state);
 

@@ -3,10 +3,13 @@
 #   scripts/cosim.sh                    the default scene
 #   scripts/cosim.sh --scene fig8_behind --stall 0.5 …   any options of `quadrille cosim`
 set -euo pipefail
+caller=$PWD
 source "$(dirname "$0")/setup.sh"
 install_packages
 build release
 if [ $# -eq 0 ]; then
   set -- --scene sphere --stall 0.1 --gap 0.1 --png build/cosim.png --out build/cosim.exr --json build/cosim.json
+else
+  cd "$caller"  # file names are the caller's
 fi
-exec build/release/quadrille cosim "$@"
+exec "$root/build/release/quadrille" cosim "$@"

@@ -9,7 +9,7 @@ packages=(
   verilator yosys              # RTL simulation, synthesis and round trip
   libgtest-dev libopenexr-dev libpng-dev zlib1g-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   clang-format                 # the format test
-  python3                      # mutation tests
+  python3                      # scripts/campaign.py, scripts/check_readme.sh
 )
 
 install_packages() {

@@ -96,7 +96,8 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     const int status = run(argc, argv);
-    if (std::fflush(stdout) != 0) return fail(exit_usage, "standard output cannot be written");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      return fail(exit_usage, "standard output cannot be written");
     return status;
   } catch (const UsageError& error) {
     return fail(exit_usage, error.what());

@@ -11,14 +11,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The directory `name` of the source tree, or of the installed data, that holds `file`.
+/// The directory `name` of the installed data, or of the source tree, that holds `file`.
 fs::path locate(const char* name, const char* file) {
   std::error_code error;
-  const fs::path source = fs::path(QUADRILLE_SOURCE_DIR) / name;
-  if (fs::exists(source / file, error)) return source;
+  // The data installed beside the program first: an installed program must not change with a source tree.
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   const fs::path installed = executable.parent_path().parent_path() / "share" / "quadrille" / name;
   if (fs::exists(installed / file, error)) return installed;
+  const fs::path source = fs::path(QUADRILLE_SOURCE_DIR) / name;
+  if (fs::exists(source / file, error)) return source;
   throw EnvironmentError("cannot find " + std::string(name) + "/" + file + ": looked in " + source.string() + " and " +
                          installed.string() + "; run cmake --install, or keep the source tree");
 }

@@ -20,7 +20,7 @@ class Line {
     if (value == 0 && !std::signbit(value)) {
       *end_++ = '0';  // frequent, and the general path is slow
     } else if (std::isnan(value)) {
-      for (const char c : {'n', 'a', 'n'}) *end_++ = c;  // the sign of a NaN differs between machines
+      // An undefined value is an empty cell; the pixel is flagged.
     } else {
       end_ = std::to_chars(end_, limit(), value, std::chars_format::general, 17).ptr;
     }

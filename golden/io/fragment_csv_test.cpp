@@ -89,7 +89,7 @@ TEST_F(FragmentCsvTest, NotANumberHasOneSpelling) {
   FragmentRow row;
   row.lambda = {std::nan(""), -std::nan(""), std::numeric_limits<double>::infinity(), 0};
   save_fragment_csv(path("a"), {&row, 1}, {.attributes = 0, .depth = true});
-  EXPECT_NE(read(path("a")).find("nan,nan,inf,0,0\n"), std::string::npos);
+  EXPECT_NE(read(path("a")).find(",,inf,0,0\n"), std::string::npos);
 }
 
 TEST_F(FragmentCsvTest, FailedWritesLeaveTheOldFile) {

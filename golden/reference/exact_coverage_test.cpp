@@ -98,7 +98,6 @@ TEST(ExactCoverage, AllQuadsOfAFiveByFiveGrid) {
   EXPECT_EQ(wrong_class, 0);
   EXPECT_EQ(invisible, 0);
   EXPECT_EQ(uncovered_multiple, 0) << "three things at a covered pixel";
-  // DESIGN section 1.
   EXPECT_EQ(covered, 943'600);
   EXPECT_EQ(two_corners, 8'592);
   EXPECT_EQ(corner_and_edge, 12'352);

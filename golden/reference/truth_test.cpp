@@ -300,7 +300,7 @@ TEST(Truth, AgreesWithAnglesOnGridQuads) {
   EXPECT_GT(on_a_line, 1'000);
 }
 
-// ---------------------------------------------------------------- singular pixels, DESIGN section 1
+// ---------------------------------------------------------------- singular pixels
 
 TEST(TruthSingular, TwoCorners) {
   // A triangle as a quad whose first edge is collapsed on the pixel that the tie rule keeps.
@@ -517,7 +517,7 @@ TEST(TruthCoverage, CoverIsTheCoveragePartOfSample) {
     ASSERT_EQ(c.visible, s.visible);
     ASSERT_EQ(c.eye_in_hull, s.eye_in_hull);
     ASSERT_EQ(c.flags, s.flags & (flag_tie | flag_homogeneous));
-    // The determinants decide what the sign of sum(M w) says (DESIGN section 3).
+    // The determinants decide what the sign of sum(M w) says.
     if (s.covered) {
       ASSERT_EQ(s.visible, s.visible_margin > 0);
     }

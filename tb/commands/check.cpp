@@ -72,6 +72,8 @@ void CheckResult::merge(const CheckResult& other) {
   compared += other.compared;
   mismatches += other.mismatches;
   beyond_bound += other.beyond_bound;
+  beyond_attribute += other.beyond_attribute;
+  beyond_depth += other.beyond_depth;
   arithmetic_lambda.merge(other.arithmetic_lambda);
   arithmetic_attribute.merge(other.arithmetic_attribute);
   arithmetic_depth.merge(other.arithmetic_depth);
@@ -175,6 +177,23 @@ struct FragmentChecker::Reference {
     const double scale = std::fabs(denominator);
     return 2 * bound * (numerator / scale + std::fabs(z) / scale * (spread / scale)) +
            std::ldexp(1.0, -config.depth_bits);
+  }
+
+  /// Whether a window z that far from the truth's is within depth_tolerance(), which is never below the first line.
+  bool depth_holds(const Fragment& fragment, const ReferenceSample& truth, double error, double bound) const {
+    if (std::fabs(error) <= bound * std::fabs(truth.z) + std::ldexp(1.0, -config.depth_bits)) return true;
+    return std::fabs(error) <= depth_tolerance(fragment.x, fragment.y, bound);
+  }
+
+  /// How far attribute `slot` may be from the truth's: a = sum(lambda' a_i), each lambda' within `bound`, and one unit
+  /// of the output format.
+  double attribute_tolerance(std::size_t slot, bool perspective, double bound) const {
+    double sum = 0;
+    for (const SnappedVertex& v : quad.vertex) {
+      const double k = perspective ? real(v.k, config) : std::ldexp(static_cast<double>(v.w), -config.frac());
+      sum += std::fabs(real(v.attribute[slot], config) / k);
+    }
+    return bound * sum + std::ldexp(1.0, -config.attribute_frac());
   }
 };
 
@@ -310,7 +329,9 @@ void FragmentChecker::compare(const std::vector<Fragment>& fragments) {
 
     // What it should be.
     const bool exempt = !state.perspective && reference->behind;
+    const double bound = bound_ * (config.notch_exact ? 1 : std::max(1.0, truth.condition));
     double lambda_error = 0, attribute_error = 0;
+    bool attributes_hold = true;
     int weight = 0;
     bool weights = false, attributes = false;
     for (std::size_t slot = 0; slot < columns.size(); ++slot) {
@@ -323,6 +344,7 @@ void FragmentChecker::compare(const std::vector<Fragment>& fragments) {
         attributes = true;
         const double error = std::fabs(value - truth.attribute[slot]);
         if (!(error <= attribute_error)) attribute_error = error;
+        attributes_hold = attributes_hold && error <= reference->attribute_tolerance(slot, state.perspective, bound);
       }
     }
     if (exempt) {
@@ -330,16 +352,22 @@ void FragmentChecker::compare(const std::vector<Fragment>& fragments) {
     } else {
       if (weights) {
         part.arithmetic_lambda.add(lambda_error);
-        const double bound = bound_ * (config.notch_exact ? 1 : std::max(1.0, truth.condition));
         const double ratio = lambda_error / bound;
         if (settings_.apply_bound && !(ratio <= 1)) ++part.beyond_bound;
         if (!(ratio <= part.worst.ratio) || (ratio == part.worst.ratio && order(place) < order(part.worst.place)))
           part.worst = {ratio, lambda_error, bound, truth.condition, weight, place};
       }
-      if (attributes) part.arithmetic_attribute.add(attribute_error);
+      if (attributes) {
+        part.arithmetic_attribute.add(attribute_error);
+        if (settings_.apply_bound && !attributes_hold && (fragment.flags & flag_saturated) == 0)
+          ++part.beyond_attribute;
+      }
     }
-    if (settings_.first_pass && state.depth)
-      part.arithmetic_depth.add(std::ldexp(static_cast<double>(fragment.depth), -config.depth_bits) - truth.z);
+    if (settings_.first_pass && state.depth) {
+      const double error = std::ldexp(static_cast<double>(fragment.depth), -config.depth_bits) - truth.z;
+      part.arithmetic_depth.add(error);
+      if (settings_.apply_bound && !reference->depth_holds(fragment, truth, error, bound)) ++part.beyond_depth;
+    }
 
     // What snapping did.
     if (reference->given) {

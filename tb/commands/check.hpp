@@ -30,7 +30,10 @@ struct CheckResult {
   std::uint64_t compared = 0;  ///< fragments compared with the truth
   std::uint64_t mismatches =
       0;  ///< pixels that the machine drew and the truth does not, or the reverse, or with other flags or facing
-  std::uint64_t beyond_bound = 0;
+  std::uint64_t beyond_bound = 0;  ///< weights beyond weight_bound()
+  std::uint64_t beyond_attribute =
+      0;                           ///< attributes further off than the weights' bound allows; saturated ones are exempt
+  std::uint64_t beyond_depth = 0;  ///< the same of window z
 
   // The machine against the truth on snapped quads; the truth on snapped against the truth on given quads.
   ErrorStats arithmetic_lambda, arithmetic_attribute, arithmetic_depth;
@@ -64,7 +67,9 @@ struct CheckResult {
   } first;
 
   void merge(const CheckResult& other);
-  bool ok() const { return compared > 0 && mismatches == 0 && beyond_bound == 0; }
+  bool ok() const {
+    return compared > 0 && mismatches == 0 && beyond_bound == 0 && beyond_attribute == 0 && beyond_depth == 0;
+  }
 };
 
 /// Facts about a snapped quad that the counters need.

@@ -5,6 +5,7 @@
 #include "golden/io/json_report.hpp"
 #include "model/tables.hpp"
 #include "tb/commands/errors.hpp"
+#include "tb/commands/output.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -67,8 +68,7 @@ std::string markdown_listing(const Config& config) {
 int list_config(const ConfigOptions& options, const std::vector<std::string>& arguments) {
   const Config config = options.common.config();
   if (!options.emit_tables.empty()) {
-    if (options.emit_tables == "-" && options.common.json == "-")
-      throw UsageError("--emit-tables - and --json - both want standard output");
+    check_outputs({options.emit_tables, options.common.json}, {options.common.config_file});
     golden::write_file(options.emit_tables, tables_package(config), golden::AtomicFile::Dash::standard_output);
   }
   if (!options.common.json.empty()) {

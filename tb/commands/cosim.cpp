@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -116,13 +117,13 @@ class CosimRun {
 
  private:
   void check_options() const {
-    const auto probability = [](const char* name, double p) {
-      if (!(p >= 0 && p < 1)) throw UsageError(std::string(name) + ": a probability from 0 to below 1 is required");
-    };
     probability("--stall", options_.stall);
     probability("--gap", options_.gap);
-    for (const std::string& file : {options_.trace, options_.out, options_.png, options_.common.json})
-      check_writable(file);
+    std::vector<std::string> read = options_.input.files();
+    read.insert(read.end(), {options_.common.config_file, options_.texture});
+    check_outputs({options_.trace, options_.out, options_.png, options_.common.json}, read);
+    if (!options_.rtl.empty() && !std::filesystem::exists(options_.rtl))
+      throw UsageError("--rtl " + options_.rtl + ": no such file or directory");
     if (all_scenes() && (!options_.out.empty() || !options_.png.empty() || !options_.trace.empty()))
       throw UsageError("--out, --png and --trace are for one input, not for all scenes");
   }
@@ -143,7 +144,8 @@ class CosimRun {
   InputResult run_input(const InputOptions& input_options) {
     const auto start = std::chrono::steady_clock::now();
     DrawState state = options_.state.state(options_.common, config_);
-    const DrawInput input = load_input(input_options, options_.shade, state.width, state.height, options_.common.seed);
+    const DrawInput input = load_input(input_options, shade_of(options_.shade, options_.texture), state.width,
+                                       state.height, options_.common.seed);
     state.perspective = state.perspective && input.perspective;
     check_quad_count(input.quads.size(), config_);
 
@@ -349,6 +351,9 @@ class CosimRun {
     json["mismatches"] = r.mismatches;
     json["reference_mismatches"] = c.mismatches;
     json["beyond_bound"] = c.beyond_bound;
+    json["beyond_attribute"] = c.beyond_attribute;
+    json["beyond_depth"] = c.beyond_depth;
+    json["cycles_all_passes"] = r.pass_cycles;
     json["cycles_rtl"] = r.cycles_rtl;
     json["cycles_model"] = r.cycles_model;
     json["cycle_mismatches"] = r.cycle_mismatches;
@@ -363,7 +368,7 @@ class CosimRun {
     json["bound"] = {{"lambda_max", weight_bound(config_)},
                      {"times_condition", config_.notch_exact == 0},
                      {"applies", bound_applies()},
-                     {"held", bound_applies() && c.beyond_bound == 0},
+                     {"held", bound_applies() && c.beyond_bound + c.beyond_attribute + c.beyond_depth == 0},
                      {"exempt_fragments", c.bound_exempt}};
     if (c.worst.ratio >= 0) {
       json["worst"] = {
@@ -388,7 +393,6 @@ class CosimRun {
                       {"tiny", c.tiny},
                       {"cured", c.cured},
                       {"saturated", c.saturated},
-                      {"undefined", 0},
                       {"discarded", c.discarded},
                       {"coverage_flips", c.coverage_flips},
                       {"tolerated_visible", c.tolerated_visible},
@@ -464,7 +468,8 @@ class CosimRun {
       std::fprintf(out, "    bound              none: quadratic_frac_bits drops bits of D and R^2\n");
     else
       std::fprintf(out, "    bound              %9.2e%s  %s, worst %.1f %% of it\n", weight_bound(config_),
-                   config_.notch_exact ? "" : " x max(1, condition)", c.beyond_bound == 0 ? "held" : "EXCEEDED",
+                   config_.notch_exact ? "" : " x max(1, condition)",
+                   c.beyond_bound + c.beyond_attribute + c.beyond_depth == 0 ? "held" : "EXCEEDED",
                    100 * std::max(0.0, c.worst.ratio));
     std::fprintf(out, "\n  fragments of   eye-crossing quads %llu (%llu quads), under-4-px quads %llu\n",
                  n(c.eye_crossing), n(r.eye_crossing_quads), n(c.tiny));
@@ -497,6 +502,11 @@ class CosimRun {
           "quadrille: %s: %llu weights beyond the bound; the worst: quad %u, pixel (%d, %d), error %.3e, bound %.3e\n",
           r.name.c_str(), static_cast<unsigned long long>(r.check.beyond_bound), r.check.worst.place.quad,
           r.check.worst.place.x, r.check.worst.place.y, r.check.worst.error, r.check.worst.bound);
+    if (r.check.beyond_attribute || r.check.beyond_depth)
+      std::fprintf(stderr,
+                   "quadrille: %s: %llu attributes and %llu depths are further off than the weights' bound allows\n",
+                   r.name.c_str(), static_cast<unsigned long long>(r.check.beyond_attribute),
+                   static_cast<unsigned long long>(r.check.beyond_depth));
     if (r.check.compared == 0)
       std::fprintf(stderr, "quadrille: %s: no fragment was compared, so nothing was shown\n", r.name.c_str());
   }
@@ -530,6 +540,7 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command
       ->add_option("--limit-fragments", options->limit_fragments, "End each input after so many fragments; 0: no limit")
+      ->check(not_negative)
       ->type_name("N");
   command->add_option("--trace", options->trace, "Waveform of the RTL")->type_name("F.fst");
   command->add_option("--out", options->out, "Picture of the RTL's fragments, with weights and errors")

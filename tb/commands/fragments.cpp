@@ -45,9 +45,9 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   const auto start = std::chrono::steady_clock::now();
   EngineSettings settings = options.engine.settings(options.common, options.state);
   if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
-  if (options.out == "-" && options.common.json == "-")
-    throw UsageError("--out - and --json - both want standard output");
-  for (const std::string& file : {options.out, options.common.json}) check_writable(file);
+  std::vector<std::string> read = options.input.files();
+  read.push_back(options.common.config_file);
+  check_outputs({options.out, options.common.json}, read);
 
   const int width = settings.state.width, height = settings.state.height;
   DrawInput input = load_input(options.input, options.shade, width, height, options.common.seed);

@@ -154,6 +154,13 @@ int inputs_given(const InputOptions& options) {
          static_cast<int>(!options.quads.empty()) + static_cast<int>(!options.stress.empty());
 }
 
+std::string shade_of(const std::string& shade, const std::string& texture) {
+  if (texture.empty()) return shade;
+  if (!shade.empty() && shade != "texture")
+    throw UsageError("--texture " + texture + ": needs --shade texture, not --shade " + shade);
+  return "texture";
+}
+
 DrawInput load_input(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed) {
   if (inputs_given(options) != 1)
     throw UsageError("one input is needed: --scene NAME, --mesh F.obj, --quads F.quads or --stress FAMILY (" +

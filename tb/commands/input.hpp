@@ -38,6 +38,9 @@ int inputs_given(const InputOptions& options);
 /// holds.
 DrawInput load_input(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed);
 
+/// What --shade is when --texture is given too: texture. Throws UsageError for another explicit --shade.
+std::string shade_of(const std::string& shade, const std::string& texture);
+
 /// Scene and family names.
 std::vector<std::string> scene_names();
 std::vector<std::string> stress_names();

@@ -43,7 +43,11 @@ void CommonOptions::add_to(CLI::App& app, bool draws) {
       ->group(group);
   if (draws) {
     app.add_option("--size", size, "Viewport in pixels")->type_name("WxH")->capture_default_str()->group(group);
-    app.add_option("--seed", seed, "Seed of everything random")->type_name("N")->capture_default_str()->group(group);
+    app.add_option("--seed", seed, "Seed of everything random")
+        ->check(not_negative)
+        ->type_name("N")
+        ->capture_default_str()
+        ->group(group);
     app.add_option("--threads", threads, "Threads, 0 for one per processor; results do not depend on it")
         ->type_name("N")
         ->check(CLI::Range(0, 1024))
@@ -159,6 +163,11 @@ std::string StateOptions::spelled() const {
   return text;
 }
 
+double probability(const char* name, double value) {
+  if (!(value >= 0 && value < 1)) throw UsageError(std::string(name) + ": a probability from 0 to below 1 is required");
+  return value;
+}
+
 void EngineOptions::add_to(CLI::App& app) {
   app.add_option("--engine", engine, "rtl, model, float (the paper's formulas in double) or truth")
       ->type_name("ENGINE")
@@ -178,8 +187,10 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
   s.snap = choose("--snap value", snap, {"on", "off"}) == 0;
   s.threads = common.thread_count();
   s.seed = common.seed;
-  s.stall = stall;
-  s.gap = gap;
+  s.stall = probability("--stall", stall);
+  s.gap = probability("--gap", gap);
+  if (s.kind != EngineKind::rtl && (stall != 0 || gap != 0))
+    throw UsageError("--stall and --gap are for --engine rtl; " + engine + " has no clock");
   const bool machine = s.kind == EngineKind::rtl || s.kind == EngineKind::model;
   if (machine && !s.snap)
     throw UsageError("--snap off is for the engines float and truth; the machine takes snapped quads only");

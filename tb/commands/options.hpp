@@ -63,8 +63,21 @@ struct InputOptions {
   std::uint64_t count = 1000;
   bool strict = false;
 
+  /// The files among them.
+  std::vector<std::string> files() const { return {mesh, camera, quads}; }
+
   void add_to(CLI::App& app);
 };
+
+/// Refuses a minus sign: the library would wrap a negative number into a huge one.
+inline const CLI::Validator not_negative(
+    [](std::string& text) {
+      return text.find('-') == std::string::npos ? std::string() : "must not be negative: " + text;
+    },
+    "", "not negative");
+
+/// `value` if it is in [0, 1); throws UsageError naming the option otherwise.
+double probability(const char* name, double value);
 
 /// --engine --snap --stall --gap
 struct EngineOptions {

@@ -23,6 +23,27 @@ void check_writable(const std::string& path) {
     throw UsageError(path + ": cannot be written: " + directory.string() + ": " + std::strerror(errno));
 }
 
+void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  namespace fs = std::filesystem;
+  // Devices take any number of writers.
+  const auto same = [](const std::string& a, const std::string& b) {
+    if (a.empty() || b.empty() || (a == "-") != (b == "-")) return false;
+    if (a == "-") return true;
+    std::error_code ignored;
+    if (fs::exists(a, ignored) && !fs::is_regular_file(a, ignored)) return false;
+    return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    check_writable(outputs[i]);
+    for (std::size_t j = 0; j < i; ++j)
+      if (same(outputs[i], outputs[j]))
+        throw UsageError(outputs[i] + ": two outputs want this file; give each its own");
+    for (const std::string& input : inputs)
+      if (same(outputs[i], input))
+        throw UsageError(outputs[i] + ": is an input of this command; write to another file");
+  }
+}
+
 PartialFile::PartialFile(std::string path) : path_(std::move(path)) {
   if (active()) partial_ = path_ + ".partial-" + std::to_string(getpid());
 }

@@ -32,10 +32,12 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   const auto start = std::chrono::steady_clock::now();
   EngineSettings settings = options.engine.settings(options.common, options.state);
   if (options.out.empty() && options.png.empty()) throw UsageError("--out F.exr or --png F.png (or both) is needed");
-  for (const std::string& file : {options.out, options.png, options.common.json}) check_writable(file);
+  std::vector<std::string> read = options.input.files();
+  read.insert(read.end(), {options.common.config_file, options.texture});
+  check_outputs({options.out, options.png, options.common.json}, read);
 
-  const DrawInput input =
-      load_input(options.input, options.shade, settings.state.width, settings.state.height, options.common.seed);
+  const DrawInput input = load_input(options.input, shade_of(options.shade, options.texture), settings.state.width,
+                                     settings.state.height, options.common.seed);
   settings.state.perspective = settings.state.perspective && input.perspective;
   ShadeSettings shading;
   shading.shade = input.shade;
