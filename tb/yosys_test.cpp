@@ -1,6 +1,8 @@
 // The RTL through Yosys: its Verilog in place of the source, and a synthesis without latches.
 #include "tb/yosys.hpp"
 
+#include "golden/scenes/scenes.hpp"
+#include "model/snap.hpp"
 #include "tb/lockstep.hpp"
 #include "tb/random_quads.hpp"
 
@@ -23,12 +25,22 @@ TEST(Yosys, ItsVerilogPassesCosimulation) {
   options.optimise = 1;
   const std::filesystem::path directory = work_directory("roundtrip");
   options.source = yosys_verilog(options.config, true, directory);
-  const std::vector<SnappedQuad> quads = random_quads(options.config, options.state, 77, 200);
-  const LockstepReport report = run_lockstep(quads, options);
-  EXPECT_TRUE(report.agreed()) << report.first_divergence.value_or("");
-  EXPECT_TRUE(report.complete);
-  EXPECT_GT(report.fragments, 5000u);
-  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(report.fragments));
+  const auto agrees = [&](const std::vector<SnappedQuad>& quads) {
+    const LockstepReport report = run_lockstep(quads, options);
+    EXPECT_TRUE(report.agreed()) << report.first_divergence.value_or("");
+    EXPECT_TRUE(report.complete);
+    EXPECT_GT(report.fragments, 1000u);
+    std::printf("matched %llu fragments\n", static_cast<unsigned long long>(report.fragments));
+  };
+  // A built-in scene, then every corner of the machine.
+  options.state = small_state(options.config, 128);
+  std::vector<SnappedQuad> scene;
+  for (const WindowQuad& quad :
+       golden::scene_quads(golden::make_scene("bowtie"), options.state.width, options.state.height))
+    scene.push_back(snap_quad(quad, options.config, options.state));
+  agrees(scene);
+  options.state = small_state(options.config);
+  agrees(random_quads(options.config, options.state, 77, 200));
   std::filesystem::remove_all(directory);
 }
 

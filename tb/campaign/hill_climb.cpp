@@ -311,7 +311,8 @@ int run(int argc, char** argv) {
         if (top == nullptr || summits[i].error.units > top->error.units) top = &summits[i];
       }
       if (top == nullptr) {
-        std::printf("s %2d %-16s nothing drawn\n", static_cast<int>(bits), std::string(families[f].name).c_str());
+        std::printf("s %2d %-16s NOTHING DRAWN\n", static_cast<int>(bits), std::string(families[f].name).c_str());
+        ok = false;  // a family that draws nothing shows nothing
         continue;
       }
       std::printf("s %2d %-16s %6.3f units (condition %.2g, flags 0x%02x, %llu climbs)\n", static_cast<int>(bits),

@@ -107,10 +107,31 @@ TEST_F(Cli, UsageErrors) {
   refuses(2, "cosim --scene fig7_floor --gap -0.5", {"--gap"});
   refuses(2, "cosim --scene all --png a.png", {"one input"});
   refuses(2, "fragments --scene sphere", {"--out"});
-  refuses(2, "fragments --scene sphere --out - --json -", {"standard output"});
+  refuses(2, "fragments --scene sphere --out - --json -", {"two outputs"});
+  refuses(2, "render --scene sphere --png a --out a", {"two outputs"});
+  refuses(2, "cosim --scene sphere --png ./a --out b --json a", {"two outputs"});
+  refuses(2, "cosim --scene sphere --seed -1", {"--seed", "negative"});
+  refuses(2, "cosim --scene sphere --limit-fragments -5", {"--limit-fragments", "negative"});
+  refuses(2, "cosim --scene sphere --rtl nowhere", {"--rtl nowhere", "no such file"});
+  refuses(2, "fragments --engine model --stall 0.5 --scene sphere --out -", {"--engine rtl"});
+  refuses(2, "fragments --engine rtl --stall 7 --scene sphere --out -", {"--stall", "probability"});
+  refuses(2, "render --texture t.png --shade uv --scene sphere --png a.png", {"--shade texture"});
   refuses(2, "fragments --scene sphere --quad 128 --out -", {"128 quads"});
   refuses(2, "fragments --scene sphere --pixel 512,0 --out -", {"--pixel"});
   refuses(2, "config --quiet --verbose", {"--quiet"});
+}
+
+TEST_F(Cli, AnInputIsNeverAnOutput) {
+  const std::string quads = write("q.quads", good_quad);
+  refuses(2, "fragments --quads q.quads --out ./q.quads", {"q.quads", "input"});
+  EXPECT_EQ(read(quads), good_quad);
+}
+
+TEST_F(Cli, AFullDiskIsAnError) {
+  for (const char* command : {"config", "config --markdown", "scenes", "scenes --json"}) {
+    const Outcome outcome = run(std::string(command) + " >/dev/full; exit $?; :");
+    EXPECT_EQ(outcome.status, 2) << command;
+  }
 }
 
 TEST_F(Cli, Sizes) {

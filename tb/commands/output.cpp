@@ -31,7 +31,9 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
     if (a == "-") return true;
     std::error_code ignored;
     if (fs::exists(a, ignored) && !fs::is_regular_file(a, ignored)) return false;
-    return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+    // Absolute first: the canonical form of a name that does not exist yet would stay relative.
+    return fs::weakly_canonical(fs::absolute(a, ignored), ignored) ==
+           fs::weakly_canonical(fs::absolute(b, ignored), ignored);
   };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     check_writable(outputs[i]);
