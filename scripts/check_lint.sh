@@ -16,7 +16,7 @@ lint() {
   done
   "$quadrille" config --quiet "${sets[@]}" --emit-tables "$tables/quadrille_tables_pkg.sv" >/dev/null
   for probes in "" -DQUADRILLE_PROBES; do
-    verilator --lint-only -Wall $probes "${defines[@]}" --top-module quadrille lint_waiver.vlt quadrille_pkg.sv \
+    verilator --lint-only -Wall $probes "${defines[@]}" --top-module quadrille quadrille_pkg.sv \
       "$tables/quadrille_tables_pkg.sv" $(ls ./*.sv | grep -v _pkg.sv)
     count=$((count + 1))
   done

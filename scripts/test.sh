@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets everything up and runs all tests. Arguments go to ctest: scripts/test.sh -R lockstep, scripts/test.sh -L model.
+# Sets everything up and runs all tests. Arguments go to ctest: scripts/test.sh -R Lockstep, scripts/test.sh -L model.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
 install_packages
