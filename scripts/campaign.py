@@ -4,7 +4,7 @@
 Runs `quadrille cosim` for each input and pattern, adds up the reports and fails when anything differed, when a fragment stream
 changed with the stall pattern, or when fewer fragments were compared than promised.
 
-  scripts/campaign.py                    the whole campaign (at least 2 million fragments; about 20 minutes)
+  scripts/campaign.py                    the whole campaign (at least 2 million fragments; about 5 minutes)
   scripts/campaign.py --short            the form for continuous integration (at least 200,000 fragments)
   scripts/campaign.py --meshes DIR       OBJ files to add (default: ../shared/meshes when it is there)
 """

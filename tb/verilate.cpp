@@ -217,17 +217,6 @@ std::vector<fs::path> sources_of(const VerilateOptions& options) {
   return sources;
 }
 
-/// Lint waivers (*.vlt) that lie beside the sources.
-std::vector<fs::path> waivers_of(const VerilateOptions& options) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry :
-       fs::directory_iterator(options.source.empty() ? rtl_directory() : options.source)) {
-    if (entry.path().extension() == ".vlt") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 }  // namespace
 
 void Fingerprint::byte(unsigned char b) {
@@ -299,9 +288,6 @@ fs::path verilate(const Config& config, const VerilateOptions& options) {
   for (const std::string& define : key_defines(config)) key.add(define);
   key.add(tables);
   for (const fs::path& source : sources) key.add_file(source);
-  if (!one_file) {
-    for (const fs::path& waivers : waivers_of(options)) key.add_file(waivers);
-  }
   for (const char* file : {"device_glue.cpp", "device_abi.h", "device_print.h"}) key.add_file(glue / file);
   key.add({options.probes ? "p" : "-"});
   key.add({options.trace ? "t" : "-"});
@@ -332,7 +318,6 @@ fs::path verilate(const Config& config, const VerilateOptions& options) {
     command.insert(command.end(), options.arguments.begin(), options.arguments.end());
     if (!one_file) {
       write_text(work / "quadrille_tables_pkg.sv", tables);
-      for (const fs::path& waivers : waivers_of(options)) command.push_back(fs::absolute(waivers).string());
       command.push_back((work / "quadrille_tables_pkg.sv").string());
     }
     for (const fs::path& source : sources) command.push_back(fs::absolute(source).string());
