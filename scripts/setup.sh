@@ -33,9 +33,9 @@ install_packages() {
   "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" || exit 3
 }
 
-# build PRESET
+# build PRESET [TARGET]
 build() {
   cmake --preset "$1" >"$root/.configure.log" 2>&1 || { cat "$root/.configure.log" >&2; exit 1; }
   rm -f "$root/.configure.log"
-  cmake --build --preset "$1" -j "$(nproc)"
+  cmake --build --preset "$1" -j "$(nproc)" ${2:+--target "$2"}
 }
