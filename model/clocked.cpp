@@ -119,12 +119,13 @@ struct ClockedModel::Impl {
   }
 
   // Evaluated once per clock by refresh() and used by both comb() and clock().
-  bool walk_push = false, stamp_present = false, stamp_push = false;
+  bool walk_wants = false, walk_push = false, stamp_present = false, stamp_push = false;
   TileEntry tile_entry;
   StampEntry stamp_entry;
 
   void refresh() {
-    walk_push = walk_wants_push() && !ring_full();
+    walk_wants = walk_wants_push();
+    walk_push = walk_wants && !ring_full();
     if (walk_push) tile_entry = walk.entry();
     stamp_present = ring_has_stamp_work();
     stamp_push = false;
@@ -186,7 +187,7 @@ struct ClockedModel::Impl {
     const bool accept = in.vertex_valid && !assembly.full;
     const bool release = en && stage(last_stage).end;
     const bool push_tile = walk_push;
-    const bool walk_moves = walk.state() != TileWalk::State::idle && (push_tile || !walk_wants_push());
+    const bool walk_moves = walk.state() != TileWalk::State::idle && (push_tile || !walk_wants);
     const bool stamp_moves = stamp_present && (stamp_push || !(stamp_entry.end || stamp_entry.mask != 0));
     const bool push_stamp = stamp_push;
 

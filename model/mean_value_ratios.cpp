@@ -3,10 +3,9 @@
 namespace quadrille {
 
 void mean_value_ratios(PixelTrace& p, const PipelineContext& c) {
-  constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}}};
   const RawProduct one = raw_product(c.format.one(), c.format.one());
   for (std::size_t k = 0; k < 6; ++k) {
-    const Fp scale = fp_multiply(p.rho[pair[k][0]], p.rho[pair[k][1]], c.format);
+    const Fp scale = fp_multiply(p.rho[vertex_pair[k][0]], p.rho[vertex_pair[k][1]], c.format);
     RawProduct cosine = raw_product(p.d_fp[k], scale);
     cosine.neg = false;
     const Fp u = fp_sum({one, cosine}, c.format);    // 1 + |cos α|

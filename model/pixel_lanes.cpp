@@ -208,11 +208,10 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
   for (int i = 0; i < 4; ++i) rho[i] = rsqrt_lanes(r2[i], c.rsqrt_table, tables.rsqrt, s);
 
   // Ratios.
-  constexpr int pair[6][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}};
   V n[6], d[6];
   const V one = splat(1.0);
-  for (int k = 0; k < 6; ++k) {
-    const V scale = kernel.multiply(rho[pair[k][0]], rho[pair[k][1]]);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const V scale = kernel.multiply(rho[vertex_pair[k][0]], rho[vertex_pair[k][1]]);
     const V u = kernel.sum2(one, one, d_fp[k], scale, I{});
     const V v = kernel.multiply(a_fp[k], scale);
     n[k] = select(obtuse[k], u, v);

@@ -5,13 +5,6 @@ namespace {
 
 Fp from_port(const PortNumber& n) { return {n.neg, n.exp, n.sig}; }
 
-Fp from_w(std::int32_t w, const Config& config, const SignificandFormat& f) {
-  const std::int64_t wide = w;
-  Fp r = fp_from_magnitude(static_cast<std::uint64_t>(wide < 0 ? -wide : wide), -config.frac(), f);
-  r.neg = w < 0;
-  return r;
-}
-
 }  // namespace
 
 PipelineContext::PipelineContext(const Config& c, const DrawState& s)
@@ -33,7 +26,7 @@ QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Conf
   d.hull = setup.hull;
   for (std::size_t i = 0; i < 4; ++i) {
     const SnappedVertex& v = quad.vertex[i];
-    d.w[i] = from_w(v.w, config, f);
+    d.w[i] = fp_from_signed(v.w, -config.frac(), f);
     d.k[i] = state.perspective ? from_port(v.k) : d.w[i];
     d.z[i] = from_port(v.z);
     for (std::size_t j = 0; j < max_attribute_slots; ++j) d.b[i][j] = from_port(v.attribute[j]);

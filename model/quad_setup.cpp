@@ -13,12 +13,6 @@ struct Vector3 {
   std::int64_t x, y, w;
 };
 
-// Vertex pairs of the linear functions and of the quadratic ones.
-constexpr std::array<std::array<std::size_t, 2>, linear_count> edge_pair{
-    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}}};
-constexpr std::array<std::array<std::size_t, 2>, quadratic_count> dot_pair{
-    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}, {0, 0}, {1, 1}, {2, 2}, {3, 3}}};
-
 /// V_i × V_j: its components are the coefficients (gx, gy, value) of the homogeneous edge function E_ij.
 LinearForm cross(const Vector3& a, const Vector3& b) {
   return {a.x * b.y - a.y * b.x, a.y * b.w - a.w * b.y, a.w * b.x - a.x * b.w};
@@ -89,9 +83,10 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
     t.x -= t.w * (r.tile_x0 << config.tile_log2);
     t.y -= t.w * (r.tile_y0 << config.tile_log2);
   }
-  for (std::size_t k = 0; k < linear_count; ++k) r.linear[k] = cross(v[edge_pair[k][0]], v[edge_pair[k][1]]);
-  for (std::size_t k = 0; k < quadratic_count; ++k)
-    r.quadratic[k] = dot(v[dot_pair[k][0]], v[dot_pair[k][1]], config.qdrop());
+  for (std::size_t k = 0; k < linear_count; ++k) r.linear[k] = cross(v[vertex_pair[k][0]], v[vertex_pair[k][1]]);
+  for (std::size_t k = 0; k < linear_count; ++k)
+    r.quadratic[k] = dot(v[vertex_pair[k][0]], v[vertex_pair[k][1]], config.qdrop());
+  for (std::size_t i = 0; i < 4; ++i) r.quadratic[linear_count + i] = dot(v[i], v[i], config.qdrop());
 
   r.visible = 0xf;
   if (r.homogeneous) {

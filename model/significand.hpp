@@ -27,6 +27,14 @@ inline Fp fp_from_magnitude(std::uint64_t v, int bias, const SignificandFormat& 
   return {false, p + bias, static_cast<std::uint32_t>(drop >= 0 ? v >> drop : v << -drop)};
 }
 
+/// fp_from_magnitude of |v|, with v's sign.
+inline Fp fp_from_signed(std::int64_t v, int bias, const SignificandFormat& f) {
+  const std::uint64_t magnitude = v < 0 ? -static_cast<std::uint64_t>(v) : static_cast<std::uint64_t>(v);
+  Fp r = fp_from_magnitude(magnitude, bias, f);
+  r.neg = v < 0;
+  return r;
+}
+
 /// Exact product of two magnitudes, not normalised: value = (-1)^neg p 2^(exp - (2S-2)), p in [2^(2S-2), 2^2S) or 0.
 struct RawProduct {
   bool neg = false;

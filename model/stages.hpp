@@ -9,12 +9,17 @@
 #include "model/records.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace quadrille {
 
 inline constexpr int linear_count = 6;      ///< E01 E12 E23 E30 E20 E13
 inline constexpr int quadratic_count = 10;  ///< D01 D12 D23 D30 D20 D13 R²0 R²1 R²2 R²3
+
+/// The vertices (i, j) of linear function k, E_ij = S_i × S_j, and of quadratic function k < 6, S_i · S_j.
+inline constexpr std::array<std::array<std::size_t, 2>, linear_count> vertex_pair{
+    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}}};
 
 /// Significand number inside the pipeline: value = (-1)^neg sig 2^(exp - (S-1)); zero has all fields 0.
 struct Fp {

@@ -18,7 +18,7 @@ StampMasks stamp_coverage(const TileEntry& entry, const QuadConstants& quad, int
       p |= static_cast<std::uint32_t>(e > 0) << dx;
       n |= static_cast<std::uint32_t>(e < 0) << dx;
       z |= static_cast<std::uint32_t>(e == 0) << dx;
-      e = static_cast<std::int64_t>(static_cast<std::uint64_t>(e) + static_cast<std::uint64_t>(quad.gx[k]));
+      e = wrap_add(e, quad.gx[k]);
     }
     pos[k] = p | (quad.tie_pos[k] ? z : 0);
     neg[k] = n | (quad.tie_neg[k] ? z : 0);

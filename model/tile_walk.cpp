@@ -1,16 +1,6 @@
 #include "model/tile_walk.hpp"
 
 namespace quadrille {
-namespace {
-
-// Sums of in-range terms can pass through values outside 64 bits when a corner outside the viewport is composed term by
-// term; two's complement makes the final value right, so additions wrap.
-std::int64_t wrap_add(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
-}
-
-}  // namespace
-
 bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull) {
   EdgeSign e[5];
   for (std::size_t k = 0; k < 5; ++k) {

@@ -11,6 +11,12 @@
 
 namespace quadrille {
 
+/// Addition modulo 2^64. Sums of in-range terms can pass through values outside 64 bits when the value at a pixel is
+/// composed term by term; two's complement makes the final value right.
+inline std::int64_t wrap_add(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
 /// A sign that an edge function can take: with ties, E = 0 counts by the direction of (+ε, +ε²), and an all-zero edge
 /// has none.
 struct EdgeSign {
