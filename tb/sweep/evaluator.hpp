@@ -1,0 +1,100 @@
+// Errors of many configurations on one input, with shared work done once.
+//
+// The machine is a chain of stages and each configuration key enters at one of them, so configurations form a tree:
+// those that agree up to a stage share that stage's results. The evaluator walks that tree; a stage is executed once for
+// each of its distinct settings, whatever comes behind it.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+#include "tb/sweep/point_result.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace quadrille::sweep {
+
+/// What is drawn. The evaluator keeps a reference.
+struct SweepInput {
+  std::vector<WindowQuad> quads;
+  int attributes = 0;  ///< of the quads, at most max_attribute_slots; measured whatever attribute_slots is
+  DrawState state;     ///< `attributes` in it is ignored
+};
+
+/// The stages in the order of the machine, with the keys that enter there (resolved values count, so "auto" and its
+/// value are one setting).
+enum class Stage {
+  given_truth,    ///< truth on the quads as given: once per input
+  snap_truth,     ///< truth (unnormalised weights, coverage) on snapped positions: viewport_bits guard_bits
+                  ///< subpixel_bits homogeneous_frac_bits
+  difference,     ///< snapping, setup, traversal, forward differences: quadratic_frac_bits tile_log2
+  normalise,      ///< significand_bits
+  rsqrt,          ///< rsqrt_segments_log2 rsqrt_degree
+  ratios,         ///< align_guard_bits
+  weights,        ///< notch_exact
+  interpolate,    ///< the sums, all columns at once
+  reciprocal,     ///< recip_segments_log2 recip_degree
+  output,         ///< attribute_int_bits attribute_frac_bits depth_bits
+  cycles,         ///< the clocked model alone: positions, tile_log2, quad_slots_log2 tile_slots_log2 stamp_fifo_log2
+};
+inline constexpr std::size_t stage_count = 11;
+inline constexpr std::array<std::string_view, stage_count> stage_names{
+    "given_truth", "snap_truth", "difference", "normalise",  "rsqrt", "ratios",
+    "weights",     "interpolate", "reciprocal", "output", "cycles"};
+
+/// How often each stage was executed.
+struct StageCounters {
+  std::array<std::uint64_t, stage_count> settings{};   ///< distinct settings, each over the whole input
+  std::array<std::uint64_t, stage_count> fragments{};  ///< fragments (cycles: clocks)
+
+  StageCounters& operator+=(const StageCounters& other);
+};
+
+/// Results of some points that became ready together.
+struct Batch {
+  std::vector<std::size_t> points;   ///< positions in the list given to evaluate()
+  std::vector<PointResult> results;  ///< the same order
+  StageCounters executed;            ///< by this batch
+  double seconds = 0;
+};
+
+class Evaluator {
+ public:
+  struct Settings {
+    unsigned threads = 1;
+    bool cycles = true;              ///< also run the clocked model
+    std::size_t batch_points = 256;  ///< points that are carried at once, about; bounds memory and loss by interruption
+  };
+
+  Evaluator(const SweepInput& input, const Settings& settings);
+  ~Evaluator();
+
+  /// Evaluates every configuration (each must pass Config::validate()); hands results over in batches, in an order that
+  /// depends on the list alone, on the calling thread. Truth and differences stay in memory for further calls. Results
+  /// do not depend on the number of threads, on the batches, or on what was evaluated before. `progress` (may be empty)
+  /// is called on the calling thread now and then with the part done, 0 to 1. An exception thrown by a callback ends
+  /// the call and passes through; the evaluator stays usable.
+  void evaluate(std::span<const Config> points, const std::function<void(const Batch&)>& done,
+                const std::function<void(double)>& progress = {});
+
+  /// One point.
+  PointResult evaluate(const Config& point);
+
+  /// Of all evaluate() calls so far.
+  const StageCounters& counters() const;
+
+  /// Largest arithmetic |Δλ'| of any fragment at each pixel, row-major width × height; −1 where nothing is drawn.
+  std::vector<float> error_map(const Config& point);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quadrille::sweep

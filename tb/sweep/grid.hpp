@@ -1,0 +1,57 @@
+// The points of a sweep: axes given as text, and the configurations that they span.
+#pragma once
+
+#include "model/config.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace quadrille::sweep {
+
+/// One axis: a configuration key and its values, in the order given, without repetition.
+struct Axis {
+  std::string key;
+  std::vector<int> values;  ///< −1: auto, where the key allows it
+};
+
+/// "KEY=A:B[:STEP]" (both ends included if the step hits them; STEP may be negative), "KEY=A,B,C", "KEY=auto", or these
+/// mixed: "KEY=10:20:2,26". Throws ConfigError: unknown key (nearest named), empty range, not a whole number, a value
+/// outside the key's range, a value twice, step 0.
+Axis parse_axis(const std::string& text);
+
+struct GridPoint {
+  Config config;
+  std::string refused;  ///< not empty: Config::validate() refuses it, with this message
+};
+
+class Grid {
+ public:
+  enum class Kind { full, one_at_a_time };
+
+  /// Full: every combination, the last axis fastest. One at a time: the base, then for each axis its values with the
+  /// rest as in the base (values that repeat the base are left out). Throws ConfigError for an axis given twice or no
+  /// axis.
+  Grid(const Config& base, std::vector<Axis> axes, Kind kind);
+
+  /// May be huge: known before any point is made. Saturates at 2^64 − 1.
+  std::uint64_t size() const;
+  GridPoint point(std::uint64_t row) const;
+  const std::vector<Axis>& axes() const { return axes_; }
+  Kind kind() const { return kind_; }
+  const Config& base() const { return base_; }
+
+ private:
+  Config base_;
+  std::vector<Axis> axes_;
+  Kind kind_;
+};
+
+/// Axes of `quadrille sweep` without --axis: one at a time around the base.
+std::vector<Axis> default_axes();
+/// The grid of 1,000 points on which the search is compared with full evaluation.
+std::vector<Axis> thousand_point_axes();
+
+}  // namespace quadrille::sweep
