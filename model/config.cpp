@@ -61,11 +61,11 @@ constexpr auto key_list = [] {
 }();
 
 const Entry& find(std::string_view key) {
-  const Entry* nearest = &entries.front();
-  for (const Entry& e : entries) {
+  for (const Entry& e : entries)
     if (e.key.name == key) return e;
+  const Entry* nearest = &entries.front();
+  for (const Entry& e : entries)
     if (edit_distance(key, e.key.name) < edit_distance(key, nearest->key.name)) nearest = &e;
-  }
   throw ConfigError("unknown configuration key '" + std::string(key) + "'; the nearest is '" +
                     std::string(nearest->key.name) + "'");
 }
@@ -81,6 +81,14 @@ void require(bool ok, const std::string& rule) {
 std::span<const ConfigKey> Config::keys() { return key_list; }
 
 int Config::get(std::string_view key) const { return this->*find(key).member; }
+
+int Config::resolved(std::string_view key) const {
+  if (key == "quadratic_frac_bits") return quadratic_frac();
+  if (key == "rsqrt_segments_log2") return rsqrt_segments();
+  if (key == "recip_segments_log2") return recip_segments();
+  if (key == "attribute_frac_bits") return attribute_frac();
+  return get(key);
+}
 
 void Config::set(std::string_view key, int value) {
   const Entry& e = find(key);
@@ -123,7 +131,7 @@ void Config::validate() const {
                                               std::to_string(2 * frac()) + " fraction bits that D and r² have");
   // |S| <= 2^pos_int + the viewport + one block, and |A|, |D|, r² <= 2 |S|^2 must fit the sign and VAL_BITS - 1 bits.
   const double reach = 1.0 + std::ldexp(1.0, -guard_bits) + std::ldexp(1.0, tile_log2 + 3 - pos_int());
-  require(2 * reach * reach <= std::ldexp(1.0, val_bits() - 1 - 2 * (pos_int() + frac())),
+  require(2 * reach * reach < std::ldexp(1.0, val_bits() - 1 - 2 * (pos_int() + frac())),
           "a block of 8 tiles reaches too far outside the viewport for VAL_BITS; raise viewport_bits or guard_bits, or "
           "lower tile_log2");
   require(attribute_frac() >= significand_bits, "attribute_frac_bits = " + std::to_string(attribute_frac()) +

@@ -59,6 +59,8 @@ struct Config {
   static std::span<const ConfigKey> keys();
   /// Value of a key by name; throws ConfigError for an unknown name (the nearest one is suggested).
   int get(std::string_view key) const;
+  /// The same with auto replaced by the value that it stands for.
+  int resolved(std::string_view key) const;
   /// Sets a key; throws ConfigError for an unknown name or a value outside the key's range.
   void set(std::string_view key, int value);
   /// Throws ConfigError when the combination cannot be built.

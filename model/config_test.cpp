@@ -138,6 +138,24 @@ TEST(Config, AutomaticValues) {
   EXPECT_EQ(c.qdrop(), 30);
 }
 
+TEST(Config, ResolvedValuesReplaceAuto) {
+  Config c;
+  for (const ConfigKey& key : Config::keys()) {
+    const int value = c.resolved(key.name);
+    if (key.standard != -1) {
+      EXPECT_EQ(value, key.standard) << key.name;
+      continue;
+    }
+    EXPECT_NE(value, -1) << key.name;
+    Config given = c;
+    given.set(key.name, value);  // giving the value changes nothing
+    EXPECT_EQ(given.resolved(key.name), value) << key.name;
+    EXPECT_NE(given, c) << key.name;
+  }
+  EXPECT_EQ(c.resolved("quadratic_frac_bits"), 30);
+  EXPECT_EQ(c.resolved("attribute_frac_bits"), 20);
+}
+
 TEST(Config, DerivedWidthsOfTheDefault) {
   // rtl/README.md section 1 for viewport 12, guard 3, 8 + 7 fraction bits, S = 18, G = 2.
   const Config c;
@@ -178,6 +196,10 @@ TEST(Config, ImpossibleCombinationsNameTheirRule) {
   EXPECT_TRUE(contains(refusal_of({{"significand_bits", 8}, {"rsqrt_segments_log2", 7}}), "rsqrt_segments_log2"));
   EXPECT_TRUE(contains(refusal_of({{"significand_bits", 8}, {"recip_segments_log2", 7}}), "recip_segments_log2"));
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 6}, {"guard_bits", 1}, {"tile_log2", 4}}), "tile_log2"));
+  // |A| could reach 2^(VAL_BITS-1) exactly, one too many; rtl/config_check.sv refuses it too.
+  EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 6}, {"guard_bits", 1}, {"tile_log2", 3}}), "tile_log2"));
+  EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 7}, {"guard_bits", 1}, {"tile_log2", 4}}), "tile_log2"));
+  EXPECT_EQ(refusal_of({{"viewport_bits", 7}, {"guard_bits", 1}, {"tile_log2", 3}}), "");
   // The edges of the same rules are possible.
   EXPECT_EQ(refusal_of({{"viewport_bits", 14}, {"guard_bits", 1}}), "");
   EXPECT_EQ(refusal_of({{"quadratic_frac_bits", 30}}), "");

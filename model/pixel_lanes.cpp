@@ -1,5 +1,7 @@
 #include "model/pixel_lanes.hpp"
 
+#include "model/lane_stages.hpp"
+
 #include <bit>
 #include <cmath>
 
@@ -9,8 +11,8 @@
 namespace quadrille {
 namespace {
 
-using V = double __attribute__((vector_size(8 * lanes)));
-using I = std::int64_t __attribute__((vector_size(8 * lanes)));
+using V = LaneReals;
+using I = LaneIntegers;
 
 #define LANE_INLINE [[gnu::always_inline]] inline
 #define LANE_LAMBDA __attribute__((always_inline))
@@ -24,6 +26,8 @@ LANE_INLINE I select(I m, I a, I b) { return (a & m) | (b & ~m); }
 LANE_INLINE V magnitude(V v) { return from_bits(bits(v) & INT64_MAX); }
 LANE_INLINE I exponent(V v) { return ((bits(v) >> 52) & 0x7ff) - 1023; }
 LANE_INLINE V power_of_two(I e) { return from_bits((e + 1023) << 52); }
+/// Without the library call, in inner loops.
+LANE_INLINE double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::int64_t>(e + 1023) << 52); }
 
 LANE_INLINE unsigned to_mask(I m) {
   unsigned r = 0;
@@ -63,6 +67,9 @@ struct Kernel {
   I significand_mask;
   std::int64_t prec;
 
+  LANE_INLINE Kernel(int s, int g)
+      : significand_mask(splat(static_cast<std::int64_t>(~((std::uint64_t{1} << (53 - s)) - 1)))), prec(s - 1 + g) {}
+
   /// fp_multiply, and the truncation of every normalised result.
   LANE_INLINE V cut(V v) const { return from_bits(bits(v) & significand_mask); }
   LANE_INLINE V multiply(V a, V b) const { return cut(a * b); }
@@ -93,50 +100,167 @@ struct Kernel {
 };
 
 /// The polynomial of table_polynomial.hpp; `fraction` has S−1 bits. Result: integer significand.
-LANE_INLINE V polynomial(const std::vector<LaneTables::Entry>& table, I segment, I fraction, int rest_bits, int s) {
+LANE_INLINE V polynomial(const LaneTable& table, I segment, I fraction, int s) {
   V c0, c1, c2;
   for (int l = 0; l < lanes; ++l) {
-    const LaneTables::Entry& e = table[static_cast<std::size_t>(segment[l])];
+    const LaneTable::Entry& e = table.entries[static_cast<std::size_t>(segment[l])];
     c0[l] = e.c0;
     c1[l] = e.c1;
     c2[l] = e.c2;
   }
-  const double scale = std::ldexp(1.0, -rest_bits);
-  const V dx = from_bits((fraction & ((std::int64_t{1} << rest_bits) - 1)) | 0x4330000000000000) - 0x1p52;
+  const double scale = power_of_two(-table.rest_bits);
+  const V dx = from_bits((fraction & ((std::int64_t{1} << table.rest_bits) - 1)) | 0x4330000000000000) - 0x1p52;
   const V t1 = c1 - integer_part(c2 * dx * scale);
   const V t0 = integer_part(t1 * dx * scale);
   V y = integer_part((c0 - t0) * (1.0 / (1 << Config::table_guard)));
-  const V low = splat(std::ldexp(1.0, s - 1)), high = splat(std::ldexp(1.0, s) - 1);
+  const V low = splat(power_of_two(s - 1)), high = splat(power_of_two(s) - 1);
   y = select(y < low, low, y);
   return select(y > high, high, y);
 }
 
 LANE_INLINE I fraction_bits(V v, int s) { return (bits(v) >> (53 - s)) & ((std::int64_t{1} << (s - 1)) - 1); }
 
-LANE_INLINE V rsqrt_lanes(V a, const Table& shape, const std::vector<LaneTables::Entry>& table, int s) {
+LANE_INLINE V rsqrt_lanes(V a, const LaneTable& table, int s) {
   const I e = exponent(a);
   const I odd = e & 1;
   const I half = e >> 1;
   const I fraction = fraction_bits(a, s);
-  const V y =
-      polynomial(table, (fraction >> shape.rest_bits) + (odd << shape.segments_log2), fraction, shape.rest_bits, s);
+  const V y = polynomial(table, (fraction >> table.rest_bits) + (odd << table.segments_log2), fraction, s);
   const V regular = y * power_of_two(-half - s);
   return select((fraction == 0) & (odd == 0), power_of_two(-half), regular);
 }
 
-LANE_INLINE V recip_lanes(V a, const Table& shape, const std::vector<LaneTables::Entry>& table, int s) {
+LANE_INLINE V recip_lanes(V a, const LaneTable& table, int s) {
   const I e = exponent(a);
   const I fraction = fraction_bits(a, s);
-  const V y = polynomial(table, fraction >> shape.rest_bits, fraction, shape.rest_bits, s);
+  const V y = polynomial(table, fraction >> table.rest_bits, fraction, s);
   const V regular = select(fraction == 0, power_of_two(-e), y * power_of_two(-e - s));
   return select(a == 0, V{}, from_bits(bits(regular) | (bits(a) & INT64_MIN)));
 }
 
-double to_double(const Fp& v, int s) {
-  return std::ldexp(v.neg ? -static_cast<double>(v.sig) : static_cast<double>(v.sig), v.exp - (s - 1));
+// ---- the stages ----
+
+/// Stage 1. Lanes of unsigned integers, since partial sums wrap.
+LANE_INLINE void difference_stage(const TileEntry& tile, const QuadConstants& constants, const int* dx, const int* row,
+                                  DifferenceLanes& out) {
+  I x, y;
+  for (int l = 0; l < lanes; ++l) {
+    x[l] = dx[l];
+    y[l] = row[l];
+  }
+  const I square = x * x + y * y;
+  using U = std::uint64_t __attribute__((vector_size(8 * lanes)));
+  const auto quadratic = [&](std::size_t k) LANE_LAMBDA {
+    const QuadraticForm& f = tile.quadratic[k];
+    return I(U(U{} + static_cast<std::uint64_t>(f.value)) + U(x) * static_cast<std::uint64_t>(f.gx) +
+             U(y) * static_cast<std::uint64_t>(f.gy) + U(square) * static_cast<std::uint64_t>(constants.q[k]));
+  };
+  for (std::size_t k = 0; k < 6; ++k) {
+    out.a[k] =
+        I(U(U{} + static_cast<std::uint64_t>(tile.linear[k])) + U(x) * static_cast<std::uint64_t>(constants.gx[k]) +
+          U(y) * static_cast<std::uint64_t>(constants.gy[k]));
+    out.d[k] = quadratic(k);
+  }
+  for (std::size_t i = 0; i < 4; ++i) out.r2[i] = quadratic(6 + i);
+}
+
+struct SingularMasks {
+  I singular, on_edge;
+};
+
+LANE_INLINE SingularMasks singular_masks(const DifferenceLanes& p) {
+  I corner{}, edges{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    corner |= p.r2[i] <= 0;
+    edges += (p.a[i] == 0) & (p.d[i] < 0);  // −1 per edge
+  }
+  return {corner | (edges <= -2), edges == -1};
+}
+
+LANE_INLINE void normalise_stage(const DifferenceLanes& p, const Kernel& kernel, double a_scale, NormalisedLanes& out) {
+  for (std::size_t k = 0; k < 6; ++k) {
+    out.a[k] = kernel.cut(leading_magnitude(p.a[k])) * a_scale;
+    out.d[k] = kernel.cut(leading_magnitude(p.d[k]));
+  }
+  for (std::size_t i = 0; i < 4; ++i) out.r2[i] = kernel.cut(leading_magnitude(p.r2[i]));
+}
+
+LANE_INLINE void rsqrt_stage(const NormalisedLanes& p, const LaneTable& table, int s, RsqrtLanes& out) {
+  for (int i = 0; i < 4; ++i) out.rho[i] = rsqrt_lanes(p.r2[i], table, s);
+}
+
+LANE_INLINE void ratio_stage(const DifferenceLanes& signs, const NormalisedLanes& p, const RsqrtLanes& r,
+                             const Kernel& kernel, RatioLanes& out) {
+  const V one = splat(1.0);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const V scale = kernel.multiply(r.rho[vertex_pair[k][0]], r.rho[vertex_pair[k][1]]);
+    const V u = kernel.sum2(one, one, p.d[k], scale, I{});
+    const V v = kernel.multiply(p.a[k], scale);
+    const I obtuse = signs.d[k] < 0;
+    out.n[k] = select(obtuse, u, v);
+    out.d[k] = select(obtuse, v, u);
+  }
+}
+
+/// Returns the mask of the cured lanes.
+LANE_INLINE I weight_stage(const DifferenceLanes& signs, const RatioLanes& p, const RsqrtLanes& r, const Kernel& kernel,
+                           bool notch_exact, WeightLanes& out) {
+  const I* a = signs.a;
+  I differ[4], any{};
+  for (int i = 0; i < 4; ++i) {
+    const int h = (i + 3) % 4;
+    differ[i] = ((a[h] < 0) & (a[i] > 0)) | ((a[h] > 0) & (a[i] < 0));
+    any |= differ[i];
+  }
+  const I cured = notch_exact ? any : I{};
+  const V factor_of[2] = {kernel.multiply(p.n[5], p.d[4]), kernel.multiply(p.n[4], p.d[5])};
+  const V plain = select(cured, kernel.multiply(p.d[5], p.d[4]), splat(1.0));
+  for (int i = 0; i < 4; ++i) {
+    const int h = (i + 3) % 4;
+    const I cure = cured & differ[i];
+    const V lead = magnitude(
+        kernel.sum2(p.n[h], select(cure, p.n[i], p.d[i]), select(cure, p.d[i], p.n[i]), p.d[h], differ[i] & ~cured));
+    const V denominators = kernel.multiply(p.d[(i + 1) % 4], p.d[(i + 2) % 4]);
+    const V factor = select(cure, factor_of[i % 2], plain);
+    out.m[i] = kernel.multiply(kernel.multiply(lead, denominators), kernel.multiply(r.rho[i], factor));
+  }
+  return cured;
+}
+
+/// |num·rec| in units of the last fraction bit, an integer below 2^51, clamped.
+struct FixedLanes {
+  V q;
+  I over, sign;
+};
+
+LANE_INLINE FixedLanes attribute_stage(V num, V rec, int int_bits, int frac) {
+  const V value = num * rec;
+  const V size = magnitude(value);
+  const I over = size >= power_of_two(int_bits);
+  const V q = select(over, splat(power_of_two(int_bits + frac) - 1),
+                     integer_part(select(over, V{}, size) * power_of_two(frac)));
+  return {q, over, bits(value) >> 63};
+}
+
+struct DepthLanes {
+  I q, discard;
+};
+
+LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, int depth_bits, std::uint32_t znear, std::uint32_t zfar) {
+  const V value = num_z * rec_w;
+  const V size = magnitude(value);
+  const I over = (size >= 2.0) | (den_w == 0);
+  const I q = select(over, splat((std::int64_t{2} << depth_bits) - 1),
+                     to_integer(integer_part(select(over, V{}, size) * power_of_two(depth_bits))));
+  const I negative = (bits(value) >> 63) & (q != 0) & ~I(den_w == 0);
+  return {q, negative | (q < std::int64_t{znear}) | (q > std::int64_t{zfar})};
 }
 
 }  // namespace
+
+double to_double(const Fp& v, int s) {
+  return std::ldexp(v.neg ? -static_cast<double>(v.sig) : static_cast<double>(v.sig), v.exp - (s - 1));
+}
 
 QuadLanes::QuadLanes(const QuadData& quad, const PipelineContext& c) {
   const int s = c.format.s;
@@ -148,135 +272,164 @@ QuadLanes::QuadLanes(const QuadData& quad, const PipelineContext& c) {
   }
 }
 
-LaneTables::LaneTables(const PipelineContext& c) {
-  const auto copy = [](const Table& from, std::vector<Entry>& to) {
-    for (const TableEntry& e : from.entries)
-      to.push_back({static_cast<double>(e.c0), static_cast<double>(e.c1), static_cast<double>(e.c2)});
-  };
-  copy(c.rsqrt_table, rsqrt);
-  copy(c.recip_table, recip);
+LaneTable::LaneTable(const Table& table) : segments_log2(table.segments_log2), rest_bits(table.rest_bits) {
+  for (const TableEntry& e : table.entries)
+    entries.push_back({static_cast<double>(e.c0), static_cast<double>(e.c1), static_cast<double>(e.c2)});
 }
 
 // One clone per instruction set, chosen when the program starts; all give the same bits.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-[[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+#define LANE_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+#else
+#define LANE_CLONES
 #endif
+
+LANE_CLONES
 void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, const QuadLanes& values,
                  const PipelineContext& c, const LaneTables& tables, const int* dx, const int* row, LaneResult& out) {
   const int s = c.format.s;
-  const Kernel kernel{splat(static_cast<std::int64_t>(~((std::uint64_t{1} << (53 - s)) - 1))), s - 1 + c.format.g};
+  const Kernel kernel(s, c.format.g);
 
-  // Stage 1: exact differences. Lanes of unsigned integers, since partial sums wrap.
-  I x, y;
-  for (int l = 0; l < lanes; ++l) {
-    x[l] = dx[l];
-    y[l] = row[l];
-  }
-  const I square = x * x + y * y;
-  using U = std::uint64_t __attribute__((vector_size(8 * lanes)));
-  const auto linear = [&](std::size_t k) LANE_LAMBDA {
-    return I(U(U{} + static_cast<std::uint64_t>(tile.linear[k])) + U(x) * static_cast<std::uint64_t>(constants.gx[k]) +
-             U(y) * static_cast<std::uint64_t>(constants.gy[k]));
-  };
-  const auto quadratic = [&](std::size_t k) LANE_LAMBDA {
-    const QuadraticForm& f = tile.quadratic[k];
-    return I(U(U{} + static_cast<std::uint64_t>(f.value)) + U(x) * static_cast<std::uint64_t>(f.gx) +
-             U(y) * static_cast<std::uint64_t>(f.gy) + U(square) * static_cast<std::uint64_t>(constants.q[k]));
-  };
-  I a[6];
-  V a_fp[6], d_fp[6], r2[4];
-  I obtuse[6];
-  I corner{}, edges{};
-  const V a_scale = splat(std::ldexp(1.0, c.quadratic_bias));
-  for (std::size_t k = 0; k < 6; ++k) {
-    a[k] = linear(k);
-    a_fp[k] = kernel.cut(leading_magnitude(a[k])) * a_scale;
-    const I d = quadratic(k);
-    obtuse[k] = d < 0;
-    d_fp[k] = kernel.cut(leading_magnitude(d));
-    if (k < 4) edges += (a[k] == 0) & obtuse[k];  // −1 per edge
-  }
-  for (std::size_t i = 0; i < 4; ++i) {
-    const I v = quadratic(6 + i);
-    corner |= v <= 0;
-    r2[i] = kernel.cut(leading_magnitude(v));
-  }
-  out.singular = to_mask(corner | (edges <= -2));
-  out.on_edge = to_mask(edges == -1);
-
-  V rho[4];
-  for (int i = 0; i < 4; ++i) rho[i] = rsqrt_lanes(r2[i], c.rsqrt_table, tables.rsqrt, s);
-
-  // Ratios.
-  V n[6], d[6];
-  const V one = splat(1.0);
-  for (std::size_t k = 0; k < 6; ++k) {
-    const V scale = kernel.multiply(rho[vertex_pair[k][0]], rho[vertex_pair[k][1]]);
-    const V u = kernel.sum2(one, one, d_fp[k], scale, I{});
-    const V v = kernel.multiply(a_fp[k], scale);
-    n[k] = select(obtuse[k], u, v);
-    d[k] = select(obtuse[k], v, u);
-  }
-
-  // Weights.
-  I differ[4], any{};
-  for (int i = 0; i < 4; ++i) {
-    const int h = (i + 3) % 4;
-    differ[i] = ((a[h] < 0) & (a[i] > 0)) | ((a[h] > 0) & (a[i] < 0));
-    any |= differ[i];
-  }
-  const I cured = c.config.notch_exact ? any : I{};
+  DifferenceLanes difference;
+  difference_stage(tile, constants, dx, row, difference);
+  const SingularMasks masks = singular_masks(difference);
+  out.singular = to_mask(masks.singular);
+  out.on_edge = to_mask(masks.on_edge);
+  NormalisedLanes normalised;
+  normalise_stage(difference, kernel, power_of_two(c.quadratic_bias), normalised);
+  RsqrtLanes rsqrt;
+  rsqrt_stage(normalised, tables.rsqrt, s, rsqrt);
+  RatioLanes ratios;
+  ratio_stage(difference, normalised, rsqrt, kernel, ratios);
+  WeightLanes weights;
+  const I cured = weight_stage(difference, ratios, rsqrt, kernel, c.config.notch_exact != 0, weights);
   out.cured = to_mask(cured) & ~out.singular;
-  const V factor_of[2] = {kernel.multiply(n[5], d[4]), kernel.multiply(n[4], d[5])};
-  const V plain = select(cured, kernel.multiply(d[5], d[4]), one);
-  V m[4];
   I exponent_m[4];
-  for (int i = 0; i < 4; ++i) {
-    const int h = (i + 3) % 4;
-    const I cure = cured & differ[i];
-    const V lead =
-        magnitude(kernel.sum2(n[h], select(cure, n[i], d[i]), select(cure, d[i], n[i]), d[h], differ[i] & ~cured));
-    const V denominators = kernel.multiply(d[(i + 1) % 4], d[(i + 2) % 4]);
-    const V factor = select(cure, factor_of[i % 2], plain);
-    m[i] = kernel.multiply(kernel.multiply(lead, denominators), kernel.multiply(rho[i], factor));
-    exponent_m[i] = exponent(m[i]);
-  }
+  for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);
 
   // Sums, reciprocals, fixed point.
-  const V den_k = kernel.sum4(m, exponent_m, values.k.data());
-  const V den_w = kernel.sum4(m, exponent_m, values.w.data());
-  const V rec_k = recip_lanes(den_k, c.recip_table, tables.recip, s);
-  const double scale_a = std::ldexp(1.0, c.attribute_frac);
-  const double limit_a = std::ldexp(1.0, c.config.attribute_int_bits);
-  const V largest_a = splat(std::ldexp(1.0, c.config.attribute_int_bits + c.attribute_frac) - 1);
+  const V den_k = kernel.sum4(weights.m, exponent_m, values.k.data());
+  const V den_w = kernel.sum4(weights.m, exponent_m, values.w.data());
+  const V rec_k = recip_lanes(den_k, tables.recip, s);
   I saturated{};
   for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) {
-    const V value = kernel.sum4(m, exponent_m, values.b[j].data()) * rec_k;
-    const V size = magnitude(value);
-    const I over = size >= limit_a;
-    saturated |= over;
-    const I q = to_integer(select(over, largest_a, integer_part(select(over, V{}, size) * scale_a)));
-    const I sign = bits(value) >> 63;
-    const I fixed = (q ^ sign) - sign;
+    const FixedLanes f = attribute_stage(kernel.sum4(weights.m, exponent_m, values.b[j].data()), rec_k,
+                                         c.config.attribute_int_bits, c.attribute_frac);
+    saturated |= f.over;
+    const I fixed = (to_integer(f.q) ^ f.sign) - f.sign;
     for (int l = 0; l < lanes; ++l) out.attribute[j][static_cast<std::size_t>(l)] = fixed[l];
   }
   out.saturated = to_mask(saturated);
   I discard{};
   if (quad.hull) discard = ~(den_w > 0);
   if (c.state.depth) {
-    const V rec_w = recip_lanes(den_w, c.recip_table, tables.recip, s);
-    const V value = kernel.sum4(m, exponent_m, values.z.data()) * rec_w;
-    const V size = magnitude(value);
-    const I over = (size >= 2.0) | (den_w == 0);
-    const I q = select(over, splat((std::int64_t{2} << c.config.depth_bits) - 1),
-                       to_integer(integer_part(select(over, V{}, size) * std::ldexp(1.0, c.config.depth_bits))));
-    const I negative = (bits(value) >> 63) & (q != 0) & ~I(den_w == 0);
-    discard |= negative | (q < std::int64_t{c.znear}) | (q > std::int64_t{c.zfar});
-    for (int l = 0; l < lanes; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(q[l]);
+    const DepthLanes z = depth_stage(kernel.sum4(weights.m, exponent_m, values.z.data()), den_w,
+                                     recip_lanes(den_w, tables.recip, s), c.config.depth_bits, c.znear, c.zfar);
+    discard |= z.discard;
+    for (int l = 0; l < lanes; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.q[l]);
   } else {
     out.depth = {};
   }
   out.drawn = to_mask(~discard);
+}
+
+// ---- the same stages one by one ----
+
+unsigned singular_lanes(const DifferenceLanes& d) { return to_mask(singular_masks(d).singular); }
+
+void singular_weights(const DifferenceLanes& d, std::size_t lane, const QuadData& quad, const PipelineContext& c,
+                      WeightLanes& out) {
+  PixelTrace p;
+  for (std::size_t k = 0; k < 6; ++k) {
+    p.a[k] = d.a[k][lane];
+    p.d[k] = d.d[k][lane];
+  }
+  for (std::size_t i = 0; i < 4; ++i) p.r2[i] = d.r2[i][lane];
+  normalise(p, c);
+  quadrille::rsqrt_stage(p, c);
+  mean_value_ratios(p, c);
+  mean_value_weights(p, quad, c);
+  for (std::size_t i = 0; i < 4; ++i) out.m[i][lane] = to_double(p.m[i], c.format.s);
+}
+
+LANE_CLONES
+void normalise_blocks(std::span<const DifferenceLanes> in, int s, int quadratic_bias, NormalisedLanes* out) {
+  const Kernel kernel(s, 0);
+  const double a_scale = power_of_two(quadratic_bias);
+  for (std::size_t n = 0; n < in.size(); ++n) normalise_stage(in[n], kernel, a_scale, out[n]);
+}
+
+LANE_CLONES
+void rsqrt_blocks(std::span<const NormalisedLanes> in, int s, const LaneTable& table, RsqrtLanes* out) {
+  for (std::size_t n = 0; n < in.size(); ++n) rsqrt_stage(in[n], table, s, out[n]);
+}
+
+LANE_CLONES
+void ratio_blocks(std::span<const DifferenceLanes> signs, const NormalisedLanes* in, const RsqrtLanes* rho, int s,
+                  int g, RatioLanes* out) {
+  const Kernel kernel(s, g);
+  for (std::size_t n = 0; n < signs.size(); ++n) ratio_stage(signs[n], in[n], rho[n], kernel, out[n]);
+}
+
+LANE_CLONES
+void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in, const RsqrtLanes* rho, int s, int g,
+                   bool notch_exact, WeightLanes* out) {
+  const Kernel kernel(s, g);
+  for (std::size_t n = 0; n < signs.size(); ++n) weight_stage(signs[n], in[n], rho[n], kernel, notch_exact, out[n]);
+}
+
+LANE_CLONES
+void interpolate_blocks(std::span<const WeightLanes> in, const std::uint32_t* quad, const QuadColumns* values,
+                        std::size_t columns, bool depth, int s, int g, LaneColumn* sums) {
+  const Kernel kernel(s, g);
+  for (std::size_t n = 0; n < in.size(); ++n, sums += sums_per_block(columns)) {
+    const QuadColumns& q = values[quad[n]];
+    V m[4];
+    I exponent_m[4];
+    for (int i = 0; i < 4; ++i) {
+      m[i] = in[n].m[i];
+      exponent_m[i] = exponent(m[i]);
+    }
+    sums[0].v = kernel.sum4(m, exponent_m, q.k.data());
+    sums[1].v = kernel.sum4(m, exponent_m, q.w.data());
+    sums[2].v = depth ? kernel.sum4(m, exponent_m, q.z.data()) : V{};
+    for (std::size_t j = 0; j < columns; ++j) sums[3 + j].v = kernel.sum4(m, exponent_m, q.b[j].data());
+  }
+}
+
+LANE_CLONES
+void reciprocal_blocks(std::size_t blocks, const LaneColumn* sums, std::size_t columns, int s, const LaneTable& table,
+                       ReciprocalLanes* out) {
+  for (std::size_t n = 0; n < blocks; ++n, sums += sums_per_block(columns)) {
+    out[n].k = recip_lanes(sums[0].v, table, s);
+    out[n].w = recip_lanes(sums[1].v, table, s);
+  }
+}
+
+LANE_CLONES
+void output_blocks(std::size_t blocks, const LaneColumn* sums, const ReciprocalLanes* reciprocals,
+                   const std::uint32_t* quad, const QuadColumns* quads, std::size_t columns,
+                   const LaneOutputFormat& format, LaneColumn* values, LaneMasks* masks) {
+  const double attribute_unit = power_of_two(-format.attribute_frac);
+  const double depth_unit = power_of_two(-format.depth_bits);
+  for (std::size_t n = 0; n < blocks; ++n, sums += sums_per_block(columns), values += 1 + columns) {
+    I discard{}, saturated{};
+    if (quads[quad[n]].hull) discard = ~(sums[1].v > 0);
+    values[0].v = V{};
+    if (format.depth) {
+      const DepthLanes z =
+          depth_stage(sums[2].v, sums[1].v, reciprocals[n].w, format.depth_bits, format.znear, format.zfar);
+      discard |= z.discard;
+      values[0].v = (from_bits(z.q | 0x4330000000000000) - 0x1p52) * depth_unit;
+    }
+    for (std::size_t j = 0; j < columns; ++j) {
+      const FixedLanes f =
+          attribute_stage(sums[3 + j].v, reciprocals[n].k, format.attribute_int_bits, format.attribute_frac);
+      saturated |= f.over;
+      values[1 + j].v = from_bits(bits(f.q * attribute_unit) | (f.sign & INT64_MIN));
+    }
+    masks[n] = {static_cast<std::uint8_t>(to_mask(~discard)), static_cast<std::uint8_t>(to_mask(saturated))};
+  }
 }
 
 }  // namespace quadrille

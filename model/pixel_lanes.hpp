@@ -3,7 +3,7 @@
 //
 // A significand number is a double whose mantissa is cut to S bits by an AND mask, so truncation toward zero costs one
 // instruction; products of two S-bit significands (S <= 26) are exact in 53 bits, aligned sums are too, and all
-// exponents stay far inside a double's range. Nothing here ever rounds.
+// exponents stay far inside a double's range. Nothing here ever rounds. lane_stages.hpp has the same stages one by one.
 #pragma once
 
 #include "model/pixel_pipeline.hpp"
@@ -21,14 +21,21 @@ struct QuadLanes {
   QuadLanes(const QuadData& quad, const PipelineContext& c);
 };
 
-/// The tables as doubles, for the lanes.
-struct LaneTables {
+/// A table as doubles, for the lanes.
+struct LaneTable {
   struct Entry {
     double c0, c1, c2;
   };
-  std::vector<Entry> rsqrt, recip;
+  int segments_log2, rest_bits;
+  std::vector<Entry> entries;
 
-  explicit LaneTables(const PipelineContext& c);
+  explicit LaneTable(const Table& table);
+};
+
+struct LaneTables {
+  LaneTable rsqrt, recip;
+
+  explicit LaneTables(const PipelineContext& c) : rsqrt(c.rsqrt_table), recip(c.recip_table) {}
 };
 
 /// Results of up to eight pixels. Bit l of a mask is lane l.

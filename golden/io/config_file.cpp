@@ -2,11 +2,14 @@
 
 #include "golden/io/error.hpp"
 #include "golden/io/text_input.hpp"
+#include "model/edit_distance.hpp"
 
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -32,13 +35,82 @@ const char* type_name(toml::node_type type) {
   }
 }
 
-}  // namespace
+using Entry = std::pair<const toml::key*, const toml::node*>;
 
-void load_config(const std::string& path, Config& config) {
-  parse_config(read_file(path, "a configuration in TOML"), path, config);
+std::size_t line_of(const Entry& entry) { return entry.first->source().begin.line; }
+
+/// toml++ sorts a table by name; the first error of the file is the one to report.
+std::vector<Entry> in_file_order(const toml::table& table) {
+  std::vector<Entry> entries;
+  for (const auto& [key, node] : table) entries.emplace_back(&key, &node);
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return line_of(a) < line_of(b); });
+  return entries;
 }
 
-void parse_config(std::string_view text, const std::string& name, Config& config) {
+void set_key(const Entry& entry, const std::string& name, Config& config) {
+  const std::string key(entry.first->str());
+  const toml::node& node = *entry.second;
+  const auto failure = [&](const std::string& what) { return input_error(name, line_of(entry), what); };
+  try {
+    config.get(key);  // an unknown key is the better complaint than its type
+    if (const auto* boolean = node.as_boolean(); boolean != nullptr && key == "notch_exact") {
+      config.set(key, boolean->get() ? 1 : 0);
+      return;
+    }
+    const auto* integer = node.as_integer();
+    if (integer == nullptr)
+      throw failure("key " + in_quotes(key) + " holds " + type_name(node.type()) + "; an integer is expected");
+    const std::int64_t value = integer->get();
+    if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max()) {
+      throw failure("key " + in_quotes(key) + " is " + std::to_string(value) +
+                    ", far out of range; see 'quadrille config'");
+    }
+    config.set(key, static_cast<int>(value));
+  } catch (const ConfigError& error) {
+    throw failure(printable(error.what()));
+  }
+}
+
+struct WeightKey {
+  std::string_view key;
+  double CostWeights::*member;
+};
+
+constexpr std::array weight_keys{
+    WeightKey{"state", &CostWeights::state},
+    WeightKey{"multiplier", &CostWeights::multiplier},
+    WeightKey{"adder", &CostWeights::adder},
+    WeightKey{"table", &CostWeights::table},
+};
+
+void set_weight(const Entry& entry, const std::string& name, CostWeights& weights) {
+  const std::string key(entry.first->str());
+  const toml::node& node = *entry.second;
+  const auto failure = [&](const std::string& what) { return input_error(name, line_of(entry), what); };
+  const auto* found = std::find_if(weight_keys.begin(), weight_keys.end(), [&](const auto& w) { return w.key == key; });
+  if (found == weight_keys.end()) {
+    const auto* nearest = std::min_element(weight_keys.begin(), weight_keys.end(), [&](const auto& a, const auto& b) {
+      return edit_distance(key, a.key) < edit_distance(key, b.key);
+    });
+    throw failure("unknown key " + in_quotes(key) + " in the table [cost]; the nearest is '" +
+                  std::string(nearest->key) + "'");
+  }
+  const std::string wanted =
+      "; a number from 0 to " + std::to_string(static_cast<long>(max_cost_weight)) + " is expected, LUTs a bit";
+  if (!node.is_number())
+    throw failure("key " + in_quotes(key) + " in the table [cost] holds " + type_name(node.type()) + wanted);
+  const double value = node.value<double>().value();
+  if (!(value >= 0 && value <= max_cost_weight)) {  // also not a number
+    std::ostringstream text;
+    text << value;
+    throw failure("key " + in_quotes(key) + " in the table [cost] is " + text.str() + wanted);
+  }
+  weights.*found->member = value;
+}
+
+/// Both kinds of content, so that a file has the same errors whoever reads it.
+void parse(std::string_view text, const std::string& name, Config& config, CostWeights& weights) {
   toml::table table;
   try {
     table = toml::parse(text, name);
@@ -46,39 +118,41 @@ void parse_config(std::string_view text, const std::string& name, Config& config
     throw input_error(name, error.source().begin.line,
                       "TOML: " + printable(error.description()) + "; lines such as significand_bits = 18 are expected");
   }
-
-  // The table is sorted by name; the first error of the file is the one to report.
-  std::vector<std::pair<const toml::key*, const toml::node*>> entries;
-  for (const auto& [key, node] : table) entries.emplace_back(&key, &node);
-  const auto line_of = [](const auto& entry) { return entry.first->source().begin.line; };
-  std::stable_sort(entries.begin(), entries.end(),
-                   [&](const auto& a, const auto& b) { return line_of(a) < line_of(b); });
-
-  Config result = config;
-  for (const auto& entry : entries) {
-    const std::string key(entry.first->str());
-    const toml::node& node = *entry.second;
-    const auto failure = [&](const std::string& what) { return input_error(name, line_of(entry), what); };
-    try {
-      result.get(key);  // an unknown key is the better complaint than its type
-      if (const auto* boolean = node.as_boolean(); boolean != nullptr && key == "notch_exact") {
-        result.set(key, boolean->get() ? 1 : 0);
-        continue;
-      }
-      const auto* integer = node.as_integer();
-      if (integer == nullptr)
-        throw failure("key " + in_quotes(key) + " holds " + type_name(node.type()) + "; an integer is expected");
-      const std::int64_t value = integer->get();
-      if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max()) {
-        throw failure("key " + in_quotes(key) + " is " + std::to_string(value) +
-                      ", far out of range; see 'quadrille config'");
-      }
-      result.set(key, static_cast<int>(value));
-    } catch (const ConfigError& error) {
-      throw failure(printable(error.what()));
+  Config new_config = config;
+  CostWeights new_weights = weights;
+  for (const Entry& entry : in_file_order(table)) {
+    if (entry.first->str() != "cost") {
+      set_key(entry, name, new_config);
+    } else if (const toml::table* cost = entry.second->as_table(); cost != nullptr) {
+      for (const Entry& weight : in_file_order(*cost)) set_weight(weight, name, new_weights);
+    } else {
+      throw input_error(name, line_of(entry),
+                        "key \"cost\" holds " + std::string(type_name(entry.second->type())) +
+                            "; a table [cost] with state, multiplier, adder, table is expected");
     }
   }
-  config = result;
+  config = new_config;
+  weights = new_weights;
+}
+
+std::string text_of(const std::string& path) { return read_file(path, "a configuration in TOML"); }
+
+}  // namespace
+
+void load_config(const std::string& path, Config& config) { parse_config(text_of(path), path, config); }
+
+void load_cost_weights(const std::string& path, CostWeights& weights) {
+  parse_cost_weights(text_of(path), path, weights);
+}
+
+void parse_config(std::string_view text, const std::string& name, Config& config) {
+  CostWeights ignored;
+  parse(text, name, config, ignored);
+}
+
+void parse_cost_weights(std::string_view text, const std::string& name, CostWeights& weights) {
+  Config ignored;
+  parse(text, name, ignored, weights);
 }
 
 }  // namespace quadrille::golden

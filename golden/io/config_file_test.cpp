@@ -64,6 +64,73 @@ TEST(ConfigFile, ReportsTheFirstErrorOfTheFile) {
   expect_input_error([&] { parse_config("zzz = 1\naaa = 1\n", "c", config); }, "c:1", {"zzz"});
 }
 
+TEST(CostWeightsFile, SetsWeightsAndLeavesTheRest) {
+  CostWeights weights{.state = 5, .multiplier = 6, .adder = 7, .table = 8};
+  parse_cost_weights("significand_bits = 12\n[cost]\nadder = 0.25\ntable = 0\n", "c", weights);
+  EXPECT_EQ(weights, (CostWeights{.state = 5, .multiplier = 6, .adder = 0.25, .table = 0}));
+  parse_cost_weights("cost = {state = 1e-3, multiplier = 1000000}", "c", weights);
+  EXPECT_EQ(weights, (CostWeights{.state = 0.001, .multiplier = 1e6, .adder = 0.25, .table = 0}));
+  const CostWeights before = weights;
+  for (const char* text : {"", "tile_log2 = 2", "[cost]"}) parse_cost_weights(text, "c", weights);
+  EXPECT_EQ(weights, before);
+}
+
+TEST(CostWeightsFile, AFileWithTheTableSetsTheSameKeys) {
+  Config config;
+  parse_config("significand_bits = 12\n[cost]\nstate = 3\n", "c", config);
+  Config expected;
+  expected.significand_bits = 12;
+  EXPECT_EQ(config, expected);
+}
+
+TEST(CostWeightsFile, NamesThePlaceAndChangesNothing) {
+  struct Bad {
+    const char* line;
+    std::initializer_list<std::string_view> fragments;
+  };
+  const Bad cases[] = {
+      {"stat = 1", {"\"stat\"", "[cost]", "nearest is 'state'"}},
+      {"multipliers = 1", {"nearest is 'multiplier'"}},
+      {"significand_bits = 12", {"\"significand_bits\" in the table [cost]"}},
+      {"state = \"1\"", {"\"state\" in the table [cost] holds a string", "a number from 0 to 1000000"}},
+      {"state = true", {"holds a boolean"}},
+      {"state = [1]", {"holds an array"}},
+      {"state = {a = 1}", {"holds a table"}},
+      {"state = -1", {"\"state\" in the table [cost] is -1", "a number from 0"}},
+      {"state = -0.5", {"is -0.5"}},
+      {"state = 1000000.5", {"a number from 0 to 1000000"}},
+      {"state = nan", {"is nan"}},
+      {"state = -nan", {"a number from 0"}},
+      {"state = inf", {"is inf"}},
+      {"state = -inf", {"is -inf"}},
+      {"adder = 2", {"TOML", "adder"}},
+      {"state", {"TOML"}},
+  };
+  for (const Bad& bad : cases) {
+    SCOPED_TRACE(bad.line);
+    const std::string text = "tile_log2 = 2\n[cost]\nadder = 2\n" + std::string(bad.line) + "\n";
+    CostWeights weights;
+    expect_input_error([&] { parse_cost_weights(text, "d/c.toml", weights); }, "d/c.toml:4", bad.fragments);
+    EXPECT_EQ(weights, CostWeights{});
+    Config config;  // the file is refused by those who do not need the weights too
+    expect_input_error([&] { parse_config(text, "d/c.toml", config); }, "d/c.toml:4", bad.fragments);
+    EXPECT_EQ(config, Config{});
+  }
+  CostWeights weights;
+  expect_input_error([&] { parse_cost_weights("cost = 3", "c", weights); }, "c:1",
+                     {"\"cost\" holds an integer", "[cost]"});
+  expect_input_error([&] { parse_cost_weights("[cost]\nadder = 2\n[costs]\n", "c", weights); }, "c:3", {"'costs'"});
+  expect_input_error([&] { parse_cost_weights("[cost]\nstat = 2\n[costs]\n", "c", weights); }, "c:2", {"'state'"});
+  EXPECT_EQ(weights, CostWeights{});
+}
+
+TEST_F(InDirectory, CostWeightsFileErrors) {
+  CostWeights weights;
+  expect_input_error([&] { load_cost_weights(path("absent"), weights); }, path("absent"), {"No such file", "TOML"});
+  load_cost_weights(write("good", "[cost]\nstate = 2.5"), weights);
+  EXPECT_EQ(weights.state, 2.5);
+}
+
 TEST_F(InDirectory, ConfigFileErrors) {
   Config config;
   expect_input_error([&] { load_config(path("absent"), config); }, path("absent"), {"No such file", "TOML"});

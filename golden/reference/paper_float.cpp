@@ -8,27 +8,42 @@ namespace quadrille::golden {
 
 namespace {
 
-double sign(double v) { return static_cast<double>((v > 0) - (v < 0)); }
+template <class Real>
+Real sign(Real v) {
+  return static_cast<Real>((v > 0) - (v < 0));
+}
+
+int next(int i) { return (i + 1) & 3; }
+int previous(int i) { return (i + 3) & 3; }
 
 }  // namespace
 
-PaperFloatQuad::PaperFloatQuad(const SnappedQuad& quad, const Config& config, const DrawState& draw)
+template <class Real>
+PaperQuad<Real>::PaperQuad(const SnappedQuad& quad, const Config& config, const DrawState& draw)
     : attributes_(draw.attributes), perspective_(draw.perspective) {
-  const int frac = config.frac(), bits = config.significand_bits;
+  const int frac = config.frac();
+  const auto port = [&](const PortNumber& number) {
+    return static_cast<Real>(port_value(number, config.significand_bits));
+  };
   for (int i = 0; i < 4; ++i) {
     const SnappedVertex& v = quad.vertex[i];
     x_[i] = std::ldexp(static_cast<double>(v.x), -frac);
     y_[i] = std::ldexp(static_cast<double>(v.y), -frac);
     w_[i] = std::ldexp(static_cast<double>(v.w), -frac);
     homogeneous_ = homogeneous_ || w_[i] != 1;
-    inverse_w_[i] = port_value(v.k, bits) / w_[i];
-    z_over_w_[i] = port_value(v.z, bits) / w_[i];
+    const auto w = static_cast<Real>(w_[i]);
+    vx_[i] = static_cast<Real>(x_[i]) / w;
+    vy_[i] = static_cast<Real>(y_[i]) / w;
+    w_sign_[i] = sign(w);
+    inverse_w_[i] = port(v.k) / w;
+    z_over_w_[i] = port(v.z) / w;
     // b is k a with perspective and W a without, so one division serves both.
-    for (int a = 0; a < attributes_; ++a) a_[a][i] = port_value(v.attribute[a], bits) / w_[i];
+    for (int a = 0; a < attributes_; ++a) a_[a][i] = port(v.attribute[a]) / w;
   }
 }
 
-PaperFloatQuad::PaperFloatQuad(const WindowQuad& quad, const DrawState& draw)
+template <class Real>
+PaperQuad<Real>::PaperQuad(const WindowQuad& quad, const DrawState& draw)
     : centre_(0.5), attributes_(draw.attributes), perspective_(draw.perspective) {
   for (int i = 0; i < 4; ++i) {
     const WindowVertex& v = quad.vertex[i];
@@ -36,25 +51,28 @@ PaperFloatQuad::PaperFloatQuad(const WindowQuad& quad, const DrawState& draw)
     y_[i] = v.y;
     w_[i] = v.w;
     homogeneous_ = homogeneous_ || !(v.w > 0);
-    inverse_w_[i] = 1 / v.w;
-    z_over_w_[i] = v.z / v.w;
+    const auto w = static_cast<Real>(v.w);
+    vx_[i] = static_cast<Real>(v.x) / w;
+    vy_[i] = static_cast<Real>(v.y) / w;
+    w_sign_[i] = sign(w);
+    inverse_w_[i] = 1 / w;
+    z_over_w_[i] = static_cast<Real>(v.z) / w;
     for (int a = 0; a < attributes_; ++a) {
-      const double value = a < static_cast<int>(quad.attribute[i].size()) ? quad.attribute[i][a] : 0.0;
-      a_[a][i] = perspective_ ? value / v.w : value;
+      const bool given = a < static_cast<int>(quad.attribute[i].size());
+      const auto value = static_cast<Real>(given ? quad.attribute[i][a] : 0.0);
+      a_[a][i] = perspective_ ? value / w : value;
     }
   }
 }
 
-ReferenceSample PaperFloatQuad::sample(int px, int py) const {
-  ReferenceSample out;
-  const double vx = px + centre_, vy = py + centre_;
-  const auto next = [](int i) { return (i + 1) & 3; };
-
-  // Membership: expression (12) on homogeneous edge functions; true, false, or neither for an all-zero edge.
+/// Membership: expression (12) on homogeneous edge functions; true, false, or neither for an all-zero edge.
+template <class Real>
+void PaperQuad<Real>::cover(int px, int py, ReferenceSample& out) const {
+  const double x = px + centre_, y = py + centre_;
   bool tie = false;
   const auto edge = [&](int i, int j) {
-    const double six = x_[i] - w_[i] * vx, siy = y_[i] - w_[i] * vy;
-    const double sjx = x_[j] - w_[j] * vx, sjy = y_[j] - w_[j] * vy;
+    const double six = x_[i] - w_[i] * x, siy = y_[i] - w_[i] * y;
+    const double sjx = x_[j] - w_[j] * x, sjy = y_[j] - w_[j] * y;
     const double e = six * sjy - siy * sjx;
     if (e != 0) return sign(e);
     const double dx = y_[i] * w_[j] - w_[i] * y_[j];
@@ -71,29 +89,60 @@ ReferenceSample PaperFloatQuad::sample(int px, int py) const {
   out.covered = back || inside(-1.0);
   out.front = out.covered && !back;
   out.flags = static_cast<std::uint8_t>((tie ? flag_tie : 0) | (homogeneous_ ? flag_homogeneous : 0));
-  if (!out.covered) return out;
+}
+
+template <class Real>
+typename PaperQuad<Real>::Pixel PaperQuad<Real>::interpolate(int px, int py) const {
+  Pixel p;
+  const auto x = static_cast<Real>(px + centre_), y = static_cast<Real>(py + centre_);
 
   // The pseudo-code, line by line.
-  std::array<double, 4> sx, sy, area, dot, r, t, mu, lambda;
+  std::array<Real, 4> sx, sy, lambda;
   for (int i = 0; i < 4; ++i) {
-    sx[i] = x_[i] / w_[i] - vx;
-    sy[i] = y_[i] / w_[i] - vy;
+    sx[i] = vx_[i] - x;
+    sy[i] = vy_[i] - y;
   }
   for (int i = 0; i < 4; ++i) {
-    area[i] = sx[i] * sy[next(i)] - sy[i] * sx[next(i)];
-    dot[i] = sx[i] * sx[next(i)] + sy[i] * sy[next(i)];
-    r[i] = std::sqrt(sx[i] * sx[i] + sy[i] * sy[i]) * sign(w_[i]);
+    p.area[i] = sx[i] * sy[next(i)] - sy[i] * sx[next(i)];
+    p.dot[i] = sx[i] * sx[next(i)] + sy[i] * sy[next(i)];
+    p.r[i] = std::sqrt(sx[i] * sx[i] + sy[i] * sy[i]) * w_sign_[i];
   }
-  for (int i = 0; i < 4; ++i) t[i] = (r[i] * r[next(i)] - dot[i]) / area[i];
-  for (int i = 0; i < 4; ++i) mu[i] = (t[(i + 3) & 3] + t[i]) / r[i];
-  const double total = mu[0] + mu[1] + mu[2] + mu[3];
-  for (int i = 0; i < 4; ++i) lambda[i] = mu[i] / total;
+  for (int i = 0; i < 4; ++i) p.t[i] = (p.r[i] * p.r[next(i)] - p.dot[i]) / p.area[i];
+  for (int i = 0; i < 4; ++i) p.mu[i] = (p.t[previous(i)] + p.t[i]) / p.r[i];
+  p.sum_mu = p.mu[0] + p.mu[1] + p.mu[2] + p.mu[3];
+  for (int i = 0; i < 4; ++i) lambda[i] = p.mu[i] / p.sum_mu;
+
+  // Eq. (10), (11), (4).
+  for (int i = 0; i < 4; ++i) {
+    p.sum_inverse_w += lambda[i] * inverse_w_[i];
+    p.z += lambda[i] * z_over_w_[i];
+  }
+  p.defined = std::isfinite(p.sum_mu) && std::isfinite(p.sum_inverse_w) && std::isfinite(p.z);
+  for (int i = 0; i < 4; ++i) {
+    p.lambda[i] = perspective_ ? lambda[i] * inverse_w_[i] / p.sum_inverse_w : lambda[i];
+    p.defined = p.defined && std::isfinite(p.lambda[i]);
+  }
+  for (int a = 0; a < attributes_; ++a) {
+    Real sum = 0;
+    for (int i = 0; i < 4; ++i) sum += lambda[i] * a_[a][i];
+    p.attribute[a] = perspective_ ? sum / p.sum_inverse_w : sum;
+    p.defined = p.defined && std::isfinite(p.attribute[a]);
+  }
+  return p;
+}
+
+template <class Real>
+ReferenceSample PaperQuad<Real>::sample(int px, int py) const {
+  ReferenceSample out;
+  cover(px, py, out);
+  if (!out.covered) return out;
+  const Pixel p = interpolate(px, py);
 
   int corners = 0, edges = 0;
   for (int i = 0; i < 4; ++i) {
-    corners += r[i] == 0;
+    corners += p.r[i] == 0;
     // The signed lengths turn the sense of D on an exterior edge, exactly as S = w s does.
-    edges += area[i] == 0 && dot[i] * sign(w_[i]) * sign(w_[next(i)]) < 0;
+    edges += p.area[i] == 0 && p.dot[i] * w_sign_[i] * w_sign_[next(i)] < 0;
   }
   if (corners > 0) {
     out.flags |= corners > 1 ? flag_two_corner : flag_on_vertex;
@@ -101,33 +150,26 @@ ReferenceSample PaperFloatQuad::sample(int px, int py) const {
     out.flags |= edges > 1 ? flag_two_edge : flag_on_edge;
   }
 
-  // Eq. (10), (11), (4).
-  double sum_inverse = 0, spread = 0, size_inverse = 0, size_mu = 0;
-  for (int i = 0; i < 4; ++i) {
-    sum_inverse += lambda[i] * inverse_w_[i];
-    size_inverse += mu[i] * inverse_w_[i];
-    size_mu += std::abs(mu[i]);
-    spread += (std::abs(t[(i + 3) & 3]) + std::abs(t[i])) * std::abs(inverse_w_[i] / r[i]);
-    out.z += lambda[i] * z_over_w_[i];
-  }
-  bool finite = std::isfinite(total) && std::isfinite(sum_inverse) && std::isfinite(out.z);
-  for (int i = 0; i < 4; ++i) {
-    out.lambda[i] = perspective_ ? lambda[i] * inverse_w_[i] / sum_inverse : lambda[i];
-    finite = finite && std::isfinite(out.lambda[i]);
-  }
-  for (int a = 0; a < attributes_; ++a) {
-    double sum = 0;
-    for (int i = 0; i < 4; ++i) sum += lambda[i] * a_[a][i];
-    out.attribute[a] = perspective_ ? sum / sum_inverse : sum;
-    finite = finite && std::isfinite(out.attribute[a]);
-  }
-  out.undefined = !finite;
+  for (int i = 0; i < 4; ++i) out.lambda[i] = p.lambda[i];
+  for (int a = 0; a < attributes_; ++a) out.attribute[a] = p.attribute[a];
+  out.z = p.z;
+  out.undefined = !p.defined;
   if (out.undefined) return out;
-  out.visible = sum_inverse > 0;
-  out.visible_margin = total / size_mu * sign(size_inverse);
+
+  Real spread = 0, size_inverse = 0, size_mu = 0;
+  for (int i = 0; i < 4; ++i) {
+    size_inverse += p.mu[i] * inverse_w_[i];
+    size_mu += std::abs(p.mu[i]);
+    spread += (std::abs(p.t[previous(i)]) + std::abs(p.t[i])) * std::abs(inverse_w_[i] / p.r[i]);
+  }
+  out.visible = p.sum_inverse_w > 0;
+  out.visible_margin = p.sum_mu / size_mu * sign(size_inverse);
   out.condition = spread / std::abs(size_inverse);
-  out.z_condition = size_mu / std::abs(total);
+  out.z_condition = size_mu / std::abs(p.sum_mu);
   return out;
 }
+
+template class PaperQuad<float>;
+template class PaperQuad<double>;
 
 }  // namespace quadrille::golden
