@@ -9,7 +9,7 @@ packages=(
   verilator yosys              # RTL simulation, synthesis and round trip
   libgtest-dev libopenexr-dev libpng-dev zlib1g-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   clang-format                 # the format test
-  python3                      # scripts/campaign.py, scripts/check_readme.sh
+  python3 python3-matplotlib python3-plotly   # scripts/*.py; plots of scripts/sweep_report.py
 )
 
 install_packages() {

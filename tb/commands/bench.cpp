@@ -1,288 +1,340 @@
-// quadrille bench: speeds of all bodies in one run, as ratios, so that the machine it runs on falls out.
-#include "tb/commands/commands.hpp"
-
+// quadrille bench: speeds of all bodies; with --error the error of each against its run time.
 #include "golden/io/json_report.hpp"
-#include "golden/reference/paper_float.hpp"
-#include "golden/reference/truth.hpp"
-#include "golden/scenes/random_mesh.hpp"
 #include "model/snap.hpp"
-#include "model/untimed.hpp"
+#include "tb/commands/bench_error.hpp"
+#include "tb/commands/bench_speed.hpp"
 #include "tb/commands/check.hpp"
+#include "tb/commands/commands.hpp"
 #include "tb/commands/errors.hpp"
+#include "tb/commands/input.hpp"
 #include "tb/commands/output.hpp"
 #include "tb/commands/progress.hpp"
-#include "tb/lockstep.hpp"
+#include "tb/render/parallel.hpp"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <functional>
 #include <memory>
-#include <thread>
+#include <optional>
 
 namespace quadrille::cli {
 namespace {
 
 struct BenchOptions {
-  CommonOptions common;
-  int repeat = 5, quad_size = 64;
-  std::uint64_t fragments = 2'000'000;
-  bool no_rtl = false;
+  SpeedOptions speed;  ///< what both halves need, and the rest of the speeds
+  InputOptions input;
+  std::optional<int> repeat;
+  std::uint64_t limit_fragments = 16'000;
+  bool error = false;
 };
 
-struct Measure {
-  std::uint64_t fragments = 0, cycles = 0;
-  double seconds = 0;
-};
+constexpr int speed_repeat = 5, error_repeat = 3;
+constexpr const char* error_size = "128x128";
 
-struct Subject {
-  std::string name, what;
-  std::function<Measure()> run;
-  std::vector<double> fragments_per_second{}, cycles_per_second{};
-};
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+/// A magnitude as a power of two.
+std::string power(double value) {
+  if (value == 0) return "0";
+  if (!std::isfinite(value)) return std::isnan(value) ? "nan" : "inf";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", std::log2(value));
+  return text;
 }
 
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+/// The largest error; "-" of nothing.
+std::string power(const tb::ErrorStats& errors) { return errors.count() == 0 ? "-" : power(errors.max()); }
 
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+/// null of nothing.
+nlohmann::ordered_json or_null(const tb::ErrorStats& errors, double value) {
+  if (errors.count() == 0) return nullptr;
+  return value;
+}
 
-class Bench {
+class ErrorCommand {
  public:
-  explicit Bench(const BenchOptions& options)
-      : options_(options), config_(options.common.config()), threads_(options.common.thread_count()) {
-    StateOptions state_options;
-    state_ = state_options.state(options.common, config_);
-    state_.attributes = std::min(4, config_.attribute_slots);
-    golden::RandomMeshOptions mesh;
-    mesh.width = state_.width;
-    mesh.height = state_.height;
-    mesh.columns = std::max(1, state_.width / options.quad_size);
-    mesh.rows = std::max(1, state_.height / options.quad_size);
-    mesh.jitter = 0.3;
-    mesh.triangle_share = 0;
-    mesh.vary_w = true;
-    quads_ = golden::make_random_mesh(options.common.seed, mesh).quads;
-    for (const WindowQuad& quad : quads_) snapped_.push_back(snap_quad(quad, config_, state_));
+  ErrorCommand(const BenchOptions& options, const std::vector<std::string>& arguments)
+      : options_(options),
+        common_(options.speed.common),
+        arguments_(arguments),
+        config_(common_.config()),
+        repeat_(options.repeat.value_or(error_repeat)) {
+    StateOptions state;
+    state_ = state.state(common_, config_);
   }
 
-  int run(const std::vector<std::string>& arguments) {
-    std::vector<Subject> subjects{
-        {"model", "untimed model, one core", [this] { return model(1); }},
-        {"model-threads", "untimed model, " + std::to_string(threads_) + " threads",
-         [this] { return model(threads_); }},
-        {"truth", "truth (113-bit), one core",
-         [this] { return reference<golden::TruthQuad>(options_.fragments / 100); }},
-        {"float", "the paper's formulas in double, one core",
-         [this] { return reference<golden::PaperFloatQuad>(options_.fragments / 4); }},
-        {"clocked", "clocked model alone", [this] { return from(tb::run_clocked_model_alone(snapped_, lockstep())); }}};
-    if (!options_.no_rtl) {
-      subjects.push_back({"rtl", "RTL alone (Verilator, without probes)",
-                          [this] { return from(tb::run_rtl_alone(snapped_, lockstep())); }});
-      subjects.push_back({"lockstep", "RTL and clocked model in lockstep, every boundary compared", [this] {
-                            const tb::LockstepReport r = tb::run_lockstep(snapped_, lockstep());
-                            if (!r.agreed())
-                              throw std::runtime_error("lockstep: " + r.first_divergence.value_or("differs"));
-                            return Measure{r.fragments, r.cycles_rtl, r.wall_seconds};
-                          }});
-      subjects.push_back({"cosim", "the same with every fragment against the truth", [this] { return cosim(); }});
+  int run() {
+    std::vector<std::string> read = options_.input.files();
+    read.push_back(common_.config_file);
+    check_outputs({common_.json}, read);
+    load();
+    measure();
+    if (std::FILE* text = common_.text()) {
+      print_errors(text);
+      if (common_.verbose) print_all(text);
+      print_summary(text);
     }
-    measure(subjects);
-    print(subjects, arguments);
-    if (!options_.common.json.empty()) golden::save_json(options_.common.json, report(subjects, arguments));
-    return exit_ok;
+    if (!common_.json.empty()) golden::save_json(common_.json, report());
+    bool ok = true;
+    for (const Input& input : inputs_) {
+      for (const std::string& failure : input.bench->failures()) {
+        std::fprintf(stderr, "quadrille: %s %s: %s\n", input.kind, input.name.c_str(), failure.c_str());
+        ok = false;
+      }
+    }
+    return ok ? exit_ok : exit_mismatch;
   }
 
  private:
-  /// Interleaved, so that a slow spell of the machine meets all alike.
-  void measure(std::vector<Subject>& subjects) {
-    Progress progress("bench", static_cast<std::uint64_t>(options_.repeat) * subjects.size(),
-                      options_.common.show_progress());
-    std::uint64_t done = 0;
-    for (Subject& subject : subjects) subject.run();  // warm, and built
-    for (int round = 0; round < options_.repeat; ++round) {
-      for (Subject& subject : subjects) {
-        const Measure m = subject.run();
-        subject.fragments_per_second.push_back(static_cast<double>(m.fragments) / m.seconds);
-        subject.cycles_per_second.push_back(static_cast<double>(m.cycles) / m.seconds);
-        progress.set(++done, subject.name);
-      }
+  struct Input {
+    const char* kind;
+    std::string name;
+    std::unique_ptr<ErrorBench> bench;
+
+    const BodyResult& result(Body body) const { return bench->result(body); }
+  };
+
+  std::vector<Body> bodies() const {
+    std::vector<Body> list{Body::fp32, Body::fp64, Body::truth, Body::model_plain, Body::model, Body::model_clocked};
+    if (!options_.speed.no_rtl) list.push_back(Body::rtl);
+    return list;
+  }
+
+  /// The one that is given, or all scenes and stress families.
+  void load() {
+    if (inputs_given(options_.input) != 0) {
+      const char* kind = !options_.input.scene.empty()   ? "scene"
+                         : !options_.input.mesh.empty()  ? "mesh"
+                         : !options_.input.quads.empty() ? "quads"
+                                                         : "stress";
+      add(kind, options_.input);
+      return;
+    }
+    for (const std::string& name : scene_names()) {
+      InputOptions input = options_.input;
+      input.scene = name;
+      add("scene", input);
+    }
+    for (const std::string& name : stress_names()) {
+      InputOptions input = options_.input;
+      input.stress = name;
+      add("stress", input);
     }
   }
 
-  tb::LockstepOptions lockstep() const {
-    tb::LockstepOptions options;
-    options.config = config_;
-    options.state = state_;
-    options.seed = options_.common.seed;
-    options.limit_fragments = std::max<std::uint64_t>(1000, options_.fragments / 20);
-    return options;
-  }
-
-  static Measure from(const tb::AloneRun& run) { return {run.fragments, run.cycles, run.seconds}; }
-
-  /// Every thread draws the mesh until together they have enough.
-  Measure model(unsigned threads) const {
-    std::vector<std::uint64_t> drawn(threads, 0);
-    const std::uint64_t share = options_.fragments;
-    const auto work = [&](unsigned thread) {
-      UntimedModel model(config_, state_);
-      std::uint64_t count = 0, check = 0;
-      while (count < share)
-        for (const SnappedQuad& quad : snapped_)
-          model.draw(quad, [&](std::span<const Fragment> fragments) {
-            count += fragments.size();
-            check += fragments.empty() ? 0 : fragments.back().depth;
-          });
-      drawn[thread] = count + (check == 1 ? 1 : 0);  // keeps the depths alive
-    };
-    const Stopwatch stopwatch;
-    std::vector<std::thread> pool;
-    for (unsigned i = 1; i < threads; ++i) pool.emplace_back(work, i);
-    work(0);
-    for (std::thread& thread : pool) thread.join();
-    Measure m;
-    m.seconds = stopwatch.seconds();
-    for (const std::uint64_t count : drawn) m.fragments += count;
-    return m;
-  }
-
-  /// Coverage and sample of every pixel of the quads' bounds, round about `limit` fragments.
-  template <class Quad>
-  Measure reference(std::uint64_t limit) const {
-    Measure m;
-    double check = 0;
-    const Stopwatch stopwatch;
-    while (m.fragments < limit) {
-      for (const SnappedQuad& snapped : snapped_) {
-        const Quad quad(snapped, config_, state_);
-        const golden::PixelRect bounds = golden::TruthQuad(snapped, config_, state_).bounds();
-        for (int y = bounds.y0; y < bounds.y1; ++y) {
-          for (int x = bounds.x0; x < bounds.x1; ++x) {
-            const golden::ReferenceSample sample = quad.sample(x, y);
-            if (!sample.covered) continue;
-            ++m.fragments;
-            check += sample.z;
-          }
-        }
-        if (m.fragments >= limit) break;
-      }
-    }
-    m.seconds = stopwatch.seconds();
-    if (!std::isfinite(check)) m.fragments += 0;  // keeps the samples alive
-    return m;
-  }
-
-  Measure cosim() const {
-    WorkQueue queue(threads_ - 1, std::size_t{16} * threads_);
-    FragmentChecker::Settings settings;
+  void add(const char* kind, const InputOptions& input_options) {
+    const DrawInput input = load_input(input_options, "", state_.width, state_.height, common_.seed);
+    ErrorBench::Settings settings;
     settings.config = config_;
     settings.state = state_;
-    settings.pass = {{}};
-    for (int slot = 0; slot < state_.attributes; ++slot) settings.pass.columns.push_back(slot);
-    FragmentChecker checker(settings, quads_, snapped_, queue);
-    const tb::LockstepReport report =
-        tb::run_lockstep(snapped_, lockstep(), [&](const Fragment& fragment) { checker.fragment(fragment); });
-    const Stopwatch stopwatch;
-    checker.finish(report.complete);
-    queue.drain();
-    if (!report.agreed() || !checker.result().ok())
-      throw std::runtime_error("cosim: the bench's mesh fails; run `quadrille cosim`");
-    return {report.fragments, report.cycles_rtl, report.wall_seconds + stopwatch.seconds()};
+    settings.state.perspective = input.perspective;
+    settings.limit_fragments = options_.limit_fragments;
+    settings.rtl = !options_.speed.no_rtl;
+    try {
+      inputs_.push_back({kind, input.name, std::make_unique<ErrorBench>(settings, input.quads, input.attributes)});
+    } catch (const SnapError& error) {
+      throw UsageError(describe(error, input));
+    }
   }
 
-  void print(const std::vector<Subject>& subjects, const std::vector<std::string>& arguments) const {
-    std::FILE* text = options_.common.text();
-    if (!text) return;
-    const double base = median(subjects.front().fragments_per_second);
+  /// Errors on all threads, then times with nothing beside them.
+  void measure() {
+    Progress progress("bench --error", 2 * inputs_.size(), common_.show_progress());
+    std::uint64_t done = 0;
+    ordered_parallel(
+        inputs_.size(), common_.thread_count(),
+        [&](std::size_t i) {
+          inputs_[i].bench->compare();
+          return i;
+        },
+        [&](std::size_t i, std::size_t) { progress.set(++done, inputs_[i].name); });
+    for (Input& input : inputs_) {
+      input.bench->time(repeat_);
+      progress.set(++done, input.name);
+    }
+  }
+
+  void print_errors(std::FILE* text) const {
     std::fprintf(text,
-                 "%s\n%zu quads of about %d px, perspective, depth, %d attributes; configuration %s; median of %d "
-                 "interleaved runs\n\n",
-                 golden::command_line(arguments).c_str(), quads_.size(), options_.quad_size, state_.attributes,
-                 summary(config_).c_str(), options_.repeat);
-    std::fprintf(text, "%-60s %13s %13s %12s\n", "", "fragments/s", "clocks/s", "of the model");
-    for (const Subject& subject : subjects) {
-      const double fragments = median(subject.fragments_per_second), cycles = median(subject.cycles_per_second);
-      std::fprintf(text, "%-60s %13.0f ", subject.what.c_str(), fragments);
-      if (cycles > 0)
-        std::fprintf(text, "%13.0f", cycles);
-      else
-        std::fprintf(text, "%13s", "");
-      std::fprintf(text, " %12.4f\n", base > 0 ? fragments / base : 0);
+                 "%s\n%zu inputs, %s, snapped quads against exact arithmetic on the same; configuration %s\n\n"
+                 "Largest error of a weight as a power of two (bound of the machine: %s), fragments where the paper's "
+                 "formulas\nare undefined, and fragments that they miss\n\n",
+                 golden::command_line(arguments_).c_str(), inputs_.size(), common_.size.c_str(),
+                 summary(config_).c_str(), power(weight_bound(config_)).c_str());
+    std::fprintf(text, "%-24s %9s %8s %9s %8s %8s %9s %8s %8s\n", "", "fragments", "fp32", "undefined", "missed",
+                 "fp64", "undefined", "missed", "machine");
+    for (const Input& input : inputs_) {
+      const BodyResult &fp32 = input.result(Body::fp32), &fp64 = input.result(Body::fp64),
+                       &model = input.result(Body::model);
+      std::fprintf(text, "%-24s %9llu %8s %9llu %8llu %8s %9llu %8llu %8s%s\n",
+                   (std::string(input.kind) + " " + input.name).c_str(), count(model.fragments),
+                   power(fp32.lambda).c_str(), count(fp32.undefined), count(fp32.missing), power(fp64.lambda).c_str(),
+                   count(fp64.undefined), count(fp64.missing), power(model.lambda).c_str(),
+                   input.bench->failures().empty() ? "" : "  FAILED");
     }
-    if (!options_.no_rtl)
-      std::fprintf(text, "\nRTL alone over lockstep: %.2f; RTL alone over lockstep with the truth: %.2f\n",
-                   median(subjects[5].cycles_per_second) / median(subjects[6].cycles_per_second),
-                   median(subjects[5].cycles_per_second) / median(subjects[7].cycles_per_second));
   }
 
-  nlohmann::ordered_json report(const std::vector<Subject>& subjects, const std::vector<std::string>& arguments) const {
-    nlohmann::ordered_json json = golden::begin_report(config_, options_.common.seed, arguments);
-    json["quads"] = quads_.size();
-    json["quad_size"] = options_.quad_size;
-    json["threads"] = threads_;
-    json["repeat"] = options_.repeat;
-    const double base = median(subjects.front().fragments_per_second);
-    for (const Subject& subject : subjects) {
-      nlohmann::ordered_json entry;
-      entry["what"] = subject.what;
-      entry["fragments_per_second"] = median(subject.fragments_per_second);
-      if (median(subject.cycles_per_second) > 0) entry["cycles_per_second"] = median(subject.cycles_per_second);
-      entry["of_model"] = base > 0 ? median(subject.fragments_per_second) / base : 0;
-      entry["runs"] = subject.fragments_per_second;
-      json["speed"][subject.name] = entry;
+  void print_all(std::FILE* text) const {
+    for (const Input& input : inputs_) {
+      std::fprintf(text, "\n%s %s: %zu quads\n%-14s %9s %9s %9s %12s %9s %9s %9s %11s\n", input.kind,
+                   input.name.c_str(), input.bench->quads(), "", "lambda", "p99.9", "rms", "attribute", "depth",
+                   "undefined", "missed", "ns/fragment");
+      for (const Body body : bodies()) {
+        const BodyResult& r = input.result(body);
+        std::fprintf(text, "%-14s %9.2e %9.2e %9.2e %12.2e %9.2e %9llu %9llu %11.1f\n", name(body), r.lambda.max(),
+                     r.lambda.p999(), r.lambda.rms(), r.attribute.max(), r.depth.max(), count(r.undefined),
+                     count(r.missing), r.seconds_per_fragment * 1e9);
+      }
     }
+  }
+
+  void print_summary(std::FILE* text) const {
+    std::fprintf(
+        text,
+        "\nOver all inputs; times on one core, median of %d interleaved runs\n\n%-14s %11s %12s %12s  %-24s %9s %9s\n",
+        repeat_, "", "ns/fragment", "of the model", "worst weight", "", "undefined", "missed");
+    const double base = seconds_per_fragment(Body::model);
+    for (const Body body : bodies()) {
+      const Input* worst = &inputs_.front();
+      std::uint64_t undefined = 0, missing = 0;
+      for (const Input& input : inputs_) {
+        const BodyResult& r = input.result(body);
+        undefined += r.undefined;
+        missing += r.missing;
+        if (r.lambda.count() != 0 && !(r.lambda.max() <= worst->result(body).lambda.max())) worst = &input;
+      }
+      const tb::ErrorStats& error = worst->result(body).lambda;
+      const double seconds = seconds_per_fragment(body);
+      std::fprintf(text, "%-14s %11.1f %12.3f %12s  %-24s %9llu %9llu\n", name(body), seconds * 1e9,
+                   base > 0 ? seconds / base : 0, power(error).c_str(),
+                   error.max() == 0 ? "" : (std::string(worst->kind) + " " + worst->name).c_str(), count(undefined),
+                   count(missing));
+    }
+  }
+
+  /// Of all inputs, each with its fragments.
+  double seconds_per_fragment(Body body) const {
+    double seconds = 0, fragments = 0;
+    for (const Input& input : inputs_) {
+      const auto n = static_cast<double>(input.result(Body::model).fragments);
+      seconds += n * input.result(body).seconds_per_fragment;
+      fragments += n;
+    }
+    return fragments > 0 ? seconds / fragments : 0;
+  }
+
+  nlohmann::ordered_json report() const {
+    nlohmann::ordered_json json = golden::begin_report(config_, common_.seed, arguments_);
+    json["size"] = common_.size;
+    json["snap"] = "on";
+    json["repeat"] = repeat_;
+    json["weight_bound"] = weight_bound(config_);
+    json["error"] = nlohmann::ordered_json::array();
+    for (const Input& input : inputs_) {
+      for (const Body body : bodies()) {
+        const BodyResult& r = input.result(body);
+        nlohmann::ordered_json entry;
+        entry["input"] = input.name;
+        entry["kind"] = input.kind;
+        entry["engine"] = name(body);
+        entry["fragments"] = r.fragments;
+        entry["seconds_per_fragment"] = r.seconds_per_fragment;
+        entry["lambda_max"] = or_null(r.lambda, r.lambda.max());
+        entry["lambda_p999"] = or_null(r.lambda, r.lambda.p999());
+        entry["lambda_rms"] = or_null(r.lambda, r.lambda.rms());
+        entry["attribute_max"] = or_null(r.attribute, r.attribute.max());
+        entry["depth_max"] = or_null(r.depth, r.depth.max());
+        entry["undefined"] = r.undefined;
+        entry["missing"] = r.missing;
+        json["error"].push_back(std::move(entry));
+      }
+    }
+    nlohmann::ordered_json failures = nlohmann::ordered_json::array();
+    for (const Input& input : inputs_)
+      for (const std::string& failure : input.bench->failures())
+        failures.push_back(std::string(input.kind) + " " + input.name + ": " + failure);
+    json["ok"] = failures.empty();
+    json["failures"] = std::move(failures);
     return json;
   }
 
-  const BenchOptions options_;
+  static const char* name(Body body) { return body_names[static_cast<std::size_t>(body)].data(); }
+  static unsigned long long count(std::uint64_t n) { return n; }
+
+  const BenchOptions& options_;
+  const CommonOptions& common_;
+  const std::vector<std::string>& arguments_;
   const Config config_;
-  const unsigned threads_;
+  const int repeat_;
   DrawState state_;
-  std::vector<WindowQuad> quads_;
-  std::vector<SnappedQuad> snapped_;
+  std::vector<Input> inputs_;
 };
+
+int bench(BenchOptions& options, bool size_given, const std::vector<std::string>& arguments) {
+  if (options.error) {
+    if (!size_given) options.speed.common.size = error_size;
+    return ErrorCommand(options, arguments).run();
+  }
+  options.speed.repeat = options.repeat.value_or(speed_repeat);
+  check_writable(options.speed.common.json);
+  return run_speed_bench(options.speed, arguments);
+}
 
 }  // namespace
 
 void add_bench_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command =
-      app.add_subcommand("bench", "Speeds of model, references, RTL and lockstep in one run, as ratios");
+  CLI::App* command = app.add_subcommand(
+      "bench", "Speeds of model, references, RTL and lockstep in one run, as ratios; --error: errors beside them");
   command->footer(
-      "All draw the same mesh, one after the other and that several times; the median counts.\n\n"
+      "Without --error all draw the same mesh, one after the other and that several times; the median counts.\n\n"
+      "With --error: run time per fragment and errors against exact arithmetic on the same snapped quads, of the "
+      "paper's\n"
+      "formulas as printed in single (fp32) and double precision (fp64), the truth, the untimed model with plain "
+      "integers\n"
+      "(model-plain) and with lanes (model), the clocked model alone (model-clocked) and the RTL (rtl). Times are of "
+      "one "
+      "core\n"
+      "and hold set-up, weights, attributes and depth; the machine's also traversal and coverage, the truth's "
+      "coverage.\n"
+      "Errors are the same in every run. Exit status 1: a machine is beyond its bound, or two machines differ.\n\n"
       "Examples:\n"
       "  quadrille bench\n"
-      "  quadrille bench --no-rtl --set significand_bits=24 --json bench.json");
+      "  quadrille bench --no-rtl --set significand_bits=24 --json bench.json\n"
+      "  quadrille bench --error --no-rtl --json error.json\n"
+      "  quadrille bench --error --stress sliver --count 200 --verbose");
   const auto options = std::make_shared<BenchOptions>();
-  options->common.add_to(*command);
-  command->add_option("--repeat", options->repeat, "Runs of each")
+  SpeedOptions& speed = options->speed;
+  CLI::Option* error =
+      command->add_flag("--error", options->error,
+                        "Errors and run times of all engines; without an input on all built-in scenes and stress "
+                        "families. --size is 128x128 unless it is given");
+  options->input.add_to(*command);
+  for (const char* input : {"--scene", "--mesh", "--camera", "--quads", "--stress", "--count", "--strict"})
+    command->get_option(input)->needs(error);
+  speed.common.add_to(*command);
+  command->add_option("--repeat", options->repeat, "Runs of each; default 5, with --error 3")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--quad-size", options->quad_size, "Size of the mesh's quads in pixels")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--quad-size", speed.quad_size, "Size of the mesh's quads in pixels")
       ->type_name("PX")
       ->check(CLI::Range(2, 4096))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(error);
   command
-      ->add_option("--fragments", options->fragments,
-                   "Fragments of the model per run; slower bodies get a part of that")
+      ->add_option("--fragments", speed.fragments, "Fragments of the model per run; slower bodies get a part of that")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40))
-      ->capture_default_str();
-  command->add_flag("--no-rtl", options->no_rtl, "Leave the RTL out (no Verilator needed)");
-  command->callback([options, &invocation] {
-    invocation.run = [options, &invocation] {
-      check_writable(options->common.json);
-      return Bench(*options).run(invocation.arguments);
-    };
+      ->capture_default_str()
+      ->excludes(error);
+  command
+      ->add_option("--limit-fragments", options->limit_fragments,
+                   "With --error: draw the quads of an input in order until there are so many fragments and 16 quads; "
+                   "none is cut off")
+      ->type_name("N")
+      ->check(not_negative)
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+      ->capture_default_str()
+      ->needs(error);
+  command->add_flag("--no-rtl", speed.no_rtl, "Leave the RTL out (no Verilator needed)");
+  const CLI::Option* size = command->get_option("--size");
+  command->callback([options, size, &invocation] {
+    invocation.run = [options, size, &invocation] { return bench(*options, size->count() != 0, invocation.arguments); };
   });
 }
 

@@ -3,8 +3,8 @@
 
 #include "model/config.hpp"
 #include "model/records.hpp"
-#include "tb/commands/error_stats.hpp"
 #include "tb/commands/work_queue.hpp"
+#include "tb/error_stats.hpp"
 #include "tb/render/engine.hpp"
 
 #include <cstdint>
@@ -15,6 +15,8 @@
 #include <vector>
 
 namespace quadrille::cli {
+
+using tb::ErrorStats;
 
 /// The arithmetic bound |error of a weight| <= 2^-(s-3) of a configuration.
 double weight_bound(const Config& config);

@@ -197,13 +197,23 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
   return s;
 }
 
-std::string summary(const Config& config) {
+namespace {
+
+std::string changed_keys(const Config& config, const char* before) {
   std::string text;
-  for (const ConfigKey& key : Config::keys()) {
-    const int value = config.get(key.name);
-    if (value != key.standard) text += (text.empty() ? "" : " ") + std::string(key.name) + "=" + std::to_string(value);
-  }
-  return text.empty() ? "default" : text;
+  for (const ConfigKey& key : Config::keys())
+    if (const int value = config.get(key.name); value != key.standard)
+      text += before + std::string(key.name) + "=" + std::to_string(value);
+  return text;
+}
+
+}  // namespace
+
+std::string spelled(const Config& config) { return changed_keys(config, " --set "); }
+
+std::string summary(const Config& config) {
+  const std::string text = changed_keys(config, " ");
+  return text.empty() ? "default" : text.substr(1);
 }
 
 }  // namespace quadrille::cli

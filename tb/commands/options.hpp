@@ -89,6 +89,9 @@ struct EngineOptions {
   EngineSettings settings(const CommonOptions& common, const StateOptions& state) const;
 };
 
+/// The keys that differ from their defaults as a command line gives them, " --set key=value" each.
+std::string spelled(const Config& config);
+
 /// A human-readable list of the keys that differ from their defaults, "key=value key=value", or "default".
 std::string summary(const Config& config);
 

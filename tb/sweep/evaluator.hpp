@@ -1,8 +1,8 @@
 // Errors of many configurations on one input, with shared work done once.
 //
 // The machine is a chain of stages and each configuration key enters at one of them, so configurations form a tree:
-// those that agree up to a stage share that stage's results. The evaluator walks that tree; a stage is executed once for
-// each of its distinct settings, whatever comes behind it.
+// those that agree up to a stage share that stage's results. The evaluator walks that tree; a stage is executed once
+// for each of its distinct settings, whatever comes behind it.
 #pragma once
 
 #include "model/config.hpp"
@@ -30,23 +30,23 @@ struct SweepInput {
 /// The stages in the order of the machine, with the keys that enter there (resolved values count, so "auto" and its
 /// value are one setting).
 enum class Stage {
-  given_truth,    ///< truth on the quads as given: once per input
-  snap_truth,     ///< truth (unnormalised weights, coverage) on snapped positions: viewport_bits guard_bits
-                  ///< subpixel_bits homogeneous_frac_bits
-  difference,     ///< snapping, setup, traversal, forward differences: quadratic_frac_bits tile_log2
-  normalise,      ///< significand_bits
-  rsqrt,          ///< rsqrt_segments_log2 rsqrt_degree
-  ratios,         ///< align_guard_bits
-  weights,        ///< notch_exact
-  interpolate,    ///< the sums, all columns at once
-  reciprocal,     ///< recip_segments_log2 recip_degree
-  output,         ///< attribute_int_bits attribute_frac_bits depth_bits
-  cycles,         ///< the clocked model alone: positions, tile_log2, quad_slots_log2 tile_slots_log2 stamp_fifo_log2
+  given_truth,  ///< truth on the quads as given: once per input
+  snap_truth,   ///< truth (unnormalised weights, coverage) on snapped positions: viewport_bits guard_bits
+                ///< subpixel_bits homogeneous_frac_bits
+  difference,   ///< snapping, setup, traversal, forward differences: quadratic_frac_bits tile_log2
+  normalise,    ///< significand_bits
+  rsqrt,        ///< rsqrt_segments_log2 rsqrt_degree
+  ratios,       ///< align_guard_bits
+  weights,      ///< notch_exact
+  interpolate,  ///< the sums, all columns at once
+  reciprocal,   ///< recip_segments_log2 recip_degree
+  output,       ///< attribute_int_bits attribute_frac_bits depth_bits
+  cycles,       ///< the clocked model alone: positions, tile_log2, quad_slots_log2 tile_slots_log2 stamp_fifo_log2
 };
 inline constexpr std::size_t stage_count = 11;
 inline constexpr std::array<std::string_view, stage_count> stage_names{
-    "given_truth", "snap_truth", "difference", "normalise",  "rsqrt", "ratios",
-    "weights",     "interpolate", "reciprocal", "output", "cycles"};
+    "given_truth", "snap_truth",  "difference", "normalise", "rsqrt", "ratios",
+    "weights",     "interpolate", "reciprocal", "output",    "cycles"};
 
 /// How often each stage was executed.
 struct StageCounters {
@@ -70,16 +70,17 @@ class Evaluator {
     unsigned threads = 1;
     bool cycles = true;              ///< also run the clocked model
     std::size_t batch_points = 256;  ///< points that are carried at once, about; bounds memory and loss by interruption
+    std::size_t memory_bytes = std::size_t{2} << 30;  ///< of truth and differences kept; what is in use may need more
   };
 
   Evaluator(const SweepInput& input, const Settings& settings);
   ~Evaluator();
 
-  /// Evaluates every configuration (each must pass Config::validate()); hands results over in batches, in an order that
-  /// depends on the list alone, on the calling thread. Truth and differences stay in memory for further calls. Results
-  /// do not depend on the number of threads, on the batches, or on what was evaluated before. `progress` (may be empty)
-  /// is called on the calling thread now and then with the part done, 0 to 1. An exception thrown by a callback ends
-  /// the call and passes through; the evaluator stays usable.
+  /// Evaluates every configuration (each must pass Config::validate()); hands results over in batches, refused points
+  /// first, in an order that depends on the list and batch_points alone, on the calling thread. Truth and differences
+  /// stay in memory for further calls. Results do not depend on the number of threads, on the batches, or on what was
+  /// evaluated before. `progress` (may be empty) is called on the calling thread now and then with the part done, 0
+  /// to 1. An exception thrown by a callback ends the call and passes through; the evaluator stays usable.
   void evaluate(std::span<const Config> points, const std::function<void(const Batch&)>& done,
                 const std::function<void(double)>& progress = {});
 
@@ -89,7 +90,8 @@ class Evaluator {
   /// Of all evaluate() calls so far.
   const StageCounters& counters() const;
 
-  /// Largest arithmetic |Δλ'| of any fragment at each pixel, row-major width × height; −1 where nothing is drawn.
+  /// Largest arithmetic |Δλ'| of any fragment at each pixel, row-major width × height; −1 where nothing is drawn (a
+  /// refused point draws nothing), 0 where only what is not measured is. Counts as an evaluate() call.
   std::vector<float> error_map(const Config& point);
 
  private:

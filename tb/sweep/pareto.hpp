@@ -1,4 +1,4 @@
-// Which points of a sweep matter: the Pareto front of cost against error, its knees, the corners of the grid.
+// Which points of a sweep matter: the Pareto front of cost against error, its knees; and how far two measures agree.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,16 @@ struct CostError {
 /// the first counts.
 std::vector<std::size_t> pareto_front(std::span<const CostError> points);
 
-/// The `count` points of a front (as pareto_front() gives it) where the curve of log error over log cost bends most, by
-/// distance from the chord of the hull, in the order of the front; never its ends.
+/// The `count` points of a front (as pareto_front() gives it) where the curve of log error over log cost bends most, in
+/// the order of the front; never its ends. They are vertices of the curve's lower convex hull, both axes scaled to
+/// [0, 1]: first the one farthest from the chord between the ends, then always the one farthest from the line through
+/// those chosen. Fewer where the hull has fewer. Points without finite logarithms (an error of 0) are no part of the
+/// curve.
 std::vector<std::size_t> knees(std::span<const CostError> points, std::span<const std::size_t> front,
                                std::size_t count);
 
-/// Spearman's rank correlation with average ranks for ties; NaN for fewer than two points or a constant list.
+/// Spearman's rank correlation of two lists of equal length, with average ranks for ties. Pairs with a NaN are left
+/// out. NaN for fewer than two pairs or a constant list; throws std::invalid_argument for different lengths.
 double rank_correlation(std::span<const double> a, std::span<const double> b);
 
 }  // namespace quadrille::sweep

@@ -14,10 +14,12 @@ namespace quadrille::sweep {
 /// v0 (1, 0, 1), v1 (1, 1, 0), v2 (0, 1, 1), v3 (0, 0, 0): R runs across the quad, G along it, B is a saddle.
 enum class Quantity { lambda, attribute, depth, colour };
 inline constexpr std::array<std::string_view, 4> quantity_names{"lambda", "attribute", "depth", "colour"};
-inline constexpr std::array<std::array<double, 3>, 4> corner_colour{
-    {{1, 0, 1}, {1, 1, 0}, {0, 1, 1}, {0, 0, 0}}};
+inline constexpr std::array<std::array<double, 3>, 4> corner_colour{{{1, 0, 1}, {1, 1, 0}, {0, 1, 1}, {0, 0, 0}}};
 
-/// Absolute errors over all fragments and components of a quantity. count 0: not measured (depth off, no attributes).
+/// Absolute errors over fragments and all components of a quantity. Arithmetic: fragments that the machine draws and
+/// that exact arithmetic on the same snapped quad sees in front of the eye. Snapping: pixels that exact arithmetic
+/// draws on the snapped as on the given quad. Neither counts quads with a vertex behind the eye drawn without
+/// perspective, whose weights may cancel without limit. count 0: not measured (depth off, no attributes).
 struct ErrorSummary {
   std::uint64_t count = 0;
   double max = 0, p999 = 0, rms = 0, mean = 0;  ///< p999: upper edge of a 1/16-octave bin, at most max
@@ -33,14 +35,15 @@ struct WorstPixel {
 
 struct PointResult {
   std::string refused;  ///< not empty: the configuration cannot draw this input, for this reason; the rest is unset
-  std::uint64_t fragments = 0;  ///< drawn by the machine
+  std::uint64_t fragments = 0;                       ///< drawn by the machine
   std::array<ErrorSummary, 4> snapping, arithmetic;  ///< by Quantity
-  std::uint64_t coverage_gained = 0;  ///< pixels drawn though the given, unsnapped quad does not cover them
-  std::uint64_t coverage_lost = 0;    ///< pixels that the given quad covers (visible, in the z interval), not drawn
+  // Pixels of a quad; "draws": covers, visible, not culled, window z in the interval.
+  std::uint64_t coverage_gained = 0;  ///< drawn though exact arithmetic on the given, unsnapped quad does not
+  std::uint64_t coverage_lost = 0;    ///< that exact arithmetic on the given quad draws, not drawn
   std::uint64_t discard_differs = 0;  ///< covered pixels whose visibility or z interval the machine decides otherwise
                                       ///< than exact arithmetic on the same snapped quad
   std::uint64_t colour_codes = 0;     ///< 8-bit channels (round to nearest) that differ from the snapped truth's
-  std::uint64_t saturated = 0;        ///< fragments with an attribute clamped to its format
+  std::uint64_t saturated = 0;        ///< fragments with a weight, attribute or colour clamped to the output format
   std::uint64_t cycles = 0;           ///< clocks of the whole draw, without stalls; 0: not asked for
   WorstPixel worst;
 };

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Fit of the hardware cost's weights (model/hardware_cost.hpp) to synthesis.
+
+Synthesizes a list of diverse configurations with `quadrille sweep --synth`, fits LUTs = sum of weight * bits (not negative, no
+constant, least relative squares) and prints the weights, the residuals and the rank correlation of estimate and synthesis.
+
+  scripts/calibrate_cost.py                      the whole list: minutes for each configuration the first time, then from the cache
+  scripts/calibrate_cost.py DIR [DIR ...]        sweeps that are there already (points.csv, synth.csv)
+
+The fitted weights are printed as the table [cost] of a configuration file.
+"""
+import argparse
+import csv
+import itertools
+import os
+import subprocess
+import sys
+import tempfile
+
+# Every key that moves many LUTs, at both ends and together with others.
+CONFIGURATIONS = [
+    "significand_bits=18",
+    "significand_bits=8",
+    "significand_bits=12",
+    "significand_bits=15",
+    "significand_bits=22",
+    "significand_bits=26",
+    "significand_bits=18 rsqrt_degree=1 recip_degree=1",
+    "significand_bits=18 attribute_slots=8",
+    "significand_bits=14 attribute_slots=1 tile_log2=2 notch_exact=0 quad_slots_log2=1 tile_slots_log2=1",
+    "significand_bits=10 tile_log2=4 align_guard_bits=6 quad_slots_log2=4 stamp_fifo_log2=5",
+    "significand_bits=12 subpixel_bits=4 homogeneous_frac_bits=5 viewport_bits=10 depth_bits=16",
+    "significand_bits=16 quadratic_frac_bits=8 align_guard_bits=0 attribute_slots=2",
+]
+RESOURCES = ["state_bits", "multiplier_bits", "adder_bits", "table_bits"]
+
+
+def main():
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directories", metavar="DIR", nargs="*", help="results of `quadrille sweep --synth`; default: make them")
+    parser.add_argument("--quadrille", default=os.path.join(root, "build/release/quadrille"), metavar="PATH", help="the program")
+    args = parser.parse_args()
+
+    try:
+        if args.directories:
+            rows = [row for directory in args.directories for row in read(directory)]
+        else:
+            rows = synthesise(args.quadrille)
+    except OSError as error:
+        sys.exit(f"calibrate_cost.py: {error}")
+    if len(rows) < len(RESOURCES):
+        sys.exit(f"{len(rows)} synthesized configurations; at least {len(RESOURCES)} are needed")
+
+    luts = [row["luts"] for row in rows]
+    weights = fit(rows)
+    fitted = [sum(weight * row[name] for name, weight in weights.items()) for row in rows]
+    print(f"{'LUTs':>9} {'flip-flops':>10} {'DSPs':>5} {'path':>5} {'cost':>9} {'fitted':>9} {'off by':>7}  configuration")
+    for row, estimate in zip(rows, fitted):
+        print(f"{row['luts']:9.0f} {row['flip_flops']:10.0f} {row['dsps']:5.0f} {row['longest_path']:5.0f} {row['cost']:9.0f} "
+              f"{estimate:9.0f} {100 * (estimate / row['luts'] - 1):6.1f}%  {row['configuration']}")
+    print(f"\nrank correlation with synthesized LUTs: {spearman([row['cost'] for row in rows], luts):.3f} with the weights used, "
+          f"{spearman(fitted, luts):.3f} fitted\n")
+    print("[cost]")
+    for name, weight in weights.items():
+        print(f"{name.removesuffix('_bits')} = {weight:.4g}")
+
+
+def synthesise(program):
+    """One sweep of one point for each configuration; the input does not matter, so it is small."""
+    rows = []
+    for index, configuration in enumerate(CONFIGURATIONS):
+        print(f"{index + 1}/{len(CONFIGURATIONS)} {configuration}", file=sys.stderr, flush=True)
+        axis, *settings = configuration.split()
+        with tempfile.TemporaryDirectory() as directory:
+            command = [program, "sweep", "--axis", axis, *(part for setting in settings for part in ("--set", setting)),
+                       "--synth", "all", "--cosim", "none", "--no-cycles", "--scene", "bowtie", "--size", "64x64", "--quiet",
+                       "--out", directory]
+            done = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
+            if done.returncode != 0:
+                sys.exit(f"{' '.join(command)} ended with status {done.returncode}")
+            rows += [row | {"configuration": configuration} for row in read(directory)]
+    return rows
+
+
+def read(directory):
+    """Rows of synth.csv with the resources from points.csv."""
+    with open(os.path.join(directory, "points.csv"), newline="", encoding="utf-8") as file:
+        points = {row["row"]: row for row in csv.DictReader(file)}
+    with open(os.path.join(directory, "synth.csv"), newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            numbers = {name: float(row[name]) for name in ["luts", "flip_flops", "dsps", "longest_path", "cost"]}
+            numbers |= {name: float(points[row["row"]][name]) for name in RESOURCES}
+            yield numbers | {"configuration": f"{directory} row {row['row']}"}
+
+
+def fit(rows):
+    """Non-negative least squares of the relative error: of all choices of weights that are not zero the best one."""
+    best, error_of_best = None, 0.0
+    for count in range(1, len(RESOURCES) + 1):
+        for used in itertools.combinations(RESOURCES, count):
+            vectors = [[row[name] / row["luts"] for name in used] for row in rows]
+            solution = solve([[sum(v[i] * v[j] for v in vectors) for j in range(count)] for i in range(count)],
+                             [sum(v[i] for v in vectors) for i in range(count)])
+            if solution is None or min(solution) < 0:
+                continue
+            error = sum((sum(x * y for x, y in zip(solution, v)) - 1) ** 2 for v in vectors)
+            if best is None or error < error_of_best:
+                best, error_of_best = dict.fromkeys(RESOURCES, 0.0) | dict(zip(used, solution)), error
+    return best
+
+
+def solve(matrix, right):
+    """Gaussian elimination with pivots; None for a singular matrix."""
+    rows = [line + [value] for line, value in zip(matrix, right)]
+    for column in range(len(rows)):
+        pivot = max(range(column, len(rows)), key=lambda r: abs(rows[r][column]))
+        if rows[pivot][column] == 0:
+            return None
+        rows[column], rows[pivot] = rows[pivot], rows[column]
+        for r in range(len(rows)):
+            if r != column:
+                factor = rows[r][column] / rows[column][column]
+                rows[r] = [x - factor * y for x, y in zip(rows[r], rows[column])]
+    return [rows[r][-1] / rows[r][r] for r in range(len(rows))]
+
+
+def spearman(a, b):
+    """Rank correlation, average ranks for ties; not a number for a constant list."""
+    def ranks(values):
+        return [sum(v < value for v in values) + (sum(v == value for v in values) - 1) / 2 for value in values]
+
+    x, y = ranks(a), ranks(b)
+    middle = (len(x) - 1) / 2
+    covariance = sum((p - middle) * (q - middle) for p, q in zip(x, y))
+    variances = sum((p - middle) ** 2 for p in x) * sum((q - middle) ** 2 for q in y)
+    return covariance / variances ** 0.5 if variances > 0 else float("nan")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,337 @@
+#include "tb/commands/bench_error.hpp"
+
+#include "golden/reference/paper_float.hpp"
+#include "golden/reference/truth.hpp"
+#include "model/snap.hpp"
+#include "model/untimed.hpp"
+#include "tb/commands/bench_timing.hpp"
+#include "tb/commands/check.hpp"
+#include "tb/lockstep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+
+namespace quadrille::cli {
+namespace {
+
+using golden::PaperFloat32Quad;
+using golden::PaperFloatQuad;
+using golden::ReferenceSample;
+using golden::TruthQuad;
+
+constexpr std::size_t truth_samples = 2000;  ///< per timed run, about
+constexpr std::size_t truth_stretch = 250;   ///< that follow one another, so that set-up has its share
+constexpr double shortest_run = 2e-3;        ///< seconds; quicker draws are repeated within a run
+
+tb::LockstepOptions alone(const Config& config, const DrawState& state) {
+  tb::LockstepOptions options;
+  options.config = config;
+  options.state = state;
+  return options;
+}
+
+PixelEngine pixel_engine(Body body) { return body == Body::model_plain ? PixelEngine::plain : PixelEngine::lanes; }
+
+std::string text_of(const Fragment& fragment) {
+  char text[96];
+  std::snprintf(text, sizeof text, "quad %u, pixel (%d, %d)", fragment.quad, fragment.x, fragment.y);
+  return text;
+}
+
+void add_errors(const ReferenceSample& sample, const ReferenceSample& truth, const DrawState& state, bool exempt,
+                BodyResult& result) {
+  if (!exempt) {
+    double lambda = 0, attribute = 0;
+    for (std::size_t i = 0; i < 4; ++i) lambda = std::max(lambda, std::fabs(sample.lambda[i] - truth.lambda[i]));
+    for (std::size_t a = 0; a < static_cast<std::size_t>(state.attributes); ++a)
+      attribute = std::max(attribute, std::fabs(sample.attribute[a] - truth.attribute[a]));
+    result.lambda.add(lambda);
+    if (state.attributes > 0) result.attribute.add(attribute);
+  }
+  if (state.depth) result.depth.add(sample.z - truth.z);
+}
+
+bool in_depth(const ReferenceSample& sample, const DrawState& state) {
+  return !state.depth || (sample.z >= state.znear && sample.z <= state.zfar);
+}
+
+/// A reference's answer for a pixel that the truth draws.
+void add_sample(const ReferenceSample& sample, const ReferenceSample& truth, const DrawState& state, bool exempt,
+                BodyResult& result) {
+  ++result.fragments;
+  if (sample.covered && sample.undefined)
+    ++result.undefined;
+  else if (!sample.covered || !sample.visible || !in_depth(sample, state))
+    ++result.missing;
+  else
+    add_errors(sample, truth, state, exempt, result);
+}
+
+/// What `result` holds against a machine, in words; empty for nothing.
+std::string complaint(const CheckResult& result) {
+  if (result.compared == 0) return "no fragments";
+  std::string text;
+  const auto add = [&](std::uint64_t n, const std::string& what) {
+    if (n != 0) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + what;
+  };
+  add(result.mismatches, "pixels that differ from the truth (" + result.first.text + ")");
+  add(result.beyond_bound, "weights beyond the bound");
+  add(result.beyond_attribute, "attributes beyond what the bound allows");
+  add(result.beyond_depth, "depths beyond what the bound allows");
+  return text;
+}
+
+}  // namespace
+
+std::vector<Fragment> draw_body(Body body, std::span<const SnappedQuad> quads, const Config& config,
+                                const DrawState& state) {
+  std::vector<Fragment> fragments;
+  const tb::FragmentSink sink = [&](const Fragment& fragment) { fragments.push_back(fragment); };
+  switch (body) {
+    case Body::model:
+    case Body::model_plain: {
+      UntimedModel model(config, state, pixel_engine(body));
+      for (const SnappedQuad& quad : quads)
+        model.draw(quad, [&](std::span<const Fragment> f) { fragments.insert(fragments.end(), f.begin(), f.end()); });
+      return fragments;
+    }
+    case Body::model_clocked:
+      tb::run_clocked_model_alone(quads, alone(config, state), sink);
+      return fragments;
+    case Body::rtl:
+      tb::run_rtl_alone(quads, alone(config, state), sink);
+      return fragments;
+    default:
+      throw std::logic_error("draw_body: not a machine");
+  }
+}
+
+std::string first_difference(std::span<const Fragment> expected, std::span<const Fragment> actual) {
+  const auto [e, a] = std::mismatch(expected.begin(), expected.end(), actual.begin(), actual.end());
+  if (e == expected.end() && a == actual.end()) return {};
+  const std::string where = "fragment " + std::to_string(e - expected.begin());
+  if (e == expected.end()) return where + " (" + text_of(*a) + ") is one too many";
+  if (a == actual.end()) return where + " (" + text_of(*e) + ") is missing";
+  return where + " (" + text_of(*e) + ") differs";
+}
+
+ErrorBench::ErrorBench(const Settings& settings, std::span<const WindowQuad> quads, int attributes)
+    : settings_(settings), attributes_(attributes), first_pass_(plan_passes(0, true, settings.config).front()) {
+  check_quad_count(quads.size(), settings_.config);
+  choose_quads(quads);
+}
+
+DrawState ErrorBench::pass_state(const Pass& pass) const {
+  DrawState state = settings_.state;
+  state.attributes = static_cast<int>(pass.columns.size());
+  return state;
+}
+
+std::vector<SnappedQuad> ErrorBench::snap(const Pass& pass) const {
+  std::vector<SnappedQuad> snapped;
+  for (std::size_t i = 0; i < quads_.size(); ++i)
+    snapped.push_back(
+        snap_as(pass_quad(quads_[i], pass), static_cast<std::uint32_t>(i), settings_.config, pass_state(pass)));
+  return snapped;
+}
+
+void ErrorBench::choose_quads(std::span<const WindowQuad> quads) {
+  const DrawState state = pass_state(first_pass_);
+  UntimedModel model(settings_.config, state);
+  const auto enough = [&] { return pixels_.size() >= settings_.limit_fragments; };
+  for (const WindowQuad& quad : quads) {
+    if (enough() && quads_.size() >= least_quads) break;
+    const auto index = static_cast<std::uint32_t>(quads_.size());
+    const SnappedQuad snapped = snap_as(pass_quad(quad, first_pass_), index, settings_.config, state);
+    const bool timed = !enough();
+    model.draw(snapped, [&](std::span<const Fragment> fragments) {
+      for (const Fragment& fragment : fragments) pixels_.push_back({fragment.quad, fragment.x, fragment.y});
+    });
+    quads_.push_back(quad);
+    if (!timed) continue;
+    timed_.push_back(snapped);
+    timed_pixels_ = pixels_.size();
+  }
+}
+
+void ErrorBench::compare() {
+  results_ = {};
+  failures_.clear();
+  compare_machine();
+  compare_paper();
+}
+
+/// Weights first, then attributes; every machine against the model bit for bit, the model against the truth.
+void ErrorBench::compare_machine() {
+  std::vector<Pass> passes = plan_passes(0, true, settings_.config);
+  const std::size_t weight_passes = passes.size();
+  if (attributes_ > 0)
+    for (Pass& pass : plan_passes(attributes_, false, settings_.config)) passes.push_back(std::move(pass));
+
+  std::array<CheckResult, body_names.size()> checks;
+  std::array<bool, body_names.size()> told{};
+  for (std::size_t p = 0; p < passes.size(); ++p) {
+    const std::vector<SnappedQuad> snapped = snap(passes[p]);
+    FragmentChecker::Settings check_settings;
+    check_settings.config = settings_.config;
+    check_settings.state = pass_state(passes[p]);
+    check_settings.pass = passes[p];
+    check_settings.first_pass = p == 0;
+    check_settings.snapping = false;
+    check_settings.apply_bound = settings_.config.qdrop() == 0;  // a statement about exact A, D and R^2
+    const auto check = [&](std::span<const Fragment> fragments) {
+      WorkQueue queue(0, 1);
+      FragmentChecker checker(check_settings, quads_, snapped, queue);
+      for (const Fragment& fragment : fragments) checker.fragment(fragment);
+      checker.finish(true);
+      queue.drain();
+      CheckResult result = checker.result();
+      if (p != 0) result.compared = 0;  // the same fragments again
+      return result;
+    };
+
+    std::vector<Fragment> expected;
+    CheckResult of_model;
+    for (const Body body : machine_bodies) {
+      if (!has(body)) continue;
+      const auto b = static_cast<std::size_t>(body);
+      const std::vector<Fragment> actual = settings_.draw(body, snapped, settings_.config, pass_state(passes[p]));
+      if (body == Body::model) {
+        expected = actual;
+        of_model = check(expected);
+      }
+      const std::string difference = first_difference(expected, actual);
+      if (!difference.empty() && !told[b]) {
+        told[b] = true;
+        failures_.push_back(std::string(body_names[b]) + " differs from model: " + difference +
+                            (p < weight_passes ? " (weights)" : " (attributes)"));
+      }
+      checks[b].merge(difference.empty() ? of_model : check(actual));
+    }
+  }
+
+  for (const Body body : machine_bodies) {
+    if (!has(body)) continue;
+    const auto b = static_cast<std::size_t>(body);
+    const CheckResult& found = checks[b];
+    BodyResult& r = filled(body);
+    r.fragments = found.compared;
+    r.missing = found.mismatches;
+    r.lambda = found.arithmetic_lambda;
+    r.attribute = found.arithmetic_attribute;
+    r.depth = found.arithmetic_depth;
+    if (const std::string text = complaint(found); !text.empty())
+      failures_.push_back(std::string(body_names[b]) + ": " + text);
+  }
+}
+
+/// On the pixels of the model, which the checker compares with the truth's.
+void ErrorBench::compare_paper() {
+  DrawState state = settings_.state;
+  state.attributes = attributes_;
+  Pass pass;
+  for (int a = 0; a < attributes_; ++a) pass.columns.push_back(4 + a);
+  const Config config = snapping_config(settings_.config, attributes_);
+
+  struct Bodies {
+    TruthQuad truth;
+    PaperFloat32Quad fp32;
+    PaperFloatQuad fp64;
+    bool exempt;
+  };
+  std::optional<Bodies> quad;
+  std::uint32_t current = 0;
+  for (const Pixel& pixel : pixels_) {
+    if (!quad || pixel.quad != current) {
+      current = pixel.quad;
+      const SnappedQuad snapped = snap_as(pass_quad(quads_[current], pass), current, config, state);
+      const bool behind = std::any_of(snapped.vertex.begin(), snapped.vertex.end(),
+                                      [](const SnappedVertex& vertex) { return vertex.w <= 0; });
+      quad.emplace(Bodies{TruthQuad(snapped, config, state), PaperFloat32Quad(snapped, config, state),
+                          PaperFloatQuad(snapped, config, state), !state.perspective && behind});
+    }
+    const ReferenceSample truth = quad->truth.sample(pixel.x, pixel.y);
+    // Drawn by the model all the same: tolerated where sum(M w) is near 0, or z near the ends of its interval.
+    if (!truth.covered || !truth.visible || !in_depth(truth, state)) continue;
+    ++filled(Body::truth).fragments;
+    add_errors(truth, truth, state, quad->exempt, filled(Body::truth));
+    add_sample(quad->fp32.sample(pixel.x, pixel.y), truth, state, quad->exempt, filled(Body::fp32));
+    add_sample(quad->fp64.sample(pixel.x, pixel.y), truth, state, quad->exempt, filled(Body::fp64));
+  }
+}
+
+void ErrorBench::time(int repeat) {
+  std::array<std::vector<double>, body_names.size()> seconds;
+  for (int round = 0; round < repeat; ++round) {
+    for (std::size_t b = 0; b < body_names.size(); ++b) {
+      if (!has(static_cast<Body>(b)) || timed_pixels_ == 0) continue;
+      Run sum;
+      while (sum.seconds < shortest_run) {
+        const Run run = run_once(static_cast<Body>(b));
+        sum.fragments += run.fragments;
+        sum.seconds += run.seconds;
+      }
+      seconds[b].push_back(sum.seconds / static_cast<double>(sum.fragments));
+    }
+  }
+  for (std::size_t b = 0; b < body_names.size(); ++b)
+    if (!seconds[b].empty()) results_[b].seconds_per_fragment = median(std::move(seconds[b]));
+}
+
+ErrorBench::Run ErrorBench::run_once(Body body) const {
+  // The functions are not inlined, so that nothing of their results is left out.
+  switch (body) {
+    case Body::fp32:
+      return run_reference<PaperFloat32Quad>(1, [](const auto& quad, int x, int y) { quad.interpolate(x, y); });
+    case Body::fp64:
+      return run_reference<PaperFloatQuad>(1, [](const auto& quad, int x, int y) { quad.interpolate(x, y); });
+    case Body::truth:
+      return run_reference<TruthQuad>(std::max<std::size_t>(1, timed_pixels_ / truth_samples),
+                                      [](const auto& quad, int x, int y) { quad.sample(x, y); });
+    default:
+      return run_machine(body);
+  }
+}
+
+ErrorBench::Run ErrorBench::run_machine(Body body) const {
+  const DrawState state = pass_state(first_pass_);
+  if (body == Body::model_clocked || body == Body::rtl) {
+    const tb::AloneRun run = body == Body::rtl ? tb::run_rtl_alone(timed_, alone(settings_.config, state))
+                                               : tb::run_clocked_model_alone(timed_, alone(settings_.config, state));
+    return {run.fragments, run.seconds};
+  }
+  UntimedModel model(settings_.config, state, pixel_engine(body));
+  Run run;
+  const Stopwatch stopwatch;
+  for (const SnappedQuad& quad : timed_)
+    model.draw(quad, [&](std::span<const Fragment> fragments) { run.fragments += fragments.size(); });
+  run.seconds = stopwatch.seconds();
+  return run;
+}
+
+/// Every stride-th stretch of the timed quads' pixels.
+template <class Quad, class Visit>
+ErrorBench::Run ErrorBench::run_reference(std::size_t stride, Visit&& visit) const {
+  const DrawState state = pass_state(first_pass_);
+  Run run;
+  std::optional<Quad> quad;
+  std::uint32_t current = 0;
+  const Stopwatch stopwatch;
+  for (std::size_t i = 0; i < timed_pixels_; ++i) {
+    if (i / truth_stretch % stride != 0) continue;
+    const Pixel& pixel = pixels_[i];
+    if (!quad || pixel.quad != current) {
+      current = pixel.quad;
+      quad.emplace(timed_[current], settings_.config, state);
+    }
+    visit(*quad, pixel.x, pixel.y);
+    ++run.fragments;
+  }
+  run.seconds = stopwatch.seconds();
+  return run;
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,22 @@
+// Speeds of all bodies in one run, as ratios, so that the machine it runs on falls out.
+#pragma once
+
+#include "tb/commands/options.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace quadrille::cli {
+
+struct SpeedOptions {
+  CommonOptions common;
+  int repeat = 5, quad_size = 64;
+  std::uint64_t fragments = 2'000'000;
+  bool no_rtl = false;
+};
+
+/// Returns the exit status.
+int run_speed_bench(const SpeedOptions& options, const std::vector<std::string>& arguments);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,595 @@
+// quadrille sweep: error against hardware cost over a grid of configurations.
+#include "tb/commands/commands.hpp"
+
+#include "golden/io/atomic_file.hpp"
+#include "golden/io/config_file.hpp"
+#include "golden/io/error.hpp"
+#include "golden/io/json_report.hpp"
+#include "golden/io/npy.hpp"
+#include "tb/commands/errors.hpp"
+#include "tb/commands/input.hpp"
+#include "tb/commands/output.hpp"
+#include "tb/commands/progress.hpp"
+#include "tb/commands/sweep_cosim.hpp"
+#include "tb/commands/sweep_target.hpp"
+#include "tb/sweep/evaluator.hpp"
+#include "tb/sweep/grid.hpp"
+#include "tb/sweep/pareto.hpp"
+#include "tb/sweep/point_table.hpp"
+#include "tb/sweep/selection.hpp"
+#include "tb/sweep/store.hpp"
+#include "tb/sweep/synthesis.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace quadrille::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t point_limit = 1'000'000;  ///< more need --force
+constexpr std::size_t knee_count = 3;
+constexpr const char* standard_scene = "sphere";
+
+struct SweepOptions {
+  CommonOptions common;
+  StateOptions state;
+  InputOptions input;
+  std::vector<std::string> axes, targets;
+  std::string out, objective, synth = "none", cosim, shade;
+  std::uint64_t cosim_fragments = 200'000;
+  bool one_at_a_time = false, force = false, fresh = false, exhaustive = false, no_confirm = false, no_cycles = false;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// FNV-1a of the quads as they are drawn: a changed input file is another sweep.
+std::string digest(std::span<const WindowQuad> quads) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto add = [&](std::uint64_t value) { hash = (hash ^ value) * 0x100000001b3u; };
+  const auto add_double = [&](double value) { add(std::bit_cast<std::uint64_t>(value)); };
+  for (const WindowQuad& quad : quads) {
+    add(quad.id);
+    for (const WindowVertex& v : quad.vertex)
+      for (const double value : {v.x, v.y, v.z, v.w}) add_double(value);
+    for (const std::vector<double>& attributes : quad.attribute)
+      for (const double value : attributes) add_double(value);
+  }
+  char text[20];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+class SweepRun {
+ public:
+  SweepRun(const SweepOptions& options, std::vector<std::string> arguments)
+      : options_(options), arguments_(std::move(arguments)), base_(options.common.config()), grid_(make_grid()) {}
+
+  int run() {
+    const auto start = std::chrono::steady_clock::now();
+    prepare();
+    sweep::Store store(options_.out, identity(),
+                       options_.fresh ? sweep::Store::Existing::discard : sweep::Store::Existing::resume);
+    if (store.complete()) {
+      if (std::FILE* text = options_.common.text())
+        std::fprintf(text, "%s holds this sweep already, complete; --fresh does it again\n", options_.out.c_str());
+      return exit_ok;
+    }
+    if (std::FILE* text = options_.common.text(); text && !store.results().empty())
+      std::fprintf(text, "going on: %zu points are finished\n", store.results().size());
+
+    sweep::Evaluator::Settings settings;
+    settings.threads = options_.common.thread_count();
+    settings.cycles = !options_.no_cycles;
+    sweep::Evaluator evaluator(input_, settings);
+    if (targets_.empty())
+      evaluate_grid(evaluator, store);
+    else
+      search(evaluator, store);
+    const double evaluation_seconds = seconds_since(start);
+
+    make_rows(store);
+    find_front();
+    simulate_and_synthesise(store);
+    write(evaluator, store);
+    if (std::FILE* text = options_.common.text()) print(text, evaluation_seconds, seconds_since(start));
+    return status();
+  }
+
+ private:
+  // ---- what is asked for ----
+
+  sweep::Grid make_grid() const {
+    std::vector<sweep::Axis> axes;
+    for (const std::string& text : options_.axes) axes.push_back(sweep::parse_axis(text));
+    const bool search = !options_.targets.empty();
+    const bool standard = axes.empty();
+    if (standard) axes = search ? sweep::thousand_point_axes() : sweep::default_axes();
+    const bool single = options_.one_at_a_time || (standard && !search);
+    return sweep::Grid(base_, std::move(axes), single ? sweep::Grid::Kind::one_at_a_time : sweep::Grid::Kind::full);
+  }
+
+  void prepare() {
+    if (options_.out.empty()) throw UsageError("--out DIR is needed");
+    check_outputs({options_.common.json}, {options_.common.config_file});
+    if (grid_.size() > point_limit && !options_.force)
+      throw UsageError("the axes span " + std::to_string(grid_.size()) +
+                       " points, more than a million; --force if that "
+                       "is meant, or --one-at-a-time");
+    if (options_.exhaustive && options_.targets.empty()) throw UsageError("--exhaustive goes with --target-error");
+    if (!options_.common.config_file.empty()) golden::load_cost_weights(options_.common.config_file, weights_);
+    for (const std::string& target : options_.targets) targets_.push_back(parse_target(target));
+    objective_ = !options_.objective.empty() ? sweep::parse_error_column(options_.objective)
+                 : !targets_.empty()         ? targets_.front().column
+                                             : sweep::ErrorColumn{};
+
+    input_.state = options_.state.state(options_.common, base_);
+    InputOptions source = options_.input;
+    if (inputs_given(source) == 0) source.scene = standard_scene;
+    draw_ = load_input(source, options_.shade, input_.state.width, input_.state.height, options_.common.seed);
+    input_.state.perspective = input_.state.perspective && draw_.perspective;
+    if (draw_.attributes > max_attribute_slots)
+      throw UsageError(draw_.name + " has " + std::to_string(draw_.attributes) + " attributes; at most " +
+                       std::to_string(max_attribute_slots) + " are measured");
+    input_.quads = draw_.quads;
+    input_.attributes = draw_.attributes;
+    for (const sweep::ErrorColumn& column : measured_columns()) {
+      if (column.quantity == sweep::Quantity::depth && !input_.state.depth)
+        throw UsageError(column.name() + ": depth is not measured with --no-depth");
+      if (column.quantity == sweep::Quantity::attribute && input_.attributes == 0)
+        throw UsageError(column.name() + ": " + draw_.name + " has no attributes");
+    }
+    // What cannot be understood is refused before the work, not after.
+    const std::vector<std::size_t> all = grid_rows(), none;
+    const sweep::Candidates candidates{grid_, all, none, none};
+    sweep::select_points(options_.synth, candidates);
+    if (!options_.cosim.empty()) sweep::select_points(options_.cosim, candidates);
+  }
+
+  std::vector<sweep::ErrorColumn> measured_columns() const {
+    std::vector<sweep::ErrorColumn> columns{objective_};
+    for (const ErrorTarget& target : targets_) columns.push_back(target.column);
+    return columns;
+  }
+
+  std::vector<std::size_t> grid_rows() const {
+    std::vector<std::size_t> rows(grid_.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+    return rows;
+  }
+
+  /// Everything that the results depend on.
+  Json identity() const {
+    Json json;
+    json["version"] = golden::program_version();
+    json["input"] = draw_.option;
+    json["quads"] = input_.quads.size();
+    json["quads_digest"] = digest(input_.quads);
+    json["size"] = options_.common.size;
+    json["seed"] = options_.common.seed;
+    json["state"] = options_.state.spelled();
+    json["config"] = Json::object();
+    for (const ConfigKey& key : Config::keys()) json["config"][std::string(key.name)] = base_.get(key.name);
+    json["kind"] = kind_name();
+    json["axes"] = axes_json();
+    json["targets"] = options_.targets;
+    json["cycles"] = !options_.no_cycles;
+    json["exhaustive"] = options_.exhaustive;
+    return json;
+  }
+
+  std::string kind_name() const {
+    if (!targets_.empty()) return "search";
+    return grid_.kind() == sweep::Grid::Kind::full ? "full" : "one_at_a_time";
+  }
+
+  Json axes_json() const {
+    Json json = Json::array();
+    for (const sweep::Axis& axis : grid_.axes()) json.push_back({{"key", axis.key}, {"values", axis.values}});
+    return json;
+  }
+
+  // ---- evaluation ----
+
+  /// A configuration of the grid, or why it cannot draw this input.
+  sweep::GridPoint grid_point(std::size_t row) const {
+    sweep::GridPoint point = grid_.point(row);
+    const int limit = 1 << point.config.viewport_bits;
+    if (point.refused.empty() && (input_.state.width > limit || input_.state.height > limit))
+      point.refused = "the viewport " + options_.common.size + " exceeds " + std::to_string(limit) +
+                      " pixels (viewport_bits = " + std::to_string(point.config.viewport_bits) + ")";
+    return point;
+  }
+
+  void evaluate_grid(sweep::Evaluator& evaluator, sweep::Store& store) {
+    std::vector<Config> configs;
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < grid_.size(); ++row) {
+      if (store.results().contains(row)) continue;
+      const sweep::GridPoint point = grid_point(row);
+      if (!point.refused.empty()) {
+        refused_[row] = point.refused;
+        continue;
+      }
+      configs.push_back(point.config);
+      rows.push_back(row);
+    }
+    Progress progress("sweep of " + std::to_string(grid_.size()) + " points", 1'000'000,
+                      options_.common.show_progress());
+    evaluator.evaluate(
+        configs, [&](const sweep::Batch& batch) { store.append(batch, rows); },
+        [&](double part) {
+          progress.set(static_cast<std::uint64_t>(part * 1e6),
+                       std::to_string(store.results().size()) + " points on disk");
+        });
+  }
+
+  void search(sweep::Evaluator& evaluator, sweep::Store& store) {
+    TargetSearch search;
+    for (std::size_t row = 0; row < grid_.size(); ++row) {
+      const sweep::GridPoint point = grid_point(row);
+      if (!point.refused.empty()) {
+        refused_[row] = point.refused;
+        continue;
+      }
+      search.rows.push_back(row);
+      search.configs.push_back(point.config);
+      search.costs.push_back(scalar_cost(hardware_cost(point.config), weights_));
+    }
+    if (search.rows.empty())
+      throw UsageError("every point of the grid is refused; the first: " + refused_.begin()->second);
+    Progress progress("search in " + std::to_string(grid_.size()) + " points", 0, options_.common.show_progress());
+    std::uint64_t steps = 0;
+    search.targets = targets_;
+    search.state = input_.state;
+    search.seed = options_.common.seed;
+    search.threads = options_.common.thread_count();
+    search.confirm = !options_.no_confirm;
+    search.exhaustive = options_.exhaustive;
+    search.progress = [&](const std::string& what) { progress.set(++steps, what); };
+    search.evaluate = [&](std::size_t i) {
+      const std::size_t row = search.rows[i];
+      if (!store.results().contains(row))
+        evaluator.evaluate(std::span(&search.configs[i], 1),
+                           [&](const sweep::Batch& batch) { store.append(batch, std::span(&row, 1)); });
+      return store.results().at(row);
+    };
+    target_ = search_target(search);
+  }
+
+  // ---- what follows from the results ----
+
+  std::string worst_command(const Config& config, const sweep::WorstPixel& worst) const {
+    return "quadrille fragments --engine model " + draw_.option + spelled(config) + " --size " + options_.common.size +
+           " --seed " + std::to_string(options_.common.seed) + options_.state.spelled() + " --quad " +
+           std::to_string(worst.index) + " --pixel " + std::to_string(worst.x) + "," + std::to_string(worst.y) +
+           " --out -";
+  }
+
+  void make_rows(const sweep::Store& store) {
+    for (std::size_t row = 0; row < grid_.size(); ++row) {
+      sweep::PointRow point;
+      point.row = row;
+      point.config = grid_.point(row).config;
+      if (const auto refused = refused_.find(row); refused != refused_.end()) {
+        point.result.refused = refused->second;
+      } else if (const auto found = store.results().find(row); found != store.results().end()) {
+        point.result = found->second;
+      } else {
+        continue;  // the search did not need it
+      }
+      if (point.result.refused.empty()) {
+        sweep::complete_row(point, weights_);
+        if (point.result.worst.any) point.worst = worst_command(point.config, point.result.worst);
+      }
+      rows_.push_back(std::move(point));
+    }
+  }
+
+  void find_front() {
+    std::vector<sweep::CostError> points;
+    for (const sweep::PointRow& row : rows_) points.push_back({row.scalar_cost, objective_.value(row.result)});
+    const std::vector<std::size_t> front = sweep::pareto_front(points);
+    for (const std::size_t i : front) {
+      rows_[i].pareto = true;
+      front_.push_back(rows_[i].row);
+    }
+    for (const std::size_t i : sweep::knees(points, front, knee_count)) knees_.push_back(rows_[i].row);
+  }
+
+  const sweep::PointRow& row_of(std::size_t row) const {
+    return *std::ranges::lower_bound(rows_, row, {}, &sweep::PointRow::row);
+  }
+
+  void simulate_and_synthesise(sweep::Store& store) {
+    std::vector<std::size_t> good;
+    for (const sweep::PointRow& row : rows_)
+      if (row.result.refused.empty()) good.push_back(row.row);
+    const sweep::Candidates candidates{grid_, good, front_, knees_};
+    const unsigned threads = options_.common.thread_count();
+
+    std::vector<CosimPoint> cosim;
+    const std::vector<sweep::Selected> chosen = options_.cosim.empty()
+                                                    ? sweep::default_selection(candidates)
+                                                    : sweep::select_points(options_.cosim, candidates);
+    for (const sweep::Selected& s : chosen)
+      cosim.push_back({s.row, s.why, row_of(s.row).config, row_of(s.row).result.cycles});
+    {
+      const auto start = std::chrono::steady_clock::now();
+      Progress progress("co-simulation of " + std::to_string(cosim.size()) + " points", cosim.size(),
+                        options_.common.show_progress());
+      cosim_ = cosimulate(cosim, input_.quads, input_.state, options_.cosim_fragments, options_.common.seed, threads,
+                          [&](std::size_t done) { progress.set(done); });
+      if (!cosim.empty()) store.add_timing({"cosim", cosim.size(), seconds_since(start)});
+    }
+
+    std::vector<sweep::SynthesisPoint> synthesis;
+    for (const sweep::Selected& s : sweep::select_points(options_.synth, candidates))
+      synthesis.push_back({s.row, row_of(s.row).config});
+    const auto start = std::chrono::steady_clock::now();
+    Progress progress("synthesis of " + std::to_string(synthesis.size()) + " points", synthesis.size(),
+                      options_.common.show_progress());
+    synthesis_ =
+        sweep::synthesise(synthesis, weights_, threads, [&](std::size_t done, std::size_t) { progress.set(done); });
+    if (!synthesis.empty()) store.add_timing({"synthesis", synthesis.size(), seconds_since(start)});
+    std::vector<double> estimates, luts;
+    for (const sweep::SynthesisRow& row : synthesis_) {
+      estimates.push_back(row.cost);
+      luts.push_back(static_cast<double>(row.luts));
+    }
+    correlation_ = sweep::rank_correlation(estimates, luts);
+  }
+
+  // ---- files ----
+
+  Json manifest(const sweep::Store& store, std::size_t map_row) const {
+    Json json = golden::begin_report(base_, options_.common.seed, arguments_);
+    json["input"] = draw_.name;
+    json["input_option"] = draw_.option;
+    json["size"] = options_.common.size;
+    json["kind"] = kind_name();
+    json["axes"] = axes_json();
+    json["grid_points"] = grid_.size();
+    json["points"] = rows_.size();
+    json["refused"] = std::ranges::count_if(rows_, [](const sweep::PointRow& r) { return !r.result.refused.empty(); });
+    json["objective"] = objective_.name();
+    json["front"] = front_;
+    json["knees"] = knees_;
+    json["cost_weights"] = {{"state", weights_.state},
+                            {"multiplier", weights_.multiplier},
+                            {"adder", weights_.adder},
+                            {"table", weights_.table}};
+    for (std::size_t s = 0; s < sweep::stage_count; ++s)
+      json["counters"][std::string(sweep::stage_names[s])] = {{"settings", store.counters().settings[s]},
+                                                              {"fragments", store.counters().fragments[s]}};
+    json["error_map_row"] = map_row < grid_.size() ? Json(map_row) : Json(nullptr);
+    if (target_) json["search"] = to_json(*target_, targets_);
+    json["synthesis"] = {{"points", synthesis_.size()},
+                         {"rank_correlation", std::isnan(correlation_) ? Json(nullptr) : Json(correlation_)}};
+    json["cosim"] = {{"points", cosim_.size()}, {"ok", cosim_ok()}};
+    for (const sweep::PointColumn& column : sweep::point_columns())
+      json["columns"].push_back({{"name", column.name}, {"unit", column.unit}, {"meaning", column.meaning}});
+    json["identity"] = identity();
+    return json;
+  }
+
+  void write(sweep::Evaluator& evaluator, sweep::Store& store) {
+    constexpr auto refused = golden::AtomicFile::Dash::refused;
+    golden::write_file(store.file("points.csv"), sweep::point_table(rows_), refused);
+    std::string text = "row,luts,flip_flops,dsps,longest_path,cost\n";
+    for (const sweep::SynthesisRow& r : synthesis_)
+      text += std::to_string(r.row) + "," + std::to_string(r.luts) + "," + std::to_string(r.flip_flops) + "," +
+              std::to_string(r.dsps) + "," + std::to_string(r.longest_path) + "," + sweep::csv_number(r.cost) + "\n";
+    golden::write_file(store.file("synth.csv"), text, refused);
+    text = "row,why,fragments,cycles,mismatches,cycle_mismatches,first_difference\n";
+    for (const CosimRow& r : cosim_)
+      text += std::to_string(r.row) + "," + r.why + "," + std::to_string(r.fragments) + "," + std::to_string(r.cycles) +
+              "," + std::to_string(r.mismatches) + "," + std::to_string(r.cycle_mismatches) + "," +
+              sweep::csv_cell(r.first_difference) + "\n";
+    golden::write_file(store.file("cosim.csv"), text, refused);
+    text = "what,points,seconds\n";
+    for (const sweep::Store::Timing& t : store.timings())
+      text += t.what + "," + std::to_string(t.points) + "," + sweep::csv_number(t.seconds) + "\n";
+    golden::write_file(store.file("timing.csv"), text, refused);
+
+    const std::vector<float> map = evaluator.error_map(base_);
+    golden::save_npy(store.file("error_map.npy"), map, input_.state.width, input_.state.height);
+    const Json json = manifest(store, sweep::base_row(grid_));
+    golden::save_json(store.file("manifest.json"), json);
+    store.finish();
+    if (!options_.common.json.empty()) golden::save_json(options_.common.json, json);
+  }
+
+  // ---- for people ----
+
+  bool cosim_ok() const {
+    return std::ranges::all_of(cosim_, [](const CosimRow& row) { return row.ok(); });
+  }
+
+  bool has_fragments() const {
+    return std::ranges::any_of(rows_, [](const sweep::PointRow& row) { return row.result.fragments > 0; });
+  }
+
+  /// The values of the keys that the sweep varies.
+  std::string varied(const Config& config) const {
+    std::string text;
+    for (const sweep::Axis& axis : grid_.axes()) {
+      const int value = config.resolved(axis.key);
+      if (grid_.kind() == sweep::Grid::Kind::one_at_a_time && value == base_.resolved(axis.key)) continue;
+      text += (text.empty() ? "" : " ") + axis.key + "=" + std::to_string(value);
+    }
+    return text.empty() ? "the base" : text;
+  }
+
+  void print(std::FILE* out, double evaluation_seconds, double seconds) const {
+    const auto refused =
+        std::ranges::count_if(rows_, [](const sweep::PointRow& r) { return !r.result.refused.empty(); });
+    std::fprintf(out,
+                 "%s  (%s; seed %llu; base configuration %s)\n%zu points%s in %.1f s, %zu refused; %.1f s in all\n\n",
+                 draw_.name.c_str(), options_.common.size.c_str(),
+                 static_cast<unsigned long long>(options_.common.seed), summary(base_).c_str(), rows_.size(),
+                 rows_.size() < grid_.size() ? (" of " + std::to_string(grid_.size())).c_str() : "", evaluation_seconds,
+                 static_cast<std::size_t>(refused), seconds);
+    std::fprintf(out, "Pareto front of cost against %s (* knee)\n", objective_.name().c_str());
+    std::fprintf(out, "  %6s %10s %11s %9s  %s\n", "row", "LUTs", "error", "= 2^", "");
+    for (const std::size_t row : front_) {
+      const sweep::PointRow& point = row_of(row);
+      const double error = objective_.value(point.result);
+      std::fprintf(out, "%s %6zu %10.0f %11.3e %9.2f  %s\n", std::ranges::count(knees_, row) ? "*" : " ", row,
+                   point.scalar_cost, error, std::log2(error), varied(point.config).c_str());
+    }
+    for (const CosimRow& row : cosim_)
+      if (!row.ok())
+        std::fprintf(stderr, "quadrille: co-simulation of row %zu (%s) failed: %s\n", row.row,
+                     varied(row_of(row.row).config).c_str(),
+                     row.fragments == 0 ? "no fragments" : row.first_difference.c_str());
+    if (!cosim_.empty())
+      std::fprintf(out, "\nco-simulated %zu points (corners, default, knees or as selected): %s\n", cosim_.size(),
+                   cosim_ok() ? "no difference" : "DIFFERENCES");
+    if (!synthesis_.empty())
+      std::fprintf(out, "synthesised %zu points; rank correlation of estimated cost and LUTs %.3f\n", synthesis_.size(),
+                   correlation_);
+    if (target_) print_target(out);
+    std::fprintf(out, "\n%s/points.csv, manifest.json; scripts/sweep_report.py %s draws them\n", options_.out.c_str(),
+                 options_.out.c_str());
+  }
+
+  void print_target(std::FILE* out) const {
+    const TargetResult& t = *target_;
+    std::string wanted;
+    for (const ErrorTarget& target : targets_) wanted += (wanted.empty() ? "" : ", ") + target.text;
+    const auto describe = [&](std::size_t row) {
+      const sweep::PointRow& point = row_of(row);
+      char cost[32];
+      std::snprintf(cost, sizeof cost, "%.0f", point.scalar_cost);
+      return "row " + std::to_string(row) + ", " + cost + " LUTs: " + varied(point.config);
+    };
+    std::fprintf(out, "\ntarget %s: %zu evaluations\n", wanted.c_str(), t.evaluations);
+    if (t.winner) std::fprintf(out, "  cheapest on %s:  %s\n", draw_.name.c_str(), describe(*t.winner).c_str());
+    if (t.confirmed)
+      std::fprintf(out, "  confirmed on all stress families:  %s\n",
+                   t.confirmed == t.winner ? "the same" : describe(*t.confirmed).c_str());
+    const auto worst = std::max_element(
+        t.families.begin(), t.families.end(),
+        [](const FamilyCheck& a, const FamilyCheck& b) { return std::fmax(a.miss, 0) < std::fmax(b.miss, 0); });
+    if (worst != t.families.end())
+      std::fprintf(out, "  worst input: family %s, %.0f %% of the target\n    %s\n", worst->family.c_str(),
+                   100 * worst->miss, worst->worst.c_str());
+  }
+
+  int status() const {
+    if (!has_fragments()) {
+      const auto refused =
+          std::ranges::find_if(rows_, [](const sweep::PointRow& r) { return !r.result.refused.empty(); });
+      std::fprintf(stderr, "quadrille: no point drew a fragment, so nothing was measured%s\n",
+                   refused != rows_.end()
+                       ? ("; row " + std::to_string(refused->row) + ": " + refused->result.refused).c_str()
+                       : "");
+      return exit_usage;
+    }
+    if (!cosim_ok()) return exit_mismatch;
+    if (target_ && !target_->winner) {
+      std::fprintf(stderr,
+                   "quadrille: no point of the grid meets the target; the closest, row %zu (%s), has %.3g times it\n",
+                   target_->closest_row, varied(row_of(target_->closest_row).config).c_str(), target_->closest);
+      return exit_mismatch;
+    }
+    if (target_ && !options_.no_confirm && !target_->confirmed) {
+      std::fprintf(
+          stderr,
+          "quadrille: no point of the grid meets the target on all stress families; the closest, row %zu (%s), "
+          "has %.3g times it\n",
+          target_->confirm_closest_row, varied(row_of(target_->confirm_closest_row).config).c_str(),
+          target_->confirm_closest);
+      return exit_mismatch;
+    }
+    return exit_ok;
+  }
+
+  const SweepOptions options_;
+  const std::vector<std::string> arguments_;
+  const Config base_;
+  const sweep::Grid grid_;
+  CostWeights weights_;
+  std::vector<ErrorTarget> targets_;
+  sweep::ErrorColumn objective_;
+  DrawInput draw_;
+  sweep::SweepInput input_;
+
+  std::map<std::size_t, std::string> refused_;  ///< rows that were not evaluated
+  std::vector<sweep::PointRow> rows_;           ///< rising
+  std::vector<std::size_t> front_, knees_;
+  std::vector<CosimRow> cosim_;
+  std::vector<sweep::SynthesisRow> synthesis_;
+  double correlation_ = std::numeric_limits<double>::quiet_NaN();
+  std::optional<TargetResult> target_;
+};
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("sweep", "Errors, hardware cost and clocks over a grid of configurations");
+  command->footer(
+      "Every configuration key is an axis (`quadrille config` lists them); nothing is recompiled between points. "
+      "Without\n"
+      "--axis: each of the usual keys one at a time around the configuration; without an input: --scene sphere.\n"
+      "Interrupted, the same command goes on where it stopped. tb/sweep/README.md describes the files.\n"
+      "Selections: all, none, pareto, corners, default, knees, row numbers (3,7,10-12), or several with commas.\n"
+      "Exit status 1: a co-simulation differs, or no point meets the target.\n\n"
+      "Examples:\n"
+      "  quadrille sweep --out sweep\n"
+      "  quadrille sweep --axis significand_bits=10:26:2 --axis subpixel_bits=4,6,8 --scene fig7_floor --out floor\n"
+      "  quadrille sweep --axis significand_bits=12:24:4 --synth all --cosim none --out synth\n"
+      "  quadrille sweep --target-error colour=0.5/255 --size 1920x1080 --out colour");
+  const auto options = std::make_shared<SweepOptions>();
+  options->input.add_to(*command);
+  options->common.add_to(*command);
+  options->state.add_to(*command);
+  command->add_option("--axis", options->axes, "Values of one key: A:B[:STEP], lists, auto; may be given several times")
+      ->type_name("KEY=VALUES")
+      ->allow_extra_args(false);
+  command->add_flag("--one-at-a-time", options->one_at_a_time, "Vary one axis at a time around the configuration");
+  command->add_option("--out", options->out, "Directory of the results; made if missing")->type_name("DIR");
+  command
+      ->add_option("--target-error", options->targets,
+                   "Find the cheapest point with at most this error; several must all hold. COLUMN as in points.csv, "
+                   "or lambda, attribute, depth, colour; VALUE as 2^-12, 0.5/255 or 1e-6")
+      ->type_name("COLUMN=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--exhaustive", options->exhaustive,
+                    "--target-error: evaluate the whole grid instead of searching");
+  command->add_flag("--no-confirm", options->no_confirm,
+                    "--target-error: do not try the winner on the stress families");
+  command->add_option("--objective", options->objective, "Error of the Pareto front; default arithmetic_lambda_max")
+      ->type_name("COLUMN");
+  command
+      ->add_option("--cosim", options->cosim,
+                   "Points to co-simulate with the RTL; default: default, knees and corners, 8 at most")
+      ->type_name("SELECTION");
+  command->add_option("--cosim-fragments", options->cosim_fragments, "Fragments of a co-simulation at most; 0: all")
+      ->check(not_negative)
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--synth", options->synth, "Points to synthesise with Yosys (minutes each the first time)")
+      ->type_name("SELECTION")
+      ->capture_default_str();
+  command
+      ->add_option("--shade", options->shade,
+                   "Attributes of a scene or mesh: uv, texture, normal; default: what suits the input")
+      ->type_name("MODE");
+  command->add_flag("--no-cycles", options->no_cycles, "Do not count clocks");
+  command->add_flag("--force", options->force, "Allow more than a million points");
+  command->add_flag("--fresh", options->fresh, "Start over in a directory that holds a sweep");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] { return SweepRun(*options, invocation.arguments).run(); };
+  });
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,231 @@
+// quadrille sweep as a user runs it: files, determinism, going on after an interruption, targets, bad input.
+#include "tb/commands/cli_fixture.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace {
+
+using namespace quadrille::cli_test;
+using nlohmann::json;
+
+using Table = std::vector<std::map<std::string, std::string>>;
+
+/// A CSV file whose quoted cells hold no line breaks.
+Table table(const fs::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> names;
+  Table rows;
+  for (std::string line; std::getline(in, line);) {
+    std::vector<std::string> cells{""};
+    bool quoted = false;
+    for (const char c : line) {
+      if (c == '"')
+        quoted = !quoted;
+      else if (c == ',' && !quoted)
+        cells.emplace_back();
+      else
+        cells.back() += c;
+    }
+    if (names.empty()) {
+      names = cells;
+      continue;
+    }
+    EXPECT_EQ(cells.size(), names.size());
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = cells[i];
+  }
+  return rows;
+}
+
+class SweepCli : public Cli {
+ protected:
+  static constexpr const char* small = " --scene fig10_concave --size 48x48 --cosim none ";
+  json manifest(const std::string& directory) const { return json::parse(read(file(directory) / "manifest.json")); }
+};
+
+TEST_F(SweepCli, FullGridInOrder) {
+  const Outcome outcome = run("sweep" + std::string(small) +
+                              "--axis significand_bits=10:18:4 --axis align_guard_bits=0,2 --out a --json -");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Table rows = table(file("a") / "points.csv");
+  ASSERT_EQ(rows.size(), 6u);
+  const int s[] = {10, 10, 14, 14, 18, 18}, g[] = {0, 2, 0, 2, 0, 2};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(rows[i].at("row"), std::to_string(i));
+    EXPECT_EQ(rows[i].at("significand_bits"), std::to_string(s[i]));
+    EXPECT_EQ(rows[i].at("align_guard_bits"), std::to_string(g[i]));
+    EXPECT_EQ(rows[i].at("status"), "ok");
+    EXPECT_GT(std::stoi(rows[i].at("fragments")), 100);
+    EXPECT_GT(std::stoi(rows[i].at("cycles")), std::stoi(rows[i].at("fragments")));
+    const double error = std::stod(rows[i].at("arithmetic_lambda_max"));
+    EXPECT_LE(error, std::ldexp(1.0, 3 - s[i]));
+    EXPECT_LE(error, std::stod(rows[i].at("bound_lambda")));
+    EXPECT_EQ(rows[i].at("ranges"), "proved");
+  }
+  EXPECT_LT(std::stod(rows[0].at("cost")), std::stod(rows[5].at("cost")));
+  const json m = json::parse(outcome.out);
+  EXPECT_EQ(m, manifest("a"));
+  EXPECT_EQ(m.at("points"), 6);
+  EXPECT_EQ(m.at("kind"), "full");
+  EXPECT_EQ(m.at("counters").at("given_truth").at("settings"), 1);
+  EXPECT_EQ(m.at("counters").at("snap_truth").at("settings"), 1);
+  EXPECT_EQ(m.at("counters").at("normalise").at("settings"), 3);
+  EXPECT_EQ(m.at("counters").at("ratios").at("settings"), 6);
+  EXPECT_EQ(m.at("error_map_row"), 5);
+  EXPECT_FALSE(fs::exists(file("a") / "journal.jsonl"));
+  // 128 bytes of header, 48 x 48 floats.
+  EXPECT_EQ(fs::file_size(file("a") / "error_map.npy"), 128u + 48 * 48 * 4);
+}
+
+TEST_F(SweepCli, TheSameBytesWithAnyNumberOfThreads) {
+  const std::string sweep = "sweep" + std::string(small) + "--axis significand_bits=10,18 --axis subpixel_bits=4,8 ";
+  ASSERT_EQ(run(sweep + "--threads 1 --out one").status, 0);
+  ASSERT_EQ(run(sweep + "--threads 3 --out three").status, 0);
+  EXPECT_EQ(read(file("one") / "points.csv"), read(file("three") / "points.csv"));
+  EXPECT_EQ(read(file("one") / "error_map.npy"), read(file("three") / "error_map.npy"));
+}
+
+TEST_F(SweepCli, GoesOnAfterBeingKilled) {
+  const std::string sweep =
+      "sweep --scene sphere --size 192x192 --cosim none --no-cycles --threads 1 --axis significand_bits=8:26 --axis "
+      "align_guard_bits=0:4 --axis subpixel_bits=6,7,8";
+  ASSERT_EQ(run(sweep + " --out whole").status, 0);
+  // Killed as soon as the journal holds a batch; whether it was in the middle of one does not matter.
+  const std::string line =
+      "cd '" + file(".").string() + "' && '" QUADRILLE_PROGRAM "' " + sweep +
+      " --out cut >/dev/null 2>&1 & pid=$!; for i in $(seq 2000); do [ \"$(cat '" +
+      (file("cut") / "journal.jsonl").string() +
+      "' 2>/dev/null | wc -l)\" -ge 2 ] && break; sleep 0.005; done; kill -9 $pid; wait $pid 2>/dev/null";
+  ASSERT_NE(std::system(line.c_str()), -1);
+  ASSERT_TRUE(fs::exists(file("cut") / "journal.jsonl")) << "it ended before it could be killed";
+  const Outcome outcome = run(sweep + " --out cut");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("going on"), std::string::npos) << outcome.out;
+  EXPECT_EQ(read(file("cut") / "points.csv"), read(file("whole") / "points.csv"));
+  const Outcome again = run(sweep + " --out cut");
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.out.find("complete"), std::string::npos) << again.out;
+}
+
+TEST_F(SweepCli, RefusedPointsAreRows) {
+  ASSERT_EQ(run("sweep" + std::string(small) + "--axis guard_bits=1,3 --axis viewport_bits=6,12,14 --out r").status, 0);
+  const Table rows = table(file("r") / "points.csv");
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows[5].at("status"), "refused");  // guard 3, viewport 14: beyond 64 bits
+  EXPECT_NE(rows[5].at("reason").find("VAL_BITS"), std::string::npos) << rows[5].at("reason");
+  EXPECT_EQ(rows[4].at("status"), "ok");
+  EXPECT_EQ(manifest("r").at("refused"),
+            std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.at("status") == "refused"; }));
+}
+
+TEST_F(SweepCli, OneAtATimeAndTheWorstFragmentCanBePasted) {
+  ASSERT_EQ(
+      run("sweep" + std::string(small) + "--one-at-a-time --axis significand_bits=12,18 --axis notch_exact=0,1 --out o")
+          .status,
+      0);
+  const Table rows = table(file("o") / "points.csv");
+  ASSERT_EQ(rows.size(), 3u);  // the base, s = 12, notch cure off
+  EXPECT_EQ(rows[1].at("significand_bits"), "12");
+  EXPECT_EQ(rows[2].at("notch_exact"), "0");
+  const std::string command = rows[1].at("worst");
+  ASSERT_EQ(command.rfind("quadrille fragments ", 0), 0u) << command;
+  const Outcome model = run(command.substr(10));
+  ASSERT_EQ(model.status, 0) << model.err;
+  std::string truth_command = command.substr(10);
+  truth_command.replace(truth_command.find("--engine model"), 14, "--engine truth");
+  const Outcome truth = run(truth_command);
+  ASSERT_EQ(truth.status, 0) << truth.err;
+  const auto weights = [](const std::string& csv) {
+    std::istringstream lines(csv);
+    std::string line, cell;
+    std::getline(lines, line);
+    EXPECT_TRUE(std::getline(lines, line)) << "no fragment there";
+    std::istringstream cells(line);
+    std::vector<double> values;
+    for (int i = 0; i < 9 && std::getline(cells, cell, ','); ++i)
+      if (i >= 5) values.push_back(std::stod(cell));
+    return values;
+  };
+  const std::vector<double> a = weights(model.out), b = weights(truth.out);
+  ASSERT_EQ(a.size(), 4u);
+  double error = 0;
+  for (std::size_t i = 0; i < 4; ++i) error = std::max(error, std::fabs(a[i] - b[i]));
+  EXPECT_NEAR(error, std::stod(rows[1].at("worst_error")), 1e-12);
+  EXPECT_EQ(rows[1].at("worst_error"), rows[1].at("arithmetic_lambda_max"));
+}
+
+TEST_F(SweepCli, TargetsAreSearched) {
+  const std::string grid = std::string(small) + "--axis significand_bits=8:26 --axis align_guard_bits=0:3 ";
+  const Outcome found = run("sweep --target-error lambda=2^-12" + grid + "--no-confirm --out t");
+  ASSERT_EQ(found.status, 0) << found.err;
+  const json search = manifest("t").at("search");
+  ASSERT_EQ(run("sweep --target-error lambda=2^-12 --exhaustive" + grid + "--no-confirm --out e").status, 0);
+  EXPECT_EQ(search.at("winner"), manifest("e").at("search").at("winner"));
+  EXPECT_LT(search.at("evaluations"), 40);
+  EXPECT_EQ(manifest("e").at("search").at("evaluations"), 76);
+  // The rows that the search evaluated are those of the whole grid.
+  std::map<std::string, std::string> whole;
+  for (const auto& row : table(file("e") / "points.csv")) whole[row.at("row")] = row.at("arithmetic_lambda_max");
+  EXPECT_EQ(whole.size(), 76u);
+  for (const auto& row : table(file("t") / "points.csv"))
+    EXPECT_EQ(row.at("arithmetic_lambda_max"), whole.at(row.at("row")));
+
+  const Outcome unreachable = run("sweep --target-error lambda=2^-40" + grid + "--no-confirm --out u");
+  EXPECT_EQ(unreachable.status, 1);
+  EXPECT_NE(unreachable.err.find("no point of the grid meets the target; the closest, row"), std::string::npos)
+      << unreachable.err;
+}
+
+TEST_F(SweepCli, BadInput) {
+  const std::string sweep = "sweep" + std::string(small);
+  refuses(2, sweep + "--axis significand_bits=10:12", {"--out DIR"});
+  refuses(2, sweep + "--out d --axis significant_bits=10", {"significant_bits", "significand_bits"});
+  refuses(2, sweep + "--out d --axis significand_bits=12:10", {"significand_bits", "empty"});
+  refuses(2, sweep + "--out d --axis significand_bits=1x", {"1x"});
+  refuses(2, sweep + "--out d --axis significand_bits=10.5", {"10.5"});
+  refuses(2, sweep + "--out d --axis significand_bits=", {"significand_bits"});
+  refuses(2, sweep + "--out d --axis significand_bits=6:12", {"significand_bits", "8..26"});
+  refuses(2, sweep + "--out d --axis significand_bits=10 --axis significand_bits=12", {"significand_bits", "twice"});
+  refuses(2,
+          sweep +
+              "--out d --axis tile_log2=2:4 --axis significand_bits=8:26 --axis subpixel_bits=2:8 --axis "
+              "depth_bits=8:30 --axis attribute_slots=1:8 --axis align_guard_bits=0:6 --axis quad_slots_log2=1:4",
+          {"more than a million", "--force"});
+  refuses(2, sweep + "--out d --axis significand_bits=10 --target-error lamda=1", {"lamda", "\"lambda\""});
+  refuses(2, sweep + "--out d --axis significand_bits=10 --target-error lambda=two", {"two", "2^-12"});
+  refuses(2, sweep + "--out d --axis significand_bits=10 --target-error lambda=0", {"above 0"});
+  refuses(2, sweep + "--out d --no-depth --axis significand_bits=10 --target-error depth=1e-6", {"--no-depth"});
+  refuses(2, sweep + "--out d --axis significand_bits=10 --synth some", {"\"some\"", "pareto"});
+  refuses(2, sweep + "--out d --axis significand_bits=10 --synth 5", {"row 5"});
+  refuses(2, sweep + "--out d --axis significand_bits=10 --objective error", {"unknown error"});
+  write("plain", "a file");
+  refuses(2, sweep + "--out plain --axis significand_bits=10", {"plain"});
+  refuses(2, sweep + "--out /proc/nothing --axis significand_bits=10", {"/proc/nothing"});
+  EXPECT_FALSE(fs::exists(file("d") / "points.csv"));
+}
+
+TEST_F(SweepCli, DamagedAndForeignDirectories) {
+  const std::string sweep = "sweep" + std::string(small) + "--out d --axis significand_bits=";
+  ASSERT_EQ(run(sweep + "10,12").status, 0);
+  const std::string points = read(file("d") / "points.csv");
+  refuses(2, sweep + "10,14", {"holds another sweep", "axes", "--fresh"});
+  EXPECT_EQ(read(file("d") / "points.csv"), points);
+  write("d/journal.jsonl", "{\"crc\":\"00000000\",\"content\":{}}\n{");
+  refuses(2, sweep + "10,12", {"journal.jsonl:1", "damaged", "--fresh"});
+  EXPECT_EQ(run(sweep + "10,14 --fresh").status, 0);
+  EXPECT_EQ(table(file("d") / "points.csv").size(), 2u);
+}
+
+TEST_F(SweepCli, NothingDrawnIsAFailure) {
+  write("far.quads", "5000 10 0.5 1  5040 12 0.5 1  5042 44 0.5 1  5008 40 0.5 1\n");
+  const Outcome outcome = run("sweep --quads far.quads --size 48x48 --cosim none --axis significand_bits=10 --out n");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("no point drew a fragment"), std::string::npos) << outcome.err;
+}
+
+}  // namespace

@@ -1,0 +1,77 @@
+#include "tb/commands/sweep_cosim.hpp"
+
+#include "tb/commands/check.hpp"
+#include "tb/lockstep.hpp"
+#include "tb/render/engine.hpp"
+#include "tb/render/parallel.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> quads, DrawState state,
+                          std::uint64_t limit, std::uint64_t seed) {
+  const Pass pass = plan_passes(0, true, point.config).front();
+  state.attributes = static_cast<int>(pass.columns.size());
+  std::vector<SnappedQuad> snapped;
+  for (std::size_t i = 0; i < quads.size(); ++i)
+    snapped.push_back(snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), point.config, state));
+
+  tb::LockstepOptions options;
+  options.config = point.config;
+  options.state = state;
+  options.seed = seed;
+  options.limit_fragments = limit;
+  WorkQueue here(0, 1);
+  FragmentChecker::Settings settings;
+  settings.config = point.config;
+  settings.state = state;
+  settings.pass = pass;
+  settings.snapping = false;
+  settings.apply_bound = point.config.qdrop() == 0;
+  FragmentChecker checker(settings, quads, snapped, here);
+  const tb::LockstepReport report =
+      tb::run_lockstep(snapped, options, [&](const Fragment& fragment) { checker.fragment(fragment); });
+  checker.finish(report.complete);
+  here.drain();
+
+  const CheckResult& check = checker.result();
+  CosimRow row;
+  row.row = point.row;
+  row.why = point.why;
+  row.fragments = report.fragments;
+  row.cycles = report.cycles_rtl;
+  row.mismatches = report.mismatches;
+  row.cycle_mismatches = report.cycle_mismatches;
+  row.seconds = report.wall_seconds;
+  if (report.first_divergence) row.first_difference = *report.first_divergence;
+  // With truncated D and r² singular pixels are decided approximately, and their flags may differ from the truth's.
+  if (settings.apply_bound) {
+    row.mismatches += check.mismatches + check.beyond_bound;
+    if (row.first_difference.empty() && check.first.any) row.first_difference = check.first.text;
+    if (row.first_difference.empty() && check.beyond_bound > 0) row.first_difference = "weights beyond the error bound";
+  }
+  if (report.complete && point.cycles != 0 && point.cycles != report.cycles_rtl) {
+    ++row.mismatches;
+    if (row.first_difference.empty())
+      row.first_difference = "the sweep states " + std::to_string(point.cycles) + " clocks, the RTL took " +
+                             std::to_string(report.cycles_rtl);
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<CosimRow> cosimulate(std::span<const CosimPoint> points, std::span<const WindowQuad> quads,
+                                 const DrawState& state, std::uint64_t limit, std::uint64_t seed, unsigned threads,
+                                 const std::function<void(std::size_t)>& done) {
+  std::vector<CosimRow> rows;
+  ordered_parallel(
+      points.size(), threads, [&](std::size_t i) { return cosimulate_point(points[i], quads, state, limit, seed); },
+      [&](std::size_t, CosimRow row) {
+        rows.push_back(std::move(row));
+        if (done) done(rows.size());
+      });
+  return rows;
+}
+
+}  // namespace quadrille::cli

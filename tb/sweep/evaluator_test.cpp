@@ -1,0 +1,672 @@
+// The evaluator against a slow path written here: the plain untimed model and the truth, one pass of columns and one
+// pixel at a time, every pixel of the viewport.
+#include "tb/sweep/evaluator.hpp"
+
+#include "golden/reference/truth.hpp"
+#include "golden/scenes/prng.hpp"
+#include "golden/scenes/stress.hpp"
+#include "model/snap.hpp"
+#include "model/untimed.hpp"
+#include "tb/lockstep.hpp"
+#include "tb/sweep/stage_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+namespace quadrille::sweep {
+namespace {
+
+constexpr int size = 40;
+
+SweepInput stress_input(golden::StressFamily family, std::size_t count = 3, int attributes = 6) {
+  SweepInput input;
+  // These cover few pixels each.
+  using enum golden::StressFamily;
+  if (family == tiny || family == sliver || family == coincident) count *= 12;
+  input.quads = golden::make_stress(family, count, 7, 1.0, size, size, attributes);
+  input.attributes = attributes;
+  input.state.width = input.state.height = input.state.scissor_x1 = input.state.scissor_y1 = size;
+  return input;
+}
+
+Config config(std::initializer_list<std::pair<const char*, int>> values) {
+  Config c;
+  for (const auto& [key, value] : values) c.set(key, value);
+  c.validate();
+  return c;
+}
+
+using Place = std::tuple<std::uint32_t, int, int>;  // quad, y, x
+
+/// All column vectors of a quad: weights, attributes, colours.
+std::vector<std::array<double, 4>> columns_of(const WindowQuad& quad, int attributes) {
+  std::vector<std::array<double, 4>> out;
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.emplace_back();
+    out.back()[i] = 1;
+  }
+  for (std::size_t j = 0; j < static_cast<std::size_t>(attributes); ++j) {
+    out.emplace_back();
+    for (std::size_t i = 0; i < 4; ++i) out.back()[i] = j < quad.attribute[i].size() ? quad.attribute[i][j] : 0.0;
+  }
+  out.push_back({1, 1, 0, 0});  // R: v0 and v1
+  out.push_back({0, 1, 1, 0});  // G: v1 and v2
+  out.push_back({1, 0, 1, 0});  // B: v0 and v2
+  return out;
+}
+
+struct Slow {
+  std::uint64_t fragments = 0, coverage_gained = 0, coverage_lost = 0, discard_differs = 0, colour_codes = 0,
+                saturated = 0;
+  std::uint64_t colour_ties = 0;  ///< channels so near a rounding tie that either code is right
+  std::array<std::vector<double>, 4> snapping, arithmetic;
+  double z_condition = 1;  ///< largest of a pixel that is measured
+  double worst = -1;
+  std::set<Place> worst_places;  ///< within rounding of the worst
+  std::map<Place, double> lambda_errors;
+};
+
+/// One drawn pixel of one quad, or one pixel of the truth.
+struct Values {
+  double z = 0, z_condition = 1;
+  std::vector<double> column;
+};
+
+int code(double v) { return static_cast<int>(std::floor(std::clamp(v, 0.0, 1.0) * 255 + 0.5)); }
+
+/// Columns come in passes of five, the last first.
+Slow slow_path(const SweepInput& input, const Config& given_config) {
+  Config c = given_config;
+  c.attribute_slots = 5;
+  c.quad_id_bits = 32;
+  const std::size_t columns = 7 + static_cast<std::size_t>(input.attributes);
+  Slow out;
+  std::map<Place, Values> machine, truth, given;
+  std::map<Place, bool> visible;
+  std::set<Place> saturated;
+  std::set<std::uint32_t> unmeasured;  // quads
+
+  for (std::size_t end = columns; end > 0; end -= std::min<std::size_t>(5, end)) {
+    const std::size_t begin = end - std::min<std::size_t>(5, end);
+    DrawState state = input.state;
+    state.attributes = static_cast<int>(end - begin);
+    for (std::size_t q = 0; q < input.quads.size(); ++q) {
+      WindowQuad quad = input.quads[q];
+      const auto all = columns_of(quad, input.attributes);
+      quad.id = static_cast<std::uint32_t>(q);
+      for (std::size_t i = 0; i < 4; ++i) {
+        quad.attribute[i].clear();
+        for (std::size_t j = begin; j < end; ++j) quad.attribute[i].push_back(all[j][i]);
+      }
+      const SnappedQuad snapped = snap_quad(quad, c, state);
+      for (const SnappedVertex& v : snapped.vertex)
+        if (!state.perspective && v.w <= 0) unmeasured.insert(quad.id);
+      const auto put = [&](std::map<Place, Values>& to, const Place& place, double z, double condition,
+                           const auto& value) {
+        Values& v = to[place];
+        v.z = z;
+        v.z_condition = condition;
+        v.column.resize(columns);
+        for (std::size_t j = begin; j < end; ++j) v.column[j] = value(j - begin);
+      };
+
+      UntimedModel model(c, state, PixelEngine::plain);
+      model.draw(snapped, [&](std::span<const Fragment> fragments) {
+        for (const Fragment& f : fragments) {
+          const Place place{f.quad, f.y, f.x};
+          put(machine, place, std::ldexp(f.depth, -c.depth_bits), 1, [&](std::size_t slot) {
+            return std::ldexp(static_cast<double>(f.attribute[slot]), -c.attribute_frac());
+          });
+          if (f.flags & flag_saturated) saturated.insert(place);
+        }
+      });
+
+      const auto sample_all = [&](const golden::TruthQuad& exact, std::map<Place, Values>& drawn, bool snapped_truth) {
+        const golden::PixelRect box = exact.bounds();
+        for (int y = box.y0; y < box.y1; ++y)
+          for (int x = box.x0; x < box.x1; ++x) {
+            if (!exact.cover(x, y).covered) continue;
+            const golden::ReferenceSample s = exact.sample(x, y);
+            if (state.cull == (s.front ? Cull::front : Cull::back)) continue;
+            const Place place{q, y, x};
+            if (snapped_truth) visible[place] = s.visible;
+            const bool inside = !state.depth || (s.z >= state.znear && s.z <= state.zfar);
+            if (!s.visible || (!snapped_truth && !inside)) continue;
+            put(drawn, place, s.z, s.z_condition,
+                [&](std::size_t slot) { return begin + slot < 4 ? s.lambda[begin + slot] : s.attribute[slot]; });
+          }
+      };
+      sample_all(golden::TruthQuad(snapped, c, state), truth, true);
+      sample_all(golden::TruthQuad(quad, state), given, false);
+    }
+  }
+
+  const auto in_interval = [&](const Values& v) {
+    return !input.state.depth || (v.z >= input.state.znear && v.z <= input.state.zfar);
+  };
+  const auto quantity = [&](std::size_t column) {
+    return static_cast<std::size_t>(column < 4             ? Quantity::lambda
+                                    : column < columns - 3 ? Quantity::attribute
+                                                           : Quantity::colour);
+  };
+  const auto add = [&](std::array<std::vector<double>, 4>& to, const Values& a, const Values& b) {
+    for (std::size_t j = 0; j < columns; ++j) to[quantity(j)].push_back(std::fabs(a.column[j] - b.column[j]));
+    if (input.state.depth) to[static_cast<std::size_t>(Quantity::depth)].push_back(std::fabs(a.z - b.z));
+    out.z_condition = std::max({out.z_condition, a.z_condition, b.z_condition});
+  };
+
+  out.fragments = machine.size();
+  out.saturated = saturated.size();
+  for (const auto& [place, m] : machine) {
+    out.coverage_gained += !given.contains(place);
+    if (!visible.at(place) || unmeasured.contains(std::get<0>(place))) continue;
+    const Values& t = truth.at(place);
+    add(out.arithmetic, m, t);
+    for (std::size_t j = columns - 3; j < columns; ++j) {
+      out.colour_codes += code(m.column[j]) != code(t.column[j]);
+      const double scaled = t.column[j] * 255 + 0.5;
+      out.colour_ties += std::fabs(scaled - std::round(scaled)) < 1e-9;
+    }
+    double error = 0;
+    for (std::size_t j = 0; j < 4; ++j) error = std::max(error, std::fabs(m.column[j] - t.column[j]));
+    out.lambda_errors[place] = error;
+    out.worst = std::max(out.worst, error);
+  }
+  for (const auto& [place, error] : out.lambda_errors)
+    if (error >= out.worst - 1e-12) out.worst_places.insert(place);
+  for (const auto& [place, g] : given) out.coverage_lost += !machine.contains(place);
+  for (const auto& [place, seen] : visible)
+    out.discard_differs += machine.contains(place) != (seen && in_interval(truth.at(place)));
+  for (const auto& [place, t] : truth)
+    if (in_interval(t) && given.contains(place) && !unmeasured.contains(std::get<0>(place)))
+      add(out.snapping, t, given.at(place));
+  return out;
+}
+
+void expect_summary(const ErrorSummary& got, std::vector<double> errors, double condition, const std::string& what) {
+  SCOPED_TRACE(what);
+  ASSERT_EQ(got.count, errors.size());
+  if (errors.empty()) return;
+  std::sort(errors.begin(), errors.end());
+  long double sum = 0, squares = 0;
+  for (const double e : errors) sum += e, squares += static_cast<long double>(e) * e;
+  const auto n = static_cast<long double>(errors.size());
+  // The evaluator's truth is rounded to double before the quotients; the reference's afterwards.
+  const double rounding = 1e-15 * condition + 1e-11 * errors.back();
+  EXPECT_NEAR(got.max, errors.back(), rounding);
+  EXPECT_NEAR(got.mean, static_cast<double>(sum / n), rounding);
+  EXPECT_NEAR(got.rms, static_cast<double>(std::sqrt(squares / n)), rounding);
+  const auto rank = static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(errors.size())));
+  const double p999 = errors[rank - 1];
+  EXPECT_GE(got.p999, p999 - rounding);
+  EXPECT_LE(got.p999, std::min(p999 * (1 + 1.0 / 16), errors.back()) + rounding);
+}
+
+void expect_slow(const PointResult& got, const Slow& want) {
+  ASSERT_EQ(got.refused, "");
+  EXPECT_EQ(got.fragments, want.fragments);
+  EXPECT_EQ(got.coverage_gained, want.coverage_gained);
+  EXPECT_EQ(got.coverage_lost, want.coverage_lost);
+  EXPECT_EQ(got.discard_differs, want.discard_differs);
+  EXPECT_EQ(got.saturated, want.saturated);
+  EXPECT_NEAR(static_cast<double>(got.colour_codes), static_cast<double>(want.colour_codes),
+              static_cast<double>(want.colour_ties));
+  for (std::size_t q = 0; q < 4; ++q) {
+    const std::string name(quantity_names[q]);
+    const double condition = static_cast<Quantity>(q) == Quantity::depth ? want.z_condition : 1;
+    expect_summary(got.arithmetic[q], want.arithmetic[q], condition, "arithmetic " + name);
+    expect_summary(got.snapping[q], want.snapping[q], condition, "snapping " + name);
+  }
+  ASSERT_EQ(got.worst.any, want.worst >= 0);
+  if (!got.worst.any) return;
+  EXPECT_NEAR(got.worst.error, want.worst, 1e-13 + 1e-11 * want.worst);
+  EXPECT_TRUE(want.worst_places.contains(Place{got.worst.index, got.worst.y, got.worst.x}));
+}
+
+struct Variant {
+  const char* name;
+  Config config;
+  void (*draw)(DrawState&) = [](DrawState&) {};
+};
+
+std::vector<Variant> variants() {
+  return {
+      {"default", Config{}},
+      {"S 8", config({{"significand_bits", 8}})},
+      {"S 12, no cure", config({{"significand_bits", 12}, {"notch_exact", 0}})},
+      {"S 26, G 5", config({{"significand_bits", 26}, {"align_guard_bits", 5}, {"depth_bits", 30}})},
+      {"quadratic 12", config({{"quadratic_frac_bits", 12}, {"significand_bits", 14}})},
+      {"quadratic 2, small tiles", config({{"quadratic_frac_bits", 2}, {"tile_log2", 2}})},
+      {"degree 1", config({{"rsqrt_degree", 1}, {"recip_degree", 1}, {"significand_bits", 16}})},
+      {"coarse", config({{"subpixel_bits", 4}, {"homogeneous_frac_bits", 5}, {"tile_log2", 4}})},
+      {"few outputs", config({{"attribute_int_bits", 1}, {"attribute_frac_bits", 18}, {"depth_bits", 8}})},
+      {"no perspective", Config{}, [](DrawState& s) { s.perspective = false; }},
+      {"no depth", config({{"significand_bits", 10}}), [](DrawState& s) { s.depth = false; }},
+      {"cull back", config({{"quadratic_frac_bits", 6}}), [](DrawState& s) { s.cull = Cull::back; }},
+      {"scissor", config({{"significand_bits", 20}}),
+       [](DrawState& s) {
+         s.scissor_x0 = 5, s.scissor_y0 = 11, s.scissor_x1 = 33;
+         s.znear = 0.3, s.zfar = 0.6;
+       }},
+  };
+}
+
+class Families : public testing::TestWithParam<int> {};
+
+TEST_P(Families, StatisticsAreThoseOfTheSlowPath) {
+  const auto& info = golden::stress_families()[static_cast<std::size_t>(GetParam())];
+  std::uint64_t fragments = 0;
+  for (const Variant& v : variants()) {
+    SCOPED_TRACE(std::string(info.name) + ", " + v.name);
+    SweepInput input = stress_input(info.family);
+    v.draw(input.state);
+    Evaluator evaluator(input, {.threads = 2, .cycles = false});
+    const PointResult got = evaluator.evaluate(v.config);
+    expect_slow(got, slow_path(input, v.config));
+    if (HasFailure()) return;
+    fragments += got.fragments;
+  }
+  EXPECT_GT(fragments, 100u) << info.name << " draws too little to test anything";
+}
+INSTANTIATE_TEST_SUITE_P(EveryFamily, Families, testing::Range(0, static_cast<int>(golden::stress_families().size())),
+                         [](const auto& p) {
+                           return std::string(golden::stress_families()[static_cast<std::size_t>(p.param)].name);
+                         });
+
+/// Quads on a lattice of pixel centres, w of either sign and no round numbers, that cover pixels of every singular
+/// class, in front of the eye and not.
+SweepInput singular_input(std::map<std::pair<int, bool>, int>& classes) {
+  SweepInput input = stress_input(golden::StressFamily::general, 0);
+  golden::Prng rng(5);
+  for (int n = 0; n < 40000 && input.quads.size() < 60; ++n) {
+    WindowQuad quad;
+    quad.id = static_cast<std::uint32_t>(input.quads.size());
+    const bool hull = rng.chance(0.7);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double w = rng.uniform(0.3, 3) * (hull && rng.chance(0.5) ? -1 : 1);
+      quad.vertex[i] = {(4 * static_cast<double>(rng.below(3)) + 4.5) * w,
+                        (4 * static_cast<double>(rng.below(3)) + 4.5) * w, 0.5 * w, w};
+      for (int j = 0; j < input.attributes; ++j) quad.attribute[i].push_back(rng.uniform(-1, 1));
+    }
+    const golden::TruthQuad exact(snap_quad(quad, Config{}, input.state), Config{}, input.state);
+    bool wanted = false;
+    for (int y = 4; y <= 12; y += 2)
+      for (int x = 4; x <= 12; x += 2) {
+        if (!exact.cover(x, y).covered) continue;
+        const golden::ReferenceSample s = exact.sample(x, y);
+        const int flags = s.flags & (flag_on_vertex | flag_two_corner | flag_two_edge);
+        if (flags != 0 && ++classes[{flags, s.visible}] <= 8) wanted = true;
+      }
+    if (wanted) input.quads.push_back(quad);
+  }
+  return input;
+}
+
+TEST(Evaluator, SingularPixelsFollowTheNumbersAtThePort) {
+  std::map<std::pair<int, bool>, int> classes;
+  SweepInput input = singular_input(classes);
+  EXPECT_GE(classes.size(), 5u);  // two corners of one pixel are on one side of the eye
+  for (const auto& [key, count] : classes) EXPECT_GE(count, 4) << key.first << " visible " << key.second;
+  for (const bool perspective : {true, false}) {
+    input.state.perspective = perspective;
+    // One evaluator: what it keeps from a setting must not reach the next.
+    Evaluator evaluator(input, {.cycles = false});
+    for (const auto& [s, g] : {std::pair{8, 0}, {8, 6}, {26, 2}, {14, 2}}) {
+      SCOPED_TRACE("S " + std::to_string(s) + ", G " + std::to_string(g));
+      const Config c = config({{"significand_bits", s}, {"align_guard_bits", g}, {"notch_exact", s == 14}});
+      expect_slow(evaluator.evaluate(c), slow_path(input, c));
+    }
+  }
+}
+
+TEST(Evaluator, OfEqualErrorsTheFirstIsTheWorst) {
+  SweepInput input = stress_input(golden::StressFamily::general, 1);
+  const PointResult alone = Evaluator(input, {.cycles = false}).evaluate(Config{});
+  input.quads.resize(30, input.quads[0]);
+  for (int n = 0; n < 10; ++n) {
+    const PointResult r = Evaluator(input, {.threads = 3, .cycles = false}).evaluate(Config{});
+    ASSERT_EQ(r.fragments, 30 * alone.fragments);
+    ASSERT_EQ(std::tuple(r.worst.index, r.worst.x, r.worst.y, r.worst.error),
+              std::tuple(0u, alone.worst.x, alone.worst.y, alone.worst.error));
+  }
+  // Whichever thread had it.
+  const WorstPixel early{true, 3, 9, 5, 0.25}, late{true, 3, 8, 6, 0.25};
+  for (const bool swap : {false, true}) {
+    LeafTotals a, b;
+    (swap ? b : a).worst = early;
+    (swap ? a : b).worst = late;
+    a.merge(b);
+    EXPECT_EQ(a.worst.y, 5);
+  }
+}
+
+/// Every member as text, doubles in full.
+std::string text(const PointResult& r) {
+  std::string out = r.refused;
+  const auto put = [&](double v) {
+    char digits[40];
+    std::snprintf(digits, sizeof digits, " %a", v);
+    out += digits;
+  };
+  const auto count = [&](std::uint64_t v) { out += " " + std::to_string(v); };
+  for (const auto* list : {&r.snapping, &r.arithmetic})
+    for (const ErrorSummary& s : *list) {
+      count(s.count);
+      for (const double v : {s.max, s.p999, s.rms, s.mean}) put(v);
+    }
+  for (const std::uint64_t v :
+       {r.fragments, r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated, r.cycles})
+    count(v);
+  out += r.worst.any ? " worst" : " none";
+  count(r.worst.index);
+  count(static_cast<std::uint64_t>(r.worst.x));
+  count(static_cast<std::uint64_t>(r.worst.y));
+  put(r.worst.error);
+  return out;
+}
+
+struct Outcome {
+  std::vector<std::string> results;  ///< in the order of the points
+  std::vector<std::vector<std::size_t>> batches;
+  StageCounters executed;
+};
+
+Outcome run(Evaluator& evaluator, const std::vector<Config>& points) {
+  Outcome out;
+  out.results.resize(points.size(), "not delivered");
+  evaluator.evaluate(points, [&](const Batch& b) {
+    ASSERT_EQ(b.points.size(), b.results.size());
+    out.batches.push_back(b.points);
+    out.executed += b.executed;
+    for (std::size_t n = 0; n < b.points.size(); ++n) {
+      EXPECT_EQ(out.results[b.points[n]], "not delivered");
+      out.results[b.points[n]] = text(b.results[n]);
+    }
+  });
+  return out;
+}
+
+/// Some quads of several families, several hundred pixels of every kind.
+SweepInput mixed_input() {
+  SweepInput input = stress_input(golden::StressFamily::general);
+  for (const auto family : {golden::StressFamily::on_vertex, golden::StressFamily::eye_in_hull,
+                            golden::StressFamily::reflex, golden::StressFamily::coincident})
+    for (const WindowQuad& q : stress_input(family).quads) input.quads.push_back(q);
+  return input;
+}
+
+std::vector<Config> mixed_points() {
+  std::vector<Config> points;
+  for (const int output : {20, 26})
+    for (const int s : {18, 12, 9})
+      for (const int quadratic : {-1, 8})
+        for (const int recip : {2, 1})
+          for (const int g : {2, 0})
+            points.push_back(config({{"significand_bits", s},
+                                     {"quadratic_frac_bits", quadratic},
+                                     {"recip_degree", recip},
+                                     {"align_guard_bits", g},
+                                     {"attribute_frac_bits", output}}));
+  points.push_back(config({{"subpixel_bits", 3}}));
+  points.push_back(config({{"tile_log2", 2}}));
+  points.push_back(config({{"viewport_bits", 5 + 1}, {"guard_bits", 4}}));
+  points.push_back(points[5]);                         // twice
+  points.push_back(config({{"stamp_fifo_log2", 1}}));  // other cycles alone
+  return points;
+}
+
+TEST(Evaluator, ThreadsBatchesAndHistoryDoNotMatter) {
+  const SweepInput input = mixed_input();
+  const std::vector<Config> points = mixed_points();
+  Evaluator one(input, {.threads = 1});
+  const Outcome first = run(one, points);
+  EXPECT_EQ(std::count(first.results.begin(), first.results.end(), "not delivered"), 0);
+  EXPECT_EQ(first.results[5], first.results[points.size() - 2]);
+  for (const std::size_t batch_points : {1u, 5u, 1000u}) {
+    Evaluator other(input, {.threads = 3, .batch_points = batch_points});
+    const Outcome again = run(other, points);
+    EXPECT_EQ(first.results, again.results);
+    // Batches do not depend on threads; none is larger than asked for, save points that share a leaf.
+    Evaluator single(input, {.threads = 1, .batch_points = batch_points});
+    EXPECT_EQ(run(single, points).batches, again.batches);
+    for (const auto& batch : again.batches) EXPECT_LE(batch.size(), std::max<std::size_t>(batch_points, 3));
+    // In another order, after all that, by hand.
+    std::vector<Config> reversed(points.rbegin(), points.rend());
+    Outcome back = run(other, reversed);
+    std::reverse(back.results.begin(), back.results.end());
+    EXPECT_EQ(first.results, back.results);
+    EXPECT_EQ(text(other.evaluate(points[7])), first.results[7]);
+  }
+}
+
+TEST(Evaluator, RefusedPointsLeaveTheOthersAlone) {
+  SweepInput input = mixed_input();
+  input.quads[1].attribute[2][5] = 2.5;  // needs two integer bits
+  input.quads[1].id = 77;
+  const std::size_t few = input.quads.size();
+  while (input.quads.size() <= 256) input.quads.push_back(input.quads[input.quads.size() % few]);
+  input.quads.resize(257);
+  std::vector<Config> points{config({{"attribute_int_bits", 1}}), Config{}, config({{"quad_id_bits", 8}}),
+                             config({{"significand_bits", 10}}), config({{"attribute_int_bits", 2}})};
+  Evaluator evaluator(input, {.cycles = false});
+  std::vector<PointResult> results(points.size());
+  evaluator.evaluate(points, [&](const Batch& b) {
+    for (std::size_t n = 0; n < b.points.size(); ++n) results[b.points[n]] = b.results[n];
+  });
+  EXPECT_NE(results[0].refused.find("quad 77, vertex 2"), std::string::npos) << results[0].refused;
+  EXPECT_NE(results[0].refused.find("attribute 5 = 2.5"), std::string::npos) << results[0].refused;
+  EXPECT_EQ(results[0].fragments, 0u);
+  EXPECT_NE(results[2].refused.find("257 quads"), std::string::npos) << results[2].refused;
+  for (const std::size_t good : {1u, 3u, 4u}) {
+    EXPECT_EQ(results[good].refused, "");
+    EXPECT_GT(results[good].fragments, 0u);
+    Evaluator fresh(input, {.cycles = false});
+    EXPECT_EQ(text(fresh.evaluate(points[good])), text(results[good]));
+  }
+
+  SweepInput wide = stress_input(golden::StressFamily::general);
+  wide.state.width = 65;
+  Evaluator other(wide, {});
+  const PointResult small = other.evaluate(config({{"viewport_bits", 6}, {"tile_log2", 2}}));
+  EXPECT_NE(small.refused.find("viewport_bits = 6"), std::string::npos) << small.refused;
+  const std::vector<float> map = other.error_map(config({{"viewport_bits", 6}, {"tile_log2", 2}}));
+  EXPECT_EQ(map, std::vector<float>(65 * size, -1.0f));
+}
+
+TEST(Evaluator, NothingToDraw) {
+  for (const bool empty : {true, false}) {
+    SweepInput input = stress_input(golden::StressFamily::general);
+    if (empty) input.quads.clear();
+    for (WindowQuad& q : input.quads)
+      for (WindowVertex& v : q.vertex) v.x += 100 * v.w;
+    Evaluator evaluator(input, {.threads = 2});
+    const PointResult r = evaluator.evaluate(Config{});
+    EXPECT_EQ(r.refused, "");
+    EXPECT_EQ(r.fragments, 0u);
+    EXPECT_EQ(r.arithmetic[0].count, 0u);
+    EXPECT_EQ(r.arithmetic[0].max, 0.0);
+    EXPECT_FALSE(r.worst.any);
+    EXPECT_EQ(r.coverage_lost, 0u);
+    EXPECT_EQ(evaluator.error_map(Config{}), std::vector<float>(size * size, -1.0f));
+  }
+  const SweepInput input = stress_input(golden::StressFamily::general);
+  Evaluator evaluator(input, {});
+  evaluator.evaluate({}, [](const Batch&) { FAIL() << "a batch of no points"; });
+}
+
+std::uint64_t settings(const StageCounters& c, Stage stage) { return c.settings[static_cast<std::size_t>(stage)]; }
+
+TEST(Evaluator, EarlierStagesRunOnceForLaterAxes) {
+  const SweepInput input = mixed_input();
+  std::vector<Config> points;
+  for (const int degree : {1, 2})
+    for (const int frac : {18, 20, 24})
+      for (const int depth : {16, 24})
+        points.push_back(config({{"recip_degree", degree}, {"attribute_frac_bits", frac}, {"depth_bits", depth}}));
+  Evaluator evaluator(input, {});
+  const Outcome r = run(evaluator, points);
+  const StageCounters& c = evaluator.counters();
+  EXPECT_EQ(c.settings, r.executed.settings);
+  EXPECT_EQ(c.fragments, r.executed.fragments);
+  EXPECT_EQ(c.settings, (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 2, 12, 1}));
+  // Covered pixels by the model, drawn or not.
+  std::uint64_t covered = 0;
+  for (const WindowQuad& q : input.quads) {
+    UntimedModel model(Config{}, input.state);
+    DrawState state = input.state;
+    model.draw(snap_quad(q, Config{}, state), [](auto) {});
+    covered += model.stats().pixels;
+  }
+  for (const Stage stage : {Stage::snap_truth, Stage::difference, Stage::normalise, Stage::weights})
+    EXPECT_EQ(c.fragments[static_cast<std::size_t>(stage)], covered);
+  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::reciprocal)], 2 * covered);
+  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::output)], 12 * covered);
+  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::cycles)], evaluator.evaluate(Config{}).cycles);
+
+  // Truth, differences and clocks stay.
+  const StageCounters before = evaluator.counters();
+  evaluator.evaluate(config({{"significand_bits", 9}}));
+  const StageCounters& after = evaluator.counters();
+  for (const Stage stage : {Stage::given_truth, Stage::snap_truth, Stage::difference, Stage::cycles})
+    EXPECT_EQ(settings(after, stage), settings(before, stage));
+  EXPECT_EQ(settings(after, Stage::normalise), settings(before, Stage::normalise) + 1);
+}
+
+TEST(Evaluator, AFullGridRunsTheProductOfTheSettings) {
+  const SweepInput input = stress_input(golden::StressFamily::general);
+  std::vector<Config> points;
+  // The last stage varies slowest here: the order of the list must not matter.
+  for (const int depth : {12, 16})
+    for (const int recip : {3, 4})
+      for (const int notch : {0, 1})
+        for (const int g : {0, 1, 3})
+          for (const int degree : {1, 2})
+            for (const int s : {10, 14, 18})
+              for (const int quadratic : {10, -1, 30})  // auto is 30
+                for (const int subpixel : {6, 8})
+                  if (quadratic != 30 || subpixel == 8)
+                    points.push_back(config({{"depth_bits", depth},
+                                             {"recip_segments_log2", recip},
+                                             {"notch_exact", notch},
+                                             {"align_guard_bits", g},
+                                             {"rsqrt_degree", degree},
+                                             {"significand_bits", s},
+                                             {"quadratic_frac_bits", quadratic},
+                                             {"subpixel_bits", subpixel}}));
+  Evaluator evaluator(input, {.threads = 2, .batch_points = 1000});
+  run(evaluator, points);
+  // given, positions, ×2 differences (10 and all), ×3, ×2, ×3, ×2, the same, ×2, ×2, clocks of each position
+  EXPECT_EQ(evaluator.counters().settings,
+            (std::array<std::uint64_t, stage_count>{1, 2, 4, 12, 24, 72, 144, 144, 288, 576, 2}));
+
+  // A batch below one subtree executes the ancestors again and says so.
+  Evaluator cut(input, {.batch_points = 16});
+  const Outcome r = run(cut, points);
+  EXPECT_EQ(settings(cut.counters(), Stage::difference), 4u);
+  EXPECT_EQ(settings(cut.counters(), Stage::output), 576u);
+  EXPECT_GT(settings(cut.counters(), Stage::normalise), 12u);
+  EXPECT_EQ(settings(cut.counters(), Stage::normalise), settings(r.executed, Stage::normalise));
+}
+
+TEST(Evaluator, MemoryIsBoundedAndForgettingIsHarmless) {
+  const SweepInput input = mixed_input();
+  const std::vector<Config> points{config({{"quadratic_frac_bits", 10}}), config({{"quadratic_frac_bits", 20}}),
+                                   config({{"subpixel_bits", 5}}), config({{"quadratic_frac_bits", 10}})};
+  Evaluator ample(input, {.cycles = false});
+  Evaluator tight(input, {.cycles = false, .memory_bytes = 1});
+  for (const Config& point : points) EXPECT_EQ(text(ample.evaluate(point)), text(tight.evaluate(point)));
+  EXPECT_EQ(settings(ample.counters(), Stage::difference), 3u);
+  EXPECT_EQ(settings(tight.counters(), Stage::difference), 4u);
+  EXPECT_EQ(settings(ample.counters(), Stage::snap_truth), 2u);
+  EXPECT_EQ(settings(tight.counters(), Stage::snap_truth), 3u);
+}
+
+TEST(Evaluator, CyclesAreTheClockedModels) {
+  const SweepInput input = mixed_input();
+  const std::vector<Config> points{
+      Config{},
+      config({{"significand_bits", 8}, {"align_guard_bits", 0}}),
+      config({{"significand_bits", 26}, {"notch_exact", 0}, {"depth_bits", 8}}),
+      config({{"quadratic_frac_bits", 4}}),
+      config({{"tile_log2", 2}}),
+      config({{"stamp_fifo_log2", 1}, {"tile_slots_log2", 1}}),
+      config({{"quad_slots_log2", 1}}),
+      config({{"subpixel_bits", 3}}),
+  };
+  Evaluator evaluator(input, {.threads = 2});
+  std::set<std::uint64_t> different;
+  for (const Config& c : points) {
+    // With all its attributes and widths, unlike the evaluator's own run.
+    tb::LockstepOptions options;
+    options.config = c;
+    options.config.attribute_slots = 8;
+    options.state = input.state;
+    options.state.attributes = 4;
+    std::vector<SnappedQuad> snapped;
+    for (const WindowQuad& q : input.quads) snapped.push_back(snap_quad(q, options.config, options.state));
+    const std::uint64_t clocks = tb::run_clocked_model_alone(snapped, options).cycles;
+    EXPECT_EQ(evaluator.evaluate(c).cycles, clocks);
+    different.insert(clocks);
+  }
+  EXPECT_EQ(settings(evaluator.counters(), Stage::cycles), 5u);
+  EXPECT_GE(different.size(), 3u);
+  EXPECT_EQ(Evaluator(input, {.cycles = false}).evaluate(Config{}).cycles, 0u);
+}
+
+TEST(Evaluator, ErrorMapHoldsTheLargestErrorOfEachPixel) {
+  const SweepInput input = mixed_input();
+  const Config c = config({{"significand_bits", 11}});
+  Evaluator evaluator(input, {.threads = 2});
+  const std::vector<float> map = evaluator.error_map(c);
+  ASSERT_EQ(map.size(), static_cast<std::size_t>(size * size));
+  std::vector<double> want(map.size(), -1);
+  for (const auto& [place, error] : slow_path(input, c).lambda_errors) {
+    double& at = want[static_cast<std::size_t>(std::get<1>(place) * size + std::get<2>(place))];
+    at = std::max(at, error);
+  }
+  float largest = -1;
+  for (std::size_t n = 0; n < map.size(); ++n) {
+    ASSERT_NEAR(map[n], want[n], 1e-6) << n;
+    largest = std::max(largest, map[n]);
+  }
+  EXPECT_EQ(largest, static_cast<float>(evaluator.evaluate(c).arithmetic[0].max));
+  EXPECT_EQ(std::count(want.begin(), want.end(), -1.0) > 0, true);
+}
+
+TEST(Evaluator, AnExceptionOfACallbackPassesThrough) {
+  const SweepInput input = mixed_input();
+  const std::vector<Config> points = mixed_points();
+  for (const unsigned threads : {1u, 3u}) {
+    Evaluator evaluator(input, {.threads = threads, .batch_points = 4});
+    int batches = 0;
+    const auto stop = [&](const Batch&) {
+      if (++batches == 2) throw std::runtime_error("enough");
+    };
+    EXPECT_THROW(evaluator.evaluate(points, stop), std::runtime_error);
+    EXPECT_EQ(batches, 2);
+    const auto no = [](double) { throw std::runtime_error("enough"); };
+    EXPECT_THROW(evaluator.evaluate(
+                     points, [](const Batch&) {}, no),
+                 std::runtime_error);
+    Evaluator fresh(input, {.threads = 1});
+    EXPECT_EQ(run(evaluator, points).results, run(fresh, points).results);
+    double last = 0;
+    evaluator.evaluate(
+        points, [](const Batch&) {},
+        [&](double part) {
+          EXPECT_GE(part, last);
+          last = part;
+        });
+    EXPECT_EQ(last, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace quadrille::sweep

@@ -1,0 +1,43 @@
+#include "tb/sweep/measured_columns.hpp"
+
+namespace quadrille::sweep {
+namespace {
+
+WindowQuad test_quad(const WindowQuad& quad) {
+  WindowQuad out = quad;
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.attribute[i].assign(4, 0.0);
+    out.attribute[i][i] = 1;
+    out.attribute[i].insert(out.attribute[i].end(), corner_colour[i].begin(), corner_colour[i].end());
+  }
+  return out;
+}
+
+}  // namespace
+
+WindowQuad own_quad(const WindowQuad& quad, std::size_t attributes) {
+  WindowQuad out = quad;
+  for (std::vector<double>& values : out.attribute) values.resize(attributes);
+  return out;
+}
+
+Config widest_port(Config config) {
+  config.attribute_slots = max_attribute_slots;
+  config.quad_id_bits = 32;
+  return config;
+}
+
+PortQuad::PortQuad(const WindowQuad& quad, std::size_t index, std::size_t attributes, const Config& config,
+                   const DrawState& state)
+    : own(snap_quad(own_quad(quad, attributes), widest_port(config), state)),
+      test(snap_quad(test_quad(quad), widest_port(config), state)) {
+  own.id = test.id = static_cast<std::uint32_t>(index);
+}
+
+const PortNumber& PortQuad::column(std::size_t column, std::size_t vertex, const Columns& columns) const {
+  if (column < Columns::first_attribute) return test.vertex[vertex].attribute[column];
+  if (column < columns.first_colour()) return own.vertex[vertex].attribute[column - Columns::first_attribute];
+  return test.vertex[vertex].attribute[column - columns.attributes];
+}
+
+}  // namespace quadrille::sweep

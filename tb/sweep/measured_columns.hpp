@@ -1,0 +1,45 @@
+// The columns that a sweep measures, in one order everywhere: the four weights, the input's attributes, three colours.
+#pragma once
+
+#include "model/lane_stages.hpp"
+#include "model/snap.hpp"
+#include "tb/sweep/evaluator.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace quadrille::sweep {
+
+struct Columns {
+  std::size_t attributes = 0;
+
+  static constexpr std::size_t first_attribute = 4;
+  constexpr std::size_t first_colour() const { return first_attribute + attributes; }
+  constexpr std::size_t count() const { return first_colour() + 3; }
+};
+static_assert(4 + max_attribute_slots + 3 <= max_lane_columns);
+
+inline std::uint32_t pack_pixel(int x, int y) {
+  return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
+}
+inline int pixel_x(std::uint32_t pixel) { return static_cast<int>(pixel & 0xffff); }
+inline int pixel_y(std::uint32_t pixel) { return static_cast<int>(pixel >> 16); }
+
+/// A quad at the port, in the two passes that carry all columns: its own attributes, then weights and colours. The
+/// position in the input is the id. Throws SnapError, which names the quad's own id.
+struct PortQuad {
+  SnappedQuad own, test;
+
+  PortQuad(const WindowQuad& quad, std::size_t index, std::size_t attributes, const Config& config,
+           const DrawState& state);
+  /// The number that column `column` has at the port.
+  const PortNumber& column(std::size_t column, std::size_t vertex, const Columns& columns) const;
+};
+
+/// The quad's first `attributes` attributes alone, 0 where it has fewer.
+WindowQuad own_quad(const WindowQuad& quad, std::size_t attributes);
+
+/// Eight slots and any id, since columns are measured and quads numbered whatever the configuration's port is.
+Config widest_port(Config config);
+
+}  // namespace quadrille::sweep

@@ -1,0 +1,75 @@
+#include "tb/sweep/parallel_units.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace quadrille::sweep {
+
+void run_units(std::size_t units, unsigned threads, const std::function<void(std::size_t, unsigned)>& body,
+               const std::function<void(std::size_t)>& progress) {
+  if (threads <= 1 || units <= 1) {
+    for (std::size_t unit = 0; unit < units; ++unit) {
+      body(unit, 0);
+      if (progress) progress(unit + 1);
+    }
+    return;
+  }
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::size_t next = 0, finished = 0;
+  unsigned running = 0;
+  bool stop = false;
+  std::exception_ptr error;
+  const auto fail = [&](std::exception_ptr e) {
+    if (!error) error = e;
+    stop = true;
+  };
+
+  std::vector<std::thread> workers;
+  {
+    std::unique_lock lock(mutex);
+    for (unsigned thread = 0; thread < std::min<std::size_t>(threads, units); ++thread) {
+      ++running;
+      workers.emplace_back([&, thread] {
+        std::unique_lock work(mutex);
+        while (!stop && next < units) {
+          const std::size_t unit = next++;
+          work.unlock();
+          std::exception_ptr thrown;
+          try {
+            body(unit, thread);
+          } catch (...) {
+            thrown = std::current_exception();
+          }
+          work.lock();
+          if (thrown) fail(thrown);
+          ++finished;
+        }
+        if (--running == 0) changed.notify_one();
+      });
+    }
+    while (running > 0) {
+      changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return running == 0; });
+      if (!progress || stop) continue;
+      const std::size_t done = finished;
+      lock.unlock();
+      std::exception_ptr thrown;
+      try {
+        progress(done);
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      lock.lock();
+      if (thrown) fail(thrown);
+    }
+  }
+  for (std::thread& worker : workers) worker.join();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace quadrille::sweep

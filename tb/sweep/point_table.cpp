@@ -1,0 +1,182 @@
+#include "tb/sweep/point_table.hpp"
+
+#include "model/edit_distance.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace quadrille::sweep {
+namespace {
+
+constexpr std::array<std::string_view, 2> kinds{"snapping", "arithmetic"};
+
+struct Statistic {
+  std::string_view name, meaning;
+  double ErrorSummary::*member;
+};
+constexpr std::array<Statistic, 4> statistics{{{"max", "largest", &ErrorSummary::max},
+                                               {"p999", "99.9 % quantile of the", &ErrorSummary::p999},
+                                               {"rms", "root mean square of the", &ErrorSummary::rms},
+                                               {"mean", "mean of the", &ErrorSummary::mean}}};
+
+std::string error_name(std::size_t kind, std::size_t quantity, std::size_t statistic) {
+  return std::string(kinds[kind]) + "_" + std::string(quantity_names[quantity]) + "_" +
+         std::string(statistics[statistic].name);
+}
+
+std::vector<PointColumn> make_columns() {
+  std::vector<PointColumn> columns{{"row", "", "position in the grid, from 0"},
+                                   {"status", "", "ok or refused"},
+                                   {"reason", "", "the rule that a refused configuration breaks"}};
+  for (const ConfigKey& key : Config::keys())
+    columns.push_back({std::string(key.name), std::string(key.unit), std::string(key.meaning)});
+  columns.push_back({"fragments", "", "drawn by the machine"});
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    for (std::size_t q = 0; q < quantity_names.size(); ++q)
+      for (std::size_t s = 0; s < statistics.size(); ++s)
+        columns.push_back(
+            {error_name(kind, q, s), q == 1 ? "the attributes'" : "1",
+             std::string(statistics[s].meaning) + " absolute " + std::string(kinds[kind]) + " error of " +
+                 std::array{"the weights", "the input's attributes", "window z", "three colour channels"}[q]});
+  for (const char* quantity : {"lambda", "attribute", "depth"}) {
+    const std::string name = std::string("bound_") + quantity;
+    columns.push_back({name, "1", "bound of the arithmetic error by analysis"});
+    columns.push_back({name + "_kind", "", "proved or estimated"});
+  }
+  columns.insert(columns.end(),
+                 {{"ranges", "", "proved: no signal can overflow; else the one that may"},
+                  {"coverage_gained", "pixels", "drawn, though the given quad does not cover them"},
+                  {"coverage_lost", "pixels", "covered by the given quad, but not drawn"},
+                  {"discard_differs", "pixels", "visibility or z interval decided otherwise than by exact arithmetic"},
+                  {"colour_codes", "channels", "8-bit channels that differ from the truth's"},
+                  {"saturated", "fragments", "with an attribute clamped to its format"},
+                  {"cost", "LUTs", "scalar cost"},
+                  {"state_bits", "bits", "flip-flops"},
+                  {"multiplier_bits", "bits^2", "sum over multipliers of operand widths' products"},
+                  {"adder_bits", "bits", "adders, comparators, shifter stages"},
+                  {"table_bits", "bits", "rsqrt and reciprocal tables"},
+                  {"cycles", "clocks", "the whole draw without stalls"},
+                  {"pareto", "", "1 on the front of cost against the objective"},
+                  {"worst_error", "1", "largest arithmetic error of a weight"},
+                  {"worst", "", "a command that prints that fragment"}});
+  return columns;
+}
+
+}  // namespace
+
+void complete_row(PointRow& row, const CostWeights& weights) {
+  row.cost = hardware_cost(row.config);
+  row.scalar_cost = scalar_cost(row.cost, weights);
+  row.bound_lambda = bound_lambda(row.config);
+  row.bound_attribute = bound_attribute(row.config, 1);
+  row.bound_depth = bound_depth(row.config);
+  const RangeProof proof = prove_ranges(row.config);
+  row.ranges = "proved";
+  for (const SignalRange& signal : proof.signals)
+    if (!signal.fits) {
+      row.ranges = signal.signal;
+      break;
+    }
+}
+
+const std::vector<PointColumn>& point_columns() {
+  static const std::vector<PointColumn> columns = make_columns();
+  return columns;
+}
+
+std::string ErrorColumn::name() const {
+  std::size_t s = 0;
+  while (statistics[s].member != statistic) ++s;
+  return error_name(snapping ? 0 : 1, static_cast<std::size_t>(quantity), s);
+}
+
+double ErrorColumn::value(const PointResult& result) const {
+  const ErrorSummary& summary = (snapping ? result.snapping : result.arithmetic)[static_cast<std::size_t>(quantity)];
+  if (!result.refused.empty() || summary.count == 0) return std::numeric_limits<double>::quiet_NaN();
+  return summary.*statistic;
+}
+
+std::vector<std::string> error_column_names() {
+  std::vector<std::string> names;
+  for (std::size_t kind = kinds.size(); kind-- > 0;)
+    for (std::size_t q = 0; q < quantity_names.size(); ++q)
+      for (std::size_t s = 0; s < statistics.size(); ++s) names.push_back(error_name(kind, q, s));
+  return names;
+}
+
+ErrorColumn parse_error_column(std::string_view name) {
+  std::string nearest;
+  std::size_t distance = std::numeric_limits<std::size_t>::max();
+  const auto offer = [&](const std::string& candidate) {
+    if (const std::size_t d = edit_distance(name, candidate); d < distance) distance = d, nearest = candidate;
+  };
+  for (std::size_t q = 0; q < quantity_names.size(); ++q) {
+    if (name == quantity_names[q]) return {false, static_cast<Quantity>(q), &ErrorSummary::max};
+    offer(std::string(quantity_names[q]));
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+      for (std::size_t s = 0; s < statistics.size(); ++s) {
+        const std::string full = error_name(kind, q, s);
+        if (name == full) return {kind == 0, static_cast<Quantity>(q), statistics[s].member};
+        offer(full);
+      }
+  }
+  throw ConfigError("unknown error \"" + std::string(name) + "\"; the nearest is \"" + nearest +
+                    "\" (lambda, attribute, depth, colour, or snapping_ or arithmetic_, one of these, and _max, _p999, "
+                    "_rms or _mean)");
+}
+
+std::string csv_number(double value) {
+  if (std::isnan(value)) return {};
+  std::array<char, 40> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 17);
+  return {buffer.data(), end.ptr};
+}
+
+std::string csv_cell(std::string_view text) {
+  if (text.find_first_of(",\"\n") == std::string_view::npos) return std::string(text);
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return cell + "\"";
+}
+
+std::string point_table(std::span<const PointRow> rows) {
+  std::string text;
+  for (const PointColumn& column : point_columns()) text += (text.empty() ? "" : ",") + column.name;
+  text += "\n";
+  for (const PointRow& p : rows) {
+    const PointResult& r = p.result;
+    const bool ok = r.refused.empty();
+    std::vector<std::string> cells{std::to_string(p.row), ok ? "ok" : "refused", csv_cell(r.refused)};
+    for (const ConfigKey& key : Config::keys()) cells.push_back(std::to_string(p.config.resolved(key.name)));
+    if (ok) {
+      cells.push_back(std::to_string(r.fragments));
+      for (const auto* errors : {&r.snapping, &r.arithmetic})
+        for (const ErrorSummary& summary : *errors)
+          for (const Statistic& statistic : statistics)
+            cells.push_back(summary.count > 0 ? csv_number(summary.*statistic.member) : std::string());
+      for (const ErrorBound* bound : {&p.bound_lambda, &p.bound_attribute, &p.bound_depth}) {
+        cells.push_back(std::isfinite(bound->value) ? csv_number(bound->value) : std::string());
+        cells.push_back(bound->proved ? "proved" : "estimated");
+      }
+      cells.push_back(csv_cell(p.ranges));
+      for (const std::uint64_t count :
+           {r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated})
+        cells.push_back(std::to_string(count));
+      cells.push_back(csv_number(p.scalar_cost));
+      for (const std::uint64_t bits : {p.cost.state_bits, p.cost.multiplier_bits, p.cost.adder_bits, p.cost.table_bits})
+        cells.push_back(std::to_string(bits));
+      cells.push_back(r.cycles > 0 ? std::to_string(r.cycles) : std::string());
+      cells.push_back(p.pareto ? "1" : "0");
+      cells.push_back(r.worst.any ? csv_number(r.worst.error) : std::string());
+      cells.push_back(csv_cell(p.worst));
+    }
+    cells.resize(point_columns().size());
+    for (std::size_t i = 0; i < cells.size(); ++i) text += (i == 0 ? "" : ",") + cells[i];
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace quadrille::sweep

@@ -1,0 +1,91 @@
+#include "tb/sweep/point_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+namespace quadrille::sweep {
+namespace {
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells{""};
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  return cells;
+}
+
+PointRow example() {
+  PointRow row;
+  row.row = 3;
+  row.config.significand_bits = 12;
+  row.result.fragments = 10;
+  for (std::size_t q = 0; q < 4; ++q) row.result.arithmetic[q] = {1, 0.5 + static_cast<double>(q), 0.25, 0.125, 0.0625};
+  row.result.snapping[0] = {1, 2, 3, 4, 5};
+  row.result.coverage_lost = 17;
+  row.worst = "quadrille fragments --pixel 1,2";
+  complete_row(row, CostWeights{});
+  return row;
+}
+
+TEST(PointTable, EveryRowHasEveryColumn) {
+  PointRow refused;
+  refused.row = 4;
+  refused.result.refused = "a, \"b\"";
+  std::istringstream text(point_table(std::vector{example(), refused}));
+  std::vector<std::vector<std::string>> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(split(line));
+  ASSERT_EQ(lines.size(), 3u);
+  for (const auto& line : lines) EXPECT_EQ(line.size(), point_columns().size());
+  const auto cell = [&](std::size_t line, std::string_view name) {
+    for (std::size_t i = 0; i < lines[0].size(); ++i)
+      if (lines[0][i] == name) return lines[line][i];
+    return std::string("no such column");
+  };
+  EXPECT_EQ(cell(1, "row"), "3");
+  EXPECT_EQ(cell(1, "status"), "ok");
+  EXPECT_EQ(cell(1, "significand_bits"), "12");
+  EXPECT_EQ(cell(1, "attribute_frac_bits"), "14");  // auto: s + 2
+  EXPECT_EQ(cell(1, "arithmetic_lambda_max"), "0.5");
+  EXPECT_EQ(cell(1, "arithmetic_colour_max"), "3.5");
+  EXPECT_EQ(cell(1, "arithmetic_depth_mean"), "0.0625");
+  EXPECT_EQ(cell(1, "snapping_lambda_p999"), "3");
+  EXPECT_EQ(cell(1, "snapping_depth_max"), "");  // not measured
+  EXPECT_EQ(cell(1, "coverage_lost"), "17");
+  EXPECT_EQ(cell(1, "worst"), "\"quadrille fragments --pixel 1,2\"");
+  EXPECT_EQ(cell(2, "status"), "refused");
+  EXPECT_EQ(cell(2, "reason"), "\"a, \"\"b\"\"\"");
+  EXPECT_EQ(cell(2, "fragments"), "");
+}
+
+TEST(PointTable, ErrorColumnsByName) {
+  const PointResult result = example().result;
+  EXPECT_EQ(parse_error_column("lambda").name(), "arithmetic_lambda_max");
+  EXPECT_EQ(parse_error_column("colour").value(result), 3.5);
+  EXPECT_EQ(parse_error_column("snapping_lambda_rms").value(result), 4);
+  EXPECT_TRUE(std::isnan(parse_error_column("snapping_colour_max").value(result)));
+  EXPECT_EQ(error_column_names().size(), 32u);
+  for (const std::string& name : error_column_names()) EXPECT_EQ(parse_error_column(name).name(), name);
+  try {
+    parse_error_column("arithmetic_lamda_max");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"arithmetic_lambda_max\""), std::string::npos) << error.what();
+  }
+}
+
+TEST(PointTable, NumbersSurviveTheText) {
+  for (const double value : {1.0 / 3, 5e-324, 1e300, 0x1.fffffffffffffp-20})
+    EXPECT_EQ(std::strtod(csv_number(value).c_str(), nullptr), value);
+  EXPECT_EQ(csv_number(std::nan("")), "");
+}
+
+}  // namespace
+}  // namespace quadrille::sweep

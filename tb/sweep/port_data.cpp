@@ -1,0 +1,154 @@
+#include "tb/sweep/port_data.hpp"
+
+#include "golden/reference/port_number.hpp"
+#include "golden/reference/truth.hpp"
+#include "model/quad_setup.hpp"
+#include "tb/sweep/parallel_units.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+// Vectors wider than some targets' registers stay inside functions here.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace quadrille::sweep {
+namespace {
+
+constexpr std::size_t quads_per_unit = 64;
+constexpr std::size_t blocks_per_unit = 256;
+
+std::size_t units_of(std::size_t n, std::size_t per_unit) { return (n + per_unit - 1) / per_unit; }
+
+TruthNumbers truth_numbers(const PortQuad& quad, const Columns& columns, const Config& config, bool perspective) {
+  TruthNumbers out;
+  out.measured =
+      perspective || std::all_of(quad.own.vertex.begin(), quad.own.vertex.end(), [](const auto& v) { return v.w > 0; });
+  for (std::size_t i = 0; i < 4; ++i) {
+    const SnappedVertex& v = quad.own.vertex[i];
+    out.k[i] = golden::port_value(v.k, config.significand_bits);
+    out.w[i] = std::ldexp(static_cast<double>(v.w), -config.frac());
+    out.z[i] = golden::port_value(v.z, config.significand_bits);
+    for (std::size_t j = 0; j < columns.count(); ++j)
+      out.b[j][i] = golden::port_value(quad.column(j, i, columns), config.significand_bits);
+  }
+  return out;
+}
+
+QuadColumns machine_numbers(const PortQuad& quad, const QuadData& data, const Columns& columns, int s) {
+  QuadColumns out;
+  out.hull = data.hull;
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.k[i] = to_double(data.k[i], s);
+    out.w[i] = to_double(data.w[i], s);
+    out.z[i] = to_double(data.z[i], s);
+    for (std::size_t j = 0; j < columns.count(); ++j) {
+      const PortNumber& b = quad.column(j, i, columns);
+      out.b[j][i] = to_double({b.neg, b.exp, b.sig}, s);
+    }
+  }
+  return out;
+}
+
+[[gnu::always_inline]] inline LaneReals weighted(const LaneReals* m, const std::array<double, 4>& v) {
+  return (m[0] * v[0] + m[1] * v[1]) + (m[2] * v[2] + m[3] * v[3]);
+}
+
+}  // namespace
+
+PortData::PortData(const SweepInput& input, const GivenTruth& given, const PositionData& positions,
+                   const Config& config, unsigned threads)
+    : machine_(input.quads.size()), data_(input.quads.size()), truth_(input.quads.size()) {
+  const Columns columns{static_cast<std::size_t>(input.attributes)};
+  DrawState state = input.state;
+  state.attributes = 0;
+
+  // Blocks of a quad are neighbours; singular ones of all quads, by block.
+  std::vector<std::vector<std::size_t>> singular_blocks(input.quads.size());
+  for (std::size_t block = 0; block < positions.blocks(); ++block)
+    if (positions.singular[block] != 0) singular_blocks[positions.quad[block]].push_back(block);
+
+  std::vector<std::vector<SingularPixel>> singular(input.quads.size());
+  run_units(units_of(input.quads.size(), quads_per_unit), threads, [&](std::size_t unit, unsigned) {
+    for (std::size_t q = unit * quads_per_unit; q < std::min((unit + 1) * quads_per_unit, input.quads.size()); ++q) {
+      const PortQuad port(input.quads[q], q, columns.attributes, config, input.state);
+      data_[q] = quadrille::quad_data(port.own, quad_setup(port.own, config, state), config, input.state);
+      machine_[q] = machine_numbers(port, data_[q], columns, config.significand_bits);
+      truth_[q] = truth_numbers(port, columns, config, input.state.perspective);
+      if (singular_blocks[q].empty()) continue;
+      const golden::TruthQuad exact(port.own, config, state);
+      for (const std::size_t block : singular_blocks[q])
+        for (unsigned rest = positions.singular[block]; rest != 0; rest &= rest - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+          const int x = pixel_x(positions.pixel[block][lane]), y = pixel_y(positions.pixel[block][lane]);
+          SingularPixel& p = singular[q].emplace_back(block, lane, exact.cover(x, y).visible);
+          const auto m = exact.homogeneous_weights(x, y);
+          for (std::size_t i = 0; i < 4; ++i) p.m[i] = static_cast<double>(m[i]);
+        }
+    }
+  });
+  for (const std::vector<SingularPixel>& list : singular) singular_.insert(singular_.end(), list.begin(), list.end());
+
+  std::vector<QuantityStats> parts(std::max(1u, threads));
+  run_units(units_of(positions.blocks(), blocks_per_unit), threads, [&](std::size_t unit, unsigned thread) {
+    const std::size_t first = unit * blocks_per_unit;
+    const std::size_t count = std::min(blocks_per_unit, positions.blocks() - first);
+    const std::size_t stride = truth_per_block(columns);
+    std::vector<LaneReals> values(count * stride);
+    std::vector<std::uint8_t> draws(count), measured(count);
+    truth(input, positions, first, count, values.data(), draws.data(), measured.data());
+    QuantityStats& stats = parts[thread];
+    const auto add = [&](Quantity quantity, double error) { stats[static_cast<std::size_t>(quantity)].add(error); };
+    for (std::size_t n = 0; n < count; ++n)
+      for (unsigned rest = draws[n] & measured[n] & positions.given[first + n]; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        const double* wanted = given.values(positions.given_at[first + n][lane]);
+        const auto error = [&](std::size_t value) { return values[n * stride + value][lane] - wanted[value]; };
+        if (input.state.depth) add(Quantity::depth, error(0));
+        for (std::size_t j = 0; j < columns.count(); ++j)
+          add(j < Columns::first_attribute ? Quantity::lambda
+              : j < columns.first_colour() ? Quantity::attribute
+                                           : Quantity::colour,
+              error(1 + j));
+      }
+  });
+  for (const QuantityStats& part : parts)
+    for (std::size_t q = 0; q < part.size(); ++q) snapping_[q].merge(part[q]);
+}
+
+std::size_t PortData::bytes() const {
+  return machine_.size() * (sizeof(QuadColumns) + sizeof(QuadData) + sizeof(TruthNumbers)) +
+         singular_.size() * sizeof(SingularPixel);
+}
+
+void PortData::truth(const SweepInput& input, const PositionData& positions, std::size_t first, std::size_t count,
+                     LaneReals* values, std::uint8_t* draws, std::uint8_t* measured) const {
+  const std::size_t columns = Columns{static_cast<std::size_t>(input.attributes)}.count();
+  auto special = std::lower_bound(singular_.begin(), singular_.end(), first,
+                                  [](const SingularPixel& p, std::size_t block) { return p.block < block; });
+  for (std::size_t n = 0; n < count; ++n, values += 1 + columns) {
+    const std::size_t block = first + n;
+    TruthWeights m = positions.truth[block];
+    std::uint8_t visible = positions.visible[block];
+    for (; special != singular_.end() && special->block == block; ++special) {
+      for (std::size_t i = 0; i < 4; ++i) m.m[i][special->lane] = special->m[i];
+      const auto bit = static_cast<std::uint8_t>(1u << special->lane);
+      visible = static_cast<std::uint8_t>(special->visible ? visible | bit : visible & ~bit);
+    }
+    const TruthNumbers& q = truth_[positions.quad[block]];
+    const LaneReals sum_w = weighted(m.m, q.w);
+    const std::array<double, 4>& factor = input.state.perspective ? q.k : q.w;
+    const LaneReals whole = input.state.perspective ? weighted(m.m, q.k) : sum_w;
+    values[0] = weighted(m.m, q.z) / sum_w;
+    for (std::size_t i = 0; i < 4; ++i) values[1 + i] = m.m[i] * factor[i] / whole;
+    for (std::size_t j = 4; j < columns; ++j) values[1 + j] = weighted(m.m, q.b[j]) / whole;
+    draws[n] = visible;
+    measured[n] = q.measured ? visible : 0;
+    if (!input.state.depth) continue;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      if (const double z = values[0][lane]; !(z >= input.state.znear && z <= input.state.zfar))
+        draws[n] = static_cast<std::uint8_t>(draws[n] & ~(1u << lane));
+  }
+}
+
+}  // namespace quadrille::sweep

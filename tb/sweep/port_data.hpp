@@ -1,0 +1,64 @@
+// What positions and significand_bits fix together: the numbers at the port, exact arithmetic on them, and what
+// snapping alone did.
+#pragma once
+
+#include "tb/error_stats.hpp"
+#include "tb/sweep/position_data.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace quadrille::sweep {
+
+/// Errors by Quantity.
+using QuantityStats = std::array<tb::ErrorStats, quantity_names.size()>;
+
+/// A quad's numbers at the port as exact arithmetic sees them (W is not cut to S bits).
+struct TruthNumbers {
+  std::array<double, 4> k{}, w{}, z{};
+  std::array<std::array<double, 4>, max_lane_columns> b{};
+  bool measured = true;
+};
+
+/// Truth of a block: window z, then the columns.
+inline constexpr std::size_t truth_per_block(const Columns& columns) { return 1 + columns.count(); }
+
+class PortData {
+ public:
+  PortData(const SweepInput& input, const GivenTruth& given, const PositionData& positions, const Config& config,
+           unsigned threads);
+
+  const QuadColumns* machine() const { return machine_.data(); }
+  const QuadData& quad_data(std::size_t quad) const { return data_[quad]; }
+  /// Truth on the snapped quads against truth on the given ones, at pixels that both draw.
+  const QuantityStats& snapping() const { return snapping_; }
+  std::size_t bytes() const;
+
+  /// Exact arithmetic at `count` blocks from `first`: truth_per_block() values each, and masks of the lanes that it
+  /// draws (visible, window z in the interval) and of those where errors are measured: visible, and not of a quad with
+  /// a vertex behind the eye drawn without perspective, whose weights may cancel without limit.
+  ///
+  /// Plain double is enough. M has one sign where the quad covers (Hormann & Tarini) and k > 0, so Σ M k does not
+  /// cancel and λ' carries a few 2^-53: 2^-24 of the smallest unit, 2^-29. Window z and what has no perspective may
+  /// have W of mixed signs in Σ M W and carry z_condition times that, as the machine's own results do with 2^-S.
+  void truth(const SweepInput& input, const PositionData& positions, std::size_t first, std::size_t count,
+             LaneReals* values, std::uint8_t* draws, std::uint8_t* measured) const;
+
+ private:
+  /// M at a singular pixel holds k.
+  struct SingularPixel {
+    std::size_t block, lane;
+    bool visible;
+    std::array<double, 4> m;
+  };
+
+  std::vector<QuadColumns> machine_;
+  std::vector<QuadData> data_;
+  std::vector<TruthNumbers> truth_;
+  std::vector<SingularPixel> singular_;  ///< by block
+  QuantityStats snapping_;
+};
+
+}  // namespace quadrille::sweep

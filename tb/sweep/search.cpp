@@ -1,0 +1,170 @@
+#include "tb/sweep/search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace quadrille::sweep {
+namespace {
+
+enum class Effect { none, larger_is_better, unordered };
+
+struct KeyEffect {
+  std::string_view key;
+  Effect effect;
+};
+
+/// Where the input lies decides which errors it meets, so keys that move snapped positions are unordered. Keys that
+/// only decide whether the input can be drawn are ordered: what a width refuses, a smaller one refuses.
+constexpr std::array key_effects{
+    KeyEffect{"viewport_bits", Effect::unordered},
+    KeyEffect{"guard_bits", Effect::unordered},
+    KeyEffect{"subpixel_bits", Effect::unordered},
+    KeyEffect{"homogeneous_frac_bits", Effect::unordered},
+    KeyEffect{"quadratic_frac_bits", Effect::larger_is_better},
+    KeyEffect{"significand_bits", Effect::larger_is_better},
+    KeyEffect{"notch_exact", Effect::unordered},  // the cure is other arithmetic: no better where nothing cancels
+    KeyEffect{"rsqrt_segments_log2", Effect::larger_is_better},
+    KeyEffect{"rsqrt_degree", Effect::larger_is_better},
+    KeyEffect{"recip_segments_log2", Effect::larger_is_better},
+    KeyEffect{"recip_degree", Effect::larger_is_better},
+    KeyEffect{"align_guard_bits", Effect::larger_is_better},
+    KeyEffect{"attribute_slots", Effect::none},
+    KeyEffect{"attribute_int_bits", Effect::larger_is_better},  // attributes that are refused or clamped
+    KeyEffect{"attribute_frac_bits", Effect::larger_is_better},
+    KeyEffect{"depth_bits", Effect::larger_is_better},
+    KeyEffect{"tile_log2", Effect::unordered},  // where inexact D and r² start; see abilities()
+    KeyEffect{"pixels_per_clock", Effect::none},
+    KeyEffect{"quad_slots_log2", Effect::none},
+    KeyEffect{"tile_slots_log2", Effect::none},
+    KeyEffect{"stamp_fifo_log2", Effect::none},
+    KeyEffect{"quad_id_bits", Effect::larger_is_better},  // ids that are refused
+};
+
+Effect effect_of(std::string_view key) {
+  Config().get(key);  // an unknown key: names the nearest
+  return std::ranges::find(key_effects, key, &KeyEffect::key)->effect;
+}
+
+/// What a machine can do, such that it is nowhere better than another if no element is larger. An unordered key has two
+/// elements, its value and the negative: only equal values are then nowhere better. All values fit: they are below 127.
+/// Whole 16-byte words, which compilers compare at once.
+struct alignas(16) Abilities {
+  std::array<std::int8_t, (2 * key_effects.size() + 15) / 16 * 16> of{};
+  friend auto operator<=>(const Abilities&, const Abilities&) = default;
+};
+
+Abilities abilities(const Config& config, std::span<const std::string_view> idle_keys) {
+  Abilities result;
+  for (std::size_t i = 0; i < key_effects.size(); ++i) {
+    const auto [key, effect] = key_effects[i];
+    if (effect == Effect::none || std::ranges::find(idle_keys, key) != idle_keys.end()) continue;
+    const auto value = static_cast<std::int8_t>(config.resolved(key));
+    result.of[2 * i] = value;
+    if (effect == Effect::unordered) result.of[2 * i + 1] = static_cast<std::int8_t>(-value);
+    // Exact D and r² do not depend on where they start: as good as every tile size.
+    if (key == "tile_log2" && config.qdrop() == 0) result.of[2 * i] = result.of[2 * i + 1] = 127;
+  }
+  return result;
+}
+
+bool nowhere_better(const Abilities& a, const Abilities& b) {
+  std::int8_t better = 0;
+  for (std::size_t i = 0; i < a.of.size(); ++i)  // without an early end, so that it is vectorised
+    better = static_cast<std::int8_t>(better | (a.of[i] > b.of[i] ? -1 : 0));
+  return better == 0;
+}
+
+/// A point that may still win.
+struct Candidate {
+  std::size_t point;
+  Abilities abilities;
+};
+
+/// By rising cost, of equal cost in the order given; of points with equal errors the first.
+std::vector<Candidate> all_candidates(std::span<const SearchPoint> points,
+                                      std::span<const std::string_view> idle_keys) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return points[i].cost; });
+  std::vector<Candidate> candidates;
+  std::set<Abilities> seen;
+  for (const std::size_t i : order) {
+    const Abilities can = abilities(points[i].config, idle_keys);
+    if (seen.insert(can).second) candidates.push_back({i, can});
+  }
+  return candidates;
+}
+
+/// The candidate that rules out most in the worse of its outcomes "met" and "clearly missed", of equal ones the
+/// cheapest. Of very many candidates an even sample stands for all.
+std::size_t most_telling(const std::vector<Candidate>& candidates) {
+  constexpr std::size_t most = 1024;
+  const std::size_t count = std::min(candidates.size(), most);
+  const auto sample = [&](std::size_t i) { return i * candidates.size() / count; };
+  std::size_t best = 0, best_ruled_out = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t if_met = count - i;
+    if (if_met <= best_ruled_out) break;  // and fewer from here on
+    std::size_t if_missed = 0;
+    for (std::size_t j = 0; j < count; ++j)
+      if_missed += nowhere_better(candidates[sample(j)].abilities, candidates[sample(i)].abilities);
+    if (std::min(if_met, if_missed) > best_ruled_out) {
+      best_ruled_out = std::min(if_met, if_missed);
+      best = sample(i);
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+bool affects_error(std::string_view key) { return effect_of(key) != Effect::none; }
+
+int error_direction(std::string_view key) { return effect_of(key) == Effect::larger_is_better ? 1 : 0; }
+
+std::vector<std::string_view> idle_keys(std::span<const Quantity> measured) {
+  const auto depths = static_cast<std::size_t>(std::ranges::count(measured, Quantity::depth));
+  std::vector<std::string_view> keys;
+  if (depths == 0) keys.emplace_back("depth_bits");
+  if (depths == measured.size()) keys.emplace_back("attribute_frac_bits");
+  return keys;
+}
+
+bool nowhere_better(const Config& a, const Config& b) { return nowhere_better(abilities(a, {}), abilities(b, {})); }
+
+SearchResult cheapest_meeting(std::span<const SearchPoint> points, const std::function<double(std::size_t)>& miss,
+                              double slack, std::span<const std::string_view> idle_keys) {
+  SearchResult result;
+  result.closest = std::numeric_limits<double>::infinity();
+  std::vector<Candidate> candidates = all_candidates(points, idle_keys);
+  while (!candidates.empty()) {
+    const std::size_t position = most_telling(candidates);
+    const Candidate tried = candidates[position];
+    const double ratio = miss(tried.point);
+    result.evaluated.push_back(tried.point);
+    if (ratio < result.closest) {
+      result.closest = ratio;
+      result.closest_point = tried.point;
+    }
+    if (ratio <= 1) {
+      result.winner = tried.point;  // cheaper than every winner before: those that cost more are gone
+      candidates.resize(position);
+    } else if (ratio <= slack) {
+      candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(position));
+    } else {
+      std::erase_if(candidates, [&](const Candidate& c) { return nowhere_better(c.abilities, tried.abilities); });
+    }
+  }
+  result.evaluations = result.evaluated.size();
+  return result;
+}
+
+}  // namespace quadrille::sweep

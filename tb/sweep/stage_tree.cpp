@@ -1,0 +1,270 @@
+#include "tb/sweep/stage_tree.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+
+// Vectors wider than some targets' registers stay inside functions here.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace quadrille::sweep {
+namespace {
+
+/// Blocks of a chunk: the results between the stages fit the second-level cache.
+constexpr std::size_t blocks_per_chunk = 64;
+
+template <class Node>
+Node* find(std::vector<Node>& nodes, const LevelKey& key) {
+  const auto found = std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return n.key == key; });
+  return found == nodes.end() ? nullptr : &*found;
+}
+
+auto order(const WorstPixel& p) { return std::tuple(p.index, p.y, p.x); }
+
+/// 8-bit code of a channel, to nearest; NaN gives 0.
+LaneIntegers colour_code(const LaneReals& v) {
+  const LaneReals low = v < 1 ? v : LaneReals{} + 1.0;
+  const LaneReals clamped = v > 0 ? low : LaneReals{};
+  using Codes = std::int32_t __attribute__((vector_size(4 * lanes)));
+  return __builtin_convertvector(__builtin_convertvector(clamped * 255.0 + 0.5, Codes), LaneIntegers);
+}
+
+LaneReals magnitude(const LaneReals& v) { return (LaneReals)((LaneIntegers)v & INT64_MAX); }
+
+}  // namespace
+
+void LeafTotals::merge(const LeafTotals& other) {
+  fragments += other.fragments;
+  drawn_as_given += other.drawn_as_given;
+  discard_differs += other.discard_differs;
+  colour_codes += other.colour_codes;
+  saturated += other.saturated;
+  for (std::size_t q = 0; q < arithmetic.size(); ++q) arithmetic[q].merge(other.arithmetic[q]);
+  const WorstPixel& w = other.worst;
+  if (w.any && (!worst.any || w.error > worst.error || (w.error == worst.error && order(w) < order(worst)))) worst = w;
+}
+
+std::shared_ptr<const LaneTable> TableCache::rsqrt(const Config& config) {
+  const LevelKey key{config.significand_bits, config.rsqrt_segments(), config.rsqrt_degree};
+  if (const auto* found = find(rsqrt_, key)) return found->value;
+  return rsqrt_.emplace_back(key, std::make_shared<LaneTable>(make_rsqrt_table(config))).value;
+}
+
+std::shared_ptr<const LaneTable> TableCache::recip(const Config& config) {
+  const LevelKey key{config.significand_bits, config.recip_segments(), config.recip_degree};
+  if (const auto* found = find(recip_, key)) return found->value;
+  return recip_.emplace_back(key, std::make_shared<LaneTable>(make_recip_table(config))).value;
+}
+
+std::shared_ptr<const PipelineContext> TableCache::context(const Config& config, const DrawState& state) {
+  const LevelKey key{config.significand_bits, config.rsqrt_segments(), config.rsqrt_degree};
+  if (const auto* found = find(context_, key)) return found->value;
+  return context_.emplace_back(key, std::make_shared<PipelineContext>(config, state)).value;
+}
+
+struct StageTree::Scratch {
+  std::vector<LeafTotals> totals;
+  std::vector<NormalisedLanes> normalised{blocks_per_chunk};
+  std::vector<RsqrtLanes> rho{blocks_per_chunk};
+  std::vector<RatioLanes> ratios{blocks_per_chunk};
+  std::vector<WeightLanes> weights{blocks_per_chunk};
+  std::vector<LaneColumn> sums;
+  std::vector<ReciprocalLanes> reciprocals{blocks_per_chunk};
+  std::vector<LaneColumn> values;
+  std::vector<LaneMasks> masks{blocks_per_chunk};
+  // Truth.
+  std::vector<LaneReals> truth;
+  std::vector<LaneIntegers> truth_codes{3 * blocks_per_chunk};
+  std::vector<std::uint8_t> draws, measured;
+
+  Scratch(std::size_t leaves, const Columns& columns)
+      : totals(leaves),
+        sums(blocks_per_chunk * sums_per_block(columns.count())),
+        values(blocks_per_chunk * (1 + columns.count())),
+        truth(blocks_per_chunk * truth_per_block(columns)),
+        draws(blocks_per_chunk),
+        measured(blocks_per_chunk) {}
+};
+
+StageTree::StageTree(const SweepInput& input, std::shared_ptr<const PositionData> positions,
+                     std::shared_ptr<const DifferenceData> differences)
+    : input_(input),
+      columns_{static_cast<std::size_t>(input.attributes)},
+      positions_(std::move(positions)),
+      differences_(std::move(differences)) {}
+
+void StageTree::add(std::size_t point, const Config& config, TableCache& tables,
+                    const std::function<std::shared_ptr<const PortData>()>& port) {
+  const auto key = [&](Level level) { return level_key(config, level); };
+  NormaliseNode* normalise = find(roots_, key(Level::normalise));
+  if (!normalise) normalise = &roots_.emplace_back(key(Level::normalise), port());
+  RsqrtNode* rsqrt = find(normalise->rsqrts, key(Level::rsqrt));
+  if (!rsqrt)
+    rsqrt =
+        &normalise->rsqrts.emplace_back(key(Level::rsqrt), tables.rsqrt(config), tables.context(config, input_.state));
+  RatioNode* ratio = find(rsqrt->ratios, key(Level::ratios));
+  if (!ratio) ratio = &rsqrt->ratios.emplace_back(key(Level::ratios));
+  WeightNode* weight = find(ratio->weights, key(Level::weights));
+  if (!weight) weight = &ratio->weights.emplace_back(key(Level::weights));
+  ReciprocalNode* reciprocal = find(weight->reciprocals, key(Level::reciprocal));
+  if (!reciprocal) reciprocal = &weight->reciprocals.emplace_back(key(Level::reciprocal), tables.recip(config));
+  OutputNode* output = find(reciprocal->outputs, key(Level::output));
+  if (!output) {
+    const DrawState& state = input_.state;
+    const LaneOutputFormat format{
+        config.attribute_int_bits,       config.attribute_frac(),       config.depth_bits, state.depth,
+        depth_code(state.znear, config), depth_code(state.zfar, config)};
+    output = &reciprocal->outputs.emplace_back(key(Level::output), format, leaves_++);
+  }
+  output->points.push_back(point);
+}
+
+std::size_t StageTree::chunks() const { return (positions_->blocks() + blocks_per_chunk - 1) / blocks_per_chunk; }
+
+StageTree::ScratchPointer StageTree::make_scratch() const { return ScratchPointer(new Scratch(leaves_, columns_)); }
+
+void StageTree::ScratchDeleter::operator()(Scratch* scratch) const { delete scratch; }
+
+const LeafTotals& StageTree::totals(const Scratch& scratch, std::size_t leaf) { return scratch.totals[leaf]; }
+
+void StageTree::walk(std::size_t chunk, Scratch& t, std::span<float> map) const {
+  const std::size_t first = chunk * blocks_per_chunk;
+  const std::size_t count = std::min(blocks_per_chunk, positions_->blocks() - first);
+  const std::span differences(differences_->blocks.data() + first, count);
+  const std::uint32_t* quad = positions_->quad.data() + first;
+  const std::size_t columns = columns_.count();
+
+  for (const NormaliseNode& normalise : roots_) {
+    const int s = normalise.key[0];
+    const QuadColumns* numbers = normalise.port->machine();
+    normalise.port->truth(input_, *positions_, first, count, t.truth.data(), t.draws.data(), t.measured.data());
+    for (std::size_t n = 0; n < count; ++n)
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        t.truth_codes[3 * n + channel] =
+            colour_code(t.truth[n * truth_per_block(columns_) + 1 + columns_.first_colour() + channel]);
+    normalise_blocks(differences, s, differences_->quadratic_bias, t.normalised.data());
+    for (const RsqrtNode& rsqrt : normalise.rsqrts) {
+      rsqrt_blocks({t.normalised.data(), count}, s, *rsqrt.table, t.rho.data());
+      for (const RatioNode& ratio : rsqrt.ratios) {
+        const int g = ratio.key[0];
+        ratio_blocks(differences, t.normalised.data(), t.rho.data(), s, g, t.ratios.data());
+        for (const WeightNode& weight : ratio.weights) {
+          weight_blocks(differences, t.ratios.data(), t.rho.data(), s, g, weight.key[0] != 0, t.weights.data());
+          singular_pixels(normalise, rsqrt, ratio, first, count, t);
+          interpolate_blocks({t.weights.data(), count}, quad, numbers, columns, input_.state.depth, s, g,
+                             t.sums.data());
+          for (const ReciprocalNode& reciprocal : weight.reciprocals) {
+            reciprocal_blocks(count, t.sums.data(), columns, s, *reciprocal.table, t.reciprocals.data());
+            for (const OutputNode& node : reciprocal.outputs) {
+              output_blocks(count, t.sums.data(), t.reciprocals.data(), quad, numbers, columns, node.format,
+                            t.values.data(), t.masks.data());
+              compare(t.totals[node.leaf], first, count, t, map);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+void StageTree::singular_pixels(const NormaliseNode& normalise, const RsqrtNode& rsqrt, const RatioNode& ratio,
+                                std::size_t first, std::size_t count, Scratch& t) const {
+  std::unique_ptr<PipelineContext> context;
+  for (std::size_t n = 0; n < count; ++n)
+    for (unsigned rest = differences_->singular[first + n]; rest != 0; rest &= rest - 1) {
+      if (!context) {
+        context = std::make_unique<PipelineContext>(*rsqrt.context);
+        context->format.g = ratio.key[0];
+      }
+      singular_weights(differences_->blocks[first + n], static_cast<std::size_t>(std::countr_zero(rest)),
+                       normalise.port->quad_data(positions_->quad[first + n]), *context, t.weights[n]);
+    }
+}
+
+void StageTree::compare(LeafTotals& leaf, std::size_t first, std::size_t count, const Scratch& t,
+                        std::span<float> map) const {
+  const std::size_t columns = columns_.count();
+  const auto stats = [&](Quantity q) -> tb::ErrorStats& { return leaf.arithmetic[static_cast<std::size_t>(q)]; };
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t block = first + n;
+    const unsigned used = (1u << positions_->count[block]) - 1;
+    const unsigned drawn = t.masks[n].drawn & used;
+    const unsigned measured = drawn & t.measured[n];
+    leaf.fragments += static_cast<unsigned>(std::popcount(drawn));
+    leaf.drawn_as_given += static_cast<unsigned>(std::popcount(drawn & positions_->given[block]));
+    leaf.discard_differs += static_cast<unsigned>(std::popcount((drawn ^ t.draws[n]) & used));
+    leaf.saturated += static_cast<unsigned>(std::popcount(drawn & t.masks[n].saturated));
+
+    const LaneColumn* value = t.values.data() + n * (1 + columns);
+    const LaneReals* truth = t.truth.data() + n * truth_per_block(columns_);
+    const auto add = [&](tb::ErrorStats& to, const LaneReals& error) {
+      for (unsigned rest = measured; rest != 0; rest &= rest - 1)
+        to.add(error[static_cast<std::size_t>(std::countr_zero(rest))]);
+    };
+    if (input_.state.depth) add(stats(Quantity::depth), value[0].v - truth[0]);
+    LaneReals largest{};
+    for (std::size_t j = 0; j < Columns::first_attribute; ++j) {
+      const LaneReals error = magnitude(value[1 + j].v - truth[1 + j]);
+      largest = error > largest ? error : largest;
+      add(stats(Quantity::lambda), error);
+    }
+    for (std::size_t j = Columns::first_attribute; j < columns_.first_colour(); ++j)
+      add(stats(Quantity::attribute), value[1 + j].v - truth[1 + j]);
+    LaneIntegers codes{};  // −1 per channel that differs
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const std::size_t j = columns_.first_colour() + channel;
+      add(stats(Quantity::colour), value[1 + j].v - truth[1 + j]);
+      codes += colour_code(value[1 + j].v) != t.truth_codes[3 * n + channel];
+    }
+    for (unsigned rest = measured; rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+      leaf.colour_codes += static_cast<std::uint64_t>(-codes[lane]);
+      // A thread's chunks rise, so of equal errors the first stays.
+      if (leaf.worst.any && !(largest[lane] > leaf.worst.error)) continue;
+      const std::uint32_t pixel = positions_->pixel[block][lane];
+      leaf.worst = {true, positions_->quad[block], pixel_x(pixel), pixel_y(pixel), largest[lane]};
+    }
+    for (std::size_t lane = 0; !map.empty() && lane < lanes; ++lane)
+      map[block * lanes + lane] = (drawn >> lane & 1) == 0      ? -1.0f
+                                  : (measured >> lane & 1) == 0 ? 0.0f
+                                                                : static_cast<float>(largest[lane]);
+  }
+}
+
+StageCounters StageTree::executed() const {
+  StageCounters out;
+  const auto count = [&](Stage stage) {
+    ++out.settings[static_cast<std::size_t>(stage)];
+    out.fragments[static_cast<std::size_t>(stage)] += positions_->fragments;
+  };
+  for (const NormaliseNode& normalise : roots_) {
+    count(Stage::normalise);
+    for (const RsqrtNode& rsqrt : normalise.rsqrts) {
+      count(Stage::rsqrt);
+      for (const RatioNode& ratio : rsqrt.ratios) {
+        count(Stage::ratios);
+        for (const WeightNode& weight : ratio.weights) {
+          count(Stage::weights);
+          count(Stage::interpolate);
+          for (const ReciprocalNode& reciprocal : weight.reciprocals) {
+            count(Stage::reciprocal);
+            for (std::size_t n = 0; n < reciprocal.outputs.size(); ++n) count(Stage::output);
+          }
+        }
+      }
+    }
+  }
+  return out;
+}
+
+void StageTree::for_each_leaf(const std::function<void(const OutputNode&, const PortData&)>& f) const {
+  for (const NormaliseNode& normalise : roots_)
+    for (const RsqrtNode& rsqrt : normalise.rsqrts)
+      for (const RatioNode& ratio : rsqrt.ratios)
+        for (const WeightNode& weight : ratio.weights)
+          for (const ReciprocalNode& reciprocal : weight.reciprocals)
+            for (const OutputNode& output : reciprocal.outputs) f(output, *normalise.port);
+}
+
+}  // namespace quadrille::sweep

@@ -1,0 +1,121 @@
+// A batch of configurations as a tree of stages, and its walk: each node executes its stage once per chunk of the
+// input, whatever hangs below it.
+#pragma once
+
+#include "tb/sweep/port_data.hpp"
+#include "tb/sweep/stage_keys.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace quadrille::sweep {
+
+/// What a leaf adds up over chunks; merging does not depend on the order.
+struct LeafTotals {
+  std::uint64_t fragments = 0, drawn_as_given = 0, discard_differs = 0, colour_codes = 0, saturated = 0;
+  QuantityStats arithmetic;
+  WorstPixel worst;
+
+  void merge(const LeafTotals& other);
+};
+
+struct OutputNode {
+  LevelKey key;
+  LaneOutputFormat format;
+  std::size_t leaf;                 ///< number in the tree
+  std::vector<std::size_t> points;  ///< that end here
+};
+struct ReciprocalNode {
+  LevelKey key;
+  std::shared_ptr<const LaneTable> table;
+  std::vector<OutputNode> outputs;
+};
+struct WeightNode {
+  LevelKey key;
+  std::vector<ReciprocalNode> reciprocals;
+};
+struct RatioNode {
+  LevelKey key;
+  std::vector<WeightNode> weights;
+};
+struct RsqrtNode {
+  LevelKey key;
+  std::shared_ptr<const LaneTable> table;
+  std::shared_ptr<const PipelineContext> context;  ///< with these bits and table; for singular pixels
+  std::vector<RatioNode> ratios;
+};
+struct NormaliseNode {
+  LevelKey key;
+  std::shared_ptr<const PortData> port;
+  std::vector<RsqrtNode> rsqrts;
+};
+
+/// Tables that a tree needs, kept for the next one.
+class TableCache {
+ public:
+  /// Throw ConfigError when a coefficient does not fit.
+  std::shared_ptr<const LaneTable> rsqrt(const Config& config);
+  std::shared_ptr<const LaneTable> recip(const Config& config);
+  std::shared_ptr<const PipelineContext> context(const Config& config, const DrawState& state);
+
+ private:
+  template <class T>
+  struct Entry {
+    LevelKey key;
+    std::shared_ptr<const T> value;
+  };
+  std::vector<Entry<LaneTable>> rsqrt_, recip_;
+  std::vector<Entry<PipelineContext>> context_;
+};
+
+/// The tree of points that share a DifferenceData.
+class StageTree {
+ public:
+  StageTree(const SweepInput& input, std::shared_ptr<const PositionData> positions,
+            std::shared_ptr<const DifferenceData> differences);
+
+  /// Adds a point; `port` is called when its `normalise` setting is new.
+  void add(std::size_t point, const Config& config, TableCache& tables,
+           const std::function<std::shared_ptr<const PortData>()>& port);
+
+  std::size_t leaves() const { return leaves_; }
+  std::size_t chunks() const;
+
+  /// Buffers of one thread, and what it has added up.
+  struct Scratch;
+  struct ScratchDeleter {
+    void operator()(Scratch* scratch) const;
+  };
+  using ScratchPointer = std::unique_ptr<Scratch, ScratchDeleter>;
+  ScratchPointer make_scratch() const;
+  /// Runs every node over one chunk. `map` (may be empty) gets the |Δλ'| of each lane of the input, −1 where the
+  /// machine draws nothing; for a tree of one leaf.
+  void walk(std::size_t chunk, Scratch& scratch, std::span<float> map = {}) const;
+  static const LeafTotals& totals(const Scratch& scratch, std::size_t leaf);
+
+  /// What a walk over all chunks executed, from normalise on.
+  StageCounters executed() const;
+  /// Calls f(leaf node, its PortData) for every leaf.
+  void for_each_leaf(const std::function<void(const OutputNode&, const PortData&)>& f) const;
+
+ private:
+  /// Replaces the weights of the singular lanes of a chunk.
+  void singular_pixels(const NormaliseNode& normalise, const RsqrtNode& rsqrt, const RatioNode& ratio,
+                       std::size_t first, std::size_t count, Scratch& scratch) const;
+  /// A leaf's output at a chunk against the truth.
+  void compare(LeafTotals& leaf, std::size_t first, std::size_t count, const Scratch& scratch,
+               std::span<float> map) const;
+
+  const SweepInput& input_;
+  Columns columns_;
+  std::shared_ptr<const PositionData> positions_;
+  std::shared_ptr<const DifferenceData> differences_;
+  std::vector<NormaliseNode> roots_;
+  std::size_t leaves_ = 0;
+};
+
+}  // namespace quadrille::sweep
