@@ -502,12 +502,12 @@ class SweepRun {
       return exit_mismatch;
     }
     if (target_ && !options_.no_confirm && !target_->confirmed) {
-      std::fprintf(
-          stderr,
-          "quadrille: no point of the grid meets the target on all stress families; the closest, row %zu (%s), "
-          "has %.3g times it\n",
-          target_->confirm_closest_row, varied(row_of(target_->confirm_closest_row).config).c_str(),
-          target_->confirm_closest);
+      std::fprintf(stderr,
+                   "quadrille: no point of the grid meets the target on the input and on all stress families; the "
+                   "closest of those "
+                   "that meet it on the input, row %zu (%s), has %.3g times it\n",
+                   target_->confirm_closest_row, varied(row_of(target_->confirm_closest_row).config).c_str(),
+                   target_->confirm_closest);
       return exit_mismatch;
     }
     return exit_ok;

@@ -140,11 +140,16 @@ class Search {
     return missed_[point] = target_miss(search_.evaluate(point), search_.targets);
   }
 
-  /// Over the input and the families that have refuted a winner. A family that does not have a quantity says nothing.
+  /// Over the input and the families that have refuted a winner; no more than is needed to know that it is above 1. A
+  /// family that does not have a quantity says nothing.
   double miss(std::size_t point) {
     double worst = input_miss(point);
-    for (const std::size_t family : refuting_)
-      if (!(worst > 1)) worst = std::max(worst, std::max(0.0, family_miss(family, point)));
+    if (!(worst <= 1)) return worst;
+    for (const std::size_t family : refuting_) worst = std::max(worst, std::max(0.0, family_miss(family, point)));
+    if (!refuting_.empty() && worst < closest_) {
+      closest_ = worst;
+      closest_point_ = point;
+    }
     return worst;
   }
 
@@ -206,8 +211,8 @@ class Search {
       refuting_.push_back(static_cast<std::size_t>(worst - checks.begin()));
       const sweep::SearchResult next = find();
       if (!next.winner) {
-        result.confirm_closest = next.closest;
-        result.confirm_closest_row = search_.rows[next.closest_point];
+        result.confirm_closest = closest_;
+        result.confirm_closest_row = search_.rows[closest_point_];
         break;
       }
       candidate = *next.winner;
@@ -223,6 +228,8 @@ class Search {
   std::vector<std::unique_ptr<sweep::Evaluator>> evaluators_;
   std::map<std::pair<std::size_t, std::size_t>, sweep::PointResult> family_results_;
   std::vector<std::size_t> refuting_;
+  double closest_ = std::numeric_limits<double>::infinity();  ///< over input and refuting families
+  std::size_t closest_point_ = 0;
 };
 
 nlohmann::ordered_json row_or_null(const std::optional<std::size_t>& row) {
