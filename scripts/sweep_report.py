@@ -166,7 +166,7 @@ class Sweep:
         if not os.path.isdir(directory):
             raise InputError(f"{directory}: not a directory; give the one that `quadrille sweep` wrote")
         path = lambda name: os.path.join(directory, name)
-        if os.path.exists(path("journal.jsonl")):
+        if os.path.exists(path("journal.jsonl")) and not os.path.exists(path("manifest.json")):
             raise InputError(f"{path('journal.jsonl')}: the sweep is unfinished; run its command again, it goes on where it was interrupted")
         self.manifest = manifest = read_json(path("manifest.json"), what, ("config", "seed", "command", "axes", "kind", "points"))
         self._read_manifest(path("manifest.json"))
@@ -174,6 +174,9 @@ class Sweep:
         for name in ("front", "knees"):
             if any(row not in self.index for row in manifest.get(name) or []):
                 raise InputError(f"{path('manifest.json')}: {name} names a row that points.csv does not have; both must come from one sweep")
+        if not any(name.startswith(("arithmetic_", "snapping_")) and any(math.isfinite(v) for v in column) for name, column in self.value.items()):
+            raise InputError(f"{path('points.csv')}: no error was measured on this input, so there is nothing to draw "
+                             "(without perspective, quads with a vertex behind the eye are left out)")
         self._read_map(path("error_map.npy"), what)
         self.synth = self.cosim = None
         if os.path.exists(path("synth.csv")):
@@ -424,7 +427,8 @@ def seconds_label(value, _position=None):
 
 
 def log_ticks(low, high):
-    """Round numbers for a logarithmic axis, at most ten."""
+    """Round numbers for a logarithmic axis, at most ten, none so near another that their labels touch."""
+    near = (math.log(high) - math.log(low)) / 14
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     fine = [round(1 + n / 20, 2) for n in range(180)]
     for steps in (fine, fine[::2], fine[::4], fine[::10], (1, 1.5, 2, 3, 4, 5, 6, 8), (1, 2, 3, 5), (1, 3), (1,)):
@@ -432,7 +436,11 @@ def log_ticks(low, high):
         ticks = [tick for tick in ticks if low <= tick <= high]
         if len(ticks) <= 10:
             break
-    return ticks
+    kept = []
+    for tick in sorted(ticks, key=lambda tick: (-round(math.log10(tick), 9).is_integer(), tick)):  # powers of ten stay
+        if all(abs(math.log(tick / other)) >= near for other in kept):
+            kept.append(tick)
+    return sorted(kept)
 
 
 def draw(axes, panel, x_label=cost_label):

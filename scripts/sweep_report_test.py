@@ -524,7 +524,8 @@ class BadInputTest(Case):
 
     def test_unfinished(self):
         self.sweep()
-        open(self.path("sweep", "journal.jsonl"), "w").close()
+        open(self.path("sweep", "journal.jsonl"), "w").close()  # a finished sweep keeps its journal
+        os.remove(self.path("sweep", "manifest.json"))
         self.refuse("journal.jsonl", "unfinished")
 
     def test_damaged(self):

@@ -87,7 +87,7 @@ std::pair<int, int> CommonOptions::viewport(const Config& config) const {
   const int limit = 1 << config.viewport_bits;
   if (width < 1 || height < 1 || width > limit || height > limit)
     throw UsageError("--size " + size + ": width and height must be from 1 to " + std::to_string(limit) +
-                     " (viewport_bits = " + std::to_string(config.viewport_bits) + ")");
+                     " (viewport_bits = " + std::to_string(config.viewport_bits) + "; --set viewport_bits=N for more)");
   return {width, height};
 }
 

@@ -6,12 +6,15 @@
 #include "golden/io/error.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/npy.hpp"
+#include "model/snap.hpp"
 #include "tb/commands/errors.hpp"
 #include "tb/commands/input.hpp"
 #include "tb/commands/output.hpp"
 #include "tb/commands/progress.hpp"
 #include "tb/commands/sweep_cosim.hpp"
 #include "tb/commands/sweep_target.hpp"
+#include "tb/render/engine.hpp"
+#include "tb/render/parallel.hpp"
 #include "tb/sweep/evaluator.hpp"
 #include "tb/sweep/grid.hpp"
 #include "tb/sweep/pareto.hpp"
@@ -21,11 +24,15 @@
 #include "tb/sweep/synthesis.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 
 namespace quadrille::cli {
 namespace {
@@ -77,13 +84,8 @@ class SweepRun {
     prepare();
     sweep::Store store(options_.out, identity(),
                        options_.fresh ? sweep::Store::Existing::discard : sweep::Store::Existing::resume);
-    if (store.complete()) {
-      if (std::FILE* text = options_.common.text())
-        std::fprintf(text, "%s holds this sweep already, complete; --fresh does it again\n", options_.out.c_str());
-      return exit_ok;
-    }
     if (std::FILE* text = options_.common.text(); text && !store.results().empty())
-      std::fprintf(text, "going on: %zu points are finished\n", store.results().size());
+      std::fprintf(text, "%s holds %zu of the points already\n", options_.out.c_str(), store.results().size());
 
     sweep::Evaluator::Settings settings;
     settings.threads = options_.common.thread_count();
@@ -97,6 +99,7 @@ class SweepRun {
 
     make_rows(store);
     find_front();
+    write_points(store);  // now: what follows may take long
     simulate_and_synthesise(store);
     write(evaluator, store);
     if (std::FILE* text = options_.common.text()) print(text, evaluation_seconds, seconds_since(start));
@@ -198,22 +201,12 @@ class SweepRun {
 
   // ---- evaluation ----
 
-  /// A configuration of the grid, or why it cannot draw this input.
-  sweep::GridPoint grid_point(std::size_t row) const {
-    sweep::GridPoint point = grid_.point(row);
-    const int limit = 1 << point.config.viewport_bits;
-    if (point.refused.empty() && (input_.state.width > limit || input_.state.height > limit))
-      point.refused = "the viewport " + options_.common.size + " exceeds " + std::to_string(limit) +
-                      " pixels (viewport_bits = " + std::to_string(point.config.viewport_bits) + ")";
-    return point;
-  }
-
   void evaluate_grid(sweep::Evaluator& evaluator, sweep::Store& store) {
     std::vector<Config> configs;
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < grid_.size(); ++row) {
       if (store.results().contains(row)) continue;
-      const sweep::GridPoint point = grid_point(row);
+      const sweep::GridPoint point = grid_.point(row);
       if (!point.refused.empty()) {
         refused_[row] = point.refused;
         continue;
@@ -234,7 +227,7 @@ class SweepRun {
   void search(sweep::Evaluator& evaluator, sweep::Store& store) {
     TargetSearch search;
     for (std::size_t row = 0; row < grid_.size(); ++row) {
-      const sweep::GridPoint point = grid_point(row);
+      const sweep::GridPoint point = grid_.point(row);
       if (!point.refused.empty()) {
         refused_[row] = point.refused;
         continue;
@@ -285,12 +278,33 @@ class SweepRun {
       } else {
         continue;  // the search did not need it
       }
-      if (point.result.refused.empty()) {
-        sweep::complete_row(point, weights_);
-        if (point.result.worst.any) point.worst = worst_command(point.config, point.result.worst);
-      }
       rows_.push_back(std::move(point));
     }
+    Progress progress("costs and bounds", rows_.size(), options_.common.show_progress());
+    ordered_parallel(
+        rows_.size(), options_.common.thread_count(),
+        [&](std::size_t i) {
+          sweep::PointRow& point = rows_[i];
+          if (!point.result.refused.empty()) return 0;
+          sweep::complete_row(point, weights_, is_ordinary_input(point.config), input_.state.perspective);
+          if (point.result.worst.any) point.worst = worst_command(point.config, point.result.worst);
+          return 0;
+        },
+        [&](std::size_t i, int) { progress.set(i + 1); });
+  }
+
+  /// Every snapped vertex has W = 1. Depends on the keys that place a vertex.
+  bool is_ordinary_input(const Config& config) {
+    const std::array key{config.viewport_bits, config.guard_bits, config.subpixel_bits, config.homogeneous_frac_bits};
+    const std::lock_guard lock(ordinary_mutex_);
+    const auto [found, unknown] = ordinary_.try_emplace(key, true);
+    if (unknown) {
+      DrawState state = input_.state;
+      state.attributes = 0;
+      found->second = std::ranges::all_of(
+          input_.quads, [&](const WindowQuad& quad) { return is_ordinary(snap_as(quad, 0, config, state), config); });
+    }
+    return found->second;
   }
 
   void find_front() {
@@ -380,9 +394,12 @@ class SweepRun {
     return json;
   }
 
-  void write(sweep::Evaluator& evaluator, sweep::Store& store) {
+  void write_points(const sweep::Store& store) const {
+    golden::write_file(store.file("points.csv"), sweep::point_table(rows_), golden::AtomicFile::Dash::refused);
+  }
+
+  void write(sweep::Evaluator& evaluator, const sweep::Store& store) {
     constexpr auto refused = golden::AtomicFile::Dash::refused;
-    golden::write_file(store.file("points.csv"), sweep::point_table(rows_), refused);
     std::string text = "row,luts,flip_flops,dsps,longest_path,cost\n";
     for (const sweep::SynthesisRow& r : synthesis_)
       text += std::to_string(r.row) + "," + std::to_string(r.luts) + "," + std::to_string(r.flip_flops) + "," +
@@ -403,7 +420,6 @@ class SweepRun {
     golden::save_npy(store.file("error_map.npy"), map, input_.state.width, input_.state.height);
     const Json json = manifest(store, sweep::base_row(grid_));
     golden::save_json(store.file("manifest.json"), json);
-    store.finish();
     if (!options_.common.json.empty()) golden::save_json(options_.common.json, json);
   }
 
@@ -451,11 +467,16 @@ class SweepRun {
                      varied(row_of(row.row).config).c_str(),
                      row.fragments == 0 ? "no fragments" : row.first_difference.c_str());
     if (!cosim_.empty())
-      std::fprintf(out, "\nco-simulated %zu points (corners, default, knees or as selected): %s\n", cosim_.size(),
+      std::fprintf(out, "\nco-simulated %zu points (%s): %s\n", cosim_.size(),
+                   options_.cosim.empty() ? "default, knees and corners" : options_.cosim.c_str(),
                    cosim_ok() ? "no difference" : "DIFFERENCES");
-    if (!synthesis_.empty())
-      std::fprintf(out, "synthesised %zu points; rank correlation of estimated cost and LUTs %.3f\n", synthesis_.size(),
-                   correlation_);
+    if (!synthesis_.empty()) {
+      std::fprintf(out, "synthesised %zu points; rank correlation of estimated cost and LUTs ", synthesis_.size());
+      if (std::isnan(correlation_))
+        std::fprintf(out, "needs two different ones\n");
+      else
+        std::fprintf(out, "%.3f\n", correlation_);
+    }
     if (target_) print_target(out);
     std::fprintf(out, "\n%s/points.csv, manifest.json; scripts/sweep_report.py %s draws them\n", options_.out.c_str(),
                  options_.out.c_str());
@@ -480,8 +501,8 @@ class SweepRun {
         t.families.begin(), t.families.end(),
         [](const FamilyCheck& a, const FamilyCheck& b) { return std::fmax(a.miss, 0) < std::fmax(b.miss, 0); });
     if (worst != t.families.end())
-      std::fprintf(out, "  worst input: family %s, %.0f %% of the target\n    %s\n", worst->family.c_str(),
-                   100 * worst->miss, worst->worst.c_str());
+      std::fprintf(out, "  worst input: family %s, %.0f %% of the target; its worst weight:\n    %s\n",
+                   worst->family.c_str(), 100 * worst->miss, worst->worst.c_str());
   }
 
   int status() const {
@@ -492,6 +513,13 @@ class SweepRun {
                    refused != rows_.end()
                        ? ("; row " + std::to_string(refused->row) + ": " + refused->result.refused).c_str()
                        : "");
+      return exit_usage;
+    }
+    if (std::ranges::all_of(rows_, [&](const sweep::PointRow& r) { return std::isnan(objective_.value(r.result)); })) {
+      std::fprintf(stderr,
+                   "quadrille: %s was not measured on this input (without perspective, quads with a vertex behind the "
+                   "eye are left out)\n",
+                   objective_.name().c_str());
       return exit_usage;
     }
     if (!cosim_ok()) return exit_mismatch;
@@ -530,6 +558,8 @@ class SweepRun {
   std::vector<sweep::SynthesisRow> synthesis_;
   double correlation_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<TargetResult> target_;
+  std::mutex ordinary_mutex_;
+  std::map<std::array<int, 4>, bool> ordinary_;
 };
 
 }  // namespace
@@ -540,7 +570,8 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       "Every configuration key is an axis (`quadrille config` lists them); nothing is recompiled between points. "
       "Without\n"
       "--axis: each of the usual keys one at a time around the configuration; without an input: --scene sphere.\n"
-      "Interrupted, the same command goes on where it stopped. tb/sweep/README.md describes the files.\n"
+      "The same command goes on where a sweep was interrupted, and takes over the results of a finished one.\n"
+      "A co-simulated point builds a simulator the first time (about 20 s), a synthesised one needs minutes.\n"
       "Selections: all, none, pareto, corners, default, knees, row numbers (3,7,10-12), or several with commas.\n"
       "Exit status 1: a co-simulation differs, or no point meets the target.\n\n"
       "Examples:\n"

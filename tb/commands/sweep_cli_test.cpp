@@ -77,7 +77,6 @@ TEST_F(SweepCli, FullGridInOrder) {
   EXPECT_EQ(m.at("counters").at("normalise").at("settings"), 3);
   EXPECT_EQ(m.at("counters").at("ratios").at("settings"), 6);
   EXPECT_EQ(m.at("error_map_row"), 5);
-  EXPECT_FALSE(fs::exists(file("a") / "journal.jsonl"));
   // 128 bytes of header, 48 x 48 floats.
   EXPECT_EQ(fs::file_size(file("a") / "error_map.npy"), 128u + 48 * 48 * 4);
 }
@@ -105,11 +104,14 @@ TEST_F(SweepCli, GoesOnAfterBeingKilled) {
   ASSERT_TRUE(fs::exists(file("cut") / "journal.jsonl")) << "it ended before it could be killed";
   const Outcome outcome = run(sweep + " --out cut");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("going on"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("of the points already"), std::string::npos) << outcome.out;
   EXPECT_EQ(read(file("cut") / "points.csv"), read(file("whole") / "points.csv"));
-  const Outcome again = run(sweep + " --out cut");
-  EXPECT_EQ(again.status, 0);
-  EXPECT_NE(again.out.find("complete"), std::string::npos) << again.out;
+  // Once more, with the table damaged: written again, nothing evaluated.
+  const json counters = manifest("cut").at("counters");
+  write("cut/points.csv", "half a table");
+  EXPECT_EQ(run(sweep + " --out cut").status, 0);
+  EXPECT_EQ(read(file("cut") / "points.csv"), read(file("whole") / "points.csv"));
+  EXPECT_EQ(manifest("cut").at("counters"), counters);
 }
 
 TEST_F(SweepCli, RefusedPointsAreRows) {
@@ -179,6 +181,66 @@ TEST_F(SweepCli, TargetsAreSearched) {
   EXPECT_EQ(unreachable.status, 1);
   EXPECT_NE(unreachable.err.find("no point of the grid meets the target; the closest, row"), std::string::npos)
       << unreachable.err;
+}
+
+TEST_F(SweepCli, AFinishedSweepCanBeAskedForMore) {
+  const std::string sweep = "sweep" + std::string(small) + "--axis significand_bits=10:18:4 --out m ";
+  ASSERT_EQ(run(sweep).status, 0);
+  const json before = manifest("m");
+  write("w.toml", "[cost]\nmultiplier = 1000\n");
+  ASSERT_EQ(run(sweep + "--objective colour --config w.toml --json j.json").status, 0);
+  const json after = manifest("m");
+  EXPECT_EQ(after.at("objective"), "arithmetic_colour_max");
+  EXPECT_EQ(after.at("cost_weights").at("multiplier"), 1000);
+  EXPECT_EQ(after.at("counters"), before.at("counters"));
+  EXPECT_EQ(json::parse(read(file("j.json"))), after);
+  // A failure fails again.
+  const std::string missed =
+      "sweep --target-error lambda=2^-40 --no-confirm" + std::string(small) + "--axis significand_bits=10,12 --out f";
+  EXPECT_EQ(run(missed).status, 1);
+  EXPECT_EQ(run(missed).status, 1);
+}
+
+TEST_F(SweepCli, SampledErrorsAreBelowProvedBounds) {
+  for (const char* family : {"general", "perspective", "any_w", "eye_in_hull", "eye_crossing", "reflex", "huge"}) {
+    const std::string out = std::string("b_") + family;
+    ASSERT_EQ(run(std::string("sweep --size 96x96 --count 8 --cosim none --no-cycles --axis significand_bits=8:26:6 "
+                              "--axis align_guard_bits=0,2 --axis notch_exact=0,1 --stress ") +
+                  family + " --out " + out)
+                  .status,
+              0);
+    std::size_t proved = 0;
+    for (const auto& row : table(file(out) / "points.csv"))
+      for (const std::string quantity : {"lambda", "attribute", "depth"}) {
+        const std::string& kind = row.at("bound_" + quantity + "_kind");
+        EXPECT_EQ(kind == "none", row.at("bound_" + quantity).empty());
+        if (kind != "proved") continue;
+        ++proved;
+        EXPECT_LE(std::stod(row.at("arithmetic_" + quantity + "_max")), std::stod(row.at("bound_" + quantity)))
+            << family << " " << quantity << " row " << row.at("row");
+      }
+    EXPECT_GE(proved, 16u) << family;  // weights and attributes with the cure
+  }
+}
+
+TEST_F(SweepCli, UnconfirmedTargetsSayHowClose) {
+  const Outcome outcome = run(
+      "sweep --target-error colour=0.5/255 --target-error depth=2^-16 --size 64x64 --scene sphere --cosim none --axis "
+      "significand_bits=12:26:2 --axis depth_bits=16:28:4 --out c");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("stress families; the closest"), std::string::npos) << outcome.err;
+  const json search = manifest("c").at("search");
+  EXPECT_TRUE(search.at("confirmed").is_null());
+  EXPECT_FALSE(search.at("winner").is_null());
+  EXPECT_GT(search.at("confirm_closest").at("error_over_target"), 1);
+}
+
+TEST_F(SweepCli, NothingMeasuredIsSaid) {
+  const Outcome outcome =
+      run("sweep --stress eye_crossing --count 5 --no-perspective --no-depth --size 64x64 --cosim none --axis "
+          "significand_bits=12 --out nm");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("was not measured on this input"), std::string::npos) << outcome.err;
 }
 
 TEST_F(SweepCli, BadInput) {

@@ -209,6 +209,7 @@ class Search {
         break;
       }
       refuting_.push_back(static_cast<std::size_t>(worst - checks.begin()));
+      closest_ = std::numeric_limits<double>::infinity();  // of what met fewer families nothing is known
       const sweep::SearchResult next = find();
       if (!next.winner) {
         result.confirm_closest = closest_;

@@ -2,10 +2,13 @@
 
 #include "model/edit_distance.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 
 namespace quadrille::sweep {
 namespace {
@@ -26,6 +29,39 @@ std::string error_name(std::size_t kind, std::size_t quantity, std::size_t stati
          std::string(statistics[statistic].name);
 }
 
+/// Keys without a signal or a rounding of their own.
+bool is_idle_in_proofs(std::string_view key) {
+  constexpr std::array<std::string_view, 5> idle{"pixels_per_clock", "quad_slots_log2", "tile_slots_log2",
+                                                 "stamp_fifo_log2", "quad_id_bits"};
+  return std::ranges::find(idle, key) != idle.end();
+}
+
+struct Proofs {
+  ErrorBound lambda, attribute, depth;
+  std::string ranges;
+};
+
+/// Proofs take a millisecond, and most points of a grid differ from others in keys that no proof reads.
+Proofs proofs_of(const Config& config) {
+  static std::mutex mutex;
+  static std::map<std::vector<int>, Proofs> known;
+  std::vector<int> values;
+  for (const ConfigKey& key : Config::keys())
+    values.push_back(is_idle_in_proofs(key.name) ? 0 : config.resolved(key.name));
+  {
+    const std::lock_guard lock(mutex);
+    if (const auto found = known.find(values); found != known.end()) return found->second;
+  }
+  Proofs proofs{bound_lambda(config), bound_attribute(config, 1), bound_depth(config), "proved"};
+  for (const SignalRange& signal : prove_ranges(config).signals)
+    if (!signal.fits) {
+      proofs.ranges = signal.signal;
+      break;
+    }
+  const std::lock_guard lock(mutex);
+  return known.emplace(std::move(values), std::move(proofs)).first->second;
+}
+
 std::vector<PointColumn> make_columns() {
   std::vector<PointColumn> columns{{"row", "", "position in the grid, from 0"},
                                    {"status", "", "ok or refused"},
@@ -43,7 +79,7 @@ std::vector<PointColumn> make_columns() {
   for (const char* quantity : {"lambda", "attribute", "depth"}) {
     const std::string name = std::string("bound_") + quantity;
     columns.push_back({name, "1", "bound of the arithmetic error by analysis"});
-    columns.push_back({name + "_kind", "", "proved or estimated"});
+    columns.push_back({name + "_kind", "", "proved, estimated, or none: no bound holds for this input"});
   }
   columns.insert(columns.end(),
                  {{"ranges", "", "proved: no signal can overflow; else the one that may"},
@@ -66,19 +102,15 @@ std::vector<PointColumn> make_columns() {
 
 }  // namespace
 
-void complete_row(PointRow& row, const CostWeights& weights) {
+void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool perspective) {
+  const ErrorBound none{std::numeric_limits<double>::infinity(), false, {}};
   row.cost = hardware_cost(row.config);
   row.scalar_cost = scalar_cost(row.cost, weights);
-  row.bound_lambda = bound_lambda(row.config);
-  row.bound_attribute = bound_attribute(row.config, 1);
-  row.bound_depth = bound_depth(row.config);
-  const RangeProof proof = prove_ranges(row.config);
-  row.ranges = "proved";
-  for (const SignalRange& signal : proof.signals)
-    if (!signal.fits) {
-      row.ranges = signal.signal;
-      break;
-    }
+  const Proofs proofs = proofs_of(row.config);
+  row.bound_lambda = ordinary || perspective ? proofs.lambda : none;
+  row.bound_attribute = ordinary || perspective ? proofs.attribute : none;
+  row.bound_depth = ordinary ? proofs.depth : none;
+  row.ranges = proofs.ranges;
 }
 
 const std::vector<PointColumn>& point_columns() {
@@ -158,7 +190,7 @@ std::string point_table(std::span<const PointRow> rows) {
             cells.push_back(summary.count > 0 ? csv_number(summary.*statistic.member) : std::string());
       for (const ErrorBound* bound : {&p.bound_lambda, &p.bound_attribute, &p.bound_depth}) {
         cells.push_back(std::isfinite(bound->value) ? csv_number(bound->value) : std::string());
-        cells.push_back(bound->proved ? "proved" : "estimated");
+        cells.push_back(!std::isfinite(bound->value) ? "none" : bound->proved ? "proved" : "estimated");
       }
       cells.push_back(csv_cell(p.ranges));
       for (const std::uint64_t count :

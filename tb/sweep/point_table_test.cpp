@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -31,7 +32,7 @@ PointRow example() {
   row.result.snapping[0] = {1, 2, 3, 4, 5};
   row.result.coverage_lost = 17;
   row.worst = "quadrille fragments --pixel 1,2";
-  complete_row(row, CostWeights{});
+  complete_row(row, CostWeights{}, true, true);
   return row;
 }
 
@@ -63,6 +64,19 @@ TEST(PointTable, EveryRowHasEveryColumn) {
   EXPECT_EQ(cell(2, "status"), "refused");
   EXPECT_EQ(cell(2, "reason"), "\"a, \"\"b\"\"\"");
   EXPECT_EQ(cell(2, "fragments"), "");
+}
+
+TEST(PointTable, BoundsWhereTheyHold) {
+  const auto finite = [](bool ordinary, bool perspective) {
+    PointRow row;
+    complete_row(row, CostWeights{}, ordinary, perspective);
+    return std::array{std::isfinite(row.bound_lambda.value), std::isfinite(row.bound_attribute.value),
+                      std::isfinite(row.bound_depth.value)};
+  };
+  EXPECT_EQ(finite(true, true), (std::array{true, true, true}));
+  EXPECT_EQ(finite(true, false), (std::array{true, true, true}));
+  EXPECT_EQ(finite(false, true), (std::array{true, true, false}));
+  EXPECT_EQ(finite(false, false), (std::array{false, false, false}));
 }
 
 TEST(PointTable, ErrorColumnsByName) {

@@ -117,22 +117,6 @@ Store::Store(fs::path directory, Ordered identity, Existing existing)
   if (error || !fs::is_directory(directory_))
     throw golden::InputError("cannot make the directory " + directory_.string() +
                              (error ? ": " + error.message() : ": there is a file of that name"));
-  if (existing == Existing::discard) {
-    for (const char* name : {"journal.jsonl", "manifest.json"}) fs::remove(directory_ / name, error);
-  } else if (!fs::exists(journal()) && fs::exists(file("manifest.json"))) {
-    std::ifstream in(file("manifest.json"));
-    const Json manifest = Json::parse(in, nullptr, false);
-    if (manifest.is_discarded() || !manifest.is_object() || !manifest.contains("identity"))
-      throw golden::InputError(file("manifest.json") +
-                               ": not a whole manifest of a sweep; use --fresh to start over, or another --out");
-    const Json mine = Json::parse(identity_.dump());
-    if (manifest.at("identity") != mine)
-      throw golden::InputError(directory_.string() + " holds another sweep (it differs in " +
-                               differences(manifest.at("identity"), mine) +
-                               "); choose another --out, or --fresh to replace it");
-    complete_ = true;
-    return;
-  }
   fd_ = ::open(journal().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (fd_ < 0) throw golden::InputError("cannot write " + journal() + ": " + reason(errno));
   if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) {
@@ -141,6 +125,7 @@ Store::Store(fs::path directory, Ordered identity, Existing existing)
     throw golden::InputError(journal() + ": another sweep is writing to this directory");
   }
   try {
+    if (existing == Existing::discard) discard();
     read_journal();
   } catch (...) {
     ::close(fd_);
@@ -162,10 +147,9 @@ void Store::read_journal() {
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     ++number;
     const auto damaged = [&](const std::string& why) {
+      const std::string keep = std::to_string(number - 1);
       throw golden::InputError(journal() + ":" + std::to_string(number) + ": damaged (" + why +
-                               "); cut the file to its " + std::to_string(number - 1) +
-                               " whole lines to keep what they hold, or use --fresh to "
-                               "start over");
+                               "); --fresh starts over; `head -n " + keep + "` of it keeps the lines before");
     };
     // {"crc":"xxxxxxxx","content":…}: the sum is over the content's bytes, as they stand in the file.
     const std::string line = text.substr(begin, end - begin);
@@ -176,8 +160,8 @@ void Store::read_journal() {
     if (number == 1) {
       const Json mine = Json::parse(identity_.dump());
       if (content != mine)
-        throw golden::InputError(directory_.string() + " holds an unfinished sweep that differs in " +
-                                 differences(content, mine) + "; choose another --out, or --fresh to start over");
+        throw golden::InputError(directory_.string() + " holds another sweep, which differs in " +
+                                 differences(content, mine) + "; choose another --out, or --fresh to replace it");
     } else {
       try {
         take(content);
@@ -237,12 +221,11 @@ void Store::write_line(const Ordered& content) {
   length_ += text.size();
 }
 
-void Store::finish() {
-  if (fd_ >= 0) ::close(fd_);
-  fd_ = -1;
+void Store::discard() {
   std::error_code error;
-  fs::remove(journal(), error);
-  if (error) throw golden::InputError("cannot remove " + journal() + ": " + error.message());
+  fs::remove(file("manifest.json"), error);  // first: without it the rest counts as unfinished
+  if (error) throw golden::InputError("cannot remove " + file("manifest.json") + ": " + error.message());
+  if (::ftruncate(fd_, 0) != 0) throw golden::InputError("cannot write " + journal() + ": " + reason(errno));
 }
 
 }  // namespace quadrille::sweep

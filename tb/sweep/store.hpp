@@ -21,20 +21,18 @@ namespace quadrille::sweep {
 class Store {
  public:
   enum class Existing {
-    resume,  ///< go on with an unfinished sweep of the same identity
+    resume,  ///< take over the results of a sweep of the same identity
     discard  ///< start over
   };
 
-  /// Opens or creates `directory`. `identity`: everything that the results depend on. Throws golden::InputError with
-  /// the file and the reason: the directory holds another sweep, the journal is damaged (line named), nothing can be
-  /// written.
+  /// Opens or creates `directory`, for one writer at a time. `identity`: everything that the results depend on. Throws
+  /// golden::InputError with the file and the reason: the directory holds another sweep, the journal is damaged (line
+  /// named), nothing can be written.
   Store(std::filesystem::path directory, nlohmann::ordered_json identity, Existing existing);
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
-  /// A sweep of the same identity was completed here before; there is nothing to do.
-  bool complete() const { return complete_; }
   /// Results by row, those of earlier runs included.
   const std::map<std::size_t, PointResult>& results() const { return results_; }
   /// Seconds and number of points of each batch.
@@ -55,12 +53,10 @@ class Store {
   /// Path of a file of the sweep.
   std::string file(std::string_view name) const { return (directory_ / name).string(); }
 
-  /// All files are written: the journal goes.
-  void finish();
-
  private:
   std::string journal() const { return file("journal.jsonl"); }
   void read_journal();
+  void discard();
   void take(const nlohmann::json& line);
   void write_line(const nlohmann::ordered_json& content);
 
@@ -71,7 +67,6 @@ class Store {
   StageCounters counters_;
   std::uint64_t length_ = 0;  ///< of the journal's whole lines
   int fd_ = -1;
-  bool complete_ = false;
 };
 
 }  // namespace quadrille::sweep

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdlib>
@@ -85,7 +86,6 @@ TEST_F(StoreTest, GoesOnWithWhatWasFinished) {
     store.append(batch(), rows);
   }
   Store store(directory_, identity, Store::Existing::resume);
-  EXPECT_FALSE(store.complete());
   ASSERT_EQ(store.results().size(), 2u);
   const PointResult expected = batch().results[0], &found = store.results().at(40);
   for (std::size_t q = 0; q < 4; ++q) {
@@ -166,20 +166,28 @@ TEST_F(StoreTest, AnotherSweepIsRefusedByName) {
   EXPECT_NE(refusal().find("seed"), std::string::npos);
 }
 
-TEST_F(StoreTest, CompleteSweepIsKnown) {
-  {
-    Store store(directory_, identity, Store::Existing::resume);
-    std::ofstream(store.file("manifest.json")) << nlohmann::ordered_json{{"identity", identity}}.dump();
-    store.finish();
-  }
-  EXPECT_TRUE(Store(directory_, identity, Store::Existing::resume).complete());
-  std::ofstream((directory_ / "manifest.json").string()) << "{";
-  EXPECT_NE(refusal().find("manifest.json"), std::string::npos);
-}
-
 TEST_F(StoreTest, OneWriterAtATime) {
   Store first(directory_, identity, Store::Existing::resume);
   EXPECT_NE(refusal().find("another sweep is writing"), std::string::npos);
+  EXPECT_THROW(Store(directory_, identity, Store::Existing::discard), golden::InputError);
+  // and what the first one writes is still there
+  const std::array<std::size_t, 2> rows{0, 1};
+  first.append(batch(), rows);
+  const std::string text = read();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+}
+
+TEST_F(StoreTest, FreshForgets) {
+  const std::array<std::size_t, 2> rows{0, 1};
+  {
+    Store store(directory_, identity, Store::Existing::resume);
+    store.append(batch(), rows);
+    std::ofstream(store.file("manifest.json")) << "{}";
+  }
+  EXPECT_EQ(Store(directory_, identity, Store::Existing::resume).results().size(), 2u);
+  EXPECT_TRUE(fs::exists(directory_ / "manifest.json"));
+  EXPECT_EQ(Store(directory_, identity, Store::Existing::discard).results().size(), 0u);
+  EXPECT_FALSE(fs::exists(directory_ / "manifest.json"));
 }
 
 TEST_F(StoreTest, FullDiskKeepsWhatIsFinished) {

@@ -1,0 +1,37 @@
+// How two EXR pictures differ.
+#pragma once
+
+#include "golden/io/exr.hpp"
+#include "golden/io/png.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace quadrille::golden {
+
+/// One channel of both pictures. Equal NaNs are equal; a NaN against a number differs, and counts in `count` alone.
+struct ChannelDiff {
+  std::string name;
+  double max = 0, rms = 0;  ///< of |a − b| over all pixels (uint channels: of the numbers)
+  std::uint64_t count = 0;  ///< pixels that differ
+  int x = -1, y = -1;       ///< where the largest difference is, the first of equal ones
+};
+
+struct ImageDiff {
+  int width = 0, height = 0;
+  std::vector<ChannelDiff> channels;        ///< in the order of names
+  std::vector<std::string> only_a, only_b;  ///< channels that the other does not have
+  std::vector<float> largest;               ///< largest difference of a float channel at each pixel
+
+  bool same() const;
+};
+
+/// Throws InputError for pictures of different sizes (`a_name`, `b_name` are for the message).
+ImageDiff diff_images(const ExrImage& a, const ExrImage& b, const std::string& a_name, const std::string& b_name);
+
+/// The largest differences as colours: black where there is none, then from dark violet to yellow on a logarithmic
+/// scale from max·2^-16 to max; white for a NaN.
+Image8 heat_map(const ImageDiff& diff);
+
+}  // namespace quadrille::golden
