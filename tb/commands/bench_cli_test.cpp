@@ -73,7 +73,8 @@ TEST_F(Cli, BenchErrorWithNothingDefinedOrNothingDrawn) {
   write("triangle.quads", "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  42 44 0.5 1\n");
   const Outcome triangle = run("bench --error --no-rtl --repeat 1 --quads triangle.quads --json -");
   ASSERT_EQ(triangle.status, 0) << triangle.err;
-  for (const json& entry : json::parse(triangle.out)["error"]) {
+  const json report = json::parse(triangle.out);
+  for (const json& entry : report.at("error")) {
     const bool paper = entry["engine"] == "fp32" || entry["engine"] == "fp64";
     EXPECT_EQ(entry["lambda_max"].is_null(), paper) << entry;
     EXPECT_EQ(entry["undefined"], paper ? entry["fragments"] : json(0)) << entry;
