@@ -34,9 +34,10 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error, const std::
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
   std::string place = "quadrille";
   std::vector<std::string> options;
-  for (const CLI::App* command : app.get_subcommands()) {
-    place += " " + command->get_name();
-    for (const CLI::Option* option : command->get_options())
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    place += " " + at->get_name();
+    for (const CLI::Option* option : at->get_options())
       for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
   }
   std::string text = error.what();
@@ -77,6 +78,7 @@ int run(int argc, char** argv) {
   add_scenes_command(app, invocation);
   add_bench_command(app, invocation);
   add_sweep_command(app, invocation);
+  add_golden_command(app, invocation);
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands({})) {
     command->set_version_flag("--version", version)->group("Common options");

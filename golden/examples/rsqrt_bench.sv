@@ -1,0 +1,65 @@
+// Checks an inverse square root of your own against golden vectors: suite `rsqrt`, default configuration (S = 18, E = 12).
+//
+// Uses nothing of the project but stimulus.hex and response.hex. Where the fields lie, how many vectors there are and what the latency is
+// stands in the suite's manifest.json:
+//
+//     exp[i] at bits [72 + 12 i +: 12], signed;  sig[i] at bits [18 i +: 18];  value = sig * 2^(exp - 17), sig = 0 is zero
+//
+// Run it with +dir=SUITE_DIRECTORY +vectors=N, N the manifest's counts.vectors.
+module rsqrt_bench;
+  localparam int S = 18;
+  localparam int E = 12;
+  localparam int BITS = 4 * (E + S);
+  localparam int LATENCY = 3;
+  localparam int MOST = 1 << 20;  // vectors
+
+  string dir;
+  int vectors;
+  logic [BITS-1:0] stimuli[0:MOST-1];
+  logic [BITS-1:0] responses[0:MOST-1];
+
+  initial begin
+    if (!$value$plusargs("dir=%s", dir) || !$value$plusargs("vectors=%d", vectors)) $fatal(1, "+dir=DIR +vectors=N");
+    if (vectors < 1 || vectors > MOST) $fatal(1, "%0d vectors", vectors);
+    $readmemh({dir, "/stimulus.hex"}, stimuli, 0, vectors - 1);
+    $readmemh({dir, "/response.hex"}, responses, 0, vectors - 1);
+  end
+
+  logic clk = 1'b0;
+  always #1 clk = !clk;
+
+  int cycle = 0;
+  logic [BITS-1:0] stimulus, response, expected;
+
+  // A vector in each clock; response i is there LATENCY clocks after stimulus i.
+  assign stimulus = stimuli[cycle];
+  assign expected = responses[cycle-LATENCY];
+
+  for (genvar i = 0; i < 4; i++) begin : gen_lane
+    // Your module goes here.
+    rsqrt u_rsqrt (
+        .clk_i(clk),
+        .en_i(1'b1),
+        .exp_i(stimulus[4*S+E*i+:E]),
+        .sig_i(stimulus[S*i+:S]),
+        .exp_o(response[4*S+E*i+:E]),
+        .sig_o(response[S*i+:S])
+    );
+  end
+
+  int differences = 0;
+
+  always @(posedge clk) begin
+    cycle <= cycle + 1;
+    if (cycle >= LATENCY && response !== expected) begin
+      differences = differences + 1;
+      if (differences <= 5)
+        $display("response.hex:%0d: stimulus %h expected %h actual %h", cycle - LATENCY + 1, stimuli[cycle-LATENCY], expected, response);
+    end
+    if (cycle == vectors + LATENCY - 1) begin
+      $display("rsqrt: %0d vectors, %0d differences", vectors, differences);
+      if (differences != 0) $fatal(1, "rsqrt: failed");
+      $finish;
+    end
+  end
+endmodule

@@ -1,0 +1,33 @@
+// Draws through the clocked model, with the clock of every fragment.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace quadrille::vectors {
+
+/// What may happen in one clock.
+struct StallClock {
+  bool offer = true;  ///< a vertex beat that is not on offer yet may be offered
+  bool ready = true;  ///< a fragment is taken
+};
+
+/// `length` clocks of a random pattern: bursts and lone stalls of both sides. The first clock offers, and some clock
+/// does both, so that every draw ends.
+std::vector<StallClock> make_stalls(std::uint64_t seed, std::size_t length);
+
+struct TimedFragment {
+  Fragment fragment;
+  std::uint32_t clock = 0;  ///< in which it is handed over
+};
+
+/// Draws the quads from reset. Clock 0 is the first clock after it; the first beat is offered in it. A beat stays on
+/// offer until it is taken. `stalls` is used cyclically from clock 0; empty: never a stall.
+std::vector<TimedFragment> run_machine(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
+                                       std::span<const StallClock> stalls);
+
+}  // namespace quadrille::vectors

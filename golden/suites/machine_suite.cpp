@@ -1,0 +1,395 @@
+#include "golden/suites/machine_suite.hpp"
+
+#include "golden/io/error.hpp"
+#include "golden/io/exr.hpp"
+#include "golden/scenes/stress.hpp"
+#include "golden/suites/fields.hpp"
+#include "golden/suites/machine_run.hpp"
+#include "model/snap.hpp"
+#include "model/stages.hpp"
+#include "model/untimed.hpp"
+#include "tb/random_quads.hpp"
+#include "tb/render/parallel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+
+namespace quadrille::vectors {
+namespace {
+
+constexpr std::size_t stall_clocks = 1024;
+constexpr int picture_size = 64;  // pixels of a side
+constexpr std::uint64_t level_fragments[] = {3'000, 300'000};
+
+// ---- Records ----
+
+struct StateRecord {
+  std::uint32_t draw = 0;
+  DrawState state;
+  std::uint32_t znear = 0, zfar = 0;
+};
+
+template <class F>
+void visit_state_record(F&& f, const Config& c, StateRecord& r) {
+  DrawState& s = r.state;
+  const int v = c.viewport_bits + 1;
+  f({"scissor_x0", v, false, {}, "px", "first column that may be drawn"}, -1, s.scissor_x0);
+  f({"scissor_y0", v, false, {}, "px", "first row"}, -1, s.scissor_y0);
+  f({"scissor_x1", v, false, {}, "px", "first column behind them"}, -1, s.scissor_x1);
+  f({"scissor_y1", v, false, {}, "px", "first row behind them"}, -1, s.scissor_y1);
+  f({"cull", 2, false, {}, "", "0 none, 1 front, 2 back"}, -1, s.cull);
+  f({"perspective", 1, false, {}, "", "attributes are perspective-correct"}, -1, s.perspective);
+  f({"depth", 1, false, {}, "", "window z is computed and clipped"}, -1, s.depth);
+  f({"znear", c.depth_bits + 1, false, c.depth_bits, "1", "smallest window z"}, -1, r.znear);
+  f({"zfar", c.depth_bits + 1, false, c.depth_bits, "1", "largest window z"}, -1, r.zfar);
+  f({"attributes", 4, false, {}, "", "attributes in use"}, -1, s.attributes);
+  f({"skip", 8, false, {}, "", "bit 0: skip tiles that cannot be covered"}, -1, s.skip);
+}
+
+struct VertexRecord {
+  std::uint32_t draw = 0, id = 0;
+  SnappedVertex vertex;
+};
+
+const FieldType draw_field{"draw", 16, false, {}, "", "line of states.hex"};
+
+template <class F>
+void visit_vertex_record(F&& f, const Config& c, VertexRecord& r) {
+  const int s = c.significand_bits, e = Config::port_exp_bits;
+  SnappedVertex& v = r.vertex;
+  f(draw_field, -1, r.draw);
+  f({"id", c.quad_id_bits, false, {}, "", "quad, the same in its four beats"}, -1, r.id);
+  f({"x", c.t_bits(), true, c.frac(), "px", "X, relative to pixel centres"}, -1, v.x);
+  f({"y", c.t_bits(), true, c.frac(), "px", "Y, down"}, -1, v.y);
+  f({"w", c.w_bits(), true, c.frac(), "1", "W"}, -1, v.w);
+  f({"k_exp", e, true, {}, "log2", "exponent of k"}, -1, v.k.exp);
+  f({"k_sig", s, false, s - 1, "1", "k, the factor of this vertex"}, -1, v.k.sig);
+  visit_number(f, FpType{"z_neg", "z_exp", "z_sig", e, s, "1", "Z = k z"}, v.z);
+  for (int i = c.attribute_slots; i-- > 0;) {
+    PortNumber& a = v.attribute[static_cast<std::size_t>(i)];
+    f({"attr_neg", 1, false, {}, "", "sign of attribute times k"}, i, a.neg);
+    f({"attr_exp", e, true, {}, "log2", "exponent of attribute times k"}, i, a.exp);
+    f({"attr_sig", s, false, s - 1, "1", "attribute times k"}, i, a.sig);
+  }
+}
+
+struct FragmentRecord {
+  std::uint32_t draw = 0, clock = 0, clock_stalled = 0;
+  Fragment fragment;
+};
+
+template <class F>
+void visit_fragment_record(F&& f, const Config& c, FragmentRecord& r) {
+  Fragment& g = r.fragment;
+  f(draw_field, -1, r.draw);
+  f({"clock", 32, false, {}, "clocks", "handed over in this clock of the draw, without stalls"}, -1, r.clock);
+  f({"clock_stalled", 32, false, {}, "clocks", "the same with the pattern of stalls.hex"}, -1, r.clock_stalled);
+  f({"quad", c.quad_id_bits, false, {}, "", "id of the quad"}, -1, g.quad);
+  f({"x", c.viewport_bits, false, {}, "px", "column"}, -1, g.x);
+  f({"y", c.viewport_bits, false, {}, "px", "row"}, -1, g.y);
+  f({"front", 1, false, {}, "", "front face: counter-clockwise on the screen"}, -1, g.front);
+  f({"flags",
+     8,
+     false,
+     {},
+     "",
+     "0 on edge, 1 on vertex, 2 two corners, 3 two edges, 4 tie, 5 homogeneous, 6 notch cured, 7 saturated"},
+    -1, g.flags);
+  f({"depth", c.depth_bits + 1, false, c.depth_bits, "1", "window z"}, -1, g.depth);
+  visit_array(
+      f, {"attr", c.attr_out_bits(), true, c.attribute_frac(), "1", "attribute"},
+      c.attribute_slots, [&](std::size_t i) -> auto& { return g.attribute[i]; });
+}
+
+template <class F>
+void visit_stall_record(F&& f, const Config&, StallClock& r) {
+  f({"offer", 1, false, {}, "", "a beat may be offered from this clock on"}, -1, r.offer);
+  f({"ready", 1, false, {}, "", "a fragment is taken in this clock"}, -1, r.ready);
+}
+
+/// The four records of a machine suite for one configuration.
+struct Layouts {
+  RecordLayout state, vertex, fragment, stall;
+
+  explicit Layouts(const Config& config) {
+    const auto list = [&](auto&& visit, auto record) {
+      LayoutLister lister;
+      visit(lister, config, record);
+      return lister.layout;
+    };
+    state = list([](auto& f, const Config& c, StateRecord& r) { visit_state_record(f, c, r); }, StateRecord{});
+    vertex = list([](auto& f, const Config& c, VertexRecord& r) { visit_vertex_record(f, c, r); }, VertexRecord{});
+    fragment =
+        list([](auto& f, const Config& c, FragmentRecord& r) { visit_fragment_record(f, c, r); }, FragmentRecord{});
+    stall = list([](auto& f, const Config& c, StallClock& r) { visit_stall_record(f, c, r); }, StallClock{});
+  }
+};
+
+// ---- Draws ----
+
+/// A draw cut off after the quad with which it has `limit` fragments, never before the first.
+MachineDraw limited(MachineDraw draw, const Config& config, std::uint64_t limit) {
+  UntimedModel model(config, draw.state);
+  std::size_t count = 0;
+  while (count < draw.quads.size() && model.stats().fragments < limit)
+    model.draw(draw.quads[count++], [](std::span<const Fragment>) {});
+  draw.quads.resize(count);
+  return draw;
+}
+
+std::uint64_t fragment_limit(const GenerateOptions& options) {
+  return options.limit != 0 ? options.limit : level_fragments[options.level - 1];
+}
+
+DrawState picture_state(const Config& config) {
+  DrawState state = tb::small_state(config, picture_size);
+  state.attributes = std::min(4, config.attribute_slots);
+  return state;
+}
+
+/// The same random quads under every draw state.
+std::vector<MachineDraw> every_state(const GenerateOptions& options) {
+  const DrawState normal = picture_state(options.config);
+  std::vector<DrawState> states{normal};
+  const auto add = [&](auto&& change) {
+    states.push_back(normal);
+    change(states.back());
+  };
+  add([](DrawState& s) { s.perspective = false; });
+  add([](DrawState& s) { s.depth = false; });
+  add([](DrawState& s) { s.cull = Cull::front; });
+  add([](DrawState& s) { s.cull = Cull::back; });
+  add([](DrawState& s) { s.znear = 0.375, s.zfar = 0.625; });
+  add([](DrawState& s) { s.scissor_x0 = 5, s.scissor_y0 = 9, s.scissor_x1 = 37, s.scissor_y1 = 30; });
+  add([](DrawState& s) { s.scissor_x1 = s.scissor_x0; });
+  add([](DrawState& s) { s.attributes = 0; });
+  add([](DrawState& s) { s.attributes = 1; });
+  add([](DrawState& s) { s.skip = 0; });
+  std::vector<MachineDraw> draws;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    MachineDraw draw{states[i], tb::random_quads(options.config, states[i], options.seed + i, 2000)};
+    draws.push_back(limited(std::move(draw), options.config, fragment_limit(options) / states.size() + 1));
+  }
+  return draws;
+}
+
+std::vector<MachineDraw> stress_draw(golden::StressFamily family, const GenerateOptions& options) {
+  MachineDraw draw;
+  draw.state = picture_state(options.config);
+  const std::uint64_t limit = fragment_limit(options);
+  // Small families need many quads.
+  const std::size_t count = std::max<std::size_t>(16, static_cast<std::size_t>(limit / 4));
+  for (const WindowQuad& quad : golden::make_stress(family, count, options.seed, 1, picture_size, picture_size,
+                                                    std::max(4, draw.state.attributes)))
+    draw.quads.push_back(snap_quad(quad, options.config, draw.state));
+  return {limited(std::move(draw), options.config, limit)};
+}
+
+// ---- Pictures ----
+
+/// Depth-tested (or in order, with depth off); weights as far as there are slots for them, colours from the weights.
+golden::FrameImage picture(const MachineDraw& draw, const std::vector<TimedFragment>& fragments, const Config& config) {
+  golden::FrameImage image(draw.state.width, draw.state.height);
+  const auto channels = std::min<std::size_t>(4, static_cast<std::size_t>(draw.state.attributes));
+  for (const TimedFragment& timed : fragments) {
+    const Fragment& g = timed.fragment;
+    const std::size_t at = image.index(g.x, g.y);
+    const auto z = static_cast<float>(std::ldexp(static_cast<double>(g.depth), -config.depth_bits));
+    if (draw.state.depth && !(z < image.z[at])) continue;
+    if (draw.state.depth) image.z[at] = z;
+    image.quad[at] = g.quad;
+    image.a[at] = 1;
+    for (std::size_t j = 0; j < channels; ++j)
+      image.lambda[j][at] =
+          static_cast<float>(std::ldexp(static_cast<double>(g.attribute[j]), -config.attribute_frac()));
+    // Corner colours black, red, green, blue.
+    image.r[at] = image.lambda[1][at];
+    image.g[at] = image.lambda[2][at];
+    image.b[at] = image.lambda[3][at];
+  }
+  return image;
+}
+
+/// Both runs of a draw.
+struct DrawRun {
+  std::vector<TimedFragment> free, stalled;
+};
+
+DrawRun run_draw(const MachineDraw& draw, const Config& config, std::span<const StallClock> stalls) {
+  return {run_machine(draw.quads, config, draw.state, {}), run_machine(draw.quads, config, draw.state, stalls)};
+}
+
+}  // namespace
+
+void MachineSuite::write(SuiteWriter& writer, const GenerateOptions& options) const {
+  const Config& config = options.config;
+  const Layouts layouts(config);
+  writer.add_record("states", layouts.state);
+  writer.add_record("stalls", layouts.stall);
+  writer.add_record("stimulus", layouts.vertex);
+  writer.add_record("response", layouts.fragment);
+
+  const std::vector<StallClock> stalls = make_stalls(options.seed, stall_clocks);
+  for (StallClock clock : stalls) {
+    RecordPacker pack(layouts.stall.bits());
+    visit_stall_record(pack, config, clock);
+    writer.write("stalls", pack.take());
+  }
+  const std::vector<MachineDraw> draws = draws_(options);
+  std::uint64_t quads = 0, fragments = 0;
+  cli::ordered_parallel(
+      draws.size(), options.threads, [&](std::size_t i) { return run_draw(draws[i], config, stalls); },
+      [&](std::size_t i, const DrawRun& run) {
+        const MachineDraw& draw = draws[i];
+        StateRecord state{static_cast<std::uint32_t>(i), draw.state, depth_code(draw.state.znear, config),
+                          depth_code(draw.state.zfar, config)};
+        RecordPacker pack_state(layouts.state.bits());
+        visit_state_record(pack_state, config, state);
+        writer.write("states", pack_state.take());
+        for (const SnappedQuad& quad : draw.quads)
+          for (const SnappedVertex& vertex : quad.vertex) {
+            VertexRecord beat{static_cast<std::uint32_t>(i), quad.id, vertex};
+            RecordPacker pack(layouts.vertex.bits());
+            visit_vertex_record(pack, config, beat);
+            writer.write("stimulus", pack.take());
+          }
+        for (std::size_t n = 0; n < run.free.size(); ++n) {
+          FragmentRecord record{static_cast<std::uint32_t>(i), run.free[n].clock, run.stalled[n].clock,
+                                run.free[n].fragment};
+          RecordPacker pack(layouts.fragment.bits());
+          visit_fragment_record(pack, config, record);
+          writer.write("response", pack.take());
+        }
+        quads += draw.quads.size();
+        fragments += run.free.size();
+        golden::save_exr(writer.add_file("image_" + std::to_string(i) + ".exr").string(),
+                         picture(draw, run.free, config));
+      });
+  writer.set_count("vectors", fragments);
+  writer.set_count("draws", draws.size());
+  writer.set_count("quads", quads);
+}
+
+std::vector<MachineDraw> read_draws(const SuiteReader& reader) {
+  const Config& config = reader.set().config;
+  const Layouts layouts(config);
+  for (const auto& [role, layout] : {std::pair<const char*, const RecordLayout*>{"states", &layouts.state},
+                                     {"stalls", &layouts.stall},
+                                     {"stimulus", &layouts.vertex},
+                                     {"response", &layouts.fragment}})
+    require_layout(reader, role, *layout);
+  const auto whole = [&](const char* role) { return reader.read(role, 0, reader.lines(role)); };
+  const auto refuse = [&](const char* role, std::uint64_t line, const std::string& what) {
+    throw golden::InputError(reader.place(role, line) + ": " + what);
+  };
+
+  std::vector<MachineDraw> draws;
+  for (const Record& record : whole("states")) {
+    StateRecord state;
+    RecordUnpacker unpack(record);
+    visit_state_record(unpack, config, state);
+    DrawState& s = draws.emplace_back().state = state.state;
+    s.znear = std::ldexp(static_cast<double>(state.znear), -config.depth_bits);
+    s.zfar = std::ldexp(static_cast<double>(state.zfar), -config.depth_bits);
+    const int side = 1 << config.viewport_bits;
+    s.width = s.scissor_x1;  // the machine knows the scissor rectangle only
+    s.height = s.scissor_y1;
+    if (s.scissor_x1 > side || s.scissor_y1 > side || s.attributes > config.attribute_slots || s.cull > Cull::back)
+      refuse("states", draws.size() - 1, "a state that the machine does not have");
+  }
+  std::uint64_t line = 0;
+  std::uint32_t beat = 0, last_draw = 0;
+  for (const Record& record : whole("stimulus")) {
+    VertexRecord vertex;
+    RecordUnpacker unpack(record);
+    visit_vertex_record(unpack, config, vertex);
+    if (vertex.draw >= draws.size() || vertex.draw < last_draw || (beat != 0 && vertex.draw != last_draw))
+      refuse("stimulus", line, "beats must come in the order of the draws");
+    last_draw = vertex.draw;
+    std::vector<SnappedQuad>& quads = draws[vertex.draw].quads;
+    if (beat == 0) quads.emplace_back().id = vertex.id;
+    if (quads.empty() || quads.back().id != vertex.id) refuse("stimulus", line, "a beat of another quad among four");
+    quads.back().vertex[beat] = vertex.vertex;
+    beat = (beat + 1) % 4;
+    ++line;
+  }
+  if (beat != 0) refuse("stimulus", line - 1, "the last quad has no four beats");
+  return draws;
+}
+
+std::vector<DrawnFragment> read_fragments(const SuiteReader& reader, std::uint64_t first, std::uint64_t count) {
+  std::vector<DrawnFragment> fragments;
+  for (const Record& record : reader.read("response", first, count)) {
+    FragmentRecord fragment;
+    RecordUnpacker unpack(record);
+    visit_fragment_record(unpack, reader.set().config, fragment);
+    fragments.push_back({fragment.draw, fragment.fragment});
+  }
+  return fragments;
+}
+
+VerifyResult MachineSuite::verify(const SuiteReader& reader, unsigned threads) const {
+  const Config& config = reader.set().config;
+  const Layouts layouts(config);
+  const std::vector<MachineDraw> draws = read_draws(reader);
+  const auto whole = [&](const char* role) { return reader.read(role, 0, reader.lines(role)); };
+
+  std::vector<StallClock> stalls;
+  for (const Record& record : whole("stalls")) {
+    RecordUnpacker unpack(record);
+    visit_stall_record(unpack, config, stalls.emplace_back());
+  }
+  if (std::ranges::none_of(stalls, &StallClock::offer) || std::ranges::none_of(stalls, &StallClock::ready))
+    throw golden::InputError(reader.place("stalls", 0) +
+                             ": the pattern never offers or never takes anything; the machine would wait for ever");
+
+  VerifyResult total;
+  std::vector<Record> expected;
+  cli::ordered_parallel(
+      draws.size(), threads, [&](std::size_t i) { return run_draw(draws[i], config, stalls); },
+      [&](std::size_t i, const DrawRun& run) {
+        for (std::size_t n = 0; n < run.free.size(); ++n) {
+          FragmentRecord record{static_cast<std::uint32_t>(i), run.free[n].clock, run.stalled[n].clock,
+                                run.free[n].fragment};
+          RecordPacker pack(layouts.fragment.bits());
+          visit_fragment_record(pack, config, record);
+          expected.push_back(pack.take());
+        }
+      });
+  const std::vector<Record> given = whole("response");
+  total.vectors = std::max(given.size(), expected.size());
+  for (std::size_t n = 0; n < total.vectors; ++n) {
+    std::string difference;
+    if (n >= expected.size())
+      difference = "the machine draws no such fragment";
+    else if (n >= given.size())
+      difference = "the file ends here, but the machine draws more";
+    else
+      difference = first_difference(layouts.fragment, expected[n], given[n]);
+    if (difference.empty()) continue;
+    if (total.mismatches++ == 0)
+      total.first_difference =
+          reader.place("response", std::min<std::uint64_t>(n, given.empty() ? 0 : given.size() - 1)) + ": " +
+          difference;
+  }
+  return total;
+}
+
+void add_machine_suites(std::vector<std::unique_ptr<Suite>>& suites) {
+  const auto info = [](std::string name, std::string title) {
+    return SuiteInfo{std::move(name), "machine", std::move(title),
+                     "quadrille",     26,        "x = y = w = 0, and whatever snapping refuses"};
+  };
+  suites.push_back(
+      std::make_unique<MachineSuite>(info("machine", "The whole machine under every draw state"), every_state));
+  for (const golden::StressFamilyInfo& family : golden::stress_families())
+    suites.push_back(std::make_unique<MachineSuite>(
+        info("stress_" + std::string(family.name), "The whole machine: " + std::string(family.stresses)),
+        [kind = family.family](const GenerateOptions& options) { return stress_draw(kind, options); }));
+}
+
+}  // namespace quadrille::vectors

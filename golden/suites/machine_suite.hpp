@@ -1,0 +1,50 @@
+// Suites of the whole machine: vertex beats and states in, fragments with their clocks out, and pictures.
+#pragma once
+
+#include "golden/suites/suite.hpp"
+#include "model/records.hpp"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace quadrille::vectors {
+
+/// One draw: a state that stays, and quads.
+struct MachineDraw {
+  DrawState state;
+  std::vector<SnappedQuad> quads;
+};
+
+/// A line of response.hex, the clocks apart.
+struct DrawnFragment {
+  std::uint32_t draw = 0;
+  Fragment fragment;
+};
+
+/// The draws of a machine suite on the disk. Throws golden::InputError when records are not laid out as this program
+/// lays them out or hold what the machine cannot be given.
+std::vector<MachineDraw> read_draws(const SuiteReader& reader);
+/// Lines [first, first + count) of its response; may be called on several threads.
+std::vector<DrawnFragment> read_fragments(const SuiteReader& reader, std::uint64_t first, std::uint64_t count);
+
+class MachineSuite : public Suite {
+ public:
+  /// The draws of a generation; about GenerateOptions::limit fragments in all, or the level's number.
+  using Draws = std::function<std::vector<MachineDraw>(const GenerateOptions&)>;
+
+  MachineSuite(SuiteInfo info, Draws draws) : info_(std::move(info)), draws_(std::move(draws)) {}
+
+  const SuiteInfo& info() const override { return info_; }
+  void write(SuiteWriter& writer, const GenerateOptions& options) const override;
+  VerifyResult verify(const SuiteReader& reader, unsigned threads) const override;
+
+ private:
+  SuiteInfo info_;
+  Draws draws_;
+};
+
+/// `machine` (every draw state) and one suite for each stress family.
+void add_machine_suites(std::vector<std::unique_ptr<Suite>>& suites);
+
+}  // namespace quadrille::vectors

@@ -1,0 +1,339 @@
+// Sets on the disk: every damage is seen, and none of them crashes the reader.
+#include "golden/suites/manifest.hpp"
+#include "golden/io/test_support.hpp"
+#include "golden/scenes/prng.hpp"
+#include "golden/suites/suite.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace {
+
+using namespace quadrille;
+using namespace quadrille::vectors;
+namespace fs = std::filesystem;
+
+/// A small set of three suites, and ways to damage it.
+class Set : public golden::InDirectory {
+ protected:
+  static GenerateOptions options() {
+    GenerateOptions o;
+    o.limit = 30;
+    return o;
+  }
+  static SetInfo info() { return {1, 1, Config{}, "quadrille golden generate --limit 30"}; }
+
+  void generate(const std::string& name, const std::vector<std::string>& suite_names, bool replace = false,
+                unsigned threads = 1) const {
+    SetWriter writer(path(name), info(), replace);
+    for (const std::string& suite : suite_names) {
+      GenerateOptions o = options();
+      o.threads = threads;
+      writer.add(find_suite(suite).info(), [&](SuiteWriter& out) { find_suite(suite).write(out, o); });
+    }
+    writer.commit(false);
+  }
+  void SetUp() override { generate("set", {"rsqrt", "coverage", "depth"}); }
+
+  /// Reads all of a set; the number of its vectors.
+  static std::uint64_t check(const std::string& directory) {
+    const SetReader set(directory);
+    std::uint64_t lines = 0;
+    for (const std::string& suite : set.suites()) lines += set.suite(suite).lines("stimulus");
+    return lines;
+  }
+  /// The message of the InputError that reading the set must throw.
+  std::string complaint() const {
+    return golden::input_error_of([&] { check(path("set")); });
+  }
+  std::vector<std::string> all_files() const {
+    std::vector<std::string> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path("set")))
+      if (entry.is_regular_file()) files.push_back(entry.path().string());
+    std::ranges::sort(files);
+    return files;
+  }
+  void replace_text(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string text = read(path(file));
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write(file, text.replace(at, from.size(), to));
+  }
+  /// Puts the right hash of a suite's changed manifest into the set's.
+  void sign(const std::string& suite) const {
+    nlohmann::ordered_json set = nlohmann::ordered_json::parse(read(path("set/manifest.json")));
+    set["suites"][suite]["sha256"] = sha256(read(path("set/" + suite + "/manifest.json")));
+    write("set/manifest.json", set.dump(2) + "\n");
+  }
+};
+
+TEST_F(Set, ReadsBackWhatWasWritten) {
+  const SetReader set(path("set"));
+  EXPECT_EQ(set.suites(), (std::vector<std::string>{"rsqrt", "coverage", "depth"}));
+  EXPECT_EQ(set.info().level, 1);
+  EXPECT_EQ(set.info().command, "quadrille golden generate --limit 30 --suite rsqrt --suite coverage --suite depth");
+  for (const std::string& name : set.suites()) {
+    const SuiteReader reader = set.suite(name);
+    EXPECT_EQ(reader.set().command, "quadrille golden generate --limit 30 --suite " + name);
+    EXPECT_GT(reader.lines("stimulus"), 20u);
+    EXPECT_EQ(reader.lines("stimulus"), reader.lines("response"));
+    const VerifyResult result = find_suite(name).verify(reader, 1);
+    EXPECT_TRUE(result.ok()) << result.first_difference;
+    EXPECT_EQ(result.vectors, reader.lines("stimulus"));
+  }
+}
+
+TEST_F(Set, EverySingleBitIsGuarded) {
+  const std::vector<std::string> files = all_files();
+  ASSERT_EQ(files.size(), 1u + 3 * 3);
+  std::vector<std::string> contents;
+  for (const std::string& file : files) contents.push_back(read(file));
+  golden::Prng prng(7);
+  int detected = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::size_t f = static_cast<std::size_t>(i) % files.size();
+    std::string damaged = contents[f];
+    const std::size_t at = prng.below(damaged.size());
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << prng.below(8)));
+    std::ofstream(files[f], std::ios::binary) << damaged;
+    try {
+      check(path("set"));
+      ADD_FAILURE() << files[f] << ": a changed bit of byte " << at << " was not seen";
+    } catch (const golden::InputError&) {
+      ++detected;
+    }
+    std::ofstream(files[f], std::ios::binary) << contents[f];
+  }
+  EXPECT_EQ(detected, 200);
+  EXPECT_GT(check(path("set")), 0u);
+}
+
+TEST_F(Set, DamageOfFilesIsNamed) {
+  const std::string response = path("set/rsqrt/response.hex");
+  const std::string text = read(response);
+  const std::size_t line = text.find('\n') + 1;
+
+  write("set/rsqrt/response.hex", text.substr(0, text.size() - line));
+  EXPECT_NE(complaint().find("response.hex: has " + std::to_string(text.size() - line) + " bytes"), std::string::npos);
+  std::string upper = text;
+  upper[line + 3] = 'G';
+  write("set/rsqrt/response.hex", upper);
+  EXPECT_EQ(complaint(), response + ":2: column 4 is not a lower-case hexadecimal digit");
+  // One line longer, one shorter: as many bytes, as many lines.
+  std::string shifted = text;
+  shifted[2 * line - 1] = '0';
+  shifted[2 * line] = '\n';
+  write("set/rsqrt/response.hex", shifted);
+  EXPECT_EQ(complaint().find(response + ":2: has "), 0u);
+  std::string joined = text;
+  joined[2 * line - 1] = ' ';
+  write("set/rsqrt/response.hex", joined);
+  EXPECT_EQ(complaint().find(response + ":2: has "), 0u);
+  std::string endless = text;
+  endless.back() = '0';
+  write("set/rsqrt/response.hex", endless);
+  EXPECT_NE(complaint().find("has "), std::string::npos);
+  write("set/rsqrt/response.hex", text);
+
+  fs::rename(response, path("elsewhere"));
+  EXPECT_EQ(complaint(), response + ": is missing");
+  fs::rename(path("elsewhere"), response);
+
+  write("set/rsqrt/notes.txt", "mine");
+  EXPECT_EQ(complaint(), path("set/rsqrt/notes.txt") + ": does not belong to the set");
+  fs::remove(path("set/rsqrt/notes.txt"));
+  write("set/notes.txt", "mine");
+  EXPECT_EQ(complaint(), path("set/notes.txt") + ": does not belong to the set");
+  fs::remove(path("set/notes.txt"));
+  fs::create_directory(path("set/other"));
+  EXPECT_EQ(complaint(), path("set/other") + ": does not belong to the set");
+  fs::remove(path("set/other"));
+  fs::rename(path("set/depth"), path("depth"));
+  EXPECT_EQ(complaint(), path("set/depth") + ": is missing");
+  fs::rename(path("depth"), path("set/depth"));
+  EXPECT_GT(check(path("set")), 0u);
+}
+
+TEST_F(Set, DamageOfManifestsIsNamed) {
+  const std::string set = path("set/manifest.json"), text = read(set);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    write("set/manifest.json", text);
+    replace_text("set/manifest.json", from, to);
+    return complaint();
+  };
+  EXPECT_EQ(with("\"format\": 1", "\"format\": 2"), set + ": has format 2; this program reads format 1");
+  EXPECT_EQ(with("\"format\": 1,", ""), set + ": has no \"format\"");
+  EXPECT_EQ(with("\"significand_bits\": 18", "\"significand_bits\": 19").find(set + ": "), 0u);
+  EXPECT_EQ(with("\"significand_bits\": 18", "\"significand_bits\": 99").find(set + ": config: "), 0u);
+  EXPECT_EQ(with("\"significand_bits\"", "\"significant_bits\"").find(set + ": config: unknown configuration key"), 0u);
+  EXPECT_EQ(with("\"seed\": 1", "\"seed\": 3"), set + ": \"seed\" differs from that of suite rsqrt");
+  EXPECT_EQ(with("\"seed\": 1", "\"seed\": 1.5"), set + ": \"seed\" is not a whole number from 0");
+  EXPECT_EQ(with("\"seed\": 1", "\"seed\": -1"), set + ": \"seed\" is not a whole number from 0");
+  EXPECT_EQ(with("\"level\": 1", "\"level\": 7"), set + ": \"level\" is not a whole number from 1 to 2");
+  EXPECT_EQ(with("--limit 30", "--limit 31"), set + ": \"command\" differs from that of suite rsqrt");
+  EXPECT_EQ(with("\"rsqrt\"", "\"../rsqrt\""), set + ": \"../rsqrt\" is no name of a suite");
+  EXPECT_EQ(with("  \"seed\"", " \"seed\"").find(set + ":4: is not written as a manifest is"), 0u);
+  EXPECT_EQ(with("{", "{\n  \"more\": 1,"), set + ": has \"more\", which is unknown in format 1");
+  EXPECT_EQ(with("{", "[").find(set + ":"), 0u);
+  write("set/manifest.json", "{}\n");
+  EXPECT_EQ(complaint(), set + ": has no \"format\"");
+  write("set/manifest.json", "");
+  EXPECT_EQ(complaint().find(set + ":1: is not JSON"), 0u);
+  write("set/manifest.json", std::string(100000, '['));
+  EXPECT_EQ(complaint().find(set + ":"), 0u);
+  fs::remove(set);
+  EXPECT_NE(complaint().find(set), std::string::npos);
+  EXPECT_NE(golden::input_error_of([&] { check(path("nowhere")); }).find("is no directory"), std::string::npos);
+}
+
+// A set whose hashes are right but whose contents are not: what someone else's generator may write.
+TEST_F(Set, ConsistentNonsenseIsRefused) {
+  const std::string manifest = path("set/rsqrt/manifest.json"), text = read(manifest),
+                    top = read(path("set/manifest.json"));
+  const auto with = [&](const std::string& from, const std::string& to) {
+    write("set/rsqrt/manifest.json", text);
+    write("set/manifest.json", top);
+    replace_text("set/rsqrt/manifest.json", from, to);
+    sign("rsqrt");
+    return complaint();
+  };
+  EXPECT_EQ(with("\"position\": 0", "\"position\": 1").find(manifest + ": the fields of record"), 0u);
+  EXPECT_EQ(with("\"width\": 18", "\"width\": 0"), manifest + ": \"width\" is not a whole number from 1 to 64");
+  EXPECT_EQ(with("\"width\": 18", "\"width\": 19").find(manifest + ": the fields of record"), 0u);
+  EXPECT_EQ(with("\"bits\": 120", "\"bits\": 121").find(manifest + ": record stimulus has 120 bits of fields"), 0u);
+  EXPECT_EQ(with("\"suite\": \"rsqrt\"", "\"suite\": \"depth\""),
+            manifest + ": is the manifest of \"depth\", not of rsqrt");
+  EXPECT_EQ(
+      with("\"file\": \"stimulus.hex\"", "\"file\": \"../x\"").find(manifest + ": record \"stimulus\" has no file"),
+      0u);
+  EXPECT_EQ(with("\"response.hex\": {", "\"other.hex\": {").find(path("set/rsqrt/")), 0u);
+  EXPECT_EQ(with("\"VAL_BITS\": 63", "\"VAL_BITS\": 62"), manifest + ": \"derived\" does not follow from \"config\"");
+
+  // A wrong response with all hashes right is for verify to find.
+  write("set/rsqrt/manifest.json", text);
+  std::string response = read(path("set/rsqrt/response.hex"));
+  const std::size_t digits = response.find('\n');
+  char& digit = response[2 * (digits + 1) + digits - 1];  // line 3, the lowest digit: sig[0]
+  digit = digit == '0' ? '1' : '0';
+  const std::string old_hash = sha256(read(path("set/rsqrt/response.hex")));
+  write("set/rsqrt/response.hex", response);
+  replace_text("set/rsqrt/manifest.json", old_hash, sha256(response));
+  sign("rsqrt");
+  const VerifyResult result = find_suite("rsqrt").verify(SetReader(path("set")).suite("rsqrt"), 2);
+  EXPECT_FALSE(result.ok());
+  EXPECT_EQ(result.mismatches, 1u);
+  EXPECT_EQ(result.first_difference.find(path("set/rsqrt/response.hex") + ":3: sig[0]: expected "), 0u)
+      << result.first_difference;
+}
+
+// Any bytes at all in the place of a manifest, rightly signed: an InputError or a set that reads, never a crash.
+TEST_F(Set, FuzzedManifests) {
+  const std::string names[] = {"set/manifest.json", "set/rsqrt/manifest.json"};
+  const std::string top = read(path(names[0]));
+  golden::Prng prng(3);
+  const std::string_view pieces[] = {
+      "{",  "}",  "[",    "]",       ",",    ":", "\"",   "null",     "-1", "1e999", "18446744073709551616",
+      "{}", "[]", "true", "\\u0000", "\xff", "0", "\"\"", "999999999"};
+  int refused = 0;
+  for (int i = 0; i < 600; ++i) {
+    const std::string& name = names[i % 2];
+    const std::string original = read(path(name));
+    std::string text = original;
+    for (std::uint64_t n = 1 + prng.below(4); n > 0; --n) {
+      const std::size_t at = prng.below(text.size());
+      switch (prng.below(4)) {
+        case 0:
+          text.erase(at, prng.below(40));
+          break;
+        case 1:
+          text.insert(at, pieces[prng.below(std::size(pieces))]);
+          break;
+        case 2:
+          text[at] = static_cast<char>(prng.next());
+          break;
+        default: {  // another value in the place of one
+          const std::size_t colon = text.find(": ", at);
+          if (colon == std::string::npos) break;
+          const std::size_t end = text.find_first_of(",\n", colon);
+          text.replace(colon + 2, end - colon - 2, pieces[prng.below(std::size(pieces))]);
+        }
+      }
+      if (text.empty()) text = " ";
+    }
+    // Written as a manifest is, where it is JSON, so that the reader gets beyond the spelling.
+    const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+    if (!json.is_discarded()) text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    write(name, text);
+    if (i % 2 == 1) sign("rsqrt");
+    try {
+      check(path("set"));
+    } catch (const golden::InputError&) {
+      ++refused;
+    }
+    write(name, original);
+    write(names[0], top);
+  }
+  EXPECT_GT(refused, 500);
+}
+
+TEST_F(Set, NothingIsReplacedUnasked) {
+  const std::string before = read(path("set/manifest.json"));
+  EXPECT_NE(golden::input_error_of([&] { generate("set", {"rsqrt"}); }).find("is not empty; --force"),
+            std::string::npos);
+  EXPECT_EQ(read(path("set/manifest.json")), before);
+  generate("set", {"rsqrt"}, true);
+  EXPECT_EQ(SetReader(path("set")).suites(), std::vector<std::string>{"rsqrt"});
+  // What is no set stays, even when asked to replace it.
+  write("set/thesis.txt", "mine");
+  EXPECT_NE(golden::input_error_of([&] { generate("set", {"rsqrt"}, true); }).find("does not belong"),
+            std::string::npos);
+  EXPECT_EQ(read(path("set/thesis.txt")), "mine");
+  fs::remove(path("set/thesis.txt"));
+  write("set/rsqrt/thesis.txt", "mine");
+  EXPECT_NE(golden::input_error_of([&] { generate("set", {"rsqrt"}, true); }), "");
+  EXPECT_EQ(read(path("set/rsqrt/thesis.txt")), "mine");
+  fs::create_directory(path("other"));
+  write("other/file", "mine");
+  EXPECT_NE(golden::input_error_of([&] { generate("other", {"rsqrt"}, true); }), "");
+  fs::create_directory(path("empty"));
+  generate("empty", {"rsqrt"});
+  EXPECT_EQ(check(path("empty")), check(path("empty")));
+}
+
+TEST_F(Set, AnUnfinishedSetLeavesNothing) {
+  const std::size_t before = entries();
+  {
+    SetWriter writer(path("new"), info(), false);
+    writer.add(find_suite("rsqrt").info(), [&](SuiteWriter& out) { find_suite("rsqrt").write(out, options()); });
+  }
+  EXPECT_EQ(entries(), before);
+  SetWriter empty(path("new"), info(), false);
+  EXPECT_NE(golden::input_error_of([&] { empty.commit(false); }).find("no suite"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("new")));
+}
+
+TEST_F(Set, FilesBesideTheRecordsAreGuardedToo) {
+  SetWriter writer(path("pictures"), info(), false);
+  SuiteInfo suite{"pictures", "machine", "t", "quadrille", 0, ""};
+  writer.add(suite, [&](SuiteWriter& out) {
+    RecordLayout layout;
+    layout.add({.name = "n", .width = 5});
+    out.add_record("stimulus", layout);
+    out.write("stimulus", Record(5));
+    std::ofstream(out.add_file("image_0.exr"), std::ios::binary) << "any bytes";
+    out.set_count("vectors", 1);
+    out.set_entry("draws", 1);
+  });
+  writer.commit(false);
+  EXPECT_EQ(SetReader(path("pictures")).suite("pictures").manifest()["draws"], 1);
+  write("pictures/pictures/image_0.exr", "any bytez");
+  EXPECT_NE(golden::input_error_of([&] { check(path("pictures")); }).find("image_0.exr: is not the file"),
+            std::string::npos);
+}
+
+TEST(Suites, UnknownNamesTheNearest) {
+  const std::string message = golden::input_error_of([] { find_suite("weigths"); });
+  EXPECT_EQ(message, "unknown suite \"weigths\"; the nearest is \"weights\"");
+}
+
+}  // namespace

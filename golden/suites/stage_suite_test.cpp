@@ -1,0 +1,577 @@
+// The stage suites: where their bits are, what their stimuli hold, and responses against independent evaluation.
+#include "golden/suites/stage_suite.hpp"
+#include "golden/io/test_support.hpp"
+#include "tb/bit_vector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace {
+
+using namespace quadrille;
+using namespace quadrille::vectors;
+namespace fs = std::filesystem;
+
+const StageSuite& stage_suite(const std::string& name) { return dynamic_cast<const StageSuite&>(find_suite(name)); }
+
+std::vector<std::string> stage_names() {
+  std::vector<std::string> names;
+  for (const auto& suite : suites())
+    if (dynamic_cast<const StageSuite*>(suite.get()) != nullptr) names.push_back(suite->info().name);
+  return names;
+}
+
+Config small_config() {
+  Config c;
+  c.set("significand_bits", 11);
+  c.set("viewport_bits", 8);
+  c.set("homogeneous_frac_bits", 5);
+  c.set("subpixel_bits", 4);
+  c.set("quadratic_frac_bits", 12);
+  c.set("attribute_slots", 3);
+  c.set("tile_log2", 2);
+  c.validate();
+  return c;
+}
+
+/// A record with its layout: fields by name, and numbers as long double (exponents up to ±1300 fit).
+class Values {
+ public:
+  Values(const Record& record, const RecordLayout& layout) : record_(record), layout_(layout) {}
+  std::int64_t integer(const std::string& name, int index = -1) const {
+    const RecordField& f = layout_.field(name, index);
+    return f.is_signed ? record_.get_signed(f) : static_cast<std::int64_t>(record_.get(f));
+  }
+  /// sig · 2^(exp - (S-1)), with the sign of PREFIX_neg when there is one.
+  long double number(const std::string& prefix, int index = -1, bool has_sign = false) const {
+    const RecordField& f = layout_.field(prefix + "sig", index);
+    const long double magnitude = ldexpl(static_cast<long double>(record_.get(f)),
+                                         static_cast<int>(integer(prefix + "exp", index)) - (f.width - 1));
+    return has_sign && integer(prefix + "neg", index) != 0 ? -magnitude : magnitude;
+  }
+
+ private:
+  const Record& record_;
+  const RecordLayout& layout_;
+};
+
+/// Calls check(stimulus, response) for every vector of a suite of about `limit`.
+template <class Check>
+void for_each(const std::string& name, const Config& config, std::uint64_t limit, const Check& check) {
+  const auto stage = stage_suite(name).stage(config);
+  GenerateOptions options;
+  options.config = config;
+  options.limit = limit;
+  const StageSuite::Stimuli stimuli = stage_suite(name).stimuli(options);
+  for (const auto* list : {&stimuli.corner, &stimuli.random, &stimuli.realistic}) {
+    ASSERT_FALSE(list->empty());
+    for (const Record& stimulus : *list) {
+      const Record response = stage->respond(stimulus);
+      check(Values(stimulus, stage->stimulus_layout()), Values(response, stage->response_layout()));
+      if (testing::Test::HasFailure()) {
+        ADD_FAILURE() << name << ": stimulus " << stimulus.to_hex() << " response " << response.to_hex();
+        return;
+      }
+    }
+  }
+}
+
+// ---- Places of the bits ----
+
+void expect_boundary(const std::string& suite, Boundary boundary, const Config& config) {
+  SCOPED_TRACE(suite);
+  const auto stage = stage_suite(suite).stage(config);
+  const RecordLayout& layout = stage->response_layout();
+  const tb::Layout probe = tb::boundary_layout(boundary, config);
+  ASSERT_EQ(layout.bits(), probe.width());
+  ASSERT_EQ(layout.fields().size(), probe.fields().size());
+  for (std::size_t i = 0; i < probe.fields().size(); ++i) {
+    const RecordField& f = layout.fields()[i];
+    const tb::Field& p = probe.fields()[i];
+    EXPECT_EQ(f.name, p.name);
+    EXPECT_EQ(std::max(0, f.index), std::max(0, p.index)) << f.name;  // a number alone counts as element 0 there
+    EXPECT_EQ(f.position, p.lsb) << f.label();
+    EXPECT_EQ(f.width, p.width) << f.label();
+  }
+}
+
+TEST(StageSuites, ResponsesAreTheMachinesBoundaries) {
+  for (const Config& config : {Config{}, small_config()}) {
+    expect_boundary("setup", Boundary::setup, config);
+    expect_boundary("normalise", Boundary::norm, config);
+    expect_boundary("rsqrt", Boundary::rsqrt, config);
+    expect_boundary("ratios", Boundary::ratio, config);
+    expect_boundary("weights", Boundary::weight, config);
+    expect_boundary("interpolation", Boundary::sum, config);
+  }
+}
+
+// Widths of golden/vectors/README.md for the default configuration, added up by hand: T = 32, W = 17, V = 12, TC = 10,
+// VAL = QVAL = 63, GRAD = QGRAD = 48, QCURV = 32, S = 18, E = 12, PE = 9, N = 4, DB = 24, TL = 3, AO = 24.
+TEST(StageSuites, WidthsByHand) {
+  const std::map<std::string, std::pair<int, int>> bits{
+      {"snapping", {1 + 4 * 64 + 4 * 64, 1 + 2 * 32 + 17 + 9 + 18 + 28 + 4 * 28}},
+      {"setup", {8 * 32 + 4 * 17 + 4 * 13, 3 + 4 * 10 + 2 + 4 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32)}},
+      {"coverage", {2 + 4 * 13 + 20 + 5 * (63 + 48 + 48) + 4, 3 * 64}},
+      {"forward_difference", {3 + 3 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32), 16 * 63}},
+      {"normalise", {16 * 63, 4 + 12 * 31 + 4 * 30}},
+      {"rsqrt", {4 * 30, 4 * 30}},
+      {"reciprocal", {31, 31}},
+      {"ratios", {6 * 30 + 6 * 31 + 4 * 30, 12 * 30}},
+      {"weights", {8 + 4 + 4 + 4 * 28 + 4 * 30 + 12 * 30, 4 * 30}},
+      {"interpolation", {4 * 30 + 28 * 28, 7 * 31}},
+      {"depth", {1 + 25 + 25 + 4 + 1 + 7 * 31, 1 + 1 + 25 + 4 * 24}},
+  };
+  ASSERT_EQ(stage_names().size(), bits.size());
+  for (const auto& [name, widths] : bits) {
+    const auto stage = stage_suite(name).stage(Config{});
+    EXPECT_EQ(stage->stimulus_layout().bits(), widths.first) << name;
+    EXPECT_EQ(stage->response_layout().bits(), widths.second) << name;
+  }
+}
+
+TEST(StageSuites, StimulusFieldsInTheStatedOrder) {
+  const auto order = [](const std::string& name) {
+    const auto stage = stage_suite(name).stage(Config{});
+    std::string text;
+    for (const RecordField& f : stage->stimulus_layout().fields())
+      if (f.index <= 0) text += (text.empty() ? "" : " ") + f.name;
+    return text;
+  };
+  EXPECT_EQ(order("snapping"), "perspective x y z w attr");
+  EXPECT_EQ(order("setup"), "x y w scissor_x0 scissor_y0 scissor_x1 scissor_y1");
+  EXPECT_EQ(order("coverage"),
+            "cull scissor_x0 scissor_y0 scissor_x1 scissor_y1 tile_x tile_y lin_value lin_gx lin_gy visible");
+  EXPECT_EQ(order("forward_difference"), "row dx lin_value lin_gx lin_gy quad_value quad_gx quad_gy quad_q");
+  EXPECT_EQ(order("normalise"), "a d r2");
+  EXPECT_EQ(order("reciprocal"), "neg exp sig");
+  EXPECT_EQ(order("ratios"), "a_exp a_sig d_neg d_exp d_sig rho_exp rho_sig");
+  EXPECT_EQ(order("weights"), "a_sign d_negative corner k_neg k_exp k_sig rho_exp rho_sig n_exp n_sig d_exp d_sig");
+  EXPECT_EQ(order("interpolation"),
+            "m_exp m_sig k_neg k_exp k_sig w_neg w_exp w_sig z_neg z_exp z_sig b_neg b_exp b_sig");
+  EXPECT_EQ(order("depth"),
+            "depth_on znear zfar attributes hull attr_neg attr_exp attr_sig z_neg z_exp z_sig den_k_neg den_k_exp "
+            "den_k_sig den_w_neg den_w_exp den_w_sig");
+}
+
+// ---- Stimuli ----
+
+// constrain() is the contract: what it would change is not legal.
+TEST(StageSuites, StimuliKeepTheirContract) {
+  for (const Config& config : {Config{}, small_config()})
+    for (const std::string& name : stage_names()) {
+      SCOPED_TRACE(name);
+      const auto stage = stage_suite(name).stage(config);
+      GenerateOptions options;
+      options.config = config;
+      options.limit = 900;
+      const StageSuite::Stimuli stimuli = stage_suite(name).stimuli(options);
+      for (const auto* list : {&stimuli.corner, &stimuli.random, &stimuli.realistic})
+        for (const Record& stimulus : *list) {
+          for (const RecordField& f : stage->stimulus_layout().fields()) {
+            const std::int64_t v =
+                f.is_signed || f.width == 64 ? stimulus.get_signed(f) : static_cast<std::int64_t>(stimulus.get(f));
+            const Range range = stage->range(f);
+            const bool zero = f.name.ends_with("exp") && v == 0;                  // of a zero
+            const bool one = (f.name == "n_exp" || f.name == "d_exp") && v == 1;  // 1 + |cos| = 2
+            ASSERT_TRUE(range.contains(v) || zero || one) << f.label() << " = " << v << " in " << stimulus.to_hex();
+          }
+          if (list == &stimuli.realistic && config.qdrop() > 0) continue;  // r² and A are rounded apart there
+          StageData data;
+          stage->unpack_stimulus(stimulus, data);
+          ASSERT_EQ(stage->pack_stimulus(data), stimulus);
+          stage->constrain(data);
+          ASSERT_EQ(stage->pack_stimulus(data).to_hex(), stimulus.to_hex());
+        }
+    }
+}
+
+TEST(StageSuites, CornersOfEveryFieldOccur) {
+  for (const std::string& name : stage_names()) {
+    SCOPED_TRACE(name);
+    if (name == "ratios" || name == "coverage" || name == "forward_difference") continue;  // ends do not fit together
+    const auto stage = stage_suite(name).stage(Config{});
+    const StageSuite::Stimuli stimuli = stage_suite(name).stimuli({});
+    std::map<std::string, std::set<std::int64_t>> seen;
+    for (const auto* list : {&stimuli.corner, &stimuli.random, &stimuli.realistic})
+      for (const Record& stimulus : *list)
+        for (const RecordField& f : stage->stimulus_layout().fields())
+          seen[f.label()].insert(f.is_signed || f.width == 64 ? stimulus.get_signed(f)
+                                                              : static_cast<std::int64_t>(stimulus.get(f)));
+    for (const RecordField& f : stage->stimulus_layout().fields()) {
+      const Range range = stage->range(f);
+      EXPECT_TRUE(seen[f.label()].contains(range.lo)) << f.label() << " never is " << range.lo;
+      EXPECT_TRUE(seen[f.label()].contains(range.hi)) << f.label() << " never is " << range.hi;
+    }
+  }
+}
+
+class StageSets : public golden::InDirectory {
+ protected:
+  std::string generate(const std::string& name, std::uint64_t seed, unsigned threads) const {
+    GenerateOptions options;
+    options.seed = seed;
+    options.threads = threads;
+    options.limit = 200;
+    SetWriter writer(path(name), {1, seed, options.config, "quadrille golden generate"}, false);
+    for (const std::string& suite : stage_names())
+      writer.add(find_suite(suite).info(), [&](SuiteWriter& out) { find_suite(suite).write(out, options); });
+    writer.commit(true);
+    return read(path(name + "/manifest.json"));  // holds the hashes of everything
+  }
+};
+
+TEST_F(StageSets, BytesDependOnTheSeedAndNotOnThreads) {
+  const std::string one = generate("one", 1, 1);
+  EXPECT_EQ(generate("three", 1, 3), one);
+  EXPECT_EQ(generate("again", 1, 1), one);
+  EXPECT_NE(generate("two", 2, 1), one);
+  for (const std::string& name : stage_names()) {
+    const SuiteReader a = SetReader(path("one")).suite(name), b = SetReader(path("two")).suite(name);
+    EXPECT_NE(a.manifest()["files"]["stimulus.hex"]["sha256"], b.manifest()["files"]["stimulus.hex"]["sha256"]) << name;
+    EXPECT_TRUE(find_suite(name).verify(a, 2).ok());
+    EXPECT_EQ(a.manifest()["counts"]["vectors"], a.lines("stimulus"));
+  }
+}
+
+// ---- Responses against evaluation of another kind ----
+
+TEST(StageResponses, Snapping) {
+  const Config c;
+  std::uint64_t accepted = 0, refused = 0, ordinary = 0;
+  for_each("snapping", c, 3000, [&](const Values& in, const Values& out) {
+    const auto real = [&](const char* name, int index = -1) {
+      return static_cast<long double>(std::bit_cast<double>(in.integer(name, index)));
+    };
+    const long double x = real("x"), y = real("y"), z = real("z"), w = real("w");
+    bool bad = !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || !std::isfinite(w);
+    const long double extent = fmaxl(fmaxl(fabsl(x), fabsl(y)), fabsl(w));
+    bad = bad || extent > 0x1p80L || extent < 0x1p-80L || fabsl(z) > 0x1p80L || (x == w / 2 && y == w / 2 && w == 0);
+    for (int j = 0; j < 4; ++j) bad = bad || !(fabsl(real("attr", j)) < 8);
+    if (bad) {
+      ++refused;
+      EXPECT_EQ(out.integer("refused"), 1);
+      EXPECT_EQ(out.integer("k_sig"), 0);
+      return;
+    }
+    EXPECT_EQ(out.integer("refused"), 0);
+    ++accepted;
+    // The snapped point is k times the given one (shifted by half a pixel) within half a step of the grid and the
+    // rounding of k.
+    const long double k = out.number("k_"), ulp = 0x1p-17L;
+    const bool on_grid = out.integer("w") == 1 << 15 && out.integer("x") % 128 == 0 && out.integer("y") % 128 == 0;
+    ordinary += on_grid;
+    const long double step = on_grid ? 0x1p-9L : 0x1p-16L;
+    const auto close = [&](long double snapped, long double given, const char* what) {
+      EXPECT_LE(fabsl(snapped - k * given), step + fabsl(k * given) * ulp) << what;
+    };
+    close(ldexpl(static_cast<long double>(out.integer("x")), -15), x - w / 2, "x");
+    close(ldexpl(static_cast<long double>(out.integer("y")), -15), y - w / 2, "y");
+    close(ldexpl(static_cast<long double>(out.integer("w")), -15), w, "w");
+    const long double scale =
+        in.integer("perspective") != 0 ? k : ldexpl(static_cast<long double>(out.integer("w")), -15);
+    for (int j = 0; j < 4; ++j) {
+      const long double b = scale * real("attr", j);
+      EXPECT_LE(fabsl(out.number("attr_", j, true) - b), fmaxl(fabsl(b) * ulp, 0x1p-256L)) << j;
+    }
+    EXPECT_LE(fabsl(out.number("z_", -1, true) - k * z), fmaxl(fabsl(k * z) * ulp, 0x1p-256L));
+  });
+  EXPECT_GT(refused, 300u);
+  EXPECT_GT(accepted, 500u);
+  EXPECT_GT(ordinary, 200u);
+}
+
+TEST(StageResponses, Setup) {
+  const Config c;
+  constexpr int first[] = {0, 1, 2, 3, 2, 1}, second[] = {1, 2, 3, 0, 0, 3};
+  std::uint64_t empty = 0, hull = 0;
+  for_each("setup", c, 1500, [&](const Values& in, const Values& out) {
+    // A function at a pixel is the cross or dot product of the vectors S_i = V_i - W_i (pixel) to the vertices there.
+    const std::int64_t ox = out.integer("tile_x0") * 8, oy = out.integer("tile_y0") * 8;
+    for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {3, 5}}) {
+      __int128 sx[4], sy[4];
+      for (int i = 0; i < 4; ++i) {
+        sx[i] = in.integer("x", i) - in.integer("w", i) * (ox + dx);
+        sy[i] = in.integer("y", i) - in.integer("w", i) * (oy + dy);
+      }
+      for (int k = 0; k < 16; ++k) {
+        const std::string name = k < 6 ? "lin_" : "quad_";
+        const int f = k < 6 ? k : k - 6;
+        const int i = f < 6 ? first[f] : f - 6, j = f < 6 ? second[f] : f - 6;
+        const __int128 expected = k < 6 ? sx[i] * sy[j] - sy[i] * sx[j] : sx[i] * sx[j] + sy[i] * sy[j];
+        __int128 value = out.integer(name + "value", f);
+        value += static_cast<__int128>(out.integer(name + "gx", f)) * dx +
+                 static_cast<__int128>(out.integer(name + "gy", f)) * dy;
+        if (k >= 6) value += static_cast<__int128>(out.integer("quad_q", f)) * (dx * dx + dy * dy);
+        EXPECT_TRUE(value == expected) << name << f;
+      }
+    }
+    const auto at = [](const std::array<std::int64_t, 4>& v) { return std::minmax_element(v.begin(), v.end()); };
+    std::array<std::int64_t, 4> x{}, y{}, w{};
+    for (std::size_t i = 0; i < 4; ++i)
+      x[i] = in.integer("x", static_cast<int>(i)), y[i] = in.integer("y", static_cast<int>(i)),
+      w[i] = in.integer("w", static_cast<int>(i));
+    const bool homogeneous = std::ranges::any_of(w, [](std::int64_t v) { return v != 1 << 15; });
+    EXPECT_EQ(out.integer("homogeneous") != 0, homogeneous);
+    empty += out.integer("tiles_x") == 0;
+    hull += out.integer("hull") != 0;
+    if (!homogeneous) {
+      EXPECT_EQ(out.integer("visible"), 15);
+      if (out.integer("tiles_x") > 0) {
+        // The last tile column holds the last pixel at or left of the rightmost vertex, inside the scissor.
+        const double right = std::min(std::floor(static_cast<double>(*at(x).second) / 32768.0),
+                                      static_cast<double>(in.integer("scissor_x1") - 1));
+        const double left = std::max(std::ceil(static_cast<double>(*at(x).first) / 32768.0),
+                                     static_cast<double>(in.integer("scissor_x0")));
+        EXPECT_EQ(out.integer("tile_x0"), static_cast<std::int64_t>(std::floor(left / 8)));
+        EXPECT_EQ(out.integer("tile_x0") + out.integer("tiles_x") - 1,
+                  static_cast<std::int64_t>(std::floor(right / 8)));
+      }
+    }
+  });
+  EXPECT_GT(empty, 50u);
+  EXPECT_GT(hull, 20u);
+}
+
+TEST(StageResponses, Coverage) {
+  const Config c;
+  std::uint64_t covered = 0, ties = 0;
+  for_each("coverage", c, 3000, [&](const Values& in, const Values& out) {
+    for (int row = 0; row < 8; ++row)
+      for (int dx = 0; dx < 8; ++dx) {
+        int sign[5];
+        bool tie = false;
+        for (int k = 0; k < 5; ++k) {
+          const __int128 gx = in.integer("lin_gx", k), gy = in.integer("lin_gy", k);
+          const __int128 e = in.integer("lin_value", k) + gx * dx + gy * row;
+          // The sign infinitesimally to the right, and below.
+          const __int128 decides = e != 0 ? e : gx != 0 ? gx : gy;
+          sign[k] = decides > 0 ? 1 : decides < 0 ? -1 : 0;
+          tie = tie || (e == 0 && sign[k] != 0);
+        }
+        const auto half = [&](int s, int diagonal, int a, int b, int c1, int c2) {
+          return sign[4] == diagonal && sign[a] == s && sign[b] == s && (sign[c1] == s || sign[c2] == s);
+        };
+        const std::int64_t visible = in.integer("visible"), cull = in.integer("cull");
+        const bool back =
+            ((half(1, 1, 0, 1, 2, 3) && (visible & 1)) || (half(1, -1, 2, 3, 0, 1) && (visible & 2))) && cull != 2;
+        const bool front =
+            ((half(-1, -1, 0, 1, 2, 3) && (visible & 4)) || (half(-1, 1, 2, 3, 0, 1) && (visible & 8))) && cull != 1;
+        const std::int64_t x = in.integer("tile_x") * 8 + dx, y = in.integer("tile_y") * 8 + row;
+        const bool inside = x >= in.integer("scissor_x0") && x < in.integer("scissor_x1") &&
+                            y >= in.integer("scissor_y0") && y < in.integer("scissor_y1");
+        const bool drawn = inside && (back || front);
+        EXPECT_EQ(out.integer("mask", row) >> dx & 1, drawn) << row << " " << dx;
+        EXPECT_EQ(out.integer("front", row) >> dx & 1, drawn && front) << row << " " << dx;
+        EXPECT_EQ(out.integer("tie", row) >> dx & 1, drawn && tie) << row << " " << dx;
+        covered += drawn;
+        ties += drawn && tie;
+      }
+  });
+  EXPECT_GT(covered, 5000u);
+  EXPECT_GT(ties, 500u);
+}
+
+TEST(StageResponses, ForwardDifference) {
+  for_each("forward_difference", Config{}, 1500, [](const Values& in, const Values& out) {
+    const std::int64_t x = in.integer("dx"), y = in.integer("row");
+    for (int k = 0; k < 16; ++k) {
+      const std::string name = k < 6 ? "lin_" : "quad_";
+      const int f = k < 6 ? k : k - 6;
+      __int128 v = in.integer(name + "value", f);
+      v +=
+          static_cast<__int128>(in.integer(name + "gx", f)) * x + static_cast<__int128>(in.integer(name + "gy", f)) * y;
+      if (k >= 6) v += static_cast<__int128>(in.integer("quad_q", f)) * (x * x + y * y);
+      const std::int64_t actual = k < 6 ? out.integer("a", f) : f < 6 ? out.integer("d", f) : out.integer("r2", f - 6);
+      EXPECT_TRUE(v == actual) << name << f;
+    }
+  });
+}
+
+TEST(StageResponses, Normalise) {
+  for (const Config& c : {Config{}, small_config()}) {
+    const int s = c.significand_bits;
+    std::set<std::int64_t> classes;
+    for_each("normalise", c, 3000, [&](const Values& in, const Values& out) {
+      const auto check = [&](std::int64_t v, const std::string& prefix, int index, int bias, bool has_sign) {
+        // Repeated doubling or halving of the magnitude until its top bit is that of a significand.
+        unsigned __int128 m =
+            static_cast<unsigned __int128>(v < 0 ? -static_cast<__int128>(v) : static_cast<__int128>(v));
+        int exp = bias + s - 1;
+        while (m >> s != 0) m >>= 1, ++exp;
+        while (m != 0 && m >> (s - 1) == 0) m <<= 1, --exp;
+        EXPECT_EQ(out.integer(prefix + "sig", index), static_cast<std::int64_t>(m)) << prefix << index;
+        EXPECT_EQ(out.integer(prefix + "exp", index), m == 0 ? 0 : exp) << prefix << index;
+        if (has_sign) {
+          EXPECT_EQ(out.integer(prefix + "neg", index), v < 0) << prefix << index;
+        }
+      };
+      int corners = 0, edges = 0;
+      for (int i = 0; i < 6; ++i) {
+        check(in.integer("a", i), "a_", i, -c.qdrop(), true);
+        check(in.integer("d", i), "d_", i, 0, true);
+        if (i >= 4) continue;
+        check(std::max<std::int64_t>(0, in.integer("r2", i)), "r2_", i, 0, false);
+        corners += in.integer("r2", i) <= 0;
+        edges += in.integer("a", i) == 0 && in.integer("d", i) < 0;
+      }
+      const std::int64_t found = 8 * out.integer("two_corner") + 4 * out.integer("on_vertex") +
+                                 2 * out.integer("two_edge") + out.integer("on_edge");
+      EXPECT_EQ(found, corners > 1 ? 8 : corners == 1 ? 4 : edges > 1 ? 2 : edges);
+      classes.insert(found);
+    });
+    EXPECT_EQ(classes, (std::set<std::int64_t>{0, 1, 2, 4, 8}));
+  }
+}
+
+TEST(StageResponses, RsqrtAndReciprocalWithinOneUlp) {
+  for (const Config& c : {Config{}, small_config()}) {
+    const int s = c.significand_bits;
+    const auto faithful = [&](long double actual, long double exact) {
+      if (exact == 0) return actual == 0;
+      int exponent = 0;
+      frexpl(exact, &exponent);
+      return fabsl(actual - exact) < ldexpl(1, exponent - s);  // one unit in the last place of S bits
+    };
+    for_each("rsqrt", c, 6000, [&](const Values& in, const Values& out) {
+      for (int i = 0; i < 4; ++i) {
+        const long double a = in.number("", i);
+        EXPECT_TRUE(faithful(out.number("", i), a == 0 ? 0 : 1 / sqrtl(a))) << i;
+      }
+    });
+    for_each("reciprocal", c, 6000, [&](const Values& in, const Values& out) {
+      const long double a = in.number("", -1, true);
+      EXPECT_TRUE(faithful(fabsl(out.number("")), a == 0 ? 0 : fabsl(1 / a)));
+      EXPECT_EQ(out.integer("neg"), a < 0);
+    });
+  }
+}
+
+TEST(StageResponses, Ratios) {
+  constexpr int first[] = {0, 1, 2, 3, 2, 1}, second[] = {1, 2, 3, 0, 0, 3};
+  for_each("ratios", Config{}, 3000, [&](const Values& in, const Values& out) {
+    for (int k = 0; k < 6; ++k) {
+      const long double scale = in.number("rho_", first[k]) * in.number("rho_", second[k]);
+      const long double sine = in.number("a_", k) * scale, cosine = in.number("d_", k) * scale;
+      const long double n = out.number("n_", k), d = out.number("d_", k), u = 1 + cosine;
+      const bool obtuse = in.integer("d_neg", k) != 0;
+      // Two truncations in each, of 2^-17; the aligned cosine loses up to 2^-19 more.
+      EXPECT_NEAR(static_cast<double>(obtuse ? n : d), static_cast<double>(u), 0x1p-15) << k;
+      const long double v = obtuse ? d : n;
+      EXPECT_LE(v, sine) << k;
+      EXPECT_GE(v, sine * (1 - 0x1p-16L)) << k;
+    }
+  });
+}
+
+TEST(StageResponses, Weights) {
+  std::uint64_t plain = 0, vertex = 0;
+  for_each("weights", Config{}, 6000, [&](const Values& in, const Values& out) {
+    int corners = 0, on_edge = 0, at = 0;
+    bool differ = false;
+    for (int i = 0; i < 4; ++i) {
+      if (in.integer("corner", i) != 0) ++corners, at = i;
+      on_edge += in.integer("a_sign", i) == 0 && in.integer("d_negative", i) != 0;
+      differ = differ || in.integer("a_sign", i) * in.integer("a_sign", (i + 3) % 4) < 0;
+    }
+    if (corners == 1) {
+      ++vertex;
+      for (int i = 0; i < 4; ++i) EXPECT_EQ(out.number("", i), i == at ? 1.0L : 0.0L);
+    }
+    if (corners > 0 || on_edge > 0 || differ) return;
+    ++plain;
+    // Hormann & Tarini: lambda_i ~ (t_{i-1} + t_i) / r_i, here times the product of all d.
+    for (int i = 0; i < 4; ++i) {
+      const int h = (i + 3) % 4;
+      const long double all = in.number("d_", 0) * in.number("d_", 1) * in.number("d_", 2) * in.number("d_", 3);
+      if (all == 0) return;
+      const long double t = in.number("n_", h) / in.number("d_", h) + in.number("n_", i) / in.number("d_", i);
+      const long double exact = t * in.number("rho_", i) * all;
+      // Truncations only: four of 2^-17 and the alignment's.
+      EXPECT_LE(out.number("", i), exact * (1 + 0x1p-60L)) << i;
+      EXPECT_GE(out.number("", i), exact * (1 - 6 * 0x1p-17L)) << i;
+    }
+  });
+  EXPECT_GT(plain, 500u);
+  EXPECT_GT(vertex, 100u);
+}
+
+TEST(StageResponses, Interpolation) {
+  for_each("interpolation", Config{}, 3000, [&](const Values& in, const Values& out) {
+    const auto check = [&](const std::string& from, const std::string& to, int index) {
+      long double exact = 0, largest = 0;
+      for (int i = 0; i < 4; ++i) {
+        const long double term = in.number("m_", i) * in.number(from, index < 0 ? i : 4 * index + i, true);
+        exact += term;
+        largest = fmaxl(largest, fabsl(term));
+      }
+      // Four terms cut 19 bits below the binary order of the largest, and the sum to 18 bits.
+      EXPECT_LE(fabsl(out.number(to, index, true) - exact), largest * 4 * 0x1p-19L + fabsl(exact) * 0x1p-17L)
+          << to << index;
+    };
+    check("k_", "den_k_", -1);
+    check("w_", "den_w_", -1);
+    check("z_", "z_", -1);
+    for (int j = 0; j < 4; ++j) check("b_", "attr_", j);
+  });
+}
+
+TEST(StageResponses, Depth) {
+  std::uint64_t valid = 0, discarded = 0, saturated = 0;
+  for_each("depth", Config{}, 6000, [&](const Values& in, const Values& out) {
+    const long double w = in.number("den_w_", -1, true), k = in.number("den_k_", -1, true);
+    const long double z = w == 0 ? 4 : in.number("z_", -1, true) / w;
+    const bool depth = in.integer("depth_on") != 0;
+    const long double slack = fabsl(z) * 3 * 0x1p-17L + 0x1p-24L;
+    const long double lo = ldexpl(static_cast<long double>(in.integer("znear")), -24),
+                      hi = ldexpl(static_cast<long double>(in.integer("zfar")), -24);
+    const bool behind = in.integer("hull") != 0 && !(w > 0);
+    const bool out_of_range = depth && (z < fmaxl(lo - slack, -0x1p-24L) - slack || z > hi + 0x1p-23L + slack);
+    const bool inside = !depth || (z > fmaxl(lo + slack, 0) + slack && z < fminl(hi, 1) - slack);
+    if (behind || out_of_range) {
+      EXPECT_EQ(out.integer("valid"), 0);
+    }
+    if (!behind && inside) {
+      EXPECT_EQ(out.integer("valid"), 1);
+    }
+    if (out.integer("valid") == 0) {
+      ++discarded;
+      EXPECT_EQ(out.integer("depth"), 0);
+      for (int j = 0; j < 4; ++j) EXPECT_EQ(out.integer("attr", j), 0);
+      return;
+    }
+    ++valid;
+    const long double code = ldexpl(static_cast<long double>(out.integer("depth")), -24);
+    if (!depth) {
+      EXPECT_EQ(code, 0);
+    }
+    if (depth && w != 0 && fabsl(z) < 1.9L) {
+      EXPECT_LE(fabsl(code - fmaxl(z, 0)), slack);
+    }
+    bool clamped = false, uncertain = false;
+    for (int j = 0; j < 4; ++j) {
+      const long double a = k == 0 ? 0 : in.number("attr_", j, true) / k;
+      const long double actual = ldexpl(static_cast<long double>(out.integer("attr", j)), -20);
+      if (j >= in.integer("attributes")) {
+        EXPECT_EQ(actual, 0);
+        continue;
+      }
+      const long double error = fabsl(a) * 3 * 0x1p-17L + 0x1p-20L;
+      clamped = clamped || fabsl(a) >= 8;
+      uncertain = uncertain || fabsl(fabsl(a) - 8) < error;
+      const long double limit = 8 - 0x1p-20L;
+      EXPECT_LE(fabsl(actual - fmaxl(-limit, fminl(limit, a))), error) << j;
+    }
+    if (!uncertain) {
+      EXPECT_EQ(out.integer("saturated"), clamped);
+    }
+    saturated += clamped;
+  });
+  EXPECT_GT(valid, 1000u);
+  EXPECT_GT(discarded, 1000u);
+  EXPECT_GT(saturated, 100u);
+}
+
+}  // namespace

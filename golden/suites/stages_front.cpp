@@ -1,0 +1,566 @@
+// Snapping and the exact front of the machine.
+#include "golden/suites/stage_of.hpp"
+#include "golden/suites/stage_suites.hpp"
+#include "model/quad_setup.hpp"
+#include "model/snap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille::vectors {
+namespace {
+
+FieldType plain(const char* name, int width, const char* meaning, const char* unit = "") {
+  return {name, width, false, {}, unit, meaning};
+}
+FieldType fixed(const char* name, int width, int fraction, const char* unit, const char* meaning) {
+  return {name, width, true, fraction, unit, meaning};
+}
+
+/// Half-open rectangle of pixels.
+template <class D, class F>
+void visit_scissor(D& d, const Config& c, F&& f) {
+  const int width = c.viewport_bits + 1;
+  f(plain("scissor_x0", width, "first column drawn", "px"), -1, d.state.scissor_x0);
+  f(plain("scissor_y0", width, "first row drawn", "px"), -1, d.state.scissor_y0);
+  f(plain("scissor_x1", width, "column after the last one", "px"), -1, d.state.scissor_x1);
+  f(plain("scissor_y1", width, "row after the last one", "px"), -1, d.state.scissor_y1);
+}
+
+void order_scissor(DrawState& s) {
+  if (s.scissor_x0 > s.scissor_x1) std::swap(s.scissor_x0, s.scissor_x1);
+  if (s.scissor_y0 > s.scissor_y1) std::swap(s.scissor_y0, s.scissor_y1);
+}
+
+FieldType linear_value(const Config& c) {
+  return fixed("lin_value", c.val_bits(), 2 * c.frac(), "px^2",
+               "edge functions E01 E12 E23 E30 E20 E13 at the origin pixel");
+}
+FieldType linear_gx(const Config& c) {
+  return fixed("lin_gx", c.grad_bits(), 2 * c.frac(), "px^2", "their steps to the next column");
+}
+FieldType linear_gy(const Config& c) {
+  return fixed("lin_gy", c.grad_bits(), 2 * c.frac(), "px^2", "their steps to the next row");
+}
+FieldType quadratic_value(const Config& c) {
+  return fixed("quad_value", c.qval_bits(), c.quadratic_frac(), "px^2",
+               "dot products D01 D12 D23 D30 D20 D13 and squared distances 0 to 3 at the origin pixel");
+}
+FieldType quadratic_gx(const Config& c) {
+  return fixed("quad_gx", c.qgrad_bits(), c.quadratic_frac(), "px^2",
+               "linear coefficients in x: f(dx, dy) = value + dx gx + dy gy + q (dx^2 + dy^2)");
+}
+FieldType quadratic_gy(const Config& c) {
+  return fixed("quad_gy", c.qgrad_bits(), c.quadratic_frac(), "px^2", "linear coefficients in y");
+}
+FieldType quadratic_q(const Config& c) {
+  return fixed("quad_q", c.qcurv_bits(), c.quadratic_frac(), "px^2", "quadratic coefficients");
+}
+
+bool fits(__int128 v, int bits) {
+  const __int128 limit = static_cast<__int128>(1) << (bits - 1);
+  return v > -limit && v < limit;
+}
+
+// ---- snapping ----
+
+struct SnappingLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    const auto real = [](const char* name, const char* unit, const char* meaning) {
+      return FieldType{name, 64, false, {}, unit, meaning};
+    };
+    f(plain("perspective", 1, "b = k a; otherwise b = w a"), -1, d.state.perspective);
+    f(real("x", "px", "IEEE-754 double: w times window x, pixel centres at + 0.5"), -1, d.vertex.x);
+    f(real("y", "px", "IEEE-754 double: w times window y, downwards"), -1, d.vertex.y);
+    f(real("z", "1", "IEEE-754 double: w times window z"), -1, d.vertex.z);
+    f(real("w", "1", "IEEE-754 double: the homogeneous coordinate as given"), -1, d.vertex.w);
+    visit_array(
+        f, real("attr", "1", "IEEE-754 doubles: the attributes as given"),
+        c.attribute_slots, [&](std::size_t i) -> auto& { return d.attribute[i]; });
+  }
+
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    const int s = c.significand_bits, e = Config::port_exp_bits;
+    auto& v = d.snapped;
+    f(plain("refused", 1, "no point of the input space, or an attribute that does not fit; all else is 0"), -1,
+      d.refused);
+    f(fixed("x", c.t_bits(), c.frac(), "px", "k times window x relative to pixel centres"), -1, v.x);
+    f(fixed("y", c.t_bits(), c.frac(), "px", "k times window y relative to pixel centres"), -1, v.y);
+    f(fixed("w", c.w_bits(), c.frac(), "1", "k w"), -1, v.w);
+    visit_number(f, FpType{nullptr, "k_exp", "k_sig", e, s, "1", "k > 0, the factor of the vertex, rounded to nearest"},
+                 v.k);
+    visit_number(f, FpType{"z_neg", "z_exp", "z_sig", e, s, "1", "k z"}, v.z);
+    visit_numbers(
+        f, FpType{"attr_neg", "attr_exp", "attr_sig", e, s, "1", "b = k a, without perspective w a"},
+        c.attribute_slots, [&](std::size_t i) -> auto& { return v.attribute[i]; });
+  }
+};
+
+class Snapping : public StageOf<SnappingLists> {
+ public:
+  explicit Snapping(const Config& config) : StageOf(config) {}
+
+  Source source() const override { return Source::vertices; }
+
+  void run(StageData& d) const override {
+    d.refused = false;
+    try {
+      d.snapped = snap_vertex(d.vertex, d.attribute.data(), config().attribute_slots, config(), d.state);
+    } catch (const SnapError&) {
+      d.refused = true;
+      d.snapped = {};
+    }
+  }
+
+  void shape(golden::Prng& prng, StageData& d) const override {
+    // Vertices as a camera gives them, near and beyond the guard band, on and beside the grid, with w of either sign.
+    const double edge = std::ldexp(1.0, config().pos_int());
+    const double grid = std::ldexp(1.0, -config().subpixel_bits);
+    const double w = prng.chance(0.3) ? 1.0 : prng.sign() * prng.log2_spread(-8, 8);
+    const auto coordinate = [&] {
+      switch (prng.below(4)) {
+        case 0:
+          return prng.uniform(-edge / 8, edge / 4) * w;
+        case 1:  // ties of the rounding to the grid
+          return (static_cast<double>(prng.integer(-4000, 4000)) + 0.5) * grid * w + w / 2;
+        case 2:
+          return prng.sign() * (edge + static_cast<double>(prng.integer(-3, 3)) * grid / 2) * w + w / 2;
+        default:
+          return prng.sign() * prng.log2_spread(-82, 82);
+      }
+    };
+    d.vertex = {coordinate(), coordinate(), prng.uniform() * w, prng.chance(0.1) ? 0.0 : w};
+    const double limit = std::ldexp(1.0, config().attribute_int_bits);
+    for (double& a : d.attribute)
+      a = prng.chance(0.02)  ? prng.sign() * limit * prng.uniform(0.99, 1.01)
+          : prng.chance(0.1) ? 0.0
+                             : prng.uniform(-limit, limit);
+  }
+
+  void corners(const Sink& sink) const override {
+    StageData d;
+    const double edge = std::ldexp(1.0, config().pos_int()), grid = std::ldexp(1.0, -config().subpixel_bits);
+    const double limit = std::ldexp(1.0, config().attribute_int_bits);
+    const auto at = [&](double x, double y, double z, double w) {
+      for (const bool perspective : {false, true}) {
+        d.state.perspective = perspective;
+        d.vertex = {x, y, z, w};
+        sink(d);
+      }
+    };
+    const double inf = HUGE_VAL, nan = std::nan("");
+    for (const double bad : {inf, -inf, nan}) {
+      at(bad, 1, 0, 1), at(1, bad, 0, 1), at(1, 1, bad, 1), at(1, 1, 0, bad);
+    }
+    at(0, 0, 0, 0), at(0, 0, 1, 0), at(1, 0, 0, 0), at(0, -1, 0, 0), at(0, 0, 0, -1);
+    for (const double size : {0x1p80, 0x1.0000000000001p80, 0x1p-80, 0x1.fffffffffffffp-81, 0x1p-1074})
+      for (const double sign : {1.0, -1.0})
+        at(sign * size, 0, 0, 0), at(0, sign * size, 0, 0), at(0, 0, 0, sign * size), at(1, 1, sign * size, 1);
+    for (const double x :
+         {edge, edge - grid, edge - grid / 2, edge - grid / 4, edge + grid, 0.0, grid, grid / 2, 1.5 * grid})
+      for (const double sign : {1.0, -1.0})
+        at(sign * x + 0.5, 0.5, 0.25, 1), at(0.5, sign * x + 0.5, 0.25, 1), at(2 * sign * x + 1, 7, 0.5, 2),
+            at(sign * x, 3, -0.5, -1), at(sign * x + 0.5, sign * x + 0.5, 1, 1);
+    for (const double a : {limit, -limit, std::nextafter(limit, 0), std::nextafter(-limit, 0), 1.0, -1.0, 0x1p-1074,
+                           0x1p-260, inf, nan, 0.0, -0.0}) {
+      d.attribute.fill(0);
+      d.attribute[static_cast<std::size_t>(config().attribute_slots - 1)] = a;
+      at(10.5, 20.5, 0.5, 1), at(-3, 5, 0.5, -2);
+    }
+    // k and z at the ends of the port's exponents: a small product becomes zero.
+    d.attribute.fill(1);
+    for (const double w : {0x1p80, 0x1p-80, 0x1.8p79, 0x1.fffffffffffffp-80})
+      for (const double z : {0x1p80, 0x1p-1022, 0x1p-176, 0x1p-177, -0x1p-200, 0x1.fffffcp-177}) at(w / 4, w / 8, z, w);
+    // Significands that round up to the next power of two.
+    for (const double a : {0x1.fffffffffffffp-1, 0x1.ffffffp0, 0x1.fffffp1}) {
+      d.attribute.fill(a / 2);
+      at(1.5, 2.5, a, 1), at(2 * a, 3, 1, 2 * a);
+    }
+  }
+};
+
+// ---- setup ----
+
+struct SetupLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    auto& v = d.quad.vertex;
+    visit_array(
+        f, fixed("x", c.t_bits(), c.frac(), "px", "k times window x relative to pixel centres"),
+        4, [&](std::size_t i) -> auto& { return v[i].x; });
+    visit_array(
+        f, fixed("y", c.t_bits(), c.frac(), "px", "k times window y"),
+        4, [&](std::size_t i) -> auto& { return v[i].y; });
+    visit_array(
+        f, fixed("w", c.w_bits(), c.frac(), "1", "k w; all 1: an ordinary quad"),
+        4, [&](std::size_t i) -> auto& { return v[i].w; });
+    visit_scissor(d, c, f);
+  }
+
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    auto& r = d.setup;
+    f(plain("slot", c.quad_slots_log2, "slot of the quad: 0"), -1, r.slot);
+    f(plain("tile_x0", c.tc_bits(), "first tile column", "tiles"), -1, r.tile_x0);
+    f(plain("tile_y0", c.tc_bits(), "first tile row", "tiles"), -1, r.tile_y0);
+    f(plain("tiles_x", c.tc_bits(), "tile columns, 0 for an empty bounding box", "tiles"), -1, r.tiles_x);
+    f(plain("tiles_y", c.tc_bits(), "tile rows", "tiles"), -1, r.tiles_y);
+    f(plain("homogeneous", 1, "some w is not 1"), -1, r.homogeneous);
+    f(plain("hull", 1, "the eye is in the hull of the vertices: visibility by pixel"), -1, r.hull);
+    f(plain("visible", 4, "clauses that may be drawn; bit 0: first +, 1: second +, 2: first -, 3: second -"), -1,
+      r.visible);
+    visit_array(
+        f, linear_value(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].value; });
+    visit_array(
+        f, linear_gx(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gx; });
+    visit_array(
+        f, linear_gy(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gy; });
+    visit_array(
+        f, quadratic_value(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].value; });
+    visit_array(
+        f, quadratic_gx(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].gx; });
+    visit_array(
+        f, quadratic_gy(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].gy; });
+    visit_array(
+        f, quadratic_q(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].q; });
+  }
+};
+
+class Setup : public StageOf<SetupLists> {
+ public:
+  explicit Setup(const Config& config) : StageOf(config) {}
+
+  Source source() const override { return Source::quads; }
+  void run(StageData& d) const override { d.setup = quad_setup(d.quad, config(), d.state); }
+
+  Range range(const RecordField& f) const override {
+    const std::int64_t reach = std::int64_t{1} << (config().pos_int() + config().frac());
+    const std::int64_t one = std::int64_t{1} << config().frac();
+    if (f.name == "w") return {-one, one};
+    if (f.name == "x" || f.name == "y") return {-reach, reach};
+    return {0, std::int64_t{1} << config().viewport_bits};
+  }
+
+  void constrain(StageData& d) const override {
+    order_scissor(d.state);
+    for (SnappedVertex& v : d.quad.vertex)
+      if (v.x == 0 && v.y == 0 && v.w == 0) v.w = 1 << config().frac();
+  }
+
+  void shape(golden::Prng& prng, StageData& d) const override {
+    const int frac = config().frac();
+    const bool ordinary = prng.chance(0.5), on_pixels = prng.chance(0.3), near = prng.chance(0.7);
+    const std::int64_t extent = std::int64_t{1} << (frac + (near ? 6 : config().viewport_bits));
+    for (SnappedVertex& v : d.quad.vertex) {
+      if (ordinary) v.w = 1 << frac;
+      if (ordinary || prng.chance(0.5)) {
+        v.x = static_cast<std::int32_t>(prng.integer(-extent / 8, extent));
+        v.y = static_cast<std::int32_t>(prng.integer(-extent / 8, extent));
+      }
+      if (on_pixels) {
+        v.x &= -(1 << frac);
+        v.y &= -(1 << frac);
+      }
+    }
+    // Equal corners, opposite corners, a vertex in the plane of others: determinants of 0.
+    const std::size_t i = prng.below(4), j = prng.below(4);
+    if (prng.chance(0.2)) d.quad.vertex[i] = d.quad.vertex[j];
+    if (!ordinary && prng.chance(0.2)) {
+      d.quad.vertex[i].x = -d.quad.vertex[j].x;
+      d.quad.vertex[i].y = -d.quad.vertex[j].y;
+      d.quad.vertex[i].w = -d.quad.vertex[j].w;
+    }
+    if (prng.chance(0.7)) {
+      d.state.scissor_x0 = d.state.scissor_y0 = 0;
+      d.state.scissor_x1 = d.state.scissor_y1 = 1 << config().viewport_bits;
+    }
+  }
+
+  void corners(const Sink& sink) const override {
+    // Squares of a few pixels around tile boundaries and the ends of the viewport and guard band, each way round.
+    StageData d;
+    const int frac = config().frac(), one = 1 << frac, view = 1 << config().viewport_bits, tile = config().tile();
+    d.state.scissor_x1 = d.state.scissor_y1 = view;
+    for (const int at : {0, tile - 1, tile, 8 * tile, view - 1, view, -1, (1 << config().pos_int()) - 4})
+      for (const int size : {0, 1, 3})
+        for (const int offset : {0, 1, -1, one / 2})
+          for (const bool mirrored : {false, true})
+            for (const int w : {one, one / 2, -one, 0, 1}) {
+              const std::int32_t lo = at * one + offset, hi = lo + size * one;
+              d.quad.vertex = {{{lo, lo, one, {}, {}, {}},
+                                {hi, lo, one, {}, {}, {}},
+                                {hi, hi, w, {}, {}, {}},
+                                {lo, hi, one, {}, {}, {}}}};
+              if (mirrored) std::swap(d.quad.vertex[1], d.quad.vertex[3]);
+              sink(d);
+            }
+    // The eye inside the hull: V0 to V3 around the origin of (x, y, w), and with one determinant 0.
+    for (const int s : {1, -1})
+      for (const int flip : {1, -1})
+        for (const int w : {one, one / 2, 0}) {
+          const int a = s * one, b = flip * one;
+          d.quad.vertex = {
+              {{a, b, w, {}, {}, {}}, {-a, b, -w, {}, {}, {}}, {a, -b, -w, {}, {}, {}}, {-a, -b, w, {}, {}, {}}}};
+          sink(d);
+        }
+    // Empty scissor rectangles.
+    d.quad.vertex = {{{0, 0, one, {}, {}, {}},
+                      {one, 0, one, {}, {}, {}},
+                      {one, one, one / 2, {}, {}, {}},
+                      {0, one, one, {}, {}, {}}}};
+    for (const int w : {one, one / 2})
+      for (const int x : {0, 1, view})
+        for (const int y : {0, 1, view}) {
+          d.quad.vertex[2].w = w;
+          d.state.scissor_x0 = d.state.scissor_x1 = x;
+          d.state.scissor_y0 = 0, d.state.scissor_y1 = y;
+          sink(d);
+          std::swap(d.state.scissor_x0, d.state.scissor_y0);
+          std::swap(d.state.scissor_x1, d.state.scissor_y1);
+          sink(d);
+        }
+  }
+};
+
+// ---- coverage ----
+
+struct CoverageLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    f(plain("cull", 2, "0 none, 1 front, 2 back"), -1, d.state.cull);
+    visit_scissor(d, c, f);
+    f(plain("tile_x", c.tc_bits(), "column of the tile", "tiles"), -1, d.tile.tile_x);
+    f(plain("tile_y", c.tc_bits(), "row of the tile", "tiles"), -1, d.tile.tile_y);
+    visit_array(
+        f, linear_value(c), 5, [&](std::size_t i) -> auto& { return d.tile.linear[i]; });
+    visit_array(
+        f, linear_gx(c), 5, [&](std::size_t i) -> auto& { return d.constants.gx[i]; });
+    visit_array(
+        f, linear_gy(c), 5, [&](std::size_t i) -> auto& { return d.constants.gy[i]; });
+    f(plain("visible", 4, "clauses that may be drawn, as in the setup suite"), -1, d.constants.visible);
+  }
+
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    const int tile = c.tile();
+    visit_array(
+        f, plain("mask", tile, "covered pixels of row `index`, bit dx"),
+        tile, [&](std::size_t i) -> auto& { return d.row_masks[i].mask; });
+    visit_array(
+        f, plain("front", tile, "of these, front faces (anticlockwise with y down)"),
+        tile, [&](std::size_t i) -> auto& { return d.row_masks[i].front; });
+    visit_array(
+        f, plain("tie", tile, "of these, decided by the tie rule"),
+        tile, [&](std::size_t i) -> auto& { return d.row_masks[i].tie; });
+  }
+};
+
+class Coverage : public StageOf<CoverageLists> {
+ public:
+  explicit Coverage(const Config& config) : StageOf(config) {}
+
+  Source source() const override { return Source::tiles; }
+
+  void run(StageData& d) const override {
+    for (std::size_t k = 0; k < 5; ++k) {
+      const LinearForm form{0, d.constants.gx[k], d.constants.gy[k]};
+      d.constants.tie_pos[k] = tie_positive(form);
+      d.constants.tie_neg[k] = tie_negative(form);
+    }
+    for (int r = 0; r < config().tile(); ++r)
+      d.row_masks[static_cast<std::size_t>(r)] = stamp_coverage(d.tile, d.constants, r, config(), d.state);
+  }
+
+  Range range(const RecordField& f) const override {
+    if (f.name == "cull") return {0, 2};
+    if (f.name.starts_with("scissor")) return {0, std::int64_t{1} << config().viewport_bits};
+    if (f.name.starts_with("tile_")) return {0, (std::int64_t{1} << (config().viewport_bits - config().tile_log2)) - 1};
+    return Stage::range(f);
+  }
+
+  void constrain(StageData& d) const override {
+    order_scissor(d.state);
+    for (std::size_t k = 0; k < 5; ++k)
+      while (!inside(d.tile.linear[k], d.constants.gx[k], d.constants.gy[k])) {
+        d.tile.linear[k] >>= 1;
+        d.constants.gx[k] >>= 1;
+        d.constants.gy[k] >>= 1;
+      }
+    // Either sign of a clause, or neither, or all.
+    unsigned& v = d.constants.visible;
+    if (v != 15) v &= ~(v << 2 & 12);
+  }
+
+  void shape(golden::Prng& prng, StageData& d) const override {
+    // Edges that cross the tile, many of them through pixels; small steps make several zeros.
+    const int tile = config().tile();
+    for (std::size_t k = 0; k < 5; ++k) {
+      const std::int64_t size = std::int64_t{1} << prng.below(static_cast<std::uint64_t>(config().grad_bits() - 6));
+      const std::int64_t gx = prng.integer(-3, 3) * size, gy = prng.integer(-3, 3) * size;
+      d.constants.gx[k] = gx;
+      d.constants.gy[k] = gy;
+      d.tile.linear[k] =
+          -gx * prng.integer(0, tile - 1) - gy * prng.integer(0, tile - 1) + prng.integer(-1, 1) * (size / 2);
+    }
+    if (prng.chance(0.7)) d.constants.visible = 15;
+    // A scissor rectangle about the tile, or all of the viewport.
+    const int x = d.tile.tile_x << config().tile_log2, y = d.tile.tile_y << config().tile_log2;
+    const int view = 1 << config().viewport_bits;
+    const auto around = [&](int v, std::int64_t lo, std::int64_t hi) {
+      return std::clamp(v + static_cast<int>(prng.integer(lo, hi)), 0, view);
+    };
+    const bool whole = prng.chance(0.5);
+    d.state.scissor_x0 = whole ? 0 : around(x, -2, tile);
+    d.state.scissor_y0 = whole ? 0 : around(y, -2, tile);
+    d.state.scissor_x1 = whole ? view : around(x, 0, tile + 2);
+    d.state.scissor_y1 = whole ? view : around(y, 0, tile + 2);
+  }
+
+  void corners(const Sink& sink) const override {
+    // Every combination of signs of the five functions, constant over the tile and with a tie in each direction.
+    StageData d;
+    d.state.scissor_x1 = d.state.scissor_y1 = 1 << config().viewport_bits;
+    const auto each_sign = [&](const auto& set) {
+      for (int code = 0; code < 243; ++code) {
+        int rest = code;
+        for (std::size_t k = 0; k < 5; ++k, rest /= 3) set(k, rest % 3 - 1);
+        sink(d);
+      }
+    };
+    d.constants.visible = 15;
+    each_sign([&](std::size_t k, int sign) { d.tile.linear[k] = sign; });
+    for (std::int64_t& v : d.tile.linear) v = 0;
+    each_sign([&](std::size_t k, int sign) { d.constants.gx[k] = sign; });
+    d.constants.gx.fill(0);
+    each_sign([&](std::size_t k, int sign) { d.constants.gy[k] = sign; });
+    d.constants.gy.fill(0);
+    // Each clause alone, against culling and visibility.
+    constexpr int clause[4][5] = {{1, 1, 1, 0, 1}, {1, 0, 1, 1, -1}, {-1, -1, -1, 0, -1}, {-1, 0, -1, -1, 1}};
+    for (const auto& signs : clause)
+      for (int cull = 0; cull < 3; ++cull)
+        for (unsigned visible = 0; visible < 16; ++visible) {
+          for (std::size_t k = 0; k < 5; ++k) d.tile.linear[k] = signs[k];
+          d.state.cull = static_cast<Cull>(cull);
+          d.constants.visible = visible;
+          sink(d);
+        }
+  }
+
+ private:
+  /// The function stays inside VAL_BITS on the whole tile.
+  bool inside(std::int64_t value, std::int64_t gx, std::int64_t gy) const {
+    const int last = config().tile() - 1;
+    for (const int dx : {0, last})
+      for (const int dy : {0, last})
+        if (!fits(static_cast<__int128>(value) + static_cast<__int128>(gx) * dx + static_cast<__int128>(gy) * dy,
+                  config().val_bits()))
+          return false;
+    return true;
+  }
+};
+
+// ---- forward differences ----
+
+struct ForwardLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    f(plain("row", c.tile_log2, "row in the tile", "px"), -1, d.row);
+    f(plain("dx", c.tile_log2, "column in the tile", "px"), -1, d.dx);
+    visit_array(
+        f, linear_value(c), linear_count, [&](std::size_t i) -> auto& { return d.tile.linear[i]; });
+    visit_array(
+        f, linear_gx(c), linear_count, [&](std::size_t i) -> auto& { return d.constants.gx[i]; });
+    visit_array(
+        f, linear_gy(c), linear_count, [&](std::size_t i) -> auto& { return d.constants.gy[i]; });
+    visit_array(
+        f, quadratic_value(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].value; });
+    visit_array(
+        f, quadratic_gx(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].gx; });
+    visit_array(
+        f, quadratic_gy(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].gy; });
+    visit_array(
+        f, quadratic_q(c), quadratic_count, [&](std::size_t i) -> auto& { return d.constants.q[i]; });
+  }
+
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    auto& p = d.pixel;
+    visit_array(
+        f, fixed("a", c.val_bits(), 2 * c.frac(), "px^2", "A: edge functions at the pixel, pairs 01 12 23 30 20 13"),
+        6, [&](std::size_t i) -> auto& { return p.a[i]; });
+    visit_array(
+        f, fixed("d", c.qval_bits(), c.quadratic_frac(), "px^2", "D: dot products, the same pairs"),
+        6, [&](std::size_t i) -> auto& { return p.d[i]; });
+    visit_array(
+        f, fixed("r2", c.qval_bits(), c.quadratic_frac(), "px^2", "squared distances of the corners"),
+        4, [&](std::size_t i) -> auto& { return p.r2[i]; });
+  }
+};
+
+class ForwardDifference : public StageOf<ForwardLists> {
+ public:
+  explicit ForwardDifference(const Config& config) : StageOf(config) {}
+
+  void run(StageData& d) const override { forward_difference(d.pixel, d.tile, d.constants, d.dx, d.row); }
+
+  Range range(const RecordField& f) const override {
+    if (f.name != "quad_q") return Stage::range(f);
+    const std::int64_t one = std::int64_t{1} << std::max(0, config().quadratic_frac());
+    return {f.index < 6 ? -one : 0, one};
+  }
+
+  void constrain(StageData& d) const override {
+    const auto halve_until = [](const auto& fine, auto&... values) {
+      while (!fine()) ((values >>= 1), ...);
+    };
+    for (std::size_t k = 0; k < linear_count; ++k) {
+      std::int64_t &v = d.tile.linear[k], &gx = d.constants.gx[k], &gy = d.constants.gy[k];
+      halve_until([&] { return fits(v, config().val_bits()) && fits(at(v, gx, gy, 0, d), config().val_bits()); }, v, gx,
+                  gy);
+    }
+    for (std::size_t k = 0; k < quadratic_count; ++k) {
+      QuadraticForm& q = d.tile.quadratic[k];
+      halve_until(
+          [&] {
+            return fits(q.value, config().qval_bits()) &&
+                   fits(at(q.value, q.gx, q.gy, d.constants.q[k], d), config().qval_bits());
+          },
+          q.value, q.gx, q.gy, d.constants.q[k]);
+    }
+  }
+
+ private:
+  static __int128 at(__int128 value, __int128 gx, __int128 gy, __int128 q, const StageData& d) {
+    return value + d.dx * gx + d.row * gy + (d.dx * d.dx + d.row * d.row) * q;
+  }
+};
+
+}  // namespace
+
+void add_front_stages(std::vector<std::unique_ptr<Suite>>& suites) {
+  const auto add = [&](SuiteInfo info, StageSuite::Make make) {
+    suites.push_back(std::make_unique<StageSuite>(std::move(info), make));
+  };
+  add({"snapping", "snapping", "Vertices as given to the integers of the port", "none", 0,
+       "none: every bit pattern of every double occurs"},
+      make_stage<Snapping>);
+  add({"setup", "handshake", "Coefficients, tiles and visibility of a quad", "quad_setup", 0,
+       "|x|, |y| at most 2^(POS_INT+FRAC), |w| at most 2^FRAC, never x = y = w = 0; scissor inside 2^VIEWPORT_BITS "
+       "with "
+       "x0 <= x1 and y0 <= y1"},
+      make_stage<Setup>);
+  add({"coverage", "handshake", "Covered pixels of a tile", "stamp_coverage", 0,
+       "the five functions fit VAL_BITS on the whole tile; the tile is inside 2^VIEWPORT_BITS; cull is never 3; of "
+       "visible "
+       "bits 0 and 2, and of 1 and 3, one at most is set, or all four are"},
+      make_stage<Coverage>);
+  add({"forward_difference", "stage", "A, D and squared distances at a pixel from those of its tile",
+       "forward_difference", 2,
+       "the results fit VAL_BITS (A) and QVAL_BITS (D, r2); partial sums may not; q of a squared distance is not "
+       "negative"},
+      make_stage<ForwardDifference>);
+}
+
+}  // namespace quadrille::vectors

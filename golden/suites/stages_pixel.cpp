@@ -1,0 +1,760 @@
+// The stages of a pixel from the normalisation to the fragment.
+#include "golden/suites/stage_of.hpp"
+#include "golden/suites/stage_suites.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille::vectors {
+namespace {
+
+constexpr int fp_exp = Config::exp_bits, port_exp = Config::port_exp_bits;
+
+FieldType plain(const char* name, int width, const char* meaning) { return {name, width, false, {}, "", meaning}; }
+FieldType whole(const char* name, int width, const char* meaning) { return {name, width, true, {}, "", meaning}; }
+
+FpType magnitudes(const char* exp, const char* sig, const Config& c, const char* meaning) {
+  return {nullptr, exp, sig, fp_exp, c.significand_bits, "1", meaning};
+}
+FpType signed_numbers(const char* neg, const char* exp, const char* sig, const Config& c, const char* meaning) {
+  return {neg, exp, sig, fp_exp, c.significand_bits, "1", meaning};
+}
+FpType port_numbers(const char* neg, const char* exp, const char* sig, const Config& c, const char* meaning) {
+  return {neg, exp, sig, port_exp, c.significand_bits, "1", meaning};
+}
+
+// ---- Exponents that occur (rtl/README.md section 1, EXP_BITS) ----
+
+struct Exponents {
+  int a_lo, a_hi;      ///< A: its bit 0 is 2^-QDROP beside D's
+  int d_hi;            ///< D and r², from 0
+  int rho_lo;          ///< to 0
+  int ratio_lo;        ///< |sin|, to 0; 1 + |cos| is in [1, 2]
+  int m_lo, m_hi;      ///< weights: seven factors, or at singular pixels two numbers of the port
+  int sum_lo, sum_hi;  ///< sums: a weight times a number of the port, with cancellation
+
+  explicit Exponents(const Config& c) {
+    const int port = 1 << (port_exp - 1), cancelled = c.prec_bits() + 1;
+    a_lo = -c.qdrop();
+    a_hi = c.val_bits() - 2 - c.qdrop();
+    d_hi = c.qval_bits() - 2;
+    rho_lo = -(c.qval_bits() / 2 + 1);
+    ratio_lo = -(c.val_bits() + 1);
+    m_lo = std::min(6 * ratio_lo + rho_lo - 1, -port + 2 * rho_lo - 2 * cancelled);
+    m_hi = port + 3;
+    sum_lo = m_lo - port - cancelled;
+    sum_hi = m_hi + port + 2;
+  }
+};
+
+/// Zero has no sign and no exponent.
+template <class Number>
+void clear_zero(Number& v) {
+  if (v.sig == 0) v = {};
+}
+
+double value_of(const Fp& v, int s) { return std::ldexp(static_cast<double>(v.sig), v.exp - (s - 1)); }
+
+bool greater(const Fp& a, const Fp& b) {
+  if (a.sig == 0 || b.sig == 0) return a.sig != 0;
+  return a.exp != b.exp ? a.exp > b.exp : a.sig > b.sig;
+}
+
+/// Four vectors from the pixel to the corners, with A, D and r² exactly as the machine has them: parallel, opposite,
+/// right-angled, equal and vanishing ones among random ones of any length.
+void random_geometry(golden::Prng& prng, PixelTrace& p, const Config& c) {
+  struct Vector {
+    std::int64_t x, y;
+  };
+  std::array<Vector, 4> v{};
+  const auto bits = static_cast<std::uint64_t>(c.pos_int() + c.frac());
+  const std::uint64_t typical = prng.below(bits);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::int64_t size = std::int64_t{1} << (prng.chance(0.8) ? typical : prng.below(bits + 1));
+    v[i] = {prng.integer(-size, size), prng.integer(-size, size)};
+    const Vector before = v[(i + 3) % 4];
+    switch (prng.below(10)) {
+      case 0:
+        v[i] = {-before.x, -before.y};  // the pixel is the middle of the edge
+        break;
+      case 1:
+        v[i] = {-before.y, before.x};
+        break;
+      case 2:
+        v[i] = before;
+        break;
+      case 3:
+        v[i] = {-before.x / 2, -before.y / 2};
+        break;
+      case 4:
+        if (prng.chance(0.3)) v[i] = {0, 0};
+        break;
+      default:
+        break;
+    }
+  }
+  const auto dot = [&](std::size_t i, std::size_t j) { return (v[i].x * v[j].x + v[i].y * v[j].y) >> c.qdrop(); };
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto [i, j] = vertex_pair[k];
+    p.a[k] = v[i].x * v[j].y - v[i].y * v[j].x;
+    p.d[k] = dot(i, j);
+  }
+  for (std::size_t i = 0; i < 4; ++i) p.r2[i] = dot(i, i);
+}
+
+/// The same through the stages up to the ratios.
+void random_ratios(golden::Prng& prng, StageData& d, const PipelineContext& c) {
+  random_geometry(prng, d.pixel, c.config);
+  normalise(d.pixel, c);
+  rsqrt_stage(d.pixel, c);
+  mean_value_ratios(d.pixel, c);
+  for (std::size_t i = 0; i < 4; ++i) {
+    d.a_sign[i] = static_cast<std::int8_t>((d.pixel.a[i] > 0) - (d.pixel.a[i] < 0));
+    d.d_negative[i] = d.pixel.d[i] < 0;
+    d.corner[i] = d.pixel.r2[i] <= 0;
+  }
+}
+
+// ---- normalise ----
+
+struct NormaliseLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    auto& p = d.pixel;
+    visit_array(
+        f, FieldType{"a", c.val_bits(), true, 2 * c.frac(), "px^2", "A: edge functions, pairs 01 12 23 30 20 13"},
+        6, [&](std::size_t i) -> auto& { return p.a[i]; });
+    visit_array(
+        f, FieldType{"d", c.qval_bits(), true, c.quadratic_frac(), "px^2", "D: dot products, the same pairs"},
+        6, [&](std::size_t i) -> auto& { return p.d[i]; });
+    visit_array(
+        f,
+        FieldType{"r2", c.qval_bits(), true, c.quadratic_frac(), "px^2",
+                  "squared distances of the corners; below 0 counts as 0"},
+        4, [&](std::size_t i) -> auto& { return p.r2[i]; });
+  }
+
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    auto& p = d.pixel;
+    f(plain("two_corner", 1, "two or more r2 are at most 0"), -1, p.two_corner);
+    f(plain("on_vertex", 1, "one r2 is"), -1, p.on_vertex);
+    f(plain("two_edge", 1, "no r2 is, and two or more edges have A = 0 and D < 0"), -1, p.two_edge);
+    f(plain("on_edge", 1, "one edge has"), -1, p.on_edge);
+    visit_numbers(
+        f, signed_numbers("a_neg", "a_exp", "a_sig", c, "A in units of 2^-QUADRATIC_FRAC px^2"),
+        6, [&](std::size_t i) -> auto& { return p.a_fp[i]; });
+    visit_numbers(
+        f, signed_numbers("d_neg", "d_exp", "d_sig", c, "D in the same units"),
+        6, [&](std::size_t i) -> auto& { return p.d_fp[i]; });
+    visit_numbers(
+        f, magnitudes("r2_exp", "r2_sig", c, "r2 in the same units"),
+        4, [&](std::size_t i) -> auto& { return p.r2_fp[i]; });
+  }
+};
+
+class Normalise : public StageOf<NormaliseLists> {
+ public:
+  explicit Normalise(const Config& config) : StageOf(config) {}
+  void run(StageData& d) const override { normalise(d.pixel, context_); }
+
+  Range range(const RecordField& f) const override {
+    const std::int64_t most = std::int64_t((std::uint64_t{1} << (f.width - 1)) - 1);
+    return {f.name == "r2" ? -256 : -most, most};
+  }
+
+  void shape(golden::Prng& prng, StageData& d) const override { random_geometry(prng, d.pixel, config()); }
+
+  void corners(const Sink& sink) const override {
+    // Every combination of corners at the pixel, of edges through it, and of signs of A.
+    StageData d;
+    for (int corners = 0; corners < 16; ++corners)
+      for (int edges = 0; edges < 16; ++edges)
+        for (int signs = 0; signs < 16; signs += corners == 0 ? 1 : 5) {
+          for (std::size_t i = 0; i < 4; ++i) {
+            const bool edge = edges >> i & 1;
+            d.pixel.a[i] = edge ? 0 : signs >> i & 1 ? 3 : -3;
+            d.pixel.d[i] = edge || signs >> i & 1 ? -5 : 5;
+            d.pixel.r2[i] = corners >> i & 1 ? 0 : 7;
+          }
+          sink(d);
+        }
+  }
+};
+
+// ---- rsqrt ----
+
+struct RsqrtLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    visit_numbers(
+        f, magnitudes("exp", "sig", c, "r2 in units of 2^-QUADRATIC_FRAC px^2"),
+        4, [&](std::size_t i) -> auto& { return d.pixel.r2_fp[i]; });
+  }
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    visit_numbers(
+        f, magnitudes("exp", "sig", c, "rho = r2^(-1/2); of 0: 0"),
+        4, [&](std::size_t i) -> auto& { return d.pixel.rho[i]; });
+  }
+};
+
+class Rsqrt : public StageOf<RsqrtLists> {
+ public:
+  explicit Rsqrt(const Config& config) : StageOf(config) {}
+  void run(StageData& d) const override { rsqrt_stage(d.pixel, context_); }
+
+  Range range(const RecordField& f) const override {
+    return f.name == "exp" ? Range{0, Exponents(config()).d_hi} : Stage::range(f);
+  }
+  void constrain(StageData& d) const override {
+    for (Fp& v : d.pixel.r2_fp) clear_zero(v);
+  }
+
+  void corners(const Sink& sink) const override {
+    // Both sides of every segment boundary in both octaves.
+    const std::uint32_t lowest = std::uint32_t{1} << (config().significand_bits - 1);
+    const std::uint32_t step = std::uint32_t{1} << context_.rsqrt_table.rest_bits;
+    for (std::uint32_t sig = lowest; sig < 2 * lowest; sig += step)
+      for (const int exp : {20, 21}) {
+        StageData d;
+        d.pixel.r2_fp = {
+            {{false, exp, sig}, {false, exp, sig + 1}, {false, exp, sig + step - 1}, {false, exp, sig + step / 2}}};
+        sink(d);
+      }
+  }
+};
+
+// ---- reciprocal ----
+
+struct ReciprocalLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    visit_number(f, signed_numbers("neg", "exp", "sig", c, "the number"), d.number);
+  }
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    visit_number(f, signed_numbers("neg", "exp", "sig", c, "its reciprocal; of 0: 0"), d.inverse);
+  }
+};
+
+class Reciprocal : public StageOf<ReciprocalLists> {
+ public:
+  explicit Reciprocal(const Config& config) : StageOf(config) {}
+  void run(StageData& d) const override { d.inverse = reciprocal(d.number, context_.recip_table, context_.format); }
+
+  Range range(const RecordField& f) const override {
+    const Exponents e(config());
+    return f.name == "exp" ? Range{e.sum_lo, e.sum_hi} : Stage::range(f);
+  }
+  void constrain(StageData& d) const override { clear_zero(d.number); }
+
+  void corners(const Sink& sink) const override {
+    const std::uint32_t lowest = std::uint32_t{1} << (config().significand_bits - 1);
+    const std::uint32_t step = std::uint32_t{1} << context_.recip_table.rest_bits;
+    StageData d;
+    for (std::uint32_t sig = lowest; sig < 2 * lowest; sig += step)
+      for (const std::uint32_t offset : {std::uint32_t{0}, std::uint32_t{1}, step / 2, step - 1}) {
+        d.number = {offset % 2 == 1, static_cast<int>(offset) - 3, sig + offset};
+        d.number.exp %= 64;
+        sink(d);
+      }
+  }
+};
+
+// ---- ratios ----
+
+template <class D, class F>
+void visit_rho(D& d, const Config& c, F&& f) {
+  visit_numbers(
+      f, magnitudes("rho_exp", "rho_sig", c, "rho = 1/r of the corners; 0: the pixel is at the corner"),
+      4, [&](std::size_t i) -> auto& { return d.pixel.rho[i]; });
+}
+
+template <class D, class F>
+void visit_ratios(D& d, const Config& c, F&& f) {
+  visit_numbers(
+      f, magnitudes("n_exp", "n_sig", c, "n: |tan of half the angle| = n/d, pairs 01 12 23 30 20 13"),
+      6, [&](std::size_t i) -> auto& { return d.pixel.n[i]; });
+  visit_numbers(
+      f, magnitudes("d_exp", "d_sig", c, "d, the same pairs"),
+      6, [&](std::size_t i) -> auto& { return d.pixel.dn[i]; });
+}
+
+struct RatiosLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    auto& p = d.pixel;
+    visit_numbers(
+        f, magnitudes("a_exp", "a_sig", c, "|A|, pairs 01 12 23 30 20 13"),
+        6, [&](std::size_t i) -> auto& { return p.a_fp[i]; });
+    visit_numbers(
+        f, signed_numbers("d_neg", "d_exp", "d_sig", c, "D, the same pairs"),
+        6, [&](std::size_t i) -> auto& { return p.d_fp[i]; });
+    visit_rho(d, c, f);
+  }
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    visit_ratios(d, c, f);
+  }
+};
+
+class Ratios : public StageOf<RatiosLists> {
+ public:
+  explicit Ratios(const Config& config) : StageOf(config) {}
+  void run(StageData& d) const override { mean_value_ratios(d.pixel, context_); }
+
+  Range range(const RecordField& f) const override {
+    const Exponents e(config());
+    if (f.name == "a_exp") return {e.a_lo, e.a_hi};
+    if (f.name == "d_exp") return {0, e.d_hi};
+    if (f.name == "rho_exp") return {e.rho_lo, 0};
+    return Stage::range(f);
+  }
+
+  void constrain(StageData& d) const override {
+    PixelTrace& p = d.pixel;
+    const int s = config().significand_bits;
+    for (Fp& v : p.rho) {
+      clear_zero(v);
+      // rho is at most 1: r2 is at least 1 in its units.
+      if (v.exp >= 0 && v.sig != 0) v = {false, 0, std::uint32_t{1} << (s - 1)};
+    }
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double scale = value_of(p.rho[vertex_pair[k][0]], s) * value_of(p.rho[vertex_pair[k][1]], s);
+      bound(p.a_fp[k], scale, Exponents(config()).a_lo);
+      bound(p.d_fp[k], scale, 0);
+    }
+  }
+
+  void shape(golden::Prng& prng, StageData& d) const override { random_ratios(prng, d, context_); }
+
+ private:
+  /// |A| and |D| are at most r r', but for rounding.
+  void bound(Fp& v, double scale, int lowest) const {
+    clear_zero(v);
+    const double most = 1 + std::ldexp(1.0, 2 - config().significand_bits);
+    while (v.sig != 0 && value_of(v, config().significand_bits) * scale > most) {
+      --v.exp;
+      if (v.exp < lowest) v = {};
+    }
+  }
+};
+
+// ---- weights ----
+
+struct WeightsLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    visit_array(
+        f, whole("a_sign", 2, "sign of A of edges 01 12 23 30: -1, 0, 1"),
+        4, [&](std::size_t i) -> auto& { return d.a_sign[i]; });
+    visit_array(
+        f, plain("d_negative", 1, "D < 0, the same edges"), 4, [&](std::size_t i) -> auto& { return d.d_negative[i]; });
+    visit_array(
+        f, plain("corner", 1, "r2 is at most 0: the pixel is at the corner"),
+        4, [&](std::size_t i) -> auto& { return d.corner[i]; });
+    visit_numbers(
+        f, port_numbers("k_neg", "k_exp", "k_sig", c, "k of the corners; without perspective w"),
+        4, [&](std::size_t i) -> auto& { return d.data.k[i]; });
+    visit_rho(d, c, f);
+    visit_ratios(d, c, f);
+  }
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    visit_numbers(
+        f, magnitudes("exp", "sig", c, "M: weights of the corners up to a common factor"),
+        4, [&](std::size_t i) -> auto& { return d.pixel.m[i]; });
+  }
+};
+
+class Weights : public StageOf<WeightsLists> {
+ public:
+  explicit Weights(const Config& config) : StageOf(config) {}
+
+  void run(StageData& d) const override {
+    PixelTrace& p = d.pixel;
+    // Integers with the signs that the stage looks at; normalise() finds the singular class from them.
+    for (std::size_t i = 0; i < 4; ++i) {
+      p.a[i] = d.a_sign[i];
+      p.d[i] = d.d_negative[i] ? -1 : 1;
+      p.r2[i] = d.corner[i] ? 0 : 1;
+    }
+    normalise(p, context_);
+    mean_value_weights(p, d.data, context_);
+  }
+
+  Range range(const RecordField& f) const override {
+    const Exponents e(config());
+    if (f.name == "a_sign") return {-1, 1};
+    if (f.name == "rho_exp") return {e.rho_lo, 0};
+    if (f.name == "n_exp" || f.name == "d_exp") return {e.ratio_lo, 0};
+    return Stage::range(f);
+  }
+
+  void constrain(StageData& d) const override {
+    PixelTrace& p = d.pixel;
+    const Fp one = context_.format.one();
+    for (std::size_t i = 0; i < 4; ++i) {
+      clear_zero(d.data.k[i]);
+      if (d.corner[i]) p.rho[i] = {};
+      if (!d.corner[i] && (p.rho[i].sig == 0 || p.rho[i].exp >= 0)) p.rho[i] = one;
+      clear_zero(p.rho[i]);
+    }
+    for (std::size_t k = 0; k < 6; ++k) {
+      const bool at_corner = d.corner[vertex_pair[k][0]] || d.corner[vertex_pair[k][1]];
+      const bool edge = k < 4;
+      if (edge && at_corner) {
+        d.a_sign[k] = 0;
+        d.d_negative[k] = false;
+      }
+      // One of n, d is u = 1 + |cos| in [1, 2], the other v = |sin|; D < 0: n is u.
+      const bool swapped = edge ? d.d_negative[k] : greater(p.n[k], p.dn[k]);
+      Fp& u = swapped ? p.n[k] : p.dn[k];
+      Fp& v = swapped ? p.dn[k] : p.n[k];
+      if (at_corner) u = one, v = {};
+      if (u.exp != 1 || u.sig != one.sig) u.exp = 0;
+      if (u.sig == 0) u = one;
+      clear_zero(v);
+      if (v.exp >= 0 && v.sig != 0 && (v.exp > 0 || v.sig > one.sig + 4)) v = one;
+      if (edge && d.a_sign[k] == 0) v = {};
+      if (edge && d.a_sign[k] != 0 && v.sig == 0) v = one;
+    }
+  }
+
+  void shape(golden::Prng& prng, StageData& d) const override { random_ratios(prng, d, context_); }
+
+  void corners(const Sink& sink) const override {
+    // Every class: signs of A and D of the four edges, then corners; with different ratios and k everywhere.
+    StageData d;
+    const std::uint32_t one = context_.format.one().sig;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto n = static_cast<std::uint32_t>(i);
+      d.data.k[i] = {false, 3 - static_cast<int>(i), one + 5 * n};
+      d.pixel.rho[i] = {false, -4 - static_cast<int>(i), one + 9 * n};
+    }
+    for (std::size_t k = 0; k < 6; ++k) {
+      const auto n = static_cast<std::uint32_t>(k);
+      d.pixel.n[k] = {false, -1 - static_cast<int>(k), one + 3 * n};
+      d.pixel.dn[k] = {false, 0, one + 7 * n};
+    }
+    for (int code = 0; code < 81 * 16; ++code) {
+      int rest = code / 16;
+      StageData each = d;
+      for (std::size_t i = 0; i < 4; ++i, rest /= 3) {
+        each.a_sign[i] = static_cast<std::int8_t>(rest % 3 - 1);
+        each.d_negative[i] = code >> i & 1;
+        if (each.d_negative[i]) std::swap(each.pixel.n[i], each.pixel.dn[i]);
+      }
+      sink(each);
+    }
+    for (int corners = 1; corners < 16; ++corners)
+      for (int signs = 0; signs < 16; ++signs) {
+        StageData each = d;
+        for (std::size_t i = 0; i < 4; ++i) {
+          each.corner[i] = corners >> i & 1;
+          each.data.k[i].neg = signs >> i & 1;
+          each.a_sign[i] = 1;
+        }
+        sink(each);
+      }
+    // k that cancel in the sums of a pixel on two edges, and vanishing ones.
+    for (const std::array<int, 4> signs : {std::array{1, 1, 1, 1}, std::array{1, -1, 1, -1}, std::array{1, 1, -1, -1},
+                                           std::array{0, 1, 0, 1}, std::array{0, 0, 1, 1}, std::array{0, 0, 0, 0}})
+      for (int edges = 0; edges < 16; ++edges) {
+        StageData each = d;
+        for (std::size_t i = 0; i < 4; ++i) {
+          each.data.k[i] = {signs[i] < 0, 0, signs[i] == 0 ? 0 : one};
+          each.pixel.rho[i] = {false, -3, one};
+          each.a_sign[i] = edges >> i & 1 ? 0 : 1;
+          each.d_negative[i] = edges >> i & 1;
+        }
+        sink(each);
+      }
+  }
+};
+
+// ---- interpolation ----
+
+template <class D, class F>
+void visit_sums(D& d, const Config& c, F&& f) {
+  auto& p = d.pixel;
+  visit_numbers(
+      f, signed_numbers("attr_neg", "attr_exp", "attr_sig", c, "sum of M b of an attribute"),
+      c.attribute_slots, [&](std::size_t i) -> auto& { return p.num_a[i]; });
+  visit_number(f, signed_numbers("z_neg", "z_exp", "z_sig", c, "sum of M Z"), p.num_z);
+  visit_number(f, signed_numbers("den_k_neg", "den_k_exp", "den_k_sig", c, "sum of M k"), p.den_k);
+  visit_number(f, signed_numbers("den_w_neg", "den_w_exp", "den_w_sig", c, "sum of M W"), p.den_w);
+}
+
+struct InterpolationLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    visit_numbers(
+        f, magnitudes("m_exp", "m_sig", c, "M: weights of the corners"),
+        4, [&](std::size_t i) -> auto& { return d.pixel.m[i]; });
+    visit_numbers(
+        f, port_numbers("k_neg", "k_exp", "k_sig", c, "k of the corners; without perspective w"),
+        4, [&](std::size_t i) -> auto& { return d.data.k[i]; });
+    visit_numbers(
+        f, port_numbers("w_neg", "w_exp", "w_sig", c, "k w of the corners"),
+        4, [&](std::size_t i) -> auto& { return d.data.w[i]; });
+    visit_numbers(
+        f, port_numbers("z_neg", "z_exp", "z_sig", c, "Z of the corners"),
+        4, [&](std::size_t i) -> auto& { return d.data.z[i]; });
+    visit_numbers(
+        f, port_numbers("b_neg", "b_exp", "b_sig", c, "b: element 4 j + i is attribute j of corner i"),
+        4 * c.attribute_slots, [&](std::size_t i) -> auto& { return d.data.b[i % 4][i / 4]; });
+  }
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    visit_sums(d, c, f);
+  }
+};
+
+class Interpolation : public StageOf<InterpolationLists> {
+ public:
+  explicit Interpolation(const Config& config) : StageOf(config) {}
+  void run(StageData& d) const override { interpolate(d.pixel, d.data, context_); }
+
+  Range range(const RecordField& f) const override {
+    const Exponents e(config());
+    if (f.name == "m_exp") return {e.m_lo, e.m_hi};
+    if (f.name == "w_exp") return {-config().frac(), 0};
+    return Stage::range(f);
+  }
+
+  void constrain(StageData& d) const override {
+    for (Fp& m : d.pixel.m) clear_zero(m);
+    for (std::size_t i = 0; i < 4; ++i) {
+      clear_zero(d.data.k[i]);
+      clear_zero(d.data.w[i]);
+      clear_zero(d.data.z[i]);
+      for (Fp& b : d.data.b[i]) clear_zero(b);
+      if (d.data.w[i].exp == 0 && d.data.w[i].sig != 0)
+        d.data.w[i].sig = context_.format.one().sig;  // |W| is at most 1
+    }
+  }
+
+  void shape(golden::Prng& prng, StageData& d) const override {
+    // Terms of like size: alignment by few places, cancellation.
+    const int s = config().significand_bits;
+    const std::uint32_t one = context_.format.one().sig;
+    const int spread = static_cast<int>(prng.below(static_cast<std::uint64_t>(2 * s)));
+    const auto near = [&](int exp) {
+      const auto sig = static_cast<std::uint32_t>(weighted(prng, {one, 2 * std::int64_t{one} - 1, true}));
+      return Fp{prng.chance(0.5), exp - static_cast<int>(prng.integer(0, spread)), sig};
+    };
+    const bool equal = prng.chance(0.3);
+    for (std::size_t i = 0; i < 4; ++i) {
+      d.pixel.m[i] = near(-20);
+      d.pixel.m[i].neg = false;
+      d.data.k[i] = near(0);
+      d.data.z[i] = near(0);
+      for (std::size_t j = 0; j < max_attribute_slots; ++j) d.data.b[i][j] = near(1);
+      if (equal && i % 2 == 1) {  // pairs that cancel to the last bits
+        d.pixel.m[i] = d.pixel.m[i - 1];
+        d.data.b[i] = d.data.b[i - 1];
+        for (Fp& b : d.data.b[i]) {
+          b.neg = !b.neg;
+          if (b.sig > one && prng.chance(0.5)) --b.sig;
+        }
+      }
+    }
+  }
+
+  void corners(const Sink& sink) const override {
+    // Distances of two terms around the width of the sum, with either sign.
+    const int s = config().significand_bits, window = config().prec_bits();
+    const std::uint32_t one = context_.format.one().sig, most = 2 * one - 1;
+    for (int distance = 0; distance <= 2 * s + config().align_guard_bits + 3; ++distance)
+      for (const bool neg : {false, true})
+        for (const std::uint32_t sig : {one, most, one + 1}) {
+          StageData d;
+          d.pixel.m.fill({false, 0, one});
+          d.data.k = {{{false, 0, sig}, {neg, -distance, most}, {}, {}}};
+          d.data.z = {{{false, 0, sig}, {neg, -distance, one}, {!neg, -distance, one}, {}}};
+          d.data.w = {{{false, 0, one},
+                       {neg, std::max(-distance, -config().frac()), sig},
+                       {},
+                       {false, -window % (config().frac() + 1), sig}}};
+          for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = 0; j < max_attribute_slots; ++j)
+              d.data.b[i][j] = {neg != (i % 2 == 1), -distance * static_cast<int>(i == 3 - j % 4), i == j ? most : sig};
+          sink(d);
+        }
+  }
+};
+
+// ---- depth ----
+
+struct DepthLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    const FieldType depth{"", c.depth_bits + 1, false, c.depth_bits, "1", ""};
+    const auto z = [&](const char* name, const char* meaning) {
+      FieldType type = depth;
+      type.name = name;
+      type.meaning = meaning;
+      return type;
+    };
+    f(plain("depth_on", 1, "window z is computed and clipped"), -1, d.state.depth);
+    f(z("znear", "fragments below are discarded"), -1, d.znear);
+    f(z("zfar", "fragments above are discarded"), -1, d.zfar);
+    f(plain("attributes", 4, "attributes in use"), -1, d.state.attributes);
+    f(plain("hull", 1, "the eye is in the hull: discard unless the sum of M W is positive"), -1, d.data.hull);
+    visit_sums(d, c, f);
+  }
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    auto& g = d.pixel.fragment;
+    f(plain("valid", 1, "not discarded; otherwise all is 0"), -1, d.pixel.drawn);
+    f(plain("saturated", 1, "an attribute in use was clamped"), -1, g.flags);
+    f(FieldType{"depth", c.depth_bits + 1, false, c.depth_bits, "1", "window z"}, -1, g.depth);
+    visit_array(
+        f, FieldType{"attr", c.attr_out_bits(), true, c.attribute_frac(), "1", "attributes; 0 when not in use"},
+        c.attribute_slots, [&](std::size_t i) -> auto& { return g.attribute[i]; });
+  }
+};
+
+class Depth : public StageOf<DepthLists> {
+ public:
+  explicit Depth(const Config& config) : StageOf(config) { context_.rsqrt_table = {}; }
+
+  void run(StageData& d) const override {
+    PipelineContext c = context_;
+    c.state.depth = d.state.depth;
+    c.state.attributes = d.state.attributes;
+    c.znear = d.znear;
+    c.zfar = d.zfar;
+    d.pixel.valid = true;
+    fragment_output(d.pixel, d.data, c);
+    // The port shows nothing of a discarded fragment; of the flags one belongs to this stage.
+    if (!d.pixel.drawn) d.pixel.fragment = {};
+    d.pixel.fragment.flags = (d.pixel.fragment.flags & flag_saturated) != 0;
+  }
+
+  Range range(const RecordField& f) const override {
+    const Exponents e(config());
+    if (f.name == "attributes") return {0, config().attribute_slots};
+    if (f.name == "znear" || f.name == "zfar") return {0, std::int64_t{1} << config().depth_bits};
+    if (f.name.ends_with("exp")) return {e.sum_lo, e.sum_hi};
+    return Stage::range(f);
+  }
+
+  void constrain(StageData& d) const override {
+    const Exponents e(config());
+    const auto fit = [&](Fp& v) {
+      v.exp = std::clamp(v.exp, e.sum_lo, e.sum_hi);
+      clear_zero(v);
+    };
+    for (Fp& a : d.pixel.num_a) fit(a);
+    fit(d.pixel.num_z);
+    fit(d.pixel.den_k);
+    fit(d.pixel.den_w);
+  }
+
+  void shape(golden::Prng& prng, StageData& d) const override {
+    // Quotients near the ends of the outputs' formats.
+    PixelTrace& p = d.pixel;
+    const auto near = [&](Fp& v, const Fp& den, int bits_above, int bits_below) {
+      if (den.sig == 0) return;
+      v.exp = den.exp + static_cast<int>(prng.integer(-bits_below, bits_above));
+      if (prng.chance(0.1)) v.sig = den.sig;
+    };
+    for (Fp& a : p.num_a)
+      near(a, p.den_k, config().attribute_int_bits + 1, prng.chance(0.5) ? 3 : config().attribute_frac() + 2);
+    near(p.num_z, p.den_w, 2, prng.chance(0.7) ? 2 : config().depth_bits + 2);
+    p.den_w.neg = prng.chance(0.2);
+    p.num_z.neg = p.den_w.neg != prng.chance(0.1);
+    if (prng.chance(0.6)) {
+      d.znear = 0;
+      d.zfar = std::uint32_t{1} << config().depth_bits;
+    }
+    d.state.attributes = static_cast<int>(prng.integer(0, config().attribute_slots));
+  }
+
+  void corners(const Sink& sink) const override {
+    const std::uint32_t one = context_.format.one().sig, most = 2 * one - 1,
+                        depth_one = std::uint32_t{1} << config().depth_bits;
+    StageData d;
+    d.state.attributes = config().attribute_slots;
+    d.zfar = depth_one;
+    PixelTrace& p = d.pixel;
+    // z of 0, the smallest code, 1/2, just below and at 1, above; every sign; every kind of denominator; limits about
+    // it.
+    for (const Fp den : {Fp{}, Fp{false, 0, one}, Fp{true, 0, one}, Fp{false, 3, most}})
+      for (const Fp num :
+           {Fp{}, Fp{false, -config().depth_bits, one}, Fp{false, -config().depth_bits - 1, most}, Fp{false, -1, one},
+            Fp{false, -1, most}, Fp{false, 0, one}, Fp{false, 0, one + 1}, Fp{false, 1, one}, Fp{false, 30, one}})
+        for (const bool neg : {false, true})
+          for (const bool hull : {false, true})
+            for (const bool depth : {false, true}) {
+              p.den_w = den;
+              p.den_k = {false, 0, one};
+              p.num_z = {neg && num.sig != 0, num.exp + den.exp * (num.sig != 0), num.sig};
+              p.num_a.fill({neg, 0, most});
+              d.data.hull = hull;
+              d.state.depth = depth;
+              for (const std::uint32_t lo : {std::uint32_t{0}, std::uint32_t{1}, depth_one / 2, depth_one}) {
+                d.znear = lo;
+                d.zfar = depth_one;
+                sink(d);
+                d.znear = 0;
+                d.zfar = lo;
+                sink(d);
+              }
+            }
+    // Attributes at and around the ends of their format, one at a time.
+    d.znear = 0;
+    d.zfar = depth_one;
+    d.state.depth = false;
+    d.data.hull = false;
+    const int top = config().attribute_int_bits, low = -config().attribute_frac();
+    for (std::size_t j = 0; j < static_cast<std::size_t>(config().attribute_slots); ++j)
+      for (const int exp : {top + 1, top, top - 1, 0, low + 1, low, low - 1, low - 40, low - 70})
+        for (const std::uint32_t sig : {one, one + 1, most})
+          for (const bool neg : {false, true})
+            for (int used : {static_cast<int>(j), static_cast<int>(j) + 1}) {
+              p.num_a.fill({});
+              p.num_a[j] = {neg, exp, sig};
+              p.den_k = {false, 0, one};
+              d.state.attributes = used;
+              sink(d);
+            }
+  }
+};
+
+}  // namespace
+
+void add_pixel_stages(std::vector<std::unique_ptr<Suite>>& suites) {
+  const auto add = [&](SuiteInfo info, StageSuite::Make make) {
+    suites.push_back(std::make_unique<StageSuite>(std::move(info), make));
+  };
+  const std::string numbers = "numbers are normalised (the top bit of sig is 1) or all fields are 0; ";
+  add({"normalise", "stage", "Significand numbers of A, D and squared distances; the singular class", "normalise", 2,
+       "no value is the most negative one of its width; r2 is at least -256"},
+      make_stage<Normalise>);
+  add({"rsqrt", "stage", "Reciprocal square roots of the squared distances", "rsqrt", 3,
+       numbers + "exponents from 0 to QVAL_BITS - 2"},
+      make_stage<Rsqrt>);
+  add({"reciprocal", "stage", "Reciprocal of a denominator", "reciprocal", 3,
+       numbers + "exponents are those of sums (see interpolation)"},
+      make_stage<Reciprocal>);
+  add({"ratios", "stage", "Half-angle tangents of the edges and diagonals as n/d", "mean_value_ratios", 4,
+       numbers + "|A| and |D| are at most r r', but for the rounding of rho; rho is at most 1"},
+      make_stage<Ratios>);
+  add({"weights", "stage", "Mean value weights up to a common factor", "mean_value_weights", 7,
+       numbers +
+           "rho is 0 exactly at a corner and at most 1 otherwise; of n and d one is in [1, 2] (n where D < 0), the "
+           "other at most 1 but for rounding, and 0 exactly where A is 0; both are 0 and 1 at a corner"},
+      make_stage<Weights>);
+  add({"interpolation", "stage", "Weighted sums over the corners", "interpolate", 3,
+       numbers + "exponents of M are those that seven factors or a number of the port can have; |W| is at most 1"},
+      make_stage<Interpolation>);
+  add({"depth", "stage", "Quotients, fixed point, saturation and discard", "fragment_output", 5,
+       numbers + "exponents are those of sums; attributes is at most ATTRIBUTE_SLOTS; znear and zfar are at most 1"},
+      make_stage<Depth>);
+}
+
+}  // namespace quadrille::vectors

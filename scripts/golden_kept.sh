@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# The kept golden vectors (golden/vectors/kept): generated again they are the same bytes, the model and floating point agree with
+# them, the RTL does under two simulators, and a change has its line in golden/CHANGELOG.md.
+#   scripts/golden_kept.sh PATH_TO_QUADRILLE [--update]      --update replaces the set; then add the line that the script asks for
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export QUADRILLE
+QUADRILLE=$(realpath "$1")
+kept=golden/vectors/kept
+suites=(snapping setup coverage forward_difference normalise rsqrt reciprocal ratios weights interpolation depth machine
+  stress_reflex stress_bowtie stress_eye_crossing)
+generate() {
+  local arguments=()
+  for suite in "${suites[@]}"; do arguments+=(--suite "$suite"); done
+  "$QUADRILLE" golden generate --level 1 --limit 200 --quiet "${arguments[@]}" --out "$@"
+}
+
+if [ "${2:-}" = --update ]; then
+  generate "$kept" --force
+else
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  generate "$work/again"
+  "$QUADRILLE" golden diff "$kept" "$work/again"
+  diff -r "$kept" "$work/again"  # every byte, manifests too
+fi
+
+hash=$(sha256sum "$kept/manifest.json" | cut -c1-16)
+grep -q "^| [0-9][0-9]* | .* | \`$hash\` |" golden/CHANGELOG.md || {
+  echo "golden/CHANGELOG.md has no line for this set: | version | what changed | \`$hash\` |" >&2
+  exit 1
+}
+size=$(du -sb "$kept" | cut -f1)
+[ "$size" -le 5000000 ] || { echo "$kept has $size bytes; 5 MB at most" >&2; exit 1; }
+
+"$QUADRILLE" golden verify "$kept" --engine model --quiet
+"$QUADRILLE" golden verify "$kept" --engine float --quiet
+golden/examples/check_edges_and_weights.py "$kept"
+scripts/replay.sh "$kept" verilator
+# Icarus needs minutes for the 40,000 clocks of `machine`; the stress suites are the same machine.
+icarus=()
+for suite in "${suites[@]}"; do [ "$suite" = machine ] || icarus+=(--suite "$suite"); done
+scripts/replay.sh "$kept" icarus "${icarus[@]}"

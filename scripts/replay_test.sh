@@ -1,0 +1,173 @@
+#!/usr/bin/env bash
+# Tests of replay.sh: it agrees with an intact set under both simulators, and every damage and every fault is seen.
+#   scripts/replay_test.sh PATH_TO_QUADRILLE [SET]      (default: a small set, generated)
+set -euo pipefail
+export QUADRILLE
+QUADRILLE=$(realpath "$1")
+cd "$(dirname "$0")/.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+set=${2:-$work/set}
+machine=stress_reflex  # the suite that stands for the machine
+if [ $# -lt 2 ]; then
+  suites=()
+  for suite in snapping setup coverage forward_difference normalise rsqrt reciprocal ratios weights interpolation depth $machine stress_on_vertex; do
+    suites+=(--suite "$suite")
+  done
+  "$QUADRILLE" golden generate --level 1 --limit 150 --out "$set" --quiet "${suites[@]}"
+fi
+
+failures=0
+# expect STATUS PATTERN DESCRIPTION COMMAND...: the command ends with STATUS and prints PATTERN (an extended regular expression).
+expect() {
+  local status=$1 pattern=$2 what=$3 got=0
+  shift 3
+  "$@" >"$work/out" 2>&1 || got=$?
+  if [ "$got" -eq "$status" ] && grep -Eq -- "$pattern" "$work/out"; then
+    echo "ok: $what"
+  else
+    echo "FAILED: $what: status $got, expected $status and /$pattern/" >&2
+    sed 's/^/    /' "$work/out" >&2
+    failures=$((failures + 1))
+  fi
+}
+
+# damage NAME SCRIPT: a copy of the set with one suite changed by a Python script, which finds its folder in `suite`.
+damage() {
+  rm -rf "$work/bad"
+  cp -r "$set" "$work/bad"
+  python3 - "$work/bad/$1" "$2" <<'PYTHON'
+import json
+import sys
+
+suite, script = sys.argv[1:]
+
+
+def read(name):
+    with open(f"{suite}/{name}", encoding="ascii") as file:
+        return file.read().splitlines()
+
+
+def write(name, lines):
+    with open(f"{suite}/{name}", "w", encoding="ascii") as file:
+        file.write("".join(line + "\n" for line in lines))
+
+
+def flip(name, line, bit):
+    """One bit of the record in one line."""
+    lines = read(name)
+    lines[line] = f"{int(lines[line], 16) ^ 1 << bit:0{len(lines[line])}x}"
+    write(name, lines)
+
+
+def lines_in_manifest(name, change):
+    with open(f"{suite}/manifest.json", encoding="utf-8") as file:
+        manifest = json.load(file)
+    manifest["files"][name]["lines"] += change
+    with open(f"{suite}/manifest.json", "w", encoding="utf-8") as file:
+        json.dump(manifest, file)
+
+
+def bits(record):
+    with open(f"{suite}/manifest.json", encoding="utf-8") as file:
+        return json.load(file)["records"][record]["bits"]
+
+
+exec(script)
+PYTHON
+}
+
+replay=scripts/replay.sh
+tool=icarus  # the quick one to build
+
+# ---- An intact set ----
+expect 0 "^$machine: [0-9]+ vectors, 0 mismatches" "all suites under Icarus" $replay "$set" icarus --netlist
+cp "$work/out" "$work/icarus"
+expect 0 "" "rsqrt as gates" grep -E "^rsqrt \(netlist\): [1-9][0-9]* vectors, 0 mismatches" "$work/icarus"
+expect 0 "^$machine: [0-9]+ vectors, 0 mismatches" "all suites under Verilator" $replay "$set" verilator
+
+# ---- Damaged vectors ----
+for simulator in icarus verilator; do
+  damage rsqrt 'flip("response.hex", -1, 0)'
+  expect 1 "^rsqrt: sig\[0\]: expected" "$simulator: a bit of the last response" $replay "$work/bad" $simulator --suite rsqrt
+  damage $machine 'flip("response.hex", 7, 0)'
+  expect 1 "first difference in line 8," "$simulator: a bit of a fragment" $replay "$work/bad" $simulator --suite $machine
+done
+damage rsqrt 'flip("response.hex", 0, bits("response") - 1)'
+expect 1 "first difference in line 1:" "the top bit of the first response" $replay "$work/bad" $tool --suite rsqrt
+damage setup 'flip("stimulus.hex", 1, 60)'
+expect 1 "first difference in line 2:" "a bit of a stimulus" $replay "$work/bad" $tool --suite setup
+# clock_stalled is the second 32-bit field of a fragment's line, clock the one above it
+damage $machine 'flip("response.hex", 4, bits("response") - 16 - 64)'
+expect 1 "first difference in line 5,.* with stalls: clock" "the clock of a fragment under stalls" $replay "$work/bad" $tool --suite $machine
+damage $machine 'flip("response.hex", 4, bits("response") - 16 - 32)'
+expect 1 "first difference in line 5,.*: clock" "the clock of a fragment" $replay "$work/bad" $tool --suite $machine
+damage $machine 'write("stalls.hex", [f"{int(line, 16) ^ 1:x}" for line in read("stalls.hex")])'
+expect 1 "with stalls: clock" "another stall pattern" $replay "$work/bad" $tool --suite $machine
+damage $machine 'write("response.hex", read("response.hex")[:-1]); lines_in_manifest("response.hex", -1)'
+expect 1 "a fragment too many" "a fragment less" $replay "$work/bad" $tool --suite $machine
+damage $machine 'write("response.hex", read("response.hex") + read("response.hex")[-1:]); lines_in_manifest("response.hex", 1)'
+expect 1 "idle after draw [0-9]+ without the fragment" "a fragment more" $replay "$work/bad" $tool --suite $machine
+damage $machine 'write("response.hex", [read("response.hex")[1]] + read("response.hex")[1:])'
+expect 1 "first difference in line 1," "a fragment in the place of another" $replay "$work/bad" $tool --suite $machine
+
+for suite in rsqrt $machine; do
+  damage $suite 'write("response.hex", read("response.hex")[:-1])'
+  expect 2 "response.hex: [0-9]+ lines, the manifest says" "$suite: a line less" $replay "$work/bad" $tool --suite $suite
+  damage $suite 'write("response.hex", [])'
+  expect 2 "response.hex: no vectors" "$suite: no line" $replay "$work/bad" $tool --suite $suite
+done
+damage rsqrt 'write("response.hex", read("response.hex")[:-1]); lines_in_manifest("response.hex", -1)'
+expect 2 "different numbers of lines" "a response less" $replay "$work/bad" $tool --suite rsqrt
+damage rsqrt 'write("stimulus.hex", ["x" + line[1:] for line in read("stimulus.hex")])'
+expect 2 "stimulus.hex:1: not a record" "a line that is no number" $replay "$work/bad" $tool --suite rsqrt
+damage rsqrt 'open(f"{suite}/manifest.json", "w").write("{")'
+expect 2 "manifest.json" "half a manifest" $replay "$work/bad" $tool --suite rsqrt
+damage rsqrt 'import os; os.remove(f"{suite}/stimulus.hex")'
+expect 2 "stimulus.hex" "a missing file" $replay "$work/bad" $tool --suite rsqrt
+expect 2 "no suite rsqr" "an unknown suite" $replay "$set" $tool --suite rsqr
+expect 2 "nothing to replay" "only a suite without RTL" $replay "$set" $tool --suite snapping
+expect 2 "manifest.json" "no set" $replay "$work" $tool
+mkdir "$work/bin"
+ln -s "$(python3 -c 'import sys; print(sys.executable)')" "$work/bin/python3"
+ln -s "$(command -v bash)" "$(command -v dirname)" "$work/bin"
+expect 3 "apt-get install iverilog yosys" "missing tools" env PATH="$work/bin" $replay "$set" icarus --suite rsqrt
+
+iverilog -g2012 -s replay_stage -o "$work/stage" -DREPLAY_DUT=replay_reciprocal -DREPLAY_STIMULUS_BITS=31 -DREPLAY_RESPONSE_BITS=31 -DREPLAY_VECTORS=1 \
+  rtl/quadrille_pkg.sv <("$QUADRILLE" config --quiet --emit-tables -) rtl/{reciprocal,table_polynomial,delay_line}.sv tb/replay/replay_{valid,reciprocal,stage}.sv
+expect 1 "reciprocal: no vectors" "the bench itself, without vectors" \
+  vvp -N "$work/stage" +suite=reciprocal +stimulus="$set/reciprocal/stimulus.hex" +response="$set/reciprocal/response.hex" +vectors=0
+
+# ---- Faulty RTL: suite, file, line as it is, as it becomes ----
+fault() {
+  rm -rf "$work/rtl"
+  cp -r rtl "$work/rtl"
+  python3 - "$work/rtl/$2" "$3" "$4" <<'PYTHON'
+import sys
+
+path, old, new = sys.argv[1:]
+with open(path, encoding="utf-8") as file:
+    text = file.read()
+if text.count(old) != 1:
+    sys.exit(f"{path}: {old!r} occurs {text.count(old)} times")
+with open(path, "w", encoding="utf-8") as file:
+    file.write(text.replace(old, new))
+PYTHON
+  expect 1 "^$1: (first difference|FAILED)" "$1: $2: ${4# }" $replay "$set" "${5:-$tool}" --suite "$1" --rtl "$work/rtl"
+}
+fault setup quad_setup.sv "subtract0 = is_linear;" "subtract0 = 1'b0;"
+fault coverage stamp_coverage.sv "(pos2 | pos3)" "(pos2 & pos3)"
+fault forward_difference forward_difference.sv "SQUARE_BITS'(row_i) * SQUARE_BITS'(row_i)" "SQUARE_BITS'(row_i) * SQUARE_BITS'(dx_i)"
+fault normalise normalise.sv "E'(WIDTH - 1 + BIAS)" "E'(WIDTH + BIAS)"
+fault normalise singular_class.sv "a_zero && d_i[g*QVAL+QVAL-1]" "a_zero && !d_i[g*QVAL+QVAL-1]"
+fault rsqrt rsqrt.sv "DEPTH(3)" "DEPTH(2)"
+fault reciprocal reciprocal.sv "E'(0) - exp_i : ~exp_i" "E'(0) - exp_i : -exp_i"
+fault ratios mean_value_ratios.sv "neg_i(1'b0)" "neg_i(1'b1)"
+fault weights mean_value_weights.sv "take_both_15 <= two_edge_14 && on_a && on_b" "take_both_15 <= 1'b0"
+fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(t*4+v)*PE+:PE]))" "E'(term_exp_i[(t*4+v)*PE+:PE])"
+fault depth fragment_output.sv "z < znear_i" "z <= znear_i"
+fault $machine quadrille.sv "full && setup_idle && slot_available" "full && setup_idle && !slots_busy" # clocks alone
+fault $machine quadrille.sv "full && setup_idle && slot_available" "full && setup_idle && !slots_busy" verilator
+
+[ "$failures" -eq 0 ] || { echo "$failures failed" >&2; exit 1; }

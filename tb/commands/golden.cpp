@@ -1,0 +1,273 @@
+// quadrille golden: sets of golden vectors, generated and verified (diff is in golden_diff.cpp).
+#include "golden/io/json_report.hpp"
+#include "golden/suites/float_engine.hpp"
+#include "golden/suites/suite.hpp"
+#include "tb/commands/choices.hpp"
+#include "tb/commands/commands.hpp"
+#include "tb/commands/errors.hpp"
+#include "tb/commands/golden_rtl.hpp"
+#include "tb/commands/output.hpp"
+#include "tb/commands/progress.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+namespace quadrille::cli {
+namespace {
+
+using namespace vectors;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// ---- generate ----
+
+struct GenerateCommandOptions {
+  CommonOptions common;
+  int level = 1;
+  std::uint64_t limit = 0;
+  std::vector<std::string> suites;
+  std::string out;
+  bool list = false, force = false;
+};
+
+/// The chosen suites in the order of the list; all of them when none is named.
+std::vector<const Suite*> choose_suites(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  for (const auto& suite : vectors::suites()) all.push_back(suite->info().name);
+  std::vector<bool> wanted(all.size(), names.empty());
+  for (const std::string& name : names) wanted[choose("suite", name, all)] = true;
+  std::vector<const Suite*> chosen;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (wanted[i]) chosen.push_back(vectors::suites()[i].get());
+  return chosen;
+}
+
+int generate(const GenerateCommandOptions& options, const std::vector<std::string>& arguments) {
+  if (options.list) {
+    for (const auto& suite : vectors::suites()) std::printf("%s\n", suite->info().name.c_str());
+    return exit_ok;
+  }
+  if (options.out.empty()) throw UsageError("--out DIR is missing: the directory of the set");
+  const std::vector<const Suite*> chosen = choose_suites(options.suites);
+  check_outputs({options.common.json}, {options.common.config_file});
+  GenerateOptions generation;
+  generation.level = options.level;
+  generation.seed = options.common.seed;
+  generation.config = options.common.config();
+  generation.limit = options.limit;
+  generation.threads = options.common.thread_count();
+
+  // The command in the set is the same wherever it is generated.
+  const SetInfo info{generation.level, generation.seed, generation.config,
+                     "quadrille golden generate --level " + std::to_string(generation.level) + " --seed " +
+                         std::to_string(generation.seed) +
+                         (generation.limit > 0 ? " --limit " + std::to_string(generation.limit) : "") +
+                         spelled(generation.config)};
+  const auto start = Clock::now();
+  SetWriter writer(options.out, info, options.force);
+  Progress progress("golden", chosen.size(), options.common.show_progress());
+  std::FILE* text = options.common.text();
+  nlohmann::ordered_json report = golden::begin_report(generation.config, generation.seed, arguments);
+  report["level"] = generation.level;
+  nlohmann::ordered_json& list = report["suites"] = nlohmann::ordered_json::array();
+  std::string lines;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const Suite& suite = *chosen[i];
+    progress.set(i, suite.info().name);
+    const auto suite_start = Clock::now();
+    std::uint64_t vectors = 0;
+    writer.add(suite.info(), [&](SuiteWriter& out) {
+      suite.write(out, generation);
+      vectors = out.count("vectors");
+    });
+    char line[160];
+    std::snprintf(line, sizeof line, "%-24s %9llu vectors %8.2f s\n", suite.info().name.c_str(),
+                  static_cast<unsigned long long>(vectors), seconds_since(suite_start));
+    lines += line;
+    list.push_back({{"suite", suite.info().name}, {"vectors", vectors}, {"seconds", seconds_since(suite_start)}});
+  }
+  progress.finish();
+  writer.commit(chosen.size() == vectors::suites().size());
+  report["seconds"] = seconds_since(start);
+  if (text != nullptr)
+    std::fprintf(text, "%s%s: %zu suites in %.1f s\n", lines.c_str(), options.out.c_str(), chosen.size(),
+                 seconds_since(start));
+  if (!options.common.json.empty()) golden::save_json(options.common.json, report);
+  return exit_ok;
+}
+
+// ---- verify ----
+
+/// Who recomputes the responses. The RTL takes all suites at once.
+struct VerifyEngine {
+  std::string_view name;
+  VerifyResult (*verify)(const Suite& suite, const SuiteReader& reader, unsigned threads);
+};
+
+constexpr VerifyEngine engines[] = {
+    {"model",
+     [](const Suite& suite, const SuiteReader& reader, unsigned threads) { return suite.verify(reader, threads); }},
+    {"float", verify_float},
+    {"rtl", nullptr},
+};
+
+std::string engine_names() {
+  std::string names;
+  for (const VerifyEngine& engine : engines) names.append(names.empty() ? "" : ", ").append(engine.name);
+  return names;
+}
+
+struct VerifyCommandOptions {
+  std::string directory, engine = "model", json;
+  std::vector<std::string> suites;
+  int threads = 0;
+  bool quiet = false;
+};
+
+int verify(const VerifyCommandOptions& options, const std::vector<std::string>& arguments) {
+  std::vector<std::string> names;
+  for (const VerifyEngine& engine : engines) names.emplace_back(engine.name);
+  const VerifyEngine& engine = engines[choose("engine", options.engine, names)];
+  check_outputs({options.json}, {});
+  CommonOptions common;
+  common.threads = options.threads;
+  common.json = options.json;
+  common.quiet = options.quiet;
+  std::FILE* text = common.text();
+
+  const SetReader set(options.directory);
+  for (const std::string& name : options.suites) choose("suite of " + options.directory, name, set.suites());
+  nlohmann::ordered_json report = golden::begin_report(set.info().config, set.info().seed, arguments);
+  report["engine"] = engine.name;
+  nlohmann::ordered_json& list = report["suites"] = nlohmann::ordered_json::array();
+  std::vector<std::string> chosen;
+  for (const std::string& name : set.suites())
+    if (options.suites.empty() || std::ranges::count(options.suites, name) > 0) chosen.push_back(name);
+  std::map<std::string, VerifyResult> replayed;
+  if (engine.verify == nullptr) replayed = replay_rtl(options.directory, chosen);
+  bool ok = true;
+  std::uint64_t defined = 0;  // the paper's formulas may be undefined in a whole suite, but not in all
+  for (const std::string& name : chosen) {
+    const auto start = Clock::now();
+    const SuiteReader reader = set.suite(name);
+    if (engine.verify == nullptr && !replayed.contains(name)) {
+      if (text != nullptr) std::fprintf(text, "%s: no RTL\n", name.c_str());
+      continue;
+    }
+    const VerifyResult result =
+        engine.verify != nullptr ? engine.verify(find_suite(name), reader, common.thread_count()) : replayed.at(name);
+    ok = ok && result.mismatches == 0;
+    defined += result.vectors - result.undefined;
+    const bool judged = result.vectors > result.undefined || engine.verify == verify_float;
+    ok = ok && judged;
+    list.push_back(
+        {{"suite", name},
+         {"vectors", result.vectors},
+         {"mismatches", result.mismatches},
+         {"undefined", result.undefined},
+         {"first_difference",
+          result.first_difference.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(result.first_difference)},
+         {"seconds", seconds_since(start)}});
+    if (text != nullptr) {
+      std::fprintf(text, "%s: %llu vectors, %llu mismatches", name.c_str(),
+                   static_cast<unsigned long long>(result.vectors), static_cast<unsigned long long>(result.mismatches));
+      if (result.undefined > 0)
+        std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(result.undefined));
+      std::fprintf(text, "\n");
+    }
+    if (result.mismatches > 0) std::fprintf(stderr, "quadrille: %s\n", result.first_difference.c_str());
+    if (!judged) std::fprintf(stderr, "quadrille: suite %s: no vector was compared\n", name.c_str());
+  }
+  if (defined == 0) {
+    std::fprintf(stderr, "quadrille: no vector was compared\n");
+    ok = false;
+  }
+  report["ok"] = ok;
+  if (!options.json.empty()) golden::save_json(options.json, report);
+  return ok ? exit_ok : exit_mismatch;
+}
+
+void add_generate(CLI::App& golden, Invocation& invocation) {
+  CLI::App* command = golden.add_subcommand("generate", "Write a set of vectors");
+  command->footer(
+      "Stimulus and response of every stage and of the machine, as hexadecimal lines for $readmemh with manifests "
+      "that\n"
+      "describe each bit; golden/vectors/README.md has the format. Level 1 takes minutes, level 2 hours. The same "
+      "level,\nseed and configuration give the same bytes everywhere.\n\n"
+      "Examples:\n"
+      "  quadrille golden generate --level 1 --out vectors\n"
+      "  quadrille golden generate --suite rsqrt --suite weights --set significand_bits=12 --out vectors12\n"
+      "  quadrille golden generate --list-suites");
+  const auto options = std::make_shared<GenerateCommandOptions>();
+  options->common.add_to(*command, false);
+  command->add_option("--level", options->level, "1: minutes; 2: a hundred times the vectors")
+      ->check(CLI::Range(1, 2))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--suite", options->suites, "Only this suite; may be given several times")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command->add_option("--seed", options->common.seed, "Seed of everything random")
+      ->check(not_negative)
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--limit", options->limit, "About this many vectors a suite at most; 0: those of the level")
+      ->check(not_negative)
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      ->add_option("--threads", options->common.threads,
+                   "Threads, 0 for one per processor; the bytes do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Directory of the set; made if missing")->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace the set that DIR holds");
+  command->add_flag("--list-suites", options->list, "Print the names of the suites, one a line");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] { return generate(*options, invocation.arguments); };
+  });
+}
+
+void add_verify(CLI::App& golden, Invocation& invocation) {
+  CLI::App* command = golden.add_subcommand("verify", "Check a set: hashes, then every response recomputed");
+  command->footer(
+      "Exit status: 0 every vector agrees, 1 a vector differs or none was compared, 2 the set is damaged.\n\n"
+      "Examples:\n"
+      "  quadrille golden verify vectors\n"
+      "  quadrille golden verify vectors --suite weights --json -");
+  const auto options = std::make_shared<VerifyCommandOptions>();
+  command->add_option("directory", options->directory, "The set")->type_name("DIR")->required();
+  command->add_option("--engine", options->engine, "Who recomputes: " + engine_names())
+      ->type_name("NAME")
+      ->capture_default_str();
+  command->add_option("--suite", options->suites, "Only this suite; may be given several times")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command->add_option("--threads", options->threads, "Threads, 0 for one per processor")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--json", options->json, "Write a JSON report (- for standard output)")->type_name("F.json");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] { return verify(*options, invocation.arguments); };
+  });
+}
+
+}  // namespace
+
+void add_golden_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("golden", "Golden vectors of every stage and of the machine");
+  command->require_subcommand(1);
+  command->footer("Examples:\n  quadrille golden generate --level 1 --out vectors\n  quadrille golden verify vectors");
+  add_generate(*command, invocation);
+  add_verify(*command, invocation);
+  add_golden_diff_command(*command, invocation);
+}
+
+}  // namespace quadrille::cli

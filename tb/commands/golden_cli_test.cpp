@@ -1,0 +1,144 @@
+// quadrille golden as a user runs it: sets, the same bytes everywhere, damage, bad input.
+#include "tb/commands/cli_fixture.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace {
+
+using namespace quadrille::cli_test;
+using nlohmann::json;
+
+class GoldenCli : public Cli {
+ protected:
+  void generate(const std::string& arguments) const {
+    const Outcome outcome = run("golden generate --limit 30 " + arguments);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+  /// Every file of a set in one string.
+  std::string bytes(const std::string& directory) const {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(file(directory)))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::string all;
+    for (const fs::path& path : files) all += fs::relative(path, file(directory)).string() + "\n" + read(path);
+    return all;
+  }
+};
+
+TEST_F(GoldenCli, ListsSuites) {
+  const Outcome outcome = run("golden generate --list-suites");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::istringstream in(outcome.out);
+  std::vector<std::string> names;
+  for (std::string line; std::getline(in, line);) names.push_back(line);
+  for (const char* name : {"snapping", "setup", "coverage", "forward_difference", "normalise", "rsqrt", "reciprocal",
+                           "ratios", "weights", "interpolation", "depth"})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+}
+
+TEST_F(GoldenCli, GeneratesAndVerifies) {
+  generate("--suite weights --suite rsqrt --out set");
+  const json manifest = json::parse(read(file("set") / "manifest.json"));
+  EXPECT_EQ(manifest["command"],
+            "quadrille golden generate --level 1 --seed 1 --limit 30 --suite rsqrt --suite weights");
+  EXPECT_EQ(manifest["suites"].size(), 2u);
+  const json suite = json::parse(read(file("set") / "rsqrt" / "manifest.json"));
+  EXPECT_EQ(suite["config"]["attribute_frac_bits"], 20);
+  EXPECT_EQ(suite["counts"]["vectors"], suite["files"]["stimulus.hex"]["lines"]);
+
+  const Outcome outcome = run("golden verify set");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("rsqrt: " + suite["counts"]["vectors"].dump() + " vectors, 0 mismatches\nweights: "), 0u)
+      << outcome.out;
+  const Outcome one = run("golden verify set --suite weights --json -");
+  ASSERT_EQ(one.status, 0) << one.err;
+  const json report = json::parse(one.out);
+  EXPECT_EQ(report["ok"], true);
+  EXPECT_EQ(report["engine"], "model");
+  ASSERT_EQ(report["suites"].size(), 1u);
+  EXPECT_EQ(report["suites"][0]["suite"], "weights");
+  EXPECT_EQ(report["suites"][0]["mismatches"], 0);
+}
+
+TEST_F(GoldenCli, SameBytesForAnyThreadsAndSpelling) {
+  generate("--suite ratios --suite depth --set significand_bits=12 --threads 1 --out a");
+  write("c.toml", "significand_bits = 12\n");
+  generate("--suite depth --suite ratios --config c.toml --threads 3 --out deep/b/");
+  EXPECT_EQ(bytes("a"), bytes("deep/b"));
+  generate("--suite ratios --suite depth --set significand_bits=12 --seed 2 --out c");
+  EXPECT_NE(bytes("a"), bytes("c"));
+  EXPECT_EQ(run("golden verify deep/b").status, 0);
+  // What the set says generates it again.
+  const std::string command = json::parse(read(file("a") / "manifest.json"))["command"];
+  ASSERT_EQ(command.find("quadrille "), 0u);
+  ASSERT_EQ(run(command.substr(10) + " --out d").status, 0);
+  EXPECT_EQ(bytes("a"), bytes("d"));
+}
+
+TEST_F(GoldenCli, DamageEndsWithStatus2) {
+  generate("--suite rsqrt --out set");
+  const fs::path response = file("set") / "rsqrt" / "response.hex";
+  const std::string text = read(response);
+  std::string flipped = text;
+  flipped[5] = flipped[5] == '1' ? '2' : '1';
+  write("set/rsqrt/response.hex", flipped);
+  refuses(2, "golden verify set", {"response.hex", "SHA-256"});
+  write("set/rsqrt/response.hex", text);
+  write("set/rsqrt/more", "");
+  refuses(2, "golden verify set", {"rsqrt/more: does not belong to the set"});
+  fs::remove(file("set") / "rsqrt" / "more");
+  EXPECT_EQ(run("golden verify set").status, 0);
+  refuses(2, "golden verify nowhere", {"nowhere", "is no directory"});
+}
+
+// A set that is intact but wrong: one digit changed and every hash made right again.
+TEST_F(GoldenCli, WrongVectorsEndWithStatus1) {
+  generate("--suite rsqrt --out set");
+  const auto digest = [&](const std::string& name) {
+    EXPECT_EQ(std::system(("sha256sum '" + file(name).string() + "' >'" + file("digest").string() + "'").c_str()), 0);
+    return read(file("digest")).substr(0, 64);
+  };
+  const auto replace = [&](const std::string& name, const std::string& from, const std::string& to) {
+    std::string text = read(file(name));
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << name;
+    write(name, text.replace(at, from.size(), to));
+  };
+  const std::string response = digest("set/rsqrt/response.hex"), manifest = digest("set/rsqrt/manifest.json");
+  std::string text = read(file("set/rsqrt/response.hex"));
+  char& lowest = text[text.find('\n') - 1];
+  lowest = lowest == '0' ? '1' : '0';
+  write("set/rsqrt/response.hex", text);
+  replace("set/rsqrt/manifest.json", response, digest("set/rsqrt/response.hex"));
+  replace("set/manifest.json", manifest, digest("set/rsqrt/manifest.json"));
+  const Outcome outcome = run("golden verify set --json report.json");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.out.find("vectors, 1 mismatches"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.err.find("quadrille: set/rsqrt/response.hex:1: sig[0]: expected "), 0u) << outcome.err;
+  EXPECT_EQ(json::parse(read(file("report.json")))["ok"], false);
+}
+
+TEST_F(GoldenCli, RefusesWhatItCannotDo) {
+  refuses(2, "golden generate", {"--out"});
+  refuses(2, "golden generate --suite weigths --out set", {"unknown suite \"weigths\"", "did you mean \"weights\""});
+  refuses(2, "golden generate --suite '' --out set", {"unknown suite \"\""});
+  refuses(2, "golden generate --level 3 --out set", {"--level"});
+  refuses(2, "golden generate --seed -1 --out set", {"must not be negative"});
+  refuses(2, "golden generate --set significand_bits=99 --out set", {"significand_bits"});
+  refuses(2, "golden generate --levle 1 --out set", {"did you mean --level?", "quadrille golden generate --help"});
+  refuses(2, "golden", {"subcommand"});
+  EXPECT_FALSE(fs::exists(file("set")));
+  generate("--suite rsqrt --out set");
+  refuses(2, "golden generate --suite rsqrt --out set", {"is not empty", "--force"});
+  generate("--suite reciprocal --out set --force");
+  refuses(2, "golden verify set --suite rsqrt", {"rsqrt", "reciprocal"});
+  refuses(2, "golden verify set --engine modle", {"unknown engine \"modle\"", "did you mean \"model\""});
+  write("taken", "");
+  refuses(2, "golden generate --suite rsqrt --out taken", {"taken: is no directory"});
+}
+
+}  // namespace

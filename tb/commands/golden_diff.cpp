@@ -1,0 +1,198 @@
+// quadrille golden diff: two sets of golden vectors, or two EXR pictures.
+#include "golden/io/error.hpp"
+#include "golden/io/image_diff.hpp"
+#include "golden/io/json_report.hpp"
+#include "golden/io/png.hpp"
+#include "golden/suites/manifest.hpp"
+#include "tb/commands/commands.hpp"
+#include "tb/commands/errors.hpp"
+#include "tb/commands/output.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace quadrille::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct DiffOptions {
+  std::string a, b, heat_map, json;
+  bool quiet = false;
+};
+
+/// What was found, for people and for reports.
+struct Findings {
+  bool same = true;
+  std::vector<std::string> lines;
+  Json json;
+
+  void differs(const std::string& line) {
+    same = false;
+    lines.push_back(line);
+  }
+};
+
+Json channels_json(const golden::ImageDiff& diff) {
+  Json json = Json::array();
+  for (const golden::ChannelDiff& c : diff.channels)
+    json.push_back({{"channel", c.name}, {"count", c.count}, {"max", c.max}, {"rms", c.rms}, {"x", c.x}, {"y", c.y}});
+  return json;
+}
+
+/// Adds a picture's differences; `name` empty: the pictures themselves were asked for.
+golden::ImageDiff compare_pictures(const std::string& a, const std::string& b, const std::string& name,
+                                   Findings& findings) {
+  golden::ImageDiff diff = golden::diff_images(golden::load_exr(a), golden::load_exr(b), a, b);
+  const std::string head = name.empty() ? "" : name + ": ";
+  for (const std::string& channel : diff.only_a)
+    findings.differs(head + "channel " + channel + " is in the first only");
+  for (const std::string& channel : diff.only_b)
+    findings.differs(head + "channel " + channel + " is in the second only");
+  for (const golden::ChannelDiff& c : diff.channels) {
+    char text[160];
+    if (c.count == 0) {
+      std::snprintf(text, sizeof text, "%-10s equal", c.name.c_str());
+      if (name.empty()) findings.lines.emplace_back(text);
+      continue;
+    }
+    std::snprintf(text, sizeof text, "%-10s %llu pixels differ, max %.6g at (%d, %d), RMS %.6g", c.name.c_str(),
+                  static_cast<unsigned long long>(c.count), c.max, c.x, c.y, c.rms);
+    findings.differs(head + text);
+  }
+  return diff;
+}
+
+/// One record file of a suite: how many lines differ, and the first of them field by field.
+void compare_records(const vectors::SuiteReader& a, const vectors::SuiteReader& b, const std::string& role,
+                     Findings& findings) {
+  const std::string name = a.info().name + "/" + role + ".hex";
+  if (a.layout(role) != b.layout(role)) {
+    findings.differs(name + ": the records have other fields");
+    return;
+  }
+  const std::uint64_t common = std::min(a.lines(role), b.lines(role));
+  if (a.lines(role) != b.lines(role))
+    findings.differs(name + ": " + std::to_string(a.lines(role)) + " lines against " + std::to_string(b.lines(role)));
+  std::uint64_t differ = 0;
+  std::string first;
+  constexpr std::uint64_t chunk = 4096;
+  for (std::uint64_t line = 0; line < common; line += chunk) {
+    const std::uint64_t count = std::min(chunk, common - line);
+    const std::vector<vectors::Record> left = a.read(role, line, count), right = b.read(role, line, count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (left[i] == right[i]) continue;
+      if (differ++ > 0) continue;
+      for (const vectors::RecordField& field : a.layout(role).fields())
+        if (left[i].get(field) != right[i].get(field)) {
+          first = "line " + std::to_string(line + i + 1) + ", " + field.label() + ": " +
+                  vectors::describe(left[i], field) + " against " + vectors::describe(right[i], field);
+          break;
+        }
+    }
+  }
+  if (differ > 0)
+    findings.differs(name + ": " + std::to_string(differ) + " of " + std::to_string(common) +
+                     " lines differ; the first, " + first);
+}
+
+void compare_suites(const vectors::SuiteReader& a, const vectors::SuiteReader& b, Findings& findings) {
+  const Json &files = a.manifest().at("files"), &others = b.manifest().at("files");
+  const std::string suite = a.info().name;
+  for (const auto& [name, entry] : others.items())
+    if (!files.contains(name)) findings.differs(suite + "/" + name + " is in the second only");
+  for (const auto& [name, entry] : files.items()) {
+    if (!others.contains(name)) {
+      findings.differs(suite + "/" + name + " is in the first only");
+    } else if (entry.at("sha256") != others.at(name).at("sha256")) {
+      const fs::path file(name);
+      if (file.extension() == ".exr")
+        compare_pictures((a.directory() / file).string(), (b.directory() / file).string(), suite + "/" + name,
+                         findings);
+      else
+        compare_records(a, b, file.stem().string(), findings);
+    }
+  }
+}
+
+void compare_sets(const std::string& a, const std::string& b, Findings& findings) {
+  const vectors::SetReader left(a), right(b);
+  const auto has = [](const vectors::SetReader& set, const std::string& name) {
+    return std::ranges::find(set.suites(), name) != set.suites().end();
+  };
+  for (const ConfigKey& key : Config::keys()) {
+    const int p = left.info().config.get(key.name), q = right.info().config.get(key.name);
+    if (p != q)
+      findings.differs("configuration: " + std::string(key.name) + " = " + std::to_string(p) + " against " +
+                       std::to_string(q));
+  }
+  for (const std::string& name : right.suites())
+    if (!has(left, name)) findings.differs("suite " + name + " is in the second only");
+  std::size_t compared = 0;
+  for (const std::string& name : left.suites()) {
+    if (!has(right, name)) {
+      findings.differs("suite " + name + " is in the first only");
+      continue;
+    }
+    compare_suites(left.suite(name), right.suite(name), findings);
+    ++compared;
+  }
+  findings.json["suites"] = compared;
+  if (findings.same) findings.lines.push_back(std::to_string(compared) + " suites are equal");
+}
+
+int run_diff(const DiffOptions& options, const std::vector<std::string>& arguments) {
+  const bool sets = fs::is_directory(options.a);
+  if (sets != fs::is_directory(options.b))
+    throw UsageError("golden diff compares two sets (directories) or two EXR pictures, not one with the other");
+  if (sets && !options.heat_map.empty()) throw UsageError("--heat-map is for two pictures");
+  check_outputs({options.heat_map, options.json}, {options.a, options.b});
+
+  Findings findings;
+  if (sets) {
+    compare_sets(options.a, options.b, findings);
+  } else {
+    const golden::ImageDiff diff = compare_pictures(options.a, options.b, {}, findings);
+    findings.json["channels"] = channels_json(diff);
+    if (!options.heat_map.empty()) golden::save_png(options.heat_map, golden::heat_map(diff), golden::PngFormat::rgb8);
+  }
+  if (!options.json.empty()) {
+    Json json = golden::begin_report(Config{}, 0, arguments);
+    json["same"] = findings.same;
+    json["differences"] = findings.same ? std::vector<std::string>{} : findings.lines;
+    json.update(findings.json);
+    golden::save_json(options.json, json);
+  }
+  if (!options.quiet && options.json != "-")
+    for (const std::string& line : findings.lines) std::printf("%s\n", line.c_str());
+  return findings.same ? exit_ok : exit_mismatch;
+}
+
+}  // namespace
+
+void add_golden_diff_command(CLI::App& golden, Invocation& invocation) {
+  CLI::App* command = golden.add_subcommand("diff", "Compare two sets of golden vectors, or two EXR pictures");
+  command->footer(
+      "Exit status: 0 equal, 1 different, 2 usage or a damaged input.\n\n"
+      "Examples:\n"
+      "  quadrille golden diff mine theirs\n"
+      "  quadrille golden diff rtl.exr model.exr --heat-map difference.png");
+  const auto options = std::make_shared<DiffOptions>();
+  command->add_option("A", options->a, "A set or a picture")->required()->check(CLI::ExistingPath);
+  command->add_option("B", options->b, "The other")->required()->check(CLI::ExistingPath);
+  command->add_option("--heat-map", options->heat_map, "Picture of where they differ: logarithmic, black is equal")
+      ->type_name("F.png");
+  command->add_option("--json", options->json, "Write a JSON report (- for standard output)")->type_name("F.json");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] { return run_diff(*options, invocation.arguments); };
+  });
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,73 @@
+#include "tb/commands/golden_rtl.hpp"
+
+#include "golden/io/error.hpp"
+#include "tb/environment_error.hpp"
+#include "tb/process.hpp"
+#include "tb/source_paths.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace quadrille::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int bad_input = 2, missing_tool = 3;  // exit statuses of the script
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+std::map<std::string, vectors::VerifyResult> replay_rtl(const std::string& directory,
+                                                        const std::vector<std::string>& suites) {
+  const fs::path script = tb::rtl_directory().parent_path() / "scripts" / "replay.sh";
+  if (!fs::exists(script))
+    throw tb::EnvironmentError("cannot find " + script.string() + "; the engine rtl needs the source tree");
+  std::vector<std::string> command{script.string(), fs::absolute(directory).string(), "verilator"};
+  for (const std::string& suite : suites) {
+    command.emplace_back("--suite");
+    command.push_back(suite);
+  }
+  const fs::path log = fs::temp_directory_path() / ("quadrille_replay_" + std::to_string(::getpid()) + ".log");
+  ::setenv("QUADRILLE", fs::read_symlink("/proc/self/exe").c_str(), 1);
+  const int status = tb::run_logged(command, fs::current_path(), log);
+  const std::string output = text_of(log);
+  fs::remove(log);
+  if (status == bad_input) throw golden::InputError(output);
+  if (status == missing_tool) throw tb::EnvironmentError(output);
+
+  // "SUITE: N vectors, M mismatches …", and after it what differs.
+  std::map<std::string, vectors::VerifyResult> results;
+  std::istringstream lines(output);
+  vectors::VerifyResult* last = nullptr;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = line.find(": ");
+    unsigned long long vectors = 0, mismatches = 0;
+    if (colon != std::string::npos &&
+        std::sscanf(line.c_str() + colon, ": %llu vectors, %llu mismatches", &vectors, &mismatches) == 2) {
+      last = &results[line.substr(0, colon)];
+      last->vectors = vectors;
+      last->mismatches = mismatches;
+      if (mismatches > 0) last->first_difference = line;
+    } else if (last != nullptr && last->mismatches > 0 && last->first_difference.size() < 2000) {
+      last->first_difference += "\n" + line;
+    }
+  }
+  if (status != 0) {
+    bool explained = false;
+    for (const auto& [name, result] : results) explained = explained || result.mismatches > 0;
+    if (!explained) throw golden::InputError("the replay failed:\n" + output);
+  }
+  return results;
+}
+
+}  // namespace quadrille::cli
