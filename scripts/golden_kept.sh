@@ -37,7 +37,6 @@ size=$(du -sb "$kept" | cut -f1)
 "$QUADRILLE" golden verify "$kept" --engine float --quiet
 golden/examples/check_edges_and_weights.py "$kept"
 scripts/replay.sh "$kept" verilator
-# Icarus needs minutes for the 40,000 clocks of `machine`; the stress suites are the same machine.
-icarus=()
-for suite in "${suites[@]}"; do [ "$suite" = machine ] || icarus+=(--suite "$suite"); done
-scripts/replay.sh "$kept" icarus "${icarus[@]}"
+scripts/replay.sh "$kept" icarus
+scripts/replay.sh "$kept" icarus --netlist --suite rsqrt --suite reciprocal
+"$QUADRILLE" golden verify "$kept" --engine rtl --suite reciprocal --quiet

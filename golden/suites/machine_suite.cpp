@@ -131,11 +131,11 @@ struct Layouts {
 
 // ---- Draws ----
 
-/// A draw cut off after the quad with which it has `limit` fragments, never before the first.
+/// A draw cut off after the quad with which it has `limit` fragments, or after `limit` quads, never before the first.
 MachineDraw limited(MachineDraw draw, const Config& config, std::uint64_t limit) {
   UntimedModel model(config, draw.state);
   std::size_t count = 0;
-  while (count < draw.quads.size() && model.stats().fragments < limit)
+  while (count < std::min<std::uint64_t>(draw.quads.size(), limit) && model.stats().fragments < limit)
     model.draw(draw.quads[count++], [](std::span<const Fragment>) {});
   draw.quads.resize(count);
   return draw;

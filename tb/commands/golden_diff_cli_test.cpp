@@ -1,0 +1,81 @@
+// quadrille golden diff on sets and pictures.
+#include "tb/commands/cli_fixture.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace quadrille::cli_test;
+using nlohmann::json;
+
+class GoldenDiffCli : public Cli {
+ protected:
+  void generate(const std::string& out, const std::string& more) const {
+    const Outcome outcome = run("golden generate --level 1 --limit 40 --quiet --out " + out + " " + more);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+};
+
+TEST_F(GoldenDiffCli, SetsThatAreEqual) {
+  generate("a", "--suite rsqrt --suite stress_bowtie");
+  generate("b", "--suite rsqrt --suite stress_bowtie --threads 3");
+  const Outcome outcome = run("golden diff a b --json d.json");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "2 suites are equal\n");
+  EXPECT_TRUE(json::parse(read(file("d.json"))).at("same"));
+}
+
+TEST_F(GoldenDiffCli, TheFirstDifferingFieldIsNamed) {
+  generate("a", "--suite rsqrt");
+  generate("b", "--suite rsqrt --seed 2");
+  const Outcome other_seed = run("golden diff a b");
+  EXPECT_EQ(other_seed.status, 1);
+  EXPECT_NE(other_seed.out.find("rsqrt/stimulus.hex: "), std::string::npos) << other_seed.out;
+  EXPECT_NE(other_seed.out.find("lines differ; the first, line "), std::string::npos) << other_seed.out;
+  EXPECT_NE(other_seed.out.find("exp["), std::string::npos) << other_seed.out;
+
+  generate("c", "--suite rsqrt --suite reciprocal --set significand_bits=12");
+  const Outcome other_machine = run("golden diff a c");
+  EXPECT_EQ(other_machine.status, 1);
+  EXPECT_NE(other_machine.out.find("significand_bits = 18 against 12"), std::string::npos) << other_machine.out;
+  EXPECT_NE(other_machine.out.find("suite reciprocal is in the second only"), std::string::npos) << other_machine.out;
+  EXPECT_NE(other_machine.out.find("the records have other fields"), std::string::npos) << other_machine.out;
+}
+
+TEST_F(GoldenDiffCli, Pictures) {
+  for (const char* s : {"18", "12"})
+    ASSERT_EQ(run(std::string("render --scene bowtie --size 40x30 --quiet --set significand_bits=") + s + " --out p" +
+                  s + ".exr")
+                  .status,
+              0);
+  const Outcome same = run("golden diff p18.exr p18.exr");
+  EXPECT_EQ(same.status, 0) << same.out;
+  const Outcome outcome = run("golden diff p18.exr p12.exr --heat-map h.png --json -");
+  EXPECT_EQ(outcome.status, 1);
+  bool weights_differ = false;
+  for (const json report = json::parse(outcome.out); const json& channel : report.at("channels")) {
+    if (channel.at("channel") == "quad") {
+      EXPECT_EQ(channel.at("count"), 0);
+    }
+    if (channel.at("channel") != "L0") continue;
+    weights_differ = channel.at("count") > 0;
+    EXPECT_LT(channel.at("max"), 1.0 / 512);  // 2^-(12-3)
+    EXPECT_GT(channel.at("max"), 0);
+    EXPECT_LE(channel.at("rms"), channel.at("max"));
+  }
+  EXPECT_TRUE(weights_differ);
+  EXPECT_EQ(read(file("h.png")).substr(1, 3), "PNG");
+}
+
+TEST_F(GoldenDiffCli, BadInput) {
+  generate("a", "--suite rsqrt");
+  write("x.exr", "no picture");
+  refuses(2, "golden diff a x.exr", {"two sets"});
+  refuses(2, "golden diff x.exr x.exr", {"x.exr"});
+  refuses(2, "golden diff a a --heat-map h.png", {"--heat-map"});
+  refuses(2, "golden diff a nowhere", {"nowhere"});
+  write("a/rsqrt/response.hex", "00\n");
+  refuses(2, "golden diff a a", {"response.hex"});
+}
+
+}  // namespace
