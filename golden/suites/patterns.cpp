@@ -56,9 +56,9 @@ std::int64_t weighted(golden::Prng& prng, const Range& range) {
   const std::uint64_t span = hi - lo;
   const std::uint64_t size = span + 1;  // 0: all 64-bit numbers
   const auto uniform = [&] { return wrap(lo + (size == 0 ? prng.next() : prng.below(size))); };
-  const auto offset = [&](std::uint64_t bits) {
-    return wrap(lo + (size == 0 ? bits : (bits & (std::bit_ceil(span | 1) * 2 - 1)) % size));
-  };
+  // One bit more than the span has, so that the remainder below reaches both halves of the range.
+  const std::uint64_t mask = span >> 62 != 0 ? ~std::uint64_t{0} : std::bit_ceil(span | 1) * 2 - 1;
+  const auto offset = [&](std::uint64_t bits) { return wrap(lo + (size == 0 ? bits : (bits & mask) % size)); };
   switch (prng.below(8)) {
     case 0:
       return prng.chance(0.5) ? wrap(lo + prng.below(std::min<std::uint64_t>(span, 7) + 1))

@@ -1,10 +1,12 @@
 // The stage suites: where their bits are, what their stimuli hold, and responses against independent evaluation.
 #include "golden/suites/stage_suite.hpp"
 #include "golden/io/test_support.hpp"
+#include "golden/suites/patterns.hpp"
 #include "tb/bit_vector.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -237,6 +239,23 @@ TEST_F(StageSets, BytesDependOnTheSeedAndNotOnThreads) {
 }
 
 // ---- Responses against evaluation of another kind ----
+
+// The widest range whose size fits 64 bits: every one of 256 equal parts of it is reached, and its ends stay rare.
+TEST(StageSuites, WeightedNumbersReachTheWholeOfAWideRange) {
+  const std::int64_t lo = std::numeric_limits<std::int64_t>::min() + 1, hi = -lo;
+  golden::Prng prng(1);
+  std::set<std::int64_t> parts;
+  int at_the_low_end = 0;
+  const int draws = 20000;
+  for (int i = 0; i < draws; ++i) {
+    const std::int64_t v = weighted(prng, {lo, hi});
+    ASSERT_GE(v, lo);
+    parts.insert(v >> 56);
+    at_the_low_end += v <= lo + 1;
+  }
+  EXPECT_EQ(parts.size(), 256u);
+  EXPECT_LT(at_the_low_end, draws / 20);
+}
 
 TEST(StageResponses, Snapping) {
   const Config c;
