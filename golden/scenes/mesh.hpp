@@ -26,6 +26,7 @@ struct Mesh {
   std::vector<Vec3> positions;
   std::vector<Vec2> texcoords;
   std::vector<Vec3> normals;
+  std::vector<Vec3> colours;  ///< red, green, blue in [0, 1]: one per position, or none at all
   std::vector<Face> faces;
   std::size_t skipped_lines = 0;  ///< lines of a file that were valid but not used (OBJ materials, groups, tags …)
 };

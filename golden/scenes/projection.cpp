@@ -82,6 +82,8 @@ int attribute_count(AttributeSet set) {
     case AttributeSet::uv:
       return 2;
     case AttributeSet::normal:
+    case AttributeSet::position:
+    case AttributeSet::colour:
       return 3;
     case AttributeSet::weights:
       return 4;
@@ -94,10 +96,12 @@ int attribute_count(AttributeSet set) {
 AttributeSet attributes_for_shade(std::string_view shade) {
   if (shade == "uv" || shade == "texture") return AttributeSet::uv;
   if (shade == "normal") return AttributeSet::normal;
+  if (shade == "planes") return AttributeSet::position;
+  if (shade == "colour") return AttributeSet::colour;
   if (shade == "lambda") return AttributeSet::weights;
   if (shade == "depth" || shade == "quad") return AttributeSet::none;
   throw std::invalid_argument("unknown shading mode '" + std::string(shade) +
-                              "' (uv, texture, normal, lambda, depth, quad)");
+                              "' (uv, texture, normal, planes, colour, lambda, depth, quad)");
 }
 
 Matrix4 camera_matrix(const Camera& camera, int width, int height) {
@@ -222,6 +226,9 @@ std::vector<Vec3> smooth_normals(const Mesh& mesh) {
 Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int height, const ProjectOptions& options) {
   const Matrix4 matrix = camera_matrix(camera, width, height);
   const AttributeSet set = options.attributes;
+  if (set == AttributeSet::colour && (mesh.colours.empty() || mesh.colours.size() != mesh.positions.size()))
+    throw std::invalid_argument("the mesh has " + std::to_string(mesh.colours.size()) + " colours for " +
+                                std::to_string(mesh.positions.size()) + " positions");
   const bool wants_uv = set == AttributeSet::uv || set == AttributeSet::uv_normal;
   const bool wants_normal = set == AttributeSet::normal || set == AttributeSet::uv_normal;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) check_face(mesh, f);
@@ -240,26 +247,30 @@ Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int h
     const bool triangle = corners[2] == corners[3];
     WindowQuad quad;
     quad.id = static_cast<std::uint32_t>(face);
+    std::array<Vec3, 4>& positions = result.corners.emplace_back();
+    std::array<Vec2, 4>& textures = result.textures.emplace_back();
     for (std::size_t i = 0; i < 4; ++i) {
       const Corner& corner = *corners[i];
-      quad.vertex[i] = project_point(matrix, mesh.positions[static_cast<std::size_t>(corner.position)], width, height);
+      const auto position = static_cast<std::size_t>(corner.position);
+      positions[i] = mesh.positions[position];
+      textures[i] = textured ? mesh.texcoords[static_cast<std::size_t>(corner.texcoord)]
+                             : unit_square[triangle ? std::min<std::size_t>(i, 2) : i];
+      quad.vertex[i] = project_point(matrix, positions[i], width, height);
       std::vector<double>& attribute = quad.attribute[i];
       if (set == AttributeSet::weights) {
         attribute.assign(4, 0.0);
         attribute[i] = 1;
       }
-      if (wants_uv) {
-        const Vec2& uv = textured ? mesh.texcoords[static_cast<std::size_t>(corner.texcoord)]
-                                  : unit_square[triangle ? std::min<std::size_t>(i, 2) : i];
-        attribute.insert(attribute.end(), uv.begin(), uv.end());
-      }
+      if (wants_uv) attribute.insert(attribute.end(), textures[i].begin(), textures[i].end());
       if (wants_normal) {
         const Vec3 normal =
             corner.normal >= 0
                 ? normalised(mesh.normals[static_cast<std::size_t>(corner.normal)]).value_or(Vec3{0, 0, 1})
-                : smooth[static_cast<std::size_t>(corner.position)];
+                : smooth[position];
         attribute.insert(attribute.end(), normal.begin(), normal.end());
       }
+      if (set == AttributeSet::position) attribute.assign(positions[i].begin(), positions[i].end());
+      if (set == AttributeSet::colour) attribute.assign(mesh.colours[position].begin(), mesh.colours[position].end());
     }
     result.triangles += triangle ? 1 : 0;
     result.quads.push_back(std::move(quad));

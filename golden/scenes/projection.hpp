@@ -4,6 +4,7 @@
 #include "golden/scenes/mesh.hpp"
 #include "model/records.hpp"
 
+#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -17,11 +18,14 @@ enum class AttributeSet {
   normal,     ///< nx, ny, nz (unit, in the mesh's space)
   weights,    ///< (1,0,0,0), (0,1,0,0), (0,0,1,0), (0,0,0,1): the attributes are the weights themselves
   uv_normal,  ///< u, v, nx, ny, nz (needs five attribute slots)
+  position,   ///< x, y, z in the mesh's space
+  colour,     ///< red, green, blue (the mesh needs colours)
 };
 
 int attribute_count(AttributeSet set);
 
-/// The layout that a shading mode needs: uv, texture → uv; normal → normal; lambda → weights; depth, quad → none.
+/// The layout that a shading mode needs: uv, texture → uv; normal → normal; planes → position; colour → colour;
+/// lambda → weights; depth, quad → none.
 /// Throws std::invalid_argument for any other name.
 AttributeSet attributes_for_shade(std::string_view shade);
 
@@ -31,10 +35,12 @@ struct ProjectOptions {
 };
 
 struct Projection {
-  std::vector<WindowQuad> quads;   ///< id = 0-based face index; the primitives of one fanned face share it
-  std::size_t triangles = 0;       ///< primitives drawn as (a, b, c, c), those of fans included
-  std::size_t fanned_faces = 0;    ///< faces with more than four corners
-  std::size_t fan_primitives = 0;  ///< quads and triangles that those faces became
+  std::vector<WindowQuad> quads;              ///< id = 0-based face index; the primitives of one fanned face share it
+  std::vector<std::array<Vec3, 4>> corners;   ///< of every quad, in the mesh's space
+  std::vector<std::array<Vec2, 4>> textures;  ///< of every quad: what AttributeSet::uv gives
+  std::size_t triangles = 0;                  ///< primitives drawn as (a, b, c, c), those of fans included
+  std::size_t fanned_faces = 0;               ///< faces with more than four corners
+  std::size_t fan_primitives = 0;             ///< quads and triangles that those faces became
 };
 
 /// clip = M · (x, y, z, 1), NDC y up, z −1..1 (OpenGL's look-at times perspective when the camera has no matrix; aspect
@@ -64,7 +70,8 @@ std::vector<Vec3> smooth_normals(const Mesh& mesh);
 /// quads then (n odd) a triangle. A face in which a corner has no texture coordinate gets the unit square (0,0) (1,0)
 /// (1,1) (0,1) per primitive (a triangle: its fourth corner repeats the third); a corner without normal gets the smooth
 /// one. Normals are normalised. Throws std::invalid_argument with the face number for fewer than three corners, an
-/// index out of range, and with `strict` for more than four corners.
+/// index out of range, and with `strict` for more than four corners; without one for AttributeSet::colour when the mesh
+/// has not one colour per position.
 Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int height,
                         const ProjectOptions& options = {});
 

@@ -193,6 +193,7 @@ TEST(Projection, AttributeLayouts) {
   for (const auto& [shade, set] : {std::pair{"uv", AttributeSet::uv},
                                    {"texture", AttributeSet::uv},
                                    {"normal", AttributeSet::normal},
+                                   {"planes", AttributeSet::position},
                                    {"lambda", AttributeSet::weights},
                                    {"depth", AttributeSet::none},
                                    {"quad", AttributeSet::none}}) {
@@ -217,6 +218,44 @@ TEST(Projection, AttributeLayouts) {
   EXPECT_NEAR(normal[2].attribute[0][3], 0.6, 1e-15);
   EXPECT_NEAR(normal[2].attribute[0][4], 0.8, 1e-15);
   EXPECT_EQ(normal[2].attribute[3][4], 1);  // flat in z = 0: the computed normal
+}
+
+TEST(Projection, PositionsAndColours) {
+  Mesh mesh = polygon(4);
+  EXPECT_EQ(attributes_for_shade("colour"), AttributeSet::colour);
+  EXPECT_EQ(attribute_count(AttributeSet::colour), 3);
+  EXPECT_THROW(project_mesh(mesh, identity_camera(), 8, 8, {AttributeSet::colour, false}), std::invalid_argument);
+  mesh.colours = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_THROW(project_mesh(mesh, identity_camera(), 8, 8, {AttributeSet::colour, false}), std::invalid_argument);
+  mesh.colours.push_back({0.25, 0.5, 0.75});
+  const auto colour = project_mesh(mesh, identity_camera(), 8, 8, {AttributeSet::colour, false}).quads;
+  EXPECT_EQ(colour.at(0).attribute[1], (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(colour[0].attribute[3], (std::vector<double>{0.25, 0.5, 0.75}));
+  const auto position = project_mesh(mesh, identity_camera(), 8, 8, {AttributeSet::position, false}).quads;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3& p = mesh.positions[i];
+    EXPECT_EQ(position.at(0).attribute[i], (std::vector<double>{p[0], p[1], p[2]}));
+  }
+}
+
+TEST(Projection, CornersAndTexturesOfEveryQuad) {
+  Mesh mesh = polygon(7);
+  mesh.texcoords = {{0.5, 0.25}, {3, 4}, {5, 6}};
+  mesh.faces.push_back({{4, 2, -1}, {2, 1, -1}, {1, 0, -1}});
+  for (const AttributeSet set : {AttributeSet::none, AttributeSet::uv, AttributeSet::colour}) {
+    mesh.colours.assign(mesh.positions.size(), {1, 1, 1});
+    const Projection p = project_mesh(mesh, identity_camera(), 8, 8, {set, false});
+    ASSERT_EQ(p.quads.size(), 4u);  // quads 0123, 0345, triangle 056, and the triangle
+    ASSERT_EQ(p.corners.size(), 4u);
+    ASSERT_EQ(p.textures.size(), 4u);
+    const auto& at = mesh.positions;
+    EXPECT_EQ(p.corners[1], (std::array<Vec3, 4>{at[0], at[3], at[4], at[5]}));
+    EXPECT_EQ(p.corners[2], (std::array<Vec3, 4>{at[0], at[5], at[6], at[6]}));
+    EXPECT_EQ(p.corners[3], (std::array<Vec3, 4>{at[4], at[2], at[1], at[1]}));
+    EXPECT_EQ(p.textures[1], (std::array<Vec2, 4>{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}));
+    EXPECT_EQ(p.textures[2], (std::array<Vec2, 4>{{{0, 0}, {1, 0}, {1, 1}, {1, 1}}}));
+    EXPECT_EQ(p.textures[3], (std::array<Vec2, 4>{{{5, 6}, {3, 4}, {0.5, 0.25}, {0.5, 0.25}}}));
+  }
 }
 
 TEST(Projection, SmoothNormalsOfACube) {

@@ -11,7 +11,8 @@ namespace {
 
 std::vector<SceneEntry> all_entries() {
   std::vector<SceneEntry> all;
-  for (const auto part : {figure_scenes(), exterior_scenes(), surface_scenes()})
+  for (const auto part :
+       {figure_scenes(), exterior_scenes(), surface_scenes(), affinity_scenes(), sphere_scenes(), adaptive_scenes()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -26,15 +27,24 @@ Scene build(const SceneEntry& entry) {
 
 }  // namespace
 
-void add_quad(Mesh& mesh, const std::array<Vec3, 4>& corners) {
-  static constexpr std::array<Vec2, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+void add_quad(Mesh& mesh, const std::array<Vec3, 4>& corners, const std::array<Vec2, 4>& textures) {
   Face face;
   for (std::size_t i = 0; i < 4; ++i) {
     face.push_back({static_cast<int>(mesh.positions.size()), static_cast<int>(mesh.texcoords.size()), -1});
     mesh.positions.push_back(corners[i]);
-    mesh.texcoords.push_back(square[i]);
+    mesh.texcoords.push_back(textures[i]);
   }
   mesh.faces.push_back(std::move(face));
+}
+
+Camera look_from(const Vec3& eye, const Vec3& target, double fovy) {
+  Camera camera;
+  camera.eye = eye;
+  camera.target = target;
+  camera.fovy = fovy;
+  camera.near = 0.5;
+  camera.far = 50;
+  return camera;
 }
 
 std::vector<SceneInfo> list_scenes() {

@@ -7,6 +7,7 @@
 #include "model/records.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,12 @@ struct SceneInfo {
   std::size_t quads = 0;
 };
 
+/// Parallel planes at normal · position = any multiple of `spacing`, in the mesh's space.
+struct CuttingPlanes {
+  Vec3 normal{0, 1, 0};
+  double spacing = 1;
+};
+
 struct Scene {
   std::string name, title, paper;
   Mesh mesh;  ///< with texture coordinates; faces of four corners only
@@ -26,14 +33,15 @@ struct Scene {
   TextureKind texture = TextureKind::checker;
   std::string shade = "texture";  ///< the shading mode that shows what the figure shows
   bool perspective = true;
+  std::optional<CuttingPlanes> planes;  ///< that shade `planes` shows; none: the viewer chooses
 };
 
 /// All scenes in their stated order.
 std::vector<SceneInfo> list_scenes();
 
-/// Throws std::invalid_argument naming the nearest scene for an unknown name. Scenes other than `sphere` are built from
-/// decimal constants and + − × ÷ √ only; `sphere` and every camera use sin, cos, tan of libm, whose last bit may differ
-/// between machines.
+/// Throws std::invalid_argument naming the nearest scene for an unknown name. Scenes are built from
+/// decimal constants and + − × ÷ √ only, except for spheres; those and every camera use sin, cos, tan of libm, whose
+/// last bit may differ between machines.
 Scene make_scene(std::string_view name);
 
 /// The scene's quads for a viewport.

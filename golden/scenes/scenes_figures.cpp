@@ -1,18 +1,8 @@
-// Single quads in front of the eye: Hormann & Tarini figures 1, 7 and 10, and Bloomenthal's turning bow-tie.
+// Single quads in front of the eye: Hormann & Tarini figures 1, 6, 7 and 10, and Bloomenthal's turning bow-tie.
 #include "golden/scenes/scene_builders.hpp"
 
 namespace quadrille::golden {
 namespace {
-
-Camera look_from(const Vec3& eye, const Vec3& target, double fovy) {
-  Camera camera;
-  camera.eye = eye;
-  camera.target = target;
-  camera.fovy = fovy;
-  camera.near = 0.5;
-  camera.far = 50;
-  return camera;
-}
 
 Scene flat() {
   Scene scene;
@@ -42,6 +32,15 @@ Scene convex() { return saddle_from({0.8, 1.0, 4.2}); }
 Scene concave() { return saddle_from({2.4, 2.9, 2.0}); }
 Scene crossed() { return saddle_from({4.2, 0.7, 0.9}); }
 
+/// Cut by planes z = k / 10, in which the surface has curved lines.
+Scene cuts() {
+  Scene scene = saddle_from({0.8, 1.0, 4.2});
+  scene.camera.fovy = 34;
+  scene.shade = "planes";
+  scene.planes = CuttingPlanes{{0, 0, 1}, 0.1};
+  return scene;
+}
+
 /// The saddle turned about a vertical axis in six steps of about 30 degrees (Pythagorean rotations, so no sine is
 /// needed).
 Scene bowtie() {
@@ -62,8 +61,10 @@ Scene bowtie() {
   return scene;
 }
 
-constexpr std::array<SceneEntry, 6> entries{{
+constexpr std::array<SceneEntry, 7> entries{{
     {"fig1_flat", "One flat quad with a regular pattern, seen from above", "Hormann & Tarini 2004, fig. 1", flat},
+    {"fig6_cuts", "A flat-shaded non-planar quad and its intersection with parallel planes",
+     "Hormann & Tarini 2004, fig. 6", cuts},
     {"fig7_floor", "A floor in perspective", "Hormann & Tarini 2004, fig. 7", floor_quad},
     {"fig10_convex", "A non-planar quad that projects to a convex shape", "Hormann & Tarini 2004, fig. 10", convex},
     {"fig10_concave", "The same quad, projecting to a concave shape", "Hormann & Tarini 2004, fig. 10", concave},

@@ -3,48 +3,13 @@
 #include "golden/scenes/scene_builders.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace quadrille::golden {
 namespace {
 
-/// 16 segments around, 8 bands from pole to pole. Each pole is one position that two corners of its quads share, with
-/// different texture coordinates there.
 Scene sphere() {
-  constexpr int segments = 16, bands = 8;
   Scene scene;
-  Mesh& mesh = scene.mesh;
-  const auto position_index = [](int i, int j) {
-    if (j == 0) return 0;
-    if (j == bands) return 1;
-    return 2 + (j - 1) * segments + i % segments;
-  };
-  mesh.positions.push_back({0, -1, 0});
-  mesh.positions.push_back({0, 1, 0});
-  for (int j = 1; j < bands; ++j) {
-    const double latitude = std::numbers::pi * (static_cast<double>(j) / bands - 0.5);
-    for (int i = 0; i < segments; ++i) {
-      const double longitude = 2 * std::numbers::pi * i / segments;
-      mesh.positions.push_back(
-          {std::cos(latitude) * std::sin(longitude), std::sin(latitude), std::cos(latitude) * std::cos(longitude)});
-    }
-  }
-  mesh.normals = mesh.positions;
-  for (int j = 0; j <= bands; ++j) {
-    for (int i = 0; i <= segments; ++i) {
-      mesh.texcoords.push_back({static_cast<double>(i) / segments, static_cast<double>(j) / bands});
-    }
-  }
-  for (int j = 0; j < bands; ++j) {
-    for (int i = 0; i < segments; ++i) {
-      Face face;
-      for (const auto& [di, dj] : {std::array{0, 0}, std::array{1, 0}, std::array{1, 1}, std::array{0, 1}}) {
-        const int p = position_index(i + di, j + dj);
-        face.push_back({p, (j + dj) * (segments + 1) + i + di, p});
-      }
-      mesh.faces.push_back(std::move(face));
-    }
-  }
+  scene.mesh = sphere_mesh(16, 8);
   scene.camera.eye = {1.2, 2.2, 3.0};
   scene.camera.fovy = 34;
   scene.camera.near = 1;
@@ -118,10 +83,31 @@ Scene phong_mesh() {
   return scene;
 }
 
-constexpr std::array<SceneEntry, 2> entries{{
+/// The same without normals: whoever draws it computes them from the faces.
+Scene phong_mesh_smooth() {
+  Scene scene = phong_mesh();
+  scene.mesh.normals.clear();
+  for (Face& face : scene.mesh.faces)
+    for (Corner& corner : face) corner.normal = -1;
+  return scene;
+}
+
+/// A few quads of it fill the picture, so that a crease has many pixels on either side.
+Scene phong_mesh_detail() {
+  Scene scene = phong_mesh();
+  scene.camera.target = {0.12, 0.2, 0.75};
+  scene.camera.fovy = 9;
+  return scene;
+}
+
+constexpr std::array<SceneEntry, 4> entries{{
     {"sphere", "A textured sphere of 16 × 8 quads with collapsed edges at the poles", "Bloomenthal 2022, fig. 9",
      sphere},
     {"phong_mesh", "A smooth quad mesh with a normal at every vertex", "Hormann & Tarini 2004, fig. 11", phong_mesh},
+    {"phong_mesh_smooth", "The same mesh with normals computed from its geometry", "Hormann & Tarini 2004, fig. 11",
+     phong_mesh_smooth},
+    {"phong_mesh_detail", "The same mesh close up: about four quads across", "Hormann & Tarini 2004, fig. 11",
+     phong_mesh_detail},
 }};
 
 }  // namespace

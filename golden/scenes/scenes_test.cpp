@@ -50,7 +50,8 @@ TEST(Scenes, ListIsCompleteAndNamesAreUnique) {
     EXPECT_EQ(scene_quads(make_scene(info.name), 512, 512).size(), info.quads) << info.name;
   }
   for (const char* name : {"fig1_flat", "fig7_floor", "fig8_behind", "fig9_a", "fig9_m", "fig10_convex",
-                           "fig10_concave", "fig10_crossed", "sphere", "phong_mesh", "bowtie", "eye_in_hull"}) {
+                           "fig10_concave", "fig10_crossed", "sphere", "phong_mesh", "bowtie", "eye_in_hull",
+                           "fig6_cuts", "phong_mesh_smooth", "bloomenthal1", "bloomenthal15_b", "oliveira16_affine"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
 }
@@ -67,6 +68,7 @@ TEST(Scenes, UnknownNameSuggestsTheNearest) {
 TEST(Scenes, EverySceneShowsPixels) {
   for (const SceneInfo& info : list_scenes()) {
     const auto quads = scene_quads(make_scene(info.name), 512, 512);
+    if (quads.size() > 1000) continue;  // SphereScenes has what these show
     int visible = 0, samples = 0;
     for (int y = 2; y < 512; y += 5) {
       for (int x = 2; x < 512; x += 5, ++samples) {
@@ -76,6 +78,8 @@ TEST(Scenes, EverySceneShowsPixels) {
                        : 0;
       }
     }
+    // Figure 13 of Oliveira's paper is about small projections; its areas have a test of their own.
+    if (info.name.starts_with("oliveira13")) continue;
     EXPECT_GT(visible, samples / 20) << info.name << " shows " << visible << " of " << samples;
   }
 }

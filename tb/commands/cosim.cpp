@@ -549,7 +549,7 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--texture", options->texture, "Picture instead of the scene's own pattern")->type_name("F.png");
   command
       ->add_option("--shade", options->shade,
-                   "uv, texture, normal, lambda, depth or quad; default: what suits the input")
+                   "uv, texture, normal, lambda, depth, quad, planes or colour; default: what suits the input")
       ->type_name("MODE");
   command->add_option("--rtl", options->rtl, "Verilog instead of the project's: a directory or one file")
       ->type_name("PATH");

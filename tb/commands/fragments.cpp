@@ -126,7 +126,7 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--pixel", options->pixel, "Only this pixel")->type_name("X,Y");
   command
       ->add_option("--shade", options->shade,
-                   "Attributes of a scene or mesh: uv, texture, normal; default: what suits the input")
+                   "Attributes of a scene or mesh: uv, texture, normal, planes, colour; default: what suits the input")
       ->type_name("MODE");
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return fragments(*options, invocation.arguments); };

@@ -12,6 +12,7 @@
 #include "tb/commands/choices.hpp"
 #include "tb/commands/errors.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -30,6 +31,10 @@ AttributeLayout layout_of(AttributeSet set) {
       return AttributeLayout::normal;
     case AttributeSet::uv_normal:
       return AttributeLayout::uv_normal;
+    case AttributeSet::position:
+      return AttributeLayout::position;
+    case AttributeSet::colour:
+      return AttributeLayout::colour;
     default:
       return AttributeLayout::none;
   }
@@ -50,6 +55,48 @@ golden::Vec3 view_direction(const golden::Camera& camera) {
   return d;
 }
 
+/// A dozen planes across the longest side of the box around the corners.
+golden::CuttingPlanes planes_across(const std::vector<std::array<golden::Vec3, 4>>& corners) {
+  std::size_t longest = 0;
+  double length = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double low = INFINITY, high = -INFINITY;
+    for (const auto& quad : corners)
+      for (const golden::Vec3& p : quad) low = std::min(low, p[axis]), high = std::max(high, p[axis]);
+    if (high - low > length) length = high - low, longest = axis;
+  }
+  golden::CuttingPlanes planes{{0, 0, 0}, length > 0 ? length / 12 : 1};
+  planes.normal[longest] = 1;
+  return planes;
+}
+
+void need_colours(const golden::Mesh& mesh, const DrawInput& input) {
+  if (input.shade == "colour" && mesh.colours.empty())
+    throw UsageError("--shade colour: " + input.name + " has no colours");
+}
+
+/// For quads that were never an object in space.
+void need_no_object(const DrawInput& input) {
+  if (input.shade == "planes" || input.shade == "colour")
+    throw UsageError("--shade " + input.shade + ": the quads of " + input.name + " have no " +
+                     (input.shade == "planes" ? "positions in space" : "colours") + "; it goes with --scene" +
+                     (input.shade == "planes" ? " and --mesh" : ""));
+}
+
+/// A machine's attributes have few integer bits: positions are halved until none is above 2, and the spacing with them.
+void fit_positions(DrawInput& input) {
+  double largest = 0;
+  for (const WindowQuad& quad : input.quads)
+    for (const std::vector<double>& position : quad.attribute)
+      for (const double c : position) largest = std::max(largest, std::fabs(c));
+  double scale = 1;
+  while (largest * scale > 2) scale /= 2;
+  for (WindowQuad& quad : input.quads)
+    for (std::vector<double>& position : quad.attribute)
+      for (double& c : position) c *= scale;
+  input.planes.spacing *= scale;
+}
+
 /// Projects, with what is wrong told as an input error of `place`.
 void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, bool strict,
              const std::string& place, DrawInput& input) {
@@ -63,6 +110,9 @@ void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, 
     throw golden::InputError(place + ": " + error.what());
   }
   input.quads = std::move(projection.quads);
+  input.corners = std::move(projection.corners);
+  input.textures = std::move(projection.textures);
+  input.planes = planes_across(input.corners);
   input.attributes = golden::attribute_count(options.attributes);
   input.layout = layout_of(options.attributes);
   input.to_eye = view_direction(camera);
@@ -78,11 +128,15 @@ void load_scene(const InputOptions& options, const std::string& shade, int width
   const golden::Scene scene = golden::make_scene(options.scene);
   input.name = scene.name;
   input.title = scene.title;
+  input.paper = scene.paper;
   input.option = golden::command_line(std::array<std::string, 2>{"--scene", options.scene});
   input.shade = shade.empty() ? scene.shade : shade;
   input.perspective = scene.perspective;
   input.texture = scene.texture;
+  need_colours(scene.mesh, input);
   project(scene.mesh, scene.camera, width, height, options.strict, "scene " + scene.name, input);
+  if (scene.planes) input.planes = *scene.planes;
+  if (input.layout == AttributeLayout::position) fit_positions(input);
 }
 
 void load_mesh(const InputOptions& options, const std::string& shade, int width, int height, DrawInput& input) {
@@ -94,9 +148,11 @@ void load_mesh(const InputOptions& options, const std::string& shade, int width,
   if (options.strict) arguments.emplace_back("--strict");
   input.option = golden::command_line(arguments);
   input.shade = shade.empty() ? "normal" : shade;
+  need_colours(mesh, input);
   const golden::Camera camera =
       options.camera.empty() ? golden::frame_mesh(mesh, width, height) : golden::load_camera(options.camera);
   project(mesh, camera, width, height, options.strict, options.mesh, input);
+  if (input.layout == AttributeLayout::position) fit_positions(input);
 }
 
 void load_quads_file(const InputOptions& options, const std::string& shade, DrawInput& input) {
@@ -108,6 +164,7 @@ void load_quads_file(const InputOptions& options, const std::string& shade, Draw
   input.attributes = static_cast<int>(input.quads.front().attribute[0].size());
   input.layout = AttributeLayout::file;
   input.shade = shade.empty() ? "lambda" : shade;
+  need_no_object(input);
 }
 
 void load_stress(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed,
@@ -118,6 +175,7 @@ void load_stress(const InputOptions& options, const std::string& shade, int widt
   input.option = golden::command_line(
       std::array<std::string, 4>{"--stress", options.stress, "--count", std::to_string(options.count)});
   input.shade = shade.empty() ? "lambda" : shade;
+  need_no_object(input);
   // Slots 0-3 of a stress quad are the weights, which every draw measures anyway.
   constexpr int random_attributes = 4;
   const golden::StressFamily family = golden::parse_stress_family(options.stress);
@@ -166,7 +224,7 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, int 
     throw UsageError("one input is needed: --scene NAME, --mesh F.obj, --quads F.quads or --stress FAMILY (" +
                      std::to_string(inputs_given(options)) + " were given)");
   if (!options.camera.empty() && options.mesh.empty()) throw UsageError("--camera goes with --mesh");
-  if (!shade.empty()) choose("shading", shade, {"uv", "texture", "normal", "lambda", "depth", "quad"});
+  if (!shade.empty()) choose("shading", shade, shade_modes());
   DrawInput input;
   if (!options.scene.empty())
     load_scene(options, shade, width, height, input);
@@ -177,6 +235,10 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, int 
   else
     load_stress(options, shade, width, height, seed, input);
   return input;
+}
+
+std::vector<std::string> shade_modes() {
+  return {"uv", "texture", "normal", "lambda", "depth", "quad", "planes", "colour"};
 }
 
 std::vector<std::string> scene_names() {

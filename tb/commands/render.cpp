@@ -127,7 +127,7 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--png", options->png, "Picture to look at")->type_name("F.png");
   command
       ->add_option("--shade", options->shade,
-                   "uv, texture, normal, lambda, depth or quad; default: what suits the input")
+                   "uv, texture, normal, lambda, depth, quad, planes or colour; default: what suits the input")
       ->type_name("MODE");
   command->add_option("--texture", options->texture, "Picture for --shade texture instead of the input's own pattern")
       ->type_name("F.png");

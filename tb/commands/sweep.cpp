@@ -613,7 +613,7 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command
       ->add_option("--shade", options->shade,
-                   "Attributes of a scene or mesh: uv, texture, normal; default: what suits the input")
+                   "Attributes of a scene or mesh: uv, texture, normal, planes, colour; default: what suits the input")
       ->type_name("MODE");
   command->add_flag("--no-cycles", options->no_cycles, "Do not count clocks");
   command->add_flag("--force", options->force, "Allow more than a million points");

@@ -1,6 +1,5 @@
 #include "tb/render/frame.hpp"
 
-#include "golden/io/png.hpp"
 #include "golden/io/texture.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/snap.hpp"
@@ -41,6 +40,13 @@ Vec3 phong(Vec3 n, const Vec3& to_eye) {
   double shine = std::max(0.0, dot(n, half));
   for (int i = 0; i < 5; ++i) shine *= shine;  // to the 32nd
   return {base[0] * diffuse + 0.35 * shine, base[1] * diffuse + 0.35 * shine, base[2] * diffuse + 0.35 * shine};
+}
+
+/// The vector area of a quad.
+Vec3 facet_normal(const std::array<Vec3, 4>& corner) {
+  Vec3 a{}, b{};
+  for (std::size_t i = 0; i < 3; ++i) a[i] = corner[2][i] - corner[0][i], b[i] = corner[3][i] - corner[1][i];
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// The corners' colours, mixed by the weights.
@@ -114,6 +120,12 @@ ShadeSlots shade_slots(const std::string& shade, const DrawInput& input) {
   if (input.layout == AttributeLayout::uv || input.layout == AttributeLayout::uv_normal) slots.uv = 0;
   if (input.layout == AttributeLayout::normal) slots.normal = 0;
   if (input.layout == AttributeLayout::uv_normal) slots.normal = 2;
+  if (input.layout == AttributeLayout::position) slots.position = 0;
+  if (input.layout == AttributeLayout::colour) slots.colour = 0;
+  if (shade == "planes") {
+    slots.planes = input.planes;
+    for (const auto& corner : input.corners) slots.facets.push_back(facet_normal(corner));
+  }
   if (input.layout == AttributeLayout::file) {
     if (input.attributes >= 2) slots.uv = 0;
     if (input.attributes >= 3) slots.normal = input.attributes >= 5 ? 2 : 0;
@@ -126,7 +138,7 @@ ShadeSlots shade_slots(const std::string& shade, const DrawInput& input) {
 
 golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& settings) {
   golden::FrameImage image(frame.width(), frame.height());
-  const std::size_t mode = choose("shading", settings.shade, {"uv", "texture", "normal", "lambda", "depth", "quad"});
+  const std::size_t mode = choose("shading", settings.shade, shade_modes());
 
   // Depth is shown between its extremes in the frame.
   double nearest = 1, farthest = 0;
@@ -138,6 +150,35 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
     }
   }
 
+  const auto attribute3 = [](const Sample& s, int first) {
+    return Vec3{s.attribute[slot(first, 0)], s.attribute[slot(first, 1)], s.attribute[slot(first, 2)]};
+  };
+
+  // Flat, with a line of constant width where a plane cuts the surface; dark and bright take turns.
+  const auto height = [&](const Sample& s) {
+    return dot(settings.slots.planes.normal, attribute3(s, settings.slots.position)) / settings.slots.planes.spacing;
+  };
+  const auto slope = [&](const Sample& s, int dx, int dy) {
+    for (const int sign : {1, -1}) {
+      const int x = s.x + sign * dx, y = s.y + sign * dy;
+      if (x < 0 || y < 0 || x >= frame.width() || y >= frame.height() || !frame.drawn(x, y)) continue;
+      const Sample& next = frame.shown(x, y);
+      if (next.index == s.index && !next.undefined) return height(next) - height(s);
+    }
+    return 0.0;
+  };
+  const auto cut = [&](const Sample& s) {
+    const Vec3 flat = phong(settings.slots.facets[s.index], settings.to_eye);
+    const double here = height(s), plane = std::round(here);
+    const double steepness = std::hypot(slope(s, 1, 0), slope(s, 0, 1));
+    if (!(steepness > 0)) return flat;
+    const double pixels = std::fabs(here - plane) / steepness;
+    const double cover = std::clamp(1.25 - pixels, 0.0, 1.0);
+    const double line = std::fmod(plane, 2) == 0 ? 0.08 : 0.98;
+    return Vec3{flat[0] + (line - flat[0]) * cover, flat[1] + (line - flat[1]) * cover,
+                flat[2] + (line - flat[2]) * cover};
+  };
+
   const auto colour_of = [&](const Sample& s) -> Vec3 {
     if (s.undefined) return undefined_colour;
     std::array<double, 2> uv{s.lambda[1] + s.lambda[2], s.lambda[2] + s.lambda[3]};  // the unit square
@@ -148,17 +189,19 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
       case 1:
         return settings.texture(uv[0], uv[1]);
       case 2:
-        return phong({s.attribute[slot(settings.slots.normal, 0)], s.attribute[slot(settings.slots.normal, 1)],
-                      s.attribute[slot(settings.slots.normal, 2)]},
-                     settings.to_eye);
+        return phong(attribute3(s, settings.slots.normal), settings.to_eye);
       case 3:
         return weight_colour(s.lambda);
       case 4: {
         const double grey = farthest > nearest ? 0.95 - 0.8 * (s.z - nearest) / (farthest - nearest) : 0.95;
         return {grey, grey, grey};
       }
-      default:
+      case 5:
         return id_colour(s.quad);
+      case 6:
+        return cut(s);
+      default:
+        return attribute3(s, settings.slots.colour);
     }
   };
 
@@ -220,7 +263,7 @@ void add_error_layers(const FrameBuffer& frame, std::span<const WindowQuad> quad
   });
 }
 
-void save_frame_png(const std::string& path, const golden::FrameImage& image) {
+golden::Image8 frame_picture(const golden::FrameImage& image) {
   golden::Image8 picture;
   picture.width = image.width;
   picture.height = image.height;
@@ -235,7 +278,11 @@ void save_frame_png(const std::string& path, const golden::FrameImage& image) {
     picture.rgba.push_back(byte(drawn ? static_cast<double>(image.b[i]) : background[2]));
     picture.rgba.push_back(255);
   }
-  golden::save_png(path, picture, golden::PngFormat::rgb8);
+  return picture;
+}
+
+void save_frame_png(const std::string& path, const golden::FrameImage& image) {
+  golden::save_png(path, frame_picture(image), golden::PngFormat::rgb8);
 }
 
 }  // namespace quadrille::cli

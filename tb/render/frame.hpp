@@ -2,6 +2,7 @@
 #pragma once
 
 #include "golden/io/frame_image.hpp"
+#include "golden/io/png.hpp"
 #include "golden/scenes/mesh.hpp"
 #include "tb/commands/input.hpp"
 #include "tb/render/engine.hpp"
@@ -54,9 +55,12 @@ using TextureFunction = std::function<golden::Vec3(double u, double v)>;
 /// The texture of a PNG file, or the input's own pattern when `file` is empty.
 TextureFunction make_texture(const std::string& file, const DrawInput& input);
 
-/// Attributes of `input` as u, v and a normal: positions among its attributes, -1 for none.
+/// What a shading takes from its input. The numbers are slots among the attributes, -1 for none.
 struct ShadeSlots {
   int uv = -1, normal = -1;
+  int position = -1, colour = -1;
+  golden::CuttingPlanes planes;      ///< for planes
+  std::vector<golden::Vec3> facets;  ///< for planes: a normal of every quad of the draw, of any length
 };
 /// Throws UsageError when the shading needs what the input does not have. Texture coordinates of a quads file are its
 /// first two attributes, a normal the first three (of three or four) or those from the third (of five and more);
@@ -64,7 +68,7 @@ struct ShadeSlots {
 ShadeSlots shade_slots(const std::string& shade, const DrawInput& input);
 
 struct ShadeSettings {
-  std::string shade;  ///< uv texture normal lambda depth quad
+  std::string shade;  ///< one of shade_modes()
   ShadeSlots slots;
   TextureFunction texture;  ///< for texture
   golden::Vec3 to_eye{0, 0, 1};
@@ -79,7 +83,8 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
 void add_error_layers(const FrameBuffer& frame, std::span<const WindowQuad> quads, const Config& config,
                       const DrawState& state, bool snap, unsigned threads, golden::FrameImage& image);
 
-/// 8 bits a channel over a neutral background.
+/// 8 bits a channel over a neutral background, opaque.
+golden::Image8 frame_picture(const golden::FrameImage& image);
 void save_frame_png(const std::string& path, const golden::FrameImage& image);
 
 }  // namespace quadrille::cli
