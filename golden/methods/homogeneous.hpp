@@ -9,45 +9,82 @@
 
 namespace quadrille::golden::methods {
 
-/// E(p) = S_P × S_Q with S = (x̃ − w x, ỹ − w y): positive where p sees P → Q turn clockwise on the screen (y down), for
-/// vertices with positive w. Exactly antisymmetric: E_PQ = −E_QP in every bit.
+/// a d − b c: the sign is that of the exact value (rounding is monotone, so unequal products are in their true order;
+/// the errors of equal ones are exact), and exchanging (a, b) with (c, d) negates every bit.
+inline double difference_of_products(double a, double d, double b, double c) {
+  const double ad = a * d, bc = b * c;
+  return ad != bc ? ad - bc : std::fma(a, d, -ad) - std::fma(b, c, -bc);
+}
+
+/// S = (x̃ − w x, ỹ − w y) with w: a vertex as seen from a pixel centre.
+struct PixelVector {
+  double x = 0, y = 0, w = 0;
+
+  PixelVector(const WindowVertex& v, double px, double py) : x(v.x - v.w * px), y(v.y - v.w * py), w(v.w) {}
+
+  /// S_P × S_Q
+  friend double cross(const PixelVector& p, const PixelVector& q) { return difference_of_products(p.x, q.y, p.y, q.x); }
+
+  /// Sign of S_P × S_Q; where it is 0, its sign seen from (x + eps, y + eps^2). 0 for P parallel to Q.
+  friend int side(const PixelVector& p, const PixelVector& q) {
+    double v = cross(p, q);
+    if (v == 0) v = difference_of_products(p.y, q.w, q.y, p.w);
+    if (v == 0) v = difference_of_products(q.x, p.w, p.x, q.w);
+    return (v > 0) - (v < 0);
+  }
+};
+
+/// E(p) = S_P × S_Q: positive where p sees P → Q turn clockwise on the screen (y down), for vertices with positive w.
+/// Exactly antisymmetric: E_PQ = −E_QP in every bit. Signs are exact for the vectors S, which are rounded once a vertex
+/// and pixel: all edges at a vertex agree about where it is, so that the triangles around it neither leave a pixel out
+/// nor draw one twice. (a x + b y + c rounds every edge by itself and does both.)
 struct EdgeFunction {
   double a = 0, b = 0, c = 0;  ///< E = a x + b y + c
 
   EdgeFunction() = default;
   EdgeFunction(const WindowVertex& p, const WindowVertex& q)
-      : a(p.y * q.w - q.y * p.w), b(q.x * p.w - p.x * q.w), c(p.x * q.y - q.x * p.y) {}
+      : a(difference_of_products(p.y, q.w, q.y, p.w)),
+        b(difference_of_products(q.x, p.w, p.x, q.w)),
+        c(difference_of_products(p.x, q.y, q.x, p.y)),
+        p_(p),
+        q_(q) {}
 
-  double at(double x, double y) const { return a * x + b * y + c; }
+  double at(double x, double y) const { return cross(PixelVector(p_, x, y), PixelVector(q_, x, y)); }
   /// Sign of E at (x, y); where E is 0 its sign at (x + eps, y + eps^2). 0 for an edge whose coefficients are all 0.
-  int sign(double x, double y) const {
-    for (const double v : {at(x, y), a, b}) {
-      if (v > 0) return 1;
-      if (v < 0) return -1;
-    }
-    return 0;
-  }
+  int sign(double x, double y) const { return side(PixelVector(p_, x, y), PixelVector(q_, x, y)); }
+
+ private:
+  WindowVertex p_, q_;
 };
 
-/// Half-open pixel rectangle that holds every covered pixel of the view: the whole view where a vertex has w <= 0.
+/// Half-open pixel rectangle that holds every covered pixel of the view.
 struct PixelBox {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
+/// Empty where no convex combination of the vertices is both in front of the eye and in the view; otherwise the whole
+/// view where a vertex has w <= 0.
 template <std::size_t N>
 PixelBox pixel_box(const std::array<WindowVertex, N>& vertex, const View& view) {
+  const auto all = [&](auto&& outside) { return std::ranges::all_of(vertex, outside); };
+  if (all([](const WindowVertex& v) { return v.w <= 0; }) || all([](const WindowVertex& v) { return v.x <= 0; }) ||
+      all([](const WindowVertex& v) { return v.y <= 0; }) ||
+      all([&](const WindowVertex& v) { return v.x >= v.w * view.width; }) ||
+      all([&](const WindowVertex& v) { return v.y >= v.w * view.height; }))
+    return {};
   double x0 = HUGE_VAL, y0 = HUGE_VAL, x1 = -HUGE_VAL, y1 = -HUGE_VAL;
   for (const WindowVertex& v : vertex) {
     if (!(v.w > 0)) return {0, 0, view.width, view.height};
     x0 = std::min(x0, v.x / v.w), x1 = std::max(x1, v.x / v.w);
     y0 = std::min(y0, v.y / v.w), y1 = std::max(y1, v.y / v.w);
   }
-  // A pixel either way costs nothing and makes the roundings of the quotients harmless.
+  // Pixel x is covered only if x0 <= x + 1/2 <= x1; the margin makes the roundings of the quotients harmless.
+  constexpr double margin = 0x1p-10;
   const auto low = [](double v, int size) {
-    return static_cast<int>(std::clamp(std::floor(v - 1.5), 0.0, static_cast<double>(size)));
+    return static_cast<int>(std::clamp(std::ceil(v - 0.5 - margin), 0.0, static_cast<double>(size)));
   };
   const auto high = [](double v, int size) {
-    return static_cast<int>(std::clamp(std::ceil(v + 1.5), 0.0, static_cast<double>(size)));
+    return static_cast<int>(std::clamp(std::floor(v + 0.5 + margin), 0.0, static_cast<double>(size)));
   };
   return {low(x0, view.width), low(y0, view.height), high(x1, view.width), high(y1, view.height)};
 }
@@ -62,23 +99,22 @@ struct TrianglePixel {
 };
 
 /// Calls visit(const TrianglePixel&) for every pixel of the view whose centre the homogeneous triangle covers in front
-/// of the eye; any sign of w. Two triangles that share an edge never both draw a pixel of it, nor leave one out.
+/// of the eye; any sign of w. Triangles that share edges or corners (the same bits) never both draw a pixel there, nor
+/// leave one out.
 template <class Visit>
 void raster_triangle(const std::array<WindowVertex, 3>& vertex, const View& view, Visit&& visit) {
-  const std::array<EdgeFunction, 3> edge{EdgeFunction(vertex[1], vertex[2]), EdgeFunction(vertex[2], vertex[0]),
-                                         EdgeFunction(vertex[0], vertex[1])};
-  // p times the determinant is sum(E_i V_i): the sum of w's share of it tells front from behind.
   const PixelBox box = pixel_box(vertex, view);
   for (int y = box.y0; y < box.y1; ++y) {
     const double py = y + 0.5;
     for (int x = box.x0; x < box.x1; ++x) {
       const double px = x + 0.5;
-      const int sign = edge[0].sign(px, py);
-      if (sign == 0 || edge[1].sign(px, py) != sign || edge[2].sign(px, py) != sign) continue;
-      TrianglePixel pixel{x, y, sign < 0, {}, {}, 0};
+      const PixelVector s0(vertex[0], px, py), s1(vertex[1], px, py), s2(vertex[2], px, py);
+      const int sign = side(s1, s2);
+      if (sign == 0 || side(s2, s0) != sign || side(s0, s1) != sign) continue;
+      TrianglePixel pixel{x, y, sign < 0, {cross(s1, s2), cross(s2, s0), cross(s0, s1)}, {}, 0};
+      // p times the determinant is sum(E_i V_i): the sum of w's share of it tells front from behind.
       double sum = 0, sum_w = 0, sum_z = 0;
       for (std::size_t i = 0; i < 3; ++i) {
-        pixel.space[i] = edge[i].at(px, py);
         sum += pixel.space[i];
         sum_w += pixel.space[i] * vertex[i].w;
         sum_z += pixel.space[i] * vertex[i].z;

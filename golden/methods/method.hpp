@@ -67,6 +67,11 @@ class Method {
   /// fold). Pixels outside the view, behind the eye or uncovered do not occur. z is not clipped.
   virtual void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const = 0;
   virtual Census census(std::span<const Quad> quads, const View& view) const = 0;
+  /// The outlines of what is set up for the quad, to be drawn over a picture: closed polygons in homogeneous window
+  /// coordinates. By default the quad itself.
+  virtual std::vector<std::vector<WindowVertex>> wireframe(const Quad& quad, const View&) const {
+    return {{quad.vertex.begin(), quad.vertex.end()}};
+  }
 };
 
 struct MethodInfo {

@@ -1,0 +1,82 @@
+// Edge functions and the triangle rasterizer: exact signs, the tie rule, where nothing can be visible.
+#include "golden/methods/homogeneous.hpp"
+
+#include "golden/scenes/prng.hpp"
+
+#include <gtest/gtest.h>
+
+namespace quadrille::golden::methods {
+namespace {
+
+constexpr View view64{64, 64, true};
+
+TEST(DifferenceOfProducts, HasTheExactSign) {
+  // (1 + u)(1 - u) = 1 - u^2: the product rounds to 1.
+  constexpr double u = 0x1p-30;
+  EXPECT_EQ(difference_of_products(1 + u, 1 - u, 1, 1), -u * u);
+  EXPECT_EQ(difference_of_products(1, 1, 1 + u, 1 - u), u * u);
+  EXPECT_EQ(difference_of_products(3, 5, 15, 1), 0);
+  Prng prng(1);
+  for (int n = 0; n < 100'000; ++n) {
+    // Significands of 53 bits: __float128 holds both products, and the sign of their difference is exact.
+    const double a = prng.uniform(1, 2), b = prng.uniform(1, 2), c = prng.uniform(1, 2);
+    const double d = n % 2 == 0 ? prng.uniform(1, 2) : b * c / a;  // or products that agree to a few units
+    const __float128 exact = static_cast<__float128>(a) * d - static_cast<__float128>(b) * c;
+    const double v = difference_of_products(a, d, b, c);
+    ASSERT_EQ((v > 0) - (v < 0), (exact > 0) - (exact < 0));
+    ASSERT_EQ(v, -difference_of_products(b, c, a, d));
+  }
+}
+
+TEST(EdgeFunction, IsALinearAntisymmetricFunction) {
+  Prng prng(2);
+  const auto vertex = [&] {
+    return WindowVertex{prng.uniform(-99, 99), prng.uniform(-99, 99), 0, prng.uniform(-2, 2)};
+  };
+  for (int n = 0; n < 10'000; ++n) {
+    const WindowVertex p = vertex(), q = vertex();
+    const EdgeFunction pq(p, q), qp(q, p);
+    const double x = prng.uniform(0, 64), y = prng.uniform(0, 64);
+    ASSERT_NEAR(pq.at(x, y), pq.a * x + pq.b * y + pq.c, 1e-10);
+    ASSERT_EQ(pq.at(x, y), -qp.at(x, y));
+    ASSERT_EQ(pq.sign(x, y), -qp.sign(x, y));
+  }
+  // P to the left of Q, seen from below: clockwise with y down.
+  EXPECT_GT(EdgeFunction({10, 10, 0, 1}, {20, 10, 0, 1}).at(15, 20), 0);
+  EXPECT_EQ(EdgeFunction({10, 10, 0, 1}, {20, 20, 0, 2}).sign(3, 4), 0);  // one screen point twice: no edge
+}
+
+/// (x + eps, y + eps^2) is inside from the left and from the top edge, y down.
+TEST(EdgeFunction, OnAnEdgeTheSignIsThatOfANearbyPoint) {
+  const WindowVertex a{10.5, 10.5, 0, 1}, b{20.5, 10.5, 0, 1}, c{20.5, 20.5, 0, 1}, d{10.5, 20.5, 0, 1};
+  int pixels = 0;
+  const auto count = [&](const TrianglePixel& pixel) {
+    EXPECT_TRUE(pixel.x >= 10 && pixel.x < 20 && pixel.y >= 10 && pixel.y < 20) << pixel.x << ", " << pixel.y;
+    ++pixels;
+  };
+  raster_triangle({a, b, c}, view64, count);
+  raster_triangle({a, c, d}, view64, count);
+  EXPECT_EQ(pixels, 100);
+}
+
+TEST(PixelBox, HoldsPixelCentres) {
+  const auto box = [](const std::array<WindowVertex, 3>& v) {
+    const PixelBox b = pixel_box(v, view64);
+    return std::array<int, 4>{b.x0, b.y0, b.x1, b.y1};
+  };
+  using Box = std::array<int, 4>;
+  EXPECT_EQ(box({{{20.4, 3.2, 0, 2}, {30.7, 9.6, 0, 1}, {25, 7.4, 0, 1}}}), (Box{10, 2, 31, 10}));
+  EXPECT_EQ(box({{{-9, 3, 0, 1}, {99, 9, 0, 1}, {5, 77, 0, 1}}}), (Box{0, 3, 64, 64}));
+  EXPECT_EQ(box({{{20, 3, 0, 1}, {30, 9, 0, -1}, {5, 77, 0, 1}}}), (Box{0, 0, 64, 64}));
+  // Behind the eye, left, above, right, below, whatever the signs of w.
+  EXPECT_EQ(box({{{20, 3, 0, -1}, {30, 9, 0, 0}, {5, 7, 0, -2}}}), Box{});
+  EXPECT_EQ(box({{{-2, 3, 0, 1}, {-3, 9, 0, -1}, {0, 7, 0, 2}}}), Box{});
+  EXPECT_EQ(box({{{20, -3, 0, 1}, {30, -9, 0, -1}, {5, 0, 0, 2}}}), Box{});
+  EXPECT_EQ(box({{{70, 3, 0, 1}, {-30, 9, 0, -1}, {130, 7, 0, 2}}}), Box{});
+  EXPECT_EQ(box({{{7, 70, 0, 1}, {3, -30, 0, -1}, {9, 130, 0, 2}}}), Box{});
+  // Not so where one vertex is not beyond the side.
+  EXPECT_EQ(box({{{70, 3, 0, 1}, {-70, 9, 0, -1}, {130, 7, 0, 2}}}), (Box{0, 0, 64, 64}));
+}
+
+}  // namespace
+}  // namespace quadrille::golden::methods
