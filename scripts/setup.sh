@@ -8,6 +8,7 @@ packages=(
   g++ make cmake ninja-build   # the build; make is what verilated objects are built with
   verilator yosys iverilog     # RTL simulation, synthesis and round trip, replay of golden vectors
   libgtest-dev libopenexr-dev libpng-dev zlib1g-dev libssl-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
+  pkg-config libcairo2-dev fonts-dejavu-core   # contact sheets of quadrille compare
   clang-format                 # the format test
   python3 python3-matplotlib python3-plotly   # scripts/*.py; plots of scripts/sweep_report.py
 )

@@ -23,7 +23,7 @@ double LogHistogram::quantile(double q) const {
 
 void ErrorStats::merge(const ErrorStats& other) {
   histogram_.merge(other.histogram_);
-  if (!(other.max_ <= max_)) max_ = other.max_;
+  if (!(other.max_ <= max_) && !std::isnan(max_)) max_ = other.max_;
   sum_ += other.sum_;
   squares_ += other.squares_;
 }

@@ -41,7 +41,7 @@ class ErrorStats {
   void add(double error) {
     const double magnitude = std::fabs(error);
     histogram_.add(magnitude);
-    if (!(magnitude <= max_)) max_ = magnitude;  // a NaN is kept, and then stays
+    if (!(magnitude <= max_) && !std::isnan(max_)) max_ = magnitude;  // a NaN is kept, and then stays
     // Larger terms would not fit the sums; the maximum tells of such errors.
     sum_ += fixed(std::min(magnitude, 0x1p20), sum_frac);
     squares_ += fixed(std::min(magnitude * magnitude, 0x1p20), square_frac);

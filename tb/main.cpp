@@ -79,6 +79,7 @@ int run(int argc, char** argv) {
   add_bench_command(app, invocation);
   add_sweep_command(app, invocation);
   add_golden_command(app, invocation);
+  add_compare_command(app, invocation);
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands({})) {
     command->set_version_flag("--version", version)->group("Common options");

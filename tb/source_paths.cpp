@@ -28,6 +28,8 @@ fs::path locate(const char* name, const char* file) {
 
 fs::path rtl_directory() { return locate("rtl", "quadrille.sv"); }
 
+fs::path scripts_directory() { return locate("scripts", "compare_plot.py"); }
+
 fs::path glue_directory() { return locate("tb", "device_glue.cpp"); }
 
 std::vector<fs::path> rtl_sources(const fs::path& directory) {

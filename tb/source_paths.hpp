@@ -1,8 +1,7 @@
-// Where the program finds what it compiles on demand: the RTL and the device glue.
+// Where the program finds what it compiles or calls on demand: the RTL, the device glue, plot scripts.
 //
-// Looked up in this order: the source tree that the program was built from (compile definition QUADRILLE_SOURCE_DIR),
-// then
-// `../share/quadrille` beside the directory of the running executable, which is where `cmake --install` puts both.
+// Looked up in this order: `../share/quadrille` beside the directory of the running executable, which is where `cmake
+// --install` puts them, then the source tree that the program was built from (compile definition QUADRILLE_SOURCE_DIR).
 #pragma once
 
 #include <filesystem>
@@ -14,6 +13,8 @@ namespace quadrille::tb {
 std::filesystem::path rtl_directory();
 /// Directory with device_glue.cpp, device_abi.h and device_print.h.
 std::filesystem::path glue_directory();
+/// Directory with the scripts that the program calls (compare_plot.py).
+std::filesystem::path scripts_directory();
 /// Every *.sv of a directory: packages first, then the rest by name. Throws EnvironmentError when there is none.
 std::vector<std::filesystem::path> rtl_sources(const std::filesystem::path& directory);
 

@@ -71,10 +71,23 @@ ImageDiff diff_images(const ExrImage& a, const ExrImage& b, const std::string& a
   return diff;
 }
 
-Image8 heat_map(const ImageDiff& diff) {
+std::array<std::uint8_t, 3> heat_colour(double value, double most, int octaves) {
   // Control points of a dark-to-light scale whose lightness rises evenly.
   constexpr std::array<std::array<double, 3>, 5> scale{
       {{40, 10, 80}, {120, 28, 109}, {203, 65, 84}, {244, 136, 40}, {252, 244, 120}}};
+  if (!std::isfinite(value)) return {255, 255, 255};
+  std::array<std::uint8_t, 3> colour{};
+  if (!(value > 0)) return colour;
+  const double place = std::clamp(1 + std::log2(value / most) / octaves, 0.0, 1.0);
+  const double position = place * (scale.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(position), scale.size() - 2);
+  const double part = position - static_cast<double>(below);
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = static_cast<std::uint8_t>(std::lround(scale[below][c] * (1 - part) + scale[below + 1][c] * part));
+  return colour;
+}
+
+Image8 heat_map(const ImageDiff& diff) {
   double most = 0;
   for (const float value : diff.largest)
     if (std::isfinite(value)) most = std::max(most, static_cast<double>(value));
@@ -83,17 +96,7 @@ Image8 heat_map(const ImageDiff& diff) {
   image.height = diff.height;
   image.rgba.reserve(diff.largest.size() * 4);
   for (const float value : diff.largest) {
-    std::array<std::uint8_t, 3> colour{};
-    if (!std::isfinite(value)) {
-      colour = {255, 255, 255};
-    } else if (value > 0) {
-      const double place = std::clamp(1 + std::log2(static_cast<double>(value) / most) / heat_octaves, 0.0, 1.0);
-      const double position = place * (scale.size() - 1);
-      const auto below = std::min(static_cast<std::size_t>(position), scale.size() - 2);
-      const double part = position - static_cast<double>(below);
-      for (std::size_t c = 0; c < 3; ++c)
-        colour[c] = static_cast<std::uint8_t>(std::lround(scale[below][c] * (1 - part) + scale[below + 1][c] * part));
-    }
+    const std::array<std::uint8_t, 3> colour = heat_colour(static_cast<double>(value), most, heat_octaves);
     image.rgba.insert(image.rgba.end(), {colour[0], colour[1], colour[2], 255});
   }
   return image;

@@ -4,6 +4,7 @@
 #include "golden/io/exr.hpp"
 #include "golden/io/png.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ struct ImageDiff {
 
 /// Throws InputError for pictures of different sizes (`a_name`, `b_name` are for the message).
 ImageDiff diff_images(const ExrImage& a, const ExrImage& b, const std::string& a_name, const std::string& b_name);
+
+/// A difference as a colour: black for 0, then from dark violet (most·2^-octaves and below) to yellow (most and above)
+/// on a logarithmic scale; white for what is not finite.
+std::array<std::uint8_t, 3> heat_colour(double value, double most, int octaves);
 
 /// The largest differences as colours: black where there is none, then from dark violet to yellow on a logarithmic
 /// scale from max·2^-16 to max; white for a NaN.

@@ -3,6 +3,7 @@
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
+#include "golden/methods/method.hpp"
 #include "model/snap.hpp"
 #include "tb/commands/choices.hpp"
 #include "tb/commands/errors.hpp"
@@ -10,6 +11,7 @@
 #include "tb/commands/output.hpp"
 #include "tb/commands/progress.hpp"
 #include "tb/render/frame.hpp"
+#include "tb/render/method_engine.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -24,13 +26,17 @@ struct RenderOptions {
   StateOptions state;
   InputOptions input;
   EngineOptions engine;
-  std::string texture, shade, out, png;
+  std::string method, texture, shade, out, png;
   bool no_error = false;
 };
 
 int render(const RenderOptions& options, const std::vector<std::string>& arguments) {
   const auto start = std::chrono::steady_clock::now();
   EngineSettings settings = options.engine.settings(options.common, options.state);
+  if (!options.method.empty()) {
+    golden::methods::make_method(options.method);  // an unknown one is refused before the input is read
+    settings.snap = false;
+  }
   if (options.out.empty() && options.png.empty()) throw UsageError("--out F.exr or --png F.png (or both) is needed");
   std::vector<std::string> read = options.input.files();
   read.insert(read.end(), {options.common.config_file, options.texture});
@@ -50,7 +56,9 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   FrameBuffer frame(settings.state.width, settings.state.height, settings.state.depth);
   try {
     Progress progress("render " + input.name, input.quads.size(), options.common.show_progress());
-    make_engine(settings)->draw(input.quads, input.attributes, true, [&](std::span<const Sample> samples) {
+    const std::unique_ptr<Engine> engine =
+        options.method.empty() ? make_engine(settings) : make_method_engine(options.method, input, settings);
+    engine->draw(input.quads, input.attributes, true, [&](std::span<const Sample> samples) {
       frame.add(samples);
       progress.set(samples.back().index + 1);
     });
@@ -59,7 +67,9 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   }
 
   golden::FrameImage image = shade_frame(frame, shading);
-  if (settings.kind != EngineKind::truth && !options.no_error && (!options.out.empty() || !options.common.json.empty()))
+  const std::string& drawn_by = options.method.empty() ? options.engine.engine : options.method;
+  if (drawn_by != engine_name(EngineKind::truth) && !options.no_error &&
+      (!options.out.empty() || !options.common.json.empty()))
     add_error_layers(frame, input.quads, settings.config, settings.state, settings.snap, settings.threads, image);
   if (!options.out.empty()) golden::save_exr(options.out, image);
   if (!options.png.empty()) save_frame_png(options.png, image);
@@ -72,7 +82,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   if (!options.common.json.empty()) {
     nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
     json["input"] = input.name;
-    json["engine"] = options.engine.engine;
+    json[options.method.empty() ? "engine" : "method"] = drawn_by;
     json["shade"] = input.shade;
     json["size"] = options.common.size;
     json["quads"] = input.quads.size();
@@ -88,8 +98,8 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
     golden::save_json(options.common.json, json);
   }
   if (std::FILE* text = options.common.text()) {
-    std::fprintf(text, "%s by %s: %zu quads, %llu fragments, %llu pixels drawn", input.name.c_str(),
-                 options.engine.engine.c_str(), input.quads.size(), static_cast<unsigned long long>(frame.fragments()),
+    std::fprintf(text, "%s by %s: %zu quads, %llu fragments, %llu pixels drawn", input.name.c_str(), drawn_by.c_str(),
+                 input.quads.size(), static_cast<unsigned long long>(frame.fragments()),
                  static_cast<unsigned long long>(frame.pixels_drawn()));
     if (frame.undefined()) std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(frame.undefined()));
     if (!image.error.empty()) std::fprintf(text, ", largest weight error %.2e", error_max);
@@ -117,12 +127,20 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
       "  quadrille render --scene sphere --png sphere.png\n"
       "  quadrille render --engine rtl --mesh spot.obj --texture spot.png --shade texture --out spot.exr --png "
       "spot.png\n"
-      "  quadrille render --engine float --snap off --scene fig8_behind --out behind.exr");
+      "  quadrille render --engine float --snap off --scene fig8_behind --out behind.exr\n"
+      "  quadrille render --method refine:20 --scene fig10_convex --png refined.png");
   const auto options = std::make_shared<RenderOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
   options->state.add_to(*command);
   options->engine.add_to(*command);
+  command
+      ->add_option(
+          "--method", options->method,
+          "A method of the papers instead of an engine, on the quads as given; `quadrille compare --help` lists them")
+      ->type_name("METHOD")
+      ->excludes("--engine")
+      ->excludes("--snap");
   command->add_option("--out", options->out, "Picture with depth, weights, ids and errors")->type_name("F.exr");
   command->add_option("--png", options->png, "Picture to look at")->type_name("F.png");
   command

@@ -1,0 +1,467 @@
+// quadrille compare: the methods of the papers on one input, as pictures and as a table.
+#include "tb/commands/commands.hpp"
+
+#include "golden/io/atomic_file.hpp"
+#include "golden/io/exr.hpp"
+#include "golden/io/image_diff.hpp"
+#include "golden/io/json_report.hpp"
+#include "golden/methods/method.hpp"
+#include "tb/commands/choices.hpp"
+#include "tb/commands/compare_plot.hpp"
+#include "tb/commands/errors.hpp"
+#include "tb/commands/input.hpp"
+#include "tb/commands/output.hpp"
+#include "tb/commands/progress.hpp"
+#include "tb/compare/creases.hpp"
+#include "tb/compare/frame_error.hpp"
+#include "tb/compare/sheet.hpp"
+#include "tb/compare/table.hpp"
+#include "tb/render/frame.hpp"
+#include "tb/render/method_engine.hpp"
+#include "tb/render/method_frame.hpp"
+#include "tb/render/method_timing.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+namespace quadrille::cli {
+namespace {
+
+namespace fs = std::filesystem;
+namespace methods = golden::methods;
+
+constexpr const char* default_methods =
+    "split02,split13,triangle,twofold,projective,bilinear,refine:20,adaptive,hybrid,affine,mvc";
+
+struct CompareOptions {
+  CommonOptions common;
+  StateOptions state;
+  InputOptions input;
+  std::vector<std::string> methods;
+  std::string out, shade, texture, reference = "refine:20";
+  std::vector<int> crease_sizes;
+  int cell = 256, repeats = 3;
+  bool plot = false, wireframe = false;
+};
+
+/// Colours of the difference pictures for pixels without a difference.
+constexpr std::array<std::uint8_t, 3> nothing_colour{56, 56, 59}, missing_colour{225, 60, 50},
+    extra_colour{60, 200, 225}, undefined_colour{255, 0, 255}, other_colour{70, 130, 90};
+constexpr double heat_most = 1;
+constexpr int heat_octaves = 14;
+
+/// One input at one size, with what drawing and shading it takes.
+struct Scene {
+  DrawInput input;
+  EngineSettings settings;
+  ShadeSettings shading;
+};
+
+Scene load_scene(const CompareOptions& options, int width, int height) {
+  CommonOptions common = options.common;
+  common.size = std::to_string(width) + "x" + std::to_string(height);
+  Scene scene;
+  scene.settings.config = common.config();
+  scene.settings.state = options.state.state(common, scene.settings.config);
+  scene.settings.threads = common.thread_count();
+  scene.settings.snap = false;
+  scene.input = load_input(options.input, shade_of(options.shade, options.texture), width, height, common.seed);
+  scene.settings.state.perspective = scene.settings.state.perspective && scene.input.perspective;
+  scene.shading.shade = scene.input.shade;
+  scene.shading.slots = shade_slots(scene.input.shade, scene.input);
+  scene.shading.texture = make_texture(options.texture, scene.input);
+  scene.shading.to_eye = scene.input.to_eye;
+  scene.shading.depth = scene.settings.state.depth;
+  scene.shading.threads = scene.settings.threads;
+  return scene;
+}
+
+std::string caption_of(const compare::FrameError& error) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "max %.1e, RMS %.1e", error.error.max(), error.error.rms());
+  std::string caption = error.error.count() ? text.data() : "nothing to compare";
+  const auto count = [&](std::uint64_t n, const char* what) {
+    if (n) caption += ", " + std::to_string(n) + " " + what;
+  };
+  count(error.method_undefined, "undefined");
+  count(error.missing, "missing");
+  count(error.extra, "extra");
+  return caption;
+}
+
+golden::Image8 difference_picture(const compare::AttributeImage& image, const compare::AttributeImage& reference,
+                                  const compare::FrameError& error) {
+  golden::Image8 picture;
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.rgba.reserve(error.image.size() * 4);
+  for (std::size_t i = 0; i < error.image.size(); ++i) {
+    std::array<std::uint8_t, 3> colour = nothing_colour;
+    if (image.covered(i) && !image.defined(i))
+      colour = undefined_colour;
+    else if (!image.covered(i) && reference.covered(i))
+      colour = missing_colour;
+    else if (image.covered(i) && !reference.covered(i))
+      colour = extra_colour;
+    else if (image.covered(i) && !reference.defined(i))
+      colour = nothing_colour;
+    else if (image.quad[i] != reference.quad[i])
+      colour = other_colour;
+    else if (image.covered(i))
+      colour = golden::heat_colour(static_cast<double>(error.image[i]), heat_most, heat_octaves);
+    picture.rgba.insert(picture.rgba.end(), {colour[0], colour[1], colour[2], 255});
+  }
+  return picture;
+}
+
+/// The method's geometry over a picture.
+void draw_wireframe(const std::string& method, const Scene& scene, golden::Image8& picture) {
+  const std::unique_ptr<methods::Method> drawn = methods::make_method(method);
+  const methods::View view = method_view(scene.settings.state);
+  std::vector<compare::Polyline> lines;
+  for (const methods::Quad& quad : method_quads(scene.input, method)) {
+    for (const std::vector<WindowVertex>& outline : drawn->wireframe(quad, view)) {
+      if (std::ranges::any_of(outline, [](const WindowVertex& v) { return !(v.w > 0); })) continue;
+      compare::Polyline line;
+      for (std::size_t i = 0; i <= outline.size(); ++i) {
+        const WindowVertex& v = outline[i % outline.size()];
+        line.points.push_back({v.x / v.w, v.y / v.w});
+      }
+      lines.push_back(std::move(line));
+    }
+  }
+  compare::draw_lines(picture, lines, {255, 255, 255}, std::max(0.6, picture.width / 512.0));
+}
+
+nlohmann::ordered_json value_or_null(double value, bool measured = true) {
+  if (!measured || !std::isfinite(value)) return nullptr;
+  return value;
+}
+
+class Compare {
+ public:
+  Compare(const CompareOptions& options, const std::vector<std::string>& arguments)
+      : options_(options), arguments_(arguments) {}
+
+  int run() {
+    check_options();
+    const auto [width, height] = options_.common.viewport(options_.common.config());
+    width_ = width, height_ = height;
+    const Scene scene = load_scene(options_, width, height);
+    check_methods(scene.input);
+    std::vector<int> sizes = crease_sizes();
+    const std::string directory = options_.out;
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (!fs::is_directory(directory))
+      throw UsageError("--out " + directory + ": cannot be made a directory" + (error ? ": " + error.message() : ""));
+
+    Progress progress("compare " + scene.input.name, options_.methods.size() * (sizes.size() + 1) + 2,
+                      options_.common.show_progress());
+    std::uint64_t done = 0;
+    const compare::AttributeImage truth = attribute_image(draw_truth(scene.input, scene.settings), scene.input);
+    progress.set(++done);
+    const compare::AttributeImage reference =
+        attribute_image(cli::draw_method(options_.reference, scene.input, scene.settings), scene.input);
+    progress.set(++done);
+
+    compare::Sheet sheet = sheet_frame(scene);
+    std::vector<compare::Row> rows;
+    for (const std::string& method : options_.methods) {
+      rows.push_back(compare_method(method, scene, reference, truth, sheet));
+      progress.set(++done, method);
+    }
+    for (const int size : sizes) {
+      const Scene sized = load_scene(options_, scaled(width_, size), scaled(height_, size));
+      for (std::size_t m = 0; m < options_.methods.size(); ++m) {
+        const std::string& method = options_.methods[m];
+        add_creases(attribute_image(cli::draw_method(method, sized.input, sized.settings), sized.input),
+                    method_quads(sized.input, method), size, rows[m]);
+        progress.set(++done, method + " at " + std::to_string(size) + " px");
+      }
+    }
+    for (std::size_t m = 0; m < options_.methods.size(); ++m)
+      rows[m]["ns_per_pixel"] = value_or_null(
+          time_method(options_.methods[m], scene.input, scene.settings.state, options_.repeats).ns_per_pixel);
+    progress.finish();
+
+    golden::save_png(path("sheet.png"), compare::draw_sheet(sheet, options_.cell), golden::PngFormat::rgb8);
+    write_tables(scene, rows, sizes);
+    if (options_.plot)
+      write_plot(scene.input, scene.settings, directory, options_.common, arguments_, options_.repeats);
+    print(scene, rows, sizes);
+    return exit_ok;
+  }
+
+ private:
+  std::string path(const std::string& name) const { return (fs::path(options_.out) / name).string(); }
+
+  void check_options() {
+    if (options_.out.empty()) throw UsageError("--out DIR is needed");
+    if (fs::exists(options_.out) && !fs::is_directory(options_.out))
+      throw UsageError("--out " + options_.out + ": is a file; a directory is wanted");
+    if (!options_.input.quads.empty() || !options_.input.stress.empty() || inputs_given(options_.input) != 1)
+      throw UsageError("one input is needed: --scene NAME or --mesh F.obj");
+    if (options_.methods.empty()) throw UsageError("--methods: no method is named");
+    methods::make_method(options_.reference);
+    std::set<std::string> seen;
+    for (const std::string& method : options_.methods) {
+      methods::make_method(method);
+      if (!seen.insert(method).second) throw UsageError("--methods: " + method + " is named twice");
+    }
+    std::vector<std::string> read = options_.input.files();
+    read.insert(read.end(), {options_.common.config_file, options_.texture});
+    check_outputs({options_.common.json}, read);
+  }
+
+  void check_methods(const DrawInput& input) const {
+    for (const std::string& method : options_.methods) method_quads(input, method);
+    method_quads(input, options_.reference);
+  }
+
+  /// The longer side of the pictures that creases are measured in.
+  std::vector<int> crease_sizes() const {
+    std::vector<int> sizes = options_.crease_sizes;
+    const int side = std::max(width_, height_);
+    if (sizes.empty()) sizes = {side / 2, side, side * 2};
+    const int limit = 1 << options_.common.config().viewport_bits;
+    std::erase_if(sizes, [&](int size) { return options_.crease_sizes.empty() && (size < 16 || size > limit); });
+    for (const int size : sizes)
+      if (size < 16 || size > limit)
+        throw UsageError("--crease-sizes: from 16 to " + std::to_string(limit) + " pixels, not " +
+                         std::to_string(size));
+    std::ranges::sort(sizes);
+    const auto same = std::ranges::unique(sizes);
+    sizes.erase(same.begin(), same.end());
+    return sizes;
+  }
+
+  int scaled(int side, int size) const {
+    return std::max(1, static_cast<int>(std::lround(static_cast<double>(side) * size / std::max(width_, height_))));
+  }
+
+  compare::Sheet sheet_frame(const Scene& scene) const {
+    const DrawInput& input = scene.input;
+    compare::Sheet sheet;
+    sheet.title = input.title + (input.paper.empty() ? "" : " (" + input.paper + ")");
+    sheet.subtitle = input.name + ", " + std::to_string(width_) + " × " + std::to_string(height_) + ", " + input.shade +
+                     (scene.settings.state.perspective ? "" : ", without perspective correction") +
+                     "; differences of the attributes";
+    sheet.columns = options_.methods;
+    sheet.rows = {{"picture", {}}, {"difference from " + options_.reference, {}}, {"difference from the truth", {}}};
+    sheet.heat_most = heat_most;
+    sheet.heat_octaves = heat_octaves;
+    sheet.keys = {{{0, 0, 0}, "equal"},
+                  {missing_colour, "missing"},
+                  {extra_colour, "extra"},
+                  {undefined_colour, "undefined"},
+                  {other_colour, "another quad is in front"}};
+    return sheet;
+  }
+
+  compare::Row compare_method(const std::string& method, const Scene& scene, const compare::AttributeImage& reference,
+                              const compare::AttributeImage& truth, compare::Sheet& sheet) const {
+    const EngineSettings& settings = scene.settings;
+    const FrameBuffer frame = cli::draw_method(method, scene.input, settings);
+    golden::FrameImage picture = shade_frame(frame, scene.shading);
+    add_error_layers(frame, scene.input.quads, settings.config, settings.state, false, settings.threads, picture);
+    golden::save_exr(path(method + ".exr"), picture);
+
+    const compare::AttributeImage image = attribute_image(frame, scene.input);
+    const compare::FrameError against_reference = compare::compare_frames(image, reference);
+    const compare::FrameError against_truth = compare::compare_frames(image, truth);
+    compare::SheetCell cell{frame_picture(picture), std::to_string(against_truth.method_covered) + " pixels"};
+    if (options_.wireframe) draw_wireframe(method, scene, cell.picture);
+    sheet.rows[0].cells.emplace_back(std::move(cell));
+    sheet.rows[1].cells.emplace_back(
+        compare::SheetCell{difference_picture(image, reference, against_reference), caption_of(against_reference)});
+    sheet.rows[2].cells.emplace_back(
+        compare::SheetCell{difference_picture(image, truth, against_truth), caption_of(against_truth)});
+
+    const methods::Census census =
+        methods::make_method(method)->census(method_quads(scene.input, method), method_view(settings.state));
+    compare::Row row;
+    row["method"] = method;
+    row["fragments"] = frame.fragments();
+    row["covered"] = against_truth.method_covered;
+    row["missing"] = against_truth.missing;
+    row["extra"] = against_truth.extra;
+    row["undefined"] = against_truth.method_undefined;
+    row["other_quad"] = against_truth.other_quad;
+    for (const auto& [name, error] : {std::pair{"reference", &against_reference}, std::pair{"truth", &against_truth}}) {
+      const std::string prefix = name;
+      const bool measured = error->error.count() > 0;
+      row[prefix + "_max"] = value_or_null(error->error.max(), measured);
+      row[prefix + "_p999"] = value_or_null(error->error.p999(), measured);
+      row[prefix + "_rms"] = value_or_null(error->error.rms(), measured);
+      row[prefix + "_wrong"] = error->wrong;
+    }
+    row["quads"] = census.quads;
+    row["refused"] = census.refused;
+    row["emitted_quads"] = census.emitted_quads;
+    row["triangles"] = census.triangles;
+    row["t_vertices"] = census.t_vertices;
+    row["affine"] = census.affine;
+    return row;
+  }
+
+  static void add_creases(const compare::AttributeImage& image, const std::vector<methods::Quad>& quads, int size,
+                          compare::Row& row) {
+    const std::string at = "_" + std::to_string(size);
+    const compare::Diagonals diagonals = compare::measure_diagonals(image, quads);
+    for (const auto& [name, diagonal] :
+         {std::pair{"crease02", &diagonals.d02}, std::pair{"crease13", &diagonals.d13}}) {
+      const compare::LineJump& jump = diagonal->jump;
+      const bool measured = jump.profiles() > 0;
+      row[name + at] = value_or_null(jump.step_slope.max(), measured);
+      row[name + ("_rms" + at)] = value_or_null(jump.step_slope.rms(), measured);
+      row[name + ("_fit" + at)] = value_or_null(jump.line_slope.max(), measured);
+      row[name + ("_fit_rms" + at)] = value_or_null(jump.line_slope.rms(), measured);
+      row[name + ("_at_line" + at)] = value_or_null(jump.parabola_slope.max(), measured);
+      row[name + ("_at_line_rms" + at)] = value_or_null(jump.parabola_slope.rms(), measured);
+      row[name + ("_profiles" + at)] = jump.profiles();
+    }
+    const compare::InnerJumps inside = compare::measure_inside(image);
+    row["jump_inside" + at] = value_or_null(inside.line_slope.max(), inside.line_slope.count() > 0);
+    row["jump_inside_p999" + at] = value_or_null(inside.line_slope.p999(), inside.line_slope.count() > 0);
+    // Not named by size: what remains is of the largest size, which comes last.
+    const compare::Gaps gaps = compare::measure_gaps(image, quads);
+    row["gap_max"] = value_or_null(gaps.jump.parabola_value.max(), gaps.measured > 0);
+    row["gap_rms"] = value_or_null(gaps.jump.parabola_value.rms(), gaps.measured > 0);
+    row["gap_pixels"] = gaps.empty + gaps.foreign;
+  }
+
+  void write_tables(const Scene& scene, const std::vector<compare::Row>& rows, const std::vector<int>& sizes) const {
+    const DrawInput& input = scene.input;
+    nlohmann::ordered_json json = golden::begin_report(scene.settings.config, options_.common.seed, arguments_);
+    json["input"] = input.name;
+    json["size"] = std::to_string(width_) + "x" + std::to_string(height_);
+    json["shade"] = input.shade;
+    json["perspective"] = scene.settings.state.perspective;
+    json["reference"] = options_.reference;
+    json["attributes"] = input.attributes > 0 ? input.attributes : 4;
+    json["crease_sizes"] = sizes;
+    json["methods"] = rows;
+    golden::save_json(path("table.json"), json);
+    golden::write_file(path("table.csv"), compare::table_csv(rows), golden::AtomicFile::Dash::refused);
+    golden::write_file(path("table.md"), compare::table_markdown(rows, sizes, options_.reference),
+                       golden::AtomicFile::Dash::refused);
+    if (!options_.common.json.empty()) golden::save_json(options_.common.json, json);
+  }
+
+  void print(const Scene& scene, const std::vector<compare::Row>& rows, const std::vector<int>& sizes) const {
+    std::FILE* out = options_.common.text();
+    if (out == nullptr) return;
+    const auto text = [](const compare::Row& value, const char* format) {
+      std::array<char, 32> buffer{};
+      if (value.is_null()) return std::string("-");
+      std::snprintf(buffer.data(), buffer.size(), format, value.get<double>());
+      return std::string(buffer.data());
+    };
+    std::fprintf(out, "%s, %dx%d, %s; differences of attributes\n", scene.input.name.c_str(), width_, height_,
+                 scene.input.shade.c_str());
+    const std::string size = sizes.empty() ? "" : std::to_string(sizes[(sizes.size() - 1) / 2]);
+    std::fprintf(out, "%-18s %8s %8s %9s  %-19s %-19s %-19s %9s %9s %8s\n", "method", "pixels", "missing", "undefined",
+                 ("from " + options_.reference).c_str(), "from the truth",
+                 sizes.empty() ? "" : ("crease at " + size + " px").c_str(), "quads", "triangles", "ns/px");
+    std::fprintf(out, "%-18s %8s %8s %9s  %9s %9s %9s %9s %9s %9s\n", "", "", "", "", "max", "RMS", "max", "RMS",
+                 sizes.empty() ? "" : "0-2", sizes.empty() ? "" : "1-3");
+    for (const compare::Row& row : rows)
+      std::fprintf(out, "%-18s %8llu %8llu %9llu  %9s %9s %9s %9s %9s %9s %9llu %9llu %8s\n",
+                   row["method"].get<std::string>().c_str(), row["covered"].get<unsigned long long>(),
+                   row["missing"].get<unsigned long long>(), row["undefined"].get<unsigned long long>(),
+                   text(row["reference_max"], "%.1e").c_str(), text(row["reference_rms"], "%.1e").c_str(),
+                   text(row["truth_max"], "%.1e").c_str(), text(row["truth_rms"], "%.1e").c_str(),
+                   sizes.empty() ? "" : text(row["crease02_" + size], "%.1e").c_str(),
+                   sizes.empty() ? "" : text(row["crease13_" + size], "%.1e").c_str(),
+                   row["emitted_quads"].get<unsigned long long>(), row["triangles"].get<unsigned long long>(),
+                   text(row["ns_per_pixel"], "%.3g").c_str());
+    for (const compare::Row& row : rows)
+      if (row["refused"].get<std::uint64_t>() > 0)
+        std::fprintf(out, "%s refuses %llu of %llu quads\n", row["method"].get<std::string>().c_str(),
+                     row["refused"].get<unsigned long long>(), row["quads"].get<unsigned long long>());
+    std::fprintf(out, "%s: sheet.png, METHOD.exr, table.json, table.csv, table.md%s\n", options_.out.c_str(),
+                 options_.plot ? ", plot.json, plot_time.png, plot_setup.png" : "");
+  }
+
+  const CompareOptions& options_;
+  const std::vector<std::string>& arguments_;
+  int width_ = 0, height_ = 0;
+};
+
+std::string method_list() {
+  std::string text = "Methods (--methods a,b,c; a knob follows after a colon):\n";
+  for (const methods::MethodInfo& info : methods::list_methods()) {
+    text += "  " + std::string(info.name) + std::string(12 - std::min<std::size_t>(11, info.name.size()), ' ') +
+            std::string(info.what);
+    if (!info.knob.empty()) text += "; " + std::string(info.knob);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("compare", "The papers' methods side by side: pictures, errors, creases");
+  command->footer(method_list() +
+                  "\nWrites sheet.png (methods in columns), METHOD.exr, table.json, table.csv and table.md into DIR. A "
+                  "crease is the\nlargest change of an attribute's slope from pixel to pixel within 4 pixels of the "
+                  "middle half of a quad's\ndiagonal, in attribute per picture side, measured at half, the same and "
+                  "twice the size; tb/compare/README.md.\n\n"
+                  "Examples:\n"
+                  "  quadrille compare --scene fig10_convex --out fig10\n"
+                  "  quadrille compare --scene phong_mesh --methods split02,split13,refine:20,mvc --wireframe --out "
+                  "fig11\n"
+                  "  quadrille compare --mesh spot.obj --methods split02,mvc --shade uv --plot --out spot");
+  const auto options = std::make_shared<CompareOptions>();
+  options->input.add_to(*command);
+  options->common.add_to(*command);
+  options->state.add_to(*command);
+  command->add_option("--methods", options->methods, "Methods, in the order of the columns; default: all")
+      ->delimiter(',')
+      ->type_name("A,B,…");
+  command->add_option("--out", options->out, "Directory for what is written; made if it is not there")
+      ->type_name("DIR");
+  command->add_option("--reference", options->reference, "Method that the differences are taken from")
+      ->type_name("METHOD")
+      ->capture_default_str();
+  command->add_option("--shade", options->shade, "As for render; default: what suits the input")->type_name("MODE");
+  command->add_option("--texture", options->texture, "Picture for --shade texture instead of the input's own pattern")
+      ->type_name("F.png");
+  command->add_option("--crease-sizes", options->crease_sizes, "Longer sides, in pixels, to measure creases at")
+      ->delimiter(',')
+      ->type_name("N,N,…");
+  command->add_option("--cell", options->cell, "Width of a picture on the sheet, in pixels")
+      ->check(CLI::Range(32, 2048))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--repeats", options->repeats, "Times to draw for the timing; the quickest counts")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_flag("--wireframe", options->wireframe, "Draw over the pictures what each method sets up");
+  command->add_flag("--plot", options->plot,
+                    "Also error from refine:200 against time and against triangles set up, every method, knobs as "
+                    "curves");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] {
+      if (options->methods.empty()) {
+        std::string_view rest = default_methods;
+        while (!rest.empty()) {
+          const std::size_t comma = std::min(rest.find(','), rest.size());
+          options->methods.emplace_back(rest.substr(0, comma));
+          rest.remove_prefix(std::min(rest.size(), comma + 1));
+        }
+      }
+      return Compare(*options, invocation.arguments).run();
+    };
+  });
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,188 @@
+// quadrille compare and render --method, run as a user does.
+#include "tb/commands/cli_fixture.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <set>
+#include <sstream>
+
+namespace {
+
+using namespace quadrille::cli_test;
+using nlohmann::json;
+
+class CompareCli : public Cli {
+ protected:
+  json table(const std::string& arguments, const std::string& out = "d") const {
+    const Outcome outcome = run("compare --repeats 1 --quiet --out " + out + " " + arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out + outcome.err, "");
+    return json::parse(read(file(out + "/table.json")));
+  }
+  static json row(const json& table, const std::string& method) {
+    for (const json& r : table.at("methods"))
+      if (r.at("method") == method) return r;
+    ADD_FAILURE() << method;
+    return {};
+  }
+};
+
+TEST_F(CompareCli, EveryMethodDrawsAndIsWritten) {
+  const json report = table("--scene fig10_convex --size 64x64");
+  std::set<std::string> names;
+  for (const json& r : report.at("methods")) {
+    const std::string name = r.at("method");
+    names.insert(name);
+    EXPECT_GT(r.at("covered"), 1000) << name;
+    EXPECT_EQ(r.at("missing"), 0) << name;
+    EXPECT_GT(fs::file_size(file("d/" + name + ".exr")), 64u * 64u * 40u);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"mvc", "split02", "split13", "triangle", "twofold", "projective", "bilinear",
+                                          "refine:20", "adaptive", "hybrid", "affine"}));
+  EXPECT_GT(fs::file_size(file("d/sheet.png")), 10'000u);
+  // The same rows and columns in CSV, a line a method in Markdown.
+  std::istringstream csv(read(file("d/table.csv")));
+  std::string line;
+  std::getline(csv, line);
+  std::size_t columns = 0;
+  for (const auto& [key, value] : report["methods"][0].items()) columns += !key.empty();
+  EXPECT_EQ(static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')), columns - 1);
+  std::size_t lines = 0;
+  for (; std::getline(csv, line); ++lines)
+    EXPECT_EQ(static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')), columns - 1);
+  EXPECT_EQ(lines, names.size());
+  const std::string markdown = read(file("d/table.md"));
+  EXPECT_EQ(static_cast<std::size_t>(std::count(markdown.begin(), markdown.end(), '\n')), names.size() + 2);
+}
+
+// The claim of the papers: the crease of a split stays, that of mean value coordinates halves with every doubling.
+TEST_F(CompareCli, CreaseOfASplitStaysAndOfMeanValueCoordinatesHalves) {
+  const json report = table("--scene fig10_convex --methods split02,split13,mvc --crease-sizes 128,256,512");
+  const json split02 = row(report, "split02"), split13 = row(report, "split13"), mvc = row(report, "mvc");
+  for (const auto& [diagonal, split] : {std::pair{"crease02_", &split02}, std::pair{"crease13_", &split13}}) {
+    const auto at = [d = std::string(diagonal)](const json& r, int size) {
+      return r.at(d + std::to_string(size)).get<double>();
+    };
+    // From pixel to pixel a crease may fall between two changes of the slope; the fit has all of it.
+    const std::string fit = diagonal + std::string("fit_");
+    EXPECT_NEAR(split->at(fit + "512").get<double>() / split->at(fit + "128").get<double>(), 1, 0.05);
+    EXPECT_NEAR(at(mvc, 128) / at(mvc, 256), 2, 0.15);
+    EXPECT_NEAR(at(mvc, 256) / at(mvc, 512), 2, 0.15);
+    EXPECT_GE(at(*split, 512), 100 * at(mvc, 512));
+  }
+  // Each split is smooth across the other diagonal.
+  EXPECT_LT(split02.at("crease13_512"), 0.1 * split13.at("crease13_512").get<double>());
+}
+
+TEST_F(CompareCli, AgainstTheTruthAndTheReference) {
+  const json report = table("--scene sphere --size 96x96 --methods mvc,hybrid,split02,projective,affine,refine:20");
+  EXPECT_LT(row(report, "mvc").at("truth_max"), 1e-9);
+  EXPECT_EQ(row(report, "refine:20").at("reference_max"), 0);
+  EXPECT_GT(row(report, "hybrid").at("truth_max"), 1e-9) << "single precision";
+  EXPECT_GT(row(report, "split02").at("truth_rms"), 1e-3);
+  // 32 quads have a collapsed edge: the projective map refuses them.
+  EXPECT_EQ(row(report, "projective").at("refused"), 32);
+  EXPECT_GT(row(report, "projective").at("other_quad"), 0) << "where they are missing the far side shows";
+  EXPECT_EQ(row(report, "mvc").at("quads"), 128);
+  EXPECT_EQ(row(report, "refine:20").at("emitted_quads"), 128 * 400);
+}
+
+TEST_F(CompareCli, UndefinedPixelsAreCounted) {
+  const json a = table("--scene bloomenthal14_a --size 64x64 --methods bilinear,mvc", "a"),
+             b = table("--scene bloomenthal14_b --size 64x64 --methods bilinear,mvc", "b"),
+             c = table("--scene bloomenthal14_c --size 64x64 --methods bilinear,mvc", "c");
+  const auto share = [](const json& report) {
+    const json r = row(report, "bilinear");
+    return r.at("undefined").get<double>() / r.at("covered").get<double>();
+  };
+  EXPECT_GT(share(a), 0);
+  EXPECT_GT(share(b), share(a));
+  EXPECT_GT(share(c), share(b));
+  EXPECT_EQ(row(c, "mvc").at("undefined"), 0);
+}
+
+TEST_F(CompareCli, QuadsEmittedFollowTheProjectedArea) {
+  std::uint64_t before = 0;
+  for (const char* area : {"197", "795", "3051", "11879", "33600"}) {
+    const json report = table(std::string("--methods adaptive --scene oliveira13_") + area, area);
+    const std::uint64_t emitted = row(report, "adaptive").at("emitted_quads");
+    if (before == 0) {
+      EXPECT_EQ(emitted, 1u) << "197 pixels are below the 200 of the paper";
+    }
+    EXPECT_GT(emitted, before) << area;
+    before = emitted;
+  }
+}
+
+TEST_F(CompareCli, SameBytesForAnyNumberOfThreads) {
+  table("--scene bowtie --size 48x48 --methods mvc,hybrid --wireframe --threads 1", "a");
+  table("--scene bowtie --size 48x48 --methods mvc,hybrid --wireframe --threads 3", "b");
+  for (const char* name : {"mvc.exr", "hybrid.exr", "sheet.png"})
+    EXPECT_EQ(read(file(std::string("a/") + name)), read(file(std::string("b/") + name))) << name;
+  // Of the tables everything but the command and the times.
+  json a = json::parse(read(file("a/table.json"))), b = json::parse(read(file("b/table.json")));
+  for (json* report : {&a, &b}) {
+    report->erase("command");
+    for (json& r : report->at("methods")) r.erase("ns_per_pixel");
+  }
+  EXPECT_EQ(a, b);
+}
+
+TEST_F(CompareCli, Plot) {
+  table("--scene fig1_flat --size 32x32 --methods mvc --plot");
+  const json plot = json::parse(read(file("d/plot.json")));
+  EXPECT_EQ(plot.at("reference"), "refine:200");
+  EXPECT_EQ(plot.at("curves").size(), 11u);
+  for (const json& curve : plot.at("curves")) {
+    EXPECT_FALSE(curve.at("points").empty());
+    for (const json& point : curve["points"]) EXPECT_GT(point.at("seconds"), 0) << curve["method"];
+  }
+  // More cells are nearer to the limit.
+  const json refine = plot["curves"][7];
+  ASSERT_EQ(refine.at("method"), "refine");
+  EXPECT_LT(refine["points"][5].at("error_rms"), 0.1 * refine["points"][2].at("error_rms").get<double>());
+  for (const char* name : {"d/plot_time.png", "d/plot_setup.png"}) EXPECT_GT(fs::file_size(file(name)), 10'000u);
+}
+
+// The projective map is linear in its own square, not on the edges: neighbours disagree there.
+TEST_F(CompareCli, GapsBetweenNeighbours) {
+  write("m.obj",
+        "v 0 0 0\nv 1 0.2 0\nv 1 1 0\nv 0 1.4 0\nv 2 -0.2 0\nv 2 1 0\n"
+        "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\nvt 2 1\nf 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n");
+  const json report = table("--mesh m.obj --size 128x128 --shade uv --methods mvc,split02,projective");
+  for (const char* exact : {"mvc", "split02"}) {
+    EXPECT_GT(row(report, "projective").at("gap_max"), 100 * row(report, exact).at("gap_max").get<double>()) << exact;
+    EXPECT_EQ(row(report, exact).at("gap_pixels"), 0);
+  }
+}
+
+TEST_F(CompareCli, MeshesAndRenderByMethod) {
+  write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0.3\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n");
+  const json report = table("--mesh m.obj --size 48x48 --shade uv --methods mvc,affine,adaptive");
+  EXPECT_EQ(row(report, "mvc").at("quads"), 2);
+  EXPECT_EQ(
+      run("render --method split13 --mesh m.obj --shade lambda --size 48x48 --quiet --png m.png --out m.exr").status,
+      0);
+  EXPECT_GT(fs::file_size(file("m.exr")), 1000u);
+}
+
+TEST_F(CompareCli, BadInput) {
+  refuses(2, "compare --scene fig1_flat", {"--out"});
+  refuses(2, "compare --out d", {"--scene NAME or --mesh F.obj"});
+  refuses(2, "compare --stress general --out d", {"--scene NAME or --mesh F.obj"});
+  refuses(2, "compare --scene fig1_flat --out d --methods mvc,splt02", {"splt02", "did you mean 'split02'"});
+  refuses(2, "compare --scene fig1_flat --out d --methods mvc,mvc", {"mvc", "twice"});
+  refuses(2, "compare --scene fig1_flat --out d --methods refine:0", {"refine:0", "1 to 1000"});
+  refuses(2, "compare --scene fig1_flat --out d --methods mvc:3", {"mvc has no knob"});
+  refuses(2, "compare --scene fig1_flat --out d --reference nothing", {"nothing"});
+  refuses(2, "compare --scene fig1_flat --out d --crease-sizes 4", {"--crease-sizes", "16 to 4096"});
+  refuses(2, "compare --scene fig1_flat --out d --shade colour", {"colour"});
+  EXPECT_FALSE(fs::exists(file("d"))) << "nothing is written before the input is known to be good";
+  write("f", "kept");
+  refuses(2, "compare --scene fig1_flat --out f", {"f", "directory"});
+  EXPECT_EQ(read(file("f")), "kept");
+  refuses(2, "render --method adaptive --stress general --count 3 --png x.png", {"adaptive", "object space"});
+  refuses(2, "render --method mvc --engine truth --scene fig1_flat --png x.png", {"--method"});
+}
+
+}  // namespace

@@ -1,0 +1,71 @@
+// Creases and gaps of a whole frame: jumps of the slope across the quads' diagonals and anywhere inside them, jumps of
+// the value and holes along the edges that quads share.
+#pragma once
+
+#include "golden/methods/method.hpp"
+#include "tb/compare/line_jump.hpp"
+#include "tb/error_stats.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace quadrille::compare {
+
+/// One of the two diagonals, over all quads.
+struct DiagonalCreases {
+  std::uint64_t quads = 0;  ///< with a profile at least
+  LineJump jump;
+  std::uint32_t worst = AttributeImage::no_quad;  ///< has the largest jump.line_slope, the first of equal ones
+};
+
+struct Diagonals {
+  DiagonalCreases d02, d13;
+};
+
+/// `quads[i]` is what the image calls quad i. Quads with a vertex of w <= 0 have no diagonal on the screen; of the
+/// others every profile of a diagonal's middle half counts whose pixels show the quad: none of a diagonal outside of a
+/// concave quad or behind another quad. Profiles that the other diagonal crosses as well do not count, so that a crease
+/// along one is not found on both. Throws std::invalid_argument when the image shows a quad that is not there.
+Diagonals measure_diagonals(const AttributeImage& image, std::span<const golden::methods::Quad> quads);
+
+/// The boundaries between pixels of one quad, each taken for a line with its four pixels on either side.
+struct InnerJumps {
+  /// Slope jumps as in ProfileJump. count() is the number of boundaries; p999() as in FrameError::error.
+  tb::ErrorStats line_slope, parabola_slope;
+  std::uint64_t undefined = 0;  ///< boundaries that only an undefined pixel kept from being measured
+  /// The largest line_slope, the first of equal ones in rows, x before y: beyond the boundary. x is -1 without any.
+  Profile worst{Axis::x, -1, -1, 0};
+  std::uint32_t worst_quad = AttributeImage::no_quad;
+};
+
+InnerJumps measure_inside(const AttributeImage& image);
+
+/// An edge of exactly two quads: both of its ends are at the same window position and depth in either, in front of the
+/// eye, and carry equal attributes.
+struct SharedEdge {
+  std::array<std::uint32_t, 2> quad{};   ///< rising
+  std::array<golden::Vec2, 2> window{};  ///< in pixels
+};
+
+/// In the order of the first quad, then of its edges. Positions and attributes are compared bit for bit, which is what
+/// vertices of one mesh have; edges of no length are none. An edge that more than two quads touch is left out: its
+/// sides are not told apart.
+std::vector<SharedEdge> shared_edges(std::span<const golden::methods::Quad> quads);
+
+struct Gaps {
+  std::uint64_t edges = 0;     ///< shared ones
+  std::uint64_t measured = 0;  ///< of them, with a profile at least
+  LineJump jump;               ///< parabola_value is the gap: it vanishes for attributes that agree on the edge
+  std::array<std::uint32_t, 2> worst{AttributeImage::no_quad, AttributeImage::no_quad};  ///< by parabola_value
+  /// Pixels whose centre is at most 1 from the middle half of an edge, along the profile, while the profile's fourth
+  /// pixels on both sides show the edge's quads, one each.
+  std::uint64_t empty = 0;    ///< of these: that show nothing
+  std::uint64_t foreign = 0;  ///< of these: that show a third quad, a background seen through the gap for example
+};
+
+/// Throws std::invalid_argument when the image shows a quad that is not there.
+Gaps measure_gaps(const AttributeImage& image, std::span<const golden::methods::Quad> quads);
+
+}  // namespace quadrille::compare

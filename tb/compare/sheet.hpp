@@ -1,0 +1,51 @@
+// A contact sheet: pictures in labelled columns and rows, for looking at several methods side by side.
+#pragma once
+
+#include "golden/io/png.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadrille::compare {
+
+struct SheetCell {
+  golden::Image8 picture;
+  std::string caption;  ///< a line below the picture; may be empty
+};
+
+struct SheetRow {
+  std::string label;
+  std::vector<std::optional<SheetCell>> cells;  ///< one per column; an empty one stays blank
+};
+
+/// A colour and what it stands for, for the legend.
+struct SheetKey {
+  std::array<std::uint8_t, 3> colour{};
+  std::string text;
+};
+
+struct Sheet {
+  std::string title, subtitle;
+  std::vector<std::string> columns;
+  std::vector<SheetRow> rows;
+  /// Differences are coloured logarithmically from heat_most·2^-heat_octaves to heat_most; 0: no scale in the legend.
+  double heat_most = 0;
+  int heat_octaves = 0;
+  std::vector<SheetKey> keys;
+};
+
+/// Lays the sheet out with pictures `cell_width` pixels wide (larger ones are reduced, smaller ones enlarged without
+/// smoothing). Pictures of a row are equally high. Text that does not fit is cut with an ellipsis.
+golden::Image8 draw_sheet(const Sheet& sheet, int cell_width);
+
+/// A grid of `segments` polylines over a picture: for meshes that a method emits. Points in pixels of the picture.
+struct Polyline {
+  std::vector<std::array<double, 2>> points;
+};
+void draw_lines(golden::Image8& picture, const std::vector<Polyline>& lines, std::array<std::uint8_t, 3> colour,
+                double width);
+
+}  // namespace quadrille::compare
