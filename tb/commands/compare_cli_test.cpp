@@ -147,7 +147,7 @@ TEST_F(CompareCli, Plot) {
 // The projective map is linear in its own square, not on the edges: neighbours disagree there.
 TEST_F(CompareCli, GapsBetweenNeighbours) {
   write("m.obj",
-        "v 0 0 0\nv 1 0.2 0\nv 1 1 0\nv 0 1.4 0\nv 2 0.5 0\nv 2 0.8 0\n"
+        "v 0.3 0 0\nv 1 0.2 0\nv 1 1 0\nv 0 1.4 0\nv 2 0.5 0\nv 1.6 0.8 0\n"
         "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\nvt 2 1\nf 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n");
   const json report = table("--mesh m.obj --size 128x128 --shade uv --methods mvc,split02,projective");
   for (const char* exact : {"mvc", "split02"}) {
