@@ -398,7 +398,15 @@ TEST(PaperScenes, DraggedVertexStaysInThePlane) {
 }
 
 TEST(PaperScenes, NonPlanarAndAffineQuads) {
-  EXPECT_GT(std::fabs(volume(projected("oliveira15_nonplanar").corners.at(0))), 1);
+  const std::array<Vec3, 4> skew = projected("oliveira15_nonplanar").corners.at(0);
+  EXPECT_GT(std::fabs(volume(skew)), 1);
+  // The criterion of the paper's figure 11 sees it: V1 · V2 differs from V3 · V4.
+  const auto product = [&](std::size_t at, std::size_t a, std::size_t b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += (skew[a][i] - skew[at][i]) * (skew[b][i] - skew[at][i]);
+    return sum;
+  };
+  EXPECT_GT(std::fabs(product(1, 0, 2) - product(3, 2, 0)), 0.1);
   EXPECT_NEAR(texture_disaffinity("oliveira16_affine"), 0, 1e-15);
   EXPECT_EQ(projected("oliveira16_affine").corners, projected("oliveira13_197").corners);  // the trapezoid of figure 4
 }

@@ -48,10 +48,11 @@ Scene square() { return dragged(1, 1); }
 Scene pulled() { return dragged(0.35, 1.3); }
 Scene pushed() { return dragged(0.6, 0.45); }
 
-/// From where the surface folds over.
+/// From where the surface folds over. The heights differ: of a saddle with equal ones opposite angles are equal, and
+/// the paper's criterion takes it for a parallelogram.
 Scene nonplanar() {
   Scene scene;
-  add_quad(scene.mesh, {{{-1, -1, 0.7}, {1, -1, -0.7}, {1, 1, 0.7}, {-1, 1, -0.7}}});
+  add_quad(scene.mesh, {{{-1, -1, 0.7}, {1, -1, -0.9}, {1, 1, 1.1}, {-1, 1, -0.5}}});
   scene.camera = look_from({2.2, 2.7, 2.4}, {-0.05, 0.14, 0}, 37);
   return scene;
 }

@@ -11,6 +11,13 @@ Scene flat() {
   return scene;
 }
 
+/// The camera rolled by 45 degrees: what depends on scan lines turns with it.
+Scene flat_turned() {
+  Scene scene = flat();
+  scene.camera.up = {1, 1, 0};
+  return scene;
+}
+
 Scene floor_quad() {
   Scene scene;
   add_quad(scene.mesh, {{{-2, 0, 2}, {2, 0, 2}, {2, 0, -8}, {-2, 0, -8}}});
@@ -61,10 +68,11 @@ Scene bowtie() {
   return scene;
 }
 
-constexpr std::array<SceneEntry, 7> entries{{
+constexpr std::array<SceneEntry, 8> entries{{
     {"fig1_flat", "One flat quad with a regular pattern, seen from above", "Hormann & Tarini 2004, fig. 1", flat},
     {"fig6_cuts", "A flat-shaded non-planar quad and its intersection with parallel planes",
      "Hormann & Tarini 2004, fig. 6", cuts},
+    {"fig1_turned", "The same with the camera rolled by 45 degrees", "Hormann & Tarini 2004, fig. 1", flat_turned},
     {"fig7_floor", "A floor in perspective", "Hormann & Tarini 2004, fig. 7", floor_quad},
     {"fig10_convex", "A non-planar quad that projects to a convex shape", "Hormann & Tarini 2004, fig. 10", convex},
     {"fig10_concave", "The same quad, projecting to a concave shape", "Hormann & Tarini 2004, fig. 10", concave},

@@ -1,0 +1,296 @@
+#!/usr/bin/python3
+"""Renders the figures of the papers with `quadrille compare`, with a page that says what each shows.
+
+  scripts/figures.py                                every figure of scripts/figures.toml into build/figures
+  scripts/figures.py --only oliveira13 bloomenthal9 these alone, also on the page
+  scripts/figures.py --quadrille PATH --out DIR     another program, another folder
+
+Writes DIR/index.html and, for every figure and sheet, DIR/FIGURE/SHEET/ as `quadrille compare` does, without the EXR files. Sheets
+are drawn aside and moved into place when all of them are done, the page last. Exit status: 0 done, 1 a command failed, 2 usage or
+input error; DIR keeps what it had then.
+"""
+import argparse
+import html
+import json
+import os
+import re
+import shlex
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import tomllib
+from dataclasses import dataclass, field
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+TABLE = os.path.join(ROOT, "scripts", "figures.toml")
+
+
+class InputError(Exception):
+    """Bad input: the message names it and what would be right."""
+
+
+class CommandError(Exception):
+    """A command that failed: the message is the command and its status."""
+
+
+@dataclass
+class Sheet:
+    """One run of `quadrille compare`, into the folder `name` (default: the scene's)."""
+    scene: str
+    methods: list
+    name: str = ""
+    caption: str = ""
+    wireframe: bool = False
+    perspective: bool = True
+    shade: str = ""
+    cell: int = 256
+
+    def __post_init__(self):
+        self.name = self.name or self.scene
+
+    def command(self, folder, size):
+        """Arguments of the program, with `folder` for what it writes."""
+        command = ["compare", "--scene", self.scene, "--methods", ",".join(self.methods), "--size", size, "--crease-sizes",
+                   str(max(map(int, size.split("x")))), "--repeats", "1", "--cell", str(self.cell)]
+        command += ["--shade", self.shade] if self.shade else []
+        command += ["--wireframe"] if self.wireframe else []
+        command += [] if self.perspective else ["--no-perspective"]
+        return command + ["--out", folder, "--quiet"]
+
+
+@dataclass
+class Figure:
+    """A figure of a paper: what the paper shows, what to look for here, and the sheets."""
+    name: str
+    paper: str
+    number: str
+    title: str
+    shows: str
+    look: str
+    sheet: list = field(default_factory=list)
+
+    def __post_init__(self):
+        self.sheet = [Sheet(**sheet) for sheet in self.sheet]
+
+    def folder(self, sheet):
+        return f"{self.name}/{sheet.name}"
+
+
+@dataclass
+class Paper:
+    key: str
+    title: str
+    source: str
+    link: str = ""
+
+
+def read_table(path=TABLE):
+    """Papers and figures, in the order of the file."""
+    with open(path, "rb") as file:
+        table = tomllib.load(file)
+    return [Paper(**paper) for paper in table["paper"]], [Figure(**figure) for figure in table["figure"]]
+
+
+# ---- drawing --------------------------------------------------------------------------------------------------------------------------
+
+
+def draw(quadrille, figures, size, keep_exr, directory):
+    """Every sheet into `directory`, which is also the working directory of the commands."""
+    jobs = [(figure, sheet) for figure in figures for sheet in figure.sheet]
+    for count, (figure, sheet) in enumerate(jobs, 1):
+        folder = figure.folder(sheet)
+        print(f"[{count}/{len(jobs)}] {folder}", file=sys.stderr, flush=True)
+        os.makedirs(os.path.join(directory, folder))
+        command = sheet.command(folder, size)
+        try:
+            status = subprocess.run([quadrille, *command], cwd=directory, check=False).returncode
+        except OSError as error:
+            raise InputError(f"{quadrille}: {error.strerror}; build the target quadrille, or use scripts/figures.sh") from None
+        if status != 0:
+            raise CommandError(f"{shlex.join([quadrille, *command])}: exit status {status}")
+        if not keep_exr:
+            for name in os.listdir(os.path.join(directory, folder)):
+                if name.endswith(".exr"):
+                    os.remove(os.path.join(directory, folder, name))
+
+
+def move_into_place(figures, source, out):
+    for figure in figures:
+        shutil.rmtree(os.path.join(out, figure.name), ignore_errors=True)
+        os.rename(os.path.join(source, figure.name), os.path.join(out, figure.name))
+
+
+# ---- page -----------------------------------------------------------------------------------------------------------------------------
+
+STYLE = """
+:root { color-scheme: light; }
+body { font: 16px/1.5 "DejaVu Sans", Verdana, Arial, sans-serif; color: #1a1a1a; background: #fff; max-width: 1400px; margin: 0 auto; padding: 1.5em; }
+h1 { font-size: 1.7em; } h2 { margin-top: 2em; border-bottom: 2px solid #0072b2; } h3 { margin: 2em 0 .3em; }
+p, li { max-width: 60em; } nav ul { columns: 2; padding-left: 1.2em; } nav li { break-inside: avoid; }
+section.sheet { margin: 1.2em 0 1.8em; } section.sheet img { max-width: 100%; height: auto; border: 1px solid #bbb; display: block; }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: .2em 1em; margin: .4em 0; } dt { font-weight: bold; } dd { margin: 0; max-width: 56em; }
+pre { background: #f1f3f5; padding: .5em .8em; white-space: pre-wrap; font-size: .82em; margin: .5em 0; } code { font-family: "DejaVu Sans Mono", monospace; font-size: .9em; }
+table { border-collapse: collapse; font-size: .85em; margin: .5em 0; } th, td { padding: .15em .8em; border-bottom: 1px solid #ddd; text-align: right; }
+th:first-child, td:first-child, th:last-child, td:last-child { text-align: left; } .links { font-size: .85em; }
+"""
+
+
+def text(value):
+    """Plain text with `code` as HTML."""
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(value.strip()))
+
+
+def number(value):
+    return "–" if value is None else "0" if value == 0 else f"{value:.2g}"
+
+
+def png_size(path):
+    """Width and height from the header, so that the page does not move while it loads."""
+    with open(path, "rb") as file:
+        return struct.unpack(">II", file.read(24)[16:])
+
+
+def remarks(row):
+    counts = [(row["missing"], "pixels missing"), (row["extra"], "extra"), (row["undefined"], "undefined"), (row["refused"], "quads refused")]
+    return ", ".join(f"{count:,} {what}" for count, what in counts if count) or "–"
+
+
+def numbers(table):
+    """The key numbers of table.json: differences, creases at the picture's size, what was set up."""
+    size = table["crease_sizes"][-1]
+    heads = ["method", "pixels", f"max from {table['reference']}", "max from the truth", "crease 0–2", "crease 1–3", "quads", "triangles", "remarks"]
+    rows = [[html.escape(row["method"]), f"{row['covered']:,}", number(row["reference_max"]), number(row["truth_max"]), number(row[f"crease02_{size}"]),
+             number(row[f"crease13_{size}"]), f"{row['emitted_quads']:,}", f"{row['triangles']:,}", remarks(row)] for row in table["methods"]]
+    head = "".join(f"<th>{cell}</th>" for cell in heads)
+    body = "\n".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table>\n<tr>{head}</tr>\n{body}\n</table>"
+
+
+def sheet_section(figure, sheet, size, directory):
+    folder = figure.folder(sheet)
+    with open(os.path.join(directory, folder, "table.json"), encoding="utf-8") as file:
+        table = json.load(file)
+    width, height = png_size(os.path.join(directory, folder, "sheet.png"))
+    methods = ", ".join(f"<code>{html.escape(method)}</code>" for method in sheet.methods)
+    caption = f"<p>{text(sheet.caption)}</p>\n" if sheet.caption else ""
+    names = ["sheet.png", "table.json", "table.csv", "table.md"]
+    names += sorted(name for name in os.listdir(os.path.join(directory, folder)) if name.endswith(".exr"))
+    links = " · ".join(f'<a href="{folder}/{name}">{name}</a>' for name in names)
+    alternative = html.escape(f"{sheet.scene}: {', '.join(sheet.methods)}")
+    return f"""<section class="sheet" id="{figure.name}-{sheet.name}">
+{caption}<dl><dt>Scene</dt><dd><code>{sheet.scene}</code></dd><dt>Methods</dt><dd>{methods}</dd></dl>
+<a href="{folder}/sheet.png"><img src="{folder}/sheet.png" width="{width}" height="{height}" alt="{alternative}"></a>
+{numbers(table)}
+<pre>{html.escape(shlex.join(["quadrille", *sheet.command(folder, size)]))}</pre>
+<p class="links">{links}</p>
+</section>"""
+
+
+def figure_article(figure, size, directory):
+    sheets = "\n".join(sheet_section(figure, sheet, size, directory) for sheet in figure.sheet)
+    return f"""<article id="{figure.name}">
+<h3>{text(figure.number)}: {text(figure.title)}</h3>
+<dl><dt>The paper’s figure</dt><dd>{text(figure.shows)}</dd><dt>Look for</dt><dd>{text(figure.look)}</dd></dl>
+{sheets}
+</article>"""
+
+
+def page(papers, figures, size, directory):
+    contents, chapters = [], []
+    for paper in papers:
+        own = [figure for figure in figures if figure.paper == paper.key]
+        if not own:
+            continue
+        items = "\n".join(f'<li><a href="#{figure.name}">{text(figure.number)}: {text(figure.title)}</a></li>' for figure in own)
+        contents.append(f'<h4><a href="#{paper.key}">{text(paper.title)}</a></h4>\n<ul>\n{items}\n</ul>')
+        where = f' (<code>{html.escape(paper.link)}</code>)' if paper.link else ""
+        chapters.append(f'<h2 id="{paper.key}">{text(paper.title)}</h2>\n<p>{text(paper.source)}{where}</p>\n' +
+                        "\n".join(figure_article(figure, size, directory) for figure in own))
+    nav, body = "\n".join(contents), "\n".join(chapters)
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>Figures of the papers</title>
+<style>{STYLE}</style>
+</head>
+<body>
+<h1>Figures of the papers</h1>
+<p>The papers’ figures of rendered quads, drawn again by <code>quadrille compare</code>: one column for each method. The first row of a sheet is the picture, the
+second the difference of the attributes from <code>refine:20</code> (20 × 20 bilinear refinement), the third the difference from the truth
+(mean value coordinates of the whole quad with 113-bit significands). A click on a sheet opens it in full size.</p>
+<p>In the tables, a crease is the largest change of an attribute’s slope from one pixel to the next, in attribute per picture side, within 4
+pixels of the middle half of a quad’s diagonal; a smooth method has a small one that halves when the picture doubles, a split keeps its own. Differences are of attributes: (u, v), colour or normal. Quads and triangles are what the method sets up. The commands write
+relative to the folder of this page.</p>
+<nav>
+{nav}
+</nav>
+{body}
+</body>
+</html>
+"""
+
+
+def write_page(path, content):
+    """Whole or not at all."""
+    handle, temporary = tempfile.mkstemp(dir=os.path.dirname(path), prefix=".index-")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(content)
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+# ---- program --------------------------------------------------------------------------------------------------------------------------
+
+
+def chosen(figures, names):
+    known = {figure.name for figure in figures}
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise InputError(f"--only {' '.join(unknown)}: no such figure; there are {' '.join(figure.name for figure in figures)}")
+    return [figure for figure in figures if not names or figure.name in names]
+
+
+def size_of(argument):
+    if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", argument):
+        raise argparse.ArgumentTypeError(f"'{argument}' is not WxH, such as 512x512")
+    return argument
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadrille", metavar="PATH", default=os.path.join(ROOT, "build/release/quadrille"), help="the program")
+    parser.add_argument("--out", metavar="DIR", default=os.path.join(ROOT, "build/figures"), help="default build/figures")
+    parser.add_argument("--only", metavar="NAME", nargs="+", action="extend", default=[], help="figures, by their names in figures.toml")
+    parser.add_argument("--size", metavar="WxH", type=size_of, default="512x512", help="viewport in pixels, default 512x512")
+    parser.add_argument("--keep-exr", action="store_true", help="keep METHOD.exr of every sheet, 14 MB each at 512x512")
+    args = parser.parse_args()
+    try:
+        papers, figures = read_table()
+        figures = chosen(figures, args.only)
+        out = os.path.abspath(args.out)
+        os.makedirs(out, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=out, prefix=".figures-") as aside:
+            draw(os.path.abspath(args.quadrille), figures, args.size, args.keep_exr, aside)
+            content = page(papers, figures, args.size, aside)
+            move_into_place(figures, aside, out)
+        write_page(os.path.join(out, "index.html"), content)
+    except (InputError, OSError) as error:
+        print(f"figures.py: {error}", file=sys.stderr)
+        return 2
+    except CommandError as error:
+        print(f"figures.py: {error}", file=sys.stderr)
+        return 1
+    print(f"{os.path.join(out, 'index.html')}: {len(figures)} figures", file=sys.stderr)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Sets everything up and renders every figure of the papers into build/figures, with index.html to look at.
+#   scripts/figures.sh                       all figures
+#   scripts/figures.sh --only oliveira13 …   any options of scripts/figures.py
+set -euo pipefail
+caller=$PWD
+source "$(dirname "$0")/setup.sh"
+install_packages
+build release quadrille
+cd "$caller"  # file names are the caller's
+exec "$root/scripts/figures.py" --quadrille "$root/build/release/quadrille" "$@"

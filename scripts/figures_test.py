@@ -1,0 +1,216 @@
+#!/usr/bin/python3
+"""Tests of figures.py: its table against the program and the papers, what it draws, and that a failure leaves the folder alone.
+
+  scripts/figures_test.py PATH_TO_QUADRILLE
+"""
+import html.parser
+import importlib.util
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SCRIPT = os.path.join(HERE, "figures.py")
+PYTHON = "/usr/bin/python3"
+PROGRAM = None
+
+# The numbered figures of each paper that show a rendered quad.
+FIGURES = {"Hormann & Tarini": [1, 6, 7, 8, 9, 10, 11], "Bloomenthal": [1, 2, 3, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15],
+           "Oliveira": [12, 13, 14, 15, 16]}
+
+
+def load_script():
+    spec = importlib.util.spec_from_file_location("figures", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["figures"] = module  # dataclasses look their module up
+    spec.loader.exec_module(module)
+    return module
+
+
+figures = load_script()
+
+
+def run(*arguments, program=None):
+    return subprocess.run([PYTHON, SCRIPT, "--quadrille", program or PROGRAM, *arguments], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          check=False)
+
+
+def quadrille(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=True).stdout
+
+
+class Page(html.parser.HTMLParser):
+    """What a page links to, shows, and can be jumped to; fails on tags that do not match."""
+    VOID = {"meta", "img", "link", "br"}
+
+    def __init__(self, content):
+        super().__init__()
+        self.links, self.images, self.ids, self.open = [], [], [], []
+        self.feed(content)
+        self.close()
+        if self.open:
+            raise AssertionError(f"not closed: {self.open}")
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        self.links += [attrs["href"]] if "href" in attrs else []
+        self.images += [attrs["src"]] if "src" in attrs else []
+        self.ids += [attrs["id"]] if "id" in attrs else []
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            raise AssertionError(f"</{tag}> at {self.getpos()}")
+
+
+class Table(unittest.TestCase):
+    def setUp(self):
+        self.papers, self.figures = figures.read_table()
+
+    def test_every_figure_of_the_papers(self):
+        for title, numbers in FIGURES.items():
+            key, = [paper.key for paper in self.papers if paper.title.startswith(title)]
+            self.assertEqual([figure.number for figure in self.figures if figure.paper == key], [f"Figure {n}" for n in numbers], title)
+        self.assertIn("mit", [figure.paper for figure in self.figures])
+        self.assertLessEqual({figure.paper for figure in self.figures}, {paper.key for paper in self.papers})
+
+    def test_names_are_unique(self):
+        names = [figure.name for figure in self.figures]
+        self.assertEqual(len(names), len(set(names)))
+        for figure in self.figures:
+            self.assertRegex(figure.name, r"^[a-z_]+\d+$")
+            sheets = [sheet.name for sheet in figure.sheet]
+            self.assertTrue(sheets and len(sheets) == len(set(sheets)), figure.name)
+
+    def test_every_figure_is_described(self):
+        for figure in self.figures:
+            self.assertTrue(figure.title and len(figure.shows) > 40 and len(figure.look) > 40, figure.name)
+            self.assertEqual((figure.shows + figure.look).count("`") % 2, 0, figure.name)
+
+    def test_the_program_knows_every_scene(self):
+        paper_of = {scene["name"]: scene["paper"] for scene in json.loads(quadrille("scenes", "--json"))}
+        titles = {paper.key: paper.title.split(":")[0] for paper in self.papers}
+        for figure in self.figures:
+            for sheet in figure.sheet:
+                self.assertIn(sheet.scene, paper_of, figure.name)
+            # The program's own title of the scene names the same figure.
+            if figure.paper != "mit":
+                source = f"{titles[figure.paper]}, fig. {figure.number.removeprefix('Figure ')}"
+                self.assertIn(source, {paper_of[sheet.scene] for sheet in figure.sheet}, figure.name)
+
+    def test_every_scene_of_a_figure_is_drawn(self):
+        drawn = {sheet.scene for figure in self.figures for sheet in figure.sheet}
+        for scene in json.loads(quadrille("scenes", "--json")):
+            if "fig." in scene["paper"]:
+                self.assertIn(scene["name"], drawn)
+
+    def test_the_program_knows_every_method(self):
+        listing = quadrille("compare", "--help").split("Methods (--methods", 1)[1].split("\n\n", 1)[0]
+        known = set(re.findall(r"^  ([a-z]\w*) ", listing, re.MULTILINE))
+        self.assertIn("mvc", known)
+        used = {method.split(":")[0] for figure in self.figures for sheet in figure.sheet for method in sheet.methods}
+        self.assertLessEqual(used, known)
+
+
+class Command(unittest.TestCase):
+    def test_options_of_a_sheet(self):
+        sheet = figures.Sheet("sphere", ["split02", "refine:20"])
+        plain = "compare --scene sphere --methods split02,refine:20 --size 96x64 --crease-sizes 96 --repeats 1 --cell 256"
+        self.assertEqual(sheet.command("a/b", "96x64"), f"{plain} --out a/b --quiet".split())
+        for field, value, option in [("wireframe", True, "--wireframe"), ("perspective", False, "--no-perspective"), ("shade", "normal", "--shade normal")]:
+            sheet = figures.Sheet("sphere", ["split02", "refine:20"], **{field: value})
+            self.assertEqual(sheet.command("a/b", "96x64"), f"{plain} {option} --out a/b --quiet".split())
+
+
+class Drawing(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.out = folder.name
+
+    def path(self, *parts):
+        return os.path.join(self.out, *parts)
+
+    def read(self, *parts):
+        with open(self.path(*parts), encoding="utf-8") as file:
+            return file.read()
+
+    def files(self):
+        return sorted(os.path.relpath(os.path.join(folder, name), self.out) for folder, _, names in os.walk(self.out) for name in names)
+
+    def draw(self, *arguments, **keywords):
+        return run("--out", self.out, "--size", "64x64", *arguments, **keywords)
+
+    def test_pages_and_links(self):
+        # Between them: two sheets of one scene, a wireframe, no perspective correction, methods with knobs, values that are missing.
+        names = ["bloomenthal14", "hormann_tarini7", "oliveira15"]
+        done = self.draw("--only", *names)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        content = self.read("index.html")
+        page = Page(content)
+        chosen = [figure for figure in figures.read_table()[1] if figure.name in names]
+        self.assertEqual(len(chosen), 3)
+        self.assertEqual(len(page.ids), len(set(page.ids)))
+        wanted = ["index.html"]
+        for figure in chosen:
+            self.assertIn(figure.name, page.ids)
+            self.assertIn(f"#{figure.name}", page.links)
+            self.assertIn(figures.text(figure.shows), content)
+            self.assertIn(figures.text(figure.look), content)
+            for sheet in figure.sheet:
+                folder = f"{figure.name}/{sheet.name}"
+                wanted += [f"{folder}/{name}" for name in ("sheet.png", "table.json", "table.csv", "table.md")]
+                self.assertIn(f"{folder}/sheet.png", page.images)
+                # The command on the page is the one that the program says it was given.
+                command = json.loads(self.read(folder, "table.json"))["command"]
+                self.assertIn(f"<pre>{figures.html.escape(command)}</pre>", content)
+        self.assertEqual(self.files(), sorted(wanted))
+        for link in page.links + page.images:
+            self.assertNotRegex(link, r"^(\w+:|/)")
+            target = link[1:] if link.startswith("#") else None
+            self.assertTrue(target in page.ids if target else os.path.isfile(self.path(link)), link)
+        self.assertNotRegex(content, r"<script|<link|@import|url\(")
+        for method in json.loads(self.read("bloomenthal14/bloomenthal14_a/table.json"))["methods"]:
+            self.assertIn(f"<td>{method['method']}</td><td>{method['covered']:,}</td>", content)
+
+    def test_only_replaces_the_page_and_its_own_figures(self):
+        self.assertEqual(self.draw("--only", "bloomenthal3").returncode, 0)
+        self.assertEqual(self.draw("--only", "bloomenthal1", "--keep-exr").returncode, 0)
+        self.assertNotIn('id="bloomenthal3"', self.read("index.html"))
+        self.assertIn("bloomenthal3/bloomenthal3_trapezoid/sheet.png", self.files())
+        self.assertIn("bloomenthal1/bloomenthal1/mvc.exr", self.files())
+        self.assertIn("bloomenthal1/bloomenthal1/mvc.exr", Page(self.read("index.html")).links)
+
+    def test_a_failure_leaves_the_folder_alone(self):
+        self.assertEqual(self.draw("--only", "bloomenthal3").returncode, 0)
+        before = {name: os.stat(self.path(name)).st_mtime_ns for name in self.files()}
+        # Draws the first two commands and refuses the third.
+        failing = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "failing")
+        with open(failing, "w", encoding="utf-8") as file:
+            file.write(f'#!/bin/sh\ncase "$*" in *bloomenthal14_c*) echo "no luck" >&2; exit 5;; esac\nexec "{PROGRAM}" "$@"\n')
+        os.chmod(failing, 0o755)
+        for status, message, arguments, program in [
+                (2, "nonsense: no such figure; there are hormann_tarini1", ["--only", "bloomenthal3", "nonsense"], PROGRAM),
+                (2, "no-such-program: No such file", ["--only", "bloomenthal3"], self.path("no-such-program")),
+                (2, "is not WxH", ["--size", "64", "--only", "bloomenthal3"], PROGRAM),
+                (1, "bloomenthal14_c", ["--only", "bloomenthal3", "bloomenthal14"], failing)]:
+            with self.subTest(message):
+                done = self.draw(*arguments, program=program)
+                self.assertEqual(done.returncode, status)
+                self.assertIn(message, done.stderr)
+                self.assertNotIn("Traceback", done.stderr)
+                self.assertEqual({name: os.stat(self.path(name)).st_mtime_ns for name in self.files()}, before)
+        self.assertIn("no luck", done.stderr)
+        self.assertIn("exit status 5", done.stderr)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: scripts/figures_test.py PATH_TO_QUADRILLE")
+    PROGRAM = os.path.abspath(sys.argv.pop())
+    unittest.main()
