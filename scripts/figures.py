@@ -223,8 +223,9 @@ def page(papers, figures, size, directory):
 second the difference of the attributes from <code>refine:20</code> (20 × 20 bilinear refinement), the third the difference from the truth
 (mean value coordinates of the whole quad with 113-bit significands). A click on a sheet opens it in full size.</p>
 <p>In the tables, a crease is the largest change of an attribute’s slope from one pixel to the next, in attribute per picture side, within 4
-pixels of the middle half of a quad’s diagonal; a smooth method has a small one that halves when the picture doubles, a split keeps its own. Differences are of attributes: (u, v), colour or normal. Quads and triangles are what the method sets up. The commands write
-relative to the folder of this page.</p>
+pixels of the middle half of a quad’s diagonal; a smooth method has a small one that halves when the picture doubles, a split keeps its own.
+Differences are of attributes: (u, v), colour or normal. Quads and triangles are what the method sets up. The commands write relative to the
+folder of this page.</p>
 <nav>
 {nav}
 </nav>

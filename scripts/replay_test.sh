@@ -19,12 +19,13 @@ if [ $# -lt 2 ]; then
 fi
 
 failures=0
-# expect STATUS PATTERN DESCRIPTION COMMAND...: the command ends with STATUS and prints PATTERN (an extended regular expression).
+# expect STATUS PATTERN DESCRIPTION COMMAND...: the command ends with STATUS and prints PATTERN (an extended regular expression;
+# empty: anything or nothing).
 expect() {
   local status=$1 pattern=$2 what=$3 got=0
   shift 3
   "$@" >"$work/out" 2>&1 || got=$?
-  if [ "$got" -eq "$status" ] && grep -Eq -- "$pattern" "$work/out"; then
+  if [ "$got" -eq "$status" ] && { [ -z "$pattern" ] || grep -Eq -- "$pattern" "$work/out"; }; then
     echo "ok: $what"
   else
     echo "FAILED: $what: status $got, expected $status and /$pattern/" >&2
@@ -38,7 +39,9 @@ damage() {
   rm -rf "$work/bad"
   cp -r "$set" "$work/bad"
   python3 - "$work/bad/$1" "$2" <<'PYTHON'
+import hashlib
 import json
+import os
 import sys
 
 suite, script = sys.argv[1:]
@@ -72,6 +75,30 @@ def lines_in_manifest(name, change):
 def bits(record):
     with open(f"{suite}/manifest.json", encoding="utf-8") as file:
         return json.load(file)["records"][record]["bits"]
+
+
+def sign(**counts):
+    """Makes sizes, hashes and counts right again, as if the set had been generated so."""
+    def dump(name, value):
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(json.dumps(value, indent=2, ensure_ascii=False) + "\n")
+
+    with open(f"{suite}/manifest.json", encoding="utf-8") as file:
+        manifest = json.load(file)
+    for name, entry in manifest["files"].items():
+        with open(f"{suite}/{name}", "rb") as file:
+            data = file.read()
+        entry.update(sha256=hashlib.sha256(data).hexdigest(), bytes=len(data))
+        if "lines" in entry:
+            entry["lines"] = data.count(b"\n")
+    manifest["counts"].update(counts)
+    dump(f"{suite}/manifest.json", manifest)
+    top = os.path.join(os.path.dirname(suite), "manifest.json")
+    with open(top, encoding="utf-8") as file:
+        manifest = json.load(file)
+    with open(f"{suite}/manifest.json", "rb") as file:
+        manifest["suites"][os.path.basename(suite)]["sha256"] = hashlib.sha256(file.read()).hexdigest()
+    dump(top, manifest)
 
 
 exec(script)
@@ -112,6 +139,18 @@ expect 1 "idle after draw [0-9]+ without the fragment" "a fragment more" $replay
 damage $machine 'write("response.hex", [read("response.hex")[1]] + read("response.hex")[1:])'
 expect 1 "first difference in line 1," "a fragment in the place of another" $replay "$work/bad" $tool --suite $machine
 
+# {draw[16], clock[32], clock_stalled[32]}
+damage $machine 'flip("beats.hex", 4, 32)'
+expect 1 "first difference in line 5 of the beats, draw 0: expected clock" "the clock of a beat" $replay "$work/bad" $tool --suite $machine
+damage $machine 'flip("beats.hex", 4, 0)'
+expect 1 "in line 5 of the beats, draw 0 with stalls: expected clock" "the clock of a beat under stalls" $replay "$work/bad" $tool --suite $machine
+damage $machine 'write("beats.hex", read("beats.hex")[:-1]); lines_in_manifest("beats.hex", -1)'
+expect 2 "beats.hex: [0-9]+ lines, a beat each" "a beat less" $replay "$work/bad" $tool --suite $machine
+for bit in 0 1; do
+  damage $machine "write('stalls.hex', [f'{int(line, 16) & ~(1 << $bit):x}' for line in read('stalls.hex')])"
+  expect 2 "stalls.hex: the pattern never (offers|takes) anything" "a pattern without bit $bit" $replay "$work/bad" $tool --suite $machine
+done
+
 for suite in rsqrt $machine; do
   damage $suite 'write("response.hex", read("response.hex")[:-1])'
   expect 2 "response.hex: [0-9]+ lines, the manifest says" "$suite: a line less" $replay "$work/bad" $tool --suite $suite
@@ -124,10 +163,14 @@ damage rsqrt 'write("stimulus.hex", ["x" + line[1:] for line in read("stimulus.h
 expect 2 "stimulus.hex:1: not a record" "a line that is no number" $replay "$work/bad" $tool --suite rsqrt
 damage rsqrt 'open(f"{suite}/manifest.json", "w").write("{")'
 expect 2 "manifest.json" "half a manifest" $replay "$work/bad" $tool --suite rsqrt
+damage rsqrt 'open(f"{suite}/manifest.json", "w").write("[" * 100000)'
+expect 2 "manifest.json: .*recursion" "a manifest nested deeply" $replay "$work/bad" $tool --suite rsqrt
+damage rsqrt 'os.remove(f"{suite}/manifest.json"); os.mkfifo(f"{suite}/manifest.json")'
+expect 2 "manifest.json: not a regular file" "a pipe as manifest" timeout 20 $replay "$work/bad" $tool --suite rsqrt
 damage rsqrt 'import os; os.remove(f"{suite}/stimulus.hex")'
 expect 2 "stimulus.hex" "a missing file" $replay "$work/bad" $tool --suite rsqrt
 expect 2 "no suite rsqr" "an unknown suite" $replay "$set" $tool --suite rsqr
-expect 2 "nothing to replay" "only a suite without RTL" $replay "$set" $tool --suite snapping
+expect 2 "nothing to replay: snapping has no RTL" "only a suite without RTL" $replay "$set" $tool --suite snapping
 expect 2 "manifest.json" "no set" $replay "$work" $tool
 mkdir "$work/bin"
 ln -s "$(python3 -c 'import sys; print(sys.executable)')" "$work/bin/python3"
@@ -138,6 +181,58 @@ iverilog -g2012 -s replay_stage -o "$work/stage" -DREPLAY_DUT=replay_reciprocal 
   rtl/quadrille_pkg.sv <("$QUADRILLE" config --quiet --emit-tables -) rtl/{reciprocal,table_polynomial,delay_line}.sv tb/replay/replay_{valid,reciprocal,stage}.sv
 expect 1 "reciprocal: no vectors" "the bench itself, without vectors" \
   vvp -N "$work/stage" +suite=reciprocal +stimulus="$set/reciprocal/stimulus.hex" +response="$set/reciprocal/response.hex" +vectors=0
+
+# ---- Through golden verify: damage with right hashes ----
+expect 1 "^quadrille: no vector was compared" "verify: only a suite without RTL" "$QUADRILLE" golden verify "$set" --engine rtl --suite snapping
+damage rsqrt 'flip("response.hex", 2, 0); sign()'
+expect 1 "^rsqrt: [0-9]+ vectors, 1 mismatches" "verify: a bit of a response" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite rsqrt
+damage $machine 'lines = read("response.hex"); write("response.hex", lines + lines[-1:]); sign(vectors=len(lines) + 1)'
+expect 1 "^quadrille: $machine: FAILED" "verify: a run that stops" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite $machine
+damage $machine "write('stalls.hex', ['1'] * len(read('stalls.hex'))); sign()"
+expect 2 "stalls.hex: the pattern never offers" "verify: a pattern that never offers" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite $machine
+
+# ---- The examples ----
+"$QUADRILLE" config --quiet --emit-tables "$work/tables.sv"
+verilator --binary -Wno-fatal --top-module rsqrt_bench --Mdir "$work/obj" rtl/quadrille_pkg.sv "$work/tables.sv" -y rtl golden/examples/rsqrt_bench.sv >"$work/log" 2>&1 ||
+  { cat "$work/log" >&2; exit 1; }
+iverilog -g2012 -o "$work/rsqrt" rtl/quadrille_pkg.sv "$work/tables.sv" rtl/{rsqrt,table_polynomial,delay_line}.sv golden/examples/rsqrt_bench.sv
+vectors=$(wc -l <"$set/rsqrt/stimulus.hex")
+# bench STATUS PATTERN DESCRIPTION DIR VECTORS: under both simulators; Verilator's $fatal aborts.
+bench() {
+  expect "$1" "$2" "example, Icarus: $3" vvp -N "$work/rsqrt" +dir="$4" +vectors="$5"
+  expect $(($1 ? 134 : 0)) "$2" "example, Verilator: $3" bash -c '"$@"; exit $?' bash "$work/obj/Vrsqrt_bench" +dir="$4" +vectors="$5"
+}
+bench 0 "^rsqrt: $vectors vectors, 0 differences" "an intact suite" "$set/rsqrt" "$vectors"
+bench 1 "stimulus.hex: cannot be read" "no suite" "$work/nowhere" "$vectors"
+bench 1 "stimulus.hex: $vectors lines, not $((vectors + 1))" "more vectors than lines" "$set/rsqrt" $((vectors + 1))
+damage rsqrt 'write("response.hex", read("response.hex")[:-1])'
+bench 1 "response.hex: $((vectors - 1)) lines, not $vectors" "a response less" "$work/bad/rsqrt" "$vectors"
+damage rsqrt 'write("response.hex", ["x" + line[1:] for line in read("response.hex")])'
+bench 1 "response.hex:1: no hexadecimal number" "unknown digits" "$work/bad/rsqrt" "$vectors"
+damage rsqrt 'flip("response.hex", -1, 0)'
+bench 1 "rsqrt: failed" "a bit of the last response" "$work/bad/rsqrt" "$vectors"
+
+damage coverage 'open(f"{suite}/manifest.json", "w").write("[" * 100000)'
+expect 2 "manifest.json: nested too deeply" "example in Python: a manifest nested deeply" golden/examples/check_edges_and_weights.py "$work/bad"
+
+# ---- The changelog of the kept set ----
+mkdir "$work/kept"
+echo '{}' >"$work/kept/manifest.json"
+hash=$(sha256sum "$work/kept/manifest.json" | cut -c1-16)
+# changelog STATUS PATTERN DESCRIPTION LINE...
+changelog() {
+  local status=$1 pattern=$2 what=$3
+  shift 3
+  printf '%s\n' '| version | what changed | set |' '|---|---|---|' "$@" >"$work/changelog"
+  expect "$status" "$pattern" "changelog: $what" scripts/golden_changelog.sh "$work/changelog" "$work/kept"
+}
+changelog 0 "" "a new version" "| 10 | second | \`$hash\` |" '| 9 | first | `0123` |'
+changelog 1 "newest line is not of this set: .*$hash" "no line for the set" '| 2 | second | `4567` |' '| 1 | first | `0123` |'
+changelog 1 "newest line is not of this set" "an older line for the set" '| 2 | second | `4567` |' "| 1 | first | \`$hash\` |"
+changelog 1 "version 1 is not larger than version 1" "the same version" "| 1 | second | \`$hash\` |" '| 1 | first | `0123` |'
+changelog 1 "version 1 is not larger than version 2" "a smaller version" "| 1 | second | \`$hash\` |" '| 2 | first | `0123` |'
+changelog 1 "does not say what changed" "no words" "| 2 | | \`$hash\` |" '| 1 | first | `0123` |'
+changelog 1 "has no line" "no lines"
 
 # ---- Faulty RTL: suite, file, line as it is, as it becomes ----
 fault() {

@@ -49,7 +49,13 @@ class Suite:
     """One suite: its manifest, and its vectors as pairs of numbers."""
 
     def __init__(self, folder):
-        self.manifest = json.loads((folder / "manifest.json").read_text())
+        path = folder / "manifest.json"
+        if not path.is_file():
+            raise BadSet(f"{path}: no regular file")
+        try:
+            self.manifest = json.loads(path.read_text())
+        except RecursionError:
+            raise BadSet(f"{path}: nested too deeply for a manifest") from None
         self.name = self.manifest["suite"]
         self.config = self.manifest["config"]
         self.stimulus = Record(self.manifest["records"]["stimulus"])

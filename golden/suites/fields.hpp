@@ -27,7 +27,8 @@ struct LayoutLister {
   RecordLayout layout;
   template <class T>
   void operator()(const FieldType& type, int index, const T&) {
-    layout.add({type.name, index, type.width, 0, type.is_signed, type.fraction_bits, type.unit, type.meaning});
+    layout.add({type.name, index, type.width, 0, type.is_signed, type.fraction_bits, type.unit, type.meaning,
+                std::same_as<T, double> ? "ieee754-binary64" : ""});
   }
 };
 

@@ -22,7 +22,7 @@ static_assert(std::numeric_limits<Real>::digits >= 64, "64-bit integers must fit
 /// Relative rounding of a few operations in Real: 2^-64 each.
 constexpr Real rounding = 0x1p-60L;
 
-const VectorOutcome undefined{VectorOutcome::Kind::undefined, {}};
+const VectorOutcome undefined{VectorOutcome::Kind::undefined, {}, false};
 
 // ---- Verdicts ----
 
@@ -34,6 +34,7 @@ class Judge {
   }
 
   void within(const char* name, int index, Real actual, Real lowest, Real highest) {
+    compared_ = true;
     if (!(actual >= lowest && actual <= highest)) differs(name, index, actual, lowest, highest);
   }
 
@@ -55,12 +56,12 @@ class Judge {
 
   VectorOutcome outcome() const {
     if (!difference_.empty()) return {VectorOutcome::Kind::mismatch, difference_};
-    return {undecided_ ? VectorOutcome::Kind::undefined : VectorOutcome::Kind::match, {}};
+    return {undecided_ ? VectorOutcome::Kind::undefined : VectorOutcome::Kind::match, {}, compared_ || !undecided_};
   }
 
  private:
   std::string difference_;
-  bool undecided_ = false;
+  bool undecided_ = false, compared_ = false;
 };
 
 // ---- Significand numbers ----
@@ -795,6 +796,7 @@ VerifyResult verify_machine(const SuiteReader& reader, unsigned threads) {
           }
           ++part.vectors;
           part.undefined += outcome.kind == VectorOutcome::Kind::undefined;
+          part.uncompared += !outcome.compared;
           if (outcome.kind == VectorOutcome::Kind::mismatch && part.mismatches++ == 0)
             part.first_difference = reader.place("response", line) + ": " + outcome.difference;
           ++line;
@@ -806,6 +808,7 @@ VerifyResult verify_machine(const SuiteReader& reader, unsigned threads) {
         total.vectors += part.vectors;
         total.mismatches += part.mismatches;
         total.undefined += part.undefined;
+        total.uncompared += part.uncompared;
       });
   check_complete(total, reader, draws, threads);
   return total;
@@ -927,8 +930,10 @@ VectorOutcome FloatQuad::check(const Fragment& g) const {
 
   const VectorOutcome shape = judge.outcome();
   if (shape.kind == VectorOutcome::Kind::mismatch) return shape;
-  const VectorOutcome values = is.corners + is.edges > 0 ? undefined : check_values(g);
-  return values.kind == VectorOutcome::Kind::match ? shape : values;
+  VectorOutcome values = is.corners + is.edges > 0 ? undefined : check_values(g);
+  if (values.kind == VectorOutcome::Kind::match) return shape;
+  values.compared = true;  // the shape was
+  return values;
 }
 
 /// The machine's weights lambda' err by at most 2^-(s-3) (times the condition without the notch cure), so an attribute

@@ -1,7 +1,8 @@
 // Golden vectors against floating point: every response evaluated from its stimulus by the mathematics of the stage in
 // long double, without the functions of the model, and held against the stage's bound. Integers and signs are exact
 // wherever long double holds them; significand numbers must lie where truncations as in rtl/README.md section 2 can
-// leave them. Clocks, stall patterns and pictures are not looked at.
+// leave them. Clocks (of fragments and of beats) and stall patterns are not looked at: only the clocked model and the
+// RTL have them.
 #pragma once
 
 #include "golden/reference/paper_float.hpp"
@@ -14,9 +15,10 @@
 
 namespace quadrille::vectors {
 
-/// Every response of a suite; vectors are undefined where floating point has no answer: a decision within rounding of
-/// its threshold, a division by zero of the paper's formulas, an input that snapping refuses. Throws golden::InputError
-/// when the records are not those of the suite.
+/// Every response of a suite; vectors are undefined where floating point has no answer to a field: a decision within
+/// rounding of its threshold, a division by zero of the paper's formulas, an input that snapping refuses. The other
+/// fields are compared (of a fragment always quad, x, y). Throws golden::InputError when the records are not those of
+/// the suite.
 VerifyResult verify_float(const Suite& suite, const SuiteReader& reader, unsigned threads);
 
 /// One vector of the stage suite of that name. Of an undefined one, all that has an answer agrees.

@@ -288,6 +288,34 @@ TEST(FloatEngine, FindsDamagedFragments) {
 
 // ---- On the disk ----
 
+// Pixels in a corner have no value in the paper's formulas; what they are and whose is compared all the same.
+TEST(FloatEngine, UndefinedFragmentsAreComparedAsFarAsTheyGo) {
+  const Config config;
+  const DrawState state = tb::small_state(config);
+  SnappedQuad quad = tb::random_quads(config, state, 1, 1).front();
+  // A square with its corners on the pixel centres (10, 10) to (20, 20), front to the eye.
+  const std::int32_t unit = std::int32_t{1} << config.frac(), at[4][2] = {{10, 20}, {20, 20}, {20, 10}, {10, 10}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    quad.vertex[i].x = at[i][0] * unit;
+    quad.vertex[i].y = at[i][1] * unit;
+    quad.vertex[i].w = unit;
+  }
+  std::vector<Fragment> corners;
+  UntimedModel(config, state).draw(quad, [&](std::span<const Fragment> drawn) {
+    for (const Fragment& g : drawn)
+      if ((g.flags & flag_on_vertex) != 0) corners.push_back(g);
+  });
+  ASSERT_FALSE(corners.empty());
+  const FloatQuad real(quad, config, state);
+  for (Fragment g : corners) {
+    const VectorOutcome outcome = real.check(g);
+    EXPECT_EQ(outcome.kind, Kind::undefined);
+    EXPECT_TRUE(outcome.compared);
+    g.front = !g.front;
+    EXPECT_EQ(real.check(g).kind, Kind::mismatch);
+  }
+}
+
 TEST(FloatEngine, VerifiesSets) {
   const std::filesystem::path directory =
       std::filesystem::path(testing::TempDir()) / ("float_engine_" + std::to_string(getpid()));
@@ -297,7 +325,7 @@ TEST(FloatEngine, VerifiesSets) {
   options.limit = 600;
   const std::vector<const Suite*> list{stage_suites()[7], machine.front().get()};
   {
-    SetWriter writer(directory, {1, 1, options.config, "test"}, false);
+    SetWriter writer(directory, {1, 1, options.config, options.limit}, false);
     for (const Suite* suite : list) writer.add(suite->info(), [&](SuiteWriter& out) { suite->write(out, options); });
     writer.commit(false);
   }
@@ -320,7 +348,7 @@ TEST(FloatEngine, VerifiesSets) {
     SetWriter writer(copy, set.info(), false);
     writer.add(whole.info(), [&](SuiteWriter& out) {
       out.set_count("vectors", whole.lines("response"));
-      for (const char* role : {"states", "stalls", "stimulus", "response"}) {
+      for (const char* role : {"states", "stalls", "stimulus", "beats", "response"}) {
         out.add_record(role, whole.layout(role));
         std::uint64_t line = 0;
         for (const Record& record : whole.read(role, 0, whole.lines(role))) {

@@ -19,14 +19,14 @@ std::vector<StallClock> make_stalls(std::uint64_t seed, std::size_t length) {
   return stalls;
 }
 
-std::vector<TimedFragment> run_machine(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
-                                       std::span<const StallClock> stalls) {
+MachineRun run_machine(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
+                       std::span<const StallClock> stalls) {
   ClockedModel model(config, state);
   ClockedInputs reset;
   reset.reset = true;
   model.clock(reset);
 
-  std::vector<TimedFragment> fragments;
+  MachineRun run;
   ClockedInputs inputs;
   std::size_t next = 0;  // beat
   const std::size_t beats = 4 * quads.size();
@@ -41,9 +41,10 @@ std::vector<TimedFragment> run_machine(std::span<const SnappedQuad> quads, const
     inputs.vertex_valid = offered;
     inputs.fragment_ready = now.ready;
     const ClockedOutputs out = model.comb(inputs);
-    if (out.fragment_valid && now.ready) fragments.push_back({out.fragment, clock});
-    if (next == beats && !out.busy) return fragments;
+    if (out.fragment_valid && now.ready) run.fragments.push_back({out.fragment, clock});
+    if (next == beats && !out.busy) return run;
     if (offered && out.vertex_ready) {
+      run.taken.push_back(clock);
       ++next;
       offered = false;
     }

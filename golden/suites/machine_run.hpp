@@ -25,9 +25,14 @@ struct TimedFragment {
   std::uint32_t clock = 0;  ///< in which it is handed over
 };
 
+struct MachineRun {
+  std::vector<TimedFragment> fragments;
+  std::vector<std::uint32_t> taken;  ///< the clock in which each vertex beat is taken, four a quad
+};
+
 /// Draws the quads from reset. Clock 0 is the first clock after it; the first beat is offered in it. A beat stays on
 /// offer until it is taken. `stalls` is used cyclically from clock 0; empty: never a stall.
-std::vector<TimedFragment> run_machine(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
-                                       std::span<const StallClock> stalls);
+MachineRun run_machine(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
+                       std::span<const StallClock> stalls);
 
 }  // namespace quadrille::vectors

@@ -2,6 +2,7 @@
 
 #include "golden/io/error.hpp"
 #include "golden/io/exr.hpp"
+#include "golden/io/image_diff.hpp"
 #include "golden/scenes/stress.hpp"
 #include "golden/suites/fields.hpp"
 #include "golden/suites/machine_run.hpp"
@@ -11,9 +12,15 @@
 #include "tb/random_quads.hpp"
 #include "tb/render/parallel.hpp"
 
+#include <stdlib.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <string>
@@ -105,15 +112,27 @@ void visit_fragment_record(F&& f, const Config& c, FragmentRecord& r) {
       c.attribute_slots, [&](std::size_t i) -> auto& { return g.attribute[i]; });
 }
 
+/// A line for each line of stimulus.hex.
+struct BeatRecord {
+  std::uint32_t draw = 0, clock = 0, clock_stalled = 0;
+};
+
+template <class F>
+void visit_beat_record(F&& f, const Config&, BeatRecord& r) {
+  f(draw_field, -1, r.draw);
+  f({"clock", 32, false, {}, "clocks", "the beat is taken in this clock of the draw, without stalls"}, -1, r.clock);
+  f({"clock_stalled", 32, false, {}, "clocks", "the same with the pattern of stalls.hex"}, -1, r.clock_stalled);
+}
+
 template <class F>
 void visit_stall_record(F&& f, const Config&, StallClock& r) {
   f({"offer", 1, false, {}, "", "a beat may be offered from this clock on"}, -1, r.offer);
   f({"ready", 1, false, {}, "", "a fragment is taken in this clock"}, -1, r.ready);
 }
 
-/// The four records of a machine suite for one configuration.
+/// The records of a machine suite for one configuration.
 struct Layouts {
-  RecordLayout state, vertex, fragment, stall;
+  RecordLayout state, vertex, beat, fragment, stall;
 
   explicit Layouts(const Config& config) {
     const auto list = [&](auto&& visit, auto record) {
@@ -123,6 +142,7 @@ struct Layouts {
     };
     state = list([](auto& f, const Config& c, StateRecord& r) { visit_state_record(f, c, r); }, StateRecord{});
     vertex = list([](auto& f, const Config& c, VertexRecord& r) { visit_vertex_record(f, c, r); }, VertexRecord{});
+    beat = list([](auto& f, const Config& c, BeatRecord& r) { visit_beat_record(f, c, r); }, BeatRecord{});
     fragment =
         list([](auto& f, const Config& c, FragmentRecord& r) { visit_fragment_record(f, c, r); }, FragmentRecord{});
     stall = list([](auto& f, const Config& c, StallClock& r) { visit_stall_record(f, c, r); }, StallClock{});
@@ -131,14 +151,27 @@ struct Layouts {
 
 // ---- Draws ----
 
-/// A draw cut off after the quad with which it has `limit` fragments, or after `limit` quads, never before the first.
-MachineDraw limited(MachineDraw draw, const Config& config, std::uint64_t limit) {
+/// Cuts a draw off after the quad with which it has `limit` fragments, or after `limit` quads, never before the first;
+/// with `some`, not before its first fragment either. Returns how many fragments it has.
+std::uint64_t limit_draw(MachineDraw& draw, const Config& config, std::uint64_t limit, bool some) {
   UntimedModel model(config, draw.state);
   std::size_t count = 0;
-  while (count < std::min<std::uint64_t>(draw.quads.size(), limit) && model.stats().fragments < limit)
-    model.draw(draw.quads[count++], [](std::span<const Fragment>) {});
+  const auto go_on = [&] {
+    const std::uint64_t fragments = model.stats().fragments;
+    return fragments < limit && (count < limit || (some && fragments == 0));
+  };
+  while (count < draw.quads.size() && go_on()) model.draw(draw.quads[count++], [](std::span<const Fragment>) {});
   draw.quads.resize(count);
-  return draw;
+  return model.stats().fragments;
+}
+
+/// How many quads of a draw have ids of their own.
+std::size_t most_quads(const Config& config) { return std::size_t{1} << config.quad_id_bits; }
+
+[[noreturn]] void refuse_empty(const std::string& suite, const GenerateOptions& options, std::size_t quads) {
+  throw golden::InputError("suite " + suite + ": the first " + std::to_string(quads) +
+                           " quads draw no fragment with this seed and configuration (limit " +
+                           std::to_string(options.limit) + "); a set without vectors proves nothing");
 }
 
 std::uint64_t fragment_limit(const GenerateOptions& options) {
@@ -171,8 +204,12 @@ std::vector<MachineDraw> every_state(const GenerateOptions& options) {
   add([](DrawState& s) { s.skip = 0; });
   std::vector<MachineDraw> draws;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    MachineDraw draw{states[i], tb::random_quads(options.config, states[i], options.seed + i, 2000)};
-    draws.push_back(limited(std::move(draw), options.config, fragment_limit(options) / states.size() + 1));
+    const auto count = static_cast<int>(std::min<std::size_t>(2000, most_quads(options.config)));
+    draws.push_back({states[i], tb::random_quads(options.config, states[i], options.seed + i, count)});
+    // The other states may draw nothing, such as that with an empty scissor rectangle.
+    const std::uint64_t fragments =
+        limit_draw(draws.back(), options.config, fragment_limit(options) / states.size() + 1, i == 0);
+    if (i == 0 && fragments == 0) refuse_empty("machine", options, draws.back().quads.size());
   }
   return draws;
 }
@@ -181,43 +218,114 @@ std::vector<MachineDraw> stress_draw(golden::StressFamily family, const Generate
   MachineDraw draw;
   draw.state = picture_state(options.config);
   const std::uint64_t limit = fragment_limit(options);
-  // Small families need many quads.
-  const std::size_t count = std::max<std::size_t>(16, static_cast<std::size_t>(limit / 4));
-  for (const WindowQuad& quad : golden::make_stress(family, count, options.seed, 1, picture_size, picture_size,
-                                                    std::max(4, draw.state.attributes)))
-    draw.quads.push_back(snap_quad(quad, options.config, draw.state));
-  return {limited(std::move(draw), options.config, limit)};
+  // Small families need many quads, and with a small limit the first ones may miss every pixel.
+  const std::size_t most = most_quads(options.config);
+  for (std::size_t count : {std::max<std::size_t>(16, static_cast<std::size_t>(limit / 4)), std::size_t{4096}}) {
+    count = std::min(count, most);
+    draw.quads.clear();
+    for (const WindowQuad& quad : golden::make_stress(family, count, options.seed, 1, picture_size, picture_size,
+                                                      std::max(4, draw.state.attributes)))
+      draw.quads.push_back(snap_quad(quad, options.config, draw.state));
+    if (limit_draw(draw, options.config, limit, true) > 0) return {std::move(draw)};
+  }
+  refuse_empty("stress_" + std::string(golden::stress_family_name(family)), options, draw.quads.size());
 }
 
 // ---- Pictures ----
 
-/// Depth-tested (or in order, with depth off); weights as far as there are slots for them, colours from the weights.
-golden::FrameImage picture(const MachineDraw& draw, const std::vector<TimedFragment>& fragments, const Config& config) {
-  golden::FrameImage image(draw.state.width, draw.state.height);
-  const auto channels = std::min<std::size_t>(4, static_cast<std::size_t>(draw.state.attributes));
-  for (const TimedFragment& timed : fragments) {
-    const Fragment& g = timed.fragment;
-    const std::size_t at = image.index(g.x, g.y);
-    const auto z = static_cast<float>(std::ldexp(static_cast<double>(g.depth), -config.depth_bits));
-    if (draw.state.depth && !(z < image.z[at])) continue;
-    if (draw.state.depth) image.z[at] = z;
-    image.quad[at] = g.quad;
-    image.a[at] = 1;
-    for (std::size_t j = 0; j < channels; ++j)
-      image.lambda[j][at] =
-          static_cast<float>(std::ldexp(static_cast<double>(g.attribute[j]), -config.attribute_frac()));
+/// A draw's picture: depth-tested (or in order, with depth off); weights as far as there are slots for them, colours
+/// from the weights.
+class Picture {
+ public:
+  Picture(const DrawState& state, const Config& config)
+      : state_(state), config_(config), image_(picture_state(config).width, picture_state(config).height) {}
+
+  const golden::FrameImage& image() const { return image_; }
+  bool holds(const Fragment& g) const { return g.x < image_.width && g.y < image_.height; }
+
+  void draw(const Fragment& g) {
+    const std::size_t at = image_.index(g.x, g.y);
+    const auto z = static_cast<float>(std::ldexp(static_cast<double>(g.depth), -config_.depth_bits));
+    if (state_.depth && !(z < image_.z[at])) return;
+    if (state_.depth) image_.z[at] = z;
+    image_.quad[at] = g.quad;
+    image_.a[at] = 1;
+    for (std::size_t j = 0; j < std::min<std::size_t>(4, static_cast<std::size_t>(state_.attributes)); ++j)
+      image_.lambda[j][at] =
+          static_cast<float>(std::ldexp(static_cast<double>(g.attribute[j]), -config_.attribute_frac()));
     // Corner colours black, red, green, blue.
-    image.r[at] = image.lambda[1][at];
-    image.g[at] = image.lambda[2][at];
-    image.b[at] = image.lambda[3][at];
+    image_.r[at] = image_.lambda[1][at];
+    image_.g[at] = image_.lambda[2][at];
+    image_.b[at] = image_.lambda[3][at];
   }
-  return image;
-}
+
+ private:
+  const DrawState& state_;
+  const Config& config_;
+  golden::FrameImage image_;
+};
+
+std::string picture_name(std::size_t draw) { return "image_" + std::to_string(draw) + ".exr"; }
+
+/// A file that disappears at the end of the scope.
+struct TemporaryFile {
+  std::string path = (std::filesystem::temp_directory_path() / "quadrille_picture.XXXXXX").string();
+  TemporaryFile() {
+    const int fd = ::mkstemp(path.data());
+    if (fd < 0) throw golden::InputError(path + ": cannot be made: " + std::strerror(errno));
+    ::close(fd);
+  }
+  ~TemporaryFile() { ::unlink(path.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+};
 
 /// Both runs of a draw.
 struct DrawRun {
-  std::vector<TimedFragment> free, stalled;
+  MachineRun free, stalled;
 };
+
+/// The expected lines of a draw, in the order of beats.hex and response.hex.
+template <class Sink>
+void beat_lines(std::size_t draw, const DrawRun& run, const Config& config, const RecordLayout& layout, Sink&& sink) {
+  for (std::size_t n = 0; n < run.free.taken.size(); ++n) {
+    BeatRecord record{static_cast<std::uint32_t>(draw), run.free.taken[n], run.stalled.taken[n]};
+    RecordPacker pack(layout.bits());
+    visit_beat_record(pack, config, record);
+    sink(pack.take());
+  }
+}
+
+template <class Sink>
+void fragment_lines(std::size_t draw, const DrawRun& run, const Config& config, const RecordLayout& layout,
+                    Sink&& sink) {
+  for (std::size_t n = 0; n < run.free.fragments.size(); ++n) {
+    FragmentRecord record{static_cast<std::uint32_t>(draw), run.free.fragments[n].clock, run.stalled.fragments[n].clock,
+                          run.free.fragments[n].fragment};
+    RecordPacker pack(layout.bits());
+    visit_fragment_record(pack, config, record);
+    sink(pack.take());
+  }
+}
+
+/// Holds the lines of a file against the expected ones.
+void compare_lines(const SuiteReader& reader, const std::string& role, const RecordLayout& layout,
+                   const std::vector<Record>& expected, const char* what, VerifyResult& total) {
+  const std::vector<Record> given = reader.read(role, 0, reader.lines(role));
+  for (std::size_t n = 0; n < std::max(given.size(), expected.size()); ++n) {
+    std::string difference;
+    if (n >= expected.size())
+      difference = std::string("the machine has no such ") + what;
+    else if (n >= given.size())
+      difference = std::string("the file ends here, but the machine has another ") + what;
+    else
+      difference = first_difference(layout, expected[n], given[n]);
+    if (difference.empty()) continue;
+    if (total.mismatches++ == 0)
+      total.first_difference =
+          reader.place(role, std::min<std::uint64_t>(n, given.empty() ? 0 : given.size() - 1)) + ": " + difference;
+  }
+}
 
 DrawRun run_draw(const MachineDraw& draw, const Config& config, std::span<const StallClock> stalls) {
   return {run_machine(draw.quads, config, draw.state, {}), run_machine(draw.quads, config, draw.state, stalls)};
@@ -231,6 +339,7 @@ void MachineSuite::write(SuiteWriter& writer, const GenerateOptions& options) co
   writer.add_record("states", layouts.state);
   writer.add_record("stalls", layouts.stall);
   writer.add_record("stimulus", layouts.vertex);
+  writer.add_record("beats", layouts.beat);
   writer.add_record("response", layouts.fragment);
 
   const std::vector<StallClock> stalls = make_stalls(options.seed, stall_clocks);
@@ -257,17 +366,13 @@ void MachineSuite::write(SuiteWriter& writer, const GenerateOptions& options) co
             visit_vertex_record(pack, config, beat);
             writer.write("stimulus", pack.take());
           }
-        for (std::size_t n = 0; n < run.free.size(); ++n) {
-          FragmentRecord record{static_cast<std::uint32_t>(i), run.free[n].clock, run.stalled[n].clock,
-                                run.free[n].fragment};
-          RecordPacker pack(layouts.fragment.bits());
-          visit_fragment_record(pack, config, record);
-          writer.write("response", pack.take());
-        }
+        beat_lines(i, run, config, layouts.beat, [&](const Record& line) { writer.write("beats", line); });
+        fragment_lines(i, run, config, layouts.fragment, [&](const Record& line) { writer.write("response", line); });
         quads += draw.quads.size();
-        fragments += run.free.size();
-        golden::save_exr(writer.add_file("image_" + std::to_string(i) + ".exr").string(),
-                         picture(draw, run.free, config));
+        fragments += run.free.fragments.size();
+        Picture picture(draw.state, config);
+        for (const TimedFragment& timed : run.free.fragments) picture.draw(timed.fragment);
+        golden::save_exr(writer.add_file(picture_name(i)).string(), picture.image());
       });
   writer.set_count("vectors", fragments);
   writer.set_count("draws", draws.size());
@@ -280,6 +385,7 @@ std::vector<MachineDraw> read_draws(const SuiteReader& reader) {
   for (const auto& [role, layout] : {std::pair<const char*, const RecordLayout*>{"states", &layouts.state},
                                      {"stalls", &layouts.stall},
                                      {"stimulus", &layouts.vertex},
+                                     {"beats", &layouts.beat},
                                      {"response", &layouts.fragment}})
     require_layout(reader, role, *layout);
   const auto whole = [&](const char* role) { return reader.read(role, 0, reader.lines(role)); };
@@ -347,36 +453,56 @@ VerifyResult MachineSuite::verify(const SuiteReader& reader, unsigned threads) c
     throw golden::InputError(reader.place("stalls", 0) +
                              ": the pattern never offers or never takes anything; the machine would wait for ever");
 
-  VerifyResult total;
-  std::vector<Record> expected;
+  std::vector<Record> beats, fragments;
   cli::ordered_parallel(
       draws.size(), threads, [&](std::size_t i) { return run_draw(draws[i], config, stalls); },
       [&](std::size_t i, const DrawRun& run) {
-        for (std::size_t n = 0; n < run.free.size(); ++n) {
-          FragmentRecord record{static_cast<std::uint32_t>(i), run.free[n].clock, run.stalled[n].clock,
-                                run.free[n].fragment};
-          RecordPacker pack(layouts.fragment.bits());
-          visit_fragment_record(pack, config, record);
-          expected.push_back(pack.take());
-        }
+        beat_lines(i, run, config, layouts.beat, [&](Record line) { beats.push_back(std::move(line)); });
+        fragment_lines(i, run, config, layouts.fragment, [&](Record line) { fragments.push_back(std::move(line)); });
       });
-  const std::vector<Record> given = whole("response");
-  total.vectors = std::max(given.size(), expected.size());
-  for (std::size_t n = 0; n < total.vectors; ++n) {
-    std::string difference;
-    if (n >= expected.size())
-      difference = "the machine draws no such fragment";
-    else if (n >= given.size())
-      difference = "the file ends here, but the machine draws more";
-    else
-      difference = first_difference(layouts.fragment, expected[n], given[n]);
-    if (difference.empty()) continue;
-    if (total.mismatches++ == 0)
-      total.first_difference =
-          reader.place("response", std::min<std::uint64_t>(n, given.empty() ? 0 : given.size() - 1)) + ": " +
-          difference;
-  }
+  VerifyResult total;
+  total.vectors = std::max<std::uint64_t>(reader.lines("response"), fragments.size());
+  compare_lines(reader, "response", layouts.fragment, fragments, "fragment", total);
+  compare_lines(reader, "beats", layouts.beat, beats, "beat", total);
   return total;
+}
+
+void MachineSuite::require(const SuiteReader& reader) const {
+  const std::size_t draws = read_draws(reader).size();
+  std::vector<std::string> pictures;
+  for (std::size_t i = 0; i < draws; ++i) pictures.push_back(picture_name(i));
+  require_files(reader, {"states", "stalls", "stimulus", "beats", "response"}, pictures);
+  require_counts(reader,
+                 {{"vectors", reader.lines("response")}, {"draws", draws}, {"quads", reader.lines("stimulus") / 4}});
+}
+
+std::string MachineSuite::picture_difference(const SuiteReader& reader) const {
+  const Config& config = reader.set().config;
+  const std::vector<MachineDraw> draws = read_draws(reader);
+  std::vector<Picture> pictures;
+  for (const MachineDraw& draw : draws) pictures.emplace_back(draw.state, config);
+  std::uint64_t line = 0;
+  for (const DrawnFragment& drawn : read_fragments(reader, 0, reader.lines("response"))) {
+    if (drawn.draw >= draws.size() || !pictures[drawn.draw].holds(drawn.fragment))
+      return reader.place("response", line) + ": a fragment outside of every picture";
+    pictures[drawn.draw].draw(drawn.fragment);
+    ++line;
+  }
+  const TemporaryFile again;
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    golden::save_exr(again.path, pictures[i].image());
+    const std::string given = (reader.directory() / picture_name(i)).string();
+    if (digest_file(again.path).sha256 == reader.manifest().at("files").at(picture_name(i)).at("sha256")) continue;
+    const golden::ImageDiff diff = golden::diff_images(golden::load_exr(again.path), golden::load_exr(given),
+                                                       "the picture of the fragments", given);
+    for (const golden::ChannelDiff& channel : diff.channels)
+      if (channel.count > 0)
+        return given + ": channel " + channel.name + ": " + std::to_string(channel.count) +
+               " pixels are not those of the fragments, the worst at (" + std::to_string(channel.x) + ", " +
+               std::to_string(channel.y) + ")";
+    return given + ": is not written as this program writes the picture of the fragments";
+  }
+  return {};
 }
 
 void add_machine_suites(std::vector<std::unique_ptr<Suite>>& suites) {

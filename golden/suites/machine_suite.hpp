@@ -1,4 +1,5 @@
-// Suites of the whole machine: vertex beats and states in, fragments with their clocks out, and pictures.
+// Suites of the whole machine: vertex beats and states in, fragments with their clocks out, the clocks in which beats
+// are taken, and pictures.
 #pragma once
 
 #include "golden/suites/suite.hpp"
@@ -30,7 +31,7 @@ std::vector<DrawnFragment> read_fragments(const SuiteReader& reader, std::uint64
 
 class MachineSuite : public Suite {
  public:
-  /// The draws of a generation; about GenerateOptions::limit fragments in all, or the level's number.
+  /// The draws of a generation: quads until they make GenerateOptions::limit fragments in all, or the level's number.
   using Draws = std::function<std::vector<MachineDraw>(const GenerateOptions&)>;
 
   MachineSuite(SuiteInfo info, Draws draws) : info_(std::move(info)), draws_(std::move(draws)) {}
@@ -38,6 +39,8 @@ class MachineSuite : public Suite {
   const SuiteInfo& info() const override { return info_; }
   void write(SuiteWriter& writer, const GenerateOptions& options) const override;
   VerifyResult verify(const SuiteReader& reader, unsigned threads) const override;
+  void require(const SuiteReader& reader) const override;
+  std::string picture_difference(const SuiteReader& reader) const override;
 
  private:
   SuiteInfo info_;

@@ -2,6 +2,7 @@
 #include "golden/suites/machine_suite.hpp"
 
 #include "golden/io/error.hpp"
+#include "golden/io/test_support.hpp"
 #include "golden/suites/machine_run.hpp"
 #include "model/untimed.hpp"
 #include "tb/lockstep.hpp"
@@ -28,7 +29,7 @@ TEST(MachineRun, FragmentsAreThoseOfTheUntimedModel) {
   const std::vector<StallClock> stalls = make_stalls(3, 257);
   for (const std::span<const StallClock> pattern :
        {std::span<const StallClock>(), std::span<const StallClock>(stalls)}) {
-    const std::vector<TimedFragment> run = run_machine(quads, config, state, pattern);
+    const std::vector<TimedFragment> run = run_machine(quads, config, state, pattern).fragments;
     ASSERT_EQ(run.size(), expected.size());
     std::uint32_t before = 0;
     for (std::size_t i = 0; i < run.size(); ++i) {
@@ -50,7 +51,7 @@ TEST(MachineRun, FirstFragmentOfOneQuad) {
   const Config config;
   DrawState state = tb::small_state(config);
   const std::vector<SnappedQuad> quads = tb::random_quads(config, state, 1, 1);
-  const std::vector<TimedFragment> run = run_machine(quads, config, state, {});
+  const std::vector<TimedFragment> run = run_machine(quads, config, state, {}).fragments;
   ASSERT_FALSE(run.empty());
   tb::LockstepOptions options;
   options.config = config;
@@ -59,6 +60,32 @@ TEST(MachineRun, FirstFragmentOfOneQuad) {
   EXPECT_EQ(alone.fragments, run.size());
   EXPECT_LT(run.back().clock, alone.cycles);
   EXPECT_GE(run.back().clock + 4, alone.cycles) << "the end beat follows the last pixel";
+}
+
+TEST(MachineRun, ClocksOfTheBeats) {
+  // An idle machine takes the four beats of a quad as they come: in clocks 0 to 3, or in the first four that offer.
+  const Config config;
+  const DrawState state = tb::small_state(config);
+  const std::vector<SnappedQuad> quads = tb::random_quads(config, state, 7, 40);
+  const std::vector<StallClock> stalls{{true, true},  {false, true}, {false, false}, {true, true},
+                                       {true, false}, {false, true}, {true, true}};
+  const std::vector<std::uint32_t> free = run_machine(quads, config, state, {}).taken;
+  const std::vector<std::uint32_t> stalled = run_machine(quads, config, state, stalls).taken;
+  ASSERT_EQ(free.size(), 4 * quads.size());
+  ASSERT_EQ(stalled.size(), 4 * quads.size());
+  EXPECT_EQ(std::vector(free.begin(), free.begin() + 4), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(std::vector(stalled.begin(), stalled.begin() + 4), (std::vector<std::uint32_t>{0, 3, 4, 6}));
+  for (std::size_t i = 1; i < free.size(); ++i) {
+    ASSERT_GT(free[i], free[i - 1]);
+    ASSERT_GT(stalled[i], stalled[i - 1]);
+    // Between two beats there is a clock that offered the second.
+    bool offered = false;
+    for (std::uint32_t clock = stalled[i - 1] + 1; clock <= stalled[i]; ++clock)
+      offered = offered || stalls[clock % stalls.size()].offer;
+    ASSERT_TRUE(offered) << i;
+  }
+  // The machine holds few quads, so a later beat waits for an earlier quad.
+  EXPECT_GT(free.back(), free.size());
 }
 
 TEST(MachineRun, StallsStallBothSides) {
@@ -84,6 +111,74 @@ TEST(MachineSuites, OneForTheMachineAndOneForEachFamily) {
   EXPECT_EQ(names.size(), 23u);
   EXPECT_TRUE(names.contains("machine"));
   EXPECT_TRUE(names.contains("stress_bowtie"));
+}
+
+class MachineSet : public golden::InDirectory {
+ protected:
+  /// A set of one suite; its reader.
+  SuiteReader generate(const std::string& name, const GenerateOptions& options) const {
+    SetWriter writer(path(name), {options.level, options.seed, options.config, options.limit}, false);
+    writer.add(find_suite(name).info(), [&](SuiteWriter& out) { find_suite(name).write(out, options); });
+    writer.commit(false);
+    return SetReader(path(name)).suite(name);
+  }
+};
+
+TEST_F(MachineSet, NoMoreQuadsThanIds) {
+  GenerateOptions options;
+  options.config.set("quad_id_bits", 8);
+  for (const char* name : {"machine", "stress_tiny"}) {
+    const SuiteReader reader = generate(name, options);
+    EXPECT_TRUE(find_suite(name).verify(reader, 2).ok());
+    std::size_t most = 0;
+    for (const MachineDraw& draw : read_draws(reader)) most = std::max(most, draw.quads.size());
+    EXPECT_LE(most, 256u);
+    if (name == std::string("stress_tiny")) {
+      EXPECT_EQ(most, 256u) << "3000 fragments take more quads than that";
+    }
+  }
+}
+
+TEST_F(MachineSet, EvenTheSmallestHasAFragment) {
+  GenerateOptions options;
+  options.limit = 1;
+  for (const auto& suite : suites()) {
+    if (suite->info().kind != "machine") continue;
+    const SuiteReader reader = generate(suite->info().name, options);
+    EXPECT_GT(reader.lines("response"), 0u) << suite->info().name;
+    EXPECT_TRUE(suite->verify(reader, 2).ok()) << suite->info().name;
+  }
+}
+
+// Wrong clocks of beats under right hashes.
+TEST_F(MachineSet, WrongBeatsAreFound) {
+  GenerateOptions options;
+  options.limit = 40;
+  const SuiteReader whole = generate("stress_bowtie", options);
+  for (const char* field : {"draw", "clock", "clock_stalled"}) {
+    SCOPED_TRACE(field);
+    {
+      SetWriter writer(path(field), {1, 1, options.config, options.limit}, false);
+      writer.add(whole.info(), [&](SuiteWriter& out) {
+        out.set_count("vectors", whole.lines("response"));
+        for (const std::string& role : whole.roles()) {
+          out.add_record(role, whole.layout(role));
+          std::uint64_t line = 0;
+          for (Record record : whole.read(role, 0, whole.lines(role))) {
+            const RecordField* const damaged =
+                role == "beats" && ++line == 3 ? &whole.layout(role).field(field) : nullptr;
+            if (damaged != nullptr) record.set(*damaged, record.get(*damaged) ^ 1);
+            out.write(role, record);
+          }
+        }
+      });
+      writer.commit(false);
+    }
+    const VerifyResult result = find_suite("stress_bowtie").verify(SetReader(path(field)).suite("stress_bowtie"), 1);
+    EXPECT_EQ(result.mismatches, 1u);
+    EXPECT_NE(result.first_difference.find(std::string("beats.hex:3: ") + field), std::string::npos)
+        << result.first_difference;
+  }
 }
 
 }  // namespace

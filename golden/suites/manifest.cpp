@@ -5,11 +5,17 @@
 #include "golden/io/json_report.hpp"
 #include "golden/io/text_input.hpp"
 
+#include <fcntl.h>
 #include <stdlib.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 namespace quadrille::vectors {
@@ -103,6 +109,32 @@ void only_keys(const std::string& file, const Json& object, std::initializer_lis
           file, 0, "has " + golden::in_quotes(key) + ", which is unknown in format " + std::to_string(format_version));
 }
 
+std::string generator() { return "quadrille " + std::string(golden::program_version()); }
+
+/// Limit and configuration that a command names. Throws golden::InputError unless it is a command of this program.
+SetInfo read_command(const std::string& file, const std::string& command) {
+  SetInfo info;
+  std::istringstream words(command);
+  const auto refuse = [&](const std::string& what) -> void { throw input_error(file, 0, "\"command\" " + what); };
+  for (const char* expected : {"quadrille", "golden", "generate"})
+    if (std::string word; !(words >> word) || word != expected) refuse("is no \"quadrille golden generate\"");
+  for (std::string option, value; words >> option;) {
+    words >> value;
+    if (option == "--limit") {
+      const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), info.limit);
+      if (error != std::errc{} || end != value.data() + value.size()) refuse("has no number as --limit");
+    } else if (option == "--set") {
+      const std::size_t equals = value.find('=');
+      int number = 0;
+      const char *first = value.data() + std::min(equals, value.size() - 1) + 1, *last = value.data() + value.size();
+      if (equals == std::string::npos || std::from_chars(first, last, number).ptr != last)
+        refuse("has no KEY=VALUE behind --set");
+      info.config.set(value.substr(0, equals), number);
+    }
+  }
+  return info;
+}
+
 void require_format(const std::string& file, const Json& manifest) {
   const Json& format = member(file, manifest, "format");
   if (!format.is_number_integer() || format != format_version)
@@ -111,13 +143,15 @@ void require_format(const std::string& file, const Json& manifest) {
                           std::to_string(format_version));
 }
 
-/// Level, seed, configuration: what set and suites share.
-SetInfo read_set_info(const std::string& file, const Json& manifest) {
+/// Level, seed, configuration: what set and suites share. `suites`: what the command has behind them.
+SetInfo read_set_info(const std::string& file, const Json& manifest, std::string& suites) {
   SetInfo info;
-  text_member(file, manifest, "generator");
+  if (const std::string given = text_member(file, manifest, "generator"); given != generator())
+    throw input_error(file, 0,
+                      "\"generator\" is " + golden::in_quotes(given) + "; this program checks sets of " + generator());
   info.level = small_member(file, manifest, "level", 1, 2);
   info.seed = count_member(file, manifest, "seed");
-  info.command = text_member(file, manifest, "command");
+  const std::string command = text_member(file, manifest, "command");
   const Json& config = object_member(file, manifest, "config");
   try {
     for (const auto& [key, value] : config.items()) {
@@ -132,6 +166,21 @@ SetInfo read_set_info(const std::string& file, const Json& manifest) {
   if (config != config_json(info.config)) throw input_error(file, 0, "config does not hold every key, in order");
   if (object_member(file, manifest, "derived") != derived_json(info.config))
     throw input_error(file, 0, "\"derived\" does not follow from \"config\"");
+
+  // The command is spelled in one way, from the values as they were given: those of `config` are resolved.
+  SetInfo named;
+  try {
+    named = read_command(file, command);
+  } catch (const ConfigError& error) {
+    throw input_error(file, 0, "\"command\": " + golden::printable(error.what()));
+  }
+  named.level = info.level;
+  named.seed = info.seed;
+  info.limit = named.limit;
+  const std::string spelled = set_command(named);
+  if (!command.starts_with(spelled) || config_json(named.config) != config)
+    throw input_error(file, 0, "\"command\" does not generate this level, seed and configuration");
+  suites = command.substr(spelled.size());
   return info;
 }
 
@@ -141,7 +190,8 @@ RecordLayout read_layout(const std::string& file, const std::string& role, const
   if (!fields.is_array() || fields.empty()) throw input_error(file, 0, "record " + role + " has no fields");
   for (const Json& f : fields) {
     if (!f.is_object()) throw input_error(file, 0, "a field of record " + role + " is no object");
-    only_keys(file, f, {"name", "index", "width", "position", "signed", "fraction_bits", "unit", "meaning"});
+    only_keys(file, f,
+              {"name", "index", "width", "position", "signed", "encoding", "fraction_bits", "unit", "meaning"});
     RecordField field;
     field.name = text_member(file, f, "name");
     if (f.contains("index")) field.index = small_member(file, f, "index", 0, 1 << 20);
@@ -149,6 +199,7 @@ RecordLayout read_layout(const std::string& file, const std::string& role, const
     const Json& is_signed = member(file, f, "signed");
     if (!is_signed.is_boolean()) throw input_error(file, 0, "\"signed\" is not true or false");
     field.is_signed = is_signed.get<bool>();
+    if (f.contains("encoding")) field.encoding = text_member(file, f, "encoding");
     if (f.contains("fraction_bits")) field.fraction_bits = small_member(file, f, "fraction_bits", -4096, 4096);
     field.unit = text_member(file, f, "unit");
     field.meaning = text_member(file, f, "meaning");
@@ -172,7 +223,7 @@ RecordLayout read_layout(const std::string& file, const std::string& role, const
 }
 
 /// The names in a directory, sorted. Throws when something else than regular files (`directories` false) or
-/// directories, or a name that is not plain, is there; `manifest.json` is left out.
+/// directories is there, a link too; `manifest.json` is left out.
 std::set<std::string> entries(const fs::path& directory, bool directories) {
   std::set<std::string> names;
   std::error_code error;
@@ -180,7 +231,8 @@ std::set<std::string> entries(const fs::path& directory, bool directories) {
     const std::string name = entry->path().filename().string();
     std::error_code unused;
     const bool is_manifest = name == manifest_name;
-    if (is_manifest || !directories ? !entry->is_regular_file(unused) : !entry->is_directory(unused))
+    const fs::file_status status = entry->symlink_status(unused);
+    if (is_manifest || !directories ? !fs::is_regular_file(status) : !fs::is_directory(status))
       throw input_error((directory / golden::printable(name)).string(), 0, "does not belong to the set");
     if (!is_manifest) names.insert(name);
   }
@@ -197,6 +249,15 @@ void require_names(const fs::path& directory, const std::set<std::string>& found
       throw input_error((directory / golden::printable(name)).string(), 0, "does not belong to the set");
 }
 
+/// The text of a manifest, which must be a regular file: others might never end.
+std::string read_manifest(const fs::path& path, std::string_view what) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw input_error(path.string(), 0, "is no regular file; expected " + std::string(what));
+  return golden::read_file(path.string(), what);
+}
+
 /// "… --suite NAME".
 std::string with_suite(const std::string& command, const std::string& suite) { return command + " --suite " + suite; }
 
@@ -208,9 +269,71 @@ Json common_entries(const SetInfo& set, const std::string& command) {
           {"derived", derived_json(set.config)}};
 }
 
-std::string generator() { return "quadrille " + std::string(golden::program_version()); }
+/// The marks of a temporary directory for the set `name`: ".NAME.golden-" and six characters.
+std::string temporary_prefix(const fs::path& target) { return "." + target.filename().string() + ".golden-"; }
+constexpr std::size_t random_characters = 6;
+
+/// A lock that ends with the process, or -1 when another process has it.
+int lock_directory(const fs::path& directory) {
+  const int fd = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) == 0) return fd;
+  if (fd >= 0) ::close(fd);
+  return -1;
+}
+
+/// Removes what runs for the same set left that were killed. What the commit set aside goes once the new set is there.
+void remove_stale(const fs::path& target) {
+  const std::string prefix = temporary_prefix(target);
+  std::error_code error;
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator entry(target.parent_path(), error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(prefix)) continue;
+    const std::string rest = name.substr(prefix.size());
+    if (rest.size() == random_characters ||
+        (rest.size() == random_characters + 4 && rest.ends_with(".old") && fs::exists(target, error)))
+      stale.push_back(entry->path());
+  }
+  for (const fs::path& directory : stale)
+    if (const int lock = lock_directory(directory); lock >= 0) {
+      fs::remove_all(directory, error);
+      ::close(lock);
+    }
+}
+
+/// Where a set named `directory` goes, links resolved. Throws for what cannot become a set.
+fs::path resolve_target(const fs::path& directory) {
+  std::error_code error;
+  if (fs::is_symlink(directory, error) && !fs::exists(directory, error))
+    throw input_error(directory.string(), 0, "is a symbolic link to nothing");
+  const fs::path target = fs::weakly_canonical(fs::absolute(directory), error);
+  if (error) fail(directory, "cannot be found", error);
+  if (!fs::exists(target, error)) return target;
+  if (!fs::is_directory(target, error)) throw input_error(directory.string(), 0, "is no directory");
+  // Both would be found out by the renaming at the end only.
+  const fs::path current = fs::current_path(error);
+  if (std::mismatch(target.begin(), target.end(), current.begin(), current.end()).first == target.end())
+    throw input_error(directory.string(), 0,
+                      "is or holds the current directory, which cannot be replaced; name another one");
+  struct stat own {
+  }, above{};
+  if (::stat(target.c_str(), &own) == 0 && ::stat(target.parent_path().c_str(), &above) == 0 &&
+      own.st_dev != above.st_dev)
+    throw input_error(directory.string(), 0, "is a mount point, which cannot be replaced; name a directory in it");
+  return target;
+}
 
 }  // namespace
+
+std::string set_command(const SetInfo& info) {
+  std::string command =
+      "quadrille golden generate --level " + std::to_string(info.level) + " --seed " + std::to_string(info.seed);
+  if (info.limit > 0) command += " --limit " + std::to_string(info.limit);
+  for (const ConfigKey& key : Config::keys())
+    if (const int value = info.config.get(key.name); value != key.standard)
+      command += " --set " + std::string(key.name) + "=" + std::to_string(value);
+  return command;
+}
 
 Json to_json(const RecordLayout& layout) {
   Json fields = Json::array();
@@ -221,6 +344,7 @@ Json to_json(const RecordLayout& layout) {
     field["width"] = f.width;
     field["position"] = f.position;
     field["signed"] = f.is_signed;
+    if (!f.encoding.empty()) field["encoding"] = f.encoding;
     if (f.fraction_bits) field["fraction_bits"] = *f.fraction_bits;
     field["unit"] = f.unit;
     field["meaning"] = f.meaning;
@@ -278,8 +402,6 @@ void SuiteWriter::set_count(const std::string& what, std::uint64_t count) { coun
 
 std::uint64_t SuiteWriter::count(const std::string& what) const { return counts_.value(what, std::uint64_t{0}); }
 
-void SuiteWriter::set_entry(const std::string& key, Json value) { entries_[key] = std::move(value); }
-
 std::string SuiteWriter::finish() {
   Json files = Json::object(), records = Json::object();
   for (const std::string& role : roles_) {
@@ -297,11 +419,10 @@ std::string SuiteWriter::finish() {
   Json manifest = {{"format", format_version}, {"generator", generator()},  {"suite", info_.name},
                    {"kind", info_.kind},       {"title", info_.title},      {"module", info_.module},
                    {"latency", info_.latency}, {"contract", info_.contract}};
-  manifest.update(common_entries(set_, with_suite(set_.command, info_.name)));
+  manifest.update(common_entries(set_, with_suite(set_command(set_), info_.name)));
   manifest["files"] = std::move(files);
   manifest["records"] = std::move(records);
   manifest["counts"] = counts_;
-  manifest.update(entries_);
   const std::string text = manifest_text(manifest);
   golden::write_file((directory_ / manifest_name).string(), text, golden::AtomicFile::Dash::refused);
   return sha256(text);
@@ -313,10 +434,10 @@ SetWriter::SetWriter(fs::path directory, SetInfo info, bool replace)
     : directory_(std::move(directory)), info_(std::move(info)) {
   if (directory_.empty()) throw InputError("a set of vectors needs a directory");
   if (directory_.filename().empty()) directory_ = directory_.parent_path();  // a slash at the end
+  target_ = resolve_target(directory_);
   std::error_code error;
-  if (fs::exists(directory_, error)) {
-    if (!fs::is_directory(directory_, error)) throw input_error(directory_.string(), 0, "is no directory");
-    const bool empty = fs::is_empty(directory_, error);
+  if (fs::exists(target_, error)) {
+    const bool empty = fs::is_empty(target_, error);
     if (error) fail(directory_, "cannot be listed", error);
     if (!empty && !replace)
       throw input_error(directory_.string(), 0,
@@ -326,7 +447,7 @@ SetWriter::SetWriter(fs::path directory, SetInfo info, bool replace)
       const SetReader old(directory_);
       for (const std::string& suite : old.suites()) {
         const std::string file = (directory_ / suite / manifest_name).string();
-        const Json manifest = parse_manifest(file, golden::read_file(file, "the manifest of a suite"));
+        const Json manifest = parse_manifest(file, read_manifest(file, "the manifest of a suite"));
         const Json& files = object_member(file, manifest, "files");
         for (const std::string& name : entries(directory_ / suite, false))
           if (!files.contains(name))
@@ -334,12 +455,14 @@ SetWriter::SetWriter(fs::path directory, SetInfo info, bool replace)
       }
     }
   }
-  const fs::path parent = fs::absolute(directory_, error).parent_path();
+  const fs::path parent = target_.parent_path();
   fs::create_directories(parent, error);
   if (error) fail(parent, "cannot be made", error);
-  std::string pattern = (parent / ("." + directory_.filename().string() + ".XXXXXX")).string();
+  remove_stale(target_);
+  std::string pattern = (parent / (temporary_prefix(target_) + std::string(random_characters, 'X'))).string();
   if (::mkdtemp(pattern.data()) == nullptr) fail(parent, "cannot be written to", {errno, std::generic_category()});
   temporary_ = pattern;
+  lock_ = lock_directory(temporary_);
   fs::permissions(temporary_,
                   fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
                       fs::perms::others_exec,
@@ -349,6 +472,7 @@ SetWriter::SetWriter(fs::path directory, SetInfo info, bool replace)
 SetWriter::~SetWriter() {
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void SetWriter::add(const SuiteInfo& suite, const std::function<void(SuiteWriter&)>& write) {
@@ -360,7 +484,7 @@ void SetWriter::add(const SuiteInfo& suite, const std::function<void(SuiteWriter
 
 void SetWriter::commit(bool complete) {
   if (names_.empty()) throw InputError("no suite was selected; a set without vectors proves nothing");
-  std::string command = info_.command;
+  std::string command = set_command(info_);
   if (!complete)
     for (const std::string& name : names_) command = with_suite(command, name);
   Json manifest = {{"format", format_version}, {"generator", generator()}};
@@ -370,16 +494,16 @@ void SetWriter::commit(bool complete) {
 
   std::error_code error;
   fs::path old;
-  if (fs::exists(directory_, error)) {
+  if (fs::exists(target_, error)) {
     old = temporary_;
     old += ".old";
-    fs::rename(directory_, old, error);
+    fs::rename(target_, old, error);
     if (error) fail(directory_, "cannot be replaced", error);
   }
-  fs::rename(temporary_, directory_, error);
+  fs::rename(temporary_, target_, error);
   if (error) {
     std::error_code ignored;
-    if (!old.empty()) fs::rename(old, directory_, ignored);
+    if (!old.empty()) fs::rename(old, target_, ignored);
     fail(directory_, "cannot be made", error);
   }
   temporary_.clear();
@@ -391,12 +515,15 @@ void SetWriter::commit(bool complete) {
 SuiteReader::SuiteReader(fs::path directory, const std::string& name, const std::string& manifest_sha256)
     : directory_(std::move(directory)) {
   const std::string file = (directory_ / manifest_name).string();
-  const std::string text = golden::read_file(file, "the manifest of a suite");
+  const std::string text = read_manifest(file, "the manifest of a suite");
   if (sha256(text) != manifest_sha256)
     throw input_error(file, 0, "is not the one that the set's manifest names (SHA-256)");
   manifest_ = parse_manifest(file, text);
   require_format(file, manifest_);
   require_canonical(file, text, manifest_);
+  only_keys(file, manifest_,
+            {"format", "generator", "suite", "kind", "title", "module", "latency", "contract", "seed", "level",
+             "command", "config", "derived", "files", "records", "counts"});
   info_ = {text_member(file, manifest_, "suite"),
            text_member(file, manifest_, "kind"),
            text_member(file, manifest_, "title"),
@@ -405,7 +532,9 @@ SuiteReader::SuiteReader(fs::path directory, const std::string& name, const std:
            text_member(file, manifest_, "contract")};
   if (info_.name != name)
     throw input_error(file, 0, "is the manifest of " + golden::in_quotes(info_.name) + ", not of " + name);
-  set_ = read_set_info(file, manifest_);
+  std::string suites;
+  set_ = read_set_info(file, manifest_, suites);
+  if (suites != with_suite("", name)) throw input_error(file, 0, "\"command\" is not that of suite " + name);
   for (const auto& [role, record] : object_member(file, manifest_, "records").items()) {
     if (!record.is_object()) throw input_error(file, 0, "record " + golden::in_quotes(role) + " is no object");
     only_keys(file, record, {"file", "bits", "fields"});
@@ -472,6 +601,12 @@ void SuiteReader::check_hex(const Role& role) const {
                       "has " + std::to_string(lines) + " lines; the manifest says " + std::to_string(role.lines));
 }
 
+std::vector<std::string> SuiteReader::roles() const {
+  std::vector<std::string> names;
+  for (const auto& [name, role] : roles_) names.push_back(name);
+  return names;
+}
+
 const SuiteReader::Role& SuiteReader::role_of(const std::string& role) const {
   const auto found = roles_.find(role);
   if (found == roles_.end())
@@ -509,12 +644,15 @@ SetReader::SetReader(fs::path directory) : directory_(std::move(directory)) {
   std::error_code error;
   if (!fs::is_directory(directory_, error))
     throw input_error(directory_.string(), 0, "is no directory; expected a set of vectors");
-  const std::string text = golden::read_file(file, "the manifest of a set of vectors");
+  const std::string text = read_manifest(file, "the manifest of a set of vectors");
   manifest_ = parse_manifest(file, text);
   require_format(file, manifest_);
   require_canonical(file, text, manifest_);
+  if (manifest_.contains("suite"))
+    throw input_error(file, 0, "is the manifest of one suite; name the directory of its set, which is above");
   only_keys(file, manifest_, {"format", "generator", "seed", "level", "command", "config", "derived", "suites"});
-  info_ = read_set_info(file, manifest_);
+  std::string suites, selected;
+  info_ = read_set_info(file, manifest_, suites);
   std::set<std::string> expected;
   for (const auto& [name, entry] : object_member(file, manifest_, "suites").items()) {
     if (!plain_name(name)) throw input_error(file, 0, golden::in_quotes(name) + " is no name of a suite");
@@ -523,8 +661,12 @@ SetReader::SetReader(fs::path directory) : directory_(std::move(directory)) {
     text_member(file, entry, "sha256");
     expected.insert(name);
     names_.push_back(name);
+    selected = with_suite(selected, name);
   }
   if (names_.empty()) throw input_error(file, 0, "names no suite; a set without vectors proves nothing");
+  says_complete_ = suites.empty();
+  if (!says_complete_ && suites != selected)
+    throw input_error(file, 0, "\"command\" generates other suites than those of the set");
   require_names(directory_, entries(directory_, true), expected);
 }
 
@@ -538,12 +680,10 @@ SuiteReader SetReader::suite(const std::string& name) const {
   for (const char* key : {"generator", "seed", "level", "config", "derived"})
     if (own[key] != manifest_[key])
       throw input_error(file, 0, std::string("\"") + key + "\" differs from that of suite " + name);
-  const std::string suffix = with_suite("", name);
-  const std::string& command = reader.set().command;
-  std::string base = command.substr(0, command.size() - std::min(command.size(), suffix.size()));
-  std::string selected = base;
-  for (const std::string& each : names_) selected = with_suite(selected, each);
-  if (base + suffix != command || (info_.command != base && info_.command != selected))
+  std::string command = own["command"].get<std::string>(), of_set = manifest_["command"].get<std::string>();
+  command.resize(command.size() - with_suite("", name).size());
+  of_set.resize(std::min(of_set.size(), command.size()));
+  if (command != of_set || reader.set().limit != info_.limit)
     throw input_error(file, 0, "\"command\" differs from that of suite " + name);
   return reader;
 }

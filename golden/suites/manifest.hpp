@@ -37,8 +37,12 @@ struct SetInfo {
   int level = 1;
   std::uint64_t seed = 1;
   Config config;
-  std::string command;  ///< that generates the set, without --suite and --out
+  std::uint64_t limit = 0;  ///< GenerateOptions::limit
 };
+
+/// The command that generates a set of every suite, without --out. Each --suite NAME follows it in the order of the
+/// set.
+std::string set_command(const SetInfo& info);
 
 nlohmann::ordered_json to_json(const RecordLayout& layout);
 
@@ -57,12 +61,9 @@ class SuiteWriter {
   void write(const std::string& role, const Record& record);
   /// Where to put another file (a picture) before finish().
   std::filesystem::path add_file(const std::string& name);
-  /// An entry of "counts".
+  /// An entry of "counts". "vectors" must be set.
   void set_count(const std::string& what, std::uint64_t count);
   std::uint64_t count(const std::string& what) const;  ///< as set; 0 when it was not
-  /// A further entry of the manifest, behind the common ones.
-  void set_entry(const std::string& key, nlohmann::ordered_json value);
-
   const SetInfo& set() const { return set_; }
 
   /// Writes manifest.json; returns its SHA-256.
@@ -82,14 +83,16 @@ class SuiteWriter {
   std::vector<std::string> roles_;  ///< in the order in which they were announced
   std::map<std::string, HexFile> hex_;
   std::vector<std::string> files_;
-  nlohmann::ordered_json counts_ = nlohmann::ordered_json::object(), entries_ = nlohmann::ordered_json::object();
+  nlohmann::ordered_json counts_ = nlohmann::ordered_json::object();
 };
 
-/// Writes a set: everything goes to a temporary directory beside `directory`, which commit() puts in its place.
+/// Writes a set: everything goes to a temporary directory beside `directory`, which commit() puts in its place. A
+/// symbolic link is followed.
 class SetWriter {
  public:
   /// Throws golden::InputError when `directory` exists and is not empty, unless `replace` is set and it holds a set and
-  /// nothing else.
+  /// nothing else; when it cannot be replaced by another directory (the current one, a mount point); and when it is a
+  /// link to nothing. Removes the temporary directories that killed runs for the same directory left.
   SetWriter(std::filesystem::path directory, SetInfo info, bool replace);
   ~SetWriter();
   SetWriter(const SetWriter&) = delete;
@@ -103,7 +106,10 @@ class SetWriter {
   void commit(bool complete);
 
  private:
-  std::filesystem::path directory_, temporary_;
+  std::filesystem::path directory_;  ///< as given, for messages
+  std::filesystem::path target_;     ///< where it goes, links resolved
+  std::filesystem::path temporary_;
+  int lock_ = -1;  ///< on the temporary directory, for as long as this process lives
   SetInfo info_;
   std::vector<std::string> names_;
   nlohmann::ordered_json suites_ = nlohmann::ordered_json::object();
@@ -117,10 +123,12 @@ class SuiteReader {
 
   const nlohmann::ordered_json& manifest() const { return manifest_; }
   const SuiteInfo& info() const { return info_; }
-  const SetInfo& set() const { return set_; }  ///< the command is the suite's own
+  const SetInfo& set() const { return set_; }
   const std::filesystem::path& directory() const { return directory_; }
+  std::string manifest_file() const { return (directory_ / "manifest.json").string(); }  ///< for messages
 
   bool has(const std::string& role) const { return roles_.contains(role); }
+  std::vector<std::string> roles() const;  ///< in the order of names
   /// Throws golden::InputError when the manifest has no such record.
   const RecordLayout& layout(const std::string& role) const { return role_of(role).layout; }
   std::uint64_t lines(const std::string& role) const { return role_of(role).lines; }
@@ -147,13 +155,16 @@ class SuiteReader {
 };
 
 /// A set on the disk. The constructor checks the set's manifest and that the directory holds its suites and nothing
-/// else; suite() checks a suite.
+/// else; suite() checks a suite. Symbolic links inside a set are refused.
 class SetReader {
  public:
   explicit SetReader(std::filesystem::path directory);
 
   const SetInfo& info() const { return info_; }
   const std::vector<std::string>& suites() const { return names_; }
+  /// The command names no suite, so the set must have every suite there is.
+  bool says_complete() const { return says_complete_; }
+  std::string manifest_file() const { return (directory_ / "manifest.json").string(); }  ///< for messages
   /// Throws golden::InputError for a name that the set does not have, and for every damage of the suite.
   SuiteReader suite(const std::string& name) const;
 
@@ -162,6 +173,7 @@ class SetReader {
   SetInfo info_;
   nlohmann::ordered_json manifest_;
   std::vector<std::string> names_;
+  bool says_complete_ = false;
 };
 
 }  // namespace quadrille::vectors

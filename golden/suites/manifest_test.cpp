@@ -4,6 +4,8 @@
 #include "golden/scenes/prng.hpp"
 #include "golden/suites/suite.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <map>
 
@@ -21,7 +23,7 @@ class Set : public golden::InDirectory {
     o.limit = 30;
     return o;
   }
-  static SetInfo info() { return {1, 1, Config{}, "quadrille golden generate --limit 30"}; }
+  static SetInfo info() { return {1, 1, Config{}, 30}; }
 
   void generate(const std::string& name, const std::vector<std::string>& suite_names, bool replace = false,
                 unsigned threads = 1) const {
@@ -71,10 +73,13 @@ TEST_F(Set, ReadsBackWhatWasWritten) {
   const SetReader set(path("set"));
   EXPECT_EQ(set.suites(), (std::vector<std::string>{"rsqrt", "coverage", "depth"}));
   EXPECT_EQ(set.info().level, 1);
-  EXPECT_EQ(set.info().command, "quadrille golden generate --limit 30 --suite rsqrt --suite coverage --suite depth");
+  EXPECT_EQ(set.info().limit, 30u);
+  EXPECT_EQ(set_command(info()), "quadrille golden generate --level 1 --seed 1 --limit 30");
+  EXPECT_FALSE(set.says_complete());
   for (const std::string& name : set.suites()) {
     const SuiteReader reader = set.suite(name);
-    EXPECT_EQ(reader.set().command, "quadrille golden generate --limit 30 --suite " + name);
+    EXPECT_EQ(reader.manifest()["command"], "quadrille golden generate --level 1 --seed 1 --limit 30 --suite " + name);
+    EXPECT_NO_THROW(require_known(reader));
     EXPECT_GT(reader.lines("stimulus"), 20u);
     EXPECT_EQ(reader.lines("stimulus"), reader.lines("response"));
     const VerifyResult result = find_suite(name).verify(reader, 1);
@@ -166,7 +171,15 @@ TEST_F(Set, DamageOfManifestsIsNamed) {
   EXPECT_EQ(with("\"significand_bits\": 18", "\"significand_bits\": 19").find(set + ": "), 0u);
   EXPECT_EQ(with("\"significand_bits\": 18", "\"significand_bits\": 99").find(set + ": config: "), 0u);
   EXPECT_EQ(with("\"significand_bits\"", "\"significant_bits\"").find(set + ": config: unknown configuration key"), 0u);
-  EXPECT_EQ(with("\"seed\": 1", "\"seed\": 3"), set + ": \"seed\" differs from that of suite rsqrt");
+  const std::string other = set + ": \"command\" does not generate this level, seed and configuration";
+  EXPECT_EQ(with("\"seed\": 1", "\"seed\": 3"), other);
+  EXPECT_EQ(with("--seed 1", "--seed 01"), other);
+  EXPECT_EQ(with("--limit 30", "--limit 30 --set significand_bits=12"), other);
+  EXPECT_NE(with("--limit 30", "--limit 30 --set significand_bits=18"), "") << "the default is not spelled";
+  EXPECT_EQ(with("quadrille golden generate", "rm -rf"), set + ": \"command\" is no \"quadrille golden generate\"");
+  EXPECT_EQ(with("--suite coverage", "--suite weights"),
+            set + ": \"command\" generates other suites than those of the set");
+  EXPECT_EQ(with("quadrille 0", "gremlin 0").find(set + ": \"generator\" is \"gremlin 0"), 0u);
   EXPECT_EQ(with("\"seed\": 1", "\"seed\": 1.5"), set + ": \"seed\" is not a whole number from 0");
   EXPECT_EQ(with("\"seed\": 1", "\"seed\": -1"), set + ": \"seed\" is not a whole number from 0");
   EXPECT_EQ(with("\"level\": 1", "\"level\": 7"), set + ": \"level\" is not a whole number from 1 to 2");
@@ -207,6 +220,27 @@ TEST_F(Set, ConsistentNonsenseIsRefused) {
       with("\"file\": \"stimulus.hex\"", "\"file\": \"../x\"").find(manifest + ": record \"stimulus\" has no file"),
       0u);
   EXPECT_EQ(with("\"response.hex\": {", "\"other.hex\": {").find(path("set/rsqrt/")), 0u);
+  EXPECT_EQ(with("\"title\"", "\"notes\": 1,\n  \"title\""),
+            manifest + ": has \"notes\", which is unknown in format 1");
+  EXPECT_EQ(with("--suite rsqrt", "--suite depth"), manifest + ": \"command\" is not that of suite rsqrt");
+  // What a reader takes, but is not what this program says of the suite.
+  const auto known = [&](const std::string& from, const std::string& to) {
+    write("set/rsqrt/manifest.json", text);
+    write("set/manifest.json", top);
+    replace_text("set/rsqrt/manifest.json", from, to);
+    sign("rsqrt");
+    return golden::input_error_of([&] { require_known(SetReader(path("set")).suite("rsqrt")); });
+  };
+  const std::string says = "\" is not what this program says of suite rsqrt";
+  EXPECT_EQ(known("\"kind\": \"stage\"", "\"kind\": \"machine\""), manifest + ": \"kind" + says);
+  EXPECT_EQ(known("\"latency\": 3", "\"latency\": 4"), manifest + ": \"latency" + says);
+  EXPECT_EQ(known("\"module\": \"rsqrt\"", "\"module\": \"rsqrx\""), manifest + ": \"module" + says);
+  EXPECT_EQ(known("\"title\": \"R", "\"title\": \"r"), manifest + ": \"title" + says);
+  EXPECT_EQ(known("\"contract\": \"a", "\"contract\": \"A"), manifest + ": \"contract" + says);
+  EXPECT_EQ(known("\"corner\": 10", "\"corner\": 11").find(manifest + ": \"counts\" should be {"), 0u);
+  EXPECT_EQ(known("\"random\": 10", "\"random\": 9").find(manifest + ": \"counts\" should be {"), 0u);
+  EXPECT_EQ(known("\"vectors\": ", "\"more\": 1,\n    \"vectors\": ").find(manifest + ": \"counts\" should be {"), 0u);
+
   EXPECT_EQ(with("\"VAL_BITS\": 63", "\"VAL_BITS\": 62"), manifest + ": \"derived\" does not follow from \"config\"");
 
   // A wrong response with all hashes right is for verify to find.
@@ -312,6 +346,80 @@ TEST_F(Set, AnUnfinishedSetLeavesNothing) {
   EXPECT_FALSE(fs::exists(path("new")));
 }
 
+// A killed run cannot clean up; the next one does, and leaves what is not its own.
+TEST_F(Set, StaleTemporariesGo) {
+  fs::create_directories(path(".set.golden-a1B2c3/rsqrt"));
+  write(".set.golden-a1B2c3/rsqrt/stimulus.hex", "0\n");
+  fs::create_directory(path(".set.golden-a1B2c3.old"));
+  fs::create_directory(path(".set.golden-a1B2c34"));  // seven characters
+  fs::create_directory(path(".other.golden-a1B2c3"));
+  {
+    SetWriter alive(path("set"), info(), true);
+    EXPECT_FALSE(fs::exists(path(".set.golden-a1B2c3")));
+    EXPECT_FALSE(fs::exists(path(".set.golden-a1B2c3.old")));
+    EXPECT_TRUE(fs::exists(path(".set.golden-a1B2c34")));
+    EXPECT_TRUE(fs::exists(path(".other.golden-a1B2c3")));
+    // Another run for the same set leaves those of this one.
+    generate("set", {"depth"}, true);
+    alive.add(find_suite("rsqrt").info(), [&](SuiteWriter& out) { find_suite("rsqrt").write(out, options()); });
+    alive.commit(false);
+  }
+  EXPECT_EQ(SetReader(path("set")).suites(), std::vector<std::string>{"rsqrt"});
+  // What a commit set aside is all that there is when it was killed before the set was in its place.
+  fs::create_directory(path(".gone.golden-a1B2c3.old"));
+  generate("gone", {"rsqrt"});
+  EXPECT_TRUE(fs::exists(path(".gone.golden-a1B2c3.old")));
+}
+
+TEST_F(Set, LinksLeadToTheSetAndNotOutOfIt) {
+  fs::create_directory(path("target"));
+  fs::create_directory_symlink("target", path("link"));
+  generate("link", {"rsqrt"});
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(SetReader(path("target")).suites(), std::vector<std::string>{"rsqrt"});
+  generate("link", {"depth"}, true);
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(check(path("link")), check(path("target")));
+  fs::create_directory_symlink("nothing", path("dangling"));
+  EXPECT_EQ(golden::input_error_of([&] { generate("dangling", {"rsqrt"}); }),
+            path("dangling") + ": is a symbolic link to nothing");
+
+  for (const char* name : {"set/rsqrt/response.hex", "set/rsqrt/manifest.json", "set/depth", "set/manifest.json"}) {
+    fs::rename(path(name), path("outside"));
+    fs::create_symlink(path("outside"), path(name));
+    EXPECT_EQ(complaint().find(path(name) + ": "), 0u) << complaint();
+    fs::remove(path(name));
+    fs::rename(path("outside"), path(name));
+  }
+  EXPECT_GT(check(path("set")), 0u);
+}
+
+TEST_F(Set, OnlyRegularFilesAreOpened) {
+  for (const char* name : {"set/rsqrt/response.hex", "set/rsqrt/manifest.json", "set/manifest.json"}) {
+    fs::rename(path(name), path("outside"));
+    ASSERT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
+    EXPECT_EQ(complaint().find(path(name) + ": "), 0u);
+    fs::remove(path(name));
+    fs::rename(path("outside"), path(name));
+  }
+}
+
+TEST_F(Set, TheCurrentDirectoryIsNotReplaced) {
+  const fs::path before = fs::current_path();
+  fs::create_directories(path("here/below"));
+  fs::current_path(path("here/below"));
+  for (const char* name : {".", "..", "../"})
+    EXPECT_NE(golden::input_error_of([&] { SetWriter(name, info(), false); }).find("holds the current directory"),
+              std::string::npos);
+  fs::current_path(before);
+}
+
+TEST_F(Set, ASuiteIsNoSet) {
+  EXPECT_EQ(golden::input_error_of([&] { SetReader(path("set/rsqrt")); }),
+            path("set/rsqrt/manifest.json") +
+                ": is the manifest of one suite; name the directory of its set, which is above");
+}
+
 TEST_F(Set, FilesBesideTheRecordsAreGuardedToo) {
   SetWriter writer(path("pictures"), info(), false);
   SuiteInfo suite{"pictures", "machine", "t", "quadrille", 0, ""};
@@ -322,10 +430,10 @@ TEST_F(Set, FilesBesideTheRecordsAreGuardedToo) {
     out.write("stimulus", Record(5));
     std::ofstream(out.add_file("image_0.exr"), std::ios::binary) << "any bytes";
     out.set_count("vectors", 1);
-    out.set_entry("draws", 1);
+    out.set_count("draws", 1);
   });
   writer.commit(false);
-  EXPECT_EQ(SetReader(path("pictures")).suite("pictures").manifest()["draws"], 1);
+  EXPECT_EQ(SetReader(path("pictures")).suite("pictures").manifest()["counts"]["draws"], 1);
   write("pictures/pictures/image_0.exr", "any bytez");
   EXPECT_NE(golden::input_error_of([&] { check(path("pictures")); }).find("image_0.exr: is not the file"),
             std::string::npos);

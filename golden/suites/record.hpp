@@ -21,6 +21,7 @@ struct RecordField {
   std::optional<int> fraction_bits{};  ///< f: the value is the integer · 2^-f
   std::string unit{};
   std::string meaning{};
+  std::string encoding{};  ///< of 64 bits that are no integer ("ieee754-binary64"); empty: an integer
 
   /// "name" or "name[index]".
   std::string label() const { return index < 0 ? name : name + "[" + std::to_string(index) + "]"; }

@@ -1,5 +1,6 @@
 #include "golden/suites/stage_suite.hpp"
 
+#include "golden/io/error.hpp"
 #include "golden/suites/pipeline_tap.hpp"
 #include "golden/suites/stage_suites.hpp"
 #include "tb/render/parallel.hpp"
@@ -145,6 +146,8 @@ class Units {
         corner_(corner_records(stage, seed_, plan_.corner)),
         corner_units_((corner_.size() + random_a_unit - 1) / random_a_unit) {}
 
+  std::size_t corners() const { return corner_.size(); }
+  std::size_t randoms() const { return plan_.random_units * plan_.random_per_unit; }
   std::size_t count() const { return corner_units_ + plan_.random_units + plan_.tap_units; }
   enum class Kind { corner, random, realistic };
   Kind kind(std::size_t unit) const {
@@ -217,6 +220,25 @@ void StageSuite::write(SuiteWriter& writer, const GenerateOptions& options) cons
   writer.set_count("corner", corner);
   writer.set_count("random", random);
   writer.set_count("realistic", realistic);
+}
+
+void StageSuite::require(const SuiteReader& reader) const {
+  require_files(reader, {"stimulus", "response"}, {});
+  GenerateOptions options;
+  options.level = reader.set().level;
+  options.seed = reader.set().seed;
+  options.config = reader.set().config;
+  options.limit = reader.set().limit;
+  const auto stage = make_(options.config);
+  const Units units(*stage, info_.name, options);
+  // What the pipeline makes is the rest.
+  const std::uint64_t lines = reader.lines("stimulus"), made = units.corners() + units.randoms();
+  if (lines < made)
+    throw golden::input_error(reader.manifest_file(), 0,
+                              "the command makes at least " + std::to_string(made) + " vectors");
+  require_counts(
+      reader,
+      {{"vectors", lines}, {"corner", units.corners()}, {"random", units.randoms()}, {"realistic", lines - made}});
 }
 
 VerifyResult StageSuite::verify(const SuiteReader& reader, unsigned threads) const {

@@ -91,6 +91,7 @@ class StageSuite : public Suite {
 
   void write(SuiteWriter& writer, const GenerateOptions& options) const override;
   VerifyResult verify(const SuiteReader& reader, unsigned threads) const override;
+  void require(const SuiteReader& reader) const override;
 
   /// The stimuli of a generation in order, with the number of each kind, without writing anything.
   struct Stimuli {

@@ -217,7 +217,7 @@ class StageSets : public golden::InDirectory {
     options.seed = seed;
     options.threads = threads;
     options.limit = 200;
-    SetWriter writer(path(name), {1, seed, options.config, "quadrille golden generate"}, false);
+    SetWriter writer(path(name), {1, seed, options.config, options.limit}, false);
     for (const std::string& suite : stage_names())
       writer.add(find_suite(suite).info(), [&](SuiteWriter& out) { find_suite(suite).write(out, options); });
     writer.commit(true);

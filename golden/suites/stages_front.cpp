@@ -544,22 +544,21 @@ void add_front_stages(std::vector<std::unique_ptr<Suite>>& suites) {
     suites.push_back(std::make_unique<StageSuite>(std::move(info), make));
   };
   add({"snapping", "snapping", "Vertices as given to the integers of the port", "none", 0,
-       "none: every bit pattern of every double occurs"},
+       "nothing: every bit pattern of every double occurs"},
       make_stage<Snapping>);
   add({"setup", "handshake", "Coefficients, tiles and visibility of a quad", "quad_setup", 0,
-       "|x|, |y| at most 2^(POS_INT+FRAC), |w| at most 2^FRAC, never x = y = w = 0; scissor inside 2^VIEWPORT_BITS "
-       "with "
-       "x0 <= x1 and y0 <= y1"},
+       "|x| or |y| above 2^(POS_INT+FRAC); |w| above 2^FRAC; x = y = w = 0; a scissor rectangle beyond 2^VIEWPORT_BITS "
+       "or with x0 > x1 or y0 > y1"},
       make_stage<Setup>);
   add({"coverage", "handshake", "Covered pixels of a tile", "stamp_coverage", 0,
-       "the five functions fit VAL_BITS on the whole tile; the tile is inside 2^VIEWPORT_BITS; cull is never 3; of "
-       "visible "
-       "bits 0 and 2, and of 1 and 3, one at most is set, or all four are"},
+       "a function beyond VAL_BITS anywhere on the tile; a tile beyond 2^VIEWPORT_BITS; cull = 3; visible bits 0 and "
+       "2, "
+       "or 1 and 3, both set, unless all four are"},
       make_stage<Coverage>);
   add({"forward_difference", "stage", "A, D and squared distances at a pixel from those of its tile",
        "forward_difference", 2,
-       "the results fit VAL_BITS (A) and QVAL_BITS (D, r2); partial sums may not; q of a squared distance is not "
-       "negative"},
+       "results beyond VAL_BITS (A) or QVAL_BITS (D, r2), though partial sums may be; a negative q of a squared "
+       "distance"},
       make_stage<ForwardDifference>);
 }
 

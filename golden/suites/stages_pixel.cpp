@@ -731,29 +731,31 @@ void add_pixel_stages(std::vector<std::unique_ptr<Suite>>& suites) {
   const auto add = [&](SuiteInfo info, StageSuite::Make make) {
     suites.push_back(std::make_unique<StageSuite>(std::move(info), make));
   };
-  const std::string numbers = "numbers are normalised (the top bit of sig is 1) or all fields are 0; ";
+  const std::string numbers = "a number whose top bit of sig is 0, but for all fields 0; ";
   add({"normalise", "stage", "Significand numbers of A, D and squared distances; the singular class", "normalise", 2,
-       "no value is the most negative one of its width; r2 is at least -256"},
+       "the most negative value of a width; r2 below -256"},
       make_stage<Normalise>);
   add({"rsqrt", "stage", "Reciprocal square roots of the squared distances", "rsqrt", 3,
-       numbers + "exponents from 0 to QVAL_BITS - 2"},
+       numbers + "exponents below 0 or above QVAL_BITS - 2"},
       make_stage<Rsqrt>);
   add({"reciprocal", "stage", "Reciprocal of a denominator", "reciprocal", 3,
-       numbers + "exponents are those of sums (see interpolation)"},
+       numbers + "exponents that no sum has (see interpolation)"},
       make_stage<Reciprocal>);
   add({"ratios", "stage", "Half-angle tangents of the edges and diagonals as n/d", "mean_value_ratios", 4,
-       numbers + "|A| and |D| are at most r r', but for the rounding of rho; rho is at most 1"},
+       numbers + "|A| or |D| above r r' by more than the rounding of rho; rho above 1"},
       make_stage<Ratios>);
   add({"weights", "stage", "Mean value weights up to a common factor", "mean_value_weights", 7,
-       numbers +
-           "rho is 0 exactly at a corner and at most 1 otherwise; of n and d one is in [1, 2] (n where D < 0), the "
-           "other at most 1 but for rounding, and 0 exactly where A is 0; both are 0 and 1 at a corner"},
+       numbers + "rho = 0 elsewhere than at a corner, and another rho there; rho above 1; an n (where D < 0) or d "
+                 "(elsewhere) "
+                 "outside of [1, 2]; the other of the two above 1 by more than rounding, or 0 elsewhere than where A "
+                 "is 0, or "
+                 "not 0 there; n and d other than 0 and 1 at a corner"},
       make_stage<Weights>);
   add({"interpolation", "stage", "Weighted sums over the corners", "interpolate", 3,
-       numbers + "exponents of M are those that seven factors or a number of the port can have; |W| is at most 1"},
+       numbers + "exponents of M that neither seven factors nor a number of the port have; |W| above 1"},
       make_stage<Interpolation>);
   add({"depth", "stage", "Quotients, fixed point, saturation and discard", "fragment_output", 5,
-       numbers + "exponents are those of sums; attributes is at most ATTRIBUTE_SLOTS; znear and zfar are at most 1"},
+       numbers + "exponents that no sum has; attributes above ATTRIBUTE_SLOTS; znear or zfar above 1"},
       make_stage<Depth>);
 }
 

@@ -8,6 +8,7 @@
 #include "tb/render/parallel.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace quadrille::vectors {
 
@@ -31,18 +32,55 @@ const Suite& find_suite(std::string_view name) {
                            "\"");
 }
 
+void require_known(const SetReader& set) {
+  if (!set.says_complete()) return;
+  std::vector<std::string> all;
+  for (const auto& suite : suites()) all.push_back(suite->info().name);
+  if (set.suites() != all)
+    throw golden::input_error(set.manifest_file(), 0, "\"command\" generates other suites than those of the set");
+}
+
+void require_known(const SuiteReader& reader) {
+  const Suite& suite = find_suite(reader.info().name);
+  const SuiteInfo &expected = suite.info(), &given = reader.info();
+  const auto require = [&](bool same, const char* key) {
+    if (!same)
+      throw golden::input_error(reader.manifest_file(), 0,
+                                std::string("\"") + key + "\" is not what this program says of suite " + expected.name);
+  };
+  require(given.kind == expected.kind, "kind");
+  require(given.title == expected.title, "title");
+  require(given.module == expected.module, "module");
+  require(given.latency == expected.latency, "latency");
+  require(given.contract == expected.contract, "contract");
+  suite.require(reader);
+}
+
 void require_layout(const SuiteReader& reader, const std::string& role, const RecordLayout& expected) {
   if (reader.layout(role) != expected)
-    throw golden::input_error((reader.directory() / "manifest.json").string(), 0,
+    throw golden::input_error(reader.manifest_file(), 0,
                               "record " + role + " is not laid out as this program lays it out");
+}
+
+void require_counts(const SuiteReader& reader, const nlohmann::ordered_json& expected) {
+  if (reader.manifest().at("counts") != expected)
+    throw golden::input_error(reader.manifest_file(), 0, "\"counts\" should be " + expected.dump());
+}
+
+void require_files(const SuiteReader& reader, std::vector<std::string> roles, const std::vector<std::string>& others) {
+  std::ranges::sort(roles);
+  std::set<std::string> expected(others.begin(), others.end()), given;
+  for (const std::string& role : roles) expected.insert(role + ".hex");
+  for (const auto& [name, entry] : reader.manifest().at("files").items()) given.insert(name);
+  if (reader.roles() != roles || given != expected)
+    throw golden::input_error(reader.manifest_file(), 0, "has other records or files than suite " + reader.info().name);
 }
 
 VerifyResult check_vectors(const SuiteReader& reader, unsigned threads,
                            const std::function<VectorOutcome(const Record&, const Record&)>& check) {
   const std::uint64_t lines = reader.lines("stimulus");
   if (reader.lines("response") != lines)
-    throw golden::input_error((reader.directory() / "manifest.json").string(), 0,
-                              "stimulus and response have different numbers of lines");
+    throw golden::input_error(reader.manifest_file(), 0, "stimulus and response have different numbers of lines");
   constexpr std::uint64_t chunk = 1024;
   VerifyResult total;
   cli::ordered_parallel((lines + chunk - 1) / chunk, threads,
@@ -55,6 +93,7 @@ VerifyResult check_vectors(const SuiteReader& reader, unsigned threads,
                             const VectorOutcome outcome = check(stimulus[i], response[i]);
                             ++part.vectors;
                             part.undefined += outcome.kind == VectorOutcome::Kind::undefined;
+                            part.uncompared += !outcome.compared;
                             if (outcome.kind != VectorOutcome::Kind::mismatch) continue;
                             if (part.mismatches++ == 0)
                               part.first_difference = reader.place("response", first + i) + ": " + outcome.difference;
@@ -66,6 +105,7 @@ VerifyResult check_vectors(const SuiteReader& reader, unsigned threads,
                           total.vectors += part.vectors;
                           total.mismatches += part.mismatches;
                           total.undefined += part.undefined;
+                          total.uncompared += part.uncompared;
                         });
   return total;
 }

@@ -12,22 +12,30 @@
 namespace quadrille::vectors {
 
 struct GenerateOptions {
-  int level = 1;  ///< 1: minutes, 2: a hundred times the vectors
+  int level = 1;  ///< 1: seconds, 2: about sixty times as much
   std::uint64_t seed = 1;
   Config config;
-  std::uint64_t limit =
-      0;                 ///< random and realistic vectors of a suite at most, also corner ones; 0: the level's number
+  /// About this many vectors of a suite; a draw of the machine ends with the quad that reaches its share. 0: the
+  /// level's number.
+  std::uint64_t limit = 0;
   unsigned threads = 1;  ///< the bytes do not depend on it
 };
+
+/// The largest GenerateOptions::limit: more than level 2 has, and what fits in memory.
+inline constexpr std::uint64_t largest_limit = 1'000'000;
 
 /// What a check found.
 struct VerifyResult {
   std::uint64_t vectors = 0;     ///< compared
   std::uint64_t mismatches = 0;  ///< of these, different
-  std::uint64_t undefined = 0;   ///< of these, without a value in the engine (float only); they count as neither
+  /// Of these, with a field that has no value in the engine (float only); what has one agrees.
+  std::uint64_t undefined = 0;
+  std::uint64_t uncompared = 0;  ///< of the undefined, without any field that has one
   std::string first_difference;  ///< "file:line: field: expected …, actual …"
 
-  bool ok() const { return vectors > undefined && mismatches == 0; }
+  /// Something was compared; a suite of which nothing was proves nothing.
+  bool judged() const { return vectors > uncompared; }
+  bool ok() const { return judged() && mismatches == 0; }
 };
 
 /// A suite for any configuration.
@@ -40,6 +48,11 @@ class Suite {
   /// Recomputes every response by the fixed-point model and compares every bit. Throws golden::InputError when the
   /// records are not those of this suite.
   virtual VerifyResult verify(const SuiteReader& reader, unsigned threads) const = 0;
+  /// Throws golden::InputError unless records, counts and files are those that this suite has.
+  virtual void require(const SuiteReader& reader) const = 0;
+  /// The first picture that is not that of the suite's own response, as "file: difference"; empty when all are. Throws
+  /// golden::InputError for a picture that cannot be read.
+  virtual std::string picture_difference(const SuiteReader&) const { return {}; }
 };
 
 /// Every suite, in the order of golden/vectors/README.md.
@@ -48,15 +61,27 @@ const std::vector<std::unique_ptr<Suite>>& suites();
 /// The suite of that name; throws golden::InputError naming the nearest.
 const Suite& find_suite(std::string_view name);
 
+/// Throws golden::InputError unless the set's command makes its suites.
+void require_known(const SetReader& set);
+/// Throws golden::InputError unless the suite's manifest says what this program says of its suite.
+void require_known(const SuiteReader& reader);
+
 // ---- For those who implement suites and engines ----
 
 /// Throws golden::InputError unless the suite's record is laid out as `expected`.
 void require_layout(const SuiteReader& reader, const std::string& role, const RecordLayout& expected);
 
+/// Throws golden::InputError unless "counts" are these, in order.
+void require_counts(const SuiteReader& reader, const nlohmann::ordered_json& expected);
+
+/// Throws golden::InputError unless the suite has these records and, beside their files, `others`.
+void require_files(const SuiteReader& reader, std::vector<std::string> roles, const std::vector<std::string>& others);
+
 /// One vector, compared.
 struct VectorOutcome {
   enum class Kind { match, mismatch, undefined } kind = Kind::match;
   std::string difference;  ///< of a mismatch
+  bool compared = true;    ///< some field was
 };
 
 /// Calls check(stimulus, response) for every vector of a stage suite on `threads` threads and adds up; the first

@@ -10,8 +10,12 @@
 #include "tb/commands/progress.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <memory>
 
@@ -46,6 +50,20 @@ std::vector<const Suite*> choose_suites(const std::vector<std::string>& names) {
   return chosen;
 }
 
+/// Refuses what does not fit: the library would clamp it.
+CLI::Validator whole_number(std::uint64_t most) {
+  return CLI::Validator(
+      [most](std::string& text) {
+        errno = 0;
+        char* end = nullptr;
+        const unsigned long long value = std::strtoull(text.c_str(), &end, 0);
+        const bool good = !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) != 0 && *end == '\0' &&
+                          errno == 0 && value <= most;
+        return good ? std::string() : "must be a whole number from 0 to " + std::to_string(most) + ": " + text;
+      },
+      "", "whole number");
+}
+
 int generate(const GenerateCommandOptions& options, const std::vector<std::string>& arguments) {
   if (options.list) {
     for (const auto& suite : vectors::suites()) std::printf("%s\n", suite->info().name.c_str());
@@ -61,12 +79,7 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
   generation.limit = options.limit;
   generation.threads = options.common.thread_count();
 
-  // The command in the set is the same wherever it is generated.
-  const SetInfo info{generation.level, generation.seed, generation.config,
-                     "quadrille golden generate --level " + std::to_string(generation.level) + " --seed " +
-                         std::to_string(generation.seed) +
-                         (generation.limit > 0 ? " --limit " + std::to_string(generation.limit) : "") +
-                         spelled(generation.config)};
+  const SetInfo info{generation.level, generation.seed, generation.config, generation.limit};
   const auto start = Clock::now();
   SetWriter writer(options.out, info, options.force);
   Progress progress("golden", chosen.size(), options.common.show_progress());
@@ -94,8 +107,8 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
   writer.commit(chosen.size() == vectors::suites().size());
   report["seconds"] = seconds_since(start);
   if (text != nullptr)
-    std::fprintf(text, "%s%s: %zu suites in %.1f s\n", lines.c_str(), options.out.c_str(), chosen.size(),
-                 seconds_since(start));
+    std::fprintf(text, "%s%s: %zu %s in %.1f s\n", lines.c_str(), options.out.c_str(), chosen.size(),
+                 chosen.size() == 1 ? "suite" : "suites", seconds_since(start));
   if (!options.common.json.empty()) golden::save_json(options.common.json, report);
   return exit_ok;
 }
@@ -144,31 +157,42 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
   nlohmann::ordered_json report = golden::begin_report(set.info().config, set.info().seed, arguments);
   report["engine"] = engine.name;
   nlohmann::ordered_json& list = report["suites"] = nlohmann::ordered_json::array();
-  std::vector<std::string> chosen;
-  for (const std::string& name : set.suites())
-    if (options.suites.empty() || std::ranges::count(options.suites, name) > 0) chosen.push_back(name);
+  // The whole set is read, whatever was chosen of it: hashes, and that every suite is what it says.
+  require_known(set);
+  std::vector<std::string> chosen, replayable;
+  for (const std::string& name : set.suites()) {
+    const SuiteReader reader = set.suite(name);
+    require_known(reader);
+    if (!options.suites.empty() && std::ranges::count(options.suites, name) == 0) continue;
+    chosen.push_back(name);
+    if (reader.info().module != "none") replayable.push_back(name);
+  }
   std::map<std::string, VerifyResult> replayed;
-  if (engine.verify == nullptr) replayed = replay_rtl(options.directory, chosen);
+  if (engine.verify == nullptr && !replayable.empty()) replayed = replay_rtl(options.directory, replayable);
   bool ok = true;
-  std::uint64_t defined = 0;  // the paper's formulas may be undefined in a whole suite, but not in all
+  std::uint64_t compared = 0;
   for (const std::string& name : chosen) {
     const auto start = Clock::now();
     const SuiteReader reader = set.suite(name);
+    const Suite& suite = find_suite(name);
     if (engine.verify == nullptr && !replayed.contains(name)) {
       if (text != nullptr) std::fprintf(text, "%s: no RTL\n", name.c_str());
       continue;
     }
-    const VerifyResult result =
-        engine.verify != nullptr ? engine.verify(find_suite(name), reader, common.thread_count()) : replayed.at(name);
-    ok = ok && result.mismatches == 0;
-    defined += result.vectors - result.undefined;
-    const bool judged = result.vectors > result.undefined || engine.verify == verify_float;
-    ok = ok && judged;
+    VerifyResult result =
+        engine.verify != nullptr ? engine.verify(suite, reader, common.thread_count()) : replayed.at(name);
+    if (result.mismatches == 0) {  // else the pictures are those of wrong fragments
+      result.first_difference = suite.picture_difference(reader);
+      result.mismatches = !result.first_difference.empty();
+    }
+    compared += result.vectors - result.uncompared;
+    ok = ok && result.ok();
     list.push_back(
         {{"suite", name},
          {"vectors", result.vectors},
          {"mismatches", result.mismatches},
          {"undefined", result.undefined},
+         {"uncompared", result.uncompared},
          {"first_difference",
           result.first_difference.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(result.first_difference)},
          {"seconds", seconds_since(start)}});
@@ -180,9 +204,9 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
       std::fprintf(text, "\n");
     }
     if (result.mismatches > 0) std::fprintf(stderr, "quadrille: %s\n", result.first_difference.c_str());
-    if (!judged) std::fprintf(stderr, "quadrille: suite %s: no vector was compared\n", name.c_str());
+    if (!result.judged()) std::fprintf(stderr, "quadrille: suite %s: no vector was compared\n", name.c_str());
   }
-  if (defined == 0) {
+  if (compared == 0) {
     std::fprintf(stderr, "quadrille: no vector was compared\n");
     ok = false;
   }
@@ -194,17 +218,18 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
 void add_generate(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("generate", "Write a set of vectors");
   command->footer(
-      "Stimulus and response of every stage and of the machine, as hexadecimal lines for $readmemh with manifests "
-      "that\n"
-      "describe each bit; golden/vectors/README.md has the format. Level 1 takes minutes, level 2 hours. The same "
-      "level,\nseed and configuration give the same bytes everywhere.\n\n"
+      "Stimulus and response of every stage and of the machine, as hexadecimal lines for $readmemh with manifests\n"
+      "that describe each bit; golden/vectors/README.md has the format. Level 1 of all suites takes seconds and 47 "
+      "MB,\n"
+      "level 2 about sixty times as much. The same level, seed, limit and configuration give the same bytes\n"
+      "everywhere.\n\n"
       "Examples:\n"
       "  quadrille golden generate --level 1 --out vectors\n"
       "  quadrille golden generate --suite rsqrt --suite weights --set significand_bits=12 --out vectors12\n"
       "  quadrille golden generate --list-suites");
   const auto options = std::make_shared<GenerateCommandOptions>();
   options->common.add_to(*command, false);
-  command->add_option("--level", options->level, "1: minutes; 2: a hundred times the vectors")
+  command->add_option("--level", options->level, "1: seconds; 2: about sixty times as much")
       ->check(CLI::Range(1, 2))
       ->type_name("N")
       ->capture_default_str();
@@ -212,11 +237,14 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   command->add_option("--seed", options->common.seed, "Seed of everything random")
-      ->check(not_negative)
+      ->check(whole_number(UINT64_MAX))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--limit", options->limit, "About this many vectors a suite at most; 0: those of the level")
-      ->check(not_negative)
+  command
+      ->add_option("--limit", options->limit,
+                   "About this many vectors a suite, at most " + std::to_string(largest_limit) +
+                       "; a draw of the machine ends with the quad that reaches its share. 0: as many as the level has")
+      ->check(whole_number(largest_limit))
       ->type_name("N")
       ->capture_default_str();
   command
@@ -236,7 +264,11 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
 void add_verify(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("verify", "Check a set: hashes, then every response recomputed");
   command->footer(
-      "Exit status: 0 every vector agrees, 1 a vector differs or none was compared, 2 the set is damaged.\n\n"
+      "Hashes and manifests of the whole set are always checked, responses and pictures of the chosen suites. The\n"
+      "engine float has no clocks; a vector of which it cannot decide every field counts as undefined, and what it "
+      "can\n"
+      "is compared. Exit status: 0 every vector agrees, 1 a vector or a picture differs, or of a suite nothing was\n"
+      "compared, 2 the set is damaged.\n\n"
       "Examples:\n"
       "  quadrille golden verify vectors\n"
       "  quadrille golden verify vectors --suite weights --json -");

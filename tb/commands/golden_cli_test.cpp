@@ -27,6 +27,24 @@ class GoldenCli : public Cli {
     for (const fs::path& path : files) all += fs::relative(path, file(directory)).string() + "\n" + read(path);
     return all;
   }
+  std::string digest(const std::string& name) const {
+    EXPECT_EQ(std::system(("sha256sum '" + file(name).string() + "' >'" + file("digest").string() + "'").c_str()), 0);
+    return read(file("digest")).substr(0, 64);
+  }
+  void replace(const std::string& name, const std::string& from, const std::string& to) const {
+    std::string text = read(file(name));
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << name;
+    write(name, text.replace(at, from.size(), to));
+  }
+  /// Another text in a suite's file, with every hash above it made right again.
+  void put(const std::string& set, const std::string& suite, const std::string& name, const std::string& text) const {
+    const std::string path = set + "/" + suite, manifest = path + "/manifest.json";
+    const std::string old_file = digest(path + "/" + name), old_manifest = digest(manifest);
+    write(path + "/" + name, text);
+    if (name != "manifest.json") replace(manifest, old_file, digest(path + "/" + name));
+    replace(set + "/manifest.json", old_manifest, digest(manifest));
+  }
 };
 
 TEST_F(GoldenCli, ListsSuites) {
@@ -98,23 +116,10 @@ TEST_F(GoldenCli, DamageEndsWithStatus2) {
 // A set that is intact but wrong: one digit changed and every hash made right again.
 TEST_F(GoldenCli, WrongVectorsEndWithStatus1) {
   generate("--suite rsqrt --out set");
-  const auto digest = [&](const std::string& name) {
-    EXPECT_EQ(std::system(("sha256sum '" + file(name).string() + "' >'" + file("digest").string() + "'").c_str()), 0);
-    return read(file("digest")).substr(0, 64);
-  };
-  const auto replace = [&](const std::string& name, const std::string& from, const std::string& to) {
-    std::string text = read(file(name));
-    const std::size_t at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << name;
-    write(name, text.replace(at, from.size(), to));
-  };
-  const std::string response = digest("set/rsqrt/response.hex"), manifest = digest("set/rsqrt/manifest.json");
   std::string text = read(file("set/rsqrt/response.hex"));
   char& lowest = text[text.find('\n') - 1];
   lowest = lowest == '0' ? '1' : '0';
-  write("set/rsqrt/response.hex", text);
-  replace("set/rsqrt/manifest.json", response, digest("set/rsqrt/response.hex"));
-  replace("set/manifest.json", manifest, digest("set/rsqrt/manifest.json"));
+  put("set", "rsqrt", "response.hex", text);
   const Outcome outcome = run("golden verify set --json report.json");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.out.find("vectors, 1 mismatches"), std::string::npos) << outcome.out;
@@ -122,12 +127,107 @@ TEST_F(GoldenCli, WrongVectorsEndWithStatus1) {
   EXPECT_EQ(json::parse(read(file("report.json")))["ok"], false);
 }
 
+// Every byte of a picture counts, even where the picture stays the same, and for every engine.
+TEST_F(GoldenCli, WrongPicturesAreFound) {
+  generate("--suite stress_bowtie --out set");
+  ASSERT_EQ(run("golden verify set").status, 0);
+  const std::string good = read(file("set/stress_bowtie/image_0.exr"));
+  for (const std::size_t at : {good.size() / 4, good.size() / 2, good.size() - 2}) {
+    std::string text = good;
+    text[at] = static_cast<char>(text[at] ^ 1);
+    put("set", "stress_bowtie", "image_0.exr", text);
+    for (const char* engine : {"model", "float"}) {
+      const Outcome outcome = run(std::string("golden verify set --engine ") + engine);
+      EXPECT_EQ(outcome.status, 1) << at << engine << outcome.err;
+      EXPECT_EQ(outcome.err.find("quadrille: set/stress_bowtie/image_0.exr: channel "), 0u) << outcome.err;
+      EXPECT_NE(outcome.out.find("1 mismatches"), std::string::npos) << outcome.out;
+    }
+  }
+  std::string broken = good;
+  broken[0] = 'x';
+  put("set", "stress_bowtie", "image_0.exr", broken);
+  refuses(2, "golden verify set", {"image_0.exr"});
+  put("set", "stress_bowtie", "image_0.exr", good);
+  EXPECT_EQ(run("golden verify set").status, 0);
+}
+
+TEST_F(GoldenCli, SmallestSetsVerify) {
+  const Outcome made = run("golden generate --limit 1 --quiet --out set");
+  ASSERT_EQ(made.status, 0) << made.err;
+  for (const char* engine : {"model", "float"}) {
+    const Outcome outcome = run(std::string("golden verify set --engine ") + engine);
+    EXPECT_EQ(outcome.status, 0) << engine << outcome.err;
+    EXPECT_EQ(outcome.out.find(": 0 vectors"), std::string::npos) << outcome.out;
+  }
+  // A suite of which double has no value of any fragment is judged alone as in its set.
+  for (const std::string suite : {"machine", "stress_on_vertex", "stress_coincident"})
+    EXPECT_EQ(run("golden verify set --engine float --suite " + suite).status, 0) << suite;
+}
+
+TEST_F(GoldenCli, NarrowIds) {
+  const Outcome made =
+      run("golden generate --suite machine --suite stress_tiny --set quad_id_bits=8 --quiet --out set", "timeout 60");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(run("golden verify set").status, 0);
+}
+
+TEST_F(GoldenCli, TheWholeSetIsRead) {
+  generate("--suite rsqrt --suite weights --out set");
+  const std::string response = read(file("set/rsqrt/response.hex"));
+  std::string flipped = response;
+  flipped[5] = flipped[5] == '1' ? '2' : '1';
+  write("set/rsqrt/response.hex", flipped);
+  refuses(2, "golden verify set --suite weights", {"rsqrt/response.hex", "SHA-256"});
+  write("set/rsqrt/response.hex", response);
+  std::string manifest = read(file("set/rsqrt/manifest.json"));
+  const std::string good = manifest;
+  manifest.replace(manifest.find("\"latency\": 3"), 12, "\"latency\": 7");
+  put("set", "rsqrt", "manifest.json", manifest);
+  refuses(2, "golden verify set --suite weights", {"rsqrt/manifest.json", "latency"});
+  put("set", "rsqrt", "manifest.json", good);
+  // A command without --suite stands for every suite.
+  replace("set/manifest.json", " --suite rsqrt --suite weights", "");
+  refuses(2, "golden verify set", {"set/manifest.json", "generates other suites"});
+}
+
+TEST_F(GoldenCli, NumbersThatDoNotFit) {
+  for (const char* seed : {"18446744073709551616", "1e3", "-1", "3x"})
+    refuses(2, std::string("golden generate --suite rsqrt --out set --seed ") + seed,
+            {"--seed", "from 0 to 18446744073709551615"});
+  for (const char* limit : {"1000001", "18446744073709551616", "-1"})
+    refuses(2, std::string("golden generate --suite rsqrt --out set --limit ") + limit,
+            {"--limit", "from 0 to 1000000"});
+  EXPECT_FALSE(fs::exists(file("set")));
+  const Outcome largest = run("golden generate --suite rsqrt --limit 30 --seed 18446744073709551615 --out set");
+  EXPECT_EQ(largest.status, 0) << largest.err;
+  EXPECT_EQ(json::parse(read(file("set/manifest.json")))["seed"], 18446744073709551615u);
+  EXPECT_EQ(run("golden verify set").status, 0);
+}
+
+TEST_F(GoldenCli, WhereTheSetGoes) {
+  refuses(2, "golden generate --suite rsqrt --limit 30 --out .", {"current directory"});
+  fs::create_directory(file("target"));
+  fs::create_directory_symlink("target", file("link"));
+  generate("--suite rsqrt --out link");
+  EXPECT_TRUE(fs::is_symlink(file("link")));
+  EXPECT_EQ(run("golden verify target").status, 0);
+  refuses(2, "golden verify target/rsqrt", {"one suite", "above"});
+}
+
+TEST_F(GoldenCli, NothingToReplayIsStatus1) {
+  generate("--suite snapping --out set");
+  const Outcome outcome = run("golden verify set --engine rtl");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.out, "snapping: no RTL\n");
+  EXPECT_EQ(outcome.err, "quadrille: no vector was compared\n");
+}
+
 TEST_F(GoldenCli, RefusesWhatItCannotDo) {
   refuses(2, "golden generate", {"--out"});
   refuses(2, "golden generate --suite weigths --out set", {"unknown suite \"weigths\"", "did you mean \"weights\""});
   refuses(2, "golden generate --suite '' --out set", {"unknown suite \"\""});
   refuses(2, "golden generate --level 3 --out set", {"--level"});
-  refuses(2, "golden generate --seed -1 --out set", {"must not be negative"});
+  refuses(2, "golden generate --seed -1 --out set", {"from 0 to 18446744073709551615"});
   refuses(2, "golden generate --set significand_bits=99 --out set", {"significand_bits"});
   refuses(2, "golden generate --levle 1 --out set", {"did you mean --level?", "quadrille golden generate --help"});
   refuses(2, "golden", {"subcommand"});

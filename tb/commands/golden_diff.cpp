@@ -14,6 +14,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quadrille::cli {
@@ -39,10 +40,15 @@ struct Findings {
   }
 };
 
+/// Ids are names: how far apart two of them are means nothing.
+bool is_id(const std::string& channel) { return channel == "quad"; }
+
 Json channels_json(const golden::ImageDiff& diff) {
   Json json = Json::array();
-  for (const golden::ChannelDiff& c : diff.channels)
-    json.push_back({{"channel", c.name}, {"count", c.count}, {"max", c.max}, {"rms", c.rms}, {"x", c.x}, {"y", c.y}});
+  for (const golden::ChannelDiff& c : diff.channels) {
+    json.push_back({{"channel", c.name}, {"count", c.count}});
+    if (!is_id(c.name)) json.back().update({{"max", c.max}, {"rms", c.rms}, {"x", c.x}, {"y", c.y}});
+  }
   return json;
 }
 
@@ -62,8 +68,12 @@ golden::ImageDiff compare_pictures(const std::string& a, const std::string& b, c
       if (name.empty()) findings.lines.emplace_back(text);
       continue;
     }
-    std::snprintf(text, sizeof text, "%-10s %llu pixels differ, max %.6g at (%d, %d), RMS %.6g", c.name.c_str(),
-                  static_cast<unsigned long long>(c.count), c.max, c.x, c.y, c.rms);
+    const auto count = static_cast<unsigned long long>(c.count);
+    if (is_id(c.name))
+      std::snprintf(text, sizeof text, "%-10s %llu pixels differ", c.name.c_str(), count);
+    else
+      std::snprintf(text, sizeof text, "%-10s %llu pixels differ, max %.6g at (%d, %d), RMS %.6g", c.name.c_str(),
+                    count, c.max, c.x, c.y, c.rms);
     findings.differs(head + text);
   }
   return diff;
@@ -123,6 +133,11 @@ void compare_suites(const vectors::SuiteReader& a, const vectors::SuiteReader& b
 
 void compare_sets(const std::string& a, const std::string& b, Findings& findings) {
   const vectors::SetReader left(a), right(b);
+  for (const auto& [directory, set] : {std::pair{&a, &left}, std::pair{&b, &right}})
+    findings.json["sets"].push_back({{"set", *directory},
+                                     {"level", set->info().level},
+                                     {"seed", set->info().seed},
+                                     {"config", vectors::config_json(set->info().config)}});
   const auto has = [](const vectors::SetReader& set, const std::string& name) {
     return std::ranges::find(set.suites(), name) != set.suites().end();
   };
@@ -144,7 +159,8 @@ void compare_sets(const std::string& a, const std::string& b, Findings& findings
     ++compared;
   }
   findings.json["suites"] = compared;
-  if (findings.same) findings.lines.push_back(std::to_string(compared) + " suites are equal");
+  if (findings.same)
+    findings.lines.push_back(std::to_string(compared) + (compared == 1 ? " suite is equal" : " suites are equal"));
 }
 
 int run_diff(const DiffOptions& options, const std::vector<std::string>& arguments) {
@@ -164,6 +180,7 @@ int run_diff(const DiffOptions& options, const std::vector<std::string>& argumen
   }
   if (!options.json.empty()) {
     Json json = golden::begin_report(Config{}, 0, arguments);
+    for (const char* key : {"config", "seed"}) json.erase(key);  // there are two of each, or none
     json["same"] = findings.same;
     json["differences"] = findings.same ? std::vector<std::string>{} : findings.lines;
     json.update(findings.json);

@@ -22,7 +22,17 @@ TEST_F(GoldenDiffCli, SetsThatAreEqual) {
   const Outcome outcome = run("golden diff a b --json d.json");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "2 suites are equal\n");
-  EXPECT_TRUE(json::parse(read(file("d.json"))).at("same"));
+  const json report = json::parse(read(file("d.json")));
+  EXPECT_TRUE(report.at("same"));
+  EXPECT_FALSE(report.contains("seed"));
+  EXPECT_FALSE(report.contains("config"));
+  ASSERT_EQ(report.at("sets").size(), 2u);
+  EXPECT_EQ(report["sets"][1]["set"], "b");
+  EXPECT_EQ(report["sets"][1]["seed"], 1);
+  EXPECT_EQ(report["sets"][1]["config"]["significand_bits"], 18);
+  generate("one", "--suite rsqrt");
+  EXPECT_EQ(run("golden diff one one").out, "1 suite is equal\n");
+  refuses(2, "golden diff a/rsqrt b/rsqrt", {"a/rsqrt/manifest.json", "one suite"});
 }
 
 TEST_F(GoldenDiffCli, TheFirstDifferingFieldIsNamed) {
@@ -55,7 +65,7 @@ TEST_F(GoldenDiffCli, Pictures) {
   bool weights_differ = false;
   for (const json report = json::parse(outcome.out); const json& channel : report.at("channels")) {
     if (channel.at("channel") == "quad") {
-      EXPECT_EQ(channel.at("count"), 0);
+      EXPECT_EQ(channel, (json{{"channel", "quad"}, {"count", 0}}));
     }
     if (channel.at("channel") != "L0") continue;
     weights_differ = channel.at("count") > 0;
@@ -65,6 +75,13 @@ TEST_F(GoldenDiffCli, Pictures) {
   }
   EXPECT_TRUE(weights_differ);
   EXPECT_EQ(read(file("h.png")).substr(1, 3), "PNG");
+
+  // How far apart ids are means nothing.
+  ASSERT_EQ(run("render --scene sphere --size 40x30 --quiet --out s.exr").status, 0);
+  const std::string text = run("golden diff p18.exr s.exr").out;
+  const std::size_t quad = text.find("quad ");
+  ASSERT_NE(quad, std::string::npos) << text;
+  EXPECT_EQ(text.substr(quad, text.find('\n', quad) - quad).find("max"), std::string::npos) << text;
 }
 
 TEST_F(GoldenDiffCli, BadInput) {

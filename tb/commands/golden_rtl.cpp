@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -40,24 +41,27 @@ std::map<std::string, vectors::VerifyResult> replay_rtl(const std::string& direc
   const fs::path log = fs::temp_directory_path() / ("quadrille_replay_" + std::to_string(::getpid()) + ".log");
   ::setenv("QUADRILLE", fs::read_symlink("/proc/self/exe").c_str(), 1);
   const int status = tb::run_logged(command, fs::current_path(), log);
-  const std::string output = text_of(log);
+  std::string output = text_of(log);
+  output.erase(0, output.find('\n') + 1);  // the command
   fs::remove(log);
   if (status == bad_input) throw golden::InputError(output);
   if (status == missing_tool) throw tb::EnvironmentError(output);
 
-  // "SUITE: N vectors, M mismatches …", and after it what differs.
+  // "SUITE: N vectors, M mismatches …", or what stopped the run or the build; after it what differs.
   std::map<std::string, vectors::VerifyResult> results;
   std::istringstream lines(output);
   vectors::VerifyResult* last = nullptr;
   for (std::string line; std::getline(lines, line);) {
-    const std::size_t colon = line.find(": ");
+    const std::size_t colon = std::min(line.find(": "), line.size());
+    const std::string name = line.substr(0, colon), text = line.substr(colon);
     unsigned long long vectors = 0, mismatches = 0;
-    if (colon != std::string::npos &&
-        std::sscanf(line.c_str() + colon, ": %llu vectors, %llu mismatches", &vectors, &mismatches) == 2) {
-      last = &results[line.substr(0, colon)];
-      last->vectors = vectors;
-      last->mismatches = mismatches;
-      if (mismatches > 0) last->first_difference = line;
+    const bool counted = std::sscanf(text.c_str(), ": %llu vectors, %llu mismatches", &vectors, &mismatches) == 2;
+    const bool stopped = text.starts_with(": FAILED") || text.starts_with(": the RTL does not build");
+    if ((counted || stopped) && std::ranges::count(suites, name) > 0) {
+      last = &results[name];
+      last->vectors = counted ? vectors : 1;
+      last->mismatches = counted ? mismatches : 1;
+      if (last->mismatches > 0) last->first_difference = line;
     } else if (last != nullptr && last->mismatches > 0 && last->first_difference.size() < 2000) {
       last->first_difference += "\n" + line;
     }

@@ -8,6 +8,7 @@ import json
 import os
 import re
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -43,9 +44,11 @@ class BuildError(Exception):
 
 def load_json(path):
     try:
+        if not stat.S_ISREG(os.lstat(path).st_mode):
+            raise InputError(f"{path}: not a regular file")
         with open(path, encoding="utf-8") as file:
             value = json.load(file)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{path}: {error}") from None
     if not isinstance(value, dict):
         raise InputError(f"{path}: not a JSON object")
@@ -87,8 +90,20 @@ class Suite:
                     self.lines[file] = self.count_lines(file, int(record["bits"]))
                     if self.lines[file] != int(files[file]["lines"]):
                         raise InputError(f"{self.path(file)}: {self.lines[file]} lines, the manifest says {files[file]['lines']}")
+                if self.kind == "machine":
+                    self.check_machine()
         except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise InputError(f"{path}: {type(error).__name__}: {error}") from None
+
+    def check_machine(self):
+        """What would keep the bench waiting, or leave it without expectations."""
+        if self.lines["beats.hex"] != self.lines["stimulus.hex"]:
+            raise InputError(f"{self.path('beats.hex')}: {self.lines['beats.hex']} lines, a beat each of {self.lines['stimulus.hex']} is needed")
+        with open(self.path("stalls.hex"), encoding="ascii") as file:
+            pattern = [int(line, 16) for line in file]
+        for bit, what in ((1, "offers"), (0, "takes")):
+            if not any(line >> bit & 1 for line in pattern):
+                raise InputError(f"{self.path('stalls.hex')}: the pattern never {what} anything; the machine would wait for ever")
 
     def path(self, file):
         return os.path.join(self.directory, file)
@@ -128,7 +143,7 @@ class Suite:
     def plusargs(self):
         args = [f"+suite={self.name}", f"+stimulus={self.path('stimulus.hex')}", f"+response={self.path('response.hex')}"]
         if self.kind == "machine":
-            args += [f"+states={self.path('states.hex')}", f"+stalls={self.path('stalls.hex')}",
+            args += [f"+states={self.path('states.hex')}", f"+taken={self.path('beats.hex')}", f"+stalls={self.path('stalls.hex')}",
                      f"+draws={self.lines['states.hex']}", f"+beats={self.lines['stimulus.hex']}",
                      f"+fragments={self.lines['response.hex']}", f"+pattern={self.lines['stalls.hex']}"]
         else:
@@ -300,7 +315,7 @@ def select(options):
             raise InputError(f"{suite.directory}/manifest.json: no wrapper replay_{suite.name}.sv")
     replayed = [suite for suite in suites if suite.kind != "snapping"]
     if not replayed:
-        raise InputError(f"{options.directory}: nothing to replay")
+        raise InputError(f"{options.directory}: nothing to replay: {', '.join(suite.name for suite in suites)} has no RTL")
     return replayed, [suite.name for suite in suites if suite.kind == "snapping"]
 
 
@@ -323,7 +338,7 @@ def plan(options, suites, work):
 def main():
     parser = argparse.ArgumentParser(
         prog="replay.sh", formatter_class=argparse.RawDescriptionHelpFormatter, description="Replays golden vectors against the RTL.",
-        epilog="Exit status: 0 all agree, 1 a mismatch, 2 usage or a damaged set, 3 a missing tool.\n\nExamples:\n"
+        epilog="Exit status: 0 all agree, 1 a mismatch, 2 usage, a damaged set or nothing to replay, 3 a missing tool.\n\nExamples:\n"
                "  scripts/replay.sh golden/vectors/kept\n  scripts/replay.sh DIR icarus --suite rsqrt --netlist")
     parser.add_argument("directory", metavar="DIR", help="a set of golden vectors")
     parser.add_argument("simulator", nargs="?", choices=("verilator", "icarus"), default="verilator")

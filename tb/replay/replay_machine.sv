@@ -1,8 +1,9 @@
 // Self-checking bench of the whole machine: plays the draws of a set twice, without stalls and with the stall pattern, and compares
-// every bit of every fragment, their order and number, the clock in which each is handed over, and that the machine becomes idle.
+// every bit of every fragment, their order and number, the clock in which each is handed over, the clock in which each vertex beat is
+// taken, and that the machine becomes idle.
 //
 // Macros: REPLAY_STATE_BITS, REPLAY_VERTEX_BITS, REPLAY_FRAGMENT_BITS, and the most lines of each file REPLAY_DRAWS, REPLAY_BEATS,
-// REPLAY_FRAGMENTS, REPLAY_STALLS. Plusargs: +suite=NAME, +states= +stimulus= +response= +stalls=FILE, +draws= +beats= +fragments=
+// REPLAY_FRAGMENTS, REPLAY_STALLS. Plusargs: +suite=NAME, +states= +stimulus= +taken= +response= +stalls=FILE, +draws= +beats= +fragments=
 // +pattern=N (lines of these files). A draw begins when the machine is not busy; clock 0 is the first clock in which its first beat
 // may be offered. Prints the first difference and "NAME: N vectors, M mismatches"; ends with $fatal unless M = 0.
 `timescale 1ns / 1ns
@@ -12,10 +13,11 @@ module replay_machine;
   localparam int FRAGMENT = `REPLAY_FRAGMENT_BITS;
   localparam int SILENCE = 2000000;  // clocks in which nothing moves before the run is given up: more than the longest walk
 
-  string suite, states_file, stimulus_file, response_file, stalls_file;
+  string suite, states_file, stimulus_file, response_file, stalls_file, taken_file;
   int draws, beats, fragments, pattern;
   logic [STATE-1:0] states[0:`REPLAY_DRAWS-1];
   logic [16+VERTEX-1:0] stimuli[0:`REPLAY_BEATS-1];  // {draw, vertex}
+  logic [79:0] taken[0:`REPLAY_BEATS-1];  // {draw, clock, clock_stalled}
   logic [80+FRAGMENT-1:0] responses[0:`REPLAY_FRAGMENTS-1];  // {draw, clock, clock_stalled, fragment}
   logic [1:0] stalls[0:`REPLAY_STALLS-1];  // {offer, ready}
 
@@ -28,6 +30,7 @@ module replay_machine;
     if (!$value$plusargs("suite=%s", suite)) $fatal(1, "+suite=NAME is missing");
     if (!$value$plusargs("states=%s", states_file)) $fatal(1, "+states=FILE is missing");
     if (!$value$plusargs("stimulus=%s", stimulus_file)) $fatal(1, "+stimulus=FILE is missing");
+    if (!$value$plusargs("taken=%s", taken_file)) $fatal(1, "+taken=FILE is missing");
     if (!$value$plusargs("response=%s", response_file)) $fatal(1, "+response=FILE is missing");
     if (!$value$plusargs("stalls=%s", stalls_file)) $fatal(1, "+stalls=FILE is missing");
     if (!$value$plusargs("draws=%d", draws)) $fatal(1, "+draws=N is missing");
@@ -39,6 +42,7 @@ module replay_machine;
       $fatal(1, "%s: more lines than this bench was built for", suite);
     $readmemh(states_file, states, 0, draws - 1);
     $readmemh(stimulus_file, stimuli, 0, beats - 1);
+    $readmemh(taken_file, taken, 0, beats - 1);
     $readmemh(response_file, responses, 0, fragments - 1);
     $readmemh(stalls_file, stalls, 0, pattern - 1);
     repeat (4) @(posedge clk);
@@ -87,7 +91,7 @@ module replay_machine;
 
   // ---- Comparison ----------------------------------------------------------------------------------------------------------
   logic [80+FRAGMENT-1:0] response;
-  logic [31:0] expected_cycle;
+  logic [31:0] expected_cycle, expected_taken;
   logic expected_here;  // the next response belongs to this draw
   string how = "";  // the pass, in messages
   int mismatches = 0;
@@ -96,6 +100,7 @@ module replay_machine;
 
   assign response = responses[number];
   assign expected_cycle = stalled ? response[FRAGMENT+:32] : response[FRAGMENT+32+:32];
+  assign expected_taken = stalled ? taken[beat][31:0] : taken[beat][63:32];
   assign expected_here = number < fragments && response[FRAGMENT+64+:16] == draw[15:0];
 
   // Blocking, as nothing else reads `mismatches`.
@@ -119,7 +124,15 @@ module replay_machine;
       clocks <= clocks + 1;
       phase <= (phase == pattern - 1) ? 0 : phase + 1;
       held <= vertex_valid && !vertex_ready;
-      if (vertex_valid && vertex_ready) beat <= beat + 1;
+      if (vertex_valid && vertex_ready) begin
+        if (taken[beat][79:64] !== draw[15:0] || expected_taken !== cycle) begin
+          if (mismatches == 0)
+            $display("%s: first difference in line %0d of the beats, draw %0d%s: expected clock %0d actual clock %0d", suite, beat + 1, draw,
+                     how, expected_taken, cycle);
+          mismatches = mismatches + 1;
+        end
+        beat <= beat + 1;
+      end
       silence <= ((vertex_valid && vertex_ready) || (fragment_valid && fragment_ready)) ? 0 : silence + 1;
       if (silence > SILENCE) $fatal(1, "%s: nothing moves in draw %0d", suite, draw);
       if (fragment_mask !== fragment_valid) mismatch("fragment_mask_o is not fragment_valid_o");

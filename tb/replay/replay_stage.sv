@@ -73,6 +73,7 @@ module replay_stage;
         if (received >= sent) $fatal(1, "%s: a response without a stimulus in clock %0d", suite, cycle);
         if (latency != 0 && cycle != received + latency)
           $fatal(1, "%s: response %0d came in clock %0d, not %0d", suite, received + 1, cycle, received + latency);
+        if (^expected === 1'bx) $fatal(1, "%s: line %0d of the response is missing or no number", suite, received + 1);
         if (response !== expected) begin
           if (mismatches == 0)
             $display("%s: first difference in line %0d: stimulus %h expected %h actual %h", suite, received + 1, stimuli[received],

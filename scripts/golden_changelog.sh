@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Whether the changelog of a set of golden vectors knows the set: its newest line has the set's hash, and a larger version than
+# every other one.
+#   scripts/golden_changelog.sh CHANGELOG SET
+set -euo pipefail
+hash=$(sha256sum "$2/manifest.json" | cut -c1-16)
+awk -F ' *[|] *' -v file="$1" -v hash="\`$hash\`" '
+  function complain(what) { print file ": " what > "/dev/stderr"; bad = 1; exit 1 }
+  $2 ~ /^[0-9]+$/ {
+    if (rows++ == 0 && $4 != hash) complain("the newest line is not of this set: | version | what changed | " hash " |")
+    if ($3 == "") complain("version " $2 " does not say what changed")
+    if (rows > 1 && $2 + 0 >= last) complain("version " last " is not larger than version " $2 " below it")
+    last = $2 + 0
+  }
+  END { if (!bad && rows == 0) complain("has no line: | version | what changed | " hash " |") }' "$1"
