@@ -20,7 +20,8 @@ struct SceneInfo {
   std::size_t quads = 0;
 };
 
-/// Parallel planes at normal · position = any multiple of `spacing`, in the mesh's space.
+/// Parallel planes at normal · position = (k + 1/2) `spacing` for all whole k, in the mesh's space: not through the
+/// origin, which is where a symmetric saddle has its level point.
 struct CuttingPlanes {
   Vec3 normal{0, 1, 0};
   double spacing = 1;

@@ -150,7 +150,10 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
   cairo_paint(context);
 
   cairo_set_source_rgb(context, ink, ink, ink);
-  font(context, title_size, true);
+  // A long title on a narrow sheet is set smaller rather than cut.
+  double size = title_size;
+  for (font(context, size, true); size > text_size && width_of(context, sheet.title) > width - 2 * margin; --size)
+    font(context, size - 1, true);
   write_line(context, margin, margin + title_size, sheet.title, width - 2 * margin);
   font(context, text_size, false);
   write_line(context, margin, margin + title_size + line_height + 2, sheet.subtitle, width - 2 * margin);

@@ -156,7 +156,8 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
 
   // Flat, with a line of constant width where a plane cuts the surface; dark and bright take turns.
   const auto height = [&](const Sample& s) {
-    return dot(settings.slots.planes.normal, attribute3(s, settings.slots.position)) / settings.slots.planes.spacing;
+    return dot(settings.slots.planes.normal, attribute3(s, settings.slots.position)) / settings.slots.planes.spacing -
+           0.5;
   };
   const auto slope = [&](const Sample& s, int dx, int dy) {
     for (const int sign : {1, -1}) {
