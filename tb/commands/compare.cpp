@@ -23,11 +23,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include <stdlib.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <optional>
 #include <set>
+#include <system_error>
 
 namespace quadrille::cli {
 namespace {
@@ -36,7 +42,7 @@ namespace fs = std::filesystem;
 namespace methods = golden::methods;
 
 constexpr const char* default_methods =
-    "split02,split13,triangle,twofold,projective,bilinear,refine:20,adaptive,hybrid,affine,mvc";
+    "split02,split13,triangle,twofold,projective,bilinear,refine:20,adaptive,hybrid:pixels,hybrid:ndc,affine,mvc";
 
 struct CompareOptions {
   CommonOptions common;
@@ -119,24 +125,134 @@ golden::Image8 difference_picture(const compare::AttributeImage& image, const co
   return picture;
 }
 
-/// The method's geometry over a picture.
+/// The outlines that lie in front of the eye, as closed lines on the screen; their mean edge in pixels.
+std::vector<compare::Polyline> screen_outlines(const std::vector<std::vector<WindowVertex>>& outlines, double& edge) {
+  std::vector<compare::Polyline> lines;
+  double length = 0;
+  std::size_t edges = 0;
+  for (const std::vector<WindowVertex>& outline : outlines) {
+    if (std::ranges::any_of(outline, [](const WindowVertex& v) { return !(v.w > 0); })) continue;
+    compare::Polyline line;
+    for (std::size_t i = 0; i <= outline.size(); ++i) {
+      const WindowVertex& v = outline[i % outline.size()];
+      line.points.push_back({v.x / v.w, v.y / v.w});
+      if (i == 0) continue;
+      const auto &a = line.points[i - 1], &b = line.points[i];
+      length += std::hypot(b[0] - a[0], b[1] - a[1]);
+      ++edges;
+    }
+    lines.push_back(std::move(line));
+  }
+  edge = edges ? length / static_cast<double>(edges) : 0;
+  return lines;
+}
+
+/// The method's geometry over a picture; the quads themselves where it is finer than lines can show.
 void draw_wireframe(const std::string& method, const Scene& scene, golden::Image8& picture) {
+  constexpr double finest_edge = 5;  // pixels
   const std::unique_ptr<methods::Method> drawn = methods::make_method(method);
   const methods::View view = method_view(scene.settings.state);
-  std::vector<compare::Polyline> lines;
+  std::vector<std::vector<WindowVertex>> outlines, quads;
   for (const methods::Quad& quad : method_quads(scene.input, method)) {
-    for (const std::vector<WindowVertex>& outline : drawn->wireframe(quad, view)) {
-      if (std::ranges::any_of(outline, [](const WindowVertex& v) { return !(v.w > 0); })) continue;
-      compare::Polyline line;
-      for (std::size_t i = 0; i <= outline.size(); ++i) {
-        const WindowVertex& v = outline[i % outline.size()];
-        line.points.push_back({v.x / v.w, v.y / v.w});
-      }
-      lines.push_back(std::move(line));
-    }
+    quads.emplace_back(quad.vertex.begin(), quad.vertex.end());
+    const auto of_quad = drawn->wireframe(quad, view);
+    outlines.insert(outlines.end(), of_quad.begin(), of_quad.end());
   }
+  double edge = 0;
+  std::vector<compare::Polyline> lines = screen_outlines(outlines, edge);
+  if (edge < finest_edge) lines = screen_outlines(quads, edge);
   compare::draw_lines(picture, lines, {255, 255, 255}, std::max(0.6, picture.width / 512.0));
 }
+
+/// A method's full name; a wrong one is told with the option that holds it.
+std::string method_name(const char* option, const std::string& spec) {
+  try {
+    return methods::make_method(spec)->name();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string(option) + ": " + error.what());
+  }
+}
+
+/// The files of one run, in a hidden folder of the directory until all of them are complete.
+class Stage {
+ public:
+  explicit Stage(const std::string& directory) : directory_(directory) {
+    std::error_code error;
+    fs::create_directories(directory_, error);
+    std::string name = (directory_ / ".compare-XXXXXX").string();
+    if (!fs::is_directory(directory_) || mkdtemp(name.data()) == nullptr)
+      throw UsageError("--out " + directory + ": cannot be written to: " +
+                       (error ? error : std::error_code(errno, std::generic_category())).message());
+    folder_ = name;
+  }
+  ~Stage() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  const fs::path& folder() const { return folder_; }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Moves everything into the directory; pictures and plots that an earlier run left and this one does not have go.
+  void commit() const {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) files.push_back(entry.path().filename());
+    std::ranges::sort(files);
+    for (const fs::path& file : files)
+      if (fs::is_directory(directory_ / file))
+        throw UsageError((directory_ / file).string() + ": is a directory; a file of this name is to be written");
+    std::vector<std::string> earlier{"plot.json", "plot_time.png", "plot_setup.png"};
+    std::ifstream table(directory_ / "table.json");
+    const nlohmann::json old = nlohmann::json::parse(table, nullptr, false);
+    if (old.is_object() && old.contains("methods") && old["methods"].is_array()) {
+      for (const nlohmann::json& row : old["methods"])
+        if (row.is_object() && row.contains("method") && row["method"].is_string())
+          earlier.push_back(row["method"].get<std::string>() + ".exr");
+      for (const std::string& name : earlier)
+        if (name.find('/') == std::string::npos && !fs::exists(folder_ / name) &&
+            fs::is_regular_file(directory_ / name))
+          fs::remove(directory_ / name);
+    }
+    for (const fs::path& file : files) fs::rename(folder_ / file, directory_ / file);
+  }
+
+ private:
+  fs::path directory_, folder_;
+};
+
+/// The part of the pictures that shows something, with a margin; all of it unless that is small.
+struct Crop {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  Crop(const compare::AttributeImage& a, const compare::AttributeImage& b) : x1(a.width), y1(a.height) {
+    int left = a.width, top = a.height, right = 0, bottom = 0;
+    for (int y = 0; y < a.height; ++y) {
+      for (int x = 0; x < a.width; ++x) {
+        if (!a.covered(a.pixel(x, y)) && !b.covered(b.pixel(x, y))) continue;
+        left = std::min(left, x), right = std::max(right, x + 1);
+        top = std::min(top, y), bottom = std::max(bottom, y + 1);
+      }
+    }
+    const int margin = 4 + std::max(right - left, bottom - top) / 10;
+    left = std::max(0, left - margin), right = std::min(a.width, right + margin);
+    top = std::max(0, top - margin), bottom = std::min(a.height, bottom + margin);
+    if (left >= right || (right - left) * 2 > a.width || (bottom - top) * 2 > a.height) return;
+    x0 = left, y0 = top, x1 = right, y1 = bottom;
+  }
+
+  golden::Image8 of(const golden::Image8& picture) const {
+    golden::Image8 part;
+    part.width = x1 - x0;
+    part.height = y1 - y0;
+    for (int y = y0; y < y1; ++y) {
+      const auto row = picture.rgba.begin() + (static_cast<std::ptrdiff_t>(y) * picture.width + x0) * 4;
+      part.rgba.insert(part.rgba.end(), row, row + static_cast<std::ptrdiff_t>(part.width) * 4);
+    }
+    return part;
+  }
+};
 
 nlohmann::ordered_json value_or_null(double value, bool measured = true) {
   if (!measured || !std::isfinite(value)) return nullptr;
@@ -154,12 +270,8 @@ class Compare {
     width_ = width, height_ = height;
     const Scene scene = load_scene(options_, width, height);
     check_methods(scene.input);
-    std::vector<int> sizes = crease_sizes();
-    const std::string directory = options_.out;
-    std::error_code error;
-    fs::create_directories(directory, error);
-    if (!fs::is_directory(directory))
-      throw UsageError("--out " + directory + ": cannot be made a directory" + (error ? ": " + error.message() : ""));
+    const std::vector<int> sizes = crease_sizes();
+    stage_.emplace(options_.out);
 
     Progress progress("compare " + scene.input.name, options_.methods.size() * (sizes.size() + 1) + 2,
                       options_.common.show_progress());
@@ -190,30 +302,37 @@ class Compare {
           time_method(options_.methods[m], scene.input, scene.settings.state, options_.repeats).ns_per_pixel);
     progress.finish();
 
-    golden::save_png(path("sheet.png"), compare::draw_sheet(sheet, options_.cell), golden::PngFormat::rgb8);
+    const Crop crop(truth, reference);
+    for (compare::SheetRow& row : sheet.rows)
+      for (std::optional<compare::SheetCell>& cell : row.cells) cell->picture = crop.of(cell->picture);
+    if (crop.x1 - crop.x0 < width_)
+      sheet.subtitle += "; shown from (" + std::to_string(crop.x0) + ", " + std::to_string(crop.y0) + ") to (" +
+                        std::to_string(crop.x1) + ", " + std::to_string(crop.y1) + ")";
+    golden::save_png(stage_->path("sheet.png"), compare::draw_sheet(sheet, options_.cell), golden::PngFormat::rgb8);
     write_tables(scene, rows, sizes);
     if (options_.plot)
-      write_plot(scene.input, scene.settings, directory, options_.common, arguments_, options_.repeats);
+      write_plot(scene.input, scene.settings, stage_->folder().string(), options_.common, arguments_, options_.repeats);
+    stage_->commit();
     print(scene, rows, sizes);
     return exit_ok;
   }
 
  private:
-  std::string path(const std::string& name) const { return (fs::path(options_.out) / name).string(); }
-
   void check_options() {
     if (options_.out.empty()) throw UsageError("--out DIR is needed");
     if (fs::exists(options_.out) && !fs::is_directory(options_.out))
       throw UsageError("--out " + options_.out + ": is a file; a directory is wanted");
-    if (!options_.input.quads.empty() || !options_.input.stress.empty() || inputs_given(options_.input) != 1)
-      throw UsageError("one input is needed: --scene NAME or --mesh F.obj");
+    if (inputs_given(options_.input) != 1) throw UsageError("one input is needed: --scene NAME or --mesh F.obj");
     if (options_.methods.empty()) throw UsageError("--methods: no method is named");
-    methods::make_method(options_.reference);
+    method_name("--reference", options_.reference);
     std::set<std::string> seen;
-    for (const std::string& method : options_.methods) {
-      methods::make_method(method);
-      if (!seen.insert(method).second) throw UsageError("--methods: " + method + " is named twice");
-    }
+    for (const std::string& method : options_.methods)
+      if (!seen.insert(method_name("--methods", method)).second)
+        throw UsageError("--methods: " + method + " is named twice");
+    if (const int most = compare::most_columns(options_.cell); static_cast<int>(options_.methods.size()) > most)
+      throw UsageError("--methods: " + std::to_string(options_.methods.size()) + " columns of --cell " +
+                       std::to_string(options_.cell) + " pixels do not fit one sheet; at most " + std::to_string(most) +
+                       " do");
     std::vector<std::string> read = options_.input.files();
     read.insert(read.end(), {options_.common.config_file, options_.texture});
     check_outputs({options_.common.json}, read);
@@ -250,8 +369,11 @@ class Compare {
     compare::Sheet sheet;
     sheet.title = input.title + (input.paper.empty() ? "" : " (" + input.paper + ")");
     sheet.subtitle = input.name + ", " + std::to_string(width_) + " × " + std::to_string(height_) + ", " + input.shade +
-                     (scene.settings.state.perspective ? "" : ", without perspective correction") +
-                     "; differences of the attributes";
+                     (scene.settings.state.perspective
+                          ? ""
+                          : ", without perspective correction (refined cells are small: they come near the corrected "
+                            "picture)") +
+                     "; differences of " + compared_values(input);
     sheet.columns = options_.methods;
     sheet.rows = {{"picture", {}}, {"difference from " + options_.reference, {}}, {"difference from the truth", {}}};
     sheet.heat_most = heat_most;
@@ -270,7 +392,7 @@ class Compare {
     const FrameBuffer frame = cli::draw_method(method, scene.input, settings);
     golden::FrameImage picture = shade_frame(frame, scene.shading);
     add_error_layers(frame, scene.input.quads, settings.config, settings.state, false, settings.threads, picture);
-    golden::save_exr(path(method + ".exr"), picture);
+    golden::save_exr(stage_->path(method + ".exr"), picture);
 
     const compare::AttributeImage image = attribute_image(frame, scene.input);
     const compare::FrameError against_reference = compare::compare_frames(image, reference);
@@ -344,12 +466,12 @@ class Compare {
     json["shade"] = input.shade;
     json["perspective"] = scene.settings.state.perspective;
     json["reference"] = options_.reference;
-    json["attributes"] = input.attributes > 0 ? input.attributes : 4;
+    json["differences_of"] = compared_values(input);
     json["crease_sizes"] = sizes;
     json["methods"] = rows;
-    golden::save_json(path("table.json"), json);
-    golden::write_file(path("table.csv"), compare::table_csv(rows), golden::AtomicFile::Dash::refused);
-    golden::write_file(path("table.md"), compare::table_markdown(rows, sizes, options_.reference),
+    golden::save_json(stage_->path("table.json"), json);
+    golden::write_file(stage_->path("table.csv"), compare::table_csv(rows), golden::AtomicFile::Dash::refused);
+    golden::write_file(stage_->path("table.md"), compare::table_markdown(rows, sizes, options_.reference),
                        golden::AtomicFile::Dash::refused);
     if (!options_.common.json.empty()) golden::save_json(options_.common.json, json);
   }
@@ -363,18 +485,19 @@ class Compare {
       std::snprintf(buffer.data(), buffer.size(), format, value.get<double>());
       return std::string(buffer.data());
     };
-    std::fprintf(out, "%s, %dx%d, %s; differences of attributes\n", scene.input.name.c_str(), width_, height_,
-                 scene.input.shade.c_str());
+    std::fprintf(out, "%s, %dx%d, %s; differences of %s\n", scene.input.name.c_str(), width_, height_,
+                 scene.input.shade.c_str(), compared_values(scene.input));
     const std::string size = sizes.empty() ? "" : std::to_string(sizes[(sizes.size() - 1) / 2]);
-    std::fprintf(out, "%-18s %8s %8s %9s  %-19s %-19s %-19s %9s %9s %8s\n", "method", "pixels", "missing", "undefined",
-                 ("from " + options_.reference).c_str(), "from the truth",
+    std::fprintf(out, "%-18s %8s %8s %8s %9s %8s  %-19s %-19s %-19s %9s %9s %8s\n", "method", "pixels", "missing",
+                 "extra", "undefined", "wrong", ("from " + options_.reference).c_str(), "from the truth",
                  sizes.empty() ? "" : ("crease at " + size + " px").c_str(), "quads", "triangles", "ns/px");
-    std::fprintf(out, "%-18s %8s %8s %9s  %9s %9s %9s %9s %9s %9s\n", "", "", "", "", "max", "RMS", "max", "RMS",
-                 sizes.empty() ? "" : "0-2", sizes.empty() ? "" : "1-3");
+    std::fprintf(out, "%-18s %8s %8s %8s %9s %8s  %9s %9s %9s %9s %9s %9s\n", "", "", "", "", "", "", "max", "RMS",
+                 "max", "RMS", sizes.empty() ? "" : "0-2", sizes.empty() ? "" : "1-3");
     for (const compare::Row& row : rows)
-      std::fprintf(out, "%-18s %8llu %8llu %9llu  %9s %9s %9s %9s %9s %9s %9llu %9llu %8s\n",
+      std::fprintf(out, "%-18s %8llu %8llu %8llu %9llu %8llu  %9s %9s %9s %9s %9s %9s %9llu %9llu %8s\n",
                    row["method"].get<std::string>().c_str(), row["covered"].get<unsigned long long>(),
-                   row["missing"].get<unsigned long long>(), row["undefined"].get<unsigned long long>(),
+                   row["missing"].get<unsigned long long>(), row["extra"].get<unsigned long long>(),
+                   row["undefined"].get<unsigned long long>(), row["truth_wrong"].get<unsigned long long>(),
                    text(row["reference_max"], "%.1e").c_str(), text(row["reference_rms"], "%.1e").c_str(),
                    text(row["truth_max"], "%.1e").c_str(), text(row["truth_rms"], "%.1e").c_str(),
                    sizes.empty() ? "" : text(row["crease02_" + size], "%.1e").c_str(),
@@ -391,6 +514,7 @@ class Compare {
 
   const CompareOptions& options_;
   const std::vector<std::string>& arguments_;
+  std::optional<Stage> stage_;
   int width_ = 0, height_ = 0;
 };
 
@@ -420,7 +544,7 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
                   "fig11\n"
                   "  quadrille compare --mesh spot.obj --methods split02,mvc --shade uv --plot --out spot");
   const auto options = std::make_shared<CompareOptions>();
-  options->input.add_to(*command);
+  options->input.add_to(*command, false);
   options->common.add_to(*command);
   options->state.add_to(*command);
   command->add_option("--methods", options->methods, "Methods, in the order of the columns; default: all")

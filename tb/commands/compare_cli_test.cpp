@@ -38,7 +38,7 @@ TEST_F(CompareCli, EveryMethodDrawsAndIsWritten) {
     EXPECT_GT(fs::file_size(file("d/" + name + ".exr")), 64u * 64u * 40u);
   }
   EXPECT_EQ(names, (std::set<std::string>{"mvc", "split02", "split13", "triangle", "twofold", "projective", "bilinear",
-                                          "refine:20", "adaptive", "hybrid", "affine"}));
+                                          "refine:20", "adaptive", "hybrid:pixels", "hybrid:ndc", "affine"}));
   EXPECT_GT(fs::file_size(file("d/sheet.png")), 10'000u);
   // The same rows and columns in CSV, a line a method in Markdown.
   std::istringstream csv(read(file("d/table.csv")));
@@ -128,6 +128,13 @@ TEST_F(CompareCli, SameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(a, b);
 }
 
+TEST_F(CompareCli, OddShapesGiveASheet) {
+  for (const char* size : {"1x512", "512x1", "3x2"})
+    table(std::string("--scene fig1_flat --methods mvc,split02 --size ") + size, size);
+  const json depth = table("--scene fig1_flat --size 32x32 --shade depth --methods projective,mvc");
+  EXPECT_EQ(depth.at("differences_of"), "window depth");
+}
+
 TEST_F(CompareCli, Plot) {
   table("--scene fig1_flat --size 32x32 --methods mvc --plot");
   const json plot = json::parse(read(file("d/plot.json")));
@@ -167,17 +174,35 @@ TEST_F(CompareCli, MeshesAndRenderByMethod) {
 }
 
 TEST_F(CompareCli, BadInput) {
+  std::string many;  // sixteen methods that differ
+  for (int n = 1; n <= 16; ++n) many += (n > 1 ? ",refine:" : "refine:") + std::to_string(n);
   refuses(2, "compare --scene fig1_flat", {"--out"});
   refuses(2, "compare --out d", {"--scene NAME or --mesh F.obj"});
-  refuses(2, "compare --stress general --out d", {"--scene NAME or --mesh F.obj"});
+  refuses(2, "compare --stress general --out d", {"--stress"});
   refuses(2, "compare --scene fig1_flat --out d --methods mvc,splt02", {"splt02", "did you mean 'split02'"});
   refuses(2, "compare --scene fig1_flat --out d --methods mvc,mvc", {"mvc", "twice"});
+  refuses(2, "compare --scene fig1_flat --out d --methods refine:20,refine", {"refine", "twice"});
+  refuses(2, "compare --scene fig1_flat --out d --cell 2048 --methods " + many, {"16 columns", "--cell 2048"});
   refuses(2, "compare --scene fig1_flat --out d --methods refine:0", {"refine:0", "1 to 1000"});
   refuses(2, "compare --scene fig1_flat --out d --methods mvc:3", {"mvc has no knob"});
-  refuses(2, "compare --scene fig1_flat --out d --reference nothing", {"nothing"});
+  refuses(2, "compare --scene fig1_flat --out d --reference nothing", {"--reference", "nothing"});
   refuses(2, "compare --scene fig1_flat --out d --crease-sizes 4", {"--crease-sizes", "16 to 4096"});
   refuses(2, "compare --scene fig1_flat --out d --shade colour", {"colour"});
   EXPECT_FALSE(fs::exists(file("d"))) << "nothing is written before the input is known to be good";
+  // Nothing of a run that fails appears, and nothing of an earlier one is lost.
+  table("--scene fig1_flat --size 24x24 --methods mvc,split02 --crease-sizes 24", "e");
+  const std::string before = read(file("e/table.json"));
+  fs::remove(file("e/table.csv"));
+  fs::create_directory(file("e/table.csv"));
+  refuses(2, "compare --scene fig1_flat --size 24x24 --methods mvc --crease-sizes 24 --repeats 1 --quiet --out e",
+          {"table.csv", "is a directory"});
+  EXPECT_EQ(read(file("e/table.json")), before);
+  EXPECT_TRUE(fs::exists(file("e/split02.exr")));
+  fs::remove(file("e/table.csv"));
+  table("--scene fig1_flat --size 24x24 --methods mvc --crease-sizes 24", "e");
+  EXPECT_FALSE(fs::exists(file("e/split02.exr"))) << "of the earlier run";
+  for (const fs::directory_entry& entry : fs::directory_iterator(file("e")))
+    EXPECT_EQ(entry.path().filename().string().find(".compare"), std::string::npos) << "the stage is gone";
   write("f", "kept");
   refuses(2, "compare --scene fig1_flat --out f", {"f", "directory"});
   EXPECT_EQ(read(file("f")), "kept");

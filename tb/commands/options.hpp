@@ -66,7 +66,8 @@ struct InputOptions {
   /// The files among them.
   std::vector<std::string> files() const { return {mesh, camera, quads}; }
 
-  void add_to(CLI::App& app);
+  /// `any` false: for a command that needs object space (no --quads, --stress, --count).
+  void add_to(CLI::App& app, bool any = true);
 };
 
 /// Refuses a minus sign: the library would wrap a negative number into a huge one.

@@ -118,7 +118,17 @@ std::string power_of_two(double value) {
   return "2^" + std::to_string(static_cast<int>(std::lround(std::log2(value))));
 }
 
+/// Of a picture within its cell.
+double scale_of(const Image8& picture, double cell) {
+  return std::min(cell / picture.width, 2 * cell / picture.height);
+}
+
 }  // namespace
+
+int most_columns(int cell_width) {
+  constexpr double most_side = 32767;
+  return static_cast<int>((most_side - 2 * margin - label_width) / (cell_width + gap));
+}
 
 Image8 draw_sheet(const Sheet& sheet, int cell_width) {
   const double cell = cell_width;
@@ -126,7 +136,7 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
   for (const SheetRow& row : sheet.rows) {
     double height = 0;
     for (const std::optional<SheetCell>& entry : row.cells)
-      if (entry) height = std::max(height, cell * entry->picture.height / entry->picture.width);
+      if (entry) height = std::max(height, entry->picture.height * scale_of(entry->picture, cell));
     heights.push_back(std::round(height));
   }
   const bool legend = sheet.heat_most > 0 || !sheet.keys.empty();
@@ -172,7 +182,7 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
       if (!entry) continue;
       const double x = left + static_cast<double>(column) * (cell + gap);
       const Surface picture = to_surface(entry->picture);
-      const double scale = cell / entry->picture.width;
+      const double scale = scale_of(entry->picture, cell);
       cairo_save(context);
       cairo_translate(context, x, y);
       cairo_scale(context, scale, scale);

@@ -37,14 +37,19 @@ struct Sheet {
   std::vector<SheetKey> keys;
 };
 
-/// Lays the sheet out with pictures `cell_width` pixels wide (larger ones are reduced, smaller ones enlarged without
-/// smoothing). Pictures of a row are equally high. Text that does not fit is cut with an ellipsis.
+/// Columns of this width that fit a sheet; the drawing library takes pictures of 32767 pixels at most.
+int most_columns(int cell_width);
+
+/// Lays the sheet out with pictures `cell_width` pixels wide, less where they would be more than twice as high (larger
+/// ones are reduced, smaller ones enlarged without smoothing). Text that does not fit is cut with an ellipsis. Throws
+/// std::runtime_error for more than most_columns().
 golden::Image8 draw_sheet(const Sheet& sheet, int cell_width);
 
-/// A grid of `segments` polylines over a picture: for meshes that a method emits. Points in pixels of the picture.
+/// Points in pixels of a picture.
 struct Polyline {
   std::vector<std::array<double, 2>> points;
 };
+/// Lines over a picture: for the mesh that a method emits.
 void draw_lines(golden::Image8& picture, const std::vector<Polyline>& lines, std::array<std::uint8_t, 3> colour,
                 double width);
 

@@ -90,9 +90,9 @@ std::string table_markdown(const std::vector<Row>& rows, const std::vector<int>&
       {"crease on 0–2 at " + at + " px", crease02},
       {"crease on 1–3 at " + at + " px", crease13},
       {"largest jump inside at " + at + " px", jump},
-      {"gap between neighbours: max / pixels", {"gap_max", "gap_pixels"}},
-      {"quads / triangles set up", {"emitted_quads", "triangles"}},
-      {"refused / affine quads", {"refused", "affine"}},
+      {"gap between neighbours: max / RMS / pixels", {"gap_max", "gap_rms", "gap_pixels"}},
+      {"quads / triangles set up / T-vertices", {"emitted_quads", "triangles", "t_vertices"}},
+      {"quads given / refused / affine", {"quads", "refused", "affine"}},
       {"ns per pixel", {"ns_per_pixel"}},
   };
   std::string text, rule;

@@ -4,6 +4,8 @@
 #include "tb/commands/errors.hpp"
 #include "tb/render/method_engine.hpp"
 
+#include <array>
+
 namespace quadrille::cli {
 
 FrameBuffer draw_frame(Engine& engine, const DrawInput& input, const DrawState& state) {
@@ -27,14 +29,23 @@ FrameBuffer draw_truth(const DrawInput& input, const EngineSettings& settings) {
   return draw_frame(*make_engine(truth), input, settings.state);
 }
 
+const char* compared_values(const DrawInput& input) {
+  if (input.shade == "depth") return "window depth";
+  return input.attributes > 0 ? "the attributes" : "the weights";
+}
+
 compare::AttributeImage attribute_image(const FrameBuffer& frame, const DrawInput& input) {
-  compare::AttributeImage image(frame.width(), frame.height(), input.attributes > 0 ? input.attributes : 4);
+  const bool depth = input.shade == "depth";
+  const int channels = depth ? 1 : input.attributes > 0 ? input.attributes : 4;
+  compare::AttributeImage image(frame.width(), frame.height(), channels);
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
       if (!frame.drawn(x, y)) continue;
       const Sample& sample = frame.shown(x, y);
       if (sample.undefined)
         image.set_undefined(x, y, sample.index);
+      else if (depth)
+        image.set(x, y, sample.index, std::array{sample.z});
       else if (input.attributes > 0)
         image.set(x, y, sample.index, sample.attribute);
       else

@@ -14,7 +14,9 @@ FrameBuffer draw_method(const std::string& method, const DrawInput& input, const
 /// 113 bits, on the quads as given.
 FrameBuffer draw_truth(const DrawInput& input, const EngineSettings& settings);
 
-/// The attributes of what each pixel shows; the weights where the input has none.
+/// What is compared of an input: "the attributes", "window depth" (shading depth) or "the weights" (no attributes).
+const char* compared_values(const DrawInput& input);
+/// Those values of what each pixel shows.
 compare::AttributeImage attribute_image(const FrameBuffer& frame, const DrawInput& input);
 
 }  // namespace quadrille::cli
