@@ -64,14 +64,10 @@ void subdivide_part(const SubQuad& part, double area, int level, double threshol
     subdivide_part(SubQuad{corner[i], object[i], texture[i]}, area / 4, level + 1, threshold, emit);
 }
 
-bool is_textured_triangle(const Quad& quad) {
-  return is_triangle(quad) && quad.object[2] == quad.object[3] && quad.texture[2] == quad.texture[3];
-}
-
 template <class Emit>
 void subdivide_quad(const Quad& quad, const View& view, double threshold, Emit&& emit) {
   const SubQuad whole{weighted_corners(quad), quad.object, quad.texture};
-  if (is_textured_triangle(quad)) return emit(whole);
+  if (is_triangle(quad)) return emit(whole);
   const double area = off_plane(quad.object) > planar ? HUGE_VAL : projected_area(quad.vertex, view);
   subdivide_part(whole, area, 0, threshold, emit);
 }
@@ -123,7 +119,7 @@ class Adaptive final : public Method {
     census.quads = quads.size();
     TVertices t_vertices;
     for (const Quad& quad : quads) {
-      const std::uint64_t triangles = is_textured_triangle(quad) ? 1 : 2;
+      const std::uint64_t triangles = is_triangle(quad) ? 1 : 2;
       subdivide_quad(quad, view, threshold_, [&](const SubQuad& part) {
         ++census.emitted_quads;
         census.triangles += triangles;

@@ -182,10 +182,13 @@ TEST(Adaptive, TrianglesStayWhole) {
   const auto method = make_adaptive(1e-3);
   EXPECT_GT(subdivide(quad, view512, 1e-3).size(), 1u);  // a collapsed edge that still has two texture coordinates
   quad.texture[3] = quad.texture[2];
+  quad.attribute[3] = quad.attribute[2];
   EXPECT_EQ(subdivide(quad, view512, 1e-3).size(), 1u);
   const Census census = method->census(std::vector{quad}, view512);
   EXPECT_EQ(census.emitted_quads, 1u);
   EXPECT_EQ(census.triangles, 1u);
+  quad.attribute[3].push_back(1);
+  EXPECT_GT(subdivide(quad, view512, 1e-3).size(), 1u);  // or two attributes
 }
 
 // ---------------------------------------------------------------- T-vertices

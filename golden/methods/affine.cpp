@@ -91,7 +91,7 @@ class Affine final : public Method {
   /// values. They are not on a concave or crossed one, where coverage is expression (12): mean value coordinates, which
   /// reproduce affine attributes too.
   void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
-    if (has_equal_neighbours(quad) || (is_convex(quad.vertex) && is_affine(quad, view, tolerance_)))
+    if (triangles(quad, view) > 0)
       draw_split02(weighted_corners(quad), view, out);
     else
       mean_value_->draw(quad, view, out);
@@ -100,12 +100,21 @@ class Affine final : public Method {
   Census census(std::span<const Quad> quads, const View& view) const override {
     Census census;
     census.quads = census.emitted_quads = quads.size();
-    for (const Quad& quad : quads) census.affine += is_affine(quad, view, tolerance_) ? 1 : 0;
-    census.triangles = 2 * census.affine;
+    for (const Quad& quad : quads) {
+      const std::uint64_t set_up = triangles(quad, view);
+      census.affine += set_up > 0 ? 1 : 0;
+      census.triangles += set_up;
+    }
     return census;
   }
 
  private:
+  /// How many triangles draw the quad; 0 for mean value coordinates. Of a triangle one half of the split is empty.
+  std::uint64_t triangles(const Quad& quad, const View& view) const {
+    if (has_equal_neighbours(quad)) return 1;
+    return is_convex(quad.vertex) && is_affine(quad, view, tolerance_) ? 2 : 0;
+  }
+
   double tolerance_;
   std::unique_ptr<Method> mean_value_;
 };

@@ -214,14 +214,25 @@ TEST(Affine, OtherQuadsAreMeanValueQuads) {
     ASSERT_EQ(sample.lambda[sample.x > sample.y ? 1 : 3], 0);
 }
 
-TEST(Affine, CensusCountsAffineQuads) {
+TEST(Affine, CensusCountsWhatIsDrawn) {
   const Quad square = flat_quad({{{8, 8}, {48, 8}, {48, 48}, {8, 48}}});
   const Quad other = flat_quad({{{3, 2}, {50, 9}, {44, 60}, {7, 41}}});
-  Census expected;
-  expected.quads = expected.emitted_quads = 3;
-  expected.affine = 2;
-  expected.triangles = 4;
-  EXPECT_EQ(make_affine(0.01)->census(std::vector{square, other, square}, view64), expected);
+  const auto census = [](const std::vector<Quad>& quads) { return make_affine(0.01)->census(quads, view64); };
+  EXPECT_EQ(census({square, other, square}), (Census{.quads = 3, .emitted_quads = 3, .triangles = 2 + 2, .affine = 2}));
+  // One triangle, whichever edge is collapsed: one half of the split has no area.
+  for (std::size_t first = 0; first < 4; ++first)
+    EXPECT_EQ(census({renumbered(triangle_quad(), first, false)}),
+              (Census{.quads = 1, .emitted_quads = 1, .triangles = 1, .affine = 1}));
+  // Affine images that are concave, corner 2 inside, and crossed are drawn with mean value coordinates.
+  for (const Quad& quad : {affine_quad({{{0, 0}, {1, 0}, {0.3, 0.3}, {0, 1}}}, {8, 8, 1}, {40, 0, 0}, {0, 40, 0}),
+                           affine_quad({{{0, 0}, {1, 0}, {0, 1}, {1, 1}}}, {8, 8, 1}, {40, 0, 0}, {0, 40, 0})}) {
+    ASSERT_TRUE(is_affine(quad, view64, 0.01));
+    EXPECT_EQ(census({quad}), (Census{.quads = 1, .emitted_quads = 1}));
+    const auto drawn = draw(*make_affine(0.01), quad, view64), expected = draw(*make_mvc(), quad, view64);
+    ASSERT_GT(expected.size(), 100u);
+    ASSERT_EQ(drawn.size(), expected.size());
+    for (std::size_t i = 0; i < drawn.size(); ++i) ASSERT_EQ(drawn[i].lambda, expected[i].lambda);
+  }
   EXPECT_EQ(make_affine(0.01)->name(), "affine:0.01");
 }
 

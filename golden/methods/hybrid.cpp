@@ -1,6 +1,7 @@
 // Method hybrid: two triangles whose fragment program computes mean value coordinates in single precision, as published
 // (Hormann & Tarini 2004, section 5.1; Bloomenthal 2022, listings 1 and 2). The formulas, the order of operations and
-// every weakness are theirs.
+// every weakness are theirs. Only the weights are: what a caller makes of them, sum(lambda_i a_i), is in double, where
+// the listing sums in single precision too, so that the listing's own values are off by an ulp or so more.
 #include "golden/methods/builders.hpp"
 #include "golden/methods/homogeneous.hpp"
 

@@ -53,7 +53,7 @@ struct Census {
   std::uint64_t emitted_quads = 0;  ///< quads set up or split further (refine, adaptive: after subdivision)
   std::uint64_t triangles = 0;      ///< triangles set up; 0 for a method that sets up quads
   std::uint64_t t_vertices = 0;     ///< vertices of an emitted quad inside an edge of another (adaptive)
-  std::uint64_t affine = 0;         ///< quads that need no mean value work (affine)
+  std::uint64_t affine = 0;         ///< quads, triangles among them, that are drawn without mean value work (affine)
 
   friend bool operator==(const Census&, const Census&) = default;
 };
@@ -84,8 +84,8 @@ struct MethodInfo {
 /// All methods in their stated order.
 std::span<const MethodInfo> list_methods();
 
-/// "mvc", "refine", "refine:20" … Throws std::invalid_argument for an unknown name (the nearest is named) or a knob
-/// that does not parse or is out of range (the range is named).
+/// "mvc", "refine", "refine:20" … Throws std::invalid_argument for a missing name, an unknown one (the nearest is
+/// named) or a knob that does not parse or is out of range (the range is named).
 std::unique_ptr<Method> make_method(std::string_view spec);
 
 }  // namespace quadrille::golden::methods

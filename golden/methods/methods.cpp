@@ -28,15 +28,21 @@ constexpr std::array<MethodInfo, 11> methods{{
      "a plane equation where the attributes are an affine image of the corners, mvc elsewhere"},
 }};
 
+/// " (mvc, split02, ...)"
+std::string all_names() {
+  std::string text = " (";
+  for (const MethodInfo& info : methods) text.append(&info == methods.data() ? "" : ", ").append(info.name);
+  return text + ")";
+}
+
 [[noreturn]] void unknown(std::string_view name) {
   const auto nearest =
       std::ranges::min_element(methods, {}, [&](const MethodInfo& info) { return edit_distance(name, info.name); });
-  std::string text = "unknown method '" + std::string(name) + "'; did you mean '" + std::string(nearest->name) + "'? (";
-  for (const MethodInfo& info : methods) text.append(&info == methods.data() ? "" : ", ").append(info.name);
-  throw std::invalid_argument(text + ")");
+  throw std::invalid_argument("unknown method '" + std::string(name) + "'; did you mean '" +
+                              std::string(nearest->name) + "'?" + all_names());
 }
 
-[[noreturn]] void bad_knob(std::string_view spec, const std::string& wanted) {
+[[noreturn]] void bad_spec(std::string_view spec, const std::string& wanted) {
   throw std::invalid_argument("method '" + std::string(spec) + "': " + wanted);
 }
 
@@ -48,7 +54,7 @@ Number knob(std::string_view spec, std::string_view text, Number standard, Numbe
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(value >= low && value <= high))
-    bad_knob(spec, wanted);
+    bad_spec(spec, wanted);
   return value;
 }
 
@@ -60,10 +66,11 @@ std::unique_ptr<Method> make_method(std::string_view spec) {
   const std::size_t colon = spec.find(':');
   const std::string_view name = spec.substr(0, colon);
   const std::string_view text = colon == std::string_view::npos ? std::string_view() : spec.substr(colon + 1);
+  if (name.empty()) bad_spec(spec, "the name is missing" + all_names());
   const auto info = std::ranges::find(methods, name, &MethodInfo::name);
   if (info == methods.end()) unknown(name);
-  if (colon != std::string_view::npos && text.empty()) bad_knob(spec, "nothing follows the colon");
-  if (info->knob.empty() && !text.empty()) bad_knob(spec, std::string(name) + " has no knob");
+  if (colon != std::string_view::npos && text.empty()) bad_spec(spec, "nothing follows the colon");
+  if (info->knob.empty() && !text.empty()) bad_spec(spec, std::string(name) + " has no knob");
 
   if (name == "mvc") return make_mvc();
   if (name == "split02") return make_split(Diagonal::v0_v2);
@@ -80,7 +87,7 @@ std::unique_ptr<Method> make_method(std::string_view spec) {
   if (text == "ndc") return make_hybrid(HybridForm::ndc);
   if (text == "tarini") return make_hybrid(HybridForm::tarini);
   if (text == "bloomenthal") return make_hybrid(HybridForm::bloomenthal);
-  bad_knob(spec, "the form is pixels, ndc, tarini or bloomenthal");
+  bad_spec(spec, "the form is pixels, ndc, tarini or bloomenthal");
 }
 
 }  // namespace quadrille::golden::methods

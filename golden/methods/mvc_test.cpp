@@ -8,6 +8,7 @@
 #include "golden/scenes/stress.hpp"
 
 #include <numbers>
+#include <tuple>
 
 namespace quadrille::golden::methods {
 namespace {
@@ -236,6 +237,29 @@ TEST_P(AgainstTruth, CoverageWeightsAndDepth) {
     }
   }
   EXPECT_GT(compared, 20u);
+}
+
+/// fig9_j at 512 × 512. In exact fractions the edge function from vertex 2 to 3 is 8.0e-12 at both pixels, S taken as
+/// rounded it is 0 at the first and 1.6e-11 at the second: the tie rule decides where the truth has no tie.
+TEST(Mvc, TiesOfCoverageAreThoseOfDoublePrecision) {
+  WindowQuad given;
+  given.vertex = {{{192, 358.40000000000003, 0.5, 1},
+                   {-389.12000000000006, -92.159999999999968, 0.5, -0.80000000000000004},
+                   {568.32000000000005, 414.72000000000003, 0.5, 1.2},
+                   {-239.36000000000001, -98.559999999999974, 0.5, -1.1000000000000001}}};
+  Quad quad;
+  quad.vertex = given.vertex;
+  DrawState state;
+  state.attributes = 0;
+  const TruthQuad truth(given, state);
+  const auto pixels = by_pixel(*mvc, quad, {512, 512, true});
+  for (const auto& [x, y, drawn] : {std::tuple{475, 347, false}, {476, 348, true}}) {
+    const ReferenceSample expected = truth.sample(x, y);
+    EXPECT_TRUE(expected.covered && expected.visible);
+    EXPECT_EQ(expected.flags & flag_tie, 0);
+    EXPECT_TRUE(near_tie(given, x, y));
+    EXPECT_EQ(pixels.contains({x, y}), drawn) << x;
+  }
 }
 
 std::vector<StressFamily> all_families() {

@@ -170,13 +170,14 @@ TEST(Refine, WithoutPerspectiveCellsAreLinearOnTheScreen) {
 
 TEST(Refine, CensusCountsCells) {
   const Quad quad = centred_quad(centred_corners);
-  Quad triangle = quad;
-  triangle.vertex[3] = triangle.vertex[2];
+  Quad collapsed = triangle_quad();
+  collapsed.texture[3] = {0, 1};
   Census expected;
-  expected.quads = 2;
-  expected.emitted_quads = 2 * 25;
-  expected.triangles = 50 + 45;  // five cells of the triangle have a collapsed edge
-  EXPECT_EQ(make_refine(5)->census(std::vector{quad, triangle}, view64), expected);
+  expected.quads = 3;
+  expected.emitted_quads = 3 * 25;
+  // Five cells of the triangle have a collapsed edge; with two textures at its ends it is a quad's.
+  expected.triangles = 50 + 45 + 50;
+  EXPECT_EQ(make_refine(5)->census(std::vector{quad, triangle_quad(), collapsed}, view64), expected);
   EXPECT_EQ(make_refine(5)->wireframe(quad, view64).size(), 25u);
   EXPECT_EQ(make_refine(20)->name(), "refine:20");
 }

@@ -32,6 +32,13 @@ double largest_difference(const Sample& a, const Sample& b) {
   return d;
 }
 
+/// Barycentric coordinates in space of a triangle at a sample's pixel.
+std::array<double, 3> weights_of(const std::array<WindowVertex, 3>& v, const Sample& sample) {
+  const std::array<Real, 3> m = cramer(v, sample.x + Real{0.5}, sample.y + Real{0.5}).m;
+  const Real sum = m[0] + m[1] + m[2];
+  return {static_cast<double>(m[0] / sum), static_cast<double>(m[1] / sum), static_cast<double>(m[2] / sum)};
+}
+
 void compare_with_cramer(const Quad& quad, std::size_t which, const View& view, int& compared) {
   const Pixels drawn = by_pixel(draw(*split(which), quad, view));
   for (int y = 0; y < view.height; ++y) {
@@ -241,9 +248,28 @@ TEST(Split, ConcaveAndCrossedQuadsKeepTheirTwoTriangles) {
   EXPECT_NEAR(static_cast<double>(std::ranges::count(samples, true, &Sample::front)), 56 * 56 / 2.0, 30);
 }
 
+/// Corners 2 and 3 at one place on the screen: either diagonal leaves one of them out.
+TEST(Split, ACollapsedEdgeWhoseEndsDifferIsAQuad) {
+  for (const int difference : {0, 1, 2}) {
+    Quad quad = triangle_quad();
+    (difference == 0 ? quad.texture[3][0] : difference == 1 ? quad.attribute[3][0] : quad.object[3][0]) += 0.25;
+    for (const std::size_t which : {0, 1}) {
+      const std::size_t seen = which == 0 ? 2 : 3;
+      const auto samples = draw(*split(which), quad, view64);
+      EXPECT_NEAR(static_cast<double>(samples.size()), (40 * 40 - 10 * 34) / 2.0, 40);
+      for (const Sample& sample : samples) {
+        const auto m = weights_of({quad.vertex[0], quad.vertex[1], quad.vertex[2]}, sample);
+        const std::array<double, 4> expected{m[0], m[1], seen == 2 ? m[2] : 0, seen == 3 ? m[2] : 0};
+        for (std::size_t i = 0; i < 4; ++i) ASSERT_NEAR(sample.lambda[i], expected[i], 1e-12) << which << ", " << i;
+      }
+      EXPECT_EQ(split(which)->census(std::vector{quad}, view64).triangles, 2u);
+      EXPECT_EQ(split(which)->wireframe(quad, view64).size(), 2u);
+    }
+  }
+}
+
 TEST(Split, CensusCountsTriangles) {
-  Quad triangle = centred_quad(centred_corners);
-  triangle.vertex[3] = triangle.vertex[2];
+  const Quad triangle = triangle_quad();
   const std::vector<Quad> quads{centred_quad(centred_corners), triangle, centred_quad(centred_corners)};
   Census expected;
   expected.quads = expected.emitted_quads = 3;

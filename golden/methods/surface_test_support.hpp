@@ -110,6 +110,16 @@ inline Quad centred_quad(const std::array<Point, 4>& position) {
   return screen_quad(position, w);
 }
 
+/// The triangle of its first three corners, the last repeated.
+inline Quad triangle_quad() {
+  Quad quad = centred_quad(centred_corners);
+  quad.vertex[3] = quad.vertex[2];
+  quad.object[3] = quad.object[2];
+  quad.texture[3] = quad.texture[2];
+  quad.attribute[3] = quad.attribute[2];
+  return quad;
+}
+
 /// The quad with all corners moved away from its middle by a factor of 1 + 2^-20: pixel centres on its edges and
 /// corners are then inside by some 1e-5 pixels, whatever the tie rule.
 inline Quad swollen_quad() {

@@ -512,12 +512,15 @@ TEST(TriangleMethod, CensusAndRefusals) {
   quads[2].vertex[1].w = 0;
   quads[3].vertex[3].w = -1;
   quads[4].vertex[0].x = 0x1p21;  // beyond the guard band
+  quads.push_back(quads[1]);
+  quads.back().texture[3] = {0, 1};  // a collapsed edge with two textures: a quad
   const auto method = make_triangle(12);
-  const Census expected{.quads = 5, .refused = 3, .emitted_quads = 2, .triangles = 3};
+  const Census expected{.quads = 6, .refused = 3, .emitted_quads = 3, .triangles = 5};
   EXPECT_EQ(method->census(quads, {}), expected);
   for (std::size_t i = 2; i < 5; ++i) EXPECT_TRUE(draw(quads[i]).empty()) << i;
   // Centres with x - 1 >= y - 1, both edges of length 8 without their ends' ties: 8 + 7 + ... + 1.
   EXPECT_EQ(draw(quads[1]).size(), 36u);
+  EXPECT_EQ(draw(quads[5]).size(), 36u);
   // Corners are told apart by x + 2 y: 3, 11, 27, 19.
   const auto outlines = [&](const Quad& quad) {
     std::vector<std::vector<double>> out;
@@ -529,6 +532,7 @@ TEST(TriangleMethod, CensusAndRefusals) {
   };
   EXPECT_EQ(outlines(quads[0]), (std::vector<std::vector<double>>{{3, 11, 27}, {3, 27, 19}}));
   EXPECT_EQ(outlines(quads[1]), (std::vector<std::vector<double>>{{3, 11, 27}}));
+  EXPECT_EQ(outlines(quads[5]), (std::vector<std::vector<double>>{{3, 11, 27}, {3, 27, 27}}));
   EXPECT_TRUE(outlines(quads[2]).empty());
   EXPECT_EQ(method->name(), "triangle:12");
   EXPECT_EQ(make_triangle(7)->name(), "triangle:7");

@@ -25,8 +25,12 @@ inline bool same_vertex(const WindowVertex& p, const WindowVertex& q) {
   return p.x == q.x && p.y == q.y && p.z == q.z && p.w == q.w;
 }
 
-/// A triangle given as a quad: its last corner repeats the third.
-inline bool is_triangle(const Quad& quad) { return same_vertex(quad.vertex[2], quad.vertex[3]); }
+/// A triangle given as a quad: its last corner repeats the third in everything. A collapsed edge whose ends differ in
+/// texture or attributes makes no triangle: what is seen depends on the end that is drawn.
+inline bool is_triangle(const Quad& quad) {
+  return same_vertex(quad.vertex[2], quad.vertex[3]) && quad.object[2] == quad.object[3] &&
+         quad.texture[2] == quad.texture[3] && quad.attribute[2] == quad.attribute[3];
+}
 
 /// Appends the fragments of one triangle; lambda = sum of barycentric coordinate times weight, in space with
 /// View::perspective, on the screen without.

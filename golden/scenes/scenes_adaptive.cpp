@@ -26,15 +26,15 @@ constexpr double trapezoid_area = 2.1;
 
 Scene arbitrary() { return face_on(polygon, patch, 3, 38); }
 
-/// The trapezoid so far away that it covers `pixels` of a viewport 512 pixels high: with a field of view of 90 degrees
-/// an area a at distance d covers a (256 / d)² pixels.
-Scene covering(double pixels) { return face_on(trapezoid, patch, 256 * std::sqrt(trapezoid_area / pixels), 90); }
+/// The trapezoid so far away that its projected area is `pixels` in a viewport 512 pixels high: with a field of view of
+/// 90 degrees an area a at distance d becomes a (256 / d)² pixels.
+Scene of_area(double pixels) { return face_on(trapezoid, patch, 256 * std::sqrt(trapezoid_area / pixels), 90); }
 
-Scene covering_33600() { return covering(33'600); }
-Scene covering_11879() { return covering(11'879); }
-Scene covering_3051() { return covering(3'051); }
-Scene covering_795() { return covering(795); }
-Scene covering_197() { return covering(197); }
+Scene area_33600() { return of_area(33'600); }
+Scene area_11879() { return of_area(11'879); }
+Scene area_3051() { return of_area(3'051); }
+Scene area_795() { return of_area(795); }
+Scene area_197() { return of_area(197); }
 
 /// A square on the floor whose bottom right corner V lies at (x, z) instead.
 Scene dragged(double x, double z) {
@@ -65,11 +65,11 @@ constexpr std::string_view fig13 = "Oliveira, fig. 13", fig14 = "Oliveira, fig. 
 constexpr std::array<SceneEntry, 11> entries{{
     {"oliveira12", "A polygon and a texture patch that are both arbitrary convex quadrilaterals", "Oliveira, fig. 12",
      arbitrary},
-    {"oliveira13_33600", "A trapezoid that covers 33,600 pixels of 512 × 512", fig13, covering_33600},
-    {"oliveira13_11879", "A trapezoid that covers 11,879 pixels of 512 × 512", fig13, covering_11879},
-    {"oliveira13_3051", "A trapezoid that covers 3,051 pixels of 512 × 512", fig13, covering_3051},
-    {"oliveira13_795", "A trapezoid that covers 795 pixels of 512 × 512", fig13, covering_795},
-    {"oliveira13_197", "A trapezoid that covers 197 pixels of 512 × 512", fig13, covering_197},
+    {"oliveira13_33600", "A trapezoid of projected area 33,600 px in 512 × 512", fig13, area_33600},
+    {"oliveira13_11879", "A trapezoid of projected area 11,879 px in 512 × 512", fig13, area_11879},
+    {"oliveira13_3051", "A trapezoid of projected area 3,051 px in 512 × 512", fig13, area_3051},
+    {"oliveira13_795", "A trapezoid of projected area 795 px in 512 × 512", fig13, area_795},
+    {"oliveira13_197", "A trapezoid of projected area 197 px in 512 × 512", fig13, area_197},
     {"oliveira14_a", "A checkerboard square in perspective", fig14, square},
     {"oliveira14_b", "The square with its bottom right vertex pulled back and to the left in its plane", fig14, pulled},
     {"oliveira14_c", "The square with its bottom right vertex pushed closer to the others in its plane", fig14, pushed},

@@ -12,7 +12,9 @@
 #include "tb/commands/input.hpp"
 #include "tb/commands/output.hpp"
 #include "tb/commands/progress.hpp"
+#include "tb/commands/staged_directory.hpp"
 #include "tb/compare/creases.hpp"
+#include "tb/compare/crop.hpp"
 #include "tb/compare/frame_error.hpp"
 #include "tb/compare/sheet.hpp"
 #include "tb/compare/table.hpp"
@@ -23,17 +25,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include <stdlib.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
-#include <system_error>
 
 namespace quadrille::cli {
 namespace {
@@ -89,7 +87,7 @@ Scene load_scene(const CompareOptions& options, int width, int height) {
 
 std::string caption_of(const compare::FrameError& error) {
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "max %.1e, RMS %.1e", error.error.max(), error.error.rms());
+  std::snprintf(text.data(), text.size(), "max %.1e, RMS %.1e", error.error.max(), error.rms);
   std::string caption = error.error.count() ? text.data() : "nothing to compare";
   const auto count = [&](std::uint64_t n, const char* what) {
     if (n) caption += ", " + std::to_string(n) + " " + what;
@@ -173,87 +171,6 @@ std::string method_name(const char* option, const std::string& spec) {
   }
 }
 
-/// The files of one run, in a hidden folder of the directory until all of them are complete.
-class Stage {
- public:
-  explicit Stage(const std::string& directory) : directory_(directory) {
-    std::error_code error;
-    fs::create_directories(directory_, error);
-    std::string name = (directory_ / ".compare-XXXXXX").string();
-    if (!fs::is_directory(directory_) || mkdtemp(name.data()) == nullptr)
-      throw UsageError("--out " + directory + ": cannot be written to: " +
-                       (error ? error : std::error_code(errno, std::generic_category())).message());
-    folder_ = name;
-  }
-  ~Stage() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Stage(const Stage&) = delete;
-  Stage& operator=(const Stage&) = delete;
-
-  const fs::path& folder() const { return folder_; }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  /// Moves everything into the directory; pictures and plots that an earlier run left and this one does not have go.
-  void commit() const {
-    std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) files.push_back(entry.path().filename());
-    std::ranges::sort(files);
-    for (const fs::path& file : files)
-      if (fs::is_directory(directory_ / file))
-        throw UsageError((directory_ / file).string() + ": is a directory; a file of this name is to be written");
-    std::vector<std::string> earlier{"plot.json", "plot_time.png", "plot_setup.png"};
-    std::ifstream table(directory_ / "table.json");
-    const nlohmann::json old = nlohmann::json::parse(table, nullptr, false);
-    if (old.is_object() && old.contains("methods") && old["methods"].is_array()) {
-      for (const nlohmann::json& row : old["methods"])
-        if (row.is_object() && row.contains("method") && row["method"].is_string())
-          earlier.push_back(row["method"].get<std::string>() + ".exr");
-      for (const std::string& name : earlier)
-        if (name.find('/') == std::string::npos && !fs::exists(folder_ / name) &&
-            fs::is_regular_file(directory_ / name))
-          fs::remove(directory_ / name);
-    }
-    for (const fs::path& file : files) fs::rename(folder_ / file, directory_ / file);
-  }
-
- private:
-  fs::path directory_, folder_;
-};
-
-/// The part of the pictures that shows something, with a margin; all of it unless that is small.
-struct Crop {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-
-  Crop(const compare::AttributeImage& a, const compare::AttributeImage& b) : x1(a.width), y1(a.height) {
-    int left = a.width, top = a.height, right = 0, bottom = 0;
-    for (int y = 0; y < a.height; ++y) {
-      for (int x = 0; x < a.width; ++x) {
-        if (!a.covered(a.pixel(x, y)) && !b.covered(b.pixel(x, y))) continue;
-        left = std::min(left, x), right = std::max(right, x + 1);
-        top = std::min(top, y), bottom = std::max(bottom, y + 1);
-      }
-    }
-    const int margin = 4 + std::max(right - left, bottom - top) / 10;
-    left = std::max(0, left - margin), right = std::min(a.width, right + margin);
-    top = std::max(0, top - margin), bottom = std::min(a.height, bottom + margin);
-    if (left >= right || (right - left) * 2 > a.width || (bottom - top) * 2 > a.height) return;
-    x0 = left, y0 = top, x1 = right, y1 = bottom;
-  }
-
-  golden::Image8 of(const golden::Image8& picture) const {
-    golden::Image8 part;
-    part.width = x1 - x0;
-    part.height = y1 - y0;
-    for (int y = y0; y < y1; ++y) {
-      const auto row = picture.rgba.begin() + (static_cast<std::ptrdiff_t>(y) * picture.width + x0) * 4;
-      part.rgba.insert(part.rgba.end(), row, row + static_cast<std::ptrdiff_t>(part.width) * 4);
-    }
-    return part;
-  }
-};
-
 nlohmann::ordered_json value_or_null(double value, bool measured = true) {
   if (!measured || !std::isfinite(value)) return nullptr;
   return value;
@@ -288,21 +205,17 @@ class Compare {
       rows.push_back(compare_method(method, scene, reference, truth, sheet));
       progress.set(++done, method);
     }
-    for (const int size : sizes) {
-      const Scene sized = load_scene(options_, scaled(width_, size), scaled(height_, size));
-      for (std::size_t m = 0; m < options_.methods.size(); ++m) {
-        const std::string& method = options_.methods[m];
-        add_creases(attribute_image(cli::draw_method(method, sized.input, sized.settings), sized.input),
-                    method_quads(sized.input, method), size, rows[m]);
-        progress.set(++done, method + " at " + std::to_string(size) + " px");
-      }
-    }
+    // Creases last: by method, each at all sizes, since they count over the diagonals that every size can measure.
+    std::vector<Scene> sized;
+    for (const int size : sizes) sized.push_back(load_scene(options_, scaled(width_, size), scaled(height_, size)));
+    for (std::size_t m = 0; m < options_.methods.size(); ++m)
+      add_jumps(options_.methods[m], sizes, sized, rows[m], [&] { progress.set(++done, options_.methods[m]); });
     for (std::size_t m = 0; m < options_.methods.size(); ++m)
       rows[m]["ns_per_pixel"] = value_or_null(
           time_method(options_.methods[m], scene.input, scene.settings.state, options_.repeats).ns_per_pixel);
     progress.finish();
 
-    const Crop crop(truth, reference);
+    const compare::Crop crop(truth, reference);
     for (compare::SheetRow& row : sheet.rows)
       for (std::optional<compare::SheetCell>& cell : row.cells) cell->picture = crop.of(cell->picture);
     if (crop.x1 - crop.x0 < width_)
@@ -312,7 +225,7 @@ class Compare {
     write_tables(scene, rows, sizes);
     if (options_.plot)
       write_plot(scene.input, scene.settings, stage_->folder().string(), options_.common, arguments_, options_.repeats);
-    stage_->commit();
+    stage_->commit(stale_files());
     print(scene, rows, sizes);
     return exit_ok;
   }
@@ -420,7 +333,7 @@ class Compare {
       const bool measured = error->error.count() > 0;
       row[prefix + "_max"] = value_or_null(error->error.max(), measured);
       row[prefix + "_p999"] = value_or_null(error->error.p999(), measured);
-      row[prefix + "_rms"] = value_or_null(error->error.rms(), measured);
+      row[prefix + "_rms"] = value_or_null(error->rms, measured);
       row[prefix + "_wrong"] = error->wrong;
     }
     row["quads"] = census.quads;
@@ -432,30 +345,59 @@ class Compare {
     return row;
   }
 
-  static void add_creases(const compare::AttributeImage& image, const std::vector<methods::Quad>& quads, int size,
-                          compare::Row& row) {
-    const std::string at = "_" + std::to_string(size);
-    const compare::Diagonals diagonals = compare::measure_diagonals(image, quads);
-    for (const auto& [name, diagonal] :
-         {std::pair{"crease02", &diagonals.d02}, std::pair{"crease13", &diagonals.d13}}) {
-      const compare::LineJump& jump = diagonal->jump;
-      const bool measured = jump.profiles() > 0;
-      row[name + at] = value_or_null(jump.step_slope.max(), measured);
-      row[name + ("_rms" + at)] = value_or_null(jump.step_slope.rms(), measured);
-      row[name + ("_fit" + at)] = value_or_null(jump.line_slope.max(), measured);
-      row[name + ("_fit_rms" + at)] = value_or_null(jump.line_slope.rms(), measured);
-      row[name + ("_at_line" + at)] = value_or_null(jump.parabola_slope.max(), measured);
-      row[name + ("_at_line_rms" + at)] = value_or_null(jump.parabola_slope.rms(), measured);
-      row[name + ("_profiles" + at)] = jump.profiles();
+  template <class Tick>
+  static void add_jumps(const std::string& method, const std::vector<int>& sizes, const std::vector<Scene>& sized,
+                        compare::Row& row, Tick&& tick) {
+    std::vector<std::vector<compare::QuadCreases>> creases;
+    std::vector<compare::InnerJumps> inside;
+    compare::DiagonalSet use;
+    std::optional<compare::Gaps> gaps;  // of the largest size, which comes last
+    for (const Scene& scene : sized) {
+      const std::vector<methods::Quad> quads = method_quads(scene.input, method);
+      const compare::AttributeImage image =
+          attribute_image(cli::draw_method(method, scene.input, scene.settings), scene.input);
+      creases.push_back(compare::measure_quad_diagonals(image, quads));
+      const compare::DiagonalSet measured = compare::measured_diagonals(creases.back());
+      use = creases.size() == 1 ? measured : compare::in_both(use, measured);
+      inside.push_back(compare::measure_inside(image));
+      gaps = compare::measure_gaps(image, quads);
+      tick();
     }
-    const compare::InnerJumps inside = compare::measure_inside(image);
-    row["jump_inside" + at] = value_or_null(inside.line_slope.max(), inside.line_slope.count() > 0);
-    row["jump_inside_p999" + at] = value_or_null(inside.line_slope.p999(), inside.line_slope.count() > 0);
-    // Not named by size: what remains is of the largest size, which comes last.
-    const compare::Gaps gaps = compare::measure_gaps(image, quads);
-    row["gap_max"] = value_or_null(gaps.jump.parabola_value.max(), gaps.measured > 0);
-    row["gap_rms"] = value_or_null(gaps.jump.parabola_value.rms(), gaps.measured > 0);
-    row["gap_pixels"] = gaps.empty + gaps.foreign;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const std::string at = "_" + std::to_string(sizes[i]);
+      const compare::Diagonals diagonals = compare::combine_diagonals(creases[i], use);
+      for (const auto& [name, diagonal] :
+           {std::pair{"crease02", &diagonals.d02}, std::pair{"crease13", &diagonals.d13}}) {
+        const compare::LineJump& jump = diagonal->jump;
+        const bool measured = jump.profiles() > 0;
+        row[name + at] = value_or_null(jump.step_slope.max(), measured);
+        row[name + ("_rms" + at)] = value_or_null(jump.step_slope.rms(), measured);
+        row[name + ("_fit" + at)] = value_or_null(jump.line_slope.max(), measured);
+        row[name + ("_fit_rms" + at)] = value_or_null(jump.line_slope.rms(), measured);
+        row[name + ("_at_line" + at)] = value_or_null(jump.parabola_slope.max(), measured);
+        row[name + ("_at_line_rms" + at)] = value_or_null(jump.parabola_slope.rms(), measured);
+        row[name + ("_quads" + at)] = diagonal->quads;
+        row[name + ("_profiles" + at)] = jump.profiles();
+      }
+      row["jump_inside" + at] = value_or_null(inside[i].line_slope.max(), inside[i].line_slope.count() > 0);
+      row["jump_inside_p999" + at] = value_or_null(inside[i].line_slope.p999(), inside[i].line_slope.count() > 0);
+    }
+    const bool measured = gaps && gaps->measured > 0;
+    row["gap_max"] = value_or_null(measured ? gaps->jump.gap.max() : 0, measured);
+    row["gap_rms"] = value_or_null(measured ? gaps->jump.gap.rms() : 0, measured);
+    row["gap_pixels"] = gaps ? gaps->empty + gaps->foreign : 0;
+  }
+
+  /// Pictures and plots that an earlier run into the same directory may have left.
+  std::vector<std::string> stale_files() const {
+    std::ifstream table(fs::path(options_.out) / "table.json");
+    const nlohmann::json earlier = nlohmann::json::parse(table, nullptr, false);
+    if (!earlier.is_object() || !earlier.contains("methods") || !earlier["methods"].is_array()) return {};
+    std::vector<std::string> names{"plot.json", "plot_time.png", "plot_setup.png"};
+    for (const nlohmann::json& row : earlier["methods"])
+      if (row.is_object() && row.contains("method") && row["method"].is_string())
+        names.push_back(row["method"].get<std::string>() + ".exr");
+    return names;
   }
 
   void write_tables(const Scene& scene, const std::vector<compare::Row>& rows, const std::vector<int>& sizes) const {
@@ -514,7 +456,7 @@ class Compare {
 
   const CompareOptions& options_;
   const std::vector<std::string>& arguments_;
-  std::optional<Stage> stage_;
+  std::optional<StagedDirectory> stage_;
   int width_ = 0, height_ = 0;
 };
 

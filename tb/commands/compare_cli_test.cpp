@@ -163,6 +163,16 @@ TEST_F(CompareCli, GapsBetweenNeighbours) {
   }
 }
 
+TEST_F(CompareCli, PlotOfMethodsThatDrawNothing) {
+  table("--scene bloomenthal14_b --size 32x32 --methods mvc --plot --crease-sizes 32");
+  const json plot = json::parse(read(file("d/plot.json")));
+  for (const json& curve : plot.at("curves"))
+    for (const json& point : curve.at("points"))
+      EXPECT_EQ(point.at("error_rms").is_null(), point.at("compared") == 0) << point;
+  EXPECT_EQ(plot["curves"][4].at("method"), "twofold");
+  EXPECT_EQ(plot["curves"][4]["points"][0].at("compared"), 0) << "refuses a vertex behind the eye";
+}
+
 TEST_F(CompareCli, MeshesAndRenderByMethod) {
   write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0.3\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n");
   const json report = table("--mesh m.obj --size 48x48 --shade uv --methods mvc,affine,adaptive");
@@ -202,7 +212,7 @@ TEST_F(CompareCli, BadInput) {
   table("--scene fig1_flat --size 24x24 --methods mvc --crease-sizes 24", "e");
   EXPECT_FALSE(fs::exists(file("e/split02.exr"))) << "of the earlier run";
   for (const fs::directory_entry& entry : fs::directory_iterator(file("e")))
-    EXPECT_EQ(entry.path().filename().string().find(".compare"), std::string::npos) << "the stage is gone";
+    EXPECT_EQ(entry.path().filename().string().find(".staged"), std::string::npos) << "the stage is gone";
   write("f", "kept");
   refuses(2, "compare --scene fig1_flat --out f", {"f", "directory"});
   EXPECT_EQ(read(file("f")), "kept");

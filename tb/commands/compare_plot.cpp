@@ -72,8 +72,10 @@ void write_plot(const DrawInput& input, const EngineSettings& settings, const st
       nlohmann::ordered_json point;
       point["method"] = spec;
       point["knob"] = knob;
-      point["error_max"] = error.error.max();
-      point["error_rms"] = error.error.rms();
+      // Without a pixel to compare there is no error, rather than none.
+      const bool compared = error.error.count() > 0;
+      point["error_max"] = compared ? nlohmann::ordered_json(error.error.max()) : nlohmann::ordered_json(nullptr);
+      point["error_rms"] = compared ? nlohmann::ordered_json(error.rms) : nlohmann::ordered_json(nullptr);
       point["compared"] = error.error.count();
       point["missing"] = error.missing;
       point["undefined"] = error.method_undefined;

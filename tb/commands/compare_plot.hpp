@@ -10,8 +10,9 @@
 namespace quadrille::cli {
 
 /// Draws the input with every method, those with a knob at several settings, and writes into `directory` plot.json
-/// (error from refine:200, seconds and primitives set up) and, through scripts/compare_plot.py, plot_time.png and
-/// plot_setup.png. Throws EnvironmentError when Python or its plot library is missing; plot.json stays then.
+/// (error from refine:200, null where no pixel can be compared; seconds and primitives set up) and, through
+/// scripts/compare_plot.py, plot_time.png and plot_setup.png. Throws EnvironmentError when Python or its plot library
+/// is missing; plot.json stays then.
 void write_plot(const DrawInput& input, const EngineSettings& settings, const std::string& directory,
                 const CommonOptions& common, const std::vector<std::string>& arguments, int repeats);
 

@@ -57,29 +57,64 @@ bool equal_attributes(std::span<const Quad> quads, const QuadEdge& a, const Quad
   return true;
 }
 
-/// Whether the line through p and q passes between the outer pixel centres of the profile, or through one.
-bool crosses(const Profile& profile, const Vec2& p, const Vec2& q) {
+/// Whether the line through a and b, wherever they are in homogeneous coordinates, passes between the outer pixel
+/// centres of the profile, or through one.
+bool crosses(const Profile& profile, const WindowVertex& a, const WindowVertex& b) {
   const auto side = [&](int offset) {
     const double x = profile.x + (profile.axis == Axis::x ? offset : 0) + 0.5;
     const double y = profile.y + (profile.axis == Axis::y ? offset : 0) + 0.5;
-    return (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
+    return (b.x - x * b.w) * (a.y - y * a.w) - (b.y - y * b.w) * (a.x - x * a.w);
   };
   const double near_end = side(-fit_pixels), far_end = side(fit_pixels - 1);
   return !((near_end > 0 && far_end > 0) || (near_end < 0 && far_end < 0));
 }
 
-void add_diagonal(const AttributeImage& image, const Quad& quad, std::uint32_t index, std::size_t corner,
-                  DiagonalCreases& total) {
-  const auto end = [&](std::size_t i) { return in_plane(window_position(quad.vertex[i % 4])); };
+LineJump measure_diagonal(const AttributeImage& image, const Quad& quad, std::uint32_t index, std::size_t corner) {
+  const auto vertex = [&](std::size_t i) -> const WindowVertex& { return quad.vertex[i % 4]; };
+  const auto end = [&](std::size_t i) { return in_plane(window_position(vertex(i))); };
   std::vector<Profile> profiles = line_profiles(image, end(corner), end(corner + 2));
-  std::erase_if(profiles, [&](const Profile& p) { return crosses(p, end(corner + 1), end(corner + 3)); });
-  const LineJump jump = measure_profiles(image, profiles, {index, index});
+  std::erase_if(profiles, [&](const Profile& p) { return crosses(p, vertex(corner + 1), vertex(corner + 3)); });
+  return measure_profiles(image, profiles, {index, index});
+}
+
+void check_set(const DiagonalSet& set, std::size_t quads) {
+  if (set[0].size() != quads || set[1].size() != quads)
+    throw std::invalid_argument("a set of diagonals is of another number of quads");
+}
+
+void add_diagonal(const LineJump& jump, std::uint32_t index, DiagonalCreases& total) {
   if (jump.profiles() > 0) {
     ++total.quads;
     if (total.worst == AttributeImage::no_quad || jump.line_slope.max() > total.jump.line_slope.max())
       total.worst = index;
   }
   total.jump.merge(jump);
+}
+
+/// On the screen and in front of the eye; triangles are.
+bool is_convex(const Quad& quad) {
+  if (!std::ranges::all_of(quad.vertex, [](const WindowVertex& v) { return v.w > 0; })) return false;
+  const auto corner = [&](std::size_t i) { return in_plane(window_position(quad.vertex[i % 4])); };
+  bool left = false, right = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 a = corner(i), b = corner(i + 1), c = corner(i + 2);
+    const double turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
+    left = left || turn > 0;
+    right = right || turn < 0;
+  }
+  return !(left && right);
+}
+
+/// Whether a diagonal of the quad crosses the profile of its edge. A triangle's diagonals are edges of it: one that is
+/// this edge does not count.
+bool diagonal_crosses(const Profile& profile, const Quad& quad, const std::array<Vec2, 2>& edge) {
+  for (const std::size_t i : {0, 1}) {
+    const WindowVertex &a = quad.vertex[i], &b = quad.vertex[i + 2];
+    const Vec2 from = in_plane(window_position(a)), to = in_plane(window_position(b));
+    const bool is_edge = (from == edge[0] && to == edge[1]) || (from == edge[1] && to == edge[0]);
+    if (!is_edge && crosses(profile, a, b)) return true;
+  }
+  return false;
 }
 
 /// Appends the pixels of the profile that lie within 1 of the edge and show neither of its quads.
@@ -102,15 +137,48 @@ void find_holes(const AttributeImage& image, const Profile& profile, const std::
 
 }  // namespace
 
-Diagonals measure_diagonals(const AttributeImage& image, std::span<const Quad> quads) {
+std::vector<QuadCreases> measure_quad_diagonals(const AttributeImage& image, std::span<const Quad> quads) {
   check_quads(image, quads);
-  Diagonals result;
+  std::vector<QuadCreases> creases(quads.size());
   for (std::size_t q = 0; q < quads.size(); ++q) {
     if (!std::ranges::all_of(quads[q].vertex, [](const WindowVertex& v) { return v.w > 0; })) continue;
-    add_diagonal(image, quads[q], static_cast<std::uint32_t>(q), 0, result.d02);
-    add_diagonal(image, quads[q], static_cast<std::uint32_t>(q), 1, result.d13);
+    creases[q].d02 = measure_diagonal(image, quads[q], static_cast<std::uint32_t>(q), 0);
+    creases[q].d13 = measure_diagonal(image, quads[q], static_cast<std::uint32_t>(q), 1);
+  }
+  return creases;
+}
+
+DiagonalSet measured_diagonals(std::span<const QuadCreases> creases) {
+  DiagonalSet set;
+  for (const QuadCreases& quad : creases) {
+    set[0].push_back(quad.d02.profiles() > 0);
+    set[1].push_back(quad.d13.profiles() > 0);
+  }
+  return set;
+}
+
+DiagonalSet in_both(const DiagonalSet& a, const DiagonalSet& b) {
+  check_set(a, b[0].size());
+  check_set(b, b[0].size());
+  DiagonalSet set = a;
+  for (std::size_t d = 0; d < set.size(); ++d)
+    for (std::size_t q = 0; q < set[d].size(); ++q) set[d][q] = a[d][q] && b[d][q];
+  return set;
+}
+
+Diagonals combine_diagonals(std::span<const QuadCreases> creases, const DiagonalSet& use) {
+  check_set(use, creases.size());
+  Diagonals result;
+  for (std::size_t q = 0; q < creases.size(); ++q) {
+    if (use[0][q]) add_diagonal(creases[q].d02, static_cast<std::uint32_t>(q), result.d02);
+    if (use[1][q]) add_diagonal(creases[q].d13, static_cast<std::uint32_t>(q), result.d13);
   }
   return result;
+}
+
+Diagonals measure_diagonals(const AttributeImage& image, std::span<const Quad> quads) {
+  const std::vector<bool> all(quads.size(), true);
+  return combine_diagonals(measure_quad_diagonals(image, quads), {all, all});
 }
 
 InnerJumps measure_inside(const AttributeImage& image) {
@@ -160,15 +228,22 @@ Gaps measure_gaps(const AttributeImage& image, std::span<const Quad> quads) {
   std::vector<std::size_t> holes;
   for (const SharedEdge& edge : shared_edges(quads)) {
     ++result.edges;
-    const LineJump jump = measure_line(image, edge.window[0], edge.window[1], edge.quad);
+    std::vector<Profile> profiles = line_profiles(image, edge.window[0], edge.window[1]);
+    for (const Profile& profile : profiles) find_holes(image, profile, edge.quad, holes);
+    std::erase_if(profiles, [&](const Profile& p) {
+      return std::ranges::any_of(
+          edge.quad, [&](std::uint32_t q) { return diagonal_crosses(settle_tie(image, p), quads[q], edge.window); });
+    });
+    const LineJump jump = measure_profiles(image, profiles, edge.quad);
+    if (!std::ranges::all_of(edge.quad, [&](std::uint32_t q) { return is_convex(quads[q]); })) {
+      result.concave.merge(jump);
+      continue;
+    }
     if (jump.profiles() > 0) {
       ++result.measured;
-      if (result.measured == 1 || jump.parabola_value.max() > result.jump.parabola_value.max())
-        result.worst = edge.quad;
+      if (result.measured == 1 || jump.gap.max() > result.jump.gap.max()) result.worst = edge.quad;
     }
     result.jump.merge(jump);
-    for (const Profile& profile : line_profiles(image, edge.window[0], edge.window[1]))
-      find_holes(image, profile, edge.quad, holes);
   }
   // Profiles of two edges may meet in a pixel.
   std::ranges::sort(holes);

@@ -24,10 +24,33 @@ struct Diagonals {
   DiagonalCreases d02, d13;
 };
 
-/// `quads[i]` is what the image calls quad i. Quads with a vertex of w <= 0 have no diagonal on the screen; of the
-/// others every profile of a diagonal's middle half counts whose pixels show the quad: none of a diagonal outside of a
-/// concave quad or behind another quad. Profiles that the other diagonal crosses as well do not count, so that a crease
-/// along one is not found on both. Throws std::invalid_argument when the image shows a quad that is not there.
+/// The diagonals of one quad.
+struct QuadCreases {
+  LineJump d02, d13;
+};
+
+/// Per quad, whether its diagonal counts: 0-2 in [0], 1-3 in [1].
+using DiagonalSet = std::array<std::vector<bool>, 2>;
+
+/// Element i is of `quads[i]`, which the image calls quad i. Quads with a vertex of w <= 0 have no diagonal on the
+/// screen; of the others every profile of a diagonal's middle half counts whose pixels show the quad: none of a
+/// diagonal outside of a concave quad or behind another quad. Profiles that the other diagonal crosses as well do not
+/// count, so that a crease along one is not found on both. Throws std::invalid_argument when the image shows a quad
+/// that is not there.
+std::vector<QuadCreases> measure_quad_diagonals(const AttributeImage& image,
+                                                std::span<const golden::methods::Quad> quads);
+
+/// The diagonals with a profile at least. Which these are depends on the size of the picture: creases at several sizes
+/// compare over the diagonals that are measured at each.
+DiagonalSet measured_diagonals(std::span<const QuadCreases> creases);
+
+/// What is in both. Throws std::invalid_argument for sets of different numbers of quads, as combine_diagonals does.
+DiagonalSet in_both(const DiagonalSet& a, const DiagonalSet& b);
+
+/// Over the diagonals in `use`.
+Diagonals combine_diagonals(std::span<const QuadCreases> creases, const DiagonalSet& use);
+
+/// Over all that are measured.
 Diagonals measure_diagonals(const AttributeImage& image, std::span<const golden::methods::Quad> quads);
 
 /// The boundaries between pixels of one quad, each taken for a line with its four pixels on either side.
@@ -56,9 +79,16 @@ std::vector<SharedEdge> shared_edges(std::span<const golden::methods::Quad> quad
 
 struct Gaps {
   std::uint64_t edges = 0;     ///< shared ones
-  std::uint64_t measured = 0;  ///< of them, with a profile at least
-  LineJump jump;               ///< parabola_value is the gap: it vanishes for attributes that agree on the edge
-  std::array<std::uint32_t, 2> worst{AttributeImage::no_quad, AttributeImage::no_quad};  ///< by parabola_value
+  std::uint64_t measured = 0;  ///< of them, with a profile in `jump`
+  /// Over the profiles of an edge's middle half in which no diagonal of its quads passes between the eight pixels.
+  /// `gap` is how far the two quads' attributes are apart on the edge; their other fits may run across a crease near
+  /// it.
+  LineJump jump;
+  /// The same, of the edges of a quad that is not convex on the screen or reaches behind the eye; not part of `jump`. A
+  /// method may fold such a quad over: the picture then jumps where another sheet is in front of the one that ends at
+  /// the edge, though the method is continuous.
+  LineJump concave;
+  std::array<std::uint32_t, 2> worst{AttributeImage::no_quad, AttributeImage::no_quad};  ///< by jump.gap
   /// Pixels whose centre is at most 1 from the middle half of an edge, along the profile, while the profile's fourth
   /// pixels on both sides show the edge's quads, one each.
   std::uint64_t empty = 0;    ///< of these: that show nothing

@@ -141,6 +141,9 @@ TEST(Diagonals, NoneOfQuadsThatReachBehindTheEyeOrDoNotShow) {
   EXPECT_EQ(measure_diagonals(image, std::array{at_eye, at_eye}).d13.quads, 0u);
   const Diagonals d = measure_diagonals(image, std::array{flat_quad(corner), turned});
   EXPECT_EQ(d.d02.quads, 1u) << "the first does not show";
+  const Diagonals flat = measure_diagonals(image, std::array{flat_quad(corner), flat_quad(corner)});
+  EXPECT_EQ(d.d02.jump.profiles(), flat.d02.jump.profiles());
+  EXPECT_EQ(d.d13.jump.profiles(), flat.d13.jump.profiles());
   EXPECT_EQ(d.d02.worst, 1u);
   EXPECT_NEAR(d.d02.jump.line_slope.max(), split_jump(convex, 0), 1e-9);
   EXPECT_THROW(measure_diagonals(image, std::array{behind}), std::invalid_argument);
@@ -174,6 +177,81 @@ TEST(Diagonals, OfSeveralQuadsTheWorst) {
   EXPECT_EQ(measure_diagonals(image, quads).d02.jump.undefined, 0u);
   image.set_undefined(70 + 16, 36, 1);  // away from the crossing
   EXPECT_EQ(measure_diagonals(image, quads).d02.jump.undefined, 1u);
+}
+
+TEST(Diagonals, OfEachQuad) {
+  // Two squares of 60, worth 1 and 3 at corner 3; a third that does not show.
+  std::vector<Quad> quads;
+  for (const double x : {5.0, 70.0, 135.0})
+    quads.push_back(flat_quad({{{x, 20}, {x + 60, 20}, {x + 60, 80}, {x, 80}}}));
+  const auto image = paint(
+      200, 100, 1,
+      [](double x, double y) {
+        if (y < 20 || y > 80) return none;
+        return x > 5 && x < 65 ? 0u : x > 70 && x < 130 ? 1u : none;
+      },
+      [](double x, double y) {
+        return Values{x < 65 ? std::max(0.0, y - 20 - (x - 5)) / 60 : std::max(0.0, y - 20 - (x - 70)) / 20};
+      });
+  const std::vector<QuadCreases> creases = measure_quad_diagonals(image, quads);
+  ASSERT_EQ(creases.size(), 3u);
+  EXPECT_NEAR(creases[0].d02.line_slope.max(), 200.0 / 60, 1e-9);
+  EXPECT_NEAR(creases[1].d02.line_slope.max(), 200.0 / 20, 1e-9);
+  for (const std::size_t q : {0, 1}) EXPECT_LT(creases[q].d13.line_slope.max(), 1e-9);
+  EXPECT_EQ(creases[2].d02.profiles() + creases[2].d13.profiles(), 0u);
+  const std::uint64_t profiles = creases[0].d02.profiles();
+  EXPECT_GT(profiles, 20u);
+  EXPECT_EQ(creases[1].d02.profiles(), profiles);
+  EXPECT_EQ(measured_diagonals(creases), (DiagonalSet{{{true, true, false}, {true, true, false}}}));
+
+  const Diagonals all = measure_diagonals(image, quads);
+  EXPECT_EQ(all.d02.quads, 2u);
+  EXPECT_EQ(all.d02.jump.profiles(), 2 * profiles);
+  EXPECT_EQ(all.d02.worst, 1u);
+  const Diagonals some = combine_diagonals(creases, {{{true, false, true}, {false, true, false}}});
+  EXPECT_EQ(some.d02.quads, 1u);
+  EXPECT_EQ(some.d02.jump.profiles(), profiles);
+  EXPECT_EQ(some.d02.worst, 0u);
+  EXPECT_NEAR(some.d02.jump.line_slope.max(), 200.0 / 60, 1e-9);
+  EXPECT_EQ(some.d13.quads, 1u);
+  EXPECT_EQ(some.d13.worst, 1u);
+  EXPECT_THROW(measure_quad_diagonals(image, std::span(quads).first(1)), std::invalid_argument);
+  EXPECT_THROW(combine_diagonals(creases, {{{true, true, true}, {true, true}}}), std::invalid_argument);
+  EXPECT_THROW(combine_diagonals(creases, {{{true, true}, {true, true, true}}}), std::invalid_argument);
+}
+
+TEST(Diagonals, OfTheSameQuadsAtEverySize) {
+  // Squares of 0.8 and 0.1, corner 3 worth 1: slopes jump by 1.25 and 10. At 64 the small one has 6 pixels.
+  const std::array<std::array<Vec2, 4>, 2> corner{
+      {{{{0.0, 0.0}, {0.8, 0.0}, {0.8, 0.8}, {0.0, 0.8}}}, {{{0.85, 0.0}, {0.95, 0.0}, {0.95, 0.1}, {0.85, 0.1}}}}};
+  const auto measure = [&](int size) {
+    AttributeImage image(size, size, 1);
+    std::vector<Quad> quads;
+    for (std::uint32_t q = 0; q < 2; ++q) {
+      const auto window = scaled(corner[q], size);
+      quads.push_back(flat_quad(window));
+      const AttributeImage one = split(window, 0, size, q);
+      for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+          if (one.covered(one.pixel(x, y))) image.set(x, y, q, one.values(one.pixel(x, y)));
+    }
+    return measure_quad_diagonals(image, quads);
+  };
+  const auto small = measure(64), large = measure(256);
+  const std::vector<bool> all(2, true);
+  EXPECT_NEAR(combine_diagonals(small, {all, all}).d02.jump.line_slope.max(), 1.25, 1e-9);
+  EXPECT_NEAR(combine_diagonals(large, {all, all}).d02.jump.line_slope.max(), 10, 1e-9);
+  const DiagonalSet both = in_both(measured_diagonals(small), measured_diagonals(large));
+  EXPECT_EQ(both, (DiagonalSet{{{true, false}, {true, false}}}));
+  EXPECT_EQ(in_both(measured_diagonals(large), measured_diagonals(small)), both);
+  for (const auto& creases : {small, large}) {
+    const Diagonals d = combine_diagonals(creases, both);
+    EXPECT_EQ(d.d02.quads, 1u);
+    EXPECT_NEAR(d.d02.jump.line_slope.max(), 1.25, 1e-9);
+  }
+  EXPECT_THROW(in_both(both, {}), std::invalid_argument);
+  EXPECT_THROW(in_both({}, both), std::invalid_argument);
+  EXPECT_THROW(in_both(both, {{{true, true}, {true}}}), std::invalid_argument);
 }
 
 TEST(Inside, AKinkIsTheSameAtEveryResolution) {
@@ -368,8 +446,9 @@ TEST(Gaps, AMismatchAlongTheEdge) {
   EXPECT_EQ(gaps.edges, 1u);
   EXPECT_EQ(gaps.measured, 1u);
   EXPECT_EQ(gaps.jump.profiles(), 32u);
+  EXPECT_NEAR(gaps.jump.gap.max(), 31.5 * 32.5 / 64 / 64, 1e-13);
+  EXPECT_NEAR(gaps.jump.gap.rms(), std::sqrt(squares / 32), 1e-13);
   EXPECT_NEAR(gaps.jump.parabola_value.max(), 31.5 * 32.5 / 64 / 64, 1e-13);
-  EXPECT_NEAR(gaps.jump.parabola_value.rms(), std::sqrt(squares / 32), 1e-13);
   EXPECT_EQ(gaps.worst, (Pair{0, 1}));
   EXPECT_EQ(gaps.empty, 0u);
   EXPECT_EQ(gaps.foreign, 0u);
@@ -383,6 +462,7 @@ TEST(Gaps, NoneWhereAttributesAgree) {
     return Values{y + (d < 0 ? d + 2 * d * d : 4 * d - d * d)};
   });
   const Gaps gaps = measure_gaps(image, neighbours());
+  EXPECT_LT(gaps.jump.gap.max(), 1e-12);
   EXPECT_LT(gaps.jump.parabola_value.max(), 1e-12);
   EXPECT_NEAR(gaps.jump.parabola_slope.max(), 3, 1e-9);
   // Straight lines leave 5/4 - m² = -11/4 of the difference of second powers, per 128².
@@ -412,9 +492,92 @@ TEST(Gaps, TheWorstOfSeveral) {
   EXPECT_EQ(gaps.edges, 4u);
   EXPECT_EQ(gaps.measured, 4u);
   EXPECT_EQ(gaps.worst, (Pair{2, 3}));
-  EXPECT_DOUBLE_EQ(gaps.jump.parabola_value.max(), 3);
+  EXPECT_DOUBLE_EQ(gaps.jump.gap.max(), 3);
   EXPECT_EQ(gaps.jump.profiles(), 80u);
-  EXPECT_DOUBLE_EQ(gaps.jump.parabola_value.rms(), std::sqrt((1 + 9 + 0.25 + 2.25) / 4));
+  EXPECT_DOUBLE_EQ(gaps.jump.gap.rms(), std::sqrt((1 + 9 + 0.25 + 2.25) / 4));
+}
+
+TEST(Gaps, ACreaseBesideAnEdgeIsNone) {
+  // Three squares of 64: a step of 1/8 at 64; at 128 no step, and slopes that change by 4 per pixel 2.25 further on.
+  auto quads = neighbours();
+  quads.push_back(flat_quad({{{128, 0}, {192, 0}, {192, 64}, {128, 64}}}));
+  const auto image = paint(
+      192, 64, 1, [](double x, double) { return x < 64    ? 0u
+                                                : x < 128 ? 1u
+                                                          : 2u; },
+      [](double x, double y) { return Values{y / 64 + (x < 64 ? 0.0 : 0.125) + 4 * std::max(0.0, x - 130.25)}; });
+  const Gaps gaps = measure_gaps(image, quads);
+  EXPECT_EQ(gaps.measured, 2u);
+  EXPECT_EQ(gaps.worst, (Pair{0, 1}));
+  EXPECT_NEAR(gaps.jump.gap.max(), 0.125, 1e-12);
+  EXPECT_NEAR(gaps.jump.gap.rms(), 0.125 / std::sqrt(2), 1e-12);
+  EXPECT_GT(gaps.jump.parabola_value.max(), 0.5);
+}
+
+TEST(Gaps, ProfilesThatADiagonalCrossesDoNotCount) {
+  // The left quad is narrow: its diagonals leave the edge at 64 by `width` / 64 per row from either end. A profile
+  // reaches to the centre at 60.5: 3.5 rows · 64 / width from an end are lost, of which the first 16 never count.
+  const auto left_quad = [](double edge, double width) {
+    return flat_quad({{{edge - width, 0}, {edge, 0}, {edge, 64}, {edge - width, 64}}});
+  };
+  const auto flat = neighbour_frame([](double, double) { return Values{0}; });
+  for (const auto& [width, profiles] : {std::pair{64, 32u}, std::pair{12, 26u}, std::pair{5, 0u}}) {
+    const Gaps gaps = measure_gaps(flat, std::array{left_quad(64, width), neighbours()[1]});
+    EXPECT_EQ(gaps.edges, 1u);
+    EXPECT_EQ(gaps.jump.profiles(), profiles) << width;
+    EXPECT_EQ(gaps.measured, profiles > 0 ? 1u : 0u);
+  }
+  // Split along a diagonal, which passes between the first two pixels and the edge in places: continuous.
+  const auto image = neighbour_frame(
+      [](double x, double y) { return Values{x < 64 ? 8 * std::max(0.0, 64 - 12 * y / 64 - x) : 0.0}; });
+  EXPECT_LT(measure_gaps(image, std::array{left_quad(64, 12), neighbours()[1]}).jump.gap.max(), 1e-12);
+  // Holes count where nothing is measured.
+  AttributeImage broken = flat;
+  test::erase(broken, 63, 30);
+  EXPECT_EQ(measure_gaps(broken, std::array{left_quad(64, 5), neighbours()[1]}).empty, 1u);
+
+  // The edge at 64.5, through centres that show the left quad: the profile ends at 68.5, 4 beyond; 4 · 64 / 12 = 21.3
+  // rows. Of the right quad: at 67.5, and 3 · 64 / 12 = 16 rows.
+  const std::array centred{left_quad(64.5, 64), left_quad(76.5, 12)};
+  for (const bool to_left : {true, false}) {
+    const auto frame = paint(
+        128, 64, 1, [&](double x, double) { return x < (to_left ? 65 : 64) ? 0u : 1u; },
+        [](double, double) { return Values{0}; });
+    EXPECT_EQ(measure_gaps(frame, centred).jump.profiles(), to_left ? 22u : 32u);
+  }
+}
+
+TEST(Gaps, OfATriangleItsDiagonalsAreEdges) {
+  const std::array<Vec2, 3> corner{{{64, 0}, {128, 32}, {64, 64}}};
+  const auto image = neighbour_frame([](double x, double) { return Values{x < 64 ? 0.0 : 0.5}; });
+  for (std::size_t first = 0; first < 3; ++first) {
+    const Vec2 &a = corner[first], &b = corner[(first + 1) % 3], &c = corner[(first + 2) % 3];
+    const Gaps gaps = measure_gaps(image, std::array{neighbours()[0], flat_quad({{a, b, c, c}})});
+    EXPECT_EQ(gaps.edges, 1u) << first;
+    EXPECT_EQ(gaps.jump.profiles(), 32u) << first;
+    EXPECT_EQ(gaps.jump.gap.max(), 0.5) << first;
+  }
+}
+
+TEST(Gaps, OfQuadsThatAreNotConvexApart) {
+  const auto image = neighbour_frame([](double x, double) { return Values{x < 64 ? 0.0 : 0.5}; });
+  const auto expect_apart = [&](const Quad& right) {
+    const Gaps gaps = measure_gaps(image, std::array{neighbours()[0], right});
+    EXPECT_EQ(gaps.edges, 1u);
+    EXPECT_EQ(gaps.measured, 0u);
+    EXPECT_EQ(gaps.jump.profiles(), 0u);
+    EXPECT_EQ(gaps.concave.profiles(), 32u);
+    EXPECT_EQ(gaps.concave.gap.max(), 0.5);
+    EXPECT_EQ(gaps.worst, (Pair{none, none}));
+  };
+  expect_apart(flat_quad({{{64, 0}, {128, 10}, {90, 32}, {64, 64}}}));
+  expect_apart(flat_quad({{{64, 0}, {128, 64}, {128, 0}, {64, 64}}}));  // crossed
+  Quad behind = neighbours()[1];
+  behind.vertex[2] = {-200, -50, 0, -1};
+  expect_apart(behind);
+  const Gaps squares = measure_gaps(image, neighbours());
+  EXPECT_EQ(squares.concave.profiles(), 0u);
+  EXPECT_EQ(squares.jump.profiles(), 32u);
 }
 
 TEST(Gaps, Holes) {

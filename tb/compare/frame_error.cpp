@@ -22,6 +22,7 @@ FrameError compare_frames(const AttributeImage& method, const AttributeImage& re
   if (method.width != reference.width || method.height != reference.height || method.channels != reference.channels)
     throw std::invalid_argument("frames of different sizes or channels cannot be compared");
   FrameError result;
+  double squares = 0;
   result.image.reserve(method.quad.size());
   for (int y = 0; y < method.height; ++y) {
     for (int x = 0; x < method.width; ++x) {
@@ -47,10 +48,12 @@ FrameError compare_frames(const AttributeImage& method, const AttributeImage& re
       const double error = pixel_error(method, reference, p);
       if (result.error.count() == 0 || error > result.error.max()) result.x = x, result.y = y;
       result.error.add(error);
+      squares += error * error;
       result.wrong += !(error <= wrong_above);
       result.image.push_back(static_cast<float>(error));
     }
   }
+  if (result.error.count() > 0) result.rms = std::sqrt(squares / static_cast<double>(result.error.count()));
   return result;
 }
 

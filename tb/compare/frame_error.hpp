@@ -27,6 +27,9 @@ struct FrameError {
   /// Largest |difference| of the channels, over the pixels where both show the same quad and have numbers. Its p999 is
   /// the nearest rank (the ceil(0.999 n)-th smallest) rounded up to a sixteenth of an octave, as everywhere.
   tb::ErrorStats error;
+  /// Root mean square of those; 0 of nothing. In double, unlike error.rms(), whose fixed point loses errors below
+  /// 2^-48: full precision for errors from 1e-150 to 1e150.
+  double rms = 0;
   int x = -1, y = -1;  ///< where the largest one is, the first of equal ones in rows; -1 without any
   std::uint64_t wrong = 0;
 

@@ -63,6 +63,7 @@ TEST(FrameError, EveryKindOfPixel) {
   EXPECT_EQ(e.error.max(), 0.25);
   EXPECT_EQ(e.error.mean(), 0.125);
   EXPECT_DOUBLE_EQ(e.error.rms(), 0.25 / std::sqrt(2));
+  EXPECT_DOUBLE_EQ(e.rms, 0.25 / std::sqrt(2));
   EXPECT_EQ(e.wrong, 1u);
   EXPECT_EQ(e.x, 10);
   EXPECT_EQ(e.y, 0);
@@ -113,6 +114,7 @@ TEST(FrameError, NumbersThatAreNone) {
 TEST(FrameError, ADifferenceMayBeInfinite) {
   const FrameError e = compare_frames(constant(2, 1, {1.7e308}), constant(2, 1, {-1.7e308}));
   EXPECT_EQ(e.error.max(), infinity);
+  EXPECT_EQ(e.rms, infinity);
   EXPECT_EQ(e.wrong, 2u);
   EXPECT_EQ(e.x, 0);
 }
@@ -143,6 +145,7 @@ TEST(FrameError, ThePixelOfTheMaximumIsTheFirst) {
   const FrameError none = compare_frames(AttributeImage(6, 5, 2), zero);
   EXPECT_EQ(none.missing, 30u);
   EXPECT_EQ(none.error.count(), 0u);
+  EXPECT_EQ(none.rms, 0);
   EXPECT_EQ(none.x, -1);
   EXPECT_EQ(none.y, -1);
 }
@@ -158,6 +161,21 @@ TEST(FrameError, TheNearestRankOfTheQuantile) {
   EXPECT_EQ(e.error.p999(), 8) << "never above the maximum";
   EXPECT_DOUBLE_EQ(e.error.mean(), (998 * 0.25 + 16) / 1000);
   EXPECT_DOUBLE_EQ(e.error.rms(), std::sqrt((998 * 0.0625 + 128) / 1000));
+  EXPECT_DOUBLE_EQ(e.rms, std::sqrt((998 * 0.0625 + 128) / 1000));
+}
+
+TEST(FrameError, TheRootMeanSquareOfSmallErrors) {
+  for (const double size : {1e-150, 0x1p-60, 0x1p-52, 1.0, 1e150}) {
+    const auto zero = constant(10, 4, {0, 0});
+    auto method = zero;
+    for (std::size_t p = 0; p < 10; ++p) method.values(p)[p % 2] = p < 5 ? size : -size;
+    test::erase(method, 9, 3);                   // of the 39 that remain
+    method.set(8, 3, 1, Values{1, 1});           // 38
+    method.values(method.pixel(7, 3))[0] = nan;  // 37
+    const FrameError e = compare_frames(method, zero);
+    EXPECT_EQ(e.error.count(), 37u);
+    EXPECT_DOUBLE_EQ(e.rms, size * std::sqrt(10.0 / 37));
+  }
 }
 
 TEST(FrameError, EveryPixelIsOneKind) {

@@ -22,24 +22,22 @@ SideFit fit_side(const std::array<double, fit_pixels>& f, double distance) {
   return {on_line, slope, on_line + bend * (t * t - 1.25), slope + 2 * bend * t};
 }
 
-void keep_largest(double jump, double& largest) {
-  if (!(jump <= largest)) largest = std::isnan(jump) ? std::numeric_limits<double>::infinity() : jump;
+/// One channel's ProfileJump::gap. `far_value[i]` is at `distance + i` from the line, `near_value[i]` at
+/// `1 - distance + i` on the other side.
+double gap_of(const std::array<double, fit_pixels>& far_value, const std::array<double, fit_pixels>& near_value,
+              double distance, const SideFit& far_fit, const SideFit& near_fit) {
+  const double far_pair = far_value[0] + (far_value[0] - far_value[1]) * distance;
+  const double near_pair = near_value[0] + (near_value[0] - near_value[1]) * (1 - distance);
+  const std::array differences{far_fit.parabola_value - near_fit.parabola_value,
+                               far_fit.line_value - near_fit.line_value, far_pair - near_pair};
+  if (!std::ranges::all_of(differences, [](double d) { return std::isfinite(d); }))
+    return std::numeric_limits<double>::infinity();
+  const auto [least, most] = std::ranges::minmax(differences);
+  return std::max({0.0, least, -most});
 }
 
-/// The profile whose sides follow what is shown where the line runs through a pixel centre, nearly.
-Profile settle_tie(const AttributeImage& image, Profile profile) {
-  const bool along_x = profile.axis == Axis::x;
-  int& position = along_x ? profile.x : profile.y;
-  const int size = along_x ? image.width : image.height;
-  if (position < 1 || position >= size) return profile;
-  const std::size_t first = image.pixel(profile.x, profile.y);
-  const std::size_t before = first - (along_x ? 1 : static_cast<std::size_t>(image.width));
-  if (image.quad[first] != image.quad[before]) return profile;
-  if (profile.distance <= edge_tolerance)
-    ++position, profile.distance += 1;
-  else if (1 - profile.distance <= edge_tolerance)
-    --position, profile.distance -= 1;
-  return profile;
+void keep_largest(double jump, double& largest) {
+  if (!(jump <= largest)) largest = std::isnan(jump) ? std::numeric_limits<double>::infinity() : jump;
 }
 
 }  // namespace
@@ -84,6 +82,7 @@ ProfileState measure_profile(const AttributeImage& image, const Profile& profile
     keep_largest(std::fabs(far_fit.line_value - near_fit.line_value), jump.line.value);
     keep_largest(std::fabs(far_fit.parabola_slope + near_fit.parabola_slope) * per_side, jump.parabola.slope);
     keep_largest(std::fabs(far_fit.parabola_value - near_fit.parabola_value), jump.parabola.value);
+    keep_largest(gap_of(far_value, near_value, profile.distance, far_fit, near_fit), jump.gap);
     std::array<double, 2 * fit_pixels> all{};
     std::ranges::reverse_copy(near_value, all.begin());
     std::ranges::copy(far_value, all.begin() + fit_pixels);
@@ -91,6 +90,21 @@ ProfileState measure_profile(const AttributeImage& image, const Profile& profile
       keep_largest(std::fabs((all[i + 1] - all[i]) - (all[i] - all[i - 1])) * per_side, jump.step_slope);
   }
   return ProfileState::measured;
+}
+
+Profile settle_tie(const AttributeImage& image, Profile profile) {
+  const bool along_x = profile.axis == Axis::x;
+  int& position = along_x ? profile.x : profile.y;
+  const int size = along_x ? image.width : image.height;
+  if (position < 1 || position >= size) return profile;
+  const std::size_t first = image.pixel(profile.x, profile.y);
+  const std::size_t before = first - (along_x ? 1 : static_cast<std::size_t>(image.width));
+  if (image.quad[first] != image.quad[before]) return profile;
+  if (profile.distance <= edge_tolerance)
+    ++position, profile.distance += 1;
+  else if (1 - profile.distance <= edge_tolerance)
+    --position, profile.distance -= 1;
+  return profile;
 }
 
 std::vector<Profile> line_profiles(const AttributeImage& image, const golden::Vec2& p, const golden::Vec2& q) {
@@ -122,6 +136,7 @@ void LineJump::add(const ProfileJump& jump) {
   parabola_slope.add(jump.parabola.slope);
   parabola_value.add(jump.parabola.value);
   step_slope.add(jump.step_slope);
+  gap.add(jump.gap);
 }
 
 void LineJump::merge(const LineJump& other) {
@@ -130,6 +145,7 @@ void LineJump::merge(const LineJump& other) {
   parabola_slope.merge(other.parabola_slope);
   parabola_value.merge(other.parabola_value);
   step_slope.merge(other.step_slope);
+  gap.merge(other.gap);
   undefined += other.undefined;
 }
 

@@ -40,6 +40,10 @@ struct ProfileJump {
   /// The largest change of the slope from one pixel to the next within the eight pixels, attribute per image side: f''
   /// of a smooth attribute; of a crease half of its jump at least (it may fall between two changes), all of it at most.
   double step_slope = 0;
+  /// Per channel the smallest |difference| at the line of three fits to either side: the parabola, the straight line,
+  /// and the straight line through the two nearest pixels; 0 where they differ in sign. A step shows in all three; a
+  /// crease beyond the second pixel misleads the first two alone, and curvature the last two. A lower estimate.
+  double gap = 0;
 };
 
 enum class ProfileState {
@@ -81,7 +85,7 @@ class JumpStats {
 
 /// Over the profiles of one segment, or of many.
 struct LineJump {
-  JumpStats line_slope, line_value, parabola_slope, parabola_value, step_slope;
+  JumpStats line_slope, line_value, parabola_slope, parabola_value, step_slope, gap;
   std::uint64_t undefined = 0;  ///< profiles that only an undefined pixel kept from being measured
 
   /// 0: not measurable.
@@ -90,9 +94,12 @@ struct LineJump {
   void merge(const LineJump& other);
 };
 
-/// The jumps over the given profiles. `quads`: the same twice for a line inside a quad, two for an edge that they
-/// share. A pixel centre on the line counts to the far side; on an edge of two quads, and as close to it as snapped
-/// vertices may move it (edge_tolerance), to the side of the quad that it shows.
+/// The profile of an edge between two quads, moved by a pixel where needed: a pixel centre on the edge, or as close to
+/// it as snapped vertices may move it (edge_tolerance), counts to the side of the quad that it shows.
+Profile settle_tie(const AttributeImage& image, Profile profile);
+
+/// The jumps over the given profiles. `quads`: the same twice for a line inside a quad, where a pixel centre on the
+/// line counts to the far side; two for an edge that they share, with its ties settled.
 LineJump measure_profiles(const AttributeImage& image, std::span<const Profile> profiles,
                           const std::array<std::uint32_t, 2>& quads);
 

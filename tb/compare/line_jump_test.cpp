@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -157,20 +158,29 @@ TEST(MeasureProfile, IsTheLeastSquaresFit) {
     const Profile profile = row ? Profile{Axis::x, 4, 0, distance} : Profile{Axis::y, 0, 4, distance};
     ProfileJump jump;
     ASSERT_EQ(measure_profile(image, profile, {5, 5}, jump), ProfileState::measured);
+    std::vector<std::array<long double, 3>> difference(static_cast<std::size_t>(channels));
     for (const bool parabola : {false, true}) {
       long double slope = 0, value = 0;
-      for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
+      for (std::size_t c = 0; c < difference.size(); ++c) {
         std::array<double, 4> far_side{}, near_side{};
         for (std::size_t i = 0; i < 4; ++i) far_side[i] = image.values(4 + i)[c], near_side[i] = image.values(3 - i)[c];
         const auto f = normal_equations(far_side, distance, parabola);
         const auto n = normal_equations(near_side, 1 - distance, parabola);
         slope = std::max(slope, 8 * std::fabs(f[1] + n[1]));
         value = std::max(value, std::fabs(f[0] - n[0]));
+        difference[c][parabola] = f[0] - n[0];
+        difference[c][2] =
+            std::lerp(far_side[0], far_side[1], -distance) - std::lerp(near_side[0], near_side[1], distance - 1);
       }
       const Jump& actual = parabola ? jump.parabola : jump.line;
       EXPECT_NEAR(actual.slope, static_cast<double>(slope), 1e-11) << round;
       EXPECT_NEAR(actual.value, static_cast<double>(value), 1e-11) << round;
     }
+    long double gap = 0;
+    for (const auto& [a, b, c] : difference)
+      if (std::signbit(a) == std::signbit(b) && std::signbit(b) == std::signbit(c))
+        gap = std::max(gap, std::min({std::fabs(a), std::fabs(b), std::fabs(c)}));
+    EXPECT_NEAR(jump.gap, static_cast<double>(gap), 1e-11) << round;
   }
 }
 
@@ -271,6 +281,70 @@ TEST(MeasureLine, AStepAcrossASharedEdge) {
     EXPECT_EQ(measure_line(image, line.p(), line.q(), inside).profiles(), 0u) << degrees;
     EXPECT_EQ(measure_line(image, line.p(), line.q(), {0, 2}).profiles(), 0u) << degrees;
   }
+}
+
+/// The gap of a row of eight pixels with the line in its middle: channel values at the centres -3.5 … 3.5.
+double gap_of_row(const std::vector<std::function<double(double)>>& channels) {
+  AttributeImage image(8, 1, static_cast<int>(channels.size()));
+  for (int x = 0; x < 8; ++x) {
+    Values values;
+    for (const auto& channel : channels) values.push_back(channel(x - 3.5));
+    image.set(x, 0, x < 4 ? 0 : 1, values);
+  }
+  ProfileJump jump;
+  EXPECT_EQ(measure_profile(image, {Axis::x, 4, 0, 0.5}, edge, jump), ProfileState::measured);
+  return jump.gap;
+}
+
+TEST(MeasureProfile, AGapIsWhatEveryFitSees) {
+  const auto step = [](double s) { return s < 0 ? 2 * s : 0.25 - s; };
+  EXPECT_NEAR(gap_of_row({step}), 0.25, 1e-15);
+  // A crease beyond the second pixel of the far side: the nearest two see straight lines. The least-squares fits take
+  // max(0, s - 2) of the third and fourth pixel, 1/2 and 3/2: mean 1/2, slope 1/2, bend 1/4, at t = -2 the line is at
+  // -1/2 and the parabola at -1/2 + 11/16 = 3/16.
+  const auto crease = [](double s) { return std::max(0.0, s - 2); };
+  EXPECT_NEAR(gap_of_row({crease}), 0, 1e-15);
+  // It may hide a part of a gap, but does not add to it: 1/4 + 3/160, 1/4 - 1/20, 1/4; and the other way up.
+  EXPECT_NEAR(gap_of_row({[&](double s) { return step(s) + 0.1 * crease(s); }}), 0.2, 1e-15);
+  EXPECT_NEAR(gap_of_row({[&](double s) { return step(s) - 0.1 * crease(s); }}), 0.25 - 3.0 / 160, 1e-15);
+  // Both sides' straight lines miss by -11/4 s² and -3/4 s² at the line: parabolas do not.
+  const auto curved = [](double s) { return s < 0 ? s * s : -2 * s * s; };
+  EXPECT_NEAR(gap_of_row({curved}), 0, 1e-14);
+  EXPECT_NEAR(gap_of_row({[&](double s) { return step(s) + curved(s); }}), 0.25, 1e-14);
+  // Channels on their own: no fit agrees with all of them.
+  EXPECT_NEAR(gap_of_row({crease, curved}), 0, 1e-14);
+  EXPECT_NEAR(gap_of_row({crease, step, curved}), 0.25, 1e-14);
+  // Crease and curvature: c times the crease alone adds 3 c / 16 to the parabola, -c / 2 to the line and nothing to the
+  // pair; 4 s² of the far side adds nothing, -11 and -3. With c = 8: 3/2, -15, -3. They differ in sign.
+  EXPECT_EQ(gap_of_row({[&](double s) { return s < 0 ? 0 : 4 * s * s + 8 * crease(s); }}), 0);
+  // With c = -8: -3/2, -7, -3, and 3/2 downwards is the smallest either way up.
+  for (const double sign : {1.0, -1.0})
+    EXPECT_NEAR(gap_of_row({[&](double s) { return s < 0 ? 0 : sign * (4 * s * s - 8 * crease(s)); }}), 1.5, 1e-13);
+  // A crease within the nearest two pixels is not told from a gap: 0, 1/2, 3/2, 5/2 have mean 9/8, slope 17/20 and bend
+  // 1/8, so -23/40 by the line, -37/160 by the parabola; -1/4 by the pair.
+  EXPECT_NEAR(gap_of_row({[](double s) { return std::max(0.0, s - 1); }}), 37.0 / 160, 1e-15);
+}
+
+TEST(MeasureLine, GapsOffCentre) {
+  // The line is 1/4 before the far side's first centre, between straight lines and s² / 20. Straight lines continue the
+  // difference of the sides' s² to 2, by pairs to 1: 1/10 and 1/20 more than the step.
+  const auto measure = [](double step) {
+    const auto image = paint(
+        64, 64, 1, [](double x, double) { return x < 32.25 ? 0u : 1u; },
+        [&](double x, double) {
+          const double s = x - 32.25;
+          return Values{(s < 0 ? 3 * s : step - 2 * s) + s * s / 20};
+        });
+    return measure_line(image, {32.25, 0}, {32.25, 64}, edge);
+  };
+  EXPECT_NEAR(measure(-0.125).gap.max(), 0.025, 1e-13);
+  const LineJump jump = measure(0.125);
+  EXPECT_EQ(jump.gap.count(), 32u);
+  EXPECT_NEAR(jump.gap.max(), 0.125, 1e-13);
+  EXPECT_NEAR(jump.gap.rms(), 0.125, 1e-13);
+  LineJump twice = jump;
+  twice.merge(jump);
+  EXPECT_EQ(twice.gap.count(), 64u);
 }
 
 TEST(MeasureLine, AnEdgeThroughPixelCentresBelongsToEither) {
@@ -398,11 +472,13 @@ TEST(MeasureLine, HugeValuesGiveInfinityNotNaN) {
       paint(32, 32, 1, [](double x, double) { return Values{std::fmod(std::floor(x), 3) == 0 ? -1.7e308 : 1.7e308}; });
   const LineJump jump = measure_line(image, {16, 0}, {16, 32}, inside);
   ASSERT_EQ(jump.profiles(), 16u);
-  for (const JumpStats& stats : {jump.line_slope, jump.line_value, jump.parabola_slope, jump.parabola_value}) {
+  for (const JumpStats& stats :
+       {jump.line_slope, jump.line_value, jump.parabola_slope, jump.parabola_value, jump.gap}) {
     EXPECT_FALSE(std::isnan(stats.max()));
     EXPECT_FALSE(std::isnan(stats.rms()));
   }
   EXPECT_EQ(jump.line_slope.max(), infinity);
+  EXPECT_EQ(jump.gap.max(), infinity);
 }
 
 TEST(AttributeImage, Sizes) {

@@ -1,0 +1,31 @@
+// The files of one run that belong together: all of them appear in a directory, or none.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace quadrille::cli {
+
+/// Collects files in a hidden folder of the directory, which is made if it is not there; the folder goes when the
+/// object does.
+class StagedDirectory {
+ public:
+  /// Throws UsageError (of --out) when the directory cannot be made or written to.
+  explicit StagedDirectory(const std::string& directory);
+  ~StagedDirectory();
+  StagedDirectory(const StagedDirectory&) = delete;
+  StagedDirectory& operator=(const StagedDirectory&) = delete;
+
+  const std::filesystem::path& folder() const { return folder_; }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Moves everything into the directory and removes files of the names in `stale` that this run did not write. Throws
+  /// UsageError, with nothing moved, when a directory stands where a file is to go.
+  void commit(const std::vector<std::string>& stale) const;
+
+ private:
+  std::filesystem::path directory_, folder_;
+};
+
+}  // namespace quadrille::cli
