@@ -22,7 +22,10 @@ struct PixelVector {
 
   PixelVector(const WindowVertex& v, double px, double py) : x(v.x - v.w * px), y(v.y - v.w * py), w(v.w) {}
 
-  /// S_P × S_Q
+  /// The edge function E(p) = S_P × S_Q: positive where p sees P → Q turn clockwise on the screen (y down), for
+  /// vertices with positive w. Exactly antisymmetric: E_PQ = −E_QP in every bit. Signs are exact for the vectors S,
+  /// which are rounded once a vertex and pixel: all edges at a vertex agree about where it is, so that the triangles
+  /// around it neither leave a pixel out nor draw one twice. (a x + b y + c rounds every edge by itself and does both.)
   friend double cross(const PixelVector& p, const PixelVector& q) { return difference_of_products(p.x, q.y, p.y, q.x); }
 
   /// Sign of S_P × S_Q; where it is 0, its sign seen from (x + eps, y + eps^2). 0 for P parallel to Q.
@@ -32,29 +35,6 @@ struct PixelVector {
     if (v == 0) v = difference_of_products(q.x, p.w, p.x, q.w);
     return (v > 0) - (v < 0);
   }
-};
-
-/// E(p) = S_P × S_Q: positive where p sees P → Q turn clockwise on the screen (y down), for vertices with positive w.
-/// Exactly antisymmetric: E_PQ = −E_QP in every bit. Signs are exact for the vectors S, which are rounded once a vertex
-/// and pixel: all edges at a vertex agree about where it is, so that the triangles around it neither leave a pixel out
-/// nor draw one twice. (a x + b y + c rounds every edge by itself and does both.)
-struct EdgeFunction {
-  double a = 0, b = 0, c = 0;  ///< E = a x + b y + c
-
-  EdgeFunction() = default;
-  EdgeFunction(const WindowVertex& p, const WindowVertex& q)
-      : a(difference_of_products(p.y, q.w, q.y, p.w)),
-        b(difference_of_products(q.x, p.w, p.x, q.w)),
-        c(difference_of_products(p.x, q.y, q.x, p.y)),
-        p_(p),
-        q_(q) {}
-
-  double at(double x, double y) const { return cross(PixelVector(p_, x, y), PixelVector(q_, x, y)); }
-  /// Sign of E at (x, y); where E is 0 its sign at (x + eps, y + eps^2). 0 for an edge whose coefficients are all 0.
-  int sign(double x, double y) const { return side(PixelVector(p_, x, y), PixelVector(q_, x, y)); }
-
- private:
-  WindowVertex p_, q_;
 };
 
 /// Half-open pixel rectangle that holds every covered pixel of the view.

@@ -28,6 +28,13 @@ TEST(DifferenceOfProducts, HasTheExactSign) {
   }
 }
 
+double edge_at(const WindowVertex& p, const WindowVertex& q, double x, double y) {
+  return cross(PixelVector(p, x, y), PixelVector(q, x, y));
+}
+int edge_sign(const WindowVertex& p, const WindowVertex& q, double x, double y) {
+  return side(PixelVector(p, x, y), PixelVector(q, x, y));
+}
+
 TEST(EdgeFunction, IsALinearAntisymmetricFunction) {
   Prng prng(2);
   const auto vertex = [&] {
@@ -35,15 +42,16 @@ TEST(EdgeFunction, IsALinearAntisymmetricFunction) {
   };
   for (int n = 0; n < 10'000; ++n) {
     const WindowVertex p = vertex(), q = vertex();
-    const EdgeFunction pq(p, q), qp(q, p);
+    const double a = difference_of_products(p.y, q.w, q.y, p.w), b = difference_of_products(q.x, p.w, p.x, q.w),
+                 c = difference_of_products(p.x, q.y, q.x, p.y);
     const double x = prng.uniform(0, 64), y = prng.uniform(0, 64);
-    ASSERT_NEAR(pq.at(x, y), pq.a * x + pq.b * y + pq.c, 1e-10);
-    ASSERT_EQ(pq.at(x, y), -qp.at(x, y));
-    ASSERT_EQ(pq.sign(x, y), -qp.sign(x, y));
+    ASSERT_NEAR(edge_at(p, q, x, y), a * x + b * y + c, 1e-10);
+    ASSERT_EQ(edge_at(p, q, x, y), -edge_at(q, p, x, y));
+    ASSERT_EQ(edge_sign(p, q, x, y), -edge_sign(q, p, x, y));
   }
   // P to the left of Q, seen from below: clockwise with y down.
-  EXPECT_GT(EdgeFunction({10, 10, 0, 1}, {20, 10, 0, 1}).at(15, 20), 0);
-  EXPECT_EQ(EdgeFunction({10, 10, 0, 1}, {20, 20, 0, 2}).sign(3, 4), 0);  // one screen point twice: no edge
+  EXPECT_GT(edge_at({10, 10, 0, 1}, {20, 10, 0, 1}, 15, 20), 0);
+  EXPECT_EQ(edge_sign({10, 10, 0, 1}, {20, 20, 0, 2}, 3, 4), 0);  // one screen point twice: no edge
 }
 
 /// (x + eps, y + eps^2) is inside from the left and from the top edge, y down.

@@ -8,7 +8,7 @@
 namespace quadrille::golden::methods {
 
 /// Coverage of a quad at (x, y): 1 where (12) holds, -1 where it holds with all edge functions negated (front-facing,
-/// as y points down), 0 outside. Any sign of w. Signs and ties are those of EdgeFunction::sign, so a pixel on a shared
+/// as y points down), 0 outside. Any sign of w. Signs and ties are those of side(), so a pixel on a shared
 /// edge or corner is drawn once; an edge whose coefficients are all zero is false in (12) and in its negated form.
 inline int quad_orientation(const std::array<WindowVertex, 4>& vertex, double x, double y) {
   const PixelVector s0(vertex[0], x, y), s1(vertex[1], x, y), s2(vertex[2], x, y), s3(vertex[3], x, y);

@@ -794,22 +794,11 @@ VerifyResult verify_machine(const SuiteReader& reader, unsigned threads) {
               outcome = quad->check(drawn.fragment);
             }
           }
-          ++part.vectors;
-          part.undefined += outcome.kind == VectorOutcome::Kind::undefined;
-          part.uncompared += !outcome.compared;
-          if (outcome.kind == VectorOutcome::Kind::mismatch && part.mismatches++ == 0)
-            part.first_difference = reader.place("response", line) + ": " + outcome.difference;
-          ++line;
+          part.add(outcome, reader, line++);
         }
         return part;
       },
-      [&](std::size_t, const VerifyResult& part) {
-        if (total.mismatches == 0) total.first_difference = part.first_difference;
-        total.vectors += part.vectors;
-        total.mismatches += part.mismatches;
-        total.undefined += part.undefined;
-        total.uncompared += part.uncompared;
-      });
+      [&](std::size_t, const VerifyResult& part) { total.merge(part); });
   check_complete(total, reader, draws, threads);
   return total;
 }

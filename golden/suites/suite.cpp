@@ -76,6 +76,22 @@ void require_files(const SuiteReader& reader, std::vector<std::string> roles, co
     throw golden::input_error(reader.manifest_file(), 0, "has other records or files than suite " + reader.info().name);
 }
 
+void VerifyResult::add(const VectorOutcome& outcome, const SuiteReader& reader, std::uint64_t line) {
+  ++vectors;
+  undefined += outcome.kind == VectorOutcome::Kind::undefined;
+  uncompared += !outcome.compared;
+  if (outcome.kind == VectorOutcome::Kind::mismatch && mismatches++ == 0)
+    first_difference = reader.place("response", line) + ": " + outcome.difference;
+}
+
+void VerifyResult::merge(const VerifyResult& later) {
+  if (mismatches == 0) first_difference = later.first_difference;
+  vectors += later.vectors;
+  mismatches += later.mismatches;
+  undefined += later.undefined;
+  uncompared += later.uncompared;
+}
+
 VerifyResult check_vectors(const SuiteReader& reader, unsigned threads,
                            const std::function<VectorOutcome(const Record&, const Record&)>& check) {
   const std::uint64_t lines = reader.lines("stimulus");
@@ -90,23 +106,11 @@ VerifyResult check_vectors(const SuiteReader& reader, unsigned threads,
                           const std::vector<Record> response = reader.read("response", first, count);
                           VerifyResult part;
                           for (std::uint64_t i = 0; i < count; ++i) {
-                            const VectorOutcome outcome = check(stimulus[i], response[i]);
-                            ++part.vectors;
-                            part.undefined += outcome.kind == VectorOutcome::Kind::undefined;
-                            part.uncompared += !outcome.compared;
-                            if (outcome.kind != VectorOutcome::Kind::mismatch) continue;
-                            if (part.mismatches++ == 0)
-                              part.first_difference = reader.place("response", first + i) + ": " + outcome.difference;
+                            part.add(check(stimulus[i], response[i]), reader, first + i);
                           }
                           return part;
                         },
-                        [&](std::size_t, const VerifyResult& part) {
-                          if (total.mismatches == 0) total.first_difference = part.first_difference;
-                          total.vectors += part.vectors;
-                          total.mismatches += part.mismatches;
-                          total.undefined += part.undefined;
-                          total.uncompared += part.uncompared;
-                        });
+                        [&](std::size_t, const VerifyResult& part) { total.merge(part); });
   return total;
 }
 

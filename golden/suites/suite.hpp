@@ -24,6 +24,13 @@ struct GenerateOptions {
 /// The largest GenerateOptions::limit: more than level 2 has, and what fits in memory.
 inline constexpr std::uint64_t largest_limit = 1'000'000;
 
+/// One vector, compared.
+struct VectorOutcome {
+  enum class Kind { match, mismatch, undefined } kind = Kind::match;
+  std::string difference;  ///< of a mismatch
+  bool compared = true;    ///< some field was
+};
+
 /// What a check found.
 struct VerifyResult {
   std::uint64_t vectors = 0;     ///< compared
@@ -36,6 +43,11 @@ struct VerifyResult {
   /// Something was compared; a suite of which nothing was proves nothing.
   bool judged() const { return vectors > uncompared; }
   bool ok() const { return judged() && mismatches == 0; }
+
+  /// Counts the vector of line `line` of the responses.
+  void add(const VectorOutcome& outcome, const SuiteReader& reader, std::uint64_t line);
+  /// Adds what was found in later lines.
+  void merge(const VerifyResult& later);
 };
 
 /// A suite for any configuration.
@@ -76,13 +88,6 @@ void require_counts(const SuiteReader& reader, const nlohmann::ordered_json& exp
 
 /// Throws golden::InputError unless the suite has these records and, beside their files, `others`.
 void require_files(const SuiteReader& reader, std::vector<std::string> roles, const std::vector<std::string>& others);
-
-/// One vector, compared.
-struct VectorOutcome {
-  enum class Kind { match, mismatch, undefined } kind = Kind::match;
-  std::string difference;  ///< of a mismatch
-  bool compared = true;    ///< some field was
-};
 
 /// Calls check(stimulus, response) for every vector of a stage suite on `threads` threads and adds up; the first
 /// difference is that of the lowest line.
