@@ -1,6 +1,7 @@
 #include "model/pixel_lanes.hpp"
 
 #include "model/lane_stages.hpp"
+#include "model/lane_target.hpp"
 
 #include <bit>
 #include <cmath>
@@ -61,6 +62,33 @@ LANE_INLINE V leading_magnitude(I v) {
   const V low = from_bits((m & 0xffffffff) | 0x4330000000000000) - 0x1p52;
   const V high = from_bits((m >> 32) | 0x4530000000000000) - 0x1p84;
   return high + low;
+}
+
+#ifdef __x86_64__
+template <class Body>
+[[gnu::target("arch=x86-64-v4")]] void run_v4(const Body& body) {
+  body();
+}
+template <class Body>
+[[gnu::target("arch=x86-64-v3")]] void run_v3(const Body& body) {
+  body();
+}
+#endif
+
+/// Runs `body`, an always-inlined lambda, as compiled for the target in use.
+template <class Body>
+LANE_INLINE void on_lane_target(const Body& body) {
+#ifdef __x86_64__
+  switch (lane_target()) {
+    case LaneTarget::v4:
+      return run_v4(body);
+    case LaneTarget::v3:
+      return run_v3(body);
+    case LaneTarget::baseline:
+      break;
+  }
+#endif
+  body();
 }
 
 struct Kernel {
@@ -277,60 +305,54 @@ LaneTable::LaneTable(const Table& table) : segments_log2(table.segments_log2), r
     entries.push_back({static_cast<double>(e.c0), static_cast<double>(e.c1), static_cast<double>(e.c2)});
 }
 
-// One clone per instruction set, chosen when the program starts; all give the same bits.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define LANE_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
-#else
-#define LANE_CLONES
-#endif
-
-LANE_CLONES
 void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, const QuadLanes& values,
                  const PipelineContext& c, const LaneTables& tables, const int* dx, const int* row, LaneResult& out) {
-  const int s = c.format.s;
-  const Kernel kernel(s, c.format.g);
+  on_lane_target([&]() LANE_LAMBDA {
+    const int s = c.format.s;
+    const Kernel kernel(s, c.format.g);
 
-  DifferenceLanes difference;
-  difference_stage(tile, constants, dx, row, difference);
-  const SingularMasks masks = singular_masks(difference);
-  out.singular = to_mask(masks.singular);
-  out.on_edge = to_mask(masks.on_edge);
-  NormalisedLanes normalised;
-  normalise_stage(difference, kernel, power_of_two(c.quadratic_bias), normalised);
-  RsqrtLanes rsqrt;
-  rsqrt_stage(normalised, tables.rsqrt, s, rsqrt);
-  RatioLanes ratios;
-  ratio_stage(difference, normalised, rsqrt, kernel, ratios);
-  WeightLanes weights;
-  const I cured = weight_stage(difference, ratios, rsqrt, kernel, c.config.notch_exact != 0, weights);
-  out.cured = to_mask(cured) & ~out.singular;
-  I exponent_m[4];
-  for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);
+    DifferenceLanes difference;
+    difference_stage(tile, constants, dx, row, difference);
+    const SingularMasks masks = singular_masks(difference);
+    out.singular = to_mask(masks.singular);
+    out.on_edge = to_mask(masks.on_edge);
+    NormalisedLanes normalised;
+    normalise_stage(difference, kernel, power_of_two(c.quadratic_bias), normalised);
+    RsqrtLanes rsqrt;
+    rsqrt_stage(normalised, tables.rsqrt, s, rsqrt);
+    RatioLanes ratios;
+    ratio_stage(difference, normalised, rsqrt, kernel, ratios);
+    WeightLanes weights;
+    const I cured = weight_stage(difference, ratios, rsqrt, kernel, c.config.notch_exact != 0, weights);
+    out.cured = to_mask(cured) & ~out.singular;
+    I exponent_m[4];
+    for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);
 
-  // Sums, reciprocals, fixed point.
-  const V den_k = kernel.sum4(weights.m, exponent_m, values.k.data());
-  const V den_w = kernel.sum4(weights.m, exponent_m, values.w.data());
-  const V rec_k = recip_lanes(den_k, tables.recip, s);
-  I saturated{};
-  for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) {
-    const FixedLanes f = attribute_stage(kernel.sum4(weights.m, exponent_m, values.b[j].data()), rec_k,
-                                         c.config.attribute_int_bits, c.attribute_frac);
-    saturated |= f.over;
-    const I fixed = (to_integer(f.q) ^ f.sign) - f.sign;
-    for (int l = 0; l < lanes; ++l) out.attribute[j][static_cast<std::size_t>(l)] = fixed[l];
-  }
-  out.saturated = to_mask(saturated);
-  I discard{};
-  if (quad.hull) discard = ~(den_w > 0);
-  if (c.state.depth) {
-    const DepthLanes z = depth_stage(kernel.sum4(weights.m, exponent_m, values.z.data()), den_w,
-                                     recip_lanes(den_w, tables.recip, s), c.config.depth_bits, c.znear, c.zfar);
-    discard |= z.discard;
-    for (int l = 0; l < lanes; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.q[l]);
-  } else {
-    out.depth = {};
-  }
-  out.drawn = to_mask(~discard);
+    // Sums, reciprocals, fixed point.
+    const V den_k = kernel.sum4(weights.m, exponent_m, values.k.data());
+    const V den_w = kernel.sum4(weights.m, exponent_m, values.w.data());
+    const V rec_k = recip_lanes(den_k, tables.recip, s);
+    I saturated{};
+    for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) {
+      const FixedLanes f = attribute_stage(kernel.sum4(weights.m, exponent_m, values.b[j].data()), rec_k,
+                                           c.config.attribute_int_bits, c.attribute_frac);
+      saturated |= f.over;
+      const I fixed = (to_integer(f.q) ^ f.sign) - f.sign;
+      for (int l = 0; l < lanes; ++l) out.attribute[j][static_cast<std::size_t>(l)] = fixed[l];
+    }
+    out.saturated = to_mask(saturated);
+    I discard{};
+    if (quad.hull) discard = ~(den_w > 0);
+    if (c.state.depth) {
+      const DepthLanes z = depth_stage(kernel.sum4(weights.m, exponent_m, values.z.data()), den_w,
+                                       recip_lanes(den_w, tables.recip, s), c.config.depth_bits, c.znear, c.zfar);
+      discard |= z.discard;
+      for (int l = 0; l < lanes; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.q[l]);
+    } else {
+      out.depth = {};
+    }
+    out.drawn = to_mask(~discard);
+  });
 }
 
 // ---- the same stages one by one ----
@@ -352,84 +374,91 @@ void singular_weights(const DifferenceLanes& d, std::size_t lane, const QuadData
   for (std::size_t i = 0; i < 4; ++i) out.m[i][lane] = to_double(p.m[i], c.format.s);
 }
 
-LANE_CLONES
 void normalise_blocks(std::span<const DifferenceLanes> in, int s, int quadratic_bias, NormalisedLanes* out) {
-  const Kernel kernel(s, 0);
-  const double a_scale = power_of_two(quadratic_bias);
-  for (std::size_t n = 0; n < in.size(); ++n) normalise_stage(in[n], kernel, a_scale, out[n]);
+  on_lane_target([&]() LANE_LAMBDA {
+    const Kernel kernel(s, 0);
+    const double a_scale = power_of_two(quadratic_bias);
+    for (std::size_t n = 0; n < in.size(); ++n) normalise_stage(in[n], kernel, a_scale, out[n]);
+  });
 }
 
-LANE_CLONES
 void rsqrt_blocks(std::span<const NormalisedLanes> in, int s, const LaneTable& table, RsqrtLanes* out) {
-  for (std::size_t n = 0; n < in.size(); ++n) rsqrt_stage(in[n], table, s, out[n]);
+  on_lane_target([&]() LANE_LAMBDA {
+    for (std::size_t n = 0; n < in.size(); ++n) rsqrt_stage(in[n], table, s, out[n]);
+  });
 }
 
-LANE_CLONES
 void ratio_blocks(std::span<const DifferenceLanes> signs, const NormalisedLanes* in, const RsqrtLanes* rho, int s,
                   int g, RatioLanes* out) {
-  const Kernel kernel(s, g);
-  for (std::size_t n = 0; n < signs.size(); ++n) ratio_stage(signs[n], in[n], rho[n], kernel, out[n]);
+  on_lane_target([&]() LANE_LAMBDA {
+    const Kernel kernel(s, g);
+    for (std::size_t n = 0; n < signs.size(); ++n) ratio_stage(signs[n], in[n], rho[n], kernel, out[n]);
+  });
 }
 
-LANE_CLONES
 void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in, const RsqrtLanes* rho, int s, int g,
                    bool notch_exact, WeightLanes* out) {
-  const Kernel kernel(s, g);
-  for (std::size_t n = 0; n < signs.size(); ++n) weight_stage(signs[n], in[n], rho[n], kernel, notch_exact, out[n]);
+  on_lane_target([&]() LANE_LAMBDA {
+    const Kernel kernel(s, g);
+    for (std::size_t n = 0; n < signs.size(); ++n) weight_stage(signs[n], in[n], rho[n], kernel, notch_exact, out[n]);
+  });
 }
 
-LANE_CLONES
 void interpolate_blocks(std::span<const WeightLanes> in, const std::uint32_t* quad, const QuadColumns* values,
                         std::size_t columns, bool depth, int s, int g, LaneColumn* sums) {
-  const Kernel kernel(s, g);
-  for (std::size_t n = 0; n < in.size(); ++n, sums += sums_per_block(columns)) {
-    const QuadColumns& q = values[quad[n]];
-    V m[4];
-    I exponent_m[4];
-    for (int i = 0; i < 4; ++i) {
-      m[i] = in[n].m[i];
-      exponent_m[i] = exponent(m[i]);
+  on_lane_target([&]() LANE_LAMBDA {
+    const Kernel kernel(s, g);
+    for (std::size_t n = 0; n < in.size(); ++n, sums += sums_per_block(columns)) {
+      const QuadColumns& q = values[quad[n]];
+      V m[4];
+      I exponent_m[4];
+      for (int i = 0; i < 4; ++i) {
+        m[i] = in[n].m[i];
+        exponent_m[i] = exponent(m[i]);
+      }
+      sums[0].v = kernel.sum4(m, exponent_m, q.k.data());
+      sums[1].v = kernel.sum4(m, exponent_m, q.w.data());
+      sums[2].v = depth ? kernel.sum4(m, exponent_m, q.z.data()) : V{};
+      for (std::size_t j = 0; j < columns; ++j) sums[3 + j].v = kernel.sum4(m, exponent_m, q.b[j].data());
     }
-    sums[0].v = kernel.sum4(m, exponent_m, q.k.data());
-    sums[1].v = kernel.sum4(m, exponent_m, q.w.data());
-    sums[2].v = depth ? kernel.sum4(m, exponent_m, q.z.data()) : V{};
-    for (std::size_t j = 0; j < columns; ++j) sums[3 + j].v = kernel.sum4(m, exponent_m, q.b[j].data());
-  }
+  });
 }
 
-LANE_CLONES
 void reciprocal_blocks(std::size_t blocks, const LaneColumn* sums, std::size_t columns, int s, const LaneTable& table,
                        ReciprocalLanes* out) {
-  for (std::size_t n = 0; n < blocks; ++n, sums += sums_per_block(columns)) {
-    out[n].k = recip_lanes(sums[0].v, table, s);
-    out[n].w = recip_lanes(sums[1].v, table, s);
-  }
+  on_lane_target([&]() LANE_LAMBDA {
+    for (std::size_t n = 0; n < blocks; ++n, sums += sums_per_block(columns)) {
+      out[n].k = recip_lanes(sums[0].v, table, s);
+      out[n].w = recip_lanes(sums[1].v, table, s);
+    }
+  });
 }
 
-LANE_CLONES
 void output_blocks(std::size_t blocks, const LaneColumn* sums, const ReciprocalLanes* reciprocals,
                    const std::uint32_t* quad, const QuadColumns* quads, std::size_t columns,
                    const LaneOutputFormat& format, LaneColumn* values, LaneMasks* masks) {
-  const double attribute_unit = power_of_two(-format.attribute_frac);
-  const double depth_unit = power_of_two(-format.depth_bits);
-  for (std::size_t n = 0; n < blocks; ++n, sums += sums_per_block(columns), values += 1 + columns) {
-    I discard{}, saturated{};
-    if (quads[quad[n]].hull) discard = ~(sums[1].v > 0);
-    values[0].v = V{};
-    if (format.depth) {
-      const DepthLanes z =
-          depth_stage(sums[2].v, sums[1].v, reciprocals[n].w, format.depth_bits, format.znear, format.zfar);
-      discard |= z.discard;
-      values[0].v = (from_bits(z.q | 0x4330000000000000) - 0x1p52) * depth_unit;
+  on_lane_target([&]() LANE_LAMBDA {
+    const double attribute_unit = power_of_two(-format.attribute_frac);
+    const double depth_unit = power_of_two(-format.depth_bits);
+    for (std::size_t n = 0; n < blocks; ++n, sums += sums_per_block(columns), values += 1 + columns) {
+      I discard{}, saturated{};
+      if (quads[quad[n]].hull) discard = ~(sums[1].v > 0);
+      values[0].v = V{};
+      if (format.depth) {
+        const DepthLanes z =
+            depth_stage(sums[2].v, sums[1].v, reciprocals[n].w, format.depth_bits, format.znear, format.zfar);
+        discard |= z.discard;
+        values[0].v = (from_bits(z.q | 0x4330000000000000) - 0x1p52) * depth_unit;
+      }
+      for (std::size_t j = 0; j < columns; ++j) {
+        const FixedLanes f =
+            attribute_stage(sums[3 + j].v, reciprocals[n].k, format.attribute_int_bits, format.attribute_frac);
+        saturated |= f.over;
+        values[1 + j].v = from_bits(bits(f.q * attribute_unit) | (f.sign & INT64_MIN));
+      }
+      masks[n] = {static_cast<std::uint8_t>(to_mask(~discard)), static_cast<std::uint8_t>(to_mask(saturated))};
     }
-    for (std::size_t j = 0; j < columns; ++j) {
-      const FixedLanes f =
-          attribute_stage(sums[3 + j].v, reciprocals[n].k, format.attribute_int_bits, format.attribute_frac);
-      saturated |= f.over;
-      values[1 + j].v = from_bits(bits(f.q * attribute_unit) | (f.sign & INT64_MIN));
-    }
-    masks[n] = {static_cast<std::uint8_t>(to_mask(~discard)), static_cast<std::uint8_t>(to_mask(saturated))};
-  }
+  });
 }
 
 }  // namespace quadrille

@@ -7,6 +7,7 @@
 #include "model/untimed.hpp"
 
 // After untimed.hpp, whose enumerator `lanes` it would shadow.
+#include "model/each_lane_target.hpp"
 #include "model/pixel_lanes.hpp"
 
 #include "golden/scenes/prng.hpp"
@@ -129,10 +130,13 @@ TEST_P(Engines, PlainAndLanesAreOne) {
     if (rng.chance(0.2)) s.scissor_x0 = 5, s.scissor_y0 = 11, s.scissor_x1 = 41;
     const auto quads = snapped_stress(info.family, info.family == golden::StressFamily::tiny ? 40 : 5,
                                       static_cast<std::uint64_t>(n) + 1, 48, std::max(4, c.attribute_slots), c, s);
-    const Result plain = draw_all(quads, c, s, PixelEngine::plain), quick = draw_all(quads, c, s, PixelEngine::lanes);
+    const Result plain = draw_all(quads, c, s, PixelEngine::plain);
     SCOPED_TRACE(std::string(info.name) + ", round " + std::to_string(n) + ", S " + std::to_string(c.significand_bits));
-    expect_same(plain.fragments, quick.fragments);
-    expect_same_stats(plain.stats, quick.stats);
+    on_each_lane_target([&] {
+      const Result quick = draw_all(quads, c, s, PixelEngine::lanes);
+      expect_same(plain.fragments, quick.fragments);
+      expect_same_stats(plain.stats, quick.stats);
+    });
     if (HasFailure()) return;
     ASSERT_EQ(plain.stats.fragments, plain.fragments.size());
     fragments += plain.fragments.size();
@@ -193,21 +197,24 @@ TEST(PixelLanes, HardBitPatterns) {
       for (std::size_t k = 6; k < 10; ++k) tile.quadratic[k].value = (std::int64_t{1} << 60) + pattern(62) / 2;
       const QuadConstants constants;
       const int zero[lanes] = {};
-      LaneResult quick;
-      pixel_lanes(tile, constants, data, values, context, tables, zero, zero, quick);
       PixelTrace p;
       pixel_pipeline(p, tile, constants, data, 0, 0, context);
-      ASSERT_EQ(quick.singular, p.two_corner || p.on_vertex || p.two_edge ? 0xffu : 0u);
-      if (quick.singular != 0) continue;
-      ++compared;
-      for (std::size_t l = 0; l < lanes; ++l) {
-        ASSERT_EQ(quick.drawn >> l & 1, p.drawn ? 1u : 0u);
-        ASSERT_EQ(quick.on_edge >> l & 1, p.on_edge ? 1u : 0u);
-        ASSERT_EQ(quick.cured >> l & 1, p.cured ? 1u : 0u);
-        ASSERT_EQ(quick.saturated >> l & 1, p.fragment.flags & flag_saturated ? 1u : 0u);
-        ASSERT_EQ(quick.depth[l], p.fragment.depth);
-        for (std::size_t j = 0; j < 4; ++j) ASSERT_EQ(quick.attribute[j][l], p.fragment.attribute[j]);
-      }
+      on_each_lane_target([&] {
+        LaneResult quick;
+        pixel_lanes(tile, constants, data, values, context, tables, zero, zero, quick);
+        ASSERT_EQ(quick.singular, p.two_corner || p.on_vertex || p.two_edge ? 0xffu : 0u);
+        if (quick.singular != 0) return;
+        ++compared;
+        for (std::size_t l = 0; l < lanes; ++l) {
+          ASSERT_EQ(quick.drawn >> l & 1, p.drawn ? 1u : 0u);
+          ASSERT_EQ(quick.on_edge >> l & 1, p.on_edge ? 1u : 0u);
+          ASSERT_EQ(quick.cured >> l & 1, p.cured ? 1u : 0u);
+          ASSERT_EQ(quick.saturated >> l & 1, p.fragment.flags & flag_saturated ? 1u : 0u);
+          ASSERT_EQ(quick.depth[l], p.fragment.depth);
+          for (std::size_t j = 0; j < 4; ++j) ASSERT_EQ(quick.attribute[j][l], p.fragment.attribute[j]);
+        }
+      });
+      if (HasFatalFailure()) return;
     }
   }
   EXPECT_GT(compared, 50'000u);

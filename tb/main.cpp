@@ -2,6 +2,7 @@
 #include "golden/io/error.hpp"
 #include "golden/io/json_report.hpp"
 #include "model/config.hpp"
+#include "model/lane_target.hpp"
 #include "model/snap.hpp"
 #include "tb/commands/choices.hpp"
 #include "tb/commands/commands.hpp"
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
@@ -86,6 +88,7 @@ int run(int argc, char** argv) {
     commands.push_back(command->get_name());
   }
 
+  if (const char* lanes = std::getenv("QUADRILLE_LANES"); lanes != nullptr && *lanes != '\0') set_lane_target(lanes);
   if (argc > 1 && argv[1][0] != '-') choose("command", argv[1], commands);
   try {
     app.parse(argc, argv);

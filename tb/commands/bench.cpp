@@ -1,5 +1,6 @@
 // quadrille bench: speeds of all bodies; with --error the error of each against its run time.
 #include "golden/io/json_report.hpp"
+#include "model/lane_target.hpp"
 #include "model/snap.hpp"
 #include "tb/commands/bench_error.hpp"
 #include "tb/commands/bench_speed.hpp"
@@ -331,6 +332,11 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
       ->capture_default_str()
       ->needs(error);
+  command
+      ->add_option_function<std::string>(
+          "--lanes", [](const std::string& wanted) { set_lane_target(wanted); },
+          "Instruction set of the model's lanes: baseline, v3 or v4 (x86-64); default the best that the processor has")
+      ->type_name("NAME");
   command->add_flag("--no-rtl", speed.no_rtl, "Leave the RTL out (no Verilator needed)");
   const CLI::Option* size = command->get_option("--size");
   command->callback([options, size, &invocation] {

@@ -4,6 +4,7 @@
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/random_mesh.hpp"
+#include "model/lane_target.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/commands/bench_timing.hpp"
@@ -179,11 +180,12 @@ class SpeedBench {
     std::FILE* text = options_.common.text();
     if (!text) return;
     const double base = median(subjects.front().fragments_per_second);
-    std::fprintf(text,
-                 "%s\n%zu quads of about %d px, perspective, depth, %d attributes; configuration %s; median of %d "
-                 "interleaved runs\n\n",
-                 golden::command_line(arguments).c_str(), quads_.size(), options_.quad_size, state_.attributes,
-                 summary(config_).c_str(), options_.repeat);
+    std::fprintf(
+        text,
+        "%s\n%zu quads of about %d px, perspective, depth, %d attributes; configuration %s; lanes %s; median of "
+        "%d interleaved runs\n\n",
+        golden::command_line(arguments).c_str(), quads_.size(), options_.quad_size, state_.attributes,
+        summary(config_).c_str(), std::string(quadrille::name(lane_target())).c_str(), options_.repeat);
     std::fprintf(text, "%-60s %13s %13s %12s\n", "", "fragments/s", "clocks/s", "of the model");
     for (const Subject& subject : subjects) {
       const double fragments = median(subject.fragments_per_second), cycles = median(subject.cycles_per_second);
@@ -206,6 +208,7 @@ class SpeedBench {
     json["quad_size"] = options_.quad_size;
     json["threads"] = threads_;
     json["repeat"] = options_.repeat;
+    json["lanes"] = quadrille::name(lane_target());
     const double base = median(subjects.front().fragments_per_second);
     for (const Subject& subject : subjects) {
       nlohmann::ordered_json entry;
