@@ -17,6 +17,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+from report.program import PROGRAM  # noqa: E402
+
 # Every key that moves many LUTs, at both ends and together with others.
 CONFIGURATIONS = [
     "significand_bits=18",
@@ -36,10 +39,9 @@ RESOURCES = ["state_bits", "multiplier_bits", "adder_bits", "table_bits"]
 
 
 def main():
-    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directories", metavar="DIR", nargs="*", help="results of `quadrille sweep --synth`; default: make them")
-    parser.add_argument("--quadrille", default=os.path.join(root, "build/release/quadrille"), metavar="PATH", help="the program")
+    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program")
     args = parser.parse_args()
 
     try:

@@ -15,6 +15,9 @@ import os
 import subprocess
 import sys
 
+sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+from report.program import PROGRAM, ROOT  # noqa: E402
+
 FAMILIES = (
     "general perspective any_w near_edge on_edge near_vertex on_vertex sliver collapsed_edge straight_corner reflex bowtie "
     "tiny huge eye_crossing eye_in_hull w_zero shared_edge shared_vertex coplanar long_span coincident"
@@ -27,9 +30,8 @@ FRAGMENTS = (2_000_000, 200_000)
 
 
 def main():
-    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quadrille", default=os.path.join(root, "build/release/quadrille"), help="the program")
+    parser.add_argument("--quadrille", default=PROGRAM, help="the program")
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--meshes", metavar="DIR", help="folder with OBJ files (default: ../shared/meshes when it is there)")
@@ -45,7 +47,7 @@ def main():
     count = 150 if args.short else 2_000
     # A tiny quad covers one or two pixels, so there are more of them.
     inputs += [["--stress", family, "--count", str(20 * count if family == "tiny" else count)] for family in FAMILIES]
-    meshes = sorted(glob.glob(os.path.join(args.meshes or os.path.join(root, "../shared/meshes"), "*.obj")))
+    meshes = sorted(glob.glob(os.path.join(args.meshes or os.path.join(ROOT, "../shared/meshes"), "*.obj")))
     if args.meshes and not meshes:
         parser.error(f"--meshes {args.meshes}: no OBJ file there")
     inputs += [["--mesh", mesh] for mesh in meshes]

@@ -7,13 +7,14 @@ Times are shown as multiples of the time of `mvc` in the same run. Exit status: 
 is missing.
 Needs Debian's python3-matplotlib.
 """
-import contextlib
 import io
-import json
 import math
 import os
 import sys
 import textwrap
+
+sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+from report.files import InputError, read_json, reading, write_files  # noqa: E402
 
 try:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -44,17 +45,8 @@ PLACES = [((6, 5), "left", "bottom"), ((6, -5), "left", "top"), ((-6, 5), "right
           ((0, 9), "center", "bottom"), ((0, -9), "center", "top"), ((11, 0), "left", "center"), ((-11, 0), "right", "center")]
 
 
-def fail(text):
-    print(f"compare_plot.py: {text}", file=sys.stderr)
-    sys.exit(2)
-
-
 def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool)
-
-
-def not_finite(name):
-    raise ValueError(f"{name} is not a number")
 
 
 def check(plot):
@@ -79,17 +71,10 @@ def check(plot):
 
 
 def read(path):
-    try:
-        with open(path, encoding="utf-8") as file:
-            plot = json.load(file, parse_constant=not_finite)
+    with reading(path, "`quadrille compare --plot`"):
+        plot = read_json(path)
         check(plot)
-    except OSError as error:
-        fail(f"{path}: {error.strerror}")
-    except KeyError as error:
-        fail(f"{path}: not a plot.json of quadrille compare --plot (no {error})")
-    except (ValueError, TypeError, RecursionError) as error:
-        fail(f"{path}: not a plot.json of quadrille compare --plot ({error})")
-    return plot
+        return plot
 
 
 def set_shares(plot):
@@ -275,35 +260,24 @@ def triangles(point):
     return point["triangles"]
 
 
-def write(path, content):
-    """All of the file or, with status 2, none of it."""
-    partial = path + ".partial"
-    try:
-        with open(partial, "wb") as file:
-            file.write(content)
-        os.replace(partial, path)
-    except OSError as error:
-        with contextlib.suppress(OSError):
-            os.remove(partial)
-        fail(f"{path}: cannot be written ({error.strerror})")
-
-
 def main():
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         print(__doc__, file=sys.stderr)
-        sys.exit(0 if sys.argv[1:] in (["--help"], ["-h"]) else 2)
-    plot = read(sys.argv[1])
-    directory = os.path.dirname(os.path.abspath(sys.argv[1]))
-    own = [p["seconds"] for c in plot["curves"] if c["method"] == "mvc" for p in c["points"]]
-    if not own or not own[0] > 0:
-        fail(f"{sys.argv[1]}: no time of mvc to compare with")
-    set_shares(plot)
-    images = {
-        "plot_time.png": draw(plot, lambda p: p["seconds"] / own[0], "time of a draw on one thread, × time of mvc"),
-        "plot_setup.png": draw(plot, triangles, "triangles set up (0: the quad itself)")}
-    for name, image in images.items():
-        write(os.path.join(directory, name), image)
+        return 0 if sys.argv[1:] in (["--help"], ["-h"]) else 2
+    try:
+        plot = read(sys.argv[1])
+        own = [p["seconds"] for c in plot["curves"] if c["method"] == "mvc" for p in c["points"]]
+        if not own or not own[0] > 0:
+            raise InputError(f"{sys.argv[1]}: no time of mvc to compare with")
+        set_shares(plot)
+        write_files(os.path.dirname(os.path.abspath(sys.argv[1])), {
+            "plot_time.png": draw(plot, lambda p: p["seconds"] / own[0], "time of a draw on one thread, × time of mvc"),
+            "plot_setup.png": draw(plot, triangles, "triangles set up (0: the quad itself)")})
+    except InputError as error:
+        print(f"compare_plot.py: {error}", file=sys.stderr)
+        return 2
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -23,12 +23,12 @@ import tempfile
 import tomllib
 from dataclasses import dataclass, field
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+from report.files import InputError, write_files  # noqa: E402
+from report.program import INSTALLED, PROGRAM, ROOT  # noqa: E402
+
 TABLE = os.path.join(ROOT, "scripts", "figures.toml")
-
-
-class InputError(Exception):
-    """Bad input: the message names it and what would be right."""
+OUT = "figures" if INSTALLED else os.path.join(ROOT, "build/figures")
 
 
 class CommandError(Exception):
@@ -235,19 +235,6 @@ folder of this page.</p>
 """
 
 
-def write_page(path, content):
-    """Whole or not at all."""
-    handle, temporary = tempfile.mkstemp(dir=os.path.dirname(path), prefix=".index-")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(content)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
-
-
 # ---- program --------------------------------------------------------------------------------------------------------------------------
 
 
@@ -267,8 +254,8 @@ def size_of(argument):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quadrille", metavar="PATH", default=os.path.join(ROOT, "build/release/quadrille"), help="the program")
-    parser.add_argument("--out", metavar="DIR", default=os.path.join(ROOT, "build/figures"), help="default build/figures")
+    parser.add_argument("--quadrille", metavar="PATH", default=PROGRAM, help="the program")
+    parser.add_argument("--out", metavar="DIR", default=OUT, help="default build/figures, installed ./figures")
     parser.add_argument("--only", metavar="NAME", nargs="+", action="extend", default=[], help="figures, by their names in figures.toml")
     parser.add_argument("--size", metavar="WxH", type=size_of, default="512x512", help="viewport in pixels, default 512x512")
     parser.add_argument("--keep-exr", action="store_true", help="keep METHOD.exr of every sheet, 14 MB each at 512x512")
@@ -282,7 +269,7 @@ def main():
             draw(os.path.abspath(args.quadrille), figures, args.size, args.keep_exr, aside)
             content = page(papers, figures, args.size, aside)
             move_into_place(figures, aside, out)
-        write_page(os.path.join(out, "index.html"), content)
+        write_files(out, {"index.html": content.encode()})
     except (InputError, OSError) as error:
         print(f"figures.py: {error}", file=sys.stderr)
         return 2

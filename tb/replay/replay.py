@@ -16,6 +16,9 @@ import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BENCHES = os.path.join(ROOT, "tb", "replay")
+# Installed, ROOT is PREFIX/share/quadrille.
+IN_TREE = os.path.exists(os.path.join(ROOT, "CMakeLists.txt"))
+PROGRAM = os.path.normpath(os.path.join(ROOT, "build/release/quadrille" if IN_TREE else "../../bin/quadrille"))
 FORMAT = 1
 # Gate netlists that are quick to make and to simulate; others on request (--suite).
 NETLISTS = ("rsqrt", "reciprocal")
@@ -349,7 +352,7 @@ def main():
     parser.add_argument("--jobs", type=int, metavar="N", default=os.cpu_count(), help="builds and runs side by side (default: processors)")
     options = parser.parse_args()
     options.rtl = os.path.abspath(options.rtl)
-    options.quadrille = os.environ.get("QUADRILLE") or os.path.join(ROOT, "build/release/quadrille")
+    options.quadrille = os.environ.get("QUADRILLE") or PROGRAM
     begin = time.monotonic()
     try:
         suites, skipped = select(options)
