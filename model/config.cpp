@@ -1,6 +1,6 @@
 #include "model/config.hpp"
 
-#include "model/edit_distance.hpp"
+#include "model/support/edit_distance.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

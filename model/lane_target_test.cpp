@@ -4,7 +4,7 @@
 #include "model/each_lane_target.hpp"
 #include "model/lane_stages.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Significand arithmetic against exact integers.
 #include "model/significand.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

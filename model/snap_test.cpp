@@ -1,7 +1,7 @@
 // The snapping rules of snap.hpp, against 113-bit arithmetic.
 #include "model/snap.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

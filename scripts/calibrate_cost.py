@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fit of the hardware cost's weights (model/hardware_cost.hpp) to synthesis.
+"""Fit of the hardware cost's weights (golden/analysis/hardware_cost.hpp) to synthesis.
 
 Synthesizes a list of diverse configurations with `quadrille sweep --synth`, fits LUTs = sum of weight * bits (not negative, no
 constant, least relative squares) and prints the weights, the residuals and the rank correlation of estimate and synthesis.

@@ -4,12 +4,12 @@
 #include "model/config.hpp"
 #include "model/lane_target.hpp"
 #include "model/snap.hpp"
-#include "tb/commands/choices.hpp"
 #include "tb/commands/commands.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/environment_error.hpp"
-#include "tb/lockstep.hpp"
-#include "tb/verilate.hpp"
+#include "tb/device/verilate.hpp"
+#include "tb/lockstep/lockstep.hpp"
+#include "tb/support/choices.hpp"
+#include "tb/support/environment_error.hpp"
+#include "tb/support/errors.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "golden/io/error.hpp"
 #include "golden/io/text_input.hpp"
-#include "model/edit_distance.hpp"
+#include "model/support/edit_distance.hpp"
 
 #include <toml++/toml.h>
 

@@ -1,8 +1,8 @@
 // The configuration file.
 #pragma once
 
+#include "golden/analysis/hardware_cost.hpp"
 #include "model/config.hpp"
-#include "model/hardware_cost.hpp"
 
 #include <string>
 #include <string_view>

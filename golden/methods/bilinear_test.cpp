@@ -2,8 +2,8 @@
 // square and reproduce the pixel.
 #include "golden/methods/builders.hpp"
 #include "golden/methods/quad_test_support.hpp"
-#include "golden/scenes/prng.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/support/prng.hpp"
 
 #include <optional>
 

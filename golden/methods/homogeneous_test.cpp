@@ -1,7 +1,7 @@
 // Edge functions and the triangle rasterizer: exact signs, the tie rule, where nothing can be visible.
 #include "golden/methods/homogeneous.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "golden/methods/quad_test_support.hpp"
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/truth.hpp"
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 namespace quadrille::golden::methods {
 namespace {

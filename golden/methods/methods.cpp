@@ -1,6 +1,6 @@
 // Names and knobs of the methods.
 #include "golden/methods/builders.hpp"
-#include "model/edit_distance.hpp"
+#include "model/support/edit_distance.hpp"
 
 #include <algorithm>
 #include <charconv>

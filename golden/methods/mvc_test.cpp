@@ -3,9 +3,9 @@
 #include "golden/methods/builders.hpp"
 #include "golden/methods/quad_test_support.hpp"
 #include "golden/reference/truth.hpp"
-#include "golden/scenes/prng.hpp"
 #include "golden/scenes/random_mesh.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/support/prng.hpp"
 
 #include <numbers>
 #include <tuple>

@@ -2,7 +2,7 @@
 // opposite triangles.
 #include "golden/methods/builders.hpp"
 #include "golden/methods/quad_test_support.hpp"
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <numbers>
 

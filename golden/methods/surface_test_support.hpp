@@ -2,7 +2,7 @@
 #pragma once
 
 #include "golden/methods/method.hpp"
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

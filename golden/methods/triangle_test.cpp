@@ -2,7 +2,7 @@
 #include "golden/methods/triangle.hpp"
 
 #include "golden/methods/builders.hpp"
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Two-fold linear interpolation against hand-made formulas, exact crossing counts, and what rotation does to it.
 #include "golden/methods/builders.hpp"
 #include "golden/reference/exact_coverage.hpp"
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // layouts.
 #include "golden/scenes/projection.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

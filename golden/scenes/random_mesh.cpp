@@ -1,6 +1,6 @@
 #include "golden/scenes/random_mesh.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <algorithm>
 #include <cmath>

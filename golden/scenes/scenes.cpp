@@ -1,7 +1,7 @@
 #include "golden/scenes/scenes.hpp"
 
 #include "golden/scenes/scene_builders.hpp"
-#include "model/edit_distance.hpp"
+#include "model/support/edit_distance.hpp"
 
 #include <algorithm>
 #include <stdexcept>

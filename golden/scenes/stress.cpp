@@ -1,7 +1,7 @@
 #include "golden/scenes/stress.hpp"
 
-#include "golden/scenes/prng.hpp"
 #include "golden/scenes/simple_engine.hpp"
+#include "model/support/prng.hpp"
 
 #include <algorithm>
 #include <array>

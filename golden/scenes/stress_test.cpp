@@ -1,8 +1,8 @@
 // Every stress family really contains its condition; sequences are deterministic and inside the stated ranges.
 #include "golden/scenes/stress.hpp"
 
-#include "golden/scenes/prng.hpp"
 #include "golden/scenes/test_support.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "golden/io/error.hpp"
 #include "golden/reference/port_number.hpp"
-#include "tb/render/parallel.hpp"
+#include "model/support/parallel.hpp"
 
 #include <algorithm>
 #include <bit>

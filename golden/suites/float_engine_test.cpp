@@ -2,10 +2,10 @@
 #include "golden/suites/float_engine.hpp"
 
 #include "golden/io/error.hpp"
+#include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/stress.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
-#include "tb/random_quads.hpp"
 
 #include <gtest/gtest.h>
 

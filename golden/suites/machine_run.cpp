@@ -1,7 +1,7 @@
 #include "golden/suites/machine_run.hpp"
 
-#include "golden/scenes/prng.hpp"
 #include "model/clocked.hpp"
+#include "model/support/prng.hpp"
 
 namespace quadrille::vectors {
 

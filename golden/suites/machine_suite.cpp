@@ -3,14 +3,14 @@
 #include "golden/io/error.hpp"
 #include "golden/io/exr.hpp"
 #include "golden/io/image_diff.hpp"
+#include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/stress.hpp"
 #include "golden/suites/fields.hpp"
 #include "golden/suites/machine_run.hpp"
 #include "model/snap.hpp"
 #include "model/stages.hpp"
+#include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
-#include "tb/random_quads.hpp"
-#include "tb/render/parallel.hpp"
 
 #include <stdlib.h>
 #include <unistd.h>

@@ -3,10 +3,9 @@
 
 #include "golden/io/error.hpp"
 #include "golden/io/test_support.hpp"
+#include "golden/scenes/random_quads.hpp"
 #include "golden/suites/machine_run.hpp"
 #include "model/untimed.hpp"
-#include "tb/lockstep.hpp"
-#include "tb/random_quads.hpp"
 
 #include <gtest/gtest.h>
 
@@ -43,23 +42,6 @@ TEST(MachineRun, FragmentsAreThoseOfTheUntimedModel) {
       }
     }
   }
-}
-
-TEST(MachineRun, FirstFragmentOfOneQuad) {
-  // Four beats in clocks 0-3, the start in 4, then rtl/README.md section 4: PREP, RUN 0-7, DRAIN 2, DONE, and the walk.
-  // The test bench's run of the same quad, which lockstep compares with the RTL, takes as many clocks in all.
-  const Config config;
-  DrawState state = tb::small_state(config);
-  const std::vector<SnappedQuad> quads = tb::random_quads(config, state, 1, 1);
-  const std::vector<TimedFragment> run = run_machine(quads, config, state, {}).fragments;
-  ASSERT_FALSE(run.empty());
-  tb::LockstepOptions options;
-  options.config = config;
-  options.state = state;
-  const tb::AloneRun alone = tb::run_clocked_model_alone(quads, options);
-  EXPECT_EQ(alone.fragments, run.size());
-  EXPECT_LT(run.back().clock, alone.cycles);
-  EXPECT_GE(run.back().clock + 4, alone.cycles) << "the end beat follows the last pixel";
 }
 
 TEST(MachineRun, ClocksOfTheBeats) {

@@ -1,8 +1,8 @@
 // Sets on the disk: every damage is seen, and none of them crashes the reader.
 #include "golden/suites/manifest.hpp"
 #include "golden/io/test_support.hpp"
-#include "golden/scenes/prng.hpp"
 #include "golden/suites/suite.hpp"
+#include "model/support/prng.hpp"
 
 #include <sys/stat.h>
 

@@ -2,7 +2,7 @@
 // numbers (runs of equal bits, few ones, any order of magnitude), after TestFloat.
 #pragma once
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 #include "golden/io/error.hpp"
 #include "golden/suites/pipeline_tap.hpp"
 #include "golden/suites/stage_suites.hpp"
-#include "tb/render/parallel.hpp"
+#include "model/support/parallel.hpp"
 
 #include <algorithm>
 #include <unordered_set>

@@ -2,7 +2,7 @@
 #include "golden/suites/stage_suite.hpp"
 #include "golden/io/test_support.hpp"
 #include "golden/suites/patterns.hpp"
-#include "tb/bit_vector.hpp"
+#include "model/bit_vector.hpp"
 
 #include <algorithm>
 #include <cmath>

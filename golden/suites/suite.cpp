@@ -4,8 +4,8 @@
 #include "golden/io/text_input.hpp"
 #include "golden/suites/machine_suite.hpp"
 #include "golden/suites/stage_suites.hpp"
-#include "model/edit_distance.hpp"
-#include "tb/render/parallel.hpp"
+#include "model/support/edit_distance.hpp"
+#include "model/support/parallel.hpp"
 
 #include <algorithm>
 #include <set>

@@ -10,11 +10,11 @@
 #include "tb/campaign/campaign_options.hpp"
 
 #include "golden/reference/exact_coverage.hpp"
-#include "golden/scenes/prng.hpp"
 #include "golden/scenes/random_mesh.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/stamp_coverage.hpp"
+#include "model/support/prng.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -7,12 +7,12 @@
 #include "tb/campaign/campaign_options.hpp"
 
 #include "golden/reference/truth.hpp"
-#include "golden/scenes/prng.hpp"
 #include "golden/scenes/stress.hpp"
 #include "model/pixel_pipeline.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/stamp_coverage.hpp"
+#include "model/support/prng.hpp"
 #include "model/untimed.hpp"
 
 #include <array>

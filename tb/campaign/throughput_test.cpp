@@ -1,8 +1,8 @@
 // Throughput and latency of the clocked model without stalls or gaps: covered pixels per clock, clocks of the setup,
 // and that setup hides behind drawing.
-#include "golden/scenes/prng.hpp"
 #include "model/clocked.hpp"
 #include "model/snap.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,15 +2,15 @@
 #include "golden/io/json_report.hpp"
 #include "model/lane_target.hpp"
 #include "model/snap.hpp"
+#include "model/support/parallel.hpp"
+#include "tb/check/check.hpp"
 #include "tb/commands/bench_error.hpp"
 #include "tb/commands/bench_speed.hpp"
-#include "tb/commands/check.hpp"
 #include "tb/commands/commands.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/commands/input.hpp"
-#include "tb/commands/output.hpp"
-#include "tb/commands/progress.hpp"
-#include "tb/render/parallel.hpp"
+#include "tb/options/input.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
+#include "tb/support/progress.hpp"
 
 #include <cmath>
 #include <memory>

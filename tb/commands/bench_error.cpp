@@ -4,9 +4,9 @@
 #include "golden/reference/truth.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
+#include "tb/check/check.hpp"
 #include "tb/commands/bench_timing.hpp"
-#include "tb/commands/check.hpp"
-#include "tb/lockstep.hpp"
+#include "tb/lockstep/lockstep.hpp"
 
 #include <algorithm>
 #include <cmath>

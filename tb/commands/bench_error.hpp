@@ -4,8 +4,8 @@
 
 #include "model/config.hpp"
 #include "model/records.hpp"
-#include "tb/error_stats.hpp"
-#include "tb/render/engine.hpp"
+#include "tb/engines/engine.hpp"
+#include "tb/support/error_stats.hpp"
 
 #include <array>
 #include <cstdint>

@@ -7,11 +7,11 @@
 #include "model/lane_target.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
+#include "tb/check/check.hpp"
 #include "tb/commands/bench_timing.hpp"
-#include "tb/commands/check.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/commands/progress.hpp"
-#include "tb/lockstep.hpp"
+#include "tb/lockstep/lockstep.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/progress.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Speeds of all bodies in one run, as ratios, so that the machine it runs on falls out.
 #pragma once
 
-#include "tb/commands/options.hpp"
+#include "tb/options/options.hpp"
 
 #include <cstdint>
 #include <string>

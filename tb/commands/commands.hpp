@@ -1,7 +1,7 @@
 // The commands of the program; each adds its options and, when chosen, sets Invocation::run.
 #pragma once
 
-#include "tb/commands/options.hpp"
+#include "tb/options/options.hpp"
 
 namespace quadrille::cli {
 

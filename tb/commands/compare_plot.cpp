@@ -2,14 +2,14 @@
 
 #include "golden/io/json_report.hpp"
 #include "golden/methods/method.hpp"
-#include "tb/commands/progress.hpp"
 #include "tb/compare/frame_error.hpp"
-#include "tb/environment_error.hpp"
-#include "tb/process.hpp"
 #include "tb/render/method_engine.hpp"
 #include "tb/render/method_frame.hpp"
 #include "tb/render/method_timing.hpp"
-#include "tb/source_paths.hpp"
+#include "tb/support/environment_error.hpp"
+#include "tb/support/process.hpp"
+#include "tb/support/progress.hpp"
+#include "tb/support/source_paths.hpp"
 
 #include <filesystem>
 

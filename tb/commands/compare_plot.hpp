@@ -1,8 +1,8 @@
 // Run time against quality of every method, for `quadrille compare --plot`.
 #pragma once
 
-#include "tb/commands/input.hpp"
-#include "tb/commands/options.hpp"
+#include "tb/options/input.hpp"
+#include "tb/options/options.hpp"
 
 #include <string>
 #include <vector>

@@ -4,8 +4,8 @@
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/json_report.hpp"
 #include "model/tables.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/commands/output.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
 
 #include <algorithm>
 #include <cstdio>

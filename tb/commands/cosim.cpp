@@ -4,14 +4,14 @@
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
 #include "model/snap.hpp"
-#include "tb/commands/check.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/commands/input.hpp"
-#include "tb/commands/options.hpp"
-#include "tb/commands/output.hpp"
-#include "tb/commands/progress.hpp"
-#include "tb/lockstep.hpp"
+#include "tb/check/check.hpp"
+#include "tb/lockstep/lockstep.hpp"
+#include "tb/options/input.hpp"
+#include "tb/options/options.hpp"
 #include "tb/render/frame.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
+#include "tb/support/progress.hpp"
 
 #include <algorithm>
 #include <chrono>

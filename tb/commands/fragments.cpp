@@ -4,12 +4,12 @@
 #include "golden/io/fragment_csv.hpp"
 #include "golden/io/json_report.hpp"
 #include "model/snap.hpp"
-#include "tb/commands/choices.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/commands/input.hpp"
-#include "tb/commands/output.hpp"
-#include "tb/commands/progress.hpp"
-#include "tb/render/engine.hpp"
+#include "tb/engines/engine.hpp"
+#include "tb/options/input.hpp"
+#include "tb/support/choices.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
+#include "tb/support/progress.hpp"
 
 #include <algorithm>
 #include <charconv>

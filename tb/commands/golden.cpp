@@ -2,12 +2,12 @@
 #include "golden/io/json_report.hpp"
 #include "golden/suites/float_engine.hpp"
 #include "golden/suites/suite.hpp"
-#include "tb/commands/choices.hpp"
 #include "tb/commands/commands.hpp"
-#include "tb/commands/errors.hpp"
 #include "tb/commands/golden_rtl.hpp"
-#include "tb/commands/output.hpp"
-#include "tb/commands/progress.hpp"
+#include "tb/support/choices.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
+#include "tb/support/progress.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -5,8 +5,8 @@
 #include "golden/io/png.hpp"
 #include "golden/suites/manifest.hpp"
 #include "tb/commands/commands.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/commands/output.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,9 +1,9 @@
 #include "tb/commands/golden_rtl.hpp"
 
 #include "golden/io/error.hpp"
-#include "tb/environment_error.hpp"
-#include "tb/process.hpp"
-#include "tb/source_paths.hpp"
+#include "tb/support/environment_error.hpp"
+#include "tb/support/process.hpp"
+#include "tb/support/source_paths.hpp"
 
 #include <unistd.h>
 

@@ -5,13 +5,13 @@
 #include "golden/io/json_report.hpp"
 #include "golden/methods/method.hpp"
 #include "model/snap.hpp"
-#include "tb/commands/choices.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/commands/input.hpp"
-#include "tb/commands/output.hpp"
-#include "tb/commands/progress.hpp"
+#include "tb/options/input.hpp"
 #include "tb/render/frame.hpp"
 #include "tb/render/method_engine.hpp"
+#include "tb/support/choices.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
+#include "tb/support/progress.hpp"
 
 #include <algorithm>
 #include <chrono>

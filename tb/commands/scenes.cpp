@@ -4,7 +4,7 @@
 #include "golden/io/json_report.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
-#include "tb/commands/errors.hpp"
+#include "tb/support/errors.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,9 +1,9 @@
 #include "tb/commands/sweep_cosim.hpp"
 
-#include "tb/commands/check.hpp"
-#include "tb/lockstep.hpp"
-#include "tb/render/engine.hpp"
-#include "tb/render/parallel.hpp"
+#include "model/support/parallel.hpp"
+#include "tb/check/check.hpp"
+#include "tb/engines/engine.hpp"
+#include "tb/lockstep/lockstep.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include "golden/scenes/stress.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/commands/options.hpp"
+#include "tb/options/options.hpp"
+#include "tb/support/errors.hpp"
 #include "tb/sweep/search.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // --target-error of `quadrille sweep`: the cheapest configuration that meets it, confirmed on every stress family.
 #pragma once
 
-#include "model/hardware_cost.hpp"
+#include "golden/analysis/hardware_cost.hpp"
 #include "tb/sweep/evaluator.hpp"
 #include "tb/sweep/point_table.hpp"
 

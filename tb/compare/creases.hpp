@@ -4,7 +4,7 @@
 
 #include "golden/methods/method.hpp"
 #include "tb/compare/line_jump.hpp"
-#include "tb/error_stats.hpp"
+#include "tb/support/error_stats.hpp"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tb/compare/attribute_image.hpp"
-#include "tb/error_stats.hpp"
+#include "tb/support/error_stats.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 // Frames against frames: every kind of pixel, statistics by hand, numbers that are none.
 #include "tb/compare/frame_error.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 #include "tb/compare/test_support.hpp"
 
 #include <gtest/gtest.h>

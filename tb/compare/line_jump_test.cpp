@@ -1,7 +1,7 @@
 // Jumps across a line: kinks, steps, parabolas and cubics whose jumps are known by hand.
 #include "tb/compare/line_jump.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 #include "tb/compare/test_support.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // A short co-simulation for the model's mutants: mutants_test.cpp links this program again with one source file of the
 // model changed. Exit status 0: RTL and model agreed and fragments were compared; 1: they differed; anything else: it
 // did not run.
-#include "tb/lockstep.hpp"
+#include "tb/lockstep/lockstep.hpp"
 #include "tb/mutants/scenario.hpp"
 
 #include <cstdio>

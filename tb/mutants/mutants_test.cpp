@@ -1,9 +1,9 @@
 // The checker checked: every mutant of mutants.toml is caught by a short co-simulation, and the design as it is passes
 // it.
-#include "tb/lockstep.hpp"
+#include "tb/lockstep/lockstep.hpp"
 #include "tb/mutants/scenario.hpp"
-#include "tb/process.hpp"
-#include "tb/source_paths.hpp"
+#include "tb/support/process.hpp"
+#include "tb/support/source_paths.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,8 +1,8 @@
 // The draw that every mutant is put through: small, but every unit of the machine works in it.
 #pragma once
 
-#include "tb/lockstep.hpp"
-#include "tb/random_quads.hpp"
+#include "golden/scenes/random_quads.hpp"
+#include "tb/lockstep/lockstep.hpp"
 
 #include <vector>
 

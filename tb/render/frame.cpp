@@ -3,9 +3,9 @@
 #include "golden/io/texture.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/snap.hpp"
-#include "tb/commands/choices.hpp"
-#include "tb/commands/errors.hpp"
-#include "tb/render/parallel.hpp"
+#include "model/support/parallel.hpp"
+#include "tb/support/choices.hpp"
+#include "tb/support/errors.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "golden/io/frame_image.hpp"
 #include "golden/io/png.hpp"
 #include "golden/scenes/mesh.hpp"
-#include "tb/commands/input.hpp"
-#include "tb/render/engine.hpp"
+#include "tb/engines/engine.hpp"
+#include "tb/options/input.hpp"
 
 #include <cstdint>
 #include <functional>

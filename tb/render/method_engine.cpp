@@ -1,7 +1,7 @@
 #include "tb/render/method_engine.hpp"
 
-#include "tb/commands/errors.hpp"
-#include "tb/render/parallel.hpp"
+#include "model/support/parallel.hpp"
+#include "tb/support/errors.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "golden/methods/method.hpp"
-#include "tb/commands/input.hpp"
-#include "tb/render/engine.hpp"
+#include "tb/engines/engine.hpp"
+#include "tb/options/input.hpp"
 
 #include <memory>
 #include <string>

@@ -1,8 +1,8 @@
 #include "tb/render/method_frame.hpp"
 
 #include "model/snap.hpp"
-#include "tb/commands/errors.hpp"
 #include "tb/render/method_engine.hpp"
+#include "tb/support/errors.hpp"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 // How long a method takes to draw an input.
 #pragma once
 
-#include "tb/commands/input.hpp"
+#include "tb/options/input.hpp"
 
 #include <string>
 

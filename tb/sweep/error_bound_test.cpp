@@ -1,6 +1,6 @@
 // The proved bounds of weights, attributes and depth against samples: every fragment of the stress families, as the
 // untimed model draws it, with exact arithmetic on the same snapped quads.
-#include "model/error_bound.hpp"
+#include "golden/analysis/error_bound.hpp"
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/stress.hpp"
 #include "model/snap.hpp"
@@ -107,7 +107,7 @@ TEST_P(SampledError, StaysBelowTheProof) {
   EXPECT_LE(worst.depth, depth.value);
   EXPECT_GT(worst.fragments, 10'000u);
   EXPECT_GT(worst.depths, 5'000u);
-  // Random samples come within a factor of ten; what climbing finds is in model/error_bound_test.cpp.
+  // Random samples come within a factor of ten; what climbing finds is in golden/analysis/error_bound_test.cpp.
   EXPECT_GT(worst.lambda, 0.1 * lambda.value);
   EXPECT_GT(worst.attribute, 0.05 * attribute.value);
   EXPECT_GT(worst.depth, 0.05 * depth.value);

@@ -1,6 +1,6 @@
 #include "tb/sweep/evaluator.hpp"
 
-#include "tb/lockstep.hpp"
+#include "tb/lockstep/lockstep.hpp"
 #include "tb/sweep/parallel_units.hpp"
 #include "tb/sweep/stage_tree.hpp"
 

@@ -3,11 +3,11 @@
 #include "tb/sweep/evaluator.hpp"
 
 #include "golden/reference/truth.hpp"
-#include "golden/scenes/prng.hpp"
 #include "golden/scenes/stress.hpp"
 #include "model/snap.hpp"
+#include "model/support/prng.hpp"
 #include "model/untimed.hpp"
-#include "tb/lockstep.hpp"
+#include "tb/lockstep/lockstep.hpp"
 #include "tb/sweep/stage_tree.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "tb/sweep/given_truth.hpp"
 
 #include "golden/reference/truth.hpp"
-#include "tb/render/parallel.hpp"
+#include "model/support/parallel.hpp"
 
 #include <algorithm>
 #include <array>

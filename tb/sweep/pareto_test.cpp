@@ -1,7 +1,7 @@
 // Fronts, knees and rank correlations: by hand, and against the definitions on random lists full of ties.
 #include "tb/sweep/pareto.hpp"
 
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 

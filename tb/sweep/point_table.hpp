@@ -1,9 +1,9 @@
 // points.csv: its columns, and a point as one row of it.
 #pragma once
 
+#include "golden/analysis/error_bound.hpp"
+#include "golden/analysis/hardware_cost.hpp"
 #include "model/config.hpp"
-#include "model/error_bound.hpp"
-#include "model/hardware_cost.hpp"
 #include "tb/sweep/point_result.hpp"
 
 #include <cstddef>

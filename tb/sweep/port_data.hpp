@@ -2,7 +2,7 @@
 // snapping alone did.
 #pragma once
 
-#include "tb/error_stats.hpp"
+#include "tb/support/error_stats.hpp"
 #include "tb/sweep/position_data.hpp"
 
 #include <array>

@@ -3,7 +3,7 @@
 #include "golden/reference/truth.hpp"
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
-#include "tb/render/parallel.hpp"
+#include "model/support/parallel.hpp"
 #include "tb/sweep/parallel_units.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The search against full evaluation with real errors: the grid of 1,000 points, many targets.
+#include "golden/analysis/hardware_cost.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/hardware_cost.hpp"
 #include "tb/sweep/evaluator.hpp"
 #include "tb/sweep/grid.hpp"
 #include "tb/sweep/point_table.hpp"

@@ -1,8 +1,8 @@
 // The search against full evaluation, on error landscapes made up for the purpose.
 #include "tb/sweep/search.hpp"
 
-#include "golden/scenes/prng.hpp"
 #include "model/snap.hpp"
+#include "model/support/prng.hpp"
 #include "model/untimed.hpp"
 #include "tb/sweep/grid.hpp"
 

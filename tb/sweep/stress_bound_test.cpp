@@ -1,6 +1,6 @@
 // The arithmetic bound 2^-(s-3) and the proved one, for every s from 12 to 26 on every stress family.
+#include "golden/analysis/error_bound.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/error_bound.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/sweep/evaluator.hpp"

@@ -1,6 +1,6 @@
 #include "tb/sweep/synthesis.hpp"
 
-#include "tb/yosys.hpp"
+#include "tb/yosys/yosys.hpp"
 
 #include <algorithm>
 #include <condition_variable>

@@ -1,8 +1,8 @@
 // Synthesis of chosen points of a sweep, several at a time.
 #pragma once
 
+#include "golden/analysis/hardware_cost.hpp"
 #include "model/config.hpp"
-#include "model/hardware_cost.hpp"
 
 #include <cstddef>
 #include <cstdint>

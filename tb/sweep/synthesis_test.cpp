@@ -1,9 +1,9 @@
 // Synthesis of points: with a stand-in for Yosys that counts its calls, and once with Yosys itself.
 #include "tb/sweep/synthesis.hpp"
 
-#include "tb/environment_error.hpp"
-#include "tb/verilate.hpp"
-#include "tb/yosys.hpp"
+#include "tb/device/verilate.hpp"
+#include "tb/support/environment_error.hpp"
+#include "tb/yosys/yosys.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 // Compares the weights of method mvc with CGAL's mean value coordinates on random simple quads, convex and concave, at
 // every covered pixel centre, edges and corners among them. CGAL computes with exact numbers, square roots included.
 #include "golden/methods/builders.hpp"
-#include "golden/scenes/prng.hpp"
+#include "model/support/prng.hpp"
 
 #include <CGAL/Barycentric_coordinates_2/Mean_value_coordinates_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel_with_sqrt.h>

@@ -1,0 +1,580 @@
+#include "golden/analysis/error_bound.hpp"
+
+#include "model/tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace quadrille {
+namespace {
+
+// ---- Relative errors as natural logarithms -------------------------------------------------------------------------
+//
+// They are of the order 2^-s >= 2^-26; double arithmetic on them errs by less than 2^-45 in all. `widened` covers that.
+
+struct Range {
+  double lo = 0, hi = 0;
+};
+Range operator+(Range a, Range b) { return {a.lo + b.lo, a.hi + b.hi}; }
+Range operator-(Range a, Range b) { return {a.lo - b.hi, a.hi - b.lo}; }
+Range operator+(double a, Range b) { return {a + b.lo, a + b.hi}; }
+Range operator-(double a, Range b) { return {a - b.hi, a - b.lo}; }
+Range operator*(Range a, Range b) {
+  const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+  return {lo, hi};
+}
+Range operator*(double a, Range b) { return a >= 0 ? Range{a * b.lo, a * b.hi} : Range{a * b.hi, a * b.lo}; }
+Range hull(Range a, Range b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+double largest(Range r) { return std::max(-r.lo, r.hi); }
+
+double widened(double bound) { return bound * (1 + 0x1p-16); }
+
+// ---- Tables --------------------------------------------------------------------------------------------------------
+
+/// Extremes on [-1/2, 1/2] of d0 + d1 v + d2 v² + d3 v³.
+Range cubic_range(double d0, double d1, double d2, double d3) {
+  const auto at = [&](double v) { return d0 + v * (d1 + v * (d2 + v * d3)); };
+  Range r = hull({at(-0.5), at(-0.5)}, {at(0.5), at(0.5)});
+  const double discriminant = d2 * d2 - 3 * d1 * d3;
+  if (discriminant < 0) return r;
+  // Both roots of d1 + 2 d2 v + 3 d3 v² without cancellation.
+  const double sum = -(d2 + std::copysign(std::sqrt(discriminant), d2));
+  for (const double v : {sum / (3 * d3), d1 / sum})
+    if (std::fabs(v) <= 0.5) r = hull(r, {at(v), at(v)});
+  return r;
+}
+
+/// Calls visit(m, error) for each segment: m its first significand in [1, 2), error the logarithm of result / f over
+/// all its arguments. f = x^-power, power 1 or 1/2, over 1 or 2 octaves.
+template <class Visit>
+void visit_segments(const Table& table, int s, double power, Visit visit) {
+  const double unit = std::ldexp(1.0, s + Config::table_guard);
+  const std::size_t per_octave = std::size_t{1} << table.segments_log2;
+  const double rest = 1 - std::ldexp(1.0, -table.rest_bits);  // the largest fraction of a segment
+  // Binomial coefficients of (1 + r)^-power.
+  const double b1 = -power, b2 = b1 * (-power - 1) / 2, b3 = b2 * (-power - 2) / 3, b4 = b3 * (-power - 3) / 4;
+  const auto f = [&](double x) { return unit * (power == 1 ? 1 / x : 1 / std::sqrt(x)); };
+  for (std::size_t i = 0; i < table.entries.size(); ++i) {
+    const double octave = i < per_octave ? 1 : 2;
+    const double width = octave / static_cast<double>(per_octave);
+    const double left = octave + static_cast<double>(i % per_octave) * width;
+    const double middle = left + width / 2, step = width / middle, f0 = f(middle);
+    const double c0 = table.entries[i].c0, c1 = table.entries[i].c1, c2 = table.entries[i].c2;
+    // The polynomial of the ROM minus the Taylor series of f about the middle, and the rest of that series.
+    Range d = cubic_range(c0 - c1 / 2 + c2 / 4 - f0, c2 - c1 - f0 * b1 * step, c2 - f0 * b2 * step * step,
+                          -f0 * b3 * step * step * step);
+    const double series = f0 * b4 * std::pow(step / 2, 4) / (1 - step / 2);
+    // t1 loses less than one unit times dx and that raises t0; t0 loses less than one unit; the result 7 of 8.
+    d = d + Range{-series - (table.entries[i].c2 != 0 ? rest * rest : 0) - 7, series + rest};
+    // The clamp moves the result towards f, or f is above the largest significand by less than 2^-(s-4) units.
+    d = hull(d, {-std::ldexp(1.0, 4 - s), 0});
+    const double least = f(left + width);
+    visit(left / octave, Range{std::log1p(d.lo / least), std::log1p(d.hi / least)});
+  }
+}
+
+// ---- What a stored number can be off by ----------------------------------------------------------------------------
+
+/// Logarithms of stored / exact.
+struct Ingredients {
+  double u;          ///< 2^-(s-1)
+  double t;          ///< a truncation to S bits is in [-t, 0]
+  double sum2;       ///< a sum of two positive terms is in [-sum2, 0]
+  double sum4;       ///< of four
+  double align4;     ///< what the alignment of four terms takes, relative to the largest
+  Range rho;         ///< rsqrt of the truncated r²
+  Range quotient_k;  ///< weight of one term: truncation of the numerator, the denominator's sum, the reciprocal
+  Range quotient_z;  ///< the same with a numerator of four positive terms
+};
+
+Ingredients ingredients(const Config& c) {
+  Ingredients in;
+  in.u = std::ldexp(1.0, 1 - c.significand_bits);
+  in.t = std::log1p(in.u);
+  const double guard = std::ldexp(1.0, -c.align_guard_bits);
+  in.sum2 = std::log1p(in.u * (1 + guard));
+  in.sum4 = std::log1p(in.u * (1 + 3 * guard));
+  in.align4 = 4 * guard * in.u;
+  const TableError rsqrt = rsqrt_error(c);
+  in.rho = {rsqrt.low, rsqrt.high};
+  // The denominator's loss is relative to its significand, and so is the error of the reciprocal.
+  Range denominator{0, in.sum4};
+  visit_segments(make_recip_table(c), c.significand_bits, 1, [&](double m, Range error) {
+    denominator = hull(denominator, error + Range{0, std::log1p(in.u * (1 + 3 * guard) / m)});
+  });
+  in.quotient_k = denominator + Range{-in.t, 0};
+  in.quotient_z = denominator + Range{-in.sum4, 0};
+  return in;
+}
+
+// ---- The ratios t --------------------------------------------------------------------------------------------------
+//
+// G = v/u for v = |sin|, u = 1 + |cos|; t is G or 1/G. With Q = ρρ truncated, c = |cos|, ĉ = c δ Q its stored value and
+// g = 1 / (1 + ĉ): ln G = α + ν + g Q - (1 - g) δ - κ, all in logarithms and by the mean value theorem, where α, ν, δ
+// and σ (in Q = ρ + ρ + σ) are truncations and κ is that of the sum u.
+
+/// Where g can be, and κ in [-kappa, 0].
+struct Sine {
+  Range g;
+  double kappa;
+};
+struct Sines {
+  std::array<Sine, 2> at;
+  std::size_t count = 1;
+};
+
+/// For c in the interval. Where ĉ can reach 1, u is cut but not below 2 >= 1 + c, so ln G lies between that without a
+/// cut and, above, that of u = 1 + c exactly, which is g = 1: a second case, for the upper bound of G and the lower one
+/// of 1/G.
+Sines sines(Range c, const Ingredients& in) {
+  const double least = c.lo * std::exp(2 * in.rho.lo - 2 * in.t), most = c.hi * std::exp(2 * in.rho.hi);
+  Sines r;
+  r.at[0] = {{1 / (1 + most), 1 / (1 + least)}, std::log1p(in.u / std::max(1.0, 1 + least - in.u))};
+  if (most >= 1) r.at[r.count++] = {{1, 1}, 0};
+  return r;
+}
+
+/// ln t^e without the ρ of the two vertices; e > 0 for t = G.
+Range ratio_error(const Sine& s, Range e, const Ingredients& in) {
+  const Range cut{-in.t, 0};
+  return 2.0 * (e * cut) + (e * s.g) * cut - e * (1.0 - s.g) * cut - e * Range{-s.kappa, 0};
+}
+
+// ---- The weights M -------------------------------------------------------------------------------------------------
+
+/// Hull in which the second case of `sines` counts above (e > 0) or below only.
+Range hull_case(Range all, Range r, std::size_t sine, double e) {
+  if (sine == 0 || e > 0) all.hi = std::max(all.hi, r.hi);
+  if (sine == 0 || e < 0) all.lo = std::min(all.lo, r.lo);
+  return all;
+}
+
+/// ρ_i t for any angle: a sum of two t of one sign is within the hull of its terms.
+Range plain_weight(const Ingredients& in) {
+  constexpr int cells = 64;
+  Range all = in.rho;  // one edge: t is common to the two weights
+  for (int i = 0; i < cells; ++i) {
+    const Sines s = sines({static_cast<double>(i) / cells, (i + 1.0) / cells}, in);
+    for (std::size_t k = 0; k < s.count; ++k)
+      for (const double e : {1.0, -1.0}) {
+        const Range slope = e * s.at[k].g;
+        all = hull_case(all, ratio_error(s.at[k], {e, e}, in) + (1.0 + slope) * in.rho + slope * in.rho, k, e);
+      }
+  }
+  return all;
+}
+
+/// A weight with the cure, ρ_i t_diagonal (1 + |t_p t_m|), for angles p > m of its two edges, the diagonal's being
+/// p - m. With w = |t_p t_m| / (1 + |t_p t_m|) its logarithm is ρ_i + ln t_diagonal + w (ln t_p + ln t_m).
+struct CuredWeight {
+  std::size_t p;  ///< cell of the angle
+  Range own;      ///< without ln t_m and without the ρ of edge m's two vertices
+  Range w;
+  Range near, far;    ///< coefficients of these ρ: of the weight's own vertex, and of the other
+  bool above, below;  ///< counts for the upper, the lower bound
+};
+
+/// Angles in cells of 180 degrees / cells; even, so that no cell contains 90 degrees.
+constexpr std::size_t cells = 48;
+
+struct Angles {
+  std::array<double, cells + 1> cosine, half_tangent;
+
+  Angles() {
+    for (std::size_t i = 0; i <= cells; ++i) {
+      const double angle = std::numbers::pi * static_cast<double>(i) / cells;
+      cosine[i] = std::cos(angle);
+      half_tangent[i] = i == cells ? std::numeric_limits<double>::infinity() : std::tan(angle / 2);
+    }
+  }
+  static bool acute(std::size_t cell) { return cell < cells / 2; }
+  static double sign(std::size_t cell) { return acute(cell) ? 1 : -1; }
+  /// |cos| over cells first to last, all on one side of 90 degrees.
+  Range absolute_cosine(std::size_t first, std::size_t last) const {
+    const double a = std::fabs(cosine[first]), b = std::fabs(cosine[last + 1]);
+    return {std::min(a, b), std::max(a, b)};
+  }
+};
+
+/// Appends all cured weights with edge m's angle in cell m.
+void cured_weights(const Angles& angles, std::size_t m, const Sine& at_m, const Ingredients& in,
+                   std::vector<CuredWeight>& out) {
+  // No ln t exceeds half of this; it widens w from exact to stored values.
+  const double stray = std::exp(2 * (4 * in.t + 2 * largest(in.rho)));
+  const auto append = [&](std::size_t p, Range w, double e, Range cosine_d) {
+    const Range wp = Angles::sign(p) * w, wm = Angles::sign(m) * w;
+    const Sines at_d = sines(cosine_d, in), at_p = sines(angles.absolute_cosine(p, p), in);
+    for (std::size_t x = 0; x < at_d.count; ++x)
+      for (std::size_t y = 0; y < at_p.count; ++y) {
+        const Range gd = e * at_d.at[x].g, gp = wp * at_p.at[y].g, gm = wm * at_m.g;
+        out.push_back({p, ratio_error(at_d.at[x], {e, e}, in) + ratio_error(at_p.at[y], wp, in) + (gd + gp) * in.rho, w,
+                       1.0 + gp + gm, gd + gm, (x == 0 || e > 0) && (y == 0 || Angles::acute(p)),
+                       (x == 0 || e < 0) && (y == 0 || !Angles::acute(p))});
+      }
+  };
+  for (std::size_t p = m; p < cells; ++p) {
+    const double low = angles.half_tangent[p] * angles.half_tangent[m] / stray;
+    const double high = angles.half_tangent[p + 1] * angles.half_tangent[m + 1] * stray;
+    const Range w{low / (1 + low), 1 - 1 / (1 + high)};
+    // Near p = 180, m = 0 a cell holds many w; in slices, since w enters several coefficients.
+    const int slices = static_cast<int>((w.hi - w.lo) * 8) + 1;
+    // The difference spans two cells, which may lie on both sides of 90 degrees.
+    const std::size_t first = p > m ? p - m - 1 : 0, last = p - m;
+    for (int n = 0; n < slices; ++n) {
+      const Range slice{std::lerp(w.lo, w.hi, static_cast<double>(n) / slices),
+                        std::lerp(w.lo, w.hi, (n + 1.0) / slices)};
+      if (Angles::acute(first)) append(p, slice, 1, angles.absolute_cosine(first, std::min(last, cells / 2 - 1)));
+      if (!Angles::acute(last)) append(p, slice, -1, angles.absolute_cosine(std::max(first, cells / 2), last));
+    }
+  }
+}
+
+/// Largest ln of (M̂_i / M_i) / (M̂_j / M_j) over the vertices i, j of one pixel.
+double weight_spread(const Ingredients& in) {
+  const auto width = [](Range r) { return r.hi - r.lo; };
+  const Range plain = plain_weight(in);
+  // N, e, N·e, M.
+  const double uncured = width(plain) + in.sum2 + 3 * in.t;
+  // Two edges: ρ_i times a sum of ρ k, or of two such sums. A corner at the pixel has no error here.
+  const double two_edge = 2 * width(in.rho) + 2 * in.sum2 + in.t;
+
+  // With the cure exactly one edge turns backward, by an angle m; the weights of its two ends are cured and the angles
+  // p, x of the edges beyond them exceed m and satisfy p + x > 180 + m.
+  static const Angles angles;
+  double spread = width(plain);
+  std::vector<CuredWeight> cured;
+  for (std::size_t m = 0; m < cells; ++m) {
+    const Sines at_m = sines(angles.absolute_cosine(m, m), in);
+    for (std::size_t z = 0; z < at_m.count; ++z) {
+      cured.clear();
+      cured_weights(angles, m, at_m.at[z], in, cured);
+      const Range ratio_m = ratio_error(at_m.at[z], {Angles::sign(m), Angles::sign(m)}, in);
+      for (const CuredWeight& a : cured) {
+        const Range alone =
+            a.own + ratio_error(at_m.at[z], Angles::sign(m) * a.w, in) + a.near * in.rho + a.far * in.rho;
+        if (a.above) spread = std::max(spread, alone.hi - plain.lo);
+        if (a.below) spread = std::max(spread, plain.hi - alone.lo);
+        for (const CuredWeight& b : cured) {
+          if (!a.above || !b.below || a.p + b.p + 2 <= cells + m) continue;
+          spread = std::max(
+              spread,
+              (a.own - b.own + (a.w - b.w) * ratio_m + (a.near - b.far) * in.rho + (a.far - b.near) * in.rho).hi);
+        }
+      }
+    }
+  }
+  // N, e, f, N·e, ρ·f, M.
+  return std::max({uncured, two_edge, spread + in.sum2 + 5 * in.t});
+}
+
+// ---- Quotients of sums ---------------------------------------------------------------------------------------------
+//
+// A part λ of a sum of positive terms whose relative errors differ by a factor up to q, times a factor K, is within
+// K λ / (λ + (1 - λ) q) and K λ q / (λ q + 1 - λ). The largest distances from λ, over λ in [0, 1]:
+
+double rise(double log_q, double log_k) {
+  const double x = std::expm1((log_q + log_k) / 2), y = std::expm1(log_q);
+  if (x <= 0) return 0;
+  return x >= y ? std::expm1(log_k) : x * x / y;
+}
+double fall(double log_q, double log_k) {
+  const double x = std::exp(log_q / 2) - std::exp(log_k / 2);
+  return log_q + log_k <= 0 ? -std::expm1(log_k) : x * x / std::expm1(log_q);
+}
+
+enum class Quads { any, ordinary };
+
+/// The best that can be said where the proof's assumptions do not hold; proved where they do, with no value yet.
+ErrorBound without_proof(const Config& c, Quads quads) {
+  // Positions of ordinary vertices have subpixel_bits fraction bits, so their D and r² have twice as many.
+  const bool exact_if_ordinary = c.quadratic_frac() >= 2 * c.subpixel_bits;
+  if (!exact_if_ordinary)
+    return {
+        std::numeric_limits<double>::infinity(), false,
+        "quadratic_frac_bits drops bits that D and r² of ordinary vertices have: their relative error has no bound"};
+  const double rule = std::ldexp(1.0, 3 - c.significand_bits);
+  if (!c.notch_exact) return {rule, false, "notch_exact = 0: the terms of a weight may cancel at a reflex corner"};
+  if (c.qdrop() > 0 && quads == Quads::any)
+    return {rule, false, "quadratic_frac_bits drops bits that D and r² of homogeneous vertices have"};
+  return {0, true, "relative errors of every truncation and of both tables, accumulated over t, M and the sums"};
+}
+
+// ---- Ranges --------------------------------------------------------------------------------------------------------
+
+using Wide = __int128;
+
+Wide power(int exponent) { return Wide{1} << exponent; }
+Wide floor_shift(Wide v, int shift) { return v >> shift; }
+double below(Wide v) {
+  const auto d = static_cast<double>(v);
+  return static_cast<Wide>(d) <= v ? d : std::nextafter(d, -std::numeric_limits<double>::infinity());
+}
+double above(Wide v) { return 0 - below(-v); }
+
+/// Binary exponents of a positive magnitude: floor(log2) of its least and largest value.
+struct Exponents {
+  int lo = 0, hi = 0;
+};
+/// A product truncated to S bits: the carry may add one, and truncation never falls below a power of two.
+Exponents operator*(Exponents a, Exponents b) { return {a.lo + b.lo, a.hi + b.hi + 1}; }
+Exponents hull(Exponents a, Exponents b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+
+int log2_of(Wide v) {
+  int p = -1;
+  for (; v > 0; v >>= 1) ++p;
+  return p;
+}
+
+class RangeList {
+ public:
+  void add(std::string name, Wide low, Wide high, int bits, bool is_signed = true) {
+    const bool fits = is_signed ? low >= -power(bits - 1) && high < power(bits - 1) : low >= 0 && high < power(bits);
+    proof_.signals.push_back({std::move(name), below(low), above(high), bits, is_signed, fits});
+  }
+  void add_exponent(const std::string& name, Exponents e, int bits) {
+    add("exponent of " + name, e.lo, e.hi, bits);
+    // pixel_lanes carries the same number as a double, exactly: normal, products of 2 S <= 52 bits included.
+    const bool fits = e.lo >= -1022 && e.hi <= 1023;
+    proof_.signals.push_back(
+        {name + " as a double", static_cast<double>(e.lo), static_cast<double>(e.hi), 11, true, fits});
+  }
+  RangeProof result() {
+    proof_.proved = std::all_of(proof_.signals.begin(), proof_.signals.end(), [](const auto& s) { return s.fits; });
+    return std::move(proof_);
+  }
+
+ private:
+  RangeProof proof_;
+};
+
+/// The exact integers up to the normalisation, in units of their least bits.
+struct FrontRange {
+  Wide a, d_low, d_high, r2_high;  ///< |A|; D; r²
+  Wide dropped;                    ///< D and r² are too low by at most this through dropped bits
+};
+
+FrontRange prove_front(const Config& c, const ProofWidths& w, RangeList& list) {
+  const Wide edge = power(c.pos_int() + c.frac()), one = power(c.frac());  // |X|, |Y| <= edge, |W| <= one
+  const Wide viewport = power(c.viewport_bits), tile = c.tile();
+  const int drop = c.qdrop();
+  list.add("X, Y", -edge, edge, w.position);
+  list.add("W", -one, one, w.weight);
+
+  // The origin is a tile of the viewport for an ordinary quad (W = 1), and (0, 0) for any other.
+  const Wide moved = edge + one * (viewport - tile);
+  list.add("T", -moved, edge, w.position);
+  list.add("tile", 0, viewport / tile - 1, w.tile, false);
+  list.add("tile count", 0, viewport / tile, w.tile, false);
+  list.add("dot unit operand", -moved, std::max(moved, power(32) - 1), w.dot_operand);  // 2^32: half a determinant's
+  const Wide widest = std::max(2 * moved * moved, 2 * edge * (power(32) - 1));
+  list.add("dot unit result", -widest, widest, w.dot_result);
+
+  // S = X - W·x; W has either sign, hence S has.
+  const auto reach = [&](Wide pixel) { return edge + one * pixel; };
+  const auto products = [&](Wide pixel) { return 2 * reach(pixel) * reach(pixel); };
+  // Block origins are tiles of the viewport, so a block's far corner is up to 7 tiles outside.
+  const Wide last = viewport - 1, corner = viewport + (Config::block_tiles - 1) * tile - 1;
+  FrontRange f{products(last), 0, 0, 0, 0};
+  list.add("A", -f.a, f.a, w.value);
+  list.add("A at the corner of a block", -products(corner), products(corner), w.value);
+  list.add("gx of A", -2 * edge * one, 2 * edge * one, w.grad);
+
+  // Value, gradient and curvature are each rounded down by `drop` bits and then multiplied by the way from the origin.
+  const auto floored = [&](Wide low, Wide high, Wide terms) {
+    return std::pair{floor_shift(low - (power(drop) - 1) * terms, drop), floor_shift(high, drop)};
+  };
+  const Wide way = 1 + 2 * last + 2 * last * last;
+  const auto [d_low, d_high] = floored(-f.a, f.a, way);
+  f.d_low = d_low;
+  f.d_high = d_high;
+  list.add("D", f.d_low, f.d_high, w.qvalue);
+  const auto [r2_low, r2_high] = floored(0, f.a, way);
+  list.add("r²", r2_low, r2_high, w.qvalue);
+  f.r2_high = r2_high;
+  f.dropped = drop > 0 ? way : 0;
+  // Gradients are kept at tile origins.
+  const Wide origin = viewport - tile, slope = 2 * reach(origin) * one;
+  const auto [gx_low, gx_high] = floored(-slope, slope, 1 + 2 * origin);
+  list.add("gx of D, r²", gx_low, gx_high, w.qgrad);
+  const auto [q_low, q_high] = floored(-one * one, one * one, 1);
+  list.add("q of D, r²", q_low, q_high, w.qcurv);
+
+  const Wide determinant = 2 * edge * (2 * edge * one) + one * (2 * edge * edge);
+  list.add("determinant", -determinant, determinant, w.determinant);
+  return f;
+}
+
+void prove_tables(const Config& c, const ProofWidths& w, RangeList& list) {
+  const auto prove = [&](const std::string& name, const Table& table) {
+    Wide c0 = 0, c1 = 0, inner_low = 0, low = power(62), high = 0;
+    for (const TableEntry& e : table.entries) {
+      c0 = std::max<Wide>(c0, e.c0);
+      c1 = std::max<Wide>({c1, e.c1, e.c2});
+      inner_low = std::min<Wide>(inner_low, Wide{e.c1} - e.c2);
+      low = std::min<Wide>(low, Wide{e.c0} - e.c1);
+      high = std::max<Wide>(high, e.c0);
+    }
+    list.add(name + " C0", 0, c0, w.table_word, false);
+    list.add(name + " C1, C2", inner_low, c1, w.table_factor, false);
+    list.add(name + " before the clamp", low >> Config::table_guard, high >> Config::table_guard, w.table_factor + 1,
+             false);
+  };
+  prove("rsqrt", make_rsqrt_table(c));
+  prove("reciprocal", make_recip_table(c));
+}
+
+void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& front, RangeList& list) {
+  const int drop = c.qdrop(), prec = c.prec_bits(), e = w.exponent;
+  // A sum of n positive terms; one whose terms may cancel keeps at least the least bit of its window.
+  const auto sum = [](Exponents a, int log2_terms) { return Exponents{a.lo, a.hi + 1 + log2_terms}; };
+  const auto cancelling = [&](Exponents a, int log2_terms) { return Exponents{a.lo - prec, a.hi + 1 + log2_terms}; };
+
+  // What snapping lets through: |x|, |y|, |w| <= 2^80, one of them >= 2^-80, |z| <= 2^80, |a| < 2^8. Half a pixel and
+  // the guard band enlarge the first by a factor of 2 and reduce the second by 2^-(POS_INT+1).
+  const Exponents k{-82, 81 + c.pos_int()}, weight{-c.frac(), 0};
+  const int underflow = -(1 << (Config::port_exp_bits - 1));  // below, snapping gives zero
+  const Exponents z{underflow, k.hi + 81}, b{underflow, k.hi + c.attribute_int_bits + 1};
+  list.add("exponent of k", k.lo, k.hi, w.port_exponent);
+  list.add("exponent of Z", z.lo, z.hi, w.port_exponent);
+  list.add("exponent of b", b.lo, b.hi, w.port_exponent);
+
+  const Exponents a{-drop, log2_of(front.a) - drop};
+  const Exponents d{0, log2_of(std::max(front.d_high, -front.d_low))}, r2{0, log2_of(front.r2_high)};
+  const Exponents rho{-(r2.hi / 2) - 1, 0}, scale{2 * rho.lo, 0};
+  list.add_exponent("A", a, e);
+  list.add_exponent("D", d, e);
+  list.add_exponent("r²", r2, e);
+  list.add_exponent("ρ", rho, e);
+  list.add_exponent("ρρ", scale, e);
+  // |D| <= r r' and |A| <= r r' exactly. With `dropped` bits r² >= 1 stands for r² <= 1 + dropped. Errors are far below
+  // a factor of 2.
+  const int stray = front.dropped > 0 ? log2_of(2 * front.dropped + 1) + 1 : 0;
+  const Exponents v{a.lo + scale.lo, stray}, u{0, 1 + stray}, ratio = hull(v, u);
+  list.add_exponent("D·ρρ", {d.lo + scale.lo, stray}, e);
+  list.add_exponent("u, v", ratio, e);
+
+  const Exponents products = ratio * ratio;
+  const Exponents regular = c.notch_exact ? sum(products, 1) : cancelling(products, 1);
+  const Exponents k_eff = hull(k, weight);
+  const Exponents on_edge = cancelling(rho * k_eff, 1),
+                  singular = hull(hull(on_edge, sum(on_edge, 1)), hull(k_eff, {0, 0}));
+  list.add_exponent("N", hull(regular, singular), e);
+  const Exponents regular_h = regular * products, regular_g = hull(rho, rho * products);
+  list.add_exponent("h = N·e", hull(regular_h, singular), e);
+  list.add_exponent("g = ρ·f", regular_g, e);
+  const Exponents m = hull(regular_h * regular_g, hull(singular, singular * rho));
+  list.add_exponent("M", m, e);
+
+  const Exponents den_k = cancelling(m * k_eff, 2), den_w = cancelling(m * weight, 2);
+  const Exponents num_z = cancelling(m * z, 2), num_a = cancelling(m * b, 2);
+  list.add_exponent("Σ M·k", den_k, e);
+  list.add_exponent("Σ M·W", den_w, e);
+  list.add_exponent("Σ M·Z", num_z, e);
+  list.add_exponent("Σ M·b", num_a, e);
+  const auto inverse = [](Exponents x) { return Exponents{-x.hi - 1, -x.lo}; };
+  list.add_exponent("1 / Σ M·k", inverse(den_k), e);
+  list.add_exponent("1 / Σ M·W", inverse(den_w), e);
+  list.add_exponent("attribute before the fixed point", num_a * inverse(den_k), e);
+  list.add_exponent("z before the fixed point", num_z * inverse(den_w), e);
+}
+
+}  // namespace
+
+ProofWidths::ProofWidths(const Config& c)
+    : position(c.t_bits()),
+      weight(c.w_bits()),
+      value(c.val_bits()),
+      grad(c.grad_bits()),
+      qvalue(c.qval_bits()),
+      qgrad(c.qgrad_bits()),
+      qcurv(c.qcurv_bits()),
+      tile(c.tc_bits()),
+      dot_operand(33),
+      dot_result(67),
+      determinant(c.t_bits() + c.grad_bits() + 4),
+      exponent(Config::exp_bits),
+      port_exponent(Config::port_exp_bits),
+      term(c.significand_bits + 1 + c.align_guard_bits),
+      table_word(c.significand_bits + 4),
+      table_factor(c.significand_bits),
+      attribute(c.attr_out_bits()),
+      depth(c.depth_bits + 1) {}
+
+RangeProof prove_ranges(const Config& config) { return prove_ranges(config, ProofWidths(config)); }
+
+RangeProof prove_ranges(const Config& config, const ProofWidths& w) {
+  RangeList list;
+  const FrontRange front = prove_front(config, w, list);
+  prove_tables(config, w, list);
+  prove_exponents(config, w, front, list);
+  // The largest product of two significands, cut to the window.
+  const int s = config.significand_bits;
+  const Wide significand = power(s) - 1;
+  const Wide term = (significand * significand) >> (2 * s - 2 - config.prec_bits());
+  list.add("aligned term", 0, term, w.term, false);
+  list.add("sum of two terms", -2 * term, 2 * term, w.term + 2);
+  list.add("sum of four terms", -4 * term, 4 * term, w.term + 3);
+  const Wide attribute = power(config.attribute_int_bits + config.attribute_frac()) - 1;  // saturated
+  list.add("attribute", -attribute, attribute, w.attribute);
+  list.add("depth", 0, power(config.depth_bits + 1) - 1, w.depth, false);
+  return list.result();
+}
+
+TableError rsqrt_error(const Config& config) {
+  const double u = std::ldexp(1.0, 1 - config.significand_bits);
+  Range all{0, std::log1p(u) / 2};  // an even power of two is exact
+  visit_segments(make_rsqrt_table(config), config.significand_bits, 0.5, [&](double m, Range error) {
+    all = hull(all, error + Range{0, std::log1p(u / m) / 2});
+  });
+  return {all.lo, all.hi};
+}
+
+TableError reciprocal_error(const Config& config) {
+  Range all;
+  visit_segments(make_recip_table(config), config.significand_bits, 1,
+                 [&](double, Range error) { all = hull(all, error); });
+  return {all.lo, all.hi};
+}
+
+ErrorBound bound_lambda(const Config& config) {
+  ErrorBound bound = without_proof(config, Quads::any);
+  if (!bound.proved) return bound;
+  const Ingredients in = ingredients(config);
+  const double q = weight_spread(in);
+  const double down = fall(q, in.quotient_k.lo) + std::ldexp(1.0, -config.attribute_frac());
+  bound.value = widened(std::max(rise(q, in.quotient_k.hi), down));
+  return bound;
+}
+
+ErrorBound bound_attribute(const Config& config, double range) {
+  ErrorBound bound = without_proof(config, Quads::any);
+  if (!bound.proved) {
+    bound.value *= 2 * std::fabs(range);  // what one weight gains another loses
+    return bound;
+  }
+  const Ingredients in = ingredients(config);
+  const double q = weight_spread(in);
+  // b and k are rounded to nearest: b/k is the corner's value times at most (1 + u/2) / (1 - u/2).
+  const double corner = std::fabs(range) * (1 + in.u / 2) / (1 - in.u / 2);
+  double worst = 0;
+  for (const double k : {in.quotient_k.lo, in.quotient_k.hi}) worst = std::max(worst, 2 * rise(q, k) - std::expm1(k));
+  worst += in.align4 * std::exp(in.quotient_k.hi);
+  bound.value = widened(corner * worst + std::ldexp(1.0, -config.attribute_frac()));
+  return bound;
+}
+
+ErrorBound bound_depth(const Config& config) {
+  ErrorBound bound = without_proof(config, Quads::ordinary);
+  if (!bound.proved) return bound;
+  const Ingredients in = ingredients(config);
+  const double q = weight_spread(in);
+  const double down = fall(q, in.quotient_z.lo) + std::ldexp(1.0, -config.depth_bits);
+  bound.value = widened(std::max(rise(q, in.quotient_z.hi), down));
+  return bound;
+}
+
+}  // namespace quadrille

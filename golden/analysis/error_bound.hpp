@@ -1,0 +1,73 @@
+// Proofs beside the samples: intervals that no value can leave, and an error that no weight can exceed, for every input
+// that the port accepts. The derivation is in golden/analysis/README.md, "Error bound".
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+
+#include <string>
+#include <vector>
+
+namespace quadrille {
+
+/// One signal with the interval of its values and the width that the configuration gives it.
+struct SignalRange {
+  std::string signal;        ///< as in rtl/README.md, e.g. "A", "D", "gx of r²", "exponent of M"
+  double low = 0, high = 0;  ///< in units of the signal's least bit, rounded outward
+  int bits = 0;              ///< width; signed when `is_signed`
+  bool is_signed = true;
+  bool fits = false;
+};
+
+/// Interval analysis from the port to the fragment. A signal is listed with the values that are used: a sum whose terms
+/// pass through values outside its width modulo 2^width (forward differences, the extent test, determinants) is right
+/// when its result fits.
+struct RangeProof {
+  std::vector<SignalRange> signals;
+  bool proved = false;  ///< every signal fits
+};
+
+/// The widths that the proof is about, apart from the configuration, so that others can be tried.
+struct ProofWidths {
+  int position, weight;          ///< T_BITS, W_BITS
+  int value, grad;               ///< of linear functions
+  int qvalue, qgrad, qcurv;      ///< of quadratic functions
+  int tile;                      ///< TC_BITS, unsigned
+  int dot_operand, dot_result;   ///< of the setup's dot units
+  int determinant;               ///< DET_BITS
+  int exponent, port_exponent;   ///< EXP_BITS, PORT_EXP_BITS
+  int term;                      ///< an aligned term of a sum, unsigned
+  int table_word, table_factor;  ///< C0; C1, C2 and the inner factor; unsigned
+  int attribute, depth;          ///< at the fragment port; depth unsigned
+
+  explicit ProofWidths(const Config& config);
+};
+
+/// Throws ConfigError when a table of the configuration cannot be made.
+RangeProof prove_ranges(const Config& config);
+RangeProof prove_ranges(const Config& config, const ProofWidths& widths);
+
+/// Bound of an absolute error, or the best that can be said.
+struct ErrorBound {
+  double value = 0;     ///< rounded up; infinity where nothing is claimed
+  bool proved = false;  ///< else estimated: the rule of thumb 2^-(s-3), where the proof's assumptions do not hold
+  std::string reason;   ///< what the proof rests on, or which assumption fails
+};
+
+/// Least and largest relative error of a table with truncation of its argument to S bits (rsqrt) or without
+/// (reciprocal), as natural logarithms of result / exact result.
+struct TableError {
+  double low = 0, high = 0;
+};
+TableError rsqrt_error(const Config& config);
+TableError reciprocal_error(const Config& config);
+
+/// max |Δλ'| against exact arithmetic on the same snapped quad, with perspective (or every W = 1 without), by analysis
+/// of the accumulated relative errors of t, M and the sums.
+ErrorBound bound_lambda(const Config& config);
+/// The same of an attribute whose corner values lie in [-range, range] and that does not saturate.
+ErrorBound bound_attribute(const Config& config, double range);
+/// The same of window z of a quad of ordinary vertices (snap.hpp) with 0 <= z <= 1 at the corners.
+ErrorBound bound_depth(const Config& config);
+
+}  // namespace quadrille

@@ -1,0 +1,346 @@
+// The proofs against what can be computed without them: extreme inputs, every argument of a table, narrower widths, and
+// the largest errors that hill climbing has found.
+#include "golden/analysis/error_bound.hpp"
+
+#include "golden/scenes/stress.hpp"
+#include "model/pixel_pipeline.hpp"
+#include "model/quad_setup.hpp"
+#include "model/snap.hpp"
+#include "model/support/prng.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+
+namespace quadrille {
+namespace {
+
+Config with_significand(int s) {
+  Config c;
+  c.significand_bits = s;
+  c.validate();
+  return c;
+}
+
+std::map<std::string, SignalRange> by_name(const RangeProof& proof) {
+  std::map<std::string, SignalRange> map;
+  for (const SignalRange& s : proof.signals) map[s.signal] = s;
+  return map;
+}
+
+std::string misfits(const RangeProof& proof) {
+  std::string text;
+  for (const SignalRange& s : proof.signals)
+    if (!s.fits)
+      text += s.signal + " [" + std::to_string(s.low) + ", " + std::to_string(s.high) + "] in " +
+              std::to_string(s.bits) + " bits; ";
+  return text;
+}
+
+TEST(RangeProof, HoldsForRandomConfigurations) {
+  golden::Prng rng(7);
+  int accepted = 0, reduced = 0, refused_tables = 0;
+  for (int n = 0; n < 2'000; ++n) {
+    Config c;
+    for (const ConfigKey& key : Config::keys()) {
+      const bool automatic = key.standard == -1 && rng.chance(key.name == "quadratic_frac_bits" ? 0.4 : 0.9);
+      const auto value = automatic ? -1 : static_cast<int>(rng.integer(key.minimum, key.maximum));
+      c.set(key.name, value);
+    }
+    try {
+      c.validate();
+    } catch (const ConfigError&) {
+      continue;
+    }
+    try {
+      const RangeProof proof = prove_ranges(c);
+      ++accepted;
+      reduced += c.qdrop() > 0;
+      std::string keys;
+      if (!proof.proved)
+        for (const ConfigKey& key : Config::keys())
+          keys += std::string(key.name) + "=" + std::to_string(c.get(key.name)) + " ";
+      ASSERT_TRUE(proof.proved) << misfits(proof) << keys;
+    } catch (const ConfigError&) {
+      ++refused_tables;
+    }
+  }
+  std::printf("%d configurations, %d with dropped bits; %d without a table\n", accepted, reduced, refused_tables);
+  EXPECT_GT(accepted, 1'000);
+  EXPECT_GT(reduced, 300);
+}
+
+/// Every combination of the keys that the exact front depends on.
+TEST(RangeProof, HoldsForEveryFront) {
+  int accepted = 0;
+  for (int v = 6; v <= 14; ++v)
+    for (int g = 1; g <= 4; ++g)
+      for (int sub = 2; sub <= 8; sub += 3)
+        for (int hom = 4; hom <= 10; hom += 2)
+          for (int tile = 2; tile <= 4; ++tile)
+            for (const int quadratic : {-1, 0, 9}) {
+              Config c;
+              c.significand_bits = 8;
+              c.viewport_bits = v, c.guard_bits = g, c.subpixel_bits = sub, c.homogeneous_frac_bits = hom;
+              c.tile_log2 = tile, c.quadratic_frac_bits = quadratic;
+              try {
+                c.validate();
+              } catch (const ConfigError&) {
+                continue;
+              }
+              ++accepted;
+              const RangeProof proof = prove_ranges(c);
+              ASSERT_TRUE(proof.proved) << misfits(proof) << "viewport_bits=" << v << " guard_bits=" << g
+                                        << " subpixel_bits=" << sub << " homogeneous_frac_bits=" << hom
+                                        << " tile_log2=" << tile << " quadratic_frac_bits=" << quadratic;
+            }
+  EXPECT_GT(accepted, 1'000);
+}
+
+/// Each width with the bits that it could spare at the defaults, from the values that must fit: one bit less fails.
+TEST(RangeProof, FailsWithANarrowerWidth) {
+  struct Spare {
+    const char* name;
+    int ProofWidths::*width;
+    int bits;
+  };
+  const Spare widths[] = {
+      {"T: 1.125 * 2^30", &ProofWidths::position, 0},
+      {"W: 2^15 inclusive", &ProofWidths::weight, 0},
+      {"2 (1.125 * 2^30)^2 = 1.27 * 2^61", &ProofWidths::value, 0},
+      {"2^46 inclusive", &ProofWidths::grad, 0},
+      {"as A", &ProofWidths::qvalue, 0},
+      {"1.125 * 2^46", &ProofWidths::qgrad, 0},
+      {"2^30 inclusive", &ProofWidths::qcurv, 0},
+      {"512 tiles", &ProofWidths::tile, 0},
+      {"2^32 - 1, signed", &ProofWidths::dot_operand, 0},
+      {"2^31 (2^32 - 1): 64 bits", &ProofWidths::dot_result, 3},
+      {"6 * 2^75: 79 bits", &ProofWidths::determinant, 5},
+      {"beyond 2^-512", &ProofWidths::exponent, 1},
+      {"-256", &ProofWidths::port_exponent, 0},
+      {"product below 4 with 19 fraction bits", &ProofWidths::term, 0},
+      {"C0 above 8 * 2^18", &ProofWidths::table_word, 0},
+      {"2^18 before the clamp", &ProofWidths::table_factor, 0},
+      {"saturated", &ProofWidths::attribute, 0},
+      {"saturated", &ProofWidths::depth, 0},
+  };
+  const Config config;
+  for (const Spare& s : widths) {
+    ProofWidths w(config);
+    EXPECT_TRUE(prove_ranges(config, w).proved);
+    w.*s.width -= s.bits;
+    EXPECT_TRUE(prove_ranges(config, w).proved) << s.name << ": " << misfits(prove_ranges(config, w));
+    w.*s.width -= 1;
+    EXPECT_FALSE(prove_ranges(config, w).proved) << s.name;
+  }
+}
+
+/// The farthest vertex of the guard band at the farthest pixel has exactly the largest r² and D.
+TEST(RangeProof, LargestValuesOccur) {
+  for (const int guard : {1, 2, 3}) {
+    Config c;
+    c.guard_bits = guard;
+    c.validate();
+    const auto signal = by_name(prove_ranges(c));
+    const std::int32_t edge = 1 << (c.pos_int() + c.frac()), one = 1 << c.frac();
+    SnappedQuad q;
+    q.vertex[0].x = q.vertex[0].y = q.vertex[1].x = q.vertex[1].y = -edge;
+    q.vertex[0].w = q.vertex[1].w = one;
+    q.vertex[2].x = q.vertex[3].y = edge;  // points at infinity: the walk starts at (0, 0)
+    DrawState state;
+    state.width = state.height = state.scissor_x1 = state.scissor_y1 = 1 << c.viewport_bits;
+    const SetupResult setup = quad_setup(q, c, state);
+    ASSERT_EQ(setup.tile_x0, 0);
+    WalkState at;
+    at.quadratic = setup.quadratic;
+    const int last = (1 << c.viewport_bits) - 1;
+    walk_step(at, QuadConstants(setup), last, last);
+    EXPECT_EQ(static_cast<double>(at.quadratic[6].value), signal.at("r²").high);
+    EXPECT_EQ(static_cast<double>(at.quadratic[0].value), signal.at("D").high);
+  }
+}
+
+/// Every stage of the pipeline at random pixels of the stress families.
+TEST(RangeProof, HoldsWhatThePipelineComputes) {
+  for (const int quadratic : {-1, 8}) {
+    Config c;
+    c.quadratic_frac_bits = quadratic;
+    c.validate();
+    const auto signal = by_name(prove_ranges(c));
+    DrawState state;
+    const PipelineContext context(c, state);
+    golden::Prng rng(3);
+    std::size_t pixels = 0;
+    const auto inside = [&](const char* name, double value) {
+      const SignalRange& s = signal.at(name);
+      EXPECT_TRUE(s.low <= value && value <= s.high) << name << " " << value << " [" << s.low << ", " << s.high << "]";
+    };
+    const auto exponent = [&](const char* name, const Fp& v) {
+      if (v.sig != 0) inside(name, v.exp);
+    };
+    for (const auto& info : golden::stress_families())
+      for (const WindowQuad& given : golden::make_stress(info.family, 40, 5)) {
+        const SnappedQuad q = snap_quad(given, c, state);
+        const SetupResult setup = quad_setup(q, c, state);
+        const QuadConstants constants(setup);
+        const QuadData data = quad_data(q, setup, c, state);
+        for (std::size_t i = 0; i < 4; ++i) {
+          exponent("exponent of k", data.k[i]);
+          exponent("exponent of Z", data.z[i]);
+        }
+        for (int n = 0; n < 10; ++n) {
+          TileEntry tile;
+          tile.tile_x = static_cast<int>(rng.integer(setup.tile_x0, 63));
+          tile.tile_y = static_cast<int>(rng.integer(setup.tile_y0, 63));
+          WalkState walk;
+          for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
+          walk.quadratic = setup.quadratic;
+          walk_step(walk, constants, (tile.tile_x - setup.tile_x0) * 8, (tile.tile_y - setup.tile_y0) * 8);
+          tile.linear = walk.linear;
+          tile.quadratic = walk.quadratic;
+          for (const QuadraticForm& f : walk.quadratic) {
+            inside("gx of D, r²", static_cast<double>(f.gx));
+            inside("gx of D, r²", static_cast<double>(f.gy));
+            inside("q of D, r²", static_cast<double>(f.q));
+          }
+          PixelTrace p;
+          pixel_pipeline(p, tile, constants, data, static_cast<int>(rng.below(8)), static_cast<int>(rng.below(8)),
+                         context);
+          ++pixels;
+          for (std::size_t k = 0; k < 6; ++k) {
+            inside("A", static_cast<double>(p.a[k]));
+            inside("D", static_cast<double>(p.d[k]));
+            exponent("exponent of A", p.a_fp[k]);
+            exponent("exponent of D", p.d_fp[k]);
+            exponent("exponent of u, v", p.n[k]);
+            exponent("exponent of u, v", p.dn[k]);
+          }
+          for (std::size_t i = 0; i < 4; ++i) {
+            inside("r²", static_cast<double>(p.r2[i]));
+            exponent("exponent of ρ", p.rho[i]);
+            exponent("exponent of M", p.m[i]);
+          }
+          exponent("exponent of Σ M·k", p.den_k);
+          exponent("exponent of Σ M·W", p.den_w);
+          exponent("exponent of Σ M·Z", p.num_z);
+          for (const Fp& v : p.num_a) exponent("exponent of Σ M·b", v);
+        }
+      }
+    EXPECT_GT(pixels, 5'000u);
+  }
+}
+
+/// Every argument: the analysis is never below the truth, and above it by little.
+TEST(TableErrors, HoldForEveryArgument) {
+  for (int s = 8; s <= 17; ++s)
+    for (int degree = 1; degree <= 2; ++degree)
+      for (const int segments : {-1, 4}) {
+        Config c;
+        c.significand_bits = s;
+        c.rsqrt_degree = c.recip_degree = degree;
+        c.rsqrt_segments_log2 = c.recip_segments_log2 = segments;
+        c.validate();
+        const SignificandFormat f{s, 2};
+        const Table root = make_rsqrt_table(c), inverse = make_recip_table(c);
+        TableError seen_root, seen_inverse;
+        const auto see = [](TableError& seen, double log) {
+          seen.low = std::min(seen.low, log);
+          seen.high = std::max(seen.high, log);
+        };
+        const double one = std::ldexp(1.0, s - 1);
+        for (std::uint32_t sig = 1u << (s - 1); sig < 1u << s; ++sig) {
+          const double x = sig / one, next = (sig + 1.0) / one;
+          const Fp y = reciprocal({false, 0, sig}, inverse, f);
+          see(seen_inverse, std::log(std::ldexp(y.sig / one, y.exp) * x));
+          for (int octave = 0; octave < 2; ++octave) {
+            const Fp r = rsqrt({false, octave, sig}, root, f);
+            // The argument stands for everything in [x, next).
+            const double result = std::ldexp(r.sig / one, r.exp);
+            see(seen_root, std::log(result * std::sqrt(std::ldexp(x, octave))));
+            see(seen_root, std::log(result * std::sqrt(std::ldexp(next, octave))));
+          }
+        }
+        const auto compare = [&](const char* name, const TableError& bound, const TableError& seen) {
+          const std::string where = std::string(name) + " s " + std::to_string(s) + " degree " +
+                                    std::to_string(degree) + " segments " + std::to_string(segments);
+          EXPECT_LE(bound.low, seen.low) << where;
+          EXPECT_GE(bound.high, seen.high) << where;
+          const double slack = std::ldexp(0.4, -s);
+          EXPECT_GE(bound.low, 1.1 * seen.low - slack) << where;
+          EXPECT_LE(bound.high, 1.1 * seen.high + slack) << where;
+        };
+        compare("rsqrt", rsqrt_error(c), seen_root);
+        compare("reciprocal", reciprocal_error(c), seen_inverse);
+      }
+}
+
+/// Largest |Δλ'| in units of 2^-s that tb/campaign/hill_climb has found: README.md, "Measured".
+TEST(ErrorBound, LiesAboveWhatHillClimbingFindsAndNotFar) {
+  const std::pair<int, double> found[] = {{8, 4.64}, {12, 4.51}, {18, 4.21}, {24, 4.31}, {26, 4.41}};
+  for (const auto& [s, units] : found) {
+    const double bound = std::ldexp(bound_lambda(with_significand(s)).value, s);
+    EXPECT_GT(bound, units);
+    EXPECT_LT(bound, 4 * units);
+  }
+  for (int s = 8; s <= 26; ++s) {
+    const ErrorBound lambda = bound_lambda(with_significand(s));
+    EXPECT_TRUE(lambda.proved);
+    // 2^-s: the same number of units at every width, up to tables and terms of second order.
+    EXPECT_NEAR(std::ldexp(lambda.value, s), 12.4, 0.4) << s;
+  }
+}
+
+TEST(ErrorBound, FollowsTheConfiguration) {
+  const Config standard;
+  for (int g = 0; g < 6; ++g) {
+    Config less = standard, more = standard;
+    less.align_guard_bits = g;
+    more.align_guard_bits = g + 1;
+    EXPECT_GT(bound_lambda(less).value, bound_lambda(more).value);
+    EXPECT_GT(bound_attribute(less, 1).value, bound_attribute(more, 1).value);
+    EXPECT_GT(bound_depth(less).value, bound_depth(more).value);
+  }
+  // A coarse table has an error of its own, in M and in the quotient.
+  for (const char* key : {"rsqrt_segments_log2", "recip_segments_log2"}) {
+    Config coarse = with_significand(24);
+    const double fine = bound_lambda(coarse).value;
+    coarse.set(key, 4);
+    EXPECT_GT(bound_lambda(coarse).value, 4 * fine) << key;
+  }
+  // The output's grid is added once.
+  Config grid = standard;
+  grid.attribute_frac_bits = 18;
+  EXPECT_NEAR(bound_attribute(grid, 1).value - bound_attribute(standard, 1).value, 0x3p-20, 0x1p-32);
+  // An attribute's error is proportional to its range beyond that grid.
+  EXPECT_NEAR(bound_attribute(standard, 4).value - 0x1p-20, 4 * (bound_attribute(standard, 1).value - 0x1p-20),
+              0x1p-30);
+}
+
+TEST(ErrorBound, IsNotClaimedWithoutItsAssumptions) {
+  Config notch, homogeneous, dropped;
+  notch.notch_exact = 0;
+  homogeneous.quadratic_frac_bits = 16;  // all bits of positions on the grid of 1/256
+  dropped.quadratic_frac_bits = 15;
+  const double rule = 0x1p-15;
+  for (const Config& c : {notch, homogeneous}) {
+    EXPECT_FALSE(bound_lambda(c).proved);
+    EXPECT_EQ(bound_lambda(c).value, rule);
+    EXPECT_FALSE(bound_attribute(c, 3).proved);
+    EXPECT_EQ(bound_attribute(c, 3).value, 6 * rule);
+    EXPECT_FALSE(bound_lambda(c).reason.empty());
+  }
+  EXPECT_FALSE(bound_depth(notch).proved);
+  EXPECT_TRUE(bound_depth(homogeneous).proved);
+  EXPECT_EQ(bound_depth(homogeneous).value, bound_depth(Config{}).value);
+  for (const ErrorBound& b : {bound_lambda(dropped), bound_attribute(dropped, 1), bound_depth(dropped)}) {
+    EXPECT_FALSE(b.proved);
+    EXPECT_TRUE(std::isinf(b.value));
+  }
+  EXPECT_TRUE(bound_lambda(Config{}).proved);
+}
+
+}  // namespace
+}  // namespace quadrille

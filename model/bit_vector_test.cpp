@@ -1,0 +1,140 @@
+#include "model/bit_vector.hpp"
+
+#include "model/support/prng.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace quadrille::tb {
+namespace {
+
+/// Bit by bit, from the most significant field: the slow way that BitPacker must agree with.
+struct SlowPacker {
+  std::vector<bool> bits;  // most significant first
+  template <class T>
+  void operator()(const char*, int, int width, T value) {
+    const auto v = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
+    for (int i = width; i-- > 0;) bits.push_back((v >> i & 1u) != 0);
+  }
+  std::vector<std::uint32_t> words() const {
+    std::vector<std::uint32_t> out(words_for(static_cast<int>(bits.size())));
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+      const std::size_t lsb = bits.size() - 1 - i;
+      if (bits[i]) out[lsb / 32] |= std::uint32_t{1} << lsb % 32;
+    }
+    return out;
+  }
+};
+
+TEST(BitPacker, HandComputedWords) {
+  std::uint64_t out[2] = {~0ull, ~0ull};
+  BitPacker packer(out, 72);  // {4'hA, 64'h0123456789ABCDEF, 4'h5}
+  packer.put(4, 0xA);
+  packer.put(64, 0x0123456789ABCDEF);
+  packer.put(4, 0xFFF5);
+  packer.finish();
+  EXPECT_EQ(out[0], 0x123456789ABCDEF5u);
+  EXPECT_EQ(out[1], 0xA0u);
+}
+
+TEST(BitPacker, FullWordsAndSingleBits) {
+  std::uint64_t out[2] = {1, 2};
+  BitPacker packer(out, 128);
+  packer.put(64, 0xFEDCBA9876543210);
+  for (int i = 0; i < 64; ++i) packer.put(1, i == 0 || i == 63);
+  packer.finish();
+  EXPECT_EQ(out[1], 0xFEDCBA9876543210u);
+  EXPECT_EQ(out[0], 0x8000000000000001u);
+}
+
+TEST(BitPacker, FragmentOfTheDefaultConfiguration) {
+  // quad 24, x 12, y 12, front 1, flags 8, depth 25, attr[3..0] 24 each: 178 bits. attr[0] is bits 23..0.
+  const Config config;
+  Fragment f;
+  f.quad = 0xABCDEF;
+  f.x = 0x123;
+  f.y = 0x456;
+  f.front = true;
+  f.flags = 0x81;
+  f.depth = 0x1000000;
+  f.attribute = {1, -1, 0x7FFFFF, -0x800000};
+  const Layout layout = boundary_layout(Boundary::fragment, config);
+  ASSERT_EQ(layout.width(), 178);
+  std::uint64_t packed[3];
+  pack_fragment(f, config, packed, layout.width());
+  std::uint32_t words[6];
+  std::memcpy(words, packed, sizeof words);
+  EXPECT_EQ(words[0], 0xFF000001u);  // attr[1]'s low byte, attr[0]
+  EXPECT_EQ(words[1], 0xFFFFFFFFu);  // attr[2]'s low half, the rest of attr[1]
+  EXPECT_EQ(words[2], 0x8000007Fu);  // attr[3], attr[2]'s top byte
+  EXPECT_EQ(words[3], 0x03000000u);  // flags from bit 25 on, depth
+  EXPECT_EQ(words[4], 0xBC48D15Bu);  // quad from bit 26 on, x, y, front, flags bit 7
+  EXPECT_EQ(words[5], 0x0002AF37u);  // the rest of quad
+  EXPECT_EQ(unpack_fragment(words, config), f);
+}
+
+TEST(BitPacker, AgreesWithTheSlowWayOnRandomRecords) {
+  golden::Prng random(11);
+  for (int round = 0; round < 200; ++round) {
+    Config config;
+    config.set("viewport_bits", static_cast<int>(random.integer(6, 12)));
+    config.set("subpixel_bits", static_cast<int>(random.integer(2, 8)));
+    config.set("significand_bits", static_cast<int>(random.integer(8, 26)));
+    config.set("attribute_slots", static_cast<int>(random.integer(1, 8)));
+    config.set("tile_log2", static_cast<int>(random.integer(2, 4)));
+    TileEntry tile;
+    tile.slot = static_cast<std::uint32_t>(random.next());
+    for (auto& v : tile.linear) v = static_cast<std::int64_t>(random.next());
+    for (auto& q : tile.quadratic) q.value = q.gx = q.gy = static_cast<std::int64_t>(random.next());
+    SlowPacker slow;
+    visit(tile, config, slow);
+    const Layout layout = boundary_layout(Boundary::tile, config);
+    ASSERT_EQ(static_cast<std::size_t>(layout.width()), slow.bits.size());
+    std::vector<std::uint64_t> packed(slow.bits.size() / 64 + 1);
+    BitPacker packer(packed.data(), layout.width());
+    visit(tile, config, packer);
+    packer.finish();
+    const std::vector<std::uint32_t> expected = slow.words();
+    ASSERT_EQ(std::memcmp(packed.data(), expected.data(), expected.size() * 4), 0) << "round " << round;
+    const auto* words = reinterpret_cast<const std::uint32_t*>(expected.data());
+    const Field& field = layout.field("quad_gx", 7);
+    EXPECT_EQ(extract_signed(words, field.lsb, field.width),
+              tile.quadratic[7].gx << (64 - field.width) >> (64 - field.width));
+  }
+}
+
+TEST(Layout, FirstFieldIsTheMostSignificant) {
+  const Config config;
+  const Layout layout = vertex_layout(config);
+  EXPECT_EQ(layout.fields().front().name, "id");
+  EXPECT_EQ(layout.fields().front().lsb, layout.width() - config.quad_id_bits);
+  EXPECT_EQ(layout.field("attr_sig", 0).lsb, 0);
+  EXPECT_EQ(layout.field("attr_neg", 0).lsb, config.attr_port_bits() - 1);
+  EXPECT_EQ(layout.field("attr_sig", 2).lsb, 2 * config.attr_port_bits());
+  EXPECT_THROW(layout.field("nonsense"), std::out_of_range);
+}
+
+TEST(Layout, NamesTheFirstDifference) {
+  const Config config;
+  const Layout layout = boundary_layout(Boundary::norm, config);
+  std::vector<std::uint32_t> a(layout.words()), b(layout.words());
+  EXPECT_EQ(layout.first_difference(a.data(), b.data()), nullptr);
+  for (const Field& field : layout.fields()) {
+    b = a;
+    const int bit = field.lsb + field.width - 1;
+    b[static_cast<std::size_t>(bit / 32)] ^= std::uint32_t{1} << bit % 32;
+    const Field* found = layout.first_difference(a.data(), b.data());
+    ASSERT_NE(found, nullptr);
+    EXPECT_EQ(found->label(), field.label());
+  }
+}
+
+TEST(Hex, HasTheDigitsOfItsWidth) {
+  EXPECT_EQ(hex(1, 1), "0x1");
+  EXPECT_EQ(hex(0x2a, 18), "0x0002a");
+  EXPECT_EQ(hex(~0ull, 64), "0xffffffffffffffff");
+}
+
+}  // namespace
+}  // namespace quadrille::tb

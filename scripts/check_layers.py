@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Fails when a folder includes what lies above it, or when folders include each other in a circle.
+
+    scripts/check_layers.py [ROOT]      default: the source tree
+
+Every folder of model/, golden/ and tb/ that holds C++ sources is a node, and an #include "…" of another folder's file
+an edge; tests count like everything else. model/ may include model/ only, golden/ also golden/, tb/ everything. Prints
+the folders from the lowest up, each with what it includes; status 1 and the guilty lines otherwise.
+"""
+import pathlib
+import re
+import sys
+
+LAYERS = ("model", "golden", "tb")
+SUFFIXES = {".cpp", ".hpp", ".h"}
+INCLUDE = re.compile(r'\s*#\s*include\s*"([^"]+)"')
+
+
+def includes(root):
+    """(including folder, included folder) -> "file:line includes file" of every include that crosses folders."""
+    edges = {}
+    for layer in LAYERS:
+        for path in sorted((root / layer).rglob("*")):
+            if path.suffix not in SUFFIXES:
+                continue
+            file = path.relative_to(root)
+            edges.setdefault((file.parent, file.parent), [])
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                match = INCLUDE.match(line)
+                if not match:
+                    continue
+                # As the compiler looks: beside the file first, then from the root. Else it is no file of the tree.
+                found = next((f for f in (path.parent / match[1], root / match[1]) if f.exists()), None)
+                folder = found and found.resolve().relative_to(root).parent
+                if folder and folder != file.parent:
+                    edges.setdefault((file.parent, folder), []).append(f"{file}:{number} includes {match[1]}")
+    return edges
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
+    edges = includes(root)
+    below = {folder: set() for folder, _ in edges}
+    for user, used in edges:
+        if user != used:
+            below[user].add(used)
+    faults = [line for (user, used), lines in edges.items()
+              if LAYERS.index(used.parts[0]) > LAYERS.index(user.parts[0]) for line in lines]
+    if faults:
+        print("includes of a higher layer (model < golden < tb):", *faults, sep="\n  ")
+
+    # Take away the folders that include nothing that is left; what cannot be taken away holds a circle.
+    order, left = [], dict(below)
+    while ready := sorted(folder for folder, used in left.items() if not used & left.keys()):
+        order += ready
+        for folder in ready:
+            del left[folder]
+    # Of those, a folder that nobody in the rest includes is in no circle itself.
+    while tops := [folder for folder in left if not any(folder in used for used in left.values())]:
+        for folder in tops:
+            del left[folder]
+    if left:
+        print("folders that include each other in a circle:")
+        for user, used in sorted(edges):
+            if user != used and user in left and used in left:
+                print(f"  {user} -> {used}: {edges[user, used][0]}, {len(edges[user, used])} in all")
+    if not order:
+        print(f"no sources below {root}")
+    if faults or left or not order:
+        return 1
+    for folder in order:
+        print(f"{folder}: {', '.join(map(str, sorted(below[folder]))) or 'nothing'}")
+    print(f"{len(order)} folders, every include points down")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

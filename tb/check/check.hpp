@@ -1,0 +1,134 @@
+// Fragments of the machine against the truth, as they come: coverage, singular classes, weights, attributes, depth.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+#include "tb/engines/engine.hpp"
+#include "tb/support/error_stats.hpp"
+#include "tb/support/work_queue.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace quadrille::cli {
+
+using tb::ErrorStats;
+
+/// The arithmetic bound |error of a weight| <= 2^-(s-3) of a configuration.
+double weight_bound(const Config& config);
+
+/// Where the fragments are, for counting and naming.
+struct Place {
+  std::uint32_t index = 0, quad = 0;  ///< position in the draw, and id
+  int x = 0, y = 0;
+};
+
+/// What was found; merging does not depend on the order.
+struct CheckResult {
+  std::uint64_t compared = 0;  ///< fragments compared with the truth
+  std::uint64_t mismatches =
+      0;  ///< pixels that the machine drew and the truth does not, or the reverse, or with other flags or facing
+  std::uint64_t beyond_bound = 0;  ///< weights beyond weight_bound()
+  std::uint64_t beyond_attribute =
+      0;                           ///< attributes further off than the weights' bound allows; saturated ones are exempt
+  std::uint64_t beyond_depth = 0;  ///< the same of window z
+
+  // The machine against the truth on snapped quads; the truth on snapped against the truth on given quads.
+  ErrorStats arithmetic_lambda, arithmetic_attribute, arithmetic_depth;
+  ErrorStats snapping_lambda, snapping_attribute, snapping_depth;
+
+  // Legitimate differences.
+  std::uint64_t coverage_flips = 0;     ///< drawn pixels that the given, unsnapped quad does not cover
+  std::uint64_t tolerated_visible = 0;  ///< eye in the hull and |sum(M w)| below the bound: either answer is right
+  std::uint64_t tolerated_depth = 0;    ///< window z within the bound of znear or zfar
+  std::uint64_t discarded = 0;          ///< covered pixels rightly discarded by window z
+  std::uint64_t bound_exempt =
+      0;  ///< fragments that the bound does not speak of (perspective off, a vertex behind the eye)
+
+  // What the fragments were.
+  std::uint64_t eye_crossing = 0, homogeneous = 0, on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0,
+                cured = 0, saturated = 0, near_edge = 0, near_vertex = 0, tiny = 0;
+
+  /// The fragment nearest to (or farthest beyond) the bound.
+  struct Worst {
+    double ratio = -1;  ///< error / bound
+    double error = 0, bound = 0, condition = 1;
+    int weight = 0;
+    Place place;
+  } worst;
+
+  /// The first pixel that differs.
+  struct Difference {
+    bool any = false;
+    Place place;
+    std::string text;
+  } first;
+
+  void merge(const CheckResult& other);
+  bool ok() const {
+    return compared > 0 && mismatches == 0 && beyond_bound == 0 && beyond_attribute == 0 && beyond_depth == 0;
+  }
+};
+
+/// Facts about a snapped quad that the counters need.
+bool is_eye_crossing(const SnappedQuad& quad);
+/// Two neighbouring vertices V and -c V, c > 0: the eye lies on the edge, which then has no direction and covers
+/// nothing.
+bool has_antipodal_edge(const SnappedQuad& quad);
+/// All vertices ordinary and less than 4 pixels wide and high.
+bool is_tiny(const SnappedQuad& quad, const Config& config);
+
+/// Takes the fragments of one pass of the machine in order, quads in order, and compares them on the queue's threads.
+class FragmentChecker {
+ public:
+  struct Settings {
+    Config config;
+    DrawState state;  ///< of the pass
+    Pass pass;
+    bool first_pass = true;   ///< also check coverage and count
+    bool snapping = true;     ///< also compare with the given quads
+    bool apply_bound = true;  ///< fail beyond the bound of section 2 of the design
+  };
+
+  /// `given` and `snapped` (numbered by position) must outlive the checker.
+  FragmentChecker(const Settings& settings, std::span<const WindowQuad> given, std::span<const SnappedQuad> snapped,
+                  WorkQueue& queue);
+
+  void fragment(const Fragment& fragment);
+  /// No more fragments. `complete`: every quad was drawn to its end, otherwise the last one was cut off.
+  void finish(bool complete);
+  /// After WorkQueue::drain().
+  const CheckResult& result() const { return result_; }
+
+ private:
+  struct Reference;
+
+  void flush_fragments();
+  void quads_done(std::size_t end);
+  void flush_coverage();
+  void compare(const std::vector<Fragment>& fragments);
+  void cover(std::size_t first, const std::vector<std::vector<std::uint32_t>>& pixels, int y0, int y1);
+  void add(const CheckResult& part);
+
+  Settings settings_;
+  std::span<const WindowQuad> given_;
+  std::span<const SnappedQuad> snapped_;
+  WorkQueue& queue_;
+  double bound_;
+
+  std::vector<Fragment> batch_;
+  std::size_t current_ = 0;        ///< quad whose fragments are coming
+  std::size_t covered_first_ = 0;  ///< first quad of covered_
+  std::vector<std::vector<std::uint32_t>>
+      covered_;  ///< pixels (y << 16 | x) of the quads from covered_first_ to current_
+  std::size_t covered_pixels_ = 0;
+
+  std::mutex mutex_;
+  CheckResult result_;
+};
+
+}  // namespace quadrille::cli

@@ -1,0 +1,45 @@
+// A Verilated configuration, loaded at run time: neither the program nor the model links Verilator.
+#pragma once
+
+#include "model/config.hpp"
+#include "tb/device/device.hpp"
+#include "tb/device/verilate.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace quadrille::tb {
+
+class VerilatedDevice final : public Device {
+ public:
+  /// Verilates (or finds in the cache) and loads the machine. Registers start with random bits from `seed`.
+  /// Throws what verilate() throws, and DeviceError when the RTL's ports do not have the widths that `config` says.
+  VerilatedDevice(const Config& config, const VerilateOptions& options, std::uint64_t seed);
+  /// Loads a shared object that verilate() made for `config`.
+  VerilatedDevice(const std::filesystem::path& object, const Config& config, std::uint64_t seed);
+  ~VerilatedDevice() override;
+  VerilatedDevice(VerilatedDevice&&) = delete;
+
+  void set_reset(bool active) override;
+  void set_state(std::span<const std::uint32_t> words) override;
+  void set_vertex(std::span<const std::uint32_t> words) override;
+  void set_handshake(bool vertex_valid, bool fragment_ready) override;
+  void settle() override;
+  const DeviceSample& sample() override;
+  void clock() override;
+
+  /// Writes an FST waveform from now on; needs VerilateOptions::trace.
+  void open_trace(const std::filesystem::path& file);
+  void close_trace();
+
+  /// The localparams of quadrille_pkg by name, as the RTL computed them. Empty for Verilog that Yosys wrote.
+  std::vector<std::pair<std::string, std::int64_t>> constants() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quadrille::tb

@@ -1,0 +1,109 @@
+#include "tb/engines/engine.hpp"
+
+#include "model/snap.hpp"
+#include "tb/engines/machine_engine.hpp"
+#include "tb/engines/reference_engine.hpp"
+#include "tb/support/choices.hpp"
+#include "tb/support/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace quadrille::cli {
+namespace {
+
+constexpr std::array<std::string_view, 4> names{"rtl", "model", "float", "truth"};
+
+}  // namespace
+
+EngineKind engine_kind(std::string_view name) {
+  return static_cast<EngineKind>(choose("engine", name, {names[0], names[1], names[2], names[3]}));
+}
+
+std::string_view engine_name(EngineKind kind) { return names[static_cast<std::size_t>(kind)]; }
+
+std::unique_ptr<Engine> make_engine(const EngineSettings& settings) {
+  switch (settings.kind) {
+    case EngineKind::rtl:
+      return make_rtl_engine(settings);
+    case EngineKind::model:
+      return make_model_engine(settings);
+    case EngineKind::paper_float:
+    case EngineKind::truth:
+      return make_reference_engine(settings);
+  }
+  throw std::logic_error("engine kind");
+}
+
+std::vector<Pass> plan_passes(int attributes, bool weights, const Config& config) {
+  std::vector<int> columns;
+  for (int column = weights ? 0 : 4; column < 4 + attributes; ++column) columns.push_back(column);
+  std::vector<Pass> passes;
+  const auto slots = static_cast<std::size_t>(config.attribute_slots);
+  for (std::size_t first = 0; first < columns.size(); first += slots) {
+    Pass pass;
+    for (std::size_t i = first; i < std::min(columns.size(), first + slots); ++i) pass.columns.push_back(columns[i]);
+    passes.push_back(std::move(pass));
+  }
+  if (passes.empty()) passes.emplace_back();
+  return passes;
+}
+
+WindowQuad pass_quad(const WindowQuad& quad, const Pass& pass) {
+  WindowQuad result;
+  result.id = quad.id;
+  result.vertex = quad.vertex;
+  for (std::size_t v = 0; v < 4; ++v) {
+    const std::vector<double>& given = quad.attribute[v];
+    for (const int column : pass.columns) {
+      const auto c = static_cast<std::size_t>(column);
+      double value = 0;
+      if (c < 4)
+        value = c == v ? 1 : 0;
+      else if (c - 4 < given.size())
+        value = given[c - 4];
+      result.attribute[v].push_back(value);
+    }
+  }
+  return result;
+}
+
+SnappedQuad snap_as(const WindowQuad& quad, std::uint32_t id, const Config& config, const DrawState& state) {
+  try {
+    if (quad.id == id) return snap_quad(quad, config, state);
+    WindowQuad renamed = quad;
+    renamed.id = id;
+    return snap_quad(renamed, config, state);
+  } catch (const SnapError& error) {
+    std::string text = error.what();  // "quad N, vertex M: what is wrong"
+    if (const std::size_t colon = text.find(": "); colon != std::string::npos) text.erase(0, colon + 2);
+    throw SnapError(quad.id, error.vertex, text);
+  }
+}
+
+void check_quad_count(std::size_t quads, const Config& config) {
+  if (config.quad_id_bits < 32 && quads > std::size_t{1} << config.quad_id_bits)
+    throw UsageError(std::to_string(quads) + " quads are more than quad_id_bits = " +
+                     std::to_string(config.quad_id_bits) + " can number; use --set quad_id_bits=32");
+}
+
+void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, Sample& sample) {
+  sample.x = fragment.x;
+  sample.y = fragment.y;
+  sample.front = fragment.front;
+  sample.flags |= fragment.flags;
+  sample.z = std::ldexp(static_cast<double>(fragment.depth), -config.depth_bits);
+  for (std::size_t slot = 0; slot < pass.columns.size(); ++slot) {
+    const double value = std::ldexp(static_cast<double>(fragment.attribute[slot]), -config.attribute_frac());
+    const auto column = static_cast<std::size_t>(pass.columns[slot]);
+    (column < 4 ? sample.lambda[column] : sample.attribute[column - 4]) = value;
+  }
+}
+
+Config snapping_config(Config config, int attributes) {
+  config.attribute_slots = std::max(config.attribute_slots, attributes);
+  return config;
+}
+
+}  // namespace quadrille::cli

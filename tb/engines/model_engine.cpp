@@ -1,0 +1,90 @@
+#include "model/snap.hpp"
+#include "model/support/parallel.hpp"
+#include "model/untimed.hpp"
+#include "tb/engines/machine_engine.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <stdexcept>
+
+namespace quadrille::cli {
+namespace {
+
+constexpr std::size_t quads_per_unit = 16;
+
+class ModelEngine final : public Engine {
+ public:
+  explicit ModelEngine(const EngineSettings& settings) : settings_(settings) {}
+
+  void draw(std::span<const WindowQuad> quads, int attributes, bool weights, const SampleSink& sink) override {
+    check_quad_count(quads.size(), settings_.config);
+    const std::vector<Pass> passes = plan_passes(attributes, weights, settings_.config);
+    std::vector<Models> idle;
+    std::mutex mutex;
+    ordered_parallel((quads.size() + quads_per_unit - 1) / quads_per_unit, settings_.threads,
+                     [&](std::size_t unit) {
+                       Models models;
+                       {
+                         std::lock_guard lock(mutex);
+                         if (!idle.empty()) {
+                           models = std::move(idle.back());
+                           idle.pop_back();
+                         }
+                       }
+                       if (models.empty())
+                         for (const Pass& pass : passes) models.emplace_back(settings_.config, state_of(pass));
+                       const std::size_t first = unit * quads_per_unit,
+                                         last = std::min(quads.size(), first + quads_per_unit);
+                       std::vector<Sample> samples;
+                       for (std::size_t i = first; i < last; ++i)
+                         draw_quad(quads[i], static_cast<std::uint32_t>(i), passes, models, samples);
+                       std::lock_guard lock(mutex);
+                       idle.push_back(std::move(models));
+                       return samples;
+                     },
+                     [&](std::size_t, std::vector<Sample>&& samples) {
+                       if (!samples.empty()) sink(samples);
+                     });
+  }
+
+ private:
+  using Models = std::vector<UntimedModel>;  ///< one per pass
+
+  DrawState state_of(const Pass& pass) const {
+    DrawState state = settings_.state;
+    state.attributes = static_cast<int>(pass.columns.size());
+    return state;
+  }
+
+  void draw_quad(const WindowQuad& quad, std::uint32_t index, const std::vector<Pass>& passes, Models& models,
+                 std::vector<Sample>& samples) const {
+    const std::size_t start = samples.size();
+    for (std::size_t p = 0; p < passes.size(); ++p) {
+      const SnappedQuad snapped = snap_as(pass_quad(quad, passes[p]), index, settings_.config, state_of(passes[p]));
+      std::size_t next = start;
+      models[p].draw(snapped, [&](std::span<const Fragment> fragments) {
+        for (const Fragment& fragment : fragments) {
+          if (p == 0) {
+            Sample& sample = samples.emplace_back();
+            sample.index = index;
+            sample.quad = quad.id;
+          } else if (next >= samples.size() || samples[next].x != fragment.x || samples[next].y != fragment.y) {
+            throw std::logic_error("model: passes over one quad have different fragments");
+          }
+          read_columns(fragment, passes[p], settings_.config, samples[next++]);
+        }
+      });
+      if (next != samples.size()) throw std::logic_error("model: passes over one quad have different fragments");
+    }
+  }
+
+  EngineSettings settings_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_model_engine(const EngineSettings& settings) {
+  return std::make_unique<ModelEngine>(settings);
+}
+
+}  // namespace quadrille::cli

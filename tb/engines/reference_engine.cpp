@@ -1,0 +1,150 @@
+#include "tb/engines/reference_engine.hpp"
+
+#include "golden/reference/paper_float.hpp"
+#include "golden/reference/truth.hpp"
+#include "model/snap.hpp"
+#include "model/support/parallel.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+
+namespace quadrille::cli {
+namespace {
+
+using golden::PaperFloatQuad;
+using golden::PixelRect;
+using golden::ReferenceSample;
+using golden::TruthQuad;
+
+constexpr std::size_t quads_at_a_time = 4096;
+constexpr int pixels_per_unit = 16384;
+
+class ReferenceEngine final : public Engine {
+ public:
+  explicit ReferenceEngine(const EngineSettings& settings) : settings_(settings) {}
+
+  void draw(std::span<const WindowQuad> quads, int attributes, bool, const SampleSink& sink) override {
+    DrawState state = settings_.state;
+    state.attributes = attributes;
+    for (std::size_t first = 0; first < quads.size(); first += quads_at_a_time)
+      draw_some(quads, first, std::min(quads.size(), first + quads_at_a_time), state, sink);
+  }
+
+ private:
+  struct Prepared {
+    std::optional<TruthQuad> truth;
+    std::optional<PaperFloatQuad> paper;
+    PixelRect bounds;
+  };
+  /// Rows of one quad, or several small quads.
+  struct Unit {
+    std::size_t first, last;
+    int y0, y1;
+  };
+
+  Prepared prepare(const WindowQuad& quad, const DrawState& state) const {
+    Prepared result;
+    const Config config = snapping_config(settings_.config, state.attributes);
+    const SnappedQuad snapped = snap_as(quad, 0, config, state);  // refuses what no engine draws, also when not used
+    const TruthQuad truth = settings_.snap ? TruthQuad(snapped, config, state) : TruthQuad(quad, state);
+    result.bounds = truth.bounds();
+    if (settings_.kind == EngineKind::truth)
+      result.truth.emplace(truth);
+    else if (settings_.snap)
+      result.paper.emplace(snapped, config, state);
+    else
+      result.paper.emplace(quad, state);
+    return result;
+  }
+
+  void draw_some(std::span<const WindowQuad> quads, std::size_t first, std::size_t last, const DrawState& state,
+                 const SampleSink& sink) const {
+    std::vector<Prepared> prepared;
+    constexpr std::size_t block = 64;
+    ordered_parallel((last - first + block - 1) / block, settings_.threads,
+                     [&](std::size_t unit) {
+                       std::vector<Prepared> part;
+                       for (std::size_t i = first + unit * block; i < std::min(last, first + (unit + 1) * block); ++i)
+                         part.push_back(prepare(quads[i], state));
+                       return part;
+                     },
+                     [&](std::size_t, std::vector<Prepared>&& part) {
+                       std::move(part.begin(), part.end(), std::back_inserter(prepared));
+                     });
+
+    std::vector<Unit> units;
+    for (std::size_t i = 0; i < prepared.size();) {
+      const PixelRect& b = prepared[i].bounds;
+      if (const int width = b.x1 - b.x0;
+          !b.empty() && static_cast<std::int64_t>(width) * (b.y1 - b.y0) > pixels_per_unit) {
+        const int rows = std::max(1, pixels_per_unit / width);
+        for (int y = b.y0; y < b.y1; y += rows) units.push_back({i, i + 1, y, std::min(b.y1, y + rows)});
+        ++i;
+        continue;
+      }
+      std::int64_t area = 0;
+      Unit unit{i, i, 0, state.height};
+      while (i < prepared.size()) {
+        const PixelRect& r = prepared[i].bounds;
+        const std::int64_t more = r.empty() ? 0 : std::int64_t{r.x1 - r.x0} * (r.y1 - r.y0);
+        if (area + more > pixels_per_unit) break;
+        area += more;
+        unit.last = ++i;
+      }
+      units.push_back(unit);
+    }
+
+    ordered_parallel(
+        units.size(), settings_.threads,
+        [&](std::size_t unit) {
+          std::vector<Sample> samples;
+          for (std::size_t i = units[unit].first; i < units[unit].last; ++i)
+            draw_rows(prepared[i], quads[first + i], static_cast<std::uint32_t>(first + i), units[unit], state,
+                      samples);
+          return samples;
+        },
+        [&](std::size_t, std::vector<Sample>&& samples) {
+          if (!samples.empty()) sink(samples);
+        });
+  }
+
+  void draw_rows(const Prepared& quad, const WindowQuad& given, std::uint32_t index, const Unit& unit,
+                 const DrawState& state, std::vector<Sample>& out) const {
+    for (int y = std::max(unit.y0, quad.bounds.y0); y < std::min(unit.y1, quad.bounds.y1); ++y) {
+      for (int x = quad.bounds.x0; x < quad.bounds.x1; ++x) {
+        if (quad.truth) {
+          const golden::Coverage coverage = quad.truth->cover(x, y);
+          if (!coverage.covered || !coverage.visible) continue;
+        }
+        const ReferenceSample s = quad.truth ? quad.truth->sample(x, y) : quad.paper->sample(x, y);
+        if (!s.covered || (!s.visible && !s.undefined)) continue;
+        if (state.cull == (s.front ? Cull::front : Cull::back)) continue;
+        if (state.depth && !s.undefined && !(s.z >= state.znear && s.z <= state.zfar)) continue;
+        Sample sample;
+        sample.index = index;
+        sample.quad = given.id;
+        sample.x = static_cast<std::uint16_t>(x);
+        sample.y = static_cast<std::uint16_t>(y);
+        sample.front = s.front;
+        sample.undefined = s.undefined;
+        sample.flags = s.flags;
+        sample.z = state.depth ? s.z : 0;
+        sample.lambda = s.lambda;
+        sample.attribute = s.attribute;
+        out.push_back(sample);
+      }
+    }
+  }
+
+  EngineSettings settings_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_reference_engine(const EngineSettings& settings) {
+  return std::make_unique<ReferenceEngine>(settings);
+}
+
+}  // namespace quadrille::cli

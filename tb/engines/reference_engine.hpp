@@ -1,0 +1,10 @@
+// The floating-point engines: the paper's formulas in double, and the truth.
+#pragma once
+
+#include "tb/engines/engine.hpp"
+
+namespace quadrille::cli {
+
+std::unique_ptr<Engine> make_reference_engine(const EngineSettings& settings);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,221 @@
+// The RTL and the clocked model in lockstep, and the RTL's configuration against the C++ side's.
+#include "golden/scenes/random_quads.hpp"
+#include "tb/device/verilated_device.hpp"
+#include "tb/lockstep/lockstep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace quadrille::tb {
+namespace {
+
+/// A configuration by name.
+struct Named {
+  const char* name;
+  std::vector<std::pair<const char*, int>> keys;
+
+  Config config() const {
+    Config c;
+    for (const auto& [key, value] : keys) c.set(key, value);
+    return c;
+  }
+  friend std::ostream& operator<<(std::ostream& out, const Named& n) { return out << n.name; }
+};
+
+const Named standard{"standard", {}};
+const Named s12{"s12", {{"significand_bits", 12}}};
+const Named s24{"s24", {{"significand_bits", 24}}};
+/// Every key away from its default, odd numbers wherever possible.
+const Named odd{"odd",
+                {{"viewport_bits", 9},
+                 {"guard_bits", 1},
+                 {"subpixel_bits", 5},
+                 {"homogeneous_frac_bits", 9},
+                 {"quadratic_frac_bits", 23},
+                 {"significand_bits", 15},
+                 {"notch_exact", 0},
+                 {"rsqrt_segments_log2", 8},
+                 {"rsqrt_degree", 1},
+                 {"recip_segments_log2", 7},
+                 {"recip_degree", 1},
+                 {"align_guard_bits", 1},
+                 {"attribute_slots", 3},
+                 {"attribute_int_bits", 5},
+                 {"attribute_frac_bits", 19},
+                 {"depth_bits", 17},
+                 {"tile_log2", 2},
+                 {"quad_slots_log2", 1},
+                 {"tile_slots_log2", 1},
+                 {"stamp_fifo_log2", 1},
+                 {"quad_id_bits", 13}}};
+
+std::string test_name(const testing::TestParamInfo<Named>& info) { return info.param.name; }
+
+class Configuration : public testing::TestWithParam<Named> {};
+INSTANTIATE_TEST_SUITE_P(Cosim, Configuration, testing::Values(standard, s12, s24, odd), test_name);
+
+TEST_P(Configuration, RtlSeesTheSameNumbers) {
+  const Config config = GetParam().config();
+  const VerilatedDevice device(config, VerilateOptions{}, 1);
+  std::map<std::string, std::int64_t> rtl;
+  for (const auto& [name, value] : device.constants()) rtl[name] = value;
+
+  // Keys with an automatic value are compared as resolved.
+  const std::map<std::string, int> resolved{{"quadratic_frac_bits", config.quadratic_frac()},
+                                            {"rsqrt_segments_log2", config.rsqrt_segments()},
+                                            {"recip_segments_log2", config.recip_segments()},
+                                            {"attribute_frac_bits", config.attribute_frac()}};
+  const std::map<std::string, std::string> resolved_names{{"QUADRATIC_FRAC", "QUADRATIC_FRAC_BITS"},
+                                                          {"RSQRT_SEGMENTS", "RSQRT_SEGMENTS_LOG2"},
+                                                          {"RECIP_SEGMENTS", "RECIP_SEGMENTS_LOG2"},
+                                                          {"ATTRIBUTE_FRAC", "ATTRIBUTE_FRAC_BITS"}};
+  std::size_t compared = 0;
+  const auto same = [&](const std::string& name, std::int64_t value) {
+    const auto found = rtl.find(name);
+    ASSERT_NE(found, rtl.end()) << name << " is not public in quadrille_pkg";
+    EXPECT_EQ(found->second, value) << name;
+    ++compared;
+  };
+  for (const ConfigKey& key : Config::keys()) {
+    std::string name(key.name);
+    const auto automatic = resolved.find(name);
+    const int value = automatic == resolved.end() ? config.get(name) : automatic->second;
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
+    same(name, value);
+  }
+  for (const DerivedWidth& width : config.derived()) {
+    const auto other = resolved_names.find(width.name);
+    same(other == resolved_names.end() ? width.name : other->second, width.value);
+  }
+  EXPECT_EQ(compared, Config::keys().size() + config.derived().size());
+}
+
+TEST_P(Configuration, LockstepUnderEveryStallPattern) {
+  LockstepOptions options;
+  options.config = GetParam().config();
+  options.state = small_state(options.config);
+  const std::vector<SnappedQuad> quads = random_quads(options.config, options.state, 2024, 400);
+  VerilatedDevice device(options.config, VerilateOptions{}, options.seed);  // one device for all: reset is tested too
+  std::uint64_t fragments = 0, total = 0, hash = 0;
+  unsigned flags = 0;
+  for (const double stall : {0.0, 0.1, 0.5, 0.9}) {
+    for (const double gap : {0.0, 0.1, 0.5, 0.9}) {
+      options.stall = stall;
+      options.gap = gap;
+      ++options.seed;
+      const LockstepReport report = run_lockstep(device, quads, options, [&](const Fragment& f) { flags |= f.flags; });
+      ASSERT_TRUE(report.agreed()) << "stall " << stall << ", gap " << gap << ": "
+                                   << report.first_divergence.value_or("");
+      ASSERT_TRUE(report.complete);
+      EXPECT_EQ(report.cycles_rtl, report.cycles_model);
+      for (const BoundaryCount& count : report.boundaries) EXPECT_GT(count.beats, 0u) << count.name;
+      if (total == 0) {
+        fragments = report.fragments;
+        hash = report.fragment_hash;
+      }
+      EXPECT_EQ(report.fragments, fragments);
+      EXPECT_EQ(report.fragment_hash, hash) << "the fragments depend on stall " << stall << ", gap " << gap;
+      total += report.fragments;
+    }
+  }
+  EXPECT_GT(fragments, 10000u);
+  EXPECT_EQ(flags, options.config.notch_exact != 0 ? 0xffu : 0xffu & ~flag_cured)
+      << "a flag that never occurs is not tested";
+  RecordProperty("fragments", std::to_string(total));
+  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
+}
+
+TEST_P(Configuration, LockstepInEveryDrawState) {
+  LockstepOptions options;
+  options.config = GetParam().config();
+  VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
+  std::uint64_t total = 0;
+  for (int i = 0; i < 12; ++i) {
+    DrawState& state = options.state = small_state(options.config, 40 + i);
+    state.cull = static_cast<Cull>(i % 3);
+    state.perspective = i % 2 == 0;
+    state.depth = i % 4 != 1;
+    state.attributes = i % (options.config.attribute_slots + 1);
+    state.skip = i % 5 == 0 ? 0 : static_cast<std::uint32_t>(skip_hierarchical_tiles);
+    state.znear = i % 3 == 0 ? 0.25 : 0;
+    state.zfar = i % 3 == 1 ? 0.75 : 1;
+    if (i >= 6) {
+      state.scissor_x0 = i;
+      state.scissor_y0 = i / 2;
+      state.scissor_x1 = 40 - i;
+      state.scissor_y1 = 39;
+    }
+    if (i == 11) state.scissor_x1 = state.scissor_x0;  // nothing at all
+    options.stall = options.gap = 0.1 * (i % 3);
+    options.seed = static_cast<std::uint64_t>(100 + i);
+    const std::vector<SnappedQuad> quads = random_quads(options.config, state, options.seed, 60);
+    const LockstepReport report = run_lockstep(device, quads, options);
+    ASSERT_TRUE(report.agreed()) << "state " << i << ": " << report.first_divergence.value_or("");
+    ASSERT_TRUE(report.complete);
+    if (i == 11) {
+      EXPECT_EQ(report.fragments, 0u);
+    }
+    total += report.fragments;
+  }
+  EXPECT_GT(total, 5000u);
+  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
+}
+
+TEST(Cosim, RtlAloneAndModelAloneGiveTheSameStream) {
+  LockstepOptions options;
+  options.config = s12.config();
+  options.state = small_state(options.config);
+  options.stall = options.gap = 0.3;
+  const std::vector<SnappedQuad> quads = random_quads(options.config, options.state, 9, 200);
+  std::vector<Fragment> stream, rtl, model;
+  const LockstepReport both = run_lockstep(quads, options, [&](const Fragment& f) { stream.push_back(f); });
+  ASSERT_TRUE(both.agreed()) << both.first_divergence.value_or("");
+  ASSERT_TRUE(both.complete);
+  const RtlRun r = run_rtl_alone(quads, options, [&](const Fragment& f) { rtl.push_back(f); });
+  const AloneRun m = run_clocked_model_alone(quads, options, [&](const Fragment& f) { model.push_back(f); });
+  EXPECT_GT(stream.size(), 1000u);
+  EXPECT_EQ(stream, rtl);
+  EXPECT_EQ(stream, model);
+  EXPECT_EQ(both.fragment_hash, r.fragment_hash);
+  EXPECT_EQ(both.fragment_hash, m.fragment_hash);
+  EXPECT_EQ(both.cycles_rtl, r.cycles);
+  EXPECT_EQ(both.cycles_model, m.cycles);
+  EXPECT_EQ(r.quads, quads.size());
+}
+
+TEST(Cosim, WritesAWaveform) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "quadrille_cosim_test.fst";
+  std::filesystem::remove(file);
+  LockstepOptions options;
+  options.config = s12.config();
+  options.state = small_state(options.config);
+  options.trace = file.string();
+  options.optimise = 0;
+  const std::vector<SnappedQuad> quads = random_quads(options.config, options.state, 9, 5);
+  const LockstepReport report = run_lockstep(quads, options);
+  EXPECT_TRUE(report.agreed()) << report.first_divergence.value_or("");
+  EXPECT_GT(std::filesystem::file_size(file), 1000u);
+  std::filesystem::remove(file);
+  options.trace = "/nonexistent/directory/wave.fst";
+  EXPECT_THROW(run_lockstep(quads, options), DeviceError);
+}
+
+TEST(Cosim, TwoDevicesAtOnce) {
+  LockstepOptions options;
+  options.config = s12.config();
+  options.state = small_state(options.config);
+  const std::vector<SnappedQuad> quads = random_quads(options.config, options.state, 4, 20);
+  VerilatedDevice a(options.config, VerilateOptions{}, 1), b(options.config, VerilateOptions{}, 2);
+  const LockstepReport first = run_lockstep(a, quads, options), second = run_lockstep(b, quads, options);
+  EXPECT_TRUE(first.agreed()) << first.first_divergence.value_or("");
+  EXPECT_TRUE(second.agreed()) << second.first_divergence.value_or("");
+  EXPECT_EQ(first.fragment_hash, second.fragment_hash);
+}
+
+}  // namespace
+}  // namespace quadrille::tb

@@ -1,0 +1,72 @@
+#include "tb/lockstep/driver.hpp"
+
+#include "model/bit_vector.hpp"
+#include "model/stages.hpp"
+
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace quadrille::tb {
+
+namespace {
+
+double probability(double value, const char* name) {
+  if (!(value >= 0 && value < 1)) {
+    throw std::invalid_argument(std::string(name) + " must be at least 0 and below 1, not " + std::to_string(value));
+  }
+  return value;
+}
+
+}  // namespace
+
+VertexDriver::VertexDriver(std::span<const SnappedQuad> quads, const Config& config, std::uint64_t seed, double gap)
+    : quads_(quads),
+      config_(config),
+      random_(seed, 1),
+      gap_(probability(gap, "gap")),
+      width_(vertex_layout(config).width()),
+      packed_(static_cast<std::size_t>((width_ + 63) / 64)),
+      words_(words_for(width_)) {
+  for (const SnappedQuad& quad : quads) {
+    if (config.quad_id_bits < 32 && quad.id >> config.quad_id_bits != 0) {
+      throw std::invalid_argument("quad id " + std::to_string(quad.id) +
+                                  " does not fit quad_id_bits = " + std::to_string(config.quad_id_bits));
+    }
+  }
+  offer();
+}
+
+void VertexDriver::offer() {
+  if (done() || (gap_ > 0 && random_.chance(gap_))) {
+    valid_ = false;
+    scramble();
+    return;
+  }
+  valid_ = true;
+  changed_ = true;
+  BitPacker packer(packed_.data(), width_);
+  visit_vertex(id(), vertex(), config_, packer);
+  packer.finish();
+  std::memcpy(words_.data(), packed_.data(), words_.size() * sizeof(std::uint32_t));
+}
+
+void VertexDriver::scramble() {
+  for (std::uint32_t& word : words_) word = static_cast<std::uint32_t>(random_.next());
+  if (width_ % 32 != 0) words_.back() &= (std::uint32_t{1} << (width_ % 32)) - 1;
+  changed_ = true;
+}
+
+void VertexDriver::advance(bool taken) {
+  changed_ = false;
+  if (valid_ && !taken) return;
+  if (taken) ++next_;
+  if (done() && !valid_) return;  // idle after the last beat: the rubbish stays
+  offer();
+}
+
+ReadyDriver::ReadyDriver(std::uint64_t seed, double stall) : random_(seed, 2), stall_(probability(stall, "stall")) {
+  advance();
+}
+
+}  // namespace quadrille::tb

@@ -1,0 +1,66 @@
+// What drives the machine's inputs: vertex beats with random gaps, and the ready of its output with random stalls.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+#include "model/support/prng.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace quadrille::tb {
+
+/// Offers the vertices of a list of quads, four beats each. A beat, once offered, stays until it is taken; before each
+/// one valid is low for a random number of clocks, each with probability `gap`. While valid is low the payload is
+/// rubbish on purpose.
+class VertexDriver {
+ public:
+  /// Throws std::invalid_argument for a gap outside [0, 1) or a quad id that does not fit the port.
+  VertexDriver(std::span<const SnappedQuad> quads, const Config& config, std::uint64_t seed, double gap);
+
+  bool done() const { return next_ == 4 * quads_.size(); }
+  bool valid() const { return valid_; }
+  std::uint32_t id() const { return quads_[next_ / 4].id; }
+  const SnappedVertex& vertex() const { return quads_[next_ / 4].vertex[next_ % 4]; }
+  /// The packed beat (or the rubbish); `changed` tells whether it is new in this clock.
+  std::span<const std::uint32_t> words() const { return words_; }
+  bool changed() const { return changed_; }
+  std::uint64_t beats_taken() const { return next_; }
+  double fraction() const {
+    return quads_.empty() ? 1.0 : static_cast<double>(next_) / static_cast<double>(4 * quads_.size());
+  }
+
+  /// After the clock edge; `taken`: the beat on offer was accepted by it.
+  void advance(bool taken);
+
+ private:
+  void offer();
+  void scramble();
+
+  std::span<const SnappedQuad> quads_;
+  const Config& config_;
+  golden::Prng random_;
+  double gap_;
+  int width_;
+  std::size_t next_ = 0;
+  bool valid_ = false, changed_ = true;
+  std::vector<std::uint64_t> packed_;
+  std::vector<std::uint32_t> words_;
+};
+
+/// fragment_ready_i, low in each clock with probability `stall`.
+class ReadyDriver {
+ public:
+  /// Throws std::invalid_argument for a stall outside [0, 1).
+  ReadyDriver(std::uint64_t seed, double stall);
+  bool ready() const { return ready_; }
+  void advance() { ready_ = stall_ == 0 || !random_.chance(stall_); }
+
+ private:
+  golden::Prng random_;
+  double stall_;
+  bool ready_ = true;
+};
+
+}  // namespace quadrille::tb

@@ -1,0 +1,90 @@
+// Lockstep: the Verilated RTL and the clocked model get the same inputs in every clock and must give the same outputs.
+//
+// In each clock: drive the inputs, settle both sides with the clock low, compare everything, then clock both.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+#include "tb/device/device.hpp"
+#include "tb/lockstep/monitor.hpp"
+#include "tb/lockstep/scoreboard.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace quadrille::tb {
+
+struct LockstepOptions {
+  Config config;
+  DrawState state;
+  std::uint64_t seed = 1;
+  double stall = 0;                        ///< probability per clock that fragment_ready is low; in [0, 1)
+  double gap = 0;                          ///< probability per clock that vertex_valid is low before a beat; in [0, 1)
+  std::optional<std::string> trace;        ///< FST waveform file
+  std::uint64_t limit_fragments = 0;       ///< end after so many fragments; 0: no limit
+  bool stop_at_first = true;               ///< end at the first difference
+  std::uint64_t limit_differences = 1000;  ///< else end after so many clocks with a difference; 0: no limit
+  bool probes = true;                      ///< compare at the stage boundaries too
+  std::uint64_t watchdog = 0;  ///< clocks without progress after which a run is given up; 0: from the viewport
+  std::function<void(double)> progress;  ///< called now and then with the part done, 0 to 1
+  std::filesystem::path source;          ///< RTL instead of the project's: directory, or one Verilog file
+  int optimise = 2;                      ///< see VerilateOptions
+};
+
+/// Neither side did anything for so long that the run was given up.
+struct WatchdogError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct LockstepReport {
+  std::uint64_t quads = 0;             ///< whose four beats were taken
+  std::uint64_t fragments = 0;         ///< handed over and compared; zero is a failure, for the caller to say so
+  std::uint64_t pixels = 0;            ///< covered pixels that went through the pipeline, discarded ones included
+  std::uint64_t mismatches = 0;        ///< payloads that differ (and 1 if the RTL stopped on an assertion)
+  std::uint64_t cycle_mismatches = 0;  ///< clocks in which a valid, ready, mask or busy differs
+  std::uint64_t cycles_rtl = 0;        ///< clocks until that side had nothing left to do
+  std::uint64_t cycles_model = 0;
+  bool complete = false;  ///< every quad was drawn: not ended by a limit, a difference or the watchdog
+  std::optional<std::string> first_divergence;
+  std::vector<BoundaryCount> boundaries;
+  std::uint64_t compared_bits = 0;  ///< over all boundaries
+  double wall_seconds = 0;          ///< of the loop; building the RTL is not in it
+  std::uint64_t fragment_hash = 0;  ///< of the fragment stream, bits and order
+
+  bool agreed() const { return mismatches == 0 && cycle_mismatches == 0; }
+};
+
+/// Verilates what `options` ask for and runs both sides. The sink (may be empty) gets the RTL's fragments in order.
+/// Throws EnvironmentError, VerilateError, DeviceError (widths differ, no waveform), WatchdogError (when nothing
+/// differed before) and std::invalid_argument. An assertion of the RTL that fails counts as a mismatch and ends the
+/// run.
+LockstepReport run_lockstep(std::span<const SnappedQuad> quads, const LockstepOptions& options,
+                            const FragmentSink& sink = {});
+
+/// The same with a device that exists already (its probes must be there when options.probes is set).
+LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, const LockstepOptions& options,
+                            const FragmentSink& sink = {});
+
+/// One side alone.
+struct AloneRun {
+  std::uint64_t quads = 0, fragments = 0, cycles = 0;
+  double seconds = 0;  ///< of the loop
+  std::uint64_t fragment_hash = 0;
+};
+using RtlRun = AloneRun;
+
+/// The RTL without probes and without comparison: its own speed, and `--engine rtl`. Of the options probes and the
+/// limits of differences are ignored. Throws as run_lockstep() does; a failed assertion is a DeviceError here.
+RtlRun run_rtl_alone(std::span<const SnappedQuad> quads, const LockstepOptions& options, const FragmentSink& sink = {});
+
+/// The clocked model without the RTL.
+AloneRun run_clocked_model_alone(std::span<const SnappedQuad> quads, const LockstepOptions& options,
+                                 const FragmentSink& sink = {});
+
+}  // namespace quadrille::tb

@@ -1,0 +1,266 @@
+// The lockstep loop against devices that are the model itself with one thing broken: no Verilator needed, and the place
+// that the report must name is known.
+#include "tb/lockstep/lockstep.hpp"
+
+#include "golden/scenes/random_quads.hpp"
+#include "model/bit_vector.hpp"
+#include "model/clocked.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+
+namespace quadrille::tb {
+namespace {
+
+/// The clocked model behind the pins of a device. `fault` may spoil the outputs of a clock.
+class ModelDevice : public Device {
+ public:
+  struct Outputs {
+    ClockedOutputs model;
+    DeviceSample sample;
+    std::array<std::vector<std::uint32_t>, probe_count + 1> words;
+  };
+  using Fault = std::function<void(std::uint64_t cycle, Outputs&)>;
+
+  ModelDevice(const Config& config, const DrawState& state, Fault fault = {})
+      : config_(config), model_(config, state), vertex_(vertex_layout(config)), fault_(std::move(fault)) {
+    for (std::size_t i = 0; i <= probe_count; ++i)
+      layouts_.push_back(boundary_layout(static_cast<Boundary>(i), config));
+  }
+
+  void set_reset(bool active) override { inputs_.reset = active; }
+  void set_state(std::span<const std::uint32_t>) override {}
+  void set_vertex(std::span<const std::uint32_t> words) override {
+    const auto get = [&](const char* name, int index = -1) {
+      const Field& f = vertex_.field(name, index);
+      return extract(words.data(), f.lsb, f.width);
+    };
+    const auto get_signed = [&](const char* name, int index = -1) {
+      const Field& f = vertex_.field(name, index);
+      return static_cast<std::int32_t>(extract_signed(words.data(), f.lsb, f.width));
+    };
+    inputs_.vertex_id = static_cast<std::uint32_t>(get("id"));
+    SnappedVertex& v = inputs_.vertex;
+    v.x = get_signed("x");
+    v.y = get_signed("y");
+    v.w = get_signed("w");
+    v.k = {false, get_signed("k_exp"), static_cast<std::uint32_t>(get("k_sig"))};
+    v.z = {get("z_neg") != 0, get_signed("z_exp"), static_cast<std::uint32_t>(get("z_sig"))};
+    for (int j = 0; j < config_.attribute_slots; ++j) {
+      v.attribute[static_cast<std::size_t>(j)] = {get("attr_neg", j) != 0, get_signed("attr_exp", j),
+                                                  static_cast<std::uint32_t>(get("attr_sig", j))};
+    }
+  }
+  void set_handshake(bool vertex_valid, bool fragment_ready) override {
+    inputs_.vertex_valid = vertex_valid;
+    inputs_.fragment_ready = fragment_ready;
+  }
+  void settle() override {
+    out_.model = model_.comb(inputs_);
+    const ClockedProbes& p = out_.model.probes;
+    const auto fill = [&](Boundary b, const auto* record, auto&& pack) {
+      const auto i = static_cast<std::size_t>(b);
+      std::vector<std::uint64_t> wide(static_cast<std::size_t>(layouts_[i].width() + 63) / 64);
+      if (record != nullptr) {
+        BitPacker packer(wide.data(), layouts_[i].width());
+        pack(*record, packer);
+        packer.finish();
+      }
+      out_.words[i].resize(layouts_[i].words());
+      std::memcpy(out_.words[i].data(), wide.data(), out_.words[i].size() * 4);
+      if (i < probe_count) out_.sample.probe[i] = {record != nullptr, out_.words[i].data()};
+    };
+    const auto plain = [&](const auto& r, BitPacker& packer) { visit(r, config_, packer); };
+    fill(Boundary::setup, p.setup, plain);
+    fill(Boundary::tile, p.tile, plain);
+    fill(Boundary::stamp, p.stamp, plain);
+    const auto pixel = [&](Boundary b, const PixelTrace* t) {
+      fill(b, t, [&](const PixelTrace& r, BitPacker& packer) { visit(r, b, config_, packer); });
+    };
+    pixel(Boundary::diff, p.diff);
+    pixel(Boundary::norm, p.norm);
+    pixel(Boundary::rsqrt, p.rsqrt);
+    pixel(Boundary::ratio, p.ratio);
+    pixel(Boundary::weight, p.weight);
+    pixel(Boundary::sum, p.sum);
+    fill(Boundary::fragment, &out_.model.fragment, plain);
+    out_.sample.vertex_ready = out_.model.vertex_ready;
+    out_.sample.fragment_valid = out_.model.fragment_valid;
+    out_.sample.busy = out_.model.busy;
+    out_.sample.fragment_mask = out_.model.fragment_valid ? 1 : 0;
+    out_.sample.fragment = out_.words[probe_count].data();
+    if (fault_ && !inputs_.reset) fault_(cycle_, out_);
+  }
+  const DeviceSample& sample() override { return out_.sample; }
+  void clock() override {
+    model_.clock(inputs_);
+    if (!inputs_.reset) ++cycle_;
+  }
+
+ private:
+  Config config_;
+  ClockedModel model_;
+  Layout vertex_;
+  std::vector<Layout> layouts_;
+  Fault fault_;
+  ClockedInputs inputs_;
+  Outputs out_;
+  std::uint64_t cycle_ = 0;
+};
+
+class Lockstep : public testing::Test {
+ protected:
+  Lockstep() {
+    options.config.set("significand_bits", 12);
+    options.state = small_state(options.config);
+    options.stall = 0.2;
+    options.gap = 0.2;
+    quads = random_quads(options.config, options.state, 5, 40);
+  }
+  LockstepReport run(ModelDevice::Fault fault) {
+    ModelDevice device(options.config, options.state, std::move(fault));
+    return run_lockstep(device, quads, options);
+  }
+  LockstepOptions options;
+  std::vector<SnappedQuad> quads;
+};
+
+TEST_F(Lockstep, AgreesWithItself) {
+  std::uint64_t seen = 0;
+  ModelDevice device(options.config, options.state);
+  const LockstepReport report = run_lockstep(device, quads, options, [&](const Fragment&) { ++seen; });
+  EXPECT_TRUE(report.agreed()) << report.first_divergence.value_or("");
+  EXPECT_TRUE(report.complete);
+  EXPECT_EQ(report.quads, quads.size());
+  EXPECT_GT(report.fragments, 500u);
+  EXPECT_EQ(report.fragments, seen);
+  EXPECT_GE(report.pixels, report.fragments);
+  EXPECT_EQ(report.cycles_rtl, report.cycles_model);
+  ASSERT_EQ(report.boundaries.size(), probe_count + 1);
+  for (const BoundaryCount& count : report.boundaries) EXPECT_GT(count.beats, 0u) << count.name;
+  EXPECT_EQ(report.boundaries[0].beats, quads.size());
+
+  const AloneRun alone = run_clocked_model_alone(quads, options);
+  EXPECT_EQ(alone.fragment_hash, report.fragment_hash);
+  EXPECT_EQ(alone.fragments, report.fragments);
+  EXPECT_EQ(alone.cycles, report.cycles_model);
+}
+
+TEST_F(Lockstep, NamesTheFieldThatDiffers) {
+  // Bit 2 of rho[1]'s significand in the stage register, from cycle 300 on.
+  std::uint64_t at = 0;
+  PixelTrace pixel;
+  const Field field = boundary_layout(Boundary::rsqrt, options.config).field("sig", 1);
+  const LockstepReport report = run([&](std::uint64_t cycle, ModelDevice::Outputs& out) {
+    if (cycle < 300 || !out.sample.probe[static_cast<std::size_t>(Boundary::rsqrt)].valid) return;
+    if (at == 0) {
+      at = cycle;
+      pixel = *out.model.probes.rsqrt;
+    }
+    const int bit = field.lsb + 2;
+    out.words[static_cast<std::size_t>(Boundary::rsqrt)][static_cast<std::size_t>(bit / 32)] ^= std::uint32_t{1}
+                                                                                                << bit % 32;
+  });
+  EXPECT_EQ(report.mismatches, 1u);
+  EXPECT_EQ(report.cycle_mismatches, 0u);
+  EXPECT_FALSE(report.complete);
+  ASSERT_TRUE(report.first_divergence);
+  const std::uint32_t sig = pixel.rho[1].sig;
+  EXPECT_EQ(*report.first_divergence, "cycle " + std::to_string(at) + ", quad " + std::to_string(pixel.quad) +
+                                          ", pixel (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) +
+                                          "), stage rsqrt, field sig[1]: expected " + hex(sig, 12) +
+                                          " (model), actual " + hex(sig ^ 4u, 12) + " (RTL); seed 1");
+}
+
+TEST_F(Lockstep, CountsOnWhenAsked) {
+  options.stop_at_first = false;
+  const LockstepReport report = run([&](std::uint64_t cycle, ModelDevice::Outputs& out) {
+    if (out.sample.fragment_valid && cycle % 7 == 0) out.words[probe_count][0] ^= 1u;
+  });
+  EXPECT_GT(report.mismatches, 10u);
+  EXPECT_EQ(report.cycle_mismatches, 0u);
+  EXPECT_TRUE(report.complete);
+  options.limit_differences = 3;
+  EXPECT_EQ(run([&](std::uint64_t, ModelDevice::Outputs& out) { out.sample.busy = !out.sample.busy; }).cycle_mismatches,
+            3u);
+}
+
+TEST_F(Lockstep, SeesTimingOfEverySignal) {
+  const auto expect_timing = [&](const char* name, ModelDevice::Fault fault) {
+    const LockstepReport report = run(std::move(fault));
+    EXPECT_EQ(report.cycle_mismatches, 1u) << name;
+    ASSERT_TRUE(report.first_divergence) << name;
+    EXPECT_NE(report.first_divergence->find(name), std::string::npos) << *report.first_divergence;
+  };
+  expect_timing("vertex_ready: expected", [](auto cycle, auto& o) {
+    if (cycle == 50) o.sample.vertex_ready = !o.sample.vertex_ready;
+  });
+  expect_timing("busy: expected", [](auto cycle, auto& o) {
+    if (cycle == 50) o.sample.busy = !o.sample.busy;
+  });
+  expect_timing("fragment_mask: expected", [](auto cycle, auto& o) {
+    if (cycle == 400) o.sample.fragment_mask ^= 1u;
+  });
+  expect_timing("fragment_valid: expected", [](auto cycle, auto& o) {
+    if (cycle == 400) o.sample.fragment_valid = !o.sample.fragment_valid;
+  });
+  for (std::size_t i = 0; i < probe_count; ++i) {
+    const std::string name = std::string("stage ") + boundary_name(static_cast<Boundary>(i)) + ", valid";
+    expect_timing(name.c_str(), [i](auto cycle, auto& o) {
+      if (cycle == 350) o.sample.probe[i].valid = !o.sample.probe[i].valid;
+    });
+  }
+}
+
+TEST_F(Lockstep, FragmentBitsCountWhenNotValidToo) {
+  const LockstepReport report = run([&](std::uint64_t, ModelDevice::Outputs& out) {
+    if (!out.sample.fragment_valid) out.words[probe_count][1] ^= 0x10u;
+  });
+  EXPECT_EQ(report.mismatches, 1u);
+  EXPECT_EQ(report.cycle_mismatches, 0u);
+}
+
+TEST_F(Lockstep, StoppedDeviceIsAMismatch) {
+  const LockstepReport report = run([](std::uint64_t cycle, ModelDevice::Outputs&) {
+    if (cycle == 77) throw DeviceError("assertion at x.sv:1");
+  });
+  EXPECT_EQ(report.mismatches, 1u);
+  ASSERT_TRUE(report.first_divergence);
+  EXPECT_EQ(*report.first_divergence, "cycle 77, the RTL stopped: assertion at x.sv:1; seed 1");
+}
+
+TEST_F(Lockstep, DeviceThatNeverEndsIsGivenUp) {
+  options.stop_at_first = false;
+  options.limit_differences = 0;
+  options.watchdog = 2000;
+  const LockstepReport report = run([](std::uint64_t, ModelDevice::Outputs& out) { out.sample.busy = true; });
+  EXPECT_FALSE(report.complete);
+  EXPECT_GT(report.cycle_mismatches, 0u);
+}
+
+TEST_F(Lockstep, WatchdogEndsARunWithoutProgress) {
+  options.stall = 0.999;
+  options.watchdog = 200;
+  EXPECT_THROW(run({}), WatchdogError);
+  EXPECT_THROW(run_clocked_model_alone(quads, options), WatchdogError);
+}
+
+TEST_F(Lockstep, LimitOfFragments) {
+  options.limit_fragments = 100;
+  const LockstepReport report = run({});
+  EXPECT_EQ(report.fragments, 100u);
+  EXPECT_FALSE(report.complete);
+  EXPECT_TRUE(report.agreed());
+}
+
+TEST_F(Lockstep, NoQuadsNoFragments) {
+  quads.clear();
+  const LockstepReport report = run({});
+  EXPECT_EQ(report.fragments, 0u);
+  EXPECT_TRUE(report.complete);
+}
+
+}  // namespace
+}  // namespace quadrille::tb

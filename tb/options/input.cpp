@@ -1,0 +1,268 @@
+#include "tb/options/input.hpp"
+
+#include "golden/io/camera.hpp"
+#include "golden/io/error.hpp"
+#include "golden/io/json_report.hpp"
+#include "golden/io/obj.hpp"
+#include "golden/io/quads_file.hpp"
+#include "golden/io/text_input.hpp"
+#include "golden/scenes/projection.hpp"
+#include "golden/scenes/scenes.hpp"
+#include "golden/scenes/stress.hpp"
+#include "tb/support/choices.hpp"
+#include "tb/support/errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+namespace quadrille::cli {
+namespace {
+
+using golden::AttributeSet;
+
+AttributeLayout layout_of(AttributeSet set) {
+  switch (set) {
+    case AttributeSet::uv:
+      return AttributeLayout::uv;
+    case AttributeSet::normal:
+      return AttributeLayout::normal;
+    case AttributeSet::uv_normal:
+      return AttributeLayout::uv_normal;
+    case AttributeSet::position:
+      return AttributeLayout::position;
+    case AttributeSet::colour:
+      return AttributeLayout::colour;
+    default:
+      return AttributeLayout::none;
+  }
+}
+
+/// What the projection needs to carry for a shading; the weights come with every draw.
+AttributeSet attributes_for(const std::string& shade) {
+  const AttributeSet set = golden::attributes_for_shade(shade);
+  return set == AttributeSet::weights ? AttributeSet::none : set;
+}
+
+golden::Vec3 view_direction(const golden::Camera& camera) {
+  if (camera.matrix) return {0.4, 0.35, 0.85};
+  golden::Vec3 d{camera.eye[0] - camera.target[0], camera.eye[1] - camera.target[1], camera.eye[2] - camera.target[2]};
+  const double length = std::hypot(d[0], d[1], d[2]);
+  if (!(length > 0)) return {0, 0, 1};
+  for (double& c : d) c /= length;
+  return d;
+}
+
+/// A dozen planes across the longest side of the box around the corners.
+golden::CuttingPlanes planes_across(const std::vector<std::array<golden::Vec3, 4>>& corners) {
+  std::size_t longest = 0;
+  double length = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double low = INFINITY, high = -INFINITY;
+    for (const auto& quad : corners)
+      for (const golden::Vec3& p : quad) low = std::min(low, p[axis]), high = std::max(high, p[axis]);
+    if (high - low > length) length = high - low, longest = axis;
+  }
+  golden::CuttingPlanes planes{{0, 0, 0}, length > 0 ? length / 12 : 1};
+  planes.normal[longest] = 1;
+  return planes;
+}
+
+void need_colours(const golden::Mesh& mesh, const DrawInput& input) {
+  if (input.shade == "colour" && mesh.colours.empty())
+    throw UsageError("--shade colour: " + input.name + " has no colours");
+}
+
+/// For quads that were never an object in space.
+void need_no_object(const DrawInput& input) {
+  if (input.shade == "planes" || input.shade == "colour")
+    throw UsageError("--shade " + input.shade + ": the quads of " + input.name + " have no " +
+                     (input.shade == "planes" ? "positions in space" : "colours") + "; it goes with --scene" +
+                     (input.shade == "planes" ? " and --mesh" : ""));
+}
+
+/// A machine's attributes have few integer bits: positions are halved until none is above 2, and the spacing with them.
+void fit_positions(DrawInput& input) {
+  double largest = 0;
+  for (const WindowQuad& quad : input.quads)
+    for (const std::vector<double>& position : quad.attribute)
+      for (const double c : position) largest = std::max(largest, std::fabs(c));
+  double scale = 1;
+  while (largest * scale > 2) scale /= 2;
+  for (WindowQuad& quad : input.quads)
+    for (std::vector<double>& position : quad.attribute)
+      for (double& c : position) c *= scale;
+  input.planes.spacing *= scale;
+}
+
+/// Projects, with what is wrong told as an input error of `place`.
+void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, bool strict,
+             const std::string& place, DrawInput& input) {
+  golden::ProjectOptions options;
+  options.attributes = attributes_for(input.shade);
+  options.strict = strict;
+  golden::Projection projection;
+  try {
+    projection = golden::project_mesh(mesh, camera, width, height, options);
+  } catch (const std::invalid_argument& error) {
+    throw golden::InputError(place + ": " + error.what());
+  }
+  input.quads = std::move(projection.quads);
+  input.corners = std::move(projection.corners);
+  input.textures = std::move(projection.textures);
+  input.planes = planes_across(input.corners);
+  input.attributes = golden::attribute_count(options.attributes);
+  input.layout = layout_of(options.attributes);
+  input.to_eye = view_direction(camera);
+  input.faces = mesh.faces.size();
+  input.triangles = projection.triangles;
+  input.fanned_faces = projection.fanned_faces;
+  input.fan_primitives = projection.fan_primitives;
+  input.skipped_lines = mesh.skipped_lines;
+}
+
+void load_scene(const InputOptions& options, const std::string& shade, int width, int height, DrawInput& input) {
+  choose("scene", options.scene, scene_names());
+  const golden::Scene scene = golden::make_scene(options.scene);
+  input.name = scene.name;
+  input.title = scene.title;
+  input.paper = scene.paper;
+  input.option = golden::command_line(std::array<std::string, 2>{"--scene", options.scene});
+  input.shade = shade.empty() ? scene.shade : shade;
+  input.perspective = scene.perspective;
+  input.texture = scene.texture;
+  need_colours(scene.mesh, input);
+  project(scene.mesh, scene.camera, width, height, options.strict, "scene " + scene.name, input);
+  if (scene.planes) input.planes = *scene.planes;
+  if (input.layout == AttributeLayout::position) fit_positions(input);
+}
+
+void load_mesh(const InputOptions& options, const std::string& shade, int width, int height, DrawInput& input) {
+  const golden::Mesh mesh = golden::load_obj(options.mesh);
+  input.name = std::filesystem::path(options.mesh).filename().string();
+  input.title = "mesh " + input.name;
+  std::vector<std::string> arguments{"--mesh", options.mesh};
+  if (!options.camera.empty()) arguments.insert(arguments.end(), {"--camera", options.camera});
+  if (options.strict) arguments.emplace_back("--strict");
+  input.option = golden::command_line(arguments);
+  input.shade = shade.empty() ? "normal" : shade;
+  need_colours(mesh, input);
+  const golden::Camera camera =
+      options.camera.empty() ? golden::frame_mesh(mesh, width, height) : golden::load_camera(options.camera);
+  project(mesh, camera, width, height, options.strict, options.mesh, input);
+  if (input.layout == AttributeLayout::position) fit_positions(input);
+}
+
+void load_quads_file(const InputOptions& options, const std::string& shade, DrawInput& input) {
+  input.quads = golden::load_quads(options.quads);
+  input.name = std::filesystem::path(options.quads).filename().string();
+  input.title = "quads " + input.name;
+  input.option = golden::command_line(std::array<std::string, 2>{"--quads", options.quads});
+  input.quads_file = options.quads;
+  input.attributes = static_cast<int>(input.quads.front().attribute[0].size());
+  input.layout = AttributeLayout::file;
+  input.shade = shade.empty() ? "lambda" : shade;
+  need_no_object(input);
+}
+
+void load_stress(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed,
+                 DrawInput& input) {
+  choose("stress family", options.stress, stress_names());
+  input.name = options.stress;
+  input.title = "random quads, " + options.stress;
+  input.option = golden::command_line(
+      std::array<std::string, 4>{"--stress", options.stress, "--count", std::to_string(options.count)});
+  input.shade = shade.empty() ? "lambda" : shade;
+  need_no_object(input);
+  // Slots 0-3 of a stress quad are the weights, which every draw measures anyway.
+  constexpr int random_attributes = 4;
+  const golden::StressFamily family = golden::parse_stress_family(options.stress);
+  input.quads = golden::make_stress(family, options.count, seed, 1.0, width, height, 4 + random_attributes);
+  for (WindowQuad& quad : input.quads)
+    for (std::vector<double>& attribute : quad.attribute) attribute.erase(attribute.begin(), attribute.begin() + 4);
+  input.attributes = random_attributes;
+  input.layout = AttributeLayout::file;
+}
+
+}  // namespace
+
+void InputOptions::add_to(CLI::App& app, bool any) {
+  constexpr const char* group = "Input";
+  app.add_option("--scene", scene, "Built-in scene; `quadrille scenes` lists them")->type_name("NAME")->group(group);
+  app.add_option("--mesh", mesh, "Polygon mesh (Wavefront OBJ)")->type_name("F.obj")->group(group);
+  app.add_option("--camera", camera, "Camera for --mesh; without it the mesh is framed automatically")
+      ->type_name("F.json")
+      ->group(group);
+  if (any) {
+    app.add_option("--quads", quads, "Quads in homogeneous window coordinates")->type_name("F.quads")->group(group);
+    app.add_option("--stress", stress, "Random quads of a stress family, such as general or eye_crossing")
+        ->type_name("FAMILY")
+        ->group(group);
+    app.add_option("--count", count, "Quads of --stress")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10'000'000))
+        ->group(group);
+  }
+  app.add_flag("--strict", strict, "Refuse faces with more than four corners instead of cutting them up")->group(group);
+}
+
+int inputs_given(const InputOptions& options) {
+  return static_cast<int>(!options.scene.empty()) + static_cast<int>(!options.mesh.empty()) +
+         static_cast<int>(!options.quads.empty()) + static_cast<int>(!options.stress.empty());
+}
+
+std::string shade_of(const std::string& shade, const std::string& texture) {
+  if (texture.empty()) return shade;
+  if (!shade.empty() && shade != "texture")
+    throw UsageError("--texture " + texture + ": needs --shade texture, not --shade " + shade);
+  return "texture";
+}
+
+DrawInput load_input(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed) {
+  if (inputs_given(options) != 1)
+    throw UsageError("one input is needed: --scene NAME, --mesh F.obj, --quads F.quads or --stress FAMILY (" +
+                     std::to_string(inputs_given(options)) + " were given)");
+  if (!options.camera.empty() && options.mesh.empty()) throw UsageError("--camera goes with --mesh");
+  if (!shade.empty()) choose("shading", shade, shade_modes());
+  DrawInput input;
+  if (!options.scene.empty())
+    load_scene(options, shade, width, height, input);
+  else if (!options.mesh.empty())
+    load_mesh(options, shade, width, height, input);
+  else if (!options.quads.empty())
+    load_quads_file(options, shade, input);
+  else
+    load_stress(options, shade, width, height, seed, input);
+  return input;
+}
+
+std::vector<std::string> shade_modes() {
+  return {"uv", "texture", "normal", "lambda", "depth", "quad", "planes", "colour"};
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const golden::SceneInfo& scene : golden::list_scenes()) names.push_back(scene.name);
+  return names;
+}
+
+std::vector<std::string> stress_names() {
+  std::vector<std::string> names;
+  for (const golden::StressFamilyInfo& family : golden::stress_families()) names.emplace_back(family.name);
+  return names;
+}
+
+std::string describe(const SnapError& error, const DrawInput& input) {
+  if (input.quads_file.empty()) return input.name + ": " + error.what();
+  const std::string text = golden::read_file(input.quads_file, "quads");
+  golden::TokenLines lines(text, golden::TokenLines::Continuation::none);
+  std::vector<golden::Token> tokens;
+  for (std::uint32_t quad = 0; lines.next(tokens); ++quad)
+    if (quad == error.quad) return input.quads_file + ":" + std::to_string(tokens.front().line) + ": " + error.what();
+  return input.quads_file + ": " + error.what();
+}
+
+}  // namespace quadrille::cli

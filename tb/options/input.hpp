@@ -1,0 +1,58 @@
+// What is drawn: a scene, a mesh with a camera, a quads file, a stress family; all become quads with attributes.
+#pragma once
+
+#include "golden/scenes/mesh.hpp"
+#include "golden/scenes/procedural_texture.hpp"
+#include "golden/scenes/scenes.hpp"
+#include "model/records.hpp"
+#include "model/snap.hpp"
+#include "tb/options/options.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace quadrille::cli {
+
+/// What the attributes of an input's quads are.
+enum class AttributeLayout { none, uv, normal, uv_normal, position, colour, file };
+
+struct DrawInput {
+  std::string name;  ///< of the scene, file or family
+  std::string title;
+  std::string paper;   ///< of a scene: paper and figure
+  std::string option;  ///< the options that name it, as a command line gives them
+  std::vector<WindowQuad> quads;
+  std::vector<std::array<golden::Vec3, 4>> corners;  ///< of every quad in the mesh's space; none for files and families
+  std::vector<std::array<golden::Vec2, 4>> textures;  ///< texture coordinates of every quad, likewise
+  int attributes = 0;                                 ///< per vertex
+  AttributeLayout layout = AttributeLayout::none;
+  bool perspective = true;       ///< as the scene wants it
+  std::string shade = "lambda";  ///< shading that suits it
+  golden::TextureKind texture = golden::TextureKind::checker;
+  golden::Vec3 to_eye{0, 0, 1};  ///< in the mesh's space, for highlights
+  golden::CuttingPlanes planes;  ///< of shade `planes`, in the unit of the position attributes (a power of two)
+  std::size_t faces = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
+  std::string quads_file;  ///< where the quads came from, if a .quads file
+};
+
+/// How many of --scene, --mesh, --quads and --stress are given.
+int inputs_given(const InputOptions& options);
+
+/// Loads the one input of the options. `shade` empty: what suits the input; otherwise the attributes are what that
+/// shading needs. Throws UsageError when not exactly one is given, a name is unknown or the input lacks what the
+/// shading needs, InputError for what a file holds.
+DrawInput load_input(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed);
+
+/// What --shade is when --texture is given too: texture. Throws UsageError for another explicit --shade.
+std::string shade_of(const std::string& shade, const std::string& texture);
+
+/// Shading modes, scene and family names.
+std::vector<std::string> shade_modes();
+std::vector<std::string> scene_names();
+std::vector<std::string> stress_names();
+
+/// The text of a SnapError with the place in the file where there is one.
+std::string describe(const SnapError& error, const DrawInput& input);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,219 @@
+#include "tb/options/options.hpp"
+
+#include "golden/io/config_file.hpp"
+#include "tb/support/choices.hpp"
+#include "tb/support/errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <thread>
+#include <tuple>
+
+namespace quadrille::cli {
+namespace {
+
+/// All of `text` as a number; throws UsageError naming `what`.
+template <class Number>
+Number parse(std::string_view text, const std::string& what) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || text.empty())
+    throw UsageError(what + ": \"" + std::string(text) + "\" is not a whole number in range");
+  return value;
+}
+
+/// Shortest decimal text of a number.
+std::string number(double value) {
+  std::array<char, 40> buffer{};
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return error == std::errc{} ? std::string(buffer.data(), end) : std::string("nan");
+}
+
+}  // namespace
+
+void CommonOptions::add_to(CLI::App& app, bool draws) {
+  constexpr const char* group = "Common options";
+  app.add_option("--config", config_file, "Configuration file (TOML); `quadrille config` lists the keys")
+      ->type_name("F.toml")
+      ->group(group);
+  app.add_option("--set", settings, "Set one configuration key (after --config); may be given several times")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->group(group);
+  if (draws) {
+    app.add_option("--size", size, "Viewport in pixels")->type_name("WxH")->capture_default_str()->group(group);
+    app.add_option("--seed", seed, "Seed of everything random")
+        ->check(not_negative)
+        ->type_name("N")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--threads", threads, "Threads, 0 for one per processor; results do not depend on it")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str()
+        ->group(group);
+  }
+  app.add_option("--json", json, "Write a JSON report (- for standard output)")->type_name("F.json")->group(group);
+  auto* be_quiet = app.add_flag("--quiet", quiet, "Print nothing but errors")->group(group);
+  app.add_flag("--verbose", verbose, "Print more")->excludes(be_quiet)->group(group);
+}
+
+Config CommonOptions::config() const {
+  Config result;
+  if (!config_file.empty()) golden::load_config(config_file, result);
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("--set " + setting + ": expected KEY=VALUE, such as --set significand_bits=24");
+    const std::string key = setting.substr(0, equals), value = setting.substr(equals + 1);
+    result.get(key);  // an unknown key is the better complaint than its value
+    if (value == "auto")
+      result.set(key, -1);
+    else if (key == "notch_exact" && (value == "true" || value == "false"))
+      result.set(key, value == "true" ? 1 : 0);
+    else
+      result.set(key, parse<int>(value, "--set " + key));
+  }
+  result.validate();
+  return result;
+}
+
+std::pair<int, int> CommonOptions::viewport(const Config& config) const {
+  const std::size_t cross = size.find('x');
+  if (cross == std::string::npos) throw UsageError("--size " + size + ": expected WxH, such as --size 640x480");
+  const auto width = parse<int>(std::string_view(size).substr(0, cross), "--size " + size);
+  const auto height = parse<int>(std::string_view(size).substr(cross + 1), "--size " + size);
+  const int limit = 1 << config.viewport_bits;
+  if (width < 1 || height < 1 || width > limit || height > limit)
+    throw UsageError("--size " + size + ": width and height must be from 1 to " + std::to_string(limit) +
+                     " (viewport_bits = " + std::to_string(config.viewport_bits) + "; --set viewport_bits=N for more)");
+  return {width, height};
+}
+
+unsigned CommonOptions::thread_count() const {
+  if (threads > 0) return static_cast<unsigned>(threads);
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+std::FILE* CommonOptions::text() const {
+  if (quiet) return nullptr;
+  return json == "-" ? stderr : stdout;
+}
+
+void StateOptions::add_to(CLI::App& app) {
+  constexpr const char* group = "Draw state";
+  app.add_option("--cull", cull, "Faces to leave out: none, front, back")
+      ->type_name("FACES")
+      ->capture_default_str()
+      ->group(group);
+  app.add_flag("--no-perspective", no_perspective, "Interpolate attributes in screen space")->group(group);
+  app.add_flag("--no-depth", no_depth, "No window z: no depth output, no near and far discard")->group(group);
+  app.add_option("--znear", znear, "Discard fragments with window z below this")
+      ->type_name("Z")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--zfar", zfar, "Discard fragments with window z above this")
+      ->type_name("Z")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--scissor", scissor, "Half-open pixel rectangle to draw in")->type_name("X0,Y0,X1,Y1")->group(group);
+  app.add_flag("--no-tile-skip", no_tile_skip, "Visit every tile, also those that cannot be covered")->group(group);
+}
+
+DrawState StateOptions::state(const CommonOptions& common, const Config& config) const {
+  DrawState state;
+  std::tie(state.width, state.height) = common.viewport(config);
+  state.scissor_x1 = state.width;
+  state.scissor_y1 = state.height;
+  if (!scissor.empty()) {
+    std::array<int, 4> edge{};
+    std::string_view rest = scissor;
+    for (std::size_t i = 0; i < edge.size(); ++i) {
+      const std::size_t comma = i + 1 < edge.size() ? rest.find(',') : rest.size();
+      if (comma == std::string_view::npos) throw UsageError("--scissor " + scissor + ": expected X0,Y0,X1,Y1");
+      edge[i] = parse<int>(rest.substr(0, comma), "--scissor " + scissor);
+      rest.remove_prefix(std::min(rest.size(), comma + 1));
+    }
+    if (edge[0] < 0 || edge[1] < 0 || edge[2] > state.width || edge[3] > state.height || edge[0] > edge[2] ||
+        edge[1] > edge[3])
+      throw UsageError("--scissor " + scissor + ": the rectangle must lie inside the viewport " + common.size);
+    state.scissor_x0 = edge[0], state.scissor_y0 = edge[1], state.scissor_x1 = edge[2], state.scissor_y1 = edge[3];
+  }
+  state.cull = static_cast<Cull>(choose("--cull value", cull, {"none", "front", "back"}));
+  state.perspective = !no_perspective;
+  state.depth = !no_depth;
+  if (!(znear >= 0 && znear <= zfar && zfar <= 1))
+    throw UsageError("--znear, --zfar: 0 <= znear <= zfar <= 1 is required");
+  state.znear = znear;
+  state.zfar = zfar;
+  if (no_tile_skip) state.skip &= ~std::uint32_t{skip_hierarchical_tiles};
+  return state;
+}
+
+std::string StateOptions::spelled() const {
+  std::string text;
+  if (cull != "none") text += " --cull " + cull;
+  if (no_perspective) text += " --no-perspective";
+  if (no_depth) text += " --no-depth";
+  if (znear != 0) text += " --znear " + number(znear);
+  if (zfar != 1) text += " --zfar " + number(zfar);
+  if (!scissor.empty()) text += " --scissor " + scissor;
+  if (no_tile_skip) text += " --no-tile-skip";
+  return text;
+}
+
+double probability(const char* name, double value) {
+  if (!(value >= 0 && value < 1)) throw UsageError(std::string(name) + ": a probability from 0 to below 1 is required");
+  return value;
+}
+
+void EngineOptions::add_to(CLI::App& app) {
+  app.add_option("--engine", engine, "rtl, model, float (the paper's formulas in double) or truth")
+      ->type_name("ENGINE")
+      ->capture_default_str();
+  app.add_option("--snap", snap, "on or off: float and truth draw the snapped or the given quads")
+      ->type_name("on|off")
+      ->capture_default_str();
+  app.add_option("--stall", stall, "rtl: probability per clock that the output is not ready")->type_name("P");
+  app.add_option("--gap", gap, "rtl: probability per clock that no vertex is offered")->type_name("P");
+}
+
+EngineSettings EngineOptions::settings(const CommonOptions& common, const StateOptions& state) const {
+  EngineSettings s;
+  s.kind = engine_kind(engine);
+  s.config = common.config();
+  s.state = state.state(common, s.config);
+  s.snap = choose("--snap value", snap, {"on", "off"}) == 0;
+  s.threads = common.thread_count();
+  s.seed = common.seed;
+  s.stall = probability("--stall", stall);
+  s.gap = probability("--gap", gap);
+  if (s.kind != EngineKind::rtl && (stall != 0 || gap != 0))
+    throw UsageError("--stall and --gap are for --engine rtl; " + engine + " has no clock");
+  const bool machine = s.kind == EngineKind::rtl || s.kind == EngineKind::model;
+  if (machine && !s.snap)
+    throw UsageError("--snap off is for the engines float and truth; the machine takes snapped quads only");
+  return s;
+}
+
+namespace {
+
+std::string changed_keys(const Config& config, const char* before) {
+  std::string text;
+  for (const ConfigKey& key : Config::keys())
+    if (const int value = config.get(key.name); value != key.standard)
+      text += before + std::string(key.name) + "=" + std::to_string(value);
+  return text;
+}
+
+}  // namespace
+
+std::string spelled(const Config& config) { return changed_keys(config, " --set "); }
+
+std::string summary(const Config& config) {
+  const std::string text = changed_keys(config, " ");
+  return text.empty() ? "default" : text.substr(1);
+}
+
+}  // namespace quadrille::cli

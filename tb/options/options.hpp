@@ -1,0 +1,99 @@
+// Options that several commands share, and what they become: a configuration, a draw state, an input.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+#include "tb/engines/engine.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadrille::cli {
+
+/// What main() hands to the commands and gets back.
+struct Invocation {
+  std::vector<std::string> arguments;  ///< as typed, for reports
+  std::function<int()> run;            ///< set by the command that was chosen; returns the exit status
+};
+
+/// --config --set --size --seed --threads --json --quiet --verbose
+struct CommonOptions {
+  std::string config_file;
+  std::vector<std::string> settings;
+  std::string size = "512x512";
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::string json;
+  bool quiet = false, verbose = false;
+
+  /// `draws` false: a command that draws nothing (no --size, --seed, --threads).
+  void add_to(CLI::App& app, bool draws = true);
+  /// Config file, then --set, then validated.
+  Config config() const;
+  /// Width and height, checked against the configuration.
+  std::pair<int, int> viewport(const Config& config) const;
+  unsigned thread_count() const;
+  bool show_progress() const { return !quiet && json != "-"; }
+  /// Where a person's text goes: standard output, or standard error when --json - has taken it; nowhere when quiet.
+  std::FILE* text() const;
+};
+
+/// --cull --no-perspective --no-depth --znear --zfar --scissor --no-tile-skip
+struct StateOptions {
+  std::string cull = "none";
+  bool no_perspective = false, no_depth = false, no_tile_skip = false;
+  double znear = 0, zfar = 1;
+  std::string scissor;
+
+  void add_to(CLI::App& app);
+  DrawState state(const CommonOptions& common, const Config& config) const;
+  /// The options as a command line would give them (empty when all are default).
+  std::string spelled() const;
+};
+
+/// --scene --mesh --camera --quads --stress --count --strict
+struct InputOptions {
+  std::string scene, mesh, camera, quads, stress;
+  std::uint64_t count = 1000;
+  bool strict = false;
+
+  /// The files among them.
+  std::vector<std::string> files() const { return {mesh, camera, quads}; }
+
+  /// `any` false: for a command that needs object space (no --quads, --stress, --count).
+  void add_to(CLI::App& app, bool any = true);
+};
+
+/// Refuses a minus sign: the library would wrap a negative number into a huge one.
+inline const CLI::Validator not_negative(
+    [](std::string& text) {
+      return text.find('-') == std::string::npos ? std::string() : "must not be negative: " + text;
+    },
+    "", "not negative");
+
+/// `value` if it is in [0, 1); throws UsageError naming the option otherwise.
+double probability(const char* name, double value);
+
+/// --engine --snap --stall --gap
+struct EngineOptions {
+  std::string engine = "model", snap = "on";
+  double stall = 0, gap = 0;
+
+  void add_to(CLI::App& app);
+  /// Checked; throws UsageError where the engine and --snap do not go together.
+  EngineSettings settings(const CommonOptions& common, const StateOptions& state) const;
+};
+
+/// The keys that differ from their defaults as a command line gives them, " --set key=value" each.
+std::string spelled(const Config& config);
+
+/// A human-readable list of the keys that differ from their defaults, "key=value key=value", or "default".
+std::string summary(const Config& config);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,50 @@
+#include "tb/support/source_paths.hpp"
+
+#include "tb/support/environment_error.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace quadrille::tb {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The directory `name` of the installed data, or of the source tree, that holds `file`.
+fs::path locate(const char* name, const char* file) {
+  std::error_code error;
+  // The data installed beside the program first: an installed program must not change with a source tree.
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = executable.parent_path().parent_path() / "share" / "quadrille" / name;
+  if (fs::exists(installed / file, error)) return installed;
+  const fs::path source = fs::path(QUADRILLE_SOURCE_DIR) / name;
+  if (fs::exists(source / file, error)) return source;
+  throw EnvironmentError("cannot find " + std::string(name) + "/" + file + ": looked in " + source.string() + " and " +
+                         installed.string() + "; run cmake --install, or keep the source tree");
+}
+
+}  // namespace
+
+fs::path rtl_directory() { return locate("rtl", "quadrille.sv"); }
+
+fs::path scripts_directory() { return locate("scripts", "compare_plot.py"); }
+
+fs::path glue_directory() { return locate("tb/device", "device_glue.cpp"); }
+
+std::vector<fs::path> rtl_sources(const fs::path& directory) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
+    if (entry.path().extension() == ".sv") files.push_back(entry.path());
+  }
+  if (files.empty()) throw EnvironmentError("no SystemVerilog files in " + directory.string());
+  const auto is_package = [](const fs::path& p) { return p.stem().string().ends_with("_pkg"); };
+  std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
+    if (is_package(a) != is_package(b)) return is_package(a);
+    return a < b;
+  });
+  return files;
+}
+
+}  // namespace quadrille::tb
