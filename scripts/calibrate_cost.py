@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Fit of the hardware cost's weights (golden/analysis/hardware_cost.hpp) to synthesis.
 
 Synthesizes a list of diverse configurations with `quadrille sweep --synth`, fits LUTs = sum of weight * bits (not negative, no
@@ -18,6 +18,8 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+import numpy as np  # noqa: E402
+
 from report.program import PROGRAM  # noqa: E402
 
 # Every key that moves many LUTs, at both ends and together with others.
@@ -98,45 +100,24 @@ def read(directory):
 
 def fit(rows):
     """Non-negative least squares of the relative error: of all choices of weights that are not zero the best one."""
-    best, error_of_best = None, 0.0
+    share = np.array([[row[name] / row["luts"] for name in RESOURCES] for row in rows])
+    found = []
     for count in range(1, len(RESOURCES) + 1):
-        for used in itertools.combinations(RESOURCES, count):
-            vectors = [[row[name] / row["luts"] for name in used] for row in rows]
-            solution = solve([[sum(v[i] * v[j] for v in vectors) for j in range(count)] for i in range(count)],
-                             [sum(v[i] for v in vectors) for i in range(count)])
-            if solution is None or min(solution) < 0:
-                continue
-            error = sum((sum(x * y for x, y in zip(solution, v)) - 1) ** 2 for v in vectors)
-            if best is None or error < error_of_best:
-                best, error_of_best = dict.fromkeys(RESOURCES, 0.0) | dict(zip(used, solution)), error
-    return best
-
-
-def solve(matrix, right):
-    """Gaussian elimination with pivots; None for a singular matrix."""
-    rows = [line + [value] for line, value in zip(matrix, right)]
-    for column in range(len(rows)):
-        pivot = max(range(column, len(rows)), key=lambda r: abs(rows[r][column]))
-        if rows[pivot][column] == 0:
-            return None
-        rows[column], rows[pivot] = rows[pivot], rows[column]
-        for r in range(len(rows)):
-            if r != column:
-                factor = rows[r][column] / rows[column][column]
-                rows[r] = [x - factor * y for x, y in zip(rows[r], rows[column])]
-    return [rows[r][-1] / rows[r][r] for r in range(len(rows))]
+        for used in itertools.combinations(range(len(RESOURCES)), count):
+            weights = np.linalg.lstsq(share[:, used], np.ones(len(rows)), rcond=None)[0]
+            if (weights >= 0).all():
+                found.append((((share[:, used] @ weights - 1) ** 2).sum(), dict(zip(used, weights))))
+    best = min(found, key=lambda candidate: candidate[0])[1]
+    return {name: float(best.get(i, 0)) for i, name in enumerate(RESOURCES)}
 
 
 def spearman(a, b):
     """Rank correlation, average ranks for ties; not a number for a constant list."""
     def ranks(values):
-        return [sum(v < value for v in values) + (sum(v == value for v in values) - 1) / 2 for value in values]
+        return [sum(v < value for v in values) + sum(v == value for v in values) / 2 for value in values]
 
-    x, y = ranks(a), ranks(b)
-    middle = (len(x) - 1) / 2
-    covariance = sum((p - middle) * (q - middle) for p, q in zip(x, y))
-    variances = sum((p - middle) ** 2 for p in x) * sum((q - middle) ** 2 for q in y)
-    return covariance / variances ** 0.5 if variances > 0 else float("nan")
+    with np.errstate(invalid="ignore"):
+        return float(np.corrcoef(ranks(a), ranks(b))[0, 1])
 
 
 if __name__ == "__main__":
