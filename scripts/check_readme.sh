@@ -1,23 +1,38 @@
 #!/usr/bin/env bash
-# The configuration table of README.md is what `quadrille config --markdown` prints. `--fix` writes it.
+# Tables between "<!-- quadrille ... -->" and "<!-- end -->" in a README are what that command prints, and every command that a README
+# quotes is there. `--fix` writes the tables.
 #   scripts/check_readme.sh PATH_TO_QUADRILLE [--fix]
 set -euo pipefail
 quadrille=$(realpath "$1")
 cd "$(dirname "$0")/.."
 python3 - "$quadrille" "${2:-}" <<'PYTHON'
+import pathlib
+import re
 import subprocess
 import sys
 
 program, mode = sys.argv[1:]
-begin, end = "<!-- quadrille config --markdown -->\n", "<!-- end -->\n"
-text = open("README.md", encoding="utf-8").read()
-head, rest = text.split(begin)
-old, tail = rest.split(end)
-new = subprocess.run([program, "config", "--markdown"], stdout=subprocess.PIPE, text=True, check=True).stdout
-if mode == "--fix":
-    open("README.md", "w", encoding="utf-8").write(head + begin + new + end + tail)
-elif old != new:
-    sys.exit("README.md: the configuration table is not what the program prints; run scripts/check_readme.sh PROGRAM --fix")
-else:
-    print(f"{len(new.splitlines())} lines agree")
+tables = []
+
+
+def table(match):
+    begin, arguments, _, end = match.groups()
+    new = subprocess.run([program, *arguments.split()], stdout=subprocess.PIPE, text=True, check=True).stdout
+    tables.append(new)
+    return begin + new + end
+
+
+for path in sorted(pathlib.Path(".").glob("**/README.md")):
+    if path.parts[0] == "build":
+        continue
+    old = path.read_text(encoding="utf-8")
+    new = re.sub(r"(<!-- quadrille ([^\n]*) -->\n)(.*?)(<!-- end -->\n)", table, old, flags=re.DOTALL)
+    if mode == "--fix":
+        path.write_text(new, encoding="utf-8")
+    elif old != new:
+        sys.exit(f"{path}: a table is not what the program prints; run scripts/check_readme.sh PROGRAM --fix")
+if not tables:
+    sys.exit("no table found; expected the configuration")
+print(f"{len(tables)} tables, {sum(len(t.splitlines()) for t in tables)} lines agree")
 PYTHON
+exec scripts/check_commands.py "$quadrille"

@@ -117,7 +117,8 @@ def work(sweep):
 def details(sweep, points):
     """What the page shows of its points."""
     points = sorted(points)
-    titles = {name: error_title(name) if name in sweep.errors else name.replace("_", " ") for name in sweep.value if name not in sweep.base_config}
+    titles = {name: error_title(name) if name in sweep.errors else ", ".join(filter(None, [name.replace("_", " "), unit]))
+              for name, unit in sweep.columns.items() if name in sweep.value and name not in sweep.base_config}
     return {"row": [sweep.rows[i] for i in points], "titles": titles, "errors": [*sweep.errors, "bound_lambda", "bound_attribute", "bound_depth", "worst_error"],
             "words": [sweep.words(i) for i in points], "worst": [sweep.text["worst"][i] for i in points],
             "values": {name: [web.short(sweep.value[name][i]) for i in points] for name in titles}}

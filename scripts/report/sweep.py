@@ -51,7 +51,7 @@ class Sweep:
             self.axes = {axis["key"]: axis["values"] for axis in self.manifest["axes"]}
             self.base_config = resolved(self.manifest["config"])
             self.size = tuple(map(int, self.manifest["size"].split("x")))
-            self.columns = [column["name"] for column in self.manifest["columns"]]
+            self.columns = {column["name"]: column["unit"] for column in self.manifest["columns"]}
             self.errors = [name for name in self.columns if ERROR.fullmatch(name)]
             self.objective = self.manifest["objective"]
             if self.objective not in self.errors or not set(self.axes) <= set(self.base_config):
