@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # The kept golden vectors (golden/vectors/kept): generated again they are the same bytes, the model and floating point agree with
 # them, the RTL does under two simulators, and a change has its line with a larger version in golden/CHANGELOG.md.
-#   scripts/golden_kept.sh PATH_TO_QUADRILLE [--update]      --update replaces the set; then add the line that the script asks for
+#   scripts/golden_kept.sh PATH_TO_QUADRILLE [--update | --quick | --default]
+# --update replaces the set; then add the line that the script asks for. The other two are for tiers of tests: --quick without simulators,
+# --default with each suite under one of them, the machine's under Verilator.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export QUADRILLE
@@ -15,9 +17,11 @@ generate() {
   "$QUADRILLE" golden generate --level 1 --limit 200 --quiet "${arguments[@]}" --out "$@"
 }
 
-if [ "${2:-}" = --update ]; then
+form=${2:-}
+case $form in "" | --update | --quick | --default) ;; *) sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 2 ;; esac
+if [ "$form" = --update ]; then
   generate "$kept" --force
-else
+elif [ "$form" != --quick ]; then
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT
   generate "$work/again"
@@ -32,6 +36,16 @@ size=$(du -sb "$kept" | cut -f1)
 "$QUADRILLE" golden verify "$kept" --engine model --quiet
 "$QUADRILLE" golden verify "$kept" --engine float --quiet
 golden/examples/check_edges_and_weights.py "$kept"
+[ "$form" != --quick ] || exit 0
+if [ "$form" = --default ]; then
+  stages=() machines=()
+  for suite in "${suites[@]}"; do
+    case $suite in snapping) ;; machine | stress_*) machines+=(--suite "$suite") ;; *) stages+=(--suite "$suite") ;; esac
+  done
+  scripts/replay.sh "$kept" icarus "${stages[@]}"
+  scripts/replay.sh "$kept" verilator "${machines[@]}"
+  exit 0
+fi
 scripts/replay.sh "$kept" verilator
 scripts/replay.sh "$kept" icarus
 scripts/replay.sh "$kept" icarus --netlist --suite rsqrt --suite reciprocal

@@ -1,9 +1,26 @@
 #!/usr/bin/env bash
-# Builds with AddressSanitizer and UndefinedBehaviorSanitizer and runs the tests of model, reference, scenes, io and command line.
+# Builds with sanitizers and runs tests in that build.
+#   scripts/sanitizers.sh            AddressSanitizer and UndefinedBehaviorSanitizer: the unit tests of every folder
+#   scripts/sanitizers.sh --full     the same with every test but those of mutants, Yosys and of the tree
+#   scripts/sanitizers.sh --thread   ThreadSanitizer: everything that runs threads
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cmake --preset sanitizers >/dev/null
-cmake --build --preset sanitizers -j "$(nproc)"
 export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=1
 export LSAN_OPTIONS="suppressions=$PWD/scripts/lsan.supp:print_suppressions=0"
-exec ctest --test-dir build/sanitizers --output-on-failure --no-tests=error -j "$(nproc)" -LE "${QUADRILLE_SANITIZE_SKIP:-slow|mutants|yosys|tree}"
+export TSAN_OPTIONS="suppressions=$PWD/scripts/tsan.supp:halt_on_error=1"
+
+# run PRESET TARGET ARGUMENT...: builds the target, or everything for "", and runs what the arguments for ctest select.
+run() {
+  local preset=$1 target=$2
+  shift 2
+  cmake --preset "$preset" >/dev/null
+  cmake --build --preset "$preset" -j "$(nproc)" ${target:+--target "$target"}
+  ctest --test-dir "build/$preset" --output-on-failure --no-tests=error -j "$(nproc)" "$@"
+}
+
+case "${1:-}" in
+  "") run sanitizers unit_tests -L '^unit$' ;;
+  --full) run sanitizers "" -LE "${QUADRILLE_SANITIZE_SKIP:-sample|mutants|yosys|tree}" ;;
+  --thread) run tsan threaded_tests -L '^threads$' ;;
+  *) sed -n '2,5s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+esac

@@ -1,7 +1,31 @@
 #!/usr/bin/env bash
-# Sets everything up and runs all tests. Arguments go to ctest: scripts/test.sh -R Lockstep, scripts/test.sh -L model.
+# Sets everything up and runs a tier of the tests (README.md says what each covers):
+#   scripts/test.sh --quick     at most 2 minutes once built
+#   scripts/test.sh             the default, also CI's: every area, at most 15 minutes from an empty clone
+#   scripts/test.sh --full      everything, at most an hour
+# Times are of an idle 2-core machine. Other arguments go to ctest, over all entries: scripts/test.sh -R Lockstep, scripts/test.sh -L model;
+# after a tier they narrow it: scripts/test.sh --quick -L model.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
+case "${1:-}" in
+  --quick) tier=quick select=(-L '^quick$') ;;
+  --full) tier=full select=(-LE '^sample$') ;;
+  "") tier=default select=(-L '^default$') ;;
+  --help | -h) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) tier="" select=() ;;
+esac
+[[ -n $tier && $# -gt 0 ]] && shift
 install_packages
 build release
-exec ctest --test-dir build/release --output-on-failure --no-tests=error -j "$(nproc)" "$@"
+echo "${tier:+Tier $tier. }Build: $SECONDS s"
+export QUADRILLE_TEST_SEED=${QUADRILLE_TEST_SEED:-1}
+mkdir -p build/release/Testing
+report=$root/build/release/Testing/run.xml log=$root/build/release/Testing/run.log
+rm -f "$report"
+status=0
+ctest --test-dir build/release --output-on-failure --no-tests=error --no-label-summary --output-junit "$report" -j "$(nproc)" \
+  ${select[@]+"${select[@]}"} "$@" 2>&1 | tee "$log" || status=$?
+scripts/test_summary.py build/release "$report" || { [ "$status" -ne 0 ] || status=1; }
+echo "${tier:+Tier $tier, }seed $QUADRILLE_TEST_SEED (QUADRILLE_TEST_SEED), $SECONDS s with the build"
+grep -E '^[0-9]+% tests passed' "$log" || true
+exit "$status"

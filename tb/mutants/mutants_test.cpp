@@ -1,5 +1,6 @@
 // The checker checked: every mutant of mutants.toml is caught by a short co-simulation, and the design as it is passes
 // it.
+#include "model/support/prng.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/mutants/scenario.hpp"
 #include "tb/support/process.hpp"
@@ -10,9 +11,12 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <set>
 #include <sstream>
 
 namespace quadrille::tb {
@@ -37,6 +41,22 @@ std::vector<Mutant> mutants(bool in_rtl) {
     const Mutant mutant{text("name"), text("kind"), text("file"), text("search"), text("replace")};
     if (mutant.in_rtl() == in_rtl) list.push_back(mutant);
   }
+  return list;
+}
+
+/// The value of an environment variable that is a number.
+std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? otherwise : std::stoull(text);
+}
+
+/// All of them; with $QUADRILLE_MUTANTS = n a sample of n, which $QUADRILLE_TEST_SEED draws (1 unless given).
+std::vector<Mutant> chosen(bool in_rtl) {
+  std::vector<Mutant> list = mutants(in_rtl);
+  const std::size_t count = std::min<std::size_t>(number_from("QUADRILLE_MUTANTS", list.size()), list.size());
+  golden::Prng rng(number_from("QUADRILLE_TEST_SEED", 1));
+  for (std::size_t i = 0; i < count; ++i) std::swap(list[i], list[i + rng.below(list.size() - i)]);
+  list.resize(count);
   return list;
 }
 
@@ -71,8 +91,8 @@ std::string test_name(const testing::TestParamInfo<Mutant>& info) { return info.
 
 class RtlMutant : public testing::TestWithParam<Mutant> {};
 class ModelMutant : public testing::TestWithParam<Mutant> {};
-INSTANTIATE_TEST_SUITE_P(Mutants, RtlMutant, testing::ValuesIn(mutants(true)), test_name);
-INSTANTIATE_TEST_SUITE_P(Mutants, ModelMutant, testing::ValuesIn(mutants(false)), test_name);
+INSTANTIATE_TEST_SUITE_P(Mutants, RtlMutant, testing::ValuesIn(chosen(true)), test_name);
+INSTANTIATE_TEST_SUITE_P(Mutants, ModelMutant, testing::ValuesIn(chosen(false)), test_name);
 
 TEST(Mutants, EnoughOfThem) {
   EXPECT_GE(mutants(true).size(), 10u);
@@ -83,6 +103,32 @@ TEST(Mutants, EnoughOfThem) {
     EXPECT_TRUE(std::any_of(rtl.begin(), rtl.end(), is_kind) || std::any_of(model.begin(), model.end(), is_kind))
         << kind;
   }
+}
+
+TEST(Mutants, ASampleIsDrawnBySeed) {
+  const auto names = [](const char* count, const char* seed) {
+    const auto set = [](const char* variable, const char* value) {
+      const char* before = std::getenv(variable);
+      const std::optional<std::string> old = before ? std::optional<std::string>(before) : std::nullopt;
+      setenv(variable, value, 1);
+      return old;
+    };
+    const auto restore = [](const char* variable, const std::optional<std::string>& old) {
+      old ? setenv(variable, old->c_str(), 1) : unsetenv(variable);
+    };
+    const auto old_count = set("QUADRILLE_MUTANTS", count), old_seed = set("QUADRILLE_TEST_SEED", seed);
+    std::vector<std::string> list;
+    for (const Mutant& mutant : chosen(true)) list.push_back(mutant.name);
+    restore("QUADRILLE_MUTANTS", old_count);
+    restore("QUADRILLE_TEST_SEED", old_seed);
+    return list;
+  };
+  EXPECT_EQ(names("2", "1").size(), 2u);
+  EXPECT_EQ(names("2", "1"), names("2", "1"));
+  EXPECT_EQ(names("1000", "1").size(), mutants(true).size());
+  std::set<std::string> drawn;
+  for (int seed = 1; seed <= 100; ++seed) drawn.insert(names("1", std::to_string(seed).c_str()).at(0));
+  EXPECT_EQ(drawn.size(), mutants(true).size()) << "a mutant that no sample ever holds";
 }
 
 TEST(Mutants, DesignWithoutFaultPasses) {

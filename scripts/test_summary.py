@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""What a run of the tests took: the ten slowest entries, and those whose time limit is too near.
+
+  scripts/test_summary.py BUILD_DIRECTORY REPORT.xml     (ctest --output-junit REPORT.xml)
+
+On an idle machine no entry may take more than a fifth of its limit, so that a slow and busy one still passes; on a busy one the note means
+nothing. Exit status: 0, or 1 when no entry was run.
+"""
+import json
+import subprocess
+import sys
+import xml.etree.ElementTree
+
+FACTOR = 5
+
+
+def entries(report):
+    """(seconds, name) of what was run, slowest first."""
+    try:
+        cases = xml.etree.ElementTree.parse(report).getroot().iter("testcase")
+    except (OSError, xml.etree.ElementTree.ParseError):
+        return []
+    return sorted(((float(case.get("time", 0)), case.get("name")) for case in cases if case.get("status") in ("run", "fail")), reverse=True)
+
+
+def limits(description):
+    """{name: seconds} of `ctest --show-only=json-v1`."""
+    return {test["name"]: p["value"] for test in description["tests"] for p in test.get("properties", []) if p["name"] == "TIMEOUT"}
+
+
+def summary(times, limit):
+    """Lines to print."""
+    lines = [f"{len(times)} entries, {sum(seconds for seconds, _ in times):.0f} s one after the other; the slowest, with their limits:"]
+    lines += [f"{seconds:9.1f} s {limit.get(name, float('inf')):6.0f}  {name}" for seconds, name in times[:10]]
+    near = [(seconds, name) for seconds, name in times if FACTOR * seconds > limit.get(name, float("inf"))]
+    lines += [f"limit too near unless the machine is busy: {name} took {seconds:.1f} of {limit[name]:.0f} s" for seconds, name in near]
+    return lines
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    times = entries(sys.argv[2])
+    if not times:
+        print("no test was run", file=sys.stderr)
+        return 1
+    listing = subprocess.run(["ctest", "--test-dir", sys.argv[1], "--show-only=json-v1"], check=True, stdout=subprocess.PIPE, text=True).stdout
+    print("\n" + "\n".join(summary(times, limits(json.loads(listing)))))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+"""Tests of test_summary.py on made-up reports."""
+import os
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import test_summary  # noqa: E402
+
+
+def report(directory, text):
+    path = os.path.join(directory, "run.xml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+    return path
+
+
+class Summary(unittest.TestCase):
+    def test_slowest_first_and_only_what_ran(self):
+        with tempfile.TemporaryDirectory() as directory:
+            cases = "".join(f'<testcase name="t{n}" time="{n}" status="run"/>' for n in range(1, 13))
+            path = report(directory, f'<testsuite>{cases}<testcase name="off" time="99" status="disabled"/><testcase name="bad" time="50" status="fail"/></testsuite>')
+            times = test_summary.entries(path)
+        self.assertEqual(times[:2], [(50.0, "bad"), (12.0, "t12")])
+        lines = test_summary.summary(times, {})
+        self.assertEqual(len(lines), 11)
+        self.assertEqual(lines[0].split()[:4], ["13", "entries,", "128", "s"])
+        self.assertEqual(lines[10].split()[-1], "t4")
+
+    def test_a_near_limit_is_named(self):
+        limits = test_summary.limits({"tests": [{"name": "a", "properties": [{"name": "TIMEOUT", "value": 100.0}]}, {"name": "b"}]})
+        self.assertEqual(limits, {"a": 100.0})
+        self.assertEqual(test_summary.summary([(20.0, "a"), (20.0, "b")], limits)[-1].split()[-1], "b")
+        self.assertIn("a took 20.1 of 100 s", test_summary.summary([(20.1, "a")], limits)[-1])
+
+    def test_no_report_is_no_run(self):
+        with tempfile.TemporaryDirectory() as directory:
+            self.assertEqual(test_summary.entries(os.path.join(directory, "none.xml")), [])
+            self.assertEqual(test_summary.entries(report(directory, "<testsuite>")), [])
+            self.assertEqual(test_summary.entries(report(directory, "<testsuite/>")), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
