@@ -7,6 +7,7 @@
 #include "tb/commands/bench_error.hpp"
 #include "tb/commands/bench_speed.hpp"
 #include "tb/commands/commands.hpp"
+#include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"

@@ -12,6 +12,7 @@
 #include "tb/compare/frame_error.hpp"
 #include "tb/compare/sheet.hpp"
 #include "tb/compare/table.hpp"
+#include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/render/frame.hpp"
 #include "tb/render/method_engine.hpp"

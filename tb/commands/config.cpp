@@ -1,5 +1,6 @@
 // quadrille config: every key and every derived width of a configuration.
 #include "tb/commands/commands.hpp"
+#include "tb/options/command_line.hpp"
 
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/json_report.hpp"

@@ -1,5 +1,6 @@
 // quadrille cosim: the RTL and its model in lockstep on real quads, the fragments compared with the truth as they come.
 #include "tb/commands/commands.hpp"
+#include "tb/options/command_line.hpp"
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"

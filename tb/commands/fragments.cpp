@@ -1,5 +1,6 @@
 // quadrille fragments: every fragment of every quad as a table, without depth test.
 #include "tb/commands/commands.hpp"
+#include "tb/options/command_line.hpp"
 
 #include "golden/io/fragment_csv.hpp"
 #include "golden/io/json_report.hpp"

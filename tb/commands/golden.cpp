@@ -4,6 +4,7 @@
 #include "golden/suites/suite.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/golden_rtl.hpp"
+#include "tb/options/command_line.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"

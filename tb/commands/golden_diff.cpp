@@ -5,6 +5,7 @@
 #include "golden/io/png.hpp"
 #include "golden/suites/manifest.hpp"
 #include "tb/commands/commands.hpp"
+#include "tb/options/command_line.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 

@@ -1,5 +1,6 @@
 // quadrille render: a depth-tested picture by any engine.
 #include "tb/commands/commands.hpp"
+#include "tb/options/command_line.hpp"
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"

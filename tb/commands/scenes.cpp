@@ -1,5 +1,6 @@
 // quadrille scenes: the built-in scenes.
 #include "tb/commands/commands.hpp"
+#include "tb/options/command_line.hpp"
 
 #include "golden/io/json_report.hpp"
 #include "golden/scenes/scenes.hpp"

@@ -11,6 +11,7 @@
 #include "tb/commands/sweep_cosim.hpp"
 #include "tb/commands/sweep_target.hpp"
 #include "tb/engines/engine.hpp"
+#include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"

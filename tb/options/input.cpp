@@ -188,27 +188,6 @@ void load_stress(const InputOptions& options, const std::string& shade, int widt
 
 }  // namespace
 
-void InputOptions::add_to(CLI::App& app, bool any) {
-  constexpr const char* group = "Input";
-  app.add_option("--scene", scene, "Built-in scene; `quadrille scenes` lists them")->type_name("NAME")->group(group);
-  app.add_option("--mesh", mesh, "Polygon mesh (Wavefront OBJ)")->type_name("F.obj")->group(group);
-  app.add_option("--camera", camera, "Camera for --mesh; without it the mesh is framed automatically")
-      ->type_name("F.json")
-      ->group(group);
-  if (any) {
-    app.add_option("--quads", quads, "Quads in homogeneous window coordinates")->type_name("F.quads")->group(group);
-    app.add_option("--stress", stress, "Random quads of a stress family, such as general or eye_crossing")
-        ->type_name("FAMILY")
-        ->group(group);
-    app.add_option("--count", count, "Quads of --stress")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 10'000'000))
-        ->group(group);
-  }
-  app.add_flag("--strict", strict, "Refuse faces with more than four corners instead of cutting them up")->group(group);
-}
-
 int inputs_given(const InputOptions& options) {
   return static_cast<int>(!options.scene.empty()) + static_cast<int>(!options.mesh.empty()) +
          static_cast<int>(!options.quads.empty()) + static_cast<int>(!options.stress.empty());

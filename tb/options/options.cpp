@@ -1,6 +1,7 @@
 #include "tb/options/options.hpp"
 
 #include "golden/io/config_file.hpp"
+#include "tb/options/command_line.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 
@@ -166,6 +167,27 @@ std::string StateOptions::spelled() const {
 double probability(const char* name, double value) {
   if (!(value >= 0 && value < 1)) throw UsageError(std::string(name) + ": a probability from 0 to below 1 is required");
   return value;
+}
+
+void InputOptions::add_to(CLI::App& app, bool any) {
+  constexpr const char* group = "Input";
+  app.add_option("--scene", scene, "Built-in scene; `quadrille scenes` lists them")->type_name("NAME")->group(group);
+  app.add_option("--mesh", mesh, "Polygon mesh (Wavefront OBJ)")->type_name("F.obj")->group(group);
+  app.add_option("--camera", camera, "Camera for --mesh; without it the mesh is framed automatically")
+      ->type_name("F.json")
+      ->group(group);
+  if (any) {
+    app.add_option("--quads", quads, "Quads in homogeneous window coordinates")->type_name("F.quads")->group(group);
+    app.add_option("--stress", stress, "Random quads of a stress family, such as general or eye_crossing")
+        ->type_name("FAMILY")
+        ->group(group);
+    app.add_option("--count", count, "Quads of --stress")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10'000'000))
+        ->group(group);
+  }
+  app.add_flag("--strict", strict, "Refuse faces with more than four corners instead of cutting them up")->group(group);
 }
 
 void EngineOptions::add_to(CLI::App& app) {

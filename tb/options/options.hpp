@@ -1,11 +1,10 @@
-// Options that several commands share, and what they become: a configuration, a draw state, an input.
+// Options that several commands share, and what they become: a configuration, a draw state, an input. (Without CLI11,
+// which takes seconds to compile: command_line.hpp is for the files that add options.)
 #pragma once
 
 #include "model/config.hpp"
 #include "model/records.hpp"
 #include "tb/engines/engine.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <cstdio>
@@ -13,6 +12,10 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace quadrille::cli {
 
@@ -69,13 +72,6 @@ struct InputOptions {
   /// `any` false: for a command that needs object space (no --quads, --stress, --count).
   void add_to(CLI::App& app, bool any = true);
 };
-
-/// Refuses a minus sign: the library would wrap a negative number into a huge one.
-inline const CLI::Validator not_negative(
-    [](std::string& text) {
-      return text.find('-') == std::string::npos ? std::string() : "must not be negative: " + text;
-    },
-    "", "not negative");
 
 /// `value` if it is in [0, 1); throws UsageError naming the option otherwise.
 double probability(const char* name, double value);
