@@ -19,8 +19,8 @@ run() {
 }
 
 case "${1:-}" in
-  "") run sanitizers unit_tests -L '^unit$' ;;
+  "") run sanitizers unit_tests -L '^unit$' -L '^quick$' ;;
   --full) run sanitizers "" -LE "${QUADRILLE_SANITIZE_SKIP:-sample|mutants|yosys|tree}" ;;
-  --thread) run tsan threaded_tests -L '^threads$' ;;
+  --thread) run tsan threaded_tests -L '^threads$' -L '^quick$' ;;
   *) sed -n '2,5s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
