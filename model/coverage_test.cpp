@@ -1,5 +1,6 @@
 // quad_setup, tile_walk and stamp_coverage against the vertices themselves, in 128-bit integers: every form at every
 // kind of pixel, expression (12) over the whole viewport, every pixel once.
+#include "model/boundaries.hpp"
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
 
@@ -246,10 +247,11 @@ TEST(QuadSetup, FormsEqualDirectEvaluation) {
         }
       }
       // Everything fits its field of the probe.
-      visit(r, c, [&](const char* name, int, int width, auto v) {
+      visit(r, c, [&](const FieldType& type, int, auto v) {
         const auto value = static_cast<std::int64_t>(v);
-        const std::string_view field = name;
-        if (field.starts_with("lin") || field.starts_with("quad")) {
+        const std::string_view name = type.name;
+        const int width = type.width;
+        if (type.is_signed) {
           ASSERT_TRUE(fits(value, width)) << name << " " << value << " in " << width;
         } else {
           ASSERT_TRUE(value >= 0 && value < std::int64_t{1} << width) << name << " " << value;
@@ -321,11 +323,8 @@ void walk(const SnappedQuad& q, const Config& c, const DrawState& state, std::ma
       for (std::size_t k = 0; k < 6; ++k) ASSERT_TRUE(e.linear[k] == at.cross(edges[k][0], edges[k][1]));
       for (std::size_t k = 0; k < 10; ++k)
         ASSERT_TRUE(e.quadratic[k].value == at.dot(k < 6 ? edges[k][0] : k - 6, k < 6 ? edges[k][1] : k - 6));
-      visit(e, c, [&](const char* name, int, int width, auto v) {
-        const std::string_view field = name;
-        if (field.starts_with("lin") || field.starts_with("quad")) {
-          ASSERT_TRUE(fits(static_cast<std::int64_t>(v), width)) << name;
-        }
+      visit(e, c, [&](const FieldType& type, int, auto v) {
+        if (type.is_signed) ASSERT_TRUE(fits(static_cast<std::int64_t>(v), type.width)) << type.name;
       });
       for (int row = 0; row < edge; ++row) {
         const StampMasks m = stamp_coverage(e, w.constants(), row, c, state);

@@ -5,10 +5,9 @@
 #include "golden/io/image_diff.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/stress.hpp"
-#include "golden/suites/fields.hpp"
 #include "golden/suites/machine_run.hpp"
+#include "model/boundaries.hpp"
 #include "model/snap.hpp"
-#include "model/stages.hpp"
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
 
@@ -35,26 +34,13 @@ constexpr std::uint64_t level_fragments[] = {3'000, 300'000};
 // ---- Records ----
 
 struct StateRecord {
-  std::uint32_t draw = 0;
   DrawState state;
   std::uint32_t znear = 0, zfar = 0;
 };
 
-template <class F>
-void visit_state_record(F&& f, const Config& c, StateRecord& r) {
-  DrawState& s = r.state;
-  const int v = c.viewport_bits + 1;
-  f({"scissor_x0", v, false, {}, "px", "first column that may be drawn"}, -1, s.scissor_x0);
-  f({"scissor_y0", v, false, {}, "px", "first row"}, -1, s.scissor_y0);
-  f({"scissor_x1", v, false, {}, "px", "first column behind them"}, -1, s.scissor_x1);
-  f({"scissor_y1", v, false, {}, "px", "first row behind them"}, -1, s.scissor_y1);
-  f({"cull", 2, false, {}, "", "0 none, 1 front, 2 back"}, -1, s.cull);
-  f({"perspective", 1, false, {}, "", "attributes are perspective-correct"}, -1, s.perspective);
-  f({"depth", 1, false, {}, "", "window z is computed and clipped"}, -1, s.depth);
-  f({"znear", c.depth_bits + 1, false, c.depth_bits, "1", "smallest window z"}, -1, r.znear);
-  f({"zfar", c.depth_bits + 1, false, c.depth_bits, "1", "largest window z"}, -1, r.zfar);
-  f({"attributes", 4, false, {}, "", "attributes in use"}, -1, s.attributes);
-  f({"skip", 8, false, {}, "", "bit 0: skip tiles that cannot be covered"}, -1, s.skip);
+template <class R, class F>
+void visit_record(R& r, const Config& c, F&& f) requires std::same_as<std::remove_const_t<R>, StateRecord> {
+  visit_state(r.state, r.znear, r.zfar, c, f);
 }
 
 struct VertexRecord {
@@ -62,26 +48,12 @@ struct VertexRecord {
   SnappedVertex vertex;
 };
 
-const FieldType draw_field{"draw", 16, false, {}, "", "line of states.hex"};
+constexpr FieldType draw_field = plain("draw", 16, "line of states.hex");
 
-template <class F>
-void visit_vertex_record(F&& f, const Config& c, VertexRecord& r) {
-  const int s = c.significand_bits, e = Config::port_exp_bits;
-  SnappedVertex& v = r.vertex;
+template <class R, class F>
+void visit_record(R& r, const Config& c, F&& f) requires std::same_as<std::remove_const_t<R>, VertexRecord> {
   f(draw_field, -1, r.draw);
-  f({"id", c.quad_id_bits, false, {}, "", "quad, the same in its four beats"}, -1, r.id);
-  f({"x", c.t_bits(), true, c.frac(), "px", "X, relative to pixel centres"}, -1, v.x);
-  f({"y", c.t_bits(), true, c.frac(), "px", "Y, down"}, -1, v.y);
-  f({"w", c.w_bits(), true, c.frac(), "1", "W"}, -1, v.w);
-  f({"k_exp", e, true, {}, "log2", "exponent of k"}, -1, v.k.exp);
-  f({"k_sig", s, false, s - 1, "1", "k, the factor of this vertex"}, -1, v.k.sig);
-  visit_number(f, FpType{"z_neg", "z_exp", "z_sig", e, s, "1", "Z = k z"}, v.z);
-  for (int i = c.attribute_slots; i-- > 0;) {
-    PortNumber& a = v.attribute[static_cast<std::size_t>(i)];
-    f({"attr_neg", 1, false, {}, "", "sign of attribute times k"}, i, a.neg);
-    f({"attr_exp", e, true, {}, "log2", "exponent of attribute times k"}, i, a.exp);
-    f({"attr_sig", s, false, s - 1, "1", "attribute times k"}, i, a.sig);
-  }
+  visit_vertex(r.id, r.vertex, c, f);
 }
 
 struct FragmentRecord {
@@ -89,27 +61,12 @@ struct FragmentRecord {
   Fragment fragment;
 };
 
-template <class F>
-void visit_fragment_record(F&& f, const Config& c, FragmentRecord& r) {
-  Fragment& g = r.fragment;
+template <class R, class F>
+void visit_record(R& r, const Config& c, F&& f) requires std::same_as<std::remove_const_t<R>, FragmentRecord> {
   f(draw_field, -1, r.draw);
-  f({"clock", 32, false, {}, "clocks", "handed over in this clock of the draw, without stalls"}, -1, r.clock);
-  f({"clock_stalled", 32, false, {}, "clocks", "the same with the pattern of stalls.hex"}, -1, r.clock_stalled);
-  f({"quad", c.quad_id_bits, false, {}, "", "id of the quad"}, -1, g.quad);
-  f({"x", c.viewport_bits, false, {}, "px", "column"}, -1, g.x);
-  f({"y", c.viewport_bits, false, {}, "px", "row"}, -1, g.y);
-  f({"front", 1, false, {}, "", "front face: counter-clockwise on the screen"}, -1, g.front);
-  f({"flags",
-     8,
-     false,
-     {},
-     "",
-     "0 on edge, 1 on vertex, 2 two corners, 3 two edges, 4 tie, 5 homogeneous, 6 notch cured, 7 saturated"},
-    -1, g.flags);
-  f({"depth", c.depth_bits + 1, false, c.depth_bits, "1", "window z"}, -1, g.depth);
-  visit_array(
-      f, {"attr", c.attr_out_bits(), true, c.attribute_frac(), "1", "attribute"},
-      c.attribute_slots, [&](std::size_t i) -> auto& { return g.attribute[i]; });
+  f(plain("clock", 32, "handed over in this clock of the draw, without stalls", "clocks"), -1, r.clock);
+  f(plain("clock_stalled", 32, "the same with the pattern of stalls.hex", "clocks"), -1, r.clock_stalled);
+  visit(r.fragment, c, f);
 }
 
 /// A line for each line of stimulus.hex.
@@ -117,36 +74,46 @@ struct BeatRecord {
   std::uint32_t draw = 0, clock = 0, clock_stalled = 0;
 };
 
-template <class F>
-void visit_beat_record(F&& f, const Config&, BeatRecord& r) {
+template <class R, class F>
+void visit_record(R& r, const Config&, F&& f) requires std::same_as<std::remove_const_t<R>, BeatRecord> {
   f(draw_field, -1, r.draw);
-  f({"clock", 32, false, {}, "clocks", "the beat is taken in this clock of the draw, without stalls"}, -1, r.clock);
-  f({"clock_stalled", 32, false, {}, "clocks", "the same with the pattern of stalls.hex"}, -1, r.clock_stalled);
+  f(plain("clock", 32, "the beat is taken in this clock of the draw, without stalls", "clocks"), -1, r.clock);
+  f(plain("clock_stalled", 32, "the same with the pattern of stalls.hex", "clocks"), -1, r.clock_stalled);
 }
 
-template <class F>
-void visit_stall_record(F&& f, const Config&, StallClock& r) {
-  f({"offer", 1, false, {}, "", "a beat may be offered from this clock on"}, -1, r.offer);
-  f({"ready", 1, false, {}, "", "a fragment is taken in this clock"}, -1, r.ready);
+template <class R, class F>
+void visit_record(R& r, const Config&, F&& f) requires std::same_as<std::remove_const_t<R>, StallClock> {
+  f(plain("offer", 1, "a beat may be offered from this clock on"), -1, r.offer);
+  f(plain("ready", 1, "a fragment is taken in this clock"), -1, r.ready);
+}
+
+template <class R>
+RecordLayout record_layout(const Config& config) {
+  return layout_of([&, record = R{}](auto& f) { visit_record(record, config, f); });
+}
+
+template <class R>
+Record packed(const R& record, const Config& config, const RecordLayout& layout) {
+  return pack_record(layout.bits(), [&](auto& f) { visit_record(record, config, f); });
+}
+
+template <class R>
+R unpacked(const Record& bits, const Config& config) {
+  R record;
+  visit_record(record, config, RecordUnpacker(bits));
+  return record;
 }
 
 /// The records of a machine suite for one configuration.
 struct Layouts {
   RecordLayout state, vertex, beat, fragment, stall;
 
-  explicit Layouts(const Config& config) {
-    const auto list = [&](auto&& visit, auto record) {
-      LayoutLister lister;
-      visit(lister, config, record);
-      return lister.layout;
-    };
-    state = list([](auto& f, const Config& c, StateRecord& r) { visit_state_record(f, c, r); }, StateRecord{});
-    vertex = list([](auto& f, const Config& c, VertexRecord& r) { visit_vertex_record(f, c, r); }, VertexRecord{});
-    beat = list([](auto& f, const Config& c, BeatRecord& r) { visit_beat_record(f, c, r); }, BeatRecord{});
-    fragment =
-        list([](auto& f, const Config& c, FragmentRecord& r) { visit_fragment_record(f, c, r); }, FragmentRecord{});
-    stall = list([](auto& f, const Config& c, StallClock& r) { visit_stall_record(f, c, r); }, StallClock{});
-  }
+  explicit Layouts(const Config& config)
+      : state(record_layout<StateRecord>(config)),
+        vertex(record_layout<VertexRecord>(config)),
+        beat(record_layout<BeatRecord>(config)),
+        fragment(record_layout<FragmentRecord>(config)),
+        stall(record_layout<StallClock>(config)) {}
 };
 
 // ---- Draws ----
@@ -289,10 +256,8 @@ struct DrawRun {
 template <class Sink>
 void beat_lines(std::size_t draw, const DrawRun& run, const Config& config, const RecordLayout& layout, Sink&& sink) {
   for (std::size_t n = 0; n < run.free.taken.size(); ++n) {
-    BeatRecord record{static_cast<std::uint32_t>(draw), run.free.taken[n], run.stalled.taken[n]};
-    RecordPacker pack(layout.bits());
-    visit_beat_record(pack, config, record);
-    sink(pack.take());
+    const BeatRecord record{static_cast<std::uint32_t>(draw), run.free.taken[n], run.stalled.taken[n]};
+    sink(packed(record, config, layout));
   }
 }
 
@@ -300,11 +265,9 @@ template <class Sink>
 void fragment_lines(std::size_t draw, const DrawRun& run, const Config& config, const RecordLayout& layout,
                     Sink&& sink) {
   for (std::size_t n = 0; n < run.free.fragments.size(); ++n) {
-    FragmentRecord record{static_cast<std::uint32_t>(draw), run.free.fragments[n].clock, run.stalled.fragments[n].clock,
-                          run.free.fragments[n].fragment};
-    RecordPacker pack(layout.bits());
-    visit_fragment_record(pack, config, record);
-    sink(pack.take());
+    const FragmentRecord record{static_cast<std::uint32_t>(draw), run.free.fragments[n].clock,
+                                run.stalled.fragments[n].clock, run.free.fragments[n].fragment};
+    sink(packed(record, config, layout));
   }
 }
 
@@ -343,28 +306,19 @@ void MachineSuite::write(SuiteWriter& writer, const GenerateOptions& options) co
   writer.add_record("response", layouts.fragment);
 
   const std::vector<StallClock> stalls = make_stalls(options.seed, stall_clocks);
-  for (StallClock clock : stalls) {
-    RecordPacker pack(layouts.stall.bits());
-    visit_stall_record(pack, config, clock);
-    writer.write("stalls", pack.take());
-  }
+  for (const StallClock& clock : stalls) writer.write("stalls", packed(clock, config, layouts.stall));
   const std::vector<MachineDraw> draws = draws_(options);
   std::uint64_t quads = 0, fragments = 0;
   cli::ordered_parallel(
       draws.size(), options.threads, [&](std::size_t i) { return run_draw(draws[i], config, stalls); },
       [&](std::size_t i, const DrawRun& run) {
         const MachineDraw& draw = draws[i];
-        StateRecord state{static_cast<std::uint32_t>(i), draw.state, depth_code(draw.state.znear, config),
-                          depth_code(draw.state.zfar, config)};
-        RecordPacker pack_state(layouts.state.bits());
-        visit_state_record(pack_state, config, state);
-        writer.write("states", pack_state.take());
+        const StateRecord state{draw.state, depth_code(draw.state.znear, config), depth_code(draw.state.zfar, config)};
+        writer.write("states", packed(state, config, layouts.state));
         for (const SnappedQuad& quad : draw.quads)
           for (const SnappedVertex& vertex : quad.vertex) {
-            VertexRecord beat{static_cast<std::uint32_t>(i), quad.id, vertex};
-            RecordPacker pack(layouts.vertex.bits());
-            visit_vertex_record(pack, config, beat);
-            writer.write("stimulus", pack.take());
+            const VertexRecord beat{static_cast<std::uint32_t>(i), quad.id, vertex};
+            writer.write("stimulus", packed(beat, config, layouts.vertex));
           }
         beat_lines(i, run, config, layouts.beat, [&](const Record& line) { writer.write("beats", line); });
         fragment_lines(i, run, config, layouts.fragment, [&](const Record& line) { writer.write("response", line); });
@@ -395,9 +349,7 @@ std::vector<MachineDraw> read_draws(const SuiteReader& reader) {
 
   std::vector<MachineDraw> draws;
   for (const Record& record : whole("states")) {
-    StateRecord state;
-    RecordUnpacker unpack(record);
-    visit_state_record(unpack, config, state);
+    const auto state = unpacked<StateRecord>(record, config);
     DrawState& s = draws.emplace_back().state = state.state;
     s.znear = std::ldexp(static_cast<double>(state.znear), -config.depth_bits);
     s.zfar = std::ldexp(static_cast<double>(state.zfar), -config.depth_bits);
@@ -410,9 +362,7 @@ std::vector<MachineDraw> read_draws(const SuiteReader& reader) {
   std::uint64_t line = 0;
   std::uint32_t beat = 0, last_draw = 0;
   for (const Record& record : whole("stimulus")) {
-    VertexRecord vertex;
-    RecordUnpacker unpack(record);
-    visit_vertex_record(unpack, config, vertex);
+    const auto vertex = unpacked<VertexRecord>(record, config);
     if (vertex.draw >= draws.size() || vertex.draw < last_draw || (beat != 0 && vertex.draw != last_draw))
       refuse("stimulus", line, "beats must come in the order of the draws");
     last_draw = vertex.draw;
@@ -430,9 +380,7 @@ std::vector<MachineDraw> read_draws(const SuiteReader& reader) {
 std::vector<DrawnFragment> read_fragments(const SuiteReader& reader, std::uint64_t first, std::uint64_t count) {
   std::vector<DrawnFragment> fragments;
   for (const Record& record : reader.read("response", first, count)) {
-    FragmentRecord fragment;
-    RecordUnpacker unpack(record);
-    visit_fragment_record(unpack, reader.set().config, fragment);
+    const auto fragment = unpacked<FragmentRecord>(record, reader.set().config);
     fragments.push_back({fragment.draw, fragment.fragment});
   }
   return fragments;
@@ -445,10 +393,7 @@ VerifyResult MachineSuite::verify(const SuiteReader& reader, unsigned threads) c
   const auto whole = [&](const char* role) { return reader.read(role, 0, reader.lines(role)); };
 
   std::vector<StallClock> stalls;
-  for (const Record& record : whole("stalls")) {
-    RecordUnpacker unpack(record);
-    visit_stall_record(unpack, config, stalls.emplace_back());
-  }
+  for (const Record& record : whole("stalls")) stalls.push_back(unpacked<StallClock>(record, config));
   if (std::ranges::none_of(stalls, &StallClock::offer) || std::ranges::none_of(stalls, &StallClock::ready))
     throw golden::InputError(reader.place("stalls", 0) +
                              ": the pattern never offers or never takes anything; the machine would wait for ever");

@@ -2,9 +2,9 @@
 // unseen. The files are described in golden/vectors/README.md.
 #pragma once
 
-#include "golden/suites/record.hpp"
 #include "golden/suites/sha256.hpp"
 #include "model/config.hpp"
+#include "model/record.hpp"
 
 #include <nlohmann/json.hpp>
 

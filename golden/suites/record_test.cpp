@@ -1,5 +1,5 @@
 // Records as bits and as digits; SHA-256 by the examples of FIPS 180.
-#include "golden/suites/record.hpp"
+#include "model/record.hpp"
 #include "golden/io/test_support.hpp"
 #include "golden/suites/sha256.hpp"
 #include "model/support/prng.hpp"

@@ -1,28 +1,24 @@
 // The records of a stage from two lists of fields.
 #pragma once
 
-#include "golden/suites/fields.hpp"
 #include "golden/suites/stage_suite.hpp"
+#include "model/boundaries.hpp"
 
 namespace quadrille::vectors {
 
 /// Lists has two static templates, stimulus(data, config, f) and response(data, config, f), that list the fields of a
-/// StageData (const or not) as fields.hpp says.
+/// StageData (const or not) as model/fields.hpp says.
 template <class Lists>
 class StageOf : public Stage {
  public:
   Record pack_stimulus(const StageData& data) const override {
-    RecordPacker packer(stimulus_.bits());
-    Lists::stimulus(data, config(), packer);
-    return packer.take();
+    return pack_record(stimulus_.bits(), [&](auto& f) { Lists::stimulus(data, config(), f); });
   }
   void unpack_stimulus(const Record& record, StageData& data) const override {
     Lists::stimulus(data, config(), RecordUnpacker(record));
   }
   Record pack_response(const StageData& data) const override {
-    RecordPacker packer(response_.bits());
-    Lists::response(data, config(), packer);
-    return packer.take();
+    return pack_record(response_.bits(), [&](auto& f) { Lists::response(data, config(), f); });
   }
   void unpack_response(const Record& record, StageData& data) const override {
     Lists::response(data, config(), RecordUnpacker(record));
@@ -31,11 +27,8 @@ class StageOf : public Stage {
  protected:
   explicit StageOf(const Config& config) : Stage(config) {
     const StageData nothing;
-    LayoutLister stimulus, response;
-    Lists::stimulus(nothing, config, stimulus);
-    Lists::response(nothing, config, response);
-    stimulus_ = std::move(stimulus.layout);
-    response_ = std::move(response.layout);
+    stimulus_ = layout_of([&](auto& f) { Lists::stimulus(nothing, config, f); });
+    response_ = layout_of([&](auto& f) { Lists::response(nothing, config, f); });
   }
 };
 

@@ -2,7 +2,6 @@
 #include "golden/suites/stage_suite.hpp"
 #include "golden/io/test_support.hpp"
 #include "golden/suites/patterns.hpp"
-#include "model/bit_vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,34 +80,6 @@ void for_each(const std::string& name, const Config& config, std::uint64_t limit
 }
 
 // ---- Places of the bits ----
-
-void expect_boundary(const std::string& suite, Boundary boundary, const Config& config) {
-  SCOPED_TRACE(suite);
-  const auto stage = stage_suite(suite).stage(config);
-  const RecordLayout& layout = stage->response_layout();
-  const tb::Layout probe = tb::boundary_layout(boundary, config);
-  ASSERT_EQ(layout.bits(), probe.width());
-  ASSERT_EQ(layout.fields().size(), probe.fields().size());
-  for (std::size_t i = 0; i < probe.fields().size(); ++i) {
-    const RecordField& f = layout.fields()[i];
-    const tb::Field& p = probe.fields()[i];
-    EXPECT_EQ(f.name, p.name);
-    EXPECT_EQ(std::max(0, f.index), std::max(0, p.index)) << f.name;  // a number alone counts as element 0 there
-    EXPECT_EQ(f.position, p.lsb) << f.label();
-    EXPECT_EQ(f.width, p.width) << f.label();
-  }
-}
-
-TEST(StageSuites, ResponsesAreTheMachinesBoundaries) {
-  for (const Config& config : {Config{}, small_config()}) {
-    expect_boundary("setup", Boundary::setup, config);
-    expect_boundary("normalise", Boundary::norm, config);
-    expect_boundary("rsqrt", Boundary::rsqrt, config);
-    expect_boundary("ratios", Boundary::ratio, config);
-    expect_boundary("weights", Boundary::weight, config);
-    expect_boundary("interpolation", Boundary::sum, config);
-  }
-}
 
 // Widths of golden/vectors/README.md for the default configuration, added up by hand: T = 32, W = 17, V = 12, TC = 10,
 // VAL = QVAL = 63, GRAD = QGRAD = 48, QCURV = 32, S = 18, E = 12, PE = 9, N = 4, DB = 24, TL = 3, AO = 24.

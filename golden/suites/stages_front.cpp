@@ -10,51 +10,18 @@
 namespace quadrille::vectors {
 namespace {
 
-FieldType plain(const char* name, int width, const char* meaning, const char* unit = "") {
-  return {name, width, false, {}, unit, meaning};
-}
-FieldType fixed(const char* name, int width, int fraction, const char* unit, const char* meaning) {
-  return {name, width, true, fraction, unit, meaning};
-}
-
 /// Half-open rectangle of pixels.
 template <class D, class F>
 void visit_scissor(D& d, const Config& c, F&& f) {
-  const int width = c.viewport_bits + 1;
-  f(plain("scissor_x0", width, "first column drawn", "px"), -1, d.state.scissor_x0);
-  f(plain("scissor_y0", width, "first row drawn", "px"), -1, d.state.scissor_y0);
-  f(plain("scissor_x1", width, "column after the last one", "px"), -1, d.state.scissor_x1);
-  f(plain("scissor_y1", width, "row after the last one", "px"), -1, d.state.scissor_y1);
+  f(plain("scissor_x0", scissor_bits(c), "first column drawn", "px"), -1, d.state.scissor_x0);
+  f(plain("scissor_y0", scissor_bits(c), "first row drawn", "px"), -1, d.state.scissor_y0);
+  f(plain("scissor_x1", scissor_bits(c), "column after the last one", "px"), -1, d.state.scissor_x1);
+  f(plain("scissor_y1", scissor_bits(c), "row after the last one", "px"), -1, d.state.scissor_y1);
 }
 
 void order_scissor(DrawState& s) {
   if (s.scissor_x0 > s.scissor_x1) std::swap(s.scissor_x0, s.scissor_x1);
   if (s.scissor_y0 > s.scissor_y1) std::swap(s.scissor_y0, s.scissor_y1);
-}
-
-FieldType linear_value(const Config& c) {
-  return fixed("lin_value", c.val_bits(), 2 * c.frac(), "px^2",
-               "edge functions E01 E12 E23 E30 E20 E13 at the origin pixel");
-}
-FieldType linear_gx(const Config& c) {
-  return fixed("lin_gx", c.grad_bits(), 2 * c.frac(), "px^2", "their steps to the next column");
-}
-FieldType linear_gy(const Config& c) {
-  return fixed("lin_gy", c.grad_bits(), 2 * c.frac(), "px^2", "their steps to the next row");
-}
-FieldType quadratic_value(const Config& c) {
-  return fixed("quad_value", c.qval_bits(), c.quadratic_frac(), "px^2",
-               "dot products D01 D12 D23 D30 D20 D13 and squared distances 0 to 3 at the origin pixel");
-}
-FieldType quadratic_gx(const Config& c) {
-  return fixed("quad_gx", c.qgrad_bits(), c.quadratic_frac(), "px^2",
-               "linear coefficients in x: f(dx, dy) = value + dx gx + dy gy + q (dx^2 + dy^2)");
-}
-FieldType quadratic_gy(const Config& c) {
-  return fixed("quad_gy", c.qgrad_bits(), c.quadratic_frac(), "px^2", "linear coefficients in y");
-}
-FieldType quadratic_q(const Config& c) {
-  return fixed("quad_q", c.qcurv_bits(), c.quadratic_frac(), "px^2", "quadratic coefficients");
 }
 
 bool fits(__int128 v, int bits) {
@@ -82,18 +49,17 @@ struct SnappingLists {
 
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    const int s = c.significand_bits, e = Config::port_exp_bits;
     auto& v = d.snapped;
     f(plain("refused", 1, "no point of the input space, or an attribute that does not fit; all else is 0"), -1,
       d.refused);
-    f(fixed("x", c.t_bits(), c.frac(), "px", "k times window x relative to pixel centres"), -1, v.x);
-    f(fixed("y", c.t_bits(), c.frac(), "px", "k times window y relative to pixel centres"), -1, v.y);
-    f(fixed("w", c.w_bits(), c.frac(), "1", "k w"), -1, v.w);
-    visit_number(f, FpType{nullptr, "k_exp", "k_sig", e, s, "1", "k > 0, the factor of the vertex, rounded to nearest"},
+    f(fixed("x", t_bits(c), frac_bits(c), "px", "k times window x relative to pixel centres"), -1, v.x);
+    f(fixed("y", t_bits(c), frac_bits(c), "px", "k times window y relative to pixel centres"), -1, v.y);
+    f(fixed("w", w_bits(c), frac_bits(c), "1", "k w"), -1, v.w);
+    visit_number(f, port_numbers(nullptr, "k_exp", "k_sig", c, "k > 0, the factor of the vertex, rounded to nearest"),
                  v.k);
-    visit_number(f, FpType{"z_neg", "z_exp", "z_sig", e, s, "1", "k z"}, v.z);
+    visit_number(f, port_numbers("z_neg", "z_exp", "z_sig", c, "k z"), v.z);
     visit_numbers(
-        f, FpType{"attr_neg", "attr_exp", "attr_sig", e, s, "1", "b = k a, without perspective w a"},
+        f, port_numbers("attr_neg", "attr_exp", "attr_sig", c, "b = k a, without perspective w a"),
         c.attribute_slots, [&](std::size_t i) -> auto& { return v.attribute[i]; });
   }
 };
@@ -188,43 +154,22 @@ struct SetupLists {
   static void stimulus(D& d, const Config& c, F&& f) {
     auto& v = d.quad.vertex;
     visit_array(
-        f, fixed("x", c.t_bits(), c.frac(), "px", "k times window x relative to pixel centres"),
+        f, fixed("x", t_bits(c), frac_bits(c), "px", "k times window x relative to pixel centres"),
         4, [&](std::size_t i) -> auto& { return v[i].x; });
     visit_array(
-        f, fixed("y", c.t_bits(), c.frac(), "px", "k times window y"),
+        f, fixed("y", t_bits(c), frac_bits(c), "px", "k times window y"),
         4, [&](std::size_t i) -> auto& { return v[i].y; });
     visit_array(
-        f, fixed("w", c.w_bits(), c.frac(), "1", "k w; all 1: an ordinary quad"),
+        f, fixed("w", w_bits(c), frac_bits(c), "1", "k w; all 1: an ordinary quad"),
         4, [&](std::size_t i) -> auto& { return v[i].w; });
     visit_scissor(d, c, f);
   }
 
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    auto& r = d.setup;
-    f(plain("slot", c.quad_slots_log2, "slot of the quad: 0"), -1, r.slot);
-    f(plain("tile_x0", c.tc_bits(), "first tile column", "tiles"), -1, r.tile_x0);
-    f(plain("tile_y0", c.tc_bits(), "first tile row", "tiles"), -1, r.tile_y0);
-    f(plain("tiles_x", c.tc_bits(), "tile columns, 0 for an empty bounding box", "tiles"), -1, r.tiles_x);
-    f(plain("tiles_y", c.tc_bits(), "tile rows", "tiles"), -1, r.tiles_y);
-    f(plain("homogeneous", 1, "some w is not 1"), -1, r.homogeneous);
-    f(plain("hull", 1, "the eye is in the hull of the vertices: visibility by pixel"), -1, r.hull);
-    f(plain("visible", 4, "clauses that may be drawn; bit 0: first +, 1: second +, 2: first -, 3: second -"), -1,
-      r.visible);
-    visit_array(
-        f, linear_value(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].value; });
-    visit_array(
-        f, linear_gx(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gx; });
-    visit_array(
-        f, linear_gy(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gy; });
-    visit_array(
-        f, quadratic_value(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].value; });
-    visit_array(
-        f, quadratic_gx(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].gx; });
-    visit_array(
-        f, quadratic_gy(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].gy; });
-    visit_array(
-        f, quadratic_q(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].q; });
+    visit(d.setup, c, [&](const FieldType& type, int index, auto& value) {
+      f(std::string_view(type.name) == "slot" ? reworded(type, "slot of the quad: 0") : type, index, value);
+    });
   }
 };
 
@@ -331,8 +276,8 @@ struct CoverageLists {
   static void stimulus(D& d, const Config& c, F&& f) {
     f(plain("cull", 2, "0 none, 1 front, 2 back"), -1, d.state.cull);
     visit_scissor(d, c, f);
-    f(plain("tile_x", c.tc_bits(), "column of the tile", "tiles"), -1, d.tile.tile_x);
-    f(plain("tile_y", c.tc_bits(), "row of the tile", "tiles"), -1, d.tile.tile_y);
+    f(plain("tile_x", tc_bits(c), "column of the tile", "tiles"), -1, d.tile.tile_x);
+    f(plain("tile_y", tc_bits(c), "row of the tile", "tiles"), -1, d.tile.tile_y);
     visit_array(
         f, linear_value(c), 5, [&](std::size_t i) -> auto& { return d.tile.linear[i]; });
     visit_array(
@@ -344,7 +289,7 @@ struct CoverageLists {
 
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    const int tile = c.tile();
+    const Bits tile = tile_bits(c);
     visit_array(
         f, plain("mask", tile, "covered pixels of row `index`, bit dx"),
         tile, [&](std::size_t i) -> auto& { return d.row_masks[i].mask; });
@@ -466,8 +411,8 @@ class Coverage : public StageOf<CoverageLists> {
 struct ForwardLists {
   template <class D, class F>
   static void stimulus(D& d, const Config& c, F&& f) {
-    f(plain("row", c.tile_log2, "row in the tile", "px"), -1, d.row);
-    f(plain("dx", c.tile_log2, "column in the tile", "px"), -1, d.dx);
+    f(plain("row", tile_log2(c), "row in the tile", "px"), -1, d.row);
+    f(plain("dx", tile_log2(c), "column in the tile", "px"), -1, d.dx);
     visit_array(
         f, linear_value(c), linear_count, [&](std::size_t i) -> auto& { return d.tile.linear[i]; });
     visit_array(
@@ -486,16 +431,7 @@ struct ForwardLists {
 
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    auto& p = d.pixel;
-    visit_array(
-        f, fixed("a", c.val_bits(), 2 * c.frac(), "px^2", "A: edge functions at the pixel, pairs 01 12 23 30 20 13"),
-        6, [&](std::size_t i) -> auto& { return p.a[i]; });
-    visit_array(
-        f, fixed("d", c.qval_bits(), c.quadratic_frac(), "px^2", "D: dot products, the same pairs"),
-        6, [&](std::size_t i) -> auto& { return p.d[i]; });
-    visit_array(
-        f, fixed("r2", c.qval_bits(), c.quadratic_frac(), "px^2", "squared distances of the corners"),
-        4, [&](std::size_t i) -> auto& { return p.r2[i]; });
+    visit_exact(d.pixel, c, f);
   }
 };
 

@@ -8,21 +8,6 @@
 namespace quadrille::vectors {
 namespace {
 
-constexpr int fp_exp = Config::exp_bits, port_exp = Config::port_exp_bits;
-
-FieldType plain(const char* name, int width, const char* meaning) { return {name, width, false, {}, "", meaning}; }
-FieldType whole(const char* name, int width, const char* meaning) { return {name, width, true, {}, "", meaning}; }
-
-FpType magnitudes(const char* exp, const char* sig, const Config& c, const char* meaning) {
-  return {nullptr, exp, sig, fp_exp, c.significand_bits, "1", meaning};
-}
-FpType signed_numbers(const char* neg, const char* exp, const char* sig, const Config& c, const char* meaning) {
-  return {neg, exp, sig, fp_exp, c.significand_bits, "1", meaning};
-}
-FpType port_numbers(const char* neg, const char* exp, const char* sig, const Config& c, const char* meaning) {
-  return {neg, exp, sig, port_exp, c.significand_bits, "1", meaning};
-}
-
 // ---- Exponents that occur (rtl/README.md section 1, EXP_BITS) ----
 
 struct Exponents {
@@ -34,7 +19,7 @@ struct Exponents {
   int sum_lo, sum_hi;  ///< sums: a weight times a number of the port, with cancellation
 
   explicit Exponents(const Config& c) {
-    const int port = 1 << (port_exp - 1), cancelled = c.prec_bits() + 1;
+    const int port = 1 << (Config::port_exp_bits - 1), cancelled = c.prec_bits() + 1;
     a_lo = -c.qdrop();
     a_hi = c.val_bits() - 2 - c.qdrop();
     d_hi = c.qval_bits() - 2;
@@ -122,34 +107,18 @@ struct NormaliseLists {
   static void stimulus(D& d, const Config& c, F&& f) {
     auto& p = d.pixel;
     visit_array(
-        f, FieldType{"a", c.val_bits(), true, 2 * c.frac(), "px^2", "A: edge functions, pairs 01 12 23 30 20 13"},
+        f, reworded(exact_a(c), "A: edge functions, pairs 01 12 23 30 20 13"),
         6, [&](std::size_t i) -> auto& { return p.a[i]; });
     visit_array(
-        f, FieldType{"d", c.qval_bits(), true, c.quadratic_frac(), "px^2", "D: dot products, the same pairs"},
-        6, [&](std::size_t i) -> auto& { return p.d[i]; });
+        f, exact_d(c), 6, [&](std::size_t i) -> auto& { return p.d[i]; });
     visit_array(
-        f,
-        FieldType{"r2", c.qval_bits(), true, c.quadratic_frac(), "px^2",
-                  "squared distances of the corners; below 0 counts as 0"},
+        f, reworded(exact_r2(c), "squared distances of the corners; below 0 counts as 0"),
         4, [&](std::size_t i) -> auto& { return p.r2[i]; });
   }
 
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    auto& p = d.pixel;
-    f(plain("two_corner", 1, "two or more r2 are at most 0"), -1, p.two_corner);
-    f(plain("on_vertex", 1, "one r2 is"), -1, p.on_vertex);
-    f(plain("two_edge", 1, "no r2 is, and two or more edges have A = 0 and D < 0"), -1, p.two_edge);
-    f(plain("on_edge", 1, "one edge has"), -1, p.on_edge);
-    visit_numbers(
-        f, signed_numbers("a_neg", "a_exp", "a_sig", c, "A in units of 2^-QUADRATIC_FRAC px^2"),
-        6, [&](std::size_t i) -> auto& { return p.a_fp[i]; });
-    visit_numbers(
-        f, signed_numbers("d_neg", "d_exp", "d_sig", c, "D in the same units"),
-        6, [&](std::size_t i) -> auto& { return p.d_fp[i]; });
-    visit_numbers(
-        f, magnitudes("r2_exp", "r2_sig", c, "r2 in the same units"),
-        4, [&](std::size_t i) -> auto& { return p.r2_fp[i]; });
+    visit(d.pixel, Boundary::norm, c, f);
   }
 };
 
@@ -193,9 +162,7 @@ struct RsqrtLists {
   }
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    visit_numbers(
-        f, magnitudes("exp", "sig", c, "rho = r2^(-1/2); of 0: 0"),
-        4, [&](std::size_t i) -> auto& { return d.pixel.rho[i]; });
+    visit(d.pixel, Boundary::rsqrt, c, f);
   }
 };
 
@@ -271,16 +238,6 @@ void visit_rho(D& d, const Config& c, F&& f) {
       4, [&](std::size_t i) -> auto& { return d.pixel.rho[i]; });
 }
 
-template <class D, class F>
-void visit_ratios(D& d, const Config& c, F&& f) {
-  visit_numbers(
-      f, magnitudes("n_exp", "n_sig", c, "n: |tan of half the angle| = n/d, pairs 01 12 23 30 20 13"),
-      6, [&](std::size_t i) -> auto& { return d.pixel.n[i]; });
-  visit_numbers(
-      f, magnitudes("d_exp", "d_sig", c, "d, the same pairs"),
-      6, [&](std::size_t i) -> auto& { return d.pixel.dn[i]; });
-}
-
 struct RatiosLists {
   template <class D, class F>
   static void stimulus(D& d, const Config& c, F&& f) {
@@ -295,7 +252,7 @@ struct RatiosLists {
   }
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    visit_ratios(d, c, f);
+    visit(d.pixel, Boundary::ratio, c, f);
   }
 };
 
@@ -347,7 +304,7 @@ struct WeightsLists {
   template <class D, class F>
   static void stimulus(D& d, const Config& c, F&& f) {
     visit_array(
-        f, whole("a_sign", 2, "sign of A of edges 01 12 23 30: -1, 0, 1"),
+        f, FieldType{"a_sign", 2, true, {}, "", "sign of A of edges 01 12 23 30: -1, 0, 1"},
         4, [&](std::size_t i) -> auto& { return d.a_sign[i]; });
     visit_array(
         f, plain("d_negative", 1, "D < 0, the same edges"), 4, [&](std::size_t i) -> auto& { return d.d_negative[i]; });
@@ -358,13 +315,11 @@ struct WeightsLists {
         f, port_numbers("k_neg", "k_exp", "k_sig", c, "k of the corners; without perspective w"),
         4, [&](std::size_t i) -> auto& { return d.data.k[i]; });
     visit_rho(d, c, f);
-    visit_ratios(d, c, f);
+    visit(d.pixel, Boundary::ratio, c, f);
   }
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    visit_numbers(
-        f, magnitudes("exp", "sig", c, "M: weights of the corners up to a common factor"),
-        4, [&](std::size_t i) -> auto& { return d.pixel.m[i]; });
+    visit(d.pixel, Boundary::weight, c, f);
   }
 };
 
@@ -476,17 +431,6 @@ class Weights : public StageOf<WeightsLists> {
 
 // ---- interpolation ----
 
-template <class D, class F>
-void visit_sums(D& d, const Config& c, F&& f) {
-  auto& p = d.pixel;
-  visit_numbers(
-      f, signed_numbers("attr_neg", "attr_exp", "attr_sig", c, "sum of M b of an attribute"),
-      c.attribute_slots, [&](std::size_t i) -> auto& { return p.num_a[i]; });
-  visit_number(f, signed_numbers("z_neg", "z_exp", "z_sig", c, "sum of M Z"), p.num_z);
-  visit_number(f, signed_numbers("den_k_neg", "den_k_exp", "den_k_sig", c, "sum of M k"), p.den_k);
-  visit_number(f, signed_numbers("den_w_neg", "den_w_exp", "den_w_sig", c, "sum of M W"), p.den_w);
-}
-
 struct InterpolationLists {
   template <class D, class F>
   static void stimulus(D& d, const Config& c, F&& f) {
@@ -508,7 +452,7 @@ struct InterpolationLists {
   }
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    visit_sums(d, c, f);
+    visit(d.pixel, Boundary::sum, c, f);
   }
 };
 
@@ -591,28 +535,21 @@ class Interpolation : public StageOf<InterpolationLists> {
 struct DepthLists {
   template <class D, class F>
   static void stimulus(D& d, const Config& c, F&& f) {
-    const FieldType depth{"", c.depth_bits + 1, false, c.depth_bits, "1", ""};
-    const auto z = [&](const char* name, const char* meaning) {
-      FieldType type = depth;
-      type.name = name;
-      type.meaning = meaning;
-      return type;
-    };
     f(plain("depth_on", 1, "window z is computed and clipped"), -1, d.state.depth);
-    f(z("znear", "fragments below are discarded"), -1, d.znear);
-    f(z("zfar", "fragments above are discarded"), -1, d.zfar);
+    f(depth_type(c, "znear", "fragments below are discarded"), -1, d.znear);
+    f(depth_type(c, "zfar", "fragments above are discarded"), -1, d.zfar);
     f(plain("attributes", 4, "attributes in use"), -1, d.state.attributes);
     f(plain("hull", 1, "the eye is in the hull: discard unless the sum of M W is positive"), -1, d.data.hull);
-    visit_sums(d, c, f);
+    visit(d.pixel, Boundary::sum, c, f);
   }
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
     auto& g = d.pixel.fragment;
     f(plain("valid", 1, "not discarded; otherwise all is 0"), -1, d.pixel.drawn);
     f(plain("saturated", 1, "an attribute in use was clamped"), -1, g.flags);
-    f(FieldType{"depth", c.depth_bits + 1, false, c.depth_bits, "1", "window z"}, -1, g.depth);
+    f(depth_type(c, "depth", "window z"), -1, g.depth);
     visit_array(
-        f, FieldType{"attr", c.attr_out_bits(), true, c.attribute_frac(), "1", "attributes; 0 when not in use"},
+        f, reworded(attribute_type(c), "attributes; 0 when not in use"),
         c.attribute_slots, [&](std::size_t i) -> auto& { return g.attribute[i]; });
   }
 };

@@ -4,6 +4,7 @@
 
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/json_report.hpp"
+#include "model/boundaries.hpp"
 #include "model/tables.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 struct ConfigOptions {
   CommonOptions common;
-  std::string emit_tables;
+  std::string emit_tables, boundaries;
   bool markdown = false;
 };
 
@@ -66,6 +67,37 @@ std::string markdown_listing(const Config& config) {
   return text;
 }
 
+std::string symbol(const Bits& bits, bool symbols) {
+  return symbols && bits.symbol != nullptr ? bits.symbol : std::to_string(bits.value);
+}
+
+/// The fields of ports or probes: of this configuration, or as Markdown by the names of rtl/README.md section 1.
+std::string boundary_listing(const std::string& which, const Config& given, bool markdown) {
+  // In the tables the number of attributes is N: one that no other array has as its length.
+  constexpr int n = 5;
+  Config config = given;
+  if (markdown) config.attribute_slots = n;
+  std::string text;
+  for (const auto& [name, bits, fields] : which == "ports" ? describe_ports(config) : describe_probes(config)) {
+    text += text.empty() ? "" : "\n";
+    text += markdown ? "| `" + name + "` | bits | fraction bits | unit | meaning |\n|---|---|---|---|---|\n"
+                     : padded(name, 13) + padded("bits", 18) + padded("fraction", 10) + padded("unit", 8) +
+                           "meaning (" + std::to_string(bits) + " bits)\n";
+    for (const auto& [type, count] : fields) {
+      const std::string width = (count == 0 ? "" : (markdown && count == n ? "N" : std::to_string(count)) + " × ") +
+                                symbol(type.width, markdown) + (type.is_signed ? ", signed" : "");
+      const std::string fraction = type.fraction_bits ? symbol(*type.fraction_bits, markdown) : "";
+      if (markdown)
+        text += "| `" + std::string(type.name) + "` | " + width + " | " + fraction + " | " + type.unit + " | " +
+                cell(type.meaning) + " |\n";
+      else
+        text += padded(type.name, 13) + padded(width, 18) + padded(fraction, 10) + padded(type.unit, 8) + type.meaning +
+                "\n";
+    }
+  }
+  return text;
+}
+
 int list_config(const ConfigOptions& options, const std::vector<std::string>& arguments) {
   const Config config = options.common.config();
   if (!options.emit_tables.empty()) {
@@ -91,7 +123,11 @@ int list_config(const ConfigOptions& options, const std::vector<std::string>& ar
   std::FILE* text = options.common.text();
   if (text && options.emit_tables != "-" && (options.emit_tables.empty() || options.markdown) &&
       options.common.json != "-")
-    std::fputs((options.markdown ? markdown_listing(config) : text_listing(config)).c_str(), text);
+    std::fputs((!options.boundaries.empty() ? boundary_listing(options.boundaries, config, options.markdown)
+                : options.markdown          ? markdown_listing(config)
+                                            : text_listing(config))
+                   .c_str(),
+               text);
   return exit_ok;
 }
 
@@ -105,6 +141,7 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
       "Examples:\n"
       "  quadrille config --set significand_bits=24\n"
       "  quadrille config --config wide.toml --emit-tables quadrille_tables_pkg.sv\n"
+      "  quadrille config --boundaries probes --set significand_bits=12\n"
       "  quadrille config --json -");
   const auto options = std::make_shared<ConfigOptions>();
   options->common.add_to(*command, false);
@@ -112,6 +149,11 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
       ->add_option("--emit-tables", options->emit_tables,
                    "Write the package of the rsqrt and reciprocal tables; - is standard output")
       ->type_name("F.sv");
+  command
+      ->add_option("--boundaries", options->boundaries,
+                   "Instead list the fields of the machine's ports or probes, most significant first")
+      ->type_name("ports|probes")
+      ->check(CLI::IsMember({"ports", "probes"}));
   command->add_flag("--markdown", options->markdown, "The listing as Markdown tables");
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return list_config(*options, invocation.arguments); };

@@ -96,16 +96,13 @@ void compare_records(const vectors::SuiteReader& a, const vectors::SuiteReader& 
   constexpr std::uint64_t chunk = 4096;
   for (std::uint64_t line = 0; line < common; line += chunk) {
     const std::uint64_t count = std::min(chunk, common - line);
-    const std::vector<vectors::Record> left = a.read(role, line, count), right = b.read(role, line, count);
+    const std::vector<Record> left = a.read(role, line, count), right = b.read(role, line, count);
     for (std::uint64_t i = 0; i < count; ++i) {
       if (left[i] == right[i]) continue;
       if (differ++ > 0) continue;
-      for (const vectors::RecordField& field : a.layout(role).fields())
-        if (left[i].get(field) != right[i].get(field)) {
-          first = "line " + std::to_string(line + i + 1) + ", " + field.label() + ": " +
-                  vectors::describe(left[i], field) + " against " + vectors::describe(right[i], field);
-          break;
-        }
+      const RecordField& field = *first_different_field(a.layout(role), left[i], right[i]);
+      first = "line " + std::to_string(line + i + 1) + ", " + field.label() + ": " +
+              quadrille::describe(left[i], field) + " against " + quadrille::describe(right[i], field);
     }
   }
   if (differ > 0)

@@ -71,12 +71,12 @@ VerilatedDevice::VerilatedDevice(const std::filesystem::path& object, const Conf
     }
   };
   const quadrille_sample& s = *impl_->table->sample(impl_->device);
-  same("vertex", impl_->table->vertex_width, vertex_layout(config).width());
-  same("state", impl_->table->state_width, state_layout(config).width());
-  same("fragment", s.fragment_width, boundary_layout(Boundary::fragment, config).width());
+  same("vertex", impl_->table->vertex_width, vertex_layout(config).bits());
+  same("state", impl_->table->state_width, state_layout(config).bits());
+  same("fragment", s.fragment_width, boundary_layout(Boundary::fragment, config).bits());
   for (std::size_t i = 0; i < probe_count; ++i) {
     const auto b = static_cast<Boundary>(i);
-    if (s.probe[i].width != 0) same(boundary_name(b), s.probe[i].width, boundary_layout(b, config).width());
+    if (s.probe[i].width != 0) same(boundary_name(b), s.probe[i].width, boundary_layout(b, config).bits());
     impl_->sample.probe[i].words = s.probe[i].words;
   }
   impl_->sample.fragment = s.fragment_words;

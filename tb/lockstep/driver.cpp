@@ -25,7 +25,7 @@ VertexDriver::VertexDriver(std::span<const SnappedQuad> quads, const Config& con
       config_(config),
       random_(seed, 1),
       gap_(probability(gap, "gap")),
-      width_(vertex_layout(config).width()),
+      width_(vertex_layout(config).bits()),
       packed_(static_cast<std::size_t>((width_ + 63) / 64)),
       words_(words_for(width_)) {
   for (const SnappedQuad& quad : quads) {
@@ -46,7 +46,8 @@ void VertexDriver::offer() {
   valid_ = true;
   changed_ = true;
   BitPacker packer(packed_.data(), width_);
-  visit_vertex(id(), vertex(), config_, packer);
+  const std::uint32_t quad = id();
+  visit_vertex(quad, vertex(), config_, packer);
   packer.finish();
   std::memcpy(words_.data(), packed_.data(), words_.size() * sizeof(std::uint32_t));
 }

@@ -90,7 +90,7 @@ std::unique_ptr<VerilatedDevice> make_device(const LockstepOptions& o, bool prob
   return device;
 }
 
-int fragment_width(const Config& config) { return boundary_layout(Boundary::fragment, config).width(); }
+int fragment_width(const Config& config) { return boundary_layout(Boundary::fragment, config).bits(); }
 
 }  // namespace
 

@@ -33,13 +33,10 @@ class ModelDevice : public Device {
   void set_reset(bool active) override { inputs_.reset = active; }
   void set_state(std::span<const std::uint32_t>) override {}
   void set_vertex(std::span<const std::uint32_t> words) override {
-    const auto get = [&](const char* name, int index = -1) {
-      const Field& f = vertex_.field(name, index);
-      return extract(words.data(), f.lsb, f.width);
-    };
+    const Record beat = Record::from_words(words.data(), vertex_.bits());
+    const auto get = [&](const char* name, int index = -1) { return beat.get(vertex_.field(name, index)); };
     const auto get_signed = [&](const char* name, int index = -1) {
-      const Field& f = vertex_.field(name, index);
-      return static_cast<std::int32_t>(extract_signed(words.data(), f.lsb, f.width));
+      return static_cast<std::int32_t>(beat.get_signed(vertex_.field(name, index)));
     };
     inputs_.vertex_id = static_cast<std::uint32_t>(get("id"));
     SnappedVertex& v = inputs_.vertex;
@@ -62,13 +59,13 @@ class ModelDevice : public Device {
     const ClockedProbes& p = out_.model.probes;
     const auto fill = [&](Boundary b, const auto* record, auto&& pack) {
       const auto i = static_cast<std::size_t>(b);
-      std::vector<std::uint64_t> wide(static_cast<std::size_t>(layouts_[i].width() + 63) / 64);
+      std::vector<std::uint64_t> wide(static_cast<std::size_t>(layouts_[i].bits() + 63) / 64);
       if (record != nullptr) {
-        BitPacker packer(wide.data(), layouts_[i].width());
+        BitPacker packer(wide.data(), layouts_[i].bits());
         pack(*record, packer);
         packer.finish();
       }
-      out_.words[i].resize(layouts_[i].words());
+      out_.words[i].resize(words_for(layouts_[i].bits()));
       std::memcpy(out_.words[i].data(), wide.data(), out_.words[i].size() * 4);
       if (i < probe_count) out_.sample.probe[i] = {record != nullptr, out_.words[i].data()};
     };
@@ -102,8 +99,8 @@ class ModelDevice : public Device {
  private:
   Config config_;
   ClockedModel model_;
-  Layout vertex_;
-  std::vector<Layout> layouts_;
+  RecordLayout vertex_;
+  std::vector<RecordLayout> layouts_;
   Fault fault_;
   ClockedInputs inputs_;
   Outputs out_;
@@ -152,14 +149,14 @@ TEST_F(Lockstep, NamesTheFieldThatDiffers) {
   // Bit 2 of rho[1]'s significand in the stage register, from cycle 300 on.
   std::uint64_t at = 0;
   PixelTrace pixel;
-  const Field field = boundary_layout(Boundary::rsqrt, options.config).field("sig", 1);
+  const RecordField field = boundary_layout(Boundary::rsqrt, options.config).field("sig", 1);
   const LockstepReport report = run([&](std::uint64_t cycle, ModelDevice::Outputs& out) {
     if (cycle < 300 || !out.sample.probe[static_cast<std::size_t>(Boundary::rsqrt)].valid) return;
     if (at == 0) {
       at = cycle;
       pixel = *out.model.probes.rsqrt;
     }
-    const int bit = field.lsb + 2;
+    const int bit = field.position + 2;
     out.words[static_cast<std::size_t>(Boundary::rsqrt)][static_cast<std::size_t>(bit / 32)] ^= std::uint32_t{1}
                                                                                                 << bit % 32;
   });

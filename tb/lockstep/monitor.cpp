@@ -5,11 +5,11 @@
 namespace quadrille::tb {
 
 FragmentMonitor::FragmentMonitor(const Config& config, int width, const FragmentSink& sink)
-    : config_(config), sink_(sink), words_(words_for(width)) {}
+    : config_(config), sink_(sink), width_(width) {}
 
 void FragmentMonitor::handed_over(const std::uint32_t* words, const Fragment* known) {
   ++fragments_;
-  for (std::size_t i = 0; i < words_; ++i) {
+  for (std::size_t i = 0; i < words_for(width_); ++i) {
     hash_ = (hash_ ^ words[i]) * 0x100000001b3u;
     hash_ ^= hash_ >> 29;
   }
@@ -17,7 +17,7 @@ void FragmentMonitor::handed_over(const std::uint32_t* words, const Fragment* kn
   if (known != nullptr) {
     sink_(*known);
   } else {
-    sink_(unpack_fragment(words, config_));
+    sink_(unpack_fragment(words, width_, config_));
   }
 }
 

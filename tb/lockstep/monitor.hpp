@@ -26,7 +26,7 @@ class FragmentMonitor {
  private:
   const Config& config_;
   const FragmentSink& sink_;
-  std::size_t words_;
+  int width_;
   std::uint64_t fragments_ = 0, hash_ = 0xcbf29ce484222325u;
 };
 

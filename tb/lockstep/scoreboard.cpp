@@ -27,7 +27,7 @@ Scoreboard::Scoreboard(const Config& config, std::span<const SnappedQuad> quads,
   for (std::size_t i = 0; i < boundary_count; ++i) {
     layouts_.push_back(boundary_layout(static_cast<Boundary>(i), config));
     counts_.push_back({boundary_name(static_cast<Boundary>(i))});
-    room = std::max(room, static_cast<std::size_t>(layouts_.back().width() + 63) / 64);
+    room = std::max(room, static_cast<std::size_t>(layouts_.back().bits() + 63) / 64);
   }
   packed_.resize(room);
 }
@@ -56,17 +56,17 @@ void Scoreboard::payload_differs(Boundary b, const std::uint32_t* actual, const 
   verdict_.payload = false;
   if (b == Boundary::fragment) verdict_.fragment = false;
   if (first_) return;
-  const Layout& layout = layouts_[index_of(b)];
-  std::vector<std::uint32_t> expected(layout.words());
-  std::memcpy(expected.data(), packed_.data(), expected.size() * sizeof(std::uint32_t));
-  const Field* field = layout.first_difference(expected.data(), actual);
+  const RecordLayout& layout = layouts_[index_of(b)];
+  Record expected(layout.bits());
+  std::copy_n(packed_.data(), static_cast<std::size_t>(layout.bits() + 63) / 64, expected.words());
+  const Record given = Record::from_words(actual, layout.bits());
+  const RecordField* field = first_different_field(layout, expected, given);
   first_ = where(place) + ", stage " + boundary_name(b) + ", ";
   if (field == nullptr) {
     *first_ += "bits above the vector are not zero";
   } else {
-    *first_ += "field " + field->label() + ": expected " +
-               hex(extract(expected.data(), field->lsb, field->width), field->width) + " (model), actual " +
-               hex(extract(actual, field->lsb, field->width), field->width) + " (RTL)";
+    *first_ += "field " + field->label() + ": expected " + hex(expected.get(*field), field->width) +
+               " (model), actual " + hex(given.get(*field), field->width) + " (RTL)";
   }
   *first_ += "; seed " + std::to_string(seed_);
 }
@@ -83,14 +83,15 @@ void Scoreboard::boundary(Boundary b, const Record* expected, const ProbeSample&
     }
     return;
   }
-  const Layout& layout = layouts_[index_of(b)];
-  BitPacker packer(packed_.data(), layout.width());
+  const RecordLayout& layout = layouts_[index_of(b)];
+  BitPacker packer(packed_.data(), layout.bits());
   pack(*expected, packer);
   packer.finish();
   BoundaryCount& count = counts_[index_of(b)];
   ++count.beats;
-  count.bits += static_cast<std::uint64_t>(layout.width());
-  if (!same_words(packed_.data(), actual.words, layout.words())) payload_differs(b, actual.words, locate(*expected));
+  count.bits += static_cast<std::uint64_t>(layout.bits());
+  if (!same_words(packed_.data(), actual.words, words_for(layout.bits())))
+    payload_differs(b, actual.words, locate(*expected));
 }
 
 void Scoreboard::follow(const ClockedProbes& probes) {
@@ -151,18 +152,18 @@ Scoreboard::Verdict Scoreboard::compare(std::uint64_t cycle, const ClockedOutput
   };
   signal("fragment_valid", expected.fragment_valid, actual.fragment_valid, fragment_place);
   signal("fragment_mask", expected.fragment_valid ? 1 : 0, actual.fragment_mask, fragment_place);
-  const Layout& layout = layouts_[index_of(Boundary::fragment)];
+  const RecordLayout& layout = layouts_[index_of(Boundary::fragment)];
   BoundaryCount& count = counts_[index_of(Boundary::fragment)];
   if (expected.fragment_valid) {
-    BitPacker packer(packed_.data(), layout.width());
+    BitPacker packer(packed_.data(), layout.bits());
     visit(expected.fragment, config_, packer);
     packer.finish();
     ++count.beats;
   } else {
     std::memset(packed_.data(), 0, packed_.size() * sizeof packed_[0]);
   }
-  count.bits += static_cast<std::uint64_t>(layout.width());
-  if (!same_words(packed_.data(), actual.fragment, layout.words())) {
+  count.bits += static_cast<std::uint64_t>(layout.bits());
+  if (!same_words(packed_.data(), actual.fragment, words_for(layout.bits()))) {
     payload_differs(Boundary::fragment, actual.fragment, fragment_place());
   }
   const auto nowhere = [] { return Place{}; };

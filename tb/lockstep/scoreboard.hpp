@@ -70,7 +70,7 @@ class Scoreboard {
   std::span<const SnappedQuad> quads_;
   bool probes_;
   std::uint64_t seed_;
-  std::vector<Layout> layouts_;        // by Boundary
+  std::vector<RecordLayout> layouts_;  // by Boundary
   std::vector<std::uint64_t> packed_;  // room for the widest boundary
   std::vector<BoundaryCount> counts_;  // by Boundary
 

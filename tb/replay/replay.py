@@ -26,6 +26,8 @@ NETLISTS = ("rsqrt", "reciprocal")
 THROUGH_YOSYS = ("quadrille", "replay_setup", "replay_ratios")
 # Their inputs enter at different stages; the manifest's latency counts from the last, the wrapper's from the first.
 STAGGERED = ("ratios", "weights")
+# A field that has the name of a wrapper's port.
+RENAMED = {"valid_o": "drawn_o"}
 PACKAGES = {"verilator": "verilator", "iverilog": "iverilog", "vvp": "iverilog", "yosys": "yosys", "make": "make", "g++": "g++"}
 TOOLS = {"verilator": ("verilator", "make", "g++"), "icarus": ("yosys", "iverilog", "vvp")}
 
@@ -133,8 +135,8 @@ class Suite:
     def bench(self):
         """(top module, device, macros with the record widths, macros with capacities)."""
         if self.kind == "machine":
-            response, stimulus = self.bits["response"], self.bits["stimulus"]
-            widths = {"STATE_BITS": self.bits["states"], "VERTEX_BITS": stimulus - 16, "FRAGMENT_BITS": response - 80}
+            widths = {"STATE_BITS": self.bits["states"], "VERTEX_BITS": self.position("stimulus", "draw"),
+                      "FRAGMENT_BITS": self.position("response", "clock_stalled")}
             sizes = {"DRAWS": self.lines["states.hex"], "BEATS": self.lines["stimulus.hex"],
                      "FRAGMENTS": self.lines["response.hex"], "STALLS": self.lines["stalls.hex"]}
             return "replay_machine", "quadrille", widths, sizes
@@ -142,6 +144,25 @@ class Suite:
             raise InputError(f"{self.directory}: stimulus and response have different numbers of lines")
         widths = {"STIMULUS_BITS": self.bits["stimulus"], "RESPONSE_BITS": self.bits["response"]}
         return "replay_stage", f"replay_{self.name}", widths, {"VECTORS": self.lines["response.hex"]}
+
+    def position(self, record, name):
+        """Bits below a field of that name."""
+        return next(int(field["position"]) for field in self.records[record]["fields"] if field["name"] == name)
+
+    def fields_header(self):
+        """A signal for each field or array of a stage's records: NAME_i of the stimulus, NAME_o of the response."""
+        lines = [f"// The fields of suite {self.name}, from its manifest."]
+        names = {}
+        for record, suffix in (("stimulus", "_i"), ("response", "_o")):
+            widths = {}
+            for field in self.records[record]["fields"]:
+                if not re.fullmatch("[a-z][a-z0-9_]*", field["name"]):
+                    raise InputError(f"{self.path('manifest.json')}: a field is named {field['name']!r}; expected lower-case letters, digits, _")
+                name = RENAMED.get(field["name"] + suffix, field["name"] + suffix)
+                widths[name] = widths.get(name, 0) + int(field["width"])
+            lines += [f"  logic [{width - 1}:0] {name};" for name, width in widths.items()]
+            names[record] = ", ".join(widths)
+        return "\n".join(lines + [f"  assign {{{names['stimulus']}}} = stimulus_i;", f"  assign response_o = {{{names['response']}}};", ""])
 
     def plusargs(self):
         args = [f"+suite={self.name}", f"+stimulus={self.path('stimulus.hex')}", f"+response={self.path('response.hex')}"]
@@ -185,7 +206,7 @@ def run(command, directory, log):
                                 stderr=subprocess.STDOUT).returncode
     with open(log, encoding="utf-8", errors="replace") as text:
         output = text.read()
-    if status != 0 or re.search(r"warning: Port \d+ .* expects", output):
+    if status != 0 or re.search(r"warning: Port \d+ .* expects|Warning: Resizing cell port", output):
         raise BuildError("\n".join(output.splitlines()[-25:]))
     return output
 
@@ -218,12 +239,14 @@ class Build:
         files = packages + [tables] + [path for path in rtl if not path.endswith("_pkg.sv")]
         if self.bench == "replay_stage":
             files += [os.path.join(BENCHES, "replay_valid.sv"), os.path.join(BENCHES, f"{self.device}.sv")]
+            with open(os.path.join(self.directory, "replay_fields.svh"), "w", encoding="ascii") as header:
+                header.write(self.suites[0].fields_header())
         return files
 
     def defines(self):
         keys = [f"-DQUADRILLE_{key.upper()}={value}" for key, value in self.suites[0].config.items()]
         bench = [f"-DREPLAY_{name}={value}" for name, value in {**self.widths, **self.sizes}.items()]
-        return keys, bench + [f"-DREPLAY_DUT={self.device}"]
+        return keys, bench + [f"-DREPLAY_DUT={self.device}"], ["-I" + BENCHES, "-I" + self.directory]
 
     def __call__(self):
         begin = time.monotonic()
@@ -236,23 +259,25 @@ class Build:
 
     def build_verilator(self, log):
         files = self.sources()
-        keys, bench = self.defines()
+        keys, bench, includes = self.defines()
         run(["verilator", "--binary", "--assert", "-Wno-fatal", "-Werror-WIDTH", "--top-module", self.bench, "-O3", "-CFLAGS", "-O1", "--build-jobs", str(self.options.jobs),
-             "--x-assign", "unique", "--Mdir", "obj", "-o", "replay", *keys, *bench, *files, os.path.join(BENCHES, self.bench + ".sv")],
+             "--x-assign", "unique", "--Mdir", "obj", "-o", "replay", *keys, *bench, *includes, *files, os.path.join(BENCHES, self.bench + ".sv")],
             self.directory, log)
         self.command = [os.path.join(self.directory, "obj", "replay")]
 
     def yosys(self, steps, log):
         """Verilog that Yosys writes of the device, in the build directory."""
         files = " ".join(f'"{path}"' for path in self.sources())
-        script = f"read_verilog -sv -DSYNTHESIS=1 {' '.join(self.defines()[0])} {files}\nhierarchy -check -top {self.device}\n{steps}\n"
+        keys, bench, includes = self.defines()
+        options = " ".join(["-DSYNTHESIS=1", *keys, *(define for define in bench if "_BITS=" in define), *(f'-I "{path[2:]}"' for path in includes)])
+        script = f"read_verilog -sv {options} {files}\nhierarchy -check -top {self.device}\n{steps}\n"
         with open(os.path.join(self.directory, "device.ys"), "w", encoding="utf-8") as file:
             file.write(script)
         run(["yosys", "-q", "-s", "device.ys"], self.directory, log)
 
     def compile_icarus(self, files, log):
-        keys, bench = self.defines()
-        run(["iverilog", "-g2012", "-s", self.bench, "-o", "replay.vvp", *keys, *bench, *files, os.path.join(BENCHES, self.bench + ".sv")],
+        keys, bench, includes = self.defines()
+        run(["iverilog", "-g2012", "-s", self.bench, "-o", "replay.vvp", *keys, *bench, *includes, *files, os.path.join(BENCHES, self.bench + ".sv")],
             self.directory, log)
         self.command = ["vvp", "-N", os.path.join(self.directory, "replay.vvp")]
 

@@ -1,36 +1,17 @@
 // Suite `depth`: draw state, hull flag and the `sum` boundary in, the fragment's valid, saturated flag, depth and attributes out.
 // Latency 5, stages 21 to 25: the two reciprocals, then fragment_output.
-module replay_depth #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int ID = quadrille_pkg::QUAD_ID_BITS,
-    localparam int STATE = 1 + 2 * (DB + 1) + 4 + 1,
-    localparam int FP = 1 + E + S,
-    localparam int STIMULUS_BITS = STATE + (N + 3) * FP,
-    localparam int RESPONSE_BITS = 1 + 1 + (DB + 1) + N * AO
-) (
-    input logic clk_i,
-    input logic rst_ni,
-    input logic valid_i,
-    output logic ready_o,
-    input logic [STIMULUS_BITS-1:0] stimulus_i,
-    output logic valid_o,
-    output logic [RESPONSE_BITS-1:0] response_o
+module replay_depth (
+    `include "replay_ports.svh"
 );
-  localparam int LATENCY = 5;
-
-  // ---- Stage 20 ------------------------------------------------------------------------------------------------------------
-  logic [STATE-1:0] state_20, state_24;
-  logic [(N+1)*FP-1:0] numerator_20, numerator_23;
-  logic den_k_neg, den_w_neg;
-  logic [E-1:0] den_k_exp, den_w_exp;
-  logic [S-1:0] den_k_sig, den_w_sig;
-
-  assign {state_20, numerator_20, den_k_neg, den_k_exp, den_k_sig, den_w_neg, den_w_exp, den_w_sig} = stimulus_i;
+  `include "replay_fields.svh"
+  localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
+  localparam int E = quadrille_pkg::EXP_BITS;
+  localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS;
+  localparam int DB = quadrille_pkg::DEPTH_BITS;
+  localparam int V = quadrille_pkg::VIEWPORT_BITS;
+  localparam int ID = quadrille_pkg::QUAD_ID_BITS;
+  localparam int STATE = 1 + 2 * (DB + 1) + 4 + 1;
+  localparam int NUMERATORS = (N + 1) * (1 + E + S);
 
   // ---- Stages 21 to 23: reciprocals, the numerators wait ------------------------------------------------------------------
   logic rk_neg, rw_neg;
@@ -40,9 +21,9 @@ module replay_depth #(
   reciprocal u_reciprocal_k (
       .clk_i,
       .en_i(1'b1),
-      .neg_i(den_k_neg),
-      .exp_i(den_k_exp),
-      .sig_i(den_k_sig),
+      .neg_i(den_k_neg_i),
+      .exp_i(den_k_exp_i),
+      .sig_i(den_k_sig_i),
       .neg_o(rk_neg),
       .exp_o(rk_exp),
       .sig_o(rk_sig)
@@ -51,16 +32,21 @@ module replay_depth #(
   reciprocal u_reciprocal_w (
       .clk_i,
       .en_i(1'b1),
-      .neg_i(den_w_neg),
-      .exp_i(den_w_exp),
-      .sig_i(den_w_sig),
+      .neg_i(den_w_neg_i),
+      .exp_i(den_w_exp_i),
+      .sig_i(den_w_sig_i),
       .neg_o(rw_neg),
       .exp_o(rw_exp),
       .sig_o(rw_sig)
   );
 
-  delay_line #(.WIDTH((N + 1) * FP), .DEPTH(3)) u_numerator (.clk_i, .en_i(1'b1), .data_i(numerator_20), .data_o(numerator_23));
-  delay_line #(.WIDTH(STATE), .DEPTH(4)) u_state (.clk_i, .en_i(1'b1), .data_i(state_20), .data_o(state_24));
+  logic [NUMERATORS-1:0] numerator_23;
+  logic [STATE-1:0] state_24;
+
+  delay_line #(.WIDTH(NUMERATORS), .DEPTH(3)) u_numerator (
+      .clk_i, .en_i(1'b1), .data_i({attr_neg_i, attr_exp_i, attr_sig_i, z_neg_i, z_exp_i, z_sig_i}), .data_o(numerator_23));
+  delay_line #(.WIDTH(STATE), .DEPTH(4)) u_state (
+      .clk_i, .en_i(1'b1), .data_i({depth_on_i, znear_i, zfar_i, attributes_i, hull_i}), .data_o(state_24));
 
   // ---- Stages 24, 25. State and hull are looked at in stage 24 ---------------------------------------------------------------
   logic [N-1:0] attr_neg;
@@ -76,12 +62,8 @@ module replay_depth #(
   assign {attr_neg, attr_exp, attr_sig, z_neg, z_exp, z_sig} = numerator_23;
   assign {depth_on, znear, zfar, attributes, hull} = state_24;
 
-  logic fragment_valid;
   logic [ID+2*V:0] identity;  // quad, x, y, front
-  logic saturated;
   logic [6:0] class_flags;
-  logic [DB:0] depth;
-  logic [N*AO-1:0] attr;
   logic unused;
 
   fragment_output u_output (
@@ -113,12 +95,11 @@ module replay_depth #(
       .front_i(1'b0),
       .tie_i(1'b0),
       .class_i(13'd0),
-      .valid_o(fragment_valid),
-      .fragment_o({identity, saturated, class_flags, depth, attr})
+      .valid_o(drawn_o),
+      .fragment_o({identity, saturated_o, class_flags, depth_o, attr_o})
   );
 
   assign unused = ^{identity, class_flags};
-  assign response_o = {fragment_valid, saturated, depth, attr};
 
-  replay_valid #(.LATENCY(LATENCY)) u_valid (.clk_i, .rst_ni, .valid_i, .ready_o, .valid_o);
+  replay_valid #(.LATENCY(5)) u_valid (.*);
 endmodule

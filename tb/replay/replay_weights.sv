@@ -1,32 +1,15 @@
 // Suite `weights`: signs, k_eff, rho (stage 6), n and d (stage 10) together in, the `weight` boundary out. Latency 11, stages 7 to 17.
 //
 // The class word is singular_class's, from integers that have the signs given: A = -1, 0, 1, D = -1 or 1, r^2 = 0 or 1.
-module replay_weights #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int STIMULUS_BITS = 4 * 2 + 4 + 4 + 4 * (1 + PE + S) + 16 * (E + S),
-    localparam int RESPONSE_BITS = 4 * (E + S)
-) (
-    input logic clk_i,
-    input logic rst_ni,
-    input logic valid_i,
-    output logic ready_o,
-    input logic [STIMULUS_BITS-1:0] stimulus_i,
-    output logic valid_o,
-    output logic [RESPONSE_BITS-1:0] response_o
+module replay_weights (
+    `include "replay_ports.svh"
 );
-  localparam int LATENCY = 11;
-
-  logic [7:0] a_sign;
-  logic [3:0] d_negative, corner;
-  logic [4*(1+PE+S)-1:0] k, k_10, k_14;
-  logic [4*(E+S)-1:0] rho;
-  logic [12*(E+S)-1:0] ratio, ratio_10;
-
-  assign {a_sign, d_negative, corner, k, rho, ratio} = stimulus_i;
+  `include "replay_fields.svh"
+  localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
+  localparam int E = quadrille_pkg::EXP_BITS;
+  localparam int PE = quadrille_pkg::PORT_EXP_BITS;
+  localparam int VAL = quadrille_pkg::VAL_BITS;
+  localparam int QVAL = quadrille_pkg::QVAL_BITS;
 
   // ---- Class -----------------------------------------------------------------------------------------------------------
   logic [4*VAL-1:0] a;
@@ -34,9 +17,9 @@ module replay_weights #(
   logic [12:0] class_8, class_10, class_13, class_14;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sign
-    assign a[g*VAL+:VAL] = {{(VAL - 1) {a_sign[2*g+1]}}, a_sign[2*g]};
-    assign d[g*QVAL+:QVAL] = {{(QVAL - 1) {d_negative[g]}}, 1'b1};
-    assign r2[g*QVAL+:QVAL] = QVAL'(!corner[g]);
+    assign a[g*VAL+:VAL] = {{(VAL - 1) {a_sign_i[2*g+1]}}, a_sign_i[2*g]};
+    assign d[g*QVAL+:QVAL] = {{(QVAL - 1) {d_negative_i[g]}}, 1'b1};
+    assign r2[g*QVAL+:QVAL] = QVAL'(!corner_i[g]);
   end
 
   singular_class u_class (
@@ -49,11 +32,14 @@ module replay_weights #(
   );
 
   // ---- Each input to its stage ---------------------------------------------------------------------------------------------
+  logic [4*(1+PE+S)-1:0] k_10, k_14;
+  logic [12*(E+S)-1:0] ratio_10;
+
   delay_line #(.WIDTH(13), .DEPTH(2)) u_class_10 (.clk_i, .en_i(1'b1), .data_i(class_8), .data_o(class_10));
   delay_line #(.WIDTH(13), .DEPTH(3)) u_class_13 (.clk_i, .en_i(1'b1), .data_i(class_10), .data_o(class_13));
   delay_line #(.WIDTH(13), .DEPTH(1)) u_class_14 (.clk_i, .en_i(1'b1), .data_i(class_13), .data_o(class_14));
-  delay_line #(.WIDTH(12 * (E + S)), .DEPTH(4)) u_ratio_10 (.clk_i, .en_i(1'b1), .data_i(ratio), .data_o(ratio_10));
-  delay_line #(.WIDTH(4 * (1 + PE + S)), .DEPTH(4)) u_k_10 (.clk_i, .en_i(1'b1), .data_i(k), .data_o(k_10));
+  delay_line #(.WIDTH(12 * (E + S)), .DEPTH(4)) u_ratio_10 (.clk_i, .en_i(1'b1), .data_i({n_exp_i, n_sig_i, d_exp_i, d_sig_i}), .data_o(ratio_10));
+  delay_line #(.WIDTH(4 * (1 + PE + S)), .DEPTH(4)) u_k_10 (.clk_i, .en_i(1'b1), .data_i({k_neg_i, k_exp_i, k_sig_i}), .data_o(k_10));
   delay_line #(.WIDTH(4 * (1 + PE + S)), .DEPTH(4)) u_k_14 (.clk_i, .en_i(1'b1), .data_i(k_10), .data_o(k_14));
 
   logic [6*E-1:0] n_exp_10, d_exp_10;
@@ -61,21 +47,15 @@ module replay_weights #(
   logic [3:0] k_neg_10, k_neg_14;
   logic [4*PE-1:0] k_exp_10, k_exp_14;
   logic [4*S-1:0] k_sig_10, k_sig_14;
-  logic [4*E-1:0] m_exp;
-  logic [4*S-1:0] m_sig;
   logic unused;
 
   assign {n_exp_10, n_sig_10, d_exp_10, d_sig_10} = ratio_10;
   assign {k_neg_10, k_exp_10, k_sig_10} = k_10;
   assign {k_neg_14, k_exp_14, k_sig_14} = k_14;
   assign unused = ^k_neg_14;  // overrides take the magnitude
-  assign response_o = {m_exp, m_sig};
 
   mean_value_weights u_weights (
-      .clk_i,
       .en_i(1'b1),
-      .rho_exp_i(rho[4*S+:4*E]),
-      .rho_sig_i(rho[0+:4*S]),
       .n_exp_i(n_exp_10),
       .n_sig_i(n_sig_10),
       .d_exp_i(d_exp_10),
@@ -88,9 +68,10 @@ module replay_weights #(
       .class_14_i(class_14),
       .k_exp_14_i(k_exp_14),
       .k_sig_14_i(k_sig_14),
-      .m_exp_o(m_exp),
-      .m_sig_o(m_sig)
+      .m_exp_o(exp_o),
+      .m_sig_o(sig_o),
+      .*
   );
 
-  replay_valid #(.LATENCY(LATENCY)) u_valid (.clk_i, .rst_ni, .valid_i, .ready_o, .valid_o);
+  replay_valid #(.LATENCY(11)) u_valid (.*);
 endmodule

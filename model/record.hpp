@@ -1,5 +1,5 @@
-// A record of a golden vector: one wide unsigned number, its fields, and its line of hexadecimal digits
-// (golden/vectors/README.md).
+// A record: one wide unsigned number, its fields, and its line of hexadecimal digits (golden/vectors/README.md). Laid
+// out as Verilator lays out a packed struct: bit 0 of the struct is bit 0 of word 0.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace quadrille::vectors {
+namespace quadrille {
 
 /// One field: the bits [position +: width] of a record, width 1-64.
 struct RecordField {
@@ -41,7 +41,7 @@ class RecordLayout {
   int bits() const { return bits_; }
   std::size_t digits() const { return static_cast<std::size_t>((bits_ + 3) / 4); }
   const std::vector<RecordField>& fields() const { return fields_; }
-  /// Throws std::out_of_range.
+  /// The field of that name; throws std::out_of_range.
   const RecordField& field(std::string_view name, int index = -1) const;
 
   friend bool operator==(const RecordLayout&, const RecordLayout&) = default;
@@ -62,7 +62,12 @@ class Record {
   /// All bits 0.
   explicit Record(int bits) : words_(static_cast<std::size_t>((bits + 63) / 64)), bits_(bits) {}
 
+  /// The first `bits` bits of 32-bit words, least significant word first.
+  static Record from_words(const std::uint32_t* words, int bits);
+
   int bits() const { return bits_; }
+  /// ceil(bits/64) words, bit 0 of the record is bit 0 of the first one.
+  std::uint64_t* words() { return words_.data(); }
 
   /// Bits [position +: width], width 1-64, inside the record.
   std::uint64_t get(int position, int width) const;
@@ -88,10 +93,16 @@ class Record {
   int bits_ = 0;
 };
 
+/// Hexadecimal digits of `width` bits behind "0x", leading zeros included.
+std::string hex(std::uint64_t value, int width);
+
 /// The value of a field for people: "0x2a (42)", with the number that it stands for when it has fraction bits.
 std::string describe(const Record& record, const RecordField& field);
 
-/// The first (most significant) field in which two records differ as "field: expected …, actual …"; empty if none does.
+/// The first (most significant) field in which two records differ, or nullptr.
+const RecordField* first_different_field(const RecordLayout& layout, const Record& a, const Record& b);
+
+/// The same as "field: expected …, actual …"; empty if none does.
 std::string first_difference(const RecordLayout& layout, const Record& expected, const Record& actual);
 
-}  // namespace quadrille::vectors
+}  // namespace quadrille

@@ -1,11 +1,11 @@
-#include "golden/suites/record.hpp"
+#include "model/record.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
-namespace quadrille::vectors {
+namespace quadrille {
 namespace {
 
 constexpr std::string_view hex_digits = "0123456789abcdef";
@@ -44,6 +44,12 @@ const RecordField& RecordLayout::field(std::string_view name, int index) const {
   if (found == fields_.end())
     throw std::out_of_range("no field " + std::string(name) + "[" + std::to_string(index) + "]");
   return *found;
+}
+
+Record Record::from_words(const std::uint32_t* words, int bits) {
+  Record record(bits);
+  for (int at = 0; at < bits; at += 32) record.set(at, std::min(32, bits - at), words[at / 32]);
+  return record;
 }
 
 std::uint64_t Record::get(int position, int width) const {
@@ -89,10 +95,15 @@ Record Record::from_hex(std::string_view digits, int bits) {
   return record;
 }
 
+std::string hex(std::uint64_t value, int width) {
+  std::string text = "0x";
+  for (int digit = (width + 3) / 4; digit-- > 0;) text += hex_digits[value >> (4 * digit) & 15u];
+  return text;
+}
+
 std::string describe(const Record& record, const RecordField& field) {
   const std::uint64_t raw = record.get(field);
-  std::string text = "0x";
-  for (int digit = (field.width + 3) / 4; digit-- > 0;) text += hex_digits[raw >> (4 * digit) & 15u];
+  std::string text = hex(raw, field.width);
   const std::int64_t value = record.get_signed(field);
   text += " (" + (field.is_signed ? std::to_string(value) : std::to_string(raw));
   if (field.fraction_bits && *field.fraction_bits != 0) {
@@ -102,11 +113,15 @@ std::string describe(const Record& record, const RecordField& field) {
   return text + ")";
 }
 
-std::string first_difference(const RecordLayout& layout, const Record& expected, const Record& actual) {
-  for (const RecordField& f : layout.fields())
-    if (expected.get(f) != actual.get(f))
-      return f.label() + ": expected " + describe(expected, f) + ", actual " + describe(actual, f);
-  return {};
+const RecordField* first_different_field(const RecordLayout& layout, const Record& a, const Record& b) {
+  const auto found = std::ranges::find_if(layout.fields(), [&](const RecordField& f) { return a.get(f) != b.get(f); });
+  return found == layout.fields().end() ? nullptr : &*found;
 }
 
-}  // namespace quadrille::vectors
+std::string first_difference(const RecordLayout& layout, const Record& expected, const Record& actual) {
+  const RecordField* f = first_different_field(layout, expected, actual);
+  return f == nullptr ? std::string()
+                      : f->label() + ": expected " + describe(expected, *f) + ", actual " + describe(actual, *f);
+}
+
+}  // namespace quadrille

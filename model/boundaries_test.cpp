@@ -1,4 +1,4 @@
-#include "model/bit_vector.hpp"
+#include "model/boundaries.hpp"
 
 #include "model/support/prng.hpp"
 
@@ -6,19 +6,19 @@
 
 #include <cstring>
 
-namespace quadrille::tb {
+namespace quadrille {
 namespace {
 
 /// Bit by bit, from the most significant field: the slow way that BitPacker must agree with.
 struct SlowPacker {
   std::vector<bool> bits;  // most significant first
   template <class T>
-  void operator()(const char*, int, int width, T value) {
+  void operator()(const FieldType& type, int, T value) {
     const auto v = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
-    for (int i = width; i-- > 0;) bits.push_back((v >> i & 1u) != 0);
+    for (int i = type.width; i-- > 0;) bits.push_back((v >> i & 1u) != 0);
   }
   std::vector<std::uint32_t> words() const {
-    std::vector<std::uint32_t> out(words_for(static_cast<int>(bits.size())));
+    std::vector<std::uint32_t> out((bits.size() + 31) / 32);
     for (std::size_t i = 0; i < bits.size(); ++i) {
       const std::size_t lsb = bits.size() - 1 - i;
       if (bits[i]) out[lsb / 32] |= std::uint32_t{1} << lsb % 32;
@@ -59,19 +59,21 @@ TEST(BitPacker, FragmentOfTheDefaultConfiguration) {
   f.flags = 0x81;
   f.depth = 0x1000000;
   f.attribute = {1, -1, 0x7FFFFF, -0x800000};
-  const Layout layout = boundary_layout(Boundary::fragment, config);
-  ASSERT_EQ(layout.width(), 178);
-  std::uint64_t packed[3];
-  pack_fragment(f, config, packed, layout.width());
+  const RecordLayout layout = boundary_layout(Boundary::fragment, config);
+  ASSERT_EQ(layout.bits(), 178);
+  Record packed = pack_record(layout.bits(), [&](auto& list) { visit(f, config, list); });
   std::uint32_t words[6];
-  std::memcpy(words, packed, sizeof words);
+  std::memcpy(words, packed.words(), sizeof words);
   EXPECT_EQ(words[0], 0xFF000001u);  // attr[1]'s low byte, attr[0]
   EXPECT_EQ(words[1], 0xFFFFFFFFu);  // attr[2]'s low half, the rest of attr[1]
   EXPECT_EQ(words[2], 0x8000007Fu);  // attr[3], attr[2]'s top byte
   EXPECT_EQ(words[3], 0x03000000u);  // flags from bit 25 on, depth
   EXPECT_EQ(words[4], 0xBC48D15Bu);  // quad from bit 26 on, x, y, front, flags bit 7
   EXPECT_EQ(words[5], 0x0002AF37u);  // the rest of quad
-  EXPECT_EQ(unpack_fragment(words, config), f);
+  Fragment again;
+  visit(again, config, RecordUnpacker(packed));
+  EXPECT_EQ(again, f);
+  EXPECT_EQ(Record::from_words(words, layout.bits()), packed);
 }
 
 TEST(BitPacker, AgreesWithTheSlowWayOnRandomRecords) {
@@ -89,45 +91,57 @@ TEST(BitPacker, AgreesWithTheSlowWayOnRandomRecords) {
     for (auto& q : tile.quadratic) q.value = q.gx = q.gy = static_cast<std::int64_t>(random.next());
     SlowPacker slow;
     visit(tile, config, slow);
-    const Layout layout = boundary_layout(Boundary::tile, config);
-    ASSERT_EQ(static_cast<std::size_t>(layout.width()), slow.bits.size());
-    std::vector<std::uint64_t> packed(slow.bits.size() / 64 + 1);
-    BitPacker packer(packed.data(), layout.width());
-    visit(tile, config, packer);
-    packer.finish();
+    const RecordLayout layout = boundary_layout(Boundary::tile, config);
+    ASSERT_EQ(static_cast<std::size_t>(layout.bits()), slow.bits.size());
+    const Record packed = pack_record(layout.bits(), [&](auto& list) { visit(tile, config, list); });
     const std::vector<std::uint32_t> expected = slow.words();
-    ASSERT_EQ(std::memcmp(packed.data(), expected.data(), expected.size() * 4), 0) << "round " << round;
-    const auto* words = reinterpret_cast<const std::uint32_t*>(expected.data());
-    const Field& field = layout.field("quad_gx", 7);
-    EXPECT_EQ(extract_signed(words, field.lsb, field.width),
-              tile.quadratic[7].gx << (64 - field.width) >> (64 - field.width));
+    ASSERT_EQ(packed, Record::from_words(expected.data(), layout.bits())) << "round " << round;
+    const RecordField& field = layout.field("quad_gx", 7);
+    EXPECT_EQ(packed.get_signed(field), tile.quadratic[7].gx << (64 - field.width) >> (64 - field.width));
   }
 }
 
 TEST(Layout, FirstFieldIsTheMostSignificant) {
   const Config config;
-  const Layout layout = vertex_layout(config);
+  const RecordLayout layout = vertex_layout(config);
   EXPECT_EQ(layout.fields().front().name, "id");
-  EXPECT_EQ(layout.fields().front().lsb, layout.width() - config.quad_id_bits);
-  EXPECT_EQ(layout.field("attr_sig", 0).lsb, 0);
-  EXPECT_EQ(layout.field("attr_neg", 0).lsb, config.attr_port_bits() - 1);
-  EXPECT_EQ(layout.field("attr_sig", 2).lsb, 2 * config.attr_port_bits());
+  EXPECT_EQ(layout.fields().front().position, layout.bits() - config.quad_id_bits);
+  EXPECT_EQ(layout.field("attr_sig", 0).position, 0);
+  EXPECT_EQ(layout.field("attr_neg", 0).position, config.attr_port_bits() - 1);
+  EXPECT_EQ(layout.field("attr_sig", 2).position, 2 * config.attr_port_bits());
   EXPECT_THROW(layout.field("nonsense"), std::out_of_range);
 }
 
 TEST(Layout, NamesTheFirstDifference) {
   const Config config;
-  const Layout layout = boundary_layout(Boundary::norm, config);
-  std::vector<std::uint32_t> a(layout.words()), b(layout.words());
-  EXPECT_EQ(layout.first_difference(a.data(), b.data()), nullptr);
-  for (const Field& field : layout.fields()) {
-    b = a;
-    const int bit = field.lsb + field.width - 1;
-    b[static_cast<std::size_t>(bit / 32)] ^= std::uint32_t{1} << bit % 32;
-    const Field* found = layout.first_difference(a.data(), b.data());
+  const RecordLayout layout = boundary_layout(Boundary::norm, config);
+  const Record a(layout.bits());
+  EXPECT_EQ(first_different_field(layout, a, a), nullptr);
+  for (const RecordField& field : layout.fields()) {
+    Record b = a;
+    b.set(field.position + field.width - 1, 1, 1);
+    const RecordField* found = first_different_field(layout, a, b);
     ASSERT_NE(found, nullptr);
     EXPECT_EQ(found->label(), field.label());
   }
+}
+
+// Bits of the default configuration, added up by hand from section 6 of rtl/README.md: VAL = QVAL = 63, GRAD = QGRAD =
+// 48, QCURV = 32, TC = 10, S = 18, EXP = 12, four slots.
+TEST(Boundaries, HaveTheirBits) {
+  const std::vector<std::pair<Boundary, int>> bits{
+      {Boundary::setup, 3 + 4 * 10 + 6 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32)},
+      {Boundary::tile, 1 + 3 + 2 * 10 + 6 * 63 + 10 * (63 + 48 + 48)},
+      {Boundary::stamp, 1 + 3 + 3 + 3 * 8},
+      {Boundary::diff, 3 + 12 + 12 + 2 + 16 * 63},
+      {Boundary::norm, 4 + 12 * 31 + 4 * 30},
+      {Boundary::rsqrt, 4 * 30},
+      {Boundary::ratio, 12 * 30},
+      {Boundary::weight, 4 * 30},
+      {Boundary::sum, 7 * 31},
+      {Boundary::fragment, 178}};
+  for (const auto& [boundary, expected] : bits)
+    EXPECT_EQ(boundary_layout(boundary, Config{}).bits(), expected) << boundary_name(boundary);
 }
 
 TEST(Hex, HasTheDigitsOfItsWidth) {
@@ -137,4 +151,4 @@ TEST(Hex, HasTheDigitsOfItsWidth) {
 }
 
 }  // namespace
-}  // namespace quadrille::tb
+}  // namespace quadrille
