@@ -238,7 +238,7 @@ ClockedModel::~ClockedModel() = default;
 ClockedModel::ClockedModel(ClockedModel&&) noexcept = default;
 ClockedModel& ClockedModel::operator=(ClockedModel&&) noexcept = default;
 
-ClockedOutputs ClockedModel::comb(const ClockedInputs&) const {
+ClockedOutputs ClockedModel::comb() const {
   const Impl& m = *impl_;
   ClockedOutputs out;
   out.vertex_ready = !m.assembly.full;

@@ -1,7 +1,7 @@
 // The clocked shell: predicts valid, ready and every payload of the RTL on every clock. It holds control state only;
 // every bit of arithmetic comes from the pure functions of the stage files. See rtl/README.md sections 4 to 6.
 //
-// Use, once per clock:  comb(inputs) -> outputs  (any number of times; changes nothing),  then  clock(inputs).
+// Use, once per clock:  comb() -> outputs  (any number of times; changes nothing),  then  clock(inputs).
 #pragma once
 
 #include "model/config.hpp"
@@ -48,8 +48,8 @@ class ClockedModel {
   ClockedModel(ClockedModel&&) noexcept;
   ClockedModel& operator=(ClockedModel&&) noexcept;
 
-  /// Outputs of this clock as a function of registered state and `inputs`.
-  ClockedOutputs comb(const ClockedInputs& inputs) const;
+  /// Outputs of this clock, from registered state alone: valid cannot depend on ready, nor ready on valid.
+  ClockedOutputs comb() const;
   /// The clock edge.
   void clock(const ClockedInputs& inputs);
 

@@ -40,7 +40,7 @@ MachineRun run_machine(std::span<const SnappedQuad> quads, const Config& config,
     }
     inputs.vertex_valid = offered;
     inputs.fragment_ready = now.ready;
-    const ClockedOutputs out = model.comb(inputs);
+    const ClockedOutputs out = model.comb();
     if (out.fragment_valid && now.ready) run.fragments.push_back({out.fragment, clock});
     if (next == beats && !out.busy) return run;
     if (offered && out.vertex_ready) {

@@ -157,7 +157,7 @@ TEST_F(Dpi, SetupOfASquare) {
   EXPECT_EQ(get("setup", "visible"), 15);
   EXPECT_EQ(get_signed("setup", "lin_value", 0), 0);
   EXPECT_EQ(get_signed("setup", "lin_gx", 0), 0);
-  EXPECT_EQ(std::abs(get_signed("setup", "lin_gy", 0)), std::int64_t{16} << 30);
+  EXPECT_EQ(get_signed("setup", "lin_gy", 0), std::int64_t{16} << 30) << "S0 × S1 at (0, y) = 16 y";
   EXPECT_EQ(get_signed("setup", "quad_value", 8), std::int64_t{2 * 16 * 16} << 30) << "r² of corner 2 at the origin";
 }
 

@@ -4,9 +4,9 @@
 #include "model/clocked.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/driver.hpp"
+#include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 namespace quadrille::tb {
@@ -14,14 +14,6 @@ namespace quadrille::tb {
 namespace {
 
 constexpr int reset_clocks = 4;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Gives a run up when nothing enters or leaves the machine for longer than its longest silent walk.
 class Watchdog {
@@ -125,7 +117,7 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
 
       // 2. Settle.
       device.settle();
-      const ClockedOutputs expected = model.comb(inputs);
+      const ClockedOutputs expected = model.comb();
       const DeviceSample& actual = device.sample();
 
       // 3. Compare.
@@ -240,7 +232,7 @@ AloneRun run_clocked_model_alone(std::span<const SnappedQuad> quads, const Locks
       inputs.vertex_id = vertices.id();
       inputs.vertex = vertices.vertex();
     }
-    const ClockedOutputs out = model.comb(inputs);
+    const ClockedOutputs out = model.comb();
     const bool moved = out.fragment_valid && inputs.fragment_ready;
     if (moved) {
       pack_fragment(out.fragment, o.config, packed.data(), width);

@@ -55,7 +55,7 @@ class ModelDevice : public Device {
     inputs_.fragment_ready = fragment_ready;
   }
   void settle() override {
-    out_.model = model_.comb(inputs_);
+    out_.model = model_.comb();
     const ClockedProbes& p = out_.model.probes;
     const auto fill = [&](Boundary b, const auto* record, auto&& pack) {
       const auto i = static_cast<std::size_t>(b);
