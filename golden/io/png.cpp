@@ -6,122 +6,69 @@
 
 #include <png.h>
 
-#include <csetjmp>
-#include <cstring>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 
 namespace quadrille::golden {
 namespace {
 
-// libpng reports errors by longjmp, which runs no destructor. So all state lives in a Session outside, and the
-// functions that can be jumped out of hold nothing but plain locals.
-struct Session {
-  png_structp png = nullptr;
-  png_infop info = nullptr;
-  std::string message;
-  // reading
-  std::string_view input;
-  // both
-  Image8 image;
-  std::vector<png_bytep> rows;
-  // writing
-  std::string output;
+struct ImageDeleter {
+  void operator()(png_image* image) const { png_image_free(image); }
 };
 
-void on_error(png_structp png, png_const_charp message) {
-  auto& session = *static_cast<Session*>(png_get_error_ptr(png));
-  session.message = message;
-  png_longjmp(png, 1);
+/// The simplified interface converts to sRGB what a file declares to be something else, and it does not look behind the
+/// last row. So the file goes in without the chunks that declare a colour space, and complete.
+std::string without_colour_space(std::string_view file) {
+  constexpr std::size_t signature = 8, length_and_type = 8, crc = 4;
+  constexpr std::array<std::string_view, 4> declarations{"gAMA", "cHRM", "sRGB", "iCCP"};
+  if (file.size() < signature || png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, signature) != 0)
+    throw std::runtime_error("Not a PNG file");
+  std::string kept(file.substr(0, signature));
+  for (std::string_view rest = file.substr(signature); rest.size() >= length_and_type + crc;) {
+    const std::size_t size =
+        length_and_type + png_get_uint_32(reinterpret_cast<png_const_bytep>(rest.data())) + std::size_t{crc};
+    if (size > rest.size()) break;
+    const std::string_view type = rest.substr(4, 4);
+    if (std::ranges::find(declarations, type) == declarations.end()) kept += rest.substr(0, size);
+    if (type == "IEND") return kept;
+    rest.remove_prefix(size);
+  }
+  throw std::runtime_error("the file ends too early");
 }
 
-// Warnings are about ancillary data (profiles, text), none of which is used.
-void on_warning(png_structp, png_const_charp) {}
-
-void on_read(png_structp png, png_bytep data, std::size_t size) {
-  auto& session = *static_cast<Session*>(png_get_io_ptr(png));
-  if (size > session.input.size()) png_error(png, "the file ends too early");
-  std::memcpy(data, session.input.data(), size);
-  session.input.remove_prefix(size);
-}
-
-void on_write(png_structp png, png_bytep data, std::size_t size) {
-  static_cast<Session*>(png_get_io_ptr(png))->output.append(reinterpret_cast<const char*>(data), size);
-}
-
-void on_flush(png_structp) {}
-
-void set_rows(Session& session) {
-  const std::size_t stride = 4 * static_cast<std::size_t>(session.image.width);
-  session.rows.resize(static_cast<std::size_t>(session.image.height));
-  for (std::size_t y = 0; y < session.rows.size(); ++y) session.rows[y] = session.image.rgba.data() + y * stride;
-}
-
-bool read_image(Session& session) {
-  png_structp png = session.png;
-  png_infop info = session.info;
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_set_read_fn(png, &session, on_read);
-  png_set_user_limits(png, max_image_side, max_image_side);
-  png_read_info(png, info);
-
-  png_set_expand(png);  // palettes, 1 to 4 bit grey, transparent colours
-  png_set_scale_16(png);
-  png_set_gray_to_rgb(png);
-  png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
-  png_set_interlace_handling(png);
-  png_read_update_info(png, info);
-
-  session.image.width = static_cast<int>(png_get_image_width(png, info));
-  session.image.height = static_cast<int>(png_get_image_height(png, info));
-  session.image.rgba.resize(4 * static_cast<std::size_t>(session.image.width) *
-                            static_cast<std::size_t>(session.image.height));
-  set_rows(session);
-  if (png_get_rowbytes(png, info) != 4 * static_cast<std::size_t>(session.image.width))
-    png_error(png, "unknown pixel layout");
-  png_read_image(png, session.rows.data());
-  png_read_end(png, nullptr);
-  return true;
-}
-
-bool write_image(Session& session, PngFormat format) {
-  png_structp png = session.png;
-  png_infop info = session.info;
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_set_write_fn(png, &session, on_write, on_flush);
-  png_set_user_limits(png, max_image_side, max_image_side);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(session.image.width), static_cast<png_uint_32>(session.image.height),
-               8, format == PngFormat::rgb8 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  // Stated rather than left to the library's defaults, which may change between versions.
-  png_set_compression_level(png, 6);
-  png_set_compression_strategy(png, 1);  // Z_FILTERED
-  png_set_compression_mem_level(png, 8);
-  png_set_compression_window_bits(png, 15);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
-  png_write_info(png, info);
-  if (format == PngFormat::rgb8) png_set_filler(png, 0, PNG_FILLER_AFTER);  // drops the fourth byte of each pixel
-  png_write_image(png, session.rows.data());
-  png_write_end(png, nullptr);
-  return true;
+Image8 decode(std::string_view file) {
+  const std::string bytes = without_colour_space(file);
+  png_image png{};
+  const std::unique_ptr<png_image, ImageDeleter> owner(&png);
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) throw std::runtime_error(png.message);
+  if (png.width > max_image_side || png.height > max_image_side)
+    throw std::runtime_error(std::to_string(png.width) + "x" + std::to_string(png.height) + " pixels");
+  png.format = PNG_FORMAT_RGBA;
+  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // 16-bit values are to be rounded, not converted from linear ones
+  Image8 image;
+  image.width = static_cast<int>(png.width);
+  image.height = static_cast<int>(png.height);
+  image.rgba.resize(PNG_IMAGE_SIZE(png));
+  if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr)) throw std::runtime_error(png.message);
+  return image;
 }
 
 }  // namespace
 
 Image8 load_png(const std::string& path) {
-  const std::string bytes = read_file(path, "a PNG picture");
-  Session session;
-  session.input = bytes;
-  session.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &session, on_error, on_warning);
-  if (session.png == nullptr) throw std::bad_alloc();
-  session.info = png_create_info_struct(session.png);
-  const bool good = session.info != nullptr && read_image(session);
-  png_destroy_read_struct(&session.png, &session.info, nullptr);
-  if (!good) {
-    throw InputError(path + ": is not a readable PNG: " + session.message + "; a complete PNG of at most " +
+  try {
+    return decode(read_file(path, "a PNG picture"));
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(path + ": is not a readable PNG: " + error.what() + "; a complete PNG of at most " +
                      std::to_string(max_image_side) + " pixels a side is expected");
   }
-  return std::move(session.image);
 }
 
 void save_png(const std::string& path, const Image8& image, PngFormat format) {
@@ -129,19 +76,25 @@ void save_png(const std::string& path, const Image8& image, PngFormat format) {
     throw InputError(path + ": picture size " + std::to_string(image.width) + "x" + std::to_string(image.height) +
                      " is impossible; 1 to " + std::to_string(max_image_side) + " pixels a side are expected");
   }
-  if (image.rgba.size() != 4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
-    throw std::logic_error("Image8: 4 bytes per pixel are needed");
-  }
-  Session session;
-  session.image = image;  // libpng wants rows that are not const
-  set_rows(session);
-  session.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &session, on_error, on_warning);
-  if (session.png == nullptr) throw std::bad_alloc();
-  session.info = png_create_info_struct(session.png);
-  const bool good = session.info != nullptr && write_image(session, format);
-  png_destroy_write_struct(&session.png, &session.info);
-  if (!good) throw InputError(path + ": cannot be encoded as PNG: " + session.message);
-  write_file(path, session.output, AtomicFile::Dash::refused);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  if (image.rgba.size() != 4 * pixels) throw std::logic_error("Image8: 4 bytes per pixel are needed");
+  std::vector<std::uint8_t> rgb;
+  if (format == PngFormat::rgb8)
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+      if (i % 4 != 3) rgb.push_back(image.rgba[i]);
+
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = format == PngFormat::rgb8 ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
+  const void* rows = format == PngFormat::rgb8 ? rgb.data() : image.rgba.data();
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, rows, 0, nullptr))
+    throw InputError(path + ": cannot be encoded as PNG: " + png.message);
+  bytes.resize(size);
+  write_file(path, bytes, AtomicFile::Dash::refused);
 }
 
 }  // namespace quadrille::golden

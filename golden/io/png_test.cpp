@@ -73,6 +73,8 @@ TEST_F(PngTest, ReadsEveryColourType) {
   EXPECT_EQ(pixels(), (Bytes{0x33, 0x33, 0x33, 255, 255, 255, 255, 255}));
   write_raw(path("p"), 1, 1, 16, PNG_COLOR_TYPE_GRAY, {0x80, 0x80});
   EXPECT_EQ(pixels(), (Bytes{0x80, 0x80, 0x80, 255}));
+  write_raw(path("p"), 2, 1, 16, PNG_COLOR_TYPE_GRAY, {0x01, 0xff, 0x01, 0x7f});  // rounded, not cut
+  EXPECT_EQ(pixels(), (Bytes{2, 2, 2, 255, 1, 1, 1, 255}));
   write_raw(path("p"), 1, 2, 8, PNG_COLOR_TYPE_GRAY_ALPHA, {9, 8, 7, 6});
   EXPECT_EQ(pixels(), (Bytes{9, 9, 9, 8, 7, 7, 7, 6}));
   write_raw(path("p"), 2, 1, 8, PNG_COLOR_TYPE_PALETTE, {1, 0});
@@ -98,6 +100,10 @@ TEST_F(PngTest, RefusesWhatIsNoCompletePng) {
     const std::string file = write("cut", good.substr(0, size));
     expect_input_error([&] { load_png(file); }, file, {"not a readable PNG"});
   }
+  const std::string endless = write("endless", good.substr(0, good.size() - 12));  // all pixels, no IEND
+  expect_input_error([&] { load_png(endless); }, endless, {"ends too early"});
+  write_raw(path("wide"), max_image_side + 1, 1, 1, PNG_COLOR_TYPE_GRAY, std::vector<std::uint8_t>(3000));
+  expect_input_error([&] { load_png(path("wide")); }, path("wide"), {"16385x1", "at most 16384 pixels a side"});
   std::mt19937 random(5);
   for (int i = 0; i < 500; ++i) {
     std::string bytes = good;
