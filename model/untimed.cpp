@@ -1,12 +1,11 @@
 #include "model/untimed.hpp"
 
+#include "model/covered_pixels.hpp"
 #include "model/pixel_lanes.hpp"
 #include "model/quad_setup.hpp"
-#include "model/stamp_coverage.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <vector>
 
 namespace quadrille {
@@ -41,8 +40,7 @@ struct UntimedModel::Impl {
 
   // Covered pixels of the current tile, in order.
   int pixels = 0;
-  std::array<int, 256> dx{}, row{};
-  std::array<bool, 256> front{}, tie{};
+  std::array<CoveredPixel, 256> pixel{};
 
   Impl(const Config& config, const DrawState& state, PixelEngine engine)
       : context(config, state), tables(context), plain(engine == PixelEngine::plain), walk(config, state) {}
@@ -62,11 +60,11 @@ struct UntimedModel::Impl {
   }
 
   void draw_plain(const TileEntry& tile, const QuadData& data, int i) {
-    const auto n = static_cast<std::size_t>(i);
+    const CoveredPixel& at = pixel[static_cast<std::size_t>(i)];
     PixelTrace p;
-    p.front = front[n];
-    p.tie = tie[n];
-    pixel_pipeline(p, tile, walk.constants(), data, dx[n], row[n], context);
+    p.front = at.front;
+    p.tie = at.tie;
+    pixel_pipeline(p, tile, walk.constants(), data, at.dx, at.row, context);
     deliver(p.fragment, p.drawn);
   }
 
@@ -74,9 +72,9 @@ struct UntimedModel::Impl {
     const int count = std::min(lanes, pixels - begin);
     int lane_dx[lanes], lane_row[lanes];
     for (int l = 0; l < lanes; ++l) {
-      const auto n = static_cast<std::size_t>(begin + std::min(l, count - 1));
-      lane_dx[l] = dx[n];
-      lane_row[l] = row[n];
+      const CoveredPixel& at = pixel[static_cast<std::size_t>(begin + std::min(l, count - 1))];
+      lane_dx[l] = at.dx;
+      lane_row[l] = at.row;
     }
     LaneResult r;
     pixel_lanes(tile, walk.constants(), data, values, context, tables, lane_dx, lane_row, r);
@@ -86,15 +84,16 @@ struct UntimedModel::Impl {
         draw_plain(tile, data, i);
         continue;
       }
+      const CoveredPixel& at = pixel[static_cast<std::size_t>(i)];
       const auto bit = [&](unsigned mask, int flag) { return (mask >> l & 1) != 0 ? flag : 0; };
       Fragment g;
       g.quad = data.id;
       g.x = static_cast<std::uint16_t>((tile.tile_x << context.config.tile_log2) + lane_dx[l]);
       g.y = static_cast<std::uint16_t>((tile.tile_y << context.config.tile_log2) + lane_row[l]);
-      g.front = front[static_cast<std::size_t>(i)];
-      g.flags = static_cast<std::uint8_t>(
-          bit(r.on_edge, flag_on_edge) | bit(r.cured, flag_cured) | bit(r.saturated, flag_saturated) |
-          (tie[static_cast<std::size_t>(i)] ? flag_tie : 0) | (data.homogeneous ? flag_homogeneous : 0));
+      g.front = at.front;
+      g.flags = static_cast<std::uint8_t>(bit(r.on_edge, flag_on_edge) | bit(r.cured, flag_cured) |
+                                          bit(r.saturated, flag_saturated) | (at.tie ? flag_tie : 0) |
+                                          (data.homogeneous ? flag_homogeneous : 0));
       g.depth = r.depth[static_cast<std::size_t>(l)];
       for (std::size_t j = 0; j < static_cast<std::size_t>(context.state.attributes); ++j)
         g.attribute[j] = r.attribute[j][static_cast<std::size_t>(l)];
@@ -105,18 +104,9 @@ struct UntimedModel::Impl {
   void draw_tile(const TileEntry& tile, const QuadData& data, const QuadLanes& values) {
     ++stats.tiles_entered;
     pixels = 0;
-    for (int r = 0; r < context.config.tile(); ++r) {
-      const StampMasks masks = stamp_coverage(tile, walk.constants(), r, context.config, context.state);
-      stats.stamps_covered += masks.mask != 0;
-      for (std::uint32_t rest = masks.mask; rest != 0; rest &= rest - 1) {
-        const int bit = std::countr_zero(rest);
-        const auto n = static_cast<std::size_t>(pixels++);
-        dx[n] = bit;
-        row[n] = r;
-        front[n] = masks.front >> bit & 1;
-        tie[n] = masks.tie >> bit & 1;
-      }
-    }
+    stats.stamps_covered += static_cast<std::uint64_t>(
+        for_each_covered_pixel(tile, walk.constants(), context.config, context.state,
+                               [&](const CoveredPixel& at) { pixel[static_cast<std::size_t>(pixels++)] = at; }));
     if (plain) {
       for (int i = 0; i < pixels; ++i) draw_plain(tile, data, i);
     } else {
@@ -143,18 +133,13 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
   ++m.stats.quads;
   m.stats.homogeneous_quads += setup.homogeneous;
   m.stats.hull_quads += setup.hull;
-  m.walk.take(setup);
-  while (m.walk.state() != TileWalk::State::end) {
-    const bool tile = m.walk.state() == TileWalk::State::tile;
-    ++(tile ? m.stats.tiles_tested : m.stats.blocks_tested);
-    if (tile && m.walk.hit()) {
-      m.draw_tile(m.walk.entry(), data, values);
-      if (!m.batch.empty()) sink(m.batch);
-      m.batch.clear();
-    }
-    m.walk.advance();
-  }
-  m.walk.advance();
+  const WalkCounts counts = walk_tiles(m.walk, setup, [&](const TileEntry& tile) {
+    m.draw_tile(tile, data, values);
+    if (!m.batch.empty()) sink(m.batch);
+    m.batch.clear();
+  });
+  m.stats.blocks_tested += counts.blocks_tested;
+  m.stats.tiles_tested += counts.tiles_tested;
 }
 
 }  // namespace quadrille

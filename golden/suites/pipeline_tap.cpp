@@ -1,11 +1,11 @@
 #include "golden/suites/pipeline_tap.hpp"
 
 #include "golden/scenes/stress.hpp"
+#include "model/covered_pixels.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace quadrille::vectors {
 namespace {
@@ -38,8 +38,7 @@ class Reservoir {
 
 struct Place {
   TileEntry tile;
-  int dx = 0, row = 0;
-  bool front = false, tie = false;
+  CoveredPixel at;
 };
 
 DrawState unit_state(std::size_t round, const Config& config) {
@@ -68,26 +67,18 @@ void tap_quad(StageData& data, Source source, const PipelineContext& context, go
   TileWalk walk(config, context.state);
   Reservoir<TileEntry> tiles(tiles_a_quad, prng);
   Reservoir<Place> pixels(pixels_a_quad, prng), specials(specials_a_quad, prng);
-  walk.take(data.setup);
-  data.constants = walk.constants();
-  for (; walk.state() != TileWalk::State::end; walk.advance()) {
-    if (walk.state() != TileWalk::State::tile || !walk.hit()) continue;
-    const TileEntry tile = walk.entry();
+  data.constants = QuadConstants(data.setup);
+  walk_tiles(walk, data.setup, [&](const TileEntry& tile) {
     tiles.offer(tile);
-    if (source != Source::pixels) continue;
-    for (int row = 0; row < config.tile(); ++row) {
-      const StampMasks masks = stamp_coverage(tile, data.constants, row, config, context.state);
-      for (std::uint32_t rest = masks.mask; rest != 0; rest &= rest - 1) {
-        const int dx = std::countr_zero(rest);
-        PixelTrace p;
-        forward_difference(p, tile, data.constants, dx, row);
-        normalise(p, context);
-        const bool tie = masks.tie >> dx & 1;
-        const bool special = tie || p.two_corner || p.on_vertex || p.two_edge || p.on_edge;
-        (special ? specials : pixels).offer({tile, dx, row, (masks.front >> dx & 1) != 0, tie});
-      }
-    }
-  }
+    if (source != Source::pixels) return;
+    for_each_covered_pixel(tile, data.constants, config, context.state, [&](const CoveredPixel& at) {
+      PixelTrace p;
+      forward_difference(p, tile, data.constants, at.dx, at.row);
+      normalise(p, context);
+      const bool special = at.tie || p.two_corner || p.on_vertex || p.two_edge || p.on_edge;
+      (special ? specials : pixels).offer({tile, at});
+    });
+  });
   if (source == Source::tiles) {
     for (const TileEntry& tile : tiles.kept()) {
       data.tile = tile;
@@ -99,12 +90,12 @@ void tap_quad(StageData& data, Source source, const PipelineContext& context, go
   for (const Reservoir<Place>* places : {&pixels, &specials}) {
     for (const Place& place : places->kept()) {
       data.tile = place.tile;
-      data.dx = place.dx;
-      data.row = place.row;
+      data.dx = place.at.dx;
+      data.row = place.at.row;
       data.pixel = {};
-      data.pixel.front = place.front;
-      data.pixel.tie = place.tie;
-      pixel_pipeline(data.pixel, place.tile, data.constants, data.data, place.dx, place.row, context);
+      data.pixel.front = place.at.front;
+      data.pixel.tie = place.at.tie;
+      pixel_pipeline(data.pixel, place.tile, data.constants, data.data, place.at.dx, place.at.row, context);
       const PixelTrace& p = data.pixel;
       for (std::size_t i = 0; i < 4; ++i) {
         data.a_sign[i] = static_cast<std::int8_t>((p.a[i] > 0) - (p.a[i] < 0));

@@ -11,13 +11,12 @@
 
 #include "golden/reference/exact_coverage.hpp"
 #include "golden/scenes/random_mesh.hpp"
+#include "model/covered_pixels.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
-#include "model/stamp_coverage.hpp"
 #include "model/support/prng.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <mutex>
@@ -28,22 +27,11 @@ namespace {
 /// Calls f(x, y, front, tie) for every pixel that the model covers.
 template <class F>
 void cover(const SnappedQuad& quad, const Config& config, const DrawState& state, TileWalk& walk, F f) {
-  walk.take(quad_setup(quad, config, state));
-  while (walk.state() != TileWalk::State::end) {
-    if (walk.state() == TileWalk::State::tile && walk.hit()) {
-      const TileEntry tile = walk.entry();
-      for (int row = 0; row < config.tile(); ++row) {
-        const StampMasks m = stamp_coverage(tile, walk.constants(), row, config, state);
-        for (std::uint32_t rest = m.mask; rest != 0; rest &= rest - 1) {
-          const int dx = std::countr_zero(rest);
-          f(tile.tile_x * config.tile() + dx, tile.tile_y * config.tile() + row, (m.front >> dx & 1) != 0,
-            (m.tie >> dx & 1) != 0);
-        }
-      }
-    }
-    walk.advance();
-  }
-  walk.advance();
+  walk_tiles(walk, quad_setup(quad, config, state), [&](const TileEntry& tile) {
+    for_each_covered_pixel(tile, walk.constants(), config, state, [&](const CoveredPixel& at) {
+      f(tile.tile_x * config.tile() + at.dx, tile.tile_y * config.tile() + at.row, at.front, at.tie);
+    });
+  });
 }
 
 struct Counts {

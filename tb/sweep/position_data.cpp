@@ -1,13 +1,12 @@
 #include "tb/sweep/position_data.hpp"
 
 #include "golden/reference/truth.hpp"
+#include "model/covered_pixels.hpp"
 #include "model/quad_setup.hpp"
-#include "model/stamp_coverage.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/sweep/parallel_units.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -23,15 +22,10 @@ std::size_t units_of(std::size_t n, std::size_t per_unit) { return (n + per_unit
 template <class F>
 void for_each_pixel(const SnappedQuad& quad, const Config& config, const DrawState& state, F&& f) {
   TileWalk walk(config, state);
-  walk.take(quad_setup(quad, config, state));
-  for (; walk.state() != TileWalk::State::end; walk.advance()) {
-    if (walk.state() != TileWalk::State::tile || !walk.hit()) continue;
-    const TileEntry tile = walk.entry();
-    for (int row = 0; row < config.tile(); ++row)
-      for (std::uint32_t rest = stamp_coverage(tile, walk.constants(), row, config, state).mask; rest != 0;
-           rest &= rest - 1)
-        f(tile, walk.constants(), std::countr_zero(rest), row);
-  }
+  walk_tiles(walk, quad_setup(quad, config, state), [&](const TileEntry& tile) {
+    for_each_covered_pixel(tile, walk.constants(), config, state,
+                           [&](const CoveredPixel& at) { f(tile, walk.constants(), at.dx, at.row); });
+  });
 }
 
 std::uint32_t pixel_of(const TileEntry& tile, int dx, int row, const Config& config) {
