@@ -10,9 +10,9 @@ namespace quadrille::tb {
 
 namespace {
 
-/// One quad of family `family`, positions within `edge` pixels.
 int pick(golden::Prng& random, int low, int high) { return static_cast<int>(random.integer(low, high)); }
 
+/// One quad of family `family`, positions within `edge` pixels.
 WindowQuad random_quad(golden::Prng& random, int family, double edge, int attributes, double attribute_limit) {
   WindowQuad q;
   const double size = family == 3 ? random.uniform(0.2, 4) : random.uniform(2, 24);
