@@ -581,8 +581,10 @@ void SuiteReader::check_files() {
   }
 }
 
-void SuiteReader::check_hex(const Role& role) const {
-  const std::string path = (directory_ / role.file).string();
+namespace {
+
+/// Reads a file of records; returns how many.
+std::uint64_t count_records(const std::string& path, int bits) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw input_error(path, 0, "cannot be read");
   std::string line;
@@ -590,12 +592,20 @@ void SuiteReader::check_hex(const Role& role) const {
   while (std::getline(in, line)) {
     ++lines;
     try {
-      Record::from_hex(line, role.layout.bits());
+      Record::from_hex(line, bits);
     } catch (const HexError& error) {
       throw input_error(path, lines, error.what());
     }
     if (in.eof()) throw input_error(path, lines, "has no newline at its end");
   }
+  return lines;
+}
+
+}  // namespace
+
+void SuiteReader::check_hex(const Role& role) const {
+  const std::string path = (directory_ / role.file).string();
+  const std::uint64_t lines = count_records(path, role.layout.bits());
   if (lines != role.lines)
     throw input_error(path, 0,
                       "has " + std::to_string(lines) + " lines; the manifest says " + std::to_string(role.lines));
@@ -686,6 +696,73 @@ SuiteReader SetReader::suite(const std::string& name) const {
   if (command != of_set || reader.set().limit != info_.limit)
     throw input_error(file, 0, "\"command\" differs from that of suite " + name);
   return reader;
+}
+
+// ---- Sealing ----
+
+namespace {
+
+/// What someone else's device fills in.
+bool is_response(const std::string& name) {
+  return name == "response.hex" || name == "beats.hex" || name.ends_with(".exr");
+}
+
+/// The suite's manifest for the files as they are.
+std::string sealed_manifest(const fs::path& directory) {
+  const std::string file = (directory / manifest_name).string();
+  Json manifest = parse_manifest(file, read_manifest(file, "the manifest of a suite"));
+  require_format(file, manifest);
+  std::map<std::string, int> bits;
+  for (const auto& [role, record] : object_member(file, manifest, "records").items()) {
+    if (!record.is_object()) throw input_error(file, 0, "record " + golden::in_quotes(role) + " is no object");
+    bits[text_member(file, record, "file")] = read_layout(file, role, record).bits();
+  }
+  std::map<std::string, std::uint64_t> lines;
+  object_member(file, manifest, "files");
+  for (auto& [name, entry] : manifest["files"].items()) {
+    if (!plain_name(name)) throw input_error(file, 0, golden::in_quotes(name) + " is no name of a suite's file");
+    if (!entry.is_object()) throw input_error(file, 0, "files: " + name + " is no object");
+    const fs::path path = directory / name;
+    std::error_code error;
+    if (!fs::is_regular_file(fs::symlink_status(path, error)))
+      throw input_error(path.string(), 0, "is no regular file");
+    if (bits.contains(name)) lines[name] = count_records(path.string(), bits[name]);
+    const FileDigest digest = digest_file(path);
+    if (!is_response(name) && digest.sha256 != text_member(file, entry, "sha256"))
+      throw input_error(path.string(), 0,
+                        "is not the generated file; only response.hex and beats.hex may be one's own");
+    entry["sha256"] = digest.sha256;
+    entry["bytes"] = digest.bytes;
+    if (lines.contains(name)) entry["lines"] = lines[name];
+  }
+  const bool machine = text_member(file, manifest, "kind") == "machine";
+  const std::string response = machine ? "beats.hex" : "response.hex";
+  if (lines[response] != lines["stimulus.hex"])
+    throw input_error((directory / response).string(), std::min(lines[response], lines["stimulus.hex"]) + 1,
+                      "the file has " + std::to_string(lines[response]) + " lines; stimulus.hex has " +
+                          std::to_string(lines["stimulus.hex"]) + ", and each needs one");
+  object_member(file, manifest, "counts");
+  manifest["counts"]["vectors"] = lines["response.hex"];
+  return manifest_text(manifest);
+}
+
+}  // namespace
+
+void seal_set(const fs::path& directory) {
+  const std::string file = (directory / manifest_name).string();
+  Json manifest = parse_manifest(file, read_manifest(file, "the manifest of a set of vectors"));
+  require_format(file, manifest);
+  object_member(file, manifest, "suites");
+  // Nothing is written before every suite is right.
+  std::map<std::string, std::string> manifests;
+  for (auto& [name, entry] : manifest["suites"].items()) {
+    if (!plain_name(name) || !entry.is_object()) throw input_error(file, 0, golden::in_quotes(name) + " is no suite");
+    const std::string& text = manifests[name] = sealed_manifest(directory / name);
+    entry["sha256"] = sha256(text);
+  }
+  for (const auto& [name, text] : manifests)
+    golden::write_file((directory / name / manifest_name).string(), text, golden::AtomicFile::Dash::refused);
+  golden::write_file(file, manifest_text(manifest), golden::AtomicFile::Dash::refused);
 }
 
 }  // namespace quadrille::vectors

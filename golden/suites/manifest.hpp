@@ -154,6 +154,11 @@ class SuiteReader {
   std::map<std::string, Role> roles_;
 };
 
+/// Makes a set of one's own responses one that SetReader takes: hashes, sizes and numbers of lines of response.hex, of
+/// beats.hex and of pictures are those of the files as they are. Throws golden::InputError, with the line, for records
+/// that are malformed, too few or too many, and for any other file that is not the generated one.
+void seal_set(const std::filesystem::path& directory);
+
 /// A set on the disk. The constructor checks the set's manifest and that the directory holds its suites and nothing
 /// else; suite() checks a suite. Symbolic links inside a set are refused.
 class SetReader {

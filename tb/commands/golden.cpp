@@ -292,6 +292,45 @@ void add_verify(CLI::App& golden, Invocation& invocation) {
   });
 }
 
+// ---- seal ----
+
+int seal(const std::string& directory, bool quiet) {
+  seal_set(directory);
+  const SetReader set(directory);
+  std::uint64_t vectors = 0;
+  for (const std::string& name : set.suites()) {
+    const SuiteReader reader = set.suite(name);
+    require_known(reader);
+    vectors += reader.lines("response");
+  }
+  if (!quiet)
+    std::printf("%s: %zu %s, %llu vectors sealed\n", directory.c_str(), set.suites().size(),
+                set.suites().size() == 1 ? "suite" : "suites", static_cast<unsigned long long>(vectors));
+  return exit_ok;
+}
+
+void add_seal(CLI::App& golden, Invocation& invocation) {
+  CLI::App* command = golden.add_subcommand("seal", "Make a set of your own responses comparable");
+  command->footer(
+      "Copy a set, put what your implementation answers into response.hex (of machine suites beats.hex too), a record "
+      "a\n"
+      "line as in the set, and seal the copy: hashes, sizes and counts become those of your files. Then `golden diff`\n"
+      "compares it with the set and `golden verify` with the engines. Everything else must be as generated; malformed\n"
+      "files are refused with file and line, exit status 2. Pictures stay as they are.\n\n"
+      "Examples:\n"
+      "  quadrille golden seal mine\n"
+      "  quadrille golden diff vectors mine");
+  struct Options {
+    std::string directory;
+    bool quiet = false;
+  };
+  const auto options = std::make_shared<Options>();
+  command->add_option("directory", options->directory, "The set")->type_name("DIR")->required();
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->callback(
+      [options, &invocation] { invocation.run = [options] { return seal(options->directory, options->quiet); }; });
+}
+
 }  // namespace
 
 void add_golden_command(CLI::App& app, Invocation& invocation) {
@@ -300,6 +339,7 @@ void add_golden_command(CLI::App& app, Invocation& invocation) {
   command->footer("Examples:\n  quadrille golden generate --level 1 --out vectors\n  quadrille golden verify vectors");
   add_generate(*command, invocation);
   add_verify(*command, invocation);
+  add_seal(*command, invocation);
   add_golden_diff_command(*command, invocation);
 }
 

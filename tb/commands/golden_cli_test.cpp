@@ -222,6 +222,61 @@ TEST_F(GoldenCli, NothingToReplayIsStatus1) {
   EXPECT_EQ(outcome.err, "quadrille: no vector was compared\n");
 }
 
+TEST_F(GoldenCli, SealsResponsesOfOnesOwn) {
+  generate("--suite rsqrt --suite stress_tiny --out " + file("set").string());
+  const auto copy = [&] {
+    fs::remove_all(file("mine")), fs::copy(file("set"), file("mine"), fs::copy_options::recursive);
+  };
+  const auto seal = [&] { return run("golden seal " + file("mine").string()); };
+  copy();
+  ASSERT_EQ(seal().status, 0);
+  EXPECT_EQ(bytes("mine"), bytes("set")) << "a set that is right stays as it is";
+
+  // Another significand in the first line: refused until it is sealed, then a difference.
+  std::string text = read(file("set/rsqrt/response.hex"));
+  const std::size_t last = text.find('\n') - 1;
+  text[last] = text[last] == '0' ? '1' : '0';
+  write("mine/rsqrt/response.hex", text);
+  EXPECT_EQ(run("golden verify " + file("mine").string()).status, 2);
+  ASSERT_EQ(seal().status, 0);
+  Outcome outcome = run("golden verify " + file("mine").string());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("response.hex:1: sig[0]"), std::string::npos) << outcome.err;
+  outcome = run("golden diff " + file("set").string() + " " + file("mine").string());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.out.find("rsqrt/response.hex: 1 of "), std::string::npos) << outcome.out;
+
+  // A machine that draws one fragment less.
+  copy();
+  text = read(file("set/stress_tiny/response.hex"));
+  write("mine/stress_tiny/response.hex", text.substr(0, text.rfind('\n', text.size() - 2) + 1));
+  outcome = seal();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(run("golden verify " + file("mine").string()).status, 1);
+}
+
+TEST_F(GoldenCli, SealRefusesMalformedFiles) {
+  generate("--suite rsqrt --out " + file("set").string());
+  const std::string response = read(file("set/rsqrt/response.hex")), stimulus = read(file("set/rsqrt/stimulus.hex"));
+  const std::string manifest = read(file("set/rsqrt/manifest.json"));
+  const std::size_t line = response.find('\n') + 1;
+  const auto refused = [&](const std::string& name, const std::string& text, const std::string& why) {
+    const std::string before = read(file("set/rsqrt/" + name));
+    write("set/rsqrt/" + name, text);
+    const Outcome outcome = run("golden seal " + file("set").string());
+    EXPECT_EQ(outcome.status, 2) << why;
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    EXPECT_EQ(read(file("set/rsqrt/manifest.json")), manifest) << "nothing is written";
+    write("set/rsqrt/" + name, before);
+  };
+  refused("response.hex", response.substr(0, line) + "x" + response.substr(line + 1), "response.hex:2: column 1");
+  refused("response.hex", response.substr(0, line) + "0" + response.substr(line), "response.hex:2: has 31 characters");
+  refused("response.hex", response.substr(0, response.size() - 1), "has no newline");
+  refused("response.hex", response.substr(line), "each needs one");
+  refused("stimulus.hex", response, "stimulus.hex: is not the generated file");
+  EXPECT_EQ(run("golden seal " + file("nowhere").string()).status, 2);
+}
+
 TEST_F(GoldenCli, RefusesWhatItCannotDo) {
   refuses(2, "golden generate", {"--out"});
   refuses(2, "golden generate --suite weigths --out set", {"unknown suite \"weigths\"", "did you mean \"weights\""});
