@@ -752,7 +752,7 @@ void check_complete(VerifyResult& total, const SuiteReader& reader, const std::v
     }
     return missing;
   };
-  cli::ordered_parallel(draws.size(), threads, one_draw, [&](std::size_t, const Missing& missing) {
+  ordered_parallel(draws.size(), threads, one_draw, [&](std::size_t, const Missing& missing) {
     if (missing.count > 0 && total.mismatches == 0)
       total.first_difference = reader.place("response", std::max<std::uint64_t>(lines, 1) - 1) + ": " + missing.first;
     total.vectors += missing.count;
@@ -773,32 +773,31 @@ VerifyResult verify_machine(const SuiteReader& reader, unsigned threads) {
   constexpr std::uint64_t chunk = 1024;
   const std::uint64_t lines = reader.lines("response");
   VerifyResult total;
-  cli::ordered_parallel(
-      (lines + chunk - 1) / chunk, threads,
-      [&](std::size_t unit) {
-        const std::uint64_t first = unit * chunk;
-        VerifyResult part;
-        std::optional<FloatQuad> quad;
-        std::pair<std::uint32_t, std::uint32_t> current{};
-        std::uint64_t line = first;
-        for (const DrawnFragment& drawn : read_fragments(reader, first, std::min(chunk, lines - first))) {
-          VectorOutcome outcome{VectorOutcome::Kind::mismatch, "draw: no such draw"};
-          if (drawn.draw < draws.size()) {
-            const MachineDraw& draw = draws[drawn.draw];
-            const auto found = quad_of_id[drawn.draw].find(drawn.fragment.quad);
-            outcome.difference = "quad: no quad of the draw";
-            if (found != quad_of_id[drawn.draw].end()) {
-              if (!quad || current != std::pair{drawn.draw, drawn.fragment.quad})
-                quad.emplace(draw.quads[found->second], config, draw.state);
-              current = {drawn.draw, drawn.fragment.quad};
-              outcome = quad->check(drawn.fragment);
-            }
-          }
-          part.add(outcome, reader, line++);
-        }
-        return part;
-      },
-      [&](std::size_t, const VerifyResult& part) { total.merge(part); });
+  ordered_parallel((lines + chunk - 1) / chunk, threads,
+                   [&](std::size_t unit) {
+                     const std::uint64_t first = unit * chunk;
+                     VerifyResult part;
+                     std::optional<FloatQuad> quad;
+                     std::pair<std::uint32_t, std::uint32_t> current{};
+                     std::uint64_t line = first;
+                     for (const DrawnFragment& drawn : read_fragments(reader, first, std::min(chunk, lines - first))) {
+                       VectorOutcome outcome{VectorOutcome::Kind::mismatch, "draw: no such draw"};
+                       if (drawn.draw < draws.size()) {
+                         const MachineDraw& draw = draws[drawn.draw];
+                         const auto found = quad_of_id[drawn.draw].find(drawn.fragment.quad);
+                         outcome.difference = "quad: no quad of the draw";
+                         if (found != quad_of_id[drawn.draw].end()) {
+                           if (!quad || current != std::pair{drawn.draw, drawn.fragment.quad})
+                             quad.emplace(draw.quads[found->second], config, draw.state);
+                           current = {drawn.draw, drawn.fragment.quad};
+                           outcome = quad->check(drawn.fragment);
+                         }
+                       }
+                       part.add(outcome, reader, line++);
+                     }
+                     return part;
+                   },
+                   [&](std::size_t, const VerifyResult& part) { total.merge(part); });
   check_complete(total, reader, draws, threads);
   return total;
 }

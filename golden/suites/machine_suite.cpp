@@ -309,7 +309,7 @@ void MachineSuite::write(SuiteWriter& writer, const GenerateOptions& options) co
   for (const StallClock& clock : stalls) writer.write("stalls", packed(clock, config, layouts.stall));
   const std::vector<MachineDraw> draws = draws_(options);
   std::uint64_t quads = 0, fragments = 0;
-  cli::ordered_parallel(
+  ordered_parallel(
       draws.size(), options.threads, [&](std::size_t i) { return run_draw(draws[i], config, stalls); },
       [&](std::size_t i, const DrawRun& run) {
         const MachineDraw& draw = draws[i];
@@ -399,7 +399,7 @@ VerifyResult MachineSuite::verify(const SuiteReader& reader, unsigned threads) c
                              ": the pattern never offers or never takes anything; the machine would wait for ever");
 
   std::vector<Record> beats, fragments;
-  cli::ordered_parallel(
+  ordered_parallel(
       draws.size(), threads, [&](std::size_t i) { return run_draw(draws[i], config, stalls); },
       [&](std::size_t i, const DrawRun& run) {
         beat_lines(i, run, config, layouts.beat, [&](Record line) { beats.push_back(std::move(line)); });

@@ -201,7 +201,7 @@ void StageSuite::write(SuiteWriter& writer, const GenerateOptions& options) cons
     std::vector<Record> stimulus, response;
   };
   std::uint64_t corner = 0, random = 0, realistic = 0;
-  cli::ordered_parallel(
+  ordered_parallel(
       units.count(), options.threads,
       [&](std::size_t unit) {
         Lines lines{units.make(unit), {}};

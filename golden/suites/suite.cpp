@@ -99,18 +99,18 @@ VerifyResult check_vectors(const SuiteReader& reader, unsigned threads,
     throw golden::input_error(reader.manifest_file(), 0, "stimulus and response have different numbers of lines");
   constexpr std::uint64_t chunk = 1024;
   VerifyResult total;
-  cli::ordered_parallel((lines + chunk - 1) / chunk, threads,
-                        [&](std::size_t unit) {
-                          const std::uint64_t first = unit * chunk, count = std::min(chunk, lines - first);
-                          const std::vector<Record> stimulus = reader.read("stimulus", first, count);
-                          const std::vector<Record> response = reader.read("response", first, count);
-                          VerifyResult part;
-                          for (std::uint64_t i = 0; i < count; ++i) {
-                            part.add(check(stimulus[i], response[i]), reader, first + i);
-                          }
-                          return part;
-                        },
-                        [&](std::size_t, const VerifyResult& part) { total.merge(part); });
+  ordered_parallel((lines + chunk - 1) / chunk, threads,
+                   [&](std::size_t unit) {
+                     const std::uint64_t first = unit * chunk, count = std::min(chunk, lines - first);
+                     const std::vector<Record> stimulus = reader.read("stimulus", first, count);
+                     const std::vector<Record> response = reader.read("response", first, count);
+                     VerifyResult part;
+                     for (std::uint64_t i = 0; i < count; ++i) {
+                       part.add(check(stimulus[i], response[i]), reader, first + i);
+                     }
+                     return part;
+                   },
+                   [&](std::size_t, const VerifyResult& part) { total.merge(part); });
   return total;
 }
 

@@ -1,11 +1,13 @@
-// Work in numbered units on several threads, results consumed in the order of the numbers: what comes out does not
-// depend on the number of threads.
+// Work in numbered units on several threads. In both forms what comes out does not depend on the number of threads,
+// provided that a unit's result depends on its number alone; the calling thread returns when no unit is running; with
+// one thread or one unit everything happens on the calling thread.
 #pragma once
 
 #include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -13,7 +15,13 @@
 #include <utility>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille {
+
+/// Calls body(unit, thread) for every unit from 0; thread is below max(threads, 1) and no two calls of one thread
+/// overlap. `progress` (may be empty) gets the number of finished units on the calling thread now and then. The first
+/// exception, from either, ends the call after the running units and is rethrown.
+void run_units(std::size_t units, unsigned threads, const std::function<void(std::size_t, unsigned)>& body,
+               const std::function<void(std::size_t)>& progress = {});
 
 /// Calls produce(unit) for unit = 0 … units-1 on `threads` threads and consume(unit, result) in order on the calling
 /// thread. At most a few results per thread wait. The exception of the lowest unit that threw is rethrown; later
@@ -87,11 +95,10 @@ void ordered_parallel(std::size_t units, unsigned threads, Produce&& produce, Co
   }
 }
 
-/// Calls body(unit) for every unit, in any order, on `threads` threads.
+/// run_units() for a body that does not care which thread it is on.
 template <class Body>
 void parallel_for(std::size_t units, unsigned threads, Body&& body) {
-  ordered_parallel(
-      units, threads, [&](std::size_t unit) { return body(unit), 0; }, [](std::size_t, int) {});
+  run_units(units, threads, [&](std::size_t unit, unsigned) { body(unit); });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille

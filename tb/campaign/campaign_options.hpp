@@ -1,7 +1,7 @@
-// `--name value` options of the campaign programs, and work shared by threads.
+// `--name value` options of the campaign programs.
 #pragma once
 
-#include <atomic>
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
@@ -50,21 +50,14 @@ class Options {
     }
   }
 
+  /// --threads, 0: one per processor.
+  unsigned threads() const {
+    const std::uint64_t given = number("threads");
+    return given != 0 ? static_cast<unsigned>(given) : std::max(1u, std::thread::hardware_concurrency());
+  }
+
  private:
   std::map<std::string, std::string> values_;
 };
-
-/// Calls work(i) for i in [0, count) on `threads` threads (0: one per processor). Results must not depend on the order.
-template <class F>
-void for_each_index(std::size_t count, std::uint64_t threads, F work) {
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  std::atomic<std::size_t> next{0};
-  std::vector<std::thread> pool;
-  for (std::uint64_t t = 0; t < threads; ++t)
-    pool.emplace_back([&] {
-      for (std::size_t i = next++; i < count; i = next++) work(i);
-    });
-  for (std::thread& t : pool) t.join();
-}
 
 }  // namespace quadrille::campaign

@@ -14,6 +14,8 @@
 #include "model/covered_pixels.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
+#include "model/stamp_coverage.hpp"
+#include "model/support/parallel.hpp"
 #include "model/support/prng.hpp"
 
 #include <algorithm>
@@ -135,11 +137,11 @@ struct GridCounts {
   std::uint64_t quads = 0, cases = 0, covered = 0, ties = 0, wrong = 0, wrong_facing = 0, stray = 0;
 };
 
-GridCounts check_grid(std::uint64_t threads) {
+GridCounts check_grid(unsigned threads) {
   constexpr int side = 5, points = side * side;
   GridCounts total;
   std::mutex mutex;
-  for_each_index(points, threads, [&](std::size_t first) {
+  parallel_for(points, threads, [&](std::size_t first) {
     Config config;
     DrawState state;
     state.width = state.height = state.scissor_x1 = state.scissor_y1 = 64;
@@ -185,8 +187,8 @@ unsigned long long ull(std::uint64_t v) { return v; }
 
 int run(int argc, char** argv) {
   const Options options(argc, argv, {{"samples", "10000000"}, {"seed", "1"}, {"threads", "0"}, {"grid", "1"}});
-  const std::uint64_t wanted = options.number("samples"), seed = options.number("seed"),
-                      threads = options.number("threads");
+  const std::uint64_t wanted = options.number("samples"), seed = options.number("seed");
+  const unsigned threads = options.threads();
   bool ok = true;
 
   std::printf("random meshes, seed %llu\n", ull(seed));
@@ -194,7 +196,7 @@ int run(int argc, char** argv) {
   constexpr std::size_t batch = 24;
   for (std::uint64_t base = 0; n.samples < wanted; base += batch) {
     std::vector<Counts> parts(batch);
-    for_each_index(batch, threads, [&](std::size_t i) { parts[i] = check_mesh(seed, base + i); });
+    parallel_for(batch, threads, [&](std::size_t i) { parts[i] = check_mesh(seed, base + i); });
     for (const Counts& p : parts) n += p;
   }
   std::printf("  %llu meshes, %llu quads (%llu triangles, %llu concave, %llu clockwise)\n", ull(n.meshes), ull(n.quads),

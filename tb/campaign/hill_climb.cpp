@@ -12,6 +12,7 @@
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/stamp_coverage.hpp"
+#include "model/support/parallel.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
 
@@ -294,7 +295,7 @@ int run(int argc, char** argv) {
     for (const auto& info : families)
       quads.push_back(golden::make_stress(info.family, starts, seed * 1000 + bits, 1.0, viewport, viewport, 4));
     std::vector<Summit> summits(families.size() * starts);
-    for_each_index(summits.size(), options.number("threads"), [&](std::size_t i) {
+    parallel_for(summits.size(), options.threads(), [&](std::size_t i) {
       Climber climber(config);
       summits[i] = climb(climber, quads[i / starts][i % starts], options.number("steps"),
                          seed * 0x9e3779b97f4a7c15u + bits * 1000003 + i);

@@ -6,6 +6,7 @@
 #include "golden/scenes/random_mesh.hpp"
 #include "model/lane_target.hpp"
 #include "model/snap.hpp"
+#include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
 #include "tb/check/check.hpp"
 #include "tb/commands/bench_timing.hpp"
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <thread>
 
 namespace quadrille::cli {
 namespace {
@@ -110,7 +110,7 @@ class SpeedBench {
   Measure model(unsigned threads) const {
     std::vector<std::uint64_t> drawn(threads, 0);
     const std::uint64_t share = options_.fragments;
-    const auto work = [&](unsigned thread) {
+    const auto work = [&](std::size_t part) {
       UntimedModel model(config_, state_);
       std::uint64_t count = 0, check = 0;
       while (count < share)
@@ -119,13 +119,10 @@ class SpeedBench {
             count += fragments.size();
             check += fragments.empty() ? 0 : fragments.back().depth;
           });
-      drawn[thread] = count + (check == 1 ? 1 : 0);  // keeps the depths alive
+      drawn[part] = count + (check == 1 ? 1 : 0);  // keeps the depths alive
     };
     const Stopwatch stopwatch;
-    std::vector<std::thread> pool;
-    for (unsigned i = 1; i < threads; ++i) pool.emplace_back(work, i);
-    work(0);
-    for (std::thread& thread : pool) thread.join();
+    parallel_for(threads, threads, work);
     Measure m;
     m.seconds = stopwatch.seconds();
     for (const std::uint64_t count : drawn) m.fragments += count;

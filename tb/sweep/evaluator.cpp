@@ -1,7 +1,7 @@
 #include "tb/sweep/evaluator.hpp"
 
+#include "model/support/parallel.hpp"
 #include "tb/lockstep/lockstep.hpp"
-#include "tb/sweep/parallel_units.hpp"
 #include "tb/sweep/stage_tree.hpp"
 
 #include <algorithm>

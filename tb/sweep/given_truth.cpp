@@ -108,7 +108,7 @@ GivenTruth::GivenTruth(const SweepInput& input, unsigned threads)
         }
     return out;
   };
-  cli::ordered_parallel(bands.size(), threads, draw, [&](std::size_t unit, const BandResult& result) {
+  ordered_parallel(bands.size(), threads, draw, [&](std::size_t unit, const BandResult& result) {
     while (first_.size() <= bands[unit].quad) first_.push_back(pixel_.size());
     pixel_.insert(pixel_.end(), result.pixel.begin(), result.pixel.end());
     values_.insert(values_.end(), result.values.begin(), result.values.end());

@@ -3,7 +3,7 @@
 #include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/quad_setup.hpp"
-#include "tb/sweep/parallel_units.hpp"
+#include "model/support/parallel.hpp"
 
 #include <algorithm>
 #include <bit>

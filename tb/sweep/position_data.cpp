@@ -4,7 +4,6 @@
 #include "model/covered_pixels.hpp"
 #include "model/quad_setup.hpp"
 #include "model/support/parallel.hpp"
-#include "tb/sweep/parallel_units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +104,7 @@ PositionData::PositionData(const SweepInput& input, const GivenTruth& given_trut
       }
     }
   };
-  cli::ordered_parallel(units_of(snapped.size(), quads_per_unit), threads, cover, append);
+  ordered_parallel(units_of(snapped.size(), quads_per_unit), threads, cover, append);
 
   truth.resize(blocks());
   visible.resize(blocks());

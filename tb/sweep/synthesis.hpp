@@ -27,7 +27,8 @@ struct SynthesisRow {
 };
 
 /// Synthesises the points on up to `threads` processors, each with a Yosys of its own (about 2 GB); results in the
-/// order of the points. `progress` (may be empty) is called on the calling thread when points are done. Configurations
+/// order of the points. `progress` (may be empty) gets the number of
+/// points done on the calling thread now and then. Configurations
 /// synthesised before come from the cache. The first failure ends the call once the running syntheses are done:
 /// EnvironmentError without Yosys, VerilateError when it fails, ConfigError for a point that cannot be built.
 std::vector<SynthesisRow> synthesise(std::span<const SynthesisPoint> points, const CostWeights& weights,

@@ -1,4 +1,4 @@
-#include "tb/sweep/parallel_units.hpp"
+#include "model/support/parallel.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace quadrille::sweep {
+namespace quadrille {
 
 void run_units(std::size_t units, unsigned threads, const std::function<void(std::size_t, unsigned)>& body,
                const std::function<void(std::size_t)>& progress) {
@@ -72,4 +72,4 @@ void run_units(std::size_t units, unsigned threads, const std::function<void(std
   if (error) std::rethrow_exception(error);
 }
 
-}  // namespace quadrille::sweep
+}  // namespace quadrille
