@@ -324,7 +324,9 @@ void walk(const SnappedQuad& q, const Config& c, const DrawState& state, std::ma
       for (std::size_t k = 0; k < 10; ++k)
         ASSERT_TRUE(e.quadratic[k].value == at.dot(k < 6 ? edges[k][0] : k - 6, k < 6 ? edges[k][1] : k - 6));
       visit(e, c, [&](const FieldType& type, int, auto v) {
-        if (type.is_signed) ASSERT_TRUE(fits(static_cast<std::int64_t>(v), type.width)) << type.name;
+        if (type.is_signed) {
+          ASSERT_TRUE(fits(static_cast<std::int64_t>(v), type.width)) << type.name;
+        }
       });
       for (int row = 0; row < edge; ++row) {
         const StampMasks m = stamp_coverage(e, w.constants(), row, c, state);
