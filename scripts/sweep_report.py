@@ -39,7 +39,7 @@ exact arithmetic.</p>
 <ul>
 <li><b>Snapping error</b>: exact arithmetic on the vertices after rounding to the machine's grid, against exact arithmetic on the vertices as given. It is
 what any hardware with this position format would do.</li>
-<li><b>Arithmetic error</b>: the machine against exact arithmetic on the same rounded vertices. It is what the machine's own widths do.</li>
+<li><b>Arithmetic error</b>: the machine against exact arithmetic on the same rounded vertices. It is what the machine's own widths do. <b>Total</b>: their sum.</li>
 <li><b>Weights λ′</b> have unit 1; <b>attributes</b> are in the input's own units; <b>window depth</b> is in [0, 1]; <b>test colours</b> are three channels
 in [0, 1].</li>
 <li>All errors are absolute. Axes of errors are in powers of two: one less in the exponent is one bit more. 2<sup>−8</sup> is about half an 8-bit colour

@@ -130,7 +130,7 @@ class SweepRun {
     if (options_.exhaustive && options_.targets.empty()) throw UsageError("--exhaustive goes with --target-error");
     if (!options_.common.config_file.empty()) golden::load_cost_weights(options_.common.config_file, weights_);
     for (const std::string& target : options_.targets) targets_.push_back(parse_target(target));
-    objective_ = !options_.objective.empty() ? sweep::parse_error_column(options_.objective)
+    objective_ = !options_.objective.empty() ? sweep::parse_error_column(options_.objective, sweep::ErrorKind::total)
                  : !targets_.empty()         ? targets_.front().column
                                              : sweep::ErrorColumn{};
 
@@ -591,16 +591,22 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--out", options->out, "Directory of the results; made if missing")->type_name("DIR");
   command
       ->add_option("--target-error", options->targets,
-                   "Find the cheapest point with at most this error; several must all hold. COLUMN as in points.csv, "
-                   "or lambda, attribute, depth, colour; VALUE as 2^-12, 0.5/255 or 1e-6")
+                   "Find the cheapest point with at most this error; several must all hold. COLUMN as in points.csv; "
+                   "lambda, attribute, depth or colour is its largest arithmetic error (what the machine adds to the "
+                   "snapped quads), total_lambda_max and the like include snapping; VALUE as 2^-12, 0.5/255 or 1e-6")
       ->type_name("COLUMN=VALUE")
       ->allow_extra_args(false);
   command->add_flag("--exhaustive", options->exhaustive,
                     "--target-error: evaluate the whole grid instead of searching");
   command->add_flag("--no-confirm", options->no_confirm,
                     "--target-error: do not try the winner on the stress families");
-  command->add_option("--objective", options->objective, "Error of the Pareto front; default arithmetic_lambda_max")
-      ->type_name("COLUMN");
+  command
+      ->add_option(
+          "--objective", options->objective,
+          "Error of the Pareto front and its knees: total (snapping + arithmetic, of the weights: the default), "
+          "arithmetic, snapping, a quantity such as colour (its total), or a column of points.csv; with "
+          "--target-error its first column unless given")
+      ->type_name("ERROR");
   command
       ->add_option("--cosim", options->cosim,
                    "Points to co-simulate with the RTL; default: default, knees and corners, 8 at most")

@@ -190,7 +190,7 @@ TEST_F(SweepCli, AFinishedSweepCanBeAskedForMore) {
   write("w.toml", "[cost]\nmultiplier = 1000\n");
   ASSERT_EQ(run(sweep + "--objective colour --config w.toml --json j.json").status, 0);
   const json after = manifest("m");
-  EXPECT_EQ(after.at("objective"), "arithmetic_colour_max");
+  EXPECT_EQ(after.at("objective"), "total_colour_max");
   EXPECT_EQ(after.at("cost_weights").at("multiplier"), 1000);
   EXPECT_EQ(after.at("counters"), before.at("counters"));
   EXPECT_EQ(json::parse(read(file("j.json"))), after);
@@ -199,6 +199,34 @@ TEST_F(SweepCli, AFinishedSweepCanBeAskedForMore) {
       "sweep --target-error lambda=2^-40 --no-confirm" + std::string(small) + "--axis significand_bits=10,12 --out f";
   EXPECT_EQ(run(missed).status, 1);
   EXPECT_EQ(run(missed).status, 1);
+}
+
+TEST_F(SweepCli, TheObjectiveIsTheTotalErrorUnlessAsked) {
+  const std::string sweep =
+      "sweep --scene phong_mesh --size 96x96 --cosim none --no-cycles --axis subpixel_bits=2,4,8 "
+      "--axis significand_bits=10:22:4 --out k ";
+  const auto coarse_knees = [&](const std::string& options, const std::string& objective) {
+    EXPECT_EQ(run(sweep + options).status, 0);
+    const json m = manifest("k");
+    EXPECT_EQ(m.at("objective"), objective);
+    EXPECT_GE(m.at("knees").size(), 1u);
+    const Table rows = table(file("k") / "points.csv");
+    std::size_t coarse = 0;
+    for (const std::size_t row : m.at("knees")) coarse += rows.at(row).at("subpixel_bits") == "2" ? 1 : 0;
+    for (const auto& row : rows)
+      EXPECT_EQ(std::stod(row.at("total_lambda_max")),
+                std::stod(row.at("snapping_lambda_max")) + std::stod(row.at("arithmetic_lambda_max")));
+    return coarse;
+  };
+  EXPECT_EQ(coarse_knees("", "total_lambda_max"), 0u);
+  EXPECT_GE(coarse_knees("--objective arithmetic", "arithmetic_lambda_max"), 1u) << "a quarter of a pixel costs least";
+  // A target without a kind is one of arithmetic error, which the grid meets; the total it does not.
+  const std::string target =
+      "sweep --scene phong_mesh --size 96x96 --cosim none --no-cycles --no-confirm --axis "
+      "significand_bits=10:22:4 --target-error ";
+  EXPECT_EQ(run(target + "lambda=2^-14 --out a").status, 0);
+  EXPECT_EQ(manifest("a").at("objective"), "arithmetic_lambda_max");
+  EXPECT_EQ(run(target + "total_lambda_max=2^-14 --out t").status, 1);
 }
 
 TEST_F(SweepCli, SampledErrorsAreBelowProvedBounds) {

@@ -78,7 +78,7 @@ ErrorTarget parse_target(const std::string& text) {
   ErrorTarget target;
   target.text = text;
   try {
-    target.column = sweep::parse_error_column(text.substr(0, equals));
+    target.column = sweep::parse_error_column(text.substr(0, equals), sweep::ErrorKind::arithmetic);
   } catch (const ConfigError& error) {
     throw UsageError("--target-error " + text + ": " + error.what());
   }

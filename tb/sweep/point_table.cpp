@@ -9,11 +9,13 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 namespace quadrille::sweep {
 namespace {
 
-constexpr std::array<std::string_view, 2> kinds{"snapping", "arithmetic"};
+constexpr std::array<std::string_view, 3> kinds{"snapping", "arithmetic", "total"};  // by ErrorKind
 
 struct Statistic {
   std::string_view name, meaning;
@@ -75,7 +77,8 @@ std::vector<PointColumn> make_columns() {
         columns.push_back(
             {error_name(kind, q, s), q == 1 ? "the attributes'" : "1",
              std::string(statistics[s].meaning) + " absolute " + std::string(kinds[kind]) + " error of " +
-                 std::array{"the weights", "the input's attributes", "window z", "three colour channels"}[q]});
+                 std::array{"the weights", "the input's attributes", "window z", "three colour channels"}[q] +
+                 (kind == 2 ? ": snapping + arithmetic" : "")});
   for (const char* quantity : {"lambda", "attribute", "depth"}) {
     const std::string name = std::string("bound_") + quantity;
     columns.push_back({name, "1", "bound of the arithmetic error by analysis"});
@@ -121,42 +124,42 @@ const std::vector<PointColumn>& point_columns() {
 std::string ErrorColumn::name() const {
   std::size_t s = 0;
   while (statistics[s].member != statistic) ++s;
-  return error_name(snapping ? 0 : 1, static_cast<std::size_t>(quantity), s);
+  return error_name(static_cast<std::size_t>(kind), static_cast<std::size_t>(quantity), s);
 }
 
 double ErrorColumn::value(const PointResult& result) const {
-  const ErrorSummary& summary = (snapping ? result.snapping : result.arithmetic)[static_cast<std::size_t>(quantity)];
-  if (!result.refused.empty() || summary.count == 0) return std::numeric_limits<double>::quiet_NaN();
-  return summary.*statistic;
+  double sum = 0;
+  for (const auto& [part, errors] :
+       {std::pair{ErrorKind::snapping, &result.snapping}, std::pair{ErrorKind::arithmetic, &result.arithmetic}}) {
+    if (kind != part && kind != ErrorKind::total) continue;
+    const ErrorSummary& summary = (*errors)[static_cast<std::size_t>(quantity)];
+    if (!result.refused.empty() || summary.count == 0) return std::numeric_limits<double>::quiet_NaN();
+    sum += summary.*statistic;
+  }
+  return sum;
 }
 
-std::vector<std::string> error_column_names() {
-  std::vector<std::string> names;
-  for (std::size_t kind = kinds.size(); kind-- > 0;)
-    for (std::size_t q = 0; q < quantity_names.size(); ++q)
-      for (std::size_t s = 0; s < statistics.size(); ++s) names.push_back(error_name(kind, q, s));
-  return names;
-}
-
-ErrorColumn parse_error_column(std::string_view name) {
+ErrorColumn parse_error_column(std::string_view name, ErrorKind standard) {
+  std::optional<ErrorColumn> found;
   std::string nearest;
   std::size_t distance = std::numeric_limits<std::size_t>::max();
-  const auto offer = [&](const std::string& candidate) {
+  const auto offer = [&](const std::string& candidate, const ErrorColumn& column) {
+    if (name == candidate) found = column;
     if (const std::size_t d = edit_distance(name, candidate); d < distance) distance = d, nearest = candidate;
   };
-  for (std::size_t q = 0; q < quantity_names.size(); ++q) {
-    if (name == quantity_names[q]) return {false, static_cast<Quantity>(q), &ErrorSummary::max};
-    offer(std::string(quantity_names[q]));
-    for (std::size_t kind = 0; kind < kinds.size(); ++kind)
-      for (std::size_t s = 0; s < statistics.size(); ++s) {
-        const std::string full = error_name(kind, q, s);
-        if (name == full) return {kind == 0, static_cast<Quantity>(q), statistics[s].member};
-        offer(full);
-      }
+  for (std::size_t q = 0; q < quantity_names.size(); ++q)
+    offer(std::string(quantity_names[q]), {standard, static_cast<Quantity>(q), &ErrorSummary::max});
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const auto kind = static_cast<ErrorKind>(k);
+    offer(std::string(kinds[k]), {kind, Quantity::lambda, &ErrorSummary::max});
+    for (std::size_t q = 0; q < quantity_names.size(); ++q)
+      for (std::size_t s = 0; s < statistics.size(); ++s)
+        offer(error_name(k, q, s), {kind, static_cast<Quantity>(q), statistics[s].member});
   }
+  if (found) return *found;
   throw ConfigError("unknown error \"" + std::string(name) + "\"; the nearest is \"" + nearest +
-                    "\" (lambda, attribute, depth, colour, or snapping_ or arithmetic_, one of these, and _max, _p999, "
-                    "_rms or _mean)");
+                    "\" (total, arithmetic or snapping, lambda, attribute, depth or colour, or both and _max, _p999, "
+                    "_rms or _mean, such as total_lambda_rms)");
 }
 
 std::string csv_number(double value) {
@@ -184,10 +187,11 @@ std::string point_table(std::span<const PointRow> rows) {
     for (const ConfigKey& key : Config::keys()) cells.push_back(std::to_string(p.config.resolved(key.name)));
     if (ok) {
       cells.push_back(std::to_string(r.fragments));
-      for (const auto* errors : {&r.snapping, &r.arithmetic})
-        for (const ErrorSummary& summary : *errors)
+      for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+        for (std::size_t q = 0; q < quantity_names.size(); ++q)
           for (const Statistic& statistic : statistics)
-            cells.push_back(summary.count > 0 ? csv_number(summary.*statistic.member) : std::string());
+            cells.push_back(csv_number(
+                ErrorColumn{static_cast<ErrorKind>(kind), static_cast<Quantity>(q), statistic.member}.value(r)));
       for (const ErrorBound* bound : {&p.bound_lambda, &p.bound_attribute, &p.bound_depth}) {
         cells.push_back(std::isfinite(bound->value) ? csv_number(bound->value) : std::string());
         cells.push_back(!std::isfinite(bound->value) ? "none" : bound->proved ? "proved" : "estimated");

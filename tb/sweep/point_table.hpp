@@ -39,21 +39,24 @@ struct PointColumn {
 /// The columns in order.
 const std::vector<PointColumn>& point_columns();
 
-/// An error of a result by the name of its column, such as "arithmetic_lambda_max"; a bare quantity ("depth") is its
-/// arithmetic maximum.
+/// Which part of an error. total is snapping + arithmetic, statistic by statistic. By the triangle inequality its max,
+/// mean and rms bound those of the machine against exact arithmetic on the given quads, over the fragments that both
+/// parts measure; the sum of two p999 bounds the 99.8 % quantile.
+enum class ErrorKind { snapping, arithmetic, total };
+
+/// An error of a result by the name of its column, such as "arithmetic_lambda_max".
 struct ErrorColumn {
-  bool snapping = false;
+  ErrorKind kind = ErrorKind::total;
   Quantity quantity = Quantity::lambda;
   double ErrorSummary::*statistic = &ErrorSummary::max;
 
   std::string name() const;
-  /// NaN where the point was refused or the quantity was not measured.
+  /// NaN where the point was refused or the quantity (of a total: either part) was not measured.
   double value(const PointResult& result) const;
 };
-/// Throws ConfigError naming the nearest column.
-ErrorColumn parse_error_column(std::string_view name);
-/// All of their names.
-std::vector<std::string> error_column_names();
+/// A column, a quantity ("depth": its maximum, of the kind `standard`) or a kind ("arithmetic": the largest of the
+/// weights). Throws ConfigError naming the nearest of these.
+ErrorColumn parse_error_column(std::string_view name, ErrorKind standard);
 
 /// The table as text, header line first; the same rows give the same bytes.
 std::string point_table(std::span<const PointRow> rows);

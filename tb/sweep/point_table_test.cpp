@@ -59,6 +59,8 @@ TEST(PointTable, EveryRowHasEveryColumn) {
   EXPECT_EQ(cell(1, "arithmetic_depth_mean"), "0.0625");
   EXPECT_EQ(cell(1, "snapping_lambda_p999"), "3");
   EXPECT_EQ(cell(1, "snapping_depth_max"), "");  // not measured
+  EXPECT_EQ(cell(1, "total_lambda_max"), "2.5");
+  EXPECT_EQ(cell(1, "total_depth_max"), "");
   EXPECT_EQ(cell(1, "coverage_lost"), "17");
   EXPECT_EQ(cell(1, "worst"), "\"quadrille fragments --pixel 1,2\"");
   EXPECT_EQ(cell(2, "status"), "refused");
@@ -81,14 +83,26 @@ TEST(PointTable, BoundsWhereTheyHold) {
 
 TEST(PointTable, ErrorColumnsByName) {
   const PointResult result = example().result;
-  EXPECT_EQ(parse_error_column("lambda").name(), "arithmetic_lambda_max");
-  EXPECT_EQ(parse_error_column("colour").value(result), 3.5);
-  EXPECT_EQ(parse_error_column("snapping_lambda_rms").value(result), 4);
-  EXPECT_TRUE(std::isnan(parse_error_column("snapping_colour_max").value(result)));
-  EXPECT_EQ(error_column_names().size(), 32u);
-  for (const std::string& name : error_column_names()) EXPECT_EQ(parse_error_column(name).name(), name);
+  const auto parse = [](std::string_view name) { return parse_error_column(name, ErrorKind::arithmetic); };
+  EXPECT_EQ(parse("lambda").name(), "arithmetic_lambda_max");
+  EXPECT_EQ(parse_error_column("depth", ErrorKind::total).name(), "total_depth_max");
+  EXPECT_EQ(parse("total").name(), "total_lambda_max");
+  EXPECT_EQ(parse("snapping").name(), "snapping_lambda_max");
+  EXPECT_EQ(ErrorColumn{}.name(), "total_lambda_max");
+  EXPECT_EQ(parse("colour").value(result), 3.5);
+  EXPECT_EQ(parse("snapping_lambda_rms").value(result), 4);
+  EXPECT_EQ(parse("total_lambda_rms").value(result), 4.125);
+  EXPECT_TRUE(std::isnan(parse("snapping_colour_max").value(result)));
+  EXPECT_TRUE(std::isnan(parse("total_colour_max").value(result))) << "half a total is none";
+  std::size_t columns = 0;
+  for (const PointColumn& column : point_columns())
+    if (column.meaning.find(" absolute ") != std::string::npos) {
+      EXPECT_EQ(parse(column.name).name(), column.name);
+      ++columns;
+    }
+  EXPECT_EQ(columns, 48u);
   try {
-    parse_error_column("arithmetic_lamda_max");
+    parse("arithmetic_lamda_max");
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_NE(std::string(error.what()).find("\"arithmetic_lambda_max\""), std::string::npos) << error.what();

@@ -55,7 +55,7 @@ void compare(const char* what, const SweepInput& input) {
 
   std::size_t searches = 0, met = 0, most = 0, sum = 0;
   for (const char* name : {"lambda", "attribute", "depth", "colour", "arithmetic_lambda_p999"}) {
-    const ErrorColumn column = parse_error_column(name);
+    const ErrorColumn column = parse_error_column(name, ErrorKind::arithmetic);
     const std::vector<std::string_view> idle = idle_keys(std::span(&column.quantity, 1));
     const auto error = [&](std::size_t i) { return column.value(results[i]); };
     if (!idle.empty() && idle.front() == "depth_bits") {
