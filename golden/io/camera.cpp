@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <span>
 
 namespace quadrille::golden {
 namespace {
@@ -165,5 +166,17 @@ class CameraParser {
 Camera load_camera(const std::string& path) { return parse_camera(read_file(path, "a camera in JSON"), path); }
 
 Camera parse_camera(std::string_view text, const std::string& name) { return CameraParser(text, name).parse(); }
+
+std::string camera_text(const Camera& camera) {
+  const auto list = [](std::span<const double> numbers) {
+    std::string text;
+    for (const double number : numbers) text += (text.empty() ? "[" : ", ") + number_text(number);
+    return text + "]";
+  };
+  if (camera.matrix) return "{\"matrix\": " + list(*camera.matrix) + "}\n";
+  return "{\n  \"eye\": " + list(camera.eye) + ",\n  \"target\": " + list(camera.target) +
+         ",\n  \"up\": " + list(camera.up) + ",\n  \"fovy\": " + number_text(camera.fovy) +
+         ",\n  \"near\": " + number_text(camera.near) + ",\n  \"far\": " + number_text(camera.far) + "\n}\n";
+}
 
 }  // namespace quadrille::golden

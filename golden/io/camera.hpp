@@ -22,4 +22,7 @@ Camera load_camera(const std::string& path);
 /// The same for a text in memory; `name` stands for the file in messages.
 Camera parse_camera(std::string_view text, const std::string& name);
 
+/// The camera as such a text; reading it gives the same doubles back.
+std::string camera_text(const Camera& camera);
+
 }  // namespace quadrille::golden

@@ -2,6 +2,8 @@
 
 #include "golden/io/test_support.hpp"
 
+#include <tuple>
+
 namespace quadrille::golden {
 namespace {
 
@@ -88,6 +90,22 @@ TEST(Camera, NamesTheLineOfSyntaxErrors) {
   expect_input_error([] { parse_camera("", "c.json"); }, "c.json:1", {"JSON"});
   expect_input_error([] { parse_camera("{\n\n", "c.json"); }, "c.json:3", {"JSON"});
   expect_input_error([] { parse_camera("{\"eye\": \"\xff\"}", "c.json"); }, "c.json:1", {"JSON"});
+}
+
+TEST(Camera, TextGivesTheSameCameraBack) {
+  Camera camera;
+  camera.eye = {1.0 / 3, -5e-324, 1e23};
+  camera.target = {0.1, -0.0, 7};
+  camera.up = {0, -1, 0x1.fffffffffffffp-3};
+  camera.fovy = 35.000000000000007, camera.near = 1e-9, camera.far = 0x1p79;
+  const Camera back = parse_camera(camera_text(camera), "c");
+  EXPECT_FALSE(back.matrix);
+  EXPECT_EQ(back.eye, camera.eye);
+  EXPECT_EQ(back.target, camera.target);
+  EXPECT_EQ(back.up, camera.up);
+  EXPECT_EQ(std::tuple(back.fovy, back.near, back.far), std::tuple(camera.fovy, camera.near, camera.far));
+  camera.matrix = Matrix4{1.0 / 3, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, -1e-20};
+  EXPECT_EQ(parse_camera(camera_text(camera), "c").matrix, camera.matrix);
 }
 
 TEST_F(InDirectory, CameraFileErrors) {

@@ -163,8 +163,33 @@ WindowVertex project_point(const Matrix4& m, const Vec3& p, int width, int heigh
   return {(clip[0] + clip[3]) / 2 * width, (clip[3] - clip[1]) / 2 * height, (clip[2] + clip[3]) / 2, clip[3]};
 }
 
-Camera frame_mesh(const Mesh& mesh, int width, int height) {
+Sides sides_of(const Vec3& up) {
+  const auto u = normalised(up);
+  if (!u) throw std::invalid_argument("the direction of up is zero or not finite");
+  const bool z_up = std::abs((*u)[2]) > std::max(std::abs((*u)[0]), std::abs((*u)[1]));
+  const Vec3 nominal = z_up ? Vec3{0, -1, 0} : Vec3{0, 0, 1};
+  const double along = dot(nominal, *u);
+  const Vec3 front =
+      *normalised({nominal[0] - along * (*u)[0], nominal[1] - along * (*u)[1], nominal[2] - along * (*u)[2]});
+  return {cross(*u, front), *u, front};
+}
+
+Vec3 direction_to_eye(const Camera& camera) {
+  if (!camera.matrix) return normalised(camera.eye - camera.target).value_or(Vec3{0, 0, 1});
+  // w grows away from the eye. Without perspective it is constant, and depth grows along the line of constant x and y.
+  const Matrix4& m = *camera.matrix;
+  if (const auto away = normalised({m[12], m[13], m[14]})) return {-(*away)[0], -(*away)[1], -(*away)[2]};
+  const Vec3 line = normalised(cross({m[0], m[1], m[2]}, {m[4], m[5], m[6]})).value_or(Vec3{0, 0, 1});
+  return dot(line, {m[8], m[9], m[10]}) * m[15] > 0 ? Vec3{-line[0], -line[1], -line[2]} : line;
+}
+
+Camera frame_mesh(const Mesh& mesh, int width, int height, const View& view) {
   check_size(width, height);
+  const Sides sides = sides_of(view.up);
+  Vec3 from{};
+  for (std::size_t i = 0; i < 3; ++i) from[i] = 0.5 * sides.right[i] + 0.4 * sides.up[i] + sides.front[i];
+  const auto direction = normalised(view.from.value_or(from));
+  if (!direction) throw std::invalid_argument("the direction of view is zero or not finite");
   Vec3 low{}, high{};
   bool any = false;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
@@ -193,10 +218,14 @@ Camera frame_mesh(const Mesh& mesh, int width, int height) {
   const double half_width = half_height * width / height;
   const double half = std::min(half_height, half_width);
   const double distance = radius * std::sqrt(1 + half * half) / half;
-  const Vec3 direction = *normalised(auto_frame_direction);
   Camera camera;
   camera.target = centre;
-  for (std::size_t i = 0; i < 3; ++i) camera.eye[i] = centre[i] + distance * direction[i];
+  for (std::size_t i = 0; i < 3; ++i) camera.eye[i] = centre[i] + distance * (*direction)[i];
+  camera.up = sides.up;
+  // Nearer than this to the line of view `up` would leave the picture's turn to rounding: the front decides it.
+  const Vec3 sine = cross(*direction, sides.up);
+  if (dot(sine, sine) < 1e-12)
+    for (std::size_t i = 0; i < 3; ++i) camera.up[i] = dot(*direction, sides.up) > 0 ? -sides.front[i] : sides.front[i];
   camera.fovy = auto_frame_fovy;
   camera.near = std::max(distance - radius, distance * 0x1p-10);
   camera.far = distance + radius;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -52,15 +53,29 @@ Matrix4 camera_matrix(const Camera& camera, int width, int height);
 /// x̃ = (clip.x + clip.w)/2 · width, ỹ = (clip.w − clip.y)/2 · height (y down), z̃ = (clip.z + clip.w)/2, w = clip.w.
 WindowVertex project_point(const Matrix4& matrix, const Vec3& point, int width, int height);
 
-/// The direction from the target to the eye of an automatic camera, before normalisation, and its vertical field of
-/// view.
-inline constexpr Vec3 auto_frame_direction{0.5, 0.4, 1.0};
-inline constexpr double auto_frame_fovy = 35;
+/// The sides of a mesh as unit vectors of its space, at right angles. `front` is +z, or −y where the largest component
+/// of `up` is z (as modellers with z up have it), made perpendicular to `up`; right = up × front.
+struct Sides {
+  Vec3 right, up, front;
+};
+/// Throws std::invalid_argument for an `up` that is zero or not finite.
+Sides sides_of(const Vec3& up);
 
-/// A camera that shows the whole mesh: from auto_frame_direction, up = +y, fovy 35 degrees; the sphere around the
-/// bounding box's centre that holds every vertex of a face fits the narrower field of view with 5 % to spare, near and
-/// far likewise.
-Camera frame_mesh(const Mesh& mesh, int width, int height);
+/// From where an automatic camera looks, in the mesh's space; neither needs unit length.
+struct View {
+  Vec3 up{0, 1, 0};
+  std::optional<Vec3> from;  ///< from the mesh to the eye; none: 0.5 right + 0.4 up + front
+};
+inline constexpr double auto_frame_fovy = 35;  ///< degrees, vertical
+
+/// A camera that shows the whole mesh: fovy 35 degrees; the sphere around the bounding box's centre that holds every
+/// vertex of a face fits the narrower field of view with 5 % to spare, near and far likewise. Seen straight from the
+/// top the front is at the picture's bottom edge, from the bottom at its top edge. Throws std::invalid_argument for a
+/// direction that is zero or not finite.
+Camera frame_mesh(const Mesh& mesh, int width, int height, const View& view = {});
+
+/// Unit vector from what a camera looks at to the eye, in the mesh's space, at the middle of the picture.
+Vec3 direction_to_eye(const Camera& camera);
 
 /// One unit normal per position: the sum of the vector areas (Newell) of the faces around it; (0, 0, 1) where that is
 /// zero.

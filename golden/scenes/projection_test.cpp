@@ -108,6 +108,67 @@ TEST(Projection, FramingLooksAlongTheStatedDirection) {
   EXPECT_EQ(camera.fovy, 35);
 }
 
+TEST(Projection, SidesOfEveryUp) {
+  const auto expect = [](const Vec3& up, const Vec3& right, const Vec3& front) {
+    const Sides sides = sides_of(up);
+    EXPECT_EQ(sides.right, right);
+    EXPECT_EQ(sides.front, front);
+  };
+  expect({0, 1, 0}, {1, 0, 0}, {0, 0, 1});
+  expect({0, -2, 0}, {-1, 0, 0}, {0, 0, 1});
+  expect({0, 0, 3}, {1, 0, 0}, {0, -1, 0});
+  expect({0, 0, -1}, {-1, 0, 0}, {0, -1, 0});
+  expect({1, 0, 0}, {0, -1, 0}, {0, 0, 1});
+  const Sides leaning = sides_of({0.2, 0.9, 0.7});
+  for (const auto& [a, b] :
+       {std::pair{leaning.right, leaning.up}, {leaning.up, leaning.front}, {leaning.front, leaning.right}})
+    EXPECT_NEAR(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], 0, 1e-15);
+  EXPECT_GT(leaning.front[2], 0);
+  EXPECT_THROW(sides_of({0, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(frame_mesh(polygon(4), 8, 8, {{0, 1, 0}, Vec3{0, 0, 0}}), std::invalid_argument);
+}
+
+/// Where a point of the mesh's space lies in a picture of 100 x 100 pixels.
+Vec2 pixel_of(const Camera& camera, const Vec3& point) {
+  const WindowVertex v = project_point(camera_matrix(camera, 100, 100), point, 100, 100);
+  return {v.x / v.w, v.y / v.w};
+}
+
+TEST(Projection, UpPointsUpInThePicture) {
+  Mesh mesh = polygon(4);
+  for (Vec3& p : mesh.positions) p = {p[0] - 1.5, p[1] - 4.5, p[2]};  // centred
+  for (const Vec3& up : {Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 0, -1}}) {
+    const Sides sides = sides_of(up);
+    const Camera camera = frame_mesh(mesh, 100, 100, {up, {}});
+    EXPECT_NEAR(pixel_of(camera, sides.up)[0], 50, 1e-9);
+    EXPECT_LT(pixel_of(camera, sides.up)[1], 49);
+    EXPECT_GT(pixel_of(camera, sides.right)[0], 51);
+    EXPECT_GT(pixel_of(camera, sides.front)[1], 51) << "seen from above";
+  }
+  // Straight from above the front is at the bottom edge, straight from below at the top edge.
+  for (const double above : {1.0, -1.0}) {
+    const Camera camera = frame_mesh(mesh, 100, 100, {{0, 0, 1}, Vec3{0, 0, above}});
+    EXPECT_NEAR(pixel_of(camera, {0, -1, 0})[0], 50, 1e-9);
+    EXPECT_GT((pixel_of(camera, {0, -1, 0})[1] - 50) * above, 1);
+    EXPECT_GT(pixel_of(camera, {1, 0, 0})[0], 51);
+  }
+}
+
+TEST(Projection, DirectionToEyeOfEveryKindOfCamera) {
+  Camera camera;
+  camera.eye = {3, -1, 2}, camera.target = {1, 1, 1};
+  const Vec3 direction = direction_to_eye(camera);
+  EXPECT_EQ(direction, (Vec3{2.0 / 3, -2.0 / 3, 1.0 / 3}));
+  Camera matrix;
+  matrix.matrix = camera_matrix(camera, 64, 48);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(direction_to_eye(matrix)[i], direction[i], 1e-15);
+  // Without perspective depth alone says where the eye is: NDC z grows away from it.
+  matrix.matrix = Matrix4{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+  EXPECT_EQ(direction_to_eye(matrix), (Vec3{0, 0, 1}));
+  matrix.matrix = Matrix4{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  EXPECT_EQ(direction_to_eye(matrix), (Vec3{0, 0, -1}));
+}
+
 TEST(Projection, FramingOfNothingAndOfOnePointIsUsable) {
   const Mesh empty;
   EXPECT_TRUE(project_mesh(empty, frame_mesh(empty, 64, 64), 64, 64).quads.empty());

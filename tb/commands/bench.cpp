@@ -64,7 +64,7 @@ class ErrorCommand {
   int run() {
     std::vector<std::string> read = options_.input.files();
     read.push_back(common_.config_file);
-    check_outputs({common_.json}, read);
+    check_outputs({options_.input.save_camera, common_.json}, read);
     load();
     measure();
     if (std::FILE* text = common_.text()) {
@@ -307,7 +307,8 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
                         "Errors and run times of all engines; without an input on all built-in scenes and stress "
                         "families. --size is 128x128 unless it is given");
   options->input.add_to(*command);
-  for (const char* input : {"--scene", "--mesh", "--camera", "--quads", "--stress", "--count", "--strict"})
+  for (const char* input : {"--scene", "--mesh", "--camera", "--view", "--up", "--save-camera", "--quads", "--stress",
+                            "--count", "--strict"})
     command->get_option(input)->needs(error);
   speed.common.add_to(*command);
   command->add_option("--repeat", options->repeat, "Runs of each; default 5, with --error 3")

@@ -80,7 +80,7 @@ Scene load_scene(const CompareOptions& options, int width, int height) {
   scene.shading.shade = scene.input.shade;
   scene.shading.slots = shade_slots(scene.input.shade, scene.input);
   scene.shading.texture = make_texture(options.texture, scene.input);
-  scene.shading.to_eye = scene.input.to_eye;
+  scene.shading.lighting = scene.input.lighting;
   scene.shading.depth = scene.settings.state.depth;
   scene.shading.threads = scene.settings.threads;
   return scene;
@@ -208,7 +208,9 @@ class Compare {
     }
     // Creases last: by method, each at all sizes, since they count over the diagonals that every size can measure.
     std::vector<Scene> sized;
-    for (const int size : sizes) sized.push_back(load_scene(options_, scaled(width_, size), scaled(height_, size)));
+    CompareOptions at_size = options_;
+    at_size.input.save_camera.clear();  // it is that of the pictures
+    for (const int size : sizes) sized.push_back(load_scene(at_size, scaled(width_, size), scaled(height_, size)));
     for (std::size_t m = 0; m < options_.methods.size(); ++m)
       add_jumps(options_.methods[m], sizes, sized, rows[m], [&] { progress.set(++done, options_.methods[m]); });
     for (std::size_t m = 0; m < options_.methods.size(); ++m)
@@ -249,7 +251,7 @@ class Compare {
                        " do");
     std::vector<std::string> read = options_.input.files();
     read.insert(read.end(), {options_.common.config_file, options_.texture});
-    check_outputs({options_.common.json}, read);
+    check_outputs({options_.input.save_camera, options_.common.json}, read);
   }
 
   void check_methods(const DrawInput& input) const {
@@ -501,6 +503,7 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--shade", options->shade, "As for render; default: what suits the input")->type_name("MODE");
   command->add_option("--texture", options->texture, "Picture for --shade texture instead of the input's own pattern")
       ->type_name("F.png");
+  options->input.add_light_to(*command);
   command->add_option("--crease-sizes", options->crease_sizes, "Longer sides, in pixels, to measure creases at")
       ->delimiter(',')
       ->type_name("N,N,…");

@@ -122,7 +122,7 @@ class CosimRun {
     probability("--gap", options_.gap);
     std::vector<std::string> read = options_.input.files();
     read.insert(read.end(), {options_.common.config_file, options_.texture});
-    check_outputs({options_.trace, options_.out, options_.png, options_.common.json}, read);
+    check_outputs({options_.trace, options_.out, options_.png, options_.input.save_camera, options_.common.json}, read);
     if (!options_.rtl.empty() && !std::filesystem::exists(options_.rtl))
       throw UsageError("--rtl " + options_.rtl + ": no such file or directory");
     if (all_scenes() && (!options_.out.empty() || !options_.png.empty() || !options_.trace.empty()))
@@ -166,7 +166,7 @@ class CosimRun {
       shading.shade = input.shade;
       shading.slots = shade_slots(input.shade, input);
       shading.texture = make_texture(options_.texture, input);
-      shading.to_eye = input.to_eye;
+      shading.lighting = input.lighting;
       shading.depth = state.depth;
       shading.threads = options_.common.thread_count();
     }
@@ -552,6 +552,7 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->add_option("--shade", options->shade,
                    "uv, texture, normal, lambda, depth, quad, planes or colour; default: what suits the input")
       ->type_name("MODE");
+  options->input.add_light_to(*command);
   command->add_option("--rtl", options->rtl, "Verilog instead of the project's: a directory or one file")
       ->type_name("PATH");
   command->add_flag("--no-snapping-error", options->no_snapping, "Do not measure the error of snapping (quicker)");

@@ -48,7 +48,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
   std::vector<std::string> read = options.input.files();
   read.push_back(options.common.config_file);
-  check_outputs({options.out, options.common.json}, read);
+  check_outputs({options.out, options.input.save_camera, options.common.json}, read);
 
   const int width = settings.state.width, height = settings.state.height;
   DrawInput input = load_input(options.input, options.shade, width, height, options.common.seed);

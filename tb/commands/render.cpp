@@ -41,7 +41,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   if (options.out.empty() && options.png.empty()) throw UsageError("--out F.exr or --png F.png (or both) is needed");
   std::vector<std::string> read = options.input.files();
   read.insert(read.end(), {options.common.config_file, options.texture});
-  check_outputs({options.out, options.png, options.common.json}, read);
+  check_outputs({options.out, options.png, options.input.save_camera, options.common.json}, read);
 
   const DrawInput input = load_input(options.input, shade_of(options.shade, options.texture), settings.state.width,
                                      settings.state.height, options.common.seed);
@@ -50,7 +50,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   shading.shade = input.shade;
   shading.slots = shade_slots(input.shade, input);
   shading.texture = make_texture(options.texture, input);
-  shading.to_eye = input.to_eye;
+  shading.lighting = input.lighting;
   shading.depth = settings.state.depth;
   shading.threads = settings.threads;
 
@@ -150,6 +150,7 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
       ->type_name("MODE");
   command->add_option("--texture", options->texture, "Picture for --shade texture instead of the input's own pattern")
       ->type_name("F.png");
+  options->input.add_light_to(*command);
   command->add_flag("--no-error", options->no_error, "Leave the error layers out (quicker)");
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return render(*options, invocation.arguments); };

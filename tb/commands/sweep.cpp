@@ -122,7 +122,9 @@ class SweepRun {
 
   void prepare() {
     if (options_.out.empty()) throw UsageError("--out DIR is needed");
-    check_outputs({options_.common.json}, {options_.common.config_file});
+    std::vector<std::string> read = options_.input.files();
+    read.push_back(options_.common.config_file);
+    check_outputs({options_.input.save_camera, options_.common.json}, read);
     if (grid_.size() > point_limit && !options_.force)
       throw UsageError("the axes span " + std::to_string(grid_.size()) +
                        " points, more than a million; --force if that "

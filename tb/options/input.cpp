@@ -1,5 +1,6 @@
 #include "tb/options/input.hpp"
 
+#include "golden/io/atomic_file.hpp"
 #include "golden/io/camera.hpp"
 #include "golden/io/error.hpp"
 #include "golden/io/json_report.hpp"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 namespace quadrille::cli {
 namespace {
@@ -46,13 +48,54 @@ AttributeSet attributes_for(const std::string& shade) {
   return set == AttributeSet::weights ? AttributeSet::none : set;
 }
 
-golden::Vec3 view_direction(const golden::Camera& camera) {
-  if (camera.matrix) return {0.4, 0.35, 0.85};
-  golden::Vec3 d{camera.eye[0] - camera.target[0], camera.eye[1] - camera.target[1], camera.eye[2] - camera.target[2]};
-  const double length = std::hypot(d[0], d[1], d[2]);
-  if (!(length > 0)) return {0, 0, 1};
-  for (double& c : d) c /= length;
-  return d;
+/// An axis with or without sign, or three numbers. Throws UsageError naming `option`.
+golden::Vec3 parse_direction(const std::string& option, const std::string& text, const char* others = "") {
+  golden::Vec3 direction{};
+  const std::string_view axis = text.find_first_of("+-") == 0 ? std::string_view(text).substr(1) : text;
+  if (axis.size() == 1 && axis[0] >= 'x' && axis[0] <= 'z') {
+    direction[static_cast<std::size_t>(axis[0] - 'x')] = text[0] == '-' ? -1 : 1;
+    return direction;
+  }
+  std::string_view rest = text;
+  bool good = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t end = i < 2 ? std::min(rest.find(','), rest.size()) : rest.size();
+    const golden::Number number = golden::parse_number(rest.substr(0, end));
+    good = good && number.problem.empty();
+    direction[i] = number.value;
+    rest.remove_prefix(std::min(rest.size(), end + 1));
+  }
+  if (!good || direction == golden::Vec3{})
+    throw UsageError(option + " " + text + ": expected " + others +
+                     "x, y or z with or without a sign, or a direction X,Y,Z that is not 0,0,0");
+  return direction;
+}
+
+/// --up and --view.
+golden::View parse_view(const InputOptions& options) {
+  golden::View view;
+  if (!options.up.empty()) view.up = parse_direction("--up", options.up);
+  const golden::Sides sides = golden::sides_of(view.up);
+  const auto opposite = [](const golden::Vec3& v) { return golden::Vec3{-v[0], -v[1], -v[2]}; };
+  const std::array<std::pair<std::string_view, golden::Vec3>, 6> named{{{"front", sides.front},
+                                                                        {"back", opposite(sides.front)},
+                                                                        {"right", sides.right},
+                                                                        {"left", opposite(sides.right)},
+                                                                        {"top", sides.up},
+                                                                        {"bottom", opposite(sides.up)}}};
+  for (const auto& [name, from] : named)
+    if (options.view == name) view.from = from;
+  if (!options.view.empty() && !view.from)
+    view.from = parse_direction("--view", options.view, "front, back, left, right, top, bottom, ");
+  return view;
+}
+
+/// --light, or what suits the input: a headlight for a mesh, whose top is unknown.
+void set_light(const InputOptions& options, Lighting& lighting) {
+  if (options.light == "headlight" || (options.light.empty() && !options.mesh.empty()))
+    lighting.to_light = lighting.to_eye;
+  else if (!options.light.empty())
+    lighting.to_light = parse_direction("--light", options.light, "headlight, ");
 }
 
 /// A dozen planes across the longest side of the box around the corners.
@@ -115,7 +158,7 @@ void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, 
   input.planes = planes_across(input.corners);
   input.attributes = golden::attribute_count(options.attributes);
   input.layout = layout_of(options.attributes);
-  input.to_eye = view_direction(camera);
+  input.lighting.to_eye = golden::direction_to_eye(camera);
   input.faces = mesh.faces.size();
   input.triangles = projection.triangles;
   input.fanned_faces = projection.fanned_faces;
@@ -144,13 +187,17 @@ void load_mesh(const InputOptions& options, const std::string& shade, int width,
   input.name = std::filesystem::path(options.mesh).filename().string();
   input.title = "mesh " + input.name;
   std::vector<std::string> arguments{"--mesh", options.mesh};
-  if (!options.camera.empty()) arguments.insert(arguments.end(), {"--camera", options.camera});
+  for (const auto& [name, value] :
+       {std::pair{"--camera", &options.camera}, std::pair{"--view", &options.view}, std::pair{"--up", &options.up}})
+    if (!value->empty()) arguments.insert(arguments.end(), {name, *value});
   if (options.strict) arguments.emplace_back("--strict");
   input.option = golden::command_line(arguments);
   input.shade = shade.empty() ? "normal" : shade;
   need_colours(mesh, input);
-  const golden::Camera camera =
-      options.camera.empty() ? golden::frame_mesh(mesh, width, height) : golden::load_camera(options.camera);
+  const golden::Camera camera = options.camera.empty() ? golden::frame_mesh(mesh, width, height, parse_view(options))
+                                                       : golden::load_camera(options.camera);
+  if (!options.save_camera.empty())
+    golden::write_file(options.save_camera, golden::camera_text(camera), golden::AtomicFile::Dash::refused);
   project(mesh, camera, width, height, options.strict, options.mesh, input);
   if (input.layout == AttributeLayout::position) fit_positions(input);
 }
@@ -204,7 +251,13 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, int 
   if (inputs_given(options) != 1)
     throw UsageError("one input is needed: --scene NAME, --mesh F.obj, --quads F.quads or --stress FAMILY (" +
                      std::to_string(inputs_given(options)) + " were given)");
-  if (!options.camera.empty() && options.mesh.empty()) throw UsageError("--camera goes with --mesh");
+  for (const auto& [name, value] : {std::pair{"--camera", &options.camera}, std::pair{"--view", &options.view},
+                                    std::pair{"--up", &options.up}, std::pair{"--save-camera", &options.save_camera}}) {
+    if (!value->empty() && options.mesh.empty()) throw UsageError(std::string(name) + " goes with --mesh");
+    if ((value == &options.view || value == &options.up) && !value->empty() && !options.camera.empty())
+      throw UsageError(std::string(name) + " is for the automatic camera; --camera " + options.camera +
+                       " has its own view");
+  }
   if (!shade.empty()) choose("shading", shade, shade_modes());
   DrawInput input;
   if (!options.scene.empty())
@@ -215,6 +268,7 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, int 
     load_quads_file(options, shade, input);
   else
     load_stress(options, shade, width, height, seed, input);
+  set_light(options, input.lighting);
   return input;
 }
 

@@ -17,6 +17,12 @@ namespace quadrille::cli {
 /// What the attributes of an input's quads are.
 enum class AttributeLayout { none, uv, normal, uv_normal, position, colour, file };
 
+/// What pictures are lit by: directions in the mesh's space, from the surface.
+struct Lighting {
+  golden::Vec3 to_eye{0, 0, 1};           ///< unit, for highlights and for which side is seen
+  golden::Vec3 to_light{0.35, 0.8, 0.6};  ///< of any length; both sides of a surface are lit alike
+};
+
 struct DrawInput {
   std::string name;  ///< of the scene, file or family
   std::string title;
@@ -30,7 +36,7 @@ struct DrawInput {
   bool perspective = true;       ///< as the scene wants it
   std::string shade = "lambda";  ///< shading that suits it
   golden::TextureKind texture = golden::TextureKind::checker;
-  golden::Vec3 to_eye{0, 0, 1};  ///< in the mesh's space, for highlights
+  Lighting lighting;
   golden::CuttingPlanes planes;  ///< of shade `planes`, in the unit of the position attributes (a power of two)
   std::size_t faces = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
   std::string quads_file;  ///< where the quads came from, if a .quads file
@@ -39,9 +45,9 @@ struct DrawInput {
 /// How many of --scene, --mesh, --quads and --stress are given.
 int inputs_given(const InputOptions& options);
 
-/// Loads the one input of the options. `shade` empty: what suits the input; otherwise the attributes are what that
-/// shading needs. Throws UsageError when not exactly one is given, a name is unknown or the input lacks what the
-/// shading needs, InputError for what a file holds.
+/// Loads the one input of the options, and writes the automatic camera where --save-camera wants it. `shade` empty:
+/// what suits the input; otherwise the attributes are what that shading needs. Throws UsageError when not exactly one
+/// is given, a name is unknown or the input lacks what the shading needs, InputError for what a file holds.
 DrawInput load_input(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed);
 
 /// What --shade is when --texture is given too: texture. Throws UsageError for another explicit --shade.

@@ -176,6 +176,19 @@ void InputOptions::add_to(CLI::App& app, bool any) {
   app.add_option("--camera", camera, "Camera for --mesh; without it the mesh is framed automatically")
       ->type_name("F.json")
       ->group(group);
+  app.add_option("--view", view,
+                 "Where the automatic camera looks from: front, back, left, right, top, bottom, an axis such as -z, or "
+                 "a direction X,Y,Z from the mesh to the eye; default: front, half from the right, a little above")
+      ->type_name("SIDE")
+      ->group(group);
+  app.add_option("--up", up,
+                 "What is up for the automatic camera: y (the default; the front is then +z), z (the front is -y), any "
+                 "axis with a sign, or X,Y,Z")
+      ->type_name("AXIS")
+      ->group(group);
+  app.add_option("--save-camera", save_camera, "Write the camera of --mesh; --camera reads it and draws the same")
+      ->type_name("F.json")
+      ->group(group);
   if (any) {
     app.add_option("--quads", quads, "Quads in homogeneous window coordinates")->type_name("F.quads")->group(group);
     app.add_option("--stress", stress, "Random quads of a stress family, such as general or eye_crossing")
@@ -188,6 +201,14 @@ void InputOptions::add_to(CLI::App& app, bool any) {
         ->group(group);
   }
   app.add_flag("--strict", strict, "Refuse faces with more than four corners instead of cutting them up")->group(group);
+}
+
+void InputOptions::add_light_to(CLI::App& app) {
+  app.add_option(
+         "--light", light,
+         "headlight (at the eye: the default with --mesh), or where the light comes from: an axis such as -z or "
+         "a direction X,Y,Z (0.35,0.8,0.6: the default otherwise); for --shade normal and planes")
+      ->type_name("LIGHT");
 }
 
 void EngineOptions::add_to(CLI::App& app) {

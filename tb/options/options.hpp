@@ -60,9 +60,10 @@ struct StateOptions {
   std::string spelled() const;
 };
 
-/// --scene --mesh --camera --quads --stress --count --strict
+/// --scene --mesh --camera --view --up --save-camera --quads --stress --count --strict, and --light
 struct InputOptions {
-  std::string scene, mesh, camera, quads, stress;
+  std::string scene, mesh, camera, view, up, save_camera, quads, stress;
+  std::string light;  ///< of the commands that draw pictures
   std::uint64_t count = 1000;
   bool strict = false;
 
@@ -71,6 +72,8 @@ struct InputOptions {
 
   /// `any` false: for a command that needs object space (no --quads, --stress, --count).
   void add_to(CLI::App& app, bool any = true);
+  /// --light, for a command that draws pictures.
+  void add_light_to(CLI::App& app);
 };
 
 /// `value` if it is in [0, 1); throws UsageError naming the option otherwise.

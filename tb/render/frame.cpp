@@ -29,9 +29,9 @@ Vec3 normalised(const Vec3& v) {
 /// In [0, 1] for any finite coordinate; 1 stays 1.
 double wrapped(double c) { return c >= 0 && c <= 1 ? c : c - std::floor(c); }
 
-/// Phong's model with one fixed light, both sides lit alike.
-Vec3 phong(Vec3 n, const Vec3& to_eye) {
-  static const Vec3 to_light = normalised({0.35, 0.8, 0.6});
+/// Phong's model with one distant light, both sides lit alike. Directions of unit length.
+Vec3 phong(Vec3 n, const Lighting& lighting) {
+  const auto& [to_eye, to_light] = lighting;
   static constexpr Vec3 base{0.78, 0.74, 0.68};
   n = normalised(n);
   if (dot(n, to_eye) < 0) n = {-n[0], -n[1], -n[2]};
@@ -139,6 +139,7 @@ ShadeSlots shade_slots(const std::string& shade, const DrawInput& input) {
 golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& settings) {
   golden::FrameImage image(frame.width(), frame.height());
   const std::size_t mode = choose("shading", settings.shade, shade_modes());
+  const Lighting lighting{settings.lighting.to_eye, normalised(settings.lighting.to_light)};
 
   // Depth is shown between its extremes in the frame.
   double nearest = 1, farthest = 0;
@@ -169,7 +170,7 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
     return 0.0;
   };
   const auto cut = [&](const Sample& s) {
-    const Vec3 flat = phong(settings.slots.facets[s.index], settings.to_eye);
+    const Vec3 flat = phong(settings.slots.facets[s.index], lighting);
     const double here = height(s), plane = std::round(here);
     const double steepness = std::hypot(slope(s, 1, 0), slope(s, 0, 1));
     if (!(steepness > 0)) return flat;
@@ -190,7 +191,7 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
       case 1:
         return settings.texture(uv[0], uv[1]);
       case 2:
-        return phong(attribute3(s, settings.slots.normal), settings.to_eye);
+        return phong(attribute3(s, settings.slots.normal), lighting);
       case 3:
         return weight_colour(s.lambda);
       case 4: {

@@ -71,7 +71,7 @@ struct ShadeSettings {
   std::string shade;  ///< one of shade_modes()
   ShadeSlots slots;
   TextureFunction texture;  ///< for texture
-  golden::Vec3 to_eye{0, 0, 1};
+  Lighting lighting;
   bool depth = true;
   unsigned threads = 1;
 };
