@@ -135,6 +135,12 @@ void parse(std::string_view text, const std::string& name, Config& config, CostW
   weights = new_weights;
 }
 
+/// `line` with a comment at column 30.
+std::string commented(std::string line, std::string_view comment) {
+  line.resize(std::max<std::size_t>(line.size() + 1, 30), ' ');
+  return line + "# " + std::string(comment) + "\n";
+}
+
 std::string text_of(const std::string& path) { return read_file(path, "a configuration in TOML"); }
 
 }  // namespace
@@ -143,6 +149,23 @@ void load_config(const std::string& path, Config& config) { parse_config(text_of
 
 void load_cost_weights(const std::string& path, CostWeights& weights) {
   parse_cost_weights(text_of(path), path, weights);
+}
+
+std::string config_text(const Config& config, const CostWeights& weights) {
+  std::string text =
+      "# A configuration of Quadrille, for --config. A key that is left out has its default; auto is -1.\n";
+  for (const ConfigKey& key : Config::keys()) {
+    const auto value = [](int v) { return v == -1 ? std::string("-1 (auto)") : std::to_string(v); };
+    text += commented(std::string(key.name) + " = " + std::to_string(config.get(key.name)),
+                      std::string(key.unit) + (key.unit.empty() ? "" : ", ") + std::to_string(key.minimum) + " to " +
+                          std::to_string(key.maximum) + ", default " + value(key.standard) + ": " +
+                          std::string(key.meaning));
+  }
+  text += "\n# Weights of the scalar hardware cost: LUTs for a bit of each resource, 0 to " +
+          number_text(max_cost_weight) + "\n[cost]\n";
+  for (const WeightKey& weight : weight_keys)
+    text += std::string(weight.key) + " = " + number_text(weights.*weight.member) + "\n";
+  return text;
 }
 
 void parse_config(std::string_view text, const std::string& name, Config& config) {

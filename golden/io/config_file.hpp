@@ -25,6 +25,9 @@ void load_cost_weights(const std::string& path, CostWeights& weights);
 /// A larger weight is refused: costs stay finite.
 inline constexpr double max_cost_weight = 1e6;
 
+/// A file that gives both back: every key (auto as -1) with unit, range, default and meaning as a comment, then [cost].
+std::string config_text(const Config& config, const CostWeights& weights);
+
 /// The same for a text in memory; `name` stands for the file in messages.
 void parse_config(std::string_view text, const std::string& name, Config& config);
 void parse_cost_weights(std::string_view text, const std::string& name, CostWeights& weights);

@@ -124,6 +124,27 @@ TEST(CostWeightsFile, NamesThePlaceAndChangesNothing) {
   EXPECT_EQ(weights, CostWeights{});
 }
 
+TEST(ConfigFile, TextGivesTheSameConfigurationBack) {
+  Config config;
+  for (const ConfigKey& key : Config::keys())  // a value that is neither the default nor auto, where there is one
+    config.set(key.name, key.maximum != key.standard ? key.maximum : key.minimum);
+  config.set("recip_segments_log2", -1);
+  const CostWeights weights{1.0 / 3, 0, 1e6, 5e-324};
+  const std::string text = config_text(config, weights);
+  Config read;
+  CostWeights read_weights;
+  parse_config(text, "c", read);
+  parse_cost_weights(text, "c", read_weights);
+  EXPECT_EQ(read, config);
+  EXPECT_EQ(read_weights, weights);
+  for (const ConfigKey& key : Config::keys()) {
+    const std::size_t line = text.find("\n" + std::string(key.name) + " = ");
+    ASSERT_NE(line, std::string::npos) << key.name;
+    const std::string range = std::to_string(key.minimum) + " to " + std::to_string(key.maximum);
+    EXPECT_LT(text.find(range, line), text.find('\n', line + 1)) << key.name;
+  }
+}
+
 TEST_F(InDirectory, CostWeightsFileErrors) {
   CostWeights weights;
   expect_input_error([&] { load_cost_weights(path("absent"), weights); }, path("absent"), {"No such file", "TOML"});

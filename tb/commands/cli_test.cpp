@@ -270,6 +270,20 @@ TEST_F(Cli, TablesGoToAFile) {
   EXPECT_NE(markdown.out.find("| `significand_bits` | 18 |"), std::string::npos);
 }
 
+TEST_F(Cli, ConfigurationGoesToAFileAndBack) {
+  write("cost.toml", "[cost]\nadder = 0.5\n");
+  const Outcome all = run("config --config cost.toml --set significand_bits=24 --set quadratic_frac_bits=18 --toml");
+  ASSERT_EQ(all.status, 0) << all.err;
+  write("all.toml", all.out);
+  EXPECT_EQ(run("config --config all.toml --toml").out, all.out);
+  EXPECT_NE(all.out.find("adder = 0.5"), std::string::npos);
+  const auto config = [&](const std::string& arguments) {
+    return json::parse(run("config --json - " + arguments).out)["config"];
+  };
+  EXPECT_EQ(config("--config all.toml"), config("--set significand_bits=24 --set quadratic_frac_bits=18"));
+  refuses(2, "config --toml --markdown", {"--toml"});
+}
+
 TEST_F(Cli, NoVerilator) {
   const Outcome outcome = run("cosim --scene bowtie", "PATH=/nonexistent QUADRILLE_CACHE=cache");
   EXPECT_EQ(outcome.status, 3);

@@ -3,6 +3,7 @@
 #include "tb/options/command_line.hpp"
 
 #include "golden/io/atomic_file.hpp"
+#include "golden/io/config_file.hpp"
 #include "golden/io/json_report.hpp"
 #include "model/boundaries.hpp"
 #include "model/tables.hpp"
@@ -19,7 +20,7 @@ namespace {
 struct ConfigOptions {
   CommonOptions common;
   std::string emit_tables, boundaries;
-  bool markdown = false;
+  bool markdown = false, toml = false;
 };
 
 std::string value_text(int value) { return value == -1 ? "auto" : std::to_string(value); }
@@ -120,11 +121,14 @@ int list_config(const ConfigOptions& options, const std::vector<std::string>& ar
       json["derived"].push_back({{"name", width.name}, {"value", width.value}, {"reason", width.reason}});
     golden::save_json(options.common.json, json);
   }
+  CostWeights weights;
+  if (!options.common.config_file.empty()) golden::load_cost_weights(options.common.config_file, weights);
   std::FILE* text = options.common.text();
-  if (text && options.emit_tables != "-" && (options.emit_tables.empty() || options.markdown) &&
+  if (text && options.emit_tables != "-" && (options.emit_tables.empty() || options.markdown || options.toml) &&
       options.common.json != "-")
     std::fputs((!options.boundaries.empty() ? boundary_listing(options.boundaries, config, options.markdown)
                 : options.markdown          ? markdown_listing(config)
+                : options.toml              ? golden::config_text(config, weights)
                                             : text_listing(config))
                    .c_str(),
                text);
@@ -140,6 +144,7 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
       "A star marks keys that differ from their defaults; \"auto\" is written as -1 or auto.\n\n"
       "Examples:\n"
       "  quadrille config --set significand_bits=24\n"
+      "  quadrille config --set significand_bits=24 --toml >wide.toml\n"
       "  quadrille config --config wide.toml --emit-tables quadrille_tables_pkg.sv\n"
       "  quadrille config --boundaries probes --set significand_bits=12\n"
       "  quadrille config --json -");
@@ -149,12 +154,16 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
       ->add_option("--emit-tables", options->emit_tables,
                    "Write the package of the rsqrt and reciprocal tables; - is standard output")
       ->type_name("F.sv");
-  command
-      ->add_option("--boundaries", options->boundaries,
-                   "Instead list the fields of the machine's ports or probes, most significant first")
-      ->type_name("ports|probes")
-      ->check(CLI::IsMember({"ports", "probes"}));
-  command->add_flag("--markdown", options->markdown, "The listing as Markdown tables");
+  auto* boundaries =
+      command
+          ->add_option("--boundaries", options->boundaries,
+                       "Instead list the fields of the machine's ports or probes, most significant first")
+          ->type_name("ports|probes")
+          ->check(CLI::IsMember({"ports", "probes"}));
+  auto* markdown = command->add_flag("--markdown", options->markdown, "The listing as Markdown tables");
+  command->add_flag("--toml", options->toml, "The configuration as a file that --config reads")
+      ->excludes(markdown)
+      ->excludes(boundaries);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return list_config(*options, invocation.arguments); };
   });

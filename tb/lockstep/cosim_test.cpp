@@ -188,23 +188,6 @@ TEST(Cosim, RtlAloneAndModelAloneGiveTheSameStream) {
   EXPECT_EQ(r.quads, quads.size());
 }
 
-TEST(Cosim, WritesAWaveform) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "quadrille_cosim_test.fst";
-  std::filesystem::remove(file);
-  LockstepOptions options;
-  options.config = s12.config();
-  options.state = small_state(options.config);
-  options.trace = file.string();
-  options.optimise = 0;
-  const std::vector<SnappedQuad> quads = random_quads(options.config, options.state, 9, 5);
-  const LockstepReport report = run_lockstep(quads, options);
-  EXPECT_TRUE(report.agreed()) << report.first_divergence.value_or("");
-  EXPECT_GT(std::filesystem::file_size(file), 1000u);
-  std::filesystem::remove(file);
-  options.trace = "/nonexistent/directory/wave.fst";
-  EXPECT_THROW(run_lockstep(quads, options), DeviceError);
-}
-
 TEST(Cosim, TwoDevicesAtOnce) {
   LockstepOptions options;
   options.config = s12.config();
