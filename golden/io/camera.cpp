@@ -170,7 +170,9 @@ Camera parse_camera(std::string_view text, const std::string& name) { return Cam
 std::string camera_text(const Camera& camera) {
   const auto list = [](std::span<const double> numbers) {
     std::string text;
-    for (const double number : numbers) text += (text.empty() ? "[" : ", ") + number_text(number);
+    for (const double number : numbers)
+      text +=
+          (text.empty() ? "[" : ", ") + number_text(number + 0.0);  // no -0, which JSON readers take for the integer 0
     return text + "]";
   };
   if (camera.matrix) return "{\"matrix\": " + list(*camera.matrix) + "}\n";
