@@ -37,7 +37,7 @@ class Monitor : public ::testing::Test {
   }
 
   const Config config_;
-  const int width_ = boundary_layout(Boundary::fragment, config_).width();
+  const int width_ = boundary_layout(Boundary::fragment, config_).bits();
   Fragment fragment_;
   std::vector<std::uint32_t> words_;
 };
