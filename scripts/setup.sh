@@ -5,7 +5,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
 packages=(
-  g++ make cmake ninja-build   # the build; make is what verilated objects are built with
+  g++ make cmake ninja-build   # the build, and simulators on demand; make builds those of the replay benches
   verilator yosys iverilog     # RTL simulation, synthesis and round trip, replay of golden vectors
   libgtest-dev libopenexr-dev libpng-dev zlib1g-dev libssl-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   pkg-config libcairo2-dev fonts-dejavu-core   # contact sheets of quadrille compare

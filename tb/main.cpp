@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -82,6 +83,7 @@ int run(int argc, char** argv) {
   add_sweep_command(app, invocation);
   add_golden_command(app, invocation);
   add_compare_command(app, invocation);
+  add_cache_command(app, invocation);
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands({})) {
     command->set_version_flag("--version", version)->group("Common options");
@@ -101,6 +103,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files becomes an error of the write
   try {
     const int status = run(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

@@ -1,6 +1,6 @@
 #include "golden/suites/machine_run.hpp"
 
-#include "model/clocked.hpp"
+#include "model/drive.hpp"
 #include "model/support/prng.hpp"
 
 namespace quadrille::vectors {
@@ -19,37 +19,51 @@ std::vector<StallClock> make_stalls(std::uint64_t seed, std::size_t length) {
   return stalls;
 }
 
+namespace {
+
+/// Beats of the quads as a pattern of clocks lets them through.
+class PatternBeats : public SteadyBeats {
+ public:
+  PatternBeats(std::span<const SnappedQuad> quads, std::span<const StallClock> stalls)
+      : SteadyBeats(quads), stalls_(stalls) {
+    begin_clock();
+  }
+
+  bool valid() const { return offered_; }
+  bool ready() const { return now_.ready; }
+  void advance(bool taken) {
+    SteadyBeats::advance(taken);
+    if (taken) offered_ = false;
+    ++clock_;
+    begin_clock();
+  }
+
+ private:
+  void begin_clock() {
+    if (!stalls_.empty()) now_ = stalls_[clock_ % stalls_.size()];
+    offered_ = offered_ || (!done() && now_.offer);  // once on offer it stays
+  }
+
+  std::span<const StallClock> stalls_;
+  StallClock now_;
+  std::uint32_t clock_ = 0;
+  bool offered_ = false;
+};
+
+}  // namespace
+
 MachineRun run_machine(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
                        std::span<const StallClock> stalls) {
-  ClockedModel model(config, state);
-  ClockedInputs reset;
-  reset.reset = true;
-  model.clock(reset);
-
+  DrivenModel model(config, state);
+  PatternBeats beats(quads, stalls);
   MachineRun run;
-  ClockedInputs inputs;
-  std::size_t next = 0;  // beat
-  const std::size_t beats = 4 * quads.size();
-  bool offered = false;
-  for (std::uint32_t clock = 0;; ++clock) {
-    const StallClock now = stalls.empty() ? StallClock{} : stalls[clock % stalls.size()];
-    if (!offered && next < beats && now.offer) {
-      offered = true;
-      inputs.vertex_id = quads[next / 4].id;
-      inputs.vertex = quads[next / 4].vertex[next % 4];
-    }
-    inputs.vertex_valid = offered;
-    inputs.fragment_ready = now.ready;
-    const ClockedOutputs out = model.comb();
-    if (out.fragment_valid && now.ready) run.fragments.push_back({out.fragment, clock});
-    if (next == beats && !out.busy) return run;
-    if (offered && out.vertex_ready) {
-      run.taken.push_back(clock);
-      ++next;
-      offered = false;
-    }
-    model.clock(inputs);
-  }
+  drive(model, beats, [&](std::uint64_t cycle, const ClockedOutputs& out, bool taken) {
+    const auto clock = static_cast<std::uint32_t>(cycle);
+    if (out.fragment_valid && beats.ready()) run.fragments.push_back({out.fragment, clock});
+    if (taken) run.taken.push_back(clock);
+    return !beats.done() || out.busy;
+  });
+  return run;
 }
 
 }  // namespace quadrille::vectors

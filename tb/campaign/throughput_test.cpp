@@ -1,6 +1,6 @@
 // Throughput and latency of the clocked model without stalls or gaps: covered pixels per clock, clocks of the setup,
 // and that setup hides behind drawing.
-#include "model/clocked.hpp"
+#include "model/drive.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 
@@ -18,6 +18,7 @@ using golden::Prng;
 constexpr std::uint64_t most_setup_clocks = 16, most_setup_clocks_homogeneous = 48;
 /// What the README claims, 0.998 and 0.970, to its last digit: clocks are exact, so any loss is one of the machine.
 constexpr double turned_squares_per_clock = 0.9975, concave_per_clock = 0.9695;
+constexpr std::uint64_t most_clocks = 100'000'000;
 constexpr int pipeline_latency = 26;  ///< rtl/README.md section 5: emission to port
 
 struct Session {
@@ -27,28 +28,16 @@ struct Session {
 };
 
 Session run(const std::vector<SnappedQuad>& quads, const Config& config, const DrawState& state) {
-  ClockedModel model(config, state);
-  ClockedInputs in;
-  in.reset = true;
-  model.clock(in);
-  in.reset = false;
-  in.fragment_ready = true;
+  DrivenModel model(config, state);
+  SteadyBeats beats(quads);
   Session r;
-  std::size_t beat = 0;
-  for (; r.clocks < 100'000'000; ++r.clocks) {
-    in.vertex_valid = beat < 4 * quads.size();
-    if (in.vertex_valid) {
-      in.vertex_id = quads[beat / 4].id;
-      in.vertex = quads[beat / 4].vertex[beat % 4];
-    }
-    const ClockedOutputs o = model.comb();
+  r.clocks = drive(model, beats, [&](std::uint64_t cycle, const ClockedOutputs& o, bool taken) {
     if (o.fragment_valid) ++r.fragments;
-    if (o.probes.setup != nullptr) r.taken.push_back(r.clocks);
-    if (in.vertex_valid && o.vertex_ready && ++beat % 4 == 0) r.accepted.push_back(r.clocks);
-    if (!in.vertex_valid && !o.busy) return r;
-    model.clock(in);
-  }
-  ADD_FAILURE() << "the machine does not become idle";
+    if (o.probes.setup != nullptr) r.taken.push_back(cycle);
+    if (taken && beats.taken() % 4 == 3) r.accepted.push_back(cycle);
+    return (!beats.done() || o.busy) && cycle < most_clocks;
+  });
+  EXPECT_LT(r.clocks, most_clocks) << "the machine does not become idle";
   return r;
 }
 

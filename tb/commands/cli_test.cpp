@@ -342,6 +342,29 @@ TEST_F(CliCosim, RtlDrawsWhatTheModelDraws) {
   EXPECT_EQ(read(file("a.csv")), read(file("b.csv")));
 }
 
+TEST_F(CliCosim, TheCacheIsListedAndCleared) {
+  ASSERT_EQ(run("fragments --scene bowtie --size 16x16 --engine rtl --out a.csv --quiet").status, 0);
+  const Outcome listed = run("cache");
+  EXPECT_EQ(listed.status, 0) << listed.err;
+  EXPECT_NE(listed.out.find("default without probes\n"), std::string::npos) << listed.out;
+  const json report = json::parse(run("cache --json -").out);
+  std::uintmax_t bytes = 0;
+  for (const json& entry : report["entries"]) bytes += entry["bytes"].get<std::uintmax_t>();
+  EXPECT_GT(bytes, 100'000u);
+  EXPECT_EQ(report["bytes"], bytes);
+
+  fs::create_directories(file("own/kind-1"));
+  write("own/kind-1/data", std::string(2048, 'x'));
+  const std::string own = "QUADRILLE_CACHE=own";
+  EXPECT_EQ(json::parse(run("cache list --json -", own).out)["entries"].size(), 1u);
+  const Outcome cleared = run("cache clear", own);
+  EXPECT_NE(cleared.out.find("removed 1 entry, 2.0 KiB; limit 1024.0 MiB; "), std::string::npos) << cleared.out;
+  EXPECT_TRUE(fs::is_empty(file("own")));
+  const Outcome wrong = run("cache", own + " QUADRILLE_CACHE_SIZE=plenty");
+  EXPECT_EQ(wrong.status, 3);
+  EXPECT_NE(wrong.err.find("not 'plenty'"), std::string::npos) << wrong.err;
+}
+
 TEST_F(CliCosim, AntipodalEdgesAreCountedAndCoverNothing) {
   // Vertex 1 is minus vertex 0: the eye lies on that edge. The second quad is an ordinary one.
   write("antipodal.quads", std::string("20 20 0.5 1  -20 -20 -0.5 -1  40 44 0.5 1  8 40 0.5 1\n") + good_quad);
@@ -352,6 +375,36 @@ TEST_F(CliCosim, AntipodalEdgesAreCountedAndCoverNothing) {
   EXPECT_EQ(report["counts"]["eye_crossing_quads"], 1);
   EXPECT_EQ(report["counts"]["eye_crossing"], 0) << "no fragment comes from it";
   EXPECT_GT(report["fragments"], 100);
+}
+
+TEST_F(CliCosim, WaveformWithoutRoom) {
+  const std::string arguments = "cosim --scene bowtie --size 64x64 --no-alone --quiet --trace t.fst";
+  ASSERT_EQ(run(arguments).status, 0);  // and the simulator with waveforms is in the cache
+  const std::uintmax_t whole = fs::file_size(file("t.fst"));
+  ASSERT_GT(whole, 8192u);
+  fs::remove(file("t.fst"));
+  const auto files = [&](const std::string& directory) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(file(directory)))
+      if (const std::string name = entry.path().filename(); name != "stdout" && name != "stderr") names.push_back(name);
+    return names;
+  };
+  // A limit on the size of files, in blocks of 512 bytes: SIGXFSZ, or a waveform that ends too early.
+  for (const char* limit : {"1", "8"}) {
+    const Outcome limited = run(arguments, std::string("ulimit -f ") + limit + ";");
+    EXPECT_EQ(limited.status, 3) << limited.err;
+    EXPECT_EQ(limited.err, "quadrille: the waveform cannot be written: File too large\n");
+    EXPECT_TRUE(files("").empty()) << files("").front();
+  }
+  // A full disk, where a user may mount one.
+  fs::create_directory(file("disk"));
+  const std::string mount =
+      "unshare -rm sh -c 'mount -t tmpfs -o size=4k none disk && \"$@\"; s=$?; ls -A disk; exit $s' sh ";
+  if (run("--version", mount).status != 0) GTEST_SKIP() << "no user namespace to mount a small disk in";
+  const Outcome full = run(arguments.substr(0, arguments.rfind(' ')) + " disk/t.fst", mount);
+  EXPECT_EQ(full.status, 3) << full.err;
+  EXPECT_EQ(full.err, "quadrille: the waveform cannot be written: No space left on device\n");
+  EXPECT_EQ(full.out, "") << "left on the full disk";
 }
 
 TEST_F(CliCosim, NothingComparedIsAFailure) {

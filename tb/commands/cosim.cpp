@@ -286,7 +286,7 @@ class CosimRun {
     options.progress = nullptr;
     const bool whole = options.limit_fragments == 0 && lockstep.fragments <= alone_fragments;
     if (!whole) options.limit_fragments = std::min(alone_fragments, std::max<std::uint64_t>(1, lockstep.fragments));
-    const tb::RtlRun alone = tb::run_rtl_alone(snapped, options);
+    const tb::AloneRun alone = tb::run_rtl_alone(snapped, options);
     result.alone_cycles = alone.cycles;
     result.alone_seconds = alone.seconds;
     if (whole && alone.fragment_hash != lockstep.fragment_hash) {

@@ -11,7 +11,10 @@
 extern "C" {
 #endif
 
-enum { quadrille_device_abi_version = 1, quadrille_probe_count = 9 };
+enum { quadrille_device_abi_version = 2, quadrille_probe_count = 9 };
+
+/* Status of a function that failed because the waveform cannot be written, on a full disk say; else it is 1. */
+enum { quadrille_no_waveform = 2 };
 
 /* One boundary in this clock. words stays where it is for the device's life; its contents change with every evaluation.
  */
@@ -57,9 +60,9 @@ typedef struct {
   /* The outputs after settle(). */
   const quadrille_sample* (*sample)(quadrille_device*);
 
-  /* Waveform; trace_open fails when the object was built without tracing. */
+  /* Waveform; trace_open fails when the object was built without tracing. The file is good when trace_close says so. */
   int (*trace_open)(quadrille_device*, const char* path);
-  void (*trace_close)(quadrille_device*);
+  int (*trace_close)(quadrille_device*);
 
   /* Localparams of quadrille_pkg as the RTL sees them; ends with a NULL name. */
   const quadrille_constant* (*constants)(void);

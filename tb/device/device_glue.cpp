@@ -6,6 +6,9 @@
 #include "verilated.h"
 #if QUADRILLE_TRACE
 #include "verilated_fst_c.h"
+extern "C" {
+thread_local int quadrille_trace_error = 0;  // set by device_trace.h
+}
 #endif
 
 #include <cstring>
@@ -104,14 +107,23 @@ struct quadrille_device {
   NarrowCopy probe_copy[quadrille_probe_count];
   std::string error;
 
-  void dump() {
+  int dump() {
 #if QUADRILLE_TRACE
     if (trace) trace->dump(context->time());
+    if (int status = trace_status()) return status;
 #endif
     context->timeInc(1);
+    return 0;
   }
+#if QUADRILLE_TRACE
+  int trace_status() {
+    if (quadrille_trace_error == 0) return 0;
+    error = std::string("the waveform cannot be written: ") + std::strerror(quadrille_trace_error);
+    return quadrille_no_waveform;
+  }
+#endif
 
-  /// Evaluates; 0, or 1 with the error kept.
+  /// Evaluates; 0, or another status with the error kept.
   int evaluate(uint8_t clock) {
     if (!error.empty()) return 1;
     try {
@@ -119,8 +131,7 @@ struct quadrille_device {
       Verilated::threadContextp(context.get());
       top->clk_i = clock;
       top->eval();
-      dump();
-      return 0;
+      return dump();
     } catch (const std::exception& failure) {
       error = failure.what();
       return 1;
@@ -197,23 +208,29 @@ const quadrille_sample* sample(quadrille_device* d) {
 
 int trace_open([[maybe_unused]] quadrille_device* d, [[maybe_unused]] const char* path) {
 #if QUADRILLE_TRACE
+  quadrille_trace_error = 0;
   d->trace = std::make_unique<VerilatedFstC>();
   Verilated::threadContextp(d->context.get());
   d->top->trace(d->trace.get(), 99);
   d->trace->open(path);
-  if (d->trace->isOpen()) return 0;
+  if (d->trace->isOpen()) return d->trace_status();
   d->trace.reset();
   d->error = std::string("cannot write ") + path;
 #else
   d->error = "this object was built without tracing";
 #endif
-  return 1;
+  return quadrille_no_waveform;
 }
 
-void trace_close([[maybe_unused]] quadrille_device* d) {
+int trace_close([[maybe_unused]] quadrille_device* d) {
 #if QUADRILLE_TRACE
-  if (d->trace) d->trace->close();
+  if (!d->trace) return 0;
+  Verilated::threadContextp(d->context.get());
+  d->trace->close();
   d->trace.reset();
+  return d->trace_status();
+#else
+  return 0;
 #endif
 }
 

@@ -1,22 +1,16 @@
 #include "tb/device/verilate.hpp"
 
 #include "model/tables.hpp"
+#include "tb/device/build_notice.hpp"
 #include "tb/support/environment_error.hpp"
 #include "tb/support/process.hpp"
 #include "tb/support/source_paths.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <functional>
-#include <iterator>
+#include <map>
+#include <mutex>
 #include <sstream>
 #include <thread>
 
@@ -26,53 +20,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* package_verilator = "verilator";
-constexpr const char* package_compiler = "g++";
-
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw EnvironmentError("cannot read " + file.string() + ": " + std::strerror(errno));
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-void write_text(const fs::path& file, std::string_view text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw EnvironmentError("cannot write " + file.string() + ": " + std::strerror(errno));
-}
-
-/// An exclusive lock on a file, held for the scope; other processes and other threads wait.
-class FileLock {
- public:
-  explicit FileLock(const fs::path& file) : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
-    if (descriptor_ < 0) throw EnvironmentError("cannot write " + file.string() + ": " + std::strerror(errno));
-    while (flock(descriptor_, LOCK_EX) != 0) {
-      if (errno != EINTR) {
-        close(descriptor_);
-        throw EnvironmentError("cannot lock " + file.string() + ": " + std::strerror(errno));
-      }
-    }
-  }
-  ~FileLock() { close(descriptor_); }
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
-
- private:
-  int descriptor_;
-};
-
-/// The tools, found once per call of verilate().
+/// The tools and their versions.
 struct Tools {
   std::string verilator, compiler;
   std::string verilator_version, compiler_version;
 
   Tools() {
-    verilator = find_program("verilator", package_verilator);
+    verilator = find_program("verilator", "verilator");
     const char* chosen = std::getenv("CXX");
-    compiler = find_program(chosen != nullptr && *chosen != '\0' ? chosen : "g++", package_compiler);
-    verilator_version = run_captured(std::vector<std::string>{verilator, "--version"});
-    compiler_version = run_captured(std::vector<std::string>{compiler, "--version"});
+    compiler = find_program(chosen != nullptr && *chosen != '\0' ? chosen : "g++", "g++");
+    verilator_version = version_of(verilator);
+    compiler_version = version_of(compiler);
   }
 
   /// Directory of Verilator's C++ headers and run time.
@@ -86,88 +44,154 @@ struct Tools {
     }
     return directory;
   }
+
+ private:
+  /// Asked once for each program: starting Verilator takes longer than loading a simulator.
+  static std::string version_of(const std::string& program) {
+    static std::mutex mutex;
+    static std::map<std::string, std::string> versions;
+    const std::scoped_lock lock(mutex);
+    std::string& version = versions[program];
+    if (version.empty()) version = run_captured(std::vector<std::string>{program, "--version"});
+    return version;
+  }
 };
 
-/// Finds or builds the cache entry `name`: `build(directory)` fills an empty directory, which then gets its final name.
-fs::path cached(const std::string& name, const std::function<void(const fs::path&)>& build) {
-  const fs::path cache = cache_directory();
-  const fs::path place = cache / name;
-  if (fs::exists(place)) return place;
-  const FileLock lock(cache / (name + ".lock"));
-  if (fs::exists(place)) return place;  // another process was faster
-  static std::atomic<unsigned> serial{0};
-  const fs::path work = cache / ("tmp." + name + "." + std::to_string(getpid()) + "." + std::to_string(serial++));
-  fs::remove_all(work);
-  fs::create_directories(work);
-  try {
-    build(work);
-    fs::rename(work, place);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove_all(work, ignored);
-    throw;
-  }
-  return place;
-}
-
-/// Keeps the log of a failed build beside the cache's entries and reports it.
+/// A log beside the cache's entries that stays when the build fails.
 [[noreturn]] void fail(const std::string& what, const fs::path& log, const std::string& name) {
-  const fs::path kept = cache_directory() / ("failed-" + name + ".log");
+  const fs::path kept = writable_cache_directory() / ("failed-" + name + ".log");
   std::error_code ignored;
   fs::copy_file(log, kept, fs::copy_options::overwrite_existing, ignored);
   throw VerilateError(what + "; log " + kept.string() + ", which ends:\n" + tail_of(kept, 25));
 }
 
-/// Verilator's run time compiled once for all configurations: objects in a cache entry.
-std::vector<fs::path> runtime_objects(const Tools& tools, const fs::path& include, const fs::path& glue, bool trace,
-                                      unsigned jobs) {
+std::string shell_quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// A build.ninja of objects and one shared object of them, in a directory of its own.
+class NinjaFile {
+ public:
+  NinjaFile(const Tools& tools, const std::vector<std::string>& flags) {
+    std::string compiler = shell_quoted(tools.compiler);
+    try {
+      compiler = shell_quoted(find_program("ccache", "ccache").string()) + " " + compiler;
+    } catch (const EnvironmentError&) {  // does without
+    }
+    text_ << "rule compile\n  command = " << value(compiler);
+    for (const std::string& flag : flags) text_ << ' ' << value(shell_quoted(flag));
+    text_ << " $flags -c $in -o $out\nrule link\n  command = " << value(shell_quoted(tools.compiler))
+          << " -shared -fPIC -Wl,-Bsymbolic -Wl,--no-undefined -o $out $in -lpthread -latomic $libraries\n";
+  }
+
+  /// `flags`: its own ones, quoted for the shell.
+  void object(const std::string& name, const fs::path& source, const std::string& flags) {
+    text_ << "build " << path(name) << ": compile " << path(source.string()) << "\n  flags = " << value(flags) << '\n';
+    objects_.push_back(name);
+  }
+  void link(const std::string& name, const std::vector<fs::path>& further, const std::string& libraries) {
+    text_ << "build " << path(name) << ": link";
+    for (const std::string& object : objects_) text_ << ' ' << path(object);
+    for (const fs::path& object : further) text_ << ' ' << path(object.string());
+    text_ << "\n  libraries = " << libraries << '\n';
+    ++steps_;
+  }
+  std::size_t steps() const { return objects_.size() + steps_; }
+
+  /// Runs Ninja in `directory`; `before` of the notice's steps are done. Returns its exit status.
+  int run(const fs::path& directory, const fs::path& log, unsigned jobs, BuildNotice& notice,
+          std::size_t before) const {
+    write_text(directory / "build.ninja", text_.str());
+    const std::vector<std::string> command{find_program("ninja", "ninja-build"), "-j", std::to_string(jobs)};
+    const std::size_t total = before + steps();
+    return run_watched(
+        command, directory, log,
+        [&](std::string_view line) {  // "[3/5] …" with the status that Ninja shows of itself
+          unsigned number = 0;
+          if (std::sscanf(std::string(line).c_str(), "[%u/", &number) == 1) notice.done(before + number, total);
+        },
+        [&] { notice.tick(); });
+  }
+
+ private:
+  static std::string value(const std::string& text) {
+    std::string escaped;
+    for (const char c : text) escaped += c == '$' ? std::string("$$") : std::string(1, c);
+    return escaped;
+  }
+  static std::string path(const std::string& text) {
+    std::string escaped;
+    for (const char c : text) {
+      if (c == '$' || c == ' ' || c == ':') escaped += '$';
+      escaped += c;
+    }
+    return escaped;
+  }
+
+  std::ostringstream text_;
+  std::vector<std::string> objects_;
+  std::size_t steps_ = 0;
+};
+
+/// Flags of everything that is compiled with Verilator's headers.
+std::vector<std::string> common_flags(const fs::path& include, bool trace) {
+  return {"-fPIC",
+          "-fvisibility=hidden",
+          "-fno-gnu-unique",
+          "-w",
+          "-I" + include.string(),
+          "-I" + (include / "vltstd").string(),
+          "-DVM_COVERAGE=0",
+          "-DVM_SC=0",
+          trace ? "-DVM_TRACE=1" : "-DVM_TRACE=0",
+          trace ? "-DVM_TRACE_FST=1" : "-DVM_TRACE_FST=0"};
+}
+
+/// Verilator's run time, compiled once for all configurations.
+struct Runtime {
+  CacheEntry entry;
+  std::vector<fs::path> objects;
+};
+
+Runtime runtime(const Tools& tools, const fs::path& include, const fs::path& glue, bool trace, unsigned jobs) {
   std::vector<std::string> stems{"verilated", "verilated_threads"};
   if (trace) stems.push_back("verilated_fst_c");
+  std::vector<std::string> flags = common_flags(include, trace);
+  flags.insert(flags.end(), {"-std=c++17", "-DVL_USER_FINISH", "-DVL_USER_STOP", "-DVL_USER_FATAL",
+                             "-DVL_PRINTF=quadrille_device_print", "-include", (glue / "device_print.h").string()});
   Fingerprint key;
-  key.add("runtime 1");
+  key.add("runtime 2");
   key.add(tools.verilator_version);
   key.add(tools.compiler_version);
-  key.add_file(glue / "device_print.h");
+  for (const std::string& flag : flags) key.add(flag);
+  for (const char* file : {"device_print.h", "device_trace.h"}) key.add_file(glue / file);
   for (const std::string& stem : stems) key.add_file(include / (stem + ".cpp"));
   const std::string name = "runtime-" + key.hex();
-  const fs::path place = cached(name, [&](const fs::path& work) {
-    std::vector<std::vector<std::string>> commands;
-    for (const std::string& stem : stems) {
-      commands.push_back({tools.compiler,
-                          "-std=c++17",
-                          "-O2",
-                          "-fPIC",
-                          "-fvisibility=hidden",
-                          "-fno-gnu-unique",
-                          "-w",
-                          "-I" + include.string(),
-                          "-I" + (include / "vltstd").string(),
-                          "-DVM_COVERAGE=0",
-                          "-DVM_SC=0",
-                          trace ? "-DVM_TRACE=1" : "-DVM_TRACE=0",
-                          trace ? "-DVM_TRACE_FST=1" : "-DVM_TRACE_FST=0",
-                          "-DVL_USER_FINISH",
-                          "-DVL_USER_STOP",
-                          "-DVL_USER_FATAL",
-                          "-DVL_PRINTF=quadrille_device_print",
-                          "-include",
-                          (glue / "device_print.h").string(),
-                          "-c",
-                          (include / (stem + ".cpp")).string(),
-                          "-o",
-                          (work / (stem + ".o")).string()});
-    }
-    const fs::path log = work / "build.log";
-    if (run_parallel(commands, work, log, jobs) != 0) {
-      if (trace && read_text(log).find("zlib.h") != std::string::npos) {
-        throw EnvironmentError("waveforms need zlib's headers; on Debian: apt-get install zlib1g-dev");
-      }
-      fail("compiling Verilator's run time failed", log, name);
-    }
-  });
-  std::vector<fs::path> objects;
-  for (const std::string& stem : stems) objects.push_back(place / (stem + ".o"));
-  return objects;
+
+  BuildNotice notice(trace ? "Verilator's run time with waveforms" : "Verilator's run time");
+  Runtime result;
+  result.entry = cached(
+      name, trace ? "Verilator's run time with waveforms" : "Verilator's run time",
+      [&](const fs::path& work) {
+        NinjaFile ninja(tools, flags);
+        for (const std::string& stem : stems)
+          ninja.object(
+              stem + ".o", include / (stem + ".cpp"),
+              stem == "verilated_fst_c" ? "-O2 -include " + shell_quoted((glue / "device_trace.h").string()) : "-O2");
+        notice.start(ninja.steps());
+        const fs::path log = work / "build.log";
+        if (ninja.run(work, log, jobs, notice, 0) != 0) {
+          if (trace && read_text(log).find("zlib.h") != std::string::npos)
+            throw EnvironmentError("waveforms need zlib's headers; on Debian: apt-get install zlib1g-dev");
+          fail("compiling Verilator's run time failed", log, name);
+        }
+        notice.finished();
+      },
+      [&](long pid) { notice.waiting(pid); });
+  for (const std::string& stem : stems) result.objects.push_back(result.entry.path() / (stem + ".o"));
+  return result;
 }
 
 /// What the glue has to know of the Verilated class: the width of every vector port and the constants of the package,
@@ -217,50 +241,54 @@ std::vector<fs::path> sources_of(const VerilateOptions& options) {
   return sources;
 }
 
-}  // namespace
-
-void Fingerprint::byte(unsigned char b) {
-  constexpr unsigned __int128 prime = (static_cast<unsigned __int128>(1) << 88) | 0x13bu;
-  hash_ = (hash_ ^ b) * prime;
-}
-
-void Fingerprint::add(std::string_view piece) {
-  for (std::uint64_t length = piece.size(), i = 0; i < 8; ++i) byte(static_cast<unsigned char>(length >> (8 * i)));
-  for (const char c : piece) byte(static_cast<unsigned char>(c));
-}
-
-void Fingerprint::add_file(const fs::path& file) {
-  add(file.filename().string());
-  add(read_text(file));
-}
-
-std::string Fingerprint::hex() const {
-  std::string text;
-  for (int shift = 124; shift >= 0; shift -= 4) text += "0123456789abcdef"[static_cast<unsigned>(hash_ >> shift) & 15u];
+/// Keys that differ from their defaults, and what else tells one simulator from another.
+std::string description(const Config& config, const VerilateOptions& options) {
+  std::string text = summary(config) + (options.probes ? " with probes" : " without probes");
+  if (options.trace) text += ", waveforms";
+  if (!options.assertions) text += ", no assertions";
+  if (options.optimise != VerilateOptions{}.optimise) text += ", -O" + std::to_string(options.optimise);
+  if (!options.source.empty()) text += ", RTL " + fs::absolute(options.source).string();
+  for (const fs::path& file : options.extra) text += ", " + file.filename().string();
+  for (const std::string& argument : options.arguments) text += " " + argument;
   return text;
 }
 
-fs::path cache_directory() {
-  const auto value = [](const char* name) -> std::string {
-    const char* text = std::getenv(name);
-    return text == nullptr ? "" : text;
+/// Writes files that include Verilator's, so that its headers, most of what a small file costs, are read in few
+/// compilations: code that runs once in one file, the simulated clock in as few as a compiler digests well.
+/// Returns their names, the slow one first. (README.md: what was measured.)
+std::vector<std::string> write_groups(const fs::path& work, const fs::path& generated) {
+  constexpr std::uintmax_t group_bytes = 3'000'000;
+  struct Part {
+    std::uintmax_t bytes;
+    std::string name;
   };
-  fs::path directory = QUADRILLE_FALLBACK_CACHE_DIR;
-  if (const std::string cache = value("QUADRILLE_CACHE"); !cache.empty()) {
-    directory = cache;
-  } else if (const std::string xdg = value("XDG_CACHE_HOME"); !xdg.empty()) {
-    directory = fs::path(xdg) / "quadrille";
-  } else if (const std::string home = value("HOME"); !home.empty()) {
-    directory = fs::path(home) / ".cache" / "quadrille";
+  std::vector<Part> slow, fast;
+  std::uintmax_t total = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(generated)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() != ".cpp") continue;
+    const bool once = stem.find("__Slow") != std::string::npos || stem.find("__Trace") != std::string::npos;
+    (once ? slow : fast).push_back({entry.file_size(), entry.path().filename().string()});
+    if (!once) total += entry.file_size();
   }
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error || access(directory.c_str(), W_OK) != 0) {
-    throw EnvironmentError("cannot write to the cache directory " + directory.string() +
-                           "; set QUADRILLE_CACHE to a directory that can be written");
+  const auto larger = [](const Part& a, const Part& b) {
+    return a.bytes != b.bytes ? a.bytes > b.bytes : a.name < b.name;
+  };
+  std::sort(slow.begin(), slow.end(), larger);
+  std::sort(fast.begin(), fast.end(), larger);
+  const std::size_t groups = std::max<std::size_t>(1, (total + group_bytes / 2) / group_bytes);
+  std::vector<std::string> texts(1 + groups), names;
+  for (const Part& part : slow) texts[0] += "#include \"" + part.name + "\"\n";
+  for (std::size_t i = 0; i < fast.size(); ++i) texts[1 + i % groups] += "#include \"" + fast[i].name + "\"\n";
+  texts[1] += "#include \"device_glue.cpp\"\n";
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    names.push_back(i == 0 ? "slow" : "fast" + std::to_string(i));
+    write_text(work / (names.back() + ".cpp"), texts[i]);
   }
-  return fs::absolute(directory);
+  return names;
 }
+
+}  // namespace
 
 std::vector<std::string> key_defines(const Config& config) {
   std::vector<std::string> defines;
@@ -272,7 +300,20 @@ std::vector<std::string> key_defines(const Config& config) {
   return defines;
 }
 
-fs::path verilate(const Config& config, const VerilateOptions& options) {
+std::string changed_keys(const Config& config, std::string_view before) {
+  std::string text;
+  for (const ConfigKey& key : Config::keys())
+    if (const int value = config.get(key.name); value != key.standard)
+      text += std::string(before) + std::string(key.name) + "=" + std::to_string(value);
+  return text;
+}
+
+std::string summary(const Config& config) {
+  const std::string text = changed_keys(config, " ");
+  return text.empty() ? "default" : text.substr(1);
+}
+
+Simulator verilate(const Config& config, const VerilateOptions& options) {
   config.validate();
   const Tools tools;
   const fs::path glue = glue_directory();
@@ -282,24 +323,27 @@ fs::path verilate(const Config& config, const VerilateOptions& options) {
 
   // 1. Everything that decides the result.
   Fingerprint key;
-  key.add("device 1");
+  key.add("device 2");
   key.add(tools.verilator_version);
   key.add(tools.compiler_version);
   for (const std::string& define : key_defines(config)) key.add(define);
   key.add(tables);
   for (const fs::path& source : sources) key.add_file(source);
-  for (const char* file : {"device_glue.cpp", "device_abi.h", "device_print.h"}) key.add_file(glue / file);
+  for (const char* file : {"device_glue.cpp", "device_abi.h", "device_print.h", "device_trace.h"})
+    key.add_file(glue / file);
   key.add({options.probes ? "p" : "-"});
   key.add({options.trace ? "t" : "-"});
   key.add({options.assertions ? "a" : "-"});
   key.add(std::to_string(options.optimise));
   for (const std::string& argument : options.arguments) key.add(argument);
   const std::string name = "device-" + key.hex();
-  if (const fs::path ready = cache_directory() / name / "device.so"; fs::exists(ready)) return ready;
 
   const unsigned jobs = options.jobs != 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
-  const fs::path include = tools.include();
-  const fs::path place = cached(name, [&](const fs::path& work) {
+  const std::string what = description(config, options);
+  BuildNotice notice("the simulator of " + what);
+  const auto build = [&](const fs::path& work) {
+    constexpr std::size_t usual_steps = 4;  // Verilator, slow, fast, link
+    notice.start(usual_steps);
     const fs::path log = work / "build.log";
     const fs::path generated = work / "verilated";
     fs::create_directories(generated);
@@ -321,76 +365,31 @@ fs::path verilate(const Config& config, const VerilateOptions& options) {
       command.push_back((work / "quadrille_tables_pkg.sv").string());
     }
     for (const fs::path& source : sources) command.push_back(fs::absolute(source).string());
-    if (run_logged(command, work, log) != 0) fail("Verilator failed", log, name);
+    if (run_watched(
+            command, work, log, [](std::string_view) {}, [&] { notice.tick(); }) != 0)
+      fail("Verilator failed", log, name);
 
-    const std::vector<fs::path> runtime = runtime_objects(tools, include, glue, options.trace, jobs);
-
-    // 3. C++ to objects. Code that runs once (…__Slow.cpp) is not worth the optimiser's time.
+    // 3. C++ to one shared object that shows a single symbol. Code that runs once is not worth the optimiser's time.
+    const fs::path include = tools.include();
+    const Runtime shared = runtime(tools, include, glue, options.trace, jobs);
     write_text(generated / "device_constants.inc", device_constants(generated));
-    std::vector<std::string> objects;
-    std::vector<std::pair<std::uintmax_t, std::vector<std::string>>> work_list;
-    const auto compile = [&](const fs::path& file, const std::string& level) {
-      const std::string object = (work / (file.stem().string() + ".o")).string();
-      objects.push_back(object);
-      work_list.push_back({fs::file_size(file),
-                           {tools.compiler,
-                            "-std=c++20",
-                            level,
-                            "-fPIC",
-                            "-fvisibility=hidden",
-                            "-fno-gnu-unique",
-                            "-w",
-                            "-I" + generated.string(),
-                            "-I" + include.string(),
-                            "-I" + (include / "vltstd").string(),
-                            "-I" + glue.string(),
-                            "-DVM_COVERAGE=0",
-                            "-DVM_SC=0",
-                            options.trace ? "-DVM_TRACE=1" : "-DVM_TRACE=0",
-                            options.trace ? "-DVM_TRACE_FST=1" : "-DVM_TRACE_FST=0",
-                            options.trace ? "-DQUADRILLE_TRACE=1" : "-DQUADRILLE_TRACE=0",
-                            options.probes ? "-DQUADRILLE_PROBES=1" : "-DQUADRILLE_NO_PROBES=1",
-                            "-c",
-                            file.string(),
-                            "-o",
-                            object}});
-    };
-    const std::string fast = "-O" + std::to_string(options.optimise);
-    for (const fs::directory_entry& entry : fs::directory_iterator(generated)) {
-      if (entry.path().extension() != ".cpp") continue;
-      const bool slow = entry.path().stem().string().find("__Slow") != std::string::npos ||
-                        entry.path().stem().string().find("__Trace") != std::string::npos;
-      compile(entry.path(), slow ? "-O0" : fast);
-    }
-    compile(glue / "device_glue.cpp", fast);
-    std::sort(work_list.begin(), work_list.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<std::vector<std::string>> commands;
-    for (auto& [size, one] : work_list) commands.push_back(std::move(one));
-    if (run_parallel(commands, work, log, jobs) != 0) fail("compiling the Verilated machine failed", log, name);
+    std::vector<std::string> flags = common_flags(include, options.trace);
+    flags.insert(flags.end(), {"-std=c++20", "-Iverilated", "-I" + glue.string(),
+                               options.trace ? "-DQUADRILLE_TRACE=1" : "-DQUADRILLE_TRACE=0",
+                               options.probes ? "-DQUADRILLE_PROBES=1" : "-DQUADRILLE_NO_PROBES=1"});
+    NinjaFile ninja(tools, flags);
+    for (const std::string& group : write_groups(work, generated))
+      ninja.object(group + ".o", group + ".cpp", group == "slow" ? "-O0" : "-O" + std::to_string(options.optimise));
+    ninja.link("device.so", shared.objects, options.trace ? "-lz" : "");
+    notice.done(1, 1 + ninja.steps());
+    if (ninja.run(work, log, jobs, notice, 1) != 0) fail("compiling the Verilated machine failed", log, name);
 
-    // 4. Objects to one shared object that shows a single symbol.
-    std::sort(objects.begin(), objects.end());
-    std::vector<std::string> link{tools.compiler,
-                                  "-shared",
-                                  "-fPIC",
-                                  "-Wl,-Bsymbolic",
-                                  "-Wl,--no-undefined",
-                                  "-o",
-                                  (work / "device.so").string()};
-    link.insert(link.end(), objects.begin(), objects.end());
-    for (const fs::path& object : runtime) link.push_back(object.string());
-    link.insert(link.end(), {"-lpthread", "-latomic"});
-    if (options.trace) link.push_back("-lz");
-    if (run_logged(link, work, log) != 0) fail("linking the Verilated machine failed", log, name);
-
-    // 5. Keep the object and its log.
-    for (const std::string& object : objects) fs::remove(object);
-    for (const fs::directory_entry& entry : fs::directory_iterator(work)) {
-      if (entry.path().extension() == ".log" && entry.path() != log) fs::remove(entry.path());
-    }
-    fs::remove_all(generated);
-  });
-  return place / "device.so";
+    // 4. Keep the object and its log.
+    for (const fs::directory_entry& entry : fs::directory_iterator(work))
+      if (entry.path() != log && entry.path().filename() != "device.so") fs::remove_all(entry.path());
+    notice.finished();
+  };
+  return {cached(name, what, build, [&](long pid) { notice.waiting(pid); })};
 }
 
 }  // namespace quadrille::tb

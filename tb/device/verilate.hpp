@@ -1,17 +1,15 @@
-// Verilating on demand: a configuration of the machine becomes a shared object behind device_abi.h, kept in a cache.
-//
-// The cache is $QUADRILLE_CACHE, else $XDG_CACHE_HOME/quadrille, else $HOME/.cache/quadrille, else the build directory.
-// An entry's name is a hash over everything that decides its contents: the bytes of the RTL sources, of the table
-// package and of the glue, every configuration key, the options below, Verilator's and the compiler's version. An entry
-// is built beside its place under a lock and renamed into it, so two programs may ask for the same one at the same
-// time.
+// Verilating on demand: a configuration of the machine becomes a shared object behind device_abi.h, kept in the cache
+// under a hash over the bytes of the RTL sources, of the table package and of the glue, every configuration key, the
+// options below, Verilator's and the compiler's version. Ninja runs the compilers, through ccache where there is one.
 #pragma once
 
 #include "model/config.hpp"
+#include "tb/device/cache.hpp"
 
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace quadrille::tb {
@@ -35,27 +33,22 @@ struct VerilateError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Path of the shared object for `config`, built now if the cache has none. Throws EnvironmentError when a tool is
-/// missing or the cache cannot be written, VerilateError when the sources do not build.
-std::filesystem::path verilate(const Config& config, const VerilateOptions& options = {});
+/// A machine to load any number of times; its entry of the cache stays as long as this lives.
+struct Simulator {
+  CacheEntry entry;
+  std::filesystem::path object() const { return entry.path() / "device.so"; }
+};
 
-/// The cache's directory, created if need be.
-std::filesystem::path cache_directory();
+/// The simulator of `config`, built now if the cache has none; a BuildNotice says so. Throws EnvironmentError when a
+/// tool is missing or the cache cannot be written, VerilateError when the sources do not build.
+Simulator verilate(const Config& config, const VerilateOptions& options = {});
 
 /// The arguments -DQUADRILLE_<KEY>=value for every key of the configuration (-1, automatic, is passed on as it is).
 std::vector<std::string> key_defines(const Config& config);
 
-/// FNV-1a, 128 bits, over length-prefixed pieces.
-class Fingerprint {
- public:
-  void add(std::string_view piece);
-  void add_file(
-      const std::filesystem::path& file);  ///< name and contents; throws EnvironmentError when it cannot be read
-  std::string hex() const;
-
- private:
-  void byte(unsigned char b);
-  unsigned __int128 hash_ = (static_cast<unsigned __int128>(0x6c62272e07bb0142u) << 64) | 0x62b821756295c58du;
-};
+/// The keys that differ from their defaults, `before` + "key=value" each.
+std::string changed_keys(const Config& config, std::string_view before);
+/// The same for people, "key=value key=value", or "default".
+std::string summary(const Config& config);
 
 }  // namespace quadrille::tb

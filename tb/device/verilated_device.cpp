@@ -40,13 +40,17 @@ class Library {
 }  // namespace
 
 struct VerilatedDevice::Impl {
+  CacheEntry in_use;
   Library library;
   const quadrille_device_table* table;
   quadrille_device* device;
   DeviceSample sample;
 
-  Impl(const std::filesystem::path& object, std::uint64_t seed)
-      : library(object), table(library.table(object)), device(table->create(seed)) {
+  Impl(const Simulator& simulator, std::uint64_t seed)
+      : in_use(simulator.entry),
+        library(simulator.object()),
+        table(library.table(simulator.object())),
+        device(table->create(seed)) {
     if (device == nullptr) throw DeviceError(std::string("the RTL could not be set up: ") + table->last_error(nullptr));
   }
   ~Impl() { table->destroy(device); }
@@ -54,6 +58,7 @@ struct VerilatedDevice::Impl {
   Impl& operator=(const Impl&) = delete;
 
   void check(int status) const {
+    if (status == quadrille_no_waveform) throw EnvironmentError(table->last_error(device));
     if (status != 0) throw DeviceError(table->last_error(device));
   }
 };
@@ -61,8 +66,8 @@ struct VerilatedDevice::Impl {
 VerilatedDevice::VerilatedDevice(const Config& config, const VerilateOptions& options, std::uint64_t seed)
     : VerilatedDevice(verilate(config, options), config, seed) {}
 
-VerilatedDevice::VerilatedDevice(const std::filesystem::path& object, const Config& config, std::uint64_t seed)
-    : impl_(std::make_unique<Impl>(object, seed)) {
+VerilatedDevice::VerilatedDevice(const Simulator& simulator, const Config& config, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(simulator, seed)) {
   // The layouts of both sides must have the same number of bits before a single one is compared.
   const auto same = [](const char* what, std::uint32_t rtl, int cpp) {
     if (rtl != static_cast<std::uint32_t>(cpp)) {
@@ -112,7 +117,7 @@ void VerilatedDevice::open_trace(const std::filesystem::path& file) {
   impl_->check(impl_->table->trace_open(impl_->device, file.c_str()));
 }
 
-void VerilatedDevice::close_trace() { impl_->table->trace_close(impl_->device); }
+void VerilatedDevice::close_trace() { impl_->check(impl_->table->trace_close(impl_->device)); }
 
 std::vector<std::pair<std::string, std::int64_t>> VerilatedDevice::constants() const {
   std::vector<std::pair<std::string, std::int64_t>> list;

@@ -17,8 +17,8 @@ class VerilatedDevice final : public Device {
   /// Verilates (or finds in the cache) and loads the machine. Registers start with random bits from `seed`.
   /// Throws what verilate() throws, and DeviceError when the RTL's ports do not have the widths that `config` says.
   VerilatedDevice(const Config& config, const VerilateOptions& options, std::uint64_t seed);
-  /// Loads a shared object that verilate() made for `config`.
-  VerilatedDevice(const std::filesystem::path& object, const Config& config, std::uint64_t seed);
+  /// Loads what verilate() made for `config`: to be preferred when there are to be several machines.
+  VerilatedDevice(const Simulator& simulator, const Config& config, std::uint64_t seed);
   ~VerilatedDevice() override;
   VerilatedDevice(VerilatedDevice&&) = delete;
 
@@ -30,7 +30,8 @@ class VerilatedDevice final : public Device {
   const DeviceSample& sample() override;
   void clock() override;
 
-  /// Writes an FST waveform from now on; needs VerilateOptions::trace.
+  /// Writes an FST waveform from now on; needs VerilateOptions::trace. Throws EnvironmentError when it cannot be
+  /// written, as settle(), clock() and close_trace() do then; only after close_trace() is the file whole.
   void open_trace(const std::filesystem::path& file);
   void close_trace();
 

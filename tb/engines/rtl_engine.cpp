@@ -13,7 +13,11 @@ constexpr std::size_t quads_per_run = 256;
 
 class RtlEngine final : public Engine {
  public:
-  explicit RtlEngine(const EngineSettings& settings) : settings_(settings) {}
+  explicit RtlEngine(const EngineSettings& settings) : settings_(settings) {
+    tb::LockstepOptions options;
+    options.config = settings.config;
+    simulator_ = tb::simulator_alone(options);
+  }
 
   void draw(std::span<const WindowQuad> quads, int attributes, bool weights, const SampleSink& sink) override {
     check_quad_count(quads.size(), settings_.config);
@@ -47,7 +51,7 @@ class RtlEngine final : public Engine {
             snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), options.config, options.state));
       std::size_t next = 0;
       const bool first_pass = &pass == &passes.front();
-      tb::run_rtl_alone(snapped, options, [&](const Fragment& fragment) {
+      tb::run_rtl_alone(simulator_, snapped, options, [&](const Fragment& fragment) {
         if (first_pass) {
           Sample& sample = samples.emplace_back();
           sample.index = fragment.quad;
@@ -64,6 +68,7 @@ class RtlEngine final : public Engine {
   }
 
   EngineSettings settings_;
+  tb::Simulator simulator_;
 };
 
 }  // namespace

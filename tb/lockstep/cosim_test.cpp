@@ -176,7 +176,7 @@ TEST(Cosim, RtlAloneAndModelAloneGiveTheSameStream) {
   const LockstepReport both = run_lockstep(quads, options, [&](const Fragment& f) { stream.push_back(f); });
   ASSERT_TRUE(both.agreed()) << both.first_divergence.value_or("");
   ASSERT_TRUE(both.complete);
-  const RtlRun r = run_rtl_alone(quads, options, [&](const Fragment& f) { rtl.push_back(f); });
+  const AloneRun r = run_rtl_alone(quads, options, [&](const Fragment& f) { rtl.push_back(f); });
   const AloneRun m = run_clocked_model_alone(quads, options, [&](const Fragment& f) { model.push_back(f); });
   EXPECT_GT(stream.size(), 1000u);
   EXPECT_EQ(stream, rtl);

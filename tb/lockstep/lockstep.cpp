@@ -1,19 +1,21 @@
 #include "tb/lockstep/lockstep.hpp"
 
 #include "model/bit_vector.hpp"
-#include "model/clocked.hpp"
+#include "model/drive.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/driver.hpp"
 #include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
-#include <memory>
+#include <cstring>
 
 namespace quadrille::tb {
 
 namespace {
 
 constexpr int reset_clocks = 4;
+
+int fragment_width(const Config& config) { return boundary_layout(Boundary::fragment, config).bits(); }
 
 /// Gives a run up when nothing enters or leaves the machine for longer than its longest silent walk.
 class Watchdog {
@@ -32,135 +34,196 @@ class Watchdog {
     silent_ = progress ? 0 : silent_ + 1;
     return silent_ > limit_;
   }
-  std::string text(std::uint64_t cycle, std::uint64_t beats, std::uint64_t fragments) const {
-    return "the machine hangs: busy, but no vertex, tile or fragment moved for " + std::to_string(limit_) +
-           " clocks, up to cycle " + std::to_string(cycle) + " (" + std::to_string(beats) + " vertices in, " +
-           std::to_string(fragments) + " fragments out)";
+  [[noreturn]] void give_up(std::uint64_t cycle, std::uint64_t beats, std::uint64_t fragments) const {
+    throw WatchdogError("the machine hangs: busy, but no vertex, tile or fragment moved for " + std::to_string(limit_) +
+                        " clocks, up to cycle " + std::to_string(cycle) + " (" + std::to_string(beats) +
+                        " vertices in, " + std::to_string(fragments) + " fragments out)");
   }
 
  private:
   std::uint64_t limit_, silent_ = 0;
 };
 
-/// Calls the progress function at most every 2^14 clocks.
-void show_progress(const LockstepOptions& o, std::uint64_t cycle, const VertexDriver& vertices,
-                   const FragmentMonitor& monitor) {
-  if ((cycle & 0x3fff) != 0 || !o.progress) return;
-  double part = vertices.fraction();
-  if (o.limit_fragments != 0) {
-    part = std::max(part, static_cast<double>(monitor.fragments()) / static_cast<double>(o.limit_fragments));
+/// What drives both input ports.
+struct Stimulus {
+  VertexDriver vertices;
+  ReadyDriver stalls;
+
+  Stimulus(std::span<const SnappedQuad> quads, const LockstepOptions& o)
+      : vertices(quads, o.config, o.seed, o.gap), stalls(o.seed, o.stall) {}
+
+  bool done() const { return vertices.done(); }
+  bool valid() const { return vertices.valid(); }
+  bool ready() const { return stalls.ready(); }
+  bool changed() const { return vertices.changed(); }
+  std::uint32_t id() const { return vertices.id(); }
+  const SnappedVertex& vertex() const { return vertices.vertex(); }
+  void advance(bool taken) {
+    vertices.advance(taken);
+    stalls.advance();
   }
-  o.progress(std::min(part, 1.0));
-}
+};
 
-void reset(Device& device, const LockstepOptions& o) {
-  const std::vector<std::uint32_t> state = pack_state(o.state, o.config);
-  device.set_state(state);
-  device.set_handshake(false, false);
-  device.set_reset(true);
-  for (int i = 0; i < reset_clocks; ++i) {
-    device.settle();
-    device.clock();
+/// The device as a machine for drive(), after reset.
+class DrivenDevice {
+ public:
+  DrivenDevice(Device& device, const LockstepOptions& o) : device_(device) {
+    const std::vector<std::uint32_t> state = pack_state(o.state, o.config);
+    device_.set_state(state);
+    device_.set_handshake(false, false);
+    device_.set_reset(true);
+    for (int i = 0; i < reset_clocks; ++i) {
+      device_.settle();
+      device_.clock();
+    }
+    device_.set_reset(false);
   }
-  device.set_reset(false);
+
+  const DeviceSample& settle(const Stimulus& stimulus) {
+    if (stimulus.changed()) device_.set_vertex(stimulus.vertices.words());
+    device_.set_handshake(stimulus.valid(), stimulus.ready());
+    device_.settle();
+    return device_.sample();
+  }
+  void clock() { device_.clock(); }
+
+ private:
+  Device& device_;
+};
+
+/// Both side by side. The model leads: it takes the beats.
+class DrivenPair {
+ public:
+  /// `cycle` counts the clocks, for whoever catches what the device throws.
+  DrivenPair(Device& device, const LockstepOptions& o, std::uint64_t& cycle)
+      : device_(device, o), model_(o.config, o.state), cycle_(cycle) {}
+
+  struct Outputs {
+    const DeviceSample& actual;
+    ClockedOutputs expected;
+    bool vertex_ready;
+  };
+  Outputs settle(const Stimulus& stimulus) {
+    const DeviceSample& actual = device_.settle(stimulus);
+    Outputs outputs{actual, model_.settle(stimulus), false};
+    outputs.vertex_ready = outputs.expected.vertex_ready;
+    return outputs;
+  }
+  void clock() {
+    device_.clock();
+    model_.clock();
+    ++cycle_;
+  }
+
+ private:
+  DrivenDevice device_;
+  DrivenModel model_;
+  std::uint64_t& cycle_;
+};
+
+/// What every run has besides its machine.
+struct Run {
+  const LockstepOptions& options;
+  Stimulus stimulus;
+  FragmentMonitor monitor;
+  Watchdog watchdog;
+  Stopwatch stopwatch{};
+
+  Run(std::span<const SnappedQuad> quads, const LockstepOptions& o, const FragmentSink& sink)
+      : options(o), stimulus(quads, o), monitor(o.config, fragment_width(o.config), sink), watchdog(o) {}
+
+  bool enough() const { return options.limit_fragments != 0 && monitor.fragments() >= options.limit_fragments; }
+  [[noreturn]] void give_up(std::uint64_t cycle) const {
+    watchdog.give_up(cycle, stimulus.vertices.beats_taken(), monitor.fragments());
+  }
+  /// Calls the progress function at most every 2^14 clocks.
+  void show_progress(std::uint64_t cycle) const {
+    if ((cycle & 0x3fff) != 0 || !options.progress) return;
+    double part = stimulus.vertices.fraction();
+    if (options.limit_fragments != 0) {
+      part = std::max(part, static_cast<double>(monitor.fragments()) / static_cast<double>(options.limit_fragments));
+    }
+    options.progress(std::min(part, 1.0));
+  }
+};
+
+/// `hand_over(monitor, outputs)` for every fragment that leaves.
+template <class Machine, class HandOver>
+AloneRun run_alone(Machine& machine, std::span<const SnappedQuad> quads, const LockstepOptions& o,
+                   const FragmentSink& sink, HandOver&& hand_over) {
+  Run run(quads, o, sink);
+  AloneRun result;
+  result.cycles = drive(machine, run.stimulus, [&](std::uint64_t cycle, const auto& out, bool taken) {
+    const bool moved = out.fragment_valid && run.stimulus.ready();
+    if (moved) hand_over(run.monitor, out);
+    if ((run.stimulus.done() && !out.busy) || run.enough()) return false;
+    if (run.watchdog.silent(taken || moved)) run.give_up(cycle);
+    run.show_progress(cycle);
+    return true;
+  });
+  result.seconds = run.stopwatch.seconds();
+  result.quads = run.stimulus.vertices.beats_taken() / 4;
+  result.fragments = run.monitor.fragments();
+  result.fragment_hash = run.monitor.hash();
+  return result;
 }
 
-void reset(ClockedModel& model) {
-  ClockedInputs inputs;
-  inputs.reset = true;
-  for (int i = 0; i < reset_clocks; ++i) model.clock(inputs);
-}
-
-std::unique_ptr<VerilatedDevice> make_device(const LockstepOptions& o, bool probes) {
+VerilateOptions build_options(const LockstepOptions& o, bool probes) {
   VerilateOptions build;
   build.probes = probes;
   build.trace = o.trace.has_value();
   build.source = o.source;
   build.optimise = o.optimise;
-  auto device = std::make_unique<VerilatedDevice>(o.config, build, o.seed);
-  if (o.trace) device->open_trace(*o.trace);
-  return device;
+  return build;
 }
-
-int fragment_width(const Config& config) { return boundary_layout(Boundary::fragment, config).bits(); }
 
 }  // namespace
 
 LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, const LockstepOptions& o,
                             const FragmentSink& sink) {
-  VertexDriver vertices(quads, o.config, o.seed, o.gap);
-  ReadyDriver stalls(o.seed, o.stall);
-  FragmentMonitor monitor(o.config, fragment_width(o.config), sink);
+  Run run(quads, o, sink);
   Scoreboard scoreboard(o.config, quads, o.probes, o.seed);
-  ClockedModel model(o.config, o.state);
-  Watchdog watchdog(o);
   LockstepReport report;
-  const Stopwatch stopwatch;
+  std::uint64_t clocks = 0, differing_clocks = 0;
+  const auto look = [&](std::uint64_t cycle, const DrivenPair::Outputs& out, bool taken) {
+    const ClockedOutputs& expected = out.expected;
+    const DeviceSample& actual = out.actual;
 
-  std::uint64_t cycle = 0, differing_clocks = 0;
-  try {
-    reset(device, o);
-    reset(model);
-    ClockedInputs inputs;
-    for (;; ++cycle) {
-      // 1. Drive.
-      inputs.vertex_valid = vertices.valid();
-      inputs.fragment_ready = stalls.ready();
-      if (vertices.changed()) {
-        device.set_vertex(vertices.words());
-        if (vertices.valid()) {
-          inputs.vertex_id = vertices.id();
-          inputs.vertex = vertices.vertex();
-        }
-      }
-      device.set_handshake(inputs.vertex_valid, inputs.fragment_ready);
+    // 1. Compare.
+    const Scoreboard::Verdict verdict = scoreboard.compare(cycle, expected, actual);
+    const bool moved = actual.fragment_valid && run.stimulus.ready();
+    if (moved) run.monitor.handed_over(actual.fragment, verdict.fragment ? &expected.fragment : nullptr);
+    if (expected.probes.diff != nullptr && (!expected.fragment_valid || run.stimulus.ready())) ++report.pixels;
 
-      // 2. Settle.
-      device.settle();
-      const ClockedOutputs expected = model.comb();
-      const DeviceSample& actual = device.sample();
-
-      // 3. Compare.
-      const Scoreboard::Verdict verdict = scoreboard.compare(cycle, expected, actual);
-      const bool moved = actual.fragment_valid && inputs.fragment_ready;
-      if (moved) monitor.handed_over(actual.fragment, verdict.fragment ? &expected.fragment : nullptr);
-      if (expected.probes.diff != nullptr && (!expected.fragment_valid || inputs.fragment_ready)) ++report.pixels;
-
-      // 4. Whether and how the run ends. The model leads: it takes the beats, and it says when all is drawn.
-      const bool model_idle = vertices.done() && !expected.busy, rtl_idle = vertices.done() && !actual.busy;
-      if (!model_idle) report.cycles_model = cycle + 1;
-      if (!rtl_idle) report.cycles_rtl = cycle + 1;
-      if (model_idle && rtl_idle) {
-        report.complete = true;
-        break;
-      }
-      if (!verdict.timing || !verdict.payload) {
-        ++differing_clocks;
-        if (o.stop_at_first || differing_clocks == o.limit_differences) break;
-      }
-      if (o.limit_fragments != 0 && monitor.fragments() >= o.limit_fragments) break;
-      const bool taken = inputs.vertex_valid && expected.vertex_ready;
-      const bool progress = taken || moved || expected.probes.tile != nullptr || expected.probes.stamp != nullptr;
-      if (watchdog.silent(progress)) {
-        if (scoreboard.first_divergence()) break;  // that says more than the hang that came of it
-        throw WatchdogError(watchdog.text(cycle, vertices.beats_taken(), monitor.fragments()));
-      }
-
-      // 5. Clock.
-      device.clock();
-      model.clock(inputs);
-      vertices.advance(taken);
-      stalls.advance();
-      show_progress(o, cycle, vertices, monitor);
+    // 2. Whether and how the run ends. The model says when all is drawn.
+    const bool model_idle = run.stimulus.done() && !expected.busy, rtl_idle = run.stimulus.done() && !actual.busy;
+    if (!model_idle) report.cycles_model = cycle + 1;
+    if (!rtl_idle) report.cycles_rtl = cycle + 1;
+    report.complete = model_idle && rtl_idle;
+    if (report.complete) return false;
+    if (!verdict.timing || !verdict.payload) {
+      ++differing_clocks;
+      if (o.stop_at_first || differing_clocks == o.limit_differences) return false;
     }
+    if (run.enough()) return false;
+    if (run.watchdog.silent(taken || moved || expected.probes.tile != nullptr || expected.probes.stamp != nullptr)) {
+      if (scoreboard.first_divergence()) return false;  // that says more than the hang that came of it
+      run.give_up(cycle);
+    }
+    run.show_progress(cycle);
+    return true;
+  };
+  try {
+    DrivenPair pair(device, o, clocks);
+    drive(pair, run.stimulus, look);
   } catch (const DeviceError& stop) {
-    scoreboard.device_stopped(cycle, stop.what());
+    scoreboard.device_stopped(clocks, stop.what());
   }
 
-  report.wall_seconds = stopwatch.seconds();
-  report.quads = vertices.beats_taken() / 4;
-  report.fragments = monitor.fragments();
-  report.fragment_hash = monitor.hash();
+  report.wall_seconds = run.stopwatch.seconds();
+  report.quads = run.stimulus.vertices.beats_taken() / 4;
+  report.fragments = run.monitor.fragments();
+  report.fragment_hash = run.monitor.hash();
   report.mismatches = scoreboard.mismatches();
   report.cycle_mismatches = scoreboard.cycle_mismatches();
   report.first_divergence = scoreboard.first_divergence();
@@ -169,93 +232,43 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
   return report;
 }
 
-LockstepReport run_lockstep(std::span<const SnappedQuad> quads, const LockstepOptions& options,
-                            const FragmentSink& sink) {
-  const std::unique_ptr<VerilatedDevice> device = make_device(options, options.probes);
-  return run_lockstep(*device, quads, options, sink);
+LockstepReport run_lockstep(std::span<const SnappedQuad> quads, const LockstepOptions& o, const FragmentSink& sink) {
+  VerilatedDevice device(o.config, build_options(o, o.probes), o.seed);
+  if (o.trace) device.open_trace(*o.trace);
+  LockstepReport report = run_lockstep(device, quads, o, sink);
+  device.close_trace();
+  return report;
 }
 
-RtlRun run_rtl_alone(std::span<const SnappedQuad> quads, const LockstepOptions& o, const FragmentSink& sink) {
-  const std::unique_ptr<VerilatedDevice> device = make_device(o, false);
-  VertexDriver vertices(quads, o.config, o.seed, o.gap);
-  ReadyDriver stalls(o.seed, o.stall);
-  FragmentMonitor monitor(o.config, fragment_width(o.config), sink);
-  Watchdog watchdog(o);
-  RtlRun run;
-  const Stopwatch stopwatch;
+Simulator simulator_alone(const LockstepOptions& o) { return verilate(o.config, build_options(o, false)); }
 
-  reset(*device, o);
-  for (;; ++run.cycles) {
-    if (vertices.changed()) device->set_vertex(vertices.words());
-    device->set_handshake(vertices.valid(), stalls.ready());
-    device->settle();
-    const DeviceSample& out = device->sample();
-    const bool moved = out.fragment_valid && stalls.ready();
-    if (moved) monitor.handed_over(out.fragment, nullptr);
-    if (vertices.done() && !out.busy) break;
-    if (o.limit_fragments != 0 && monitor.fragments() >= o.limit_fragments) break;
-    const bool taken = vertices.valid() && out.vertex_ready;
-    if (watchdog.silent(taken || moved)) {
-      throw WatchdogError(watchdog.text(run.cycles, vertices.beats_taken(), monitor.fragments()));
-    }
-    device->clock();
-    vertices.advance(taken);
-    stalls.advance();
-    show_progress(o, run.cycles, vertices, monitor);
-  }
-  run.seconds = stopwatch.seconds();
-  run.quads = vertices.beats_taken() / 4;
-  run.fragments = monitor.fragments();
-  run.fragment_hash = monitor.hash();
+AloneRun run_rtl_alone(const Simulator& simulator, std::span<const SnappedQuad> quads, const LockstepOptions& o,
+                       const FragmentSink& sink) {
+  VerilatedDevice device(simulator, o.config, o.seed);
+  if (o.trace) device.open_trace(*o.trace);
+  DrivenDevice machine(device, o);
+  const AloneRun run = run_alone(machine, quads, o, sink, [](FragmentMonitor& monitor, const DeviceSample& out) {
+    monitor.handed_over(out.fragment, nullptr);
+  });
+  device.close_trace();
   return run;
+}
+
+AloneRun run_rtl_alone(std::span<const SnappedQuad> quads, const LockstepOptions& o, const FragmentSink& sink) {
+  return run_rtl_alone(simulator_alone(o), quads, o, sink);
 }
 
 AloneRun run_clocked_model_alone(std::span<const SnappedQuad> quads, const LockstepOptions& o,
                                  const FragmentSink& sink) {
-  ClockedModel model(o.config, o.state);
-  VertexDriver vertices(quads, o.config, o.seed, o.gap);
-  ReadyDriver stalls(o.seed, o.stall);
   const int width = fragment_width(o.config);
-  FragmentMonitor monitor(o.config, width, sink);
-  Watchdog watchdog(o);
   std::vector<std::uint64_t> packed(static_cast<std::size_t>((width + 63) / 64));
   std::vector<std::uint32_t> words(words_for(width));
-  AloneRun run;
-  const Stopwatch stopwatch;
-
-  reset(model);
-  ClockedInputs inputs;
-  for (;; ++run.cycles) {
-    inputs.vertex_valid = vertices.valid();
-    inputs.fragment_ready = stalls.ready();
-    if (vertices.changed() && vertices.valid()) {
-      inputs.vertex_id = vertices.id();
-      inputs.vertex = vertices.vertex();
-    }
-    const ClockedOutputs out = model.comb();
-    const bool moved = out.fragment_valid && inputs.fragment_ready;
-    if (moved) {
-      pack_fragment(out.fragment, o.config, packed.data(), width);
-      std::copy_n(reinterpret_cast<const char*>(packed.data()), words.size() * sizeof words[0],
-                  reinterpret_cast<char*>(words.data()));
-      monitor.handed_over(words.data(), &out.fragment);
-    }
-    if (vertices.done() && !out.busy) break;
-    if (o.limit_fragments != 0 && monitor.fragments() >= o.limit_fragments) break;
-    const bool taken = inputs.vertex_valid && out.vertex_ready;
-    if (watchdog.silent(taken || moved)) {
-      throw WatchdogError(watchdog.text(run.cycles, vertices.beats_taken(), monitor.fragments()));
-    }
-    model.clock(inputs);
-    vertices.advance(taken);
-    stalls.advance();
-    show_progress(o, run.cycles, vertices, monitor);
-  }
-  run.seconds = stopwatch.seconds();
-  run.quads = vertices.beats_taken() / 4;
-  run.fragments = monitor.fragments();
-  run.fragment_hash = monitor.hash();
-  return run;
+  DrivenModel machine(o.config, o.state);
+  return run_alone(machine, quads, o, sink, [&](FragmentMonitor& monitor, const ClockedOutputs& out) {
+    pack_fragment(out.fragment, o.config, packed.data(), width);
+    std::memcpy(words.data(), packed.data(), words.size() * sizeof words[0]);
+    monitor.handed_over(words.data(), &out.fragment);
+  });
 }
 
 }  // namespace quadrille::tb

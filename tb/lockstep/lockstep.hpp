@@ -6,6 +6,7 @@
 #include "model/config.hpp"
 #include "model/records.hpp"
 #include "tb/device/device.hpp"
+#include "tb/device/verilate.hpp"
 #include "tb/lockstep/monitor.hpp"
 #include "tb/lockstep/scoreboard.hpp"
 
@@ -61,9 +62,9 @@ struct LockstepReport {
 };
 
 /// Verilates what `options` ask for and runs both sides. The sink (may be empty) gets the RTL's fragments in order.
-/// Throws EnvironmentError, VerilateError, DeviceError (widths differ, no waveform), WatchdogError (when nothing
-/// differed before) and std::invalid_argument. An assertion of the RTL that fails counts as a mismatch and ends the
-/// run.
+/// Throws EnvironmentError (no tool, no room for the waveform), VerilateError, DeviceError (widths differ),
+/// WatchdogError (when nothing differed before) and std::invalid_argument. An assertion of the RTL that fails counts as
+/// a mismatch and ends the run.
 LockstepReport run_lockstep(std::span<const SnappedQuad> quads, const LockstepOptions& options,
                             const FragmentSink& sink = {});
 
@@ -77,11 +78,16 @@ struct AloneRun {
   double seconds = 0;  ///< of the loop
   std::uint64_t fragment_hash = 0;
 };
-using RtlRun = AloneRun;
 
 /// The RTL without probes and without comparison: its own speed, and `--engine rtl`. Of the options probes and the
 /// limits of differences are ignored. Throws as run_lockstep() does; a failed assertion is a DeviceError here.
-RtlRun run_rtl_alone(std::span<const SnappedQuad> quads, const LockstepOptions& options, const FragmentSink& sink = {});
+AloneRun run_rtl_alone(std::span<const SnappedQuad> quads, const LockstepOptions& options,
+                       const FragmentSink& sink = {});
+
+/// The same in two steps, for many runs of one machine: finding a simulator in the cache takes longer than a short run.
+Simulator simulator_alone(const LockstepOptions& options);
+AloneRun run_rtl_alone(const Simulator& simulator, std::span<const SnappedQuad> quads, const LockstepOptions& options,
+                       const FragmentSink& sink = {});
 
 /// The clocked model without the RTL.
 AloneRun run_clocked_model_alone(std::span<const SnappedQuad> quads, const LockstepOptions& options,

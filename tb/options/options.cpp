@@ -1,6 +1,8 @@
 #include "tb/options/options.hpp"
 
 #include "golden/io/config_file.hpp"
+#include "tb/device/build_notice.hpp"
+#include "tb/device/verilate.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
@@ -56,7 +58,9 @@ void CommonOptions::add_to(CLI::App& app, bool draws) {
         ->group(group);
   }
   app.add_option("--json", json, "Write a JSON report (- for standard output)")->type_name("F.json")->group(group);
-  auto* be_quiet = app.add_flag("--quiet", quiet, "Print nothing but errors")->group(group);
+  auto* be_quiet = app.add_flag("--quiet", quiet, "Print nothing but errors")
+                       ->each([](const std::string&) { tb::BuildNotice::silence(); })
+                       ->group(group);
   app.add_flag("--verbose", verbose, "Print more")->excludes(be_quiet)->group(group);
 }
 
@@ -240,23 +244,8 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
   return s;
 }
 
-namespace {
+std::string spelled(const Config& config) { return tb::changed_keys(config, " --set "); }
 
-std::string changed_keys(const Config& config, const char* before) {
-  std::string text;
-  for (const ConfigKey& key : Config::keys())
-    if (const int value = config.get(key.name); value != key.standard)
-      text += before + std::string(key.name) + "=" + std::to_string(value);
-  return text;
-}
-
-}  // namespace
-
-std::string spelled(const Config& config) { return changed_keys(config, " --set "); }
-
-std::string summary(const Config& config) {
-  const std::string text = changed_keys(config, " ");
-  return text.empty() ? "default" : text.substr(1);
-}
+std::string summary(const Config& config) { return tb::summary(config); }
 
 }  // namespace quadrille::cli

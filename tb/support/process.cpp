@@ -3,6 +3,7 @@
 #include "tb/support/environment_error.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +13,6 @@
 #include <cstring>
 #include <deque>
 #include <fstream>
-#include <map>
 #include <sstream>
 
 extern char** environ;
@@ -52,7 +52,40 @@ int wait_for(pid_t pid) {
   return exit_status(status);
 }
 
-pid_t start_logged(std::span<const std::string> argv, const fs::path& directory, const fs::path& log) {
+/// Both ends of a pipe, closed at the end of the scope.
+class Pipe {
+ public:
+  Pipe() {
+    if (pipe2(ends_, O_CLOEXEC) != 0)
+      throw EnvironmentError(std::string("cannot open a pipe: ") + std::strerror(errno));
+  }
+  ~Pipe() {
+    close(ends_[0]);
+    close_write_end();
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  int read_end() const { return ends_[0]; }
+  int write_end() const { return ends_[1]; }
+  void close_write_end() {
+    if (ends_[1] >= 0) close(ends_[1]);
+    ends_[1] = -1;
+  }
+  /// Appends what there is; false at the end.
+  bool read_some(std::string& text) const {
+    char buffer[4096];
+    const ssize_t n = read(ends_[0], buffer, sizeof buffer);
+    if (n > 0) text.append(buffer, static_cast<std::size_t>(n));
+    return n > 0 || (n < 0 && errno == EINTR);
+  }
+
+ private:
+  int ends_[2];
+};
+
+/// Standard output goes to `out`, if given, instead of the log.
+pid_t start_logged(std::span<const std::string> argv, const fs::path& directory, const fs::path& log, int out = -1) {
   {
     std::ofstream header(log, std::ios::app);
     for (const std::string& a : argv) header << a << ' ';
@@ -62,6 +95,7 @@ pid_t start_logged(std::span<const std::string> argv, const fs::path& directory,
   posix_spawn_file_actions_addopen(&spawn.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&spawn.actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
   posix_spawn_file_actions_adddup2(&spawn.actions, STDOUT_FILENO, STDERR_FILENO);
+  if (out >= 0) posix_spawn_file_actions_adddup2(&spawn.actions, out, STDOUT_FILENO);
   posix_spawn_file_actions_addchdir_np(&spawn.actions, directory.c_str());
   return spawn.start(argv);
 }
@@ -93,30 +127,16 @@ int run_logged(std::span<const std::string> argv, const fs::path& directory, con
 }
 
 std::string run_captured(std::span<const std::string> argv) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw EnvironmentError(std::string("cannot open a pipe: ") + std::strerror(errno));
+  Pipe pipe;
+  Spawn spawn;
+  posix_spawn_file_actions_addopen(&spawn.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&spawn.actions, pipe.write_end(), STDOUT_FILENO);
+  const pid_t pid = spawn.start(argv);
+  pipe.close_write_end();
   std::string text;
-  int status = 0;
-  try {
-    Spawn spawn;
-    posix_spawn_file_actions_addopen(&spawn.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&spawn.actions, ends[1], STDOUT_FILENO);
-    const pid_t pid = spawn.start(argv);
-    close(ends[1]);
-    ends[1] = -1;
-    char buffer[4096];
-    for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) != 0;) {
-      if (n > 0) text.append(buffer, static_cast<std::size_t>(n));
-      if (n < 0 && errno != EINTR) break;
-    }
-    status = wait_for(pid);
-  } catch (...) {
-    close(ends[0]);
-    if (ends[1] >= 0) close(ends[1]);
-    throw;
+  while (pipe.read_some(text)) {
   }
-  close(ends[0]);
-  if (status != 0) {
+  if (const int status = wait_for(pid); status != 0) {
     std::string line;
     for (const std::string& a : argv) line += a + ' ';
     throw EnvironmentError("'" + line + "' ended with status " + std::to_string(status));
@@ -124,38 +144,25 @@ std::string run_captured(std::span<const std::string> argv) {
   return text;
 }
 
-int run_parallel(std::span<const std::vector<std::string>> commands, const fs::path& directory, const fs::path& log,
-                 unsigned jobs) {
-  // waitpid on exactly our own processes, oldest first: the host program may have children of its own.
-  struct Running {
-    pid_t pid;
-    fs::path log;
-  };
-  std::deque<Running> running;
-  int first_failure = 0;
-  const auto collect = [&] {
-    const Running oldest = running.front();
-    running.pop_front();
-    const int status = wait_for(oldest.pid);
-    if (first_failure == 0) first_failure = status;
-    std::ofstream all(log, std::ios::app);
-    std::ifstream one(oldest.log);
-    if (one.peek() != std::ifstream::traits_type::eof()) all << one.rdbuf();
-  };
-  std::size_t next = 0;
-  while (next < commands.size() || !running.empty()) {
-    const bool may_start = next < commands.size() && first_failure == 0;
-    if (may_start && running.size() < (jobs == 0 ? 1 : jobs)) {
-      const fs::path own = directory / (std::to_string(next) + ".log");
-      running.push_back({start_logged(commands[next], directory, own), own});
-      ++next;
-    } else if (!running.empty()) {
-      collect();
-    } else {
-      break;
+int run_watched(std::span<const std::string> argv, const fs::path& directory, const fs::path& log,
+                const std::function<void(std::string_view)>& line, const std::function<void()>& tick) {
+  Pipe pipe;
+  const pid_t pid = start_logged(argv, directory, log, pipe.write_end());
+  pipe.close_write_end();
+  std::ofstream all(log, std::ios::app);
+  std::string text;
+  for (bool open = true; open;) {
+    pollfd ready{pipe.read_end(), POLLIN, 0};
+    constexpr int second = 1000;  // ms
+    if (poll(&ready, 1, second) > 0) open = pipe.read_some(text);
+    for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1)) {
+      all << text.substr(0, end + 1) << std::flush;
+      line(std::string_view(text).substr(0, end));
     }
+    tick();
   }
-  return first_failure;
+  all << text;
+  return wait_for(pid);
 }
 
 std::string tail_of(const fs::path& file, std::size_t lines) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,11 +22,10 @@ int run_logged(std::span<const std::string> argv, const std::filesystem::path& d
 /// Runs a program and returns what it wrote to standard output; throws EnvironmentError when it fails.
 std::string run_captured(std::span<const std::string> argv);
 
-/// Runs independent commands, at most `jobs` at a time, each into a log of its own ("<index>.log" in `directory`), and
-/// appends those to `log` in order. Returns the first status that is not zero, else 0; after a failure no further
-/// command is started.
-int run_parallel(std::span<const std::vector<std::string>> commands, const std::filesystem::path& directory,
-                 const std::filesystem::path& log, unsigned jobs);
+/// As run_logged(), but standard output is handed on line by line as well, and `tick` is called about every second.
+int run_watched(std::span<const std::string> argv, const std::filesystem::path& directory,
+                const std::filesystem::path& log, const std::function<void(std::string_view)>& line,
+                const std::function<void()>& tick);
 
 /// The last `lines` lines of a text file, for error messages.
 std::string tail_of(const std::filesystem::path& file, std::size_t lines);

@@ -6,10 +6,7 @@
 #include "tb/support/process.hpp"
 #include "tb/support/source_paths.hpp"
 
-#include <unistd.h>
-
 #include <array>
-#include <atomic>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -176,13 +173,6 @@ std::optional<FpgaReport> read_report(const fs::path& file) {
   return report;
 }
 
-void write_text(const fs::path& file, std::string_view text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw EnvironmentError("cannot write " + file.string());
-}
-
 FpgaReport run_fpga(const Config& config, const fs::path& directory, const fs::path& log) {
   write_text(directory / "read_port.v", read_port);
   run(read_commands(config, false, directory) + std::string(fpga_script), directory, "fpga", log);
@@ -216,29 +206,20 @@ FpgaReport synthesise_fpga(const Config& config) {
   key.add(tables_package(config));
   for (const fs::path& source : rtl_sources(rtl_directory())) key.add_file(source);
   const std::string name = "fpga-" + key.hex();
-  const fs::path cache = cache_directory(), place = cache / (name + ".txt");
-  if (const std::optional<FpgaReport> ready = read_report(place)) return *ready;
-
-  static std::atomic<unsigned> serial{0};
-  const fs::path work = cache / ("tmp." + name + "." + std::to_string(getpid()) + "." + std::to_string(serial++));
-  const fs::path log = cache / ("failed-" + name + ".log");  // stays if it does
-  std::error_code ignored;
-  fs::remove_all(work, ignored);
-  fs::create_directories(work);
-  FpgaReport report;
-  try {
-    report = run_fpga(config, work, log);
+  const auto build = [&](const fs::path& work) {
+    const fs::path log = writable_cache_directory() / ("failed-" + name + ".log");  // stays if it does
+    const FpgaReport report = run_fpga(config, work, log);
+    for (const fs::directory_entry& entry : fs::directory_iterator(work)) fs::remove_all(entry.path());
     std::ostringstream text;
     for (const auto field : fpga_fields) text << report.*field << '\n';
     write_text(work / "report.txt", text.str());
-    fs::rename(work / "report.txt", place);
-  } catch (...) {
-    fs::remove_all(work, ignored);
-    throw;
-  }
-  fs::remove_all(work, ignored);
-  fs::remove(log, ignored);
-  return report;
+    std::error_code ignored;
+    fs::remove(log, ignored);
+  };
+  const CacheEntry entry = cached(name, "synthesis of " + summary(config), build);
+  const std::optional<FpgaReport> report = read_report(entry.path() / "report.txt");
+  if (!report) throw EnvironmentError(entry.path().string() + " is damaged; empty the cache");
+  return *report;
 }
 
 }  // namespace quadrille::tb
