@@ -63,11 +63,9 @@ constexpr auto key_list = [] {
 const Entry& find(std::string_view key) {
   for (const Entry& e : entries)
     if (e.key.name == key) return e;
-  const Entry* nearest = &entries.front();
-  for (const Entry& e : entries)
-    if (edit_distance(key, e.key.name) < edit_distance(key, nearest->key.name)) nearest = &e;
-  throw ConfigError("unknown configuration key '" + std::string(key) + "'; the nearest is '" +
-                    std::string(nearest->key.name) + "'");
+  throw ConfigError("unknown configuration key '" + std::string(key) + "'" +
+                    did_you_mean(key, entries, [](const Entry& e) { return e.key.name; }) +
+                    " (`quadrille config` lists all)");
 }
 
 int ceil_div(int a, int b) { return (a + b - 1) / b; }
@@ -94,7 +92,8 @@ void Config::set(std::string_view key, int value) {
   const Entry& e = find(key);
   const bool automatic = value == -1 && e.key.standard == -1;
   if (!automatic && (value < e.key.minimum || value > e.key.maximum)) {
-    throw ConfigError("configuration key '" + std::string(key) + "' = " + std::to_string(value) + " is outside " +
+    const std::string given = value == -1 ? "auto (-1)" : std::to_string(value);
+    throw ConfigError("configuration key '" + std::string(key) + "' = " + given + " is outside " +
                       std::to_string(e.key.minimum) + ".." + std::to_string(e.key.maximum) +
                       (e.key.standard == -1 ? " (or -1 for auto)" : ""));
   }

@@ -258,7 +258,7 @@ def main():
     parser.add_argument("--out", metavar="DIR", default=OUT, help="default build/figures, installed ./figures")
     parser.add_argument("--only", metavar="NAME", nargs="+", action="extend", default=[], help="figures, by their names in figures.toml")
     parser.add_argument("--size", metavar="WxH", type=size_of, default="512x512", help="viewport in pixels, default 512x512")
-    parser.add_argument("--keep-exr", action="store_true", help="keep METHOD.exr of every sheet, 14 MB each at 512x512")
+    parser.add_argument("--keep-exr", action="store_true", help="keep METHOD.exr of every sheet, 7 MB each at 512x512")
     args = parser.parse_args()
     try:
         papers, figures = read_table()

@@ -1,9 +1,11 @@
 // The program `quadrille`: commands, and what ends them.
 #include "golden/io/error.hpp"
+#include "golden/io/interrupt.hpp"
 #include "golden/io/json_report.hpp"
 #include "model/config.hpp"
 #include "model/lane_target.hpp"
 #include "model/snap.hpp"
+#include "model/support/edit_distance.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/lockstep.hpp"
@@ -28,6 +30,7 @@ using namespace quadrille;
 using namespace quadrille::cli;
 
 int fail(int status, const std::string& what) {
+  golden::yield_to_interrupt();
   std::fprintf(stderr, "quadrille: %s\n", what.c_str());
   return status;
 }
@@ -49,7 +52,8 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error, const std::
     for (const std::string& argument : arguments) {
       const std::string name = argument.substr(0, argument.find('='));
       if (name.starts_with("--") && std::find(options.begin(), options.end(), name) == options.end()) {
-        if (const std::string near = nearest(name, options); !near.empty()) text += " (did you mean " + near + "?)";
+        if (const std::string near = nearest_name(name, options); !near.empty())
+          text += " (did you mean " + near + "?)";
         break;
       }
     }
@@ -104,8 +108,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files becomes an error of the write
+  golden::watch_interrupts();
   try {
     const int status = run(argc, argv);
+    golden::yield_to_interrupt();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return fail(exit_usage, "standard output cannot be written");
     return status;

@@ -1,17 +1,18 @@
 #include "golden/io/atomic_file.hpp"
 
 #include "golden/io/error.hpp"
+#include "golden/io/interrupt.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <system_error>
 
 namespace quadrille::golden {
 namespace {
@@ -25,6 +26,31 @@ std::string directory_of(const std::string& path) {
 
 }  // namespace
 
+void require_writable(const std::string& path) {
+  namespace fs = std::filesystem;
+  if (path.empty()) throw InputError("output path is empty; the name of a file is expected");
+  const auto refuse = [&](const std::string& reason) {
+    throw InputError(path + ": cannot be written: " + reason + "; a path that can be written is expected");
+  };
+  struct stat named {};
+  if (::stat(path.c_str(), &named) == 0) {
+    if (S_ISDIR(named.st_mode)) refuse(std::strerror(EISDIR));
+    if (!S_ISREG(named.st_mode)) return;  // a device or a pipe
+    if ((named.st_mode & 0222) == 0) refuse("the file is read-only");
+    if (::access(path.c_str(), W_OK) != 0) refuse(std::strerror(errno));
+  } else if (errno != ENOENT) {
+    refuse(std::strerror(errno));
+  }
+  std::error_code error;
+  std::string target = path;
+  if (fs::is_symlink(path, error)) {
+    target = fs::canonical(path, error).string();
+    if (error) refuse("it is a symbolic link to " + fs::read_symlink(path, error).string() + ", which does not exist");
+  }
+  const std::string directory = directory_of(target);
+  if (::access(directory.c_str(), W_OK | X_OK) != 0) refuse(directory + ": " + std::strerror(errno));
+}
+
 AtomicFile::AtomicFile(std::string path, Dash dash) : path_(std::move(path)), target_(path_) {
   buffer_.reserve(buffer_bytes);
   if (path_ == "-") {
@@ -35,38 +61,27 @@ AtomicFile::AtomicFile(std::string path, Dash dash) : path_(std::move(path)), ta
     std::fflush(stdout);
     path_ = "standard output";
     fd_ = STDOUT_FILENO;
-    owns_fd_ = false;
     return;
   }
-  if (path_.empty()) throw InputError("output path is empty; the name of a file is expected");
-
-  std::error_code ignored;
-  if (std::filesystem::is_symlink(target_, ignored)) {
-    std::error_code error;
-    target_ = std::filesystem::weakly_canonical(target_, error).string();
+  require_writable(path_);
+  std::error_code error;
+  if (std::filesystem::is_symlink(target_, error)) {
+    target_ = std::filesystem::canonical(target_, error).string();
     if (error) fail("follow the link", error.value());
   }
   struct stat old {};
   const bool exists = ::stat(target_.c_str(), &old) == 0;
-  if (exists && S_ISDIR(old.st_mode)) fail("write", EISDIR);
   if (exists && !S_ISREG(old.st_mode)) {
     fd_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
     if (fd_ < 0) fail("open", errno);
     return;
   }
-
-  // Short and independent of the target's name, which may already have the greatest length.
-  static std::atomic<unsigned> counter{0};
-  for (;;) {
-    const std::string candidate =
-        directory_of(target_) + "/.quadrille-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
-    fd_ = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd_ >= 0) {
-      temporary_ = candidate;
-      break;
-    }
-    if (errno != EEXIST) fail("create a file beside it", errno);
+  try {
+    temporary_.emplace(directory_of(target_), Temporary::Kind::file);
+  } catch (const std::system_error& failure) {
+    fail("create a file beside it", failure.code().value());
   }
+  fd_ = temporary_->descriptor();
   if (exists && ::fchmod(fd_, old.st_mode & 07777) != 0) fail("keep its permissions", errno);
 }
 
@@ -107,25 +122,27 @@ void AtomicFile::seek(std::uint64_t position) {
 void AtomicFile::commit() {
   if (fd_ < 0) throw std::logic_error("AtomicFile::commit after the end");
   flush();
-  if (!owns_fd_) {
+  if (temporary_) {
+    // Without fsync a crash after the rename could leave an empty file in place of the older good one.
+    if (::fsync(fd_) != 0) fail("flush", errno);
+    try {
+      temporary_->publish(target_);
+    } catch (const std::system_error& failure) {
+      fail("rename into place", failure.code().value());
+    }
+    temporary_.reset();
+  } else if (fd_ != STDOUT_FILENO && ::close(fd_) != 0) {
     fd_ = -1;
-    return;
+    fail("close", errno);
   }
-  // Without fsync a crash after the rename could leave an empty file in place of the older good one.
-  if (!temporary_.empty() && ::fsync(fd_) != 0) fail("flush", errno);
-  const int fd = fd_;
   fd_ = -1;
-  if (::close(fd) != 0) fail("close", errno);
-  if (temporary_.empty()) return;
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("rename into place", errno);
-  temporary_.clear();
+  output_written(path_);
 }
 
 void AtomicFile::discard() noexcept {
-  if (fd_ >= 0 && owns_fd_) ::close(fd_);
+  if (!temporary_ && fd_ >= 0 && fd_ != STDOUT_FILENO) ::close(fd_);
   fd_ = -1;
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  temporary_.clear();
+  temporary_.reset();
 }
 
 void AtomicFile::fail(const std::string& action, int error) {

@@ -66,6 +66,24 @@ TEST_F(AtomicFileTest, KeepsPermissionsAndFollowsLinks) {
   EXPECT_EQ(status.st_mode & 0777, 0640u);
 }
 
+// Renaming would replace a file that cannot be written, and root may write everything: the mode decides.
+TEST_F(AtomicFileTest, ReadOnlyFilesStay) {
+  const std::string file = write("f", "old");
+  ASSERT_EQ(::chmod(file.c_str(), 0444), 0);
+  std::filesystem::create_symlink("f", path("link"));
+  for (const std::string& name : {file, path("link")})
+    expect_input_error([&] { write_file(name, "new", refused); }, name, {"read-only"});
+  EXPECT_EQ(read(file), "old");
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(AtomicFileTest, DanglingLinksAreRefused) {
+  std::filesystem::create_symlink("nothing", path("link"));
+  expect_input_error([&] { write_file(path("link"), "x", refused); }, path("link"), {"link to nothing", "not exist"});
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  EXPECT_EQ(entries(), 1u);
+}
+
 TEST_F(AtomicFileTest, AcceptsTheLongestName) {
   const std::string file = path(std::string(255, 'n'));
   write_file(file, "x", refused);

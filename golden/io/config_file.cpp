@@ -58,6 +58,10 @@ void set_key(const Entry& entry, const std::string& name, Config& config) {
       config.set(key, boolean->get() ? 1 : 0);
       return;
     }
+    if (const auto* text = node.as_string(); text != nullptr && text->get() == "auto") {
+      config.set(key, -1);
+      return;
+    }
     const auto* integer = node.as_integer();
     if (integer == nullptr)
       throw failure("key " + in_quotes(key) + " holds " + type_name(node.type()) + "; an integer is expected");
@@ -90,11 +94,8 @@ void set_weight(const Entry& entry, const std::string& name, CostWeights& weight
   const auto failure = [&](const std::string& what) { return input_error(name, line_of(entry), what); };
   const auto* found = std::find_if(weight_keys.begin(), weight_keys.end(), [&](const auto& w) { return w.key == key; });
   if (found == weight_keys.end()) {
-    const auto* nearest = std::min_element(weight_keys.begin(), weight_keys.end(), [&](const auto& a, const auto& b) {
-      return edit_distance(key, a.key) < edit_distance(key, b.key);
-    });
-    throw failure("unknown key " + in_quotes(key) + " in the table [cost]; the nearest is '" +
-                  std::string(nearest->key) + "'");
+    throw failure("unknown key " + in_quotes(key) + " in the table [cost]" +
+                  did_you_mean(key, weight_keys, &WeightKey::key) + " (state, multiplier, adder, table)");
   }
   const std::string wanted =
       "; a number from 0 to " + std::to_string(static_cast<long>(max_cost_weight)) + " is expected, LUTs a bit";

@@ -74,7 +74,7 @@ void save_exr(const std::string& path, const FrameImage& frame) {
   for (const auto& [name, values] : frame.error) floats["error." + name] = &values;
 
   Imf::Header header(frame.width, frame.height);
-  header.compression() = Imf::NO_COMPRESSION;
+  header.compression() = Imf::PIZ_COMPRESSION;  // lossless, and its bytes are OpenEXR's own: no zlib
   Imf::FrameBuffer buffer;
   for (const auto& [name, values] : floats) {
     if (values->size() != frame.pixels())
@@ -119,13 +119,13 @@ ExrImage load_exr(const std::string& path, std::span<const std::string> channels
     if (names.empty()) {
       for (auto it = header.channels().begin(); it != header.channels().end(); ++it) names.emplace_back(it.name());
     }
-    // A damaged header must not make us claim gigabytes: an uncompressed file holds at least two bytes for each value.
+    // A damaged header must not make us claim gigabytes: an uncompressed file holds at least two bytes for each value,
+    // and of others the first rows are tried.
     const auto pixels = static_cast<std::size_t>(width * height);
     if (header.compression() == Imf::NO_COMPRESSION && std::filesystem::file_size(path) / 2 < pixels) {
       throw InputError(path + ": the file ends too early" + expected);
     }
 
-    Imf::FrameBuffer buffer;
     const std::size_t row = 4 * static_cast<std::size_t>(width);
     // OpenEXR addresses pixels from the origin, which need not be inside the data window.
     const auto origin = [&](void* first) {
@@ -144,18 +144,27 @@ ExrImage load_exr(const std::string& path, std::span<const std::string> channels
       if (channel->xSampling != 1 || channel->ySampling != 1) {
         throw InputError(path + ": channel \"" + name + "\" is subsampled; one value per pixel is expected");
       }
-      if (channel->type == Imf::UINT) {
-        auto& values = image.uints[name];
-        values.resize(pixels);
-        buffer.insert(name, Imf::Slice(Imf::UINT, origin(values.data()), 4, row));
-      } else {
-        auto& values = image.floats[name];
-        values.resize(pixels);
-        buffer.insert(name, Imf::Slice(Imf::FLOAT, origin(values.data()), 4, row));
-      }
     }
-    file.setFrameBuffer(buffer);
-    file.readPixels(window.min.y, window.max.y);
+    const auto read_rows = [&](std::int64_t rows) {
+      const auto count = static_cast<std::size_t>(width * rows);
+      Imf::FrameBuffer buffer;
+      for (const std::string& name : names) {
+        if (header.channels().findChannel(name)->type == Imf::UINT) {
+          auto& values = image.uints[name];
+          values.resize(count);
+          buffer.insert(name, Imf::Slice(Imf::UINT, origin(values.data()), 4, row));
+        } else {
+          auto& values = image.floats[name];
+          values.resize(count);
+          buffer.insert(name, Imf::Slice(Imf::FLOAT, origin(values.data()), 4, row));
+        }
+      }
+      file.setFrameBuffer(buffer);
+      file.readPixels(window.min.y, window.min.y + static_cast<int>(rows) - 1);
+    };
+    constexpr std::int64_t trial_rows = 32;
+    if (height > trial_rows) read_rows(trial_rows);
+    read_rows(height);
     return image;
   } catch (const InputError&) {
     throw;

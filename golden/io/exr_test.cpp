@@ -30,7 +30,6 @@ TEST_F(ExrTest, RoundTripsDeterministically) {
   save_exr(path("a.exr"), frame);
   save_exr(path("b.exr"), frame);
   EXPECT_EQ(read(path("a.exr")), read(path("b.exr")));
-  EXPECT_GE(read(path("a.exr")).size(), 14u * 4 * 31 * 17);
   EXPECT_EQ(read(path("a.exr")).find("capDate"), std::string::npos);
 
   const ExrImage image = load_exr(path("a.exr"));
@@ -44,6 +43,17 @@ TEST_F(ExrTest, RoundTripsDeterministically) {
   EXPECT_EQ(image.floats.at("error.L2"), frame.error.at("L2"));
   ASSERT_EQ(image.uints.size(), 1u);
   EXPECT_EQ(image.uints.at("quad"), frame.quad);
+}
+
+// What a picture mostly is: smooth. PIZ takes it apart without zlib, whose version would show in the bytes.
+TEST_F(ExrTest, SmoothPicturesAreSmall) {
+  FrameImage frame(256, 256);
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) frame.r[frame.index(x, y)] = static_cast<float>(x * y) * 0x1p-16f;
+  save_exr(path("a.exr"), frame);
+  EXPECT_LT(read(path("a.exr")).size(), 10u * 4 * 256 * 256 / 8);
+  EXPECT_EQ(read(path("a.exr")).find("zip"), std::string::npos);
+  EXPECT_EQ(load_exr(path("a.exr")).floats.at("R"), frame.r);
 }
 
 TEST_F(ExrTest, ReadsOnlyTheNamedChannels) {

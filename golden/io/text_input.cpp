@@ -3,6 +3,8 @@
 #include "golden/io/error.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,31 +13,53 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
 namespace quadrille::golden {
+namespace {
+
+struct Descriptor {
+  int fd;
+  ~Descriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+}  // namespace
 
 std::string read_file(const std::string& path, std::string_view what) {
-  const auto failure = [&](int error) {
-    return InputError(path + ": cannot be read: " + std::strerror(error) + "; " + std::string(what) +
-                      " is expected here");
+  const auto failure = [&](const std::string& reason) {
+    return InputError(path + ": cannot be read: " + reason + "; " + std::string(what) + " is expected here");
   };
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) throw failure(errno);
+  // A named pipe may wait for its writer for ever. One without a name (/dev/stdin, <(command)) has its writer already.
+  std::error_code error;
+  const std::filesystem::path real = std::filesystem::canonical(path, error);
+  if (!error && std::filesystem::is_fifo(std::filesystem::symlink_status(real, error)))
+    throw failure("it is a named pipe, which may never be written to (`cat " + path + " |` and /dev/stdin can be)");
+  // Not blocking: a device may wait as well.
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  struct stat status {};
+  if (file.fd < 0 || ::fstat(file.fd, &status) != 0) throw failure(std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) throw failure(std::strerror(EISDIR));
+  if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode) && !S_ISSOCK(status.st_mode))
+    throw failure("it is a device; a file or a pipe is read");
   std::string bytes;
   std::array<char, 1 << 16> block;
   for (;;) {
-    const ssize_t got = ::read(fd, block.data(), block.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) {
-      const int error = errno;
-      ::close(fd);
-      throw failure(error);
+    if (bytes.size() > max_file_bytes)
+      throw failure("it has more than " + std::to_string(max_file_bytes >> 20) + " MiB");
+    const ssize_t got = ::read(file.fd, block.data(), block.size());
+    if (got < 0 && errno == EAGAIN) {
+      pollfd ready{file.fd, POLLIN, 0};
+      ::poll(&ready, 1, -1);
+    } else if (got < 0 && errno != EINTR) {
+      throw failure(std::strerror(errno));
+    } else if (got == 0) {
+      return bytes;
+    } else if (got > 0) {
+      bytes.append(block.data(), static_cast<std::size_t>(got));
     }
-    if (got == 0) break;
-    bytes.append(block.data(), static_cast<std::size_t>(got));
   }
-  ::close(fd);
-  return bytes;
 }
 
 std::string in_quotes(std::string_view token) {

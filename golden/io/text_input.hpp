@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +12,12 @@ namespace quadrille::golden {
 /// Largest magnitude accepted from a text file: products of a vertex, a camera and a viewport stay far inside double.
 inline constexpr double max_input_magnitude = 0x1p80;
 
-/// The bytes of a file. Throws InputError naming the path and the system's reason; `what` says what was expected there.
+/// Largest file that is read.
+inline constexpr std::uint64_t max_file_bytes = std::uint64_t{2} << 30;
+
+/// The bytes of a file, or of a pipe that has a writer (/dev/stdin). Throws InputError naming the path and the reason:
+/// the system's, more than max_file_bytes, a device, a pipe with a name, which may have no writer. `what` says what was
+/// expected there.
 std::string read_file(const std::string& path, std::string_view what);
 
 /// The token in double quotes, for messages: control and non-ASCII bytes as \xNN, long ones shortened.

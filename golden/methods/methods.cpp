@@ -36,10 +36,8 @@ std::string all_names() {
 }
 
 [[noreturn]] void unknown(std::string_view name) {
-  const auto nearest =
-      std::ranges::min_element(methods, {}, [&](const MethodInfo& info) { return edit_distance(name, info.name); });
-  throw std::invalid_argument("unknown method '" + std::string(name) + "'; did you mean '" +
-                              std::string(nearest->name) + "'?" + all_names());
+  throw std::invalid_argument("unknown method '" + std::string(name) + "'" +
+                              did_you_mean(name, methods, &MethodInfo::name) + all_names());
 }
 
 [[noreturn]] void bad_spec(std::string_view spec, const std::string& wanted) {

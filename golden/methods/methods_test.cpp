@@ -31,7 +31,7 @@ TEST(MakeMethod, AMissingNameIsNoUnknownOne) {
     EXPECT_TRUE(refusal(spec).starts_with("method '" + std::string(spec) + "': the name is missing (mvc, split02, "));
     EXPECT_TRUE(refusal(spec).ends_with(", affine)"));
   }
-  EXPECT_TRUE(refusal("splt02").starts_with("unknown method 'splt02'; did you mean 'split02'? (mvc, split02, "));
+  EXPECT_TRUE(refusal("splt02").starts_with("unknown method 'splt02'; did you mean \"split02\"? (mvc, split02, "));
 }
 
 TEST(MakeMethod, RefusesKnobsWithTheirRange) {

@@ -60,11 +60,7 @@ Scene make_scene(std::string_view name) {
   const auto entries = all_entries();
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const SceneEntry& e) { return e.name == name; });
   if (found != entries.end()) return build(*found);
-  const auto nearest = std::min_element(entries.begin(), entries.end(), [&](const SceneEntry& a, const SceneEntry& b) {
-    return edit_distance(name, a.name) < edit_distance(name, b.name);
-  });
-  throw std::invalid_argument("no scene '" + std::string(name) + "'; did you mean '" + std::string(nearest->name) +
-                              "'?");
+  throw std::invalid_argument("no scene '" + std::string(name) + "'" + did_you_mean(name, entries, &SceneEntry::name));
 }
 
 std::vector<WindowQuad> scene_quads(const Scene& scene, int width, int height, AttributeSet attributes) {

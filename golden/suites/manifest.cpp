@@ -2,14 +2,11 @@
 
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/error.hpp"
+#include "golden/io/interrupt.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/text_input.hpp"
 
-#include <fcntl.h>
-#include <stdlib.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -269,38 +266,6 @@ Json common_entries(const SetInfo& set, const std::string& command) {
           {"derived", derived_json(set.config)}};
 }
 
-/// The marks of a temporary directory for the set `name`: ".NAME.golden-" and six characters.
-std::string temporary_prefix(const fs::path& target) { return "." + target.filename().string() + ".golden-"; }
-constexpr std::size_t random_characters = 6;
-
-/// A lock that ends with the process, or -1 when another process has it.
-int lock_directory(const fs::path& directory) {
-  const int fd = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) == 0) return fd;
-  if (fd >= 0) ::close(fd);
-  return -1;
-}
-
-/// Removes what runs for the same set left that were killed. What the commit set aside goes once the new set is there.
-void remove_stale(const fs::path& target) {
-  const std::string prefix = temporary_prefix(target);
-  std::error_code error;
-  std::vector<fs::path> stale;
-  for (fs::directory_iterator entry(target.parent_path(), error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (!name.starts_with(prefix)) continue;
-    const std::string rest = name.substr(prefix.size());
-    if (rest.size() == random_characters ||
-        (rest.size() == random_characters + 4 && rest.ends_with(".old") && fs::exists(target, error)))
-      stale.push_back(entry->path());
-  }
-  for (const fs::path& directory : stale)
-    if (const int lock = lock_directory(directory); lock >= 0) {
-      fs::remove_all(directory, error);
-      ::close(lock);
-    }
-}
-
 /// Where a set named `directory` goes, links resolved. Throws for what cannot become a set.
 fs::path resolve_target(const fs::path& directory) {
   std::error_code error;
@@ -431,7 +396,7 @@ std::string SuiteWriter::finish() {
 // ---- SetWriter ----
 
 SetWriter::SetWriter(fs::path directory, SetInfo info, bool replace)
-    : directory_(std::move(directory)), info_(std::move(info)) {
+    : directory_(std::move(directory)), replace_(replace), info_(std::move(info)) {
   if (directory_.empty()) throw InputError("a set of vectors needs a directory");
   if (directory_.filename().empty()) directory_ = directory_.parent_path();  // a slash at the end
   target_ = resolve_target(directory_);
@@ -458,25 +423,16 @@ SetWriter::SetWriter(fs::path directory, SetInfo info, bool replace)
   const fs::path parent = target_.parent_path();
   fs::create_directories(parent, error);
   if (error) fail(parent, "cannot be made", error);
-  remove_stale(target_);
-  std::string pattern = (parent / (temporary_prefix(target_) + std::string(random_characters, 'X'))).string();
-  if (::mkdtemp(pattern.data()) == nullptr) fail(parent, "cannot be written to", {errno, std::generic_category()});
-  temporary_ = pattern;
-  lock_ = lock_directory(temporary_);
-  fs::permissions(temporary_,
-                  fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
-                      fs::perms::others_exec,
-                  error);
-}
-
-SetWriter::~SetWriter() {
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
-  if (lock_ >= 0) ::close(lock_);
+  try {
+    temporary_.emplace(parent, golden::Temporary::Kind::folder);
+  } catch (const std::system_error& failure) {
+    fail(parent, "cannot be written to", failure.code());
+  }
+  golden::announce_output(directory_.string());
 }
 
 void SetWriter::add(const SuiteInfo& suite, const std::function<void(SuiteWriter&)>& write) {
-  SuiteWriter writer(temporary_ / suite.name, suite, info_);
+  SuiteWriter writer(temporary_->path() / suite.name, suite, info_);
   write(writer);
   suites_[suite.name] = {{"sha256", writer.finish()}};
   names_.push_back(suite.name);
@@ -490,24 +446,22 @@ void SetWriter::commit(bool complete) {
   Json manifest = {{"format", format_version}, {"generator", generator()}};
   manifest.update(common_entries(info_, command));
   manifest["suites"] = suites_;
-  golden::write_file((temporary_ / manifest_name).string(), manifest_text(manifest), golden::AtomicFile::Dash::refused);
-
+  golden::write_file((temporary_->path() / manifest_name).string(), manifest_text(manifest),
+                     golden::AtomicFile::Dash::refused);
   std::error_code error;
-  fs::path old;
-  if (fs::exists(target_, error)) {
-    old = temporary_;
-    old += ".old";
-    fs::rename(target_, old, error);
-    if (error) fail(directory_, "cannot be replaced", error);
+  try {
+    if (replace_ && fs::exists(target_, error))
+      temporary_->replace(target_);
+    else
+      temporary_->publish(target_);
+  } catch (const std::system_error& failure) {
+    if (failure.code() == std::errc::directory_not_empty || failure.code() == std::errc::file_exists)
+      throw input_error(directory_.string(), 0,
+                        "was filled by another run in the meantime; --force replaces it, another directory keeps it");
+    fail(directory_, "cannot be made", failure.code());
   }
-  fs::rename(temporary_, target_, error);
-  if (error) {
-    std::error_code ignored;
-    if (!old.empty()) fs::rename(old, target_, ignored);
-    fail(directory_, "cannot be made", error);
-  }
-  temporary_.clear();
-  if (!old.empty()) fs::remove_all(old, error);
+  temporary_.reset();
+  golden::output_written(directory_.string());
 }
 
 // ---- SuiteReader ----

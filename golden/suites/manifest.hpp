@@ -2,6 +2,7 @@
 // unseen. The files are described in golden/vectors/README.md.
 #pragma once
 
+#include "golden/io/temporary.hpp"
 #include "golden/suites/sha256.hpp"
 #include "model/config.hpp"
 #include "model/record.hpp"
@@ -13,6 +14,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -86,17 +88,14 @@ class SuiteWriter {
   nlohmann::ordered_json counts_ = nlohmann::ordered_json::object();
 };
 
-/// Writes a set: everything goes to a temporary directory beside `directory`, which commit() puts in its place. A
-/// symbolic link is followed.
+/// Writes a set: everything goes to a temporary directory beside `directory`, which commit() puts in its place: all of
+/// the set appears, or nothing. A symbolic link is followed.
 class SetWriter {
  public:
   /// Throws golden::InputError when `directory` exists and is not empty, unless `replace` is set and it holds a set and
   /// nothing else; when it cannot be replaced by another directory (the current one, a mount point); and when it is a
-  /// link to nothing. Removes the temporary directories that killed runs for the same directory left.
+  /// link to nothing.
   SetWriter(std::filesystem::path directory, SetInfo info, bool replace);
-  ~SetWriter();
-  SetWriter(const SetWriter&) = delete;
-  SetWriter& operator=(const SetWriter&) = delete;
 
   /// `write` fills the suite; its manifest follows.
   void add(const SuiteInfo& suite, const std::function<void(SuiteWriter&)>& write);
@@ -108,8 +107,8 @@ class SetWriter {
  private:
   std::filesystem::path directory_;  ///< as given, for messages
   std::filesystem::path target_;     ///< where it goes, links resolved
-  std::filesystem::path temporary_;
-  int lock_ = -1;  ///< on the temporary directory, for as long as this process lives
+  std::optional<golden::Temporary> temporary_;
+  bool replace_;
   SetInfo info_;
   std::vector<std::string> names_;
   nlohmann::ordered_json suites_ = nlohmann::ordered_json::object();

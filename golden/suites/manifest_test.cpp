@@ -346,29 +346,20 @@ TEST_F(Set, AnUnfinishedSetLeavesNothing) {
   EXPECT_FALSE(fs::exists(path("new")));
 }
 
-// A killed run cannot clean up; the next one does, and leaves what is not its own.
-TEST_F(Set, StaleTemporariesGo) {
-  fs::create_directories(path(".set.golden-a1B2c3/rsqrt"));
-  write(".set.golden-a1B2c3/rsqrt/stimulus.hex", "0\n");
-  fs::create_directory(path(".set.golden-a1B2c3.old"));
-  fs::create_directory(path(".set.golden-a1B2c34"));  // seven characters
-  fs::create_directory(path(".other.golden-a1B2c3"));
-  {
-    SetWriter alive(path("set"), info(), true);
-    EXPECT_FALSE(fs::exists(path(".set.golden-a1B2c3")));
-    EXPECT_FALSE(fs::exists(path(".set.golden-a1B2c3.old")));
-    EXPECT_TRUE(fs::exists(path(".set.golden-a1B2c34")));
-    EXPECT_TRUE(fs::exists(path(".other.golden-a1B2c3")));
-    // Another run for the same set leaves those of this one.
-    generate("set", {"depth"}, true);
-    alive.add(find_suite("rsqrt").info(), [&](SuiteWriter& out) { find_suite("rsqrt").write(out, options()); });
-    alive.commit(false);
-  }
-  EXPECT_EQ(SetReader(path("set")).suites(), std::vector<std::string>{"rsqrt"});
-  // What a commit set aside is all that there is when it was killed before the set was in its place.
-  fs::create_directory(path(".gone.golden-a1B2c3.old"));
-  generate("gone", {"rsqrt"});
-  EXPECT_TRUE(fs::exists(path(".gone.golden-a1B2c3.old")));
+// Two runs that found the name free: the set that is there first stays.
+TEST_F(Set, ASetThatAppearsMeanwhileIsNotReplaced) {
+  SetWriter late(path("new"), info(), false);
+  late.add(find_suite("depth").info(), [&](SuiteWriter& out) { find_suite("depth").write(out, options()); });
+  generate("new", {"rsqrt"});
+  const std::string message = golden::input_error_of([&] { late.commit(false); });
+  EXPECT_EQ(message.find(path("new") + ": was filled by another run in the meantime; --force"), 0u) << message;
+  EXPECT_EQ(SetReader(path("new")).suites(), std::vector<std::string>{"rsqrt"});
+  // With --force the last one wins, whole.
+  SetWriter forced(path("new"), info(), true);
+  forced.add(find_suite("depth").info(), [&](SuiteWriter& out) { find_suite("depth").write(out, options()); });
+  generate("new", {"coverage"}, true);
+  forced.commit(false);
+  EXPECT_EQ(SetReader(path("new")).suites(), std::vector<std::string>{"depth"});
 }
 
 TEST_F(Set, LinksLeadToTheSetAndNotOutOfIt) {
@@ -441,7 +432,7 @@ TEST_F(Set, FilesBesideTheRecordsAreGuardedToo) {
 
 TEST(Suites, UnknownNamesTheNearest) {
   const std::string message = golden::input_error_of([] { find_suite("weigths"); });
-  EXPECT_EQ(message, "unknown suite \"weigths\"; the nearest is \"weights\"");
+  EXPECT_EQ(message, "unknown suite \"weigths\"; did you mean \"weights\"?");
 }
 
 }  // namespace

@@ -23,13 +23,10 @@ const std::vector<std::unique_ptr<Suite>>& suites() {
 }
 
 const Suite& find_suite(std::string_view name) {
-  const Suite* nearest = suites().front().get();
-  for (const auto& suite : suites()) {
+  for (const auto& suite : suites())
     if (suite->info().name == name) return *suite;
-    if (edit_distance(name, suite->info().name) < edit_distance(name, nearest->info().name)) nearest = suite.get();
-  }
-  throw golden::InputError("unknown suite " + golden::in_quotes(name) + "; the nearest is \"" + nearest->info().name +
-                           "\"");
+  throw golden::InputError("unknown suite " + golden::in_quotes(name) +
+                           did_you_mean(name, suites(), [](const auto& suite) { return suite->info().name; }));
 }
 
 void require_known(const SetReader& set) {

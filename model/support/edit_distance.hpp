@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <numeric>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +25,27 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
+}
+
+/// The one of `names` that `given` was probably meant to be: one to three edits away, by its length, or holding it.
+/// Empty when none is: a hint that is far off only misleads.
+template <class Names, class Projection = std::identity>
+std::string nearest_name(std::string_view given, const Names& names, Projection name_of = {}) {
+  std::size_t distance = given.size() <= 3 ? 2 : given.size() <= 8 ? 3 : 4;
+  std::string nearest;
+  for (const auto& element : names) {
+    const std::string name(std::invoke(name_of, element));
+    const bool part = given.size() >= 3 && name.find(given) != std::string::npos;
+    if (const std::size_t d = part ? 1 : edit_distance(given, name); d < distance) distance = d, nearest = name;
+  }
+  return nearest;
+}
+
+/// `; did you mean "NAME"?` for the nearest name, or nothing.
+template <class Names, class Projection = std::identity>
+std::string did_you_mean(std::string_view given, const Names& names, Projection name_of = {}) {
+  const std::string nearest = nearest_name(given, names, name_of);
+  return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
 }
 
 }  // namespace quadrille

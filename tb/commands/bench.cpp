@@ -154,11 +154,11 @@ class ErrorCommand {
 
   void print_errors(std::FILE* text) const {
     std::fprintf(text,
-                 "%s\n%zu inputs, %s, snapped quads against exact arithmetic on the same; configuration %s\n\n"
+                 "%s\n%zu input%s, %s, snapped quads against exact arithmetic on the same; configuration %s\n\n"
                  "Largest error of a weight as a power of two (bound of the machine: %s), fragments where the paper's "
                  "formulas\nare undefined, and fragments that they miss\n\n",
-                 golden::command_line(arguments_).c_str(), inputs_.size(), common_.size.c_str(),
-                 summary(config_).c_str(), power(weight_bound(config_)).c_str());
+                 golden::command_line(arguments_).c_str(), inputs_.size(), inputs_.size() == 1 ? "" : "s",
+                 common_.size.c_str(), summary(config_).c_str(), power(weight_bound(config_)).c_str());
     std::fprintf(text, "%-24s %9s %8s %9s %8s %8s %9s %8s %8s\n", "", "fragments", "fp32", "undefined", "missed",
                  "fp64", "undefined", "missed", "machine");
     for (const Input& input : inputs_) {
@@ -274,7 +274,7 @@ int bench(BenchOptions& options, bool size_given, const std::vector<std::string>
     return ErrorCommand(options, arguments).run();
   }
   options.speed.repeat = options.repeat.value_or(speed_repeat);
-  check_writable(options.speed.common.json);
+  check_outputs({options.speed.common.json}, {});
   return run_speed_bench(options.speed, arguments);
 }
 
@@ -330,7 +330,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
                    "With --error: draw the quads of an input in order until there are so many fragments and 16 quads; "
                    "none is cut off")
       ->type_name("N")
-      ->check(not_negative)
+      ->check(whole_number())
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
       ->capture_default_str()
       ->needs(error);

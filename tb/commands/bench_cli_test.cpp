@@ -18,7 +18,7 @@ TEST_F(Cli, BenchErrorRefuses) {
   refuses(2, "bench --limit-fragments 5", {"--limit-fragments", "--error"});
   refuses(2, "bench --error --quad-size 8", {"--quad-size", "--error"});
   refuses(2, "bench --error --fragments 5000", {"--fragments", "--error"});
-  refuses(2, "bench --error --limit-fragments -5", {"--limit-fragments", "negative"});
+  refuses(2, "bench --error --limit-fragments -5", {"--limit-fragments", "whole number"});
   refuses(2, "bench --error --limit-fragments 0", {"--limit-fragments"});
   refuses(2, "bench --error --repeat 0", {"--repeat"});
   refuses(2, "bench --error --no-rtl --lanes v5", {"no lanes \"v5\"", "baseline, v3, v4"});

@@ -55,8 +55,8 @@ TEST_F(Cli, UsageErrors) {
   refuses(2, "fragments --scene sphere --out - --json -", {"two outputs"});
   refuses(2, "render --scene sphere --png a --out a", {"two outputs"});
   refuses(2, "cosim --scene sphere --png ./a --out b --json a", {"two outputs"});
-  refuses(2, "cosim --scene sphere --seed -1", {"--seed", "negative"});
-  refuses(2, "cosim --scene sphere --limit-fragments -5", {"--limit-fragments", "negative"});
+  refuses(2, "cosim --scene sphere --seed -1", {"--seed", "whole number"});
+  refuses(2, "cosim --scene sphere --limit-fragments -5", {"--limit-fragments", "whole number"});
   refuses(2, "cosim --scene sphere --rtl nowhere", {"--rtl nowhere", "no such file"});
   refuses(2, "fragments --engine model --stall 0.5 --scene sphere --out -", {"--engine rtl"});
   refuses(2, "fragments --engine rtl --stall 7 --scene sphere --out -", {"--stall", "probability"});

@@ -124,22 +124,27 @@ golden::Image8 difference_picture(const compare::AttributeImage& image, const co
   return picture;
 }
 
-/// The outlines that lie in front of the eye, as closed lines on the screen; their mean edge in pixels.
-std::vector<compare::Polyline> screen_outlines(const std::vector<std::vector<WindowVertex>>& outlines, double& edge) {
+/// The outlines that lie in front of the eye, as closed lines of this width on the screen; their mean edge in pixels.
+std::vector<compare::Polyline> screen_outlines(const std::vector<std::vector<WindowVertex>>& outlines, double width,
+                                               double& edge) {
   std::vector<compare::Polyline> lines;
   double length = 0;
   std::size_t edges = 0;
   for (const std::vector<WindowVertex>& outline : outlines) {
     if (std::ranges::any_of(outline, [](const WindowVertex& v) { return !(v.w > 0); })) continue;
     compare::Polyline line;
+    double round = 0;
     for (std::size_t i = 0; i <= outline.size(); ++i) {
       const WindowVertex& v = outline[i % outline.size()];
       line.points.push_back({v.x / v.w, v.y / v.w});
       if (i == 0) continue;
       const auto &a = line.points[i - 1], &b = line.points[i];
-      length += std::hypot(b[0] - a[0], b[1] - a[1]);
+      round += std::hypot(b[0] - a[0], b[1] - a[1]);
       ++edges;
     }
+    length += round;
+    line.opacity =
+        compare::wireframe_opacity(round / static_cast<double>(std::max<std::size_t>(outline.size(), 1)), width);
     lines.push_back(std::move(line));
   }
   edge = edges ? length / static_cast<double>(edges) : 0;
@@ -157,10 +162,11 @@ void draw_wireframe(const std::string& method, const Scene& scene, golden::Image
     const auto of_quad = drawn->wireframe(quad, view);
     outlines.insert(outlines.end(), of_quad.begin(), of_quad.end());
   }
+  const double width = std::max(0.6, picture.width / 512.0);
   double edge = 0;
-  std::vector<compare::Polyline> lines = screen_outlines(outlines, edge);
-  if (edge < finest_edge) lines = screen_outlines(quads, edge);
-  compare::draw_lines(picture, lines, {255, 255, 255}, std::max(0.6, picture.width / 512.0));
+  std::vector<compare::Polyline> lines = screen_outlines(outlines, width, edge);
+  if (edge < finest_edge) lines = screen_outlines(quads, width, edge);
+  compare::draw_lines(picture, lines, {255, 255, 255}, width);
 }
 
 /// A method's full name; a wrong one is told with the option that holds it.
@@ -170,6 +176,13 @@ std::string method_name(const char* option, const std::string& spec) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string(option) + ": " + error.what());
   }
+}
+
+/// METHOD.exr; a knob's colon would make `refine:20.exr` a file on another host to some tools, and is forbidden on
+/// some systems.
+std::string picture_name(std::string method) {
+  std::ranges::replace(method, ':', '-');
+  return method + ".exr";
 }
 
 nlohmann::ordered_json value_or_null(double value, bool measured = true) {
@@ -187,6 +200,7 @@ class Compare {
     const auto [width, height] = options_.common.viewport(options_.common.config());
     width_ = width, height_ = height;
     const Scene scene = load_scene(options_, width, height);
+    print_remark(scene.input, options_.common);
     check_methods(scene.input);
     const std::vector<int> sizes = crease_sizes();
     stage_.emplace(options_.out);
@@ -308,7 +322,7 @@ class Compare {
     const FrameBuffer frame = cli::draw_method(method, scene.input, settings);
     golden::FrameImage picture = shade_frame(frame, scene.shading);
     add_error_layers(frame, scene.input.quads, settings.config, settings.state, false, settings.threads, picture);
-    golden::save_exr(stage_->path(method + ".exr"), picture);
+    golden::save_exr(stage_->path(picture_name(method)), picture);
 
     const compare::AttributeImage image = attribute_image(frame, scene.input);
     const compare::FrameError against_reference = compare::compare_frames(image, reference);
@@ -399,7 +413,7 @@ class Compare {
     std::vector<std::string> names{"plot.json", "plot_time.png", "plot_setup.png"};
     for (const nlohmann::json& row : earlier["methods"])
       if (row.is_object() && row.contains("method") && row["method"].is_string())
-        names.push_back(row["method"].get<std::string>() + ".exr");
+        names.push_back(picture_name(row["method"].get<std::string>()));
     return names;
   }
 
@@ -449,6 +463,15 @@ class Compare {
                    sizes.empty() ? "" : text(row["crease13_" + size], "%.1e").c_str(),
                    row["emitted_quads"].get<unsigned long long>(), row["triangles"].get<unsigned long long>(),
                    text(row["ns_per_pixel"], "%.3g").c_str());
+    const bool no_crease = !sizes.empty() && std::ranges::all_of(rows, [&](const compare::Row& row) {
+      return row["crease02_" + size].is_null() && row["crease13_" + size].is_null();
+    });
+    if (no_crease)
+      std::fprintf(
+          out,
+          "No crease: the middle half of a diagonal needs a row or column of eight pixels of its quad at every "
+          "size,\nand the quads are too small or not convex in front of the eye; larger --crease-sizes may "
+          "help\n");
     for (const compare::Row& row : rows)
       if (row["refused"].get<std::uint64_t>() > 0)
         std::fprintf(out, "%s refuses %llu of %llu quads\n", row["method"].get<std::string>().c_str(),

@@ -189,7 +189,7 @@ TEST_F(CompareCli, BadInput) {
   refuses(2, "compare --scene fig1_flat", {"--out"});
   refuses(2, "compare --out d", {"--scene NAME or --mesh F.obj"});
   refuses(2, "compare --stress general --out d", {"--stress"});
-  refuses(2, "compare --scene fig1_flat --out d --methods mvc,splt02", {"splt02", "did you mean 'split02'"});
+  refuses(2, "compare --scene fig1_flat --out d --methods mvc,splt02", {"splt02", "did you mean \"split02\""});
   refuses(2, "compare --scene fig1_flat --out d --methods mvc,mvc", {"mvc", "twice"});
   refuses(2, "compare --scene fig1_flat --out d --methods refine:20,refine", {"refine", "twice"});
   refuses(2, "compare --scene fig1_flat --out d --cell 2048 --methods " + many, {"16 columns", "--cell 2048"});

@@ -6,6 +6,7 @@
 #include "golden/io/json_report.hpp"
 #include "model/snap.hpp"
 #include "tb/check/check.hpp"
+#include "tb/device/verilate.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/options.hpp"
@@ -97,6 +98,16 @@ class CosimRun {
 
   int run() {
     check_options();
+    try {
+      return run_inputs();
+    } catch (const tb::VerilateError& error) {
+      if (options_.rtl.empty()) throw;
+      throw UsageError("--rtl " + options_.rtl + ": " + error.what());  // the user's sources
+    }
+  }
+
+ private:
+  int run_inputs() {
     std::vector<InputOptions> inputs = list_inputs();
     std::vector<InputResult> results;
     for (const InputOptions& input : inputs) {
@@ -116,7 +127,6 @@ class CosimRun {
     return ok ? exit_ok : exit_mismatch;
   }
 
- private:
   void check_options() const {
     probability("--stall", options_.stall);
     probability("--gap", options_.gap);
@@ -125,8 +135,15 @@ class CosimRun {
     check_outputs({options_.trace, options_.out, options_.png, options_.input.save_camera, options_.common.json}, read);
     if (!options_.rtl.empty() && !std::filesystem::exists(options_.rtl))
       throw UsageError("--rtl " + options_.rtl + ": no such file or directory");
+    if (std::filesystem::is_directory(options_.rtl) && !holds_verilog(options_.rtl))
+      throw UsageError("--rtl " + options_.rtl + ": no SystemVerilog file (*.sv) is in this directory");
     if (all_scenes() && (!options_.out.empty() || !options_.png.empty() || !options_.trace.empty()))
       throw UsageError("--out, --png and --trace are for one input, not for all scenes");
+  }
+
+  static bool holds_verilog(const std::string& directory) {
+    return std::ranges::any_of(std::filesystem::directory_iterator(directory),
+                               [](const auto& entry) { return entry.path().extension() == ".sv"; });
   }
 
   bool all_scenes() const { return inputs_given(options_.input) == 0 || options_.input.scene == "all"; }
@@ -147,6 +164,7 @@ class CosimRun {
     DrawState state = options_.state.state(options_.common, config_);
     const DrawInput input = load_input(input_options, shade_of(options_.shade, options_.texture), state.width,
                                        state.height, options_.common.seed);
+    print_remark(input, options_.common);
     state.perspective = state.perspective && input.perspective;
     check_quad_count(input.quads.size(), config_);
 
@@ -541,7 +559,7 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command
       ->add_option("--limit-fragments", options->limit_fragments, "End each input after so many fragments; 0: no limit")
-      ->check(not_negative)
+      ->check(whole_number())
       ->type_name("N");
   command->add_option("--trace", options->trace, "Waveform of the RTL")->type_name("F.fst");
   command->add_option("--out", options->out, "Picture of the RTL's fragments, with weights and errors")

@@ -45,6 +45,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
 
   const DrawInput input = load_input(options.input, shade_of(options.shade, options.texture), settings.state.width,
                                      settings.state.height, options.common.seed);
+  print_remark(input, options.common);
   settings.state.perspective = settings.state.perspective && input.perspective;
   ShadeSettings shading;
   shading.shade = input.shade;

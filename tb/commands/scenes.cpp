@@ -6,37 +6,39 @@
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
 #include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <string>
 
 namespace quadrille::cli {
 namespace {
 
 struct ScenesOptions {
-  bool json = false, stress = false;
+  std::string json;
+  bool stress = false;
 };
 
 int list(const ScenesOptions& options) {
   if (options.stress) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const golden::StressFamilyInfo& family : golden::stress_families()) {
-      if (options.json)
-        json.push_back({{"name", family.name}, {"stresses", family.stresses}});
-      else
+      json.push_back({{"name", family.name}, {"stresses", family.stresses}});
+      if (options.json != "-")
         std::printf("%-16s %s\n", std::string(family.name).c_str(), std::string(family.stresses).c_str());
     }
-    if (options.json) golden::save_json("-", json);
+    if (!options.json.empty()) golden::save_json(options.json, json);
     return exit_ok;
   }
   const std::vector<golden::SceneInfo> scenes = golden::list_scenes();
-  if (options.json) {
+  if (!options.json.empty()) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const golden::SceneInfo& scene : scenes)
       json.push_back({{"name", scene.name}, {"title", scene.title}, {"paper", scene.paper}, {"quads", scene.quads}});
-    golden::save_json("-", json);
-    return exit_ok;
+    golden::save_json(options.json, json);
+    if (options.json == "-") return exit_ok;
   }
   std::size_t width = 0;
   for (const golden::SceneInfo& scene : scenes) width = std::max(width, scene.name.size());
@@ -52,9 +54,19 @@ void add_scenes_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes");
   command->footer("Examples:\n  quadrille scenes\n  quadrille scenes --json\n  quadrille scenes --stress");
   const auto options = std::make_shared<ScenesOptions>();
-  command->add_flag("--json", options->json, "An array of name, title, paper, quads on standard output");
+  CLI::Option* json = command
+                          ->add_option("--json", options->json,
+                                       "Write an array of name, title, paper, quads (- or nothing: standard output)")
+                          ->type_name("[F.json]")
+                          ->expected(0, 1);
   command->add_flag("--stress", options->stress, "The stress families instead");
-  command->callback([options, &invocation] { invocation.run = [options] { return list(*options); }; });
+  command->callback([options, json, &invocation] {
+    if (json->count() > 0 && options->json.empty()) options->json = "-";
+    invocation.run = [options] {
+      check_outputs({options->json}, {});
+      return list(*options);
+    };
+  });
 }
 
 }  // namespace quadrille::cli

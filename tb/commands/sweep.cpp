@@ -4,6 +4,7 @@
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/config_file.hpp"
 #include "golden/io/error.hpp"
+#include "golden/io/interrupt.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/npy.hpp"
 #include "model/snap.hpp"
@@ -83,6 +84,7 @@ class SweepRun {
   int run() {
     const auto start = std::chrono::steady_clock::now();
     prepare();
+    golden::set_interrupt_hint("the points finished so far are kept in " + options_.out + ", the same command goes on");
     sweep::Store store(options_.out, identity(),
                        options_.fresh ? sweep::Store::Existing::discard : sweep::Store::Existing::resume);
     if (std::FILE* text = options_.common.text(); text && !store.results().empty())
@@ -614,7 +616,7 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
                    "Points to co-simulate with the RTL; default: default, knees and corners, 8 at most")
       ->type_name("SELECTION");
   command->add_option("--cosim-fragments", options->cosim_fragments, "Fragments of a co-simulation at most; 0: all")
-      ->check(not_negative)
+      ->check(whole_number())
       ->type_name("N")
       ->capture_default_str();
   command->add_option("--synth", options->synth, "Points to synthesise with Yosys (minutes each the first time)")

@@ -237,14 +237,20 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
   return to_image(surface.get());
 }
 
+double wireframe_opacity(double edge, double width) {
+  // Lines fill 2·width/edge of the picture, and neighbours draw the edge between them twice.
+  constexpr double share = 0.05;
+  return std::clamp(share * edge / width, 0.0, 1.0);
+}
+
 void draw_lines(Image8& picture, const std::vector<Polyline>& lines, std::array<std::uint8_t, 3> colour, double width) {
   const Surface surface = to_surface(picture);
   const Context owner(cairo_create(surface.get()));
   cairo_t* context = owner.get();
-  cairo_set_source_rgb(context, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
   cairo_set_line_width(context, width);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   for (const Polyline& line : lines) {
+    cairo_set_source_rgba(context, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0, line.opacity);
     bool first = true;
     for (const auto& [x, y] : line.points) {
       first ? cairo_move_to(context, x, y) : cairo_line_to(context, x, y);

@@ -48,7 +48,12 @@ golden::Image8 draw_sheet(const Sheet& sheet, int cell_width);
 /// Points in pixels of a picture.
 struct Polyline {
   std::vector<std::array<double, 2>> points;
+  double opacity = 1;
 };
+/// Of a line of this width round a cell whose edges have this mean length, both in pixels: fine meshes fade, so that
+/// their lines together cover at most about a sixth of the picture however small the cells are.
+double wireframe_opacity(double edge, double width);
+
 /// Lines over a picture: for the mesh that a method emits.
 void draw_lines(golden::Image8& picture, const std::vector<Polyline>& lines, std::array<std::uint8_t, 3> colour,
                 double width);

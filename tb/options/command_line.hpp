@@ -3,15 +3,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include <string>
+#include <cstdint>
 
 namespace quadrille::cli {
 
-/// Refuses a minus sign: the library would wrap a negative number into a huge one.
-inline const CLI::Validator not_negative(
-    [](std::string& text) {
-      return text.find('-') == std::string::npos ? std::string() : "must not be negative: " + text;
-    },
-    "", "not negative");
+/// A whole number from 0 to `most`, or refused: the library would wrap a negative one and clamp a huge one.
+CLI::Validator whole_number(std::uint64_t most = UINT64_MAX);
 
 }  // namespace quadrille::cli

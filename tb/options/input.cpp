@@ -166,6 +166,19 @@ void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, 
   input.skipped_lines = mesh.skipped_lines;
 }
 
+/// Faces without vt get the corners of the picture.
+void remark_on_texture(const golden::Mesh& mesh, DrawInput& input) {
+  if (input.layout != AttributeLayout::uv && input.layout != AttributeLayout::uv_normal) return;
+  const auto bare =
+      std::ranges::count_if(mesh.faces, [](const golden::Face& face) { return face.front().texcoord < 0; });
+  if (bare == 0) return;
+  const std::size_t faces = mesh.faces.size();
+  const bool all = static_cast<std::size_t>(bare) == faces;
+  input.remark = (all ? "no face" : std::to_string(bare) + " of " + std::to_string(faces) + " faces") +
+                 std::string(all ? " has" : " have no") + " texture coordinates (vt); --shade " + input.shade +
+                 " puts the whole picture on each";
+}
+
 void load_scene(const InputOptions& options, const std::string& shade, int width, int height, DrawInput& input) {
   choose("scene", options.scene, scene_names());
   const golden::Scene scene = golden::make_scene(options.scene);
@@ -199,6 +212,7 @@ void load_mesh(const InputOptions& options, const std::string& shade, int width,
   if (!options.save_camera.empty())
     golden::write_file(options.save_camera, golden::camera_text(camera), golden::AtomicFile::Dash::refused);
   project(mesh, camera, width, height, options.strict, options.mesh, input);
+  remark_on_texture(mesh, input);
   if (input.layout == AttributeLayout::position) fit_positions(input);
 }
 
@@ -270,6 +284,11 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, int 
     load_stress(options, shade, width, height, seed, input);
   set_light(options, input.lighting);
   return input;
+}
+
+void print_remark(const DrawInput& input, const CommonOptions& common) {
+  if (!input.remark.empty() && !common.quiet)
+    std::fprintf(stderr, "quadrille: %s: %s\n", input.name.c_str(), input.remark.c_str());
 }
 
 std::vector<std::string> shade_modes() {

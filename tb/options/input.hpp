@@ -40,6 +40,7 @@ struct DrawInput {
   golden::CuttingPlanes planes;  ///< of shade `planes`, in the unit of the position attributes (a power of two)
   std::size_t faces = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
   std::string quads_file;  ///< where the quads came from, if a .quads file
+  std::string remark;      ///< what the input lacks for its shading, and what is done about it; empty: nothing
 };
 
 /// How many of --scene, --mesh, --quads and --stress are given.
@@ -49,6 +50,9 @@ int inputs_given(const InputOptions& options);
 /// what suits the input; otherwise the attributes are what that shading needs. Throws UsageError when not exactly one
 /// is given, a name is unknown or the input lacks what the shading needs, InputError for what a file holds.
 DrawInput load_input(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed);
+
+/// Says the remark of an input, if there is one, on standard error unless --quiet.
+void print_remark(const DrawInput& input, const CommonOptions& common);
 
 /// What --shade is when --texture is given too: texture. Throws UsageError for another explicit --shade.
 std::string shade_of(const std::string& shade, const std::string& texture);

@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cerrno>
 #include <charconv>
+#include <cstdlib>
 #include <thread>
 #include <tuple>
 
@@ -26,6 +29,27 @@ Number parse(std::string_view text, const std::string& what) {
   return value;
 }
 
+/// What to --set for a viewport of so many pixels: guard bits are given up for it first, then subpixel bits.
+std::string larger_viewport(const Config& config, int pixels) {
+  for (Config larger = config; larger.viewport_bits < 15; ++larger.viewport_bits) {
+    if (pixels > 1 << larger.viewport_bits) continue;
+    for (Config fitting = larger; fitting.subpixel_bits >= 2; --fitting.subpixel_bits)
+      for (fitting.guard_bits = larger.guard_bits; fitting.guard_bits >= 1; --fitting.guard_bits) {
+        try {
+          fitting.validate();
+        } catch (const ConfigError&) {
+          continue;
+        }
+        std::string advice = "; for this size --set viewport_bits=" + std::to_string(fitting.viewport_bits);
+        for (const char* key : {"guard_bits", "subpixel_bits"})
+          if (fitting.get(key) != config.get(key))
+            advice += " --set " + std::string(key) + "=" + std::to_string(fitting.get(key));
+        return advice;
+      }
+  }
+  return "";
+}
+
 /// Shortest decimal text of a number.
 std::string number(double value) {
   std::array<char, 40> buffer{};
@@ -34,6 +58,19 @@ std::string number(double value) {
 }
 
 }  // namespace
+
+CLI::Validator whole_number(std::uint64_t most) {
+  return CLI::Validator(
+      [most](std::string& text) {
+        errno = 0;
+        char* end = nullptr;
+        const unsigned long long value = std::strtoull(text.c_str(), &end, 0);
+        const bool good = !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) != 0 && *end == '\0' &&
+                          errno == 0 && value <= most;
+        return good ? std::string() : "must be a whole number from 0 to " + std::to_string(most) + ": " + text;
+      },
+      "", "whole number");
+}
 
 void CommonOptions::add_to(CLI::App& app, bool draws) {
   constexpr const char* group = "Common options";
@@ -47,7 +84,7 @@ void CommonOptions::add_to(CLI::App& app, bool draws) {
   if (draws) {
     app.add_option("--size", size, "Viewport in pixels")->type_name("WxH")->capture_default_str()->group(group);
     app.add_option("--seed", seed, "Seed of everything random")
-        ->check(not_negative)
+        ->check(whole_number())
         ->type_name("N")
         ->capture_default_str()
         ->group(group);
@@ -92,7 +129,8 @@ std::pair<int, int> CommonOptions::viewport(const Config& config) const {
   const int limit = 1 << config.viewport_bits;
   if (width < 1 || height < 1 || width > limit || height > limit)
     throw UsageError("--size " + size + ": width and height must be from 1 to " + std::to_string(limit) +
-                     " (viewport_bits = " + std::to_string(config.viewport_bits) + "; --set viewport_bits=N for more)");
+                     " (viewport_bits = " + std::to_string(config.viewport_bits) + ")" +
+                     larger_viewport(config, std::max(width, height)));
   return {width, height};
 }
 
@@ -140,8 +178,9 @@ DrawState StateOptions::state(const CommonOptions& common, const Config& config)
       edge[i] = parse<int>(rest.substr(0, comma), "--scissor " + scissor);
       rest.remove_prefix(std::min(rest.size(), comma + 1));
     }
-    if (edge[0] < 0 || edge[1] < 0 || edge[2] > state.width || edge[3] > state.height || edge[0] > edge[2] ||
-        edge[1] > edge[3])
+    if (edge[0] > edge[2] || edge[1] > edge[3])
+      throw UsageError("--scissor " + scissor + ": X0 must not exceed X1, nor Y0 exceed Y1 (left, top, right, bottom)");
+    if (edge[0] < 0 || edge[1] < 0 || edge[2] > state.width || edge[3] > state.height)
       throw UsageError("--scissor " + scissor + ": the rectangle must lie inside the viewport " + common.size);
     state.scissor_x0 = edge[0], state.scissor_y0 = edge[1], state.scissor_x1 = edge[2], state.scissor_y1 = edge[3];
   }

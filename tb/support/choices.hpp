@@ -12,7 +12,4 @@ namespace quadrille::cli {
 std::size_t choose(std::string_view what, std::string_view name, std::span<const std::string> choices);
 std::size_t choose(std::string_view what, std::string_view name, std::initializer_list<std::string_view> choices);
 
-/// The choice with the smallest edit distance, or empty when nothing is near.
-std::string nearest(std::string_view name, std::span<const std::string> choices);
-
 }  // namespace quadrille::cli

@@ -1,27 +1,16 @@
 #include "tb/support/output.hpp"
 
+#include "golden/io/atomic_file.hpp"
+#include "golden/io/interrupt.hpp"
 #include "tb/support/errors.hpp"
-
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 namespace quadrille::cli {
-
-void check_writable(const std::string& path) {
-  if (path.empty() || path == "-") return;
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored)) throw UsageError(path + ": is a directory; a file name is expected");
-  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) return;  // a device or a pipe
-  fs::path directory = fs::path(path).parent_path();
-  if (directory.empty()) directory = ".";
-  if (access(directory.c_str(), W_OK | X_OK) != 0)
-    throw UsageError(path + ": cannot be written: " + directory.string() + ": " + std::strerror(errno));
-}
 
 void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
   namespace fs = std::filesystem;
@@ -36,7 +25,7 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
            fs::weakly_canonical(fs::absolute(b, ignored), ignored);
   };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    check_writable(outputs[i]);
+    if (!outputs[i].empty() && outputs[i] != "-") golden::require_writable(outputs[i]);
     for (std::size_t j = 0; j < i; ++j)
       if (same(outputs[i], outputs[j]))
         throw UsageError(outputs[i] + ": two outputs want this file; give each its own");
@@ -44,20 +33,31 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
       if (same(outputs[i], input))
         throw UsageError(outputs[i] + ": is an input of this command; write to another file");
   }
+  for (const std::string& output : outputs) golden::announce_output(output);
 }
 
 PartialFile::PartialFile(std::string path) : path_(std::move(path)) {
-  if (active()) partial_ = path_ + ".partial-" + std::to_string(getpid());
-}
-
-PartialFile::~PartialFile() {
-  if (active() && !committed_) std::remove(partial_.c_str());
+  if (!active()) return;
+  std::error_code ignored;
+  if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored))
+    throw UsageError(path_ + ": is no regular file; this format needs one");
+  // A folder, since writers may put files of their own beside it.
+  const std::filesystem::path target = std::filesystem::weakly_canonical(std::filesystem::absolute(path_));
+  try {
+    folder_.emplace(target.parent_path(), golden::Temporary::Kind::folder);
+  } catch (const std::system_error& failure) {
+    throw UsageError(path_ + ": cannot be written: " + failure.code().message());
+  }
+  target_ = target.string();
+  partial_ = (folder_->path() / target.filename()).string();
 }
 
 void PartialFile::commit() {
-  if (std::rename(partial_.c_str(), path_.c_str()) != 0)
-    throw UsageError(path_ + ": cannot be written: " + std::strerror(errno));
-  committed_ = true;
+  bool renamed = false;
+  golden::without_interrupt([&] { renamed = std::rename(partial_.c_str(), target_.c_str()) == 0; });
+  if (!renamed) throw UsageError(path_ + ": cannot be written: " + std::strerror(errno));
+  folder_.reset();
+  golden::output_written(path_);
 }
 
 }  // namespace quadrille::cli

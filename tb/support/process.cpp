@@ -1,9 +1,11 @@
 #include "tb/support/process.hpp"
 
+#include "golden/io/interrupt.hpp"
 #include "tb/support/environment_error.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,11 +25,26 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// File actions and argv of one posix_spawn, released at the end of the scope.
+/// File actions and attributes of one posix_spawn, released at the end of the scope.
 struct Spawn {
   posix_spawn_file_actions_t actions;
-  Spawn() { posix_spawn_file_actions_init(&actions); }
-  ~Spawn() { posix_spawn_file_actions_destroy(&actions); }
+  posix_spawnattr_t attributes;
+  Spawn() {
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+    if (!golden::interrupts_watched()) return;
+    // In a process group of its own a child and its children end when this program ends them, and never before: a
+    // Ctrl-C would look like a failing tool. Signals are blocked here, and must not be there.
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+  }
+  ~Spawn() {
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+  }
   Spawn(const Spawn&) = delete;
   Spawn& operator=(const Spawn&) = delete;
 
@@ -36,7 +53,11 @@ struct Spawn {
     for (const std::string& a : argv) arguments.push_back(const_cast<char*>(a.c_str()));
     arguments.push_back(nullptr);
     pid_t pid = 0;
-    const int error = posix_spawn(&pid, argv.front().c_str(), &actions, nullptr, arguments.data(), environ);
+    int error = 0;
+    golden::without_interrupt([&] {
+      error = posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, arguments.data(), environ);
+      if (error == 0 && golden::interrupts_watched()) golden::remember_child(pid);
+    });
     if (error != 0) throw EnvironmentError("cannot start " + argv.front() + ": " + std::strerror(error));
     return pid;
   }
@@ -45,6 +66,11 @@ struct Spawn {
 int exit_status(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
 int wait_for(pid_t pid) {
+  // Its number is nobody else's until the second wait.
+  siginfo_t info{};
+  while (waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+  golden::without_interrupt([&] { golden::forget_child(pid); });
   int status = 0;
   while (waitpid(pid, &status, 0) < 0) {
     if (errno != EINTR) return 127;

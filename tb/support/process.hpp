@@ -1,4 +1,5 @@
-// Running other programs: looked up in PATH, no shell in between, output to a log file or a string.
+// Running other programs: looked up in PATH, no shell in between, output to a log file or a string. An
+// interruption of this program (golden/io/interrupt.hpp) ends them with all that they started.
 #pragma once
 
 #include <filesystem>

@@ -75,7 +75,7 @@ TEST(ParseAxis, RefusalsNameTheTextAndTheRule) {
   for (const auto& [text, part] : {
            Case{"significand_bits", "expected KEY=VALUES"},
            Case{"=8:26", "expected KEY=VALUES"},
-           Case{"significant_bits=8:26", "the nearest is 'significand_bits'"},
+           Case{"significant_bits=8:26", "did you mean \"significand_bits\""},
            Case{"significand_bits=", "'' is not a whole number"},
            Case{"significand_bits=8,,9", "'' is not a whole number"},
            Case{"significand_bits=8:", "'' is not a whole number"},
@@ -198,7 +198,7 @@ TEST(Grid, RefusesWhatIsNoGrid) {
   EXPECT_NE(refused({{"depth_bits", {8}}, {"tile_log2", {2}}, {"depth_bits", {9}}}).find("'depth_bits' is given twice"),
             std::string::npos);
   EXPECT_NE(refused({{"depth_bits", {}}}).find("'depth_bits' has no values"), std::string::npos);
-  EXPECT_NE(refused({{"dept_bits", {8}}}).find("the nearest is 'depth_bits'"), std::string::npos);
+  EXPECT_NE(refused({{"dept_bits", {8}}}).find("did you mean \"depth_bits\""), std::string::npos);
   EXPECT_NE(refused({{"depth_bits", {31}}}).find("outside 8..30"), std::string::npos);
 }
 

@@ -141,11 +141,10 @@ double ErrorColumn::value(const PointResult& result) const {
 
 ErrorColumn parse_error_column(std::string_view name, ErrorKind standard) {
   std::optional<ErrorColumn> found;
-  std::string nearest;
-  std::size_t distance = std::numeric_limits<std::size_t>::max();
+  std::vector<std::string> known;
   const auto offer = [&](const std::string& candidate, const ErrorColumn& column) {
     if (name == candidate) found = column;
-    if (const std::size_t d = edit_distance(name, candidate); d < distance) distance = d, nearest = candidate;
+    known.push_back(candidate);
   };
   for (std::size_t q = 0; q < quantity_names.size(); ++q)
     offer(std::string(quantity_names[q]), {standard, static_cast<Quantity>(q), &ErrorSummary::max});
@@ -157,8 +156,8 @@ ErrorColumn parse_error_column(std::string_view name, ErrorKind standard) {
         offer(error_name(k, q, s), {kind, static_cast<Quantity>(q), statistics[s].member});
   }
   if (found) return *found;
-  throw ConfigError("unknown error \"" + std::string(name) + "\"; the nearest is \"" + nearest +
-                    "\" (total, arithmetic or snapping, lambda, attribute, depth or colour, or both and _max, _p999, "
+  throw ConfigError("unknown error \"" + std::string(name) + "\"" + did_you_mean(name, known) +
+                    " (total, arithmetic or snapping, lambda, attribute, depth or colour, or both and _max, _p999, "
                     "_rms or _mean, such as total_lambda_rms)");
 }
 
