@@ -423,12 +423,12 @@ SetWriter::SetWriter(fs::path directory, SetInfo info, bool replace)
   const fs::path parent = target_.parent_path();
   fs::create_directories(parent, error);
   if (error) fail(parent, "cannot be made", error);
+  golden::announce_output(directory_.string());
   try {
     temporary_.emplace(parent, golden::Temporary::Kind::folder);
   } catch (const std::system_error& failure) {
     fail(parent, "cannot be written to", failure.code());
   }
-  golden::announce_output(directory_.string());
 }
 
 void SetWriter::add(const SuiteInfo& suite, const std::function<void(SuiteWriter&)>& write) {

@@ -89,7 +89,7 @@ TEST_F(Cli, Sizes) {
 }
 
 TEST_F(Cli, BadConfigurations) {
-  refuses(2, "config --set significand_bit=3", {"significand_bit", "'significand_bits'"});
+  refuses(2, "config --set significand_bit=3", {"significand_bit", "did you mean \"significand_bits\""});
   refuses(2, "config --set significand_bits=99", {"significand_bits", "8..26"});
   refuses(2, "config --set significand_bits=x", {"significand_bits", "\"x\""});
   refuses(2, "config --set significand_bits", {"KEY=VALUE"});

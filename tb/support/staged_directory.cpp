@@ -11,6 +11,7 @@ namespace quadrille::cli {
 namespace fs = std::filesystem;
 
 StagedDirectory::StagedDirectory(const std::string& directory) : directory_(directory) {
+  golden::announce_output(directory);
   std::error_code error;
   fs::create_directories(directory_, error);
   try {
@@ -19,7 +20,6 @@ StagedDirectory::StagedDirectory(const std::string& directory) : directory_(dire
   } catch (const std::system_error& failure) {
     throw UsageError("--out " + directory + ": cannot be written to: " + failure.code().message());
   }
-  golden::announce_output(directory);
 }
 
 void StagedDirectory::commit(const std::vector<std::string>& stale) const {
