@@ -14,9 +14,9 @@
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
+#include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -83,10 +83,6 @@ void merge(InputResult& sum, const InputResult& part) {
   if (!sum.first_divergence && part.first_divergence) sum.first_divergence = part.name + ": " + *part.first_divergence;
   sum.fragment_hash = sum.fragment_hash * 0x100000001b3u ^ part.fragment_hash;
   sum.check.merge(part.check);
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
@@ -160,7 +156,7 @@ class CosimRun {
   }
 
   InputResult run_input(const InputOptions& input_options) {
-    const auto start = std::chrono::steady_clock::now();
+    const tb::Stopwatch start;
     DrawState state = options_.state.state(options_.common, config_);
     const DrawInput input = load_input(input_options, shade_of(options_.shade, options_.texture), state.width,
                                        state.height, options_.common.seed);
@@ -211,7 +207,7 @@ class CosimRun {
       }
       if (!options_.png.empty()) save_frame_png(options_.png, image);
     }
-    result.seconds = seconds_since(start);
+    result.seconds = start.seconds();
     return result;
   }
 
@@ -259,10 +255,10 @@ class CosimRun {
       if (frame && fragment.quad < input.quads.size() && fragment.x < state.width && fragment.y < state.height)
         picture(fragment, pass, number, weight_passes, input, *frame, samples, position);
     });
-    const auto drawn = std::chrono::steady_clock::now();
+    const tb::Stopwatch drawn;
     checker.finish(report.complete);
     queue.drain();
-    const double seconds = report.wall_seconds + seconds_since(drawn);  // without building the RTL
+    const double seconds = report.wall_seconds + drawn.seconds();  // without building the RTL
     progress.finish();
     if (trace.active()) trace.commit();
     if (frame && number + 1 == weight_passes) {

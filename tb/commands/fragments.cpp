@@ -11,10 +11,10 @@
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
+#include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <memory>
 
 namespace quadrille::cli {
@@ -43,7 +43,7 @@ std::pair<int, int> parse_pixel(const std::string& text, const DrawState& state)
 }
 
 int fragments(const FragmentsOptions& options, const std::vector<std::string>& arguments) {
-  const auto start = std::chrono::steady_clock::now();
+  const tb::Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
   if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
   std::vector<std::string> read = options.input.files();
@@ -80,7 +80,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   }
   golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
 
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = start.seconds();
   if (!options.common.json.empty()) {
     nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
     json["input"] = input.name;

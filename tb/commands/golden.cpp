@@ -9,9 +9,9 @@
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
+#include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <map>
@@ -21,9 +21,6 @@ namespace quadrille::cli {
 namespace {
 
 using namespace vectors;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // ---- generate ----
 
@@ -64,7 +61,7 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
   generation.threads = options.common.thread_count();
 
   const SetInfo info{generation.level, generation.seed, generation.config, generation.limit};
-  const auto start = Clock::now();
+  const tb::Stopwatch start;
   SetWriter writer(options.out, info, options.force);
   Progress progress("golden", chosen.size(), options.common.show_progress());
   std::FILE* text = options.common.text();
@@ -75,7 +72,7 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const Suite& suite = *chosen[i];
     progress.set(i, suite.info().name);
-    const auto suite_start = Clock::now();
+    const tb::Stopwatch suite_start;
     std::uint64_t vectors = 0;
     writer.add(suite.info(), [&](SuiteWriter& out) {
       suite.write(out, generation);
@@ -83,16 +80,16 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
     });
     char line[160];
     std::snprintf(line, sizeof line, "%-24s %9llu vectors %8.2f s\n", suite.info().name.c_str(),
-                  static_cast<unsigned long long>(vectors), seconds_since(suite_start));
+                  static_cast<unsigned long long>(vectors), suite_start.seconds());
     lines += line;
-    list.push_back({{"suite", suite.info().name}, {"vectors", vectors}, {"seconds", seconds_since(suite_start)}});
+    list.push_back({{"suite", suite.info().name}, {"vectors", vectors}, {"seconds", suite_start.seconds()}});
   }
   progress.finish();
   writer.commit(chosen.size() == vectors::suites().size());
-  report["seconds"] = seconds_since(start);
+  report["seconds"] = start.seconds();
   if (text != nullptr)
     std::fprintf(text, "%s%s: %zu %s in %.1f s\n", lines.c_str(), options.out.c_str(), chosen.size(),
-                 chosen.size() == 1 ? "suite" : "suites", seconds_since(start));
+                 chosen.size() == 1 ? "suite" : "suites", start.seconds());
   if (!options.common.json.empty()) golden::save_json(options.common.json, report);
   return exit_ok;
 }
@@ -156,7 +153,7 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
   bool ok = true;
   std::uint64_t compared = 0;
   for (const std::string& name : chosen) {
-    const auto start = Clock::now();
+    const tb::Stopwatch start;
     const SuiteReader reader = set.suite(name);
     const Suite& suite = find_suite(name);
     if (engine.verify == nullptr && !replayed.contains(name)) {
@@ -179,7 +176,7 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
          {"uncompared", result.uncompared},
          {"first_difference",
           result.first_difference.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(result.first_difference)},
-         {"seconds", seconds_since(start)}});
+         {"seconds", start.seconds()}});
     if (text != nullptr) {
       std::fprintf(text, "%s: %llu vectors, %llu mismatches", name.c_str(),
                    static_cast<unsigned long long>(result.vectors), static_cast<unsigned long long>(result.mismatches));

@@ -13,9 +13,9 @@
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
+#include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -32,7 +32,7 @@ struct RenderOptions {
 };
 
 int render(const RenderOptions& options, const std::vector<std::string>& arguments) {
-  const auto start = std::chrono::steady_clock::now();
+  const tb::Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
   if (!options.method.empty()) {
     golden::methods::make_method(options.method);  // an unknown one is refused before the input is read
@@ -76,7 +76,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   if (!options.out.empty()) golden::save_exr(options.out, image);
   if (!options.png.empty()) save_frame_png(options.png, image);
 
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = start.seconds();
   double error_max = 0;
   for (const auto& [name, layer] : image.error)
     for (const float error : layer) error_max = std::max(error_max, std::fabs(static_cast<double>(error)));

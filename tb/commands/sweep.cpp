@@ -17,6 +17,7 @@
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
+#include "tb/support/stopwatch.hpp"
 #include "tb/sweep/evaluator.hpp"
 #include "tb/sweep/grid.hpp"
 #include "tb/sweep/pareto.hpp"
@@ -28,7 +29,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -55,10 +55,6 @@ struct SweepOptions {
   bool one_at_a_time = false, force = false, fresh = false, exhaustive = false, no_confirm = false, no_cycles = false;
 };
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// FNV-1a of the quads as they are drawn: a changed input file is another sweep.
 std::string digest(std::span<const WindowQuad> quads) {
   std::uint64_t hash = 0xcbf29ce484222325u;
@@ -82,7 +78,7 @@ class SweepRun {
       : options_(options), arguments_(std::move(arguments)), base_(options.common.config()), grid_(make_grid()) {}
 
   int run() {
-    const auto start = std::chrono::steady_clock::now();
+    const tb::Stopwatch start;
     prepare();
     golden::set_interrupt_hint("the points finished so far are kept in " + options_.out + ", the same command goes on");
     sweep::Store store(options_.out, identity(),
@@ -98,14 +94,14 @@ class SweepRun {
       evaluate_grid(evaluator, store);
     else
       search(evaluator, store);
-    const double evaluation_seconds = seconds_since(start);
+    const double evaluation_seconds = start.seconds();
 
     make_rows(store);
     find_front();
     write_points(store);  // now: what follows may take long
     simulate_and_synthesise(store);
     write(evaluator, store);
-    if (std::FILE* text = options_.common.text()) print(text, evaluation_seconds, seconds_since(start));
+    if (std::FILE* text = options_.common.text()) print(text, evaluation_seconds, start.seconds());
     return status();
   }
 
@@ -341,23 +337,23 @@ class SweepRun {
     for (const sweep::Selected& s : chosen)
       cosim.push_back({s.row, s.why, row_of(s.row).config, row_of(s.row).result.cycles});
     {
-      const auto start = std::chrono::steady_clock::now();
+      const tb::Stopwatch start;
       Progress progress("co-simulation of " + std::to_string(cosim.size()) + " points", cosim.size(),
                         options_.common.show_progress());
       cosim_ = cosimulate(cosim, input_.quads, input_.state, options_.cosim_fragments, options_.common.seed, threads,
                           [&](std::size_t done) { progress.set(done); });
-      if (!cosim.empty()) store.add_timing({"cosim", cosim.size(), seconds_since(start)});
+      if (!cosim.empty()) store.add_timing({"cosim", cosim.size(), start.seconds()});
     }
 
     std::vector<sweep::SynthesisPoint> synthesis;
     for (const sweep::Selected& s : sweep::select_points(options_.synth, candidates))
       synthesis.push_back({s.row, row_of(s.row).config});
-    const auto start = std::chrono::steady_clock::now();
+    const tb::Stopwatch start;
     Progress progress("synthesis of " + std::to_string(synthesis.size()) + " points", synthesis.size(),
                       options_.common.show_progress());
     synthesis_ =
         sweep::synthesise(synthesis, weights_, threads, [&](std::size_t done, std::size_t) { progress.set(done); });
-    if (!synthesis.empty()) store.add_timing({"synthesis", synthesis.size(), seconds_since(start)});
+    if (!synthesis.empty()) store.add_timing({"synthesis", synthesis.size(), start.seconds()});
     std::vector<double> estimates, luts;
     for (const sweep::SynthesisRow& row : synthesis_) {
       estimates.push_back(row.cost);

@@ -1,9 +1,9 @@
 #include "tb/render/method_timing.hpp"
 
 #include "tb/render/method_engine.hpp"
+#include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 namespace quadrille::cli {
@@ -17,14 +17,13 @@ MethodTime time_method(const std::string& name, const DrawInput& input, const Dr
   std::vector<golden::methods::Sample> samples;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     time.samples = 0;
-    const auto start = std::chrono::steady_clock::now();
+    const tb::Stopwatch start;
     for (const golden::methods::Quad& quad : quads) {
       samples.clear();
       method->draw(quad, view, samples);
       time.samples += samples.size();
     }
-    time.seconds =
-        std::min(time.seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    time.seconds = std::min(time.seconds, start.seconds());
   }
   time.ns_per_pixel =
       time.samples ? 1e9 * time.seconds / static_cast<double>(time.samples) : std::numeric_limits<double>::quiet_NaN();

@@ -2,10 +2,10 @@
 
 #include "model/support/parallel.hpp"
 #include "tb/lockstep/lockstep.hpp"
+#include "tb/support/stopwatch.hpp"
 #include "tb/sweep/stage_tree.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <optional>
 #include <utility>
@@ -255,7 +255,7 @@ struct Evaluator::Impl {
 
   Batch run(std::span<const Config> points, std::span<const std::size_t> batch,
             const std::function<void(double)>& progress) {
-    const auto start = std::chrono::steady_clock::now();
+    const tb::Stopwatch start;
     Batch out;
     out.points.assign(batch.begin(), batch.end());
     out.results.resize(batch.size());
@@ -312,7 +312,7 @@ struct Evaluator::Impl {
         out.results[place[point]] = result;
       }
     });
-    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    out.seconds = start.seconds();
     return out;
   }
 };
