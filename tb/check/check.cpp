@@ -25,6 +25,16 @@ constexpr double near_vertex_distance = 1;
 constexpr std::uint8_t compared_flags =
     flag_on_edge | flag_on_vertex | flag_two_corner | flag_two_edge | flag_tie | flag_homogeneous;
 
+constexpr std::pair<std::uint8_t, std::uint64_t CheckResult::*> counted_flags[]{
+    {flag_on_edge, &CheckResult::on_edge},
+    {flag_on_vertex, &CheckResult::on_vertex},
+    {flag_two_corner, &CheckResult::two_corner},
+    {flag_two_edge, &CheckResult::two_edge},
+    {flag_tie, &CheckResult::tie},
+    {flag_homogeneous, &CheckResult::homogeneous},
+    {flag_cured, &CheckResult::cured},
+    {flag_saturated, &CheckResult::saturated}};
+
 auto order(const Place& p) { return std::tuple(p.index, p.y, p.x); }
 
 double real(const PortNumber& n, const Config& config) {
@@ -68,35 +78,20 @@ Vicinity vicinity(const SnappedQuad& quad, int px, int py) {
 
 double weight_bound(const Config& config) { return std::ldexp(1.0, -(config.significand_bits - 3)); }
 
+void QuantityErrors::merge(const QuantityErrors& other) {
+  lambda.merge(other.lambda);
+  attribute.merge(other.attribute);
+  depth.merge(other.depth);
+}
+
+bool CheckResult::ok() const {
+  return compared > 0 && std::ranges::all_of(fault_counters, [this](const auto& c) { return this->*c.value == 0; });
+}
+
 void CheckResult::merge(const CheckResult& other) {
-  compared += other.compared;
-  mismatches += other.mismatches;
-  beyond_bound += other.beyond_bound;
-  beyond_attribute += other.beyond_attribute;
-  beyond_depth += other.beyond_depth;
-  arithmetic_lambda.merge(other.arithmetic_lambda);
-  arithmetic_attribute.merge(other.arithmetic_attribute);
-  arithmetic_depth.merge(other.arithmetic_depth);
-  snapping_lambda.merge(other.snapping_lambda);
-  snapping_attribute.merge(other.snapping_attribute);
-  snapping_depth.merge(other.snapping_depth);
-  coverage_flips += other.coverage_flips;
-  tolerated_visible += other.tolerated_visible;
-  tolerated_depth += other.tolerated_depth;
-  discarded += other.discarded;
-  bound_exempt += other.bound_exempt;
-  eye_crossing += other.eye_crossing;
-  homogeneous += other.homogeneous;
-  on_edge += other.on_edge;
-  on_vertex += other.on_vertex;
-  two_corner += other.two_corner;
-  two_edge += other.two_edge;
-  tie += other.tie;
-  cured += other.cured;
-  saturated += other.saturated;
-  near_edge += other.near_edge;
-  near_vertex += other.near_vertex;
-  tiny += other.tiny;
+  add_counters(*this, other, check_counters);
+  arithmetic.merge(other.arithmetic);
+  snapping.merge(other.snapping);
   if (other.worst.ratio > worst.ratio ||
       (other.worst.ratio == worst.ratio && order(other.worst.place) < order(worst.place)))
     worst = other.worst;
@@ -351,21 +346,21 @@ void FragmentChecker::compare(const std::vector<Fragment>& fragments) {
       if (settings_.first_pass) ++part.bound_exempt;
     } else {
       if (weights) {
-        part.arithmetic_lambda.add(lambda_error);
+        part.arithmetic.lambda.add(lambda_error);
         const double ratio = lambda_error / bound;
         if (settings_.apply_bound && !(ratio <= 1)) ++part.beyond_bound;
         if (!(ratio <= part.worst.ratio) || (ratio == part.worst.ratio && order(place) < order(part.worst.place)))
           part.worst = {ratio, lambda_error, bound, truth.condition, weight, place};
       }
       if (attributes) {
-        part.arithmetic_attribute.add(attribute_error);
+        part.arithmetic.attribute.add(attribute_error);
         if (settings_.apply_bound && !attributes_hold && (fragment.flags & flag_saturated) == 0)
           ++part.beyond_attribute;
       }
     }
     if (settings_.first_pass && state.depth) {
       const double error = std::ldexp(static_cast<double>(fragment.depth), -config.depth_bits) - truth.z;
-      part.arithmetic_depth.add(error);
+      part.arithmetic.depth.add(error);
       if (settings_.apply_bound && !reference->depth_holds(fragment, truth, error, bound)) ++part.beyond_depth;
     }
 
@@ -381,28 +376,20 @@ void FragmentChecker::compare(const std::vector<Fragment>& fragments) {
         for (std::size_t slot = 0; slot < columns.size(); ++slot)
           if (columns[slot] >= 4)
             attribute_shift = std::max(attribute_shift, std::fabs(truth.attribute[slot] - given.attribute[slot]));
-        if (weights) part.snapping_lambda.add(lambda_shift);
-        if (attributes) part.snapping_attribute.add(attribute_shift);
-        if (settings_.first_pass && state.depth) part.snapping_depth.add(truth.z - given.z);
+        if (weights) part.snapping.lambda.add(lambda_shift);
+        if (attributes) part.snapping.attribute.add(attribute_shift);
+        if (settings_.first_pass && state.depth) part.snapping.depth.add(truth.z - given.z);
       }
     }
 
     // What it was.
     if (settings_.first_pass) {
-      const auto count = [&](std::uint64_t& counter, bool condition) { counter += condition ? 1 : 0; };
-      count(part.on_edge, (fragment.flags & flag_on_edge) != 0);
-      count(part.on_vertex, (fragment.flags & flag_on_vertex) != 0);
-      count(part.two_corner, (fragment.flags & flag_two_corner) != 0);
-      count(part.two_edge, (fragment.flags & flag_two_edge) != 0);
-      count(part.tie, (fragment.flags & flag_tie) != 0);
-      count(part.homogeneous, (fragment.flags & flag_homogeneous) != 0);
-      count(part.cured, (fragment.flags & flag_cured) != 0);
-      count(part.saturated, (fragment.flags & flag_saturated) != 0);
-      count(part.eye_crossing, reference->eye_crossing);
-      count(part.tiny, reference->tiny);
+      for (const auto& [flag, counter] : counted_flags) part.*counter += (fragment.flags & flag) != 0;
+      part.eye_crossing += reference->eye_crossing;
+      part.tiny += reference->tiny;
       const Vicinity near = vicinity(reference->quad, fragment.x, fragment.y);
-      count(part.near_edge, near.near_edge);
-      count(part.near_vertex, near.near_vertex);
+      part.near_edge += near.near_edge;
+      part.near_vertex += near.near_vertex;
     }
   }
   add(part);

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace quadrille::cli {
@@ -27,7 +28,13 @@ struct Place {
   int x = 0, y = 0;
 };
 
-/// What was found; merging does not depend on the order.
+/// Errors of one kind by quantity.
+struct QuantityErrors {
+  ErrorStats lambda, attribute, depth;
+  void merge(const QuantityErrors& other);
+};
+
+/// What was found; merging does not depend on the order. Every counter stands in check_counters.
 struct CheckResult {
   std::uint64_t compared = 0;  ///< fragments compared with the truth
   std::uint64_t mismatches =
@@ -37,9 +44,8 @@ struct CheckResult {
       0;                           ///< attributes further off than the weights' bound allows; saturated ones are exempt
   std::uint64_t beyond_depth = 0;  ///< the same of window z
 
-  // The machine against the truth on snapped quads; the truth on snapped against the truth on given quads.
-  ErrorStats arithmetic_lambda, arithmetic_attribute, arithmetic_depth;
-  ErrorStats snapping_lambda, snapping_attribute, snapping_depth;
+  QuantityErrors arithmetic;  ///< the machine against the truth on snapped quads
+  QuantityErrors snapping;    ///< the truth on snapped against the truth on given quads
 
   // Legitimate differences.
   std::uint64_t coverage_flips = 0;     ///< drawn pixels that the given, unsnapped quad does not cover
@@ -69,10 +75,48 @@ struct CheckResult {
   } first;
 
   void merge(const CheckResult& other);
-  bool ok() const {
-    return compared > 0 && mismatches == 0 && beyond_bound == 0 && beyond_attribute == 0 && beyond_depth == 0;
-  }
+  bool within_bound() const { return beyond_bound + beyond_attribute + beyond_depth == 0; }
+  bool ok() const;
 };
+
+/// A counter and its key in a JSON report. Counters merge by adding.
+template <class Owner>
+struct Counter {
+  const char* key;
+  std::uint64_t Owner::*value;
+};
+
+/// Every counter of a check: faults, then what the fragments were and legitimate differences, then how much was seen.
+inline constexpr Counter<CheckResult> check_counters[]{{"reference_mismatches", &CheckResult::mismatches},
+                                                       {"beyond_bound", &CheckResult::beyond_bound},
+                                                       {"beyond_attribute", &CheckResult::beyond_attribute},
+                                                       {"beyond_depth", &CheckResult::beyond_depth},
+
+                                                       {"eye_crossing", &CheckResult::eye_crossing},
+                                                       {"homogeneous", &CheckResult::homogeneous},
+                                                       {"on_edge", &CheckResult::on_edge},
+                                                       {"on_vertex", &CheckResult::on_vertex},
+                                                       {"two_corner", &CheckResult::two_corner},
+                                                       {"two_edge", &CheckResult::two_edge},
+                                                       {"tie", &CheckResult::tie},
+                                                       {"near_edge", &CheckResult::near_edge},
+                                                       {"near_vertex", &CheckResult::near_vertex},
+                                                       {"tiny", &CheckResult::tiny},
+                                                       {"cured", &CheckResult::cured},
+                                                       {"saturated", &CheckResult::saturated},
+                                                       {"discarded", &CheckResult::discarded},
+                                                       {"coverage_flips", &CheckResult::coverage_flips},
+                                                       {"tolerated_visible", &CheckResult::tolerated_visible},
+                                                       {"tolerated_depth", &CheckResult::tolerated_depth},
+
+                                                       {"compared", &CheckResult::compared},
+                                                       {"exempt_fragments", &CheckResult::bound_exempt}};
+inline constexpr std::span fault_counters(check_counters, 4), fragment_counters(check_counters + 4, 16);
+
+template <class Owner>
+void add_counters(Owner& sum, const Owner& part, std::span<const Counter<std::type_identity_t<Owner>>> counters) {
+  for (const Counter<Owner>& counter : counters) sum.*counter.value += part.*counter.value;
+}
 
 /// Facts about a snapped quad that the counters need.
 bool is_eye_crossing(const SnappedQuad& quad);

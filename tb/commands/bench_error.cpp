@@ -7,6 +7,7 @@
 #include "tb/check/check.hpp"
 #include "tb/commands/bench_timing.hpp"
 #include "tb/lockstep/lockstep.hpp"
+#include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -220,9 +221,9 @@ void ErrorBench::compare_machine() {
     BodyResult& r = filled(body);
     r.fragments = found.compared;
     r.missing = found.mismatches;
-    r.lambda = found.arithmetic_lambda;
-    r.attribute = found.arithmetic_attribute;
-    r.depth = found.arithmetic_depth;
+    r.lambda = found.arithmetic.lambda;
+    r.attribute = found.arithmetic.attribute;
+    r.depth = found.arithmetic.depth;
     if (const std::string text = complaint(found); !text.empty())
       failures_.push_back(std::string(body_names[b]) + ": " + text);
   }
@@ -305,7 +306,7 @@ ErrorBench::Run ErrorBench::run_machine(Body body) const {
   }
   UntimedModel model(settings_.config, state, pixel_engine(body));
   Run run;
-  const Stopwatch stopwatch;
+  const tb::Stopwatch stopwatch;
   for (const SnappedQuad& quad : timed_)
     model.draw(quad, [&](std::span<const Fragment> fragments) { run.fragments += fragments.size(); });
   run.seconds = stopwatch.seconds();
@@ -319,7 +320,7 @@ ErrorBench::Run ErrorBench::run_reference(std::size_t stride, Visit&& visit) con
   Run run;
   std::optional<Quad> quad;
   std::uint32_t current = 0;
-  const Stopwatch stopwatch;
+  const tb::Stopwatch stopwatch;
   for (std::size_t i = 0; i < timed_pixels_; ++i) {
     if (i / truth_stretch % stride != 0) continue;
     const Pixel& pixel = pixels_[i];

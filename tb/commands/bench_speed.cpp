@@ -13,6 +13,7 @@
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/progress.hpp"
+#include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +122,7 @@ class SpeedBench {
           });
       drawn[part] = count + (check == 1 ? 1 : 0);  // keeps the depths alive
     };
-    const Stopwatch stopwatch;
+    const tb::Stopwatch stopwatch;
     parallel_for(threads, threads, work);
     Measure m;
     m.seconds = stopwatch.seconds();
@@ -134,7 +135,7 @@ class SpeedBench {
   Measure reference(std::uint64_t limit) const {
     Measure m;
     double check = 0;
-    const Stopwatch stopwatch;
+    const tb::Stopwatch stopwatch;
     while (m.fragments < limit) {
       for (const SnappedQuad& snapped : snapped_) {
         const Quad quad(snapped, config_, state_);
@@ -165,7 +166,7 @@ class SpeedBench {
     FragmentChecker checker(settings, quads_, snapped_, queue);
     const tb::LockstepReport report =
         tb::run_lockstep(snapped_, lockstep(), [&](const Fragment& fragment) { checker.fragment(fragment); });
-    const Stopwatch stopwatch;
+    const tb::Stopwatch stopwatch;
     checker.finish(report.complete);
     queue.drain();
     if (!report.agreed() || !checker.result().ok())

@@ -1,4 +1,4 @@
-// What both halves of `bench` need to time things.
+// What both halves of `bench` make of their timings.
 #pragma once
 
 #include "tb/support/stopwatch.hpp"

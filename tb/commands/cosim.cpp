@@ -40,7 +40,7 @@ constexpr std::uint64_t alone_fragments = 200'000;  ///< enough to time the RTL 
 /// One input: what ran and what was found.
 struct InputResult {
   std::string name, option;
-  std::size_t quads = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
+  std::uint64_t quads = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
   std::uint64_t quads_drawn = 0, eye_crossing_quads = 0, homogeneous_quads = 0, antipodal_quads = 0, tiny_quads = 0;
   std::uint64_t passes = 0, fragments = 0, pixels = 0, mismatches = 0, cycles_rtl = 0, cycles_model = 0,
                 cycle_mismatches = 0, compared_bits = 0;
@@ -55,26 +55,36 @@ struct InputResult {
   bool ok() const { return mismatches == 0 && cycle_mismatches == 0 && check.ok(); }
 };
 
+using Metric = Counter<InputResult>;
+
+/// Counters of an input in the order of the report; the faults that the checker found follow lockstep_metrics.
+constexpr Metric draw_metrics[]{{"quads", &InputResult::quads},
+                                {"quads_drawn", &InputResult::quads_drawn},
+                                {"triangles", &InputResult::triangles},
+                                {"fanned_faces", &InputResult::fanned_faces},
+                                {"fan_primitives", &InputResult::fan_primitives},
+                                {"skipped_lines", &InputResult::skipped_lines},
+                                {"passes", &InputResult::passes},
+                                {"fragments", &InputResult::fragments},
+                                {"mismatches", &InputResult::mismatches}};
+constexpr Metric cycle_metrics[]{
+    {"cycles_all_passes", &InputResult::pass_cycles}, {"cycles_rtl", &InputResult::cycles_rtl},
+    {"cycles_model", &InputResult::cycles_model},     {"cycle_mismatches", &InputResult::cycle_mismatches},
+    {"compared_bits", &InputResult::compared_bits},   {"covered_pixels", &InputResult::pixels}};
+constexpr Metric quad_metrics[]{{"eye_crossing_quads", &InputResult::eye_crossing_quads},
+                                {"homogeneous_quads", &InputResult::homogeneous_quads},
+                                {"antipodal_quads", &InputResult::antipodal_quads},
+                                {"tiny_quads", &InputResult::tiny_quads}};
+
+template <class Owner>
+void put_counters(nlohmann::ordered_json& json, const Owner& owner,
+                  std::span<const Counter<std::type_identity_t<Owner>>> counters) {
+  for (const Counter<Owner>& counter : counters) json[counter.key] = owner.*counter.value;
+}
+
 void merge(InputResult& sum, const InputResult& part) {
-  sum.quads += part.quads;
-  sum.triangles += part.triangles;
-  sum.fanned_faces += part.fanned_faces;
-  sum.fan_primitives += part.fan_primitives;
-  sum.skipped_lines += part.skipped_lines;
-  sum.quads_drawn += part.quads_drawn;
-  sum.eye_crossing_quads += part.eye_crossing_quads;
-  sum.homogeneous_quads += part.homogeneous_quads;
-  sum.antipodal_quads += part.antipodal_quads;
-  sum.tiny_quads += part.tiny_quads;
-  sum.passes += part.passes;
-  sum.fragments += part.fragments;
-  sum.pixels += part.pixels;
-  sum.mismatches += part.mismatches;
-  sum.cycles_rtl += part.cycles_rtl;
-  sum.cycles_model += part.cycles_model;
-  sum.cycle_mismatches += part.cycle_mismatches;
-  sum.compared_bits += part.compared_bits;
-  sum.pass_cycles += part.pass_cycles;
+  for (const std::span<const Metric> metrics : {std::span<const Metric>(draw_metrics), {cycle_metrics}, {quad_metrics}})
+    add_counters(sum, part, metrics);
   sum.alone_cycles += part.alone_cycles;
   sum.alone_seconds += part.alone_seconds;
   sum.seconds += part.seconds;
@@ -83,6 +93,17 @@ void merge(InputResult& sum, const InputResult& part) {
   if (!sum.first_divergence && part.first_divergence) sum.first_divergence = part.name + ": " + *part.first_divergence;
   sum.fragment_hash = sum.fragment_hash * 0x100000001b3u ^ part.fragment_hash;
   sum.check.merge(part.check);
+}
+
+/// `form` with {key} replaced by that number of a report.
+std::string filled(std::string_view form, const nlohmann::ordered_json& report) {
+  std::string text;
+  for (std::size_t open; (open = form.find('{')) != form.npos;) {
+    const std::size_t close = form.find('}', open);
+    text.append(form.substr(0, open)) += report.at(std::string(form.substr(open + 1, close - open - 1))).dump();
+    form.remove_prefix(close + 1);
+  }
+  return text.append(form);
 }
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
@@ -309,23 +330,18 @@ class CosimRun {
     }
   }
 
-  static void picture(const Fragment& fragment, const Pass& pass, std::size_t number, std::size_t weight_passes,
-                      const DrawInput& input, FrameBuffer& frame, std::vector<Sample>& samples, std::size_t& position,
-                      const Config& config) {
+  void picture(const Fragment& fragment, const Pass& pass, std::size_t number, std::size_t weight_passes,
+               const DrawInput& input, FrameBuffer& frame, std::vector<Sample>& samples, std::size_t& position) const {
     if (number >= weight_passes) {
-      frame.amend(fragment, fragment.quad, pass, config);
+      frame.amend(fragment, fragment.quad, pass, config_);
     } else if (number == 0) {
       Sample& sample = samples.emplace_back();
       sample.index = fragment.quad;
       sample.quad = input.quads[fragment.quad].id;
-      read_columns(fragment, pass, config, sample);
+      read_columns(fragment, pass, config_, sample);
     } else if (position < samples.size()) {
-      read_columns(fragment, pass, config, samples[position++]);
+      read_columns(fragment, pass, config_, samples[position++]);
     }
-  }
-  void picture(const Fragment& fragment, const Pass& pass, std::size_t number, std::size_t weight_passes,
-               const DrawInput& input, FrameBuffer& frame, std::vector<Sample>& samples, std::size_t& position) const {
-    picture(fragment, pass, number, weight_passes, input, frame, samples, position, config_);
   }
 
   /// The bound is a statement about exact A, D and R².
@@ -342,11 +358,11 @@ class CosimRun {
   }
   static std::string one(const std::string& argument) { return golden::command_line(std::span(&argument, 1)); }
 
-  nlohmann::ordered_json error_json(const ErrorStats& lambda, const ErrorStats& attribute,
-                                    const ErrorStats& depth) const {
-    return {{"lambda_max", lambda.max()},       {"lambda_p999", lambda.p999()},       {"lambda_rms", lambda.rms()},
-            {"attribute_max", attribute.max()}, {"attribute_p999", attribute.p999()}, {"depth_max", depth.max()},
-            {"depth_p999", depth.p999()},       {"fragments", lambda.count()}};
+  static nlohmann::ordered_json error_json(const QuantityErrors& e) {
+    return {{"lambda_max", e.lambda.max()},         {"lambda_p999", e.lambda.p999()},
+            {"lambda_rms", e.lambda.rms()},         {"attribute_max", e.attribute.max()},
+            {"attribute_p999", e.attribute.p999()}, {"depth_max", e.depth.max()},
+            {"depth_p999", e.depth.p999()},         {"fragments", e.lambda.count()}};
   }
 
   nlohmann::ordered_json result_json(const InputResult& r) const {
@@ -355,35 +371,18 @@ class CosimRun {
     json["input"] = r.name;
     json["ok"] = r.ok();
     json["complete"] = r.complete;
-    json["quads"] = r.quads;
-    json["quads_drawn"] = r.quads_drawn;
-    json["triangles"] = r.triangles;
-    json["fanned_faces"] = r.fanned_faces;
-    json["fan_primitives"] = r.fan_primitives;
-    json["skipped_lines"] = r.skipped_lines;
-    json["passes"] = r.passes;
-    json["fragments"] = r.fragments;
-    json["mismatches"] = r.mismatches;
-    json["reference_mismatches"] = c.mismatches;
-    json["beyond_bound"] = c.beyond_bound;
-    json["beyond_attribute"] = c.beyond_attribute;
-    json["beyond_depth"] = c.beyond_depth;
-    json["cycles_all_passes"] = r.pass_cycles;
-    json["cycles_rtl"] = r.cycles_rtl;
-    json["cycles_model"] = r.cycles_model;
-    json["cycle_mismatches"] = r.cycle_mismatches;
-    json["compared_bits"] = r.compared_bits;
-    json["covered_pixels"] = r.pixels;
+    put_counters(json, r, draw_metrics);
+    put_counters(json, c, fault_counters);
+    put_counters(json, r, cycle_metrics);
     json["covered_pixels_per_clock"] = ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl));
     char hash[20];
     std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(r.fragment_hash));
     json["fragment_hash"] = hash;
-    json["error"] = {{"arithmetic", error_json(c.arithmetic_lambda, c.arithmetic_attribute, c.arithmetic_depth)},
-                     {"snapping", error_json(c.snapping_lambda, c.snapping_attribute, c.snapping_depth)}};
+    json["error"] = {{"arithmetic", error_json(c.arithmetic)}, {"snapping", error_json(c.snapping)}};
     json["bound"] = {{"lambda_max", weight_bound(config_)},
                      {"times_condition", config_.notch_exact == 0},
                      {"applies", bound_applies()},
-                     {"held", bound_applies() && c.beyond_bound + c.beyond_attribute + c.beyond_depth == 0},
+                     {"held", bound_applies() && c.within_bound()},
                      {"exempt_fragments", c.bound_exempt}};
     if (c.worst.ratio >= 0) {
       json["worst"] = {
@@ -392,26 +391,8 @@ class CosimRun {
           {"bound", c.worst.bound},     {"condition", c.worst.condition},  {"error_over_bound", c.worst.ratio}};
       if (r.name != "all") json["worst"]["reproduce"] = reproduce(r, c.worst);
     }
-    json["counts"] = {{"eye_crossing_quads", r.eye_crossing_quads},
-                      {"homogeneous_quads", r.homogeneous_quads},
-                      {"antipodal_quads", r.antipodal_quads},
-                      {"tiny_quads", r.tiny_quads},
-                      {"eye_crossing", c.eye_crossing},
-                      {"homogeneous", c.homogeneous},
-                      {"on_edge", c.on_edge},
-                      {"on_vertex", c.on_vertex},
-                      {"two_corner", c.two_corner},
-                      {"two_edge", c.two_edge},
-                      {"tie", c.tie},
-                      {"near_edge", c.near_edge},
-                      {"near_vertex", c.near_vertex},
-                      {"tiny", c.tiny},
-                      {"cured", c.cured},
-                      {"saturated", c.saturated},
-                      {"discarded", c.discarded},
-                      {"coverage_flips", c.coverage_flips},
-                      {"tolerated_visible", c.tolerated_visible},
-                      {"tolerated_depth", c.tolerated_depth}};
+    put_counters(json["counts"], r, quad_metrics);
+    put_counters(json["counts"], c, fragment_counters);
     if (r.first_divergence) json["first_divergence"] = *r.first_divergence;
     if (c.first.any) json["first_reference_difference"] = c.first.text;
     const double rate = ratio(static_cast<double>(r.pass_cycles), r.loop_seconds);
@@ -448,56 +429,61 @@ class CosimRun {
     if (head)
       std::fprintf(out, "%-22s %7s %10s %11s %5s  %-9s %-9s %s\n", "input", "quads", "fragments", "cycles", "px/ck",
                    "max error", "of bound", "");
-    std::fprintf(out, "%-22s %7zu %10llu %11llu %5.2f  %-9.2e %8.1f%% %s\n", r.name.c_str(), r.quads,
-                 static_cast<unsigned long long>(r.fragments), static_cast<unsigned long long>(r.cycles_rtl),
+    std::fprintf(out, "%-22s %7llu %10llu %11llu %5.2f  %-9.2e %8.1f%% %s\n", r.name.c_str(),
+                 static_cast<unsigned long long>(r.quads), static_cast<unsigned long long>(r.fragments),
+                 static_cast<unsigned long long>(r.cycles_rtl),
                  ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl)),
-                 r.check.arithmetic_lambda.max(), 100 * std::max(0.0, r.check.worst.ratio), r.ok() ? "ok" : "FAILED");
+                 r.check.arithmetic.lambda.max(), 100 * std::max(0.0, r.check.worst.ratio), r.ok() ? "ok" : "FAILED");
     std::fflush(out);
   }
 
   void print_summary(std::FILE* out, const InputResult& r, bool ok) const {
     const CheckResult& c = r.check;
-    const auto n = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+    const nlohmann::ordered_json json = result_json(r);
+    const auto print = [&](std::string_view form, const nlohmann::ordered_json& values) {
+      std::fputs(filled(form, values).c_str(), out);
+    };
     std::fprintf(out, "\n%s  (%s; seed %llu, stall %g, gap %g; configuration %s)\n\n", r.name.c_str(),
-                 options_.common.size.c_str(), n(options_.common.seed), options_.stall, options_.gap,
-                 summary(config_).c_str());
-    std::fprintf(out, "  lockstep       %llu quads, %llu fragments, %llu cycles%s\n", n(r.quads_drawn), n(r.fragments),
-                 n(r.cycles_rtl), r.complete ? "" : " (ended early)");
+                 options_.common.size.c_str(), static_cast<unsigned long long>(options_.common.seed), options_.stall,
+                 options_.gap, summary(config_).c_str());
+    print("  lockstep       {quads_drawn} quads, {fragments} fragments, {cycles_rtl} cycles", json);
+    std::fputs(r.complete ? "\n" : " (ended early)\n", out);
     if (r.fanned_faces)
-      std::fprintf(out, "                 %zu faces with more than four corners cut into %zu primitives\n",
-                   r.fanned_faces, r.fan_primitives);
-    std::fprintf(out, "                 %llu bit mismatches, %llu cycle mismatches; %llu bits compared\n",
-                 n(r.mismatches), n(r.cycle_mismatches), n(r.compared_bits));
-    std::fprintf(out, "  coverage       %llu fragments against the truth, %llu differ\n", n(c.compared),
-                 n(c.mismatches));
+      print("                 {fanned_faces} faces with more than four corners cut into {fan_primitives} primitives\n",
+            json);
+    print(
+        "                 {mismatches} bit mismatches, {cycle_mismatches} cycle mismatches; {compared_bits} bits "
+        "compared\n",
+        json);
+    std::fprintf(out, "  coverage       %llu fragments against the truth, ",
+                 static_cast<unsigned long long>(c.compared));
+    print("{reference_mismatches} differ\n", json);
     std::fprintf(out, "  throughput     %.3f covered pixels per clock\n",
                  ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl)));
     std::fprintf(out, "\n  error                   max        p99.9      rms        attribute  depth\n");
-    const auto row = [&](const char* name, const ErrorStats& l, const ErrorStats& a, const ErrorStats& d) {
-      std::fprintf(out, "    %-18s %9.2e  %9.2e  %9.2e  %9.2e  %9.2e\n", name, l.max(), l.p999(), l.rms(), a.max(),
-                   d.max());
+    const auto row = [&](const char* name, const QuantityErrors& e) {
+      std::fprintf(out, "    %-18s %9.2e  %9.2e  %9.2e  %9.2e  %9.2e\n", name, e.lambda.max(), e.lambda.p999(),
+                   e.lambda.rms(), e.attribute.max(), e.depth.max());
     };
-    row("arithmetic", c.arithmetic_lambda, c.arithmetic_attribute, c.arithmetic_depth);
-    if (!options_.no_snapping) row("snapping", c.snapping_lambda, c.snapping_attribute, c.snapping_depth);
+    row("arithmetic", c.arithmetic);
+    if (!options_.no_snapping) row("snapping", c.snapping);
     if (!bound_applies())
       std::fprintf(out, "    bound              none: quadratic_frac_bits drops bits of D and R^2\n");
     else
       std::fprintf(out, "    bound              %9.2e%s  %s, worst %.1f %% of it\n", weight_bound(config_),
-                   config_.notch_exact ? "" : " x max(1, condition)",
-                   c.beyond_bound + c.beyond_attribute + c.beyond_depth == 0 ? "held" : "EXCEEDED",
+                   config_.notch_exact ? "" : " x max(1, condition)", c.within_bound() ? "held" : "EXCEEDED",
                    100 * std::max(0.0, c.worst.ratio));
-    std::fprintf(out, "\n  fragments of   eye-crossing quads %llu (%llu quads), under-4-px quads %llu\n",
-                 n(c.eye_crossing), n(r.eye_crossing_quads), n(c.tiny));
-    std::fprintf(out, "                 within 1/16 px of an edge %llu, within 1 px of a vertex %llu\n", n(c.near_edge),
-                 n(c.near_vertex));
-    std::fprintf(out, "                 on an edge %llu, a vertex %llu, two corners %llu, two edges %llu, ties %llu\n",
-                 n(c.on_edge), n(c.on_vertex), n(c.two_corner), n(c.two_edge), n(c.tie));
+    print(
+        "\n  fragments of   eye-crossing quads {eye_crossing} ({eye_crossing_quads} quads), under-4-px quads {tiny}\n"
+        "                 within 1/16 px of an edge {near_edge}, within 1 px of a vertex {near_vertex}\n"
+        "                 on an edge {on_edge}, a vertex {on_vertex}, two corners {two_corner}, two edges {two_edge}, "
+        "ties {tie}\n",
+        json["counts"]);
     if (options_.common.verbose)
-      std::fprintf(out,
-                   "                 notch cure %llu, saturated %llu, discarded by z %llu, moved by snapping %llu, "
-                   "tolerated %llu + %llu\n",
-                   n(c.cured), n(c.saturated), n(c.discarded), n(c.coverage_flips), n(c.tolerated_visible),
-                   n(c.tolerated_depth));
+      print(
+          "                 notch cure {cured}, saturated {saturated}, discarded by z {discarded}, moved by snapping "
+          "{coverage_flips}, tolerated {tolerated_visible} + {tolerated_depth}\n",
+          json["counts"]);
     const double rate = ratio(static_cast<double>(r.pass_cycles), r.loop_seconds);
     const double alone = ratio(static_cast<double>(r.alone_cycles), r.alone_seconds);
     std::fprintf(out, "\n  speed          %.0f cycles/s with all comparisons", rate);
