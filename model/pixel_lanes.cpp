@@ -91,11 +91,11 @@ LANE_INLINE void on_lane_target(const Body& body) {
   body();
 }
 
-struct Kernel {
+struct LaneArithmetic {
   I significand_mask;
   std::int64_t prec;
 
-  LANE_INLINE Kernel(int s, int g)
+  LANE_INLINE LaneArithmetic(int s, int g)
       : significand_mask(splat(static_cast<std::int64_t>(~((std::uint64_t{1} << (53 - s)) - 1)))), prec(s - 1 + g) {}
 
   /// fp_multiply, and the truncation of every normalised result.
@@ -205,12 +205,13 @@ LANE_INLINE SingularMasks singular_masks(const DifferenceLanes& p) {
   return {corner | (edges <= -2), edges == -1};
 }
 
-LANE_INLINE void normalise_stage(const DifferenceLanes& p, const Kernel& kernel, double a_scale, NormalisedLanes& out) {
+LANE_INLINE void normalise_stage(const DifferenceLanes& p, const LaneArithmetic& arithmetic, double a_scale,
+                                 NormalisedLanes& out) {
   for (std::size_t k = 0; k < 6; ++k) {
-    out.a[k] = kernel.cut(leading_magnitude(p.a[k])) * a_scale;
-    out.d[k] = kernel.cut(leading_magnitude(p.d[k]));
+    out.a[k] = arithmetic.cut(leading_magnitude(p.a[k])) * a_scale;
+    out.d[k] = arithmetic.cut(leading_magnitude(p.d[k]));
   }
-  for (std::size_t i = 0; i < 4; ++i) out.r2[i] = kernel.cut(leading_magnitude(p.r2[i]));
+  for (std::size_t i = 0; i < 4; ++i) out.r2[i] = arithmetic.cut(leading_magnitude(p.r2[i]));
 }
 
 LANE_INLINE void rsqrt_stage(const NormalisedLanes& p, const LaneTable& table, int s, RsqrtLanes& out) {
@@ -218,12 +219,12 @@ LANE_INLINE void rsqrt_stage(const NormalisedLanes& p, const LaneTable& table, i
 }
 
 LANE_INLINE void ratio_stage(const DifferenceLanes& signs, const NormalisedLanes& p, const RsqrtLanes& r,
-                             const Kernel& kernel, RatioLanes& out) {
+                             const LaneArithmetic& arithmetic, RatioLanes& out) {
   const V one = splat(1.0);
   for (std::size_t k = 0; k < 6; ++k) {
-    const V scale = kernel.multiply(r.rho[vertex_pair[k][0]], r.rho[vertex_pair[k][1]]);
-    const V u = kernel.sum2(one, one, p.d[k], scale, I{});
-    const V v = kernel.multiply(p.a[k], scale);
+    const V scale = arithmetic.multiply(r.rho[vertex_pair[k][0]], r.rho[vertex_pair[k][1]]);
+    const V u = arithmetic.sum2(one, one, p.d[k], scale, I{});
+    const V v = arithmetic.multiply(p.a[k], scale);
     const I obtuse = signs.d[k] < 0;
     out.n[k] = select(obtuse, u, v);
     out.d[k] = select(obtuse, v, u);
@@ -231,8 +232,8 @@ LANE_INLINE void ratio_stage(const DifferenceLanes& signs, const NormalisedLanes
 }
 
 /// Returns the mask of the cured lanes.
-LANE_INLINE I weight_stage(const DifferenceLanes& signs, const RatioLanes& p, const RsqrtLanes& r, const Kernel& kernel,
-                           bool notch_exact, WeightLanes& out) {
+LANE_INLINE I weight_stage(const DifferenceLanes& signs, const RatioLanes& p, const RsqrtLanes& r,
+                           const LaneArithmetic& arithmetic, bool notch_exact, WeightLanes& out) {
   const I* a = signs.a;
   I differ[4], any{};
   for (int i = 0; i < 4; ++i) {
@@ -241,16 +242,16 @@ LANE_INLINE I weight_stage(const DifferenceLanes& signs, const RatioLanes& p, co
     any |= differ[i];
   }
   const I cured = notch_exact ? any : I{};
-  const V factor_of[2] = {kernel.multiply(p.n[5], p.d[4]), kernel.multiply(p.n[4], p.d[5])};
-  const V plain = select(cured, kernel.multiply(p.d[5], p.d[4]), splat(1.0));
+  const V factor_of[2] = {arithmetic.multiply(p.n[5], p.d[4]), arithmetic.multiply(p.n[4], p.d[5])};
+  const V plain = select(cured, arithmetic.multiply(p.d[5], p.d[4]), splat(1.0));
   for (int i = 0; i < 4; ++i) {
     const int h = (i + 3) % 4;
     const I cure = cured & differ[i];
-    const V lead = magnitude(
-        kernel.sum2(p.n[h], select(cure, p.n[i], p.d[i]), select(cure, p.d[i], p.n[i]), p.d[h], differ[i] & ~cured));
-    const V denominators = kernel.multiply(p.d[(i + 1) % 4], p.d[(i + 2) % 4]);
+    const V lead = magnitude(arithmetic.sum2(p.n[h], select(cure, p.n[i], p.d[i]), select(cure, p.d[i], p.n[i]), p.d[h],
+                                             differ[i] & ~cured));
+    const V denominators = arithmetic.multiply(p.d[(i + 1) % 4], p.d[(i + 2) % 4]);
     const V factor = select(cure, factor_of[i % 2], plain);
-    out.m[i] = kernel.multiply(kernel.multiply(lead, denominators), kernel.multiply(r.rho[i], factor));
+    out.m[i] = arithmetic.multiply(arithmetic.multiply(lead, denominators), arithmetic.multiply(r.rho[i], factor));
   }
   return cured;
 }
@@ -309,7 +310,7 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
                  const PipelineContext& c, const LaneTables& tables, const int* dx, const int* row, LaneResult& out) {
   on_lane_target([&]() LANE_LAMBDA {
     const int s = c.format.s;
-    const Kernel kernel(s, c.format.g);
+    const LaneArithmetic arithmetic(s, c.format.g);
 
     DifferenceLanes difference;
     difference_stage(tile, constants, dx, row, difference);
@@ -317,24 +318,24 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     out.singular = to_mask(masks.singular);
     out.on_edge = to_mask(masks.on_edge);
     NormalisedLanes normalised;
-    normalise_stage(difference, kernel, power_of_two(c.quadratic_bias), normalised);
+    normalise_stage(difference, arithmetic, power_of_two(c.quadratic_bias), normalised);
     RsqrtLanes rsqrt;
     rsqrt_stage(normalised, tables.rsqrt, s, rsqrt);
     RatioLanes ratios;
-    ratio_stage(difference, normalised, rsqrt, kernel, ratios);
+    ratio_stage(difference, normalised, rsqrt, arithmetic, ratios);
     WeightLanes weights;
-    const I cured = weight_stage(difference, ratios, rsqrt, kernel, c.config.notch_exact != 0, weights);
+    const I cured = weight_stage(difference, ratios, rsqrt, arithmetic, c.config.notch_exact != 0, weights);
     out.cured = to_mask(cured) & ~out.singular;
     I exponent_m[4];
     for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);
 
     // Sums, reciprocals, fixed point.
-    const V den_k = kernel.sum4(weights.m, exponent_m, values.k.data());
-    const V den_w = kernel.sum4(weights.m, exponent_m, values.w.data());
+    const V den_k = arithmetic.sum4(weights.m, exponent_m, values.k.data());
+    const V den_w = arithmetic.sum4(weights.m, exponent_m, values.w.data());
     const V rec_k = recip_lanes(den_k, tables.recip, s);
     I saturated{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) {
-      const FixedLanes f = attribute_stage(kernel.sum4(weights.m, exponent_m, values.b[j].data()), rec_k,
+      const FixedLanes f = attribute_stage(arithmetic.sum4(weights.m, exponent_m, values.b[j].data()), rec_k,
                                            c.config.attribute_int_bits, c.attribute_frac);
       saturated |= f.over;
       const I fixed = (to_integer(f.q) ^ f.sign) - f.sign;
@@ -344,7 +345,7 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     I discard{};
     if (quad.hull) discard = ~(den_w > 0);
     if (c.state.depth) {
-      const DepthLanes z = depth_stage(kernel.sum4(weights.m, exponent_m, values.z.data()), den_w,
+      const DepthLanes z = depth_stage(arithmetic.sum4(weights.m, exponent_m, values.z.data()), den_w,
                                        recip_lanes(den_w, tables.recip, s), c.config.depth_bits, c.znear, c.zfar);
       discard |= z.discard;
       for (int l = 0; l < lanes; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.q[l]);
@@ -376,9 +377,9 @@ void singular_weights(const DifferenceLanes& d, std::size_t lane, const QuadData
 
 void normalise_blocks(std::span<const DifferenceLanes> in, int s, int quadratic_bias, NormalisedLanes* out) {
   on_lane_target([&]() LANE_LAMBDA {
-    const Kernel kernel(s, 0);
+    const LaneArithmetic arithmetic(s, 0);
     const double a_scale = power_of_two(quadratic_bias);
-    for (std::size_t n = 0; n < in.size(); ++n) normalise_stage(in[n], kernel, a_scale, out[n]);
+    for (std::size_t n = 0; n < in.size(); ++n) normalise_stage(in[n], arithmetic, a_scale, out[n]);
   });
 }
 
@@ -391,23 +392,24 @@ void rsqrt_blocks(std::span<const NormalisedLanes> in, int s, const LaneTable& t
 void ratio_blocks(std::span<const DifferenceLanes> signs, const NormalisedLanes* in, const RsqrtLanes* rho, int s,
                   int g, RatioLanes* out) {
   on_lane_target([&]() LANE_LAMBDA {
-    const Kernel kernel(s, g);
-    for (std::size_t n = 0; n < signs.size(); ++n) ratio_stage(signs[n], in[n], rho[n], kernel, out[n]);
+    const LaneArithmetic arithmetic(s, g);
+    for (std::size_t n = 0; n < signs.size(); ++n) ratio_stage(signs[n], in[n], rho[n], arithmetic, out[n]);
   });
 }
 
 void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in, const RsqrtLanes* rho, int s, int g,
                    bool notch_exact, WeightLanes* out) {
   on_lane_target([&]() LANE_LAMBDA {
-    const Kernel kernel(s, g);
-    for (std::size_t n = 0; n < signs.size(); ++n) weight_stage(signs[n], in[n], rho[n], kernel, notch_exact, out[n]);
+    const LaneArithmetic arithmetic(s, g);
+    for (std::size_t n = 0; n < signs.size(); ++n)
+      weight_stage(signs[n], in[n], rho[n], arithmetic, notch_exact, out[n]);
   });
 }
 
 void interpolate_blocks(std::span<const WeightLanes> in, const std::uint32_t* quad, const QuadColumns* values,
                         std::size_t columns, bool depth, int s, int g, LaneColumn* sums) {
   on_lane_target([&]() LANE_LAMBDA {
-    const Kernel kernel(s, g);
+    const LaneArithmetic arithmetic(s, g);
     for (std::size_t n = 0; n < in.size(); ++n, sums += sums_per_block(columns)) {
       const QuadColumns& q = values[quad[n]];
       V m[4];
@@ -416,10 +418,10 @@ void interpolate_blocks(std::span<const WeightLanes> in, const std::uint32_t* qu
         m[i] = in[n].m[i];
         exponent_m[i] = exponent(m[i]);
       }
-      sums[0].v = kernel.sum4(m, exponent_m, q.k.data());
-      sums[1].v = kernel.sum4(m, exponent_m, q.w.data());
-      sums[2].v = depth ? kernel.sum4(m, exponent_m, q.z.data()) : V{};
-      for (std::size_t j = 0; j < columns; ++j) sums[3 + j].v = kernel.sum4(m, exponent_m, q.b[j].data());
+      sums[0].v = arithmetic.sum4(m, exponent_m, q.k.data());
+      sums[1].v = arithmetic.sum4(m, exponent_m, q.w.data());
+      sums[2].v = depth ? arithmetic.sum4(m, exponent_m, q.z.data()) : V{};
+      for (std::size_t j = 0; j < columns; ++j) sums[3 + j].v = arithmetic.sum4(m, exponent_m, q.b[j].data());
     }
   });
 }

@@ -29,12 +29,12 @@ Wide determinant(const LinearForm& edge, const Vector3& v) {
 
 int sign(Wide v) { return (v > 0) - (v < 0); }
 
-struct Range {
+struct PixelSpan {
   int lo, hi;  // inclusive pixels
 };
 
 /// Pixels whose centre may be covered, along one axis.
-Range pixel_range(const std::array<std::int64_t, 4>& v, int frac, int scissor_lo, int scissor_hi) {
+PixelSpan pixel_range(const std::array<std::int64_t, 4>& v, int frac, int scissor_lo, int scissor_hi) {
   const auto [low, high] = std::minmax_element(v.begin(), v.end());
   const std::int64_t first = -(-*low >> frac);  // ceil
   const std::int64_t last = *high >> frac;      // floor
@@ -63,8 +63,8 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
   }
 
   // Tiles to walk: the bounding box, or the scissor's far corner when a vertex is not ordinary.
-  Range x{0, state.scissor_x1 - 1};
-  Range y{0, state.scissor_y1 - 1};
+  PixelSpan x{0, state.scissor_x1 - 1};
+  PixelSpan y{0, state.scissor_y1 - 1};
   bool empty = state.scissor_x0 >= state.scissor_x1 || state.scissor_y0 >= state.scissor_y1;
   if (!r.homogeneous) {
     x = pixel_range({v[0].x, v[1].x, v[2].x, v[3].x}, frac, state.scissor_x0, state.scissor_x1);

@@ -16,29 +16,31 @@ namespace {
 //
 // They are of the order 2^-s >= 2^-26; double arithmetic on them errs by less than 2^-45 in all. `widened` covers that.
 
-struct Range {
+struct Interval {
   double lo = 0, hi = 0;
 };
-Range operator+(Range a, Range b) { return {a.lo + b.lo, a.hi + b.hi}; }
-Range operator-(Range a, Range b) { return {a.lo - b.hi, a.hi - b.lo}; }
-Range operator+(double a, Range b) { return {a + b.lo, a + b.hi}; }
-Range operator-(double a, Range b) { return {a - b.hi, a - b.lo}; }
-Range operator*(Range a, Range b) {
+Interval operator+(Interval a, Interval b) { return {a.lo + b.lo, a.hi + b.hi}; }
+Interval operator-(Interval a, Interval b) { return {a.lo - b.hi, a.hi - b.lo}; }
+Interval operator+(double a, Interval b) { return {a + b.lo, a + b.hi}; }
+Interval operator-(double a, Interval b) { return {a - b.hi, a - b.lo}; }
+Interval operator*(Interval a, Interval b) {
   const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
   return {lo, hi};
 }
-Range operator*(double a, Range b) { return a >= 0 ? Range{a * b.lo, a * b.hi} : Range{a * b.hi, a * b.lo}; }
-Range hull(Range a, Range b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
-double largest(Range r) { return std::max(-r.lo, r.hi); }
+Interval operator*(double a, Interval b) {
+  return a >= 0 ? Interval{a * b.lo, a * b.hi} : Interval{a * b.hi, a * b.lo};
+}
+Interval hull(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+double largest(Interval r) { return std::max(-r.lo, r.hi); }
 
 double widened(double bound) { return bound * (1 + 0x1p-16); }
 
 // ---- Tables --------------------------------------------------------------------------------------------------------
 
 /// Extremes on [-1/2, 1/2] of d0 + d1 v + d2 v² + d3 v³.
-Range cubic_range(double d0, double d1, double d2, double d3) {
+Interval cubic_range(double d0, double d1, double d2, double d3) {
   const auto at = [&](double v) { return d0 + v * (d1 + v * (d2 + v * d3)); };
-  Range r = hull({at(-0.5), at(-0.5)}, {at(0.5), at(0.5)});
+  Interval r = hull({at(-0.5), at(-0.5)}, {at(0.5), at(0.5)});
   const double discriminant = d2 * d2 - 3 * d1 * d3;
   if (discriminant < 0) return r;
   // Both roots of d1 + 2 d2 v + 3 d3 v² without cancellation.
@@ -65,15 +67,15 @@ void visit_segments(const Table& table, int s, double power, Visit visit) {
     const double middle = left + width / 2, step = width / middle, f0 = f(middle);
     const double c0 = table.entries[i].c0, c1 = table.entries[i].c1, c2 = table.entries[i].c2;
     // The polynomial of the ROM minus the Taylor series of f about the middle, and the rest of that series.
-    Range d = cubic_range(c0 - c1 / 2 + c2 / 4 - f0, c2 - c1 - f0 * b1 * step, c2 - f0 * b2 * step * step,
-                          -f0 * b3 * step * step * step);
+    Interval d = cubic_range(c0 - c1 / 2 + c2 / 4 - f0, c2 - c1 - f0 * b1 * step, c2 - f0 * b2 * step * step,
+                             -f0 * b3 * step * step * step);
     const double series = f0 * b4 * std::pow(step / 2, 4) / (1 - step / 2);
     // t1 loses less than one unit times dx and that raises t0; t0 loses less than one unit; the result 7 of 8.
-    d = d + Range{-series - (table.entries[i].c2 != 0 ? rest * rest : 0) - 7, series + rest};
+    d = d + Interval{-series - (table.entries[i].c2 != 0 ? rest * rest : 0) - 7, series + rest};
     // The clamp moves the result towards f, or f is above the largest significand by less than 2^-(s-4) units.
     d = hull(d, {-std::ldexp(1.0, 4 - s), 0});
     const double least = f(left + width);
-    visit(left / octave, Range{std::log1p(d.lo / least), std::log1p(d.hi / least)});
+    visit(left / octave, Interval{std::log1p(d.lo / least), std::log1p(d.hi / least)});
   }
 }
 
@@ -81,14 +83,14 @@ void visit_segments(const Table& table, int s, double power, Visit visit) {
 
 /// Logarithms of stored / exact.
 struct Ingredients {
-  double u;          ///< 2^-(s-1)
-  double t;          ///< a truncation to S bits is in [-t, 0]
-  double sum2;       ///< a sum of two positive terms is in [-sum2, 0]
-  double sum4;       ///< of four
-  double align4;     ///< what the alignment of four terms takes, relative to the largest
-  Range rho;         ///< rsqrt of the truncated r²
-  Range quotient_k;  ///< weight of one term: truncation of the numerator, the denominator's sum, the reciprocal
-  Range quotient_z;  ///< the same with a numerator of four positive terms
+  double u;             ///< 2^-(s-1)
+  double t;             ///< a truncation to S bits is in [-t, 0]
+  double sum2;          ///< a sum of two positive terms is in [-sum2, 0]
+  double sum4;          ///< of four
+  double align4;        ///< what the alignment of four terms takes, relative to the largest
+  Interval rho;         ///< rsqrt of the truncated r²
+  Interval quotient_k;  ///< weight of one term: truncation of the numerator, the denominator's sum, the reciprocal
+  Interval quotient_z;  ///< the same with a numerator of four positive terms
 };
 
 Ingredients ingredients(const Config& c) {
@@ -102,12 +104,12 @@ Ingredients ingredients(const Config& c) {
   const TableError rsqrt = rsqrt_error(c);
   in.rho = {rsqrt.low, rsqrt.high};
   // The denominator's loss is relative to its significand, and so is the error of the reciprocal.
-  Range denominator{0, in.sum4};
-  visit_segments(make_recip_table(c), c.significand_bits, 1, [&](double m, Range error) {
-    denominator = hull(denominator, error + Range{0, std::log1p(in.u * (1 + 3 * guard) / m)});
+  Interval denominator{0, in.sum4};
+  visit_segments(make_recip_table(c), c.significand_bits, 1, [&](double m, Interval error) {
+    denominator = hull(denominator, error + Interval{0, std::log1p(in.u * (1 + 3 * guard) / m)});
   });
-  in.quotient_k = denominator + Range{-in.t, 0};
-  in.quotient_z = denominator + Range{-in.sum4, 0};
+  in.quotient_k = denominator + Interval{-in.t, 0};
+  in.quotient_z = denominator + Interval{-in.sum4, 0};
   return in;
 }
 
@@ -119,7 +121,7 @@ Ingredients ingredients(const Config& c) {
 
 /// Where g can be, and κ in [-kappa, 0].
 struct Sine {
-  Range g;
+  Interval g;
   double kappa;
 };
 struct Sines {
@@ -130,7 +132,7 @@ struct Sines {
 /// For c in the interval. Where ĉ can reach 1, u is cut but not below 2 >= 1 + c, so ln G lies between that without a
 /// cut and, above, that of u = 1 + c exactly, which is g = 1: a second case, for the upper bound of G and the lower one
 /// of 1/G.
-Sines sines(Range c, const Ingredients& in) {
+Sines sines(Interval c, const Ingredients& in) {
   const double least = c.lo * std::exp(2 * in.rho.lo - 2 * in.t), most = c.hi * std::exp(2 * in.rho.hi);
   Sines r;
   r.at[0] = {{1 / (1 + most), 1 / (1 + least)}, std::log1p(in.u / std::max(1.0, 1 + least - in.u))};
@@ -139,29 +141,29 @@ Sines sines(Range c, const Ingredients& in) {
 }
 
 /// ln t^e without the ρ of the two vertices; e > 0 for t = G.
-Range ratio_error(const Sine& s, Range e, const Ingredients& in) {
-  const Range cut{-in.t, 0};
-  return 2.0 * (e * cut) + (e * s.g) * cut - e * (1.0 - s.g) * cut - e * Range{-s.kappa, 0};
+Interval ratio_error(const Sine& s, Interval e, const Ingredients& in) {
+  const Interval cut{-in.t, 0};
+  return 2.0 * (e * cut) + (e * s.g) * cut - e * (1.0 - s.g) * cut - e * Interval{-s.kappa, 0};
 }
 
 // ---- The weights M -------------------------------------------------------------------------------------------------
 
 /// Hull in which the second case of `sines` counts above (e > 0) or below only.
-Range hull_case(Range all, Range r, std::size_t sine, double e) {
+Interval hull_case(Interval all, Interval r, std::size_t sine, double e) {
   if (sine == 0 || e > 0) all.hi = std::max(all.hi, r.hi);
   if (sine == 0 || e < 0) all.lo = std::min(all.lo, r.lo);
   return all;
 }
 
 /// ρ_i t for any angle: a sum of two t of one sign is within the hull of its terms.
-Range plain_weight(const Ingredients& in) {
+Interval plain_weight(const Ingredients& in) {
   constexpr int cells = 64;
-  Range all = in.rho;  // one edge: t is common to the two weights
+  Interval all = in.rho;  // one edge: t is common to the two weights
   for (int i = 0; i < cells; ++i) {
     const Sines s = sines({static_cast<double>(i) / cells, (i + 1.0) / cells}, in);
     for (std::size_t k = 0; k < s.count; ++k)
       for (const double e : {1.0, -1.0}) {
-        const Range slope = e * s.at[k].g;
+        const Interval slope = e * s.at[k].g;
         all = hull_case(all, ratio_error(s.at[k], {e, e}, in) + (1.0 + slope) * in.rho + slope * in.rho, k, e);
       }
   }
@@ -172,10 +174,10 @@ Range plain_weight(const Ingredients& in) {
 /// p - m. With w = |t_p t_m| / (1 + |t_p t_m|) its logarithm is ρ_i + ln t_diagonal + w (ln t_p + ln t_m).
 struct CuredWeight {
   std::size_t p;  ///< cell of the angle
-  Range own;      ///< without ln t_m and without the ρ of edge m's two vertices
-  Range w;
-  Range near, far;    ///< coefficients of these ρ: of the weight's own vertex, and of the other
-  bool above, below;  ///< counts for the upper, the lower bound
+  Interval own;   ///< without ln t_m and without the ρ of edge m's two vertices
+  Interval w;
+  Interval near, far;  ///< coefficients of these ρ: of the weight's own vertex, and of the other
+  bool above, below;   ///< counts for the upper, the lower bound
 };
 
 /// Angles in cells of 180 degrees / cells; even, so that no cell contains 90 degrees.
@@ -194,7 +196,7 @@ struct Angles {
   static bool acute(std::size_t cell) { return cell < cells / 2; }
   static double sign(std::size_t cell) { return acute(cell) ? 1 : -1; }
   /// |cos| over cells first to last, all on one side of 90 degrees.
-  Range absolute_cosine(std::size_t first, std::size_t last) const {
+  Interval absolute_cosine(std::size_t first, std::size_t last) const {
     const double a = std::fabs(cosine[first]), b = std::fabs(cosine[last + 1]);
     return {std::min(a, b), std::max(a, b)};
   }
@@ -205,12 +207,12 @@ void cured_weights(const Angles& angles, std::size_t m, const Sine& at_m, const 
                    std::vector<CuredWeight>& out) {
   // No ln t exceeds half of this; it widens w from exact to stored values.
   const double stray = std::exp(2 * (4 * in.t + 2 * largest(in.rho)));
-  const auto append = [&](std::size_t p, Range w, double e, Range cosine_d) {
-    const Range wp = Angles::sign(p) * w, wm = Angles::sign(m) * w;
+  const auto append = [&](std::size_t p, Interval w, double e, Interval cosine_d) {
+    const Interval wp = Angles::sign(p) * w, wm = Angles::sign(m) * w;
     const Sines at_d = sines(cosine_d, in), at_p = sines(angles.absolute_cosine(p, p), in);
     for (std::size_t x = 0; x < at_d.count; ++x)
       for (std::size_t y = 0; y < at_p.count; ++y) {
-        const Range gd = e * at_d.at[x].g, gp = wp * at_p.at[y].g, gm = wm * at_m.g;
+        const Interval gd = e * at_d.at[x].g, gp = wp * at_p.at[y].g, gm = wm * at_m.g;
         out.push_back({p, ratio_error(at_d.at[x], {e, e}, in) + ratio_error(at_p.at[y], wp, in) + (gd + gp) * in.rho, w,
                        1.0 + gp + gm, gd + gm, (x == 0 || e > 0) && (y == 0 || Angles::acute(p)),
                        (x == 0 || e < 0) && (y == 0 || !Angles::acute(p))});
@@ -219,14 +221,14 @@ void cured_weights(const Angles& angles, std::size_t m, const Sine& at_m, const 
   for (std::size_t p = m; p < cells; ++p) {
     const double low = angles.half_tangent[p] * angles.half_tangent[m] / stray;
     const double high = angles.half_tangent[p + 1] * angles.half_tangent[m + 1] * stray;
-    const Range w{low / (1 + low), 1 - 1 / (1 + high)};
+    const Interval w{low / (1 + low), 1 - 1 / (1 + high)};
     // Near p = 180, m = 0 a cell holds many w; in slices, since w enters several coefficients.
     const int slices = static_cast<int>((w.hi - w.lo) * 8) + 1;
     // The difference spans two cells, which may lie on both sides of 90 degrees.
     const std::size_t first = p > m ? p - m - 1 : 0, last = p - m;
     for (int n = 0; n < slices; ++n) {
-      const Range slice{std::lerp(w.lo, w.hi, static_cast<double>(n) / slices),
-                        std::lerp(w.lo, w.hi, (n + 1.0) / slices)};
+      const Interval slice{std::lerp(w.lo, w.hi, static_cast<double>(n) / slices),
+                           std::lerp(w.lo, w.hi, (n + 1.0) / slices)};
       if (Angles::acute(first)) append(p, slice, 1, angles.absolute_cosine(first, std::min(last, cells / 2 - 1)));
       if (!Angles::acute(last)) append(p, slice, -1, angles.absolute_cosine(std::max(first, cells / 2), last));
     }
@@ -235,8 +237,8 @@ void cured_weights(const Angles& angles, std::size_t m, const Sine& at_m, const 
 
 /// Largest ln of (M̂_i / M_i) / (M̂_j / M_j) over the vertices i, j of one pixel.
 double weight_spread(const Ingredients& in) {
-  const auto width = [](Range r) { return r.hi - r.lo; };
-  const Range plain = plain_weight(in);
+  const auto width = [](Interval r) { return r.hi - r.lo; };
+  const Interval plain = plain_weight(in);
   // N, e, N·e, M.
   const double uncured = width(plain) + in.sum2 + 3 * in.t;
   // Two edges: ρ_i times a sum of ρ k, or of two such sums. A corner at the pixel has no error here.
@@ -252,9 +254,9 @@ double weight_spread(const Ingredients& in) {
     for (std::size_t z = 0; z < at_m.count; ++z) {
       cured.clear();
       cured_weights(angles, m, at_m.at[z], in, cured);
-      const Range ratio_m = ratio_error(at_m.at[z], {Angles::sign(m), Angles::sign(m)}, in);
+      const Interval ratio_m = ratio_error(at_m.at[z], {Angles::sign(m), Angles::sign(m)}, in);
       for (const CuredWeight& a : cured) {
-        const Range alone =
+        const Interval alone =
             a.own + ratio_error(at_m.at[z], Angles::sign(m) * a.w, in) + a.near * in.rho + a.far * in.rho;
         if (a.above) spread = std::max(spread, alone.hi - plain.lo);
         if (a.below) spread = std::max(spread, plain.hi - alone.lo);
@@ -526,17 +528,17 @@ RangeProof prove_ranges(const Config& config, const ProofWidths& w) {
 
 TableError rsqrt_error(const Config& config) {
   const double u = std::ldexp(1.0, 1 - config.significand_bits);
-  Range all{0, std::log1p(u) / 2};  // an even power of two is exact
-  visit_segments(make_rsqrt_table(config), config.significand_bits, 0.5, [&](double m, Range error) {
-    all = hull(all, error + Range{0, std::log1p(u / m) / 2});
+  Interval all{0, std::log1p(u) / 2};  // an even power of two is exact
+  visit_segments(make_rsqrt_table(config), config.significand_bits, 0.5, [&](double m, Interval error) {
+    all = hull(all, error + Interval{0, std::log1p(u / m) / 2});
   });
   return {all.lo, all.hi};
 }
 
 TableError reciprocal_error(const Config& config) {
-  Range all;
+  Interval all;
   visit_segments(make_recip_table(config), config.significand_bits, 1,
-                 [&](double, Range error) { all = hull(all, error); });
+                 [&](double, Interval error) { all = hull(all, error); });
   return {all.lo, all.hi};
 }
 

@@ -75,7 +75,7 @@ TEST(Hybrid, TariniIsThePseudoCodeInSinglePrecision) {
                                     0.5 * static_cast<double>(random.integer(0, 64))};
     }
     const Quad quad = quad_at(point, {1, 2, 0.5, 4});
-    const PaperFloat32Quad paper(window_quad(quad), draw_state(32, false));
+    const PaperFp32Quad paper(window_quad(quad), draw_state(32, false));
     for (const Sample& s : test::draw(*make_hybrid(HybridForm::tarini), quad, {32, 32, false})) {
       const auto expected = paper.interpolate(s.x, s.y);
       const bool finite = std::ranges::all_of(expected.lambda, [](float v) { return std::isfinite(v); });

@@ -9,7 +9,7 @@
 #include <cmath>
 
 namespace quadrille::golden::methods {
-namespace lecture6 {
+namespace integer_triangle {
 namespace {
 
 std::int64_t truncate(double value, int bits) { return static_cast<std::int64_t>(std::ldexp(value, bits)); }
@@ -101,7 +101,7 @@ EdgePrecision edge_precision(std::span<const std::array<FloatPoint, 2>> edges, i
   return out;
 }
 
-}  // namespace lecture6
+}  // namespace integer_triangle
 
 namespace {
 
@@ -110,7 +110,8 @@ constexpr int depth_bits = 16;      // more than a colour gets
 
 bool drawable(const Quad& quad) {
   return std::ranges::all_of(quad.vertex, [](const WindowVertex& v) {
-    return v.w > 0 && std::abs(v.x / v.w) < lecture6::guard_band && std::abs(v.y / v.w) < lecture6::guard_band;
+    return v.w > 0 && std::abs(v.x / v.w) < integer_triangle::guard_band &&
+           std::abs(v.y / v.w) < integer_triangle::guard_band;
   });
 }
 
@@ -149,26 +150,26 @@ class TriangleMethod final : public Method {
  private:
   void draw_part(const Quad& quad, const std::array<std::size_t, 3>& corner, const View& view,
                  std::vector<Sample>& out) const {
-    std::array<lecture6::Point, 3> vertex;
+    std::array<integer_triangle::Point, 3> vertex;
     std::array<double, 3> depth{};
     for (std::size_t i = 0; i < 3; ++i) {
       const WindowVertex& v = quad.vertex[corner[i]];
       vertex[i] = {v.x / v.w - 0.5, v.y / v.w - 0.5};
       depth[i] = std::ldexp(v.z / v.w, depth_bits);
     }
-    const auto triangle = lecture6::set_up(vertex, view.width, view.height, bits_);
+    const auto triangle = integer_triangle::set_up(vertex, view.width, view.height, bits_);
     if (!triangle) return;
 
-    std::array<lecture6::PlaneEquation, 5> plane;
+    std::array<integer_triangle::PlaneEquation, 5> plane;
     for (std::size_t k = 0; k < 4; ++k) {
       std::array<double, 3> colour{};
       for (std::size_t i = 0; i < 3; ++i) colour[i] = corner[i] == k ? colour_max : 0;
-      plane[k] = lecture6::plane_equation(*triangle, colour, bits_);
+      plane[k] = integer_triangle::plane_equation(*triangle, colour, bits_);
     }
-    plane[4] = lecture6::plane_equation(*triangle, depth, bits_);
+    plane[4] = integer_triangle::plane_equation(*triangle, depth, bits_);
 
     const double top = std::ldexp(colour_max, bits_);
-    lecture6::scan(*triangle, plane, true, [&](int x, int y, const std::array<std::int64_t, 5>& value) {
+    integer_triangle::scan(*triangle, plane, true, [&](int x, int y, const std::array<std::int64_t, 5>& value) {
       Sample sample{.x = x, .y = y, .front = triangle->flipped};
       // The lecture drops the fraction bits and then clamps to a byte; here they stay.
       for (std::size_t k = 0; k < 4; ++k) {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <span>
 
-namespace quadrille::golden::methods::lecture6 {
+namespace quadrille::golden::methods::integer_triangle {
 
 /// Largest |x| and |y| of a vertex, and the largest view. With them and bits <= 20 nothing overflows 64 bits: A, B are
 /// below 2^41, C below 2^61, and A x + B y below 2^58 in the view. The lecture's 32 bits hold, with 12 fraction bits, a
@@ -115,4 +115,4 @@ struct EdgePrecision {
 
 EdgePrecision edge_precision(std::span<const std::array<FloatPoint, 2>> edges, int bits);
 
-}  // namespace quadrille::golden::methods::lecture6
+}  // namespace quadrille::golden::methods::integer_triangle

@@ -17,11 +17,11 @@
 namespace quadrille::golden::methods {
 namespace {
 
-using lecture6::EdgeEquation;
-using lecture6::FloatPoint;
-using lecture6::PlaneEquation;
-using lecture6::Point;
-using lecture6::Triangle;
+using integer_triangle::EdgeEquation;
+using integer_triangle::FloatPoint;
+using integer_triangle::PlaneEquation;
+using integer_triangle::Point;
+using integer_triangle::Triangle;
 
 using Corners = std::array<Point, 3>;
 using Pixel = std::pair<int, int>;
@@ -78,9 +78,9 @@ ExactTriangle random_triangle(Prng& prng, int fraction = 8) {
 
 std::vector<Pixel> pixels(const Corners& corners, int bits, int size = view_size, bool early_exit = true) {
   std::vector<Pixel> out;
-  if (const auto t = lecture6::set_up(corners, size, size, bits)) {
-    lecture6::scan(*t, std::array<PlaneEquation, 0>{}, early_exit,
-                   [&](int x, int y, const std::array<std::int64_t, 0>&) { out.emplace_back(x, y); });
+  if (const auto t = integer_triangle::set_up(corners, size, size, bits)) {
+    integer_triangle::scan(*t, std::array<PlaneEquation, 0>{}, early_exit,
+                           [&](int x, int y, const std::array<std::int64_t, 0>&) { out.emplace_back(x, y); });
   }
   return out;
 }
@@ -145,7 +145,7 @@ TEST(LectureBoundingBox, FlagsFindTheExtremes) {
       for (std::size_t k = 0; k < 3; ++k) t.x[k] = prng.integer(0, 2) * 1000, t.y[k] = prng.integer(0, 2) * 1000;
     }
     const Corners c = t.corners();
-    const auto set_up = lecture6::set_up(c, view_size, view_size, 12);
+    const auto set_up = integer_triangle::set_up(c, view_size, view_size, 12);
     ASSERT_EQ(set_up.has_value(), t.area() != 0);
     if (!set_up) continue;
     const auto [x_min, x_max] = std::minmax({c[0].x, c[1].x, c[2].x});
@@ -166,7 +166,7 @@ TEST(LectureBoundingBox, AllThreeFlagsOfATriangleThinnerThanAUnit) {
   // 2/16384 * 20 - 100 * 1/16384 = -60/16384 = -15/4096: not degenerate.
   const Corners thin{Point{5, 0}, {5 + 0x2p-14, 100}, {5 + 0x1p-14, 20}};
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(EdgeEquation(thin[i], thin[(i + 1) % 3], 12).flag & 1, 1);
-  const auto t = lecture6::set_up(thin, view_size, view_size, 12);
+  const auto t = integer_triangle::set_up(thin, view_size, view_size, 12);
   ASSERT_TRUE(t);
   EXPECT_TRUE(t->flipped);
   EXPECT_EQ(t->x_min, 5);
@@ -205,9 +205,9 @@ TEST(LectureScan, OrientationAndFirstVertexLeaveThePixelsAlone) {
   for (int i = 0; i < 3000; ++i) {
     const Corners c = random_triangle(prng).corners();
     const int bits = static_cast<int>(prng.integer(1, 20));
-    const auto t = lecture6::set_up(c, view_size, view_size, bits);
+    const auto t = integer_triangle::set_up(c, view_size, view_size, bits);
     for (const Corners& other : {Corners{c[0], c[2], c[1]}, Corners{c[1], c[2], c[0]}}) {
-      const auto o = lecture6::set_up(other, view_size, view_size, bits);
+      const auto o = integer_triangle::set_up(other, view_size, view_size, bits);
       ASSERT_EQ(t.has_value(), o.has_value());
       if (!t) continue;
       ASSERT_EQ(t->area, o->area);
@@ -331,16 +331,16 @@ TEST(LectureCoverage, DifferencesFromExactShrinkWithTheBits) {
 
 TEST(LecturePlane, ValuesByHand) {
   // Twice the area is 256: nothing is truncated. Value 255 at vertex 0, 0 on the opposite edge.
-  const auto t = lecture6::set_up({Point{2, 2}, {18, 2}, {2, 18}}, view_size, view_size, 12);
+  const auto t = integer_triangle::set_up({Point{2, 2}, {18, 2}, {2, 18}}, view_size, view_size, 12);
   ASSERT_TRUE(t);
   EXPECT_FALSE(t->flipped);
   EXPECT_EQ(t->area, 256 * 4096);
-  const PlaneEquation plane = lecture6::plane_equation(*t, {255, 0, 0}, 12);
+  const PlaneEquation plane = integer_triangle::plane_equation(*t, {255, 0, 0}, 12);
   EXPECT_EQ(plane.a, -255 * 256);
   EXPECT_EQ(plane.b, -255 * 256);
   EXPECT_EQ(plane.c, 255 * 256 * 20);
   // x + 10 y + 100 through (2, 2), (18, 2), (2, 18).
-  const PlaneEquation other = lecture6::plane_equation(*t, {122, 138, 282}, 12);
+  const PlaneEquation other = integer_triangle::plane_equation(*t, {122, 138, 282}, 12);
   EXPECT_EQ(other.a, 4096);
   EXPECT_EQ(other.b, 10 * 4096);
   EXPECT_EQ(other.c, 100 * 4096);
@@ -356,10 +356,10 @@ TEST(LecturePlane, ValuesNearExactBarycentricCoordinates) {
     const double u = std::ldexp(1.0, -bits), area = t.square_pixels(std::abs(t.area()));
     if (area < 8 * u) continue;
     const std::array<double, 3> p{prng.uniform(0, 255), prng.uniform(0, 255), prng.uniform(0, 255)};
-    const auto set_up = lecture6::set_up(t.corners(), view_size, view_size, bits);
+    const auto set_up = integer_triangle::set_up(t.corners(), view_size, view_size, bits);
     ASSERT_TRUE(set_up);
-    const std::array<PlaneEquation, 1> plane{lecture6::plane_equation(*set_up, p, bits)};
-    lecture6::scan(*set_up, plane, true, [&](int x, int y, const std::array<std::int64_t, 1>& value) {
+    const std::array<PlaneEquation, 1> plane{integer_triangle::plane_equation(*set_up, p, bits)};
+    integer_triangle::scan(*set_up, plane, true, [&](int x, int y, const std::array<std::int64_t, 1>& value) {
       // lambda_k = e_k / area. The integers' e_k is off by less than (1 + x + y) u and their area by less than 3 u, so
       // the quotient by less than ((1 + x + y) u + |lambda| 3 u) / (area - 3 u). The plane's own A, B, C then lose less
       // than a unit each.
@@ -542,14 +542,14 @@ TEST(LecturePrecision, ByHand) {
   // 4097 * 4099 = 16793603 is odd and above 2^24: a float holds 16793604. 4098 * 4097 = 16789506 fits. Exactly C =
   // 4097, naively 4098: a pixel squared too much. A = -2, B = 1: -(-2 * 8195 + 8196) / 2 = 4097.
   const std::array<std::array<FloatPoint, 2>, 2> edges{{{{{4097, 4097}, {4098, 4099}}}, {{{0, 0}, {1, 1}}}}};
-  const auto precision = lecture6::edge_precision(edges, 12);
+  const auto precision = integer_triangle::edge_precision(edges, 12);
   EXPECT_EQ(precision.naive.max, 4096);
   EXPECT_DOUBLE_EQ(precision.naive.rms, 4096 / std::sqrt(2.0));
   for (const auto& error : {precision.averaged, precision.printed}) {
     EXPECT_EQ(error.max, 0);
     EXPECT_EQ(error.rms, 0);
   }
-  EXPECT_EQ(lecture6::edge_precision({}, 12).naive.rms, 0);
+  EXPECT_EQ(integer_triangle::edge_precision({}, 12).naive.rms, 0);
 }
 
 TEST(LecturePrecision, AveragingBeatsTheNaiveForm) {
@@ -562,7 +562,7 @@ TEST(LecturePrecision, AveragingBeatsTheNaiveForm) {
       p = {static_cast<float>(x), static_cast<float>(y)};
       q = {static_cast<float>(x + prng.uniform(0, 7.9)), static_cast<float>(y + prng.uniform(-7.9, 7.9))};
     }
-    const auto [naive, averaged, printed] = lecture6::edge_precision(edges, 12);
+    const auto [naive, averaged, printed] = integer_triangle::edge_precision(edges, 12);
     std::printf("%8.0f  %.4g, %.4g  %.4g, %.4g  %.4g, %.4g\n", far, naive.max, naive.rms, averaged.max, averaged.rms,
                 printed.max, printed.rms);
     // A float below the power of two V is rounded by at most 2^-25 V. Naive: two products below far^2; their difference

@@ -65,7 +65,7 @@ class PaperQuad {
 extern template class PaperQuad<float>;
 extern template class PaperQuad<double>;
 
-using PaperFloatQuad = PaperQuad<double>;
-using PaperFloat32Quad = PaperQuad<float>;
+using PaperFp64Quad = PaperQuad<double>;
+using PaperFp32Quad = PaperQuad<float>;
 
 }  // namespace quadrille::golden

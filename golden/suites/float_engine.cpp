@@ -934,7 +934,7 @@ VectorOutcome FloatQuad::check(const Fragment& g) const {
 VectorOutcome FloatQuad::check_values(const Fragment& g) const {
   // Dropped bits of D and r² that ordinary vertices have leave the machine without a bound.
   if (config_.quadratic_frac() < 2 * config_.subpixel_bits) return undefined;
-  const golden::PaperFloatQuad::Pixel p = paper_.interpolate(g.x, g.y);
+  const golden::PaperFp64Quad::Pixel p = paper_.interpolate(g.x, g.y);
   if (!p.defined) return undefined;
 
   constexpr double epsilon = 0x1p-52;

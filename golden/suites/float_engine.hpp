@@ -43,7 +43,7 @@ class FloatQuad {
   SnappedQuad quad_;
   Config config_;
   DrawState state_;
-  golden::PaperFloatQuad paper_;
+  golden::PaperFp64Quad paper_;
   unsigned visible_ = 0;
   bool visible_decided_ = true, homogeneous_ = false, hull_ = false, behind_ = false;
   std::array<double, 2> lowest_{HUGE_VAL, HUGE_VAL}, highest_{-HUGE_VAL, -HUGE_VAL};  ///< X, Y of the vertices

@@ -18,8 +18,8 @@
 namespace quadrille::cli {
 namespace {
 
-using golden::PaperFloat32Quad;
-using golden::PaperFloatQuad;
+using golden::PaperFp32Quad;
+using golden::PaperFp64Quad;
 using golden::ReferenceSample;
 using golden::TruthQuad;
 
@@ -239,8 +239,8 @@ void ErrorBench::compare_paper() {
 
   struct Bodies {
     TruthQuad truth;
-    PaperFloat32Quad fp32;
-    PaperFloatQuad fp64;
+    PaperFp32Quad fp32;
+    PaperFp64Quad fp64;
     bool exempt;
   };
   std::optional<Bodies> quad;
@@ -251,8 +251,8 @@ void ErrorBench::compare_paper() {
       const SnappedQuad snapped = snap_as(pass_quad(quads_[current], pass), current, config, state);
       const bool behind = std::any_of(snapped.vertex.begin(), snapped.vertex.end(),
                                       [](const SnappedVertex& vertex) { return vertex.w <= 0; });
-      quad.emplace(Bodies{TruthQuad(snapped, config, state), PaperFloat32Quad(snapped, config, state),
-                          PaperFloatQuad(snapped, config, state), !state.perspective && behind});
+      quad.emplace(Bodies{TruthQuad(snapped, config, state), PaperFp32Quad(snapped, config, state),
+                          PaperFp64Quad(snapped, config, state), !state.perspective && behind});
     }
     const ReferenceSample truth = quad->truth.sample(pixel.x, pixel.y);
     // Drawn by the model all the same: tolerated where sum(M w) is near 0, or z near the ends of its interval.
@@ -286,9 +286,9 @@ ErrorBench::Run ErrorBench::run_once(Body body) const {
   // The functions are not inlined, so that nothing of their results is left out.
   switch (body) {
     case Body::fp32:
-      return run_reference<PaperFloat32Quad>(1, [](const auto& quad, int x, int y) { quad.interpolate(x, y); });
+      return run_reference<PaperFp32Quad>(1, [](const auto& quad, int x, int y) { quad.interpolate(x, y); });
     case Body::fp64:
-      return run_reference<PaperFloatQuad>(1, [](const auto& quad, int x, int y) { quad.interpolate(x, y); });
+      return run_reference<PaperFp64Quad>(1, [](const auto& quad, int x, int y) { quad.interpolate(x, y); });
     case Body::truth:
       return run_reference<TruthQuad>(std::max<std::size_t>(1, timed_pixels_ / truth_samples),
                                       [](const auto& quad, int x, int y) { quad.sample(x, y); });

@@ -60,7 +60,7 @@ class SpeedBench {
         {"truth", "truth (113-bit), one core",
          [this] { return reference<golden::TruthQuad>(options_.fragments / 100); }},
         {"float", "the paper's formulas in double, one core",
-         [this] { return reference<golden::PaperFloatQuad>(options_.fragments / 4); }},
+         [this] { return reference<golden::PaperFp64Quad>(options_.fragments / 4); }},
         {"clocked", "clocked model alone", [this] { return from(tb::run_clocked_model_alone(snapped_, lockstep())); }}};
     if (!options_.no_rtl) {
       subjects.push_back({"rtl", "RTL alone (Verilator, without probes)",

@@ -13,7 +13,7 @@
 namespace quadrille::cli {
 namespace {
 
-using golden::PaperFloatQuad;
+using golden::PaperFp64Quad;
 using golden::PixelRect;
 using golden::ReferenceSample;
 using golden::TruthQuad;
@@ -35,7 +35,7 @@ class ReferenceEngine final : public Engine {
  private:
   struct Prepared {
     std::optional<TruthQuad> truth;
-    std::optional<PaperFloatQuad> paper;
+    std::optional<PaperFp64Quad> paper;
     PixelRect bounds;
   };
   /// Rows of one quad, or several small quads.
