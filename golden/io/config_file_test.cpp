@@ -37,7 +37,8 @@ TEST(ConfigFile, NamesThePlaceAndChangesNothing) {
       {"significand_bits = 1000", {"significand_bits", "1000"}},
       {"significand_bits = 12.0", {"\"significand_bits\" holds a floating-point number", "an integer"}},
       {"significand_bits = true", {"\"significand_bits\" holds a boolean"}},
-      {"significand_bits = \"auto\"", {"holds a string"}},
+      {"significand_bits = \"auto\"", {"auto", "outside 8..26"}},
+      {"significand_bits = \"18\"", {"holds a string"}},
       {"significand_bits = [1]", {"holds an array"}},
       {"significand_bits = 1979-05-27", {"holds a date or time"}},
       {"significand_bits = 4294967308", {"4294967308", "out of range"}},
@@ -89,8 +90,8 @@ TEST(CostWeightsFile, NamesThePlaceAndChangesNothing) {
     std::initializer_list<std::string_view> fragments;
   };
   const Bad cases[] = {
-      {"stat = 1", {"\"stat\"", "[cost]", "nearest is 'state'"}},
-      {"multipliers = 1", {"nearest is 'multiplier'"}},
+      {"stat = 1", {"\"stat\"", "[cost]", "did you mean \"state\""}},
+      {"multipliers = 1", {"did you mean \"multiplier\""}},
       {"significand_bits = 12", {"\"significand_bits\" in the table [cost]"}},
       {"state = \"1\"", {"\"state\" in the table [cost] holds a string", "a number from 0 to 1000000"}},
       {"state = true", {"holds a boolean"}},
@@ -120,7 +121,7 @@ TEST(CostWeightsFile, NamesThePlaceAndChangesNothing) {
   expect_input_error([&] { parse_cost_weights("cost = 3", "c", weights); }, "c:1",
                      {"\"cost\" holds an integer", "[cost]"});
   expect_input_error([&] { parse_cost_weights("[cost]\nadder = 2\n[costs]\n", "c", weights); }, "c:3", {"'costs'"});
-  expect_input_error([&] { parse_cost_weights("[cost]\nstat = 2\n[costs]\n", "c", weights); }, "c:2", {"'state'"});
+  expect_input_error([&] { parse_cost_weights("[cost]\nstat = 2\n[costs]\n", "c", weights); }, "c:2", {"\"state\"?"});
   EXPECT_EQ(weights, CostWeights{});
 }
 
