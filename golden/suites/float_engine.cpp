@@ -2,6 +2,7 @@
 
 #include "golden/io/error.hpp"
 #include "golden/reference/port_number.hpp"
+#include "golden/suites/table_suite.hpp"
 #include "model/support/parallel.hpp"
 
 #include <algorithm>
@@ -714,6 +715,26 @@ VectorOutcome check_stage(StageCheck check, const Stage& stage, const Losses& lo
   return judge.outcome();
 }
 
+// ---- Tables ----
+
+/// Relative error of a segment's polynomial (Losses), at places from one end of it to the other.
+VectorOutcome check_table(bool rsqrt, const Losses& l, const Table& table, const Record& stimulus,
+                          const TableEntry& entry) {
+  Judge judge;
+  const std::uint64_t index = stimulus.get(0, stimulus.bits()), segments = std::uint64_t{1} << table.segments_log2;
+  const int octave = index >= segments ? 1 : 0;
+  for (int part = 0; part <= 8; ++part) {
+    const Real u = ldexpl(static_cast<Real>(part), -3);
+    const Real x = ldexpl(1 + (static_cast<Real>(index % segments) + u) / static_cast<Real>(segments), octave);
+    const Real y =
+        ldexpl(static_cast<Real>(entry.c0) - (static_cast<Real>(entry.c1) - static_cast<Real>(entry.c2) * u) * u,
+               -(l.s + Config::table_guard));
+    const Real exact = rsqrt ? 1 / sqrtl(x) : 1 / x, tolerance = (rsqrt ? l.rsqrt : l.reciprocal) * exact;
+    judge.within("c0", -1, y, exact - tolerance, exact + tolerance);
+  }
+  return judge.outcome();
+}
+
 // ---- The machine ----
 
 /// Pixels that a quad must draw and does not, or draws twice, count as further vectors.
@@ -809,6 +830,17 @@ VectorOutcome check_float(std::string_view suite, const Stage& stage, const Reco
 }
 
 VerifyResult verify_float(const Suite& suite, const SuiteReader& reader, unsigned threads) {
+  if (const auto* tables = dynamic_cast<const TableSuite*>(&suite)) {
+    const Config& config = reader.set().config;
+    require_layout(reader, "stimulus", tables->stimulus_layout(config));
+    require_layout(reader, "response", tables->response_layout(config));
+    return check_vectors(
+        reader, threads,
+        [&, losses = Losses(config), table = tables->table(config)](const Record& stimulus, const Record& response) {
+          return check_table(suite.info().name == "rsqrt_table", losses, table, stimulus,
+                             tables->entry(response, config));
+        });
+  }
   const auto* stages = dynamic_cast<const StageSuite*>(&suite);
   if (stages == nullptr) return verify_machine(reader, threads);
   const auto stage = stages->stage(reader.set().config);

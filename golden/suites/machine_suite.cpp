@@ -204,8 +204,12 @@ std::vector<MachineDraw> stress_draw(golden::StressFamily family, const Generate
 /// from the weights.
 class Picture {
  public:
+  /// At least as large as the suites' own pictures; larger for a larger scissor rectangle.
   Picture(const DrawState& state, const Config& config)
-      : state_(state), config_(config), image_(picture_state(config).width, picture_state(config).height) {}
+      : state_(state),
+        config_(config),
+        image_(std::max(picture_state(config).width, state.scissor_x1),
+               std::max(picture_state(config).height, state.scissor_y1)) {}
 
   const golden::FrameImage& image() const { return image_; }
   bool holds(const Fragment& g) const { return g.x < image_.width && g.y < image_.height; }
@@ -412,11 +416,35 @@ VerifyResult MachineSuite::verify(const SuiteReader& reader, unsigned threads) c
   return total;
 }
 
+std::vector<std::string> MachineSuite::roles() const { return {"states", "stalls", "stimulus", "beats", "response"}; }
+
+MachineDraw MachineSuite::snap_draw(const std::vector<WindowQuad>& quads, const DrawState& state,
+                                    const Config& config) {
+  MachineDraw draw{state, {}};
+  for (const WindowQuad& quad : quads) draw.quads.push_back(snap_quad(quad, config, state));
+  return draw;
+}
+
+MachineDraw MachineSuite::limited(MachineDraw draw, const GenerateOptions& options) {
+  const std::size_t quads = draw.quads.size();
+  const std::uint64_t fragments =
+      limit_draw(draw, options.config, options.limit != 0 ? options.limit : largest_limit + 1, true);
+  if (fragments == 0)
+    throw golden::InputError("none of the input's quads (" + std::to_string(quads) +
+                             ") draws a fragment; a set without vectors proves nothing");
+  if (options.limit == 0 && (fragments > largest_limit || draw.quads.size() < quads))
+    throw golden::InputError("the input's " + std::to_string(quads) +
+                             " quads are too many for a set, or draw more than " + std::to_string(largest_limit) +
+                             " fragments; --limit N ends it with the quad that " +
+                             "reaches N, a smaller --size has fewer");
+  return draw;
+}
+
 void MachineSuite::require(const SuiteReader& reader) const {
   const std::size_t draws = read_draws(reader).size();
   std::vector<std::string> pictures;
   for (std::size_t i = 0; i < draws; ++i) pictures.push_back(picture_name(i));
-  require_files(reader, {"states", "stalls", "stimulus", "beats", "response"}, pictures);
+  require_files(reader, roles(), pictures);
   require_counts(reader,
                  {{"vectors", reader.lines("response")}, {"draws", draws}, {"quads", reader.lines("stimulus") / 4}});
 }

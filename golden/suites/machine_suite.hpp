@@ -42,6 +42,15 @@ class MachineSuite : public Suite {
   void require(const SuiteReader& reader) const override;
   std::string picture_difference(const SuiteReader& reader) const override;
 
+ protected:
+  /// Records that the suite has.
+  virtual std::vector<std::string> roles() const;
+  /// The quads of a draw as the port has them; throws SnapError.
+  static MachineDraw snap_draw(const std::vector<WindowQuad>& quads, const DrawState& state, const Config& config);
+  /// The draw, cut off by the limit; throws golden::InputError when it has no fragment, or without a limit more than
+  /// largest_limit.
+  static MachineDraw limited(MachineDraw draw, const GenerateOptions& options);
+
  private:
   SuiteInfo info_;
   Draws draws_;

@@ -108,7 +108,8 @@ void only_keys(const std::string& file, const Json& object, std::initializer_lis
 
 std::string generator() { return "quadrille " + std::string(golden::program_version()); }
 
-/// Limit and configuration that a command names. Throws golden::InputError unless it is a command of this program.
+/// Limit, configuration and input that a command names. Throws golden::InputError unless it is a command of this
+/// program.
 SetInfo read_command(const std::string& file, const std::string& command) {
   SetInfo info;
   std::istringstream words(command);
@@ -116,6 +117,10 @@ SetInfo read_command(const std::string& file, const std::string& command) {
   for (const char* expected : {"quadrille", "golden", "generate"})
     if (std::string word; !(words >> word) || word != expected) refuse("is no \"quadrille golden generate\"");
   for (std::string option, value; words >> option;) {
+    if (option == "--scene" || option == "--mesh" || option == "--quads" || option == "--stress") {
+      info.input = command.substr(command.find(" " + option) + 1);
+      break;
+    }
     words >> value;
     if (option == "--limit") {
       const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), info.limit);
@@ -174,6 +179,7 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
   named.level = info.level;
   named.seed = info.seed;
   info.limit = named.limit;
+  info.input = named.input;
   const std::string spelled = set_command(named);
   if (!command.starts_with(spelled) || config_json(named.config) != config)
     throw input_error(file, 0, "\"command\" does not generate this level, seed and configuration");
@@ -258,6 +264,11 @@ std::string read_manifest(const fs::path& path, std::string_view what) {
 /// "… --suite NAME".
 std::string with_suite(const std::string& command, const std::string& suite) { return command + " --suite " + suite; }
 
+/// The command of one suite of a set.
+std::string suite_command(const SetInfo& info, const std::string& suite) {
+  return info.input.empty() ? with_suite(set_command(info), suite) : set_command(info);
+}
+
 Json common_entries(const SetInfo& set, const std::string& command) {
   return {{"seed", set.seed},
           {"level", set.level},
@@ -297,6 +308,7 @@ std::string set_command(const SetInfo& info) {
   for (const ConfigKey& key : Config::keys())
     if (const int value = info.config.get(key.name); value != key.standard)
       command += " --set " + std::string(key.name) + "=" + std::to_string(value);
+  if (!info.input.empty()) command += " " + info.input;
   return command;
 }
 
@@ -384,7 +396,7 @@ std::string SuiteWriter::finish() {
   Json manifest = {{"format", format_version}, {"generator", generator()},  {"suite", info_.name},
                    {"kind", info_.kind},       {"title", info_.title},      {"module", info_.module},
                    {"latency", info_.latency}, {"contract", info_.contract}};
-  manifest.update(common_entries(set_, with_suite(set_command(set_), info_.name)));
+  manifest.update(common_entries(set_, suite_command(set_, info_.name)));
   manifest["files"] = std::move(files);
   manifest["records"] = std::move(records);
   manifest["counts"] = counts_;
@@ -488,7 +500,8 @@ SuiteReader::SuiteReader(fs::path directory, const std::string& name, const std:
     throw input_error(file, 0, "is the manifest of " + golden::in_quotes(info_.name) + ", not of " + name);
   std::string suites;
   set_ = read_set_info(file, manifest_, suites);
-  if (suites != with_suite("", name)) throw input_error(file, 0, "\"command\" is not that of suite " + name);
+  if (suites != (set_.input.empty() ? with_suite("", name) : ""))
+    throw input_error(file, 0, "\"command\" is not that of suite " + name);
   for (const auto& [role, record] : object_member(file, manifest_, "records").items()) {
     if (!record.is_object()) throw input_error(file, 0, "record " + golden::in_quotes(role) + " is no object");
     only_keys(file, record, {"file", "bits", "fields"});
@@ -628,8 +641,8 @@ SetReader::SetReader(fs::path directory) : directory_(std::move(directory)) {
     selected = with_suite(selected, name);
   }
   if (names_.empty()) throw input_error(file, 0, "names no suite; a set without vectors proves nothing");
-  says_complete_ = suites.empty();
-  if (!says_complete_ && suites != selected)
+  says_complete_ = suites.empty() && info_.input.empty();
+  if (!says_complete_ && suites != (info_.input.empty() ? selected : ""))
     throw input_error(file, 0, "\"command\" generates other suites than those of the set");
   require_names(directory_, entries(directory_, true), expected);
 }
@@ -645,9 +658,9 @@ SuiteReader SetReader::suite(const std::string& name) const {
     if (own[key] != manifest_[key])
       throw input_error(file, 0, std::string("\"") + key + "\" differs from that of suite " + name);
   std::string command = own["command"].get<std::string>(), of_set = manifest_["command"].get<std::string>();
-  command.resize(command.size() - with_suite("", name).size());
+  if (info_.input.empty()) command.resize(command.size() - with_suite("", name).size());
   of_set.resize(std::min(of_set.size(), command.size()));
-  if (command != of_set || reader.set().limit != info_.limit)
+  if (command != of_set || reader.set().limit != info_.limit || reader.set().input != info_.input)
     throw input_error(file, 0, "\"command\" differs from that of suite " + name);
   return reader;
 }

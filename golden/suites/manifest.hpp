@@ -27,7 +27,7 @@ inline constexpr int format_version = 1;
 /// What a suite is, for listings and its manifest.
 struct SuiteInfo {
   std::string name;
-  std::string kind;  ///< stage, handshake, snapping, machine
+  std::string kind;  ///< stage, handshake, snapping, table, machine
   std::string title;
   std::string module;    ///< of rtl/, or "none"
   int latency = 0;       ///< enabled clocks from the last input to the response; 0 where a handshake decides
@@ -40,10 +40,11 @@ struct SetInfo {
   std::uint64_t seed = 1;
   Config config;
   std::uint64_t limit = 0;  ///< GenerateOptions::limit
+  std::string input{};      ///< one's own: the options that name it, as a command line gives them; empty: the suites'
 };
 
 /// The command that generates a set of every suite, without --out. Each --suite NAME follows it in the order of the
-/// set.
+/// set; of an input of one's own the options of the input stand there instead.
 std::string set_command(const SetInfo& info);
 
 nlohmann::ordered_json to_json(const RecordLayout& layout);

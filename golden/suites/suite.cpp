@@ -2,8 +2,10 @@
 
 #include "golden/io/error.hpp"
 #include "golden/io/text_input.hpp"
+#include "golden/suites/input_suite.hpp"
 #include "golden/suites/machine_suite.hpp"
 #include "golden/suites/stage_suites.hpp"
+#include "golden/suites/table_suite.hpp"
 #include "model/support/edit_distance.hpp"
 #include "model/support/parallel.hpp"
 
@@ -16,6 +18,7 @@ const std::vector<std::unique_ptr<Suite>>& suites() {
   static const std::vector<std::unique_ptr<Suite>> all = [] {
     std::vector<std::unique_ptr<Suite>> list;
     add_stage_suites(list);
+    add_table_suites(list);
     add_machine_suites(list);
     return list;
   }();
@@ -23,6 +26,8 @@ const std::vector<std::unique_ptr<Suite>>& suites() {
 }
 
 const Suite& find_suite(std::string_view name) {
+  static const InputSuite input;
+  if (name == input_suite_name) return input;
   for (const auto& suite : suites())
     if (suite->info().name == name) return *suite;
   throw golden::InputError("unknown suite " + golden::in_quotes(name) +
@@ -50,6 +55,8 @@ void require_known(const SuiteReader& reader) {
   require(given.module == expected.module, "module");
   require(given.latency == expected.latency, "latency");
   require(given.contract == expected.contract, "contract");
+  if ((expected.name == input_suite_name) == reader.set().input.empty())
+    throw golden::input_error(reader.manifest_file(), 0, "\"command\" is not that of suite " + expected.name);
   suite.require(reader);
 }
 

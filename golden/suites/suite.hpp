@@ -70,7 +70,10 @@ class Suite {
 /// Every suite, in the order of golden/vectors/README.md.
 const std::vector<std::unique_ptr<Suite>>& suites();
 
-/// The suite of that name; throws golden::InputError naming the nearest.
+/// The suite of sets made of an input of one's own (input_suite.hpp); not among suites().
+inline constexpr std::string_view input_suite_name = "input";
+
+/// The suite of that name, `input` too; throws golden::InputError naming the nearest.
 const Suite& find_suite(std::string_view name);
 
 /// Throws golden::InputError unless the set's command makes its suites.

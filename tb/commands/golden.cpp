@@ -1,10 +1,13 @@
 // quadrille golden: sets of golden vectors, generated and verified (diff is in golden_diff.cpp).
 #include "golden/io/json_report.hpp"
 #include "golden/suites/float_engine.hpp"
+#include "golden/suites/input_suite.hpp"
 #include "golden/suites/suite.hpp"
+#include "model/snap.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/golden_rtl.hpp"
 #include "tb/options/command_line.hpp"
+#include "tb/options/input.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -29,8 +32,18 @@ struct GenerateCommandOptions {
   int level = 1;
   std::uint64_t limit = 0;
   std::vector<std::string> suites;
-  std::string out;
+  std::string out, size, shade;
+  InputOptions input;
+  StateOptions state;
   bool list = false, force = false;
+
+  /// Anything that only an input of one's own takes.
+  bool own_input() const {
+    const InputOptions none;
+    return inputs_given(input) > 0 || input.count != none.count || input.strict || !input.camera.empty() ||
+           !input.view.empty() || !input.up.empty() || !input.save_camera.empty() || !state.spelled().empty() ||
+           !size.empty() || !shade.empty();
+  }
 };
 
 /// The chosen suites in the order of the list; all of them when none is named.
@@ -45,14 +58,50 @@ std::vector<const Suite*> choose_suites(const std::vector<std::string>& names) {
   return chosen;
 }
 
+/// The suite of an input of one's own, and the options that name it. Attributes are what the shading needs; where it
+/// needs none, the weights.
+std::unique_ptr<InputSuite> input_suite(const GenerateCommandOptions& options, const Config& config,
+                                        std::string& spelled) {
+  if (!options.suites.empty()) throw UsageError("--suite is for the program's own inputs; leave it out with an input");
+  if (options.level != 1) throw UsageError("--level is for the program's own inputs; an input is drawn as it is");
+  CommonOptions common = options.common;
+  if (!options.size.empty()) common.size = options.size;
+  DrawState state = options.state.state(common, config);
+  DrawInput input = load_input(options.input, options.shade, state.width, state.height, common.seed);
+  print_remark(input, common);
+  state.perspective = state.perspective && input.perspective;
+  if (input.attributes == 0) {
+    input.attributes = std::min(4, config.attribute_slots);
+    for (WindowQuad& quad : input.quads)
+      for (std::size_t i = 0; i < 4; ++i) {
+        quad.attribute[i].assign(static_cast<std::size_t>(input.attributes), 0);
+        if (i < quad.attribute[i].size()) quad.attribute[i][i] = 1;
+      }
+  }
+  if (input.attributes > config.attribute_slots)
+    throw UsageError(input.name + " has " + std::to_string(input.attributes) + " attributes, which is more than " +
+                     (static_cast<std::size_t>(input.attributes) > max_attribute_slots
+                          ? "the machine can have"
+                          : "attribute_slots; --set attribute_slots=" + std::to_string(input.attributes)));
+  state.attributes = input.attributes;
+  spelled = input.option + " --size " + common.size + options.state.spelled() +
+            (options.shade.empty() ? "" : " --shade " + options.shade);
+  try {
+    return std::make_unique<InputSuite>(std::move(input.quads), state, config);
+  } catch (const SnapError& error) {
+    throw UsageError(describe(error, input));
+  }
+}
+
 int generate(const GenerateCommandOptions& options, const std::vector<std::string>& arguments) {
   if (options.list) {
     for (const auto& suite : vectors::suites()) std::printf("%s\n", suite->info().name.c_str());
     return exit_ok;
   }
   if (options.out.empty()) throw UsageError("--out DIR is missing: the directory of the set");
-  const std::vector<const Suite*> chosen = choose_suites(options.suites);
-  check_outputs({options.common.json}, {options.common.config_file});
+  std::vector<std::string> read = options.input.files();
+  read.push_back(options.common.config_file);
+  check_outputs({options.input.save_camera, options.common.json}, read);
   GenerateOptions generation;
   generation.level = options.level;
   generation.seed = options.common.seed;
@@ -60,7 +109,11 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
   generation.limit = options.limit;
   generation.threads = options.common.thread_count();
 
-  const SetInfo info{generation.level, generation.seed, generation.config, generation.limit};
+  SetInfo info{generation.level, generation.seed, generation.config, generation.limit};
+  std::unique_ptr<InputSuite> own;
+  if (options.own_input()) own = input_suite(options, generation.config, info.input);
+  const std::vector<const Suite*> chosen =
+      own != nullptr ? std::vector<const Suite*>{own.get()} : choose_suites(options.suites);
   const tb::Stopwatch start;
   SetWriter writer(options.out, info, options.force);
   Progress progress("golden", chosen.size(), options.common.show_progress());
@@ -85,7 +138,7 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
     list.push_back({{"suite", suite.info().name}, {"vectors", vectors}, {"seconds", suite_start.seconds()}});
   }
   progress.finish();
-  writer.commit(chosen.size() == vectors::suites().size());
+  writer.commit(own != nullptr || chosen.size() == vectors::suites().size());
   report["seconds"] = start.seconds();
   if (text != nullptr)
     std::fprintf(text, "%s%s: %zu %s in %.1f s\n", lines.c_str(), options.out.c_str(), chosen.size(),
@@ -204,12 +257,29 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
       "MB,\n"
       "level 2 about sixty times as much. The same level, seed, limit and configuration give the same bytes\n"
       "everywhere.\n\n"
+      "An input of your own (--scene, --mesh, --quads or --stress) gives one suite, `input`: its vertices as given, "
+      "the\n"
+      "integers of the port, and fragments with their clocks; all of it unless --limit says less. --size, --shade and "
+      "the\n"
+      "draw state go with it. Attributes are those of the shading, or the weights where it needs none.\n\n"
       "Examples:\n"
       "  quadrille golden generate --level 1 --out vectors\n"
       "  quadrille golden generate --suite rsqrt --suite weights --set significand_bits=12 --out vectors12\n"
+      "  quadrille golden generate --scene bowtie --size 64x64 --out mine\n"
+      "  quadrille golden generate --mesh pawn.obj --shade uv --cull back --set significand_bits=16 --out pawn\n"
       "  quadrille golden generate --list-suites");
   const auto options = std::make_shared<GenerateCommandOptions>();
   options->common.add_to(*command, false);
+  options->input.add_to(*command);
+  options->state.add_to(*command);
+  constexpr const char* input_group = "Input";
+  command
+      ->add_option("--size", options->size, "Viewport of an input in pixels, " + options->common.size + " unless given")
+      ->type_name("WxH")
+      ->group(input_group);
+  command->add_option("--shade", options->shade, "Attributes of an input: those of a shading; default: what suits it")
+      ->type_name("MODE")
+      ->group(input_group);
   command->add_option("--level", options->level, "1: seconds; 2: about sixty times as much")
       ->check(CLI::Range(1, 2))
       ->type_name("N")

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
+#include <map>
 #include <sstream>
 
 namespace {
@@ -275,6 +277,153 @@ TEST_F(GoldenCli, SealRefusesMalformedFiles) {
   refused("response.hex", response.substr(line), "each needs one");
   refused("stimulus.hex", response, "stimulus.hex: is not the generated file");
   EXPECT_EQ(run("golden seal " + file("nowhere").string()).status, 2);
+}
+
+// A square over the pixels 1 to 8 of both axes, w = 1, one quad a line.
+constexpr const char* square = "1 1 0.5 1  9 1 0.5 1  9 9 0.5 1  1 9 0.5 1\n";
+
+TEST_F(GoldenCli, AnInputOfOnesOwn) {
+  write("square.quads", square);
+  ASSERT_EQ(run("golden generate --quads square.quads --size 32x32 --out own").status, 0);
+  const json manifest = json::parse(read(file("own/input/manifest.json")));
+  EXPECT_EQ(manifest["counts"], (json{{"vectors", 64}, {"draws", 1}, {"quads", 1}}));
+  // {draw[16], id[24], x[32], y[32], ...}: the first corner is half a pixel from the first pixel's centre, FRAC = 15.
+  EXPECT_EQ(read(file("own/input/stimulus.hex")).substr(0, 26), "00000000000000400000004000");
+  // {perspective, x[64], y[64], z[64], w[64], ...}: as given.
+  EXPECT_EQ(read(file("own/input/vertices.hex")).substr(0, 65),
+            "13ff00000000000003ff00000000000003fe00000000000003ff0000000000000");
+  for (const char* engine : {"model", "float"}) {
+    const Outcome outcome = run(std::string("golden verify own --engine ") + engine);
+    EXPECT_EQ(outcome.status, 0) << engine << ": " << outcome.err;
+    EXPECT_EQ(outcome.out, "input: 64 vectors, 0 mismatches\n") << engine;
+  }
+  // The command of the manifest makes the same bytes.
+  const std::string command = manifest["command"];
+  ASSERT_EQ(command, "quadrille golden generate --level 1 --seed 1 --quads square.quads --size 32x32");
+  ASSERT_EQ(run(command.substr(10) + " --threads 1 --out again").status, 0);
+  EXPECT_EQ(bytes("own"), bytes("again"));
+}
+
+// Under right hashes: a port integer that does not follow from its vertex, and a fragment that the machine does not
+// draw.
+TEST_F(GoldenCli, WrongBytesOfAnInputAreFound) {
+  write("square.quads", square);
+  ASSERT_EQ(run("golden generate --quads square.quads --size 32x32 --out own").status, 0);
+  const std::string vertices = read(file("own/input/vertices.hex")), response = read(file("own/input/response.hex"));
+  std::string text = vertices;
+  ASSERT_EQ(text[20], '0');
+  text[20] = '1';  // y of the first vertex: 1 + 1/16
+  write("own/input/vertices.hex", text);
+  refuses(2, "golden verify own", {"vertices.hex", "SHA-256"});
+  write("own/input/vertices.hex", vertices);
+  put("own", "input", "vertices.hex", text);
+  Outcome outcome = run("golden verify own");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err.find("quadrille: own/input/stimulus.hex:1: y: expected "), 0u) << outcome.err;
+  put("own", "input", "vertices.hex", vertices);
+  ASSERT_EQ(run("golden verify own").status, 0);
+
+  text = response;
+  char& lowest = text[text.find('\n') - 1];
+  lowest = lowest == '0' ? '1' : '0';
+  put("own", "input", "response.hex", text);
+  outcome = run("golden verify own");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err.find("quadrille: own/input/response.hex:1: attr[0]: expected "), 0u) << outcome.err;
+}
+
+// Every kind of input, with draw state and configuration: as many vectors as the command `fragments` has fragments.
+TEST_F(GoldenCli, InputsOfEveryKind) {
+  const std::string examples = QUADRILLE_SOURCE_DIR "/golden/examples/";
+  const std::string narrow = "--config '" + examples + "narrow.toml' --set significand_bits=13";
+  for (const std::string& input :
+       {std::string("--scene bowtie --shade uv --cull back"),
+        std::string("--stress eye_crossing --count 6 --seed 3 --no-depth"),
+        std::string("--scene bloomenthal10_a --scissor 3,5,20,30 --no-perspective --set attribute_slots=5"),
+        "--mesh '" + examples + "box.obj' --camera '" + examples + "camera.json' --shade normal " + narrow,
+        "--mesh '" + examples + "box.obj' --up z --view back --znear 0.1",
+        "--quads '" + examples + "winding.quads' --no-tile-skip " + narrow}) {
+    SCOPED_TRACE(input);
+    const Outcome made = run("golden generate --force --size 40x32 --out own " + input);
+    ASSERT_EQ(made.status, 0) << made.err;
+    const json manifest = json::parse(read(file("own/input/manifest.json")));
+    const Outcome fragments = run("fragments --size 40x32 --out - " + input);
+    ASSERT_EQ(fragments.status, 0) << fragments.err;
+    EXPECT_EQ(manifest["counts"]["vectors"], std::ranges::count(fragments.out, '\n') - 1);
+    EXPECT_EQ(manifest["config"]["significand_bits"], input.ends_with(narrow) ? 13 : 18);
+    for (const char* engine : {"model", "float"}) {
+      const Outcome outcome = run(std::string("golden verify own --engine ") + engine);
+      EXPECT_EQ(outcome.status, 0) << engine << outcome.err;
+    }
+    // The command is words of a shell; what it names makes the same bytes again.
+    const std::string command = manifest["command"];
+    ASSERT_EQ(run(command.substr(10) + " --force --out again").status, 0) << command;
+    EXPECT_EQ(bytes("own"), bytes("again"));
+  }
+}
+
+TEST_F(GoldenCli, RefusesInputsThatMakeNoSet) {
+  write("square.quads", square);
+  write("beside.quads", "101 1 0.5 1  109 1 0.5 1  109 9 0.5 1  101 9 0.5 1\n");
+  write("huge.quads", std::string(square) + "1e20 1 0.5 1e-20  9 1 0.5 1  9 9 0.5 1  1 9 0.5 1\n");
+  const auto refused = [&](const std::string& arguments, const std::vector<std::string>& pieces) {
+    refuses(2, "golden generate --out own " + arguments, pieces);
+    EXPECT_FALSE(fs::exists(file("own"))) << arguments;
+  };
+  refused("--quads square.quads --suite rsqrt", {"--suite", "leave it out"});
+  refused("--quads square.quads --level 2", {"--level"});
+  refused("--quads square.quads --scene bowtie", {"one input", "2 were given"});
+  refused("--quads nowhere.quads", {"nowhere.quads", "cannot be read"});
+  refused("--scene bowtei", {"did you mean \"bowtie\""});
+  refused("--quads square.quads --camera c.json", {"--camera goes with --mesh"});
+  for (const char* alone : {"--cull back", "--size 32x32", "--shade uv", "--count 5", "--strict", "--up z"})
+    refused(alone, {"one input is needed", "0 were given"});
+  refused("--size 32x32 --quads beside.quads", {"none of the input's quads (1) draws a fragment"});
+  refused("--size 32x32 --stress general --count 300 --set quad_id_bits=8", {"quad 256", "quad_id_bits = 8"});
+  refused("--size 64x64 --stress general --count 100000", {"more than 1000000 fragments", "--limit"});
+  refused("--scene bowtie --shade uv --set attribute_slots=1", {"2 attributes", "--set attribute_slots=2"});
+}
+
+// The entries are the constants that the RTL is built with, and wrong ones are found by either engine.
+TEST_F(GoldenCli, TablesAreTheConstantsOfTheRtl) {
+  for (const char* settings : {"", "--set significand_bits=10", "--set significand_bits=14 --set rsqrt_degree=1"}) {
+    SCOPED_TRACE(settings);
+    generate("--force --suite rsqrt_table --suite reciprocal_table --out set " + std::string(settings));
+    ASSERT_EQ(run("config --quiet --emit-tables tables.sv " + std::string(settings)).status, 0);
+    const json config = json::parse(read(file("set/manifest.json")))["config"];
+    const int s = config["significand_bits"];
+    // "      5'd3: rsqrt_rom = {22'd2060, 18'd77, 18'd5};" against the records {c0[S+4], c1[S], c2[S]} in order.
+    std::map<std::string, std::string> roms;
+    std::istringstream lines(read(file("tables.sv")));
+    for (std::string line; std::getline(lines, line);) {
+      char rom[16];
+      unsigned long index = 0, c0 = 0, c1 = 0, c2 = 0;
+      if (std::sscanf(line.c_str(), " %*d'd%lu: %15s = {%*d'd%lu, %*d'd%lu, %*d'd%lu};", &index, rom, &c0, &c1, &c2) !=
+          5)
+        continue;
+      char record[32];
+      std::snprintf(record, sizeof record, "%0*lx\n", (3 * s + 4 + 3) / 4, c0 << 2 * s | c1 << s | c2);
+      roms[rom] += record;
+    }
+    EXPECT_EQ(read(file("set/rsqrt_table/response.hex")), roms["rsqrt_rom"]);
+    EXPECT_EQ(read(file("set/reciprocal_table/response.hex")), roms["recip_rom"]);
+    EXPECT_EQ(std::ranges::count(roms["rsqrt_rom"], '\n'), 2 << config["rsqrt_segments_log2"].get<int>());
+    EXPECT_EQ(std::ranges::count(roms["recip_rom"], '\n'), 1 << config["recip_segments_log2"].get<int>());
+    for (const char* engine : {"model", "float"})
+      EXPECT_EQ(run(std::string("golden verify set --engine ") + engine).status, 0) << engine;
+  }
+  for (const char* suite : {"rsqrt_table", "reciprocal_table"}) {
+    const std::string response = read(file("set") / suite / "response.hex");
+    std::string text = response;
+    text[1] = text[1] == '0' ? '1' : '0';  // a high digit of C0
+    put("set", suite, "response.hex", text);
+    for (const char* engine : {"model", "float"}) {
+      const Outcome outcome = run(std::string("golden verify set --engine ") + engine);
+      EXPECT_EQ(outcome.status, 1) << engine;
+      EXPECT_NE(outcome.err.find(std::string(suite) + "/response.hex:1: c0"), std::string::npos) << outcome.err;
+    }
+    put("set", suite, "response.hex", response);
+  }
 }
 
 TEST_F(GoldenCli, RefusesWhatItCannotDo) {

@@ -26,6 +26,8 @@ NETLISTS = ("rsqrt", "reciprocal")
 THROUGH_YOSYS = ("quadrille", "replay_setup", "replay_ratios")
 # Their inputs enter at different stages; the manifest's latency counts from the last, the wrapper's from the first.
 STAGGERED = ("ratios", "weights")
+# Kinds of suites that no bench has a device for.
+WITHOUT_RTL = ("snapping", "table")
 # A field that has the name of a wrapper's port.
 RENAMED = {"valid_o": "drawn_o"}
 PACKAGES = {"verilator": "verilator", "iverilog": "iverilog", "vvp": "iverilog", "yosys": "yosys", "make": "make", "g++": "g++"}
@@ -89,7 +91,7 @@ class Suite:
             files = manifest["files"]
             self.bits = {name: int(record["bits"]) for name, record in self.records.items()}
             self.lines = {}
-            if self.kind != "snapping":
+            if self.kind not in WITHOUT_RTL:
                 for record in self.records.values():
                     file = record["file"]
                     self.lines[file] = self.count_lines(file, int(record["bits"]))
@@ -337,14 +339,14 @@ def select(options):
         raise InputError(f"{options.directory}: no suite {unknown[0]}; it has {', '.join(names)}")
     suites = [Suite(options.directory, name) for name in dict.fromkeys(wanted)]
     for suite in suites:
-        if suite.kind not in ("snapping", "machine", "stage", "handshake"):
+        if suite.kind not in (*WITHOUT_RTL, "machine", "stage", "handshake"):
             raise InputError(f"{suite.directory}/manifest.json: kind {suite.kind!r}")
         if suite.kind in ("stage", "handshake") and not os.path.exists(os.path.join(BENCHES, f"replay_{suite.name}.sv")):
             raise InputError(f"{suite.directory}/manifest.json: no wrapper replay_{suite.name}.sv")
-    replayed = [suite for suite in suites if suite.kind != "snapping"]
+    replayed = [suite for suite in suites if suite.kind not in WITHOUT_RTL]
     if not replayed:
         raise InputError(f"{options.directory}: nothing to replay: {', '.join(suite.name for suite in suites)} has no RTL")
-    return replayed, [suite.name for suite in suites if suite.kind == "snapping"]
+    return replayed, [suite.name for suite in suites if suite.kind in WITHOUT_RTL]
 
 
 def plan(options, suites, work):

@@ -1,0 +1,83 @@
+#include "golden/suites/input_suite.hpp"
+
+#include "golden/io/error.hpp"
+#include "golden/suites/stage_suite.hpp"
+#include "model/boundaries.hpp"
+#include "model/snap.hpp"
+
+#include <algorithm>
+
+namespace quadrille::vectors {
+namespace {
+
+SuiteInfo input_info() {
+  return {std::string(input_suite_name), "machine", "The whole machine on an input of one's own", "quadrille", 26,
+          "whatever snapping refuses"};
+}
+
+std::unique_ptr<const Stage> snapping(const Config& config) {
+  return dynamic_cast<const StageSuite&>(find_suite("snapping")).stage(config);
+}
+
+Record pack_vertex(std::uint32_t id, const SnappedVertex& vertex, const Config& config, const RecordLayout& layout) {
+  return pack_record(layout.bits(), [&](auto& f) { visit_vertex(id, vertex, config, f); });
+}
+
+}  // namespace
+
+InputSuite::InputSuite() : MachineSuite(input_info(), {}) {}
+
+InputSuite::InputSuite(std::vector<WindowQuad> quads, const DrawState& state, const Config& config)
+    : MachineSuite(input_info(),
+                   [draw = snap_draw(quads, state, config)](const GenerateOptions& options) {
+                     return std::vector<MachineDraw>{limited(draw, options)};
+                   }),
+      given_(std::move(quads)),
+      state_(state) {}
+
+std::vector<std::string> InputSuite::roles() const {
+  std::vector<std::string> roles = MachineSuite::roles();
+  roles.emplace_back("vertices");
+  return roles;
+}
+
+void InputSuite::write(SuiteWriter& writer, const GenerateOptions& options) const {
+  MachineSuite::write(writer, options);
+  const auto stage = snapping(options.config);
+  writer.add_record("vertices", stage->stimulus_layout());
+  StageData data;
+  data.state = state_;
+  for (std::size_t n = 0; n < writer.count("quads"); ++n)
+    for (std::size_t i = 0; i < 4; ++i) {
+      data.vertex = given_[n].vertex[i];
+      std::ranges::copy(given_[n].attribute[i], data.attribute.begin());
+      writer.write("vertices", stage->pack_stimulus(data));
+    }
+}
+
+VerifyResult InputSuite::verify(const SuiteReader& reader, unsigned threads) const {
+  const Config& config = reader.set().config;
+  const auto stage = snapping(config);
+  require_layout(reader, "vertices", stage->stimulus_layout());
+  if (reader.lines("vertices") != reader.lines("stimulus"))
+    throw golden::input_error(reader.manifest_file(), 0, "vertices and stimulus have different numbers of lines");
+  VerifyResult total = MachineSuite::verify(reader, threads);
+  const RecordLayout layout = vertex_layout(config);
+  const std::vector<Record> vertices = reader.read("vertices", 0, reader.lines("vertices"));
+  std::uint64_t line = 0;
+  for (const MachineDraw& draw : read_draws(reader))
+    for (const SnappedQuad& quad : draw.quads)
+      for (const SnappedVertex& vertex : quad.vertex) {
+        StageData data;
+        stage->unpack_stimulus(vertices[line], data);
+        stage->run(data);
+        const Record given = pack_vertex(quad.id, vertex, config, layout);
+        const Record expected = pack_vertex(quad.id, data.snapped, config, layout);
+        if (given != expected && total.mismatches++ == 0)
+          total.first_difference = reader.place("stimulus", line) + ": " + first_difference(layout, expected, given);
+        ++line;
+      }
+  return total;
+}
+
+}  // namespace quadrille::vectors
