@@ -1,5 +1,7 @@
 #include "tb/device/cache.hpp"
 
+#include "golden/io/interrupt.hpp"
+#include "golden/io/temporary.hpp"
 #include "tb/support/environment_error.hpp"
 
 #include <fcntl.h>
@@ -8,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
@@ -16,6 +17,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -26,7 +28,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* description_file = "description.txt";
-constexpr const char* unfinished = "tmp.";  ///< prefix of what is being built or removed
 
 std::string variable(const char* name) {
   const char* text = std::getenv(name);
@@ -117,10 +118,10 @@ std::uintmax_t size_of(const fs::path& path) {
   return bytes;
 }
 
-/// Locks and unfinished work are no entries; results of Yosys and logs of failed builds are files.
+/// Locks and unfinished work (golden::Temporary) are no entries; logs of failed builds are files.
 bool is_item(const fs::path& path) {
   const std::string name = path.filename().string();
-  return !name.starts_with(unfinished) && !name.ends_with(".lock") && name.find('-') != std::string::npos;
+  return !name.starts_with(".") && !name.ends_with(".lock") && name.find('-') != std::string::npos;
 }
 
 /// Removes an entry unless somebody uses it.
@@ -129,26 +130,43 @@ bool remove_unused(const fs::path& path) {
   if (!fs::is_directory(path, error)) return fs::remove(path, error);
   const std::optional<Locked> lock = Locked::open(path, O_RDONLY | O_DIRECTORY, LOCK_EX | LOCK_NB);
   if (!lock) return false;
-  fs::path away = path;
-  if (!path.filename().string().starts_with(unfinished)) {  // first out of sight, so that nobody meets half an entry
-    away = path.parent_path() / (unfinished + path.filename().string() + ".gone." + std::to_string(getpid()));
-    fs::rename(path, away, error);
-    if (error) return false;
-  }
+  // First out of sight, so that nobody meets half an entry, under a name that is swept if this process is killed.
+  const fs::path away = path.parent_path() / (".quadrille-" + path.filename().string() + ".tmp");
+  fs::rename(path, away, error);
+  if (error) return false;
   fs::remove_all(away, error);
   return !error;
 }
 
-/// What builds left whose process is gone: nobody holds the lock.
-void sweep_unfinished(const fs::path& cache) {
+/// Locks of builds whose process is gone.
+void sweep_locks(const fs::path& cache) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(cache, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(unfinished)) remove_unused(entry.path());
-    if (name.ends_with(".lock") && Locked::open(entry.path(), O_RDONLY, LOCK_EX | LOCK_NB))
+    if (entry.path().extension() == ".lock" && Locked::open(entry.path(), O_RDONLY, LOCK_EX | LOCK_NB))
       fs::remove(entry.path(), error);
   }
 }
+
+/// The file of a lock that this process holds: gone at the end of the scope, and when the process is interrupted. Who
+/// waits for the lock looks again.
+class LockFile {
+ public:
+  explicit LockFile(fs::path path) : path_(std::move(path)) {
+    golden::without_interrupt([&] { golden::remember_temporary(path_); });
+  }
+  ~LockFile() {
+    golden::without_interrupt([&] {
+      std::error_code ignored;
+      fs::remove(path_, ignored);
+      golden::forget_temporary(path_);
+    });
+  }
+  LockFile(const LockFile&) = delete;
+  LockFile& operator=(const LockFile&) = delete;
+
+ private:
+  const fs::path path_;
+};
 
 void trim(const fs::path& cache) {
   const std::uintmax_t limit = cache_limit();
@@ -238,42 +256,31 @@ std::uintmax_t cache_limit() {
 CacheEntry cached(const std::string& name, const std::string& description,
                   const std::function<void(const fs::path&)>& build, const std::function<void(long)>& waiting) {
   CacheEntry found;
-  const auto take = [&](std::optional<Locked> lock) {
-    if (lock) found.lock_ = std::make_shared<const Locked>(std::move(*lock));
+  found.path_ = cache_directory() / name;
+  const auto in_use = [&] {
+    if (std::optional<Locked> lock = use(found.path_)) found.lock_ = std::make_shared<const Locked>(std::move(*lock));
     return found.lock_ != nullptr;
   };
-  found.path_ = cache_directory() / name;
-  if (take(use(found.path_))) return found;
+  if (in_use()) return found;
 
   const fs::path cache = writable_cache_directory();
   cache_limit();  // refused before the work
   const fs::path lock_file = cache / (name + ".lock");
   const Locked building = lock_for_building(lock_file, waiting);
-  if (!take(use(found.path_))) {  // else another process was faster
-    sweep_unfinished(cache);
-    static std::atomic<unsigned> serial{0};
-    const fs::path work = cache / (unfinished + name + "." + std::to_string(getpid()) + "." + std::to_string(serial++));
-    std::optional<Locked> lock;
-    do {  // somebody's sweep may come between the two
-      fs::create_directories(work);
-      lock = Locked::open(work, O_RDONLY | O_DIRECTORY, LOCK_EX);
-    } while (!lock && errno == ESTALE);
-    try {
-      build(work);
-      write_text(work / description_file, description + "\n");
-      fs::rename(work, found.path_);
-      if (lock) lock->lock(LOCK_SH);  // from now on in use
-      take(std::move(lock));
-    } catch (...) {
-      std::error_code ignored;
-      fs::remove_all(work, ignored);
-      fs::remove(lock_file, ignored);
-      throw;
-    }
-    trim(cache);
+  const LockFile file(lock_file);
+  if (in_use()) return found;  // another process was faster
+  sweep_locks(cache);
+  try {
+    do {  // again, should somebody remove it before it is in use
+      golden::Temporary work(cache, golden::Temporary::Kind::folder);
+      build(work.path());
+      write_text(work.path() / description_file, description + "\n");
+      work.publish(found.path_);
+    } while (!in_use());
+  } catch (const std::system_error& error) {
+    throw EnvironmentError("cannot write to the cache directory " + cache.string() + ": " + error.code().message());
   }
-  std::error_code ignored;
-  fs::remove(lock_file, ignored);  // while it is held; who waits for it looks again
+  trim(cache);
   return found;
 }
 
@@ -309,7 +316,8 @@ std::vector<CacheItem> clear_cache() {
   writable_cache_directory();
   std::vector<CacheItem> items = cache_items();
   std::erase_if(items, [&](const CacheItem& item) { return item.in_use || !remove_unused(cache / item.name); });
-  sweep_unfinished(cache);
+  sweep_locks(cache);
+  const golden::Temporary sweeps(cache, golden::Temporary::Kind::folder);  // what killed builds left
   return items;
 }
 

@@ -112,7 +112,7 @@ TEST_F(Cache, NothingInUseGoes) {
 TEST_F(Cache, ListsAndClears) {
   entry("kind-1", 100);
   std::ofstream(directory / "failed-kind-9.log") << "log";
-  fs::create_directory(directory / "tmp.kind-2.1.0");  // its process is gone
+  fs::create_directory(directory / ".quadrille-1-0.tmp");  // its process is gone
   std::ofstream(directory / "kind-2.lock") << 1;
   age("kind-1", 3);
   const std::vector<CacheItem> items = cache_items();
@@ -134,7 +134,7 @@ TEST_F(Cache, NoCacheIsEmpty) {
 }
 
 TEST_F(Cache, WhatStoppedBuildsLeftIsSwept) {
-  fs::create_directories(directory / "tmp.kind-1.1.0" / "deep");
+  fs::create_directories(directory / ".quadrille-1-0.tmp" / "deep");
   entry("kind-2");
   EXPECT_EQ(names(), std::vector<std::string>{"kind-2"});
 }
