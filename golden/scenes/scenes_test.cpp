@@ -61,7 +61,7 @@ TEST(Scenes, UnknownNameSuggestsTheNearest) {
     make_scene("fig10_convx");
     FAIL();
   } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find("'fig10_convex'"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("did you mean \"fig10_convex\"?"), std::string::npos) << e.what();
   }
 }
 
