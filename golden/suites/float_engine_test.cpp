@@ -4,6 +4,9 @@
 #include "golden/io/error.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/stress.hpp"
+#include "golden/suites/float_quad.hpp"
+#include "golden/suites/float_stages.hpp"
+#include "golden/suites/machine_suite.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 
@@ -79,7 +82,7 @@ TEST(FloatEngine, AgreesWithTheModelOnEveryStage) {
       const auto stage = suite->stage(config);
       std::size_t undefined = 0, count = 0;
       for (const Record& stimulus : stimuli(*suite, config, 600)) {
-        const VectorOutcome outcome = check_float(suite->info().name, *stage, stimulus, stage->respond(stimulus));
+        const VectorOutcome outcome = FloatStage(suite->info().name, *stage).check(stimulus, stage->respond(stimulus));
         ASSERT_NE(outcome.kind, Kind::mismatch) << outcome.difference << "\n" << stimulus.to_hex();
         undefined += outcome.kind == Kind::undefined;
         ++count;
@@ -118,13 +121,13 @@ TEST(FloatEngine, FindsDamagedFields) {
     std::size_t tried = 0, found = 0;
     for (const Record& stimulus : stimuli(*suite, config, 150)) {
       const Record response = stage->respond(stimulus);
-      if (check_float(name, *stage, stimulus, response).kind == Kind::undefined) continue;
+      if (FloatStage(name, *stage).check(stimulus, response).kind == Kind::undefined) continue;
       for (const RecordField& f : stage->response_layout().fields()) {
         const std::vector<Record> wrong = damaged(response, f, name);
         if (wrong.empty()) continue;
         ++tried;
         found += std::ranges::any_of(wrong, [&](const Record& record) {
-          return check_float(name, *stage, stimulus, record).kind == Kind::mismatch;
+          return FloatStage(name, *stage).check(stimulus, record).kind == Kind::mismatch;
         });
       }
     }
@@ -147,7 +150,7 @@ TEST(FloatEngine, FindsADamagedBitOfAnyMask) {
       Record wrong = response;
       drawn += wrong.get(bit, 1);
       wrong.set(bit, 1, wrong.get(bit, 1) ^ 1);
-      ASSERT_EQ(check_float("coverage", *stage, stimulus, wrong).kind, Kind::mismatch) << bit;
+      ASSERT_EQ(FloatStage("coverage", *stage).check(stimulus, wrong).kind, Kind::mismatch) << bit;
     }
   }
   EXPECT_GT(drawn, 100u);

@@ -1,0 +1,447 @@
+#include "golden/suites/float_stages.hpp"
+
+#include "golden/io/error.hpp"
+#include "golden/suites/float_cover.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace quadrille::vectors::floating {
+namespace {
+
+/// An ordinary vertex is its window position on the subpixel grid, to nearest: half a step. Others are scaled by k =
+/// 1/max(|x|/2^pos_int, |y|/2^pos_int, |w|) and rounded on the 2^-frac grid. Real's x - w/2 is off by 2^-64 of its
+/// terms. k, Z, b are rounded to nearest: half of u.
+void snapping(Judge& judge, const Vector& t) {
+  const Config& c = t.config;
+  const WindowVertex& v = t.in.vertex;
+  const auto slots = static_cast<std::size_t>(c.attribute_slots);
+  const double extent_given = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.w)});
+  bool refused = !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w) ||
+                 !(extent_given <= 0x1p80) || !(extent_given >= 0x1p-80) || !(std::fabs(v.z) <= 0x1p80);
+  for (std::size_t j = 0; j < slots; ++j)
+    refused = refused || !(std::fabs(t.in.attribute[j]) < std::ldexp(1.0, c.attribute_int_bits));
+  const SnappedVertex& p = t.out.snapped;
+  const auto check_refused = [&] {
+    judge.same("refused", -1, t.out.refused, 1);
+    judge.undecided();
+  };
+  if (refused) return check_refused();
+
+  const Real w = v.w, x = static_cast<Real>(v.x) - w / 2, y = static_cast<Real>(v.y) - w / 2;
+  const Real error = rounding * (std::max(fabsl(v.x), fabsl(v.y)) + fabsl(w));  // of x and y, generously
+  const Real extent = std::max({ldexpl(fabsl(x), -c.pos_int()), ldexpl(fabsl(y), -c.pos_int()), fabsl(w)});
+  if (extent == 0) return check_refused();
+  bool ordinary = false;
+  if (w > 0) {
+    // Rounding decides on which side of the guard band a position in its last half step is.
+    const Real reach = std::max(fabsl(x), fabsl(y)) / w, edge = ldexpl(1, c.pos_int());
+    const Real last = edge - ldexpl(1, -c.subpixel_bits - 1), doubt = error / w;
+    if (fabsl(reach - last) <= doubt) return judge.undecided();
+    ordinary = reach < last;
+  }
+  const Real k = ordinary ? 1 / w : 1 / extent;
+  const int fraction = ordinary ? c.subpixel_bits : c.frac();
+
+  // Products with k that the port cannot hold are refused, those below its exponents are zero.
+  const Real half = ldexpl(1, -c.significand_bits) * (1 + rounding) + rounding;
+  const auto too_large = ldexpl(1, 1 << (Config::port_exp_bits - 1)), too_small = 1 / too_large;
+  const Real scale = t.in.state.perspective ? k : ldexpl(static_cast<Real>(p.w), -c.frac());
+  std::array<Real, max_attribute_slots> b{};
+  Real largest = std::max(k, fabsl(k * static_cast<Real>(v.z)));
+  for (std::size_t j = 0; j < slots; ++j) {
+    b[j] = scale * static_cast<Real>(t.in.attribute[j]);
+    largest = std::max(largest, fabsl(b[j]));
+  }
+  if (largest * (1 + 2 * half) >= too_large) {
+    if (largest >= too_large) return check_refused();
+    return judge.undecided();
+  }
+  judge.same("refused", -1, t.out.refused, 0);
+  if (t.out.refused) return;
+
+  const auto position = [&](const char* name, std::int32_t actual, Real exact, Real doubt) {
+    const Real step = ldexpl(1, -fraction), value = ldexpl(static_cast<Real>(actual), -c.frac());
+    const Real tolerance = step / 2 + doubt + rounding * fabsl(exact);
+    judge.within(name, -1, value, exact - tolerance, exact + tolerance);
+    if (ordinary && actual % (1 << c.homogeneous_frac_bits) != 0)
+      judge.differs(std::string(name) + ": not on the grid of an ordinary vertex");
+  };
+  position("x", p.x, k * x, k * error);
+  position("y", p.y, k * y, k * error);
+  if (ordinary)
+    judge.same("w", -1, p.w, ldexpl(1, c.frac()));
+  else
+    position("w", p.w, k * w, k * error);
+  const auto number = [&](const char* name, int index, const PortNumber& actual, Real exact) {
+    const Real tolerance = (half + k * error * (ordinary ? 0 : 1)) * fabsl(exact);
+    Span span{exact - tolerance, exact + tolerance};
+    if (fabsl(exact) * (1 - half) < too_small) {
+      // Zero, or what rounds up to the smallest exponent.
+      if (fabsl(exact) * (1 + half) < too_small) span = {};
+      span = {std::min(span.lo, 0.0L), std::max(span.hi, 0.0L)};
+    }
+    check_number(judge, name, index, actual, span, t.losses);
+  };
+  number("k_sig", -1, p.k, k);
+  number("z_sig", -1, p.z, k * static_cast<Real>(v.z));
+  for (std::size_t j = 0; j < slots; ++j) number("attr_sig", static_cast<int>(j), p.attribute[j], b[j]);
+}
+
+/// Exact integers; visibility by the signs of determinants.
+void setup(Judge& judge, const Vector& t) {
+  const Config& c = t.config;
+  const DrawState& state = t.in.state;
+  const SetupResult& r = t.out.setup;
+  const auto& v = t.in.quad.vertex;
+  const std::int32_t one = 1 << c.frac();
+  const bool homogeneous = std::ranges::any_of(v, [&](const SnappedVertex& a) { return a.w != one; });
+  judge.same("slot", -1, r.slot, 0);
+  judge.same("homogeneous", -1, r.homogeneous, homogeneous);
+
+  // Pixels [lo, hi] in x and y, then tiles.
+  struct Interval {
+    Real lo, hi;
+  };
+  const auto pixels = [&](auto coordinate, int first, int end) -> Interval {
+    if (homogeneous) return {first < end ? 0.0L : 1.0L, first < end ? static_cast<Real>(end) - 1 : 0.0L};
+    const auto [least, most] = std::ranges::minmax(v, {}, coordinate);
+    return {std::max(ceill(static_cast<Real>(least.*coordinate) / one), static_cast<Real>(first)),
+            std::min(floorl(static_cast<Real>(most.*coordinate) / one), static_cast<Real>(end) - 1)};
+  };
+  const Interval x = pixels(&SnappedVertex::x, state.scissor_x0, state.scissor_x1);
+  const Interval y = pixels(&SnappedVertex::y, state.scissor_y0, state.scissor_y1);
+  const bool empty = x.lo > x.hi || y.lo > y.hi;
+  const auto first = [&](Interval i) { return empty ? 0 : floorl(i.lo / c.tile()); };
+  const auto count = [&](Interval i) { return empty ? 0 : floorl(i.hi / c.tile()) - first(i) + 1; };
+  judge.same("tile_x0", -1, r.tile_x0, first(x));
+  judge.same("tile_y0", -1, r.tile_y0, first(y));
+  judge.same("tiles_x", -1, r.tiles_x, count(x));
+  judge.same("tiles_y", -1, r.tiles_y, count(y));
+
+  const Visibility seen = visibility(t.in.quad, c);
+  if (seen.decided) {
+    judge.same("hull", -1, r.hull, seen.hull);
+    judge.same("visible", -1, r.visible, seen.visible);
+  } else {
+    judge.undecided();
+  }
+
+  // Relative to the origin pixel.
+  std::array<Real, 4> tx{}, ty{}, w{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    w[i] = static_cast<Real>(v[i].w);
+    tx[i] = static_cast<Real>(v[i].x) - w[i] * first(x) * c.tile();
+    ty[i] = static_cast<Real>(v[i].y) - w[i] * first(y) * c.tile();
+  }
+  const auto two = [](Real a, Real b) {
+    IntegerSum sum;
+    sum.add(a);
+    sum.add(b);
+    return sum;
+  };
+  for (std::size_t n = 0; n < linear_count; ++n) {
+    const auto [i, j] = vertex_pair[n];
+    const int index = static_cast<int>(n);
+    const auto& f = r.linear[n];
+    check_integer(judge, "lin_value", index, static_cast<Real>(f.value), two(tx[i] * ty[j], -ty[i] * tx[j]));
+    check_integer(judge, "lin_gx", index, static_cast<Real>(f.gx), two(ty[i] * w[j], -w[i] * ty[j]));
+    check_integer(judge, "lin_gy", index, static_cast<Real>(f.gy), two(w[i] * tx[j], -tx[i] * w[j]));
+  }
+  for (std::size_t n = 0; n < quadratic_count; ++n) {
+    const std::size_t i = n < 6 ? vertex_pair[n][0] : n - 6, j = n < 6 ? vertex_pair[n][1] : n - 6;
+    const int index = static_cast<int>(n), drop = c.qdrop();
+    const auto& f = r.quadratic[n];
+    check_shifted(judge, "quad_value", index, static_cast<Real>(f.value), two(tx[i] * tx[j], ty[i] * ty[j]), drop);
+    check_shifted(judge, "quad_gx", index, static_cast<Real>(f.gx), two(-tx[i] * w[j], -w[i] * tx[j]), drop);
+    check_shifted(judge, "quad_gy", index, static_cast<Real>(f.gy), two(-ty[i] * w[j], -w[i] * ty[j]), drop);
+    check_shifted(judge, "quad_q", index, static_cast<Real>(f.q), two(w[i] * w[j], 0), drop);
+  }
+}
+
+/// Signs of exact integers; a pixel is left out where Real cannot tell one.
+void coverage(Judge& judge, const Vector& t) {
+  const Config& c = t.config;
+  const DrawState& state = t.in.state;
+  const TileEntry& tile = t.in.tile;
+  std::array<std::int64_t, 5> gx{}, gy{};
+  std::copy_n(t.in.constants.gx.begin(), 5, gx.begin());
+  std::copy_n(t.in.constants.gy.begin(), 5, gy.begin());
+  for (int row = 0; row < c.tile(); ++row)
+    for (int dx = 0; dx < c.tile(); ++dx) {
+      std::array<IntegerSum, 5> e{};
+      for (std::size_t k = 0; k < 5; ++k) {
+        e[k].add(static_cast<Real>(tile.linear[k]));
+        e[k].add(static_cast<Real>(gx[k]) * dx);
+        e[k].add(static_cast<Real>(gy[k]) * row);
+      }
+      const int x = tile.tile_x * c.tile() + dx, y = tile.tile_y * c.tile() + row;
+      PixelCover pixel;
+      if (x >= state.scissor_x0 && x < state.scissor_x1 && y >= state.scissor_y0 && y < state.scissor_y1)
+        pixel = cover(e, gx, gy, t.in.constants.visible, state.cull);
+      if (!pixel.decided) {
+        judge.undecided();
+        continue;
+      }
+      const StampMasks& masks = t.out.row_masks[static_cast<std::size_t>(row)];
+      judge.same("mask", row, masks.mask >> dx & 1, pixel.covered);
+      judge.same("front", row, masks.front >> dx & 1, pixel.front);
+      judge.same("tie", row, masks.tie >> dx & 1, pixel.tie);
+    }
+}
+
+/// Exact integers.
+void forward_differences(Judge& judge, const Vector& t) {
+  const TileEntry& tile = t.in.tile;
+  const Real dx = t.in.dx, row = t.in.row;
+  for (std::size_t k = 0; k < linear_count; ++k) {
+    IntegerSum sum;
+    sum.add(static_cast<Real>(tile.linear[k]));
+    sum.add(static_cast<Real>(t.in.constants.gx[k]) * dx);
+    sum.add(static_cast<Real>(t.in.constants.gy[k]) * row);
+    check_integer(judge, "a", static_cast<int>(k), static_cast<Real>(t.out.pixel.a[k]), sum);
+  }
+  for (std::size_t k = 0; k < quadratic_count; ++k) {
+    IntegerSum sum;
+    sum.add(static_cast<Real>(tile.quadratic[k].value));
+    sum.add(static_cast<Real>(tile.quadratic[k].gx) * dx);
+    sum.add(static_cast<Real>(tile.quadratic[k].gy) * row);
+    sum.add(static_cast<Real>(t.in.constants.q[k]) * (dx * dx + row * row));
+    if (k < 6)
+      check_integer(judge, "d", static_cast<int>(k), static_cast<Real>(t.out.pixel.d[k]), sum);
+    else
+      check_integer(judge, "r2", static_cast<int>(k) - 6, static_cast<Real>(t.out.pixel.r2[k - 6]), sum);
+  }
+}
+
+/// One truncation: (1 - u, 1] of the integer.
+void normalised(Judge& judge, const Vector& t) {
+  const PixelTrace &in = t.in.pixel, &out = t.out.pixel;
+  const SingularClass is = singular_class([&](std::size_t i) { return in.r2[i] <= 0; },
+                                          [&](std::size_t i) { return in.a[i] == 0 && in.d[i] < 0; });
+  judge.same("two_corner", -1, out.two_corner, is.two_corner());
+  judge.same("on_vertex", -1, out.on_vertex, is.on_vertex());
+  judge.same("two_edge", -1, out.two_edge, is.two_edge());
+  judge.same("on_edge", -1, out.on_edge, is.on_edge());
+  const auto check = [&](const char* name, std::size_t i, const Fp& actual, Real exact) {
+    check_number(judge, name, static_cast<int>(i), actual, t.losses.cut(exactly(exact)), t.losses);
+  };
+  for (std::size_t i = 0; i < 6; ++i) {
+    check("a_sig", i, out.a_fp[i], ldexpl(static_cast<Real>(in.a[i]), -t.config.qdrop()));
+    check("d_sig", i, out.d_fp[i], static_cast<Real>(in.d[i]));
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+    check("r2_sig", i, out.r2_fp[i], static_cast<Real>(std::max<std::int64_t>(in.r2[i], 0)));
+}
+
+/// Relative error u, and the table's polynomial (Losses).
+void rsqrts(Judge& judge, const Vector& t) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Real r2 = value_of(t.in.pixel.r2_fp[i], t.losses.s), exact = r2 == 0 ? 0 : 1 / sqrtl(r2);
+    check_number(judge, "sig", static_cast<int>(i), t.out.pixel.rho[i],
+                 {exact * (1 - t.losses.rsqrt), exact * (1 + t.losses.rsqrt)}, t.losses);
+  }
+}
+
+void reciprocals(Judge& judge, const Vector& t) {
+  const Real v = value_of(t.in.number, t.losses.s), exact = v == 0 ? 0 : 1 / v,
+             tolerance = t.losses.reciprocal * fabsl(exact);
+  check_number(judge, "sig", -1, t.out.inverse, {exact - tolerance, exact + tolerance}, t.losses);
+}
+
+/// t = n/d by the half-angle formulas: v = |A| rho rho loses two truncations, 2u; u' = 1 + |D| rho rho one of rho rho,
+/// one grain of the alignment (1 is exact in it) and one of the sum, at most 3u with no guard bits. All toward zero.
+void ratios(Judge& judge, const Vector& t) {
+  const Losses& l = t.losses;
+  const PixelTrace &in = t.in.pixel, &out = t.out.pixel;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto [i, j] = vertex_pair[k];
+    const Span scale = l.cut(exactly(value_of(in.rho[i], l.s) * value_of(in.rho[j], l.s)));
+    const Span v = l.cut(exactly(fabsl(value_of(in.a_fp[k], l.s))) * scale);
+    const Span term = exactly(fabsl(value_of(in.d_fp[k], l.s))) * scale;
+    const Real grain = term.hi > 0 ? l.grain * std::max(1.0L, term.hi) : 0;
+    const Span u = l.cut({1 + term.lo - grain, 1 + term.hi});
+    const bool swapped = in.d_fp[k].neg;
+    check_number(judge, "n_sig", static_cast<int>(k), out.n[k], swapped ? u : v, l);
+    check_number(judge, "d_sig", static_cast<int>(k), out.dn[k], swapped ? v : u, l);
+  }
+}
+
+/// rtl/README.md section 5. Truncations of N, e, h, M, with the cure of f and g as well: below 6u and two grains of N's
+/// alignment, at most 8u, all toward zero. Sums with terms of both signs (an edge whose k differ in sign, NOTCH_EXACT =
+/// 0) are off by a grain of their largest term to either side. Corners are exact.
+void weights(Judge& judge, const Vector& t) {
+  const Losses& l = t.losses;
+  const PixelTrace& in = t.in.pixel;
+  const SingularClass is = singular_class([&](std::size_t i) { return t.in.corner[i]; },
+                                          [&](std::size_t i) { return t.in.a_sign[i] == 0 && t.in.d_negative[i]; });
+  std::array<Real, 6> n{}, d{};
+  std::array<Real, 4> rho{}, k{};
+  for (std::size_t i = 0; i < 6; ++i) n[i] = value_of(in.n[i], l.s), d[i] = value_of(in.dn[i], l.s);
+  for (std::size_t i = 0; i < 4; ++i) rho[i] = value_of(in.rho[i], l.s), k[i] = value_of(t.in.data.k[i], l.s);
+
+  std::array<Span, 4> m{};
+  if (is.corners > 0) {
+    std::array<std::size_t, 2> at{};
+    for (std::size_t i = 0, found = 0; i < 4; ++i)
+      if (is.corner[i] && found < 2) at[found++] = i;
+    if (is.two_corner())
+      m[at[0]] = exactly(fabsl(k[at[1]])), m[at[1]] = exactly(fabsl(k[at[0]]));
+    else
+      m[at[0]] = exactly(1);
+  } else if (is.two_edge()) {
+    // The mean of the interpolations along the two lowest edges: each vertex takes the other edge's denominator.
+    std::array<std::size_t, 2> at{};
+    for (std::size_t i = 0, found = 0; i < 4; ++i)
+      if (is.edge[i] && found < 2) at[found++] = i;
+    const auto denominator = [&](std::size_t e) {
+      return magnitude(l.sum(std::array{rho[e] * k[e], rho[(e + 1) % 4] * k[(e + 1) % 4]}));
+    };
+    const Span a = denominator(at[0]), b = denominator(at[1]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto on = [&](std::size_t e) { return i == e || i == (e + 1) % 4; };
+      Span sum = a + b;
+      const Real grains = 2 * l.grain * std::max(a.hi, b.hi);
+      sum = l.cut({std::max(0.0L, sum.lo - grains), sum.hi});
+      const Span factor = on(at[0]) && on(at[1]) ? sum : on(at[0]) ? b : on(at[1]) ? a : Span{};
+      m[i] = l.cut(factor * exactly(rho[i]));
+    }
+  } else {
+    std::array<bool, 4> differ{};
+    for (std::size_t i = 0; i < 4; ++i) differ[i] = t.in.a_sign[(i + 3) % 4] * t.in.a_sign[i] < 0;
+    const bool cured = t.config.notch_exact && std::ranges::any_of(differ, [](bool v) { return v; });
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t before = (i + 3) % 4;
+      const Span sum = cured && differ[i]
+                           ? l.sum(std::array{n[before] * n[i], d[before] * d[i]})
+                           : l.sum(std::array{n[before] * d[i], (differ[i] ? -1 : 1) * n[i] * d[before]});
+      const Span e = l.cut(exactly(d[(i + 1) % 4] * d[(i + 2) % 4]));
+      Span g = exactly(rho[i]);
+      if (cured) {
+        const Real f = !differ[i] ? d[5] * d[4] : i % 2 == 0 ? n[5] * d[4] : n[4] * d[5];
+        g = l.cut(g * l.cut(exactly(f)));
+      }
+      m[i] = l.cut(l.cut(magnitude(sum) * e) * g);
+    }
+  }
+  for (std::size_t i = 0; i < 4; ++i) check_number(judge, "sig", static_cast<int>(i), t.out.pixel.m[i], m[i], l);
+}
+
+/// Four exact products: at most four grains of the largest and one truncation, 5u with no guard bits.
+void interpolation(Judge& judge, const Vector& t) {
+  const Losses& l = t.losses;
+  const PixelTrace& out = t.out.pixel;
+  const QuadData& q = t.in.data;
+  const auto check = [&](const char* name, int index, const Fp& actual, auto&& factor) {
+    std::array<Real, 4> terms{};
+    for (std::size_t i = 0; i < 4; ++i) terms[i] = value_of(t.in.pixel.m[i], l.s) * value_of(factor(i), l.s);
+    check_number(judge, name, index, actual, l.sum(terms), l);
+  };
+  for (std::size_t j = 0; j < static_cast<std::size_t>(t.config.attribute_slots); ++j)
+    check("attr_sig", static_cast<int>(j), out.num_a[j], [&](std::size_t i) { return q.b[i][j]; });
+  check("z_sig", -1, out.num_z, [&](std::size_t i) { return q.z[i]; });
+  check("den_k_sig", -1, out.den_k, [&](std::size_t i) { return q.k[i]; });
+  check("den_w_sig", -1, out.den_w, [&](std::size_t i) { return q.w[i]; });
+}
+
+/// Codes that |num/den| may have with `fraction` fraction bits below 2^integer, den != 0: the reciprocal's relative
+/// error, then truncation.
+Span quotient_codes(Real num, Real den, int integer, int fraction, const Losses& l) {
+  const Real q = fabsl(num / den), top = ldexpl(1, integer + fraction) - 1;
+  const auto code = [&](Real v) { return std::min(top, floorl(ldexpl(v, fraction))); };
+  return {code(q * (1 - l.reciprocal - rounding)), code(q * (1 + l.reciprocal + rounding))};
+}
+
+void depth(Judge& judge, const Vector& t) {
+  const Config& c = t.config;
+  const Losses& l = t.losses;
+  const PixelTrace &in = t.in.pixel, &out = t.out.pixel;
+  const DrawState& state = t.in.state;
+  const Real num_z = value_of(in.num_z, l.s), den_k = value_of(in.den_k, l.s), den_w = value_of(in.den_w, l.s);
+
+  // Codes of a drawn pixel's depth.
+  Span codes;
+  bool may_draw = !(t.in.data.hull && !(den_w > 0)), must_draw = may_draw;
+  if (state.depth) {
+    const Real infinite = ldexpl(2, c.depth_bits) - 1;
+    codes = den_w == 0 ? exactly(infinite) : quotient_codes(num_z, den_w, 1, c.depth_bits, l);
+    Span limits{static_cast<Real>(t.in.znear), static_cast<Real>(t.in.zfar)};
+    if (den_w != 0 && num_z * den_w < 0) limits.hi = std::min(limits.hi, 0.0L);
+    must_draw = must_draw && codes.lo >= limits.lo && codes.hi <= limits.hi;
+    codes = {std::max(codes.lo, limits.lo), std::min(codes.hi, limits.hi)};
+    may_draw = may_draw && codes.lo <= codes.hi;
+  }
+  if (may_draw == must_draw) judge.same("valid", -1, out.drawn, may_draw);
+  if (may_draw != must_draw) judge.undecided();
+  const Fragment& g = out.fragment;
+  if (!out.drawn) {
+    judge.same("saturated", -1, g.flags, 0);
+    judge.same("depth", -1, g.depth, 0);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(c.attribute_slots); ++j)
+      judge.same("attr", static_cast<int>(j), static_cast<Real>(g.attribute[j]), 0);
+    return;
+  }
+  judge.within("depth", -1, g.depth, codes.lo, codes.hi);
+  bool may_saturate = false, must_saturate = false;
+  for (int j = 0; j < c.attribute_slots; ++j) {
+    const Real actual = static_cast<Real>(g.attribute[static_cast<std::size_t>(j)]);
+    if (j >= state.attributes) {
+      judge.same("attr", j, actual, 0);
+      continue;
+    }
+    if (den_k == 0) {
+      may_saturate = true;
+      judge.undecided();
+      continue;
+    }
+    const Real num = value_of(in.num_a[static_cast<std::size_t>(j)], l.s);
+    const Span q = quotient_codes(num, den_k, c.attribute_int_bits, c.attribute_frac(), l);
+    judge.within("attr", j, num * den_k < 0 ? -actual : actual, q.lo, q.hi);
+    const Real size = fabsl(num / den_k), limit = ldexpl(1, c.attribute_int_bits);
+    may_saturate = may_saturate || size * (1 + l.reciprocal + rounding) >= limit;
+    must_saturate = must_saturate || size * (1 - l.reciprocal - rounding) >= limit;
+  }
+  if (may_saturate != must_saturate)
+    judge.undecided();
+  else
+    judge.same("saturated", -1, g.flags, may_saturate);
+}
+
+StageCheck find_stage(std::string_view suite) {
+  static const std::map<std::string_view, StageCheck> stages{
+      {"snapping", snapping},
+      {"setup", setup},
+      {"coverage", coverage},
+      {"forward_difference", forward_differences},
+      {"normalise", normalised},
+      {"rsqrt", rsqrts},
+      {"reciprocal", reciprocals},
+      {"ratios", ratios},
+      {"weights", weights},
+      {"interpolation", interpolation},
+      {"depth", depth},
+  };
+  const auto found = stages.find(suite);
+  if (found == stages.end()) throw golden::InputError("the float engine does not know suite " + std::string(suite));
+  return found->second;
+}
+
+}  // namespace
+}  // namespace quadrille::vectors::floating
+
+namespace quadrille::vectors {
+
+FloatStage::FloatStage(std::string_view suite, const Stage& stage)
+    : stage_(stage), losses_(stage.config()), check_(floating::find_stage(suite)) {}
+
+VectorOutcome FloatStage::check(const Record& stimulus, const Record& response) const {
+  StageData in, out;
+  stage_.unpack_stimulus(stimulus, in);
+  stage_.unpack_response(response, out);
+  floating::Judge judge;
+  check_(judge, {in, out, stage_.config(), losses_});
+  return judge.outcome();
+}
+
+}  // namespace quadrille::vectors
