@@ -109,6 +109,7 @@ class Adaptive final : public Method {
   explicit Adaptive(double threshold) : threshold_(threshold) {}
 
   std::string name() const override { return knob_name("adaptive", threshold_); }
+  bool needs_object_space() const override { return true; }
 
   void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
     subdivide_quad(quad, view, threshold_, [&](const SubQuad& part) { draw_split02(part.corner, view, out); });

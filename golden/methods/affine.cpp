@@ -86,6 +86,7 @@ class Affine final : public Method {
   explicit Affine(double tolerance) : tolerance_(tolerance), mean_value_(make_mvc()) {}
 
   std::string name() const override { return knob_name("affine", tolerance_); }
+  bool needs_object_space() const override { return true; }
 
   /// On a convex quad the two triangles of a diagonal are the plane equation: both give an affine attribute the same
   /// values. They are not on a concave or crossed one, where coverage is expression (12): mean value coordinates, which

@@ -63,6 +63,8 @@ class Method {
   virtual ~Method() = default;
   /// As it was asked for, with its knob: "refine:20".
   virtual std::string name() const = 0;
+  /// Looks at Quad::object, which not every input has.
+  virtual bool needs_object_space() const { return false; }
   /// Appends the visible fragments of one quad in any order; a pixel may occur twice where the method draws it twice (a
   /// fold). Pixels outside the view, behind the eye or uncovered do not occur. z is not clipped.
   virtual void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const = 0;

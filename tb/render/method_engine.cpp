@@ -68,7 +68,7 @@ class MethodEngine final : public Engine {
 
 std::vector<methods::Quad> method_quads(const DrawInput& input, const std::string& method) {
   const bool has_object_space = input.corners.size() == input.quads.size();
-  if (!has_object_space && (method.starts_with("adaptive") || method.starts_with("affine")))
+  if (!has_object_space && methods::make_method(method)->needs_object_space())
     throw UsageError("method " + method + " looks at the corners in object space, which " + input.name +
                      " does not have; use --scene or --mesh");
   std::vector<methods::Quad> quads(input.quads.size());

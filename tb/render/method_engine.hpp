@@ -12,7 +12,7 @@
 namespace quadrille::cli {
 
 /// The input's quads as the methods take them: with corners in object space, texture coordinates and attributes. Throws
-/// UsageError when the input has no object space (--quads, --stress) and `method` looks at it (adaptive, affine).
+/// UsageError when the input has no object space (--quads, --stress) and `method` needs it.
 std::vector<golden::methods::Quad> method_quads(const DrawInput& input, const std::string& method);
 
 /// The view of a draw state.
