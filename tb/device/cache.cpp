@@ -310,6 +310,8 @@ std::vector<CacheItem> cache_items() {
   return items;
 }
 
+bool remove_cached(const std::string& name) { return remove_unused(cache_directory() / name); }
+
 std::vector<CacheItem> clear_cache() {
   const fs::path cache = cache_directory();
   if (!fs::exists(cache)) return {};

@@ -74,6 +74,9 @@ std::vector<CacheItem> cache_items();
 /// removed.
 std::vector<CacheItem> clear_cache();
 
+/// Removes an entry, such as a damaged one, unless it is in use; whether it did.
+bool remove_cached(const std::string& name);
+
 /// $QUADRILLE_CACHE_SIZE: a number of bytes, with K, M or G of 1024, 1024² or 1024³ (default 1G); 0: no limit. Throws
 /// EnvironmentError for anything else.
 std::uintmax_t cache_limit();

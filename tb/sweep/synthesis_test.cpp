@@ -149,7 +149,7 @@ TEST_F(Synthesis, ASecondRequestComesFromTheCache) {
   EXPECT_EQ(calls(), 3u);
 
   // An entry that cannot be read is made again.
-  for (const fs::path& entry : cache_entries()) std::ofstream(entry) << "12\n";
+  for (const fs::path& entry : cache_entries()) std::ofstream(entry / "report.txt") << "12\n";
   EXPECT_EQ(synthesise(std::vector{point(0, 20)}, weights_, 1).front().luts, luts_of(20));
   EXPECT_EQ(calls(), 4u);
 }
