@@ -74,9 +74,9 @@ struct Span {
 };
 
 inline Span exactly(Real v) { return {v, v}; }
-Span operator+(Span a, Span b) { return {a.lo + b.lo, a.hi + b.hi}; }
+inline Span operator+(Span a, Span b) { return {a.lo + b.lo, a.hi + b.hi}; }
 /// Of magnitudes.
-Span operator*(Span a, Span b) { return {a.lo * b.lo, a.hi * b.hi}; }
+inline Span operator*(Span a, Span b) { return {a.lo * b.lo, a.hi * b.hi}; }
 inline Span magnitude(Span v) {
   if (v.lo >= 0) return v;
   if (v.hi <= 0) return {-v.hi, -v.lo};
