@@ -257,9 +257,9 @@ void visit(Record& p, Boundary b, const Config& c, F&& f) {
     case Boundary::ratio:
       visit_numbers(
           f, magnitudes("n_exp", "n_sig", c, "n: |tan of half the angle| = n/d, pairs 01 12 23 30 20 13"),
-          6, [&](std::size_t i) -> auto& { return p.n[i]; });
+          6, [&](std::size_t i) -> auto& { return p.num[i]; });
       visit_numbers(
-          f, magnitudes("d_exp", "d_sig", c, "d, the same pairs"), 6, [&](std::size_t i) -> auto& { return p.dn[i]; });
+          f, magnitudes("d_exp", "d_sig", c, "d, the same pairs"), 6, [&](std::size_t i) -> auto& { return p.den[i]; });
       break;
     case Boundary::weight:
       visit_numbers(

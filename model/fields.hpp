@@ -155,7 +155,7 @@ struct FpType {
   FieldType sig_type() const { return {sig, significand_bits, false, Bits{significand_bits - 1, "S−1"}, "1", meaning}; }
 };
 
-/// Arrays of signs, exponents and significands of `count` numbers (Fp or PortNumber).
+/// Arrays of signs, exponents and significands of `count` numbers (PipelineFloat or PortNumber).
 template <class F, class Get>
 void visit_numbers(F&& f, const FpType& type, int count, Get&& get) {
   if (type.neg != nullptr)

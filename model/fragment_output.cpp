@@ -10,7 +10,7 @@ struct Fixed {
 };
 
 /// |num·rec| truncated to `frac` fraction bits, clamped below 2^int_bits.
-Fixed to_fixed(const Fp& num, const Fp& rec, int int_bits, int frac, const SignificandFormat& f) {
+Fixed to_fixed(const PipelineFloat& num, const PipelineFloat& rec, int int_bits, int frac, const SignificandFormat& f) {
   const RawProduct r = raw_product(num, rec);
   if (r.p == 0) return {};
   const int exponent = r.exp + static_cast<int>(r.p >> (2 * f.s - 1));  // floor(log2 value)
@@ -22,8 +22,8 @@ Fixed to_fixed(const Fp& num, const Fp& rec, int int_bits, int frac, const Signi
 }  // namespace
 
 void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext& c) {
-  const Fp rec_k = reciprocal(p.den_k, c.recip_table, c.format);
-  const Fp rec_w = reciprocal(p.den_w, c.recip_table, c.format);
+  const PipelineFloat rec_k = reciprocal(p.den_k, c.recip_table, c.format);
+  const PipelineFloat rec_w = reciprocal(p.den_w, c.recip_table, c.format);
   Fragment& g = p.fragment;
   g = {};
   g.quad = quad.id;

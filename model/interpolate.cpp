@@ -3,7 +3,8 @@
 namespace quadrille {
 
 void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c) {
-  const auto weighted_sum = [&](const Fp& v0, const Fp& v1, const Fp& v2, const Fp& v3) {
+  const auto weighted_sum = [&](const PipelineFloat& v0, const PipelineFloat& v1, const PipelineFloat& v2,
+                                const PipelineFloat& v3) {
     return fp_sum({raw_product(p.m[0], v0), raw_product(p.m[1], v1), raw_product(p.m[2], v2), raw_product(p.m[3], v3)},
                   c.format);
   };

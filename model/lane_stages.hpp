@@ -9,12 +9,12 @@
 
 namespace quadrille {
 
-using LaneReals = double __attribute__((vector_size(8 * lanes)));
-using LaneIntegers = std::int64_t __attribute__((vector_size(8 * lanes)));
+using LaneReals = double __attribute__((vector_size(8 * lane_count)));
+using LaneIntegers = std::int64_t __attribute__((vector_size(8 * lane_count)));
 
 /// What is kept in memory says its alignment: compiled for narrow registers the bare vector types ask for less than the
 /// code for wide ones relies on.
-inline constexpr std::size_t lane_bytes = 8 * lanes;
+inline constexpr std::size_t lane_bytes = 8 * lane_count;
 
 /// Probe diff: exact integers.
 struct alignas(lane_bytes) DifferenceLanes {
@@ -27,9 +27,9 @@ struct alignas(lane_bytes) NormalisedLanes {
 struct alignas(lane_bytes) RsqrtLanes {
   LaneReals rho[4];
 };
-/// t = n / d, magnitudes.
+/// t = num / den, magnitudes.
 struct alignas(lane_bytes) RatioLanes {
-  LaneReals n[6], d[6];
+  LaneReals num[6], den[6];
 };
 struct alignas(lane_bytes) WeightLanes {
   LaneReals m[4];
@@ -65,7 +65,7 @@ struct LaneMasks {
   std::uint8_t drawn, saturated;
 };
 
-double to_double(const Fp& v, int s);
+double to_double(const PipelineFloat& v, int s);
 
 /// Lanes that the lane stages do not compute: corner and two-edge pixels.
 unsigned singular_lanes(const DifferenceLanes& d);

@@ -59,7 +59,7 @@ std::int64_t pattern(Prng& rng, int top) {
   return rng.chance(0.5) ? -value : value;
 }
 
-Fp port_number(Prng& rng, int s, bool sign) {
+PipelineFloat port_number(Prng& rng, int s, bool sign) {
   const std::uint32_t low = 1u << (s - 1);
   const auto sig = static_cast<std::uint32_t>(rng.chance(0.3) ? 2 * low - 1 : low + rng.below(low));
   return {sign && rng.chance(0.5), static_cast<int>(rng.integer(-20, 20)), sig};
@@ -100,9 +100,10 @@ TEST(LaneStages, EachIsThePlainOne) {
         values[b].w[i] = to_double(quads[b].w[i] = port_number(rng, s, true), s);
         values[b].z[i] = to_double(quads[b].z[i] = port_number(rng, s, true), s);
         for (std::size_t j = 0; j < columns; ++j)
-          values[b].b[j][i] = to_double(quads[b].b[i][j] = rng.chance(0.2) ? Fp{} : port_number(rng, s, true), s);
+          values[b].b[j][i] =
+              to_double(quads[b].b[i][j] = rng.chance(0.2) ? PipelineFloat{} : port_number(rng, s, true), s);
       }
-      for (std::size_t l = 0; l < lanes; ++l) {
+      for (std::size_t l = 0; l < lane_count; ++l) {
         for (std::size_t k = 0; k < 6; ++k) {
           difference[b].a[k][l] = pattern(rng, 60);
           difference[b].d[k][l] = pattern(rng, 60);
@@ -133,7 +134,7 @@ TEST(LaneStages, EachIsThePlainOne) {
 
       for (std::size_t b = 0; b < blocks; ++b) {
         const QuadData& data = quads[quad[b]];
-        for (std::size_t l = 0; l < lanes; ++l) {
+        for (std::size_t l = 0; l < lane_count; ++l) {
           if (singular_lanes(difference[b]) >> l & 1) continue;
           PixelTrace p;
           p.valid = true;
@@ -148,12 +149,12 @@ TEST(LaneStages, EachIsThePlainOne) {
           mean_value_weights(p, data, context);
           interpolate(p, data, context);
           fragment_output(p, data, context);
-          const auto size = [&](const Fp& v) { return std::abs(to_double(v, s)); };
+          const auto size = [&](const PipelineFloat& v) { return std::abs(to_double(v, s)); };
           for (std::size_t k = 0; k < 6; ++k) {
             ASSERT_EQ(normalised[b].a[k][l], size(p.a_fp[k]));
             ASSERT_EQ(normalised[b].d[k][l], size(p.d_fp[k]));
-            ASSERT_EQ(ratio[b].n[k][l], size(p.n[k]));
-            ASSERT_EQ(ratio[b].d[k][l], size(p.dn[k]));
+            ASSERT_EQ(ratio[b].num[k][l], size(p.num[k]));
+            ASSERT_EQ(ratio[b].den[k][l], size(p.den[k]));
           }
           for (std::size_t i = 0; i < 4; ++i) {
             ASSERT_EQ(normalised[b].r2[i][l], size(p.r2_fp[i]));

@@ -3,14 +3,14 @@
 namespace quadrille {
 namespace {
 
-Fp magnitude(Fp v) {
+PipelineFloat magnitude(PipelineFloat v) {
   v.neg = false;
   return v;
 }
 
 /// What replaces the regular factors at a singular pixel.
 struct Singular {
-  std::array<Fp, 4> numerator{};
+  std::array<PipelineFloat, 4> numerator{};
   bool rho_is_one = false;
 };
 
@@ -35,18 +35,19 @@ Singular on_vertex(const PixelTrace& p, const PipelineContext& c) {
 
 /// `edge_sum[i]` = |ρ_i k_i + ρ_{i+1} k_{i+1}|. Each edge's own interpolation is ρ k over that sum; crossing the sums
 /// gives their mean.
-Singular two_edge(const PixelTrace& p, const std::array<Fp, 4>& edge_sum, const PipelineContext& c) {
+Singular two_edge(const PixelTrace& p, const std::array<PipelineFloat, 4>& edge_sum, const PipelineContext& c) {
   const auto is_on = [&](std::size_t e) { return p.a[e] == 0 && p.d[e] < 0; };
   std::size_t a = 0;
   while (!is_on(a)) ++a;
   std::size_t b = a + 1;
   while (!is_on(b)) ++b;
-  const Fp both = magnitude(fp_sum({raw_from_fp(edge_sum[a], c.format), raw_from_fp(edge_sum[b], c.format)}, c.format));
+  const PipelineFloat both =
+      magnitude(fp_sum({raw_from_fp(edge_sum[a], c.format), raw_from_fp(edge_sum[b], c.format)}, c.format));
   Singular s;
   for (std::size_t i = 0; i < 4; ++i) {
     const bool on_a = i == a || i == (a + 1) % 4;
     const bool on_b = i == b || i == (b + 1) % 4;
-    s.numerator[i] = on_a && on_b ? both : on_a ? edge_sum[b] : on_b ? edge_sum[a] : Fp{};
+    s.numerator[i] = on_a && on_b ? both : on_a ? edge_sum[b] : on_b ? edge_sum[a] : PipelineFloat{};
   }
   return s;
 }
@@ -65,18 +66,18 @@ void mean_value_weights(PixelTrace& p, const QuadData& quad, const PipelineConte
   }
   p.cured = c.config.notch_exact && any_differ && !singular;
 
-  std::array<Fp, 4> numerator;
+  std::array<PipelineFloat, 4> numerator;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t h = (i + 3) % 4;
     const std::size_t j = (i + 1) % 4;
     if (p.two_edge) {
       numerator[i] = fp_sum({raw_product(p.rho[i], quad.k[i]), raw_product(p.rho[j], quad.k[j])}, f);
     } else if (p.cured && differ[i]) {
-      numerator[i] = fp_sum({raw_product(p.n[h], p.n[i]), raw_product(p.dn[h], p.dn[i])}, f);
+      numerator[i] = fp_sum({raw_product(p.num[h], p.num[i]), raw_product(p.den[h], p.den[i])}, f);
     } else {
-      RawProduct second = raw_product(p.n[i], p.dn[h]);
+      RawProduct second = raw_product(p.num[i], p.den[h]);
       second.neg = differ[i];
-      numerator[i] = fp_sum({raw_product(p.n[h], p.dn[i]), second}, f);
+      numerator[i] = fp_sum({raw_product(p.num[h], p.den[i]), second}, f);
     }
     numerator[i].neg = false;
   }
@@ -86,15 +87,15 @@ void mean_value_weights(PixelTrace& p, const QuadData& quad, const PipelineConte
   if (p.on_vertex) special = on_vertex(p, c);
   if (p.two_edge) special = two_edge(p, numerator, c);
 
-  const Fp one = f.one();
-  const Fp even_factor = fp_multiply(p.n[5], p.dn[4], f);  // n13·d20
-  const Fp odd_factor = fp_multiply(p.n[4], p.dn[5], f);   // n20·d13
-  const Fp plain_factor = fp_multiply(p.dn[5], p.dn[4], f);
+  const PipelineFloat one = f.one();
+  const PipelineFloat even_factor = fp_multiply(p.num[5], p.den[4], f);  // n13·d20
+  const PipelineFloat odd_factor = fp_multiply(p.num[4], p.den[5], f);   // n20·d13
+  const PipelineFloat plain_factor = fp_multiply(p.den[5], p.den[4], f);
   for (std::size_t i = 0; i < 4; ++i) {
-    const Fp lead = singular ? special.numerator[i] : numerator[i];
-    const Fp denominators = singular ? one : fp_multiply(p.dn[(i + 1) % 4], p.dn[(i + 2) % 4], f);
-    const Fp rho = singular && special.rho_is_one ? one : p.rho[i];
-    const Fp factor = !p.cured ? one : differ[i] ? (i % 2 == 0 ? even_factor : odd_factor) : plain_factor;
+    const PipelineFloat lead = singular ? special.numerator[i] : numerator[i];
+    const PipelineFloat denominators = singular ? one : fp_multiply(p.den[(i + 1) % 4], p.den[(i + 2) % 4], f);
+    const PipelineFloat rho = singular && special.rho_is_one ? one : p.rho[i];
+    const PipelineFloat factor = !p.cured ? one : differ[i] ? (i % 2 == 0 ? even_factor : odd_factor) : plain_factor;
     p.m[i] = fp_multiply(fp_multiply(lead, denominators, f), fp_multiply(rho, factor, f), f);
   }
 }

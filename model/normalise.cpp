@@ -9,7 +9,7 @@ void normalise(PixelTrace& p, const PipelineContext& c) {
   int corners = 0;
   int edges = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    p.r2_fp[i] = p.r2[i] > 0 ? fp_from_signed(p.r2[i], 0, c.format) : Fp{};
+    p.r2_fp[i] = p.r2[i] > 0 ? fp_from_signed(p.r2[i], 0, c.format) : PipelineFloat{};
     corners += p.r2[i] <= 0;
     edges += p.a[i] == 0 && p.d[i] < 0;
   }

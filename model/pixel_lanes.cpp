@@ -32,7 +32,7 @@ LANE_INLINE double power_of_two(int e) { return std::bit_cast<double>(static_cas
 
 LANE_INLINE unsigned to_mask(I m) {
   unsigned r = 0;
-  for (int l = 0; l < lanes; ++l) r |= static_cast<unsigned>(m[l] & 1) << l;
+  for (int l = 0; l < lane_count; ++l) r |= static_cast<unsigned>(m[l] & 1) << l;
   return r;
 }
 
@@ -130,7 +130,7 @@ struct LaneArithmetic {
 /// The polynomial of table_polynomial.hpp; `fraction` has S−1 bits. Result: integer significand.
 LANE_INLINE V polynomial(const LaneTable& table, I segment, I fraction, int s) {
   V c0, c1, c2;
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < lane_count; ++l) {
     const LaneTable::Entry& e = table.entries[static_cast<std::size_t>(segment[l])];
     c0[l] = e.c0;
     c1[l] = e.c1;
@@ -172,12 +172,12 @@ LANE_INLINE V recip_lanes(V a, const LaneTable& table, int s) {
 LANE_INLINE void difference_stage(const TileEntry& tile, const QuadConstants& constants, const int* dx, const int* row,
                                   DifferenceLanes& out) {
   I x, y;
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < lane_count; ++l) {
     x[l] = dx[l];
     y[l] = row[l];
   }
   const I square = x * x + y * y;
-  using U = std::uint64_t __attribute__((vector_size(8 * lanes)));
+  using U = std::uint64_t __attribute__((vector_size(8 * lane_count)));
   const auto quadratic = [&](std::size_t k) LANE_LAMBDA {
     const QuadraticForm& f = tile.quadratic[k];
     return I(U(U{} + static_cast<std::uint64_t>(f.value)) + U(x) * static_cast<std::uint64_t>(f.gx) +
@@ -226,8 +226,8 @@ LANE_INLINE void ratio_stage(const DifferenceLanes& signs, const NormalisedLanes
     const V u = arithmetic.sum2(one, one, p.d[k], scale, I{});
     const V v = arithmetic.multiply(p.a[k], scale);
     const I obtuse = signs.d[k] < 0;
-    out.n[k] = select(obtuse, u, v);
-    out.d[k] = select(obtuse, v, u);
+    out.num[k] = select(obtuse, u, v);
+    out.den[k] = select(obtuse, v, u);
   }
 }
 
@@ -242,14 +242,14 @@ LANE_INLINE I weight_stage(const DifferenceLanes& signs, const RatioLanes& p, co
     any |= differ[i];
   }
   const I cured = notch_exact ? any : I{};
-  const V factor_of[2] = {arithmetic.multiply(p.n[5], p.d[4]), arithmetic.multiply(p.n[4], p.d[5])};
-  const V plain = select(cured, arithmetic.multiply(p.d[5], p.d[4]), splat(1.0));
+  const V factor_of[2] = {arithmetic.multiply(p.num[5], p.den[4]), arithmetic.multiply(p.num[4], p.den[5])};
+  const V plain = select(cured, arithmetic.multiply(p.den[5], p.den[4]), splat(1.0));
   for (int i = 0; i < 4; ++i) {
     const int h = (i + 3) % 4;
     const I cure = cured & differ[i];
-    const V lead = magnitude(arithmetic.sum2(p.n[h], select(cure, p.n[i], p.d[i]), select(cure, p.d[i], p.n[i]), p.d[h],
-                                             differ[i] & ~cured));
-    const V denominators = arithmetic.multiply(p.d[(i + 1) % 4], p.d[(i + 2) % 4]);
+    const V lead = magnitude(arithmetic.sum2(p.num[h], select(cure, p.num[i], p.den[i]),
+                                             select(cure, p.den[i], p.num[i]), p.den[h], differ[i] & ~cured));
+    const V denominators = arithmetic.multiply(p.den[(i + 1) % 4], p.den[(i + 2) % 4]);
     const V factor = select(cure, factor_of[i % 2], plain);
     out.m[i] = arithmetic.multiply(arithmetic.multiply(lead, denominators), arithmetic.multiply(r.rho[i], factor));
   }
@@ -287,7 +287,7 @@ LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, int depth_bits, st
 
 }  // namespace
 
-double to_double(const Fp& v, int s) {
+double to_double(const PipelineFloat& v, int s) {
   return std::ldexp(v.neg ? -static_cast<double>(v.sig) : static_cast<double>(v.sig), v.exp - (s - 1));
 }
 
@@ -339,7 +339,7 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
                                            c.config.attribute_int_bits, c.attribute_frac);
       saturated |= f.over;
       const I fixed = (to_integer(f.q) ^ f.sign) - f.sign;
-      for (int l = 0; l < lanes; ++l) out.attribute[j][static_cast<std::size_t>(l)] = fixed[l];
+      for (int l = 0; l < lane_count; ++l) out.attribute[j][static_cast<std::size_t>(l)] = fixed[l];
     }
     out.saturated = to_mask(saturated);
     I discard{};
@@ -348,7 +348,7 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
       const DepthLanes z = depth_stage(arithmetic.sum4(weights.m, exponent_m, values.z.data()), den_w,
                                        recip_lanes(den_w, tables.recip, s), c.config.depth_bits, c.znear, c.zfar);
       discard |= z.discard;
-      for (int l = 0; l < lanes; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.q[l]);
+      for (int l = 0; l < lane_count; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.q[l]);
     } else {
       out.depth = {};
     }

@@ -10,7 +10,7 @@
 
 namespace quadrille {
 
-inline constexpr int lanes = 8;
+inline constexpr int lane_count = 8;
 
 /// A quad's data as doubles; see QuadData.
 struct QuadLanes {
@@ -43,8 +43,8 @@ struct LaneResult {
   unsigned drawn = 0;
   unsigned singular = 0;  ///< corner or two-edge pixels: not computed here, take the plain pipeline
   unsigned on_edge = 0, cured = 0, saturated = 0;
-  std::array<std::uint32_t, lanes> depth{};
-  std::array<std::array<std::int64_t, lanes>, max_attribute_slots> attribute{};
+  std::array<std::uint32_t, lane_count> depth{};
+  std::array<std::array<std::int64_t, lane_count>, max_attribute_slots> attribute{};
 };
 
 /// Pixels (dx[l], row[l]) of `tile`; every lane must hold a covered pixel (repeat one to fill).

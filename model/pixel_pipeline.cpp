@@ -3,7 +3,7 @@
 namespace quadrille {
 namespace {
 
-Fp from_port(const PortNumber& n) { return {n.neg, n.exp, n.sig}; }
+PipelineFloat from_port(const PortNumber& n) { return {n.neg, n.exp, n.sig}; }
 
 }  // namespace
 

@@ -15,10 +15,10 @@ namespace quadrille {
 struct QuadData {
   std::uint32_t id = 0;
   bool homogeneous = false, hull = false;
-  std::array<Fp, 4> k{};  ///< k_eff: k, or W when perspective is off
-  std::array<Fp, 4> w{};  ///< W truncated to S bits
-  std::array<Fp, 4> z{};  ///< Z
-  std::array<std::array<Fp, max_attribute_slots>, 4> b{};
+  std::array<PipelineFloat, 4> k{};  ///< k_eff: k, or W when perspective is off
+  std::array<PipelineFloat, 4> w{};  ///< W truncated to S bits
+  std::array<PipelineFloat, 4> z{};  ///< Z
+  std::array<std::array<PipelineFloat, max_attribute_slots>, 4> b{};
 };
 
 QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Config& config, const DrawState& state);

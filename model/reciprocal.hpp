@@ -8,7 +8,7 @@ namespace quadrille {
 
 /// 1/a with a's sign; zero gives zero. Error below 1 ulp of S bits (faithful) with the automatic table sizes; exact for
 /// powers of two.
-inline Fp reciprocal(const Fp& a, const Table& table, const SignificandFormat& f) {
+inline PipelineFloat reciprocal(const PipelineFloat& a, const Table& table, const SignificandFormat& f) {
   if (a.sig == 0) return {};
   const std::uint32_t fraction = a.sig - (std::uint32_t{1} << (f.s - 1));
   if (fraction == 0) return {a.neg, -a.exp, a.sig};

@@ -8,7 +8,7 @@ namespace quadrille {
 
 /// a^(-1/2) for a > 0; zero gives zero. Error below 1 ulp of S bits (faithful) with the automatic table sizes; exact
 /// for even powers of two. The table's domain is [1, 4): the exponent's low bit selects the octave.
-inline Fp rsqrt(const Fp& a, const Table& table, const SignificandFormat& f) {
+inline PipelineFloat rsqrt(const PipelineFloat& a, const Table& table, const SignificandFormat& f) {
   if (a.sig == 0) return {};
   const int odd = a.exp & 1;
   const int half = a.exp >> 1;

@@ -16,7 +16,7 @@ using UWide = unsigned __int128;
 
 /// The truncation contract: sig·2^exp-(S-1) <= exact < (sig + 1)·2^exp-(S-1), sig with its top bit set. `exact` is
 /// numerator · 2^scale.
-void expect_truncated(const Fp& r, UWide numerator, int scale, int s) {
+void expect_truncated(const PipelineFloat& r, UWide numerator, int scale, int s) {
   ASSERT_GE(r.sig, 1u << (s - 1));
   ASSERT_LT(r.sig, 1ull << s);
   const int shift = r.exp - (s - 1) - scale;  // sig · 2^shift against numerator
@@ -31,7 +31,7 @@ void expect_truncated(const Fp& r, UWide numerator, int scale, int s) {
   }
 }
 
-Fp random_fp(Prng& rng, int s, int exp_range) {
+PipelineFloat random_fp(Prng& rng, int s, int exp_range) {
   if (rng.chance(0.03)) return {};
   std::uint32_t sig = static_cast<std::uint32_t>((1u << (s - 1)) + rng.below(1u << (s - 1)));
   if (rng.chance(0.1)) sig = 1u << (s - 1);
@@ -43,20 +43,20 @@ TEST(Significand, FromMagnitude) {
   Prng rng(1);
   for (int s = 8; s <= 26; ++s) {
     const SignificandFormat f{s, 2};
-    EXPECT_EQ(fp_from_magnitude(0, 7, f), Fp{});
+    EXPECT_EQ(fp_from_magnitude(0, 7, f), PipelineFloat{});
     for (std::uint64_t v = 1; v < 5000; ++v) expect_truncated(fp_from_magnitude(v, -3, f), v, -3, s);
     for (int n = 0; n < 20000; ++n) {
       const std::uint64_t v = (rng.next() >> rng.below(64)) | (rng.chance(0.1) ? 0x8000000000000000u : 0u);
       if (v == 0) continue;
       const int bias = static_cast<int>(rng.integer(-40, 40));
-      const Fp r = fp_from_magnitude(v, bias, f);
+      const PipelineFloat r = fp_from_magnitude(v, bias, f);
       expect_truncated(r, v, bias, s);
       EXPECT_FALSE(r.neg);
     }
     expect_truncated(fp_from_magnitude(~0ull, 0, f), ~0ull, 0, s);
     for (int bit = 0; bit < 64; ++bit) {
-      const Fp r = fp_from_magnitude(1ull << bit, 5, f);
-      EXPECT_EQ(r, (Fp{false, bit + 5, 1u << (s - 1)}));
+      const PipelineFloat r = fp_from_magnitude(1ull << bit, 5, f);
+      EXPECT_EQ(r, (PipelineFloat{false, bit + 5, 1u << (s - 1)}));
     }
   }
 }
@@ -67,8 +67,8 @@ TEST(Significand, MultiplyExhaustivelyAtEightBits) {
   for (std::uint32_t a = 128; a < 256; ++a)
     for (std::uint32_t b = 128; b < 256; ++b)
       for (int sign = 0; sign < 4; ++sign) {
-        const Fp x{(sign & 1) != 0, 3, a}, y{(sign & 2) != 0, -9, b};
-        const Fp r = fp_multiply(x, y, f);
+        const PipelineFloat x{(sign & 1) != 0, 3, a}, y{(sign & 2) != 0, -9, b};
+        const PipelineFloat r = fp_multiply(x, y, f);
         expect_truncated(r, static_cast<UWide>(a) * b, x.exp + y.exp - 2 * (s - 1), s);
         ASSERT_EQ(r.neg, sign == 1 || sign == 2);
         // Relative error in (-2^-(S-1), 0].
@@ -77,9 +77,9 @@ TEST(Significand, MultiplyExhaustivelyAtEightBits) {
         ASSERT_GT(got, exact * (1 - 0x1p-7));
       }
   for (std::uint32_t a = 128; a < 256; ++a) {
-    EXPECT_EQ(fp_multiply({true, 3, a}, {}, f), Fp{});
-    EXPECT_EQ(fp_multiply({}, {true, 3, a}, f), Fp{});
-    EXPECT_EQ(fp_multiply({true, 3, a}, f.one(), f), (Fp{true, 3, a})) << "1 is neutral";
+    EXPECT_EQ(fp_multiply({true, 3, a}, {}, f), PipelineFloat{});
+    EXPECT_EQ(fp_multiply({}, {true, 3, a}, f), PipelineFloat{});
+    EXPECT_EQ(fp_multiply({true, 3, a}, f.one(), f), (PipelineFloat{true, 3, a})) << "1 is neutral";
   }
 }
 
@@ -88,10 +88,10 @@ TEST(Significand, MultiplyRandom) {
   for (int s = 8; s <= 26; ++s) {
     const SignificandFormat f{s, 2};
     for (int n = 0; n < 30000; ++n) {
-      const Fp a = random_fp(rng, s, 900), b = random_fp(rng, s, 900);
-      const Fp r = fp_multiply(a, b, f);
+      const PipelineFloat a = random_fp(rng, s, 900), b = random_fp(rng, s, 900);
+      const PipelineFloat r = fp_multiply(a, b, f);
       if (a.sig == 0 || b.sig == 0) {
-        ASSERT_EQ(r, Fp{});
+        ASSERT_EQ(r, PipelineFloat{});
         continue;
       }
       expect_truncated(r, static_cast<UWide>(a.sig) * b.sig, a.exp + b.exp - 2 * (s - 1), s);
@@ -102,7 +102,7 @@ TEST(Significand, MultiplyRandom) {
 }
 
 /// fp_sum as its definition reads, from exact integers: every term as a fraction of 2^E, cut at S-1+G fraction bits.
-Fp defined_sum(const std::vector<RawProduct>& terms, int s, int g) {
+PipelineFloat defined_sum(const std::vector<RawProduct>& terms, int s, int g) {
   int largest = -100000;
   for (const RawProduct& t : terms)
     if (t.p != 0) largest = std::max(largest, t.exp);
@@ -132,7 +132,7 @@ Fp defined_sum(const std::vector<RawProduct>& terms, int s, int g) {
 
 /// |result - exact| < n 2^(E-(S-1+G)) + 1 ulp of the result, in exact integers; exponents of the terms within 40 of
 /// one another.
-void expect_sum_bound(const Fp& r, const std::vector<RawProduct>& terms, int s, int g) {
+void expect_sum_bound(const PipelineFloat& r, const std::vector<RawProduct>& terms, int s, int g) {
   int largest = -100000, smallest = 100000;
   for (const RawProduct& t : terms) {
     if (t.p == 0) continue;
@@ -140,7 +140,7 @@ void expect_sum_bound(const Fp& r, const std::vector<RawProduct>& terms, int s, 
     smallest = std::min(smallest, t.exp);
   }
   if (largest < smallest) {
-    ASSERT_EQ(r, Fp{});
+    ASSERT_EQ(r, PipelineFloat{});
     return;
   }
   ASSERT_LE(largest - smallest, 40);
@@ -168,7 +168,7 @@ TEST(Significand, SumExhaustivelyAtEightBits) {
           for (const bool negative : {false, true}) {
             const std::vector<RawProduct> terms{raw_from_fp({false, 2, a}, f),
                                                 raw_from_fp({negative, 2 - difference, b}, f)};
-            const Fp r = fp_sum(terms, f);
+            const PipelineFloat r = fp_sum(terms, f);
             ASSERT_EQ(r, defined_sum(terms, s, g));
             expect_sum_bound(r, terms, s, g);
           }
@@ -185,7 +185,7 @@ TEST(Significand, SumRandom) {
         const int range = static_cast<int>(rng.below(21));
         std::vector<RawProduct> terms;
         for (std::size_t count = rng.chance(0.5) ? 2 : 4; terms.size() < count;) {
-          const Fp a = random_fp(rng, s, range), b = random_fp(rng, s, 0);
+          const PipelineFloat a = random_fp(rng, s, range), b = random_fp(rng, s, 0);
           terms.push_back(rng.chance(0.5) ? raw_product(a, b) : raw_from_fp(a, f));
         }
         if (rng.chance(0.2)) {  // near or full cancellation
@@ -193,7 +193,7 @@ TEST(Significand, SumRandom) {
           terms[1].neg = !terms[0].neg;
           if (rng.chance(0.5) && terms[1].p > std::uint64_t{1} << (2 * s - 2)) terms[1].p -= rng.below(2);
         }
-        const Fp r = fp_sum(terms, f);
+        const PipelineFloat r = fp_sum(terms, f);
         ASSERT_EQ(r, defined_sum(terms, s, g)) << "S " << s << " G " << g;
         expect_sum_bound(r, terms, s, g);
         zeros += r.sig == 0;
@@ -207,13 +207,13 @@ TEST(Significand, SumRandom) {
 TEST(Significand, SumOfFarExponentsAndZeros) {
   for (int s = 8; s <= 26; ++s) {
     const SignificandFormat f{s, 2};
-    const Fp big{false, 1500, (1u << (s - 1)) | 1}, small{true, -1500, 1u << (s - 1)};
+    const PipelineFloat big{false, 1500, (1u << (s - 1)) | 1}, small{true, -1500, 1u << (s - 1)};
     EXPECT_EQ(fp_sum({raw_from_fp(big, f), raw_from_fp(small, f)}, f), big);
     EXPECT_EQ(fp_sum({RawProduct{}, raw_from_fp(small, f)}, f), small);
-    EXPECT_EQ(fp_sum({RawProduct{}, RawProduct{true, 2000, 0}}, f), Fp{});
+    EXPECT_EQ(fp_sum({RawProduct{}, RawProduct{true, 2000, 0}}, f), PipelineFloat{});
     EXPECT_EQ(fp_sum({RawProduct{true, 2000, 0}, raw_from_fp(small, f)}, f), small)
         << "a zero's exponent counts for nothing";
-    EXPECT_EQ(fp_sum({raw_from_fp(big, f), raw_from_fp({true, big.exp, big.sig}, f)}, f), Fp{});
+    EXPECT_EQ(fp_sum({raw_from_fp(big, f), raw_from_fp({true, big.exp, big.sig}, f)}, f), PipelineFloat{});
   }
 }
 

@@ -18,12 +18,12 @@ inline constexpr std::array<std::array<std::size_t, 2>, linear_count> vertex_pai
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}}};
 
 /// Significand number inside the pipeline: value = (-1)^neg sig 2^(exp - (S-1)); zero has all fields 0.
-struct Fp {
+struct PipelineFloat {
   bool neg = false;
   std::int32_t exp = 0;
   std::uint32_t sig = 0;
 
-  friend bool operator==(const Fp&, const Fp&) = default;
+  friend bool operator==(const PipelineFloat&, const PipelineFloat&) = default;
 };
 
 /// value + dx·gx + dy·gy; units 2^-2FRAC.
@@ -75,18 +75,18 @@ struct PixelTrace {
   std::array<std::int64_t, 4> r2{};
   // stage 3
   bool two_corner = false, on_vertex = false, two_edge = false, on_edge = false;
-  std::array<Fp, 6> a_fp{}, d_fp{};
-  std::array<Fp, 4> r2_fp{};
+  std::array<PipelineFloat, 6> a_fp{}, d_fp{};
+  std::array<PipelineFloat, 4> r2_fp{};
   // stage 6
-  std::array<Fp, 4> rho{};
+  std::array<PipelineFloat, 4> rho{};
   // stage 10
-  std::array<Fp, 6> n{}, dn{};  ///< t = n / dn, magnitudes
+  std::array<PipelineFloat, 6> num{}, den{};  ///< t = num / den, magnitudes
   bool cured = false;
   // stage 17
-  std::array<Fp, 4> m{};
+  std::array<PipelineFloat, 4> m{};
   // stage 20
-  std::array<Fp, max_attribute_slots> num_a{};
-  Fp num_z, den_k, den_w;
+  std::array<PipelineFloat, max_attribute_slots> num_a{};
+  PipelineFloat num_z, den_k, den_w;
   // stage 25
   bool drawn = false;  ///< not discarded
   Fragment fragment;

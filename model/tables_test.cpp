@@ -40,7 +40,7 @@ Findings check_reciprocal(const Config& c) {
   Findings r;
   std::uint64_t before = 1ull << s;
   for (std::uint64_t sig = 1ull << (s - 1); sig < 1ull << s; ++sig) {
-    const Fp got = reciprocal({false, 0, static_cast<std::uint32_t>(sig)}, table, f);
+    const PipelineFloat got = reciprocal({false, 0, static_cast<std::uint32_t>(sig)}, table, f);
     const std::uint64_t y = static_cast<std::uint64_t>(got.sig) << (got.exp + 1);  // exp is 0 or -1
     const std::int64_t off = static_cast<std::int64_t>(y * sig) - static_cast<std::int64_t>(1ull << (2 * s - 1));
     const double ulp = static_cast<double>(off) / static_cast<double>(sig);
@@ -64,7 +64,7 @@ Findings check_rsqrt(const Config& c) {
   for (int p = 0; p < 2; ++p) {
     const UWide square = static_cast<UWide>(1) << (3 * s - 1 - p);
     for (std::uint64_t sig = 1ull << (s - 1); sig < 1ull << s; ++sig) {
-      const Fp got = rsqrt({false, p, static_cast<std::uint32_t>(sig)}, table, f);
+      const PipelineFloat got = rsqrt({false, p, static_cast<std::uint32_t>(sig)}, table, f);
       const std::uint64_t y = static_cast<std::uint64_t>(got.sig) << (got.exp + 1);
       const UWide over = static_cast<UWide>((y + 1) * (y + 1)) * sig,
                   under = static_cast<UWide>((y - 1) * (y - 1)) * sig;
@@ -123,19 +123,19 @@ TEST(Tables, PowersOfTwoAreExactAndExponentsFollow) {
     const SignificandFormat f{s, 2};
     const Table rt = make_rsqrt_table(c), rc = make_recip_table(c);
     const std::uint32_t one = 1u << (s - 1);
-    EXPECT_EQ(rsqrt({}, rt, f), Fp{});
-    EXPECT_EQ(reciprocal({}, rc, f), Fp{});
+    EXPECT_EQ(rsqrt({}, rt, f), PipelineFloat{});
+    EXPECT_EQ(reciprocal({}, rc, f), PipelineFloat{});
     for (int e = -300; e <= 300; ++e) {
-      EXPECT_EQ(reciprocal({(e & 1) != 0, e, one}, rc, f), (Fp{(e & 1) != 0, -e, one}));
-      EXPECT_EQ(rsqrt({false, 2 * e, one}, rt, f), (Fp{false, -e, one}));
+      EXPECT_EQ(reciprocal({(e & 1) != 0, e, one}, rc, f), (PipelineFloat{(e & 1) != 0, -e, one}));
+      EXPECT_EQ(rsqrt({false, 2 * e, one}, rt, f), (PipelineFloat{false, -e, one}));
       // A factor of 4 in the argument is a factor of 1/2 in the result, one of 2 is 1/2 in the reciprocal.
       const std::uint32_t sig = one + (one >> 1) + 5;
       for (int p = 0; p < 2; ++p) {
-        const Fp at = rsqrt({false, p, sig}, rt, f), moved = rsqrt({false, p + 2 * e, sig}, rt, f);
-        EXPECT_EQ(moved, (Fp{false, at.exp - e, at.sig}));
+        const PipelineFloat at = rsqrt({false, p, sig}, rt, f), moved = rsqrt({false, p + 2 * e, sig}, rt, f);
+        EXPECT_EQ(moved, (PipelineFloat{false, at.exp - e, at.sig}));
       }
-      const Fp at = reciprocal({false, 0, sig}, rc, f), moved = reciprocal({true, e, sig}, rc, f);
-      EXPECT_EQ(moved, (Fp{true, at.exp - e, at.sig}));
+      const PipelineFloat at = reciprocal({false, 0, sig}, rc, f), moved = reciprocal({true, e, sig}, rc, f);
+      EXPECT_EQ(moved, (PipelineFloat{true, at.exp - e, at.sig}));
     }
   }
 }

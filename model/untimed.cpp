@@ -69,9 +69,9 @@ struct UntimedModel::Impl {
   }
 
   void draw_lanes(const TileEntry& tile, const QuadData& data, const QuadLanes& values, int begin) {
-    const int count = std::min(lanes, pixels - begin);
-    int lane_dx[lanes], lane_row[lanes];
-    for (int l = 0; l < lanes; ++l) {
+    const int count = std::min(lane_count, pixels - begin);
+    int lane_dx[lane_count], lane_row[lane_count];
+    for (int l = 0; l < lane_count; ++l) {
       const CoveredPixel& at = pixel[static_cast<std::size_t>(begin + std::min(l, count - 1))];
       lane_dx[l] = at.dx;
       lane_row[l] = at.row;
@@ -110,7 +110,7 @@ struct UntimedModel::Impl {
     if (plain) {
       for (int i = 0; i < pixels; ++i) draw_plain(tile, data, i);
     } else {
-      for (int i = 0; i < pixels; i += lanes) draw_lanes(tile, data, values, i);
+      for (int i = 0; i < pixels; i += lane_count) draw_lanes(tile, data, values, i);
     }
   }
 };

@@ -178,7 +178,7 @@ TEST(RangeProof, HoldsWhatThePipelineComputes) {
       const SignalRange& s = signal.at(name);
       EXPECT_TRUE(s.low <= value && value <= s.high) << name << " " << value << " [" << s.low << ", " << s.high << "]";
     };
-    const auto exponent = [&](const char* name, const Fp& v) {
+    const auto exponent = [&](const char* name, const PipelineFloat& v) {
       if (v.sig != 0) inside(name, v.exp);
     };
     for (const auto& info : golden::stress_families())
@@ -215,8 +215,8 @@ TEST(RangeProof, HoldsWhatThePipelineComputes) {
             inside("D", static_cast<double>(p.d[k]));
             exponent("exponent of A", p.a_fp[k]);
             exponent("exponent of D", p.d_fp[k]);
-            exponent("exponent of u, v", p.n[k]);
-            exponent("exponent of u, v", p.dn[k]);
+            exponent("exponent of u, v", p.num[k]);
+            exponent("exponent of u, v", p.den[k]);
           }
           for (std::size_t i = 0; i < 4; ++i) {
             inside("r²", static_cast<double>(p.r2[i]));
@@ -226,7 +226,7 @@ TEST(RangeProof, HoldsWhatThePipelineComputes) {
           exponent("exponent of Σ M·k", p.den_k);
           exponent("exponent of Σ M·W", p.den_w);
           exponent("exponent of Σ M·Z", p.num_z);
-          for (const Fp& v : p.num_a) exponent("exponent of Σ M·b", v);
+          for (const PipelineFloat& v : p.num_a) exponent("exponent of Σ M·b", v);
         }
       }
     EXPECT_GT(pixels, 5'000u);
@@ -253,10 +253,10 @@ TEST(TableErrors, HoldForEveryArgument) {
         const double one = std::ldexp(1.0, s - 1);
         for (std::uint32_t sig = 1u << (s - 1); sig < 1u << s; ++sig) {
           const double x = sig / one, next = (sig + 1.0) / one;
-          const Fp y = reciprocal({false, 0, sig}, inverse, f);
+          const PipelineFloat y = reciprocal({false, 0, sig}, inverse, f);
           see(seen_inverse, std::log(std::ldexp(y.sig / one, y.exp) * x));
           for (int octave = 0; octave < 2; ++octave) {
-            const Fp r = rsqrt({false, octave, sig}, root, f);
+            const PipelineFloat r = rsqrt({false, octave, sig}, root, f);
             // The argument stands for everything in [x, next).
             const double result = std::ldexp(r.sig / one, r.exp);
             see(seen_root, std::log(result * std::sqrt(std::ldexp(x, octave))));

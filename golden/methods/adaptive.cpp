@@ -111,7 +111,7 @@ class Adaptive final : public Method {
   std::string name() const override { return knob_name("adaptive", threshold_); }
   bool needs_object_space() const override { return true; }
 
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     subdivide_quad(quad, view, threshold_, [&](const SubQuad& part) { draw_split02(part.corner, view, out); });
   }
 

@@ -139,7 +139,7 @@ TEST(Adaptive, DrawsTheBilinearSurface) {
     double largest = 0;
     const auto samples = draw(method, quad, view512);
     EXPECT_NEAR(static_cast<double>(samples.size()), 33600, 300);
-    for (const Sample& sample : samples) largest = std::fmax(largest, bilinear_error(quad, sample));
+    for (const MethodSample& sample : samples) largest = std::fmax(largest, bilinear_error(quad, sample));
     return largest;
   };
   // The split's error on parts of size e is about e^2 of that on the whole quad (twice that at the trapezoid's narrow

@@ -91,7 +91,7 @@ class Affine final : public Method {
   /// On a convex quad the two triangles of a diagonal are the plane equation: both give an affine attribute the same
   /// values. They are not on a concave or crossed one, where coverage is expression (12): mean value coordinates, which
   /// reproduce affine attributes too.
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     if (triangles(quad, view) > 0)
       draw_split02(weighted_corners(quad), view, out);
     else

@@ -168,7 +168,7 @@ TEST(Affine, DrawsTheAffineMapInsideTheQuad) {
     const Quad quad = affine_quad(uv, origin, by_u, by_v);
     ASSERT_TRUE(is_affine(quad, view64, 0.01));
     std::vector<int> count(64 * 64);
-    for (const Sample& sample : draw(*method, quad, view64)) {
+    for (const MethodSample& sample : draw(*method, quad, view64)) {
       const Point expected = plane_uv(origin, by_u, by_v, sample.x, sample.y);
       for (std::size_t k = 0; k < 2; ++k) {
         double attribute = 0;
@@ -208,9 +208,9 @@ TEST(Affine, OtherQuadsAreMeanValueQuads) {
   for (std::size_t i = 0; i < drawn.size(); ++i) ASSERT_EQ(drawn[i].lambda, expected[i].lambda);
   // An affine one is not: one of its weights is zero, on either side of the diagonal.
   const Quad square = flat_quad({{{8, 8}, {48, 8}, {48, 48}, {8, 48}}});
-  for (const Sample& sample : draw(*make_affine(0.01), square, view64))
+  for (const MethodSample& sample : draw(*make_affine(0.01), square, view64))
     ASSERT_EQ(sample.lambda[sample.x > sample.y ? 3 : 1], 0);
-  for (const Sample& sample : draw(*make_affine(0.01), renumbered(square, 0, true), view64))
+  for (const MethodSample& sample : draw(*make_affine(0.01), renumbered(square, 0, true), view64))
     ASSERT_EQ(sample.lambda[sample.x > sample.y ? 1 : 3], 0);
 }
 

@@ -108,7 +108,7 @@ class Bilinear final : public Method {
  public:
   std::string name() const override { return "bilinear"; }
 
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     const auto& vertex = quad.vertex;
     const bool always_visible = all_in_front(vertex);
     const Patch patch(vertex);
@@ -127,9 +127,9 @@ class Bilinear final : public Method {
  private:
   /// Screen-space weights beta; with perspective lambda_i ~ beta_i / w_i, eq. (10) of Hormann & Tarini. z is linear on
   /// the screen, eq. (4).
-  static Sample sample(int x, int y, bool front, const std::array<WindowVertex, 4>& vertex,
-                       const std::array<double, 4>& beta, bool perspective) {
-    Sample out{x, y, front, false, 0, {}};
+  static MethodSample sample(int x, int y, bool front, const std::array<WindowVertex, 4>& vertex,
+                             const std::array<double, 4>& beta, bool perspective) {
+    MethodSample out{x, y, front, false, 0, {}};
     double sum = 0;
     for (std::size_t i = 0; i < 4; ++i) {
       out.z += beta[i] * (vertex[i].z / vertex[i].w);

@@ -114,7 +114,7 @@ TEST(Bilinear, CollapsedEdgeIsATriangle) {
       const double share = area({pixel.first + 0.5, pixel.second + 0.5}, v[0], v[1]) / area(v[0], v[1], v[2]);
       ASSERT_NEAR(s.lambda[a] + s.lambda[b], share, 1e-13);
     }
-    const Sample& pole = pixels.at({2, 2});
+    const MethodSample& pole = pixels.at({2, 2});
     EXPECT_EQ(pole.lambda[a], 0.5) << "every u shows the same point";
     EXPECT_EQ(pole.lambda[b], 0.5);
   }
@@ -130,7 +130,7 @@ TEST(Bilinear, EveryCoveredPixelOfAQuadInFrontHasARoot) {
       Quad quad;
       quad.vertex = given.vertex;
       const auto samples = test::draw(*bilinear, quad, {96, 96, true});
-      for (const Sample& s : samples) ASSERT_FALSE(s.undefined) << info.name << " " << s.x << ", " << s.y;
+      for (const MethodSample& s : samples) ASSERT_FALSE(s.undefined) << info.name << " " << s.x << ", " << s.y;
       std::array<int, 2> turns{};
       for (std::size_t i = 0; i < 4; ++i) {
         const double turn =

@@ -38,7 +38,7 @@ class FragmentProgram {
   }
 
   /// Appends what becomes of a triangle's fragment: a sample, an undefined sample, or nothing where it is killed.
-  void run(const TrianglePixel& pixel, bool perspective, std::vector<Sample>& out) const {
+  void run(const TrianglePixel& pixel, bool perspective, std::vector<MethodSample>& out) const {
     const std::array<float, 4> weight = barycentric_weights(pixel.x, pixel.y);
     // Eq. (10). Inside the quad these have one sign whatever the signs of w; those of eq. (7) have not.
     std::array<float, 4> f{};
@@ -49,7 +49,7 @@ class FragmentProgram {
       return;
 
     const float sum = f[0] + f[1] + f[2] + f[3];
-    Sample sample{pixel.x, pixel.y, pixel.front, false, depth(weight, pixel), {}};
+    MethodSample sample{pixel.x, pixel.y, pixel.front, false, depth(weight, pixel), {}};
     bool finite = std::isfinite(sample.z);
     for (std::size_t i = 0; i < 4; ++i) {
       sample.lambda[i] = static_cast<double>(perspective ? f[i] / sum : weight[i]);
@@ -113,7 +113,7 @@ class Hybrid final : public Method {
     return "hybrid";
   }
 
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     const FragmentProgram program(quad.vertex, view, form_);
     for (const auto& [a, b, c] : triangles()) {
       raster_triangle({quad.vertex[a], quad.vertex[b], quad.vertex[c]}, view,

@@ -45,7 +45,7 @@ TEST(Hybrid, CloseToTheTruthOnAnOrdinaryQuad) {
           ASSERT_EQ(pixels.contains({x, y}), expected.covered) << method->name();
           if (!expected.covered) continue;
           ++covered;
-          const Sample& s = pixels.at({x, y});
+          const MethodSample& s = pixels.at({x, y});
           ASSERT_FALSE(s.undefined);
           ASSERT_EQ(s.front, expected.front);
           largest = std::max(largest, largest_difference(s.lambda, expected.lambda));
@@ -76,7 +76,7 @@ TEST(Hybrid, TariniIsThePseudoCodeInSinglePrecision) {
     }
     const Quad quad = quad_at(point, {1, 2, 0.5, 4});
     const PaperFp32Quad paper(window_quad(quad), draw_state(32, false));
-    for (const Sample& s : test::draw(*make_hybrid(HybridForm::tarini), quad, {32, 32, false})) {
+    for (const MethodSample& s : test::draw(*make_hybrid(HybridForm::tarini), quad, {32, 32, false})) {
       const auto expected = paper.interpolate(s.x, s.y);
       const bool finite = std::ranges::all_of(expected.lambda, [](float v) { return std::isfinite(v); });
       ASSERT_EQ(s.undefined, !finite);
@@ -103,7 +103,7 @@ TEST(Hybrid, GuardGivesWrongWeightsOnAnEdge) {
   for (const HybridForm form : {HybridForm::pixels, HybridForm::ndc, HybridForm::bloomenthal}) {
     // 16 px: both coordinates of the edge are exact in NDC too.
     const auto pixels = by_pixel(*make_hybrid(form), square_on_centres, {16, 16, true});
-    const Sample& s = pixels.at({4, 0});
+    const MethodSample& s = pixels.at({4, 0});
     ASSERT_FALSE(s.undefined);
     EXPECT_LE(largest_difference(s.lambda, std::array{corner, corner, 0.5 - corner, 0.5 - corner}), 1e-6);
     EXPECT_GT(largest_difference(s.lambda, std::array{0.5, 0.5, 0.0, 0.0}), 0.2);
@@ -140,7 +140,7 @@ TEST(Hybrid, VertexInTheEyePlaneIsUndefinedEverywhere) {
   for (const HybridForm form : forms) {
     const auto samples = test::draw(*make_hybrid(form), quad, {32, 32, true});
     ASSERT_GT(samples.size(), 50u);
-    for (const Sample& s : samples) ASSERT_TRUE(s.undefined);
+    for (const MethodSample& s : samples) ASSERT_TRUE(s.undefined);
   }
 }
 
@@ -165,7 +165,8 @@ TEST(Hybrid, KillLeavesTheQuadAndNoKillBothTriangles) {
       }
     }
     std::map<Pixel, int> times;
-    for (const Sample& s : test::draw(*make_hybrid(HybridForm::bloomenthal), quad, {32, 32, true})) ++times[{s.x, s.y}];
+    for (const MethodSample& s : test::draw(*make_hybrid(HybridForm::bloomenthal), quad, {32, 32, true}))
+      ++times[{s.x, s.y}];
     std::size_t once = 0, twice = 0;
     for (const auto& [pixel, n] : times) {
       ASSERT_EQ(n, truth.cover(pixel.first, pixel.second).covered ? 1 : 2) << "outside, both triangles draw";

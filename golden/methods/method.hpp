@@ -33,7 +33,7 @@ struct View {
 };
 
 /// One fragment. With `undefined` the method covers the pixel but has no number for it: z and lambda are NaN.
-struct Sample {
+struct MethodSample {
   int x = 0, y = 0;
   bool front = false;  ///< counter-clockwise as seen on the screen
   bool undefined = false;
@@ -41,7 +41,7 @@ struct Sample {
   std::array<double, 4> lambda{};  ///< effective weights of the corners, perspective included; sum 1
 };
 
-inline constexpr Sample undefined_sample(int x, int y, bool front) {
+inline constexpr MethodSample undefined_sample(int x, int y, bool front) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return {x, y, front, true, nan, {nan, nan, nan, nan}};
 }
@@ -67,7 +67,7 @@ class Method {
   virtual bool needs_object_space() const { return false; }
   /// Appends the visible fragments of one quad in any order; a pixel may occur twice where the method draws it twice (a
   /// fold). Pixels outside the view, behind the eye or uncovered do not occur. z is not clipped.
-  virtual void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const = 0;
+  virtual void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const = 0;
   virtual Census census(std::span<const Quad> quads, const View& view) const = 0;
   /// The outlines of what is set up for the quad, to be drawn over a picture: closed polygons in homogeneous window
   /// coordinates. By default the quad itself.

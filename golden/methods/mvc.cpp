@@ -12,7 +12,7 @@ class MeanValue final : public Method {
  public:
   std::string name() const override { return "mvc"; }
 
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     const auto& vertex = quad.vertex;
     const bool always_visible = all_in_front(vertex);
     std::array<double, 4> share{1, 1, 1, 1};
@@ -28,7 +28,7 @@ class MeanValue final : public Method {
         sum_w += m[i] * vertex[i].w;
         sum_z += m[i] * vertex[i].z;
       }
-      Sample sample{x, y, front, false, sum_z / sum_w, {}};
+      MethodSample sample{x, y, front, false, sum_z / sum_w, {}};
       for (std::size_t i = 0; i < 4; ++i) sample.lambda[i] = m[i] * share[i] / sum;
       out.push_back(sample);
     });

@@ -42,7 +42,7 @@ TEST(Mvc, CornersHaveWeightOne) {
       const Quad quad = quad_at(turned, {1, 2, 0.5, 4});
       const auto pixels = by_pixel(*mvc, quad, {16, 16, perspective});
       ASSERT_EQ(pixels.size(), 64u);
-      const Sample& s = pixels.at({4, 4});
+      const MethodSample& s = pixels.at({4, 4});
       EXPECT_TRUE(s.front) << "down, right, up is counter-clockwise as seen when y points down";
       for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(s.lambda[i], i == shift ? 1.0 : 0.0);
       EXPECT_DOUBLE_EQ(s.z, quad.vertex[shift].z / quad.vertex[shift].w);
@@ -60,8 +60,8 @@ TEST(Mvc, OtherWindingIsBackFacing) {
 TEST(Mvc, CentreOfASquare) {
   const std::array<double, 4> w{1, 2, 0.5, 4};
   const Quad quad = quad_at({{{4.5, 4.5}, {4.5, 12.5}, {12.5, 12.5}, {12.5, 4.5}}}, w);
-  const Sample with = by_pixel(*mvc, quad, {16, 16, true}).at({8, 8});
-  const Sample without = by_pixel(*mvc, quad, {16, 16, false}).at({8, 8});
+  const MethodSample with = by_pixel(*mvc, quad, {16, 16, true}).at({8, 8});
+  const MethodSample without = by_pixel(*mvc, quad, {16, 16, false}).at({8, 8});
   const double sum = 1 + 0.5 + 2 + 0.25;  // of 1/w; eq. (7) gives 1/4 each, eq. (10) that over w
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(without.lambda[i], 0.25, ulp);
@@ -77,7 +77,7 @@ TEST(Mvc, LinearAlongEdges) {
   const auto with = by_pixel(*mvc, quad, {24, 24, true}), without = by_pixel(*mvc, quad, {24, 24, false});
   for (int p = 1; p < 16; ++p) {
     const double s = p / 16.0;
-    const Sample &left = with.at({2, 2 + p}), &top = with.at({2 + p, 2});
+    const MethodSample &left = with.at({2, 2 + p}), &top = with.at({2 + p, 2});
     // Linear in space: the point (1 - t) V_0 + t V_1 lands at s = t w_1 / ((1 - t) w_0 + t w_1).
     const double t = s * w[0] / (s * w[0] + (1 - s) * w[1]), t_top = s * w[0] / (s * w[0] + (1 - s) * w[3]);
     EXPECT_LE(largest_difference(left.lambda, std::array{1 - t, t, 0.0, 0.0}), 2 * ulp);
@@ -112,10 +112,10 @@ TEST(Mvc, TriangleHasBarycentricCoordinates) {
 TEST(Mvc, CrossingOfTwoEdgesIsTheMeanOfBoth) {
   // Edges 01 and 23 cross at the centre of pixel (8, 8), half way along both.
   const Quad quad = quad_at({{{4.5, 4.5}, {12.5, 12.5}, {12.5, 4.5}, {4.5, 12.5}}}, {1, 2, 3, 4});
-  const Sample with = by_pixel(*mvc, quad, {16, 16, true}).at({8, 8});
+  const MethodSample with = by_pixel(*mvc, quad, {16, 16, true}).at({8, 8});
   // Half way on the screen the point of an edge is w_1 : w_0 of its corners; each edge counts for half.
   EXPECT_LE(largest_difference(with.lambda, std::array{1.0 / 3, 1.0 / 6, 2.0 / 7, 3.0 / 14}), ulp);
-  const Sample without = by_pixel(*mvc, quad, {16, 16, false}).at({8, 8});
+  const MethodSample without = by_pixel(*mvc, quad, {16, 16, false}).at({8, 8});
   EXPECT_LE(largest_difference(without.lambda, std::array{0.25, 0.25, 0.25, 0.25}), ulp);
 }
 
@@ -218,7 +218,7 @@ TEST_P(AgainstTruth, CoverageWeightsAndDepth) {
             continue;
           }
           if (!drawn) continue;
-          const Sample& s = found->second;
+          const MethodSample& s = found->second;
           ASSERT_FALSE(s.undefined);
           ASSERT_EQ(s.front, expected.front);
           // Without perspective sum(M w) is divided by, which cancels like the depth does, and weights grow with it.

@@ -66,11 +66,11 @@ class Projective final : public Method {
  public:
   std::string name() const override { return "projective"; }
 
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     if (refuses(quad)) return;
     const ToSquare map{Projected(quad.vertex)};
     raster_quad(quad.vertex, view, [&](int x, int y, bool front) {
-      Sample sample{x, y, front, false, 0, map.weights(x + 0.5, y + 0.5)};
+      MethodSample sample{x, y, front, false, 0, map.weights(x + 0.5, y + 0.5)};
       for (std::size_t i = 0; i < 4; ++i) sample.z += sample.lambda[i] * (quad.vertex[i].z / quad.vertex[i].w);
       out.push_back(sample);
     });

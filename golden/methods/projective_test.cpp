@@ -153,7 +153,7 @@ std::vector<double> along_left_edge(const Vec2& below, const Vec2& above) {
   const auto pixels = by_pixel(*projective, quad_at({{{2.5, 2.5}, {2.5, 18.5}, below, above}}), {32, 32, true});
   std::vector<double> out;
   for (int y = 3; y < 18; ++y) {
-    const Sample& s = pixels.at({2, y});
+    const MethodSample& s = pixels.at({2, y});
     EXPECT_NEAR(s.lambda[2], 0, 1e-15);
     EXPECT_NEAR(s.lambda[3], 0, 1e-15);
     out.push_back(s.lambda[1]);

@@ -25,16 +25,16 @@ inline Quad quad_at(const std::array<Vec2, 4>& point, const std::array<double, 4
   return quad;
 }
 
-inline std::vector<Sample> draw(const Method& method, const Quad& quad, const View& view) {
-  std::vector<Sample> out;
+inline std::vector<MethodSample> draw(const Method& method, const Quad& quad, const View& view) {
+  std::vector<MethodSample> out;
   method.draw(quad, view, out);
   return out;
 }
 
 /// The fragments by pixel; a pixel that occurs twice is a failure.
-inline std::map<Pixel, Sample> by_pixel(const Method& method, const Quad& quad, const View& view) {
-  std::map<Pixel, Sample> out;
-  for (const Sample& sample : draw(method, quad, view)) {
+inline std::map<Pixel, MethodSample> by_pixel(const Method& method, const Quad& quad, const View& view) {
+  std::map<Pixel, MethodSample> out;
+  for (const MethodSample& sample : draw(method, quad, view)) {
     EXPECT_TRUE(out.emplace(Pixel{sample.x, sample.y}, sample).second)
         << "pixel " << sample.x << ", " << sample.y << " occurs twice";
   }
@@ -54,7 +54,7 @@ inline double area(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 /// sum(lambda V) = (x, y, 1) sum(lambda w) at the pixel's centre: perspective weights show the point of the quad that
 /// lies behind the pixel (eq. 9 of Hormann & Tarini). Returns the distance in pixels.
-inline double distance_from_pixel(const Quad& quad, const Sample& sample) {
+inline double distance_from_pixel(const Quad& quad, const MethodSample& sample) {
   double x = 0, y = 0, w = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     x += sample.lambda[i] * quad.vertex[i].x;

@@ -13,7 +13,7 @@ class Refine final : public Method {
 
   std::string name() const override { return "refine:" + std::to_string(n_); }
 
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     for_each_cell(quad, [&](const std::array<WeightedVertex, 4>& corner) { draw_split02(corner, view, out); });
   }
 

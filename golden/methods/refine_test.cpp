@@ -48,7 +48,7 @@ TEST(Refine, ErrorFallsWithTheSquareOfN) {
     const auto samples = draw(*make_refine(n), quad, view);
     ASSERT_GT(samples.size(), 20'000u);
     double error = 0;
-    for (const Sample& sample : samples) error = std::fmax(error, bilinear_error(quad, sample));
+    for (const MethodSample& sample : samples) error = std::fmax(error, bilinear_error(quad, sample));
     if (n > 4) {
       EXPECT_GT(previous / error, 3.3) << n;
       EXPECT_LT(previous / error, 4.7) << n;
@@ -66,7 +66,7 @@ TEST(Refine, WeightsReproducePixelAndDepth) {
   for (int n = 0; n < 40; ++n) {
     const Quad quad = random_quad(prng, 64, n % 2 == 1);
     std::map<std::array<int, 2>, int> layers;
-    for (const Sample& sample : draw(*make_refine(9), quad, view64)) {
+    for (const MethodSample& sample : draw(*make_refine(9), quad, view64)) {
       std::array<double, 4> p{};
       double size = 0, sum = 0;
       for (std::size_t i = 0; i < 4; ++i) {
@@ -151,7 +151,7 @@ TEST(Refine, WithoutPerspectiveCellsAreLinearOnTheScreen) {
   const Quad quad = centred_quad(centred_corners);
   const View screen{64, 64, false};
   // One cell is the split: equation 4 with areas of equation 5, w out of the game.
-  for (const Sample& sample : draw(*make_refine(1), quad, screen)) {
+  for (const MethodSample& sample : draw(*make_refine(1), quad, screen)) {
     Point p{};
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 2; ++k) p[k] += sample.lambda[i] * centred_corners[i][k];
@@ -165,7 +165,7 @@ TEST(Refine, WithoutPerspectiveCellsAreLinearOnTheScreen) {
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k) ASSERT_NEAR(a[i].lambda[k], b[i].lambda[k], 1e-14);
   // With many cells the weights go to those of the surface in space: a cell's w hardly varies.
-  for (const Sample& sample : draw(*make_refine(60), quad, screen)) ASSERT_LT(bilinear_error(quad, sample), 2e-4);
+  for (const MethodSample& sample : draw(*make_refine(60), quad, screen)) ASSERT_LT(bilinear_error(quad, sample), 2e-4);
 }
 
 TEST(Refine, CensusCountsCells) {

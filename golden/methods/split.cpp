@@ -12,7 +12,7 @@ class Split final : public Method {
 
   std::string name() const override { return diagonal_ == Diagonal::v0_v2 ? "split02" : "split13"; }
 
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     const auto corner = weighted_corners(quad);
     if (is_triangle(quad)) return draw_triangle(corner[0], corner[1], corner[2], view, out);
     if (diagonal_ == Diagonal::v0_v2) return draw_split02(corner, view, out);

@@ -18,22 +18,22 @@ constexpr std::array<std::array<Corners, 2>, 2> triangles{
 std::unique_ptr<Method> split(std::size_t which) { return make_split(which == 0 ? Diagonal::v0_v2 : Diagonal::v1_v3); }
 
 /// What the first and the second triangle give a pixel.
-using Pixels = std::map<std::array<int, 2>, std::vector<Sample>>;
+using Pixels = std::map<std::array<int, 2>, std::vector<MethodSample>>;
 
-Pixels by_pixel(const std::vector<Sample>& samples) {
+Pixels by_pixel(const std::vector<MethodSample>& samples) {
   Pixels pixels;
-  for (const Sample& sample : samples) pixels[{sample.x, sample.y}].push_back(sample);
+  for (const MethodSample& sample : samples) pixels[{sample.x, sample.y}].push_back(sample);
   return pixels;
 }
 
-double largest_difference(const Sample& a, const Sample& b) {
+double largest_difference(const MethodSample& a, const MethodSample& b) {
   double d = std::abs(a.z - b.z);
   for (std::size_t i = 0; i < 4; ++i) d = std::fmax(d, std::abs(a.lambda[i] - b.lambda[i]));
   return d;
 }
 
 /// Barycentric coordinates in space of a triangle at a sample's pixel.
-std::array<double, 3> weights_of(const std::array<WindowVertex, 3>& v, const Sample& sample) {
+std::array<double, 3> weights_of(const std::array<WindowVertex, 3>& v, const MethodSample& sample) {
   const std::array<Real, 3> m = cramer(v, sample.x + Real{0.5}, sample.y + Real{0.5}).m;
   const Real sum = m[0] + m[1] + m[2];
   return {static_cast<double>(m[0] / sum), static_cast<double>(m[1] / sum), static_cast<double>(m[2] / sum)};
@@ -43,7 +43,7 @@ void compare_with_cramer(const Quad& quad, std::size_t which, const View& view, 
   const Pixels drawn = by_pixel(draw(*split(which), quad, view));
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
-      std::vector<Sample> expected;
+      std::vector<MethodSample> expected;
       bool on_edge = false;
       for (const Corners& corner : triangles[which]) {
         const std::array<WindowVertex, 3> v{quad.vertex[corner[0]], quad.vertex[corner[1]], quad.vertex[corner[2]]};
@@ -52,7 +52,7 @@ void compare_with_cramer(const Quad& quad, std::size_t which, const View& view, 
         const Real scale = high > -low ? high : -low;
         for (const Real k : m) on_edge |= k < scale * 1e-9 && -k < scale * 1e-9;
         if (low < 0) continue;
-        Sample sample{x, y, determinant < 0, false, 0, {}};
+        MethodSample sample{x, y, determinant < 0, false, 0, {}};
         Real z = 0;
         for (std::size_t i = 0; i < 3; ++i) {
           z += m[i] * v[i].z;
@@ -66,7 +66,7 @@ void compare_with_cramer(const Quad& quad, std::size_t which, const View& view, 
       const auto found = drawn.find({x, y});
       ASSERT_EQ(found == drawn.end() ? 0u : found->second.size(), expected.size()) << x << ", " << y;
       for (std::size_t n = 0; n < expected.size(); ++n) {
-        const Sample& sample = found->second[n];
+        const MethodSample& sample = found->second[n];
         const double size = std::ranges::max(expected[n].lambda, {}, [](double l) { return std::abs(l); });
         ASSERT_LT(largest_difference(sample, expected[n]), 1e-9 * std::abs(size)) << x << ", " << y;
         ASSERT_EQ(sample.front, expected[n].front);
@@ -91,9 +91,9 @@ TEST(Split, AgreesWithCramersRule) {
 TEST(Split, InterpolatesAttributesOverWAsEquation11) {
   const Quad quad = centred_quad(centred_corners);
   for (const std::size_t which : {0, 1}) {
-    const std::vector<Sample> samples = draw(*split(which), quad, view64);
+    const std::vector<MethodSample> samples = draw(*split(which), quad, view64);
     ASSERT_GT(samples.size(), 1000u);
-    for (const Sample& sample : samples) {
+    for (const MethodSample& sample : samples) {
       const Real x = sample.x + 0.5, y = sample.y + 0.5;
       const auto area = [&](std::size_t i, std::size_t j) {
         const Point &p = centred_corners[i], &q = centred_corners[j];
@@ -245,7 +245,7 @@ TEST(Split, ConcaveAndCrossedQuadsKeepTheirTwoTriangles) {
   const Quad crossed = screen_quad({{{4, 4}, {60, 4}, {4, 60}, {60, 60}}});
   EXPECT_NEAR(pixels(0, crossed), 56 * 56, 60);
   const auto samples = draw(*split(0), crossed, view64);
-  EXPECT_NEAR(static_cast<double>(std::ranges::count(samples, true, &Sample::front)), 56 * 56 / 2.0, 30);
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(samples, true, &MethodSample::front)), 56 * 56 / 2.0, 30);
 }
 
 /// Corners 2 and 3 at one place on the screen: either diagonal leaves one of them out.
@@ -257,7 +257,7 @@ TEST(Split, ACollapsedEdgeWhoseEndsDifferIsAQuad) {
       const std::size_t seen = which == 0 ? 2 : 3;
       const auto samples = draw(*split(which), quad, view64);
       EXPECT_NEAR(static_cast<double>(samples.size()), (40 * 40 - 10 * 34) / 2.0, 40);
-      for (const Sample& sample : samples) {
+      for (const MethodSample& sample : samples) {
         const auto m = weights_of({quad.vertex[0], quad.vertex[1], quad.vertex[2]}, sample);
         const std::array<double, 4> expected{m[0], m[1], seen == 2 ? m[2] : 0, seen == 3 ? m[2] : 0};
         for (std::size_t i = 0; i < 4; ++i) ASSERT_NEAR(sample.lambda[i], expected[i], 1e-12) << which << ", " << i;
@@ -281,7 +281,7 @@ TEST(Split, CensusCountsTriangles) {
     // A triangle is the same whatever the diagonal.
     const auto samples = draw(*split(which), triangle, view64);
     EXPECT_NEAR(static_cast<double>(samples.size()), (40 * 40 - 10 * 34) / 2.0, 40);
-    for (const Sample& sample : samples) EXPECT_EQ(sample.lambda[3], 0);
+    for (const MethodSample& sample : samples) EXPECT_EQ(sample.lambda[3], 0);
   }
   EXPECT_EQ(split(0)->name(), "split02");
   EXPECT_EQ(split(1)->name(), "split13");

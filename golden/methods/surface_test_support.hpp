@@ -16,8 +16,8 @@ namespace quadrille::golden::methods::test {
 using Point = std::array<double, 2>;
 using Real = __float128;
 
-inline std::vector<Sample> draw(const Method& method, const Quad& quad, const View& view) {
-  std::vector<Sample> out;
+inline std::vector<MethodSample> draw(const Method& method, const Quad& quad, const View& view) {
+  std::vector<MethodSample> out;
   method.draw(quad, view, out);
   return out;
 }
@@ -89,7 +89,7 @@ inline std::optional<std::array<Real, 2>> inverse_bilinear(const Quad& quad, Rea
 }
 
 /// Largest difference between a sample's weights and the bilinear ones at its pixel.
-inline double bilinear_error(const Quad& quad, const Sample& sample) {
+inline double bilinear_error(const Quad& quad, const MethodSample& sample) {
   const auto st = inverse_bilinear(quad, sample.x + 0.5, sample.y + 0.5);
   if (!st) return HUGE_VAL;
   const auto [s, t] = *st;
@@ -129,9 +129,9 @@ inline Quad swollen_quad() {
   return centred_quad(position);
 }
 
-inline std::optional<Sample> sample_at(const std::vector<Sample>& samples, double x, double y) {
-  std::optional<Sample> found;
-  for (const Sample& sample : samples) {
+inline std::optional<MethodSample> sample_at(const std::vector<MethodSample>& samples, double x, double y) {
+  std::optional<MethodSample> found;
+  for (const MethodSample& sample : samples) {
     if (sample.x + 0.5 != x || sample.y + 0.5 != y) continue;
     EXPECT_FALSE(found) << "drawn twice at " << x << ", " << y;
     found = sample;
@@ -143,7 +143,7 @@ inline std::optional<Sample> sample_at(const std::vector<Sample>& samples, doubl
 /// linearly (H&T equation 11): lambda_j = (c/w_j) / ((1 - c)/w_i + c/w_j), without perspective c.
 inline void expect_corners_and_linear_edges(const Method& method, const View& view) {
   const Quad quad = swollen_quad();
-  const std::vector<Sample> samples = draw(method, quad, view);
+  const std::vector<MethodSample> samples = draw(method, quad, view);
   int points = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = (i + 1) % 4;
@@ -170,7 +170,7 @@ inline void expect_corners_and_linear_edges(const Method& method, const View& vi
 inline std::vector<int> counts(const Method& method, const std::vector<Quad>& quads, const View& view) {
   std::vector<int> count(static_cast<std::size_t>(view.width * view.height));
   for (const Quad& quad : quads)
-    for (const Sample& sample : draw(method, quad, view))
+    for (const MethodSample& sample : draw(method, quad, view))
       ++count[static_cast<std::size_t>(sample.y * view.width + sample.x)];
   return count;
 }

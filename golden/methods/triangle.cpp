@@ -121,7 +121,7 @@ class TriangleMethod final : public Method {
 
   std::string name() const override { return "triangle:" + std::to_string(bits_); }
 
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     if (!drawable(quad)) return;
     draw_part(quad, {0, 1, 2}, view, out);
     if (!is_triangle(quad)) draw_part(quad, {0, 2, 3}, view, out);
@@ -149,7 +149,7 @@ class TriangleMethod final : public Method {
 
  private:
   void draw_part(const Quad& quad, const std::array<std::size_t, 3>& corner, const View& view,
-                 std::vector<Sample>& out) const {
+                 std::vector<MethodSample>& out) const {
     std::array<integer_triangle::Point, 3> vertex;
     std::array<double, 3> depth{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -170,7 +170,7 @@ class TriangleMethod final : public Method {
 
     const double top = std::ldexp(colour_max, bits_);
     integer_triangle::scan(*triangle, plane, true, [&](int x, int y, const std::array<std::int64_t, 5>& value) {
-      Sample sample{.x = x, .y = y, .front = triangle->flipped};
+      MethodSample sample{.x = x, .y = y, .front = triangle->flipped};
       // The lecture drops the fraction bits and then clamps to a byte; here they stay.
       for (std::size_t k = 0; k < 4; ++k) {
         sample.lambda[k] = std::clamp(static_cast<double>(value[k]), 0.0, top) / top;

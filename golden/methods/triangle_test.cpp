@@ -93,15 +93,15 @@ Quad make_quad(const std::array<Point, 4>& p, const std::array<double, 4>& w = {
   return quad;
 }
 
-std::vector<Sample> draw(const Quad& quad, int bits = 12, int size = view_size, bool perspective = true) {
-  std::vector<Sample> out;
+std::vector<MethodSample> draw(const Quad& quad, int bits = 12, int size = view_size, bool perspective = true) {
+  std::vector<MethodSample> out;
   make_triangle(bits)->draw(quad, {size, size, perspective}, out);
   return out;
 }
 
-std::map<Pixel, int> count(const std::vector<Sample>& samples) {
+std::map<Pixel, int> count(const std::vector<MethodSample>& samples) {
   std::map<Pixel, int> out;
-  for (const Sample& s : samples) ++out[{s.x, s.y}];
+  for (const MethodSample& s : samples) ++out[{s.x, s.y}];
   return out;
 }
 
@@ -383,9 +383,9 @@ TEST(LecturePlane, SlopesOfSliversSaturate) {
   // Area of one unit of 20 bits, slopes beyond 2^45 units: the scan stays inside 64 bits (the sanitizers watch) and the
   // samples inside their range.
   const Quad sliver = make_quad({Point{0.5, 0.5}, {4000.5, 4000.5}, {2000.5, 2000.5 + 0x1p-31}, {0.5, 3000.5}});
-  const std::vector<Sample> samples = draw(sliver, 20, 4096);
+  const std::vector<MethodSample> samples = draw(sliver, 20, 4096);
   EXPECT_GT(samples.size(), 4000u);
-  for (const Sample& s : samples) {
+  for (const MethodSample& s : samples) {
     for (const double lambda : s.lambda) ASSERT_TRUE(lambda >= 0 && lambda <= 1);
   }
 }
@@ -394,10 +394,10 @@ TEST(TriangleMethod, CornersAndEdges) {
   // Corners on pixel centres; clockwise on the screen. Sides of 16: all coefficients are exact.
   const Quad quad =
       make_quad({Point{2.5, 2.5}, {18.5, 2.5}, {18.5, 18.5}, {2.5, 18.5}}, {1, 1, 1, 1}, {0, 0.5, 1, 0.5});
-  const std::vector<Sample> samples = draw(quad);
+  const std::vector<MethodSample> samples = draw(quad);
   // 17 x 17 pixels, the 17 on the diagonal twice: of two triangles both draw a tie.
   EXPECT_EQ(samples.size(), 17u * 17u + 17u);
-  for (const Sample& s : samples) {
+  for (const MethodSample& s : samples) {
     EXPECT_FALSE(s.front);
     EXPECT_FALSE(s.undefined);
     const double u = (s.x - 2) / 16.0, v = (s.y - 2) / 16.0;
@@ -411,20 +411,20 @@ TEST(TriangleMethod, CornersAndEdges) {
 
   Quad turned = quad;
   std::swap(turned.vertex[1], turned.vertex[3]);
-  for (const Sample& s : draw(turned)) EXPECT_TRUE(s.front);
+  for (const MethodSample& s : draw(turned)) EXPECT_TRUE(s.front);
 }
 
 TEST(TriangleMethod, NeighboursBothDrawTiesAndLeaveNothingOut) {
   const Quad left = make_quad({Point{2, 2}, {6.5, 2}, {6.5, 9}, {2, 9}});
   const Quad right = make_quad({Point{6.5, 2}, {12, 2}, {12, 9}, {6.5, 9}});
-  std::vector<Sample> both = draw(left);
-  const std::vector<Sample> more = draw(right);
+  std::vector<MethodSample> both = draw(left);
+  const std::vector<MethodSample> more = draw(right);
   // Centres 2.5 to 11.5 and 2.5 to 8.5; column 6 lies on the shared edge.
   std::set<Pixel> seen, first;
-  for (const Sample& s : both) first.emplace(s.x, s.y);
+  for (const MethodSample& s : both) first.emplace(s.x, s.y);
   seen = first;
   std::set<Pixel> shared;
-  for (const Sample& s : more) {
+  for (const MethodSample& s : more) {
     if (first.contains({s.x, s.y})) shared.emplace(s.x, s.y);
     seen.emplace(s.x, s.y);
   }
@@ -460,10 +460,10 @@ TEST(TriangleMethod, NeighboursBothDrawTiesAndLeaveNothingOut) {
 TEST(TriangleMethod, NoPerspectiveCorrection) {
   const std::array<Point, 4> p{Point{10, 12}, {90, 20}, {80, 99}, {5, 70}};
   const std::array<double, 4> z{0.1, 0.7, 0.4, 0.9};
-  const std::vector<Sample> flat = draw(make_quad(p, {1, 1, 1, 1}, z));
+  const std::vector<MethodSample> flat = draw(make_quad(p, {1, 1, 1, 1}, z));
   ASSERT_GT(flat.size(), 4000u);
   for (const bool perspective : {false, true}) {
-    const std::vector<Sample> deep = draw(make_quad(p, {1, 4, 0.5, 2}, z), 12, view_size, perspective);
+    const std::vector<MethodSample> deep = draw(make_quad(p, {1, 4, 0.5, 2}, z), 12, view_size, perspective);
     ASSERT_EQ(deep.size(), flat.size());
     for (std::size_t i = 0; i < flat.size(); ++i) {
       ASSERT_EQ(deep[i].x, flat[i].x);
@@ -486,7 +486,7 @@ TEST(TriangleMethod, WeightsAreClampedAndNearlySumToOne) {
       const std::array<Point, 3> t{p[0], p[third], p[2]};
       const double area = std::abs((t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x));
       if (area < 1000) continue;
-      for (const Sample& s : draw(make_quad({t[0], t[1], t[2], t[2]}), bits)) {
+      for (const MethodSample& s : draw(make_quad({t[0], t[1], t[2], t[2]}), bits)) {
         double sum = 0;
         for (const double lambda : s.lambda) {
           ASSERT_TRUE(lambda >= 0 && lambda <= 1);

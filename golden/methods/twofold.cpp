@@ -60,13 +60,14 @@ void find_crossings(const std::array<Corner, 4>& corner, double y, std::vector<C
   std::ranges::sort(out, {}, &Crossing::x);
 }
 
-void draw_span(const Crossing& left, const Crossing& right, bool front, int y, int width, std::vector<Sample>& out) {
+void draw_span(const Crossing& left, const Crossing& right, bool front, int y, int width,
+               std::vector<MethodSample>& out) {
   const int end = first_centre(right.x, width);
   for (int x = first_centre(left.x, width); x < end; ++x) {
     // Evaluated at every centre: no error adds up along the span, and the fractional offset from the edge to the first
     // centre (lecture 6 of MIT 6.837, slide 8) needs no step of its own.
     const double s = (x + 0.5 - left.x) / (right.x - left.x);
-    Sample sample{.x = x, .y = y, .front = front};
+    MethodSample sample{.x = x, .y = y, .front = front};
     sample.z = std::lerp(left.z, right.z, s);
     double inverse_w = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -82,7 +83,7 @@ class Twofold final : public Method {
  public:
   std::string name() const override { return "twofold"; }
 
-  void draw(const Quad& quad, const View& view, std::vector<Sample>& out) const override {
+  void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
     if (!drawable(quad)) return;
     std::array<Corner, 4> corner;
     for (std::size_t i = 0; i < 4; ++i) {

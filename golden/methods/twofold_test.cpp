@@ -25,24 +25,24 @@ Quad make_quad(const Points& p, const Weights& w = {1, 1, 1, 1}, const Weights& 
   return quad;
 }
 
-std::vector<Sample> draw(const Quad& quad, const View& view = {}) {
-  std::vector<Sample> out;
+std::vector<MethodSample> draw(const Quad& quad, const View& view = {}) {
+  std::vector<MethodSample> out;
   make_twofold()->draw(quad, view, out);
   return out;
 }
 
 /// Every pixel at most once.
-std::map<Pixel, Sample> draw_map(const Quad& quad, const View& view = {}) {
-  std::map<Pixel, Sample> out;
-  for (const Sample& s : draw(quad, view)) {
+std::map<Pixel, MethodSample> draw_map(const Quad& quad, const View& view = {}) {
+  std::map<Pixel, MethodSample> out;
+  for (const MethodSample& s : draw(quad, view)) {
     EXPECT_TRUE(out.emplace(Pixel{s.x, s.y}, s).second) << s.x << ", " << s.y << " twice";
   }
   return out;
 }
 
-std::vector<Pixel> pixels(const std::vector<Sample>& samples) {
+std::vector<Pixel> pixels(const std::vector<MethodSample>& samples) {
   std::vector<Pixel> out;
-  for (const Sample& s : samples) out.emplace_back(s.x, s.y);
+  for (const MethodSample& s : samples) out.emplace_back(s.x, s.y);
   return out;
 }
 
@@ -64,7 +64,7 @@ TEST(Twofold, CornersAndEdges) {
   EXPECT_EQ(samples.at({2, 7}).lambda, (Weights{0.5, 0.5, 0, 0}));
   EXPECT_EQ(samples.at({10, 3}).lambda, (Weights{0.5, 0, 0, 0.5}));
 
-  for (const Sample& s : draw(make_quad({rectangle[0], rectangle[3], rectangle[2], rectangle[1]}))) {
+  for (const MethodSample& s : draw(make_quad({rectangle[0], rectangle[3], rectangle[2], rectangle[1]}))) {
     EXPECT_FALSE(s.front);
   }
 }
@@ -87,7 +87,7 @@ TEST(Twofold, ConcaveQuadHasTwoSpans) {
   // An arrow head that points up, its notch at (8, 4).
   const auto samples = draw(make_quad({Vec2{8, 0}, {-4, 12}, {8, 4}, {20, 12}}), {32, 32, false});
   std::vector<int> row;
-  for (const Sample& s : samples) {
+  for (const MethodSample& s : samples) {
     EXPECT_TRUE(s.front);
     if (s.y == 6) row.push_back(s.x);
   }
@@ -96,7 +96,7 @@ TEST(Twofold, ConcaveQuadHasTwoSpans) {
   EXPECT_EQ(row, (std::vector<int>{1, 2, 3, 12, 13}));
   // At 2.5 the way from 1.5 to 4.25 is 1/2.75 done; edge 01 is 6.5/12 down, edge 12 2.5/8 up from its notch.
   const double s = 1 / 2.75;
-  for (const Sample& sample : samples) {
+  for (const MethodSample& sample : samples) {
     if (sample.x != 2 || sample.y != 6) continue;
     EXPECT_NEAR(sample.lambda[0], (1 - s) * 5.5 / 12, 1e-15);
     EXPECT_NEAR(sample.lambda[1], (1 - s) * 6.5 / 12 + s * 2.5 / 8, 1e-15);
@@ -110,7 +110,7 @@ TEST(Twofold, CrossedQuadShowsBothSides) {
   // side.
   const auto samples = draw(make_quad({Vec2{0, 0}, {16, 0}, {0, 16}, {16, 16}}), {32, 32, false});
   std::size_t above = 0, below = 0;
-  for (const Sample& s : samples) {
+  for (const MethodSample& s : samples) {
     EXPECT_EQ(s.front, s.y >= 8) << s.x << ", " << s.y;
     ++(s.y < 8 ? above : below);
   }
@@ -118,7 +118,7 @@ TEST(Twofold, CrossedQuadShowsBothSides) {
   EXPECT_EQ(above, 64u);
   EXPECT_EQ(below, 64u);
   // A sideways bow tie has its parts beside each other in one row: two spans of a row with two signs.
-  for (const Sample& s : draw(make_quad({Vec2{0, 0}, {0, 16}, {16, 0}, {16, 16}}), {32, 32, false})) {
+  for (const MethodSample& s : draw(make_quad({Vec2{0, 0}, {0, 16}, {16, 0}, {16, 16}}), {32, 32, false})) {
     EXPECT_EQ(s.front, s.x < 8) << s.x << ", " << s.y;
   }
 }
@@ -241,7 +241,7 @@ TEST(Twofold, AQuarterTurnMovesTheCreases) {
   EXPECT_GT(most, 2.0 / 3 * 24 / (88.0 / 3) - 0.05);
 
   // Creases of the turned picture, seen in the upright one, are the column through corners 0 and 2, and no rows.
-  const auto bend = [](const std::map<Pixel, Sample>& map, int x, int y, int dx, int dy) {
+  const auto bend = [](const std::map<Pixel, MethodSample>& map, int x, int y, int dx, int dy) {
     const Weights &a = map.at({x - dx, y - dy}).lambda, &b = map.at({x, y}).lambda,
                   &c = map.at({x + dx, y + dy}).lambda;
     double sum = 0;
@@ -398,7 +398,7 @@ TEST(Twofold, WeightsReproduceThePixel) {
     }
     const Quad quad = make_quad(p, w);
     for (const bool perspective : {false, true}) {
-      for (const Sample& s : draw(quad, {static_cast<int>(size), static_cast<int>(size), perspective})) {
+      for (const MethodSample& s : draw(quad, {static_cast<int>(size), static_cast<int>(size), perspective})) {
         double sum = 0, x = 0, y = 0, sum_w = 0;
         for (std::size_t i = 0; i < 4; ++i) {
           ASSERT_TRUE(s.lambda[i] >= 0 && s.lambda[i] <= 1);

@@ -35,10 +35,10 @@ inline bool is_triangle(const Quad& quad) {
 /// Appends the fragments of one triangle; lambda = sum of barycentric coordinate times weight, in space with
 /// View::perspective, on the screen without.
 inline void draw_triangle(const WeightedVertex& a, const WeightedVertex& b, const WeightedVertex& c, const View& view,
-                          std::vector<Sample>& out) {
+                          std::vector<MethodSample>& out) {
   raster_triangle({a.vertex, b.vertex, c.vertex}, view, [&](const TrianglePixel& pixel) {
     const std::array<double, 3>& share = view.perspective ? pixel.space : pixel.screen;
-    Sample sample{pixel.x, pixel.y, pixel.front, false, pixel.z, {}};
+    MethodSample sample{pixel.x, pixel.y, pixel.front, false, pixel.z, {}};
     for (std::size_t i = 0; i < 4; ++i)
       sample.lambda[i] = share[0] * a.weight[i] + share[1] * b.weight[i] + share[2] * c.weight[i];
     out.push_back(sample);
@@ -46,7 +46,8 @@ inline void draw_triangle(const WeightedVertex& a, const WeightedVertex& b, cons
 }
 
 /// A quad of such points as OpenGL would draw it: triangles (0, 1, 2) and (0, 2, 3).
-inline void draw_split02(const std::array<WeightedVertex, 4>& corner, const View& view, std::vector<Sample>& out) {
+inline void draw_split02(const std::array<WeightedVertex, 4>& corner, const View& view,
+                         std::vector<MethodSample>& out) {
   draw_triangle(corner[0], corner[1], corner[2], view, out);
   draw_triangle(corner[0], corner[2], corner[3], view, out);
 }

@@ -2,13 +2,11 @@
 // of the pipeline (exact front, fixed-point back) what their definitions say, and tiny widths exhaustively.
 #include "model/pixel_pipeline.hpp"
 #include "model/clocked.hpp"
+#include "model/each_lane_target.hpp"
+#include "model/pixel_lanes.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
-
-// After untimed.hpp, whose enumerator `lanes` it would shadow.
-#include "model/each_lane_target.hpp"
-#include "model/pixel_lanes.hpp"
 
 #include "golden/scenes/stress.hpp"
 #include "model/support/prng.hpp"
@@ -180,14 +178,14 @@ TEST(PixelLanes, HardBitPatterns) {
       const std::uint32_t sig = rng.chance(0.3)   ? ones
                                 : rng.chance(0.2) ? low
                                                   : static_cast<std::uint32_t>(low + rng.below(low));
-      return Fp{sign && rng.chance(0.5), static_cast<int>(rng.integer(-20, 20)), sig};
+      return PipelineFloat{sign && rng.chance(0.5), static_cast<int>(rng.integer(-20, 20)), sig};
     };
     QuadData data;
     for (std::size_t i = 0; i < 4; ++i) {
       data.k[i] = number(false);
       data.w[i] = number(true);
       data.z[i] = number(true);
-      for (std::size_t j = 0; j < 4; ++j) data.b[i][j] = rng.chance(0.2) ? Fp{} : number(true);
+      for (std::size_t j = 0; j < 4; ++j) data.b[i][j] = rng.chance(0.2) ? PipelineFloat{} : number(true);
     }
     const QuadLanes values(data, context);
     for (int m = 0; m < 20; ++m) {
@@ -196,7 +194,7 @@ TEST(PixelLanes, HardBitPatterns) {
       for (std::size_t k = 0; k < 6; ++k) tile.quadratic[k].value = pattern(60) * (rng.chance(0.5) ? 1 : -1);
       for (std::size_t k = 6; k < 10; ++k) tile.quadratic[k].value = (std::int64_t{1} << 60) + pattern(62) / 2;
       const QuadConstants constants;
-      const int zero[lanes] = {};
+      const int zero[lane_count] = {};
       PixelTrace p;
       pixel_pipeline(p, tile, constants, data, 0, 0, context);
       on_each_lane_target([&] {
@@ -205,7 +203,7 @@ TEST(PixelLanes, HardBitPatterns) {
         ASSERT_EQ(quick.singular, p.two_corner || p.on_vertex || p.two_edge ? 0xffu : 0u);
         if (quick.singular != 0) return;
         ++compared;
-        for (std::size_t l = 0; l < lanes; ++l) {
+        for (std::size_t l = 0; l < lane_count; ++l) {
           ASSERT_EQ(quick.drawn >> l & 1, p.drawn ? 1u : 0u);
           ASSERT_EQ(quick.on_edge >> l & 1, p.on_edge ? 1u : 0u);
           ASSERT_EQ(quick.cured >> l & 1, p.cured ? 1u : 0u);
@@ -391,7 +389,7 @@ TEST(PixelPipeline, EndsFollowTheirDefinitions) {
                 ASSERT_TRUE(p.d[k] == dot(q, pairs[k][0], pairs[k][1], x, y));
               }
               const auto a = static_cast<std::uint64_t>(p.a[k] < 0 ? -p.a[k] : p.a[k]);
-              Fp expected = fp_from_magnitude(a, -c.qdrop(), context.format);
+              PipelineFloat expected = fp_from_magnitude(a, -c.qdrop(), context.format);
               expected.neg = p.a[k] < 0;
               ASSERT_EQ(p.a_fp[k], expected);
             }
@@ -411,7 +409,7 @@ TEST(PixelPipeline, EndsFollowTheirDefinitions) {
             ++classes[expected_class];
             for (std::size_t k = 0; k < 4; ++k) {
               if (p.r2[k] <= 0) {
-                ASSERT_EQ(p.rho[k], Fp{});
+                ASSERT_EQ(p.rho[k], PipelineFloat{});
                 continue;
               }
               const double rho = std::ldexp(p.rho[k].sig, p.rho[k].exp - (S - 1)), r2 = static_cast<double>(p.r2[k]);
@@ -420,15 +418,15 @@ TEST(PixelPipeline, EndsFollowTheirDefinitions) {
             }
             // n, d magnitudes, at most 2 and a truncation; dropped bits of D and r² may make |D|ρρ larger.
             for (std::size_t k = 0; k < 6; ++k) {
-              ASSERT_FALSE(p.n[k].neg || p.dn[k].neg);
+              ASSERT_FALSE(p.num[k].neg || p.den[k].neg);
               if (c.qdrop() != 0) continue;
-              ASSERT_LE(p.n[k].exp, 1);
-              ASSERT_LE(p.dn[k].exp, 1);
+              ASSERT_LE(p.num[k].exp, 1);
+              ASSERT_LE(p.den[k].exp, 1);
             }
             // Stage 25.
-            const Fp rk = reciprocal(p.den_k, context.recip_table, context.format);
-            const Fp rw = reciprocal(p.den_w, context.recip_table, context.format);
-            const auto floor_fixed = [&](const Fp& a, const Fp& b, int int_bits, int frac,
+            const PipelineFloat rk = reciprocal(p.den_k, context.recip_table, context.format);
+            const PipelineFloat rw = reciprocal(p.den_w, context.recip_table, context.format);
+            const auto floor_fixed = [&](const PipelineFloat& a, const PipelineFloat& b, int int_bits, int frac,
                                          bool& over) -> std::uint64_t {
               const long double value = std::ldexp(static_cast<long double>(a.sig) * static_cast<long double>(b.sig),
                                                    a.exp + b.exp - 2 * (S - 1));  // exact: 52 bits

@@ -61,7 +61,7 @@ class Judge {
 
 // ---- Significand numbers ----
 
-/// Fp or PortNumber.
+/// PipelineFloat or PortNumber.
 template <class Number>
 inline Real value_of(const Number& v, int s) {
   const Real magnitude = ldexpl(static_cast<Real>(v.sig), v.exp - (s - 1));

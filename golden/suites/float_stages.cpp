@@ -224,7 +224,7 @@ void normalised(Judge& judge, const Vector& t) {
   judge.same("on_vertex", -1, out.on_vertex, is.on_vertex());
   judge.same("two_edge", -1, out.two_edge, is.two_edge());
   judge.same("on_edge", -1, out.on_edge, is.on_edge());
-  const auto check = [&](const char* name, std::size_t i, const Fp& actual, Real exact) {
+  const auto check = [&](const char* name, std::size_t i, const PipelineFloat& actual, Real exact) {
     check_number(judge, name, static_cast<int>(i), actual, t.losses.cut(exactly(exact)), t.losses);
   };
   for (std::size_t i = 0; i < 6; ++i) {
@@ -263,8 +263,8 @@ void ratios(Judge& judge, const Vector& t) {
     const Real grain = term.hi > 0 ? l.grain * std::max(1.0L, term.hi) : 0;
     const Span u = l.cut({1 + term.lo - grain, 1 + term.hi});
     const bool swapped = in.d_fp[k].neg;
-    check_number(judge, "n_sig", static_cast<int>(k), out.n[k], swapped ? u : v, l);
-    check_number(judge, "d_sig", static_cast<int>(k), out.dn[k], swapped ? v : u, l);
+    check_number(judge, "n_sig", static_cast<int>(k), out.num[k], swapped ? u : v, l);
+    check_number(judge, "d_sig", static_cast<int>(k), out.den[k], swapped ? v : u, l);
   }
 }
 
@@ -278,7 +278,7 @@ void weights(Judge& judge, const Vector& t) {
                                           [&](std::size_t i) { return t.in.a_sign[i] == 0 && t.in.d_negative[i]; });
   std::array<Real, 6> n{}, d{};
   std::array<Real, 4> rho{}, k{};
-  for (std::size_t i = 0; i < 6; ++i) n[i] = value_of(in.n[i], l.s), d[i] = value_of(in.dn[i], l.s);
+  for (std::size_t i = 0; i < 6; ++i) n[i] = value_of(in.num[i], l.s), d[i] = value_of(in.den[i], l.s);
   for (std::size_t i = 0; i < 4; ++i) rho[i] = value_of(in.rho[i], l.s), k[i] = value_of(t.in.data.k[i], l.s);
 
   std::array<Span, 4> m{};
@@ -333,7 +333,7 @@ void interpolation(Judge& judge, const Vector& t) {
   const Losses& l = t.losses;
   const PixelTrace& out = t.out.pixel;
   const QuadData& q = t.in.data;
-  const auto check = [&](const char* name, int index, const Fp& actual, auto&& factor) {
+  const auto check = [&](const char* name, int index, const PipelineFloat& actual, auto&& factor) {
     std::array<Real, 4> terms{};
     for (std::size_t i = 0; i < 4; ++i) terms[i] = value_of(t.in.pixel.m[i], l.s) * value_of(factor(i), l.s);
     check_number(judge, name, index, actual, l.sum(terms), l);
@@ -432,7 +432,7 @@ StageCheck find_stage(std::string_view suite) {
 
 namespace quadrille::vectors {
 
-FloatStage::FloatStage(std::string_view suite, const Stage& stage)
+FloatStage::FloatStage(std::string_view suite, const StageUnderTest& stage)
     : stage_(stage), losses_(stage.config()), check_(floating::find_stage(suite)) {}
 
 VectorOutcome FloatStage::check(const Record& stimulus, const Record& response) const {

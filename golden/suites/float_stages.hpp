@@ -26,13 +26,13 @@ using StageCheck = void (*)(Judge&, const Vector&);
 class FloatStage {
  public:
   /// The stage of the suite of that name; it must outlive this. Throws golden::InputError for a name without a check.
-  FloatStage(std::string_view suite, const Stage& stage);
+  FloatStage(std::string_view suite, const StageUnderTest& stage);
 
   /// One vector. Of an undefined one, all that has an answer agrees.
   VectorOutcome check(const Record& stimulus, const Record& response) const;
 
  private:
-  const Stage& stage_;
+  const StageUnderTest& stage_;
   floating::Losses losses_;
   floating::StageCheck check_;
 };

@@ -15,7 +15,7 @@ SuiteInfo input_info() {
           "whatever snapping refuses"};
 }
 
-std::unique_ptr<const Stage> snapping(const Config& config) {
+std::unique_ptr<const StageUnderTest> snapping(const Config& config) {
   return dynamic_cast<const StageSuite&>(find_suite("snapping")).stage(config);
 }
 

@@ -30,7 +30,7 @@ std::uint64_t few_ones(golden::Prng& prng) {
 
 }  // namespace
 
-std::vector<std::int64_t> corner_values(const Range& range) {
+std::vector<std::int64_t> corner_values(const FieldRange& range) {
   std::vector<std::int64_t> values{range.lo, range.hi, 0};
   const auto lo = static_cast<std::uint64_t>(range.lo), hi = static_cast<std::uint64_t>(range.hi);
   for (int k = 0; k < 64; ++k) {
@@ -50,7 +50,7 @@ std::vector<std::int64_t> corner_values(const Range& range) {
   return values;
 }
 
-std::int64_t weighted(golden::Prng& prng, const Range& range) {
+std::int64_t weighted(golden::Prng& prng, const FieldRange& range) {
   if (range.or_zero && prng.below(16) == 0) return 0;
   const auto lo = static_cast<std::uint64_t>(range.lo), hi = static_cast<std::uint64_t>(range.hi);
   const std::uint64_t span = hi - lo;

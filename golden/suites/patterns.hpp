@@ -10,7 +10,7 @@
 namespace quadrille::vectors {
 
 /// Whole numbers from lo to hi, both included; with `or_zero` also 0.
-struct Range {
+struct FieldRange {
   std::int64_t lo = 0, hi = 0;
   bool or_zero = false;
 
@@ -19,9 +19,9 @@ struct Range {
 
 /// The ends and their neighbours, 0, ±2^k and ±2^k ± 1; for a range above 0 also lo + 2^k and its neighbours, hi − 2^k.
 /// Rising, each once.
-std::vector<std::int64_t> corner_values(const Range& range);
+std::vector<std::int64_t> corner_values(const FieldRange& range);
 
 /// A number of the range, weighted.
-std::int64_t weighted(golden::Prng& prng, const Range& range);
+std::int64_t weighted(golden::Prng& prng, const FieldRange& range);
 
 }  // namespace quadrille::vectors

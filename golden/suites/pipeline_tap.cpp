@@ -62,7 +62,7 @@ DrawState unit_state(std::size_t round, const Config& config) {
 }
 
 void tap_quad(StageData& data, Source source, const PipelineContext& context, golden::Prng& prng,
-              const Stage::Sink& sink) {
+              const StageUnderTest::Sink& sink) {
   const Config& config = context.config;
   TileWalk walk(config, context.state);
   Reservoir<TileEntry> tiles(tiles_a_quad, prng);
@@ -112,7 +112,8 @@ void tap_quad(StageData& data, Source source, const PipelineContext& context, go
 
 std::size_t tap_families() { return golden::stress_families().size(); }
 
-void tap_pipeline(std::size_t unit, std::uint64_t seed, Source source, const Config& config, const Stage::Sink& sink) {
+void tap_pipeline(std::size_t unit, std::uint64_t seed, Source source, const Config& config,
+                  const StageUnderTest::Sink& sink) {
   const std::size_t families = tap_families(), round = unit / families;
   const DrawState state = unit_state(round, config);
   const PipelineContext context(config, state);

@@ -9,7 +9,7 @@ namespace quadrille::vectors {
 /// Lists has two static templates, stimulus(data, config, f) and response(data, config, f), that list the fields of a
 /// StageData (const or not) as model/fields.hpp says.
 template <class Lists>
-class StageOf : public Stage {
+class StageOf : public StageUnderTest {
  public:
   Record pack_stimulus(const StageData& data) const override {
     return pack_record(stimulus_.bits(), [&](auto& f) { Lists::stimulus(data, config(), f); });
@@ -25,7 +25,7 @@ class StageOf : public Stage {
   }
 
  protected:
-  explicit StageOf(const Config& config) : Stage(config) {
+  explicit StageOf(const Config& config) : StageUnderTest(config) {
     const StageData nothing;
     stimulus_ = layout_of([&](auto& f) { Lists::stimulus(nothing, config, f); });
     response_ = layout_of([&](auto& f) { Lists::response(nothing, config, f); });
@@ -33,7 +33,7 @@ class StageOf : public Stage {
 };
 
 template <class S>
-std::unique_ptr<const Stage> make_stage(const Config& config) {
+std::unique_ptr<const StageUnderTest> make_stage(const Config& config) {
   return std::make_unique<const S>(config);
 }
 

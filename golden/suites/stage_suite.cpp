@@ -41,7 +41,7 @@ std::uint64_t suite_seed(const std::string& name, std::uint64_t seed) {
 }
 
 /// Field values drawn alone, then made to fit together; neighbours in an array are sometimes equal.
-Record random_record(const Stage& stage, const std::vector<Range>& ranges, golden::Prng& prng) {
+Record random_record(const StageUnderTest& stage, const std::vector<FieldRange>& ranges, golden::Prng& prng) {
   const std::vector<RecordField>& fields = stage.stimulus_layout().fields();
   Record record(stage.stimulus_layout().bits());
   const bool alike = prng.chance(0.25);
@@ -59,16 +59,16 @@ Record random_record(const Stage& stage, const std::vector<Range>& ranges, golde
   return stage.pack_stimulus(data);
 }
 
-std::vector<Range> ranges_of(const Stage& stage) {
-  std::vector<Range> ranges;
+std::vector<FieldRange> ranges_of(const StageUnderTest& stage) {
+  std::vector<FieldRange> ranges;
   for (const RecordField& f : stage.stimulus_layout().fields()) ranges.push_back(stage.range(f));
   return ranges;
 }
 
 /// Every corner value of every field over a few backgrounds, and the stage's own cases.
-std::vector<Record> corner_records(const Stage& stage, std::uint64_t seed, std::size_t limit) {
+std::vector<Record> corner_records(const StageUnderTest& stage, std::uint64_t seed, std::size_t limit) {
   const std::vector<RecordField>& fields = stage.stimulus_layout().fields();
-  const std::vector<Range> ranges = ranges_of(stage);
+  const std::vector<FieldRange> ranges = ranges_of(stage);
   golden::Prng prng(seed, 1);
   std::vector<Record> special, single;
   std::unordered_set<std::string> seen;
@@ -119,7 +119,7 @@ std::vector<Record> corner_records(const Stage& stage, std::uint64_t seed, std::
   return special;
 }
 
-std::vector<Record> random_unit(const Stage& stage, const std::vector<Range>& ranges, std::uint64_t seed,
+std::vector<Record> random_unit(const StageUnderTest& stage, const std::vector<FieldRange>& ranges, std::uint64_t seed,
                                 std::size_t unit, std::size_t count) {
   golden::Prng prng(seed, 0x1000 + unit);
   std::vector<Record> records;
@@ -127,7 +127,8 @@ std::vector<Record> random_unit(const Stage& stage, const std::vector<Range>& ra
   return records;
 }
 
-std::vector<Record> realistic_unit(const Stage& stage, std::uint64_t seed, std::size_t unit, std::size_t most) {
+std::vector<Record> realistic_unit(const StageUnderTest& stage, std::uint64_t seed, std::size_t unit,
+                                   std::size_t most) {
   std::vector<Record> records;
   tap_pipeline(unit, seed, stage.source(), stage.config(), [&](const StageData& data) {
     if (records.size() < most) records.push_back(stage.pack_stimulus(data));
@@ -138,7 +139,7 @@ std::vector<Record> realistic_unit(const Stage& stage, std::uint64_t seed, std::
 /// The stimuli in units that are independent of each other: corner, random, realistic.
 class Units {
  public:
-  Units(const Stage& stage, const std::string& name, const GenerateOptions& options)
+  Units(const StageUnderTest& stage, const std::string& name, const GenerateOptions& options)
       : stage_(stage),
         seed_(suite_seed(name, options.seed)),
         plan_(plan_of(options)),
@@ -167,29 +168,29 @@ class Units {
   }
 
  private:
-  const Stage& stage_;
+  const StageUnderTest& stage_;
   std::uint64_t seed_;
   Plan plan_;
-  std::vector<Range> ranges_;
+  std::vector<FieldRange> ranges_;
   std::vector<Record> corner_;
   std::size_t corner_units_;
 };
 
 }  // namespace
 
-Record Stage::respond(const Record& stimulus) const {
+Record StageUnderTest::respond(const Record& stimulus) const {
   StageData data;
   unpack_stimulus(stimulus, data);
   run(data);
   return pack_response(data);
 }
 
-Range Stage::range(const RecordField& f) const {
+FieldRange StageUnderTest::range(const RecordField& f) const {
   // A significand has its top bit set, or the number is zero.
   if (f.name.ends_with("sig")) return {std::int64_t{1} << (f.width - 1), (std::int64_t{1} << f.width) - 1, true};
   if (f.width == 64) return {INT64_MIN, INT64_MAX};
-  return f.is_signed ? Range{-(std::int64_t{1} << (f.width - 1)), (std::int64_t{1} << (f.width - 1)) - 1}
-                     : Range{0, (std::int64_t{1} << f.width) - 1};
+  return f.is_signed ? FieldRange{-(std::int64_t{1} << (f.width - 1)), (std::int64_t{1} << (f.width - 1)) - 1}
+                     : FieldRange{0, (std::int64_t{1} << f.width) - 1};
 }
 
 void StageSuite::write(SuiteWriter& writer, const GenerateOptions& options) const {

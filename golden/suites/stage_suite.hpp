@@ -34,18 +34,18 @@ struct StageData {
   PixelTrace pixel;
   std::array<std::int8_t, 4> a_sign{};
   std::array<bool, 4> d_negative{}, corner{};
-  Fp number, inverse;  ///< reciprocal
+  PipelineFloat number, inverse;  ///< reciprocal
 };
 
 /// What realistic stimuli of a stage are taken from.
 enum class Source { vertices, quads, tiles, pixels };
 
 /// A stage for one configuration.
-class Stage {
+class StageUnderTest {
  public:
   using Sink = std::function<void(const StageData&)>;
 
-  virtual ~Stage() = default;
+  virtual ~StageUnderTest() = default;
 
   const Config& config() const { return context_.config; }
   const RecordLayout& stimulus_layout() const { return stimulus_; }
@@ -65,7 +65,7 @@ class Stage {
 
   virtual Source source() const { return Source::pixels; }
   /// Legal values of one field of the stimulus, the others apart.
-  virtual Range range(const RecordField& field) const;
+  virtual FieldRange range(const RecordField& field) const;
   /// Makes the fields fit together, changing as little as it can. What comes out is legal.
   virtual void constrain(StageData&) const {}
   /// Puts structure into random data: chance alone hardly ever makes it.
@@ -74,7 +74,7 @@ class Stage {
   virtual void corners(const Sink&) const {}
 
  protected:
-  explicit Stage(const Config& config) : context_(config, DrawState{}) {}
+  explicit StageUnderTest(const Config& config) : context_(config, DrawState{}) {}
 
   PipelineContext context_;
   RecordLayout stimulus_, response_;
@@ -83,11 +83,11 @@ class Stage {
 /// A stage suite: see Suite.
 class StageSuite : public Suite {
  public:
-  using Make = std::unique_ptr<const Stage> (*)(const Config&);
+  using Make = std::unique_ptr<const StageUnderTest> (*)(const Config&);
   StageSuite(SuiteInfo info, Make make) : info_(std::move(info)), make_(make) {}
 
   const SuiteInfo& info() const override { return info_; }
-  std::unique_ptr<const Stage> stage(const Config& config) const { return make_(config); }
+  std::unique_ptr<const StageUnderTest> stage(const Config& config) const { return make_(config); }
 
   void write(SuiteWriter& writer, const GenerateOptions& options) const override;
   VerifyResult verify(const SuiteReader& reader, unsigned threads) const override;

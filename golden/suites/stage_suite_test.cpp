@@ -146,7 +146,7 @@ TEST(StageSuites, StimuliKeepTheirContract) {
           for (const RecordField& f : stage->stimulus_layout().fields()) {
             const std::int64_t v =
                 f.is_signed || f.width == 64 ? stimulus.get_signed(f) : static_cast<std::int64_t>(stimulus.get(f));
-            const Range range = stage->range(f);
+            const FieldRange range = stage->range(f);
             const bool zero = f.name.ends_with("exp") && v == 0;                  // of a zero
             const bool one = (f.name == "n_exp" || f.name == "d_exp") && v == 1;  // 1 + |cos| = 2
             ASSERT_TRUE(range.contains(v) || zero || one) << f.label() << " = " << v << " in " << stimulus.to_hex();
@@ -174,7 +174,7 @@ TEST(StageSuites, CornersOfEveryFieldOccur) {
           seen[f.label()].insert(f.is_signed || f.width == 64 ? stimulus.get_signed(f)
                                                               : static_cast<std::int64_t>(stimulus.get(f)));
     for (const RecordField& f : stage->stimulus_layout().fields()) {
-      const Range range = stage->range(f);
+      const FieldRange range = stage->range(f);
       EXPECT_TRUE(seen[f.label()].contains(range.lo)) << f.label() << " never is " << range.lo;
       EXPECT_TRUE(seen[f.label()].contains(range.hi)) << f.label() << " never is " << range.hi;
     }

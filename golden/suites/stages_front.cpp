@@ -180,7 +180,7 @@ class Setup : public StageOf<SetupLists> {
   Source source() const override { return Source::quads; }
   void run(StageData& d) const override { d.setup = quad_setup(d.quad, config(), d.state); }
 
-  Range range(const RecordField& f) const override {
+  FieldRange range(const RecordField& f) const override {
     const std::int64_t reach = std::int64_t{1} << (config().pos_int() + config().frac());
     const std::int64_t one = std::int64_t{1} << config().frac();
     if (f.name == "w") return {-one, one};
@@ -318,11 +318,11 @@ class Coverage : public StageOf<CoverageLists> {
       d.row_masks[static_cast<std::size_t>(r)] = stamp_coverage(d.tile, d.constants, r, config(), d.state);
   }
 
-  Range range(const RecordField& f) const override {
+  FieldRange range(const RecordField& f) const override {
     if (f.name == "cull") return {0, 2};
     if (f.name.starts_with("scissor")) return {0, std::int64_t{1} << config().viewport_bits};
     if (f.name.starts_with("tile_")) return {0, (std::int64_t{1} << (config().viewport_bits - config().tile_log2)) - 1};
-    return Stage::range(f);
+    return StageUnderTest::range(f);
   }
 
   void constrain(StageData& d) const override {
@@ -441,8 +441,8 @@ class ForwardDifference : public StageOf<ForwardLists> {
 
   void run(StageData& d) const override { forward_difference(d.pixel, d.tile, d.constants, d.dx, d.row); }
 
-  Range range(const RecordField& f) const override {
-    if (f.name != "quad_q") return Stage::range(f);
+  FieldRange range(const RecordField& f) const override {
+    if (f.name != "quad_q") return StageUnderTest::range(f);
     const std::int64_t one = std::int64_t{1} << std::max(0, config().quadratic_frac());
     return {f.index < 6 ? -one : 0, one};
   }

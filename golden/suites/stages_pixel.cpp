@@ -38,9 +38,9 @@ void clear_zero(Number& v) {
   if (v.sig == 0) v = {};
 }
 
-double value_of(const Fp& v, int s) { return std::ldexp(static_cast<double>(v.sig), v.exp - (s - 1)); }
+double value_of(const PipelineFloat& v, int s) { return std::ldexp(static_cast<double>(v.sig), v.exp - (s - 1)); }
 
-bool greater(const Fp& a, const Fp& b) {
+bool greater(const PipelineFloat& a, const PipelineFloat& b) {
   if (a.sig == 0 || b.sig == 0) return a.sig != 0;
   return a.exp != b.exp ? a.exp > b.exp : a.sig > b.sig;
 }
@@ -127,7 +127,7 @@ class Normalise : public StageOf<NormaliseLists> {
   explicit Normalise(const Config& config) : StageOf(config) {}
   void run(StageData& d) const override { normalise(d.pixel, context_); }
 
-  Range range(const RecordField& f) const override {
+  FieldRange range(const RecordField& f) const override {
     const std::int64_t most = std::int64_t((std::uint64_t{1} << (f.width - 1)) - 1);
     return {f.name == "r2" ? -256 : -most, most};
   }
@@ -171,11 +171,11 @@ class Rsqrt : public StageOf<RsqrtLists> {
   explicit Rsqrt(const Config& config) : StageOf(config) {}
   void run(StageData& d) const override { rsqrt_stage(d.pixel, context_); }
 
-  Range range(const RecordField& f) const override {
-    return f.name == "exp" ? Range{0, Exponents(config()).d_hi} : Stage::range(f);
+  FieldRange range(const RecordField& f) const override {
+    return f.name == "exp" ? FieldRange{0, Exponents(config()).d_hi} : StageUnderTest::range(f);
   }
   void constrain(StageData& d) const override {
-    for (Fp& v : d.pixel.r2_fp) clear_zero(v);
+    for (PipelineFloat& v : d.pixel.r2_fp) clear_zero(v);
   }
 
   void corners(const Sink& sink) const override {
@@ -210,9 +210,9 @@ class Reciprocal : public StageOf<ReciprocalLists> {
   explicit Reciprocal(const Config& config) : StageOf(config) {}
   void run(StageData& d) const override { d.inverse = reciprocal(d.number, context_.recip_table, context_.format); }
 
-  Range range(const RecordField& f) const override {
+  FieldRange range(const RecordField& f) const override {
     const Exponents e(config());
-    return f.name == "exp" ? Range{e.sum_lo, e.sum_hi} : Stage::range(f);
+    return f.name == "exp" ? FieldRange{e.sum_lo, e.sum_hi} : StageUnderTest::range(f);
   }
   void constrain(StageData& d) const override { clear_zero(d.number); }
 
@@ -261,18 +261,18 @@ class Ratios : public StageOf<RatiosLists> {
   explicit Ratios(const Config& config) : StageOf(config) {}
   void run(StageData& d) const override { mean_value_ratios(d.pixel, context_); }
 
-  Range range(const RecordField& f) const override {
+  FieldRange range(const RecordField& f) const override {
     const Exponents e(config());
     if (f.name == "a_exp") return {e.a_lo, e.a_hi};
     if (f.name == "d_exp") return {0, e.d_hi};
     if (f.name == "rho_exp") return {e.rho_lo, 0};
-    return Stage::range(f);
+    return StageUnderTest::range(f);
   }
 
   void constrain(StageData& d) const override {
     PixelTrace& p = d.pixel;
     const int s = config().significand_bits;
-    for (Fp& v : p.rho) {
+    for (PipelineFloat& v : p.rho) {
       clear_zero(v);
       // rho is at most 1: r2 is at least 1 in its units.
       if (v.exp >= 0 && v.sig != 0) v = {false, 0, std::uint32_t{1} << (s - 1)};
@@ -288,7 +288,7 @@ class Ratios : public StageOf<RatiosLists> {
 
  private:
   /// |A| and |D| are at most r r', but for rounding.
-  void bound(Fp& v, double scale, int lowest) const {
+  void bound(PipelineFloat& v, double scale, int lowest) const {
     clear_zero(v);
     const double most = 1 + std::ldexp(1.0, 2 - config().significand_bits);
     while (v.sig != 0 && value_of(v, config().significand_bits) * scale > most) {
@@ -339,17 +339,17 @@ class Weights : public StageOf<WeightsLists> {
     mean_value_weights(p, d.data, context_);
   }
 
-  Range range(const RecordField& f) const override {
+  FieldRange range(const RecordField& f) const override {
     const Exponents e(config());
     if (f.name == "a_sign") return {-1, 1};
     if (f.name == "rho_exp") return {e.rho_lo, 0};
     if (f.name == "n_exp" || f.name == "d_exp") return {e.ratio_lo, 0};
-    return Stage::range(f);
+    return StageUnderTest::range(f);
   }
 
   void constrain(StageData& d) const override {
     PixelTrace& p = d.pixel;
-    const Fp one = context_.format.one();
+    const PipelineFloat one = context_.format.one();
     for (std::size_t i = 0; i < 4; ++i) {
       clear_zero(d.data.k[i]);
       if (d.corner[i]) p.rho[i] = {};
@@ -364,9 +364,9 @@ class Weights : public StageOf<WeightsLists> {
         d.d_negative[k] = false;
       }
       // One of n, d is u = 1 + |cos| in [1, 2], the other v = |sin|; D < 0: n is u.
-      const bool swapped = edge ? d.d_negative[k] : greater(p.n[k], p.dn[k]);
-      Fp& u = swapped ? p.n[k] : p.dn[k];
-      Fp& v = swapped ? p.dn[k] : p.n[k];
+      const bool swapped = edge ? d.d_negative[k] : greater(p.num[k], p.den[k]);
+      PipelineFloat& u = swapped ? p.num[k] : p.den[k];
+      PipelineFloat& v = swapped ? p.den[k] : p.num[k];
       if (at_corner) u = one, v = {};
       if (u.exp != 1 || u.sig != one.sig) u.exp = 0;
       if (u.sig == 0) u = one;
@@ -390,8 +390,8 @@ class Weights : public StageOf<WeightsLists> {
     }
     for (std::size_t k = 0; k < 6; ++k) {
       const auto n = static_cast<std::uint32_t>(k);
-      d.pixel.n[k] = {false, -1 - static_cast<int>(k), one + 3 * n};
-      d.pixel.dn[k] = {false, 0, one + 7 * n};
+      d.pixel.num[k] = {false, -1 - static_cast<int>(k), one + 3 * n};
+      d.pixel.den[k] = {false, 0, one + 7 * n};
     }
     for (int code = 0; code < 81 * 16; ++code) {
       int rest = code / 16;
@@ -399,7 +399,7 @@ class Weights : public StageOf<WeightsLists> {
       for (std::size_t i = 0; i < 4; ++i, rest /= 3) {
         each.a_sign[i] = static_cast<std::int8_t>(rest % 3 - 1);
         each.d_negative[i] = code >> i & 1;
-        if (each.d_negative[i]) std::swap(each.pixel.n[i], each.pixel.dn[i]);
+        if (each.d_negative[i]) std::swap(each.pixel.num[i], each.pixel.den[i]);
       }
       sink(each);
     }
@@ -461,20 +461,20 @@ class Interpolation : public StageOf<InterpolationLists> {
   explicit Interpolation(const Config& config) : StageOf(config) {}
   void run(StageData& d) const override { interpolate(d.pixel, d.data, context_); }
 
-  Range range(const RecordField& f) const override {
+  FieldRange range(const RecordField& f) const override {
     const Exponents e(config());
     if (f.name == "m_exp") return {e.m_lo, e.m_hi};
     if (f.name == "w_exp") return {-config().frac(), 0};
-    return Stage::range(f);
+    return StageUnderTest::range(f);
   }
 
   void constrain(StageData& d) const override {
-    for (Fp& m : d.pixel.m) clear_zero(m);
+    for (PipelineFloat& m : d.pixel.m) clear_zero(m);
     for (std::size_t i = 0; i < 4; ++i) {
       clear_zero(d.data.k[i]);
       clear_zero(d.data.w[i]);
       clear_zero(d.data.z[i]);
-      for (Fp& b : d.data.b[i]) clear_zero(b);
+      for (PipelineFloat& b : d.data.b[i]) clear_zero(b);
       if (d.data.w[i].exp == 0 && d.data.w[i].sig != 0)
         d.data.w[i].sig = context_.format.one().sig;  // |W| is at most 1
     }
@@ -487,7 +487,7 @@ class Interpolation : public StageOf<InterpolationLists> {
     const int spread = static_cast<int>(prng.below(static_cast<std::uint64_t>(2 * s)));
     const auto near = [&](int exp) {
       const auto sig = static_cast<std::uint32_t>(weighted(prng, {one, 2 * std::int64_t{one} - 1, true}));
-      return Fp{prng.chance(0.5), exp - static_cast<int>(prng.integer(0, spread)), sig};
+      return PipelineFloat{prng.chance(0.5), exp - static_cast<int>(prng.integer(0, spread)), sig};
     };
     const bool equal = prng.chance(0.3);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -499,7 +499,7 @@ class Interpolation : public StageOf<InterpolationLists> {
       if (equal && i % 2 == 1) {  // pairs that cancel to the last bits
         d.pixel.m[i] = d.pixel.m[i - 1];
         d.data.b[i] = d.data.b[i - 1];
-        for (Fp& b : d.data.b[i]) {
+        for (PipelineFloat& b : d.data.b[i]) {
           b.neg = !b.neg;
           if (b.sig > one && prng.chance(0.5)) --b.sig;
         }
@@ -571,21 +571,21 @@ class Depth : public StageOf<DepthLists> {
     d.pixel.fragment.flags = (d.pixel.fragment.flags & flag_saturated) != 0;
   }
 
-  Range range(const RecordField& f) const override {
+  FieldRange range(const RecordField& f) const override {
     const Exponents e(config());
     if (f.name == "attributes") return {0, config().attribute_slots};
     if (f.name == "znear" || f.name == "zfar") return {0, std::int64_t{1} << config().depth_bits};
     if (f.name.ends_with("exp")) return {e.sum_lo, e.sum_hi};
-    return Stage::range(f);
+    return StageUnderTest::range(f);
   }
 
   void constrain(StageData& d) const override {
     const Exponents e(config());
-    const auto fit = [&](Fp& v) {
+    const auto fit = [&](PipelineFloat& v) {
       v.exp = std::clamp(v.exp, e.sum_lo, e.sum_hi);
       clear_zero(v);
     };
-    for (Fp& a : d.pixel.num_a) fit(a);
+    for (PipelineFloat& a : d.pixel.num_a) fit(a);
     fit(d.pixel.num_z);
     fit(d.pixel.den_k);
     fit(d.pixel.den_w);
@@ -594,12 +594,12 @@ class Depth : public StageOf<DepthLists> {
   void shape(golden::Prng& prng, StageData& d) const override {
     // Quotients near the ends of the outputs' formats.
     PixelTrace& p = d.pixel;
-    const auto near = [&](Fp& v, const Fp& den, int bits_above, int bits_below) {
+    const auto near = [&](PipelineFloat& v, const PipelineFloat& den, int bits_above, int bits_below) {
       if (den.sig == 0) return;
       v.exp = den.exp + static_cast<int>(prng.integer(-bits_below, bits_above));
       if (prng.chance(0.1)) v.sig = den.sig;
     };
-    for (Fp& a : p.num_a)
+    for (PipelineFloat& a : p.num_a)
       near(a, p.den_k, config().attribute_int_bits + 1, prng.chance(0.5) ? 3 : config().attribute_frac() + 2);
     near(p.num_z, p.den_w, 2, prng.chance(0.7) ? 2 : config().depth_bits + 2);
     p.den_w.neg = prng.chance(0.2);
@@ -620,10 +620,13 @@ class Depth : public StageOf<DepthLists> {
     PixelTrace& p = d.pixel;
     // z of 0, the smallest code, 1/2, just below and at 1, above; every sign; every kind of denominator; limits about
     // it.
-    for (const Fp den : {Fp{}, Fp{false, 0, one}, Fp{true, 0, one}, Fp{false, 3, most}})
-      for (const Fp num :
-           {Fp{}, Fp{false, -config().depth_bits, one}, Fp{false, -config().depth_bits - 1, most}, Fp{false, -1, one},
-            Fp{false, -1, most}, Fp{false, 0, one}, Fp{false, 0, one + 1}, Fp{false, 1, one}, Fp{false, 30, one}})
+    for (const PipelineFloat den :
+         {PipelineFloat{}, PipelineFloat{false, 0, one}, PipelineFloat{true, 0, one}, PipelineFloat{false, 3, most}})
+      for (const PipelineFloat num :
+           {PipelineFloat{}, PipelineFloat{false, -config().depth_bits, one},
+            PipelineFloat{false, -config().depth_bits - 1, most}, PipelineFloat{false, -1, one},
+            PipelineFloat{false, -1, most}, PipelineFloat{false, 0, one}, PipelineFloat{false, 0, one + 1},
+            PipelineFloat{false, 1, one}, PipelineFloat{false, 30, one}})
         for (const bool neg : {false, true})
           for (const bool hull : {false, true})
             for (const bool depth : {false, true}) {

@@ -213,7 +213,7 @@ class CosimRun {
       for (Pass& pass : plan_passes(input.attributes, false, config_)) passes.push_back(std::move(pass));
 
     // With several weight passes a picture needs whole samples: they are collected in order first.
-    std::vector<Sample> samples;
+    std::vector<EngineSample> samples;
     for (std::size_t p = 0; p < passes.size(); ++p) {
       run_pass(input, state, passes[p], p, weight_passes, frame.get(), samples, result);
       if (result.mismatches != 0 || result.cycle_mismatches != 0) break;  // more of the same is of no use
@@ -233,7 +233,8 @@ class CosimRun {
   }
 
   void run_pass(const DrawInput& input, const DrawState& draw_state, const Pass& pass, std::size_t number,
-                std::size_t weight_passes, FrameBuffer* frame, std::vector<Sample>& samples, InputResult& result) {
+                std::size_t weight_passes, FrameBuffer* frame, std::vector<EngineSample>& samples,
+                InputResult& result) {
     const bool first = number == 0;
     DrawState state = draw_state;
     state.attributes = static_cast<int>(pass.columns.size());
@@ -331,11 +332,12 @@ class CosimRun {
   }
 
   void picture(const Fragment& fragment, const Pass& pass, std::size_t number, std::size_t weight_passes,
-               const DrawInput& input, FrameBuffer& frame, std::vector<Sample>& samples, std::size_t& position) const {
+               const DrawInput& input, FrameBuffer& frame, std::vector<EngineSample>& samples,
+               std::size_t& position) const {
     if (number >= weight_passes) {
       frame.amend(fragment, fragment.quad, pass, config_);
     } else if (number == 0) {
-      Sample& sample = samples.emplace_back();
+      EngineSample& sample = samples.emplace_back();
       sample.index = fragment.quad;
       sample.quad = input.quads[fragment.quad].id;
       read_columns(fragment, pass, config_, sample);

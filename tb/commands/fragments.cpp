@@ -66,8 +66,8 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   std::uint64_t undefined = 0;
   try {
     Progress progress("fragments of " + input.name, input.quads.size(), options.common.show_progress());
-    make_engine(settings)->draw(input.quads, input.attributes, true, [&](std::span<const Sample> samples) {
-      for (const Sample& sample : samples) {
+    make_engine(settings)->draw(input.quads, input.attributes, true, [&](std::span<const EngineSample> samples) {
+      for (const EngineSample& sample : samples) {
         if (pixel.first >= 0 && (sample.x != pixel.first || sample.y != pixel.second)) continue;
         rows.push_back(
             {sample.quad, sample.x, sample.y, sample.front, sample.flags, sample.lambda, sample.z, sample.attribute});

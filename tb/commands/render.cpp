@@ -60,7 +60,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
     Progress progress("render " + input.name, input.quads.size(), options.common.show_progress());
     const std::unique_ptr<Engine> engine =
         options.method.empty() ? make_engine(settings) : make_method_engine(options.method, input, settings);
-    engine->draw(input.quads, input.attributes, true, [&](std::span<const Sample> samples) {
+    engine->draw(input.quads, input.attributes, true, [&](std::span<const EngineSample> samples) {
       frame.add(samples);
       progress.set(samples.back().index + 1);
     });

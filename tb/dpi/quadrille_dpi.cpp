@@ -34,12 +34,12 @@ thread_local std::string last_error;
 
 /// A stage with the legal values of its stimulus' fields.
 struct Entry {
-  explicit Entry(std::unique_ptr<const Stage> s) : stage(std::move(s)) {
+  explicit Entry(std::unique_ptr<const StageUnderTest> s) : stage(std::move(s)) {
     for (const RecordField& field : stage->stimulus_layout().fields()) ranges.push_back(stage->range(field));
   }
 
-  std::unique_ptr<const Stage> stage;
-  std::vector<Range> ranges;
+  std::unique_ptr<const StageUnderTest> stage;
+  std::vector<FieldRange> ranges;
 };
 
 /// One configuration and its stages by suite; constant once it is made.
@@ -155,7 +155,7 @@ void respond(const void* model, std::string_view suite, const std::uint32_t* sti
     const std::int64_t value = fields[i].is_signed || fields[i].width == 64
                                    ? in.get_signed(fields[i])
                                    : static_cast<std::int64_t>(in.get(fields[i]));
-    const Range& range = entry.ranges[i];
+    const FieldRange& range = entry.ranges[i];
     if (!range.contains(value))
       throw Failure{bad_stimulus, "suite " + quoted(suite) + ": " + fields[i].label() + " = " +
                                       describe(in, fields[i]) + "; the stage can be given " + std::to_string(range.lo) +

@@ -88,7 +88,7 @@ void check_quad_count(std::size_t quads, const Config& config) {
                      std::to_string(config.quad_id_bits) + " can number; use --set quad_id_bits=32");
 }
 
-void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, Sample& sample) {
+void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, EngineSample& sample) {
   sample.x = fragment.x;
   sample.y = fragment.y;
   sample.front = fragment.front;

@@ -25,7 +25,7 @@ std::string_view engine_name(EngineKind kind);
 inline constexpr std::uint32_t flag_undefined = 256;
 
 /// One fragment in numbers.
-struct Sample {
+struct EngineSample {
   std::uint32_t index = 0;  ///< position of the quad in the draw
   std::uint32_t quad = 0;   ///< its id
   std::uint16_t x = 0, y = 0;
@@ -38,7 +38,7 @@ struct Sample {
 };
 
 /// Gets fragments in the order of the quads; within a quad in the engine's own order. The span lives for the call only.
-using SampleSink = std::function<void(std::span<const Sample>)>;
+using SampleSink = std::function<void(std::span<const EngineSample>)>;
 
 struct EngineSettings {
   EngineKind kind = EngineKind::model;
@@ -81,7 +81,7 @@ SnappedQuad snap_as(const WindowQuad& quad, std::uint32_t id, const Config& conf
 void check_quad_count(std::size_t quads, const Config& config);
 
 /// A machine's fragment as numbers; adds the columns of one pass to `sample`.
-void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, Sample& sample);
+void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, EngineSample& sample);
 
 /// The configuration that snaps `attributes` attributes whatever the machine's slots are; vertices and weights are the
 /// same.

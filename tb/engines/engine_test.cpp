@@ -69,24 +69,24 @@ TEST(Passes, TheModelMergesThemIntoTheSameSamples) {
     settings.config.attribute_slots = slots;
     settings.state.width = settings.state.height = settings.state.scissor_x1 = settings.state.scissor_y1 = 64;
     settings.threads = threads;
-    std::vector<Sample> all;
-    make_engine(settings)->draw(quads, 3, true, [&](std::span<const Sample> samples) {
+    std::vector<EngineSample> all;
+    make_engine(settings)->draw(quads, 3, true, [&](std::span<const EngineSample> samples) {
       all.insert(all.end(), samples.begin(), samples.end());
     });
     return all;
   };
-  const std::vector<Sample> once = draw(8, 1);
+  const std::vector<EngineSample> once = draw(8, 1);
   std::set<std::uint32_t> drawn;
-  for (const Sample& s : once) {
+  for (const EngineSample& s : once) {
     drawn.insert(s.index);
     EXPECT_NEAR(s.lambda[0] + s.lambda[1] + s.lambda[2] + s.lambda[3], 1, 1e-3);
   }
   EXPECT_GT(drawn.size(), 20u);
   for (const auto& [slots, threads] : {std::pair{1, 1u}, {3, 3u}, {8, 3u}}) {
-    const std::vector<Sample> several = draw(slots, threads);
+    const std::vector<EngineSample> several = draw(slots, threads);
     ASSERT_EQ(several.size(), once.size());
     for (std::size_t i = 0; i < once.size(); ++i) {
-      const Sample &a = once[i], &b = several[i];
+      const EngineSample &a = once[i], &b = several[i];
       ASSERT_TRUE(a.index == b.index && a.x == b.x && a.y == b.y && a.z == b.z && a.flags == b.flags &&
                   a.front == b.front && a.lambda == b.lambda && a.attribute == b.attribute)
           << "sample " << i << ", " << slots << " slots";

@@ -35,14 +35,14 @@ class ModelEngine final : public Engine {
                          for (const Pass& pass : passes) models.emplace_back(settings_.config, state_of(pass));
                        const std::size_t first = unit * quads_per_unit,
                                          last = std::min(quads.size(), first + quads_per_unit);
-                       std::vector<Sample> samples;
+                       std::vector<EngineSample> samples;
                        for (std::size_t i = first; i < last; ++i)
                          draw_quad(quads[i], static_cast<std::uint32_t>(i), passes, models, samples);
                        std::lock_guard lock(mutex);
                        idle.push_back(std::move(models));
                        return samples;
                      },
-                     [&](std::size_t, std::vector<Sample>&& samples) {
+                     [&](std::size_t, std::vector<EngineSample>&& samples) {
                        if (!samples.empty()) sink(samples);
                      });
   }
@@ -57,7 +57,7 @@ class ModelEngine final : public Engine {
   }
 
   void draw_quad(const WindowQuad& quad, std::uint32_t index, const std::vector<Pass>& passes, Models& models,
-                 std::vector<Sample>& samples) const {
+                 std::vector<EngineSample>& samples) const {
     const std::size_t start = samples.size();
     for (std::size_t p = 0; p < passes.size(); ++p) {
       const SnappedQuad snapped = snap_as(pass_quad(quad, passes[p]), index, settings_.config, state_of(passes[p]));
@@ -65,7 +65,7 @@ class ModelEngine final : public Engine {
       models[p].draw(snapped, [&](std::span<const Fragment> fragments) {
         for (const Fragment& fragment : fragments) {
           if (p == 0) {
-            Sample& sample = samples.emplace_back();
+            EngineSample& sample = samples.emplace_back();
             sample.index = index;
             sample.quad = quad.id;
           } else if (next >= samples.size() || samples[next].x != fragment.x || samples[next].y != fragment.y) {

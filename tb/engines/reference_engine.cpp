@@ -99,19 +99,19 @@ class ReferenceEngine final : public Engine {
     ordered_parallel(
         units.size(), settings_.threads,
         [&](std::size_t unit) {
-          std::vector<Sample> samples;
+          std::vector<EngineSample> samples;
           for (std::size_t i = units[unit].first; i < units[unit].last; ++i)
             draw_rows(prepared[i], quads[first + i], static_cast<std::uint32_t>(first + i), units[unit], state,
                       samples);
           return samples;
         },
-        [&](std::size_t, std::vector<Sample>&& samples) {
+        [&](std::size_t, std::vector<EngineSample>&& samples) {
           if (!samples.empty()) sink(samples);
         });
   }
 
   void draw_rows(const Prepared& quad, const WindowQuad& given, std::uint32_t index, const Unit& unit,
-                 const DrawState& state, std::vector<Sample>& out) const {
+                 const DrawState& state, std::vector<EngineSample>& out) const {
     for (int y = std::max(unit.y0, quad.bounds.y0); y < std::min(unit.y1, quad.bounds.y1); ++y) {
       for (int x = quad.bounds.x0; x < quad.bounds.x1; ++x) {
         if (quad.truth) {
@@ -122,7 +122,7 @@ class ReferenceEngine final : public Engine {
         if (!s.covered || (!s.visible && !s.undefined)) continue;
         if (state.cull == (s.front ? Cull::front : Cull::back)) continue;
         if (state.depth && !s.undefined && !(s.z >= state.znear && s.z <= state.zfar)) continue;
-        Sample sample;
+        EngineSample sample;
         sample.index = index;
         sample.quad = given.id;
         sample.x = static_cast<std::uint16_t>(x);

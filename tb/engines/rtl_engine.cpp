@@ -27,16 +27,16 @@ class RtlEngine final : public Engine {
                        const std::size_t first = unit * quads_per_run;
                        return run(quads, first, std::min(quads.size(), first + quads_per_run), passes);
                      },
-                     [&](std::size_t, std::vector<Sample>&& samples) {
+                     [&](std::size_t, std::vector<EngineSample>&& samples) {
                        if (!samples.empty()) sink(samples);
                      });
   }
 
  private:
   /// A machine of its own for each pass over a range of the quads.
-  std::vector<Sample> run(std::span<const WindowQuad> quads, std::size_t first, std::size_t last,
-                          const std::vector<Pass>& passes) const {
-    std::vector<Sample> samples;
+  std::vector<EngineSample> run(std::span<const WindowQuad> quads, std::size_t first, std::size_t last,
+                                const std::vector<Pass>& passes) const {
+    std::vector<EngineSample> samples;
     for (const Pass& pass : passes) {
       tb::LockstepOptions options;
       options.config = settings_.config;
@@ -53,7 +53,7 @@ class RtlEngine final : public Engine {
       const bool first_pass = &pass == &passes.front();
       tb::run_rtl_alone(simulator_, snapped, options, [&](const Fragment& fragment) {
         if (first_pass) {
-          Sample& sample = samples.emplace_back();
+          EngineSample& sample = samples.emplace_back();
           sample.index = fragment.quad;
           sample.quad = quads[fragment.quad].id;
         } else if (next >= samples.size() || samples[next].index != fragment.quad || samples[next].x != fragment.x ||

@@ -54,7 +54,7 @@ TEST(RtlEngine, TakesLessTimeThanLockstep) {
   std::uint64_t drawn = 0, compared = 0;
   const double engine_seconds = shortest([&] {
     drawn = 0;
-    engine->draw(quads, attributes, false, [&](std::span<const Sample> samples) { drawn += samples.size(); });
+    engine->draw(quads, attributes, false, [&](std::span<const EngineSample> samples) { drawn += samples.size(); });
   });
   const double lockstep_seconds = shortest([&] { compared = tb::run_lockstep(snapped, options).fragments; });
   EXPECT_GT(drawn, 10'000u);

@@ -79,8 +79,8 @@ FrameBuffer::FrameBuffer(int width, int height, bool depth)
       depth_(depth),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
-void FrameBuffer::add(std::span<const Sample> samples) {
-  for (const Sample& sample : samples) {
+void FrameBuffer::add(std::span<const EngineSample> samples) {
+  for (const EngineSample& sample : samples) {
     Pixel& pixel = pixels_[static_cast<std::size_t>(sample.y) * static_cast<std::size_t>(width_) + sample.x];
     ++fragments_;
     if (sample.undefined) {
@@ -151,25 +151,25 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
     }
   }
 
-  const auto attribute3 = [](const Sample& s, int first) {
+  const auto attribute3 = [](const EngineSample& s, int first) {
     return Vec3{s.attribute[slot(first, 0)], s.attribute[slot(first, 1)], s.attribute[slot(first, 2)]};
   };
 
   // Flat, with a line of constant width where a plane cuts the surface; dark and bright take turns.
-  const auto height = [&](const Sample& s) {
+  const auto height = [&](const EngineSample& s) {
     return dot(settings.slots.planes.normal, attribute3(s, settings.slots.position)) / settings.slots.planes.spacing -
            0.5;
   };
-  const auto slope = [&](const Sample& s, int dx, int dy) {
+  const auto slope = [&](const EngineSample& s, int dx, int dy) {
     for (const int sign : {1, -1}) {
       const int x = s.x + sign * dx, y = s.y + sign * dy;
       if (x < 0 || y < 0 || x >= frame.width() || y >= frame.height() || !frame.drawn(x, y)) continue;
-      const Sample& next = frame.shown(x, y);
+      const EngineSample& next = frame.shown(x, y);
       if (next.index == s.index && !next.undefined) return height(next) - height(s);
     }
     return 0.0;
   };
-  const auto cut = [&](const Sample& s) {
+  const auto cut = [&](const EngineSample& s) {
     const Vec3 flat = phong(settings.slots.facets[s.index], lighting);
     const double here = height(s), plane = std::round(here);
     const double steepness = std::hypot(slope(s, 1, 0), slope(s, 0, 1));
@@ -181,7 +181,7 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
                 flat[2] + (line - flat[2]) * cover};
   };
 
-  const auto colour_of = [&](const Sample& s) -> Vec3 {
+  const auto colour_of = [&](const EngineSample& s) -> Vec3 {
     if (s.undefined) return undefined_colour;
     std::array<double, 2> uv{s.lambda[1] + s.lambda[2], s.lambda[2] + s.lambda[3]};  // the unit square
     if (settings.slots.uv >= 0) uv = {s.attribute[slot(settings.slots.uv, 0)], s.attribute[slot(settings.slots.uv, 1)]};
@@ -211,7 +211,7 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
     const int y = static_cast<int>(row);
     for (int x = 0; x < frame.width(); ++x) {
       if (!frame.drawn(x, y)) continue;
-      const Sample& s = frame.shown(x, y);
+      const EngineSample& s = frame.shown(x, y);
       const std::size_t i = image.index(x, y);
       const Vec3 colour = colour_of(s);
       image.r[i] = static_cast<float>(colour[0]);

@@ -21,13 +21,13 @@ class FrameBuffer {
  public:
   FrameBuffer(int width, int height, bool depth);
 
-  void add(std::span<const Sample> samples);
+  void add(std::span<const EngineSample> samples);
   /// For attributes that come in a later pass over the same quads: writes the columns into the sample that the pixel
   /// shows, if it is of the same quad of the draw.
   void amend(const Fragment& fragment, std::uint32_t index, const Pass& pass, const Config& config);
 
   bool drawn(int x, int y) const { return at(x, y).drawn; }
-  const Sample& shown(int x, int y) const { return at(x, y).sample; }
+  const EngineSample& shown(int x, int y) const { return at(x, y).sample; }
   int width() const { return width_; }
   int height() const { return height_; }
   std::uint64_t fragments() const { return fragments_; }
@@ -37,7 +37,7 @@ class FrameBuffer {
  private:
   struct Pixel {
     bool drawn = false;
-    Sample sample;
+    EngineSample sample;
   };
   const Pixel& at(int x, int y) const {
     return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];

@@ -6,8 +6,8 @@
 namespace quadrille::cli {
 namespace {
 
-Sample sample_of(std::uint32_t quad, double z, bool undefined = false) {
-  Sample s;
+EngineSample sample_of(std::uint32_t quad, double z, bool undefined = false) {
+  EngineSample s;
   s.index = s.quad = quad;
   s.x = 3, s.y = 2;
   s.z = z;
@@ -16,9 +16,9 @@ Sample sample_of(std::uint32_t quad, double z, bool undefined = false) {
 }
 
 /// The quad shown at the pixel after the samples have been added in order, -1 for none.
-int shown(bool depth, std::initializer_list<Sample> samples) {
+int shown(bool depth, std::initializer_list<EngineSample> samples) {
   FrameBuffer frame(5, 4, depth);
-  for (const Sample& s : samples) frame.add(std::span(&s, 1));
+  for (const EngineSample& s : samples) frame.add(std::span(&s, 1));
   EXPECT_EQ(frame.fragments(), samples.size());
   EXPECT_EQ(frame.pixels_drawn(), frame.drawn(3, 2) ? 1u : 0u);
   return frame.drawn(3, 2) ? static_cast<int>(frame.shown(3, 2).quad) : -1;
@@ -50,7 +50,7 @@ TEST(FrameBuffer, AnUndefinedSampleShowsOnlyWhereNothingElseDoes) {
 TEST(FrameBuffer, AmendsTheSampleOfTheSameQuadAlone) {
   const Config config;
   FrameBuffer frame(5, 4, true);
-  const Sample near = sample_of(7, 0.25);
+  const EngineSample near = sample_of(7, 0.25);
   frame.add(std::span(&near, 1));
   Fragment fragment;
   fragment.x = 3, fragment.y = 2;

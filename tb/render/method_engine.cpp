@@ -22,21 +22,21 @@ class MethodEngine final : public Engine {
     ordered_parallel(
         quads.size(), settings_.threads,
         [&](std::size_t index) {
-          std::vector<methods::Sample> drawn;
+          std::vector<methods::MethodSample> drawn;
           method_->draw(quads_[index], view, drawn);
-          std::vector<Sample> samples;
+          std::vector<EngineSample> samples;
           samples.reserve(drawn.size());
-          for (const methods::Sample& s : drawn)
+          for (const methods::MethodSample& s : drawn)
             if (shown(s)) samples.push_back(converted(s, quads[index], index, attributes));
           return samples;
         },
-        [&](std::size_t, std::vector<Sample>&& samples) {
+        [&](std::size_t, std::vector<EngineSample>&& samples) {
           if (!samples.empty()) sink(samples);
         });
   }
 
  private:
-  bool shown(const methods::Sample& s) const {
+  bool shown(const methods::MethodSample& s) const {
     const DrawState& state = settings_.state;
     if (s.x < state.scissor_x0 || s.x >= state.scissor_x1 || s.y < state.scissor_y0 || s.y >= state.scissor_y1)
       return false;
@@ -44,8 +44,9 @@ class MethodEngine final : public Engine {
     return !state.depth || s.undefined || (s.z >= state.znear && s.z <= state.zfar);
   }
 
-  Sample converted(const methods::Sample& s, const WindowQuad& quad, std::size_t index, int attributes) const {
-    Sample sample;
+  EngineSample converted(const methods::MethodSample& s, const WindowQuad& quad, std::size_t index,
+                         int attributes) const {
+    EngineSample sample;
     sample.index = static_cast<std::uint32_t>(index);
     sample.quad = quad.id;
     sample.x = static_cast<std::uint16_t>(s.x);

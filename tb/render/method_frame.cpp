@@ -11,7 +11,8 @@ namespace quadrille::cli {
 FrameBuffer draw_frame(Engine& engine, const DrawInput& input, const DrawState& state) {
   FrameBuffer frame(state.width, state.height, state.depth);
   try {
-    engine.draw(input.quads, input.attributes, true, [&](std::span<const Sample> samples) { frame.add(samples); });
+    engine.draw(input.quads, input.attributes, true,
+                [&](std::span<const EngineSample> samples) { frame.add(samples); });
   } catch (const SnapError& error) {
     throw UsageError(describe(error, input));
   }
@@ -41,7 +42,7 @@ compare::AttributeImage attribute_image(const FrameBuffer& frame, const DrawInpu
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
       if (!frame.drawn(x, y)) continue;
-      const Sample& sample = frame.shown(x, y);
+      const EngineSample& sample = frame.shown(x, y);
       if (sample.undefined)
         image.set_undefined(x, y, sample.index);
       else if (depth)

@@ -14,7 +14,7 @@ MethodTime time_method(const std::string& name, const DrawInput& input, const Dr
   const golden::methods::View view = method_view(state);
   MethodTime time;
   time.seconds = std::numeric_limits<double>::infinity();
-  std::vector<golden::methods::Sample> samples;
+  std::vector<golden::methods::MethodSample> samples;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     time.samples = 0;
     const tb::Stopwatch start;

@@ -105,7 +105,7 @@ StageCounters& StageCounters::operator+=(const StageCounters& other) {
 struct Evaluator::Impl {
   struct Positions {
     std::shared_ptr<const PositionData> data;
-    std::map<int, std::shared_ptr<const PortData>> ports;  ///< by significand_bits
+    std::map<int, std::shared_ptr<const PortQuads>> ports;  ///< by significand_bits
     std::uint64_t used = 0;
 
     std::size_t bytes() const {
@@ -222,10 +222,10 @@ struct Evaluator::Impl {
     return differences[key].data;
   }
 
-  std::shared_ptr<const PortData> port_data(const Config& config) {
+  std::shared_ptr<const PortQuads> port_quads(const Config& config) {
     Positions& entry = positions.at(level_key(config, Level::positions));
     if (const auto found = entry.ports.find(config.significand_bits); found != entry.ports.end()) return found->second;
-    auto port = std::make_shared<PortData>(input, *given, *entry.data, config, settings.threads);
+    auto port = std::make_shared<PortQuads>(input, *given, *entry.data, config, settings.threads);
     return entry.ports[config.significand_bits] = std::move(port);
   }
 
@@ -236,7 +236,7 @@ struct Evaluator::Impl {
     const auto at = position_data(first, executed);
     StageTree result(input, at, difference_data(*at, first, executed));
     for (const std::size_t point : batch)
-      result.add(point, points[point], tables, [&] { return port_data(points[point]); });
+      result.add(point, points[point], tables, [&] { return port_quads(points[point]); });
     fit_memory(begin);
     return result;
   }
@@ -291,7 +291,7 @@ struct Evaluator::Impl {
     }
     std::map<std::size_t, std::size_t> place;
     for (std::size_t n = 0; n < batch.size(); ++n) place[batch[n]] = n;
-    stages.for_each_leaf([&](const OutputNode& leaf, const PortData& port) {
+    stages.for_each_leaf([&](const OutputNode& leaf, const PortQuads& port) {
       LeafTotals totals;
       for (const StageTree::ScratchPointer& part : scratch)
         if (part) totals.merge(StageTree::totals(*part, leaf.leaf));
@@ -373,7 +373,7 @@ std::vector<float> Evaluator::error_map(const Config& point) {
   StageCounters executed;
   const StageTree stages = m.tree(std::span(&point, 1), std::span(&only, 1), executed);
   const auto at = m.positions.at(level_key(point, Level::positions)).data;
-  std::vector<float> lane_errors(at->blocks() * lanes);
+  std::vector<float> lane_errors(at->blocks() * lane_count);
   std::vector<StageTree::ScratchPointer> scratch(m.settings.threads);
   run_units(stages.chunks(), m.settings.threads, [&](std::size_t chunk, unsigned thread) {
     if (!scratch[thread]) scratch[thread] = stages.make_scratch();
@@ -386,7 +386,7 @@ std::vector<float> Evaluator::error_map(const Config& point) {
       const std::uint32_t pixel = at->pixel[block][lane];
       float& place = out[static_cast<std::size_t>(pixel_y(pixel)) * static_cast<std::size_t>(state.width) +
                          static_cast<std::size_t>(pixel_x(pixel))];
-      place = std::max(place, lane_errors[block * lanes + lane]);
+      place = std::max(place, lane_errors[block * lane_count + lane]);
     }
   return out;
 }

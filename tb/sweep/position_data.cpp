@@ -34,7 +34,7 @@ std::uint32_t pixel_of(const TileEntry& tile, int dx, int row, const Config& con
 /// Truth at one block. Double is enough behind it: M_i come with 113 bits and are rounded once.
 void fill_truth(PositionData& data, std::size_t block, const golden::TruthQuad& truth) {
   data.visible[block] = data.singular[block] = 0;
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const std::uint32_t pixel = data.pixel[block][lane];
     if (lane >= data.count[block]) {
       for (LaneReals& m : data.truth[block].m) m[lane] = m[lane - 1];
@@ -86,14 +86,14 @@ PositionData::PositionData(const SweepInput& input, const GivenTruth& given_trut
       fragments += list.size();
       std::size_t at = given_truth.first(q);
       const std::size_t end = given_truth.first(q + 1);
-      for (std::size_t first = 0; first < list.size(); first += lanes) {
-        const std::size_t used = std::min<std::size_t>(lanes, list.size() - first);
+      for (std::size_t first = 0; first < list.size(); first += lane_count) {
+        const std::size_t used = std::min<std::size_t>(lane_count, list.size() - first);
         quad.push_back(static_cast<std::uint32_t>(q));
         count.push_back(static_cast<std::uint8_t>(used));
         given.push_back(0);
-        std::array<std::uint32_t, lanes>& pixels = pixel.emplace_back();
-        std::array<std::uint32_t, lanes>& places = given_at.emplace_back();
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
+        std::array<std::uint32_t, lane_count>& pixels = pixel.emplace_back();
+        std::array<std::uint32_t, lane_count>& places = given_at.emplace_back();
+        for (std::size_t lane = 0; lane < lane_count; ++lane) {
           pixels[lane] = list[first + std::min(lane, used - 1)];
           if (lane >= used) continue;
           while (at < end && given_truth.pixel(at) < pixels[lane]) ++at;
@@ -160,7 +160,7 @@ DifferenceData::DifferenceData(const PositionData& positions, const Config& conf
       for (std::size_t block = first[q]; block < first[q + 1]; ++block) {
         DifferenceLanes& out = blocks[block];
         const auto repeat = [&](LaneIntegers& v) {
-          for (std::size_t lane = positions.count[block]; lane < lanes; ++lane)
+          for (std::size_t lane = positions.count[block]; lane < lane_count; ++lane)
             v[lane] = v[positions.count[block] - 1u];
         };
         for (LaneIntegers& v : out.a) repeat(v);

@@ -31,13 +31,13 @@ struct PositionData {
   // Per block.
   std::vector<std::uint32_t> quad;
   std::vector<std::uint8_t> count;  ///< lanes in use
-  std::vector<std::array<std::uint32_t, lanes>> pixel;
+  std::vector<std::array<std::uint32_t, lane_count>> pixel;
   std::vector<TruthWeights> truth;
   // Lane masks.
-  std::vector<std::uint8_t> visible;                       ///< in front of the eye by exact arithmetic
-  std::vector<std::uint8_t> singular;                      ///< corner and two-edge pixels, whose M hold k: see PortData
-  std::vector<std::uint8_t> given;                         ///< the given quad draws the pixel too
-  std::vector<std::array<std::uint32_t, lanes>> given_at;  ///< position in GivenTruth where it does
+  std::vector<std::uint8_t> visible;   ///< in front of the eye by exact arithmetic
+  std::vector<std::uint8_t> singular;  ///< corner and two-edge pixels, whose M hold k: see PortQuads
+  std::vector<std::uint8_t> given;     ///< the given quad draws the pixel too
+  std::vector<std::array<std::uint32_t, lane_count>> given_at;  ///< position in GivenTruth where it does
 };
 
 /// A, D, r² of every covered pixel in the lanes of a PositionData.

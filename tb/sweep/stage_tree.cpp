@@ -26,7 +26,7 @@ auto order(const WorstPixel& p) { return std::tuple(p.index, p.y, p.x); }
 LaneIntegers colour_code(const LaneReals& v) {
   const LaneReals low = v < 1 ? v : LaneReals{} + 1.0;
   const LaneReals clamped = v > 0 ? low : LaneReals{};
-  using Codes = std::int32_t __attribute__((vector_size(4 * lanes)));
+  using Codes = std::int32_t __attribute__((vector_size(4 * lane_count)));
   return __builtin_convertvector(__builtin_convertvector(clamped * 255.0 + 0.5, Codes), LaneIntegers);
 }
 
@@ -95,7 +95,7 @@ StageTree::StageTree(const SweepInput& input, std::shared_ptr<const PositionData
       differences_(std::move(differences)) {}
 
 void StageTree::add(std::size_t point, const Config& config, TableCache& tables,
-                    const std::function<std::shared_ptr<const PortData>()>& port) {
+                    const std::function<std::shared_ptr<const PortQuads>()>& port) {
   const auto key = [&](Level level) { return level_key(config, level); };
   NormaliseNode* normalise = find(roots_, key(Level::normalise));
   if (!normalise) normalise = &roots_.emplace_back(key(Level::normalise), port());
@@ -225,10 +225,10 @@ void StageTree::compare(LeafTotals& leaf, std::size_t first, std::size_t count, 
       const std::uint32_t pixel = positions_->pixel[block][lane];
       leaf.worst = {true, positions_->quad[block], pixel_x(pixel), pixel_y(pixel), largest[lane]};
     }
-    for (std::size_t lane = 0; !map.empty() && lane < lanes; ++lane)
-      map[block * lanes + lane] = (drawn >> lane & 1) == 0      ? -1.0f
-                                  : (measured >> lane & 1) == 0 ? 0.0f
-                                                                : static_cast<float>(largest[lane]);
+    for (std::size_t lane = 0; !map.empty() && lane < lane_count; ++lane)
+      map[block * lane_count + lane] = (drawn >> lane & 1) == 0      ? -1.0f
+                                       : (measured >> lane & 1) == 0 ? 0.0f
+                                                                     : static_cast<float>(largest[lane]);
   }
 }
 
@@ -258,7 +258,7 @@ StageCounters StageTree::executed() const {
   return out;
 }
 
-void StageTree::for_each_leaf(const std::function<void(const OutputNode&, const PortData&)>& f) const {
+void StageTree::for_each_leaf(const std::function<void(const OutputNode&, const PortQuads&)>& f) const {
   for (const NormaliseNode& normalise : roots_)
     for (const RsqrtNode& rsqrt : normalise.rsqrts)
       for (const RatioNode& ratio : rsqrt.ratios)

@@ -2,7 +2,7 @@
 // input, whatever hangs below it.
 #pragma once
 
-#include "tb/sweep/port_data.hpp"
+#include "tb/sweep/port_quads.hpp"
 #include "tb/sweep/stage_keys.hpp"
 
 #include <cstddef>
@@ -50,7 +50,7 @@ struct RsqrtNode {
 };
 struct NormaliseNode {
   LevelKey key;
-  std::shared_ptr<const PortData> port;
+  std::shared_ptr<const PortQuads> port;
   std::vector<RsqrtNode> rsqrts;
 };
 
@@ -80,7 +80,7 @@ class StageTree {
 
   /// Adds a point; `port` is called when its `normalise` setting is new.
   void add(std::size_t point, const Config& config, TableCache& tables,
-           const std::function<std::shared_ptr<const PortData>()>& port);
+           const std::function<std::shared_ptr<const PortQuads>()>& port);
 
   std::size_t leaves() const { return leaves_; }
   std::size_t chunks() const;
@@ -99,8 +99,8 @@ class StageTree {
 
   /// What a walk over all chunks executed, from normalise on.
   StageCounters executed() const;
-  /// Calls f(leaf node, its PortData) for every leaf.
-  void for_each_leaf(const std::function<void(const OutputNode&, const PortData&)>& f) const;
+  /// Calls f(leaf node, its PortQuads) for every leaf.
+  void for_each_leaf(const std::function<void(const OutputNode&, const PortQuads&)>& f) const;
 
  private:
   /// Replaces the weights of the singular lanes of a chunk.

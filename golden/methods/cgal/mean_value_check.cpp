@@ -70,9 +70,9 @@ int run() {
     concave += left != 0 && left != 4 ? 1 : 0;
     CGAL::Barycentric_coordinates::Mean_value_coordinates_2<std::vector<Point>, Traits> cgal(
         polygon, CGAL::Barycentric_coordinates::Computation_policy_2::PRECISE_WITH_EDGE_CASES, Traits());
-    std::vector<Sample> samples;
+    std::vector<MethodSample> samples;
     mvc->draw(quad, {size, size, false}, samples);
-    for (const Sample& s : samples) {
+    for (const MethodSample& s : samples) {
       std::vector<Number> expected;
       cgal(Point(Number(2 * s.x + 1) / 2, Number(2 * s.y + 1) / 2), std::back_inserter(expected));
       for (std::size_t i = 0; i < 4; ++i)

@@ -1,4 +1,4 @@
-#include "tb/sweep/port_data.hpp"
+#include "tb/sweep/port_quads.hpp"
 
 #include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
@@ -56,8 +56,8 @@ QuadColumns machine_numbers(const PortQuad& quad, const QuadData& data, const Co
 
 }  // namespace
 
-PortData::PortData(const SweepInput& input, const GivenTruth& given, const PositionData& positions,
-                   const Config& config, unsigned threads)
+PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const PositionData& positions,
+                     const Config& config, unsigned threads)
     : machine_(input.quads.size()), data_(input.quads.size()), truth_(input.quads.size()) {
   const Columns columns{static_cast<std::size_t>(input.attributes)};
   DrawState state = input.state;
@@ -116,13 +116,13 @@ PortData::PortData(const SweepInput& input, const GivenTruth& given, const Posit
     for (std::size_t q = 0; q < part.size(); ++q) snapping_[q].merge(part[q]);
 }
 
-std::size_t PortData::bytes() const {
+std::size_t PortQuads::bytes() const {
   return machine_.size() * (sizeof(QuadColumns) + sizeof(QuadData) + sizeof(TruthNumbers)) +
          singular_.size() * sizeof(SingularPixel);
 }
 
-void PortData::truth(const SweepInput& input, const PositionData& positions, std::size_t first, std::size_t count,
-                     LaneReals* values, std::uint8_t* draws, std::uint8_t* measured) const {
+void PortQuads::truth(const SweepInput& input, const PositionData& positions, std::size_t first, std::size_t count,
+                      LaneReals* values, std::uint8_t* draws, std::uint8_t* measured) const {
   const std::size_t columns = Columns{static_cast<std::size_t>(input.attributes)}.count();
   auto special = std::lower_bound(singular_.begin(), singular_.end(), first,
                                   [](const SingularPixel& p, std::size_t block) { return p.block < block; });
@@ -145,7 +145,7 @@ void PortData::truth(const SweepInput& input, const PositionData& positions, std
     draws[n] = visible;
     measured[n] = q.measured ? visible : 0;
     if (!input.state.depth) continue;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
       if (const double z = values[0][lane]; !(z >= input.state.znear && z <= input.state.zfar))
         draws[n] = static_cast<std::uint8_t>(draws[n] & ~(1u << lane));
   }

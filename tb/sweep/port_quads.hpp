@@ -25,10 +25,10 @@ struct TruthNumbers {
 /// Truth of a block: window z, then the columns.
 inline constexpr std::size_t truth_per_block(const Columns& columns) { return 1 + columns.count(); }
 
-class PortData {
+class PortQuads {
  public:
-  PortData(const SweepInput& input, const GivenTruth& given, const PositionData& positions, const Config& config,
-           unsigned threads);
+  PortQuads(const SweepInput& input, const GivenTruth& given, const PositionData& positions, const Config& config,
+            unsigned threads);
 
   const QuadColumns* machine() const { return machine_.data(); }
   const QuadData& quad_data(std::size_t quad) const { return data_[quad]; }
