@@ -128,9 +128,11 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
   }
 
   if (edges >= 2) {
-    // Three or four edges at once happen only in a quad that is seen edge on; its first two decide.
+    // Three or four edges at once happen only in a quad that is seen edge on; its first two decide. What they cross has
+    // no sign, as no M has one here: without perspective one edge may be met behind the eye and the other before it,
+    // and then sum(M w) = 0.
     out.singular = Singular::two_edge;
-    const auto sum_on = [&](int i) { return rho[i] * k[i] + rho[(i + 1) & 3] * k[(i + 1) & 3]; };
+    const auto sum_on = [&](int i) { return magnitude(rho[i] * k[i] + rho[(i + 1) & 3] * k[(i + 1) & 3]); };
     for (int side = 0; side < 2; ++side) {
       const __float128 other = sum_on(edge[1 - side]);
       for (const int i : {edge[side], (edge[side] + 1) & 3}) out.m[i] += rho[i] * other;

@@ -75,7 +75,7 @@ class TruthQuad {
   /// Singular pixels, in this order (the first that applies gives M and the flag):
   ///   two corners i, j at the pixel    M_i = k_j, M_j = k_i              lambda' = 1/2 each
   ///   one corner                       M_i = 1                           lambda' = 1
-  ///   two edges (A = 0, D < 0) at once M_i = rho_i * sum over the other edge of rho k, added for a vertex on both;
+  ///   two edges (A = 0, D < 0) at once M_i = rho_i * |sum over the other edge of rho k|, added for a vertex on both;
   ///                                    rho = 1/R                         lambda' = mean of the two edge interpolations
   ///   one edge                         the general form gives the linear interpolation along the edge
   /// visible_margin is signed so that it is positive in front of the eye, and exactly 0 where sum(M w) vanishes

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -157,7 +158,8 @@ struct FragmentChecker::Reference {
     return state;
   }
 
-  /// How far the machine's window z may be from the truth's: each M carries the weights' relative error.
+  /// How far the machine's window z may be from the truth's: each M carries the weights' relative error. Infinite where
+  /// sum(M w) cancels to what that error leaves of it.
   double depth_tolerance(int x, int y, double bound) const {
     const auto m = snapped.homogeneous_weights(x, y);
     double numerator = 0, spread = 0, denominator = 0, z = 0;
@@ -169,8 +171,9 @@ struct FragmentChecker::Reference {
       spread += std::fabs(mi * w);
       denominator += mi * w;
     }
-    const double scale = std::fabs(denominator);
-    return 2 * bound * (numerator / scale + std::fabs(z) / scale * (spread / scale)) +
+    const double scale = std::fabs(denominator), lost = 2 * bound * (spread / scale);
+    if (!(lost < 1)) return std::numeric_limits<double>::infinity();
+    return (2 * bound * (numerator / scale) + std::fabs(z) / scale * lost) / (1 - lost) +
            std::ldexp(1.0, -config.depth_bits);
   }
 

@@ -1,0 +1,104 @@
+#include "tb/check/judge.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace quadrille::cli {
+namespace {
+
+/// One draw of the machine over `snapped` (ids are positions).
+CheckResult judge_pass(std::span<const WindowQuad> given, std::span<const SnappedQuad> snapped, const Config& config,
+                       const DrawState& state, const Pass& pass, bool first, PixelEngine engine) {
+  WorkQueue queue(0, 1);
+  FragmentChecker::Settings settings;
+  settings.config = config;
+  settings.state = state;
+  settings.pass = pass;
+  settings.first_pass = first;
+  settings.snapping = false;
+  settings.apply_bound = config.qdrop() == 0;
+  FragmentChecker checker(settings, given, snapped, queue);
+  UntimedModel model(config, state, engine);
+  for (const SnappedQuad& quad : snapped)
+    model.draw(quad, [&](std::span<const Fragment> fragments) {
+      for (const Fragment& fragment : fragments) checker.fragment(fragment);
+    });
+  checker.finish(true);
+  queue.drain();
+  return checker.result();
+}
+
+/// W, in units of 2^-frac, to nearest on S bits, halves up.
+PortNumber port_of_w(std::int32_t w, const Config& config) {
+  if (w == 0) return {};
+  const int s = config.significand_bits;
+  int exponent = 0;
+  const double fraction = std::frexp(std::fabs(static_cast<double>(w)), &exponent);  // in [1/2, 1)
+  auto sig = static_cast<std::uint32_t>(std::lround(std::ldexp(fraction, s)));
+  if (sig >> s) sig >>= 1, ++exponent;
+  return {w < 0, exponent - 1 - config.frac(), sig};
+}
+
+SnappedQuad with_weights(SnappedQuad quad, const Pass& pass, const Config& config, const DrawState& state) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    SnappedVertex& v = quad.vertex[i];
+    v.attribute = {};
+    for (std::size_t slot = 0; slot < pass.columns.size(); ++slot)
+      if (pass.columns[slot] == static_cast<int>(i))
+        v.attribute[slot] = state.perspective ? v.k : port_of_w(v.w, config);
+  }
+  return quad;
+}
+
+}  // namespace
+
+CheckResult judge_untimed(std::span<const WindowQuad> quads, int attributes, const Config& config,
+                          const DrawState& draw_state, PixelEngine engine) {
+  check_quad_count(quads.size(), config);
+  std::vector<Pass> passes = plan_passes(0, true, config);
+  if (attributes > 0)
+    for (Pass& pass : plan_passes(attributes, false, config)) passes.push_back(std::move(pass));
+  CheckResult sum;
+  for (std::size_t p = 0; p < passes.size(); ++p) {
+    DrawState state = draw_state;
+    state.attributes = static_cast<int>(passes[p].columns.size());
+    std::vector<SnappedQuad> snapped;
+    for (std::size_t i = 0; i < quads.size(); ++i)
+      snapped.push_back(snap_as(pass_quad(quads[i], passes[p]), static_cast<std::uint32_t>(i), config, state));
+    sum.merge(judge_pass(quads, snapped, config, state, passes[p], p == 0, engine));
+  }
+  return sum;
+}
+
+CheckResult judge_untimed(std::span<const SnappedQuad> quads, const Config& config, const DrawState& draw_state,
+                          PixelEngine engine) {
+  check_quad_count(quads.size(), config);
+  std::vector<WindowQuad> names(quads.size());
+  for (std::size_t i = 0; i < quads.size(); ++i) names[i].id = quads[i].id;
+  CheckResult sum;
+  bool first = true;
+  const auto judge = [&](const Pass& pass, const auto& quad_of) {
+    DrawState state = draw_state;
+    state.attributes = static_cast<int>(pass.columns.size());
+    std::vector<SnappedQuad> snapped;
+    for (const SnappedQuad& quad : quads) {
+      snapped.push_back(quad_of(quad, state));
+      snapped.back().id = static_cast<std::uint32_t>(snapped.size() - 1);
+    }
+    sum.merge(judge_pass(names, snapped, config, state, pass, first, engine));
+    first = false;
+  };
+  for (const Pass& pass : plan_passes(0, true, config))
+    judge(pass,
+          [&](const SnappedQuad& quad, const DrawState& state) { return with_weights(quad, pass, config, state); });
+  if (draw_state.attributes > 0) {
+    Pass pass;
+    pass.columns.resize(static_cast<std::size_t>(draw_state.attributes));
+    std::iota(pass.columns.begin(), pass.columns.end(), 4);
+    judge(pass, [](const SnappedQuad& quad, const DrawState&) { return quad; });
+  }
+  return sum;
+}
+
+}  // namespace quadrille::cli
