@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace quadrille::tb {
 
@@ -20,10 +21,13 @@ double probability(double value, const char* name) {
 
 }  // namespace
 
-VertexDriver::VertexDriver(std::span<const SnappedQuad> quads, const Config& config, std::uint64_t seed, double gap)
+VertexDriver::VertexDriver(std::span<const SnappedQuad> quads, const Config& config, int attributes, std::uint64_t seed,
+                           double gap)
     : quads_(quads),
       config_(config),
+      attributes_(attributes),
       random_(seed, 1),
+      rubbish_(seed, 4),
       gap_(probability(gap, "gap")),
       width_(vertex_layout(config).bits()),
       packed_(static_cast<std::size_t>((width_ + 63) / 64)),
@@ -45,9 +49,15 @@ void VertexDriver::offer() {
   }
   valid_ = true;
   changed_ = true;
+  const SnappedQuad& quad = quads_[next_ / 4];
+  const std::size_t beat = next_ % 4;
+  id_ = quad.id;
+  if (beat != 0) id_ ^= static_cast<std::uint32_t>(1 + rubbish_.below((std::uint64_t{1} << config_.quad_id_bits) - 1));
+  vertex_ = quad.vertex[beat];
+  for (int slot = attributes_; slot < config_.attribute_slots; ++slot)
+    vertex_.attribute[static_cast<std::size_t>(slot)] = any_number();
   BitPacker packer(packed_.data(), width_);
-  const std::uint32_t quad = id();
-  visit_vertex(quad, vertex(), config_, packer);
+  visit_vertex(std::as_const(id_), std::as_const(vertex_), config_, packer);
   packer.finish();
   std::memcpy(words_.data(), packed_.data(), words_.size() * sizeof(std::uint32_t));
 }
@@ -56,6 +66,16 @@ void VertexDriver::scramble() {
   for (std::uint32_t& word : words_) word = static_cast<std::uint32_t>(random_.next());
   if (width_ % 32 != 0) words_.back() &= (std::uint32_t{1} << (width_ % 32)) - 1;
   changed_ = true;
+}
+
+PortNumber VertexDriver::any_number() {
+  constexpr int exp_limit = 1 << (Config::port_exp_bits - 1);
+  const std::uint32_t leading = std::uint32_t{1} << (config_.significand_bits - 1);
+  PortNumber number;
+  number.neg = rubbish_.chance(0.5);
+  number.exp = static_cast<std::int32_t>(rubbish_.integer(-exp_limit, exp_limit - 1));
+  number.sig = leading | static_cast<std::uint32_t>(rubbish_.below(leading));
+  return number;
 }
 
 void VertexDriver::advance(bool taken) {

@@ -12,17 +12,21 @@
 namespace quadrille::tb {
 
 /// Offers the vertices of a list of quads, four beats each. A beat, once offered, stays until it is taken; before each
-/// one valid is low for a random number of clocks, each with probability `gap`. While valid is low the payload is
-/// rubbish on purpose.
+/// one valid is low for a random number of clocks, each with probability `gap`. What the machine must not look at is
+/// rubbish on purpose: the payload while valid is low, the ids of the beats v1 to v3 (a quad's id is v0's), and the
+/// attributes in slots that are not in use, which are numbers of any sign and exponent.
 class VertexDriver {
  public:
-  /// Throws std::invalid_argument for a gap outside [0, 1) or a quad id that does not fit the port.
-  VertexDriver(std::span<const SnappedQuad> quads, const Config& config, std::uint64_t seed, double gap);
+  /// `attributes`: slots in use. Throws std::invalid_argument for a gap outside [0, 1) or a quad id that does not fit
+  /// the port.
+  VertexDriver(std::span<const SnappedQuad> quads, const Config& config, int attributes, std::uint64_t seed,
+               double gap);
 
   bool done() const { return next_ == 4 * quads_.size(); }
   bool valid() const { return valid_; }
-  std::uint32_t id() const { return quads_[next_ / 4].id; }
-  const SnappedVertex& vertex() const { return quads_[next_ / 4].vertex[next_ % 4]; }
+  /// The beat on offer, when valid.
+  std::uint32_t id() const { return id_; }
+  const SnappedVertex& vertex() const { return vertex_; }
   /// The packed beat (or the rubbish); `changed` tells whether it is new in this clock.
   std::span<const std::uint32_t> words() const { return words_; }
   bool changed() const { return changed_; }
@@ -37,14 +41,19 @@ class VertexDriver {
  private:
   void offer();
   void scramble();
+  PortNumber any_number();
 
   std::span<const SnappedQuad> quads_;
   const Config& config_;
+  int attributes_;
   golden::Prng random_;
+  golden::Prng rubbish_;  ///< inside a beat; apart from random_, so that the gaps depend on the seed alone
   double gap_;
   int width_;
   std::size_t next_ = 0;
   bool valid_ = false, changed_ = true;
+  std::uint32_t id_ = 0;
+  SnappedVertex vertex_;
   std::vector<std::uint64_t> packed_;
   std::vector<std::uint32_t> words_;
 };

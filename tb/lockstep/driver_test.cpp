@@ -1,6 +1,8 @@
 #include "tb/lockstep/driver.hpp"
 
 #include "golden/scenes/random_quads.hpp"
+#include "model/boundaries.hpp"
+#include "model/record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +17,11 @@ TEST(VertexDriver, OffersEveryBeatOnceAndHoldsItUntilTaken) {
   const DrawState state = small_state(config);
   const std::vector<SnappedQuad> quads = random_quads(config, state, 1, 50);
   for (const double gap : {0.0, 0.5, 0.9}) {
-    VertexDriver driver(quads, config, 7, gap);
+    VertexDriver driver(quads, config, state.attributes, 7, gap);
     golden::Prng random(3);
     std::size_t beats = 0, low = 0;
     while (!driver.done()) {
       if (driver.valid()) {
-        EXPECT_EQ(driver.id(), quads[beats / 4].id);
         const std::vector<std::uint32_t> offered(driver.words().begin(), driver.words().end());
         if (random.chance(0.5)) {
           driver.advance(false);
@@ -43,10 +44,53 @@ TEST(VertexDriver, OffersEveryBeatOnceAndHoldsItUntilTaken) {
   }
 }
 
+TEST(VertexDriver, WhatTheMachineMustNotLookAtIsRubbish) {
+  Config config;
+  config.set("significand_bits", 12);
+  config.set("quad_id_bits", 8);
+  const RecordLayout layout = vertex_layout(config);
+  for (int attributes = 0; attributes <= config.attribute_slots; ++attributes) {
+    DrawState state = small_state(config);
+    state.attributes = attributes;
+    const std::vector<SnappedQuad> quads = random_quads(config, state, 1, 100);
+    VertexDriver driver(quads, config, attributes, 7, 0);
+    int negative = 0, large = 0, small = 0, unused = 0;
+    for (std::size_t beat = 0; !driver.done(); driver.advance(true), ++beat) {
+      const SnappedQuad &quad = quads[beat / 4];
+      EXPECT_EQ(driver.id() == quad.id, beat % 4 == 0) << "beat " << beat;
+      const Record words = Record::from_words(driver.words().data(), layout.bits());
+      EXPECT_EQ(words.get(layout.field("id")), driver.id());
+      const SnappedVertex &sent = driver.vertex(), &given = quad.vertex[beat % 4];
+      EXPECT_EQ(sent.x, given.x);
+      EXPECT_EQ(sent.k.sig, given.k.sig);
+      for (int j = 0; j < config.attribute_slots; ++j) {
+        const PortNumber &a = sent.attribute[static_cast<std::size_t>(j)],
+                         &b = given.attribute[static_cast<std::size_t>(j)];
+        EXPECT_EQ(words.get(layout.field("attr_sig", j)), a.sig);
+        EXPECT_EQ(words.get_signed(layout.field("attr_exp", j)), a.exp);
+        if (j < attributes) {
+          EXPECT_EQ(a.sig, b.sig);
+          EXPECT_EQ(a.exp, b.exp);
+        } else {
+          EXPECT_EQ(a.sig >> 11, 1u) << "no significand";
+          ++unused;
+          negative += a.neg;
+          large += a.exp > 8;  // beyond every format: must not be reported as saturated
+          small += a.exp < -30;
+        }
+      }
+    }
+    if (attributes == config.attribute_slots) continue;
+    EXPECT_GT(negative, unused / 4);
+    EXPECT_GT(large, unused / 4);
+    EXPECT_GT(small, unused / 4);
+  }
+}
+
 TEST(VertexDriver, SameSeedSameGaps) {
   const Config config;
   const std::vector<SnappedQuad> quads = random_quads(config, small_state(config), 1, 20);
-  VertexDriver a(quads, config, 5, 0.5), b(quads, config, 5, 0.5), c(quads, config, 6, 0.5);
+  VertexDriver a(quads, config, 4, 5, 0.5), b(quads, config, 4, 5, 0.5), c(quads, config, 4, 6, 0.5);
   bool differs = false;
   for (int i = 0; i < 200; ++i) {
     ASSERT_EQ(a.valid(), b.valid());
@@ -62,12 +106,12 @@ TEST(Drivers, RefuseImpossibleProbabilitiesAndIds) {
   Config config;
   const DrawState state = small_state(config);
   std::vector<SnappedQuad> quads = random_quads(config, state, 1, 1);
-  EXPECT_THROW(VertexDriver(quads, config, 1, 1.0), std::invalid_argument);
-  EXPECT_THROW(VertexDriver(quads, config, 1, -0.1), std::invalid_argument);
+  EXPECT_THROW(VertexDriver(quads, config, 4, 1, 1.0), std::invalid_argument);
+  EXPECT_THROW(VertexDriver(quads, config, 4, 1, -0.1), std::invalid_argument);
   EXPECT_THROW(ReadyDriver(1, 1.0), std::invalid_argument);
   EXPECT_THROW(ReadyDriver(1, std::nan("")), std::invalid_argument);
   quads[0].id = 1u << config.quad_id_bits;
-  EXPECT_THROW(VertexDriver(quads, config, 1, 0), std::invalid_argument);
+  EXPECT_THROW(VertexDriver(quads, config, 4, 1, 0), std::invalid_argument);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ struct Stimulus {
   ReadyDriver stalls;
 
   Stimulus(std::span<const SnappedQuad> quads, const LockstepOptions& o)
-      : vertices(quads, o.config, o.seed, o.gap), stalls(o.seed, o.stall) {}
+      : vertices(quads, o.config, o.state.attributes, o.seed, o.gap), stalls(o.seed, o.stall) {}
 
   bool done() const { return vertices.done(); }
   bool valid() const { return vertices.valid(); }
