@@ -18,7 +18,12 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-import numpy as np  # noqa: E402
+try:
+    import numpy as np
+except ImportError as missing:
+    print(f"calibrate_cost.py: {missing}; install with: apt-get install python3-numpy (this is {sys.executable}, Debian's is /usr/bin/python3)",
+          file=sys.stderr)
+    sys.exit(3)
 
 from report.program import PROGRAM  # noqa: E402
 

@@ -14,9 +14,11 @@
 #include "tb/engines/engine.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
+#include "tb/support/csv.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
+#include "tb/support/source_paths.hpp"
 #include "tb/support/stopwatch.hpp"
 #include "tb/sweep/evaluator.hpp"
 #include "tb/sweep/grid.hpp"
@@ -410,7 +412,7 @@ class SweepRun {
     for (const CosimRow& r : cosim_)
       text += std::to_string(r.row) + "," + r.why + "," + std::to_string(r.fragments) + "," + std::to_string(r.cycles) +
               "," + std::to_string(r.mismatches) + "," + std::to_string(r.cycle_mismatches) + "," +
-              sweep::csv_cell(r.first_difference) + "\n";
+              csv_cell(r.first_difference) + "\n";
     golden::write_file(store.file("cosim.csv"), text, refused);
     text = "what,points,seconds\n";
     for (const sweep::Store::Timing& t : store.timings())
@@ -479,8 +481,11 @@ class SweepRun {
         std::fprintf(out, "%.3f\n", correlation_);
     }
     if (target_) print_target(out);
-    std::fprintf(out, "\n%s/points.csv, manifest.json; scripts/sweep_report.py %s draws them\n", options_.out.c_str(),
-                 options_.out.c_str());
+    std::error_code far;  // from the working directory where that is possible
+    const std::filesystem::path report = tb::scripts_directory() / "sweep_report.py",
+                                near = std::filesystem::relative(report, far);
+    std::fprintf(out, "\n%s/points.csv, manifest.json; %s %s draws them\n", options_.out.c_str(),
+                 (far || near.native().starts_with("..") ? report : near).c_str(), options_.out.c_str());
   }
 
   void print_target(std::FILE* out) const {

@@ -1,5 +1,7 @@
 #include "tb/compare/table.hpp"
 
+#include "tb/support/csv.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -14,15 +16,6 @@ std::string number(const Row& value, const char* format) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), format, value.get<double>());
   return text.data();
-}
-
-/// Method names hold no quote or comma, but a knob may one day.
-std::string csv_field(const Row& value) {
-  const std::string text = number(value, "%.9g");
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string cell(const Row& row, const std::string& key) {
@@ -60,7 +53,7 @@ std::string table_csv(const std::vector<Row>& rows) {
     for (const auto& [key, value] : row.items()) {
       if (!first) text += ",";
       first = false;
-      text += csv_field(value);
+      text += cli::csv_cell(number(value, "%.9g"));
     }
     text += "\n";
   }

@@ -1,6 +1,7 @@
 #include "tb/sweep/point_table.hpp"
 
 #include "model/support/edit_distance.hpp"
+#include "tb/support/csv.hpp"
 
 #include <algorithm>
 #include <array>
@@ -168,13 +169,6 @@ std::string csv_number(double value) {
   return {buffer.data(), end.ptr};
 }
 
-std::string csv_cell(std::string_view text) {
-  if (text.find_first_of(",\"\n") == std::string_view::npos) return std::string(text);
-  std::string cell = "\"";
-  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return cell + "\"";
-}
-
 std::string point_table(std::span<const PointRow> rows) {
   std::string text;
   for (const PointColumn& column : point_columns()) text += (text.empty() ? "" : ",") + column.name;
@@ -182,7 +176,7 @@ std::string point_table(std::span<const PointRow> rows) {
   for (const PointRow& p : rows) {
     const PointResult& r = p.result;
     const bool ok = r.refused.empty();
-    std::vector<std::string> cells{std::to_string(p.row), ok ? "ok" : "refused", csv_cell(r.refused)};
+    std::vector<std::string> cells{std::to_string(p.row), ok ? "ok" : "refused", cli::csv_cell(r.refused)};
     for (const ConfigKey& key : Config::keys()) cells.push_back(std::to_string(p.config.resolved(key.name)));
     if (ok) {
       cells.push_back(std::to_string(r.fragments));
@@ -195,7 +189,7 @@ std::string point_table(std::span<const PointRow> rows) {
         cells.push_back(std::isfinite(bound->value) ? csv_number(bound->value) : std::string());
         cells.push_back(!std::isfinite(bound->value) ? "none" : bound->proved ? "proved" : "estimated");
       }
-      cells.push_back(csv_cell(p.ranges));
+      cells.push_back(cli::csv_cell(p.ranges));
       for (const std::uint64_t count :
            {r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated})
         cells.push_back(std::to_string(count));
@@ -205,7 +199,7 @@ std::string point_table(std::span<const PointRow> rows) {
       cells.push_back(r.cycles > 0 ? std::to_string(r.cycles) : std::string());
       cells.push_back(p.pareto ? "1" : "0");
       cells.push_back(r.worst.any ? csv_number(r.worst.error) : std::string());
-      cells.push_back(csv_cell(p.worst));
+      cells.push_back(cli::csv_cell(p.worst));
     }
     cells.resize(point_columns().size());
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i == 0 ? "" : ",") + cells[i];

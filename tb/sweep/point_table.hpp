@@ -61,8 +61,6 @@ ErrorColumn parse_error_column(std::string_view name, ErrorKind standard);
 /// The table as text, header line first; the same rows give the same bytes.
 std::string point_table(std::span<const PointRow> rows);
 
-/// Text that a CSV cell can hold: quoted where necessary.
-std::string csv_cell(std::string_view text);
 /// 17 significant digits, independent of the locale; empty for NaN.
 std::string csv_number(double value);
 
