@@ -44,7 +44,7 @@ module pixel_emit #(
     else if (head_valid_i && en_i) sent_q <= sent_q | lowest;
   end
 
-`ifndef YOSYS
+`ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       assert ((lowest & (lowest - TILE'(1))) == '0);

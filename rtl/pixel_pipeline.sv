@@ -405,7 +405,7 @@ module pixel_pipeline #(
   };
 `endif
 
-`ifndef YOSYS
+`ifndef SYNTHESIS
   // Output port: valid held and payload stable under stall; zero when not valid. An end beat carries no pixel.
   logic held_q;
   logic [FB-1:0] fragment_q;

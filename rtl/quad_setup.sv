@@ -431,7 +431,7 @@ module quad_setup #(
   assign hull_o = !ordinary_q && !(some_pos && some_neg);
   assign visible_o = (ordinary_q || hull_o) ? 4'b1111 : {det_neg[1], det_neg[0], det_pos[1], det_pos[0]};
 
-`ifndef YOSYS
+`ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       assert (!start_i || idle_o);

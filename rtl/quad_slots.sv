@@ -198,7 +198,7 @@ module quad_slots #(
   assign stamp_visible_o = visible_q[stamp_slot_i];
   assign {output_hull_o, output_homogeneous_o} = class_q[output_slot_i];
 
-`ifndef YOSYS
+`ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       assert (!start_i || available_o);

@@ -37,7 +37,7 @@ module sync_fifo #(
 
   always_ff @(posedge clk_i) if (push_i) word_q[write_q] <= data_i;
 
-`ifndef YOSYS
+`ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       assert (!push_i || !full_o);

@@ -101,7 +101,7 @@ module tile_ring #(
     assign head_quad_gy_o[g*QGRAD+:QGRAD] = gy_q[head_index];
   end
 
-`ifndef YOSYS
+`ifndef SYNTHESIS
   logic unused_end;
   assign unused_end = head_tag[TAG-1];
 
