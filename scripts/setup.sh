@@ -10,7 +10,7 @@ packages=(
   libgtest-dev libopenexr-dev libpng-dev zlib1g-dev libssl-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   pkg-config libcairo2-dev fonts-dejavu-core   # contact sheets of quadrille compare
   clang-format                 # the format test
-  python3 python3-matplotlib python3-plotly   # scripts/*.py; plots of scripts/sweep_report.py
+  python3 python3-matplotlib python3-plotly python3-yaml   # scripts/*.py; plots of scripts/sweep_report.py; lists of the RTL's files
 )
 
 install_packages() {

@@ -1,0 +1,34 @@
+// The machine in its default configuration, top module `quadrille`. Paths are relative to this file: verilator -F rtl/quadrille.f.
+// For another configuration give -DQUADRILLE_<KEY>=<value> and the tables that `quadrille config --emit-tables` writes for it.
+quadrille_pkg.sv
+default_tables/quadrille_tables_pkg.sv
+bounding_range.sv
+config_check.sv
+delay_line.sv
+dot_unit.sv
+fixed_point.sv
+forward_difference.sv
+fp_multiply.sv
+fp_normalise.sv
+fp_raw_product.sv
+fp_sum.sv
+fragment_output.sv
+interpolate.sv
+leading_zeros.sv
+mean_value_ratios.sv
+mean_value_weights.sv
+normalise.sv
+pixel_emit.sv
+pixel_pipeline.sv
+quad_setup.sv
+quad_slots.sv
+quadrille.sv
+reciprocal.sv
+rsqrt.sv
+singular_class.sv
+stamp_coverage.sv
+sync_fifo.sv
+table_polynomial.sv
+tile_ring.sv
+tile_walk.sv
+vertex_assembly.sv
