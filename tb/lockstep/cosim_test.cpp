@@ -1,4 +1,5 @@
 // The RTL and the clocked model in lockstep, and the RTL's configuration against the C++ side's.
+#include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/lockstep.hpp"
@@ -30,6 +31,8 @@ struct Named {
 const Named standard{"standard", {}};
 const Named s12{"s12", {{"significand_bits", 12}}};
 const Named s24{"s24", {{"significand_bits", 24}}};
+/// Every fraction bit of D and R² dropped: R² of 0 and below, singular classes by truncation.
+const Named coarse{"coarse", {{"significand_bits", 24}, {"quadratic_frac_bits", 0}}};
 /// Every key away from its default, odd numbers wherever possible.
 const Named odd{"odd",
                 {{"viewport_bits", 9},
@@ -57,7 +60,7 @@ const Named odd{"odd",
 std::string test_name(const testing::TestParamInfo<Named>& info) { return info.param.name; }
 
 class Configuration : public testing::TestWithParam<Named> {};
-INSTANTIATE_TEST_SUITE_P(Cosim, Configuration, testing::Values(standard, s12, s24, odd), test_name);
+INSTANTIATE_TEST_SUITE_P(Cosim, Configuration, testing::Values(standard, s12, s24, coarse, odd), test_name);
 
 TEST_P(Configuration, RtlSeesTheSameNumbers) {
   const Config config = GetParam().config();
@@ -164,6 +167,36 @@ TEST_P(Configuration, LockstepInEveryDrawState) {
   }
   EXPECT_GT(total, 5000u);
   std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
+}
+
+TEST_P(Configuration, LockstepOnCornerQuads) {
+  LockstepOptions options;
+  options.config = GetParam().config();
+  VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
+  std::uint64_t total = 0;
+  for (const golden::CornerDraw& draw : golden::corner_draws(options.config, 11)) {
+    options.state = draw.state;
+    options.stall = draw.stall;
+    options.gap = 0;
+    const LockstepReport report = run_lockstep(device, draw.quads, options);
+    ASSERT_TRUE(report.agreed()) << draw.group << ": " << report.first_divergence.value_or("");
+    ASSERT_TRUE(report.complete);
+    total += report.fragments;
+  }
+  EXPECT_GT(total, 5000u);
+  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
+}
+
+/// What `burst` is for: with more slots the draw takes another number of clocks.
+TEST(Cosim, BurstWaitsForQuadSlots) {
+  LockstepOptions options;
+  const golden::CornerDraw draw =
+      golden::corner_draws(options.config, 11).at(static_cast<std::size_t>(golden::CornerGroup::burst));
+  options.state = draw.state;
+  options.stall = draw.stall;
+  const AloneRun run = run_clocked_model_alone(draw.quads, options);
+  ++options.config.quad_slots_log2;
+  EXPECT_NE(run_clocked_model_alone(draw.quads, options).cycles, run.cycles);
 }
 
 TEST(Cosim, RtlAloneAndModelAloneGiveTheSameStream) {
