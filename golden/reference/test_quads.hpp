@@ -1,6 +1,7 @@
 // Quads for the tests of this folder: built by hand from integers, or drawn at random.
 #pragma once
 
+#include "golden/reference/port_number.hpp"
 #include "model/config.hpp"
 #include "model/records.hpp"
 
@@ -20,17 +21,7 @@ struct Point {
 };
 
 /// Nearest port number; exact for every value with at most `bits` significant bits.
-inline PortNumber port(double value, int bits = Config{}.significand_bits) {
-  if (value == 0) return {};
-  int exponent = 0;
-  const double fraction = std::frexp(std::abs(value), &exponent);  // in [1/2, 1)
-  auto sig = static_cast<std::uint32_t>(std::lround(std::ldexp(fraction, bits)));
-  if (sig >> bits) {
-    sig >>= 1;
-    ++exponent;
-  }
-  return {value < 0, exponent - 1, sig};
-}
+inline PortNumber port(double value, int bits = Config{}.significand_bits) { return nearest_port_number(value, bits); }
 
 /// Integer vertices in units of `unit` * 2^-15; k = 1, Z = i, attribute a = 1 at vertex a and 0 elsewhere.
 inline SnappedQuad make_quad(const std::array<Point, 4>& points, std::int32_t unit = one) {

@@ -384,6 +384,9 @@ ReferenceSample TruthQuad::sample(int px, int py) const {
             break;
         }
 
+        if (weights.singular == Singular::none || weights.singular == Singular::one_edge)
+          for (int i = 0; i < 4; ++i) out.notch = out.notch || sign_of(p.e[(i + 3) & 3]) * sign_of(p.e[i]) < 0;
+
         const std::array<__float128, 4>& m = weights.m;
         std::array<__float128, 4> mk, mw = m, size;
         for (int i = 0; i < 4; ++i) {

@@ -461,6 +461,23 @@ TEST(Truth, ConditionOfANotchAndItsMeaning) {
 
 // ---------------------------------------------------------------- coverage
 
+TEST(Truth, NotchIsWhereNeighbouringAnglesTurnAgainstEachOther) {
+  // A dart with its notch at (0, 0): seen from between the arms the two edges at the notch turn the other way.
+  const TruthQuad dart(make_quad({{{0, 0}, {8, -8}, {-16, 0}, {8, 8}}}), Config{}, DrawState{.attributes = 0});
+  EXPECT_TRUE(dart.sample(-1, 2).covered);
+  EXPECT_TRUE(dart.sample(-1, 2).notch);  // beyond the line of one edge of the notch
+  EXPECT_TRUE(dart.sample(-4, 0).covered);
+  EXPECT_FALSE(dart.sample(-4, 0).notch);  // sees the notch from behind: all four turn alike
+  const TruthQuad square(make_quad({{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}}), Config{}, DrawState{.attributes = 0});
+  for (int y = -4; y < 4; ++y)
+    for (int x = -4; x < 4; ++x) EXPECT_FALSE(square.sample(x, y).notch) << x << ", " << y;
+  // On one of the edges at the notch there is one neighbour less; at the crossing of a bow-tie the edges decide.
+  const TruthQuad bowtie(make_quad({{{-4, -4}, {4, 4}, {4, -4}, {-4, 4}}}), Config{}, DrawState{.attributes = 0});
+  EXPECT_FALSE(bowtie.sample(0, 0).notch);
+  EXPECT_TRUE(bowtie.sample(-2, 0).covered);
+  EXPECT_TRUE(bowtie.sample(-2, 0).notch);  // both crossing edges turn against the left one
+}
+
 TEST(TruthCoverage, MeshIsDrawnExactlyOnce) {
   // Integer vertices, so edges and corners meet pixel centres all the time; every winding and starting corner; cells
   // may be concave, never self-intersecting (displacements of at most 3 on a lattice of 8).

@@ -1,10 +1,11 @@
 #include "tb/check/check.hpp"
 
-#include "golden/reference/truth.hpp"
+#include "tb/check/judged_quad.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -23,8 +24,9 @@ constexpr std::size_t pixels_per_job = 16384;
 constexpr double near_edge_distance = 1.0 / 16;  // pixels
 constexpr double near_vertex_distance = 1;
 
-constexpr std::uint8_t compared_flags =
-    flag_on_edge | flag_on_vertex | flag_two_corner | flag_two_edge | flag_tie | flag_homogeneous;
+/// Flags that D and R² decide, which are exact only with all of their bits.
+constexpr std::uint8_t flags_of_quadratics =
+    flag_on_edge | flag_on_vertex | flag_two_corner | flag_two_edge | flag_cured;
 
 constexpr std::pair<std::uint8_t, std::uint64_t CheckResult::*> counted_flags[]{
     {flag_on_edge, &CheckResult::on_edge},
@@ -37,11 +39,6 @@ constexpr std::pair<std::uint8_t, std::uint64_t CheckResult::*> counted_flags[]{
     {flag_saturated, &CheckResult::saturated}};
 
 auto order(const Place& p) { return std::tuple(p.index, p.y, p.x); }
-
-double real(const PortNumber& n, const Config& config) {
-  const double value = std::ldexp(static_cast<double>(n.sig), n.exp - (config.significand_bits - 1));
-  return n.neg ? -value : value;
-}
 
 std::string text_of(const Place& place, const std::string& what) {
   char head[96];
@@ -91,6 +88,9 @@ bool CheckResult::ok() const {
 
 void CheckResult::merge(const CheckResult& other) {
   add_counters(*this, other, check_counters);
+  weight.merge(other.weight);
+  attribute.merge(other.attribute);
+  depth.merge(other.depth);
   arithmetic.merge(other.arithmetic);
   snapping.merge(other.snapping);
   if (other.worst.ratio > worst.ratio ||
@@ -131,67 +131,27 @@ bool is_tiny(const SnappedQuad& quad, const Config& config) {
          std::int64_t{bottom->y} - top->y < std::int64_t{4} * one;
 }
 
-/// One quad's truths and facts.
-struct FragmentChecker::Reference {
-  TruthQuad snapped;
-  std::optional<TruthQuad> given;
-  const SnappedQuad& quad;
-  const Config& config;
-  bool eye_crossing, tiny, behind;
-
+/// One quad as it is judged, with what the counters need.
+class FragmentChecker::Reference : public JudgedQuad {
+ public:
   Reference(const FragmentChecker& checker, std::size_t index)
-      : snapped(checker.snapped_[index], checker.settings_.config, truth_state(checker)),
-        quad(checker.snapped_[index]),
-        config(checker.settings_.config),
-        eye_crossing(is_eye_crossing(quad)),
-        tiny(is_tiny(quad, config)),
-        behind(std::any_of(quad.vertex.begin(), quad.vertex.end(), [](const SnappedVertex& v) { return v.w <= 0; })) {
+      : JudgedQuad(checker.snapped_[index], checker.settings_.config, truth_state(checker)),
+        eye_crossing(is_eye_crossing(quad())),
+        tiny(is_tiny(quad(), checker.settings_.config)) {
     if (checker.settings_.snapping)
       given.emplace(pass_quad(checker.given_[index], checker.settings_.pass), truth_state(checker));
   }
 
+  std::optional<TruthQuad> given;
+  bool eye_crossing, tiny;
+
+ private:
   /// The weights come with every sample; only true attributes are asked for.
   static DrawState truth_state(const FragmentChecker& checker) {
     DrawState state = checker.settings_.state;
     const std::vector<int>& columns = checker.settings_.pass.columns;
     if (std::all_of(columns.begin(), columns.end(), [](int column) { return column < 4; })) state.attributes = 0;
     return state;
-  }
-
-  /// How far the machine's window z may be from the truth's: each M carries the weights' relative error. Infinite where
-  /// sum(M w) cancels to what that error leaves of it.
-  double depth_tolerance(int x, int y, double bound) const {
-    const auto m = snapped.homogeneous_weights(x, y);
-    double numerator = 0, spread = 0, denominator = 0, z = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const double mi = static_cast<double>(m[i]),
-                   w = std::ldexp(static_cast<double>(quad.vertex[i].w), -config.frac());
-      numerator += std::fabs(mi * real(quad.vertex[i].z, config));
-      z += mi * real(quad.vertex[i].z, config);
-      spread += std::fabs(mi * w);
-      denominator += mi * w;
-    }
-    const double scale = std::fabs(denominator), lost = 2 * bound * (spread / scale);
-    if (!(lost < 1)) return std::numeric_limits<double>::infinity();
-    return (2 * bound * (numerator / scale) + std::fabs(z) / scale * lost) / (1 - lost) +
-           std::ldexp(1.0, -config.depth_bits);
-  }
-
-  /// Whether a window z that far from the truth's is within depth_tolerance(), which is never below the first line.
-  bool depth_holds(const Fragment& fragment, const ReferenceSample& truth, double error, double bound) const {
-    if (std::fabs(error) <= bound * std::fabs(truth.z) + std::ldexp(1.0, -config.depth_bits)) return true;
-    return std::fabs(error) <= depth_tolerance(fragment.x, fragment.y, bound);
-  }
-
-  /// How far attribute `slot` may be from the truth's: a = sum(lambda' a_i), each lambda' within `bound`, and one unit
-  /// of the output format.
-  double attribute_tolerance(std::size_t slot, bool perspective, double bound) const {
-    double sum = 0;
-    for (const SnappedVertex& v : quad.vertex) {
-      const double k = perspective ? real(v.k, config) : std::ldexp(static_cast<double>(v.w), -config.frac());
-      sum += std::fabs(real(v.attribute[slot], config) / k);
-    }
-    return bound * sum + std::ldexp(1.0, -config.attribute_frac());
   }
 };
 
@@ -266,142 +226,244 @@ void FragmentChecker::finish(bool complete) {
   flush_coverage();
 }
 
-void FragmentChecker::compare(const std::vector<Fragment>& fragments) {
-  CheckResult part;
-  std::optional<Reference> reference;
-  std::size_t current = 0;
-  const Config& config = settings_.config;
-  const DrawState& state = settings_.state;
-  const std::vector<int>& columns = settings_.pass.columns;
+/// Judges fragment after fragment of one job; what it finds is added up in result().
+class FragmentChecker::FragmentJudge {
+ public:
+  explicit FragmentJudge(const FragmentChecker& checker)
+      : checker_(checker),
+        config_(checker.settings_.config),
+        state_(checker.settings_.state),
+        columns_(checker.settings_.pass.columns),
+        first_pass_(checker.settings_.first_pass),
+        exact_(config_.qdrop() == 0),
+        limits_(config_, state_) {}
 
-  for (const Fragment& fragment : fragments) {
-    if (!reference || fragment.quad != current) {
-      current = fragment.quad;
-      reference.emplace(*this, current);
+  void judge(const Fragment& fragment) {
+    if (!reference_ || fragment.quad != place_.index) reference_.emplace(checker_, fragment.quad);
+    place_ = {fragment.quad, checker_.given_[fragment.quad].id, fragment.x, fragment.y};
+    truth_ = reference_->truth().sample(fragment.x, fragment.y);
+    bound_ = checker_.bound_ * (config_.notch_exact ? 1 : std::max(1.0, truth_.condition));
+    corner_ = exact_ && (truth_.flags & flag_on_vertex) != 0 ? reference_->corner_at(fragment.x, fragment.y) : -1;
+    cancelled_ = false;
+    ++part_.compared;
+    if (!judge_presence(fragment)) return;
+    judge_depth(fragment);
+    const bool saturated = judge_slots(fragment);
+    judge_flags(fragment, saturated);
+    if (first_pass_ && cancelled_) ++part_.bound_exempt;
+    measure_snapping();
+    if (first_pass_) count(fragment);
+  }
+
+  const CheckResult& result() const { return part_; }
+
+ private:
+  void differs(const std::string& what) {
+    ++part_.mismatches;
+    if (!part_.first.any || order(place_) < order(part_.first.place))
+      part_.first = {true, place_, text_of(place_, what)};
+  }
+
+  /// Whether it should be there at all. False: nothing more can be said of it. The first pass says what is wrong.
+  bool judge_presence(const Fragment& fragment) {
+    if (!first_pass_) return truth_.covered && truth_.visible;
+    if (fragment.x < state_.scissor_x0 || fragment.x >= state_.scissor_x1 || fragment.y < state_.scissor_y0 ||
+        fragment.y >= state_.scissor_y1) {
+      differs("drawn outside the scissor rectangle");
+      return false;
     }
-    const Place place{fragment.quad, given_[current].id, fragment.x, fragment.y};
-    const auto differs = [&](const std::string& what) {
-      ++part.mismatches;
-      if (!part.first.any || order(place) < order(part.first.place)) part.first = {true, place, text_of(place, what)};
-    };
-    const ReferenceSample truth = reference->snapped.sample(fragment.x, fragment.y);
-    ++part.compared;
+    if (!truth_.covered) {
+      differs("drawn, but the truth does not cover it");
+      return false;
+    }
+    if (!truth_.visible) {
+      if (reference_->tolerates_visibility(truth_, checker_.bound_))
+        ++part_.tolerated_visible;
+      else
+        differs("drawn, but the truth has it behind the eye");
+      return false;
+    }
+    if (truth_.front != fragment.front) differs(fragment.front ? "drawn as front face" : "drawn as back face");
+    if (state_.cull == (truth_.front ? Cull::front : Cull::back)) differs("drawn, but culled by its facing");
+    return true;
+  }
 
-    // Whether it should be there at all.
-    if (settings_.first_pass) {
-      if (fragment.x < state.scissor_x0 || fragment.x >= state.scissor_x1 || fragment.y < state.scissor_y0 ||
-          fragment.y >= state.scissor_y1) {
-        differs("drawn outside the scissor rectangle");
+  /// The code itself decides whether it may be drawn; the truth says what it stands for.
+  void judge_depth(const Fragment& fragment) {
+    if (!state_.depth) {
+      if (fragment.depth != 0) differs("depth is off, but its code is " + std::to_string(fragment.depth));
+      return;
+    }
+    if (!limits_.holds(fragment.depth))
+      differs("drawn with depth code " + std::to_string(fragment.depth) + ", outside znear and zfar");
+    if (corner_ >= 0)
+      if (const auto code = reference_->exact_depth(corner_); code && *code != std::int64_t{fragment.depth})
+        differs("depth code " + std::to_string(fragment.depth) + " at a corner, expected " + std::to_string(*code));
+
+    // Which is never more than depth_tolerance() and mostly enough.
+    const double least = checker_.bound_ * std::fabs(truth_.z);
+    const FixedPoint format = depth_format(config_);
+    double tolerance = least;
+    if (limits_.side(truth_.z, least) != 1 || !format.may_stand_for(fragment.depth, truth_.z, least))
+      tolerance = reference_->depth_tolerance(fragment.x, fragment.y, bound_);
+    if (first_pass_ && limits_.side(truth_.z, 0) < 0) {
+      if (limits_.side(truth_.z, tolerance) < 0)
+        differs("drawn, but window z is outside znear and zfar");
+      else
+        ++part_.tolerated_depth;
+    }
+    if (checker_.settings_.apply_bound && !format.may_stand_for(fragment.depth, truth_.z, tolerance))
+      ++part_.beyond_depth;
+    if (!first_pass_) return;
+    const double error = static_cast<double>(fragment.depth) * format.unit() - truth_.z;
+    part_.arithmetic.depth.add(error);
+    if (tolerance < std::numeric_limits<double>::infinity())
+      part_.depth.add(error / (bound_ * std::fabs(truth_.z) * truth_.z_condition + format.unit()));
+  }
+
+  /// Every slot of the port. Returns whether an attribute may be saturated and one is at its limit.
+  bool judge_slots(const Fragment& fragment) {
+    const FixedPoint format = attribute_format(config_);
+    double lambda_error = 0, attribute_error = 0, lambda_sum = 0;
+    bool attributes_hold = true, weights_hold = true, may_saturate = false, must_saturate = false;
+    int weight = 0, weights = 0, attributes = 0;
+    for (std::size_t slot = columns_.size(); slot < fragment.attribute.size(); ++slot)
+      if (fragment.attribute[slot] != 0) differs("slot " + std::to_string(slot) + " is not in use, but not 0");
+
+    for (std::size_t slot = 0; slot < columns_.size(); ++slot) {
+      const std::int64_t code = fragment.attribute[slot];
+      const bool is_weight = columns_[slot] < 4;
+      const double wanted =
+          is_weight ? truth_.lambda[static_cast<std::size_t>(columns_[slot])] : truth_.attribute[slot];
+      const double signed_error = static_cast<double>(code) * format.unit() - wanted, error = std::fabs(signed_error);
+      if (corner_ >= 0)
+        if (const auto exact = reference_->exact_attribute(corner_, slot); exact && *exact != code)
+          differs("slot " + std::to_string(slot) + " is " + std::to_string(code) + " at a corner, expected " +
+                  std::to_string(*exact));
+
+      double tolerance = bound_;
+      if (!is_weight || reference_->may_cancel())
+        tolerance = reference_->attribute_tolerance(slot, wanted, fragment.x, fragment.y, bound_);
+      if (tolerance == std::numeric_limits<double>::infinity()) {
+        cancelled_ = true;
+        may_saturate = true;
         continue;
       }
-      if (!truth.covered) {
-        differs("drawn, but the truth does not cover it");
-        continue;
-      }
-      if (!truth.visible) {
-        if (!truth.eye_in_hull || !(std::fabs(truth.visible_margin) < bound_)) {
-          differs("drawn, but the truth has it behind the eye");
+      const bool at_limit = std::abs(code) == format.largest_code();
+      const bool beyond = std::fabs(wanted) - tolerance >= format.limit();  // whatever the errors are
+      const bool clamped = at_limit && std::fabs(wanted) + tolerance >= format.limit() && (wanted < 0) == (code < 0);
+      may_saturate = may_saturate || clamped;
+      must_saturate = must_saturate || beyond;
+      const bool holds = beyond ? clamped : clamped || format.may_stand_for(code, wanted, tolerance);
+
+      if (is_weight) {
+        ++weights;
+        if (reference_->may_cancel()) {
+          weights_hold = weights_hold && holds;
           continue;
         }
-        ++part.tolerated_visible;
-        continue;
-      }
-      if (truth.front != fragment.front) differs(fragment.front ? "drawn as front face" : "drawn as back face");
-      if (state.cull == (truth.front ? Cull::front : Cull::back)) differs("drawn, but culled by its facing");
-      if (state.depth && !(truth.z >= state.znear && truth.z <= state.zfar)) {
-        const double tolerance = reference->depth_tolerance(fragment.x, fragment.y, bound_);
-        if (truth.z < state.znear - tolerance || truth.z > state.zfar + tolerance)
-          differs("drawn, but window z is outside znear and zfar");
-        else
-          ++part.tolerated_depth;
-      }
-      if (config.qdrop() == 0 && ((truth.flags ^ fragment.flags) & compared_flags) != 0) {
-        char text[80];
-        std::snprintf(text, sizeof text, "flags 0x%02x, expected 0x%02x", fragment.flags & compared_flags,
-                      truth.flags & compared_flags);
-        differs(text);
-      }
-    } else if (!truth.covered || !truth.visible) {
-      continue;  // the first pass has said so
-    }
-
-    // What it should be.
-    const bool exempt = !state.perspective && reference->behind;
-    const double bound = bound_ * (config.notch_exact ? 1 : std::max(1.0, truth.condition));
-    double lambda_error = 0, attribute_error = 0;
-    bool attributes_hold = true;
-    int weight = 0;
-    bool weights = false, attributes = false;
-    for (std::size_t slot = 0; slot < columns.size(); ++slot) {
-      const double value = std::ldexp(static_cast<double>(fragment.attribute[slot]), -config.attribute_frac());
-      if (columns[slot] < 4) {
-        weights = true;
-        const double error = std::fabs(value - truth.lambda[static_cast<std::size_t>(columns[slot])]);
-        if (!(error <= lambda_error)) lambda_error = error, weight = columns[slot];
+        lambda_sum += signed_error;
+        if (!(error <= lambda_error)) lambda_error = error, weight = columns_[slot];
       } else {
-        attributes = true;
-        const double error = std::fabs(value - truth.attribute[slot]);
+        ++attributes;
+        attributes_hold = attributes_hold && holds;
+        if (clamped) continue;
         if (!(error <= attribute_error)) attribute_error = error;
-        attributes_hold = attributes_hold && error <= reference->attribute_tolerance(slot, state.perspective, bound);
+        if (!reference_->may_cancel())
+          part_.attribute.add((wanted < 0 ? -signed_error : signed_error) / (tolerance + format.unit()));
       }
     }
-    if (exempt) {
-      if (settings_.first_pass) ++part.bound_exempt;
-    } else {
-      if (weights) {
-        part.arithmetic.lambda.add(lambda_error);
-        const double ratio = lambda_error / bound;
-        if (settings_.apply_bound && !(ratio <= 1)) ++part.beyond_bound;
-        if (!(ratio <= part.worst.ratio) || (ratio == part.worst.ratio && order(place) < order(part.worst.place)))
-          part.worst = {ratio, lambda_error, bound, truth.condition, weight, place};
-      }
-      if (attributes) {
-        part.arithmetic.attribute.add(attribute_error);
-        if (settings_.apply_bound && !attributes_hold && (fragment.flags & flag_saturated) == 0)
-          ++part.beyond_attribute;
-      }
+    if (weights > 0 && !reference_->may_cancel()) {
+      part_.arithmetic.lambda.add(lambda_error);
+      part_.weight.add(lambda_sum / (weights * bound_));
+      const double ratio = lambda_error / bound_;
+      part_.weight.max = std::max(part_.weight.max, ratio);
+      weights_hold = ratio <= 1;
+      if (!(ratio <= part_.worst.ratio) || (ratio == part_.worst.ratio && order(place_) < order(part_.worst.place)))
+        part_.worst = {ratio, lambda_error, bound_, truth_.condition, weight, place_};
     }
-    if (settings_.first_pass && state.depth) {
-      const double error = std::ldexp(static_cast<double>(fragment.depth), -config.depth_bits) - truth.z;
-      part.arithmetic.depth.add(error);
-      if (settings_.apply_bound && !reference->depth_holds(fragment, truth, error, bound)) ++part.beyond_depth;
+    if (attributes > 0 && !reference_->may_cancel()) part_.arithmetic.attribute.add(attribute_error);
+    if (checker_.settings_.apply_bound) {
+      part_.beyond_bound += !weights_hold;
+      part_.beyond_attribute += !attributes_hold;
+      if (must_saturate && (fragment.flags & flag_saturated) == 0) differs("an attribute is clamped, but not flagged");
     }
-
-    // What snapping did.
-    if (reference->given) {
-      const ReferenceSample given = reference->given->sample(fragment.x, fragment.y);
-      if (!given.covered || !given.visible) {
-        if (settings_.first_pass) ++part.coverage_flips;
-      } else if (!exempt) {
-        double lambda_shift = 0, attribute_shift = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-          lambda_shift = std::max(lambda_shift, std::fabs(truth.lambda[i] - given.lambda[i]));
-        for (std::size_t slot = 0; slot < columns.size(); ++slot)
-          if (columns[slot] >= 4)
-            attribute_shift = std::max(attribute_shift, std::fabs(truth.attribute[slot] - given.attribute[slot]));
-        if (weights) part.snapping.lambda.add(lambda_shift);
-        if (attributes) part.snapping.attribute.add(attribute_shift);
-        if (settings_.first_pass && state.depth) part.snapping.depth.add(truth.z - given.z);
-      }
-    }
-
-    // What it was.
-    if (settings_.first_pass) {
-      for (const auto& [flag, counter] : counted_flags) part.*counter += (fragment.flags & flag) != 0;
-      part.eye_crossing += reference->eye_crossing;
-      part.tiny += reference->tiny;
-      const Vicinity near = vicinity(reference->quad, fragment.x, fragment.y);
-      part.near_edge += near.near_edge;
-      part.near_vertex += near.near_vertex;
-    }
+    return may_saturate;
   }
-  add(part);
+
+  void judge_flags(const Fragment& fragment, bool may_saturate) {
+    unsigned known = flag_tie | flag_homogeneous, expected = truth_.flags;
+    if (exact_) known |= flags_of_quadratics;
+    if (config_.notch_exact && truth_.notch) expected |= flag_cured;
+    if (((expected ^ fragment.flags) & known) != 0) {
+      char text[80];
+      std::snprintf(text, sizeof text, "flags 0x%02x, expected 0x%02x", fragment.flags & known, expected & known);
+      differs(text);
+    }
+    if (checker_.settings_.apply_bound && (fragment.flags & flag_saturated) != 0 && !may_saturate)
+      differs("flagged as saturated, but no attribute is");
+  }
+
+  void measure_snapping() {
+    if (!reference_->given) return;
+    const ReferenceSample given = reference_->given->sample(place_.x, place_.y);
+    if (!given.covered || !given.visible) {
+      if (first_pass_) ++part_.coverage_flips;
+      return;
+    }
+    if (reference_->may_cancel()) return;
+    double lambda_shift = 0, attribute_shift = 0;
+    bool weights = false, attributes = false;
+    for (std::size_t i = 0; i < 4; ++i)
+      lambda_shift = std::max(lambda_shift, std::fabs(truth_.lambda[i] - given.lambda[i]));
+    for (std::size_t slot = 0; slot < columns_.size(); ++slot) {
+      (columns_[slot] < 4 ? weights : attributes) = true;
+      if (columns_[slot] >= 4)
+        attribute_shift = std::max(attribute_shift, std::fabs(truth_.attribute[slot] - given.attribute[slot]));
+    }
+    if (weights) part_.snapping.lambda.add(lambda_shift);
+    if (attributes) part_.snapping.attribute.add(attribute_shift);
+    if (first_pass_ && state_.depth) part_.snapping.depth.add(truth_.z - given.z);
+  }
+
+  void count(const Fragment& fragment) {
+    for (const auto& [flag, counter] : counted_flags) part_.*counter += (fragment.flags & flag) != 0;
+    part_.eye_crossing += reference_->eye_crossing;
+    part_.tiny += reference_->tiny;
+    const Vicinity near = vicinity(reference_->quad(), fragment.x, fragment.y);
+    part_.near_edge += near.near_edge;
+    part_.near_vertex += near.near_vertex;
+  }
+
+  const FragmentChecker& checker_;
+  const Config& config_;
+  const DrawState& state_;
+  const std::vector<int>& columns_;
+  const bool first_pass_;
+  const bool exact_;  ///< D and R² have all of their bits
+  const DepthLimits limits_;
+  CheckResult part_;
+
+  // The fragment that is being judged.
+  std::optional<Reference> reference_;
+  Place place_;
+  ReferenceSample truth_;
+  double bound_ = 0;        ///< of a weight
+  int corner_ = -1;         ///< the corner at the pixel, where that makes the machine exact
+  bool cancelled_ = false;  ///< a value about which nothing can be said
+};
+
+void FragmentChecker::compare(const std::vector<Fragment>& fragments) {
+  FragmentJudge judge(*this);
+  for (const Fragment& fragment : fragments) judge.judge(fragment);
+  add(judge.result());
 }
 
 /// Every pixel of rows y0 … y1-1 that the truth covers must have been drawn, once.
 void FragmentChecker::cover(std::size_t first, const std::vector<std::vector<std::uint32_t>>& pixels, int y0, int y1) {
   CheckResult part;
   const DrawState& state = settings_.state;
+  const DepthLimits limits(settings_.config, state);
   std::vector<std::uint32_t> drawn;
   for (std::size_t n = 0; n < pixels.size(); ++n) {
     const std::size_t index = first + n;
@@ -419,28 +481,32 @@ void FragmentChecker::cover(std::size_t first, const std::vector<std::vector<std
         differs(static_cast<int>(drawn[i] & 0xffff), static_cast<int>(drawn[i] >> 16), "drawn twice");
 
     const Reference reference(*this, index);
-    const golden::PixelRect bounds = reference.snapped.bounds();
+    const golden::PixelRect bounds = reference.truth().bounds();
     std::size_t next = 0;
     for (int y = std::max(y0, bounds.y0); y < std::min(y1, bounds.y1); ++y) {
       for (int x = bounds.x0; x < bounds.x1; ++x) {
         const std::uint32_t pixel = static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
         while (next < drawn.size() && drawn[next] < pixel) ++next;
         if (next < drawn.size() && drawn[next] == pixel) continue;  // compare() judges what was drawn
-        const Coverage coverage = reference.snapped.cover(x, y);
+        const Coverage coverage = reference.truth().cover(x, y);
         if (!coverage.covered || !coverage.visible || state.cull == (coverage.front ? Cull::front : Cull::back))
           continue;
-        const ReferenceSample truth = reference.snapped.sample(x, y);
-        if (truth.eye_in_hull && std::fabs(truth.visible_margin) < bound_) {
+        const ReferenceSample truth = reference.truth().sample(x, y);
+        if (reference.tolerates_visibility(truth, bound_)) {
           ++part.tolerated_visible;
           continue;
         }
-        if (state.depth && !(truth.z >= state.znear && truth.z <= state.zfar)) {
-          ++part.discarded;
-          continue;
-        }
         if (state.depth) {
-          const double tolerance = reference.depth_tolerance(x, y, bound_);
-          if (truth.z < state.znear + tolerance || truth.z > state.zfar - tolerance) {
+          // As far as the truth can tell it was discarded rightly, unless the machine is exact at this pixel.
+          std::optional<std::int64_t> code;
+          if ((truth.flags & flag_on_vertex) != 0 && settings_.config.qdrop() == 0)
+            code = reference.exact_depth(reference.corner_at(x, y));
+          if (code ? !limits.holds(*code) : limits.side(truth.z, 0) < 0) {
+            ++part.discarded;
+            continue;
+          }
+          const double bound = bound_ * (settings_.config.notch_exact ? 1 : std::max(1.0, truth.condition));
+          if (!code && limits.side(truth.z, reference.depth_tolerance(x, y, bound)) == 0) {
             ++part.tolerated_depth;
             continue;
           }

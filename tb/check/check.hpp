@@ -7,6 +7,7 @@
 #include "tb/support/error_stats.hpp"
 #include "tb/support/work_queue.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -34,6 +35,22 @@ struct QuantityErrors {
   void merge(const QuantityErrors& other);
 };
 
+/// Errors as parts of what the bound allows each of them, for comparison with recorded ones (regression.hpp): quads
+/// with large attributes, or near the eye plane, do not drown the others. `mean` is signed, positive away from zero.
+struct RelativeErrors {
+  double max = 0;
+  tb::MeanError mean;
+
+  void add(double part) {
+    if (!(std::fabs(part) <= max)) max = std::fabs(part);
+    mean.add(part);
+  }
+  void merge(const RelativeErrors& other) {
+    if (!(other.max <= max)) max = other.max;
+    mean.merge(other.mean);
+  }
+};
+
 /// What was found; merging does not depend on the order. Every counter stands in check_counters.
 struct CheckResult {
   std::uint64_t compared = 0;  ///< fragments compared with the truth
@@ -41,8 +58,10 @@ struct CheckResult {
       0;  ///< pixels that the machine drew and the truth does not, or the reverse, or with other flags or facing
   std::uint64_t beyond_bound = 0;  ///< weights beyond weight_bound()
   std::uint64_t beyond_attribute =
-      0;                           ///< attributes further off than the weights' bound allows; saturated ones are exempt
+      0;  ///< fragments with an attribute further off than the weights' bound allows, or saturated wrongly
   std::uint64_t beyond_depth = 0;  ///< the same of window z
+
+  RelativeErrors weight, attribute, depth;
 
   QuantityErrors arithmetic;  ///< the machine against the truth on snapped quads
   QuantityErrors snapping;    ///< the truth on snapped against the truth on given quads
@@ -53,7 +72,7 @@ struct CheckResult {
   std::uint64_t tolerated_depth = 0;    ///< window z within the bound of znear or zfar
   std::uint64_t discarded = 0;          ///< covered pixels rightly discarded by window z
   std::uint64_t bound_exempt =
-      0;  ///< fragments that the bound does not speak of (perspective off, a vertex behind the eye)
+      0;  ///< fragments with a value that no bound speaks of: sum(M W) cancels to what the weights' errors leave of it
 
   // What the fragments were.
   std::uint64_t eye_crossing = 0, homogeneous = 0, on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0,
@@ -149,7 +168,8 @@ class FragmentChecker {
   const CheckResult& result() const { return result_; }
 
  private:
-  struct Reference;
+  class Reference;
+  class FragmentJudge;
 
   void flush_fragments();
   void quads_done(std::size_t end);

@@ -4,8 +4,11 @@
 
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
+#include "tb/check/judged_quad.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace quadrille::cli {
 namespace {
@@ -19,10 +22,15 @@ class Checker : public testing::Test {
     quad.attribute = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
     given_ = {quad};
     snapped_ = {snap_quad(quad, config_, state_)};
+    redraw();
+    ASSERT_GT(fragments_.size(), 500u);
+  }
+
+  void redraw() {
+    fragments_.clear();
     UntimedModel model(config_, state_);
     model.draw(snapped_[0],
                [&](std::span<const Fragment> f) { fragments_.insert(fragments_.end(), f.begin(), f.end()); });
-    ASSERT_GT(fragments_.size(), 500u);
   }
 
   /// `columns`: what the slots carry, weights (0-3) or attributes (from 4).
@@ -89,6 +97,132 @@ TEST_F(Checker, FindsAWrongDepth) {
   // 2^-10 is far beyond what 18-bit weights can do to a depth in [0, 1].
   fragments_[100].depth += 1u << (config_.depth_bits - 10);
   EXPECT_EQ(check(fragments_).beyond_depth, 1u);
+}
+
+TEST_F(Checker, FindsEveryWrongFlag) {
+  for (int bit = 0; bit < 8; ++bit) {
+    auto fragments = fragments_;
+    fragments[100].flags ^= static_cast<std::uint8_t>(1 << bit);
+    EXPECT_EQ(check(fragments).mismatches, 1u) << "bit " << bit;
+    EXPECT_EQ(check(fragments, {4, 5, 6, 7}).mismatches, 1u) << "bit " << bit << " in a later pass";
+  }
+}
+
+TEST_F(Checker, FindsASlotThatIsNotInUse) {
+  fragments_[100].attribute[6] = 1;
+  EXPECT_EQ(check(fragments_).mismatches, 1u);
+}
+
+TEST_F(Checker, FindsADepthThatIsOff) {
+  state_.depth = false;
+  std::vector<Fragment> fragments = fragments_;
+  for (Fragment& fragment : fragments) fragment.depth = 0;
+  EXPECT_TRUE(check(fragments).ok());
+  fragments[100].depth = 1;
+  EXPECT_EQ(check(fragments).mismatches, 1u);
+}
+
+TEST_F(Checker, FindsWrongSaturation) {
+  const FixedPoint format = attribute_format(config_);
+  // 1.5 times the limit at every corner, of either sign.
+  for (SnappedVertex& v : snapped_[0].vertex)
+    for (std::size_t slot = 0; slot < 2; ++slot) {
+      v.attribute[slot] = v.k;
+      v.attribute[slot].neg = slot == 1;
+      v.attribute[slot].exp += config_.attribute_int_bits;
+      v.attribute[slot].sig = v.k.sig + v.k.sig / 2;
+      if (v.attribute[slot].sig >> config_.significand_bits != 0) {
+        v.attribute[slot].sig >>= 1;
+        ++v.attribute[slot].exp;
+      }
+    }
+  redraw();
+  const std::vector<int> columns{4, 5, 6, 7};
+  EXPECT_TRUE(check(fragments_, columns).ok());
+  const auto faulty = [&](auto&& change) {
+    std::vector<Fragment> fragments = fragments_;
+    change(fragments[100]);
+    return check(fragments, columns);
+  };
+  EXPECT_EQ(faulty([](Fragment& f) { --f.attribute[0]; }).beyond_attribute, 1u) << "not the limit";
+  EXPECT_EQ(faulty([](Fragment& f) { ++f.attribute[1]; }).beyond_attribute, 1u) << "not the negative limit";
+  EXPECT_EQ(faulty([](Fragment& f) { --f.attribute[1]; }).beyond_attribute, 1u) << "beyond the negative limit";
+  EXPECT_EQ(faulty([](Fragment& f) { f.attribute[0] *= -1; }).beyond_attribute, 1u) << "the wrong limit";
+  EXPECT_EQ(faulty([](Fragment& f) { f.flags ^= flag_saturated; }).mismatches, 1u) << "not flagged";
+  EXPECT_EQ(faulty([&](Fragment& f) { f.attribute[2] = format.largest_code(); }).beyond_attribute, 1u) << "far below";
+}
+
+TEST_F(Checker, FindsWhatIsOffByOneAtACorner) {
+  // Only the upper left corner of a square at pixel centres is covered.
+  given_[0].vertex = {{{10.5, 8.5, 0.3, 1}, {40.5, 8.5, 1, 1}, {40.5, 30.5, 0.5, 1}, {10.5, 30.5, 0.75, 1}}};
+  given_[0].attribute = {{{-0.3, 0.1, 0, 1}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+  snapped_ = {snap_quad(given_[0], config_, state_)};
+  redraw();
+  const std::vector<int> columns{4, 5, 6, 7};
+  EXPECT_TRUE(check(fragments_, columns).ok());
+  const auto at =
+      std::find_if(fragments_.begin(), fragments_.end(), [](const Fragment& f) { return f.x == 10 && f.y == 8; });
+  ASSERT_NE(at, fragments_.end());
+  --at->attribute[0];
+  EXPECT_EQ(check(fragments_, columns).mismatches, 1u) << "rounded away from zero";
+  ++at->attribute[0];
+  ++at->depth;
+  EXPECT_EQ(check(fragments_, columns).mismatches, 1u);
+}
+
+TEST_F(Checker, FindsPixelsOnTheWrongSideOfTheDepthLimits) {
+  given_[0].vertex = {{{10.5, 8.5, 0.25, 1}, {40.5, 8.5, 0.5, 1}, {40.5, 30.5, 0.5, 1}, {10.5, 30.5, 0.5, 1}}};
+  snapped_ = {snap_quad(given_[0], config_, state_)};
+  const auto missing = [&](double znear, double zfar) {
+    state_.znear = znear;
+    state_.zfar = zfar;
+    redraw();
+    EXPECT_TRUE(check(fragments_).ok());
+    std::vector<Fragment> fragments = fragments_;
+    std::erase_if(fragments, [](const Fragment& f) { return f.x == 10 && f.y == 8; });
+    EXPECT_EQ(fragments.size() + 1, fragments_.size());
+    return check(fragments).mismatches;
+  };
+  EXPECT_EQ(missing(0.25, 1), 1u) << "z = znear is drawn";
+  for (WindowVertex& v : given_[0].vertex) v.z = 0.5 - v.z / 2;  // 3/8 at the corner, 1/4 at the others
+  snapped_ = {snap_quad(given_[0], config_, state_)};
+  EXPECT_EQ(missing(0, 0.375), 1u) << "z = zfar is drawn";
+
+  // The same fragments, but the least code inside is now beyond what they have.
+  state_.zfar = 0.375 - std::ldexp(1.0, -config_.depth_bits);
+  EXPECT_GE(check(fragments_).mismatches, 1u);
+}
+
+TEST_F(Checker, FindsASumWithTheWrongSign) {
+  // Without perspective and with a vertex behind the eye: sum(M W) = 2.8, |sum|(|M W|) 1.1 times that.
+  state_.perspective = false;
+  given_[0].vertex = {{{10, 8, 0.25, 1}, {40, 8, 0.25, 1}, {44, 50, 0.25, 1}, {-200, -800, -0.5, -16}}};
+  snapped_ = {snap_quad(given_[0], config_, state_)};
+  redraw();
+  const CheckResult good = check(fragments_);
+  EXPECT_TRUE(good.ok());
+  ASSERT_GT(good.compared, 100u);
+  EXPECT_LT(good.bound_exempt, good.compared / 10);
+  fragments_[100].attribute[1] = -fragments_[100].attribute[1];
+  EXPECT_EQ(check(fragments_).beyond_bound, 1u);
+}
+
+TEST_F(Checker, FindsAPixelOfAQuadAtInfinity) {
+  // Every w is 0, so is sum(M w): nothing of it is in front of the eye.
+  state_.depth = false;
+  const auto at = [&](int x, int y) {
+    SnappedVertex v;
+    v.x = x, v.y = y, v.w = 0;
+    v.k = {false, 0, 1u << (config_.significand_bits - 1)};
+    return v;
+  };
+  snapped_[0].vertex = {at(1000, 0), at(0, 1000), at(-1000, -500), at(300, -1000)};
+  redraw();
+  EXPECT_TRUE(fragments_.empty());
+  Fragment fragment;
+  fragment.x = 5, fragment.y = 6;
+  fragment.flags = flag_homogeneous;
+  EXPECT_EQ(check({fragment}).mismatches, 1u);
 }
 
 TEST_F(Checker, NothingComparedIsNotAPass) { EXPECT_FALSE(check({}).ok()); }

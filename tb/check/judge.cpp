@@ -1,7 +1,8 @@
 #include "tb/check/judge.hpp"
 
+#include "golden/reference/port_number.hpp"
+
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 
 namespace quadrille::cli {
@@ -29,24 +30,15 @@ CheckResult judge_pass(std::span<const WindowQuad> given, std::span<const Snappe
   return checker.result();
 }
 
-/// W, in units of 2^-frac, to nearest on S bits, halves up.
-PortNumber port_of_w(std::int32_t w, const Config& config) {
-  if (w == 0) return {};
-  const int s = config.significand_bits;
-  int exponent = 0;
-  const double fraction = std::frexp(std::fabs(static_cast<double>(w)), &exponent);  // in [1/2, 1)
-  auto sig = static_cast<std::uint32_t>(std::lround(std::ldexp(fraction, s)));
-  if (sig >> s) sig >>= 1, ++exponent;
-  return {w < 0, exponent - 1 - config.frac(), sig};
-}
-
 SnappedQuad with_weights(SnappedQuad quad, const Pass& pass, const Config& config, const DrawState& state) {
   for (std::size_t i = 0; i < 4; ++i) {
     SnappedVertex& v = quad.vertex[i];
     v.attribute = {};
     for (std::size_t slot = 0; slot < pass.columns.size(); ++slot)
       if (pass.columns[slot] == static_cast<int>(i))
-        v.attribute[slot] = state.perspective ? v.k : port_of_w(v.w, config);
+        v.attribute[slot] = state.perspective
+                                ? v.k
+                                : golden::nearest_port_number(std::ldexp(v.w, -config.frac()), config.significand_bits);
   }
   return quad;
 }

@@ -72,4 +72,24 @@ class ErrorStats {
   Wide sum_ = 0, squares_ = 0;  ///< in units of 2^-frac, each term truncated: exact addition, any order
 };
 
+/// Mean of signed errors: what truncation does on the average, which maxima do not show. Adding is exact, in any order.
+class MeanError {
+ public:
+  /// |error| is taken as at most 2^20; NaN adds nothing but to the count.
+  void add(double error) {
+    ++count_;
+    if (!std::isnan(error)) sum_ += static_cast<__int128>(std::ldexp(std::clamp(error, -0x1p20, 0x1p20), frac));
+  }
+  void merge(const MeanError& other) { sum_ += other.sum_, count_ += other.count_; }
+  std::uint64_t count() const { return count_; }
+  double mean() const {
+    return count_ == 0 ? 0 : std::ldexp(static_cast<double>(sum_), -frac) / static_cast<double>(count_);
+  }
+
+ private:
+  static constexpr int frac = 60;
+  __int128 sum_ = 0;  ///< in units of 2^-frac, each term truncated
+  std::uint64_t count_ = 0;
+};
+
 }  // namespace quadrille::tb
