@@ -1,0 +1,200 @@
+#include "tb/mutants/scenario.hpp"
+
+#include "golden/scenes/corner_quads.hpp"
+#include "golden/scenes/random_quads.hpp"
+#include "model/snap.hpp"
+#include "model/support/prng.hpp"
+
+#include <cmath>
+#include <functional>
+
+namespace quadrille::tb {
+namespace {
+
+/// Everything exact, few bits.
+Config exact() {
+  Config config;
+  config.set("significand_bits", 12);
+  return config;
+}
+
+/// What the other has not: bits of D and r² dropped, no cure of notches, buffers of the least size, other widths.
+Config reduced() {
+  Config config;
+  config.set("significand_bits", 15);
+  config.set("quadratic_frac_bits", 8);
+  config.set("notch_exact", 0);
+  config.set("tile_log2", 2);
+  config.set("quad_slots_log2", 1);
+  config.set("tile_slots_log2", 1);
+  config.set("stamp_fifo_log2", 1);
+  config.set("attribute_slots", 3);
+  config.set("depth_bits", 16);
+  return config;
+}
+
+LockstepOptions options(const Config& config, int edge) {
+  LockstepOptions o;
+  o.config = config;
+  o.state = small_state(config, edge);
+  o.seed = 5;
+  o.watchdog = 20'000;
+  return o;
+}
+
+using Draw = std::function<WindowQuad(golden::Prng&)>;
+
+/// `count` quads that snapping takes, of what `draw` draws.
+std::vector<SnappedQuad> drawn(const LockstepOptions& o, std::uint64_t seed, int count, const Draw& draw) {
+  golden::Prng random(seed, 17);
+  std::vector<SnappedQuad> quads;
+  while (static_cast<int>(quads.size()) < count) {
+    WindowQuad quad = draw(random);
+    quad.id = static_cast<std::uint32_t>(quads.size());
+    for (auto& list : quad.attribute)  // slots that are not in use too
+      for (int j = 0; j < o.config.attribute_slots; ++j) list.push_back(random.uniform(-7.9, 7.9));
+    try {
+      quads.push_back(snap_quad(quad, o.config, o.state));
+    } catch (const SnapError&) {  // no point of the machine's space: draw another
+    }
+  }
+  return quads;
+}
+
+/// Corners on the pixel centres of a square of `edge` pixels: ties, collinear and coincident corners, crossings. Each w
+/// is one of `w`, a power of two with sign: positions stay exact.
+WindowQuad on_grid(golden::Prng& random, int edge, std::span<const double> w) {
+  WindowQuad quad;
+  const double left = static_cast<double>(random.below(8)), top = static_cast<double>(random.below(8));
+  for (WindowVertex& v : quad.vertex) {
+    v.w = w[random.below(w.size())];
+    v.x = (left + static_cast<double>(random.below(static_cast<std::uint64_t>(edge))) + 0.5) * v.w;
+    v.y = (top + static_cast<double>(random.below(static_cast<std::uint64_t>(edge))) + 0.5) * v.w;
+    v.z = random.uniform(0.05, 0.95) * v.w;
+  }
+  return quad;
+}
+
+bool corners_meet(const WindowQuad& quad) {
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const WindowVertex &a = quad.vertex[i], &b = quad.vertex[j];
+      if (a.x * b.w == b.x * a.w && a.y * b.w == b.y * a.w) return true;
+    }
+  return false;
+}
+
+/// A strip of one or two pixels from the upper to the lower end of the viewport, or from left to right.
+WindowQuad strip(golden::Prng& random, double edge) {
+  WindowQuad quad;
+  const double a = random.uniform(0, edge), b = random.uniform(0, edge), width = random.uniform(0.5, 2);
+  const double along[4] = {1, 1, edge - 1, edge - 1}, across[4] = {a, a + width, b + width, b};
+  const bool upright = random.chance(0.7);
+  for (std::size_t i = 0; i < 4; ++i) {
+    WindowVertex& v = quad.vertex[i];
+    v = {across[i], along[i], random.uniform(0.1, 0.9), 1};
+    if (!upright) std::swap(v.x, v.y);
+  }
+  return quad;
+}
+
+Scenario mixture() {
+  LockstepOptions o = options(exact(), 64);
+  o.state.scissor_x0 = 1;
+  o.state.scissor_y1 -= 3;
+  o.state.scissor_x1 -= 3;  // not on a tile's border
+  o.stall = 0.3;
+  o.gap = 0.1;
+  return {"mixture", o, random_quads(o.config, o.state, 31, 300)};
+}
+
+Scenario flat() {
+  LockstepOptions o = options(exact(), 64);
+  o.state.perspective = false;
+  o.state.cull = Cull::back;
+  o.state.attributes = 2;
+  o.state.znear = 0.25;
+  o.state.zfar = 0.75;
+  o.stall = 0.1;
+  return {"flat", o, random_quads(o.config, o.state, 32, 250)};
+}
+
+Scenario grid() {
+  LockstepOptions o = options(exact(), 16);
+  static constexpr double w[]{1, 0.5, 2, 4};
+  return {"grid", o, drawn(o, 1, 500, [](golden::Prng& random) { return on_grid(random, 5, w); })};
+}
+
+Scenario signed_grid() {
+  LockstepOptions o = options(exact(), 16);
+  static constexpr double w[]{1, -1, 2, -0.5};
+  return {"signed grid", o, drawn(o, 2, 500, [](golden::Prng& random) { return on_grid(random, 4, w); })};
+}
+
+Scenario flat_signed_grid() {
+  LockstepOptions o = options(exact(), 16);
+  o.state.perspective = false;
+  o.state.cull = Cull::front;
+  static constexpr double w[]{1, -1, 0.25, -0.5};
+  // Without perspective a pixel on two corners of which one is behind the eye has no interpolation to be held to.
+  return {"flat signed grid", o, drawn(o, 3, 500, [](golden::Prng& random) {
+            WindowQuad quad = on_grid(random, 4, w);
+            while (corners_meet(quad)) quad = on_grid(random, 4, w);
+            return quad;
+          })};
+}
+
+/// Window z exactly on the limits: powers of two, all corners alike.
+Scenario depth_limits() {
+  LockstepOptions o = options(exact(), 16);
+  o.state.znear = 0.25;
+  o.state.zfar = 0.5;
+  return {"depth limits", o, drawn(o, 4, 200, [](golden::Prng& random) {
+            static constexpr double w[]{1}, depths[]{0.25, 0.5, 0, -0.0009765625};
+            WindowQuad quad = on_grid(random, 5, w);
+            const double z = depths[random.below(4)];
+            for (WindowVertex& v : quad.vertex) v.z = random.chance(0.9) ? z : -z;
+            return quad;
+          })};
+}
+
+/// Beyond four blocks in both directions.
+Scenario wide() {
+  LockstepOptions o = options(exact(), 400);
+  o.state.attributes = 1;
+  return {"wide", o, drawn(o, 6, 12, [](golden::Prng& random) { return strip(random, 400); })};
+}
+
+Scenario dropped_bits() {
+  LockstepOptions o = options(reduced(), 64);
+  o.stall = 0.3;
+  return {"dropped bits", o, random_quads(o.config, o.state, 33, 200)};
+}
+
+Scenario dropped_bits_signed() {
+  LockstepOptions o = options(reduced(), 16);
+  o.state.perspective = false;
+  o.gap = 0.3;
+  static constexpr double w[]{1, -1, 0.25, -0.5};
+  return {"dropped bits, signed grid", o, drawn(o, 7, 300, [](golden::Prng& random) { return on_grid(random, 4, w); })};
+}
+
+}  // namespace
+
+std::span<const Scenario> scenarios() {
+  static const std::vector<Scenario> list = [] {
+    std::vector<Scenario> all{mixture(),      flat(), grid(),         signed_grid(),        flat_signed_grid(),
+                              depth_limits(), wide(), dropped_bits(), dropped_bits_signed()};
+    for (const Config& config : {exact(), reduced()})
+      for (golden::CornerDraw& draw : golden::corner_draws(config, 11)) {
+        LockstepOptions o = options(config, draw.state.width);
+        o.state = draw.state;
+        o.stall = draw.stall;
+        all.push_back({(config == exact() ? "" : "reduced, ") + std::string(draw.group), o, std::move(draw.quads)});
+      }
+    return all;
+  }();
+  return list;
+}
+
+}  // namespace quadrille::tb
