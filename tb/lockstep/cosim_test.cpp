@@ -1,6 +1,10 @@
 // The RTL and the clocked model in lockstep, and the RTL's configuration against the C++ side's.
 #include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/random_quads.hpp"
+#include "golden/scenes/random_state.hpp"
+#include "golden/scenes/stress.hpp"
+#include "model/snap.hpp"
+#include "model/support/prng.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/lockstep.hpp"
 
@@ -184,6 +188,36 @@ TEST_P(Configuration, LockstepOnCornerQuads) {
     total += report.fragments;
   }
   EXPECT_GT(total, 5000u);
+  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
+}
+
+TEST_P(Configuration, LockstepInRandomDrawStates) {
+  LockstepOptions options;
+  options.config = GetParam().config();
+  VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
+  constexpr std::array<double, 4> stalls{0, 0.1, 0.5, 0.95};
+  std::uint64_t total = 0;
+  for (std::uint64_t seed = 700; seed < 740; ++seed) {
+    golden::Prng rng(seed);
+    const auto families = golden::stress_families();
+    const golden::StressFamilyInfo& family = families[rng.below(families.size())];
+    const bool high = rng.chance(0.25);  // many rows of blocks
+    const int width = static_cast<int>(rng.integer(16, 72));
+    const int height = static_cast<int>(high ? rng.integer(257, 400) : rng.integer(16, 72));
+    const std::vector<WindowQuad> given =
+        golden::make_stress(family.family, 8, seed, 1, width, height, options.config.attribute_slots);
+    options.state = golden::random_draw_state(options.config, width, height, given, seed);
+    options.stall = stalls[rng.below(stalls.size())];
+    options.gap = rng.chance(0.5) ? 0 : 0.5;
+    options.limit_fragments = options.stall > 0.9 ? 300 : 3000;
+    options.seed = seed;
+    std::vector<SnappedQuad> quads;
+    for (const WindowQuad& quad : given) quads.push_back(snap_quad(quad, options.config, options.state));
+    const LockstepReport report = run_lockstep(device, quads, options);
+    ASSERT_TRUE(report.agreed()) << family.name << ", seed " << seed << ": " << report.first_divergence.value_or("");
+    total += report.fragments;
+  }
+  EXPECT_GT(total, 10000u);
   std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
 }
 

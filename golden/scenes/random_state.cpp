@@ -1,0 +1,72 @@
+#include "golden/scenes/random_state.hpp"
+
+#include "model/support/prng.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+namespace quadrille::golden {
+namespace {
+
+constexpr std::uint64_t stream = 200;
+
+/// A half-open part of 0 … size that is at least a quarter of it.
+std::pair<int, int> random_part(Prng& rng, int size) {
+  const auto length = static_cast<int>(rng.integer((size + 3) / 4, size));
+  const auto first = static_cast<int>(rng.integer(0, size - length));
+  return {first, first + length};
+}
+
+/// Window z of a vertex as the machine gives it at a pixel on that vertex alone: rounded to S bits at the port,
+/// truncated to the depth format at the output.
+double corner_depth(const WindowVertex& v, const Config& config) {
+  int exponent = 0;
+  const double fraction = std::frexp(v.z / v.w, &exponent);
+  const int s = config.significand_bits;
+  const double port = std::ldexp(std::nearbyint(std::ldexp(fraction, s)), exponent - s);
+  return std::ldexp(std::floor(std::ldexp(port, config.depth_bits)), -config.depth_bits);
+}
+
+/// A limit of window z: that of some corner, or any number.
+double random_limit(Prng& rng, std::span<const WindowQuad> quads, const Config& config) {
+  if (!quads.empty() && rng.chance(0.5)) {
+    constexpr int tries = 16;
+    for (int i = 0; i < tries; ++i) {
+      const WindowQuad& quad = quads[rng.below(quads.size())];
+      const WindowVertex& v = quad.vertex[rng.below(4)];
+      if (v.w > 0 && v.z >= 0 && v.z <= v.w) return corner_depth(v, config);
+    }
+  }
+  return rng.uniform();
+}
+
+}  // namespace
+
+DrawState random_draw_state(const Config& config, int width, int height, std::span<const WindowQuad> quads,
+                            std::uint64_t seed) {
+  Prng rng(seed, stream);
+  DrawState state;
+  state.width = state.scissor_x1 = width;
+  state.height = state.scissor_y1 = height;
+  if (rng.chance(0.5)) {
+    std::tie(state.scissor_x0, state.scissor_x1) = random_part(rng, width);
+    std::tie(state.scissor_y0, state.scissor_y1) = random_part(rng, height);
+  }
+  if (rng.chance(0.5)) state.cull = rng.chance(0.5) ? Cull::front : Cull::back;
+  state.perspective = rng.chance(0.5);
+  state.depth = rng.chance(0.75);  // without depth there are no limits
+  if (rng.chance(0.5)) state.znear = random_limit(rng, quads, config);
+  if (rng.chance(0.5)) state.zfar = random_limit(rng, quads, config);
+  if (state.znear > state.zfar) std::swap(state.znear, state.zfar);
+  if (rng.chance(0.5))
+    state.attributes = static_cast<int>(rng.integer(1, config.attribute_slots));
+  else
+    state.attributes = config.attribute_slots;
+  if (rng.chance(0.25)) state.skip &= ~std::uint32_t{skip_hierarchical_tiles};
+  return state;
+}
+
+}  // namespace quadrille::golden

@@ -1,0 +1,71 @@
+#include "golden/scenes/random_state.hpp"
+
+#include "golden/scenes/random_quads.hpp"
+#include "golden/scenes/stress.hpp"
+#include "model/snap.hpp"
+#include "model/stages.hpp"
+#include "model/untimed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+namespace quadrille::golden {
+namespace {
+
+TEST(RandomState, IsAValidStateAndEveryKindOccurs) {
+  const Config config;
+  std::map<std::string, int> kinds;
+  constexpr int seeds = 400;
+  for (int seed = 0; seed < seeds; ++seed) {
+    const DrawState s = random_draw_state(config, 60, 300, {}, static_cast<std::uint64_t>(seed));
+    EXPECT_TRUE(0 <= s.scissor_x0 && s.scissor_x0 + 15 <= s.scissor_x1 && s.scissor_x1 <= 60) << seed;
+    EXPECT_TRUE(0 <= s.scissor_y0 && s.scissor_y0 + 75 <= s.scissor_y1 && s.scissor_y1 <= 300) << seed;
+    EXPECT_TRUE(0 <= s.znear && s.znear <= s.zfar && s.zfar <= 1) << seed;
+    EXPECT_TRUE(1 <= s.attributes && s.attributes <= config.attribute_slots) << seed;
+    EXPECT_EQ(s.width, 60);
+    EXPECT_EQ(s.height, 300);
+    kinds["scissor"] += s.scissor_x1 - s.scissor_x0 < 60 || s.scissor_y1 - s.scissor_y0 < 300;
+    kinds["cull front"] += s.cull == Cull::front;
+    kinds["cull back"] += s.cull == Cull::back;
+    kinds["no perspective"] += !s.perspective;
+    kinds["no depth"] += !s.depth;
+    kinds["znear"] += s.depth && s.znear > 0;
+    kinds["zfar"] += s.depth && s.zfar < 1;
+    kinds["fewer attributes"] += s.attributes < config.attribute_slots;
+    kinds["no tile skip"] += (s.skip & skip_hierarchical_tiles) == 0;
+  }
+  for (const auto& [kind, count] : kinds) {
+    EXPECT_GT(count, seeds / 8) << kind;
+    EXPECT_LT(count, seeds * 3 / 4) << kind;
+  }
+  const DrawState a = random_draw_state(config, 60, 300, {}, 7), b = random_draw_state(config, 60, 300, {}, 7);
+  EXPECT_EQ(a.znear, b.znear);
+  EXPECT_EQ(a.scissor_x1, b.scissor_x1);
+}
+
+/// A limit taken from a corner is met exactly by the machine's fragment at that corner.
+TEST(RandomState, LimitsMeetTheDepthOfCorners) {
+  const Config config;
+  const std::vector<WindowQuad> quads = make_stress(StressFamily::on_vertex, 30, 1, 1, 64, 64, 1);
+  int met = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    DrawState state = random_draw_state(config, 64, 64, quads, seed);
+    state.attributes = 1;
+    if (!state.depth) continue;
+    const std::uint32_t znear = depth_code(state.znear, config), zfar = depth_code(state.zfar, config);
+    UntimedModel model(config, state);
+    for (const WindowQuad& quad : quads) {
+      model.draw(snap_quad(quad, config, state), [&](std::span<const Fragment> fragments) {
+        for (const Fragment& f : fragments)
+          met += (f.flags & flag_on_vertex) != 0 &&
+                 ((state.znear > 0 && f.depth == znear) || (state.zfar < 1 && f.depth == zfar));
+      });
+    }
+  }
+  EXPECT_GE(met, 5);
+}
+
+}  // namespace
+}  // namespace quadrille::golden
