@@ -61,6 +61,13 @@ DrawState random_draw_state(const Config& config, int width, int height, std::sp
   if (rng.chance(0.5)) state.znear = random_limit(rng, quads, config);
   if (rng.chance(0.5)) state.zfar = random_limit(rng, quads, config);
   if (state.znear > state.zfar) std::swap(state.znear, state.zfar);
+  constexpr double least_interval = 0.25;  // so that most quads leave some fragments
+  if (state.zfar - state.znear < least_interval) {
+    if (state.znear < 1 - state.zfar)
+      state.zfar = 1;
+    else
+      state.znear = 0;
+  }
   if (rng.chance(0.5))
     state.attributes = static_cast<int>(rng.integer(1, config.attribute_slots));
   else

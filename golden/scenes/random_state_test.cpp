@@ -22,7 +22,7 @@ TEST(RandomState, IsAValidStateAndEveryKindOccurs) {
     const DrawState s = random_draw_state(config, 60, 300, {}, static_cast<std::uint64_t>(seed));
     EXPECT_TRUE(0 <= s.scissor_x0 && s.scissor_x0 + 15 <= s.scissor_x1 && s.scissor_x1 <= 60) << seed;
     EXPECT_TRUE(0 <= s.scissor_y0 && s.scissor_y0 + 75 <= s.scissor_y1 && s.scissor_y1 <= 300) << seed;
-    EXPECT_TRUE(0 <= s.znear && s.znear <= s.zfar && s.zfar <= 1) << seed;
+    EXPECT_TRUE(0 <= s.znear && s.znear + 0.25 <= s.zfar && s.zfar <= 1) << seed;
     EXPECT_TRUE(1 <= s.attributes && s.attributes <= config.attribute_slots) << seed;
     EXPECT_EQ(s.width, 60);
     EXPECT_EQ(s.height, 300);

@@ -121,7 +121,7 @@ class ErrorCommand {
   }
 
   void add(const char* kind, const InputOptions& input_options) {
-    const DrawInput input = load_input(input_options, "", state_.width, state_.height, common_.seed);
+    const DrawInput input = load_input(input_options, "", state_, config_, common_.seed);
     ErrorBench::Settings settings;
     settings.config = config_;
     settings.state = state_;
@@ -308,7 +308,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
                         "families. --size is 128x128 unless it is given");
   options->input.add_to(*command);
   for (const char* input : {"--scene", "--mesh", "--camera", "--view", "--up", "--save-camera", "--quads", "--stress",
-                            "--count", "--strict"})
+                            "--count", "--corner", "--strict"})
     command->get_option(input)->needs(error);
   speed.common.add_to(*command);
   command->add_option("--repeat", options->repeat, "Runs of each; default 5, with --error 3")

@@ -75,7 +75,8 @@ Scene load_scene(const CompareOptions& options, int width, int height) {
   scene.settings.state = options.state.state(common, scene.settings.config);
   scene.settings.threads = common.thread_count();
   scene.settings.snap = false;
-  scene.input = load_input(options.input, shade_of(options.shade, options.texture), width, height, common.seed);
+  scene.input = load_input(options.input, shade_of(options.shade, options.texture), scene.settings.state,
+                           scene.settings.config, common.seed);
   scene.settings.state.perspective = scene.settings.state.perspective && scene.input.perspective;
   scene.shading.shade = scene.input.shade;
   scene.shading.slots = shade_slots(scene.input.shade, scene.input);

@@ -4,6 +4,7 @@
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
+#include "golden/scenes/random_state.hpp"
 #include "model/snap.hpp"
 #include "tb/check/check.hpp"
 #include "tb/device/verilate.hpp"
@@ -17,6 +18,7 @@
 #include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -31,7 +33,8 @@ struct CosimOptions {
   InputOptions input;
   double stall = 0, gap = 0;
   std::uint64_t limit_fragments = 0;
-  std::string trace, out, png, texture, shade, rtl;
+  int attributes = 0;  ///< in use per pass; 0: all slots
+  std::string draw_state, trace, out, png, texture, shade, rtl;
   bool no_snapping = false, no_alone = false;
 };
 
@@ -40,11 +43,13 @@ constexpr std::uint64_t alone_fragments = 200'000;  ///< enough to time the RTL 
 /// One input: what ran and what was found.
 struct InputResult {
   std::string name, option;
+  std::string state;  ///< the options that give the draw state
   std::uint64_t quads = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
   std::uint64_t quads_drawn = 0, eye_crossing_quads = 0, homogeneous_quads = 0, antipodal_quads = 0, tiny_quads = 0;
   std::uint64_t passes = 0, fragments = 0, pixels = 0, mismatches = 0, cycles_rtl = 0, cycles_model = 0,
                 cycle_mismatches = 0, compared_bits = 0;
-  std::uint64_t pass_cycles = 0;  ///< of all passes
+  std::uint64_t pass_cycles = 0;     ///< of all passes
+  std::uint64_t at_depth_limit = 0;  ///< fragments whose depth is exactly znear or zfar (where not 0 and 1)
   std::uint64_t alone_cycles = 0;
   double alone_seconds = 0, seconds = 0, loop_seconds = 0;
   bool complete = true;
@@ -71,10 +76,11 @@ constexpr Metric cycle_metrics[]{
     {"cycles_all_passes", &InputResult::pass_cycles}, {"cycles_rtl", &InputResult::cycles_rtl},
     {"cycles_model", &InputResult::cycles_model},     {"cycle_mismatches", &InputResult::cycle_mismatches},
     {"compared_bits", &InputResult::compared_bits},   {"covered_pixels", &InputResult::pixels}};
-constexpr Metric quad_metrics[]{{"eye_crossing_quads", &InputResult::eye_crossing_quads},
-                                {"homogeneous_quads", &InputResult::homogeneous_quads},
-                                {"antipodal_quads", &InputResult::antipodal_quads},
-                                {"tiny_quads", &InputResult::tiny_quads}};
+constexpr Metric count_metrics[]{{"eye_crossing_quads", &InputResult::eye_crossing_quads},
+                                 {"homogeneous_quads", &InputResult::homogeneous_quads},
+                                 {"antipodal_quads", &InputResult::antipodal_quads},
+                                 {"tiny_quads", &InputResult::tiny_quads},
+                                 {"at_depth_limit", &InputResult::at_depth_limit}};
 
 template <class Owner>
 void put_counters(nlohmann::ordered_json& json, const Owner& owner,
@@ -83,7 +89,8 @@ void put_counters(nlohmann::ordered_json& json, const Owner& owner,
 }
 
 void merge(InputResult& sum, const InputResult& part) {
-  for (const std::span<const Metric> metrics : {std::span<const Metric>(draw_metrics), {cycle_metrics}, {quad_metrics}})
+  for (const std::span<const Metric> metrics :
+       {std::span<const Metric>(draw_metrics), {cycle_metrics}, {count_metrics}})
     add_counters(sum, part, metrics);
   sum.alone_cycles += part.alone_cycles;
   sum.alone_seconds += part.alone_seconds;
@@ -136,6 +143,7 @@ class CosimRun {
     for (const InputResult& result : results) merge(total, result);
     total.name = results.size() == 1 ? results.front().name : "all";
     total.option = results.size() == 1 ? results.front().option : "--scene all";
+    if (results.size() == 1) total.state = results.front().state;
 
     const bool ok = std::all_of(results.begin(), results.end(), [](const InputResult& r) { return r.ok(); });
     if (std::FILE* text = options_.common.text()) print_summary(text, total, ok);
@@ -147,6 +155,16 @@ class CosimRun {
   void check_options() const {
     probability("--stall", options_.stall);
     probability("--gap", options_.gap);
+    if (options_.attributes > config_.attribute_slots)
+      throw UsageError("--attributes " + std::to_string(options_.attributes) + ": attribute_slots is " +
+                       std::to_string(config_.attribute_slots));
+    if (!options_.draw_state.empty()) {
+      drawn_state_seed();
+      const std::string given = options_.state.spelled() +
+                                (options_.attributes > 0 ? " --attributes " + std::to_string(options_.attributes) : "");
+      if (!given.empty())
+        throw UsageError("--draw-state " + options_.draw_state + " draws what" + given + " sets; give one of them");
+    }
     std::vector<std::string> read = options_.input.files();
     read.insert(read.end(), {options_.common.config_file, options_.texture});
     check_outputs({options_.trace, options_.out, options_.png, options_.input.save_camera, options_.common.json}, read);
@@ -161,6 +179,18 @@ class CosimRun {
   static bool holds_verilog(const std::string& directory) {
     return std::ranges::any_of(std::filesystem::directory_iterator(directory),
                                [](const auto& entry) { return entry.path().extension() == ".sv"; });
+  }
+
+  /// The seed of --draw-state: after the colon, or the command's.
+  std::uint64_t drawn_state_seed() const {
+    const std::string& text = options_.draw_state;
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    std::uint64_t seed = options_.common.seed;
+    const char *first = text.data() + colon + 1, *last = text.data() + text.size();
+    const bool good = colon == text.size() || (first != last && std::from_chars(first, last, seed).ptr == last);
+    if (text.substr(0, colon) != "random" || !good)
+      throw UsageError("--draw-state " + text + ": expected random or random:SEED");
+    return seed;
   }
 
   bool all_scenes() const { return inputs_given(options_.input) == 0 || options_.input.scene == "all"; }
@@ -179,15 +209,26 @@ class CosimRun {
   InputResult run_input(const InputOptions& input_options) {
     const tb::Stopwatch start;
     DrawState state = options_.state.state(options_.common, config_);
-    const DrawInput input = load_input(input_options, shade_of(options_.shade, options_.texture), state.width,
-                                       state.height, options_.common.seed);
+    int slots = options_.attributes > 0 ? options_.attributes : config_.attribute_slots;
+    const auto load = [&] {
+      return load_input(input_options, shade_of(options_.shade, options_.texture), state, config_,
+                        options_.common.seed);
+    };
+    DrawInput input = load();
     print_remark(input, options_.common);
+    if (!options_.draw_state.empty()) {
+      state = golden::random_draw_state(config_, state.width, state.height, input.quads, drawn_state_seed());
+      slots = state.attributes;
+      if (!input_options.corner.empty()) input = load();  // corner quads may depend on the state
+    }
     state.perspective = state.perspective && input.perspective;
     check_quad_count(input.quads.size(), config_);
 
     InputResult result;
     result.name = input.name;
     result.option = input.option;
+    result.state = StateOptions::of(state).spelled();
+    if (slots < config_.attribute_slots) result.state += " --attributes " + std::to_string(slots);
     result.quads = input.quads.size();
     result.triangles = input.triangles;
     result.fanned_faces = input.fanned_faces;
@@ -207,10 +248,10 @@ class CosimRun {
     }
 
     // The weights first, then the attributes of the input in passes of their own.
-    std::vector<Pass> passes = plan_passes(0, true, config_);
+    std::vector<Pass> passes = plan_passes(0, true, slots);
     const std::size_t weight_passes = passes.size();
     if (input.attributes > 0)
-      for (Pass& pass : plan_passes(input.attributes, false, config_)) passes.push_back(std::move(pass));
+      for (Pass& pass : plan_passes(input.attributes, false, slots)) passes.push_back(std::move(pass));
 
     // With several weight passes a picture needs whole samples: they are collected in order first.
     std::vector<EngineSample> samples;
@@ -272,8 +313,12 @@ class CosimRun {
     FragmentChecker checker(check_settings, input.quads, snapped, queue);
 
     std::size_t position = 0;
+    const std::uint32_t znear = depth_code(state.znear, config_), zfar = depth_code(state.zfar, config_);
     const tb::LockstepReport report = tb::run_lockstep(snapped, lockstep, [&](const Fragment& fragment) {
       checker.fragment(fragment);
+      if (first && state.depth)
+        result.at_depth_limit +=
+            (state.znear > 0 && fragment.depth == znear) || (state.zfar < 1 && fragment.depth == zfar);
       if (frame && fragment.quad < input.quads.size() && fragment.x < state.width && fragment.y < state.height)
         picture(fragment, pass, number, weight_passes, input, *frame, samples, position);
     });
@@ -353,8 +398,9 @@ class CosimRun {
     std::string text = "quadrille fragments --engine model " + result.option;
     if (!options_.common.config_file.empty()) text += " --config " + one(options_.common.config_file);
     for (const std::string& setting : options_.common.settings) text += " --set " + one(setting);
-    text += " --size " + options_.common.size + " --seed " + std::to_string(options_.common.seed) +
-            options_.state.spelled();
+    std::string state = result.state;
+    state.erase(std::min(state.find(" --attributes"), state.size()));  // of the passes here alone
+    text += " --size " + options_.common.size + " --seed " + std::to_string(options_.common.seed) + state;
     return text + " --quad " + std::to_string(worst.place.index) + " --pixel " + std::to_string(worst.place.x) + "," +
            std::to_string(worst.place.y) + " --out -";
   }
@@ -371,6 +417,7 @@ class CosimRun {
     const CheckResult& c = r.check;
     nlohmann::ordered_json json;
     json["input"] = r.name;
+    json["draw_state"] = r.state;
     json["ok"] = r.ok();
     json["complete"] = r.complete;
     put_counters(json, r, draw_metrics);
@@ -393,7 +440,7 @@ class CosimRun {
           {"bound", c.worst.bound},     {"condition", c.worst.condition},  {"error_over_bound", c.worst.ratio}};
       if (r.name != "all") json["worst"]["reproduce"] = reproduce(r, c.worst);
     }
-    put_counters(json["counts"], r, quad_metrics);
+    put_counters(json["counts"], r, count_metrics);
     put_counters(json["counts"], c, fragment_counters);
     if (r.first_divergence) json["first_divergence"] = *r.first_divergence;
     if (c.first.any) json["first_reference_difference"] = c.first.text;
@@ -448,6 +495,7 @@ class CosimRun {
     std::fprintf(out, "\n%s  (%s; seed %llu, stall %g, gap %g; configuration %s)\n\n", r.name.c_str(),
                  options_.common.size.c_str(), static_cast<unsigned long long>(options_.common.seed), options_.stall,
                  options_.gap, summary(config_).c_str());
+    if (!r.state.empty()) std::fprintf(out, "  draw state    %s\n", r.state.c_str());
     print("  lockstep       {quads_drawn} quads, {fragments} fragments, {cycles_rtl} cycles", json);
     std::fputs(r.complete ? "\n" : " (ended early)\n", out);
     if (r.fanned_faces)
@@ -530,6 +578,8 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       "  quadrille cosim --scene fig7_floor --png floor.png\n"
       "  quadrille cosim --mesh pawn.obj --stall 0.5 --gap 0.1 --json report.json\n"
       "  quadrille cosim --stress eye_crossing --count 200 --set significand_bits=24\n"
+      "  quadrille cosim --corner z_limits --znear 0.25 --zfar 0.75 --size 64x64\n"
+      "  quadrille cosim --stress general --draw-state random:7\n"
       "  quadrille cosim --scene sphere --limit-fragments 2000 --trace sphere.fst");
   const auto options = std::make_shared<CosimOptions>();
   options->input.add_to(*command);
@@ -541,6 +591,16 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--gap", options->gap, "Probability per clock that no vertex is offered")
       ->type_name("P")
       ->capture_default_str();
+  command
+      ->add_option("--attributes", options->attributes,
+                   "Attributes in use in one pass; fewer of them make more passes. Default: attribute_slots")
+      ->check(CLI::Range(1, max_attribute_slots))
+      ->type_name("N");
+  command
+      ->add_option("--draw-state", options->draw_state,
+                   "random or random:SEED: draws scissor, culling, perspective, depth, znear, zfar, attributes in use "
+                   "and the tile skip, and says which (default seed: --seed)")
+      ->type_name("random[:SEED]");
   command
       ->add_option("--limit-fragments", options->limit_fragments, "End each input after so many fragments; 0: no limit")
       ->check(whole_number())

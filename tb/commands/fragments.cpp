@@ -50,8 +50,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   read.push_back(options.common.config_file);
   check_outputs({options.out, options.input.save_camera, options.common.json}, read);
 
-  const int width = settings.state.width, height = settings.state.height;
-  DrawInput input = load_input(options.input, options.shade, width, height, options.common.seed);
+  DrawInput input = load_input(options.input, options.shade, settings.state, settings.config, options.common.seed);
   settings.state.perspective = settings.state.perspective && input.perspective;
   if (options.quad >= 0) {
     if (static_cast<std::uint64_t>(options.quad) >= input.quads.size())

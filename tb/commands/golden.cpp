@@ -67,7 +67,7 @@ std::unique_ptr<InputSuite> input_suite(const GenerateCommandOptions& options, c
   CommonOptions common = options.common;
   if (!options.size.empty()) common.size = options.size;
   DrawState state = options.state.state(common, config);
-  DrawInput input = load_input(options.input, options.shade, state.width, state.height, common.seed);
+  DrawInput input = load_input(options.input, options.shade, state, config, common.seed);
   print_remark(input, common);
   state.perspective = state.perspective && input.perspective;
   if (input.attributes == 0) {
@@ -257,7 +257,8 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
       "MB,\n"
       "level 2 about sixty times as much. The same level, seed, limit and configuration give the same bytes\n"
       "everywhere.\n\n"
-      "An input of your own (--scene, --mesh, --quads or --stress) gives one suite, `input`: its vertices as given, "
+      "An input of your own (--scene, --mesh, --quads, --stress or --corner) gives one suite, `input`: its vertices as "
+      "given, "
       "the\n"
       "integers of the port, and fragments with their clocks; all of it unless --limit says less. --size, --shade and "
       "the\n"

@@ -43,8 +43,8 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   read.insert(read.end(), {options.common.config_file, options.texture});
   check_outputs({options.out, options.png, options.input.save_camera, options.common.json}, read);
 
-  const DrawInput input = load_input(options.input, shade_of(options.shade, options.texture), settings.state.width,
-                                     settings.state.height, options.common.seed);
+  const DrawInput input = load_input(options.input, shade_of(options.shade, options.texture), settings.state,
+                                     settings.config, options.common.seed);
   print_remark(input, options.common);
   settings.state.perspective = settings.state.perspective && input.perspective;
   ShadeSettings shading;

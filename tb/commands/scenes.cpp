@@ -3,6 +3,7 @@
 #include "tb/options/command_line.hpp"
 
 #include "golden/io/json_report.hpp"
+#include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
 #include "tb/support/errors.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 struct ScenesOptions {
   std::string json;
-  bool stress = false;
+  bool stress = false, corner = false;
 };
 
 int list(const ScenesOptions& options) {
@@ -28,6 +29,17 @@ int list(const ScenesOptions& options) {
       json.push_back({{"name", family.name}, {"stresses", family.stresses}});
       if (options.json != "-")
         std::printf("%-16s %s\n", std::string(family.name).c_str(), std::string(family.stresses).c_str());
+    }
+    if (!options.json.empty()) golden::save_json(options.json, json);
+    return exit_ok;
+  }
+  if (options.corner) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const golden::CornerGroupInfo& group : golden::corner_groups()) {
+      json.push_back({{"name", group.name}, {"holds", group.holds}, {"needs", group.needs}});
+      if (options.json != "-")
+        std::printf("%-16s %s%s%s\n", std::string(group.name).c_str(), std::string(group.holds).c_str(),
+                    group.needs.empty() ? "" : "; needs ", std::string(group.needs).c_str());
     }
     if (!options.json.empty()) golden::save_json(options.json, json);
     return exit_ok;
@@ -52,14 +64,18 @@ int list(const ScenesOptions& options) {
 
 void add_scenes_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes");
-  command->footer("Examples:\n  quadrille scenes\n  quadrille scenes --json\n  quadrille scenes --stress");
+  command->footer(
+      "Examples:\n  quadrille scenes\n  quadrille scenes --json\n  quadrille scenes --stress\n  quadrille scenes "
+      "--corner");
   const auto options = std::make_shared<ScenesOptions>();
   CLI::Option* json = command
                           ->add_option("--json", options->json,
                                        "Write an array of name, title, paper, quads (- or nothing: standard output)")
                           ->type_name("[F.json]")
                           ->expected(0, 1);
-  command->add_flag("--stress", options->stress, "The stress families instead");
+  CLI::Option* stress = command->add_flag("--stress", options->stress, "The stress families instead");
+  command->add_flag("--corner", options->corner, "The corner groups instead: directed quads of rare cases")
+      ->excludes(stress);
   command->callback([options, json, &invocation] {
     if (json->count() > 0 && options->json.empty()) options->json = "-";
     invocation.run = [options] {

@@ -139,7 +139,7 @@ class SweepRun {
     input_.state = options_.state.state(options_.common, base_);
     InputOptions source = options_.input;
     if (inputs_given(source) == 0) source.scene = standard_scene;
-    draw_ = load_input(source, options_.shade, input_.state.width, input_.state.height, options_.common.seed);
+    draw_ = load_input(source, options_.shade, input_.state, base_, options_.common.seed);
     input_.state.perspective = input_.state.perspective && draw_.perspective;
     if (draw_.attributes > max_attribute_slots)
       throw UsageError(draw_.name + " has " + std::to_string(draw_.attributes) + " attributes; at most " +

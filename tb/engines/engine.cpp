@@ -36,18 +36,22 @@ std::unique_ptr<Engine> make_engine(const EngineSettings& settings) {
   throw std::logic_error("engine kind");
 }
 
-std::vector<Pass> plan_passes(int attributes, bool weights, const Config& config) {
+std::vector<Pass> plan_passes(int attributes, bool weights, int slots) {
   std::vector<int> columns;
   for (int column = weights ? 0 : 4; column < 4 + attributes; ++column) columns.push_back(column);
   std::vector<Pass> passes;
-  const auto slots = static_cast<std::size_t>(config.attribute_slots);
-  for (std::size_t first = 0; first < columns.size(); first += slots) {
+  const auto width = static_cast<std::size_t>(slots);
+  for (std::size_t first = 0; first < columns.size(); first += width) {
     Pass pass;
-    for (std::size_t i = first; i < std::min(columns.size(), first + slots); ++i) pass.columns.push_back(columns[i]);
+    for (std::size_t i = first; i < std::min(columns.size(), first + width); ++i) pass.columns.push_back(columns[i]);
     passes.push_back(std::move(pass));
   }
   if (passes.empty()) passes.emplace_back();
   return passes;
+}
+
+std::vector<Pass> plan_passes(int attributes, bool weights, const Config& config) {
+  return plan_passes(attributes, weights, config.attribute_slots);
 }
 
 WindowQuad pass_quad(const WindowQuad& quad, const Pass& pass) {

@@ -67,7 +67,9 @@ struct Pass {
   std::vector<int> columns;
 };
 
-/// As few passes as the slots allow; without any column one pass with none.
+/// As few passes as `slots` attributes in use allow; without any column one pass with none.
+std::vector<Pass> plan_passes(int attributes, bool weights, int slots);
+/// The same with all of the configuration's slots.
 std::vector<Pass> plan_passes(int attributes, bool weights, const Config& config);
 
 /// The quad with the pass's columns as attributes.

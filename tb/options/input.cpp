@@ -7,6 +7,7 @@
 #include "golden/io/obj.hpp"
 #include "golden/io/quads_file.hpp"
 #include "golden/io/text_input.hpp"
+#include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/projection.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
@@ -247,11 +248,25 @@ void load_stress(const InputOptions& options, const std::string& shade, int widt
   input.layout = AttributeLayout::file;
 }
 
+void load_corner(const InputOptions& options, const std::string& shade, const DrawState& state, const Config& config,
+                 std::uint64_t seed, DrawInput& input) {
+  choose("corner group", options.corner, corner_names());
+  input.name = options.corner;
+  input.title = "directed quads, " + options.corner;
+  input.option = golden::command_line(std::array<std::string, 2>{"--corner", options.corner});
+  input.shade = shade.empty() ? "lambda" : shade;
+  need_no_object(input);
+  input.attributes = 4;
+  input.quads = golden::make_corner(golden::parse_corner_group(options.corner), config, state, seed, input.attributes);
+  input.layout = AttributeLayout::file;
+}
+
 }  // namespace
 
 int inputs_given(const InputOptions& options) {
   return static_cast<int>(!options.scene.empty()) + static_cast<int>(!options.mesh.empty()) +
-         static_cast<int>(!options.quads.empty()) + static_cast<int>(!options.stress.empty());
+         static_cast<int>(!options.quads.empty()) + static_cast<int>(!options.stress.empty()) +
+         static_cast<int>(!options.corner.empty());
 }
 
 std::string shade_of(const std::string& shade, const std::string& texture) {
@@ -261,10 +276,12 @@ std::string shade_of(const std::string& shade, const std::string& texture) {
   return "texture";
 }
 
-DrawInput load_input(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed) {
+DrawInput load_input(const InputOptions& options, const std::string& shade, const DrawState& state,
+                     const Config& config, std::uint64_t seed) {
   if (inputs_given(options) != 1)
-    throw UsageError("one input is needed: --scene NAME, --mesh F.obj, --quads F.quads or --stress FAMILY (" +
-                     std::to_string(inputs_given(options)) + " were given)");
+    throw UsageError(
+        "one input is needed: --scene NAME, --mesh F.obj, --quads F.quads, --stress FAMILY or --corner GROUP (" +
+        std::to_string(inputs_given(options)) + " were given)");
   for (const auto& [name, value] : {std::pair{"--camera", &options.camera}, std::pair{"--view", &options.view},
                                     std::pair{"--up", &options.up}, std::pair{"--save-camera", &options.save_camera}}) {
     if (!value->empty() && options.mesh.empty()) throw UsageError(std::string(name) + " goes with --mesh");
@@ -275,13 +292,15 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, int 
   if (!shade.empty()) choose("shading", shade, shade_modes());
   DrawInput input;
   if (!options.scene.empty())
-    load_scene(options, shade, width, height, input);
+    load_scene(options, shade, state.width, state.height, input);
   else if (!options.mesh.empty())
-    load_mesh(options, shade, width, height, input);
+    load_mesh(options, shade, state.width, state.height, input);
   else if (!options.quads.empty())
     load_quads_file(options, shade, input);
+  else if (!options.stress.empty())
+    load_stress(options, shade, state.width, state.height, seed, input);
   else
-    load_stress(options, shade, width, height, seed, input);
+    load_corner(options, shade, state, config, seed, input);
   set_light(options, input.lighting);
   return input;
 }
@@ -304,6 +323,12 @@ std::vector<std::string> scene_names() {
 std::vector<std::string> stress_names() {
   std::vector<std::string> names;
   for (const golden::StressFamilyInfo& family : golden::stress_families()) names.emplace_back(family.name);
+  return names;
+}
+
+std::vector<std::string> corner_names() {
+  std::vector<std::string> names;
+  for (const golden::CornerGroupInfo& group : golden::corner_groups()) names.emplace_back(group.name);
   return names;
 }
 

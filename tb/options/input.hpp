@@ -1,4 +1,5 @@
-// What is drawn: a scene, a mesh with a camera, a quads file, a stress family; all become quads with attributes.
+// What is drawn: a scene, a mesh with a camera, a quads file, a stress family, a corner group; all become quads with
+// attributes.
 #pragma once
 
 #include "golden/scenes/mesh.hpp"
@@ -43,13 +44,15 @@ struct DrawInput {
   std::string remark;      ///< what the input lacks for its shading, and what is done about it; empty: nothing
 };
 
-/// How many of --scene, --mesh, --quads and --stress are given.
+/// How many of --scene, --mesh, --quads, --stress and --corner are given.
 int inputs_given(const InputOptions& options);
 
 /// Loads the one input of the options, and writes the automatic camera where --save-camera wants it. `shade` empty:
-/// what suits the input; otherwise the attributes are what that shading needs. Throws UsageError when not exactly one
+/// what suits the input; otherwise the attributes are what that shading needs. A viewport of the state's size; corner
+/// groups look at the rest of the state and at the configuration too. Throws UsageError when not exactly one
 /// is given, a name is unknown or the input lacks what the shading needs, InputError for what a file holds.
-DrawInput load_input(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed);
+DrawInput load_input(const InputOptions& options, const std::string& shade, const DrawState& state,
+                     const Config& config, std::uint64_t seed);
 
 /// Says the remark of an input, if there is one, on standard error unless --quiet.
 void print_remark(const DrawInput& input, const CommonOptions& common);
@@ -57,10 +60,11 @@ void print_remark(const DrawInput& input, const CommonOptions& common);
 /// What --shade is when --texture is given too: texture. Throws UsageError for another explicit --shade.
 std::string shade_of(const std::string& shade, const std::string& texture);
 
-/// Shading modes, scene and family names.
+/// Shading modes, names of scenes, families and corner groups.
 std::vector<std::string> shade_modes();
 std::vector<std::string> scene_names();
 std::vector<std::string> stress_names();
+std::vector<std::string> corner_names();
 
 /// The text of a SnapError with the place in the file where there is one.
 std::string describe(const SnapError& error, const DrawInput& input);

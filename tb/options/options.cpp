@@ -50,6 +50,8 @@ std::string larger_viewport(const Config& config, int pixels) {
   return "";
 }
 
+const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
+
 /// Shortest decimal text of a number.
 std::string number(double value) {
   std::array<char, 40> buffer{};
@@ -184,7 +186,7 @@ DrawState StateOptions::state(const CommonOptions& common, const Config& config)
       throw UsageError("--scissor " + scissor + ": the rectangle must lie inside the viewport " + common.size);
     state.scissor_x0 = edge[0], state.scissor_y0 = edge[1], state.scissor_x1 = edge[2], state.scissor_y1 = edge[3];
   }
-  state.cull = static_cast<Cull>(choose("--cull value", cull, {"none", "front", "back"}));
+  state.cull = static_cast<Cull>(choose("--cull value", cull, {cull_names.begin(), cull_names.end()}));
   state.perspective = !no_perspective;
   state.depth = !no_depth;
   if (!(znear >= 0 && znear <= zfar && zfar <= 1))
@@ -193,6 +195,21 @@ DrawState StateOptions::state(const CommonOptions& common, const Config& config)
   state.zfar = zfar;
   if (no_tile_skip) state.skip &= ~std::uint32_t{skip_hierarchical_tiles};
   return state;
+}
+
+StateOptions StateOptions::of(const DrawState& state) {
+  StateOptions options;
+  options.cull = cull_names[static_cast<std::size_t>(state.cull)];
+  options.no_perspective = !state.perspective;
+  options.no_depth = !state.depth;
+  options.znear = state.znear;
+  options.zfar = state.zfar;
+  options.no_tile_skip = (state.skip & skip_hierarchical_tiles) == 0;
+  if (state.scissor_x0 != 0 || state.scissor_y0 != 0 || state.scissor_x1 != state.width ||
+      state.scissor_y1 != state.height)
+    options.scissor = std::to_string(state.scissor_x0) + "," + std::to_string(state.scissor_y0) + "," +
+                      std::to_string(state.scissor_x1) + "," + std::to_string(state.scissor_y1);
+  return options;
 }
 
 std::string StateOptions::spelled() const {
@@ -241,6 +258,9 @@ void InputOptions::add_to(CLI::App& app, bool any) {
         ->type_name("N")
         ->capture_default_str()
         ->check(CLI::Range(1, 10'000'000))
+        ->group(group);
+    app.add_option("--corner", corner, "Directed quads of a rare case; `quadrille scenes --corner` lists them")
+        ->type_name("GROUP")
         ->group(group);
   }
   app.add_flag("--strict", strict, "Refuse faces with more than four corners instead of cutting them up")->group(group);

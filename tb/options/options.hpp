@@ -56,13 +56,15 @@ struct StateOptions {
 
   void add_to(CLI::App& app);
   DrawState state(const CommonOptions& common, const Config& config) const;
+  /// Those that give this state, for a viewport of its size.
+  static StateOptions of(const DrawState& state);
   /// The options as a command line would give them (empty when all are default).
   std::string spelled() const;
 };
 
-/// --scene --mesh --camera --view --up --save-camera --quads --stress --count --strict, and --light
+/// --scene --mesh --camera --view --up --save-camera --quads --stress --count --corner --strict, and --light
 struct InputOptions {
-  std::string scene, mesh, camera, view, up, save_camera, quads, stress;
+  std::string scene, mesh, camera, view, up, save_camera, quads, stress, corner;
   std::string light;  ///< of the commands that draw pictures
   std::uint64_t count = 1000;
   bool strict = false;
@@ -70,7 +72,7 @@ struct InputOptions {
   /// The files among them.
   std::vector<std::string> files() const { return {mesh, camera, quads}; }
 
-  /// `any` false: for a command that needs object space (no --quads, --stress, --count).
+  /// `any` false: for a command that needs object space (no --quads, --stress, --count, --corner).
   void add_to(CLI::App& app, bool any = true);
   /// --light, for a command that draws pictures.
   void add_light_to(CLI::App& app);
