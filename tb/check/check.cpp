@@ -82,9 +82,7 @@ void QuantityErrors::merge(const QuantityErrors& other) {
   depth.merge(other.depth);
 }
 
-bool CheckResult::ok() const {
-  return compared > 0 && std::ranges::all_of(fault_counters, [this](const auto& c) { return this->*c.value == 0; });
-}
+bool CheckResult::ok() const { return compared > 0 && faults() == 0; }
 
 void CheckResult::merge(const CheckResult& other) {
   add_counters(*this, other, check_counters);
@@ -312,8 +310,7 @@ class FragmentChecker::FragmentJudge {
       else
         ++part_.tolerated_depth;
     }
-    if (checker_.settings_.apply_bound && !format.may_stand_for(fragment.depth, truth_.z, tolerance))
-      ++part_.beyond_depth;
+    if (exact_ && !format.may_stand_for(fragment.depth, truth_.z, tolerance)) ++part_.beyond_depth;
     if (!first_pass_) return;
     const double error = static_cast<double>(fragment.depth) * format.unit() - truth_.z;
     part_.arithmetic.depth.add(error);
@@ -383,7 +380,7 @@ class FragmentChecker::FragmentJudge {
         part_.worst = {ratio, lambda_error, bound_, truth_.condition, weight, place_};
     }
     if (attributes > 0 && !reference_->may_cancel()) part_.arithmetic.attribute.add(attribute_error);
-    if (checker_.settings_.apply_bound) {
+    if (exact_) {
       part_.beyond_bound += !weights_hold;
       part_.beyond_attribute += !attributes_hold;
       if (must_saturate && (fragment.flags & flag_saturated) == 0) differs("an attribute is clamped, but not flagged");
@@ -400,7 +397,7 @@ class FragmentChecker::FragmentJudge {
       std::snprintf(text, sizeof text, "flags 0x%02x, expected 0x%02x", fragment.flags & known, expected & known);
       differs(text);
     }
-    if (checker_.settings_.apply_bound && (fragment.flags & flag_saturated) != 0 && !may_saturate)
+    if (exact_ && (fragment.flags & flag_saturated) != 0 && !may_saturate)
       differs("flagged as saturated, but no attribute is");
   }
 

@@ -95,6 +95,7 @@ struct CheckResult {
 
   void merge(const CheckResult& other);
   bool within_bound() const { return beyond_bound + beyond_attribute + beyond_depth == 0; }
+  std::uint64_t faults() const { return mismatches + beyond_bound + beyond_attribute + beyond_depth; }
   bool ok() const;
 };
 
@@ -146,15 +147,15 @@ bool has_antipodal_edge(const SnappedQuad& quad);
 bool is_tiny(const SnappedQuad& quad, const Config& config);
 
 /// Takes the fragments of one pass of the machine in order, quads in order, and compares them on the queue's threads.
+/// A configuration that drops bits of D and R² has no bound and approximate singular classes: the rest is compared.
 class FragmentChecker {
  public:
   struct Settings {
     Config config;
     DrawState state;  ///< of the pass
     Pass pass;
-    bool first_pass = true;   ///< also check coverage and count
-    bool snapping = true;     ///< also compare with the given quads
-    bool apply_bound = true;  ///< fail beyond the bound of section 2 of the design
+    bool first_pass = true;  ///< also check coverage and count
+    bool snapping = true;    ///< also compare with the given quads
   };
 
   /// `given` and `snapped` (numbered by position) must outlive the checker.

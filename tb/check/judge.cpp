@@ -18,7 +18,6 @@ CheckResult judge_pass(std::span<const WindowQuad> given, std::span<const Snappe
   settings.pass = pass;
   settings.first_pass = first;
   settings.snapping = false;
-  settings.apply_bound = config.qdrop() == 0;
   FragmentChecker checker(settings, given, snapped, queue);
   UntimedModel model(config, state, engine);
   for (const SnappedQuad& quad : snapped)
@@ -27,7 +26,9 @@ CheckResult judge_pass(std::span<const WindowQuad> given, std::span<const Snappe
     });
   checker.finish(true);
   queue.drain();
-  return checker.result();
+  CheckResult result = checker.result();
+  if (!first) result.compared = 0;  // the same fragments again
+  return result;
 }
 
 SnappedQuad with_weights(SnappedQuad quad, const Pass& pass, const Config& config, const DrawState& state) {

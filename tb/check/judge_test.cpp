@@ -3,8 +3,11 @@
 
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/stress.hpp"
+#include "tb/check/directed.hpp"
 
 #include <gtest/gtest.h>
+
+#include <map>
 
 namespace quadrille::cli {
 namespace {
@@ -41,6 +44,33 @@ TEST(JudgeUntimed, PassesQuadsAtThePort) {
     const CheckResult result = judge_untimed(tb::random_quads(config, state, 3, 400), config, state);
     EXPECT_TRUE(result.ok()) << "s = " << s << ": " << faults(result);
   }
+}
+
+TEST(Directed, DrawsPassInEveryKindOfConfiguration) {
+  for (const int s : {8, 18, 26}) {
+    Config config;
+    config.set("significand_bits", s);
+    const CheckResult result = judge_directed(config);
+    EXPECT_TRUE(result.ok()) << "s = " << s << ": " << faults(result);
+  }
+  Config config;
+  config.set("quadratic_frac_bits", 6);
+  EXPECT_TRUE(judge_directed(config).ok()) << faults(judge_directed(config));
+}
+
+TEST(Directed, DrawsHoldWhatTheyAreFor) {
+  const Config config;
+  std::map<std::string_view, CheckResult> results;
+  for (const golden::CornerDraw& draw : directed_draws(config))
+    results[draw.group] = judge_untimed(draw.quads, config, draw.state);
+  EXPECT_GT(results.at("z_limits").on_vertex, 50u);
+  EXPECT_GT(results.at("z_limits").discarded, 50u);
+  EXPECT_GT(results.at("two_corner").two_corner, 5u);
+  EXPECT_GT(results.at("face_plane").compared, 5000u);
+  EXPECT_GT(results.at("two_edge").eye_crossing, 1000u) << "without perspective";
+  EXPECT_EQ(results.at("at_infinity").compared, 0u);
+  EXPECT_GT(results.at("saturated").compared, 500u);
+  EXPECT_FALSE(results.contains("tall"));
 }
 
 }  // namespace

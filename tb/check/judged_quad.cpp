@@ -15,7 +15,7 @@ double FixedPoint::unit() const { return std::ldexp(1.0, -frac_bits); }
 double FixedPoint::limit() const { return std::ldexp(1.0, int_bits); }
 std::int64_t FixedPoint::largest_code() const { return (std::int64_t{1} << (int_bits + frac_bits)) - 1; }
 
-std::int64_t FixedPoint::code_of(bool neg, std::uint32_t sig, int exponent) const {
+std::int64_t FixedPoint::code_of(bool neg, std::uint64_t sig, int exponent) const {
   std::int64_t code = 0;
   if (sig != 0) {
     const int top = static_cast<int>(std::bit_width(sig)) - 1 + exponent, shift = exponent + frac_bits;
@@ -24,7 +24,7 @@ std::int64_t FixedPoint::code_of(bool neg, std::uint32_t sig, int exponent) cons
     else if (shift >= 0)
       code = static_cast<std::int64_t>(sig) << shift;  // below the limit, so it fits
     else
-      code = shift < -31 ? 0 : static_cast<std::int64_t>(sig >> -shift);
+      code = shift < -63 ? 0 : static_cast<std::int64_t>(sig >> -shift);
   }
   return neg ? -code : code;
 }
@@ -65,11 +65,12 @@ JudgedQuad::JudgedQuad(const SnappedQuad& snapped, const Config& config, const D
 
 bool JudgedQuad::tolerates_visibility(const golden::ReferenceSample& truth, double bound) const {
   const bool nothing = std::ranges::all_of(w_, [](double w) { return w == 0; });
-  return truth.eye_in_hull && !nothing && std::fabs(truth.visible_margin) < bound;
+  return truth.eye_in_hull && !nothing && (!bounded() || std::fabs(truth.visible_margin) < bound);
 }
 
 double JudgedQuad::quotient_tolerance(int x, int y, double bound, const std::array<double, 4>& numerator,
                                       double value) const {
+  if (!bounded()) return std::numeric_limits<double>::infinity();
   // A weight of 1/2 that errs by `bound` comes of an M that errs by twice that, relatively.
   const auto m = truth_.homogeneous_weights(x, y);
   double above = 0, below = 0, sum = 0;

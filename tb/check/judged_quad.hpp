@@ -19,7 +19,7 @@ struct FixedPoint {
   double limit() const;               ///< the least magnitude that is clamped
   std::int64_t largest_code() const;  ///< what it is clamped to
   /// sig * 2^exponent on the grid, exactly.
-  std::int64_t code_of(bool neg, std::uint32_t sig, int exponent) const;
+  std::int64_t code_of(bool neg, std::uint64_t sig, int exponent) const;
   /// Whether `code` can stand for a real number within `tolerance` of `value`, if that was not clamped.
   bool may_stand_for(std::int64_t code, double value, double tolerance) const;
 };
@@ -48,6 +48,10 @@ class JudgedQuad {
 
   const SnappedQuad& quad() const { return quad_; }
   const golden::TruthQuad& truth() const { return truth_; }
+
+  /// The bound on the weights is a statement about exact D and R²: where the configuration drops bits of them, sums
+  /// that may cancel have no tolerance, and the sign of sum(M w) is the machine's own.
+  bool bounded() const { return config_.qdrop() == 0; }
 
   /// Without perspective and with a vertex behind the eye the sums of M W may cancel: the weights' bound does not hold,
   /// but what is left of it.

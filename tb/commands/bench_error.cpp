@@ -182,7 +182,6 @@ void ErrorBench::compare_machine() {
     check_settings.pass = passes[p];
     check_settings.first_pass = p == 0;
     check_settings.snapping = false;
-    check_settings.apply_bound = settings_.config.qdrop() == 0;  // a statement about exact A, D and R^2
     const auto check = [&](std::span<const Fragment> fragments) {
       WorkQueue queue(0, 1);
       FragmentChecker checker(check_settings, quads_, snapped, queue);

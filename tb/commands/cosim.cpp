@@ -7,6 +7,7 @@
 #include "golden/scenes/random_state.hpp"
 #include "model/snap.hpp"
 #include "tb/check/check.hpp"
+#include "tb/check/model_check.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/input.hpp"
@@ -145,10 +146,12 @@ class CosimRun {
     total.option = results.size() == 1 ? results.front().option : "--scene all";
     if (results.size() == 1) total.state = results.front().state;
 
-    const bool ok = std::all_of(results.begin(), results.end(), [](const InputResult& r) { return r.ok(); });
-    if (std::FILE* text = options_.common.text()) print_summary(text, total, ok);
-    if (!options_.common.json.empty()) golden::save_json(options_.common.json, report(total, results, ok));
+    const ModelCheck model = check_model(config_);
+    const bool ok = model.ok() && std::ranges::all_of(results, [](const InputResult& r) { return r.ok(); });
+    if (std::FILE* text = options_.common.text()) print_summary(text, total, model, ok);
+    if (!options_.common.json.empty()) golden::save_json(options_.common.json, report(total, results, model, ok));
     for (const InputResult& result : results) complain(result);
+    if (!model.ok()) std::fprintf(stderr, "quadrille: the model alone: %s\n", model.fault().c_str());
     return ok ? exit_ok : exit_mismatch;
   }
 
@@ -309,7 +312,6 @@ class CosimRun {
     check_settings.pass = pass;
     check_settings.first_pass = first;
     check_settings.snapping = !options_.no_snapping;
-    check_settings.apply_bound = bound_applies();
     FragmentChecker checker(check_settings, input.quads, snapped, queue);
 
     std::size_t position = 0;
@@ -453,10 +455,25 @@ class CosimRun {
     return json;
   }
 
-  nlohmann::ordered_json report(const InputResult& total, const std::vector<InputResult>& results, bool ok) const {
+  static nlohmann::ordered_json model_json(const ModelCheck& model) {
+    nlohmann::ordered_json json;
+    json["ok"] = model.ok();
+    json["function_arguments"] = model.functions.arguments();
+    json["function_beyond"] = model.functions.beyond();
+    for (const FunctionResult& f : model.functions.functions)
+      json["functions"][std::string(f.name)] = {{"arguments", f.arguments}, {"beyond", f.beyond}};
+    json["directed_compared"] = model.directed.compared;
+    put_counters(json["directed"], model.directed, fault_counters);
+    if (!model.ok()) json["first_fault"] = model.fault();
+    return json;
+  }
+
+  nlohmann::ordered_json report(const InputResult& total, const std::vector<InputResult>& results,
+                                const ModelCheck& model, bool ok) const {
     nlohmann::ordered_json json = golden::begin_report(config_, options_.common.seed, arguments_);
     json.update(result_json(total));
     json["ok"] = ok;
+    json["model_alone"] = model_json(model);
     json["stall"] = options_.stall;
     json["gap"] = options_.gap;
     json["size"] = options_.common.size;
@@ -486,7 +503,7 @@ class CosimRun {
     std::fflush(out);
   }
 
-  void print_summary(std::FILE* out, const InputResult& r, bool ok) const {
+  void print_summary(std::FILE* out, const InputResult& r, const ModelCheck& model, bool ok) const {
     const CheckResult& c = r.check;
     const nlohmann::ordered_json json = result_json(r);
     const auto print = [&](std::string_view form, const nlohmann::ordered_json& values) {
@@ -508,6 +525,10 @@ class CosimRun {
     std::fprintf(out, "  coverage       %llu fragments against the truth, ",
                  static_cast<unsigned long long>(c.compared));
     print("{reference_mismatches} differ\n", json);
+    print("  functions      {function_arguments} arguments, {function_beyond} beyond their limit; ", model_json(model));
+    std::fprintf(out, "directed draws %llu fragments, %llu faults\n",
+                 static_cast<unsigned long long>(model.directed.compared),
+                 static_cast<unsigned long long>(model.directed.faults()));
     std::fprintf(out, "  throughput     %.3f covered pixels per clock\n",
                  ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl)));
     std::fprintf(out, "\n  error                   max        p99.9      rms        attribute  depth\n");

@@ -27,7 +27,6 @@ CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> q
   settings.state = state;
   settings.pass = pass;
   settings.snapping = false;
-  settings.apply_bound = point.config.qdrop() == 0;
   FragmentChecker checker(settings, quads, snapped, here);
   const tb::LockstepReport report =
       tb::run_lockstep(snapped, options, [&](const Fragment& fragment) { checker.fragment(fragment); });
@@ -45,7 +44,7 @@ CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> q
   row.seconds = report.wall_seconds;
   if (report.first_divergence) row.first_difference = *report.first_divergence;
   // With truncated D and r² singular pixels are decided approximately, and their flags may differ from the truth's.
-  if (settings.apply_bound) {
+  if (point.config.qdrop() == 0) {
     row.mismatches += check.mismatches + check.beyond_bound;
     if (row.first_difference.empty() && check.first.any) row.first_difference = check.first.text;
     if (row.first_difference.empty() && check.beyond_bound > 0) row.first_difference = "weights beyond the error bound";

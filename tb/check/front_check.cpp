@@ -1,0 +1,327 @@
+// Snapping, quad_setup, the walk's forward differences and the codes of znear and zfar against exact integers
+// (rtl/README.md sections 3 and 4).
+#include "model/covered_pixels.hpp"
+#include "model/pixel_pipeline.hpp"
+#include "model/quad_setup.hpp"
+#include "model/snap.hpp"
+#include "model/support/prng.hpp"
+#include "tb/check/exact_number.hpp"
+#include "tb/check/function_tally.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+namespace quadrille::cli {
+namespace {
+
+using exact::magnitude;
+using exact::sign_of;
+using exact::top_bit;
+using exact::Wide;
+using golden::Prng;
+
+constexpr int vertices = 3000, quads = 1500, walked_quads = 100, limits = 500;
+
+// ---- Roundings of the port ----
+
+/// n / d to the nearest integer, ties to even; d > 0.
+Wide nearest(Wide n, Wide d) {
+  const Wide whole = magnitude(n) / d, rest = magnitude(n) % d;
+  const bool up = 2 * rest > d || (2 * rest == d && (whole & 1) != 0);
+  return sign_of(n) * (whole + (up ? 1 : 0));
+}
+
+/// n / d to S significant bits, as the port has it; d > 0, both below 2^80.
+PortNumber nearest_float(Wide n, Wide d, int s) {
+  if (n == 0) return {};
+  int exponent = top_bit(n) - top_bit(d);  // of the quotient, or one too much
+  if (exponent >= 0 ? magnitude(n) < d << exponent : magnitude(n) << -exponent < d) --exponent;
+  const int shift = s - 1 - exponent;
+  const Wide sig = nearest(shift >= 0 ? magnitude(n) << shift : magnitude(n), shift >= 0 ? d : d << -shift);
+  if (sig >> s != 0) return {n < 0, exponent + 1, static_cast<std::uint32_t>(sig >> 1)};
+  return {n < 0, exponent, static_cast<std::uint32_t>(sig)};
+}
+
+bool same(const PortNumber& a, const PortNumber& b) { return a.neg == b.neg && a.exp == b.exp && a.sig == b.sig; }
+
+/// A vertex whose coordinates are multiples of 2^-10, so that the half pixel is exact in units of 2^-11.
+void check_snapping(const Config& config, Prng& rng, FunctionTally& tally) {
+  constexpr int unit_bits = 10, half_bits = unit_bits + 1;
+  const int s = config.significand_bits, pos = config.pos_int();
+  for (int n = 0; n < vertices; ++n) {
+    DrawState state;
+    state.perspective = rng.chance(0.75);
+    // Powers of two make ties of positions, odd numbers none; a quarter lies behind the eye or at infinity.
+    std::int64_t w = rng.chance(0.5) ? std::int64_t{1} << rng.below(16) : rng.integer(1, 1 << 14);
+    if (rng.chance(0.2)) w = -w;
+    if (rng.chance(0.05)) w = 0;
+    const double reach =
+        std::ldexp(1.0, pos + (rng.chance(0.2) ? 1 : -1)) * (w == 0 ? 1024.0 : static_cast<double>(std::abs(w)));
+    const auto x = static_cast<std::int64_t>(rng.uniform(-reach, reach)),
+               y = static_cast<std::int64_t>(rng.uniform(-reach, reach)),
+               z = rng.integer(-2 * std::abs(w), 2 * std::abs(w));
+    const std::int64_t a = rng.integer(1 - (std::int64_t{1} << (config.attribute_int_bits + unit_bits)),
+                                       (std::int64_t{1} << (config.attribute_int_bits + unit_bits)) - 1);
+    const auto given = [](std::int64_t v) { return std::ldexp(static_cast<double>(v), -unit_bits); };
+    if (x == 0 && y == 0 && w == 0) continue;
+    const double attribute = given(a);
+    const SnappedVertex v = snap_vertex({given(x), given(y), given(z), given(w)}, &attribute, 1, config, state);
+
+    // In units of 2^-half_bits, relative to pixel centres.
+    const Wide cx = 2 * Wide{x} - w, cy = 2 * Wide{y} - w, cw = 2 * Wide{w};
+    const Wide grid = Wide{1} << config.subpixel_bits, band = grid << pos;
+    bool ordinary = cw > 0;
+    Wide gx = 0, gy = 0;
+    if (ordinary) {
+      gx = nearest(cx * grid, cw);
+      gy = nearest(cy * grid, cw);
+      ordinary = magnitude(gx) < band && magnitude(gy) < band;
+    }
+    // k = scale / extent
+    Wide scale = Wide{1} << half_bits, extent = cw;
+    std::array<Wide, 3> at{gx << config.homogeneous_frac_bits, gy << config.homogeneous_frac_bits,
+                           Wide{1} << config.frac()};
+    if (!ordinary) {
+      extent = std::max({magnitude(cx), magnitude(cy), magnitude(cw) << pos});
+      scale <<= pos;
+      const Wide fraction = Wide{1} << (config.frac() + pos);
+      at = {nearest(cx * fraction, extent), nearest(cy * fraction, extent), nearest(cw * fraction, extent)};
+    }
+    const PortNumber b = state.perspective ? nearest_float(a * scale, extent << unit_bits, s)
+                                           : nearest_float(a * Wide{v.w}, Wide{1} << (unit_bits + config.frac()), s);
+    const bool right = v.x == at[0] && v.y == at[1] && v.w == at[2] && same(v.k, nearest_float(scale, extent, s)) &&
+                       same(v.z, nearest_float(z * scale, extent << unit_bits, s)) && same(v.attribute[0], b);
+    tally.expect(right, [&] {
+      return "of (" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ", " +
+             std::to_string(w) + ") / 1024 gives (" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " +
+             std::to_string(v.w) + ")";
+    });
+  }
+}
+
+// ---- quad_setup ----
+
+SnappedQuad random_quad(const Config& config, Prng& rng, int kind) {
+  SnappedQuad quad;
+  const std::int32_t one = 1 << config.frac(), grid = 1 << config.homogeneous_frac_bits;
+  const int extent = std::min(96, 1 << config.viewport_bits);
+  for (SnappedVertex& v : quad.vertex) {
+    v.w = one;
+    switch (kind % 4) {
+      case 0:  // at pixel centres, some outside the viewport
+        v.x = static_cast<std::int32_t>(rng.integer(-8, extent)) * one;
+        v.y = static_cast<std::int32_t>(rng.integer(-8, extent)) * one;
+        break;
+      case 1:  // next to one
+        v.x = static_cast<std::int32_t>(rng.integer(-8, extent)) * one +
+              static_cast<std::int32_t>(rng.integer(-1, 1)) * grid;
+        v.y = static_cast<std::int32_t>(rng.integer(-8, extent)) * one +
+              static_cast<std::int32_t>(rng.integer(-1, 1)) * grid;
+        break;
+      case 2:  // few integers: determinants that are 0, corners that coincide or oppose each other
+        v.x = static_cast<std::int32_t>(rng.integer(-2, 2)) * one;
+        v.y = static_cast<std::int32_t>(rng.integer(-2, 2)) * one;
+        v.w = static_cast<std::int32_t>(rng.integer(-1, 1)) * one;
+        if (v.x == 0 && v.y == 0 && v.w == 0) v.x = one;
+        break;
+      default: {
+        const std::int64_t most = std::int64_t{1} << (config.pos_int() + config.frac());
+        v.x = static_cast<std::int32_t>(rng.integer(-most, most));
+        v.y = static_cast<std::int32_t>(rng.integer(-most, most));
+        v.w = static_cast<std::int32_t>(rng.integer(-one, one));
+      }
+    }
+  }
+  return quad;
+}
+
+struct Tiles {
+  int first = 0, count = 0;
+};
+
+/// Tiles of the pixels in [first, end) that lie between the least and the largest coordinate, found one by one.
+template <class Coordinate>
+Tiles tiles_along(const SnappedQuad& quad, Coordinate coordinate, bool homogeneous, int first, int end,
+                  const Config& config) {
+  Tiles out;
+  bool any = false;
+  for (int pixel = homogeneous ? 0 : first; pixel < end; ++pixel) {
+    if (homogeneous && first >= end) break;
+    const std::int64_t at = std::int64_t{pixel} << config.frac();
+    const auto below = [&](const SnappedVertex& v) { return v.*coordinate <= at; };
+    const auto above = [&](const SnappedVertex& v) { return v.*coordinate >= at; };
+    if (!homogeneous && !(std::ranges::any_of(quad.vertex, below) && std::ranges::any_of(quad.vertex, above))) continue;
+    const int tile = pixel / config.tile();
+    if (!any) out.first = tile;
+    any = true;
+    out.count = tile - out.first + 1;
+  }
+  return out;
+}
+
+std::string setup_fault(const SnappedQuad& quad, const Config& config, const DrawState& state) {
+  const SetupResult r = quad_setup(quad, config, state);
+  const std::int32_t one = 1 << config.frac();
+  const bool homogeneous = std::ranges::any_of(quad.vertex, [&](const SnappedVertex& v) { return v.w != one; });
+  if (r.homogeneous != homogeneous) return "homogeneous";
+  Tiles tx = tiles_along(quad, &SnappedVertex::x, homogeneous, state.scissor_x0, state.scissor_x1, config);
+  Tiles ty = tiles_along(quad, &SnappedVertex::y, homogeneous, state.scissor_y0, state.scissor_y1, config);
+  if (tx.count == 0 || ty.count == 0) tx = ty = {};
+  if (r.tile_x0 != tx.first || r.tiles_x != tx.count || r.tile_y0 != ty.first || r.tiles_y != ty.count)
+    return "bounding box: tiles (" + std::to_string(r.tile_x0) + ", " + std::to_string(r.tile_y0) + ") + " +
+           std::to_string(r.tiles_x) + " x " + std::to_string(r.tiles_y) + ", expected (" + std::to_string(tx.first) +
+           ", " + std::to_string(ty.first) + ") + " + std::to_string(tx.count) + " x " + std::to_string(ty.count);
+
+  std::array<Wide, 4> x, y, w;  // relative to the origin pixel
+  for (std::size_t i = 0; i < 4; ++i) {
+    w[i] = quad.vertex[i].w;
+    x[i] = quad.vertex[i].x - w[i] * tx.first * config.tile();
+    y[i] = quad.vertex[i].y - w[i] * ty.first * config.tile();
+  }
+  for (std::size_t k = 0; k < linear_count; ++k) {
+    const auto [i, j] = vertex_pair[k];
+    const LinearForm& f = r.linear[k];
+    if (f.value != x[i] * y[j] - y[i] * x[j] || f.gx != y[i] * w[j] - w[i] * y[j] || f.gy != w[i] * x[j] - x[i] * w[j])
+      return "linear function " + std::to_string(k);
+  }
+  for (std::size_t k = 0; k < quadratic_count; ++k) {
+    const std::size_t i = k < 6 ? vertex_pair[k][0] : k - 6, j = k < 6 ? vertex_pair[k][1] : k - 6;
+    const QuadraticForm& f = r.quadratic[k];
+    const int drop = config.qdrop();
+    if (f.value != (x[i] * x[j] + y[i] * y[j]) >> drop || f.gx != -(x[i] * w[j] + w[i] * x[j]) >> drop ||
+        f.gy != -(y[i] * w[j] + w[i] * y[j]) >> drop || f.q != (w[i] * w[j]) >> drop)
+      return "quadratic function " + std::to_string(k);
+  }
+  // The signs of determinants do not depend on the origin.
+  const auto det = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return sign_of(x[a] * (y[b] * w[c] - w[b] * y[c]) - y[a] * (x[b] * w[c] - w[b] * x[c]) +
+                   w[a] * (x[b] * y[c] - y[b] * x[c]));
+  };
+  const int d012 = det(0, 1, 2), d023 = det(0, 2, 3);
+  const std::array<int, 4> relation{det(1, 2, 3), -d023, det(0, 1, 3), -d012};
+  const auto least = std::ranges::min(relation), most = std::ranges::max(relation);
+  const bool hull = homogeneous && least * most >= 0;
+  if (r.hull != hull) return hull ? "hull missed" : "hull claimed";
+  const int visible =
+      !homogeneous || hull ? 15 : (d012 > 0 ? 1 : 0) | (d023 > 0 ? 2 : 0) | (d012 < 0 ? 4 : 0) | (d023 < 0 ? 8 : 0);
+  return r.visible == visible ? "" : "visible clauses";
+}
+
+void check_setup(const Config& config, Prng& rng, FunctionTally& tally) {
+  for (int n = 0; n < quads; ++n) {
+    const SnappedQuad quad = random_quad(config, rng, n);
+    DrawState state;
+    state.width = state.height = std::min(80, 1 << config.viewport_bits);
+    state.scissor_x0 = static_cast<int>(rng.below(12));
+    state.scissor_y0 = static_cast<int>(rng.below(12));
+    state.scissor_x1 = state.width - static_cast<int>(rng.below(12));
+    state.scissor_y1 = rng.chance(0.05) ? state.scissor_y0 : state.height;
+    const std::string fault = setup_fault(quad, config, state);
+    tally.expect(fault.empty(), [&] {
+      std::string text = fault + " of (X, Y, W) =";
+      for (const SnappedVertex& v : quad.vertex)
+        text += " (" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.w) + ")";
+      return text;
+    });
+  }
+}
+
+/// value + dx gx + dy gy + q (dx^2 + dy^2)
+Wide value_at(const QuadraticForm& f, Wide dx, Wide dy) {
+  return f.value + dx * f.gx + dy * f.gy + (dx * dx + dy * dy) * f.q;
+}
+
+/// What is wrong with the functions at pixel (px, py), or nothing. The linear ones by the vertices, the quadratic ones,
+/// which may have lost bits, by the forms at pixel (ox, oy).
+template <class Linear, class Quadratic>
+std::string values_fault(const SnappedQuad& quad, const SetupResult& setup, Wide px, Wide py, Wide ox, Wide oy,
+                         const Linear& linear, const Quadratic& quadratic) {
+  std::array<Wide, 4> x, y;
+  for (std::size_t i = 0; i < 4; ++i) {
+    x[i] = quad.vertex[i].x - quad.vertex[i].w * px;
+    y[i] = quad.vertex[i].y - quad.vertex[i].w * py;
+  }
+  for (std::size_t k = 0; k < linear_count; ++k) {
+    const auto [i, j] = vertex_pair[k];
+    if (linear(k) != x[i] * y[j] - y[i] * x[j]) return "linear function " + std::to_string(k);
+  }
+  for (std::size_t k = 0; k < quadratic_count; ++k)
+    if (quadratic(k) != value_at(setup.quadratic[k], px - ox, py - oy))
+      return "quadratic function " + std::to_string(k);
+  return "";
+}
+
+/// Every tile of the bounding box once, and at each the values of all functions, however many steps away; then those of
+/// a pixel of it.
+void check_walk(const Config& config, Prng& rng, FunctionTally& tiles, FunctionTally& pixels) {
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = std::min(160, 1 << config.viewport_bits);
+  state.skip = 0;
+  TileWalk walk(config, state);
+  for (int n = 0; n < walked_quads; ++n) {
+    SnappedQuad quad = random_quad(config, rng, n);
+    if (n % 4 < 2)  // over several blocks
+      for (SnappedVertex& v : quad.vertex) v.x *= 2, v.y *= 2;
+    const SetupResult setup = quad_setup(quad, config, state);
+    const int size = config.tile(), ox = setup.tile_x0 * size, oy = setup.tile_y0 * size;
+    std::vector<int> seen(static_cast<std::size_t>(setup.tiles_x * setup.tiles_y));
+    walk_tiles(walk, setup, [&](const TileEntry& tile) {
+      const int column = tile.tile_x - setup.tile_x0, row = tile.tile_y - setup.tile_y0;
+      const bool inside = column >= 0 && column < setup.tiles_x && row >= 0 && row < setup.tiles_y;
+      std::string fault = inside ? "" : "outside the bounding box";
+      if (inside && seen[static_cast<std::size_t>(row * setup.tiles_x + column)]++ != 0) fault = "twice";
+      const int x = tile.tile_x * size, y = tile.tile_y * size;
+      if (fault.empty())
+        fault = values_fault(
+            quad, setup, x, y, ox, oy, [&](std::size_t k) { return tile.linear[k]; },
+            [&](std::size_t k) { return tile.quadratic[k].value; });
+      const auto place = [&] {
+        return fault + " at (" + std::to_string(x) + ", " + std::to_string(y) + "), origin (" + std::to_string(ox) +
+               ", " + std::to_string(oy) + ")";
+      };
+      tiles.expect(fault.empty(), place);
+      if (!fault.empty()) return;
+      const int dx = static_cast<int>(rng.below(static_cast<std::uint64_t>(size))),
+                dy = static_cast<int>(rng.below(static_cast<std::uint64_t>(size)));
+      PixelTrace p;
+      forward_difference(p, tile, walk.constants(), dx, dy);
+      fault = values_fault(
+          quad, setup, x + dx, y + dy, ox, oy, [&](std::size_t k) { return p.a[k]; },
+          [&](std::size_t k) { return k < 6 ? p.d[k] : p.r2[k - 6]; });
+      pixels.expect(fault.empty(), place);
+    });
+    const auto missed = std::ranges::count(seen, 0);
+    tiles.expect(missed == 0, [&] { return std::to_string(missed) + " tiles of the bounding box left out"; });
+  }
+}
+
+void check_limits(const Config& config, Prng& rng, FunctionTally& tally) {
+  constexpr int fraction = 40;
+  for (int n = 0; n < limits; ++n) {
+    std::int64_t z = rng.integer(0, std::int64_t{1} << fraction);
+    if (n % 2 == 0) z &= -(std::int64_t{1} << (fraction - config.depth_bits - 1));  // halves of a code
+    const int drop = fraction - config.depth_bits;
+    const std::int64_t wanted = (z + (std::int64_t{1} << (drop - 1))) >> drop;  // halves up
+    const std::uint32_t code = depth_code(std::ldexp(static_cast<double>(z), -fraction), config);
+    tally.expect(code == wanted, [&] {
+      return "of " + std::to_string(z) + " / 2^40 gives " + std::to_string(code) + ", expected " +
+             std::to_string(wanted);
+    });
+  }
+}
+
+}  // namespace
+
+void check_front(const Config& config, std::vector<FunctionResult>& results) {
+  FunctionTally snapping("snapping"), setup("quad_setup"), tiles("tile_walk"), pixels("forward_difference"),
+      codes("depth limits");
+  Prng rng(3);
+  check_snapping(config, rng, snapping);
+  check_setup(config, rng, setup);
+  check_walk(config, rng, tiles, pixels);
+  check_limits(config, rng, codes);
+  for (const FunctionTally* tally : {&snapping, &setup, &tiles, &pixels, &codes}) results.push_back(tally->result());
+}
+
+}  // namespace quadrille::cli
