@@ -1,44 +1,103 @@
-// One function of the pixel position from the context of its tile: value + r gy + q r^2 (stage 0: row), + dx gx + q dx^2 (stage 1:
-// column). Exact modulo 2^VALUE_BITS. Latency 2, one pixel an enabled clock.
+// One function of the pixel position from the context of its tile: value + r gy + dx gx + q (r^2 + dx^2). Exact modulo 2^VALUE_BITS.
+// Latency 2, one pixel an enabled clock: stage 0 takes the row and the bend q (r^2 + dx^2), stage 1 the column.
 //
-// Two's complement throughout; r, dx are unsigned. A linear function has q = 0.
+// Two's complement throughout; r, dx and r^2 + dx^2 come as offset_digits. A linear function (QUADRATIC = 0) has no bend: it reads
+// neither q_i nor norm_digits_i.
 module forward_difference #(
     parameter int VALUE_BITS = 64,
     parameter int GRAD_BITS = 48,
     parameter int CURV_BITS = 1,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2
+    parameter bit QUADRATIC = 1'b1,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int NORM_BITS = 2 * TILE_LOG2 + 1,
+    localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
+    localparam int NORM_DIGITS = NORM_BITS / 2 + 1
 ) (
     input logic clk_i,
     input logic en_i,
-    input logic [TILE_LOG2-1:0] row_i,
-    input logic [TILE_LOG2-1:0] dx_i,
+    input logic [2*OFFSET_DIGITS-1:0] row_digits_i,
+    input logic [2*OFFSET_DIGITS-1:0] dx_digits_i,
+    input logic [2*NORM_DIGITS-1:0] norm_digits_i,
     input logic [VALUE_BITS-1:0] value_i,
     input logic [GRAD_BITS-1:0] gx_i,
     input logic [GRAD_BITS-1:0] gy_i,
     input logic [CURV_BITS-1:0] q_i,
     output logic [VALUE_BITS-1:0] value_o
 );
-  localparam int SQUARE_BITS = 2 * TILE_LOG2;
+  localparam int RISE_BITS = GRAD_BITS + TILE_LOG2;
+  localparam int BEND_BITS = CURV_BITS + NORM_BITS;
 
-  logic [SQUARE_BITS-1:0] row_square, dx_square;
+  // ---- Stage 0: row and bend. {a, 1} + {b, carry} is an adder whose carry-in is used ---------------------------------------
+  logic [2*OFFSET_DIGITS-1:0] dx_digits_q;
+  logic [RISE_BITS-1:0] rise_y, rise_x;
+  logic carry_y, carry_x;
   logic [VALUE_BITS-1:0] row_d, row_q;
-  logic [VALUE_BITS-1:0] column_d;
   logic [GRAD_BITS-1:0] gx_q;
-  logic [CURV_BITS-1:0] curv_q;
-  logic [TILE_LOG2-1:0] dx_q;
 
-  assign row_square = SQUARE_BITS'(row_i) * SQUARE_BITS'(row_i);
-  assign dx_square = SQUARE_BITS'(dx_q) * SQUARE_BITS'(dx_q);
-  assign row_d = value_i + VALUE_BITS'($signed(gy_i)) * VALUE_BITS'(row_i) + VALUE_BITS'($signed(q_i)) * VALUE_BITS'(row_square);
-  assign column_d = row_q + VALUE_BITS'($signed(gx_q)) * VALUE_BITS'(dx_q) + VALUE_BITS'($signed(curv_q)) * VALUE_BITS'(dx_square);
+  small_multiply #(
+      .FACTOR_BITS(GRAD_BITS),
+      .NUMBER_BITS(TILE_LOG2)
+  ) u_rise_y (
+      .factor_i(gy_i),
+      .digits_i(row_digits_i),
+      .product_o(rise_y),
+      .carry_o(carry_y)
+  );
+
+  assign row_d = VALUE_BITS'(({value_i, 1'b1} + {VALUE_BITS'($signed(rise_y)), carry_y}) >> 1);
 
   always_ff @(posedge clk_i) begin
     if (en_i) begin
       row_q <= row_d;
       gx_q <= gx_i;
-      curv_q <= q_i;
-      dx_q <= dx_i;
-      value_o <= column_d;
+      dx_digits_q <= dx_digits_i;
     end
   end
+
+  logic [VALUE_BITS-1:0] bent;  // row and bend
+
+  if (QUADRATIC) begin : gen_bend
+    logic [BEND_BITS-1:0] bend_d, bend_q;
+    logic carry_d, carry_q;
+
+    small_multiply #(
+        .FACTOR_BITS(CURV_BITS),
+        .NUMBER_BITS(NORM_BITS)
+    ) u_bend (
+        .factor_i(q_i),
+        .digits_i(norm_digits_i),
+        .product_o(bend_d),
+        .carry_o(carry_d)
+    );
+
+    always_ff @(posedge clk_i) begin
+      if (en_i) begin
+        bend_q <= bend_d;
+        carry_q <= carry_d;
+      end
+    end
+
+    assign bent = VALUE_BITS'(({row_q, 1'b1} + {VALUE_BITS'($signed(bend_q)), carry_q}) >> 1);
+  end else begin : gen_no_bend
+    logic unused;
+    assign unused = ^{q_i, norm_digits_i};
+    assign bent = row_q;
+  end
+
+  // ---- Stage 1: column ----------------------------------------------------------------------------------------------------
+  logic [VALUE_BITS-1:0] column_d;
+
+  small_multiply #(
+      .FACTOR_BITS(GRAD_BITS),
+      .NUMBER_BITS(TILE_LOG2)
+  ) u_rise_x (
+      .factor_i(gx_q),
+      .digits_i(dx_digits_q),
+      .product_o(rise_x),
+      .carry_o(carry_x)
+  );
+
+  assign column_d = VALUE_BITS'(({bent, 1'b1} + {VALUE_BITS'($signed(rise_x)), carry_x}) >> 1);
+
+  always_ff @(posedge clk_i) if (en_i) value_o <= column_d;
 endmodule

@@ -13,6 +13,8 @@ module pixel_pipeline #(
     localparam int ID = quadrille_pkg::QUAD_ID_BITS,
     localparam int FB = quadrille_pkg::FRAGMENT_BITS,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
+    localparam int NORM_DIGITS = (2 * TILE_LOG2 + 1) / 2 + 1,
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
     localparam int QVAL = quadrille_pkg::QVAL_BITS,
@@ -131,17 +133,28 @@ module pixel_pipeline #(
   // ---- Stages 0, 1: exact functions at the pixel --------------------------------------------------------------------------
   logic [6*VAL-1:0] a_1;
   logic [10*QVAL-1:0] quad_1;
+  logic [2*OFFSET_DIGITS-1:0] row_digits, dx_digits;
+  logic [2*NORM_DIGITS-1:0] norm_digits;
+
+  offset_digits u_offset (
+      .row_i,
+      .dx_i,
+      .row_digits_o(row_digits),
+      .dx_digits_o(dx_digits),
+      .norm_digits_o(norm_digits)
+  );
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     forward_difference #(
         .VALUE_BITS(VAL),
         .GRAD_BITS(GRAD),
-        .CURV_BITS(1)
+        .QUADRATIC(1'b0)
     ) u_difference (
         .clk_i,
         .en_i(en),
-        .row_i,
-        .dx_i,
+        .row_digits_i(row_digits),
+        .dx_digits_i(dx_digits),
+        .norm_digits_i(norm_digits),
         .value_i(lin_value_i[g*VAL+:VAL]),
         .gx_i(lin_gx_i[g*GRAD+:GRAD]),
         .gy_i(lin_gy_i[g*GRAD+:GRAD]),
@@ -158,8 +171,9 @@ module pixel_pipeline #(
     ) u_difference (
         .clk_i,
         .en_i(en),
-        .row_i,
-        .dx_i,
+        .row_digits_i(row_digits),
+        .dx_digits_i(dx_digits),
+        .norm_digits_i(norm_digits),
         .value_i(quad_value_i[g*QVAL+:QVAL]),
         .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
         .gy_i(quad_gy_i[g*QGRAD+:QGRAD]),

@@ -9,11 +9,22 @@ module replay_forward_difference (
   localparam int QGRAD = quadrille_pkg::QGRAD_BITS;
   localparam int QCURV = quadrille_pkg::QCURV_BITS;
 
+  localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
+  logic [2*(TILE_LOG2/2+1)-1:0] row_digits_i, dx_digits_i;
+  logic [2*(TILE_LOG2+1)-1:0] norm_digits_i;
+
+  offset_digits u_offset (
+      .row_digits_o(row_digits_i),
+      .dx_digits_o(dx_digits_i),
+      .norm_digits_o(norm_digits_i),
+      .*
+  );
+
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     forward_difference #(
         .VALUE_BITS(VAL),
         .GRAD_BITS(GRAD),
-        .CURV_BITS(1)
+        .QUADRATIC(1'b0)
     ) u_difference (
         .en_i(1'b1),
         .value_i(lin_value_i[g*VAL+:VAL]),

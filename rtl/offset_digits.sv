@@ -1,0 +1,40 @@
+// What the 16 forward differences need of a pixel's place in its tile, row r and column dx: the digits of r, dx and r^2 + dx^2 in
+// radix 4, shared by all of them. Combinational.
+module offset_digits #(
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int NORM_BITS = 2 * TILE_LOG2 + 1,
+    localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
+    localparam int NORM_DIGITS = NORM_BITS / 2 + 1
+) (
+    input logic [TILE_LOG2-1:0] row_i,
+    input logic [TILE_LOG2-1:0] dx_i,
+    output logic [2*OFFSET_DIGITS-1:0] row_digits_o,
+    output logic [2*OFFSET_DIGITS-1:0] dx_digits_o,
+    output logic [2*NORM_DIGITS-1:0] norm_digits_o
+);
+  logic [NORM_BITS-1:0] row_square, dx_square;
+
+  always_comb begin  // a table: `*` would ask for a multiplier
+    row_square = '0;
+    dx_square = '0;
+    for (int i = 0; i < quadrille_pkg::TILE; i++) begin
+      if (row_i == TILE_LOG2'(i)) row_square = NORM_BITS'(i * i);
+      if (dx_i == TILE_LOG2'(i)) dx_square = NORM_BITS'(i * i);
+    end
+  end
+
+  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row (
+      .number_i(row_i),
+      .digits_o(row_digits_o)
+  );
+
+  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_dx (
+      .number_i(dx_i),
+      .digits_o(dx_digits_o)
+  );
+
+  radix4_digits #(.NUMBER_BITS(NORM_BITS)) u_norm (
+      .number_i(row_square + dx_square),
+      .digits_o(norm_digits_o)
+  );
+endmodule
