@@ -244,10 +244,26 @@ module mean_value_weights #(
   logic [S-1:0] na_sig_13, nb_sig_13, both_sig_15;
   logic both_neg_15, unused_neg;
 
-  assign na_exp_13 = sum_exp_13[first_13*E+:E];
-  assign na_sig_13 = sum_sig_13[first_13*S+:S];
-  assign nb_exp_13 = sum_exp_13[second_13*E+:E];
-  assign nb_sig_13 = sum_sig_13[second_13*S+:S];
+  one_of_four #(.WIDTH(E)) u_na_exp (
+      .words_i(sum_exp_13),
+      .index_i(first_13),
+      .word_o(na_exp_13)
+  );
+  one_of_four #(.WIDTH(S)) u_na_sig (
+      .words_i(sum_sig_13),
+      .index_i(first_13),
+      .word_o(na_sig_13)
+  );
+  one_of_four #(.WIDTH(E)) u_nb_exp (
+      .words_i(sum_exp_13),
+      .index_i(second_13),
+      .word_o(nb_exp_13)
+  );
+  one_of_four #(.WIDTH(S)) u_nb_sig (
+      .words_i(sum_sig_13),
+      .index_i(second_13),
+      .word_o(nb_sig_13)
+  );
 
   fp_sum #(.TERMS(2)) u_both (
       .clk_i,
@@ -284,10 +300,33 @@ module mean_value_weights #(
   assign {sum_exp_14, sum_sig_14} = sum_14;
 
   // |k_eff| of the two corners
+  logic [PE-1:0] k_exp_first_14, k_exp_second_14;
+  logic [S-1:0] k_sig_first_14, k_sig_second_14;
   logic [E+S-1:0] k_first_14, k_second_14;
 
-  assign k_first_14 = {E'($signed(k_exp_14_i[first_14*PE+:PE])), k_sig_14_i[first_14*S+:S]};
-  assign k_second_14 = {E'($signed(k_exp_14_i[second_14*PE+:PE])), k_sig_14_i[second_14*S+:S]};
+  one_of_four #(.WIDTH(PE)) u_k_exp_first (
+      .words_i(k_exp_14_i),
+      .index_i(first_14),
+      .word_o(k_exp_first_14)
+  );
+  one_of_four #(.WIDTH(S)) u_k_sig_first (
+      .words_i(k_sig_14_i),
+      .index_i(first_14),
+      .word_o(k_sig_first_14)
+  );
+  one_of_four #(.WIDTH(PE)) u_k_exp_second (
+      .words_i(k_exp_14_i),
+      .index_i(second_14),
+      .word_o(k_exp_second_14)
+  );
+  one_of_four #(.WIDTH(S)) u_k_sig_second (
+      .words_i(k_sig_14_i),
+      .index_i(second_14),
+      .word_o(k_sig_second_14)
+  );
+
+  assign k_first_14 = {E'($signed(k_exp_first_14)), k_sig_first_14};
+  assign k_second_14 = {E'($signed(k_exp_second_14)), k_sig_second_14};
 
   // ---- Stage 15: overrides. Stage 16: h_i, g_i. Stage 17: M_i --------------------------------------------------------------
   for (genvar g = 0; g < 4; g++) begin : gen_weight

@@ -162,82 +162,101 @@ module quad_setup #(
     end
   end
 
-  // ---- Jobs of the two dot units ------------------------------------------------------------------------------------------
-  logic [3:0] k0, k1;  // function of unit 0, unit 1
-  logic is_value0, is_value1, is_linear, is_gradient, is_curvature, is_det;
-  logic [2:0] det_step;  // step - 29
+  // ---- Steps and the jobs of the two dot units ----------------------------------------------------------------------------
+  // Values, one function a unit and step: unit 0 the linear functions, then squares 8 and 9; unit 1 quadratics 0 to 7. An ordinary
+  // quad needs no product for the rest. Gradients: unit 0 along x, unit 1 along y. Curvatures: two functions. Determinants: two steps
+  // each, vector times vector in two halves.
+  localparam logic [5:0] LINEAR_END = 6'd6;
+  localparam logic [5:0] VALUE_END = 6'd8;
+  localparam logic [5:0] LINEAR_GRADIENT_END = 6'd14;
+  localparam logic [5:0] GRADIENT_END = 6'd24;
+  localparam logic [5:0] CURVATURE_END = 6'd29;
 
-  assign is_linear = step_q <= 6'd5;  // unit 0 only
-  assign is_value0 = step_q <= 6'd7;
-  assign is_value1 = step_q <= 6'd7;
-  assign is_gradient = step_q >= 6'd8 && step_q <= 6'd23;
-  assign is_curvature = step_q >= 6'd24 && step_q <= 6'd28;
-  assign is_det = step_q >= 6'd29;
-  assign det_step = step_q[2:0] - 3'd5;
+  logic is_linear, is_value, is_linear_gradient, is_quad_gradient, is_curvature, is_det;
+  logic [2:0] det_step;  // 2 (determinant) + half
+  logic [1:0] det_edge, det_vertex;  // d_012 = E01 . V2, d_023 = E23 . V0, d_123 = E12 . V3, d_013 = E30 . V1
 
-  always_comb begin
-    if (step_q <= 6'd5) k0 = step_q[3:0];
-    else if (step_q <= 6'd7) k0 = step_q[3:0] + 4'd2;
-    else if (step_q <= 6'd13) k0 = step_q[3:0] - 4'd8;
-    else if (step_q <= 6'd23) k0 = step_q[3:0] - 4'd14;
-    else k0 = {step_q[2:0], 1'b0};  // 2 (step - 24): 24 = 0 mod 8
-    if (step_q <= 6'd7) k1 = step_q[3:0];
-    else if (step_q <= 6'd23) k1 = k0;
-    else k1 = {step_q[2:0], 1'b1};
-  end
+  assign is_linear = step_q < LINEAR_END;  // of unit 0
+  assign is_value = step_q < VALUE_END;
+  assign is_linear_gradient = !is_value && step_q < LINEAR_GRADIENT_END;
+  assign is_quad_gradient = step_q >= LINEAR_GRADIENT_END && step_q < GRADIENT_END;
+  assign is_curvature = step_q >= GRADIENT_END && step_q < CURVATURE_END;
+  assign is_det = step_q >= CURVATURE_END;
+  assign det_step = step_q[2:0] - CURVATURE_END[2:0];
 
-  logic [1:0] i0, j0, i1, j1;  // vertices
-  logic [1:0] det_m;
-  logic [1:0] det_f;
-  logic [T-1:0] txi0, txj0, tyi0, tyj0, txi1, txj1, tyi1, tyj1, txm, tym;
-  logic [W-1:0] wi0, wj0, wi1, wj1, wm;
-  logic [63:0] det_value, det_gx, det_gy;
-
-  assign i0 = quadrille_pkg::pair_first(k0);
-  assign j0 = quadrille_pkg::pair_second(k0);
-  assign i1 = quadrille_pkg::pair_first(k1);
-  assign j1 = quadrille_pkg::pair_second(k1);
-
-  // d = 0..3: E01 . V2, E23 . V0, E12 . V3, E30 . V1
   always_comb begin
     case (det_step[2:1])
-      2'd0: begin
-        det_f = 2'd0;
-        det_m = 2'd2;
-      end
-      2'd1: begin
-        det_f = 2'd2;
-        det_m = 2'd0;
-      end
-      2'd2: begin
-        det_f = 2'd1;
-        det_m = 2'd3;
-      end
-      default: begin
-        det_f = 2'd3;
-        det_m = 2'd1;
-      end
+      2'd0: {det_edge, det_vertex} = {2'd0, 2'd2};
+      2'd1: {det_edge, det_vertex} = {2'd2, 2'd0};
+      2'd2: {det_edge, det_vertex} = {2'd1, 2'd3};
+      default: {det_edge, det_vertex} = {2'd3, 2'd1};
     endcase
   end
 
-  assign txi0 = tx_q[i0*T+:T];
-  assign txj0 = tx_q[j0*T+:T];
-  assign tyi0 = ty_q[i0*T+:T];
-  assign tyj0 = ty_q[j0*T+:T];
-  assign wi0 = w_q[i0*W+:W];
-  assign wj0 = w_q[j0*W+:W];
-  assign txi1 = tx_q[i1*T+:T];
-  assign txj1 = tx_q[j1*T+:T];
-  assign tyi1 = ty_q[i1*T+:T];
-  assign tyj1 = ty_q[j1*T+:T];
-  assign wi1 = w_q[i1*W+:W];
-  assign wj1 = w_q[j1*W+:W];
-  assign txm = tx_q[det_m*T+:T];
-  assign tym = ty_q[det_m*T+:T];
-  assign wm = w_q[det_m*W+:W];
-  assign det_value = 64'($signed(lin_value_o[det_f*VAL+:VAL]));
-  assign det_gx = 64'($signed(lin_gx_o[det_f*GRAD+:GRAD]));
-  assign det_gy = 64'($signed(lin_gy_o[det_f*GRAD+:GRAD]));
+  logic [3:0] k0, k1;  // function of unit 0, unit 1: its pair of vertices are the operands
+
+  always_comb begin
+    if (is_linear) k0 = step_q[3:0];
+    else if (is_value) k0 = step_q[3:0] - LINEAR_END[3:0] + 4'd8;
+    else if (is_linear_gradient) k0 = step_q[3:0] - VALUE_END[3:0];
+    else if (is_quad_gradient) k0 = step_q[3:0] - LINEAR_GRADIENT_END[3:0];
+    else if (is_curvature) k0 = {step_q[2:0] - GRADIENT_END[2:0], 1'b0};
+    else k0 = 4'd6 + 4'(det_vertex);  // the square of the vertex
+    k1 = is_value ? step_q[3:0] : is_curvature ? k0 | 4'd1 : k0;
+  end
+
+  logic [T-1:0] txi0, txj0, tyi0, tyj0, txi1, txj1, tyi1, tyj1;
+  logic [W-1:0] wi0, wj0, wi1, wj1;
+
+  setup_pair u_pair0 (
+      .function_i(k0),
+      .x_i(tx_q),
+      .y_i(ty_q),
+      .w_i(w_q),
+      .xi_o(txi0),
+      .yi_o(tyi0),
+      .wi_o(wi0),
+      .xj_o(txj0),
+      .yj_o(tyj0),
+      .wj_o(wj0)
+  );
+
+  setup_pair u_pair1 (
+      .function_i(k1),
+      .x_i(tx_q),
+      .y_i(ty_q),
+      .w_i(w_q),
+      .xi_o(txi1),
+      .yi_o(tyi1),
+      .wi_o(wi1),
+      .xj_o(txj1),
+      .yj_o(tyj1),
+      .wj_o(wj1)
+  );
+
+  logic [VAL-1:0] edge_value;
+  logic [GRAD-1:0] edge_gx, edge_gy;
+  logic [63:0] det_value, det_gx, det_gy;
+
+  one_of_four #(.WIDTH(VAL)) u_edge_value (
+      .words_i(lin_value_o[4*VAL-1:0]),
+      .index_i(det_edge),
+      .word_o(edge_value)
+  );
+  one_of_four #(.WIDTH(GRAD)) u_edge_gx (
+      .words_i(lin_gx_o[4*GRAD-1:0]),
+      .index_i(det_edge),
+      .word_o(edge_gx)
+  );
+  one_of_four #(.WIDTH(GRAD)) u_edge_gy (
+      .words_i(lin_gy_o[4*GRAD-1:0]),
+      .index_i(det_edge),
+      .word_o(edge_gy)
+  );
+
+  assign det_value = 64'($signed(edge_value));
+  assign det_gx = 64'($signed(edge_gx));
+  assign det_gy = 64'($signed(edge_gy));
 
   logic [DOT-1:0] a0, b0, c0, d0, a1, b1, c1, d1;
   logic subtract0, subtract1;
@@ -248,24 +267,22 @@ module quad_setup #(
     b0 = is_linear ? DOT'($signed(tyj0)) : DOT'($signed(txj0));
     c0 = DOT'($signed(tyi0));
     d0 = is_linear ? DOT'($signed(txj0)) : DOT'($signed(tyj0));
-    subtract0 = is_linear;
+    subtract0 = is_linear || is_linear_gradient;
     a1 = DOT'($signed(txi1));
     b1 = DOT'($signed(txj1));
     c1 = DOT'($signed(tyi1));
     d1 = DOT'($signed(tyj1));
-    subtract1 = 1'b0;
-    if (is_gradient && step_q <= 6'd13) begin
+    subtract1 = is_linear_gradient;
+    if (is_linear_gradient) begin
       a0 = DOT'($signed(tyi0));
       b0 = DOT'($signed(wj0));
       c0 = DOT'($signed(wi0));
       d0 = DOT'($signed(tyj0));
-      subtract0 = 1'b1;
       a1 = DOT'($signed(wi1));
       b1 = DOT'($signed(txj1));
       c1 = DOT'($signed(txi1));
       d1 = DOT'($signed(wj1));
-      subtract1 = 1'b1;
-    end else if (is_gradient) begin
+    end else if (is_quad_gradient) begin
       a0 = DOT'($signed(txi0));
       b0 = DOT'($signed(wj0));
       c0 = DOT'($signed(wi0));
@@ -284,20 +301,20 @@ module quad_setup #(
       c1 = '0;
       d1 = '0;
     end else if (is_det && !det_step[0]) begin
-      a0 = DOT'($signed(txm));
+      a0 = DOT'($signed(txi0));
       b0 = DOT'(det_gx[31:0]);
-      c0 = DOT'($signed(tym));
+      c0 = DOT'($signed(tyi0));
       d0 = DOT'(det_gy[31:0]);
-      a1 = DOT'($signed(txm));
+      a1 = DOT'($signed(txi0));
       b1 = DOT'($signed(det_gx[63:32]));
-      c1 = DOT'($signed(tym));
+      c1 = DOT'($signed(tyi0));
       d1 = DOT'($signed(det_gy[63:32]));
     end else if (is_det) begin
-      a0 = DOT'($signed(wm));
+      a0 = DOT'($signed(wi0));
       b0 = DOT'(det_value[31:0]);
       c0 = '0;
       d0 = '0;
-      a1 = DOT'($signed(wm));
+      a1 = DOT'($signed(wi0));
       b1 = DOT'($signed(det_value[63:32]));
       c1 = '0;
       d1 = '0;
@@ -329,30 +346,40 @@ module quad_setup #(
       .result_o(result1)
   );
 
+  // ---- Gradients of an ordinary quad: sums of coordinates, which wait beside the products of the value's job ----------------
+  // Linear: gx = Ty_i - Ty_j, gy = Tx_j - Tx_i. Quadratic: -gx = Tx_i + Tx_j, -gy = Ty_i + Ty_j. All times 2^FRAC.
+  localparam int RISE = T + 1;
+  logic [RISE-1:0] rise_x0_d, rise_y0_d, rise_x1_d, rise_y1_d;
+  logic [RISE-1:0] rise_x0, rise_y0, rise_x1, rise_y1;
+
+  assign rise_x0_d = is_linear ? RISE'($signed(tyi0)) - RISE'($signed(tyj0)) : {txi0, 1'b0};  // unit 0 has squares alone
+  assign rise_y0_d = is_linear ? RISE'($signed(txj0)) - RISE'($signed(txi0)) : {tyi0, 1'b0};
+  assign rise_x1_d = RISE'($signed(txi1)) + RISE'($signed(txj1));
+  assign rise_y1_d = RISE'($signed(tyi1)) + RISE'($signed(tyj1));
+
+  delay_line #(.WIDTH(4 * RISE), .DEPTH(2)) u_rise (
+      .clk_i,
+      .en_i(1'b1),
+      .data_i({rise_x0_d, rise_y0_d, rise_x1_d, rise_y1_d}),
+      .data_o({rise_x0, rise_y0, rise_x1, rise_y1})
+  );
+
   // ---- What the job at the units' outputs is, two clocks after its step ----------------------------------------------------
-  logic value_linear, value0, value1, gradient_linear, gradient_quad, curvature, det;
-  logic [3:0] dest0, dest1;
-  logic [1:0] dest_det;
+  localparam int JOB = 6 + 2 * 4 + 1;
   logic run;
+  logic value_linear, value, gradient_linear, gradient_quad, curvature, det, det_second;
+  logic [3:0] dest0, dest1;
+  logic [JOB-1:0] job;
+  logic [JOB-1:0] job_q1, job_q2;
 
   assign run = state_q == RUN;
-
-  logic [16:0] job;
-  logic [16:0] job_q1, job_q2;
-
   assign job = {
-    run && is_linear,
-    run && is_value0 && !is_linear,
-    run && is_value1,
-    run && is_gradient && step_q <= 6'd13,
-    run && is_gradient && step_q > 6'd13,
-    run && is_curvature,
-    run && is_det,
+    {6{run}} & {is_linear, is_value, is_linear_gradient, is_quad_gradient, is_curvature, is_det},
     k0,
     k1,
-    det_step[2:1]
+    det_step[0]
   };
-  assign {value_linear, value0, value1, gradient_linear, gradient_quad, curvature, det, dest0, dest1, dest_det} = job_q2;
+  assign {value_linear, value, gradient_linear, gradient_quad, curvature, det, dest0, dest1, det_second} = job_q2;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -364,72 +391,91 @@ module quad_setup #(
     end
   end
 
-  // ---- Destinations -------------------------------------------------------------------------------------------------------
+  // ---- Destinations: functions load from few buses -------------------------------------------------------------------------
+  logic [VAL-1:0] value0, value1;
+  logic [GRAD-1:0] linear_gx, linear_gy;
+  logic load_linear_gradient, load_quad_gradient, load_curvature;
+
+  assign value0 = VAL'(result0);
+  assign value1 = VAL'(result1);
+  assign linear_gx = ordinary_q ? GRAD'($signed(rise_x0)) << FRAC : GRAD'(result0);
+  assign linear_gy = ordinary_q ? GRAD'($signed(rise_y0)) << FRAC : GRAD'(result1);
+  assign load_linear_gradient = ordinary_q ? value_linear : gradient_linear;
+  assign load_quad_gradient = ordinary_q ? value : gradient_quad;
+  assign load_curvature = ordinary_q ? value : curvature;
+
   for (genvar g = 0; g < 6; g++) begin : gen_linear
-    localparam int I = 32'(quadrille_pkg::pair_first(4'(g)));
-    localparam int J = 32'(quadrille_pkg::pair_second(4'(g)));
-    logic [GRAD-1:0] rise_x, rise_y;  // gx, gy of an ordinary quad
-
-    assign rise_x = (GRAD'($signed(ty_q[I*T+:T])) - GRAD'($signed(ty_q[J*T+:T]))) << FRAC;
-    assign rise_y = (GRAD'($signed(tx_q[J*T+:T])) - GRAD'($signed(tx_q[I*T+:T]))) << FRAC;
-
     always_ff @(posedge clk_i) begin
-      if (value_linear && dest0 == g) lin_value_o[g*VAL+:VAL] <= VAL'(result0);
-      if (ordinary_q && run) begin
-        lin_gx_o[g*GRAD+:GRAD] <= rise_x;
-        lin_gy_o[g*GRAD+:GRAD] <= rise_y;
-      end else if (gradient_linear && dest0 == g) begin
-        lin_gx_o[g*GRAD+:GRAD] <= GRAD'(result0);
-        lin_gy_o[g*GRAD+:GRAD] <= GRAD'(result1);
+      if (value_linear && dest0 == g) lin_value_o[g*VAL+:VAL] <= value0;
+      if (load_linear_gradient && dest0 == g) begin
+        lin_gx_o[g*GRAD+:GRAD] <= linear_gx;
+        lin_gy_o[g*GRAD+:GRAD] <= linear_gy;
       end
     end
   end
 
-  for (genvar g = 0; g < 10; g++) begin : gen_quadratic
-    localparam int I = 32'(quadrille_pkg::pair_first(4'(g)));
-    localparam int J = 32'(quadrille_pkg::pair_second(4'(g)));
-    logic [GRAD-1:0] rise_x, rise_y;  // -gx, -gy, complete
-    logic [CURV-1:0] curve;
+  // Quadratics 0 to 7 have their values from unit 1, 8 and 9 from unit 0.
+  for (genvar u = 0; u < 2; u++) begin : gen_unit
+    localparam int FIRST = (u == 1) ? 0 : 8;
+    localparam int END = (u == 1) ? 8 : 10;
+    logic [GRAD-1:0] minus_gx, minus_gy;
+    logic [QVAL-1:0] quad_value;
+    logic [QGRAD-1:0] quad_gx, quad_gy;
+    logic [3:0] dest;
 
-    assign rise_x = ordinary_q ? (GRAD'($signed(tx_q[I*T+:T])) + GRAD'($signed(tx_q[J*T+:T]))) << FRAC : GRAD'(result0);
-    assign rise_y = ordinary_q ? (GRAD'($signed(ty_q[I*T+:T])) + GRAD'($signed(ty_q[J*T+:T]))) << FRAC : GRAD'(result1);
-    assign curve = ordinary_q ? CURV'(1) << (2 * FRAC) : (g % 2 == 0) ? CURV'(result0) : CURV'(result1);
+    assign dest = (u == 1) ? dest1 : dest0;
+    assign minus_gx = !ordinary_q ? GRAD'(result0) : GRAD'($signed((u == 1) ? rise_x1 : rise_x0)) << FRAC;
+    assign minus_gy = !ordinary_q ? GRAD'(result1) : GRAD'($signed((u == 1) ? rise_y1 : rise_y0)) << FRAC;
+    assign quad_value = QVAL'(((u == 1) ? value1 : value0) >> QDROP);
+    assign quad_gx = QGRAD'((GRAD'(0) - minus_gx) >> QDROP);
+    assign quad_gy = QGRAD'((GRAD'(0) - minus_gy) >> QDROP);
 
-    always_ff @(posedge clk_i) begin
-      if (value0 && dest0 == g) quad_value_o[g*QVAL+:QVAL] <= QVAL'(VAL'(result0) >> QDROP);
-      if (value1 && dest1 == g) quad_value_o[g*QVAL+:QVAL] <= QVAL'(VAL'(result1) >> QDROP);
-      if ((ordinary_q && run) || (gradient_quad && dest0 == g)) begin
-        quad_gx_o[g*QGRAD+:QGRAD] <= QGRAD'((GRAD'(0) - rise_x) >> QDROP);
-        quad_gy_o[g*QGRAD+:QGRAD] <= QGRAD'((GRAD'(0) - rise_y) >> QDROP);
-      end
-      if ((ordinary_q && run) || (curvature && (g % 2 == 0 ? dest0 == g : dest1 == g))) begin
-        quad_q_o[g*QCURV+:QCURV] <= QCURV'(curve >> QDROP);
+    for (genvar g = FIRST; g < END; g++) begin : gen_quadratic
+      logic [CURV-1:0] curve;
+
+      assign curve = ordinary_q ? CURV'(1) << (2 * FRAC) : (g % 2 == 0) ? CURV'(result0) : CURV'(result1);
+
+      always_ff @(posedge clk_i) begin
+        if (value && !(u == 0 && value_linear) && dest == g) quad_value_o[g*QVAL+:QVAL] <= quad_value;
+        if (load_quad_gradient && dest == g) begin
+          quad_gx_o[g*QGRAD+:QGRAD] <= quad_gx;
+          quad_gy_o[g*QGRAD+:QGRAD] <= quad_gy;
+        end
+        if (load_curvature && (ordinary_q ? dest == g : (g % 2 == 0) ? dest0 == g : dest1 == g)) begin
+          quad_q_o[g*QCURV+:QCURV] <= QCURV'(curve >> QDROP);
+        end
       end
     end
   end
 
-  // ---- Determinants d_012, d_023, d_123, d_013 and what they say ------------------------------------------------------------
-  logic [3:0] det_neg, det_zero, det_pos;
+  // ---- Determinants d_012, d_023, d_123, d_013, one after the other in one accumulator ---------------------------------------
+  logic [DET-1:0] det_q;
+  logic [2:0] det_neg_q, det_zero_q;  // of those before the last, the latest at bit 0
+  logic det_neg, det_zero;
 
-  for (genvar g = 0; g < 4; g++) begin : gen_det
-    logic [DET-1:0] det_q;
+  assign det_neg = det_q[DET-1];
+  assign det_zero = det_q == '0;
 
-    always_ff @(posedge clk_i) begin
-      if (start_i) det_q <= '0;
-      else if (det && dest_det == g) det_q <= det_q + DET'($signed(result0)) + (DET'($signed(result1)) << 32);
+  always_ff @(posedge clk_i) begin
+    if (det) begin
+      det_q <= (det_second ? det_q : '0) + DET'($signed(result0)) + (DET'($signed(result1)) << 32);
+      if (!det_second) begin
+        det_neg_q <= {det_neg_q[1:0], det_neg};
+        det_zero_q <= {det_zero_q[1:0], det_zero};
+      end
     end
-
-    assign det_neg[g] = det_q[DET-1];
-    assign det_zero[g] = det_q == '0;
-    assign det_pos[g] = !det_neg[g] && !det_zero[g];
   end
 
+  logic [3:0] negative, zero, positive;
   logic some_pos, some_neg;  // among d_123, -d_023, d_013, -d_012
 
-  assign some_pos = det_pos[2] || det_neg[1] || det_pos[3] || det_neg[0];
-  assign some_neg = det_neg[2] || det_pos[1] || det_neg[3] || det_pos[0];
+  assign negative = {det_neg, det_neg_q[0], det_neg_q[1], det_neg_q[2]};
+  assign zero = {det_zero, det_zero_q[0], det_zero_q[1], det_zero_q[2]};
+  assign positive = ~negative & ~zero;
+  assign some_pos = positive[2] || negative[1] || positive[3] || negative[0];
+  assign some_neg = negative[2] || positive[1] || negative[3] || positive[0];
   assign hull_o = !ordinary_q && !(some_pos && some_neg);
-  assign visible_o = (ordinary_q || hull_o) ? 4'b1111 : {det_neg[1], det_neg[0], det_pos[1], det_pos[0]};
+  assign visible_o = (ordinary_q || hull_o) ? 4'b1111 : {negative[1:0], positive[1:0]};
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
