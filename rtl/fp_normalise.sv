@@ -18,12 +18,12 @@ module fp_normalise #(
   logic [COUNT_BITS-1:0] count;
   logic [WIDTH-1:0] shifted;
 
-  leading_zeros #(.WIDTH(WIDTH)) u_leading_zeros (
+  shift_to_top #(.WIDTH(WIDTH)) u_shift (
       .value_i(magnitude_i),
-      .count_o(count)
+      .count_o(count),
+      .value_o(shifted)
   );
 
-  assign shifted = magnitude_i << count;
   assign sig_o = S'(((WIDTH + PAD)'(shifted) << PAD) >> (WIDTH + PAD - S));
-  assign exp_o = (magnitude_i == '0) ? '0 : bias_i + E'(WIDTH - 1) - E'(count);
+  assign exp_o = !shifted[WIDTH-1] ? '0 : bias_i + E'(WIDTH - 1) - E'(count);
 endmodule

@@ -20,8 +20,6 @@ module mean_value_ratios #(
     output logic [6*E-1:0] d_exp_o,
     output logic [6*S-1:0] d_sig_o
 );
-  localparam logic [2*S-1:0] ONE_PRODUCT = {2'b01, (2 * S - 2)'(0)};  // 1 * 1
-
   for (genvar g = 0; g < 6; g++) begin : gen_pair
     localparam int I = 32'(quadrille_pkg::pair_first(4'(g)));
     localparam int J = 32'(quadrille_pkg::pair_second(4'(g)));
@@ -107,16 +105,13 @@ module mean_value_ratios #(
     // Stages 9, 10: u = 1 + |c|; v goes beside it. The sign of D says which is which.
     logic [E-1:0] u_exp_10, v_exp_10;
     logic [S-1:0] u_sig_10, v_sig_10;
-    logic u_neg_10;
     logic swap_10;
 
-    fp_sum #(.TERMS(2)) u_u (
+    one_plus u_u (
         .clk_i,
         .en_i,
-        .neg_i({c_neg_8, 1'b0}),
-        .exp_i({c_exp_8, E'(0)}),
-        .prod_i({c_prod_8, ONE_PRODUCT}),
-        .neg_o(u_neg_10),
+        .exp_i(c_exp_8),
+        .prod_i(c_prod_8),
         .exp_o(u_exp_10),
         .sig_o(u_sig_10)
     );
@@ -135,6 +130,6 @@ module mean_value_ratios #(
     assign d_sig_o[g*S+:S] = swap_10 ? v_sig_10 : u_sig_10;
 
     logic unused;
-    assign unused = u_neg_10;  // a sum of positive terms
+    assign unused = c_neg_8;  // |c|
   end
 endmodule
