@@ -272,14 +272,14 @@ with open(path, "w", encoding="utf-8") as file:
 PYTHON
   expect 1 "^$1: (first difference|FAILED)" "$1: $2: ${4# }" $replay "$set" "${5:-$tool}" --suite "$1" --rtl "$work/rtl"
 }
-fault setup quad_setup.sv "subtract0 = is_linear;" "subtract0 = 1'b0;"
+fault setup quad_setup.sv "subtract0 = is_linear || is_linear_gradient;" "subtract0 = 1'b0;"
 fault coverage stamp_coverage.sv "(pos2 | pos3)" "(pos2 & pos3)"
-fault forward_difference forward_difference.sv "SQUARE_BITS'(row_i) * SQUARE_BITS'(row_i)" "SQUARE_BITS'(row_i) * SQUARE_BITS'(dx_i)"
+fault forward_difference offset_digits.sv "row_square + dx_square" "row_square + row_square"
 fault normalise normalise.sv "E'(WIDTH - 1 + BIAS)" "E'(WIDTH + BIAS)"
 fault normalise singular_class.sv "a_zero && d_i[g*QVAL+QVAL-1]" "a_zero && !d_i[g*QVAL+QVAL-1]"
 fault rsqrt rsqrt.sv "DEPTH(3)" "DEPTH(2)"
 fault reciprocal reciprocal.sv "E'(0) - exp_i : ~exp_i" "E'(0) - exp_i : -exp_i"
-fault ratios mean_value_ratios.sv "neg_i(1'b0)" "neg_i(1'b1)"
+fault ratios one_plus.sv "distance = E'(0) - exp_i" "distance = E'(1) - exp_i"
 fault weights mean_value_weights.sv "take_both_15 <= two_edge_14 && on_a && on_b" "take_both_15 <= 1'b0"
 fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(t*4+v)*PE+:PE]))" "E'(term_exp_i[(t*4+v)*PE+:PE])"
 fault depth fragment_output.sv "z < znear_i" "z <= znear_i"
