@@ -13,14 +13,16 @@
 namespace quadrille::golden {
 namespace {
 
-constexpr std::array<CornerGroupInfo, 10> table{{
+constexpr std::array<CornerGroupInfo, 12> table{{
     {CornerGroup::face_plane, "face_plane",
      "every combination of signs of the determinants d_012, d_023, d_123, d_013, zero included: the eye in the plane "
      "of a face",
      ""},
     {CornerGroup::flat, "flat",
-     "four vertices in one plane with the eye, seen edge-on along pixel centres: pixels in several singular classes",
-     ""},
+     "four vertices in one plane with the eye, seen edge-on along pixel centres: pixels in several singular classes, "
+     "and "
+     "sum(M W) = 0 with the eye in the hull",
+     "depth off, for the second"},
     {CornerGroup::den_w_zero, "den_w_zero",
      "an edge with nearly antipodal ends along pixel centres, whose W are equal once truncated: sum(M W) = 0 without "
      "an eye in the hull",
@@ -40,6 +42,11 @@ constexpr std::array<CornerGroupInfo, 10> table{{
      "a viewport of more than four blocks in height and two in width"},
     {CornerGroup::burst, "burst", "quads of one pixel, quick one after the other: every quad slot in use",
      "a stall of 0.95"},
+    {CornerGroup::extreme, "extreme", "X, Y and W of every vertex at an end of their ranges: the widest gradients", ""},
+    {CornerGroup::far_corner, "far_corner",
+     "vertices behind the eye at the end of the guard band, pixels at the other end: the widest edge functions and dot "
+     "products",
+     "a viewport of 2^viewport_bits pixels in width and height"},
 }};
 
 /// A point of the integer lattice in homogeneous form, relative to some pixel centre.
@@ -310,6 +317,45 @@ void burst(Batch& b) {
   }
 }
 
+/// A vertex of the given sign of W at (x, y) ends of the guard band, −1 to 1: k is 1, and X, Y, W are exact.
+WindowVertex at_limit(const Config& config, double x, double y, double w) {
+  const double limit = std::ldexp(1.0, config.pos_int());
+  return {limit * x + w / 2, limit * y + w / 2, 0, w};
+}
+
+void extreme(Batch& b) {
+  for (int count = 0; count < 40; ++count) {
+    std::array<WindowVertex, 4> quad;
+    for (WindowVertex& v : quad) {
+      const double x = b.rng.sign();
+      const double y = b.rng.sign();
+      const double least = std::ldexp(1.0, -b.config.frac());  // one unit of W
+      const std::array<double, 5> w{1, 1, 0, least, 1 - least};
+      v = at_limit(b.config, x, y, b.rng.sign() * w[b.rng.below(w.size())]);
+    }
+    set_flat_depth(b, quad);
+    b.quads.push_back(quad);
+  }
+}
+
+/// A vertex with W = −1 stands for the point mirrored in the origin, far beyond the upper left: what is visible of its
+/// edges runs from their other ends, near the last pixel, away from that point.
+void far_corner(Batch& b) {
+  const double right = b.state.width - 1, bottom = b.state.height - 1;
+  for (int count = 0; count < 12; ++count) {
+    std::array<WindowVertex, 4> quad;
+    for (WindowVertex& v : quad) {
+      const double x = right - b.integer(0, 12);
+      v = {x + 0.5, bottom - b.integer(0, 12) + 0.5, 0, 1};
+    }
+    const auto first = static_cast<std::size_t>(b.integer(0, 3));
+    quad[first] = at_limit(b.config, 1, 1, -1);
+    if (count % 3 != 0) quad[(first + 1) % 4] = at_limit(b.config, count % 3 == 1 ? 1 : -1, 1 - 0x1p-6, -1);
+    set_flat_depth(b, quad);
+    b.quads.push_back(quad);
+  }
+}
+
 void fill(CornerGroup group, Batch& b) {
   switch (group) {
     case CornerGroup::face_plane:
@@ -332,6 +378,10 @@ void fill(CornerGroup group, Batch& b) {
       return tall(b);
     case CornerGroup::burst:
       return burst(b);
+    case CornerGroup::extreme:
+      return extreme(b);
+    case CornerGroup::far_corner:
+      return far_corner(b);
   }
 }
 
@@ -371,6 +421,7 @@ std::vector<CornerDraw> corner_draws(const Config& config, std::uint64_t seed) {
     DrawState& state = draw.state;
     state.attributes = 1 + static_cast<int>(info.group) % config.attribute_slots;
     if (info.group == CornerGroup::z_limits) state.znear = 0.25, state.zfar = 0.75;
+    if (info.group == CornerGroup::flat) state.depth = false;
     if (info.group == CornerGroup::two_edge) state.perspective = false;
     if (info.group == CornerGroup::tall) {
       const int block = 8 * config.tile(), most = 1 << config.viewport_bits;
@@ -378,6 +429,8 @@ std::vector<CornerDraw> corner_draws(const Config& config, std::uint64_t seed) {
       state.height = state.scissor_y1 = std::min(10 * block, most);
     }
     if (info.group == CornerGroup::burst) draw.stall = 0.95;
+    if (info.group == CornerGroup::far_corner)
+      state.width = state.height = state.scissor_x1 = state.scissor_y1 = 1 << config.viewport_bits;
     for (const WindowQuad& quad : make_corner(info.group, config, state, seed, state.attributes))
       draw.quads.push_back(snap_quad(quad, config, state));
     draws.push_back(std::move(draw));

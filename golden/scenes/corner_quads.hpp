@@ -23,6 +23,8 @@ enum class CornerGroup {
   two_edge,
   tall,
   burst,
+  extreme,
+  far_corner,
 };
 
 struct CornerGroupInfo {
@@ -38,8 +40,9 @@ std::span<const CornerGroupInfo> corner_groups();
 CornerGroup parse_corner_group(std::string_view name);
 
 /// The quads of a group, ids 0, 1, 2 …, with `attributes` random attributes per vertex. They lie in the upper left 32
-/// pixels of the viewport, or on its whole height (`tall`); z_limits takes znear and zfar from the state. Snapping them
-/// with this configuration is exact in x, y and w. The same arguments give the same bits everywhere.
+/// pixels of the viewport, on its whole height (`tall`) or at its end (`far_corner`); z_limits takes znear and zfar
+/// from the state. Snapping them with this configuration is exact in x, y and w. The same arguments give the same bits
+/// everywhere.
 std::vector<WindowQuad> make_corner(CornerGroup group, const Config& config, const DrawState& state, std::uint64_t seed,
                                     int attributes);
 

@@ -135,15 +135,17 @@ TEST(CornerQuads, FacePlaneHasEveryCombinationOfSigns) {
 TEST(CornerQuads, FlatPixelsAreInSeveralClasses) {
   const Config config;
   std::map<std::pair<int, int>, int> seen;  // corners, edges
-  int skipped_second = 0;
+  int skipped_second = 0, nowhere = 0;
   for_each_pixel(draw_of(config, CornerGroup::flat), config,
                  [&](const SnappedQuad&, const TileEntry&, const PixelTrace& p) {
                    ++seen[{std::min(corners(p), 2), std::min(edges(p), 2)}];
                    const auto on = [&](std::size_t e) { return p.a[e] == 0 && p.d[e] < 0; };
+                   nowhere += p.hull && p.den_w.sig == 0;
                    skipped_second += corners(p) == 0 && edges(p) >= 3 && on(1) && on(2);
                  });
   for (const auto& both : {std::pair{1, 1}, {1, 2}, {2, 1}, {0, 2}})
     EXPECT_GT((seen[both]), 0) << both.first << " corners, " << both.second << " edges";
+  EXPECT_GT(nowhere, 5) << "neither in front of the eye nor behind it";
   EXPECT_GT(skipped_second, 0) << "no pixel on edges 1 and 2 and a third";
 }
 
@@ -270,6 +272,55 @@ TEST(CornerQuads, BurstQuadsCoverOnePixelOrNone) {
   EXPECT_EQ(pixels.size(), draw.quads.size() * 7 / 8);
   EXPECT_TRUE(std::ranges::all_of(pixels, [](const auto& quad) { return quad.second == 1; }));
   EXPECT_GE(draw.stall, 0.95);
+}
+
+std::int64_t largest(std::int64_t before, std::int64_t v) { return std::max(before, v < 0 ? -v : v); }
+
+/// Numbers that one bit less would not hold.
+TEST(CornerQuads, ExtremesNeedEveryBit) {
+  Config wide;
+  wide.set("viewport_bits", 9);
+  wide.set("guard_bits", 1);
+  for (const Config& config : {Config{}, wide}) {
+    std::map<std::string, int> widths;
+    for (const DerivedWidth& width : config.derived()) widths[width.name] = static_cast<int>(width.value);
+    const auto needs = [&](const char* name, std::int64_t value) {
+      EXPECT_GE(value, std::int64_t{1} << (widths.at(name) - 2)) << name << ", guard_bits " << config.guard_bits;
+    };
+    std::int64_t t = 0, w = 0, gradient = 0, slope = 0, curvature = 0;
+    const CornerDraw extreme = draw_of(config, CornerGroup::extreme);
+    for (const SnappedQuad& quad : extreme.quads) {
+      for (const SnappedVertex& v : quad.vertex) {
+        t = largest(t, v.x);
+        w = largest(w, v.w);
+      }
+      const SetupResult setup = quad_setup(quad, config, extreme.state);
+      for (const LinearForm& f : setup.linear) gradient = largest(largest(gradient, f.gx), f.gy);
+      for (const QuadraticForm& f : setup.quadratic) {
+        slope = largest(largest(slope, f.gx), f.gy);
+        curvature = largest(curvature, f.q);
+      }
+    }
+    needs("T_BITS", t);
+    needs("W_BITS", w);
+    needs("GRAD_BITS", gradient);
+    needs("QGRAD_BITS", slope);
+    needs("QCURV_BITS", curvature);
+
+    std::int64_t area = 0, dot = 0, square = 0;
+    int pixels = 0;
+    for_each_pixel(draw_of(config, CornerGroup::far_corner), config,
+                   [&](const SnappedQuad&, const TileEntry&, const PixelTrace& p) {
+                     ++pixels;
+                     for (const std::int64_t a : p.a) area = largest(area, a);
+                     for (const std::int64_t d : p.d) dot = largest(dot, d);
+                     for (const std::int64_t r2 : p.r2) square = largest(square, r2);
+                   });
+    needs("VAL_BITS", dot);
+    needs("VAL_BITS", square);
+    if (config.guard_bits > 1) needs("VAL_BITS", area);  // else 3 (2^(POS_INT + FRAC))², where D has 4.5
+    EXPECT_GT(pixels, 200);
+  }
 }
 
 }  // namespace
