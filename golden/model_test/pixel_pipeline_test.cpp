@@ -8,6 +8,7 @@
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 
+#include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/stress.hpp"
 #include "model/support/prng.hpp"
 
@@ -145,6 +146,26 @@ INSTANTIATE_TEST_SUITE_P(EveryFamily, Engines, testing::Range(0, static_cast<int
                          [](const auto& p) {
                            return std::string(golden::stress_families()[static_cast<std::size_t>(p.param)].name);
                          });
+
+TEST(CornerQuads, PlainAndLanesAreOne) {
+  Prng rng(180);
+  std::uint64_t fragments = 0;
+  for (std::uint64_t n = 0; n < 6; ++n) {
+    const Config c = random_config(rng);
+    for (const golden::CornerDraw& draw : golden::corner_draws(c, n)) {
+      const Result plain = draw_all(draw.quads, c, draw.state, PixelEngine::plain);
+      SCOPED_TRACE(std::string(draw.group) + ", round " + std::to_string(n));
+      on_each_lane_target([&] {
+        const Result quick = draw_all(draw.quads, c, draw.state, PixelEngine::lanes);
+        expect_same(plain.fragments, quick.fragments);
+        expect_same_stats(plain.stats, quick.stats);
+      });
+      if (HasFailure()) return;
+      fragments += plain.fragments.size();
+    }
+  }
+  EXPECT_GT(fragments, 20'000u);
+}
 
 /// Bit patterns that rounding anywhere would betray: long runs of ones and single bits, up to 2^62, straight into the
 /// pipeline's front. A, D <= r² as in a real quad; everything else random.
