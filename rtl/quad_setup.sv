@@ -11,6 +11,7 @@ module quad_setup #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
+    localparam int REACH = quadrille_pkg::REACH_BITS,
     localparam int QVAL = quadrille_pkg::QVAL_BITS,
     localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
     localparam int QCURV = quadrille_pkg::QCURV_BITS,
@@ -43,6 +44,12 @@ module quad_setup #(
     output logic [6*VAL-1:0] lin_value_o,
     output logic [6*GRAD-1:0] lin_gx_o,
     output logic [6*GRAD-1:0] lin_gy_o,
+    output logic [4:0] tie_pos_o,
+    output logic [4:0] tie_neg_o,
+    output logic [5*REACH-1:0] fall_tile_o,
+    output logic [5*REACH-1:0] rise_tile_o,
+    output logic [5*REACH-1:0] fall_block_o,
+    output logic [5*REACH-1:0] rise_block_o,
     output logic [10*QVAL-1:0] quad_value_o,
     output logic [10*QGRAD-1:0] quad_gx_o,
     output logic [10*QGRAD-1:0] quad_gy_o,
@@ -404,12 +411,43 @@ module quad_setup #(
   assign load_quad_gradient = ordinary_q ? value : gradient_quad;
   assign load_curvature = ordinary_q ? value : curvature;
 
+  logic tie_pos, tie_neg;
+  logic [REACH-1:0] fall_tile, rise_tile, fall_block, rise_block;
+
+  edge_reach u_reach (
+      .gx_i(linear_gx),
+      .gy_i(linear_gy),
+      .tie_pos_o(tie_pos),
+      .tie_neg_o(tie_neg),
+      .fall_tile_o(fall_tile),
+      .rise_tile_o(rise_tile),
+      .fall_block_o(fall_block),
+      .rise_block_o(rise_block)
+  );
+
   for (genvar g = 0; g < 6; g++) begin : gen_linear
+    logic load_gradient;
+
+    assign load_gradient = load_linear_gradient && dest0 == g;
+
     always_ff @(posedge clk_i) begin
       if (value_linear && dest0 == g) lin_value_o[g*VAL+:VAL] <= value0;
-      if (load_linear_gradient && dest0 == g) begin
+      if (load_gradient) begin
         lin_gx_o[g*GRAD+:GRAD] <= linear_gx;
         lin_gy_o[g*GRAD+:GRAD] <= linear_gy;
+      end
+    end
+
+    if (g < 5) begin : gen_reach  // not of the diagonal 13, which is no edge of a clause
+      always_ff @(posedge clk_i) begin
+        if (load_gradient) begin
+          tie_pos_o[g] <= tie_pos;
+          tie_neg_o[g] <= tie_neg;
+          fall_tile_o[g*REACH+:REACH] <= fall_tile;
+          rise_tile_o[g*REACH+:REACH] <= rise_tile;
+          fall_block_o[g*REACH+:REACH] <= fall_block;
+          rise_block_o[g*REACH+:REACH] <= rise_block;
+        end
       end
     end
   end

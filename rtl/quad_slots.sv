@@ -1,7 +1,8 @@
 // The quad slots: allocation, and everything that a pixel needs to know about its quad, read by slot index.
 //
 // Two banks. Vertex bank, written at start: id, k_eff (k, or W without perspective), W, Z, b as significand numbers with port
-// exponents. Function bank, written at take: gx, gy of the linear and q of the quadratic functions, visibility, hull, homogeneous.
+// exponents. Function bank, written at take: gx, gy and tie signs of the linear and q of the quadratic functions, visibility, hull,
+// homogeneous.
 // Reads are combinational; a slot lives from start until the end beat leaves the pipeline. Not reset, except the pointers.
 module quad_slots #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
@@ -38,6 +39,8 @@ module quad_slots #(
     input logic [6*GRAD-1:0] lin_gx_i,
     input logic [6*GRAD-1:0] lin_gy_i,
     input logic [10*QCURV-1:0] quad_q_i,
+    input logic [4:0] tie_pos_i,
+    input logic [4:0] tie_neg_i,
     input logic [3:0] visible_i,
     input logic hull_i,
     input logic homogeneous_i,
@@ -45,6 +48,8 @@ module quad_slots #(
     input logic [SLOT-1:0] stamp_slot_i,
     output logic [5*GRAD-1:0] stamp_gx_o,
     output logic [5*GRAD-1:0] stamp_gy_o,
+    output logic [4:0] stamp_tie_pos_o,
+    output logic [4:0] stamp_tie_neg_o,
     output logic [3:0] stamp_visible_o,
     // Read for emission
     input logic [SLOT-1:0] emit_slot_i,
@@ -185,17 +190,17 @@ module quad_slots #(
     assign emit_q_o[g*QCURV+:QCURV] = curv_q[emit_slot_i];
   end
 
-  logic [3:0] visible_q[0:SLOTS-1];
+  logic [13:0] stamp_q[0:SLOTS-1];
   logic [1:0] class_q[0:SLOTS-1];
 
   always_ff @(posedge clk_i) begin
     if (take_i) begin
-      visible_q[take_slot_i] <= visible_i;
+      stamp_q[take_slot_i] <= {tie_pos_i, tie_neg_i, visible_i};
       class_q[take_slot_i] <= {hull_i, homogeneous_i};
     end
   end
 
-  assign stamp_visible_o = visible_q[stamp_slot_i];
+  assign {stamp_tie_pos_o, stamp_tie_neg_o, stamp_visible_o} = stamp_q[stamp_slot_i];
   assign {output_hull_o, output_homogeneous_o} = class_q[output_slot_i];
 
 `ifndef SYNTHESIS

@@ -6,6 +6,7 @@ bounding_range.sv
 config_check.sv
 delay_line.sv
 dot_unit.sv
+edge_reach.sv
 fixed_point.sv
 forward_difference.sv
 fp_multiply.sv

@@ -48,6 +48,7 @@ module quadrille (
   localparam int TC = quadrille_pkg::TC_BITS;
   localparam int VAL = quadrille_pkg::VAL_BITS;
   localparam int GRAD = quadrille_pkg::GRAD_BITS;
+  localparam int REACH = quadrille_pkg::REACH_BITS;
   localparam int QVAL = quadrille_pkg::QVAL_BITS;
   localparam int QGRAD = quadrille_pkg::QGRAD_BITS;
   localparam int QCURV = quadrille_pkg::QCURV_BITS;
@@ -111,6 +112,8 @@ module quadrille (
   logic [3:0] visible;
   logic [6*VAL-1:0] setup_lin_value;
   logic [6*GRAD-1:0] setup_lin_gx, setup_lin_gy;
+  logic [4:0] setup_tie_pos, setup_tie_neg;
+  logic [5*REACH-1:0] setup_fall_tile, setup_rise_tile, setup_fall_block, setup_rise_block;
   logic [10*QVAL-1:0] setup_quad_value;
   logic [10*QGRAD-1:0] setup_quad_gx, setup_quad_gy;
   logic [10*QCURV-1:0] setup_quad_q;
@@ -144,6 +147,12 @@ module quadrille (
       .lin_value_o(setup_lin_value),
       .lin_gx_o(setup_lin_gx),
       .lin_gy_o(setup_lin_gy),
+      .tie_pos_o(setup_tie_pos),
+      .tie_neg_o(setup_tie_neg),
+      .fall_tile_o(setup_fall_tile),
+      .rise_tile_o(setup_rise_tile),
+      .fall_block_o(setup_fall_block),
+      .rise_block_o(setup_rise_block),
       .quad_value_o(setup_quad_value),
       .quad_gx_o(setup_quad_gx),
       .quad_gy_o(setup_quad_gy),
@@ -153,6 +162,7 @@ module quadrille (
   // ---- Quad slots ---------------------------------------------------------------------------------------------------------
   logic [SLOT-1:0] stamp_slot, head_slot, product_slot, override_slot, blend_slot, output_slot;
   logic [5*GRAD-1:0] stamp_gx, stamp_gy;
+  logic [4:0] stamp_tie_pos, stamp_tie_neg;
   logic [3:0] stamp_visible;
   logic [6*GRAD-1:0] emit_gx, emit_gy;
   logic [10*QCURV-1:0] emit_q;
@@ -187,12 +197,16 @@ module quadrille (
       .lin_gx_i(setup_lin_gx),
       .lin_gy_i(setup_lin_gy),
       .quad_q_i(setup_quad_q),
+      .tie_pos_i(setup_tie_pos),
+      .tie_neg_i(setup_tie_neg),
       .visible_i(visible),
       .hull_i(hull),
       .homogeneous_i(homogeneous),
       .stamp_slot_i(stamp_slot),
       .stamp_gx_o(stamp_gx),
       .stamp_gy_o(stamp_gy),
+      .stamp_tie_pos_o(stamp_tie_pos),
+      .stamp_tie_neg_o(stamp_tie_neg),
       .stamp_visible_o(stamp_visible),
       .emit_slot_i(head_slot),
       .emit_gx_o(emit_gx),
@@ -239,6 +253,10 @@ module quadrille (
       .lin_value_i(setup_lin_value),
       .lin_gx_i(setup_lin_gx),
       .lin_gy_i(setup_lin_gy),
+      .fall_tile_i(setup_fall_tile),
+      .rise_tile_i(setup_rise_tile),
+      .fall_block_i(setup_fall_block),
+      .rise_block_i(setup_rise_block),
       .quad_value_i(setup_quad_value),
       .quad_gx_i(setup_quad_gx),
       .quad_gy_i(setup_quad_gy),
@@ -320,6 +338,8 @@ module quadrille (
       .lin_value_i(stamp_lin_value),
       .lin_gx_i(stamp_gx),
       .lin_gy_i(stamp_gy),
+      .tie_pos_i(stamp_tie_pos),
+      .tie_neg_i(stamp_tie_neg),
       .visible_i(stamp_visible),
       .fifo_full_i(fifo_full),
       .push_o(stamp_push),
@@ -450,7 +470,12 @@ module quadrille (
     setup_quad_q
   };
   assign probe_tile_valid_o = tile_push;
-  assign probe_tile_o = {tile_end, tile_slot, tile_x, tile_y, tile_lin_value, tile_quad_value, tile_quad_gx, tile_quad_gy};
+  localparam int TILE_CONTEXT = 2 * TC + 6 * VAL + 10 * QVAL + 20 * QGRAD;
+  assign probe_tile_o = {  // an end entry's context means nothing
+    tile_end,
+    tile_slot,
+    tile_end ? TILE_CONTEXT'(0) : {tile_x, tile_y, tile_lin_value, tile_quad_value, tile_quad_gx, tile_quad_gy}
+  };
   assign probe_stamp_valid_o = stamp_push;
   assign probe_stamp_o = stamp;
 `endif

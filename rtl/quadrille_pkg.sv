@@ -144,6 +144,8 @@ package quadrille_pkg;
   localparam int BLOCK_TILES /*verilator public*/ = 1 << BLOCK_LOG2;
   // tile coordinate or tile count: the count reaches 2^(VIEWPORT_BITS-TILE_LOG2) inclusive
   localparam int TC_BITS /*verilator public*/ = VIEWPORT_BITS - TILE_LOG2 + 1;
+  // signed reach of an edge function over a block: two first differences times its edge in pixels
+  localparam int REACH_BITS /*verilator public*/ = GRAD_BITS + 1 + TILE_LOG2 + BLOCK_LOG2;
   // {neg, exp, sig}
   localparam int ATTR_PORT_BITS /*verilator public*/ = 1 + PORT_EXP_BITS + SIGNIFICAND_BITS;
   // two's complement

@@ -1,7 +1,8 @@
 // Coverage of one tile row (a TILE x 1 stamp) a clock: the five edge functions at each pixel, the two clauses in both orientations,
 // culling, the scissor rectangle. Stamps with a covered pixel go to the stamp FIFO, an end entry passes through.
 //
-// Ties: E = 0 counts as the sign of (dE/dx, dE/dy), the first that is not 0; an edge function without gradient has no sign.
+// Ties: E = 0 counts as the sign of (dE/dx, dE/dy), the first that is not 0 (tie_pos_i, tie_neg_i); an edge function without
+// gradient has no sign.
 // Combinational from the ring entry and the row register; one clock per row, waits only when it has something to push.
 module stamp_coverage #(
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
@@ -29,6 +30,8 @@ module stamp_coverage #(
     // Quad
     input logic [5*GRAD-1:0] lin_gx_i,
     input logic [5*GRAD-1:0] lin_gy_i,
+    input logic [4:0] tie_pos_i,
+    input logic [4:0] tie_neg_i,
     input logic [3:0] visible_i,
     // Stamp FIFO
     input logic fifo_full_i,
@@ -52,28 +55,28 @@ module stamp_coverage #(
   for (genvar g = 0; g < 5; g++) begin : gen_edge
     logic [VAL-1:0] gx, gy;
     logic [VAL-1:0] row_value_q, row_value;
-    logic [VAL-1:0] value;
-    logic tie_pos, tie_neg;
     logic [TILE-1:0] is_zero, is_neg;
 
     assign gx = VAL'($signed(lin_gx_i[g*GRAD+:GRAD]));
     assign gy = VAL'($signed(lin_gy_i[g*GRAD+:GRAD]));
-    assign tie_neg = gx[VAL-1] || (gx == '0 && gy[VAL-1]);
-    assign tie_pos = !tie_neg && (gx != '0 || gy != '0);
     assign row_value = (row_q == '0) ? lin_value_i[g*VAL+:VAL] : row_value_q;
 
-    always_comb begin
-      value = row_value;
-      for (int dx = 0; dx < TILE; dx++) begin
-        is_zero[dx] = value == '0;
-        is_neg[dx] = value[VAL-1];
-        value = value + gx;
+    for (genvar dx = 0; dx < TILE; dx++) begin : gen_pixel
+      logic [VAL-1:0] value;
+
+      if (dx == 0) begin : gen_first
+        assign value = row_value;
+      end else begin : gen_next  // a tree: from the pixel without the highest one of dx
+        localparam int HIGHEST = $clog2(dx + 1) - 1;
+        assign value = gen_pixel[dx-(1<<HIGHEST)].value + (gx << HIGHEST);
       end
+      assign is_zero[dx] = value == '0;
+      assign is_neg[dx] = value[VAL-1];
     end
 
-    assign zero[g*TILE+:TILE] = is_zero & {TILE{tie_pos || tie_neg}};  // an all-zero edge decides nothing
-    assign neg[g*TILE+:TILE] = is_neg | (is_zero & {TILE{tie_neg}});
-    assign pos[g*TILE+:TILE] = (~is_neg & ~is_zero) | (is_zero & {TILE{tie_pos}});
+    assign zero[g*TILE+:TILE] = is_zero & {TILE{tie_pos_i[g] || tie_neg_i[g]}};  // an all-zero edge decides nothing
+    assign neg[g*TILE+:TILE] = is_neg | (is_zero & {TILE{tie_neg_i[g]}});
+    assign pos[g*TILE+:TILE] = (~is_neg & ~is_zero) | (is_zero & {TILE{tie_pos_i[g]}});
 
     always_ff @(posedge clk_i) if (step_row) row_value_q <= row_value + gy;
   end
@@ -82,18 +85,25 @@ module stamp_coverage #(
   assign {neg4, neg3, neg2, neg1, neg0} = neg;
 
   // ---- Scissor ------------------------------------------------------------------------------------------------------------
-  logic [V:0] x, y;
+  logic [V:0] y;
+  logic [TC-1:0] first_tile, end_tile;  // of the rectangle's columns
+  logic [TILE_LOG2-1:0] first_dx, end_dx;
   logic [TILE-1:0] in_scissor;
-  logic row_inside;
+  logic row_inside, right_of_first, in_first, left_of_end, in_end;
 
   assign y = {tile_y_i, row_q};
   assign row_inside = y >= scissor_y0_i && y < scissor_y1_i;
+  assign {first_tile, first_dx} = scissor_x0_i;
+  assign {end_tile, end_dx} = scissor_x1_i;
+  assign right_of_first = tile_x_i > first_tile;
+  assign in_first = tile_x_i == first_tile;
+  assign left_of_end = tile_x_i < end_tile;
+  assign in_end = tile_x_i == end_tile;
 
   always_comb begin
-    x = {tile_x_i, TILE_LOG2'(0)};
     for (int dx = 0; dx < TILE; dx++) begin
-      in_scissor[dx] = row_inside && x >= scissor_x0_i && x < scissor_x1_i;
-      x = x + (V + 1)'(1);
+      in_scissor[dx] = row_inside && (right_of_first || (in_first && TILE_LOG2'(dx) >= first_dx))
+          && (left_of_end || (in_end && TILE_LOG2'(dx) < end_dx));
     end
   end
 

@@ -3,11 +3,12 @@
 //
 // State is value (and gx, gy of the quadratics) at the first pixel of the current block and of the current tile, moved by exact
 // forward differences. The test is conservative over the extent: each edge function is 'somewhere positive', 'somewhere negative'
-// or both. Does not look at the scissor rectangle.
+// or both, by its value and edge_reach. Does not look at the scissor rectangle.
 module tile_walk #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
+    localparam int REACH = quadrille_pkg::REACH_BITS,
     localparam int QVAL = quadrille_pkg::QVAL_BITS,
     localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
     localparam int QCURV = quadrille_pkg::QCURV_BITS,
@@ -29,11 +30,15 @@ module tile_walk #(
     input logic [6*VAL-1:0] lin_value_i,
     input logic [6*GRAD-1:0] lin_gx_i,
     input logic [6*GRAD-1:0] lin_gy_i,
+    input logic [5*REACH-1:0] fall_tile_i,
+    input logic [5*REACH-1:0] rise_tile_i,
+    input logic [5*REACH-1:0] fall_block_i,
+    input logic [5*REACH-1:0] rise_block_i,
     input logic [10*QVAL-1:0] quad_value_i,
     input logic [10*QGRAD-1:0] quad_gx_i,
     input logic [10*QGRAD-1:0] quad_gy_i,
     input logic [10*QCURV-1:0] quad_q_i,
-    // Tile out; all zero but slot for an end entry
+    // Tile out; an end entry has a slot alone
     input logic ring_full_i,
     output logic push_o,
     output logic end_o,
@@ -150,8 +155,17 @@ module tile_walk #(
   end
 
   assign slot_o = slot_q;
-  assign tile_x_o = end_o ? '0 : tile_x0_q + (block_x_q << BLOCK_LOG2) + TC'(tile_x_q);
-  assign tile_y_o = end_o ? '0 : tile_y0_q + (block_y_q << BLOCK_LOG2) + TC'(tile_y_q);
+  assign tile_x_o = tile_x0_q + (block_x_q << BLOCK_LOG2) + TC'(tile_x_q);
+  assign tile_y_o = tile_y0_q + (block_y_q << BLOCK_LOG2) + TC'(tile_y_q);
+
+  // ---- A step: of the block, or of the tile within it -----------------------------------------------------------------------
+  // One set of adders does both: the clock that leaves a block moves the block alone, and the tile follows. A step to the left
+  // subtracts: ~x, and the one that is missing enters as carry ({a, 1} + {b, carry}).
+  logic of_block, row_end, back_x;
+
+  assign of_block = in_block || tile_end;
+  assign row_end = of_block ? block_row_end : tile_row_end;
+  assign back_x = !row_end && (of_block ? block_left_q : tile_left_q);
 
   // ---- Linear functions and the extent test -------------------------------------------------------------------------------
   logic [4:0] some_pos, some_neg;
@@ -159,41 +173,44 @@ module tile_walk #(
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     logic [GRAD-1:0] gx_q, gy_q;
     logic [VAL-1:0] block_q, tile_q;
-    logic [VAL-1:0] gx, gy;
-    logic [VAL-1:0] block_move, tile_move;
+    logic [VAL-1:0] slope, move, next;
 
-    assign gx = VAL'($signed(gx_q));
-    assign gy = VAL'($signed(gy_q));
-    assign block_move = block_row_end ? gy << BL : block_left_q ? VAL'(0) - (gx << BL) : gx << BL;
-    assign tile_move = tile_row_end ? gy << TL : tile_left_q ? VAL'(0) - (gx << TL) : gx << TL;
+    assign slope = VAL'($signed(row_end ? gy_q : gx_q));
+    assign move = (of_block ? slope << BL : slope << TL) ^ {VAL{back_x}};
+    assign next = VAL'(({of_block ? block_q : tile_q, 1'b1} + {move, back_x}) >> 1);
 
     always_ff @(posedge clk_i) begin
       if (take_o) begin
         gx_q <= lin_gx_i[g*GRAD+:GRAD];
         gy_q <= lin_gy_i[g*GRAD+:GRAD];
-        block_q <= lin_value_i[g*VAL+:VAL];
-      end else if (step_block) begin
-        block_q <= block_q + block_move;
       end
-      if (enter_walk) tile_q <= block_q;
-      else if (step_tile) tile_q <= tile_q + tile_move;
+      if (take_o || step_block) block_q <= take_o ? lin_value_i[g*VAL+:VAL] : next;
+      if (take_o || step_block || step_tile) tile_q <= take_o ? lin_value_i[g*VAL+:VAL] : next;
     end
 
-    assign lin_value_o[g*VAL+:VAL] = end_o ? '0 : tile_q;
+    assign lin_value_o[g*VAL+:VAL] = tile_q;
 
     if (g < 5) begin : gen_test
-      logic [VAL-1:0] value, far_x, far_y, low, high;
-      logic tie_pos, tie_neg;
+      logic [REACH-1:0] fall_tile_q, fall_block_q, rise_tile_q, rise_block_q;
+      logic [VAL-1:0] low, high;
 
-      assign value = in_walk ? tile_q : block_q;
-      assign far_x = (in_walk ? gx << TL : gx << BL) - gx;
-      assign far_y = (in_walk ? gy << TL : gy << BL) - gy;
-      assign low = value + (gx[VAL-1] ? far_x : '0) + (gy[VAL-1] ? far_y : '0);
-      assign high = value + (gx[VAL-1] ? '0 : far_x) + (gy[VAL-1] ? '0 : far_y);
-      assign tie_neg = gx[VAL-1] || (gx == '0 && gy[VAL-1]);
-      assign tie_pos = !tie_neg && (gx != '0 || gy != '0);
-      assign some_pos[g] = (!high[VAL-1] && high != '0) || (high == '0 && tie_pos);
-      assign some_neg[g] = low[VAL-1] || (low == '0 && tie_neg);
+      always_ff @(posedge clk_i) begin
+        if (take_o) begin
+          fall_tile_q <= fall_tile_i[g*REACH+:REACH];
+          fall_block_q <= fall_block_i[g*REACH+:REACH];
+          rise_tile_q <= rise_tile_i[g*REACH+:REACH];
+          rise_block_q <= rise_block_i[g*REACH+:REACH];
+        end
+      end
+
+      // Outside WALK the tile is the first of its block.
+      assign low = tile_q + VAL'($signed(in_walk ? fall_tile_q : fall_block_q));
+      assign high = tile_q + VAL'($signed(in_walk ? rise_tile_q : rise_block_q));
+      assign some_neg[g] = low[VAL-1];
+      assign some_pos[g] = !high[VAL-1];
+
+      logic unused;
+      assign unused = ^{low, high};
     end
   end
 
@@ -208,47 +225,36 @@ module tile_walk #(
   assign front = (front1 || front2) && cull_i != 2'd1;
   assign may_cover = back || front;
 
-  // ---- Quadratic functions: moving by +-h: value +- h gx + h^2 q, gx +- 2 h q -----------------------------------------------
+  // ---- Quadratic functions ------------------------------------------------------------------------------------------------
+  // Moving by +-h: value +- h gx + h^2 q, gx +- 2h q. With the slope halfway, middle = gx +- h q, that is value +- h middle,
+  // middle +- h q.
   for (genvar g = 0; g < 10; g++) begin : gen_quadratic
     logic [QCURV-1:0] curv_q;
     logic [QVAL-1:0] block_value_q, tile_value_q;
     logic [QGRAD-1:0] block_gx_q, block_gy_q, tile_gx_q, tile_gy_q;
-    logic [QVAL-1:0] block_slope, tile_slope, curv_value;
-    logic [QGRAD-1:0] curv_grad;
+    logic [QGRAD-1:0] bend, slope, middle, next_slope;
+    logic [QVAL-1:0] rise, move, next_value;
 
-    assign curv_value = QVAL'($signed(curv_q));
-    assign curv_grad = QGRAD'($signed(curv_q));
-    assign block_slope = QVAL'($signed(block_row_end ? block_gy_q : block_gx_q)) << BL;
-    assign tile_slope = QVAL'($signed(tile_row_end ? tile_gy_q : tile_gx_q)) << TL;
+    assign bend = (of_block ? QGRAD'($signed(curv_q)) << BL : QGRAD'($signed(curv_q)) << TL) ^ {QGRAD{back_x}};
+    assign slope = of_block ? (row_end ? block_gy_q : block_gx_q) : (row_end ? tile_gy_q : tile_gx_q);
+    assign middle = QGRAD'(({slope, 1'b1} + {bend, back_x}) >> 1);
+    assign next_slope = QGRAD'(({middle, 1'b1} + {bend, back_x}) >> 1);
+    assign rise = QVAL'($signed(middle));
+    assign move = (of_block ? rise << BL : rise << TL) ^ {QVAL{back_x}};
+    assign next_value = QVAL'(({of_block ? block_value_q : tile_value_q, 1'b1} + {move, back_x}) >> 1);
 
     always_ff @(posedge clk_i) begin
-      if (take_o) begin
-        curv_q <= quad_q_i[g*QCURV+:QCURV];
-        block_value_q <= quad_value_i[g*QVAL+:QVAL];
-        block_gx_q <= quad_gx_i[g*QGRAD+:QGRAD];
-        block_gy_q <= quad_gy_i[g*QGRAD+:QGRAD];
-      end else if (step_block) begin
-        block_value_q <= ((!block_row_end && block_left_q) ? block_value_q - block_slope : block_value_q + block_slope)
-            + (curv_value << (2 * BL));
-        if (block_row_end) block_gy_q <= block_gy_q + (curv_grad << (BL + 1));
-        else if (block_left_q) block_gx_q <= block_gx_q - (curv_grad << (BL + 1));
-        else block_gx_q <= block_gx_q + (curv_grad << (BL + 1));
-      end
-      if (enter_walk) begin
-        tile_value_q <= block_value_q;
-        tile_gx_q <= block_gx_q;
-        tile_gy_q <= block_gy_q;
-      end else if (step_tile) begin
-        tile_value_q <= ((!tile_row_end && tile_left_q) ? tile_value_q - tile_slope : tile_value_q + tile_slope)
-            + (curv_value << (2 * TL));
-        if (tile_row_end) tile_gy_q <= tile_gy_q + (curv_grad << (TL + 1));
-        else if (tile_left_q) tile_gx_q <= tile_gx_q - (curv_grad << (TL + 1));
-        else tile_gx_q <= tile_gx_q + (curv_grad << (TL + 1));
-      end
+      if (take_o) curv_q <= quad_q_i[g*QCURV+:QCURV];
+      if (take_o || step_block) block_value_q <= take_o ? quad_value_i[g*QVAL+:QVAL] : next_value;
+      if (take_o || step_block || step_tile) tile_value_q <= take_o ? quad_value_i[g*QVAL+:QVAL] : next_value;
+      if (take_o || (step_block && !row_end)) block_gx_q <= take_o ? quad_gx_i[g*QGRAD+:QGRAD] : next_slope;
+      if (take_o || (step_block && row_end)) block_gy_q <= take_o ? quad_gy_i[g*QGRAD+:QGRAD] : next_slope;
+      if (in_block || (step_tile && !row_end)) tile_gx_q <= in_block ? block_gx_q : next_slope;
+      if (in_block || (step_tile && row_end)) tile_gy_q <= in_block ? block_gy_q : next_slope;
     end
 
-    assign quad_value_o[g*QVAL+:QVAL] = end_o ? '0 : tile_value_q;
-    assign quad_gx_o[g*QGRAD+:QGRAD] = end_o ? '0 : tile_gx_q;
-    assign quad_gy_o[g*QGRAD+:QGRAD] = end_o ? '0 : tile_gy_q;
+    assign quad_value_o[g*QVAL+:QVAL] = tile_value_q;
+    assign quad_gx_o[g*QGRAD+:QGRAD] = tile_gx_q;
+    assign quad_gy_o[g*QGRAD+:QGRAD] = tile_gy_q;
   end
 endmodule
