@@ -11,6 +11,25 @@ module replay_coverage (
   logic [TILE_LOG2-1:0] row;
   logic [TILE-1:0] mask, front, tie;
 
+  // The slot's tie signs, from the gradients that the vector has.
+  localparam int GRAD = quadrille_pkg::GRAD_BITS;
+  localparam int REACH = quadrille_pkg::REACH_BITS;
+  logic [4:0] tie_pos_i, tie_neg_i;
+  logic [5*4*REACH-1:0] unused_reach;
+
+  for (genvar g = 0; g < 5; g++) begin : gen_tie
+    edge_reach u_reach (
+        .gx_i(lin_gx_i[g*GRAD+:GRAD]),
+        .gy_i(lin_gy_i[g*GRAD+:GRAD]),
+        .tie_pos_o(tie_pos_i[g]),
+        .tie_neg_o(tie_neg_i[g]),
+        .fall_tile_o(unused_reach[(4*g+0)*REACH+:REACH]),
+        .rise_tile_o(unused_reach[(4*g+1)*REACH+:REACH]),
+        .fall_block_o(unused_reach[(4*g+2)*REACH+:REACH]),
+        .rise_block_o(unused_reach[(4*g+3)*REACH+:REACH])
+    );
+  end
+
   stamp_coverage u_coverage (
       .stamp_ptr_o(pointer),
       .present_i(valid_i),

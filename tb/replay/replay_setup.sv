@@ -5,6 +5,10 @@ module replay_setup (
   `include "replay_fields.svh"
   localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2;
 
+  // What follows from the gradients is not of the boundary: the walk and the coverage show it.
+  logic [4:0] tie_pos_o, tie_neg_o;
+  logic [5*quadrille_pkg::REACH_BITS-1:0] fall_tile_o, rise_tile_o, fall_block_o, rise_block_o;
+
   quad_setup u_setup (
       .start_i(valid_i && ready_o),
       .slot_i(SLOT'(0)),
