@@ -4,6 +4,7 @@
 #include "golden/suites/float_engine.hpp"
 #include "golden/suites/suite.hpp"
 #include "model/untimed.hpp"
+#include "tb/check/function_check.hpp"
 #include "tb/check/judge.hpp"
 #include "tb/device/verilated_device.hpp"
 
@@ -24,7 +25,8 @@ Found lockstep(const Scenario* s) {
   try {
     const LockstepReport report = run_lockstep(device, s->quads, s->options);
     if (!report.agreed()) return report.first_divergence;
-    if (!anything_selected() && (!report.complete || report.fragments == 0)) return "nothing was compared";
+    if (!anything_selected() && (!report.complete || (report.fragments == 0) != s->invisible))
+      return std::to_string(report.fragments) + " fragments were compared";
     return {};
   } catch (const WatchdogError& hang) {
     return hang.what();
@@ -46,11 +48,12 @@ Found assertions(const Scenario* s) {
 
 // ---- fragments against the truth ----
 
-Found said(const cli::CheckResult& result) {
+Found said(const cli::CheckResult& result, bool invisible) {
   if (result.ok()) return {};
   if (result.first.any) return result.first.text;
   for (const auto& counter : cli::fault_counters)
     if (result.*counter.value != 0) return std::to_string(result.*counter.value) + " " + counter.key;
+  if (invisible) return {};
   return "nothing was compared";
 }
 
@@ -59,7 +62,7 @@ bool truth_speaks_of(const Scenario& s) { return s.options.config.qdrop() == 0; 
 
 Found truth(const Scenario* s) {
   if (!truth_speaks_of(*s)) return {};
-  return said(cli::judge_untimed(s->quads, s->options.config, s->options.state, PixelEngine::plain));
+  return said(cli::judge_untimed(s->quads, s->options.config, s->options.state, PixelEngine::plain), s->invisible);
 }
 
 Found truth_of_rtl(const Scenario* s) {
@@ -83,7 +86,19 @@ Found truth_of_rtl(const Scenario* s) {
   }
   checker.finish(true);
   queue.drain();
-  return said(checker.result());
+  return said(checker.result(), s->invisible);
+}
+
+// ---- the model's functions against exact arithmetic ----
+
+Found functions(const Scenario*) {
+  std::vector<Config> configs{Config{}};
+  for (const Scenario& s : scenarios())
+    if (std::ranges::find(configs, s.options.config) == configs.end()) configs.push_back(s.options.config);
+  for (const Config& config : configs)
+    if (const cli::FunctionReport report = cli::check_functions(config); !report.ok())
+      return summary(config) + ": " + report.first();
+  return {};
 }
 
 // ---- the model's two pixel pipelines against each other ----
@@ -166,6 +181,7 @@ std::span<const CheckInfo> all_checks() {
       {"assertions", true, true, "the RTL's own", assertions},
       {"truth of RTL", true, true, "fragments of the RTL against the truth", truth_of_rtl},
       {"truth", false, true, "fragments of the model against the truth", truth},
+      {"functions", false, false, "the model's functions against exact integer arithmetic", functions},
       {"lanes", false, true, "the model's plain pixel pipeline against its lanes", lanes},
       {"float", false, false, "golden vectors of the model's against floating point", float_vectors},
       {"kept", false, false, "kept golden vectors recomputed by the model", kept_vectors},

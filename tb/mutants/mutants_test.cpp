@@ -77,9 +77,9 @@ TEST(MutantList, HasEnoughOfEverySide) {
     for (const std::string& name : mutant.caught_by)
       EXPECT_TRUE(applies(check_named(name), mutant)) << mutant << ", " << name;
   }
-  EXPECT_GE(count[Mutant::Side::rtl], 25);
-  EXPECT_GE(count[Mutant::Side::model], 5);
-  EXPECT_GE(count[Mutant::Side::common], 20);
+  EXPECT_GE(count[Mutant::Side::rtl], 90);
+  EXPECT_GE(count[Mutant::Side::model], 10);
+  EXPECT_GE(count[Mutant::Side::common], 60);
   EXPECT_GE(classes.size(), 10u);
 }
 

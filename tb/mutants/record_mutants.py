@@ -10,6 +10,7 @@ What is recorded is held by mutants_test: a check that begins to see a mutant, o
 """
 import collections
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -34,12 +35,21 @@ def side(entry):
 
 
 def record(program, test_filter):
+    seen = {}
     with tempfile.TemporaryDirectory() as folder:
-        report = pathlib.Path(folder) / "report.json"
-        subprocess.run([program, f"--gtest_filter={test_filter}", f"--gtest_output=json:{report}"], stdout=subprocess.DEVNULL)
-        suites = json.loads(report.read_text())["testsuites"]
-    seen = {test["name"].split("/")[-1]: {c: test[c] for c in CHECKS if c in test}
-            for suite in suites for test in suite["testsuite"] if "IsSeen/" in test["name"]}
+        shards = os.cpu_count() or 1
+        runs = []
+        for i in range(shards):
+            report = pathlib.Path(folder) / f"report{i}.json"
+            command = [program, f"--gtest_filter={test_filter}", f"--gtest_output=json:{report}"]
+            environment = os.environ | {"GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(i)}
+            runs.append((subprocess.Popen(command, stdout=subprocess.DEVNULL, env=environment), report))
+        for run, report in runs:
+            run.wait()
+            for suite in json.loads(report.read_text())["testsuites"]:
+                for test in suite["testsuite"]:
+                    if "IsSeen/" in test["name"]:
+                        seen[test["name"].split("/")[-1]] = {c: test[c] for c in CHECKS if c in test}
     head, *parts = re.split(r"(?m)^(?=\[\[mutant\]\])", TOML.read_text())
     for i, part in enumerate(parts):
         entry = tomllib.loads(part)["mutant"][0]

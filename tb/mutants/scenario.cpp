@@ -4,8 +4,9 @@
 #include "golden/scenes/random_quads.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
+#include "tb/check/directed.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <functional>
 
 namespace quadrille::tb {
@@ -165,6 +166,17 @@ Scenario wide() {
   return {"wide", o, drawn(o, 6, 12, [](golden::Prng& random) { return strip(random, 400); })};
 }
 
+/// No depth, no tile left out, few attributes.
+Scenario depth_off() {
+  LockstepOptions o = options(exact(), 64);
+  o.state.depth = false;
+  o.state.skip = 0;
+  o.state.attributes = 3;
+  o.state.znear = 0.25;
+  o.state.scissor_y0 = 5;
+  return {"depth off", o, random_quads(o.config, o.state, 34, 60)};
+}
+
 Scenario dropped_bits() {
   LockstepOptions o = options(reduced(), 64);
   o.stall = 0.3;
@@ -183,15 +195,21 @@ Scenario dropped_bits_signed() {
 
 std::span<const Scenario> scenarios() {
   static const std::vector<Scenario> list = [] {
-    std::vector<Scenario> all{mixture(),      flat(), grid(),         signed_grid(),        flat_signed_grid(),
-                              depth_limits(), wide(), dropped_bits(), dropped_bits_signed()};
-    for (const Config& config : {exact(), reduced()})
-      for (golden::CornerDraw& draw : golden::corner_draws(config, 11)) {
-        LockstepOptions o = options(config, draw.state.width);
-        o.state = draw.state;
-        o.stall = draw.stall;
-        all.push_back({(config == exact() ? "" : "reduced, ") + std::string(draw.group), o, std::move(draw.quads)});
-      }
+    std::vector<Scenario> all{mixture(),      flat(), grid(),      signed_grid(),  flat_signed_grid(),
+                              depth_limits(), wide(), depth_off(), dropped_bits(), dropped_bits_signed()};
+    const auto add = [&](const Config& config, const std::string& before, golden::CornerDraw draw) {
+      for (std::size_t i = 0; i < draw.quads.size(); ++i) draw.quads[i].id = static_cast<std::uint32_t>(i);
+      LockstepOptions o = options(config, draw.state.width);
+      o.state = draw.state;
+      o.stall = draw.stall;
+      if (draw.group == "far_corner") return;  // its walk takes longer than all the others together
+      const std::string name = before + std::string(draw.group);
+      if (std::ranges::count(all, name, &Scenario::name) == 0)
+        all.push_back({name, o, std::move(draw.quads), draw.group == "at_infinity"});
+    };
+    for (golden::CornerDraw& draw : golden::corner_draws(exact(), 11)) add(exact(), "", std::move(draw));
+    for (golden::CornerDraw& draw : cli::directed_draws(exact())) add(exact(), "", std::move(draw));  // those not there
+    for (golden::CornerDraw& draw : golden::corner_draws(reduced(), 11)) add(reduced(), "reduced, ", std::move(draw));
     return all;
   }();
   return list;

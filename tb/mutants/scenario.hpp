@@ -13,6 +13,7 @@ struct Scenario {
   std::string name;
   LockstepOptions options;         ///< configuration, state, stalls
   std::vector<SnappedQuad> quads;  ///< ids from 0
+  bool invisible = false;          ///< the machine draws nothing of it
 };
 
 /// The same in every process. Two configurations, so that two simulators serve all.
