@@ -4,8 +4,15 @@
 // The climb itself looks at one pixel through the pure functions of the model and compares with an 80-bit evaluation of
 // the truth's formulas; the verdict on every climb's summit comes from UntimedModel against TruthQuad. Starts are the
 // stress families. Everything follows from --seed, whatever the number of threads.
+//
+// Short climbs (6 starts of 400 steps, as in the tests) are also held to the regression limits of
+// tb/check/error_limits.json. --record F --starts 6 --steps 400 sets these there: the worst of --seeds seeds and half
+// the width of their interval on top. Exit status 1: beyond a limit; 2: bad usage, or a family of which nothing was
+// drawn.
 #include "tb/campaign/campaign_options.hpp"
 
+#include "golden/io/atomic_file.hpp"
+#include "golden/io/text_input.hpp"
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/stress.hpp"
 #include "model/pixel_pipeline.hpp"
@@ -15,10 +22,12 @@
 #include "model/support/parallel.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
+#include "tb/check/error_limits.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <optional>
 #include <string>
 
@@ -27,7 +36,6 @@ namespace {
 
 using golden::Prng;
 
-constexpr double bound_units = 8;  ///< 2^-(s-3) in units of 2^-s
 constexpr int viewport = 512;
 
 struct Candidate {
@@ -267,77 +275,151 @@ void print_witness(const Candidate& c) {
   std::printf("1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n");
 }
 
-int run(int argc, char** argv) {
-  const Options options(argc, argv,
-                        {{"significand-bits", "12,18,24"},
-                         {"starts", "40"},
-                         {"steps", "2000"},
-                         {"seed", "1"},
-                         {"threads", "0"},
-                         {"notch-exact", "1"},
-                         {"align-guard-bits", "2"},
-                         {"bound", "8"}});
-  const std::uint64_t starts = options.number("starts"), seed = options.number("seed");
-  const auto limit = static_cast<double>(options.number("bound"));
-  static_assert(bound_units == 8);
-  const auto families = golden::stress_families();
-  bool ok = true;
-  std::printf("hill climbing: %zu families x %llu starts x %llu steps, seed %llu; |Δλ'| in units of 2^-s, bound %g\n",
-              families.size(), static_cast<unsigned long long>(starts),
-              static_cast<unsigned long long>(options.number("steps")), static_cast<unsigned long long>(seed), limit);
-  for (const std::uint64_t bits : options.numbers("significand-bits")) {
+/// Starts and steps up to which the recorded limits hold: longer climbs find more.
+constexpr std::uint64_t limit_starts = 6, limit_steps = 400;
+
+class HillClimb {
+ public:
+  explicit HillClimb(const Options& options)
+      : options_(options), starts_(options.number("starts")), steps_(options.number("steps")) {}
+
+  int run() {
+    const std::string file = options_.text("record");
+    if (!file.empty()) return record(file);
+    const std::uint64_t seed = options_.number("seed");
+    const auto bound = static_cast<double>(options_.number("bound"));
+    std::printf("hill climbing: %zu families x %llu starts x %llu steps, seed %llu; |Δλ'| in units of 2^-s, bound %g\n",
+                golden::stress_families().size(), static_cast<unsigned long long>(starts_),
+                static_cast<unsigned long long>(steps_), static_cast<unsigned long long>(seed), bound);
+    bool ok = true;
+    for (const std::uint64_t bits : options_.numbers("significand-bits")) {
+      const int s = static_cast<int>(bits);
+      const std::vector<Summit> summits = climb_all(s, seed);
+      const Summit* worst = report(s, summits);
+      if (worst == nullptr) continue;
+      if (!(worst->error.units <= bound)) {
+        ok = false;
+        std::printf("s %2d: BOUND EXCEEDED\n", s);
+      }
+      const double limit = limits_apply() ? cli::ErrorLimits::recorded().hill_climb(s) : bound;
+      if (!(worst->error.units <= limit)) {
+        ok = false;
+        std::printf("s %2d: REGRESSION LIMIT of %g units EXCEEDED\n", s, limit);
+      }
+      std::fflush(stdout);
+    }
+    if (!undrawn_.empty())
+      std::fprintf(stderr, "hill_climb: nothing was drawn, so nothing was shown, of%s; give more --starts than %llu\n",
+                   undrawn_.c_str(), static_cast<unsigned long long>(starts_));
+    return !ok ? 1 : undrawn_.empty() ? 0 : 2;
+  }
+
+ private:
+  /// Limits around the worst of several seeds; the file's other contents stay.
+  int record(const std::string& file) {
+    cli::ErrorLimits limits = cli::ErrorLimits::parse(golden::read_file(file, "error limits"));
+    for (const std::uint64_t bits : options_.numbers("significand-bits")) {
+      const int s = static_cast<int>(bits);
+      std::vector<double> found;
+      for (std::uint64_t n = 0; n < options_.number("seeds"); ++n) {
+        double units = 0;
+        for (const Summit& summit : climb_all(s, options_.number("seed") + n))
+          units = std::max(units, summit.error.units);
+        std::printf("s %2d seed %llu: %.3f units\n", s, static_cast<unsigned long long>(options_.number("seed") + n),
+                    units);
+        std::fflush(stdout);
+        found.push_back(units);
+      }
+      limits.set_hill_climb(s, cli::LimitRange::around(found, 0.5).high());
+    }
+    golden::write_file(file, limits.text(), golden::AtomicFile::Dash::refused);
+    return 0;
+  }
+
+  bool limits_apply() const {
+    return starts_ <= limit_starts && steps_ <= limit_steps && options_.number("notch-exact") == 1 &&
+           options_.number("align-guard-bits") == static_cast<std::uint64_t>(Config{}.align_guard_bits);
+  }
+
+  /// Family by family, `starts` climbs each.
+  std::vector<Summit> climb_all(int significand_bits, std::uint64_t seed) const {
+    const auto bits = static_cast<std::uint64_t>(significand_bits);
     Config config;
-    config.set("significand_bits", static_cast<int>(bits));
-    config.set("notch_exact", static_cast<int>(options.number("notch-exact")));
-    config.set("align_guard_bits", static_cast<int>(options.number("align-guard-bits")));
+    config.set("significand_bits", significand_bits);
+    config.set("notch_exact", static_cast<int>(options_.number("notch-exact")));
+    config.set("align_guard_bits", static_cast<int>(options_.number("align-guard-bits")));
     config.validate();
     std::vector<std::vector<WindowQuad>> quads;
-    for (const auto& info : families)
-      quads.push_back(golden::make_stress(info.family, starts, seed * 1000 + bits, 1.0, viewport, viewport, 4));
-    std::vector<Summit> summits(families.size() * starts);
-    parallel_for(summits.size(), options.threads(), [&](std::size_t i) {
+    for (const auto& info : golden::stress_families())
+      quads.push_back(golden::make_stress(info.family, starts_, seed * 1000 + bits, 1.0, viewport, viewport, 4));
+    std::vector<Summit> summits(quads.size() * starts_);
+    parallel_for(summits.size(), options_.threads(), [&](std::size_t i) {
       Climber climber(config);
-      summits[i] = climb(climber, quads[i / starts][i % starts], options.number("steps"),
-                         seed * 0x9e3779b97f4a7c15u + bits * 1000003 + i);
+      summits[i] =
+          climb(climber, quads[i / starts_][i % starts_], steps_, seed * 0x9e3779b97f4a7c15u + bits * 1000003 + i);
     });
+    return summits;
+  }
+
+  /// The worst of each family and of all; a family that draws nothing shows nothing.
+  const Summit* report(int s, const std::vector<Summit>& summits) {
     const Summit* worst = nullptr;
     std::uint64_t evaluations = 0;
-    for (std::size_t f = 0; f < families.size(); ++f) {
+    for (std::size_t f = 0; f < golden::stress_families().size(); ++f) {
+      const std::string name(golden::stress_families()[f].name);
       const Summit* top = nullptr;
       std::uint64_t climbed = 0;
-      for (std::size_t i = f * starts; i < (f + 1) * starts; ++i) {
+      for (std::size_t i = f * starts_; i < (f + 1) * starts_; ++i) {
         evaluations += summits[i].evaluations;
         if (summits[i].error.units < 0) continue;
         ++climbed;
         if (top == nullptr || summits[i].error.units > top->error.units) top = &summits[i];
       }
       if (top == nullptr) {
-        std::printf("s %2d %-16s NOTHING DRAWN\n", static_cast<int>(bits), std::string(families[f].name).c_str());
-        ok = false;  // a family that draws nothing shows nothing
+        std::printf("s %2d %-16s nothing was drawn in %llu starts\n", s, name.c_str(),
+                    static_cast<unsigned long long>(starts_));
+        undrawn_ += (undrawn_.empty() ? " " : ", ") + name + " (s = " + std::to_string(s) + ")";
         continue;
       }
-      std::printf("s %2d %-16s %6.3f units (condition %.2g, flags 0x%02x, %llu climbs)\n", static_cast<int>(bits),
-                  std::string(families[f].name).c_str(), top->error.units, top->error.condition, top->error.flags,
-                  static_cast<unsigned long long>(climbed));
+      std::printf("s %2d %-16s %6.3f units (condition %.2g, flags 0x%02x, %llu climbs)\n", s, name.c_str(),
+                  top->error.units, top->error.condition, top->error.flags, static_cast<unsigned long long>(climbed));
       if (worst == nullptr || top->error.units > worst->error.units) worst = top;
     }
-    if (worst == nullptr) {
-      std::printf("s %2d: nothing was drawn at all\n", static_cast<int>(bits));
-      return 1;
-    }
-    std::printf("s %2d worst: %.3f units after %llu evaluations, witness:\n", static_cast<int>(bits),
-                worst->error.units, static_cast<unsigned long long>(evaluations));
+    if (worst == nullptr) return nullptr;
+    std::printf("s %2d worst: %.3f units after %llu evaluations, witness:\n", s, worst->error.units,
+                static_cast<unsigned long long>(evaluations));
     print_witness(worst->at);
-    std::fflush(stdout);
-    if (!(worst->error.units <= limit)) {
-      ok = false;
-      std::printf("s %2d: BOUND EXCEEDED\n", static_cast<int>(bits));
-    }
+    return worst;
   }
-  return ok ? 0 : 1;
+
+  const Options& options_;
+  const std::uint64_t starts_, steps_;
+  std::string undrawn_;  ///< families without a climb, with the width
+};
+
+int run(int argc, char** argv) {
+  const Options options(argc, argv,
+                        {{"significand-bits", "12,18,24"},
+                         {"starts", "40"},
+                         {"steps", "2000"},
+                         {"seed", "1"},
+                         {"seeds", "12"},
+                         {"threads", "0"},
+                         {"notch-exact", "1"},
+                         {"align-guard-bits", "2"},
+                         {"bound", "8"},
+                         {"record", ""}});
+  return HillClimb(options).run();
 }
 
 }  // namespace
 }  // namespace quadrille::campaign
 
-int main(int argc, char** argv) { return quadrille::campaign::run(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return quadrille::campaign::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hill_climb: %s\n", error.what());
+    return 2;
+  }
+}

@@ -314,8 +314,8 @@ class FragmentChecker::FragmentJudge {
     if (!first_pass_) return;
     const double error = static_cast<double>(fragment.depth) * format.unit() - truth_.z;
     part_.arithmetic.depth.add(error);
-    if (tolerance < std::numeric_limits<double>::infinity())
-      part_.depth.add(error / (bound_ * std::fabs(truth_.z) * truth_.z_condition + format.unit()));
+    if (!reference_->depth_may_cancel())  // then depth_tolerance() is 4 |z| times the bound
+      part_.depth.add(error / (4 * bound_ * std::fabs(truth_.z) + format.unit()));
   }
 
   /// Every slot of the port. Returns whether an attribute may be saturated and one is at its limit.

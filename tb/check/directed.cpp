@@ -9,12 +9,14 @@
 namespace quadrille::cli {
 namespace {
 
-/// Of the quads of a group every how many are judged; 0: none.
+/// Draws on a larger viewport are about the walk and its widths, and the truth looks at every pixel.
+constexpr int most_extent = 64;
+
+/// Of the quads of a group every how many are judged: where many cover much.
 std::size_t stride(std::string_view group) {
-  if (group == "tall" || group == "burst") return 0;
   if (group == "two_edge") return 8;
   if (group == "flat") return 6;
-  if (group == "den_w_zero" || group == "negative_r2") return 4;
+  if (group == "den_w_zero" || group == "negative_r2" || group == "extreme") return 4;
   return group == "face_plane" ? 2 : 1;
 }
 
@@ -76,13 +78,14 @@ golden::CornerDraw saturated(const Config& config) {
 std::vector<golden::CornerDraw> directed_draws(const Config& config) {
   constexpr std::uint64_t seed = 1;
   std::vector<golden::CornerDraw> draws = golden::corner_draws(config, seed);
+  std::erase_if(draws, [](const golden::CornerDraw& draw) {
+    return std::max(draw.state.width, draw.state.height) > most_extent;
+  });
   for (golden::CornerDraw& draw : draws) {
     std::vector<SnappedQuad> kept;
-    if (const std::size_t step = stride(draw.group); step != 0)
-      for (std::size_t i = 0; i < draw.quads.size(); i += step) kept.push_back(draw.quads[i]);
+    for (std::size_t i = 0; i < draw.quads.size(); i += stride(draw.group)) kept.push_back(draw.quads[i]);
     draw.quads = std::move(kept);
   }
-  std::erase_if(draws, [](const golden::CornerDraw& draw) { return draw.quads.empty(); });
   draws.push_back(at_infinity(config));
   draws.push_back(saturated(config));
   return draws;

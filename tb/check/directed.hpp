@@ -9,8 +9,8 @@
 
 namespace quadrille::cli {
 
-/// The corner quads of golden/scenes, thinned where a group has many of a kind, without those that are about the walk
-/// and its timing; and two more groups:
+/// The corner quads of golden/scenes, thinned where a group has many of a kind and without those on a large viewport,
+/// which are about the walk; and two more groups:
 ///   at_infinity   every w is 0: sum(M w) is a sum of zeros and nothing of the quad is in front of the eye
 ///   saturated     attributes beyond the format, of either sign, over all of a quad and over part of one
 std::vector<golden::CornerDraw> directed_draws(const Config& config);

@@ -60,7 +60,11 @@ int DepthLimits::side(double z, double tolerance) const {
 JudgedQuad::JudgedQuad(const SnappedQuad& snapped, const Config& config, const DrawState& state)
     : quad_(snapped), config_(config), truth_(snapped, config, state), perspective_(state.perspective) {
   for (std::size_t i = 0; i < 4; ++i) w_[i] = std::ldexp(static_cast<double>(snapped.vertex[i].w), -config.frac());
-  may_cancel_ = !perspective_ && std::ranges::any_of(w_, [](double w) { return w <= 0; });
+  const bool behind = std::ranges::any_of(w_, [](double w) { return w <= 0; });
+  const auto negative = [](const SnappedVertex& v) { return v.z.neg; };
+  may_cancel_ = !perspective_ && behind;
+  depth_may_cancel_ =
+      behind || (std::ranges::any_of(snapped.vertex, negative) && !std::ranges::all_of(snapped.vertex, negative));
 }
 
 bool JudgedQuad::tolerates_visibility(const golden::ReferenceSample& truth, double bound) const {

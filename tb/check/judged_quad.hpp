@@ -57,6 +57,9 @@ class JudgedQuad {
   /// but what is left of it.
   bool may_cancel() const { return may_cancel_; }
 
+  /// Of window z: some w is not positive, or z differs in sign.
+  bool depth_may_cancel() const { return depth_may_cancel_; }
+
   /// Whether a machine may disagree about a covered pixel being in front of the eye: the eye is in the hull of the
   /// vertices and |sum(M w)| below the bound; but a sum of zeros is 0 in any arithmetic.
   bool tolerates_visibility(const golden::ReferenceSample& truth, double bound) const;
@@ -81,7 +84,7 @@ class JudgedQuad {
   const SnappedQuad& quad_;
   const Config& config_;
   golden::TruthQuad truth_;
-  bool perspective_, may_cancel_;
+  bool perspective_, may_cancel_, depth_may_cancel_;
   std::array<double, 4> w_{};  ///< real values
 };
 

@@ -7,6 +7,7 @@
 #include "golden/scenes/random_state.hpp"
 #include "model/snap.hpp"
 #include "tb/check/check.hpp"
+#include "tb/check/error_limits.hpp"
 #include "tb/check/model_check.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/lockstep.hpp"
@@ -57,8 +58,10 @@ struct InputResult {
   std::optional<std::string> first_divergence;
   std::uint64_t fragment_hash = 0;
   CheckResult check;
+  std::uint64_t limits_checked = 0;        ///< inputs that have regression limits
+  std::vector<std::string> beyond_limits;  ///< what is beyond them, in words
 
-  bool ok() const { return mismatches == 0 && cycle_mismatches == 0 && check.ok(); }
+  bool ok() const { return mismatches == 0 && cycle_mismatches == 0 && check.ok() && beyond_limits.empty(); }
 };
 
 using Metric = Counter<InputResult>;
@@ -101,6 +104,8 @@ void merge(InputResult& sum, const InputResult& part) {
   if (!sum.first_divergence && part.first_divergence) sum.first_divergence = part.name + ": " + *part.first_divergence;
   sum.fragment_hash = sum.fragment_hash * 0x100000001b3u ^ part.fragment_hash;
   sum.check.merge(part.check);
+  sum.limits_checked += part.limits_checked;
+  for (const std::string& text : part.beyond_limits) sum.beyond_limits.push_back(part.name + ": " + text);
 }
 
 /// `form` with {key} replaced by that number of a report.
@@ -263,6 +268,7 @@ class CosimRun {
       if (result.mismatches != 0 || result.cycle_mismatches != 0) break;  // more of the same is of no use
     }
     result.passes = passes.size();
+    if (!input_options.stress.empty() && result.complete) compare_with_limits(input_options.stress, state, result);
 
     if (frame && result.fragments > 0) {
       golden::FrameImage image = shade_frame(*frame, shading);
@@ -274,6 +280,16 @@ class CosimRun {
     }
     result.seconds = start.seconds();
     return result;
+  }
+
+  /// Regression limits, where some are recorded for such a draw.
+  void compare_with_limits(const std::string& stress, const DrawState& state, InputResult& result) const {
+    const golden::StressFamily family = golden::parse_stress_family(stress);
+    if (!limits_apply(config_, state, family, result.quads)) return;
+    const ErrorLimits::Family* limits = ErrorLimits::recorded().find(stress, config_.significand_bits);
+    if (limits == nullptr) return;
+    result.limits_checked = 1;
+    result.beyond_limits = beyond_limits(*limits, result.check);
   }
 
   void run_pass(const DrawInput& input, const DrawState& draw_state, const Pass& pass, std::size_t number,
@@ -444,6 +460,7 @@ class CosimRun {
     }
     put_counters(json["counts"], r, count_metrics);
     put_counters(json["counts"], c, fragment_counters);
+    json["regression"] = {{"inputs_with_limits", r.limits_checked}, {"beyond", r.beyond_limits}};
     if (r.first_divergence) json["first_divergence"] = *r.first_divergence;
     if (c.first.any) json["first_reference_difference"] = c.first.text;
     const double rate = ratio(static_cast<double>(r.pass_cycles), r.loop_seconds);
@@ -544,6 +561,8 @@ class CosimRun {
       std::fprintf(out, "    bound              %9.2e%s  %s, worst %.1f %% of it\n", weight_bound(config_),
                    config_.notch_exact ? "" : " x max(1, condition)", c.within_bound() ? "held" : "EXCEEDED",
                    100 * std::max(0.0, c.worst.ratio));
+    if (r.limits_checked > 0)
+      std::fprintf(out, "    regression limits  %s\n", r.beyond_limits.empty() ? "held" : "EXCEEDED");
     print(
         "\n  fragments of   eye-crossing quads {eye_crossing} ({eye_crossing_quads} quads), under-4-px quads {tiny}\n"
         "                 within 1/16 px of an edge {near_edge}, within 1 px of a vertex {near_vertex}\n"
@@ -579,6 +598,8 @@ class CosimRun {
                    "quadrille: %s: %llu attributes and %llu depths are further off than the weights' bound allows\n",
                    r.name.c_str(), static_cast<unsigned long long>(r.check.beyond_attribute),
                    static_cast<unsigned long long>(r.check.beyond_depth));
+    for (const std::string& text : r.beyond_limits)
+      std::fprintf(stderr, "quadrille: %s: beyond its regression limit: %s\n", r.name.c_str(), text.c_str());
     if (r.check.compared == 0)
       std::fprintf(stderr, "quadrille: %s: no fragment was compared, so nothing was shown\n", r.name.c_str());
   }
