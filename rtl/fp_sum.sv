@@ -6,6 +6,7 @@
 //     sum       sign + log2(TERMS) carries + S+1+G bits, unit 2^(E-(S-1+G))
 //
 // The result is a significand number with sign; no term, or an exact zero, gives neg = exp = sig = 0. No rounding, no sticky bit.
+// A product is 0 or at least 2^(2S-2), so its two top bits say which.
 module fp_sum #(
     parameter int TERMS = 4,
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
@@ -25,46 +26,54 @@ module fp_sum #(
   localparam int TERM = 2 * S - DROP;  // one aligned term
   localparam int MAG = TERM + $clog2(TERMS);  // magnitude of the sum
   localparam int SUM = MAG + 1;
+  localparam int KEY = E + 1;  // order of exponents as unsigned numbers: 0 for a zero, else {1, exponent + 2^(E-1)}
 
-  logic any;
+  // ---- Stage 1: largest exponent, by pairs ---------------------------------------------------------------------------------
+  logic [TERMS*KEY-1:0] key;
   logic [E-1:0] top_exp;
-  logic [E:0] distance;
+
+  always_comb begin
+    for (int k = 0; k < TERMS; k++) begin
+      key[k*KEY+:KEY] = {1'b1, ~exp_i[k*E+E-1], exp_i[k*E+:E-1]} & {KEY{prod_i[k*2*S+2*S-2+:2] != 2'b00}};
+    end
+    for (int step = 1; step < TERMS; step = step * 2) begin
+      for (int k = 0; k < TERMS; k += 2 * step) begin
+        if (key[(k+step)*KEY+:KEY] > key[k*KEY+:KEY]) key[k*KEY+:KEY] = key[(k+step)*KEY+:KEY];
+      end
+    end
+    top_exp = {~key[E-1], key[E-2:0]};
+  end
+
+  // ---- Aligned sum, in the sign of term 0 -----------------------------------------------------------------------------------
+  logic [E-1:0] distance;
   logic [TERM-1:0] term;
+  logic subtract;
   logic [SUM-1:0] sum;
 
   always_comb begin
-    any = 1'b0;
-    top_exp = '0;
-    for (int k = 0; k < TERMS; k++) begin
-      if (prod_i[k*2*S+:2*S] != '0 && (!any || $signed(exp_i[k*E+:E]) > $signed(top_exp))) begin
-        any = 1'b1;
-        top_exp = exp_i[k*E+:E];
-      end
-    end
     sum = '0;
-    distance = '0;
-    term = '0;
     for (int k = 0; k < TERMS; k++) begin
-      distance = {top_exp[E-1], top_exp} - {exp_i[k*E+E-1], exp_i[k*E+:E]};
+      distance = top_exp - exp_i[k*E+:E];
       term = prod_i[k*2*S+DROP+:TERM] >> distance;
-      sum = neg_i[k] ? sum - SUM'(term) : sum + SUM'(term);
+      subtract = neg_i[k] != neg_i[0];
+      if (k == 0) sum = SUM'(term);
+      else sum = SUM'(({sum, 1'b1} + {SUM'(term) ^ {SUM{subtract}}, subtract}) >> 1);  // {a, 1} + {b, carry}
     end
   end
 
-  // Stage 1: aligned sum as sign and magnitude.
   logic neg_q;
   logic [MAG-1:0] magnitude_q;
   logic [E-1:0] exp_q;
 
   always_ff @(posedge clk_i) begin
     if (en_i) begin
-      neg_q <= sum[SUM-1];
+      neg_q <= sum[SUM-1] != neg_i[0];
       magnitude_q <= sum[SUM-1] ? MAG'(-sum) : sum[MAG-1:0];
       exp_q <= top_exp;
     end
   end
 
-  // Stage 2: normalise.
+  // ---- Stage 2: normalise --------------------------------------------------------------------------------------------------
   logic [E-1:0] exp_d;
   logic [S-1:0] sig_d;
 
@@ -77,7 +86,7 @@ module fp_sum #(
 
   always_ff @(posedge clk_i) begin
     if (en_i) begin
-      neg_o <= neg_q;
+      neg_o <= neg_q && sig_d[S-1];
       exp_o <= exp_d;
       sig_o <= sig_d;
     end
