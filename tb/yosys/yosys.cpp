@@ -100,7 +100,7 @@ constexpr std::string_view fpga_script = R"(
 setattr -mod -set keep_hierarchy 1 *quad_setup* *quad_slots* *tile_walk* *tile_ring* *stamp_coverage*
 setattr -mod -set keep_hierarchy 1 *vertex_assembly* *forward_difference* *normalise* *rsqrt* *reciprocal*
 setattr -mod -set keep_hierarchy 1 *mean_value_ratios* *interpolate* *fragment_output* *fixed_point*
-setattr -mod -set keep_hierarchy 1 *fp_multiply* *fp_raw_product* *fp_sum*
+setattr -mod -set keep_hierarchy 1 *fp_multiply* *fp_raw_product* *fp_sum* *one_plus*
 setattr -mod -unset keep_hierarchy *fp_normalise*
 design -save start
 proc
