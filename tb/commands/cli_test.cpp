@@ -312,12 +312,29 @@ TEST_F(CliCosim, ReportHasEveryField) {
   EXPECT_EQ(report["cycle_mismatches"], 0);
   EXPECT_EQ(report["cycles_rtl"], report["cycles_model"]);
   EXPECT_GT(report["fragments"], 100);
+  EXPECT_TRUE(report["model_alone"]["ok"]);
+  EXPECT_GT(report["model_alone"]["function_arguments"], 100'000);
+  EXPECT_EQ(report["model_alone"]["function_beyond"], 0);
+  EXPECT_GT(report["model_alone"]["functions"]["rsqrt"]["arguments"], 1000);
+  EXPECT_GT(report["model_alone"]["directed_compared"], 1000);
+  EXPECT_EQ(report["regression"]["inputs_with_limits"], 0);
   EXPECT_LE(report["error"]["arithmetic"]["lambda_max"], report["bound"]["lambda_max"]);
   // The printed command line gives the worst fragment back.
   const std::string reproduce = report["worst"]["reproduce"];
   const Outcome again = run(reproduce.substr(std::string("quadrille ").size()));
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(std::count(again.out.begin(), again.out.end(), '\n'), 2) << again.out;
+}
+
+TEST_F(CliCosim, StressDrawsOfTheRecordedSizeAreHeldToRegressionLimits) {
+  const std::string draw = "cosim --stress bowtie --size 64x64 --no-alone --seed 77 --count ";
+  const Outcome held = run(draw + "300 --json a.json");
+  EXPECT_EQ(held.status, 0) << held.err;
+  EXPECT_NE(held.out.find("regression limits  held"), std::string::npos) << held.out;
+  const json regression = json::parse(read(file("a.json")))["regression"];
+  EXPECT_EQ(regression["inputs_with_limits"], 1);
+  EXPECT_TRUE(regression["beyond"].empty());
+  EXPECT_EQ(run(draw + "299").out.find("regression limits"), std::string::npos) << "of another draw nothing is known";
 }
 
 TEST_F(CliCosim, FragmentsDoNotDependOnStallsOrThreads) {
