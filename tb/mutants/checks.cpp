@@ -4,6 +4,7 @@
 #include "golden/suites/float_engine.hpp"
 #include "golden/suites/suite.hpp"
 #include "model/untimed.hpp"
+#include "tb/check/error_limits.hpp"
 #include "tb/check/function_check.hpp"
 #include "tb/check/judge.hpp"
 #include "tb/device/verilated_device.hpp"
@@ -101,6 +102,31 @@ Found functions(const Scenario*) {
   return {};
 }
 
+// ---- errors against their regression limits ----
+
+Found limits(const Scenario*) {
+  constexpr int extent = cli::limit_extent, attributes = 4;
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = extent;
+  for (const int significand_bits : {12, 18})
+    for (const golden::StressFamily family : {golden::StressFamily::general, golden::StressFamily::perspective,
+                                              golden::StressFamily::near_vertex, golden::StressFamily::reflex}) {
+      Config config;
+      config.set("significand_bits", significand_bits);
+      const std::string_view name = golden::stress_family_name(family);
+      const cli::ErrorLimits::Family* recorded = cli::ErrorLimits::recorded().find(name, significand_bits);
+      if (recorded == nullptr) return "no limits of " + std::string(name);
+      std::vector<WindowQuad> quads =  // slots 0-3 hold the weights, which are measured anyway
+          golden::make_stress(family, cli::limit_quads(family), 1, 1.0, extent, extent, 4 + attributes);
+      for (WindowQuad& quad : quads)
+        for (std::vector<double>& attribute : quad.attribute) attribute.erase(attribute.begin(), attribute.begin() + 4);
+      const cli::CheckResult result = cli::judge_untimed(quads, attributes, config, state, PixelEngine::plain);
+      if (const std::vector<std::string> beyond = beyond_limits(*recorded, result); !beyond.empty())
+        return std::string(name) + ", s = " + std::to_string(significand_bits) + ": " + beyond.front();
+    }
+  return {};
+}
+
 // ---- the model's two pixel pipelines against each other ----
 
 Found lanes(const Scenario* s) {
@@ -177,14 +203,15 @@ std::optional<Finding> run(const CheckInfo& check, const Mutant& mutant, bool rt
 
 std::span<const CheckInfo> all_checks() {
   static const std::vector<CheckInfo> list{
-      {"lockstep", true, true, "RTL against the clocked model, clock by clock", lockstep},
-      {"assertions", true, true, "the RTL's own", assertions},
-      {"truth of RTL", true, true, "fragments of the RTL against the truth", truth_of_rtl},
-      {"truth", false, true, "fragments of the model against the truth", truth},
-      {"functions", false, false, "the model's functions against exact integer arithmetic", functions},
-      {"lanes", false, true, "the model's plain pixel pipeline against its lanes", lanes},
-      {"float", false, false, "golden vectors of the model's against floating point", float_vectors},
-      {"kept", false, false, "kept golden vectors recomputed by the model", kept_vectors},
+      {"lockstep", true, true, lockstep},
+      {"assertions", true, true, assertions},
+      {"truth of RTL", true, true, truth_of_rtl},
+      {"truth", false, true, truth},
+      {"limits", false, false, limits},
+      {"functions", false, false, functions},
+      {"lanes", false, true, lanes},
+      {"float", false, false, float_vectors},
+      {"kept", false, false, kept_vectors},
   };
   return list;
 }
