@@ -100,8 +100,9 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
   if (corners >= 2) {
     // Three or four coincident corners are never covered: too many all-zero edges.
     out.singular = Singular::two_corner;
-    out.m[corner[0]] = k[corner[1]];
-    out.m[corner[1]] = k[corner[0]];
+    // No M has a sign. Without perspective a corner behind the eye and one before it leave sum(M w) = 0.
+    out.m[corner[0]] = magnitude(k[corner[1]]);
+    out.m[corner[1]] = magnitude(k[corner[0]]);
     return out;
   }
   if (corners == 1) {

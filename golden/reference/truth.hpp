@@ -73,7 +73,7 @@ class TruthQuad {
   /// With M_i = (t_{i-1} + t_i) / R_i: lambda'_i = M_i k_i / sum(M k), z = sum(M Z) / sum(M W), attribute =
   /// sum(M b) / sum(M k). Without perspective lambda_i = M_i W_i / sum(M W), attribute = sum(M b) / sum(M W).
   /// Singular pixels, in this order (the first that applies gives M and the flag):
-  ///   two corners i, j at the pixel    M_i = k_j, M_j = k_i              lambda' = 1/2 each
+  ///   two corners i, j at the pixel    M_i = |k_j|, M_j = |k_i|          lambda' = 1/2 each
   ///   one corner                       M_i = 1                           lambda' = 1
   ///   two edges (A = 0, D < 0) at once M_i = rho_i * |sum over the other edge of rho k|, added for a vertex on both;
   ///                                    rho = 1/R                         lambda' = mean of the two edge interpolations

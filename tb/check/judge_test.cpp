@@ -3,6 +3,7 @@
 
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/support/prng.hpp"
 #include "tb/check/directed.hpp"
 
 #include <gtest/gtest.h>
@@ -43,6 +44,34 @@ TEST(JudgeUntimed, PassesQuadsAtThePort) {
     const DrawState state = tb::small_state(config);
     const CheckResult result = judge_untimed(tb::random_quads(config, state, 3, 400), config, state);
     EXPECT_TRUE(result.ok()) << "s = " << s << ": " << faults(result);
+  }
+}
+
+/// Quads of which a corner is c times another one, c of either sign: they fall on one pixel, before the eye or on both
+/// sides of it.
+TEST(JudgeUntimed, PassesCoincidentAndAntipodalCorners) {
+  golden::Prng rng(3);
+  const auto pick = [&](std::initializer_list<double> of) { return of.begin()[rng.below(of.size())]; };
+  std::vector<WindowQuad> quads(1500);
+  for (WindowQuad& quad : quads) {
+    for (WindowVertex& v : quad.vertex) {
+      const double w = pick({1, 1, 0.5, 0.25, -0.5, -1});
+      v.x = (static_cast<double>(rng.below(24)) + 0.5) * w;
+      v.y = (static_cast<double>(rng.below(24)) + 0.5) * w;
+      v.z = 0.5 * w;
+      v.w = w;
+    }
+    const std::size_t from = rng.below(4), to = (from + 1 + rng.below(2)) % 4;
+    const double c = pick({-1, -0.5, 0.5, 1});
+    const WindowVertex& v = quad.vertex[from];
+    quad.vertex[to] = {c * v.x, c * v.y, c * v.z, c * v.w};
+  }
+  for (const bool perspective : {true, false}) {
+    DrawState state = square(32);
+    state.perspective = perspective;
+    const CheckResult result = judge_untimed(quads, 0, Config{}, state);
+    EXPECT_TRUE(result.ok()) << (perspective ? "" : "without perspective ") << faults(result);
+    EXPECT_GT(result.two_corner, 20u);
   }
 }
 
