@@ -83,6 +83,7 @@ struct Weights {
   Singular singular = Singular::none;
   bool cancels = false;   ///< some spread_i is not |M_i|
   bool collinear = true;  ///< every A_i is 0: the pixel's ray lies in the plane of all edges
+  bool opposed = false;   ///< two corners or edges are met on both sides of the eye, with M that make sum(M k) 0
 };
 
 template <class Coord, class Product>
@@ -101,6 +102,7 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
     // Three or four coincident corners are never covered: too many all-zero edges.
     out.singular = Singular::two_corner;
     // No M has a sign. Without perspective a corner behind the eye and one before it leave sum(M w) = 0.
+    out.opposed = sign_of(k[corner[0]]) * sign_of(k[corner[1]]) < 0;
     out.m[corner[0]] = magnitude(k[corner[1]]);
     out.m[corner[1]] = magnitude(k[corner[0]]);
     return out;
@@ -133,9 +135,10 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
     // no sign, as no M has one here: without perspective one edge may be met behind the eye and the other before it,
     // and then sum(M w) = 0.
     out.singular = Singular::two_edge;
-    const auto sum_on = [&](int i) { return magnitude(rho[i] * k[i] + rho[(i + 1) & 3] * k[(i + 1) & 3]); };
+    const auto sum_on = [&](int i) { return rho[i] * k[i] + rho[(i + 1) & 3] * k[(i + 1) & 3]; };
+    out.opposed = sign_of(sum_on(edge[0])) * sign_of(sum_on(edge[1])) < 0;
     for (int side = 0; side < 2; ++side) {
-      const __float128 other = sum_on(edge[1 - side]);
+      const __float128 other = magnitude(sum_on(edge[1 - side]));
       for (const int i : {edge[side], (edge[side] + 1) & 3}) out.m[i] += rho[i] * other;
     }
     return out;
@@ -171,10 +174,11 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
 }
 
 /// sum(M w) is 0 as an identity, not merely small: sum(M_i V_i) is a multiple of the pixel's ray and lies in the plane
-/// of the vertices, so if that plane holds the eye but not the ray the multiple is 0.
+/// of the vertices, so if that plane holds the eye but not the ray the multiple is 0. So it is where `opposed`, which
+/// is without perspective, where k = w.
 template <class Coord, class Product>
 bool w_sum_vanishes(const detail::TruthGeometry<Coord, Product>& g, const Weights& weights) {
-  return g.flat && !weights.collinear;
+  return weights.opposed || (g.flat && !weights.collinear);
 }
 
 template <class Coord, class Product>
