@@ -37,7 +37,7 @@ TEST(Waveform, HasTheSignalsOfTheGtkwFile) {
 
   std::filesystem::remove(file);
   options.trace = "/nonexistent/directory/wave.fst";
-  EXPECT_THROW(run_lockstep(quads, options), DeviceError);
+  EXPECT_THROW(run_lockstep(quads, options), EnvironmentError);
 }
 
 }  // namespace
