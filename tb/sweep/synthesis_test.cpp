@@ -213,8 +213,8 @@ TEST(SynthesisByYosys, ASmallMachine) {
   // A carry chain is no shorter than its 28-bit values (T_BITS, two bits a cell), and a stage holds a few of them.
   EXPECT_GE(row.longest_path, 14u);
   EXPECT_LE(row.longest_path, 200u);
-  // Yosys 0.23 counts 43,084; the order of its internal names moves that by some 0.1 %. The weights of the cost are those
-  // of a larger RTL (golden/analysis/README.md): until they are fitted again the estimate lies above.
+  // Yosys 0.23 counts 43,084; the order of its internal names moves that by some 0.1 %. The weights of the cost are
+  // those of a larger RTL (golden/analysis/README.md): until they are fitted again the estimate lies above.
   EXPECT_NEAR(static_cast<double>(row.luts), 43'084, 0.01 * 43'084);
   EXPECT_GT(row.cost, static_cast<double>(row.luts));
   std::printf("%llu LUTs, %llu flip-flops, %llu DSPs, path %llu, estimate %.0f\n",
