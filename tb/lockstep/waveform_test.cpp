@@ -2,6 +2,7 @@
 #include "golden/scenes/random_quads.hpp"
 #include "tb/lockstep/fst_names.hpp"
 #include "tb/lockstep/lockstep.hpp"
+#include "tb/support/environment_error.hpp"
 
 #include <gtest/gtest.h>
 
