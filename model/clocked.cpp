@@ -1,5 +1,6 @@
 #include "model/clocked.hpp"
 
+#include "model/latency.hpp"
 #include "model/pixel_pipeline.hpp"
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
@@ -11,8 +12,7 @@
 namespace quadrille {
 namespace {
 
-// Pipeline registers 0..25; a pixel is in register n during the clocks after n + 1 enabled edges.
-constexpr int last_stage = 25;
+constexpr int last_stage = latency::fragment_stage;
 
 /// First-in first-out ring with a registered count, as the RTL's.
 template <class T>
@@ -250,12 +250,12 @@ ClockedOutputs ClockedModel::comb() const {
   if (m.walk_push) out.probes.tile = &m.tile_entry;
   if (m.stamp_push) out.probes.stamp = &m.stamp_entry;
   const auto pixel = [&](int n) { return m.stage(n).valid ? &m.stage(n) : nullptr; };
-  out.probes.diff = pixel(1);
-  out.probes.norm = pixel(3);
-  out.probes.rsqrt = pixel(6);
-  out.probes.ratio = pixel(10);
-  out.probes.weight = pixel(17);
-  out.probes.sum = pixel(20);
+  out.probes.diff = pixel(latency::diff_stage);
+  out.probes.norm = pixel(latency::norm_stage);
+  out.probes.rsqrt = pixel(latency::rho_stage);
+  out.probes.ratio = pixel(latency::ratio_stage);
+  out.probes.weight = pixel(latency::weight_stage);
+  out.probes.sum = pixel(latency::sum_stage);
   return out;
 }
 

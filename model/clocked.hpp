@@ -25,12 +25,12 @@ struct ClockedProbes {
   const SetupResult* setup = nullptr;  ///< taken by the walk in this clock
   const TileEntry* tile = nullptr;     ///< pushed in this clock
   const StampEntry* stamp = nullptr;   ///< pushed in this clock
-  const PixelTrace* diff = nullptr;    ///< stage 1 register holds a pixel
-  const PixelTrace* norm = nullptr;    ///< stage 3
-  const PixelTrace* rsqrt = nullptr;   ///< stage 6
-  const PixelTrace* ratio = nullptr;   ///< stage 10
-  const PixelTrace* weight = nullptr;  ///< stage 17
-  const PixelTrace* sum = nullptr;     ///< stage 20
+  const PixelTrace* diff = nullptr;    ///< in register diff_stage (latency.hpp)
+  const PixelTrace* norm = nullptr;    ///< in norm_stage
+  const PixelTrace* rsqrt = nullptr;   ///< in rho_stage
+  const PixelTrace* ratio = nullptr;   ///< in ratio_stage
+  const PixelTrace* weight = nullptr;  ///< in weight_stage
+  const PixelTrace* sum = nullptr;     ///< in sum_stage
 };
 
 struct ClockedOutputs {

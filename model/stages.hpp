@@ -70,24 +70,24 @@ struct PixelTrace {
   std::uint32_t slot = 0, quad = 0;
   int x = 0, y = 0;
   bool front = false, tie = false, homogeneous = false, hull = false;
-  // stage 1
+  // diff
   std::array<std::int64_t, 6> a{}, d{};
   std::array<std::int64_t, 4> r2{};
-  // stage 3
+  // norm
   bool two_corner = false, on_vertex = false, two_edge = false, on_edge = false;
   std::array<PipelineFloat, 6> a_fp{}, d_fp{};
   std::array<PipelineFloat, 4> r2_fp{};
-  // stage 6
+  // rsqrt
   std::array<PipelineFloat, 4> rho{};
-  // stage 10
+  // ratio
   std::array<PipelineFloat, 6> num{}, den{};  ///< t = num / den, magnitudes
   bool cured = false;
-  // stage 17
+  // weight
   std::array<PipelineFloat, 4> m{};
-  // stage 20
+  // sum
   std::array<PipelineFloat, max_attribute_slots> num_a{};
   PipelineFloat num_z, den_k, den_w;
-  // stage 25
+  // fragment
   bool drawn = false;  ///< not discarded
   Fragment fragment;
 };

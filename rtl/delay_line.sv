@@ -1,4 +1,4 @@
-// DEPTH registers in a row (DEPTH >= 1), all advancing with en_i. Not reset: for payload, never for valid bits.
+// DEPTH registers in a row, all advancing with en_i; DEPTH = 0 is a wire. Not reset: for payload, never for valid bits.
 module delay_line #(
     parameter int WIDTH = 1,
     parameter int DEPTH = 1
@@ -17,5 +17,11 @@ module delay_line #(
     end
   end
 
-  assign data_o = gen_stage[DEPTH-1].data_q;
+  if (DEPTH == 0) begin : gen_wire
+    logic unused;
+    assign unused = clk_i ^ en_i;
+    assign data_o = data_i;
+  end else begin : gen_out
+    assign data_o = gen_stage[DEPTH-1].data_q;
+  end
 endmodule

@@ -1,8 +1,8 @@
-// Quotients to fixed point, discard, output register. Stages 24 (raw products numerator * reciprocal) and 25 (the port).
+// Quotients to fixed point, discard, output register. Latency FRAGMENT_OUTPUT_STAGES from numerators and reciprocals to the port.
 //
 // Attribute: two's complement, ATTRIBUTE_INT_BITS and ATTRIBUTE_FRAC_BITS, truncated toward zero, saturated. Depth: unsigned,
 // 1 integer bit, DEPTH_BITS fraction bits. A pixel is discarded outside [znear, zfar], for negative depth, and, in a quad whose hull
-// holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_24_i is the pixel's valid at stage 24.
+// holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come one enabled clock before the port.
 module fragment_output #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
@@ -21,7 +21,7 @@ module fragment_output #(
     input logic [DB:0] znear_i,
     input logic [DB:0] zfar_i,
     input logic [3:0] attributes_i,
-    // stage 23
+    // Numerators and reciprocals
     input logic [N-1:0] attr_neg_i,
     input logic [N*E-1:0] attr_exp_i,
     input logic [N*S-1:0] attr_sig_i,
@@ -34,8 +34,8 @@ module fragment_output #(
     input logic rw_neg_i,
     input logic [E-1:0] rw_exp_i,
     input logic [S-1:0] rw_sig_i,
-    // stage 24
-    input logic valid_24_i,
+    // One clock before the port
+    input logic valid_i,
     input logic [ID-1:0] id_i,
     input logic hull_i,
     input logic homogeneous_i,
@@ -43,8 +43,8 @@ module fragment_output #(
     input logic [V-1:0] y_i,
     input logic front_i,
     input logic tie_i,
-    input logic [12:0] class_i,
-    // stage 25
+    input logic [4:0] class_i,  // two_corner, on_vertex, two_edge, on_edge, cured
+    // Port
     output logic valid_o,
     output logic [FB-1:0] fragment_o
 );
@@ -53,9 +53,9 @@ module fragment_output #(
   logic [N*AO-1:0] attr;
 
   for (genvar g = 0; g < N; g++) begin : gen_attribute
-    logic neg_24;
-    logic [E-1:0] exp_24;
-    logic [2*S-1:0] prod_24;
+    logic neg;
+    logic [E-1:0] exp;
+    logic [2*S-1:0] prod;
     logic used, saturated;
     logic [AO-2:0] fixed;
 
@@ -67,30 +67,30 @@ module fragment_output #(
         .a_sig_i(attr_sig_i[g*S+:S]),
         .b_exp_i(rk_exp_i),
         .b_sig_i(rk_sig_i),
-        .neg_o(neg_24),
-        .exp_o(exp_24),
-        .prod_o(prod_24)
+        .neg_o(neg),
+        .exp_o(exp),
+        .prod_o(prod)
     );
 
     fixed_point #(
         .INT_BITS(quadrille_pkg::ATTRIBUTE_INT_BITS),
         .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS)
     ) u_fixed (
-        .exp_i(exp_24),
-        .prod_i(prod_24),
+        .exp_i(exp),
+        .prod_i(prod),
         .overflow_o(saturated),
         .fixed_o(fixed)
     );
 
     assign used = attributes_i > 4'(g);
     assign overflow[g] = used && saturated;
-    assign attr[g*AO+:AO] = !used ? '0 : neg_24 ? AO'(0) - {1'b0, fixed} : {1'b0, fixed};
+    assign attr[g*AO+:AO] = !used ? '0 : neg ? AO'(0) - {1'b0, fixed} : {1'b0, fixed};
   end
 
   // ---- Depth --------------------------------------------------------------------------------------------------------------
-  logic z_neg_24, w_zero_24, w_neg_24;
-  logic [E-1:0] z_exp_24;
-  logic [2*S-1:0] z_prod_24;
+  logic z_neg, w_zero, w_neg;
+  logic [E-1:0] z_exp;
+  logic [2*S-1:0] z_prod;
   logic z_saturated;
   logic [DB:0] z_fixed, z;
   logic z_below;
@@ -104,15 +104,15 @@ module fragment_output #(
       .a_sig_i(z_sig_i),
       .b_exp_i(rw_exp_i),
       .b_sig_i(rw_sig_i),
-      .neg_o(z_neg_24),
-      .exp_o(z_exp_24),
-      .prod_o(z_prod_24)
+      .neg_o(z_neg),
+      .exp_o(z_exp),
+      .prod_o(z_prod)
   );
 
   always_ff @(posedge clk_i) begin
     if (en_i) begin
-      w_zero_24 <= rw_sig_i == '0;
-      w_neg_24 <= rw_neg_i;
+      w_zero <= rw_sig_i == '0;
+      w_neg <= rw_neg_i;
     end
   end
 
@@ -120,27 +120,25 @@ module fragment_output #(
       .INT_BITS(1),
       .FRAC_BITS(DB)
   ) u_fixed_z (
-      .exp_i(z_exp_24),
-      .prod_i(z_prod_24),
+      .exp_i(z_exp),
+      .prod_i(z_prod),
       .overflow_o(z_saturated),
       .fixed_o(z_fixed)
   );
 
-  assign z = (w_zero_24 || z_saturated) ? '1 : z_fixed;
-  assign z_below = !w_zero_24 && z_neg_24 && z != '0;
-  assign discard = (hull_i && (w_zero_24 || w_neg_24)) || (depth_on_i && (z_below || z < znear_i || z > zfar_i));
+  assign z = (w_zero || z_saturated) ? '1 : z_fixed;
+  assign z_below = !w_zero && z_neg && z != '0;
+  assign discard = (hull_i && (w_zero || w_neg)) || (depth_on_i && (z_below || z < znear_i || z > zfar_i));
 
   // ---- Output register ----------------------------------------------------------------------------------------------------
   logic two_corner, on_vertex, two_edge, on_edge, cured;
   logic [7:0] flags;
   logic valid_d;
   logic [FB-1:0] fragment_d;
-  logic unused_class;
 
-  assign {two_corner, on_vertex, two_edge, on_edge, cured} = class_i[12:8];
-  assign unused_class = ^class_i[7:0];
+  assign {two_corner, on_vertex, two_edge, on_edge, cured} = class_i;
   assign flags = {overflow != '0, cured, homogeneous_i, tie_i, two_edge, two_corner, on_vertex, on_edge};
-  assign valid_d = valid_24_i && !discard;
+  assign valid_d = valid_i && !discard;
   assign fragment_d = {id_i, x_i, y_i, front_i, flags, depth_on_i ? z : (DB + 1)'(0), attr};
 
   always_ff @(posedge clk_i) begin

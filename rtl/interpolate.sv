@@ -1,5 +1,5 @@
 // Weighted sums over the four corners: term set t gives sum_t = M_0 c_t0 + M_1 c_t1 + M_2 c_t2 + M_3 c_t3, signed, for the sets
-// k_eff, W, Z, b_0, b_1, ... Stages 18 (raw products), 19 (align-add), 20 (normalise). One pixel per enabled clock.
+// k_eff, W, Z, b_0, b_1, ... Latency PRODUCT_STAGES + FP_SUM_STAGES (quadrille_pkg), one pixel per enabled clock.
 //
 // Term t of corner v is at index t*4+v; term exponents have the port's width. Does not divide.
 module interpolate #(
@@ -20,9 +20,9 @@ module interpolate #(
     output logic [SETS*S-1:0] sum_sig_o
 );
   for (genvar t = 0; t < SETS; t++) begin : gen_set
-    logic [3:0] neg_18;
-    logic [4*E-1:0] exp_18;
-    logic [4*2*S-1:0] prod_18;
+    logic [3:0] neg;
+    logic [4*E-1:0] exp;
+    logic [4*2*S-1:0] prod;
 
     for (genvar v = 0; v < 4; v++) begin : gen_corner
       fp_raw_product u_product (
@@ -33,18 +33,18 @@ module interpolate #(
           .a_sig_i(m_sig_i[v*S+:S]),
           .b_exp_i(E'($signed(term_exp_i[(t*4+v)*PE+:PE]))),
           .b_sig_i(term_sig_i[(t*4+v)*S+:S]),
-          .neg_o(neg_18[v]),
-          .exp_o(exp_18[v*E+:E]),
-          .prod_o(prod_18[v*2*S+:2*S])
+          .neg_o(neg[v]),
+          .exp_o(exp[v*E+:E]),
+          .prod_o(prod[v*2*S+:2*S])
       );
     end
 
     fp_sum #(.TERMS(4)) u_sum (
         .clk_i,
         .en_i,
-        .neg_i(neg_18),
-        .exp_i(exp_18),
-        .prod_i(prod_18),
+        .neg_i(neg),
+        .exp_i(exp),
+        .prod_i(prod),
         .neg_o(sum_neg_o[t]),
         .exp_o(sum_exp_o[t*E+:E]),
         .sig_o(sum_sig_o[t*S+:S])

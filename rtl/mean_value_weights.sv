@@ -1,10 +1,11 @@
-// Mean value weights M_i, up to a common factor, from t_i = n_i / d_i and rho_i. Stages 11 to 17, one pixel per enabled clock.
+// Mean value weights M_i, up to a common factor, from t_i = n_i / d_i and rho_i. One pixel per enabled clock.
 //
 //     M_i = N_i e'_i  *  rho'_i f'_i      N_i = n_{i-1} d_i + n_i d_{i-1}, e'_i = d_{i+1} d_{i+2}, f'_i = 1
 //
 // Cured notch (two neighbouring t of opposite sign): N_i = n n' + d d' there, times the half-angle tangent's numerator in f'.
-// Singular pixels replace N, e', rho' in stage 15; two_edge uses the N adders for its edges' denominators rho k + rho' k'.
-// Weights are magnitudes (they have one sign). class_*_i = singular_class's word at the stage named; k_* are k_eff.
+// Singular pixels replace N, e', rho' at OVERRIDE_STAGE; two_edge uses the N adders for its edges' denominators rho k + rho' k'.
+// Weights are magnitudes (they have one sign). class_i is singular_class's word; k_* are k_eff. Inputs enter at RHO_STAGE (rho),
+// RATIO_STAGE, and one register before OVERRIDE_STAGE (override_*); M leaves at WEIGHT_STAGE (quadrille_pkg).
 module mean_value_weights #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
@@ -12,80 +13,88 @@ module mean_value_weights #(
 ) (
     input logic clk_i,
     input logic en_i,
-    // stage 6
+    // at RHO_STAGE
     input logic [4*E-1:0] rho_exp_i,
     input logic [4*S-1:0] rho_sig_i,
-    // stage 10
+    // at RATIO_STAGE
     input logic [6*E-1:0] n_exp_i,
     input logic [6*S-1:0] n_sig_i,
     input logic [6*E-1:0] d_exp_i,
     input logic [6*S-1:0] d_sig_i,
-    input logic [12:0] class_10_i,
-    input logic [3:0] k_neg_10_i,
-    input logic [4*PE-1:0] k_exp_10_i,
-    input logic [4*S-1:0] k_sig_10_i,
-    // stages 13, 14
-    input logic [12:0] class_13_i,
-    input logic [12:0] class_14_i,
-    input logic [4*PE-1:0] k_exp_14_i,
-    input logic [4*S-1:0] k_sig_14_i,
-    // stage 17
+    input logic [12:0] class_i,
+    input logic [3:0] k_neg_i,
+    input logic [4*PE-1:0] k_exp_i,
+    input logic [4*S-1:0] k_sig_i,
+    // at OVERRIDE_STAGE - 1
+    input logic [4*PE-1:0] override_k_exp_i,
+    input logic [4*S-1:0] override_k_sig_i,
+    // at WEIGHT_STAGE
     output logic [4*E-1:0] m_exp_o,
     output logic [4*S-1:0] m_sig_o
 );
   localparam logic [S-1:0] ONE_SIG = {1'b1, (S - 1)'(0)};
 
-  // ---- rho for stage 11 and stage 15 --------------------------------------------------------------------------------------
-  logic [4*(E+S)-1:0] rho_10, rho_14;
+  // ---- What waits: rho for the products and the overrides, the class for the overrides --------------------------------------
+  localparam int TO_RATIO = quadrille_pkg::RATIO_STAGE - quadrille_pkg::RHO_STAGE;
+  localparam int TO_N = quadrille_pkg::N_STAGE - quadrille_pkg::RATIO_STAGE;
+  localparam int TO_OVERRIDE = quadrille_pkg::OVERRIDE_STAGE - 1 - quadrille_pkg::RATIO_STAGE;  // where overrides are chosen
+  logic [4*E-1:0] rho_exp, late_rho_exp;
+  logic [4*S-1:0] rho_sig, late_rho_sig;
+  logic [12:0] n_class, late_class;
 
-  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(4)) u_delay_rho_10 (
+  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(TO_RATIO)) u_delay_rho (
       .clk_i,
       .en_i,
       .data_i({rho_exp_i, rho_sig_i}),
-      .data_o(rho_10)
+      .data_o({rho_exp, rho_sig})
   );
 
-  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(4)) u_delay_rho_14 (
+  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(TO_OVERRIDE)) u_delay_late_rho (
       .clk_i,
       .en_i,
-      .data_i(rho_10),
-      .data_o(rho_14)
+      .data_i({rho_exp, rho_sig}),
+      .data_o({late_rho_exp, late_rho_sig})
   );
 
-  logic [4*E-1:0] rho_exp_10, rho_exp_14;
-  logic [4*S-1:0] rho_sig_10, rho_sig_14;
+  delay_line #(.WIDTH(13), .DEPTH(TO_N)) u_delay_class (
+      .clk_i,
+      .en_i,
+      .data_i(class_i),
+      .data_o(n_class)
+  );
 
-  assign {rho_exp_10, rho_sig_10} = rho_10;
-  assign {rho_exp_14, rho_sig_14} = rho_14;
+  delay_line #(.WIDTH(13), .DEPTH(TO_OVERRIDE - TO_N)) u_delay_late_class (
+      .clk_i,
+      .en_i,
+      .data_i(n_class),
+      .data_o(late_class)
+  );
 
-  // ---- Class bits of the stages -------------------------------------------------------------------------------------------
-  logic two_edge_10, cured_10;
-  logic [3:0] differ_10;
-  logic [1:0] first_13, second_13;
-  logic two_corner_14, on_vertex_14, two_edge_14, cured_14, override_14;
-  logic [3:0] differ_14;
-  logic [1:0] first_14, second_14;
+  // ---- Class bits ---------------------------------------------------------------------------------------------------------
+  logic two_edge, cured;  // with n and d
+  logic [3:0] differ;
+  logic late_two_corner, late_on_vertex, late_two_edge, late_cured, late_override;  // with N and what waits
+  logic [3:0] late_differ;
+  logic [1:0] late_first, late_second;
   logic unused_class;
 
-  assign two_edge_10 = class_10_i[10];
-  assign cured_10 = class_10_i[8];
-  assign differ_10 = class_10_i[7:4];
-  assign first_13 = class_13_i[3:2];
-  assign second_13 = class_13_i[1:0];
-  assign two_corner_14 = class_14_i[12];
-  assign on_vertex_14 = class_14_i[11];
-  assign two_edge_14 = class_14_i[10];
-  assign cured_14 = class_14_i[8];
-  assign differ_14 = class_14_i[7:4];
-  assign first_14 = class_14_i[3:2];
-  assign second_14 = class_14_i[1:0];
-  assign override_14 = two_corner_14 || on_vertex_14 || two_edge_14;
-  assign unused_class = ^{class_10_i[12:11], class_10_i[9], class_10_i[3:0], class_13_i[12:4], class_14_i[9]};
+  assign two_edge = class_i[10];
+  assign cured = class_i[8];
+  assign differ = class_i[7:4];
+  assign late_two_corner = late_class[12];
+  assign late_on_vertex = late_class[11];
+  assign late_two_edge = late_class[10];
+  assign late_cured = late_class[8];
+  assign late_differ = late_class[7:4];
+  assign late_first = late_class[3:2];
+  assign late_second = late_class[1:0];
+  assign late_override = late_two_corner || late_on_vertex || late_two_edge;
+  assign unused_class = late_class[9];
 
-  // ---- Stages 11 to 13: N_i; stage 11: e_i = d_i d_{i+1} ------------------------------------------------------------------
-  logic [4*E-1:0] sum_exp_13;
-  logic [4*S-1:0] sum_sig_13;
-  logic [4*(E+S)-1:0] e_14;
+  // ---- N_i and e_i = d_i d_{i+1} ------------------------------------------------------------------------------------------
+  logic [4*E-1:0] n_sum_exp;
+  logic [4*S-1:0] n_sum_sig;
+  logic [4*(E+S)-1:0] late_e;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sum
     localparam int P = (g + 3) % 4;  // edge i-1
@@ -96,7 +105,7 @@ module mean_value_weights #(
     logic ab_neg, cd_neg;
     logic subtract;
 
-    assign subtract = quadrille_pkg::NOTCH_EXACT == 0 && differ_10[g];
+    assign subtract = quadrille_pkg::NOTCH_EXACT == 0 && differ[g];
 
     always_comb begin
       a_exp = n_exp_i[P*E+:E];
@@ -109,18 +118,18 @@ module mean_value_weights #(
       d_exp = d_exp_i[P*E+:E];
       d_sig = d_sig_i[P*S+:S];
       cd_neg = subtract;
-      if (two_edge_10) begin
-        a_exp = rho_exp_10[g*E+:E];
-        a_sig = rho_sig_10[g*S+:S];
-        b_exp = E'($signed(k_exp_10_i[g*PE+:PE]));
-        b_sig = k_sig_10_i[g*S+:S];
-        ab_neg = k_neg_10_i[g];
-        c_exp = rho_exp_10[Q*E+:E];
-        c_sig = rho_sig_10[Q*S+:S];
-        d_exp = E'($signed(k_exp_10_i[Q*PE+:PE]));
-        d_sig = k_sig_10_i[Q*S+:S];
-        cd_neg = k_neg_10_i[Q];
-      end else if (cured_10 && differ_10[g]) begin
+      if (two_edge) begin
+        a_exp = rho_exp[g*E+:E];
+        a_sig = rho_sig[g*S+:S];
+        b_exp = E'($signed(k_exp_i[g*PE+:PE]));
+        b_sig = k_sig_i[g*S+:S];
+        ab_neg = k_neg_i[g];
+        c_exp = rho_exp[Q*E+:E];
+        c_sig = rho_sig[Q*S+:S];
+        d_exp = E'($signed(k_exp_i[Q*PE+:PE]));
+        d_sig = k_sig_i[Q*S+:S];
+        cd_neg = k_neg_i[Q];
+      end else if (cured && differ[g]) begin
         b_exp = n_exp_i[g*E+:E];
         b_sig = n_sig_i[g*S+:S];
         c_exp = d_exp_i[g*E+:E];
@@ -129,10 +138,10 @@ module mean_value_weights #(
       end
     end
 
-    logic ab_neg_11, cd_neg_11;
-    logic [E-1:0] ab_exp_11, cd_exp_11;
-    logic [2*S-1:0] ab_prod_11, cd_prod_11;
-    logic sum_neg_13;
+    logic ab_neg_q, cd_neg_q;
+    logic [E-1:0] ab_exp_q, cd_exp_q;
+    logic [2*S-1:0] ab_prod_q, cd_prod_q;
+    logic n_sum_neg;
     logic unused;
 
     fp_raw_product u_ab (
@@ -143,9 +152,9 @@ module mean_value_weights #(
         .a_sig_i(a_sig),
         .b_exp_i(b_exp),
         .b_sig_i(b_sig),
-        .neg_o(ab_neg_11),
-        .exp_o(ab_exp_11),
-        .prod_o(ab_prod_11)
+        .neg_o(ab_neg_q),
+        .exp_o(ab_exp_q),
+        .prod_o(ab_prod_q)
     );
 
     fp_raw_product u_cd (
@@ -156,26 +165,26 @@ module mean_value_weights #(
         .a_sig_i(c_sig),
         .b_exp_i(d_exp),
         .b_sig_i(d_sig),
-        .neg_o(cd_neg_11),
-        .exp_o(cd_exp_11),
-        .prod_o(cd_prod_11)
+        .neg_o(cd_neg_q),
+        .exp_o(cd_exp_q),
+        .prod_o(cd_prod_q)
     );
 
     fp_sum #(.TERMS(2)) u_sum (
         .clk_i,
         .en_i,
-        .neg_i({cd_neg_11, ab_neg_11}),
-        .exp_i({cd_exp_11, ab_exp_11}),
-        .prod_i({cd_prod_11, ab_prod_11}),
-        .neg_o(sum_neg_13),
-        .exp_o(sum_exp_13[g*E+:E]),
-        .sig_o(sum_sig_13[g*S+:S])
+        .neg_i({cd_neg_q, ab_neg_q}),
+        .exp_i({cd_exp_q, ab_exp_q}),
+        .prod_i({cd_prod_q, ab_prod_q}),
+        .neg_o(n_sum_neg),
+        .exp_o(n_sum_exp[g*E+:E]),
+        .sig_o(n_sum_sig[g*S+:S])
     );
 
-    assign unused = sum_neg_13;  // the magnitude is what is wanted
+    assign unused = n_sum_neg;  // the magnitude is what is wanted
 
-    logic [E-1:0] e_exp_11;
-    logic [S-1:0] e_sig_11;
+    logic [E-1:0] e_exp;
+    logic [S-1:0] e_sig;
 
     fp_multiply u_e (
         .clk_i,
@@ -184,20 +193,20 @@ module mean_value_weights #(
         .a_sig_i(d_sig_i[g*S+:S]),
         .b_exp_i(d_exp_i[Q*E+:E]),
         .b_sig_i(d_sig_i[Q*S+:S]),
-        .exp_o(e_exp_11),
-        .sig_o(e_sig_11)
+        .exp_o(e_exp),
+        .sig_o(e_sig)
     );
 
-    delay_line #(.WIDTH(E + S), .DEPTH(3)) u_delay_e (
+    delay_line #(.WIDTH(E + S), .DEPTH(TO_OVERRIDE - quadrille_pkg::PRODUCT_STAGES)) u_delay_e (
         .clk_i,
         .en_i,
-        .data_i({e_exp_11, e_sig_11}),
-        .data_o(e_14[g*(E+S)+:E+S])
+        .data_i({e_exp, e_sig}),
+        .data_o(late_e[g*(E+S)+:E+S])
     );
   end
 
-  // ---- Stage 11: the cure's factors f_a = n13 d20, f_b = n20 d13, f_c = d13 d20 (pair 4 is 20, pair 5 is 13) ---------------
-  logic [3*(E+S)-1:0] f_11, f_14;
+  // ---- The cure's factors f_a = n13 d20, f_b = n20 d13, f_c = d13 d20 (pair 4 is 20, pair 5 is 13) -------------------------
+  logic [3*(E+S)-1:0] f, late_f;
 
   fp_multiply u_fa (
       .clk_i,
@@ -206,8 +215,8 @@ module mean_value_weights #(
       .a_sig_i(n_sig_i[5*S+:S]),
       .b_exp_i(d_exp_i[4*E+:E]),
       .b_sig_i(d_sig_i[4*S+:S]),
-      .exp_o(f_11[S+:E]),
-      .sig_o(f_11[0+:S])
+      .exp_o(f[S+:E]),
+      .sig_o(f[0+:S])
   );
 
   fp_multiply u_fb (
@@ -217,8 +226,8 @@ module mean_value_weights #(
       .a_sig_i(n_sig_i[4*S+:S]),
       .b_exp_i(d_exp_i[5*E+:E]),
       .b_sig_i(d_sig_i[5*S+:S]),
-      .exp_o(f_11[E+S+S+:E]),
-      .sig_o(f_11[E+S+:S])
+      .exp_o(f[E+S+S+:E]),
+      .sig_o(f[E+S+:S])
   );
 
   fp_multiply u_fc (
@@ -228,173 +237,173 @@ module mean_value_weights #(
       .a_sig_i(d_sig_i[5*S+:S]),
       .b_exp_i(d_exp_i[4*E+:E]),
       .b_sig_i(d_sig_i[4*S+:S]),
-      .exp_o(f_11[2*(E+S)+S+:E]),
-      .sig_o(f_11[2*(E+S)+:S])
+      .exp_o(f[2*(E+S)+S+:E]),
+      .sig_o(f[2*(E+S)+:S])
   );
 
-  delay_line #(.WIDTH(3 * (E + S)), .DEPTH(3)) u_delay_f (
+  delay_line #(.WIDTH(3 * (E + S)), .DEPTH(TO_OVERRIDE - quadrille_pkg::PRODUCT_STAGES)) u_delay_f (
       .clk_i,
       .en_i,
-      .data_i(f_11),
-      .data_o(f_14)
+      .data_i(f),
+      .data_o(late_f)
   );
 
-  // ---- Stages 14, 15: N_a + N_b of two edges ------------------------------------------------------------------------------
-  logic [E-1:0] na_exp_13, nb_exp_13, both_exp_15;
-  logic [S-1:0] na_sig_13, nb_sig_13, both_sig_15;
-  logic both_neg_15, unused_neg;
+  // ---- N_a + N_b of two edges ---------------------------------------------------------------------------------------------
+  logic [E-1:0] na_exp, nb_exp, both_exp;
+  logic [S-1:0] na_sig, nb_sig, both_sig;
+  logic both_neg, unused_neg;
 
   one_of_four #(.WIDTH(E)) u_na_exp (
-      .words_i(sum_exp_13),
-      .index_i(first_13),
-      .word_o(na_exp_13)
+      .words_i(n_sum_exp),
+      .index_i(n_class[3:2]),
+      .word_o(na_exp)
   );
   one_of_four #(.WIDTH(S)) u_na_sig (
-      .words_i(sum_sig_13),
-      .index_i(first_13),
-      .word_o(na_sig_13)
+      .words_i(n_sum_sig),
+      .index_i(n_class[3:2]),
+      .word_o(na_sig)
   );
   one_of_four #(.WIDTH(E)) u_nb_exp (
-      .words_i(sum_exp_13),
-      .index_i(second_13),
-      .word_o(nb_exp_13)
+      .words_i(n_sum_exp),
+      .index_i(n_class[1:0]),
+      .word_o(nb_exp)
   );
   one_of_four #(.WIDTH(S)) u_nb_sig (
-      .words_i(sum_sig_13),
-      .index_i(second_13),
-      .word_o(nb_sig_13)
+      .words_i(n_sum_sig),
+      .index_i(n_class[1:0]),
+      .word_o(nb_sig)
   );
 
   fp_sum #(.TERMS(2)) u_both (
       .clk_i,
       .en_i,
       .neg_i(2'b00),
-      .exp_i({nb_exp_13, na_exp_13}),
-      .prod_i({1'b0, nb_sig_13, (S - 1)'(0), 1'b0, na_sig_13, (S - 1)'(0)}),
-      .neg_o(both_neg_15),
-      .exp_o(both_exp_15),
-      .sig_o(both_sig_15)
+      .exp_i({nb_exp, na_exp}),
+      .prod_i({1'b0, nb_sig, (S - 1)'(0), 1'b0, na_sig, (S - 1)'(0)}),
+      .neg_o(both_neg),
+      .exp_o(both_exp),
+      .sig_o(both_sig)
   );
 
-  assign unused_neg = both_neg_15;
+  assign unused_neg = both_neg;
 
-  logic [4*(E+S)-1:0] sum_14;
-  logic [E+S-1:0] na_14, nb_14;
-  logic [4*E-1:0] sum_exp_14;
-  logic [4*S-1:0] sum_sig_14;
+  logic [4*(E+S)-1:0] late_n;
+  logic [E+S-1:0] late_na, late_nb;
+  logic [4*E-1:0] late_n_exp;
+  logic [4*S-1:0] late_n_sig;
 
-  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(1)) u_delay_sum (
+  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(TO_OVERRIDE - TO_N)) u_delay_n (
       .clk_i,
       .en_i,
-      .data_i({sum_exp_13, sum_sig_13}),
-      .data_o(sum_14)
+      .data_i({n_sum_exp, n_sum_sig}),
+      .data_o(late_n)
   );
 
-  delay_line #(.WIDTH(2 * (E + S)), .DEPTH(1)) u_delay_two (
+  delay_line #(.WIDTH(2 * (E + S)), .DEPTH(TO_OVERRIDE - TO_N)) u_delay_two (
       .clk_i,
       .en_i,
-      .data_i({na_exp_13, na_sig_13, nb_exp_13, nb_sig_13}),
-      .data_o({na_14, nb_14})
+      .data_i({na_exp, na_sig, nb_exp, nb_sig}),
+      .data_o({late_na, late_nb})
   );
 
-  assign {sum_exp_14, sum_sig_14} = sum_14;
+  assign {late_n_exp, late_n_sig} = late_n;
 
   // |k_eff| of the two corners
-  logic [PE-1:0] k_exp_first_14, k_exp_second_14;
-  logic [S-1:0] k_sig_first_14, k_sig_second_14;
-  logic [E+S-1:0] k_first_14, k_second_14;
+  logic [PE-1:0] first_k_exp, second_k_exp;
+  logic [S-1:0] first_k_sig, second_k_sig;
+  logic [E+S-1:0] first_k, second_k;
 
   one_of_four #(.WIDTH(PE)) u_k_exp_first (
-      .words_i(k_exp_14_i),
-      .index_i(first_14),
-      .word_o(k_exp_first_14)
+      .words_i(override_k_exp_i),
+      .index_i(late_first),
+      .word_o(first_k_exp)
   );
   one_of_four #(.WIDTH(S)) u_k_sig_first (
-      .words_i(k_sig_14_i),
-      .index_i(first_14),
-      .word_o(k_sig_first_14)
+      .words_i(override_k_sig_i),
+      .index_i(late_first),
+      .word_o(first_k_sig)
   );
   one_of_four #(.WIDTH(PE)) u_k_exp_second (
-      .words_i(k_exp_14_i),
-      .index_i(second_14),
-      .word_o(k_exp_second_14)
+      .words_i(override_k_exp_i),
+      .index_i(late_second),
+      .word_o(second_k_exp)
   );
   one_of_four #(.WIDTH(S)) u_k_sig_second (
-      .words_i(k_sig_14_i),
-      .index_i(second_14),
-      .word_o(k_sig_second_14)
+      .words_i(override_k_sig_i),
+      .index_i(late_second),
+      .word_o(second_k_sig)
   );
 
-  assign k_first_14 = {E'($signed(k_exp_first_14)), k_sig_first_14};
-  assign k_second_14 = {E'($signed(k_exp_second_14)), k_sig_second_14};
+  assign first_k = {E'($signed(first_k_exp)), first_k_sig};
+  assign second_k = {E'($signed(second_k_exp)), second_k_sig};
 
-  // ---- Stage 15: overrides. Stage 16: h_i, g_i. Stage 17: M_i --------------------------------------------------------------
+  // ---- Overrides, then h_i and g_i, then M_i -------------------------------------------------------------------------------
   for (genvar g = 0; g < 4; g++) begin : gen_weight
     localparam int P = (g + 3) % 4;
     localparam int Q = (g + 1) % 4;
 
     logic is_first, is_second;  // corner g is the first, second singular corner
     logic on_a, on_b;  // corner g is on the first, second of two edges
-    logic take_both_15;
-    logic [E+S-1:0] num_d, num_q, num_15;
-    logic [E+S-1:0] e_15, rho_15, f_15;
+    logic take_both_q;
+    logic [E+S-1:0] num_d, num_q, num;
+    logic [E+S-1:0] e_q, rho_q, f_q;
 
-    assign is_first = first_14 == 2'(g);
-    assign is_second = second_14 == 2'(g);
-    assign on_a = first_14 == 2'(g) || first_14 == 2'(P);
-    assign on_b = second_14 == 2'(g) || second_14 == 2'(P);
+    assign is_first = late_first == 2'(g);
+    assign is_second = late_second == 2'(g);
+    assign on_a = late_first == 2'(g) || late_first == 2'(P);
+    assign on_b = late_second == 2'(g) || late_second == 2'(P);
 
     always_comb begin
-      num_d = {sum_exp_14[g*E+:E], sum_sig_14[g*S+:S]};
-      if (two_corner_14) num_d = is_first ? k_second_14 : is_second ? k_first_14 : '0;
-      else if (on_vertex_14) num_d = is_first ? {E'(0), ONE_SIG} : '0;
-      else if (two_edge_14) num_d = on_a ? nb_14 : on_b ? na_14 : '0;
+      num_d = {late_n_exp[g*E+:E], late_n_sig[g*S+:S]};
+      if (late_two_corner) num_d = is_first ? second_k : is_second ? first_k : '0;
+      else if (late_on_vertex) num_d = is_first ? {E'(0), ONE_SIG} : '0;
+      else if (late_two_edge) num_d = on_a ? late_nb : on_b ? late_na : '0;
     end
 
     always_ff @(posedge clk_i) begin
       if (en_i) begin
         num_q <= num_d;
-        take_both_15 <= two_edge_14 && on_a && on_b;
-        e_15 <= override_14 ? {E'(0), ONE_SIG} : e_14[Q*(E+S)+:E+S];
-        rho_15 <= (two_corner_14 || on_vertex_14) ? {E'(0), ONE_SIG} : {rho_exp_14[g*E+:E], rho_sig_14[g*S+:S]};
-        f_15 <= !cured_14 ? {E'(0), ONE_SIG} : !differ_14[g] ? f_14[2*(E+S)+:E+S] : f_14[(g%2)*(E+S)+:E+S];
+        take_both_q <= late_two_edge && on_a && on_b;
+        e_q <= late_override ? {E'(0), ONE_SIG} : late_e[Q*(E+S)+:E+S];
+        rho_q <= (late_two_corner || late_on_vertex) ? {E'(0), ONE_SIG} : {late_rho_exp[g*E+:E], late_rho_sig[g*S+:S]};
+        f_q <= !late_cured ? {E'(0), ONE_SIG} : !late_differ[g] ? late_f[2*(E+S)+:E+S] : late_f[(g%2)*(E+S)+:E+S];
       end
     end
 
-    assign num_15 = take_both_15 ? {both_exp_15, both_sig_15} : num_q;
+    assign num = take_both_q ? {both_exp, both_sig} : num_q;
 
-    logic [E-1:0] h_exp_16, g_exp_16;
-    logic [S-1:0] h_sig_16, g_sig_16;
+    logic [E-1:0] h_exp, g_exp;
+    logic [S-1:0] h_sig, g_sig;
 
     fp_multiply u_h (
         .clk_i,
         .en_i,
-        .a_exp_i(num_15[S+:E]),
-        .a_sig_i(num_15[0+:S]),
-        .b_exp_i(e_15[S+:E]),
-        .b_sig_i(e_15[0+:S]),
-        .exp_o(h_exp_16),
-        .sig_o(h_sig_16)
+        .a_exp_i(num[S+:E]),
+        .a_sig_i(num[0+:S]),
+        .b_exp_i(e_q[S+:E]),
+        .b_sig_i(e_q[0+:S]),
+        .exp_o(h_exp),
+        .sig_o(h_sig)
     );
 
     fp_multiply u_g (
         .clk_i,
         .en_i,
-        .a_exp_i(rho_15[S+:E]),
-        .a_sig_i(rho_15[0+:S]),
-        .b_exp_i(f_15[S+:E]),
-        .b_sig_i(f_15[0+:S]),
-        .exp_o(g_exp_16),
-        .sig_o(g_sig_16)
+        .a_exp_i(rho_q[S+:E]),
+        .a_sig_i(rho_q[0+:S]),
+        .b_exp_i(f_q[S+:E]),
+        .b_sig_i(f_q[0+:S]),
+        .exp_o(g_exp),
+        .sig_o(g_sig)
     );
 
     fp_multiply u_m (
         .clk_i,
         .en_i,
-        .a_exp_i(h_exp_16),
-        .a_sig_i(h_sig_16),
-        .b_exp_i(g_exp_16),
-        .b_sig_i(g_sig_16),
+        .a_exp_i(h_exp),
+        .a_sig_i(h_sig),
+        .b_exp_i(g_exp),
+        .b_sig_i(g_sig),
         .exp_o(m_exp_o[g*E+:E]),
         .sig_o(m_sig_o[g*S+:S])
     );

@@ -1,8 +1,9 @@
-// Everything behind the stamp FIFO: a pipeline of 26 registers with one enable, from a pixel's position to its fragment.
+// Everything behind the stamp FIFO: a pipeline of LATENCY registers with one enable, from a pixel's position to its fragment.
 //
-// Stage n's register is written n enabled clocks after emission (README.md section 5); names end in the stage of their register.
-// en_o = the output register is free. Per-quad data is not carried: the slot index is, and the bank is read at the stage that needs
-// it. An end beat (end, not valid) travels with the pixels; at the last register it releases its slot.
+// Register n is written n enabled clocks after emission. The boundaries between units have the registers quadrille_pkg::DIFF_STAGE to
+// FRAGMENT_STAGE, and signals are named after the boundary that they cross (README.md section 5).
+// en_o = the output register is free. Per-quad data is not carried: the slot index is, and the bank is read one register before the
+// unit that needs it. An end beat (end, not valid) travels with the pixels; at the last register it releases its slot.
 module pixel_pipeline #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
@@ -84,10 +85,16 @@ module pixel_pipeline #(
     input logic fragment_ready_i,
     output logic [FB-1:0] fragment_o
 );
+  // Registers at the boundaries
+  localparam int DIFF = quadrille_pkg::DIFF_STAGE;
+  localparam int NORM = quadrille_pkg::NORM_STAGE;
+  localparam int RATIO = quadrille_pkg::RATIO_STAGE;
+  localparam int OVERRIDE = quadrille_pkg::OVERRIDE_STAGE;
+  localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE;
   localparam int LAST = quadrille_pkg::LATENCY - 1;  // the output register
 
   logic en;
-  logic [LAST-1:0] valid_q;  // stages 0 to 24; stage 25 is the output's own
+  logic [LAST-1:0] valid_q;  // the last register has the output's own
   logic [LAST:0] end_q;
 
   assign en = !fragment_valid_o || fragment_ready_i;
@@ -104,35 +111,85 @@ module pixel_pipeline #(
     end
   end
 
-  // ---- Side band: slot, position, facing, tie, class ----------------------------------------------------------------------
+  // ---- Side band: slot, position, facing, tie; from the norm boundary on the class with them -------------------------------
+  // A read of the slot bank ends in a register: the slot leaves two registers before the data's user.
   localparam int TAG = SLOT + 2 * V + 2;
-  localparam int META = TAG + 13;
-  logic [TAG-1:0] tag_1, tag_3;
-  logic [META-1:0] meta_3, meta_10, meta_13, meta_14, meta_17, meta_24;
-  logic [12:0] class_3;
+  localparam int CLASS = 13;
+  localparam int FLAGS = 5;  // class bits that the fragment shows
+  localparam int META = TAG + FLAGS;
+  logic [TAG-1:0] diff_tag, norm_tag;
+  logic [CLASS-1:0] norm_class, ratio_class;
+  logic [META-1:0] product_meta, override_meta, blend_meta, output_meta;
 
-  delay_line #(.WIDTH(TAG), .DEPTH(2)) u_tag_1 (
+  delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (
       .clk_i,
       .en_i(en),
       .data_i({slot_i, x_i, y_i, front_i, tie_i}),
-      .data_o(tag_1)
+      .data_o(diff_tag)
   );
-  delay_line #(.WIDTH(TAG), .DEPTH(2)) u_tag_3 (.clk_i, .en_i(en), .data_i(tag_1), .data_o(tag_3));
-  delay_line #(.WIDTH(META), .DEPTH(7)) u_meta_10 (.clk_i, .en_i(en), .data_i(meta_3), .data_o(meta_10));
-  delay_line #(.WIDTH(META), .DEPTH(3)) u_meta_13 (.clk_i, .en_i(en), .data_i(meta_10), .data_o(meta_13));
-  delay_line #(.WIDTH(META), .DEPTH(1)) u_meta_14 (.clk_i, .en_i(en), .data_i(meta_13), .data_o(meta_14));
-  delay_line #(.WIDTH(META), .DEPTH(3)) u_meta_17 (.clk_i, .en_i(en), .data_i(meta_14), .data_o(meta_17));
-  delay_line #(.WIDTH(META), .DEPTH(7)) u_meta_24 (.clk_i, .en_i(en), .data_i(meta_17), .data_o(meta_24));
+  delay_line #(.WIDTH(TAG), .DEPTH(NORM - DIFF)) u_norm_tag (.clk_i, .en_i(en), .data_i(diff_tag), .data_o(norm_tag));
+  delay_line #(.WIDTH(META), .DEPTH(RATIO - 1 - NORM)) u_product_meta (
+      .clk_i,
+      .en_i(en),
+      .data_i({norm_tag, norm_class[CLASS-1-:FLAGS]}),
+      .data_o(product_meta)
+  );
+  delay_line #(.WIDTH(META), .DEPTH(OVERRIDE - 1 - RATIO)) u_override_meta (
+      .clk_i,
+      .en_i(en),
+      .data_i(product_meta),
+      .data_o(override_meta)
+  );
+  delay_line #(.WIDTH(META), .DEPTH(WEIGHT + 1 - OVERRIDE)) u_blend_meta (
+      .clk_i,
+      .en_i(en),
+      .data_i(override_meta),
+      .data_o(blend_meta)
+  );
+  delay_line #(.WIDTH(META), .DEPTH(LAST - 1 - WEIGHT)) u_output_meta (
+      .clk_i,
+      .en_i(en),
+      .data_i(blend_meta),
+      .data_o(output_meta)
+  );
+  delay_line #(.WIDTH(CLASS), .DEPTH(RATIO - NORM)) u_ratio_class (.clk_i, .en_i(en), .data_i(norm_class), .data_o(ratio_class));
 
-  assign meta_3 = {tag_3, class_3};
-  assign product_slot_o = meta_10[META-1-:SLOT];
-  assign override_slot_o = meta_14[META-1-:SLOT];
-  assign blend_slot_o = meta_17[META-1-:SLOT];
-  assign output_slot_o = meta_24[META-1-:SLOT];
+  // ---- Reads of the slot bank -----------------------------------------------------------------------------------------------
+  logic [3:0] product_k_neg;
+  logic [4*PE-1:0] product_k_exp, override_k_exp;
+  logic [4*S-1:0] product_k_sig, override_k_sig;
+  logic [SETS*4-1:0] blend_neg;
+  logic [SETS*4*PE-1:0] blend_exp;
+  logic [SETS*4*S-1:0] blend_sig;
+  logic [ID-1:0] output_id;
+  logic output_hull, output_homogeneous;
+  logic [META-SLOT-1:0] output_rest;  // of output_meta, in step with what was read
 
-  // ---- Stages 0, 1: exact functions at the pixel --------------------------------------------------------------------------
-  logic [6*VAL-1:0] a_1;
-  logic [10*QVAL-1:0] quad_1;
+  assign product_slot_o = product_meta[META-1-:SLOT];
+  assign override_slot_o = override_meta[META-1-:SLOT];
+  assign blend_slot_o = blend_meta[META-1-:SLOT];
+  assign output_slot_o = output_meta[META-1-:SLOT];
+
+  always_ff @(posedge clk_i) begin
+    if (en) begin
+      product_k_neg <= product_k_neg_i;
+      product_k_exp <= product_k_exp_i;
+      product_k_sig <= product_k_sig_i;
+      override_k_exp <= override_k_exp_i;
+      override_k_sig <= override_k_sig_i;
+      blend_neg <= blend_neg_i;
+      blend_exp <= blend_exp_i;
+      blend_sig <= blend_sig_i;
+      output_id <= output_id_i;
+      output_hull <= output_hull_i;
+      output_homogeneous <= output_homogeneous_i;
+      output_rest <= output_meta[META-SLOT-1:0];
+    end
+  end
+
+  // ---- Exact functions at the pixel --------------------------------------------------------------------------------------
+  logic [6*VAL-1:0] diff_a;
+  logic [10*QVAL-1:0] diff_quad;
   logic [2*OFFSET_DIGITS-1:0] row_digits, dx_digits;
   logic [2*NORM_DIGITS-1:0] norm_digits;
 
@@ -159,7 +216,7 @@ module pixel_pipeline #(
         .gx_i(lin_gx_i[g*GRAD+:GRAD]),
         .gy_i(lin_gy_i[g*GRAD+:GRAD]),
         .q_i(1'b0),
-        .value_o(a_1[g*VAL+:VAL])
+        .value_o(diff_a[g*VAL+:VAL])
     );
   end
 
@@ -178,17 +235,17 @@ module pixel_pipeline #(
         .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
         .gy_i(quad_gy_i[g*QGRAD+:QGRAD]),
         .q_i(quad_q_i[g*QCURV+:QCURV]),
-        .value_o(quad_1[g*QVAL+:QVAL])
+        .value_o(diff_quad[g*QVAL+:QVAL])
     );
   end
 
-  // ---- Stages 2, 3: significand numbers and class -------------------------------------------------------------------------
-  logic [5:0] a_neg_3, d_neg_3;
-  logic [6*E-1:0] a_exp_3, d_exp_3;
-  logic [6*S-1:0] a_sig_3, d_sig_3;
-  logic [3:0] r2_neg_3;
-  logic [4*E-1:0] r2_exp_3;
-  logic [4*S-1:0] r2_sig_3;
+  // ---- Significand numbers and class -------------------------------------------------------------------------------------
+  logic [5:0] norm_a_neg, norm_d_neg;
+  logic [6*E-1:0] norm_a_exp, norm_d_exp;
+  logic [6*S-1:0] norm_a_sig, norm_d_sig;
+  logic [3:0] norm_r2_neg;
+  logic [4*E-1:0] norm_r2_exp;
+  logic [4*S-1:0] norm_r2_sig;
 
   for (genvar g = 0; g < 6; g++) begin : gen_norm
     normalise #(
@@ -197,19 +254,19 @@ module pixel_pipeline #(
     ) u_a (
         .clk_i,
         .en_i(en),
-        .value_i(a_1[g*VAL+:VAL]),
-        .neg_o(a_neg_3[g]),
-        .exp_o(a_exp_3[g*E+:E]),
-        .sig_o(a_sig_3[g*S+:S])
+        .value_i(diff_a[g*VAL+:VAL]),
+        .neg_o(norm_a_neg[g]),
+        .exp_o(norm_a_exp[g*E+:E]),
+        .sig_o(norm_a_sig[g*S+:S])
     );
 
     normalise #(.WIDTH(QVAL)) u_d (
         .clk_i,
         .en_i(en),
-        .value_i(quad_1[g*QVAL+:QVAL]),
-        .neg_o(d_neg_3[g]),
-        .exp_o(d_exp_3[g*E+:E]),
-        .sig_o(d_sig_3[g*S+:S])
+        .value_i(diff_quad[g*QVAL+:QVAL]),
+        .neg_o(norm_d_neg[g]),
+        .exp_o(norm_d_exp[g*E+:E]),
+        .sig_o(norm_d_sig[g*S+:S])
     );
   end
 
@@ -220,139 +277,137 @@ module pixel_pipeline #(
     ) u_r2 (
         .clk_i,
         .en_i(en),
-        .value_i(quad_1[(6+g)*QVAL+:QVAL]),
-        .neg_o(r2_neg_3[g]),
-        .exp_o(r2_exp_3[g*E+:E]),
-        .sig_o(r2_sig_3[g*S+:S])
+        .value_i(diff_quad[(6+g)*QVAL+:QVAL]),
+        .neg_o(norm_r2_neg[g]),
+        .exp_o(norm_r2_exp[g*E+:E]),
+        .sig_o(norm_r2_sig[g*S+:S])
     );
   end
 
   singular_class u_class (
       .clk_i,
       .en_i(en),
-      .a_i(a_1[0+:4*VAL]),
-      .d_i(quad_1[0+:4*QVAL]),
-      .r2_i(quad_1[6*QVAL+:4*QVAL]),
-      .class_o(class_3)
+      .a_i(diff_a[0+:4*VAL]),
+      .d_i(diff_quad[0+:4*QVAL]),
+      .r2_i(diff_quad[6*QVAL+:4*QVAL]),
+      .class_o(norm_class)
   );
 
-  // ---- Stages 4 to 6: rho_i = 1/R_i ---------------------------------------------------------------------------------------
-  logic [4*E-1:0] rho_exp_6;
-  logic [4*S-1:0] rho_sig_6;
+  // ---- rho_i = 1/R_i ------------------------------------------------------------------------------------------------------
+  logic [4*E-1:0] rho_exp;
+  logic [4*S-1:0] rho_sig;
 
   for (genvar g = 0; g < 4; g++) begin : gen_rsqrt
     rsqrt u_rsqrt (
         .clk_i,
         .en_i(en),
-        .exp_i(r2_exp_3[g*E+:E]),
-        .sig_i(r2_sig_3[g*S+:S]),
-        .exp_o(rho_exp_6[g*E+:E]),
-        .sig_o(rho_sig_6[g*S+:S])
+        .exp_i(norm_r2_exp[g*E+:E]),
+        .sig_i(norm_r2_sig[g*S+:S]),
+        .exp_o(rho_exp[g*E+:E]),
+        .sig_o(rho_sig[g*S+:S])
     );
   end
 
-  // ---- Stages 7 to 17: ratios and weights ---------------------------------------------------------------------------------
-  logic [6*E-1:0] n_exp_10, d_exp_10;
-  logic [6*S-1:0] n_sig_10, d_sig_10;
-  logic [4*E-1:0] m_exp_17;
-  logic [4*S-1:0] m_sig_17;
+  // ---- Ratios and weights -------------------------------------------------------------------------------------------------
+  logic [6*E-1:0] ratio_n_exp, ratio_d_exp;
+  logic [6*S-1:0] ratio_n_sig, ratio_d_sig;
+  logic [4*E-1:0] m_exp;
+  logic [4*S-1:0] m_sig;
 
   mean_value_ratios u_ratios (
       .clk_i,
       .en_i(en),
-      .a_exp_i(a_exp_3),
-      .a_sig_i(a_sig_3),
-      .d_neg_i(d_neg_3),
-      .d_exp_i(d_exp_3),
-      .d_sig_i(d_sig_3),
-      .rho_exp_i(rho_exp_6),
-      .rho_sig_i(rho_sig_6),
-      .n_exp_o(n_exp_10),
-      .n_sig_o(n_sig_10),
-      .d_exp_o(d_exp_10),
-      .d_sig_o(d_sig_10)
+      .a_exp_i(norm_a_exp),
+      .a_sig_i(norm_a_sig),
+      .d_neg_i(norm_d_neg),
+      .d_exp_i(norm_d_exp),
+      .d_sig_i(norm_d_sig),
+      .rho_exp_i(rho_exp),
+      .rho_sig_i(rho_sig),
+      .n_exp_o(ratio_n_exp),
+      .n_sig_o(ratio_n_sig),
+      .d_exp_o(ratio_d_exp),
+      .d_sig_o(ratio_d_sig)
   );
 
   mean_value_weights u_weights (
       .clk_i,
       .en_i(en),
-      .rho_exp_i(rho_exp_6),
-      .rho_sig_i(rho_sig_6),
-      .n_exp_i(n_exp_10),
-      .n_sig_i(n_sig_10),
-      .d_exp_i(d_exp_10),
-      .d_sig_i(d_sig_10),
-      .class_10_i(meta_10[12:0]),
-      .k_neg_10_i(product_k_neg_i),
-      .k_exp_10_i(product_k_exp_i),
-      .k_sig_10_i(product_k_sig_i),
-      .class_13_i(meta_13[12:0]),
-      .class_14_i(meta_14[12:0]),
-      .k_exp_14_i(override_k_exp_i),
-      .k_sig_14_i(override_k_sig_i),
-      .m_exp_o(m_exp_17),
-      .m_sig_o(m_sig_17)
+      .rho_exp_i(rho_exp),
+      .rho_sig_i(rho_sig),
+      .n_exp_i(ratio_n_exp),
+      .n_sig_i(ratio_n_sig),
+      .d_exp_i(ratio_d_exp),
+      .d_sig_i(ratio_d_sig),
+      .class_i(ratio_class),
+      .k_neg_i(product_k_neg),
+      .k_exp_i(product_k_exp),
+      .k_sig_i(product_k_sig),
+      .override_k_exp_i(override_k_exp),
+      .override_k_sig_i(override_k_sig),
+      .m_exp_o(m_exp),
+      .m_sig_o(m_sig)
   );
 
-  // ---- Stages 18 to 20: sums. Sets: 0 k_eff, 1 W, 2 Z, 3.. attributes ------------------------------------------------------
-  logic [SETS-1:0] sum_neg_20;
-  logic [SETS*E-1:0] sum_exp_20;
-  logic [SETS*S-1:0] sum_sig_20;
+  // ---- Sums. Sets: 0 k_eff, 1 W, 2 Z, 3.. attributes ------------------------------------------------------
+  logic [SETS-1:0] sum_neg;
+  logic [SETS*E-1:0] sum_exp;
+  logic [SETS*S-1:0] sum_sig;
 
   interpolate u_interpolate (
       .clk_i,
       .en_i(en),
-      .m_exp_i(m_exp_17),
-      .m_sig_i(m_sig_17),
-      .term_neg_i(blend_neg_i),
-      .term_exp_i(blend_exp_i),
-      .term_sig_i(blend_sig_i),
-      .sum_neg_o(sum_neg_20),
-      .sum_exp_o(sum_exp_20),
-      .sum_sig_o(sum_sig_20)
+      .m_exp_i(m_exp),
+      .m_sig_i(m_sig),
+      .term_neg_i(blend_neg),
+      .term_exp_i(blend_exp),
+      .term_sig_i(blend_sig),
+      .sum_neg_o(sum_neg),
+      .sum_exp_o(sum_exp),
+      .sum_sig_o(sum_sig)
   );
 
-  // ---- Stages 21 to 23: reciprocals, the numerators wait ------------------------------------------------------------------
+  // ---- Reciprocals, the numerators wait -----------------------------------------------------------------------------------
   localparam int NUMS = 1 + N;  // Z and the attributes
-  logic rk_neg_23, rw_neg_23;
-  logic [E-1:0] rk_exp_23, rw_exp_23;
-  logic [S-1:0] rk_sig_23, rw_sig_23;
-  logic [NUMS-1:0] num_neg_23;
-  logic [NUMS*E-1:0] num_exp_23;
-  logic [NUMS*S-1:0] num_sig_23;
+  logic rk_neg, rw_neg;
+  logic [E-1:0] rk_exp, rw_exp;
+  logic [S-1:0] rk_sig, rw_sig;
+  logic [NUMS-1:0] num_neg;
+  logic [NUMS*E-1:0] num_exp;
+  logic [NUMS*S-1:0] num_sig;
 
   reciprocal u_reciprocal_k (
       .clk_i,
       .en_i(en),
-      .neg_i(sum_neg_20[0]),
-      .exp_i(sum_exp_20[0+:E]),
-      .sig_i(sum_sig_20[0+:S]),
-      .neg_o(rk_neg_23),
-      .exp_o(rk_exp_23),
-      .sig_o(rk_sig_23)
+      .neg_i(sum_neg[0]),
+      .exp_i(sum_exp[0+:E]),
+      .sig_i(sum_sig[0+:S]),
+      .neg_o(rk_neg),
+      .exp_o(rk_exp),
+      .sig_o(rk_sig)
   );
 
   reciprocal u_reciprocal_w (
       .clk_i,
       .en_i(en),
-      .neg_i(sum_neg_20[1]),
-      .exp_i(sum_exp_20[E+:E]),
-      .sig_i(sum_sig_20[S+:S]),
-      .neg_o(rw_neg_23),
-      .exp_o(rw_exp_23),
-      .sig_o(rw_sig_23)
+      .neg_i(sum_neg[1]),
+      .exp_i(sum_exp[E+:E]),
+      .sig_i(sum_sig[S+:S]),
+      .neg_o(rw_neg),
+      .exp_o(rw_exp),
+      .sig_o(rw_sig)
   );
 
   for (genvar g = 0; g < NUMS; g++) begin : gen_numerator
-    delay_line #(.WIDTH(1 + E + S), .DEPTH(3)) u_delay (
+    delay_line #(.WIDTH(1 + E + S), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_delay (
         .clk_i,
         .en_i(en),
-        .data_i({sum_neg_20[2+g], sum_exp_20[(2+g)*E+:E], sum_sig_20[(2+g)*S+:S]}),
-        .data_o({num_neg_23[g], num_exp_23[g*E+:E], num_sig_23[g*S+:S]})
+        .data_i({sum_neg[2+g], sum_exp[(2+g)*E+:E], sum_sig[(2+g)*S+:S]}),
+        .data_o({num_neg[g], num_exp[g*E+:E], num_sig[g*S+:S]})
     );
   end
 
-  // ---- Stages 24, 25: quotients, output -----------------------------------------------------------------------------------
+  // ---- Quotients, output --------------------------------------------------------------------------------------------------
   fragment_output u_output (
       .clk_i,
       .rst_ni,
@@ -361,61 +416,60 @@ module pixel_pipeline #(
       .znear_i,
       .zfar_i,
       .attributes_i,
-      .attr_neg_i(num_neg_23[NUMS-1:1]),
-      .attr_exp_i(num_exp_23[NUMS*E-1:E]),
-      .attr_sig_i(num_sig_23[NUMS*S-1:S]),
-      .z_neg_i(num_neg_23[0]),
-      .z_exp_i(num_exp_23[E-1:0]),
-      .z_sig_i(num_sig_23[S-1:0]),
-      .rk_neg_i(rk_neg_23),
-      .rk_exp_i(rk_exp_23),
-      .rk_sig_i(rk_sig_23),
-      .rw_neg_i(rw_neg_23),
-      .rw_exp_i(rw_exp_23),
-      .rw_sig_i(rw_sig_23),
-      .valid_24_i(valid_q[LAST-1]),
-      .id_i(output_id_i),
-      .hull_i(output_hull_i),
-      .homogeneous_i(output_homogeneous_i),
-      .x_i(meta_24[15+V+:V]),
-      .y_i(meta_24[15+:V]),
-      .front_i(meta_24[14]),
-      .tie_i(meta_24[13]),
-      .class_i(meta_24[12:0]),
+      .attr_neg_i(num_neg[NUMS-1:1]),
+      .attr_exp_i(num_exp[NUMS*E-1:E]),
+      .attr_sig_i(num_sig[NUMS*S-1:S]),
+      .z_neg_i(num_neg[0]),
+      .z_exp_i(num_exp[E-1:0]),
+      .z_sig_i(num_sig[S-1:0]),
+      .rk_neg_i(rk_neg),
+      .rk_exp_i(rk_exp),
+      .rk_sig_i(rk_sig),
+      .rw_neg_i(rw_neg),
+      .rw_exp_i(rw_exp),
+      .rw_sig_i(rw_sig),
+      .valid_i(valid_q[LAST-1]),
+      .id_i(output_id),
+      .hull_i(output_hull),
+      .homogeneous_i(output_homogeneous),
+      .x_i(output_rest[FLAGS+2+V+:V]),
+      .y_i(output_rest[FLAGS+2+:V]),
+      .front_i(output_rest[FLAGS+1]),
+      .tie_i(output_rest[FLAGS]),
+      .class_i(output_rest[FLAGS-1:0]),
       .valid_o(fragment_valid_o),
       .fragment_o
   );
 
   logic unused;
-  assign unused = ^{r2_neg_3, a_neg_3, meta_10[META-SLOT-1:13], meta_13[META-1:13], meta_14[META-SLOT-1:13],
-      meta_17[META-SLOT-1:0]};
+  assign unused = ^{norm_r2_neg, norm_a_neg};
 
 `ifdef QUADRILLE_PROBES
   // ---- Probes -------------------------------------------------------------------------------------------------------------
-  assign probe_diff_valid_o = valid_q[1];
-  assign probe_diff_o = {tag_1, a_1, quad_1[0+:6*QVAL], quad_1[6*QVAL+:4*QVAL]};
-  assign probe_norm_valid_o = valid_q[3];
-  assign probe_norm_o = {class_3[12:9], a_neg_3, a_exp_3, a_sig_3, d_neg_3, d_exp_3, d_sig_3, r2_exp_3, r2_sig_3};
-  assign probe_rsqrt_valid_o = valid_q[6];
-  assign probe_rsqrt_o = {rho_exp_6, rho_sig_6};
-  assign probe_ratio_valid_o = valid_q[10];
-  assign probe_ratio_o = {n_exp_10, n_sig_10, d_exp_10, d_sig_10};
-  assign probe_weight_valid_o = valid_q[17];
-  assign probe_weight_o = {m_exp_17, m_sig_17};
-  assign probe_sum_valid_o = valid_q[20];
+  assign probe_diff_valid_o = valid_q[DIFF];
+  assign probe_diff_o = {diff_tag, diff_a, diff_quad[0+:6*QVAL], diff_quad[6*QVAL+:4*QVAL]};
+  assign probe_norm_valid_o = valid_q[NORM];
+  assign probe_norm_o = {norm_class[12:9], norm_a_neg, norm_a_exp, norm_a_sig, norm_d_neg, norm_d_exp, norm_d_sig, norm_r2_exp, norm_r2_sig};
+  assign probe_rsqrt_valid_o = valid_q[quadrille_pkg::RHO_STAGE];
+  assign probe_rsqrt_o = {rho_exp, rho_sig};
+  assign probe_ratio_valid_o = valid_q[RATIO];
+  assign probe_ratio_o = {ratio_n_exp, ratio_n_sig, ratio_d_exp, ratio_d_sig};
+  assign probe_weight_valid_o = valid_q[WEIGHT];
+  assign probe_weight_o = {m_exp, m_sig};
+  assign probe_sum_valid_o = valid_q[quadrille_pkg::SUM_STAGE];
   assign probe_sum_o = {
-    sum_neg_20[SETS-1:3],
-    sum_exp_20[SETS*E-1:3*E],
-    sum_sig_20[SETS*S-1:3*S],
-    sum_neg_20[2],
-    sum_exp_20[2*E+:E],
-    sum_sig_20[2*S+:S],
-    sum_neg_20[0],
-    sum_exp_20[0+:E],
-    sum_sig_20[0+:S],
-    sum_neg_20[1],
-    sum_exp_20[E+:E],
-    sum_sig_20[S+:S]
+    sum_neg[SETS-1:3],
+    sum_exp[SETS*E-1:3*E],
+    sum_sig[SETS*S-1:3*S],
+    sum_neg[2],
+    sum_exp[2*E+:E],
+    sum_sig[2*S+:S],
+    sum_neg[0],
+    sum_exp[0+:E],
+    sum_sig[0+:S],
+    sum_neg[1],
+    sum_exp[E+:E],
+    sum_sig[S+:S]
   };
 `endif
 
@@ -434,7 +488,7 @@ module pixel_pipeline #(
       assert (fragment_valid_o || fragment_o == '0);
       assert ((valid_q & end_q[LAST-1:0]) == '0);
       assert (!(fragment_valid_o && end_q[LAST]));
-      assert (!valid_q[3] || ((class_3[12:9] & (class_3[12:9] - 4'd1)) == '0));
+      assert (!valid_q[NORM] || ((norm_class[12:9] & (norm_class[12:9] - 4'd1)) == '0));
     end
   end
 `endif

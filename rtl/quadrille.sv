@@ -3,7 +3,7 @@
 //     vertex_assembly -> quad_setup -> tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit -> pixel_pipeline
 //
 // Number formats, ports and clocks: README.md. Both streams are valid/ready: valid never depends on ready, payload is stable while
-// valid and not ready. state_i is static while busy_o. A pixel emitted in clock t is at the port in clock t + 26 without stalls.
+// valid and not ready. state_i is static while busy_o. A pixel emitted in clock t is at the port in clock t + LATENCY without stalls.
 module quadrille (
     input logic clk_i,
     input logic rst_ni,

@@ -156,8 +156,32 @@ package quadrille_pkg;
   localparam int DOT_OUT_BITS /*verilator public*/ = 2 * DOT_BITS + 1;
   // V . (V' x V''): three terms |T| |GRAD| or |W| |VAL|
   localparam int DET_BITS /*verilator public*/ = T_BITS + GRAD_BITS + 4;
+
+  // ---- Latency of the pixel pipeline (README.md section 5, model/latency.hpp) ----------------------------------------------
+  // Enabled clocks from a unit's inputs to its outputs.
+  localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = 2;  // row and bend, column
+  localparam int NORMALISE_STAGES /*verilator public*/ = 2;  // long shifts, short shifts
+  localparam int RSQRT_STAGES /*verilator public*/ = 3;  // table and inner product, outer product, clamp
+  localparam int RECIPROCAL_STAGES /*verilator public*/ = RSQRT_STAGES;  // the same polynomial
+  localparam int PRODUCT_STAGES /*verilator public*/ = 1;  // fp_multiply, fp_raw_product
+  localparam int FP_SUM_STAGES /*verilator public*/ = 2;  // align and add, normalise
+  localparam int ONE_PLUS_STAGES /*verilator public*/ = 2;  // as fp_sum
+  localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + 1;  // quotients, fixed point and output
+  // Registers at the boundaries; register 0 is written by the edge that ends the emission's clock.
+  localparam int DIFF_STAGE /*verilator public*/ = FORWARD_DIFFERENCE_STAGES - 1;
+  localparam int NORM_STAGE /*verilator public*/ = DIFF_STAGE + NORMALISE_STAGES;
+  localparam int RHO_STAGE /*verilator public*/ = NORM_STAGE + RSQRT_STAGES;
+  // rho rho', its products with A and D, 1 + c
+  localparam int RATIO_STAGE /*verilator public*/ = RHO_STAGE + 2 * PRODUCT_STAGES + ONE_PLUS_STAGES;
+  // N, then the sum of two edges' N, which has arrived where the overrides are applied
+  localparam int N_STAGE /*verilator public*/ = RATIO_STAGE + PRODUCT_STAGES + FP_SUM_STAGES;
+  localparam int OVERRIDE_STAGE /*verilator public*/ = N_STAGE + FP_SUM_STAGES;
+  // h and g, M
+  localparam int WEIGHT_STAGE /*verilator public*/ = OVERRIDE_STAGE + 2 * PRODUCT_STAGES;
+  localparam int SUM_STAGE /*verilator public*/ = WEIGHT_STAGE + PRODUCT_STAGES + FP_SUM_STAGES;
+  localparam int FRAGMENT_STAGE /*verilator public*/ = SUM_STAGE + RECIPROCAL_STAGES + FRAGMENT_OUTPUT_STAGES;
   // clocks from emission to the port
-  localparam int LATENCY /*verilator public*/ = 26;
+  localparam int LATENCY /*verilator public*/ = FRAGMENT_STAGE + 1;
 
   // ---- Ports --------------------------------------------------------------------------------------------------------------
   typedef struct packed {

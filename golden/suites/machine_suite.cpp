@@ -7,6 +7,7 @@
 #include "golden/scenes/stress.hpp"
 #include "golden/suites/machine_run.hpp"
 #include "model/boundaries.hpp"
+#include "model/latency.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
@@ -480,8 +481,8 @@ std::string MachineSuite::picture_difference(const SuiteReader& reader) const {
 
 void add_machine_suites(std::vector<std::unique_ptr<Suite>>& suites) {
   const auto info = [](std::string name, std::string title) {
-    return SuiteInfo{std::move(name), "machine", std::move(title),
-                     "quadrille",     26,        "x = y = w = 0, and whatever snapping refuses"};
+    return SuiteInfo{std::move(name), "machine",         std::move(title),
+                     "quadrille",     latency::pipeline, "x = y = w = 0, and whatever snapping refuses"};
   };
   suites.push_back(
       std::make_unique<MachineSuite>(info("machine", "The whole machine under every draw state"), every_state));

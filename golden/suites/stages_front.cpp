@@ -1,6 +1,7 @@
 // Snapping and the exact front of the machine.
 #include "golden/suites/stage_of.hpp"
 #include "golden/suites/stage_suites.hpp"
+#include "model/latency.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 
@@ -492,7 +493,7 @@ void add_front_stages(std::vector<std::unique_ptr<Suite>>& suites) {
        "or 1 and 3, both set, unless all four are"},
       make_stage<Coverage>);
   add({"forward_difference", "stage", "A, D and squared distances at a pixel from those of its tile",
-       "forward_difference", 2,
+       "forward_difference", latency::forward_difference_stages,
        "results beyond VAL_BITS (A) or QVAL_BITS (D, r2), though partial sums may be; a negative q of a squared "
        "distance"},
       make_stage<ForwardDifference>);

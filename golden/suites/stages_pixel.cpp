@@ -1,6 +1,7 @@
 // The stages of a pixel from the normalisation to the fragment.
 #include "golden/suites/stage_of.hpp"
 #include "golden/suites/stage_suites.hpp"
+#include "model/latency.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -672,29 +673,33 @@ void add_pixel_stages(std::vector<std::unique_ptr<Suite>>& suites) {
     suites.push_back(std::make_unique<StageSuite>(std::move(info), make));
   };
   const std::string numbers = "a number whose top bit of sig is 0, but for all fields 0; ";
-  add({"normalise", "stage", "Significand numbers of A, D and squared distances; the singular class", "normalise", 2,
-       "the most negative value of a width; r2 below -256"},
+  add({"normalise", "stage", "Significand numbers of A, D and squared distances; the singular class", "normalise",
+       latency::normalise_stages, "the most negative value of a width; r2 below -256"},
       make_stage<Normalise>);
-  add({"rsqrt", "stage", "Reciprocal square roots of the squared distances", "rsqrt", 3,
+  add({"rsqrt", "stage", "Reciprocal square roots of the squared distances", "rsqrt", latency::rsqrt_stages,
        numbers + "exponents below 0 or above QVAL_BITS - 2"},
       make_stage<Rsqrt>);
-  add({"reciprocal", "stage", "Reciprocal of a denominator", "reciprocal", 3,
+  add({"reciprocal", "stage", "Reciprocal of a denominator", "reciprocal", latency::reciprocal_stages,
        numbers + "exponents that no sum has (see interpolation)"},
       make_stage<Reciprocal>);
-  add({"ratios", "stage", "Half-angle tangents of the edges and diagonals as n/d", "mean_value_ratios", 4,
+  add({"ratios", "stage", "Half-angle tangents of the edges and diagonals as n/d", "mean_value_ratios",
+       latency::ratio_stage - latency::rho_stage,
        numbers + "|A| or |D| above r r' by more than the rounding of rho; rho above 1"},
       make_stage<Ratios>);
-  add({"weights", "stage", "Mean value weights up to a common factor", "mean_value_weights", 7,
+  add({"weights", "stage", "Mean value weights up to a common factor", "mean_value_weights",
+       latency::weight_stage - latency::ratio_stage,
        numbers + "rho = 0 elsewhere than at a corner, and another rho there; rho above 1; an n (where D < 0) or d "
                  "(elsewhere) "
                  "outside of [1, 2]; the other of the two above 1 by more than rounding, or 0 elsewhere than where A "
                  "is 0, or "
                  "not 0 there; n and d other than 0 and 1 at a corner"},
       make_stage<Weights>);
-  add({"interpolation", "stage", "Weighted sums over the corners", "interpolate", 3,
+  add({"interpolation", "stage", "Weighted sums over the corners", "interpolate",
+       latency::sum_stage - latency::weight_stage,
        numbers + "exponents of M that neither seven factors nor a number of the port have; |W| above 1"},
       make_stage<Interpolation>);
-  add({"depth", "stage", "Quotients, fixed point, saturation and discard", "fragment_output", 5,
+  add({"depth", "stage", "Quotients, fixed point, saturation and discard", "fragment_output",
+       latency::fragment_stage - latency::sum_stage,
        numbers + "exponents that no sum has; attributes above ATTRIBUTE_SLOTS; znear or zfar above 1"},
       make_stage<Depth>);
 }

@@ -1,6 +1,7 @@
 // Throughput and latency of the clocked model without stalls or gaps: covered pixels per clock, clocks of the setup,
 // and that setup hides behind drawing.
 #include "model/drive.hpp"
+#include "model/latency.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 
@@ -19,7 +20,6 @@ constexpr std::uint64_t most_setup_clocks = 16, most_setup_clocks_homogeneous = 
 /// What the README claims, 0.998 and 0.970, to its last digit: clocks are exact, so any loss is one of the machine.
 constexpr double turned_squares_per_clock = 0.9975, concave_per_clock = 0.9695;
 constexpr std::uint64_t most_clocks = 100'000'000;
-constexpr int pipeline_latency = 26;  ///< rtl/README.md section 5: emission to port
 
 struct Session {
   std::uint64_t clocks = 0;                    ///< from the first beat until idle
@@ -208,7 +208,7 @@ TEST(Throughput, SetupHidesBehindDrawing) {
                 static_cast<unsigned long long>(r.clocks), static_cast<unsigned long long>(alone),
                 static_cast<unsigned long long>(setup));
     // Pixels alone bound it from below; all of the setup and pipeline latency must have gone.
-    EXPECT_LE(r.clocks, alone - setup - quads.size() * static_cast<std::uint64_t>(pipeline_latency - 4));
+    EXPECT_LE(r.clocks, alone - setup - quads.size() * static_cast<std::uint64_t>(latency::pipeline - 4));
     // What is left over the pixels is the walk over empty tiles.
     EXPECT_LE(static_cast<double>(r.clocks), (homogeneous ? 1.15 : 1.05) * static_cast<double>(r.fragments) + 200);
   }

@@ -1,5 +1,5 @@
 // Suite `depth`: draw state, hull flag and the `sum` boundary in, the fragment's valid, saturated flag, depth and attributes out.
-// Latency 5, stages 21 to 25: the two reciprocals, then fragment_output.
+// The two reciprocals, then fragment_output.
 module replay_depth (
     `include "replay_ports.svh"
 );
@@ -13,7 +13,7 @@ module replay_depth (
   localparam int STATE = 1 + 2 * (DB + 1) + 4 + 1;
   localparam int NUMERATORS = (N + 1) * (1 + E + S);
 
-  // ---- Stages 21 to 23: reciprocals, the numerators wait ------------------------------------------------------------------
+  // ---- Reciprocals, the numerators wait -----------------------------------------------------------------------------------
   logic rk_neg, rw_neg;
   logic [E-1:0] rk_exp, rw_exp;
   logic [S-1:0] rk_sig, rw_sig;
@@ -40,15 +40,15 @@ module replay_depth (
       .sig_o(rw_sig)
   );
 
-  logic [NUMERATORS-1:0] numerator_23;
-  logic [STATE-1:0] state_24;
+  logic [NUMERATORS-1:0] late_numerator;
+  logic [STATE-1:0] late_state;
 
-  delay_line #(.WIDTH(NUMERATORS), .DEPTH(3)) u_numerator (
-      .clk_i, .en_i(1'b1), .data_i({attr_neg_i, attr_exp_i, attr_sig_i, z_neg_i, z_exp_i, z_sig_i}), .data_o(numerator_23));
-  delay_line #(.WIDTH(STATE), .DEPTH(4)) u_state (
-      .clk_i, .en_i(1'b1), .data_i({depth_on_i, znear_i, zfar_i, attributes_i, hull_i}), .data_o(state_24));
+  delay_line #(.WIDTH(NUMERATORS), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_numerator (
+      .clk_i, .en_i(1'b1), .data_i({attr_neg_i, attr_exp_i, attr_sig_i, z_neg_i, z_exp_i, z_sig_i}), .data_o(late_numerator));
+  delay_line #(.WIDTH(STATE), .DEPTH(quadrille_pkg::FRAGMENT_STAGE - 1 - quadrille_pkg::SUM_STAGE)) u_state (
+      .clk_i, .en_i(1'b1), .data_i({depth_on_i, znear_i, zfar_i, attributes_i, hull_i}), .data_o(late_state));
 
-  // ---- Stages 24, 25. State and hull are looked at in stage 24 ---------------------------------------------------------------
+  // ---- Quotients. State and hull are looked at one clock before the port -----------------------------------------------------
   logic [N-1:0] attr_neg;
   logic [N*E-1:0] attr_exp;
   logic [N*S-1:0] attr_sig;
@@ -59,8 +59,8 @@ module replay_depth (
   logic [DB:0] znear, zfar;
   logic [3:0] attributes;
 
-  assign {attr_neg, attr_exp, attr_sig, z_neg, z_exp, z_sig} = numerator_23;
-  assign {depth_on, znear, zfar, attributes, hull} = state_24;
+  assign {attr_neg, attr_exp, attr_sig, z_neg, z_exp, z_sig} = late_numerator;
+  assign {depth_on, znear, zfar, attributes, hull} = late_state;
 
   logic [ID+2*V:0] identity;  // quad, x, y, front
   logic [6:0] class_flags;
@@ -86,7 +86,7 @@ module replay_depth (
       .rw_neg_i(rw_neg),
       .rw_exp_i(rw_exp),
       .rw_sig_i(rw_sig),
-      .valid_24_i(1'b1),
+      .valid_i(1'b1),
       .id_i(ID'(0)),
       .hull_i(hull),
       .homogeneous_i(1'b0),
@@ -94,12 +94,12 @@ module replay_depth (
       .y_i(V'(0)),
       .front_i(1'b0),
       .tie_i(1'b0),
-      .class_i(13'd0),
+      .class_i(5'd0),
       .valid_o(drawn_o),
       .fragment_o({identity, saturated_o, class_flags, depth_o, attr_o})
   );
 
   assign unused = ^{identity, class_flags};
 
-  replay_valid #(.LATENCY(5)) u_valid (.*);
+  replay_valid #(.LATENCY(quadrille_pkg::FRAGMENT_STAGE - quadrille_pkg::SUM_STAGE)) u_valid (.*);
 endmodule

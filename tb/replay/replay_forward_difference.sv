@@ -1,4 +1,4 @@
-// Suite `forward_difference`: the 16 functions of a tile and a pixel of it in, A, D and r^2 at that pixel out. Latency 2.
+// Suite `forward_difference`: the 16 functions of a tile and a pixel of it in, A, D and r^2 at that pixel out.
 module replay_forward_difference (
     `include "replay_ports.svh"
 );
@@ -55,5 +55,5 @@ module replay_forward_difference (
     );
   end
 
-  replay_valid #(.LATENCY(2)) u_valid (.*);
+  replay_valid #(.LATENCY(quadrille_pkg::FORWARD_DIFFERENCE_STAGES)) u_valid (.*);
 endmodule

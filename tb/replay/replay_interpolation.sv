@@ -1,4 +1,4 @@
-// Suite `interpolation`: M and the four corners' k_eff, W, Z, b in, the `sum` boundary out. Latency 3, stages 18 to 20.
+// Suite `interpolation`: M and the four corners' k_eff, W, Z, b in, the `sum` boundary out.
 module replay_interpolation (
     `include "replay_ports.svh"
 );
@@ -16,5 +16,5 @@ module replay_interpolation (
       .*
   );
 
-  replay_valid #(.LATENCY(3)) u_valid (.*);
+  replay_valid #(.LATENCY(quadrille_pkg::SUM_STAGE - quadrille_pkg::WEIGHT_STAGE)) u_valid (.*);
 endmodule

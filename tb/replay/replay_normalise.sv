@@ -1,4 +1,4 @@
-// Suite `normalise`: A, D, r^2 in, the `norm` boundary (significand numbers and singular class) out. Latency 2.
+// Suite `normalise`: A, D, r^2 in, the `norm` boundary (significand numbers and singular class) out.
 module replay_normalise (
     `include "replay_ports.svh"
 );
@@ -59,5 +59,5 @@ module replay_normalise (
       .*
   );
 
-  replay_valid #(.LATENCY(2)) u_valid (.*);
+  replay_valid #(.LATENCY(quadrille_pkg::NORMALISE_STAGES)) u_valid (.*);
 endmodule

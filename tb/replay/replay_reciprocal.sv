@@ -1,4 +1,4 @@
-// Suite `reciprocal`: a number in, its reciprocal out. Latency 3.
+// Suite `reciprocal`: a number in, its reciprocal out.
 module replay_reciprocal (
     `include "replay_ports.svh"
 );
@@ -6,5 +6,5 @@ module replay_reciprocal (
 
   reciprocal u_reciprocal (.en_i(1'b1), .*);
 
-  replay_valid #(.LATENCY(3)) u_valid (.*);
+  replay_valid #(.LATENCY(quadrille_pkg::RECIPROCAL_STAGES)) u_valid (.*);
 endmodule

@@ -1,4 +1,4 @@
-// Suite `rsqrt`: four r^2 in, their four rho out. Latency 3.
+// Suite `rsqrt`: four r^2 in, their four rho out.
 module replay_rsqrt (
     `include "replay_ports.svh"
 );
@@ -17,5 +17,5 @@ module replay_rsqrt (
     );
   end
 
-  replay_valid #(.LATENCY(3)) u_valid (.*);
+  replay_valid #(.LATENCY(quadrille_pkg::RSQRT_STAGES)) u_valid (.*);
 endmodule

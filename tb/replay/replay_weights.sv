@@ -1,4 +1,4 @@
-// Suite `weights`: signs, k_eff, rho (stage 6), n and d (stage 10) together in, the `weight` boundary out. Latency 11, stages 7 to 17.
+// Suite `weights`: signs, k_eff, rho (of RHO_STAGE), n and d (of RATIO_STAGE) together in, the `weight` boundary out.
 //
 // The class word is singular_class's, from integers that have the signs given: A = -1, 0, 1, D = -1 or 1, r^2 = 0 or 1.
 module replay_weights (
@@ -14,7 +14,7 @@ module replay_weights (
   // ---- Class -----------------------------------------------------------------------------------------------------------
   logic [4*VAL-1:0] a;
   logic [4*QVAL-1:0] d, r2;
-  logic [12:0] class_8, class_10, class_13, class_14;
+  logic [12:0] early_class, ratio_class;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sign
     assign a[g*VAL+:VAL] = {{(VAL - 1) {a_sign_i[2*g+1]}}, a_sign_i[2*g]};
@@ -28,50 +28,49 @@ module replay_weights (
       .a_i(a),
       .d_i(d),
       .r2_i(r2),
-      .class_o(class_8)
+      .class_o(early_class)
   );
 
   // ---- Each input to its stage ---------------------------------------------------------------------------------------------
-  logic [4*(1+PE+S)-1:0] k_10, k_14;
-  logic [12*(E+S)-1:0] ratio_10;
-
-  delay_line #(.WIDTH(13), .DEPTH(2)) u_class_10 (.clk_i, .en_i(1'b1), .data_i(class_8), .data_o(class_10));
-  delay_line #(.WIDTH(13), .DEPTH(3)) u_class_13 (.clk_i, .en_i(1'b1), .data_i(class_10), .data_o(class_13));
-  delay_line #(.WIDTH(13), .DEPTH(1)) u_class_14 (.clk_i, .en_i(1'b1), .data_i(class_13), .data_o(class_14));
-  delay_line #(.WIDTH(12 * (E + S)), .DEPTH(4)) u_ratio_10 (.clk_i, .en_i(1'b1), .data_i({n_exp_i, n_sig_i, d_exp_i, d_sig_i}), .data_o(ratio_10));
-  delay_line #(.WIDTH(4 * (1 + PE + S)), .DEPTH(4)) u_k_10 (.clk_i, .en_i(1'b1), .data_i({k_neg_i, k_exp_i, k_sig_i}), .data_o(k_10));
-  delay_line #(.WIDTH(4 * (1 + PE + S)), .DEPTH(4)) u_k_14 (.clk_i, .en_i(1'b1), .data_i(k_10), .data_o(k_14));
-
-  logic [6*E-1:0] n_exp_10, d_exp_10;
-  logic [6*S-1:0] n_sig_10, d_sig_10;
-  logic [3:0] k_neg_10, k_neg_14;
-  logic [4*PE-1:0] k_exp_10, k_exp_14;
-  logic [4*S-1:0] k_sig_10, k_sig_14;
+  localparam int TO_RATIO = quadrille_pkg::RATIO_STAGE - quadrille_pkg::RHO_STAGE;
+  localparam int TO_OVERRIDE = quadrille_pkg::OVERRIDE_STAGE - 1 - quadrille_pkg::RATIO_STAGE;
+  localparam int K = 4 * (1 + PE + S);
+  logic [6*E-1:0] n_exp, d_exp;
+  logic [6*S-1:0] n_sig, d_sig;
+  logic [3:0] k_neg, override_k_neg;
+  logic [4*PE-1:0] k_exp, override_k_exp;
+  logic [4*S-1:0] k_sig, override_k_sig;
   logic unused;
 
-  assign {n_exp_10, n_sig_10, d_exp_10, d_sig_10} = ratio_10;
-  assign {k_neg_10, k_exp_10, k_sig_10} = k_10;
-  assign {k_neg_14, k_exp_14, k_sig_14} = k_14;
-  assign unused = ^k_neg_14;  // overrides take the magnitude
+  delay_line #(.WIDTH(13), .DEPTH(TO_RATIO - quadrille_pkg::NORMALISE_STAGES)) u_class_ratio (
+      .clk_i, .en_i(1'b1), .data_i(early_class), .data_o(ratio_class));
+  delay_line #(.WIDTH(12 * (E + S)), .DEPTH(TO_RATIO)) u_ratio (
+      .clk_i, .en_i(1'b1), .data_i({n_exp_i, n_sig_i, d_exp_i, d_sig_i}), .data_o({n_exp, n_sig, d_exp, d_sig}));
+  delay_line #(.WIDTH(K), .DEPTH(TO_RATIO)) u_k (
+      .clk_i, .en_i(1'b1), .data_i({k_neg_i, k_exp_i, k_sig_i}), .data_o({k_neg, k_exp, k_sig}));
+  delay_line #(.WIDTH(K), .DEPTH(TO_OVERRIDE)) u_override_k (
+      .clk_i, .en_i(1'b1), .data_i({k_neg, k_exp, k_sig}), .data_o({override_k_neg, override_k_exp, override_k_sig}));
+
+  assign unused = ^override_k_neg;  // overrides take the magnitude
 
   mean_value_weights u_weights (
+      .clk_i,
       .en_i(1'b1),
-      .n_exp_i(n_exp_10),
-      .n_sig_i(n_sig_10),
-      .d_exp_i(d_exp_10),
-      .d_sig_i(d_sig_10),
-      .class_10_i(class_10),
-      .k_neg_10_i(k_neg_10),
-      .k_exp_10_i(k_exp_10),
-      .k_sig_10_i(k_sig_10),
-      .class_13_i(class_13),
-      .class_14_i(class_14),
-      .k_exp_14_i(k_exp_14),
-      .k_sig_14_i(k_sig_14),
+      .rho_exp_i,
+      .rho_sig_i,
+      .n_exp_i(n_exp),
+      .n_sig_i(n_sig),
+      .d_exp_i(d_exp),
+      .d_sig_i(d_sig),
+      .class_i(ratio_class),
+      .k_neg_i(k_neg),
+      .k_exp_i(k_exp),
+      .k_sig_i(k_sig),
+      .override_k_exp_i(override_k_exp),
+      .override_k_sig_i(override_k_sig),
       .m_exp_o(exp_o),
-      .m_sig_o(sig_o),
-      .*
+      .m_sig_o(sig_o)
   );
 
-  replay_valid #(.LATENCY(11)) u_valid (.*);
+  replay_valid #(.LATENCY(quadrille_pkg::WEIGHT_STAGE - quadrille_pkg::RHO_STAGE)) u_valid (.*);
 endmodule
