@@ -216,10 +216,13 @@ std::string on_a_terminal(const std::function<void()>& work) {
   work();
   std::fflush(stderr);
   dup2(before, STDERR_FILENO);
+  close(slave),
+      close(before);  // then reading ends, with an error, behind the last byte; one read may bring only a part
+  std::string said;
   char text[4096];
-  const ssize_t n = read(terminal, text, sizeof text);
-  close(slave), close(before), close(terminal);
-  return {text, static_cast<std::size_t>(std::max<ssize_t>(n, 0))};
+  for (ssize_t n; (n = read(terminal, text, sizeof text)) > 0;) said.append(text, static_cast<std::size_t>(n));
+  close(terminal);
+  return said;
 }
 
 void build_in_two_steps() {
