@@ -721,4 +721,14 @@ std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std:
   return quads;
 }
 
+std::vector<WindowQuad> make_stress_without_weights(StressFamily family, std::size_t count, std::uint64_t seed,
+                                                    int width, int height, int attributes) {
+  constexpr int weights = 4;
+  std::vector<WindowQuad> quads = make_stress(family, count, seed, 1.0, width, height, weights + attributes);
+  for (WindowQuad& quad : quads)
+    for (std::vector<double>& attribute : quad.attribute)
+      attribute.erase(attribute.begin(), attribute.begin() + weights);
+  return quads;
+}
+
 }  // namespace quadrille::golden

@@ -1,10 +1,11 @@
-// `--name value` options of the campaign programs.
+// What the campaign programs share: `--name value` options, and the frame of main().
 #pragma once
 
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <map>
 #include <string>
@@ -59,5 +60,15 @@ class Options {
  private:
   std::map<std::string, std::string> values_;
 };
+
+/// main() of a campaign: what is thrown is told under its name, status 2.
+inline int guarded(const char* name, int (*run)(int, char**), int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << error.what() << "\n";
+    return 2;
+  }
+}
 
 }  // namespace quadrille::campaign

@@ -229,4 +229,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace quadrille::campaign
 
-int main(int argc, char** argv) { return quadrille::campaign::run(argc, argv); }
+int main(int argc, char** argv) {
+  return quadrille::campaign::guarded("coverage_campaign", quadrille::campaign::run, argc, argv);
+}

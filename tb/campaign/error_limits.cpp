@@ -12,10 +12,8 @@
 #include "golden/io/text_input.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/check/error_limits.hpp"
-#include "tb/check/judge.hpp"
 
 #include <cstdio>
-#include <exception>
 
 namespace quadrille::campaign {
 namespace {
@@ -23,19 +21,6 @@ namespace {
 using cli::CheckResult;
 using cli::ErrorLimits;
 using cli::MeasuredErrors;
-
-CheckResult measure(golden::StressFamily family, int significand_bits, std::uint64_t seed) {
-  Config config;
-  config.set("significand_bits", significand_bits);
-  DrawState state;
-  state.width = state.height = state.scissor_x1 = state.scissor_y1 = cli::limit_extent;
-  constexpr int attributes = 4;  // random ones, after the weights
-  std::vector<WindowQuad> quads = golden::make_stress(family, cli::limit_quads(family), seed, 1.0, cli::limit_extent,
-                                                      cli::limit_extent, 4 + attributes);
-  for (WindowQuad& quad : quads)
-    for (std::vector<double>& attribute : quad.attribute) attribute.erase(attribute.begin(), attribute.begin() + 4);
-  return cli::judge_untimed(quads, attributes, config, state, PixelEngine::lanes);
-}
 
 int run(int argc, char** argv) {
   const Options options(argc, argv,
@@ -55,8 +40,9 @@ int run(int argc, char** argv) {
   for (const std::uint64_t bits : options.numbers("significand-bits")) {
     const int s = static_cast<int>(bits);
     std::vector<CheckResult> results(families.size() * seeds);
-    parallel_for(results.size(), options.threads(),
-                 [&](std::size_t i) { results[i] = measure(families[i / seeds].family, s, first + i % seeds); });
+    parallel_for(results.size(), options.threads(), [&](std::size_t i) {
+      results[i] = cli::judge_limit_draw(families[i / seeds].family, s, first + i % seeds, PixelEngine::lanes);
+    });
     for (std::size_t f = 0; f < families.size(); ++f) {
       std::vector<MeasuredErrors> measured;
       std::uint64_t fragments = 0;
@@ -110,10 +96,5 @@ int run(int argc, char** argv) {
 }  // namespace quadrille::campaign
 
 int main(int argc, char** argv) {
-  try {
-    return quadrille::campaign::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "error_limits: %s\n", error.what());
-    return 2;
-  }
+  return quadrille::campaign::guarded("error_limits", quadrille::campaign::run, argc, argv);
 }

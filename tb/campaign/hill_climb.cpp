@@ -27,7 +27,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <optional>
 #include <string>
 
@@ -416,10 +415,5 @@ int run(int argc, char** argv) {
 }  // namespace quadrille::campaign
 
 int main(int argc, char** argv) {
-  try {
-    return quadrille::campaign::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "hill_climb: %s\n", error.what());
-    return 2;
-  }
+  return quadrille::campaign::guarded("hill_climb", quadrille::campaign::run, argc, argv);
 }

@@ -1,6 +1,7 @@
 #include "tb/check/error_limits.hpp"
 
 #include "tb/check/error_limits_data.hpp"
+#include "tb/check/judge.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -134,6 +135,18 @@ std::size_t limit_quads(golden::StressFamily family) {
     default:
       return 300;
   }
+}
+
+CheckResult judge_limit_draw(golden::StressFamily family, int significand_bits, std::uint64_t seed,
+                             PixelEngine engine) {
+  Config config;
+  config.set("significand_bits", significand_bits);
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = limit_extent;
+  constexpr int attributes = 4;
+  const std::vector<WindowQuad> quads =
+      golden::make_stress_without_weights(family, limit_quads(family), seed, limit_extent, limit_extent, attributes);
+  return judge_untimed(quads, attributes, config, state, engine);
 }
 
 bool limits_apply(const Config& config, const DrawState& state, golden::StressFamily family, std::size_t quads) {

@@ -5,6 +5,7 @@
 
 #include "golden/scenes/stress.hpp"
 #include "model/config.hpp"
+#include "model/untimed.hpp"
 #include "tb/check/check.hpp"
 
 #include <array>
@@ -22,6 +23,9 @@ namespace quadrille::cli {
 /// standard knob, in the default draw state and configuration, but for significand_bits.
 std::size_t limit_quads(golden::StressFamily family);
 inline constexpr int limit_extent = 64;
+
+/// Draws that with the untimed model and compares it with the truth.
+CheckResult judge_limit_draw(golden::StressFamily family, int significand_bits, std::uint64_t seed, PixelEngine engine);
 
 /// Errors of one draw, as parts of what the bound allows each of them (RelativeErrors).
 struct MeasuredErrors {

@@ -22,7 +22,7 @@ struct ModelCheck {
   }
 };
 
-/// Some 0.1 s. The bound is none of a configuration that drops bits of D and R²; the functions and flags are judged all
+/// Some 0.2 s. The bound is none of a configuration that drops bits of D and R²; the functions and flags are judged all
 /// the same.
 inline ModelCheck check_model(const Config& config) { return {check_functions(config), judge_directed(config)}; }
 

@@ -238,13 +238,9 @@ void load_stress(const InputOptions& options, const std::string& shade, int widt
       std::array<std::string, 4>{"--stress", options.stress, "--count", std::to_string(options.count)});
   input.shade = shade.empty() ? "lambda" : shade;
   need_no_object(input);
-  // Slots 0-3 of a stress quad are the weights, which every draw measures anyway.
-  constexpr int random_attributes = 4;
-  const golden::StressFamily family = golden::parse_stress_family(options.stress);
-  input.quads = golden::make_stress(family, options.count, seed, 1.0, width, height, 4 + random_attributes);
-  for (WindowQuad& quad : input.quads)
-    for (std::vector<double>& attribute : quad.attribute) attribute.erase(attribute.begin(), attribute.begin() + 4);
-  input.attributes = random_attributes;
+  input.attributes = 4;
+  input.quads = golden::make_stress_without_weights(golden::parse_stress_family(options.stress), options.count, seed,
+                                                    width, height, input.attributes);
   input.layout = AttributeLayout::file;
 }
 
