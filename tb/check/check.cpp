@@ -515,4 +515,16 @@ void FragmentChecker::cover(std::size_t first, const std::vector<std::vector<std
   add(part);
 }
 
+CheckResult check_here(const FragmentChecker::Settings& settings, std::span<const WindowQuad> given,
+                       std::span<const SnappedQuad> snapped,
+                       const std::function<bool(const std::function<void(const Fragment&)>&)>& draw) {
+  WorkQueue queue(0, 1);
+  FragmentChecker checker(settings, given, snapped, queue);
+  checker.finish(draw([&](const Fragment& fragment) { checker.fragment(fragment); }));
+  queue.drain();
+  CheckResult result = checker.result();
+  if (!settings.first_pass) result.compared = 0;
+  return result;
+}
+
 }  // namespace quadrille::cli

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -195,5 +196,11 @@ class FragmentChecker {
   std::mutex mutex_;
   CheckResult result_;
 };
+
+/// A pass judged in this thread: `draw` hands every fragment to the sink that it is given and says whether every quad
+/// was drawn to its end. Fragments compared count in the first pass alone: those of further passes are the same ones.
+CheckResult check_here(const FragmentChecker::Settings& settings, std::span<const WindowQuad> given,
+                       std::span<const SnappedQuad> snapped,
+                       const std::function<bool(const std::function<void(const Fragment&)>&)>& draw);
 
 }  // namespace quadrille::cli

@@ -2,6 +2,7 @@
 
 #include "golden/reference/port_number.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -11,24 +12,18 @@ namespace {
 /// One draw of the machine over `snapped` (ids are positions).
 CheckResult judge_pass(std::span<const WindowQuad> given, std::span<const SnappedQuad> snapped, const Config& config,
                        const DrawState& state, const Pass& pass, bool first, PixelEngine engine) {
-  WorkQueue queue(0, 1);
   FragmentChecker::Settings settings;
   settings.config = config;
   settings.state = state;
   settings.pass = pass;
   settings.first_pass = first;
   settings.snapping = false;
-  FragmentChecker checker(settings, given, snapped, queue);
-  UntimedModel model(config, state, engine);
-  for (const SnappedQuad& quad : snapped)
-    model.draw(quad, [&](std::span<const Fragment> fragments) {
-      for (const Fragment& fragment : fragments) checker.fragment(fragment);
-    });
-  checker.finish(true);
-  queue.drain();
-  CheckResult result = checker.result();
-  if (!first) result.compared = 0;  // the same fragments again
-  return result;
+  return check_here(settings, given, snapped, [&](const auto& sink) {
+    UntimedModel model(config, state, engine);
+    for (const SnappedQuad& quad : snapped)
+      model.draw(quad, [&](std::span<const Fragment> fragments) { std::ranges::for_each(fragments, sink); });
+    return true;
+  });
 }
 
 SnappedQuad with_weights(SnappedQuad quad, const Pass& pass, const Config& config, const DrawState& state) {
@@ -49,9 +44,7 @@ SnappedQuad with_weights(SnappedQuad quad, const Pass& pass, const Config& confi
 CheckResult judge_untimed(std::span<const WindowQuad> quads, int attributes, const Config& config,
                           const DrawState& draw_state, PixelEngine engine) {
   check_quad_count(quads.size(), config);
-  std::vector<Pass> passes = plan_passes(0, true, config);
-  if (attributes > 0)
-    for (Pass& pass : plan_passes(attributes, false, config)) passes.push_back(std::move(pass));
+  const std::vector<Pass> passes = plan_judged_passes(attributes, config.attribute_slots);
   CheckResult sum;
   for (std::size_t p = 0; p < passes.size(); ++p) {
     DrawState state = draw_state;

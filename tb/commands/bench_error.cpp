@@ -167,10 +167,8 @@ void ErrorBench::compare() {
 
 /// Weights first, then attributes; every machine against the model bit for bit, the model against the truth.
 void ErrorBench::compare_machine() {
-  std::vector<Pass> passes = plan_passes(0, true, settings_.config);
-  const std::size_t weight_passes = passes.size();
-  if (attributes_ > 0)
-    for (Pass& pass : plan_passes(attributes_, false, settings_.config)) passes.push_back(std::move(pass));
+  std::size_t weight_passes = 0;
+  const std::vector<Pass> passes = plan_judged_passes(attributes_, settings_.config.attribute_slots, &weight_passes);
 
   std::array<CheckResult, body_names.size()> checks;
   std::array<bool, body_names.size()> told{};
@@ -183,14 +181,10 @@ void ErrorBench::compare_machine() {
     check_settings.first_pass = p == 0;
     check_settings.snapping = false;
     const auto check = [&](std::span<const Fragment> fragments) {
-      WorkQueue queue(0, 1);
-      FragmentChecker checker(check_settings, quads_, snapped, queue);
-      for (const Fragment& fragment : fragments) checker.fragment(fragment);
-      checker.finish(true);
-      queue.drain();
-      CheckResult result = checker.result();
-      if (p != 0) result.compared = 0;  // the same fragments again
-      return result;
+      return check_here(check_settings, quads_, snapped, [&](const auto& sink) {
+        std::ranges::for_each(fragments, sink);
+        return true;
+      });
     };
 
     std::vector<Fragment> expected;

@@ -45,7 +45,8 @@ constexpr std::uint64_t alone_fragments = 200'000;  ///< enough to time the RTL 
 /// One input: what ran and what was found.
 struct InputResult {
   std::string name, option;
-  std::string state;  ///< the options that give the draw state
+  std::string state;       ///< the options that give the draw state
+  std::string attributes;  ///< the option that gives the attributes in use per pass, where they are not all slots
   std::uint64_t quads = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
   std::uint64_t quads_drawn = 0, eye_crossing_quads = 0, homogeneous_quads = 0, antipodal_quads = 0, tiny_quads = 0;
   std::uint64_t passes = 0, fragments = 0, pixels = 0, mismatches = 0, cycles_rtl = 0, cycles_model = 0,
@@ -149,7 +150,10 @@ class CosimRun {
     for (const InputResult& result : results) merge(total, result);
     total.name = results.size() == 1 ? results.front().name : "all";
     total.option = results.size() == 1 ? results.front().option : "--scene all";
-    if (results.size() == 1) total.state = results.front().state;
+    if (results.size() == 1) {
+      total.state = results.front().state;
+      total.attributes = results.front().attributes;
+    }
 
     const ModelCheck model = check_model(config_);
     const bool ok = model.ok() && std::ranges::all_of(results, [](const InputResult& r) { return r.ok(); });
@@ -236,7 +240,7 @@ class CosimRun {
     result.name = input.name;
     result.option = input.option;
     result.state = StateOptions::of(state).spelled();
-    if (slots < config_.attribute_slots) result.state += " --attributes " + std::to_string(slots);
+    if (slots < config_.attribute_slots) result.attributes = " --attributes " + std::to_string(slots);
     result.quads = input.quads.size();
     result.triangles = input.triangles;
     result.fanned_faces = input.fanned_faces;
@@ -255,11 +259,8 @@ class CosimRun {
       shading.threads = options_.common.thread_count();
     }
 
-    // The weights first, then the attributes of the input in passes of their own.
-    std::vector<Pass> passes = plan_passes(0, true, slots);
-    const std::size_t weight_passes = passes.size();
-    if (input.attributes > 0)
-      for (Pass& pass : plan_passes(input.attributes, false, slots)) passes.push_back(std::move(pass));
+    std::size_t weight_passes = 0;
+    const std::vector<Pass> passes = plan_judged_passes(input.attributes, slots, &weight_passes);
 
     // With several weight passes a picture needs whole samples: they are collected in order first.
     std::vector<EngineSample> samples;
@@ -416,9 +417,7 @@ class CosimRun {
     std::string text = "quadrille fragments --engine model " + result.option;
     if (!options_.common.config_file.empty()) text += " --config " + one(options_.common.config_file);
     for (const std::string& setting : options_.common.settings) text += " --set " + one(setting);
-    std::string state = result.state;
-    state.erase(std::min(state.find(" --attributes"), state.size()));  // of the passes here alone
-    text += " --size " + options_.common.size + " --seed " + std::to_string(options_.common.seed) + state;
+    text += " --size " + options_.common.size + " --seed " + std::to_string(options_.common.seed) + result.state;
     return text + " --quad " + std::to_string(worst.place.index) + " --pixel " + std::to_string(worst.place.x) + "," +
            std::to_string(worst.place.y) + " --out -";
   }
@@ -435,7 +434,7 @@ class CosimRun {
     const CheckResult& c = r.check;
     nlohmann::ordered_json json;
     json["input"] = r.name;
-    json["draw_state"] = r.state;
+    json["draw_state"] = r.state + r.attributes;
     json["ok"] = r.ok();
     json["complete"] = r.complete;
     put_counters(json, r, draw_metrics);
@@ -529,7 +528,8 @@ class CosimRun {
     std::fprintf(out, "\n%s  (%s; seed %llu, stall %g, gap %g; configuration %s)\n\n", r.name.c_str(),
                  options_.common.size.c_str(), static_cast<unsigned long long>(options_.common.seed), options_.stall,
                  options_.gap, summary(config_).c_str());
-    if (!r.state.empty()) std::fprintf(out, "  draw state    %s\n", r.state.c_str());
+    if (const std::string state = r.state + r.attributes; !state.empty())
+      std::fprintf(out, "  draw state    %s\n", state.c_str());
     print("  lockstep       {quads_drawn} quads, {fragments} fragments, {cycles_rtl} cycles", json);
     std::fputs(r.complete ? "\n" : " (ended early)\n", out);
     if (r.fanned_faces)

@@ -21,19 +21,16 @@ CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> q
   options.state = state;
   options.seed = seed;
   options.limit_fragments = limit;
-  WorkQueue here(0, 1);
   FragmentChecker::Settings settings;
   settings.config = point.config;
   settings.state = state;
   settings.pass = pass;
   settings.snapping = false;
-  FragmentChecker checker(settings, quads, snapped, here);
-  const tb::LockstepReport report =
-      tb::run_lockstep(snapped, options, [&](const Fragment& fragment) { checker.fragment(fragment); });
-  checker.finish(report.complete);
-  here.drain();
-
-  const CheckResult& check = checker.result();
+  tb::LockstepReport report;
+  const CheckResult check = check_here(settings, quads, snapped, [&](const auto& sink) {
+    report = tb::run_lockstep(snapped, options, sink);
+    return report.complete;
+  });
   CosimRow row;
   row.row = point.row;
   row.why = point.why;

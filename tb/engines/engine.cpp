@@ -54,6 +54,14 @@ std::vector<Pass> plan_passes(int attributes, bool weights, const Config& config
   return plan_passes(attributes, weights, config.attribute_slots);
 }
 
+std::vector<Pass> plan_judged_passes(int attributes, int slots, std::size_t* weight_passes) {
+  std::vector<Pass> passes = plan_passes(0, true, slots);
+  if (weight_passes != nullptr) *weight_passes = passes.size();
+  if (attributes > 0)
+    for (Pass& pass : plan_passes(attributes, false, slots)) passes.push_back(std::move(pass));
+  return passes;
+}
+
 WindowQuad pass_quad(const WindowQuad& quad, const Pass& pass) {
   WindowQuad result;
   result.id = quad.id;

@@ -72,6 +72,10 @@ std::vector<Pass> plan_passes(int attributes, bool weights, int slots);
 /// The same with all of the configuration's slots.
 std::vector<Pass> plan_passes(int attributes, bool weights, const Config& config);
 
+/// The weights, then the attributes in passes of their own: what a judge compares with the truth. The first
+/// `weight_passes` of them carry weights.
+std::vector<Pass> plan_judged_passes(int attributes, int slots, std::size_t* weight_passes = nullptr);
+
 /// The quad with the pass's columns as attributes.
 WindowQuad pass_quad(const WindowQuad& quad, const Pass& pass);
 

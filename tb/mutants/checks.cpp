@@ -70,24 +70,23 @@ Found truth_of_rtl(const Scenario* s) {
   if (!truth_speaks_of(*s)) return {};
   std::vector<WindowQuad> names(s->quads.size());
   for (std::size_t i = 0; i < names.size(); ++i) names[i].id = s->quads[i].id;
-  cli::WorkQueue queue(0, 1);
   cli::FragmentChecker::Settings settings;
   settings.config = s->options.config;
   settings.state = s->options.state;
   for (int j = 0; j < settings.state.attributes; ++j) settings.pass.columns.push_back(4 + j);
   settings.snapping = false;
-  cli::FragmentChecker checker(settings, names, s->quads, queue);
   try {
-    run_rtl_alone(simulator_of(s->options.config), s->quads, s->options,
-                  [&](const Fragment& f) { checker.fragment(f); });
+    return said(cli::check_here(settings, names, s->quads,
+                                [&](const FragmentSink& sink) {
+                                  run_rtl_alone(simulator_of(s->options.config), s->quads, s->options, sink);
+                                  return true;
+                                }),
+                s->invisible);
   } catch (const DeviceError&) {  // that is the assertions' finding
     return {};
   } catch (const WatchdogError& hang) {
     return hang.what();
   }
-  checker.finish(true);
-  queue.drain();
-  return said(checker.result(), s->invisible);
 }
 
 // ---- the model's functions against exact arithmetic ----
@@ -105,22 +104,13 @@ Found functions(const Scenario*) {
 // ---- errors against their regression limits ----
 
 Found limits(const Scenario*) {
-  constexpr int extent = cli::limit_extent, attributes = 4;
-  DrawState state;
-  state.width = state.height = state.scissor_x1 = state.scissor_y1 = extent;
   for (const int significand_bits : {12, 18})
     for (const golden::StressFamily family : {golden::StressFamily::general, golden::StressFamily::perspective,
                                               golden::StressFamily::near_vertex, golden::StressFamily::reflex}) {
-      Config config;
-      config.set("significand_bits", significand_bits);
       const std::string_view name = golden::stress_family_name(family);
       const cli::ErrorLimits::Family* recorded = cli::ErrorLimits::recorded().find(name, significand_bits);
       if (recorded == nullptr) return "no limits of " + std::string(name);
-      std::vector<WindowQuad> quads =  // slots 0-3 hold the weights, which are measured anyway
-          golden::make_stress(family, cli::limit_quads(family), 1, 1.0, extent, extent, 4 + attributes);
-      for (WindowQuad& quad : quads)
-        for (std::vector<double>& attribute : quad.attribute) attribute.erase(attribute.begin(), attribute.begin() + 4);
-      const cli::CheckResult result = cli::judge_untimed(quads, attributes, config, state, PixelEngine::plain);
+      const cli::CheckResult result = cli::judge_limit_draw(family, significand_bits, 1, PixelEngine::plain);
       if (const std::vector<std::string> beyond = beyond_limits(*recorded, result); !beyond.empty())
         return std::string(name) + ", s = " + std::to_string(significand_bits) + ": " + beyond.front();
     }
