@@ -7,7 +7,6 @@
 #include "golden/io/interrupt.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/npy.hpp"
-#include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/commands/sweep_cosim.hpp"
 #include "tb/commands/sweep_target.hpp"
@@ -29,13 +28,11 @@
 #include "tb/sweep/synthesis.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 
 namespace quadrille::cli {
@@ -238,6 +235,7 @@ class SweepRun {
       search.rows.push_back(row);
       search.configs.push_back(point.config);
       search.costs.push_back(scalar_cost(hardware_cost(point.config), weights_));
+      search.ordinary.push_back(ordinary_(point.config));
     }
     if (search.rows.empty())
       throw UsageError("every point of the grid is refused; the first: " + refused_.begin()->second);
@@ -289,25 +287,11 @@ class SweepRun {
         [&](std::size_t i) {
           sweep::PointRow& point = rows_[i];
           if (!point.result.refused.empty()) return 0;
-          sweep::complete_row(point, weights_, is_ordinary_input(point.config), input_.state.perspective);
+          sweep::complete_row(point, weights_, ordinary_(point.config), input_.state.perspective);
           if (point.result.worst.any) point.worst = worst_command(point.config, point.result.worst);
           return 0;
         },
         [&](std::size_t i, int) { progress.set(i + 1); });
-  }
-
-  /// Every snapped vertex has W = 1. Depends on the keys that place a vertex.
-  bool is_ordinary_input(const Config& config) {
-    const std::array key{config.viewport_bits, config.guard_bits, config.subpixel_bits, config.homogeneous_frac_bits};
-    const std::lock_guard lock(ordinary_mutex_);
-    const auto [found, unknown] = ordinary_.try_emplace(key, true);
-    if (unknown) {
-      DrawState state = input_.state;
-      state.attributes = 0;
-      found->second = std::ranges::all_of(
-          input_.quads, [&](const WindowQuad& quad) { return is_ordinary(snap_as(quad, 0, config, state), config); });
-    }
-    return found->second;
   }
 
   void find_front() {
@@ -564,8 +548,7 @@ class SweepRun {
   std::vector<sweep::SynthesisRow> synthesis_;
   double correlation_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<TargetResult> target_;
-  std::mutex ordinary_mutex_;
-  std::map<std::array<int, 4>, bool> ordinary_;
+  sweep::OrdinaryInput ordinary_{input_};
 };
 
 }  // namespace

@@ -107,10 +107,16 @@ namespace {
 class Search {
  public:
   explicit Search(const TargetSearch& search) : search_(search) {
-    for (std::size_t i = 0; i < search.configs.size(); ++i) points_.push_back({search.configs[i], search.costs[i]});
+    for (std::size_t i = 0; i < search.configs.size(); ++i)
+      points_.push_back({search.configs[i], search.costs[i], search.ordinary[i]});
     std::vector<sweep::Quantity> measured;
-    for (const ErrorTarget& target : search.targets) measured.push_back(target.column.quantity);
+    std::vector<sweep::TargetedError> errors;
+    for (const ErrorTarget& target : search.targets) {
+      measured.push_back(target.column.quantity);
+      errors.push_back({target.column, target.limit});
+    }
     idle_keys_ = sweep::idle_keys(measured);
+    gain_ = sweep::output_gain(errors);
   }
 
   TargetResult run() {
@@ -130,7 +136,7 @@ class Search {
  private:
   sweep::SearchResult find() {
     return sweep::cheapest_meeting(
-        points_, [&](std::size_t i) { return miss(i); }, sweep::sampled_slack, idle_keys_);
+        points_, [&](std::size_t i) { return miss(i); }, sweep::sampled_slack, idle_keys_, gain_);
   }
 
   double input_miss(std::size_t point) {
@@ -208,7 +214,7 @@ class Search {
         result.confirmed = search_.rows[candidate];
         break;
       }
-      refuting_.push_back(static_cast<std::size_t>(worst - checks.begin()));
+      refute(static_cast<std::size_t>(worst - checks.begin()));
       closest_ = std::numeric_limits<double>::infinity();  // of what met fewer families nothing is known
       const sweep::SearchResult next = find();
       if (!next.winner) {
@@ -221,9 +227,17 @@ class Search {
     result.confirm_evaluations = missed_.size() - before;
   }
 
+  /// From now on miss() is measured on this family too.
+  void refute(std::size_t family) {
+    refuting_.push_back(family);
+    sweep::OrdinaryInput ordinary(families_[family].input);
+    for (sweep::SearchPoint& point : points_) point.ordinary = point.ordinary && ordinary(point.config);
+  }
+
   const TargetSearch& search_;
   std::vector<sweep::SearchPoint> points_;
   std::vector<std::string_view> idle_keys_;
+  sweep::OutputGain gain_;
   std::map<std::size_t, double> missed_;  ///< input_miss() by point
   std::vector<Family> families_;
   std::vector<std::unique_ptr<sweep::Evaluator>> evaluators_;

@@ -34,6 +34,7 @@ struct TargetSearch {
   std::vector<std::size_t> rows;  ///< of the grid, valid ones
   std::vector<Config> configs;    ///< the same order
   std::vector<double> costs;
+  std::vector<bool> ordinary;  ///< every vertex of the input is, with that configuration
   std::vector<ErrorTarget> targets;
   /// Evaluates the configuration at a position of `rows` on the input of the sweep.
   std::function<sweep::PointResult(std::size_t)> evaluate;

@@ -1,5 +1,6 @@
 #include "tb/sweep/evaluator.hpp"
 
+#include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/support/stopwatch.hpp"
@@ -316,6 +317,22 @@ struct Evaluator::Impl {
     return out;
   }
 };
+
+bool OrdinaryInput::operator()(const Config& config) {
+  const std::array keys{config.viewport_bits, config.guard_bits, config.subpixel_bits, config.homogeneous_frac_bits};
+  const std::lock_guard lock(mutex_);
+  const auto [found, unknown] = known_.try_emplace(keys, false);
+  if (unknown) {
+    DrawState state = input_.state;
+    state.attributes = 0;
+    const auto ordinary = [&](const WindowQuad& quad) { return is_ordinary(snap_quad(quad, config, state), config); };
+    try {
+      found->second = std::ranges::all_of(input_.quads, ordinary);
+    } catch (const SnapError&) {  // is refused by the evaluator
+    }
+  }
+  return found->second;
+}
 
 Evaluator::Evaluator(const SweepInput& input, const Settings& settings)
     : impl_(std::make_unique<Impl>(input, settings)) {}

@@ -13,7 +13,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -25,6 +27,20 @@ struct SweepInput {
   std::vector<WindowQuad> quads;
   int attributes = 0;  ///< of the quads, at most max_attribute_slots; measured whatever attribute_slots is
   DrawState state;     ///< `attributes` in it is ignored
+};
+
+/// Whether every vertex of an input is ordinary (model/snap.hpp): W = 1 once snapped. False too where one cannot be
+/// snapped. Asks once for each placement of vertices; safe to call from several threads. Keeps a reference to the
+/// input.
+class OrdinaryInput {
+ public:
+  explicit OrdinaryInput(const SweepInput& input) : input_(input) {}
+  bool operator()(const Config& config);
+
+ private:
+  const SweepInput& input_;
+  std::mutex mutex_;
+  std::map<std::array<int, 4>, bool> known_;  ///< by the keys of the placement
 };
 
 /// The stages in the order of the machine, with the keys that enter there (resolved values count, so "auto" and its

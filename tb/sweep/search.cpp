@@ -61,7 +61,12 @@ struct alignas(16) Abilities {
   friend auto operator<=>(const Abilities&, const Abilities&) = default;
 };
 
-Abilities abilities(const Config& config, std::span<const std::string_view> idle_keys) {
+constexpr std::int8_t exact = 127;  ///< as good as every value
+
+/// `ordinary`: of inputs whose coordinates have subpixel_bits fraction bits.
+Abilities abilities(const Config& config, bool ordinary, std::span<const std::string_view> idle_keys) {
+  const bool exact_quadratics =
+      config.qdrop() == 0 || (ordinary && config.quadratic_frac() >= 2 * config.subpixel_bits);
   Abilities result;
   for (std::size_t i = 0; i < key_effects.size(); ++i) {
     const auto [key, effect] = key_effects[i];
@@ -69,10 +74,28 @@ Abilities abilities(const Config& config, std::span<const std::string_view> idle
     const auto value = static_cast<std::int8_t>(config.resolved(key));
     result.of[2 * i] = value;
     if (effect == Effect::unordered) result.of[2 * i + 1] = static_cast<std::int8_t>(-value);
-    // Exact D and r² do not depend on where they start: as good as every tile size.
-    if (key == "tile_log2" && config.qdrop() == 0) result.of[2 * i] = result.of[2 * i + 1] = 127;
+    // Exact D and r² do not depend on where they start.
+    if (key == "tile_log2" && exact_quadratics) result.of[2 * i] = result.of[2 * i + 1] = exact;
+    if (key == "quadratic_frac_bits" && exact_quadratics && ordinary) result.of[2 * i] = exact;
   }
   return result;
+}
+
+constexpr std::size_t element_of(std::string_view key) {
+  return 2 * static_cast<std::size_t>(std::ranges::find(key_effects, key, &KeyEffect::key) - key_effects.begin());
+}
+
+/// Bound of the difference of `miss` between machines that are alike up to the formats of their outputs, else infinity.
+/// A key that is idle has the same element in both.
+double output_difference(Abilities a, Abilities b, const OutputGain& gain) {
+  double difference = 0;
+  for (const auto& [key, factor] : {std::pair{"attribute_frac_bits", gain.attribute}, {"depth_bits", gain.depth}}) {
+    const std::size_t i = element_of(key);
+    // Both truncate one value: what they keep of it differs by less than a step of the coarser format.
+    if (a.of[i] != b.of[i]) difference = std::max(difference, factor * std::exp2(-std::min(a.of[i], b.of[i])));
+    a.of[i] = b.of[i];
+  }
+  return a == b ? difference : std::numeric_limits<double>::infinity();
 }
 
 bool nowhere_better(const Abilities& a, const Abilities& b) {
@@ -97,7 +120,7 @@ std::vector<Candidate> all_candidates(std::span<const SearchPoint> points,
   std::vector<Candidate> candidates;
   std::set<Abilities> seen;
   for (const std::size_t i : order) {
-    const Abilities can = abilities(points[i].config, idle_keys);
+    const Abilities can = abilities(points[i].config, points[i].ordinary, idle_keys);
     if (seen.insert(can).second) candidates.push_back({i, can});
   }
   return candidates;
@@ -138,10 +161,22 @@ std::vector<std::string_view> idle_keys(std::span<const Quantity> measured) {
   return keys;
 }
 
-bool nowhere_better(const Config& a, const Config& b) { return nowhere_better(abilities(a, {}), abilities(b, {})); }
+OutputGain output_gain(std::span<const TargetedError> targets) {
+  OutputGain gain{.attribute = 0, .depth = 0};
+  for (const TargetedError& target : targets) {
+    double& of = target.column.quantity == Quantity::depth ? gain.depth : gain.attribute;
+    const bool quantile = target.column.statistic == &ErrorSummary::p999;
+    of = std::max(of, quantile ? std::numeric_limits<double>::infinity() : 1 / target.limit);
+  }
+  return gain;
+}
+
+bool nowhere_better(const Config& a, const Config& b) {
+  return nowhere_better(abilities(a, false, {}), abilities(b, false, {}));
+}
 
 SearchResult cheapest_meeting(std::span<const SearchPoint> points, const std::function<double(std::size_t)>& miss,
-                              double slack, std::span<const std::string_view> idle_keys) {
+                              double slack, std::span<const std::string_view> idle_keys, const OutputGain& gain) {
   SearchResult result;
   result.closest = std::numeric_limits<double>::infinity();
   std::vector<Candidate> candidates = all_candidates(points, idle_keys);
@@ -157,10 +192,13 @@ SearchResult cheapest_meeting(std::span<const SearchPoint> points, const std::fu
     if (ratio <= 1) {
       result.winner = tried.point;  // cheaper than every winner before: those that cost more are gone
       candidates.resize(position);
-    } else if (ratio <= slack) {
-      candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(position));
     } else {
-      std::erase_if(candidates, [&](const Candidate& c) { return nowhere_better(c.abilities, tried.abilities); });
+      // Negated, so that NaN misses clearly; a difference that is unknown rules out nothing, not even infinity.
+      const bool clearly = !(ratio <= slack);
+      std::erase_if(candidates, [&](const Candidate& c) {
+        return c.point == tried.point || (clearly && nowhere_better(c.abilities, tried.abilities)) ||
+               ratio - output_difference(c.abilities, tried.abilities, gain) > 1;
+      });
     }
   }
   result.evaluations = result.evaluated.size();

@@ -1,0 +1,180 @@
+"""The RTL through Yosys: its files, the modules that stay apart, what its cells count. For size.py, timing.py and `quadrille sweep --synth`."""
+import collections
+import glob
+import os
+import re
+import shutil
+import subprocess
+
+from report.program import PROGRAM, ROOT
+
+UNITS = ("vertex_assembly quad_setup quad_slots tile_walk tile_ring stamp_coverage forward_difference normalise rsqrt mean_value_ratios "
+         "mean_value_weights interpolate reciprocal fragment_output").split()
+# Mapped once however often they are instantiated.
+SHARED = "fixed_point fp_multiply fp_raw_product fp_sum one_plus".split()
+ECP5 = {"LUT": {"LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6}, "FF": {"TRELLIS_FF": 1}, "DSP": {"MULT18X18D": 1}, "BRAM": {"DP16KD": 1, "PDPW16KD": 1}}
+
+
+class ToolMissing(Exception):
+    """A fault of the environment: exit status 3."""
+
+
+class InputRefused(Exception):
+    """A unit or a configuration that is none: exit status 2."""
+
+
+class SynthesisFailed(Exception):
+    """The tool ended with an error, or its output is not understood: exit status 1."""
+
+
+def find_tool(*names, packages):
+    """Path of the first of the programs that is there."""
+    for name in names:
+        if path := shutil.which(name):
+            return path
+    raise ToolMissing(f"no {' or '.join(names)}; install with: apt-get install {packages}")
+
+
+def add_arguments(parser):
+    parser.add_argument("settings", nargs="*", metavar="KEY=VALUE", help="configuration keys, as of quadrille --set")
+    parser.add_argument("--rtl", default=os.path.join(ROOT, "rtl"), metavar="DIR", help="folder of the RTL")
+    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program, for the tables")
+    parser.add_argument("--tables", metavar="FILE", help="quadrille_tables_pkg.sv of this configuration, instead of asking the program for it")
+    parser.add_argument("--json", metavar="FILE", help="write the result as JSON too (- for standard output, alone)")
+
+
+def run(command, work, log):
+    """Runs a tool; what it says is in the log, which is returned."""
+    path = os.path.join(work, log)
+    with open(path, "w", encoding="utf-8") as out:
+        status = subprocess.run(command, cwd=work, stdout=out, stderr=subprocess.STDOUT, check=False).returncode
+    with open(path, encoding="utf-8", errors="replace") as file:
+        text = file.read()
+    if status != 0:
+        raise SynthesisFailed(f"{os.path.basename(command[0])} failed:\n" + "\n".join(text.splitlines()[-25:]))
+    return text
+
+
+class Machine:
+    """The RTL with the defines and tables of a configuration; args: of add_arguments()."""
+
+    def __init__(self, args, work):
+        self.work = work
+        for setting in args.settings:
+            if not re.fullmatch(r"[a-z0-9_]+=-?\w+", setting):
+                raise InputRefused(f"{setting}: expected KEY=VALUE, such as significand_bits=12; `quadrille config` lists the keys")
+        settings = [setting.split("=") for setting in args.settings]
+        tables = os.path.abspath(args.tables) if args.tables else self._make_tables(args)
+        defines = [f"-DQUADRILLE_{key.upper()}={-1 if value == 'auto' else value}" for key, value in settings]
+        rtl = os.path.abspath(args.rtl)
+        files = sorted(glob.glob(os.path.join(rtl, "*.sv")), key=lambda name: (not name.endswith("_pkg.sv"), name))
+        if not files:
+            raise InputRefused(f"no SystemVerilog in {rtl}")
+        self.modules = {os.path.splitext(os.path.basename(name))[0] for name in files if not name.endswith("_pkg.sv")}
+        quoted = " ".join(f'"{name}"' for name in [files[0], tables, *files[1:]])
+        self.read = f"read_verilog -sv -DSYNTHESIS=1 {' '.join(defines)} {quoted}\n"
+
+    def _make_tables(self, args):
+        path = os.path.join(self.work, "quadrille_tables_pkg.sv")
+        command = [args.quadrille, "config", "--quiet", *(part for setting in args.settings for part in ("--set", setting)), "--emit-tables", path]
+        try:
+            result = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+        except OSError as error:
+            raise ToolMissing(f"{args.quadrille}: {error.strerror}; build the program, or name it with --quadrille") from None
+        if result.returncode != 0:
+            raise InputRefused(result.stderr.strip())
+        return path
+
+    def elaborate(self, top, parameters=()):
+        """Yosys commands up to the hierarchy under `top`, in which the units stay apart: each is optimised and mapped once however often it
+        is instantiated. The rest is flattened, so that the constants of a table or of a feature that is off reach the logic behind them."""
+        if top not in self.modules:
+            raise InputRefused(f"no unit {top} in rtl/; there are: {' '.join(sorted(self.modules))}")
+        chparam = "".join(f" -chparam {name} {value}" for name, value in parameters)
+        kept = " ".join(f"*{unit}*" for unit in (*UNITS, *SHARED))
+        return (f"{self.read}hierarchy -check -top {top}{chparam}\n"
+                f"setattr -mod -set keep_hierarchy 1 {kept}\nsetattr -mod -unset keep_hierarchy *fp_normalise*\n")
+
+    def yosys(self, script, stem):
+        tool = find_tool("yosys", packages="yosys")
+        with open(os.path.join(self.work, stem + ".ys"), "w", encoding="utf-8") as file:
+            file.write(script)
+        return run([tool, "-s", stem + ".ys"], self.work, stem + ".log")
+
+
+def statistics(path):
+    """Cells by type of each module, from a file of Yosys' stat."""
+    cells, module = {}, None
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            if head := re.match(r"=== (.*) ===", line):
+                module = cells.setdefault(head.group(1), {}) if head.group(1) != "design hierarchy" else None
+            elif module is not None and (entry := re.match(r" +(\S+) +(\d+)$", line)):
+                module[entry.group(1)] = int(entry.group(2))
+    return cells
+
+
+def size_of(cells, module, counts):
+    """What a module counts, with what it instantiates."""
+    total = collections.Counter({name: 0 for name in counts})
+    for cell, number in cells[module].items():
+        if cell in cells:
+            total.update({name: number * value for name, value in size_of(cells, cell, counts).items()})
+        for name, weight in counts.items():
+            total[name] += number * weight.get(cell, 0)
+    return total
+
+
+def units_of(cells, top, counts):
+    """(unit, instances, size of them all with what they instantiate) for each unit that `top` instantiates, then the rest and all."""
+    rows, whole = [], size_of(cells, top, counts)
+    rest = collections.Counter(whole)
+    for unit in UNITS:
+        instances = {cell: number for cell, number in cells[top].items() if cell in cells and re.search(rf"(^|\\){unit}(\\|$)", cell)}
+        total = collections.Counter({name: 0 for name in counts})
+        for cell, number in instances.items():
+            total.update({name: number * value for name, value in size_of(cells, cell, counts).items()})
+        if instances:
+            rows.append((unit, sum(instances.values()), total))
+            rest.subtract(total)
+    if any(value < 0 for value in rest.values()) or not any(whole.values()):
+        raise SynthesisFailed("the statistics of this version of Yosys are not understood")
+    return rows + [("the rest", None, rest), ("all", None, whole)]
+
+
+# For the longest path registers are cut out and a memory's read becomes one LUT4: Yosys' ltp knows neither.
+READ_PORT = """
+module TRELLIS_DPR16X4 (input [3:0] DI, input [3:0] WAD, input WRE, input WCK, input [3:0] RAD, output [3:0] DO);
+  parameter WCKMUX = "WCK";
+  parameter WREMUX = "WRE";
+  parameter INITVAL = 64'd0;
+  genvar g;
+  generate
+    for (g = 0; g < 4; g = g + 1) LUT4 read (.A(RAD[0]), .B(RAD[1]), .C(RAD[2]), .D(RAD[3]), .Z(DO[g]));
+  endgenerate
+endmodule
+"""
+
+
+def ecp5(machine, dsps):
+    """The machine on an ECP5: rows of units_of() and the longest path in cells. LUTs of more than four inputs are not formed: abc would
+    spend LUT4s on them for speed."""
+    with open(os.path.join(machine.work, "read_port.v"), "w", encoding="utf-8") as file:
+        file.write(READ_PORT)
+    machine.yosys(machine.elaborate("quadrille") + f"""synth_ecp5 {'' if dsps else '-nodsp '}-nowidelut -top quadrille -run :check
+tee -o cells.txt stat
+delete t:TRELLIS_FF
+techmap -map read_port.v
+setattr -mod -unset keep_hierarchy *
+flatten
+tee -o path.txt ltp
+""", "ecp5")
+    cells = statistics(os.path.join(machine.work, "cells.txt"))
+    if "quadrille" not in cells:
+        raise SynthesisFailed("the statistics of this version of Yosys are not understood")
+    rows = units_of(cells, "quadrille", ECP5)
+    with open(os.path.join(machine.work, "path.txt"), encoding="utf-8") as file:
+        path = re.search(r"\(length=(\d+)\)", file.read())
+    if not path or not rows[-1][2]["LUT"] or not rows[-1][2]["FF"]:
+        raise SynthesisFailed("the statistics of this version of Yosys are not understood")
+    return rows, int(path.group(1))
