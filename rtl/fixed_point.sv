@@ -1,4 +1,4 @@
-// Magnitude of a raw product as unsigned fixed point, truncated, saturated. Combinational.
+// Magnitude of a raw product as unsigned fixed point, truncated, saturated. Latency FIXED_POINT_STAGES (2), one per enabled clock.
 //
 // value = prod_i * 2^(exp_i-(2S-2)); fixed_o has INT_BITS integer and FRAC_BITS fraction bits. overflow_o: value >= 2^INT_BITS,
 // fixed_o is all ones then. Does not know signs.
@@ -9,6 +9,8 @@ module fixed_point #(
     localparam int E = quadrille_pkg::EXP_BITS,
     localparam int OUT = INT_BITS + FRAC_BITS
 ) (
+    input logic clk_i,
+    input logic en_i,
     input logic [E-1:0] exp_i,
     input logic [2*S-1:0] prod_i,
     output logic overflow_o,
@@ -16,19 +18,32 @@ module fixed_point #(
 );
   localparam int WIDE = (2 * S > OUT) ? 2 * S : OUT;
 
-  logic carry;
-  logic [2*S-1:0] normalised;  // highest one at the top
-  logic [E:0] log2_value;  // floor(log2 value), one bit more: exp may be at its limit
-  logic [E:0] distance;
-  logic [WIDE-1:0] wide;
-  logic [OUT-1:0] top;
+  // Stage 1: the highest one to the top, and how far down it belongs: INT_BITS - 1 - floor(log2 value) places. log2 is
+  // exp_i + carry, so its negative is ~exp_i + !carry; one bit more than exp_i has, which may be at its limit.
+  logic carry, nonzero;
+  logic [2*S-1:0] normalised;
+  logic [E:0] distance_d, distance_q;
+  logic [OUT-1:0] top_q;
+  logic overflow_q;
 
   assign carry = prod_i[2*S-1];
+  assign nonzero = prod_i[2*S-2+:2] != 2'b00;  // a product is 0 or at least 2^(2S-2)
   assign normalised = carry ? prod_i : prod_i << 1;
-  assign log2_value = {exp_i[E-1], exp_i} + (E + 1)'(carry);
-  assign overflow_o = prod_i != '0 && $signed(log2_value) >= $signed((E + 1)'(INT_BITS));
-  assign distance = (E + 1)'(INT_BITS - 1) - log2_value;  // >= 0 without overflow
-  assign wide = WIDE'(normalised) << (WIDE - 2 * S);
-  assign top = OUT'(wide >> (WIDE - OUT));
-  assign fixed_o = overflow_o ? '1 : top >> distance;
+  assign distance_d = (E + 1)'(({(E + 1)'(INT_BITS - 1), 1'b1} + {~{exp_i[E-1], exp_i}, !carry}) >> 1);
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      distance_q <= distance_d;
+      top_q <= OUT'((WIDE'(normalised) << (WIDE - 2 * S)) >> (WIDE - OUT));
+      overflow_q <= nonzero && distance_d[E];  // it belongs above the top
+    end
+  end
+
+  // Stage 2: shift.
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      overflow_o <= overflow_q;
+      fixed_o <= overflow_q ? '1 : top_q >> distance_q;
+    end
+  end
 endmodule

@@ -1,8 +1,8 @@
 // One function of the pixel position from the context of its tile: value + r gy + dx gx + q (r^2 + dx^2). Exact modulo 2^VALUE_BITS.
-// Latency 2, one pixel an enabled clock: stage 0 takes the row and the bend q (r^2 + dx^2), stage 1 the column.
+// Latency FORWARD_DIFFERENCE_STAGES, one pixel an enabled clock: the row; the column, and beside it the bend q (r^2 + dx^2); their sum.
 //
-// Two's complement throughout; r, dx and r^2 + dx^2 come as offset_digits. A linear function (QUADRATIC = 0) has no bend: it reads
-// neither q_i nor norm_digits_i.
+// Two's complement throughout; r, dx and r^2 + dx^2 come as offset_digits, the last one clock after all the rest. A linear function
+// (QUADRATIC = 0) has no bend: it reads neither q_i nor norm_digits_i.
 module forward_difference #(
     parameter int VALUE_BITS = 64,
     parameter int GRAD_BITS = 48,
@@ -27,7 +27,7 @@ module forward_difference #(
   localparam int RISE_BITS = GRAD_BITS + TILE_LOG2;
   localparam int BEND_BITS = CURV_BITS + NORM_BITS;
 
-  // ---- Stage 0: row and bend. {a, 1} + {b, carry} is an adder whose carry-in is used ---------------------------------------
+  // ---- Stage 1: row. {a, 1} + {b, carry} is an adder whose carry-in is used -------------------------------------------------
   logic [2*OFFSET_DIGITS-1:0] dx_digits_q;
   logic [RISE_BITS-1:0] rise_y, rise_x;
   logic carry_y, carry_x;
@@ -54,38 +54,8 @@ module forward_difference #(
     end
   end
 
-  logic [VALUE_BITS-1:0] bent;  // row and bend
-
-  if (QUADRATIC) begin : gen_bend
-    logic [BEND_BITS-1:0] bend_d, bend_q;
-    logic carry_d, carry_q;
-
-    small_multiply #(
-        .FACTOR_BITS(CURV_BITS),
-        .NUMBER_BITS(NORM_BITS)
-    ) u_bend (
-        .factor_i(q_i),
-        .digits_i(norm_digits_i),
-        .product_o(bend_d),
-        .carry_o(carry_d)
-    );
-
-    always_ff @(posedge clk_i) begin
-      if (en_i) begin
-        bend_q <= bend_d;
-        carry_q <= carry_d;
-      end
-    end
-
-    assign bent = VALUE_BITS'(({row_q, 1'b1} + {VALUE_BITS'($signed(bend_q)), carry_q}) >> 1);
-  end else begin : gen_no_bend
-    logic unused;
-    assign unused = ^{q_i, norm_digits_i};
-    assign bent = row_q;
-  end
-
-  // ---- Stage 1: column ----------------------------------------------------------------------------------------------------
-  logic [VALUE_BITS-1:0] column_d;
+  // ---- Stage 2: column ------------------------------------------------------------------------------------------------------
+  logic [VALUE_BITS-1:0] column_d, column_q;
 
   small_multiply #(
       .FACTOR_BITS(GRAD_BITS),
@@ -97,7 +67,42 @@ module forward_difference #(
       .carry_o(carry_x)
   );
 
-  assign column_d = VALUE_BITS'(({bent, 1'b1} + {VALUE_BITS'($signed(rise_x)), carry_x}) >> 1);
+  assign column_d = VALUE_BITS'(({row_q, 1'b1} + {VALUE_BITS'($signed(rise_x)), carry_x}) >> 1);
 
-  always_ff @(posedge clk_i) if (en_i) value_o <= column_d;
+  always_ff @(posedge clk_i) if (en_i) column_q <= column_d;
+
+  // ---- Stage 2, bend; stage 3, sum --------------------------------------------------------------------------------------------
+  logic [VALUE_BITS-1:0] bent;
+
+  if (QUADRATIC) begin : gen_bend
+    logic [CURV_BITS-1:0] q_q;
+    logic [BEND_BITS-1:0] bend_d, bend_q;
+    logic carry_d, carry_q;
+
+    small_multiply #(
+        .FACTOR_BITS(CURV_BITS),
+        .NUMBER_BITS(NORM_BITS)
+    ) u_bend (
+        .factor_i(q_q),
+        .digits_i(norm_digits_i),
+        .product_o(bend_d),
+        .carry_o(carry_d)
+    );
+
+    always_ff @(posedge clk_i) begin
+      if (en_i) begin
+        q_q <= q_i;
+        bend_q <= bend_d;
+        carry_q <= carry_d;
+      end
+    end
+
+    assign bent = VALUE_BITS'(({column_q, 1'b1} + {VALUE_BITS'($signed(bend_q)), carry_q}) >> 1);
+  end else begin : gen_no_bend
+    logic unused;
+    assign unused = ^{q_i, norm_digits_i};
+    assign bent = column_q;
+  end
+
+  always_ff @(posedge clk_i) if (en_i) value_o <= bent;
 endmodule

@@ -1,29 +1,69 @@
-// fp_from_magnitude of README.md section 2, combinational: an unsigned integer becomes a significand number.
+// fp_from_magnitude of README.md section 2: an unsigned integer becomes a significand number. Latency FP_NORMALISE_STAGES (2): the long
+// shifts, then the short ones; one per enabled clock. Combinational with REGISTERED = 0.
 //
 // value = magnitude * 2^(bias) read as integer: p = index of the highest one, sig has it at bit S-1 (lower bits dropped,
 // truncation), exp = p + bias. Magnitude 0 gives exp = 0, sig = 0.
 module fp_normalise #(
     parameter int WIDTH = 32,
+    parameter bit REGISTERED = 1'b1,
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS
 ) (
+    input logic clk_i,
+    input logic en_i,
     input logic [WIDTH-1:0] magnitude_i,
     input logic [E-1:0] bias_i,
     output logic [E-1:0] exp_o,
     output logic [S-1:0] sig_o
 );
-  localparam int COUNT_BITS = $clog2(WIDTH);
-  localparam int PAD = (WIDTH < S) ? S - WIDTH : 0;  // a narrow magnitude is widened at its low end
+  localparam int SPLIT = 3;  // shifts by 2^SPLIT and more in stage 1
+  localparam int KEPT = S + (1 << SPLIT) - 1;  // bits at the top that a shorter shift can still bring into the significand
+  localparam int WIDE = (WIDTH > KEPT) ? WIDTH : KEPT;  // a narrow magnitude is widened at its low end
+  localparam int COUNT_BITS = $clog2(WIDE);
 
-  logic [COUNT_BITS-1:0] count;
-  logic [WIDTH-1:0] shifted;
+  // Stage 1
+  logic [WIDE-1:0] coarse_d;
+  logic [KEPT-1:0] coarse_q;
+  logic [COUNT_BITS-1:SPLIT] high_count_d, high_count_q;
+  logic [E-1:0] top_exp_q;  // of a one at the top
 
-  shift_to_top #(.WIDTH(WIDTH)) u_shift (
-      .value_i(magnitude_i),
-      .count_o(count),
-      .value_o(shifted)
+  shift_to_top #(
+      .WIDTH(WIDE),
+      .LAST(SPLIT)
+  ) u_coarse (
+      .value_i(WIDE'(magnitude_i) << (WIDE - WIDTH)),
+      .count_o(high_count_d),
+      .value_o(coarse_d)
   );
 
-  assign sig_o = S'(((WIDTH + PAD)'(shifted) << PAD) >> (WIDTH + PAD - S));
-  assign exp_o = !shifted[WIDTH-1] ? '0 : bias_i + E'(WIDTH - 1) - E'(count);
+  delay_line #(.WIDTH(KEPT + COUNT_BITS - SPLIT + E), .DEPTH(32'(REGISTERED))) u_coarse_q (
+      .clk_i,
+      .en_i,
+      .data_i({KEPT'(coarse_d >> (WIDE - KEPT)), high_count_d, bias_i + E'(WIDTH - 1)}),
+      .data_o({coarse_q, high_count_q, top_exp_q})
+  );
+
+  // Stage 2
+  logic [KEPT-1:0] fine;
+  logic [SPLIT-1:0] low_count;
+
+  shift_to_top #(
+      .WIDTH(KEPT),
+      .FIRST(SPLIT - 1)
+  ) u_fine (
+      .value_i(coarse_q),
+      .count_o(low_count),
+      .value_o(fine)
+  );
+
+  logic [E-1:0] exp;
+
+  assign exp = !fine[KEPT-1] ? '0 : top_exp_q - E'({high_count_q, low_count});
+
+  delay_line #(.WIDTH(E + S), .DEPTH(32'(REGISTERED))) u_fine_q (
+      .clk_i,
+      .en_i,
+      .data_i({exp, S'(fine >> (KEPT - S))}),
+      .data_o({exp_o, sig_o})
+  );
 endmodule

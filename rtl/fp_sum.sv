@@ -1,4 +1,5 @@
-// Signed sum of TERMS (2 or 4) raw products. Latency 2: align and add, then normalise. One result per enabled clock.
+// Signed sum of TERMS (2 or 4) products. Latency FP_SUM_STAGES from neg_i and term_i; the ranks come one enabled clock before those,
+// while the multipliers run (fp_term). One result per enabled clock.
 //
 // The terms are aligned to the largest exponent E among the non-zero ones and truncated to PREC_BITS fraction bits below it:
 //
@@ -6,89 +7,131 @@
 //     sum       sign + log2(TERMS) carries + S+1+G bits, unit 2^(E-(S-1+G))
 //
 // The result is a significand number with sign; no term, or an exact zero, gives neg = exp = sig = 0. No rounding, no sticky bit.
-// A product is 0 or at least 2^(2S-2), so its two top bits say which.
 module fp_sum #(
     parameter int TERMS = 4,
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int E = quadrille_pkg::EXP_BITS,
+    localparam int TERM = quadrille_pkg::TERM_BITS,
+    localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
     input logic clk_i,
     input logic en_i,
+    input logic [TERMS*RANK-1:0] rank_i,
     input logic [TERMS-1:0] neg_i,
-    input logic [TERMS*E-1:0] exp_i,
-    input logic [TERMS*2*S-1:0] prod_i,
+    input logic [TERMS*TERM-1:0] term_i,
     output logic neg_o,
     output logic [E-1:0] exp_o,
     output logic [S-1:0] sig_o
 );
   localparam int PREC = quadrille_pkg::PREC_BITS;
-  localparam int DROP = S - 1 - quadrille_pkg::ALIGN_GUARD_BITS;  // product bits below the window even without alignment
-  localparam int TERM = 2 * S - DROP;  // one aligned term
+  localparam int PAIRS = TERMS / 2;
+  localparam int PAIR = TERM + 2;  // signed sum of two terms
   localparam int MAG = TERM + $clog2(TERMS);  // magnitude of the sum
   localparam int SUM = MAG + 1;
-  localparam int KEY = E + 1;  // order of exponents as unsigned numbers: 0 for a zero, else {1, exponent + 2^(E-1)}
 
-  // ---- Stage 1: largest exponent, by pairs ---------------------------------------------------------------------------------
-  logic [TERMS*KEY-1:0] key;
-  logic [E-1:0] top_exp;
+  // ---- Beside the multipliers: the higher rank of each pair ----------------------------------------------------------------
+  logic [TERMS*RANK-1:0] rank_q;
+  logic [PAIRS*RANK-1:0] higher_q;
 
-  always_comb begin
-    for (int k = 0; k < TERMS; k++) begin
-      key[k*KEY+:KEY] = {1'b1, ~exp_i[k*E+E-1], exp_i[k*E+:E-1]} & {KEY{prod_i[k*2*S+2*S-2+:2] != 2'b00}};
-    end
-    for (int step = 1; step < TERMS; step = step * 2) begin
-      for (int k = 0; k < TERMS; k += 2 * step) begin
-        if (key[(k+step)*KEY+:KEY] > key[k*KEY+:KEY]) key[k*KEY+:KEY] = key[(k+step)*KEY+:KEY];
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      rank_q <= rank_i;
+      for (int p = 0; p < PAIRS; p++) begin
+        higher_q[p*RANK+:RANK] <= (rank_i[(2*p+1)*RANK+:RANK] > rank_i[2*p*RANK+:RANK]) ? rank_i[(2*p+1)*RANK+:RANK] : rank_i[2*p*RANK+:RANK];
       end
     end
-    top_exp = {~key[E-1], key[E-2:0]};
   end
 
-  // ---- Aligned sum, in the sign of term 0 -----------------------------------------------------------------------------------
-  logic [E-1:0] distance;
-  logic [TERM-1:0] term;
-  logic subtract;
-  logic [SUM-1:0] sum;
+  // ---- Stage 1: the highest rank, and how far each term is below it ---------------------------------------------------------
+  logic [RANK-1:0] top;
+  logic [TERMS*E-1:0] distance_q;
+  logic [TERMS*TERM-1:0] term_q;
+  logic [TERMS-1:0] neg_q;
+  logic [E-1:0] top_exp_q;
+
+  assign top = (PAIRS == 2 && higher_q[(PAIRS-1)*RANK+:RANK] > higher_q[0+:RANK]) ? higher_q[(PAIRS-1)*RANK+:RANK] : higher_q[0+:RANK];
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      for (int k = 0; k < TERMS; k++) distance_q[k*E+:E] <= top[E-1:0] - rank_q[k*RANK+:E];  // of a zero: any
+      term_q <= term_i;
+      neg_q <= neg_i;
+      top_exp_q <= quadrille_pkg::rank_exponent(top);
+    end
+  end
+
+  // ---- Stage 2: align -------------------------------------------------------------------------------------------------------
+  logic [TERMS*TERM-1:0] aligned_q;
+  logic [PAIRS-1:0] differ_q;  // signs within a pair
+  logic across_q;  // signs of the pairs
+  logic aligned_neg_q;
+  logic [E-1:0] aligned_exp_q;
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      for (int k = 0; k < TERMS; k++) aligned_q[k*TERM+:TERM] <= term_q[k*TERM+:TERM] >> distance_q[k*E+:E];
+      for (int p = 0; p < PAIRS; p++) differ_q[p] <= neg_q[2*p] != neg_q[2*p+1];
+      across_q <= neg_q[0] != neg_q[TERMS-2];
+      aligned_neg_q <= neg_q[0];
+      aligned_exp_q <= top_exp_q;
+    end
+  end
+
+  // ---- Stage 3: add by pairs, each in the sign of its first term. {a, 1} + {b, carry} is an adder whose carry-in is used --------
+  logic [PAIRS*PAIR-1:0] pair;
+  logic [SUM-1:0] sum_d, sum_q;
+  logic sum_neg_q;
+  logic [E-1:0] sum_exp_q;
 
   always_comb begin
-    sum = '0;
-    for (int k = 0; k < TERMS; k++) begin
-      distance = top_exp - exp_i[k*E+:E];
-      term = prod_i[k*2*S+DROP+:TERM] >> distance;
-      subtract = neg_i[k] != neg_i[0];
-      if (k == 0) sum = SUM'(term);
-      else sum = SUM'(({sum, 1'b1} + {SUM'(term) ^ {SUM{subtract}}, subtract}) >> 1);  // {a, 1} + {b, carry}
+    for (int p = 0; p < PAIRS; p++) begin
+      pair[p*PAIR+:PAIR] = PAIR'(({PAIR'(aligned_q[2*p*TERM+:TERM]), 1'b1}
+          + {PAIR'(aligned_q[(2*p+1)*TERM+:TERM]) ^ {PAIR{differ_q[p]}}, differ_q[p]}) >> 1);
     end
   end
 
-  logic neg_q;
-  logic [MAG-1:0] magnitude_q;
-  logic [E-1:0] exp_q;
+  if (TERMS == 2) begin : gen_one_pair
+    logic unused;
+    assign unused = across_q;
+    assign sum_d = pair;
+  end else begin : gen_two_pairs
+    assign sum_d = SUM'(({SUM'($signed(pair[0+:PAIR])), 1'b1} + {SUM'($signed(pair[PAIR+:PAIR])) ^ {SUM{across_q}}, across_q}) >> 1);
+  end
 
   always_ff @(posedge clk_i) begin
     if (en_i) begin
-      neg_q <= sum[SUM-1] != neg_i[0];
-      magnitude_q <= sum[SUM-1] ? MAG'(-sum) : sum[MAG-1:0];
-      exp_q <= top_exp;
+      sum_q <= sum_d;
+      sum_neg_q <= aligned_neg_q;
+      sum_exp_q <= aligned_exp_q;
     end
   end
 
-  // ---- Stage 2: normalise --------------------------------------------------------------------------------------------------
-  logic [E-1:0] exp_d;
-  logic [S-1:0] sig_d;
+  // ---- Stage 4: magnitude ----------------------------------------------------------------------------------------------------
+  logic magnitude_neg_q;
+  logic [MAG-1:0] magnitude_q;
+  logic [E-1:0] magnitude_exp_q;
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      magnitude_neg_q <= sum_q[SUM-1] != sum_neg_q;
+      magnitude_q <= sum_q[SUM-1] ? MAG'(-sum_q) : sum_q[MAG-1:0];
+      magnitude_exp_q <= sum_exp_q;
+    end
+  end
+
+  // ---- Stages 5, 6: normalise ------------------------------------------------------------------------------------------------
+  logic nonzero_neg;
+
+  assign nonzero_neg = magnitude_neg_q && magnitude_q != '0;
+
+  delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::FP_NORMALISE_STAGES)) u_neg (.clk_i, .en_i, .data_i(nonzero_neg), .data_o(neg_o));
 
   fp_normalise #(.WIDTH(MAG)) u_normalise (
+      .clk_i,
+      .en_i,
       .magnitude_i(magnitude_q),
-      .bias_i(exp_q - E'(PREC)),
-      .exp_o(exp_d),
-      .sig_o(sig_d)
+      .bias_i(magnitude_exp_q - E'(PREC)),
+      .exp_o,
+      .sig_o
   );
-
-  always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      neg_o <= neg_q && sig_d[S-1];
-      exp_o <= exp_d;
-      sig_o <= sig_d;
-    end
-  end
 endmodule

@@ -1,8 +1,9 @@
-// Quotients to fixed point, discard, output register. Latency FRAGMENT_OUTPUT_STAGES from numerators and reciprocals to the port.
+// Quotients to fixed point, discard, output register. Latency FRAGMENT_OUTPUT_STAGES from numerators and reciprocals to the port:
+// products, fixed_point, signs and depth limits, output.
 //
 // Attribute: two's complement, ATTRIBUTE_INT_BITS and ATTRIBUTE_FRAC_BITS, truncated toward zero, saturated. Depth: unsigned,
 // 1 integer bit, DEPTH_BITS fraction bits. A pixel is discarded outside [znear, zfar], for negative depth, and, in a quad whose hull
-// holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come one enabled clock before the port.
+// holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come one enabled clock before the port; the draw state is looked at two before.
 module fragment_output #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
@@ -49,11 +50,12 @@ module fragment_output #(
     output logic [FB-1:0] fragment_o
 );
   // ---- Attributes ---------------------------------------------------------------------------------------------------------
+  localparam int TO_FIXED = quadrille_pkg::FIXED_POINT_STAGES;
   logic [N-1:0] overflow;
   logic [N*AO-1:0] attr;
 
   for (genvar g = 0; g < N; g++) begin : gen_attribute
-    logic neg;
+    logic prod_neg, neg;
     logic [E-1:0] exp;
     logic [2*S-1:0] prod;
     logic used, saturated;
@@ -67,7 +69,7 @@ module fragment_output #(
         .a_sig_i(attr_sig_i[g*S+:S]),
         .b_exp_i(rk_exp_i),
         .b_sig_i(rk_sig_i),
-        .neg_o(neg),
+        .neg_o(prod_neg),
         .exp_o(exp),
         .prod_o(prod)
     );
@@ -76,25 +78,35 @@ module fragment_output #(
         .INT_BITS(quadrille_pkg::ATTRIBUTE_INT_BITS),
         .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS)
     ) u_fixed (
+        .clk_i,
+        .en_i,
         .exp_i(exp),
         .prod_i(prod),
         .overflow_o(saturated),
         .fixed_o(fixed)
     );
 
+    delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_neg (.clk_i, .en_i, .data_i(prod_neg), .data_o(neg));
+
     assign used = attributes_i > 4'(g);
-    assign overflow[g] = used && saturated;
-    assign attr[g*AO+:AO] = !used ? '0 : neg ? AO'(0) - {1'b0, fixed} : {1'b0, fixed};
+
+    always_ff @(posedge clk_i) begin
+      if (en_i) begin
+        overflow[g] <= used && saturated;
+        attr[g*AO+:AO] <= !used ? '0 : neg ? AO'(0) - {1'b0, fixed} : {1'b0, fixed};
+      end
+    end
   end
 
   // ---- Depth --------------------------------------------------------------------------------------------------------------
-  logic z_neg, w_zero, w_neg;
+  logic z_prod_neg, z_neg, w_zero, w_neg;
   logic [E-1:0] z_exp;
   logic [2*S-1:0] z_prod;
   logic z_saturated;
   logic [DB:0] z_fixed, z;
   logic z_below;
-  logic discard;
+  logic [DB:0] depth_q;
+  logic depth_discard_q, behind_q;
 
   fp_raw_product u_product_z (
       .clk_i,
@@ -104,22 +116,25 @@ module fragment_output #(
       .a_sig_i(z_sig_i),
       .b_exp_i(rw_exp_i),
       .b_sig_i(rw_sig_i),
-      .neg_o(z_neg),
+      .neg_o(z_prod_neg),
       .exp_o(z_exp),
       .prod_o(z_prod)
   );
 
-  always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      w_zero <= rw_sig_i == '0;
-      w_neg <= rw_neg_i;
-    end
-  end
+  delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_z_neg (.clk_i, .en_i, .data_i(z_prod_neg), .data_o(z_neg));
+  delay_line #(.WIDTH(2), .DEPTH(quadrille_pkg::PRODUCT_STAGES + TO_FIXED)) u_delay_w (
+      .clk_i,
+      .en_i,
+      .data_i({rw_sig_i == '0, rw_neg_i}),
+      .data_o({w_zero, w_neg})
+  );
 
   fixed_point #(
       .INT_BITS(1),
       .FRAC_BITS(DB)
   ) u_fixed_z (
+      .clk_i,
+      .en_i,
       .exp_i(z_exp),
       .prod_i(z_prod),
       .overflow_o(z_saturated),
@@ -128,7 +143,14 @@ module fragment_output #(
 
   assign z = (w_zero || z_saturated) ? '1 : z_fixed;
   assign z_below = !w_zero && z_neg && z != '0;
-  assign discard = (hull_i && (w_zero || w_neg)) || (depth_on_i && (z_below || z < znear_i || z > zfar_i));
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      depth_q <= depth_on_i ? z : (DB + 1)'(0);
+      depth_discard_q <= depth_on_i && (z_below || z < znear_i || z > zfar_i);
+      behind_q <= w_zero || w_neg;
+    end
+  end
 
   // ---- Output register ----------------------------------------------------------------------------------------------------
   logic two_corner, on_vertex, two_edge, on_edge, cured;
@@ -138,8 +160,8 @@ module fragment_output #(
 
   assign {two_corner, on_vertex, two_edge, on_edge, cured} = class_i;
   assign flags = {overflow != '0, cured, homogeneous_i, tie_i, two_edge, two_corner, on_vertex, on_edge};
-  assign valid_d = valid_i && !discard;
-  assign fragment_d = {id_i, x_i, y_i, front_i, flags, depth_on_i ? z : (DB + 1)'(0), attr};
+  assign valid_d = valid_i && !(hull_i && behind_q) && !depth_discard_q;
+  assign fragment_d = {id_i, x_i, y_i, front_i, flags, depth_q, attr};
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin

@@ -19,13 +19,16 @@ module interpolate #(
     output logic [SETS*E-1:0] sum_exp_o,
     output logic [SETS*S-1:0] sum_sig_o
 );
+  localparam int TERM = quadrille_pkg::TERM_BITS;
+  localparam int RANK = quadrille_pkg::RANK_BITS;
+
   for (genvar t = 0; t < SETS; t++) begin : gen_set
+    logic [4*RANK-1:0] rank;
     logic [3:0] neg;
-    logic [4*E-1:0] exp;
-    logic [4*2*S-1:0] prod;
+    logic [4*TERM-1:0] term;
 
     for (genvar v = 0; v < 4; v++) begin : gen_corner
-      fp_raw_product u_product (
+      fp_term u_term (
           .clk_i,
           .en_i,
           .neg_i(term_neg_i[t*4+v]),
@@ -33,18 +36,18 @@ module interpolate #(
           .a_sig_i(m_sig_i[v*S+:S]),
           .b_exp_i(E'($signed(term_exp_i[(t*4+v)*PE+:PE]))),
           .b_sig_i(term_sig_i[(t*4+v)*S+:S]),
+          .rank_o(rank[v*RANK+:RANK]),
           .neg_o(neg[v]),
-          .exp_o(exp[v*E+:E]),
-          .prod_o(prod[v*2*S+:2*S])
+          .term_o(term[v*TERM+:TERM])
       );
     end
 
     fp_sum #(.TERMS(4)) u_sum (
         .clk_i,
         .en_i,
+        .rank_i(rank),
         .neg_i(neg),
-        .exp_i(exp),
-        .prod_i(prod),
+        .term_i(term),
         .neg_o(sum_neg_o[t]),
         .exp_o(sum_exp_o[t*E+:E]),
         .sig_o(sum_sig_o[t*S+:S])

@@ -117,10 +117,14 @@ module mean_value_ratios #(
         .data_o({late_v_exp, late_v_sig})
     );
 
-    assign n_exp_o[g*E+:E] = swap ? u_exp : late_v_exp;
-    assign n_sig_o[g*S+:S] = swap ? u_sig : late_v_sig;
-    assign d_exp_o[g*E+:E] = swap ? late_v_exp : u_exp;
-    assign d_sig_o[g*S+:S] = swap ? late_v_sig : u_sig;
+    always_ff @(posedge clk_i) begin
+      if (en_i) begin
+        n_exp_o[g*E+:E] <= swap ? u_exp : late_v_exp;
+        n_sig_o[g*S+:S] <= swap ? u_sig : late_v_sig;
+        d_exp_o[g*E+:E] <= swap ? late_v_exp : u_exp;
+        d_sig_o[g*S+:S] <= swap ? late_v_sig : u_sig;
+      end
+    end
 
     logic unused;
     assign unused = c_neg;  // |c|

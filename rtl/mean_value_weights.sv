@@ -32,6 +32,8 @@ module mean_value_weights #(
     output logic [4*E-1:0] m_exp_o,
     output logic [4*S-1:0] m_sig_o
 );
+  localparam int TERM = quadrille_pkg::TERM_BITS;
+  localparam int RANK = quadrille_pkg::RANK_BITS;
   localparam logic [S-1:0] ONE_SIG = {1'b1, (S - 1)'(0)};
 
   // ---- What waits: rho for the products and the overrides, the class for the overrides --------------------------------------
@@ -138,44 +140,56 @@ module mean_value_weights #(
       end
     end
 
+    // The factors get a register of their own before the multipliers.
     logic ab_neg_q, cd_neg_q;
-    logic [E-1:0] ab_exp_q, cd_exp_q;
-    logic [2*S-1:0] ab_prod_q, cd_prod_q;
+    logic [E-1:0] a_exp_q, b_exp_q, c_exp_q, d_exp_q;
+    logic [S-1:0] a_sig_q, b_sig_q, c_sig_q, d_sig_q;
+
+    always_ff @(posedge clk_i) begin
+      if (en_i) begin
+        {ab_neg_q, a_exp_q, a_sig_q, b_exp_q, b_sig_q} <= {ab_neg, a_exp, a_sig, b_exp, b_sig};
+        {cd_neg_q, c_exp_q, c_sig_q, d_exp_q, d_sig_q} <= {cd_neg, c_exp, c_sig, d_exp, d_sig};
+      end
+    end
+
+    logic [RANK-1:0] ab_rank, cd_rank;
+    logic ab_term_neg, cd_term_neg;
+    logic [TERM-1:0] ab_term, cd_term;
     logic n_sum_neg;
     logic unused;
 
-    fp_raw_product u_ab (
+    fp_term u_ab (
         .clk_i,
         .en_i,
-        .neg_i(ab_neg),
-        .a_exp_i(a_exp),
-        .a_sig_i(a_sig),
-        .b_exp_i(b_exp),
-        .b_sig_i(b_sig),
-        .neg_o(ab_neg_q),
-        .exp_o(ab_exp_q),
-        .prod_o(ab_prod_q)
+        .neg_i(ab_neg_q),
+        .a_exp_i(a_exp_q),
+        .a_sig_i(a_sig_q),
+        .b_exp_i(b_exp_q),
+        .b_sig_i(b_sig_q),
+        .rank_o(ab_rank),
+        .neg_o(ab_term_neg),
+        .term_o(ab_term)
     );
 
-    fp_raw_product u_cd (
+    fp_term u_cd (
         .clk_i,
         .en_i,
-        .neg_i(cd_neg),
-        .a_exp_i(c_exp),
-        .a_sig_i(c_sig),
-        .b_exp_i(d_exp),
-        .b_sig_i(d_sig),
-        .neg_o(cd_neg_q),
-        .exp_o(cd_exp_q),
-        .prod_o(cd_prod_q)
+        .neg_i(cd_neg_q),
+        .a_exp_i(c_exp_q),
+        .a_sig_i(c_sig_q),
+        .b_exp_i(d_exp_q),
+        .b_sig_i(d_sig_q),
+        .rank_o(cd_rank),
+        .neg_o(cd_term_neg),
+        .term_o(cd_term)
     );
 
     fp_sum #(.TERMS(2)) u_sum (
         .clk_i,
         .en_i,
-        .neg_i({cd_neg_q, ab_neg_q}),
-        .exp_i({cd_exp_q, ab_exp_q}),
-        .prod_i({cd_prod_q, ab_prod_q}),
+        .rank_i({cd_rank, ab_rank}),
+        .neg_i({cd_term_neg, ab_term_neg}),
+        .term_i({cd_term, ab_term}),
         .neg_o(n_sum_neg),
         .exp_o(n_sum_exp[g*E+:E]),
         .sig_o(n_sum_sig[g*S+:S])
@@ -251,7 +265,6 @@ module mean_value_weights #(
   // ---- N_a + N_b of two edges ---------------------------------------------------------------------------------------------
   logic [E-1:0] na_exp, nb_exp, both_exp;
   logic [S-1:0] na_sig, nb_sig, both_sig;
-  logic both_neg, unused_neg;
 
   one_of_four #(.WIDTH(E)) u_na_exp (
       .words_i(n_sum_exp),
@@ -274,18 +287,17 @@ module mean_value_weights #(
       .word_o(nb_sig)
   );
 
-  fp_sum #(.TERMS(2)) u_both (
+  // Lone numbers are terms with the fraction bits of a product by 1.
+  fp_add u_both (
       .clk_i,
       .en_i,
-      .neg_i(2'b00),
-      .exp_i({nb_exp, na_exp}),
-      .prod_i({1'b0, nb_sig, (S - 1)'(0), 1'b0, na_sig, (S - 1)'(0)}),
-      .neg_o(both_neg),
+      .a_rank_i(quadrille_pkg::exponent_rank(na_exp, na_sig[S-1])),
+      .a_term_i(TERM'(na_sig) << (TERM - S - 1)),
+      .b_rank_i(quadrille_pkg::exponent_rank(nb_exp, nb_sig[S-1])),
+      .b_term_i(TERM'(nb_sig) << (TERM - S - 1)),
       .exp_o(both_exp),
       .sig_o(both_sig)
   );
-
-  assign unused_neg = both_neg;
 
   logic [4*(E+S)-1:0] late_n;
   logic [E+S-1:0] late_na, late_nb;
@@ -344,8 +356,7 @@ module mean_value_weights #(
 
     logic is_first, is_second;  // corner g is the first, second singular corner
     logic on_a, on_b;  // corner g is on the first, second of two edges
-    logic take_both_q;
-    logic [E+S-1:0] num_d, num_q, num;
+    logic [E+S-1:0] num_d, num_q;
     logic [E+S-1:0] e_q, rho_q, f_q;
 
     assign is_first = late_first == 2'(g);
@@ -357,20 +368,18 @@ module mean_value_weights #(
       num_d = {late_n_exp[g*E+:E], late_n_sig[g*S+:S]};
       if (late_two_corner) num_d = is_first ? second_k : is_second ? first_k : '0;
       else if (late_on_vertex) num_d = is_first ? {E'(0), ONE_SIG} : '0;
+      else if (late_two_edge && on_a && on_b) num_d = {both_exp, both_sig};
       else if (late_two_edge) num_d = on_a ? late_nb : on_b ? late_na : '0;
     end
 
     always_ff @(posedge clk_i) begin
       if (en_i) begin
         num_q <= num_d;
-        take_both_q <= late_two_edge && on_a && on_b;
         e_q <= late_override ? {E'(0), ONE_SIG} : late_e[Q*(E+S)+:E+S];
         rho_q <= (late_two_corner || late_on_vertex) ? {E'(0), ONE_SIG} : {late_rho_exp[g*E+:E], late_rho_sig[g*S+:S]};
         f_q <= !late_cured ? {E'(0), ONE_SIG} : !late_differ[g] ? late_f[2*(E+S)+:E+S] : late_f[(g%2)*(E+S)+:E+S];
       end
     end
-
-    assign num = take_both_q ? {both_exp, both_sig} : num_q;
 
     logic [E-1:0] h_exp, g_exp;
     logic [S-1:0] h_sig, g_sig;
@@ -378,8 +387,8 @@ module mean_value_weights #(
     fp_multiply u_h (
         .clk_i,
         .en_i,
-        .a_exp_i(num[S+:E]),
-        .a_sig_i(num[0+:S]),
+        .a_exp_i(num_q[S+:E]),
+        .a_sig_i(num_q[0+:S]),
         .b_exp_i(e_q[S+:E]),
         .b_sig_i(e_q[0+:S]),
         .exp_o(h_exp),

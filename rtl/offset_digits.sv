@@ -1,11 +1,13 @@
 // What the 16 forward differences need of a pixel's place in its tile, row r and column dx: the digits of r, dx and r^2 + dx^2 in
-// radix 4, shared by all of them. Combinational.
+// radix 4, shared by all of them. Those of r and dx combinational, those of r^2 + dx^2 an enabled clock later.
 module offset_digits #(
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int NORM_BITS = 2 * TILE_LOG2 + 1,
     localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
     localparam int NORM_DIGITS = NORM_BITS / 2 + 1
 ) (
+    input logic clk_i,
+    input logic en_i,
     input logic [TILE_LOG2-1:0] row_i,
     input logic [TILE_LOG2-1:0] dx_i,
     output logic [2*OFFSET_DIGITS-1:0] row_digits_o,
@@ -13,6 +15,7 @@ module offset_digits #(
     output logic [2*NORM_DIGITS-1:0] norm_digits_o
 );
   logic [NORM_BITS-1:0] row_square, dx_square;
+  logic [2*NORM_DIGITS-1:0] norm_digits;
 
   always_comb begin  // a table: `*` would ask for a multiplier
     row_square = '0;
@@ -35,6 +38,8 @@ module offset_digits #(
 
   radix4_digits #(.NUMBER_BITS(NORM_BITS)) u_norm (
       .number_i(row_square + dx_square),
-      .digits_o(norm_digits_o)
+      .digits_o(norm_digits)
   );
+
+  always_ff @(posedge clk_i) if (en_i) norm_digits_o <= norm_digits;
 endmodule

@@ -194,6 +194,8 @@ module pixel_pipeline #(
   logic [2*NORM_DIGITS-1:0] norm_digits;
 
   offset_digits u_offset (
+      .clk_i,
+      .en_i(en),
       .row_i,
       .dx_i,
       .row_digits_o(row_digits),

@@ -111,7 +111,12 @@ module quad_slots #(
     logic unused;
     assign unused = ^w_exp[quadrille_pkg::EXP_BITS-1:PE];
 
-    fp_normalise #(.WIDTH(W)) u_w (
+    fp_normalise #(
+        .WIDTH(W),
+        .REGISTERED(1'b0)
+    ) u_w (
+        .clk_i,
+        .en_i(1'b1),
         .magnitude_i(w_magnitude),
         .bias_i(W_BIAS),
         .exp_o(w_exp),

@@ -9,10 +9,12 @@ dot_unit.sv
 edge_reach.sv
 fixed_point.sv
 forward_difference.sv
+fp_add.sv
 fp_multiply.sv
 fp_normalise.sv
 fp_raw_product.sv
 fp_sum.sv
+fp_term.sv
 fragment_output.sv
 interpolate.sv
 mean_value_ratios.sv

@@ -136,6 +136,10 @@ package quadrille_pkg;
   localparam int PORT_EXP_BITS /*verilator public*/ = 9;
   // fraction bits of an aligned sum
   localparam int PREC_BITS /*verilator public*/ = SIGNIFICAND_BITS - 1 + ALIGN_GUARD_BITS;
+  // a term of a sum: a product's two integer bits and PREC_BITS fraction bits
+  localparam int TERM_BITS /*verilator public*/ = PREC_BITS + 2;
+  // order of exponents as unsigned numbers, with a place below all of them for zero
+  localparam int RANK_BITS /*verilator public*/ = EXP_BITS + 1;
   // bits of a table's accumulator below the result
   localparam int TABLE_GUARD /*verilator public*/ = 3;
   // tile edge and stamp width in pixels; a block is BLOCK_TILES x BLOCK_TILES tiles
@@ -159,23 +163,26 @@ package quadrille_pkg;
 
   // ---- Latency of the pixel pipeline (README.md section 5, model/latency.hpp) ----------------------------------------------
   // Enabled clocks from a unit's inputs to its outputs.
-  localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = 2;  // row and bend, column
-  localparam int NORMALISE_STAGES /*verilator public*/ = 2;  // long shifts, short shifts
-  localparam int RSQRT_STAGES /*verilator public*/ = 3;  // table and inner product, outer product, clamp
+  localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = 3;  // row, column, bend
+  localparam int FP_NORMALISE_STAGES /*verilator public*/ = 2;  // long shifts, short shifts
+  localparam int NORMALISE_STAGES /*verilator public*/ = 1 + FP_NORMALISE_STAGES;  // magnitude
+  localparam int RSQRT_STAGES /*verilator public*/ = 4;  // table, inner product, outer product, clamp
   localparam int RECIPROCAL_STAGES /*verilator public*/ = RSQRT_STAGES;  // the same polynomial
   localparam int PRODUCT_STAGES /*verilator public*/ = 1;  // fp_multiply, fp_raw_product
-  localparam int FP_SUM_STAGES /*verilator public*/ = 2;  // align and add, normalise
-  localparam int ONE_PLUS_STAGES /*verilator public*/ = 2;  // as fp_sum
-  localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + 1;  // quotients, fixed point and output
+  localparam int FP_SUM_STAGES /*verilator public*/ = 4 + FP_NORMALISE_STAGES;  // from the product: distances, align, add, magnitude
+  localparam int FP_ADD_STAGES /*verilator public*/ = 3;  // order, align, add
+  localparam int ONE_PLUS_STAGES /*verilator public*/ = FP_ADD_STAGES;  // distance, align, normalise; or fp_add itself
+  localparam int FIXED_POINT_STAGES /*verilator public*/ = 2;  // distance, shift
+  localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + FIXED_POINT_STAGES + 2;  // sign and limits, output
   // Registers at the boundaries; register 0 is written by the edge that ends the emission's clock.
   localparam int DIFF_STAGE /*verilator public*/ = FORWARD_DIFFERENCE_STAGES - 1;
   localparam int NORM_STAGE /*verilator public*/ = DIFF_STAGE + NORMALISE_STAGES;
   localparam int RHO_STAGE /*verilator public*/ = NORM_STAGE + RSQRT_STAGES;
-  // rho rho', its products with A and D, 1 + c
-  localparam int RATIO_STAGE /*verilator public*/ = RHO_STAGE + 2 * PRODUCT_STAGES + ONE_PLUS_STAGES;
-  // N, then the sum of two edges' N, which has arrived where the overrides are applied
-  localparam int N_STAGE /*verilator public*/ = RATIO_STAGE + PRODUCT_STAGES + FP_SUM_STAGES;
-  localparam int OVERRIDE_STAGE /*verilator public*/ = N_STAGE + FP_SUM_STAGES;
+  // rho rho', its products with A and D, 1 + c, which of the two is n
+  localparam int RATIO_STAGE /*verilator public*/ = RHO_STAGE + 2 * PRODUCT_STAGES + ONE_PLUS_STAGES + 1;
+  // the factors of N, N; then the sum of two edges' N, and the register in which the overrides have been applied
+  localparam int N_STAGE /*verilator public*/ = RATIO_STAGE + 1 + PRODUCT_STAGES + FP_SUM_STAGES;
+  localparam int OVERRIDE_STAGE /*verilator public*/ = N_STAGE + FP_ADD_STAGES + 1;
   // h and g, M
   localparam int WEIGHT_STAGE /*verilator public*/ = OVERRIDE_STAGE + 2 * PRODUCT_STAGES;
   localparam int SUM_STAGE /*verilator public*/ = WEIGHT_STAGE + PRODUCT_STAGES + FP_SUM_STAGES;
@@ -338,6 +345,16 @@ package quadrille_pkg;
       4'd1, 4'd8: pair_second = 2'd2;
       default: pair_second = 2'd3;
     endcase
+  endfunction
+
+  // ---- Rank of a number among others: 0 for zero, else {1, exponent + 2^(EXP_BITS-1)} --------------------------------------
+  function automatic logic [RANK_BITS-1:0] exponent_rank(input logic [EXP_BITS-1:0] exp, input logic nonzero);
+    exponent_rank = {1'b1, ~exp[EXP_BITS-1], exp[EXP_BITS-2:0]} & {RANK_BITS{nonzero}};
+  endfunction
+
+  // The exponent; 0 for zero.
+  function automatic logic [EXP_BITS-1:0] rank_exponent(input logic [RANK_BITS-1:0] rank);
+    rank_exponent = {~rank[EXP_BITS-1], rank[EXP_BITS-2:0]} & {EXP_BITS{rank[EXP_BITS]}};
   endfunction
 
 endpackage

@@ -1,4 +1,5 @@
-// 1/a of a signed significand number by table. Latency 3, one result per enabled clock.
+// 1/a of a signed significand number by table. Latency RECIPROCAL_STAGES: table, inner and outer product, clamp. One result per
+// enabled clock.
 //
 // An exact power of two is exact; every other argument gives a significand in [1/2, 1) from the table of the top bits of the
 // fraction. Zero gives zero. The sign is kept.
@@ -22,8 +23,8 @@ module reciprocal #(
   logic zero;
   logic exact;
   logic [E-1:0] exp_d;
-  logic [3*S+3:0] word;
-  logic [DX_BITS-1:0] dx;
+  logic [3*S+3:0] word, word_q;
+  logic [DX_BITS-1:0] dx, dx_q;
 
   assign zero = sig_i == '0;
   assign exact = sig_i[S-2:0] == '0;
@@ -35,13 +36,20 @@ module reciprocal #(
     assign dx = sig_i[DX_BITS-1:0];
   end
 
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      word_q <= word;
+      dx_q <= dx;
+    end
+  end
+
   logic [S-1:0] poly;
 
   table_polynomial #(.SEGMENTS_LOG2(K)) u_polynomial (
       .clk_i,
       .en_i,
-      .word_i(word),
-      .dx_i(dx),
+      .word_i(word_q),
+      .dx_i(dx_q),
       .sig_o(poly)
   );
 
@@ -55,7 +63,11 @@ module reciprocal #(
       .data_o({zero_q, exact_q, neg_q, exp_q})
   );
 
-  assign neg_o = neg_q;
-  assign exp_o = exp_q;
-  assign sig_o = zero_q ? '0 : exact_q ? {1'b1, (S - 1)'(0)} : poly;
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      neg_o <= neg_q;
+      exp_o <= exp_q;
+      sig_o <= zero_q ? '0 : exact_q ? {1'b1, (S - 1)'(0)} : poly;
+    end
+  end
 endmodule

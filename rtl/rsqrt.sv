@@ -1,4 +1,5 @@
-// 1/sqrt(a) of an unsigned significand number by table. Latency 3, one result per enabled clock.
+// 1/sqrt(a) of an unsigned significand number by table. Latency RSQRT_STAGES: table, inner and outer product, clamp. One result per
+// enabled clock.
 //
 // a = sig 2^(exp-(S-1)); p = exp & 1, h = floor(exp/2): 1/sqrt(a) = 2^-h / sqrt(2^p m), m in [1, 2). An exact power of four is
 // exact; every other argument gives a significand in [1/2, 1) from the table {p, top bits of m}. Zero gives zero.
@@ -21,8 +22,8 @@ module rsqrt #(
   logic exact;
   logic [E-1:0] half;
   logic [E-1:0] exp_d;
-  logic [3*S+3:0] word;
-  logic [DX_BITS-1:0] dx;
+  logic [3*S+3:0] word, word_q;
+  logic [DX_BITS-1:0] dx, dx_q;
 
   assign zero = sig_i == '0;
   assign exact = (sig_i[S-2:0] == '0) && !exp_i[0];
@@ -35,13 +36,20 @@ module rsqrt #(
     assign dx = sig_i[DX_BITS-1:0];
   end
 
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      word_q <= word;
+      dx_q <= dx;
+    end
+  end
+
   logic [S-1:0] poly;
 
   table_polynomial #(.SEGMENTS_LOG2(K)) u_polynomial (
       .clk_i,
       .en_i,
-      .word_i(word),
-      .dx_i(dx),
+      .word_i(word_q),
+      .dx_i(dx_q),
       .sig_o(poly)
   );
 
@@ -55,6 +63,10 @@ module rsqrt #(
       .data_o({zero_q, exact_q, exp_q})
   );
 
-  assign exp_o = exp_q;
-  assign sig_o = zero_q ? '0 : exact_q ? {1'b1, (S - 1)'(0)} : poly;
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      exp_o <= exp_q;
+      sig_o <= zero_q ? '0 : exact_q ? {1'b1, (S - 1)'(0)} : poly;
+    end
+  end
 endmodule

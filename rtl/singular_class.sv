@@ -1,5 +1,5 @@
 // Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, where neighbouring t differ
-// in sign. Latency 2, one pixel per enabled clock.
+// in sign. Latency NORMALISE_STAGES, one pixel per enabled clock.
 //
 // class_o = {two_corner, on_vertex, two_edge, on_edge, cured, differ[4], first[2], second[2]}: at most one of the first four is
 // set; first and second are the lowest two corners or edges concerned. differ[i]: A_{i-1} and A_i have strictly opposite signs.
@@ -60,7 +60,10 @@ module singular_class #(
   assign first = concerned[0] ? 2'd0 : concerned[1] ? 2'd1 : concerned[2] ? 2'd2 : 2'd3;
   assign second = others[1] ? 2'd1 : others[2] ? 2'd2 : 2'd3;
 
-  always_ff @(posedge clk_i) begin
-    if (en_i) class_o <= {two_corner, on_vertex, two_edge, on_edge, cured, differ, first, second};
-  end
+  delay_line #(.WIDTH(13), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 1)) u_delay (
+      .clk_i,
+      .en_i,
+      .data_i({two_corner, on_vertex, two_edge, on_edge, cured, differ, first, second}),
+      .data_o(class_o)
+  );
 endmodule

@@ -1,4 +1,5 @@
-// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function. Latency 3, one result per enabled clock.
+// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function. Latency 2, one result per enabled clock; the result is clamped
+// behind the last register, for its user's.
 //
 // word_i = {C0[S+4], C1[S], C2[S]} unsigned, dx_i = the low R bits of the argument below the segment's index, read as a fraction
 // of the segment. Two multipliers of S x R bits, truncated; the accumulator has TABLE_GUARD bits below the result, which is
@@ -39,12 +40,9 @@ module table_polynomial #(
 
   always_ff @(posedge clk_i) if (en_i) outer_q <= outer_d;
 
-  // Stage 3: drop the guard bits, clamp.
+  // Drop the guard bits, clamp.
   logic [S:0] value;
 
   assign value = (S + 1)'(outer_q >> quadrille_pkg::TABLE_GUARD);
-
-  always_ff @(posedge clk_i) begin
-    if (en_i) sig_o <= value[S] ? '1 : !value[S-1] ? {1'b1, (S - 1)'(0)} : value[S-1:0];
-  end
+  assign sig_o = value[S] ? '1 : !value[S-1] ? {1'b1, (S - 1)'(0)} : value[S-1:0];
 endmodule

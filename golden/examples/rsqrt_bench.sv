@@ -11,7 +11,7 @@ module rsqrt_bench;
   localparam int S = 18;
   localparam int E = 12;
   localparam int BITS = 4 * (E + S);
-  localparam int LATENCY = 3;
+  localparam int LATENCY = 4;
   localparam int MOST = 1 << 20;  // vectors
   localparam int DIGITS = (BITS + 3) / 4;  // of a line
 

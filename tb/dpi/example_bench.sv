@@ -7,7 +7,7 @@ module example_bench;
 
   localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
   localparam int E = quadrille_pkg::EXP_BITS;
-  localparam int LATENCY = 3;
+  localparam int LATENCY = 4;
   localparam int BITS = 4 * (E + S);  // {exp[4 of E], sig[4 of S]}: stimulus and response alike
   localparam int MAX_EXP = quadrille_pkg::QVAL_BITS - 2;  // of r^2, an integer
   localparam int SHOWN = 5;

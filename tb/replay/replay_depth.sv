@@ -45,22 +45,24 @@ module replay_depth (
 
   delay_line #(.WIDTH(NUMERATORS), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_numerator (
       .clk_i, .en_i(1'b1), .data_i({attr_neg_i, attr_exp_i, attr_sig_i, z_neg_i, z_exp_i, z_sig_i}), .data_o(late_numerator));
-  delay_line #(.WIDTH(STATE), .DEPTH(quadrille_pkg::FRAGMENT_STAGE - 1 - quadrille_pkg::SUM_STAGE)) u_state (
+  delay_line #(.WIDTH(STATE), .DEPTH(quadrille_pkg::FRAGMENT_STAGE - 2 - quadrille_pkg::SUM_STAGE)) u_state (
       .clk_i, .en_i(1'b1), .data_i({depth_on_i, znear_i, zfar_i, attributes_i, hull_i}), .data_o(late_state));
 
-  // ---- Quotients. State and hull are looked at one clock before the port -----------------------------------------------------
+  // ---- Quotients. State is looked at two clocks before the port, hull one ----------------------------------------------------
   logic [N-1:0] attr_neg;
   logic [N*E-1:0] attr_exp;
   logic [N*S-1:0] attr_sig;
   logic z_neg;
   logic [E-1:0] z_exp;
   logic [S-1:0] z_sig;
-  logic depth_on, hull;
+  logic depth_on, early_hull, hull;
   logic [DB:0] znear, zfar;
   logic [3:0] attributes;
 
   assign {attr_neg, attr_exp, attr_sig, z_neg, z_exp, z_sig} = late_numerator;
-  assign {depth_on, znear, zfar, attributes, hull} = late_state;
+  assign {depth_on, znear, zfar, attributes, early_hull} = late_state;
+
+  delay_line #(.WIDTH(1), .DEPTH(1)) u_hull (.clk_i, .en_i(1'b1), .data_i(early_hull), .data_o(hull));
 
   logic [ID+2*V:0] identity;  // quad, x, y, front
   logic [6:0] class_flags;

@@ -14,6 +14,7 @@ module replay_forward_difference (
   logic [2*(TILE_LOG2+1)-1:0] norm_digits_i;
 
   offset_digits u_offset (
+      .en_i(1'b1),
       .row_digits_o(row_digits_i),
       .dx_digits_o(dx_digits_i),
       .norm_digits_o(norm_digits_i),
