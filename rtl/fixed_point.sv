@@ -16,6 +16,7 @@ module fixed_point #(
     output logic overflow_o,
     output logic [OUT-1:0] fixed_o
 );
+  localparam int NEAR = $clog2(OUT);  // bits of a distance that leaves something
   localparam int WIDE = (2 * S > OUT) ? 2 * S : OUT;
 
   // Stage 1: the highest one to the top, and how far down it belongs: INT_BITS - 1 - floor(log2 value) places. log2 is
@@ -43,7 +44,8 @@ module fixed_point #(
   always_ff @(posedge clk_i) begin
     if (en_i) begin
       overflow_o <= overflow_q;
-      fixed_o <= overflow_q ? '1 : top_q >> distance_q;
+      fixed_o <= top_q >> distance_q[NEAR-1:0];
+      if (distance_q[E:NEAR] != '0) fixed_o <= overflow_q ? '1 : '0;
     end
   end
 endmodule

@@ -37,13 +37,15 @@ module fp_add #(
   end
 
   // ---- Stage 2: align --------------------------------------------------------------------------------------------------------
+  localparam int NEAR = $clog2(TERM);  // bits of a distance that leaves something of a term
   logic [TERM-1:0] augend_q, addend_q;
   logic [E-1:0] exp_q;
 
   always_ff @(posedge clk_i) begin
     if (en_i) begin
       augend_q <= first_q;
-      addend_q <= second_q >> distance_q;
+      addend_q <= second_q >> distance_q[NEAR-1:0];
+      if (distance_q[E-1:NEAR] != '0) addend_q <= '0;  // by the registers' synchronous reset
       exp_q <= first_exp_q;
     end
   end

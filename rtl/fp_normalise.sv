@@ -23,9 +23,12 @@ module fp_normalise #(
 
   // Stage 1
   logic [WIDE-1:0] coarse_d;
-  logic [KEPT-1:0] coarse_q;
+  logic [KEPT-1:0] coarse_top, coarse_q;
   logic [COUNT_BITS-1:SPLIT] high_count_d, high_count_q;
-  logic [E-1:0] top_exp_q;  // of a one at the top
+  logic [E-1:0] top_exp_d, top_exp_q;  // of a one at the top
+
+  assign coarse_top = KEPT'(coarse_d >> (WIDE - KEPT));
+  assign top_exp_d = bias_i + E'(WIDTH - 1);
 
   shift_to_top #(
       .WIDTH(WIDE),
@@ -39,7 +42,7 @@ module fp_normalise #(
   delay_line #(.WIDTH(KEPT + COUNT_BITS - SPLIT + E), .DEPTH(32'(REGISTERED))) u_coarse_q (
       .clk_i,
       .en_i,
-      .data_i({KEPT'(coarse_d >> (WIDE - KEPT)), high_count_d, bias_i + E'(WIDTH - 1)}),
+      .data_i({coarse_top, high_count_d, top_exp_d}),
       .data_o({coarse_q, high_count_q, top_exp_q})
   );
 
@@ -57,13 +60,15 @@ module fp_normalise #(
   );
 
   logic [E-1:0] exp;
+  logic [S-1:0] sig;
 
+  assign sig = S'(fine >> (KEPT - S));
   assign exp = !fine[KEPT-1] ? '0 : top_exp_q - E'({high_count_q, low_count});
 
   delay_line #(.WIDTH(E + S), .DEPTH(32'(REGISTERED))) u_fine_q (
       .clk_i,
       .en_i,
-      .data_i({exp, S'(fine >> (KEPT - S))}),
+      .data_i({exp, sig}),
       .data_o({exp_o, sig_o})
   );
 endmodule

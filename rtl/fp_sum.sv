@@ -43,6 +43,7 @@ module fp_sum #(
   end
 
   // ---- Stage 1: the highest rank, and how far each term is below it ---------------------------------------------------------
+  localparam int NEAR = $clog2(TERM);  // bits of a distance that leaves something of a term
   logic [RANK-1:0] top;
   logic [TERMS*E-1:0] distance_q;
   logic [TERMS*TERM-1:0] term_q;
@@ -69,7 +70,10 @@ module fp_sum #(
 
   always_ff @(posedge clk_i) begin
     if (en_i) begin
-      for (int k = 0; k < TERMS; k++) aligned_q[k*TERM+:TERM] <= term_q[k*TERM+:TERM] >> distance_q[k*E+:E];
+      for (int k = 0; k < TERMS; k++) begin  // the far ones by the registers' synchronous reset
+        aligned_q[k*TERM+:TERM] <= term_q[k*TERM+:TERM] >> distance_q[k*E+:NEAR];
+        if (distance_q[k*E+NEAR+:E-NEAR] != '0) aligned_q[k*TERM+:TERM] <= '0;
+      end
       for (int p = 0; p < PAIRS; p++) differ_q[p] <= neg_q[2*p] != neg_q[2*p+1];
       across_q <= neg_q[0] != neg_q[TERMS-2];
       aligned_neg_q <= neg_q[0];

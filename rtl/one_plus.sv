@@ -25,6 +25,7 @@ module one_plus #(
 
   if (quadrille_pkg::QDROP == 0) begin : gen_cosine
     localparam int PREC = quadrille_pkg::PREC_BITS;
+    localparam int NEAR = $clog2(TERM);  // bits of a distance that leaves something of the term
 
     // Stage 1: distance.
     logic [E-1:0] distance_q;
@@ -41,7 +42,7 @@ module one_plus #(
     logic [TERM-1:0] term;
     logic [PREC+1:0] sum_q;
 
-    assign term = term_q >> distance_q;
+    assign term = (distance_q[E-1:NEAR] != '0) ? '0 : term_q >> distance_q[NEAR-1:0];
 
     always_ff @(posedge clk_i) if (en_i) sum_q <= {term[PREC], !term[PREC], term[PREC-1:0]};
 
