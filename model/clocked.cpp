@@ -13,28 +13,108 @@ namespace quadrille {
 namespace {
 
 constexpr int last_stage = latency::fragment_stage;
+constexpr int emit_stages = latency::emission;
+constexpr std::size_t fragment_places = std::bit_ceil(latency::pipeline + 7u);  // quadrille_pkg::FRAGMENT_FIFO_LOG2
 
-/// First-in first-out ring with a registered count, as the RTL's.
+/// First-in first-out memory with its head in a register, as the RTL's: a word becomes the head two edges after its
+/// push. Who pushes knows that there is room.
 template <class T>
 class Fifo {
  public:
   explicit Fifo(std::size_t capacity) : slots_(capacity) {}
-  bool empty() const { return count_ == 0; }
-  bool full() const { return count_ == slots_.size(); }
-  const T& head() const { return slots_[first_]; }
-  void pop() {
-    first_ = (first_ + 1) % slots_.size();
-    --count_;
+  bool valid() const { return valid_; }
+  bool empty() const { return count_ == 0 && !valid_; }
+  const T& head() const { return head_; }
+  /// The edge: the head leaves, a word (or nullptr) comes in.
+  void clock(bool pop, const T* push) {
+    const bool load = count_ != 0 && (!valid_ || pop);
+    valid_ = load || (valid_ && !pop);
+    if (load) {
+      head_ = slots_[first_];
+      first_ = (first_ + 1) % slots_.size();
+      --count_;
+    }
+    if (push != nullptr) {
+      slots_[(first_ + count_) % slots_.size()] = *push;
+      ++count_;
+    }
   }
-  void push(const T& v) {
-    slots_[(first_ + count_) % slots_.size()] = v;
-    ++count_;
+  void clear() {
+    first_ = count_ = 0;
+    valid_ = false;
   }
-  void clear() { first_ = count_ = 0; }
 
  private:
   std::vector<T> slots_;
   std::size_t first_ = 0, count_ = 0;
+  bool valid_ = false;
+  T head_{};
+};
+
+/// The clocks of tile_walk: what is tested goes through three registers to the ring, and a block's test is known a
+/// clock after the walk went on.
+struct WalkUnit {
+  struct Step {
+    bool push = false;
+    TileEntry entry;
+  };
+
+  TileWalk walk;
+  bool wait = false;          ///< the walk stands: the block tested in the clock before is entered, or was the last
+  bool finishing = false;     ///< the end entry is on its way
+  std::array<Step, 3> way{};  ///< steps on their way to the ring, the last one pushes
+
+  /// The edge, unless a push waits for the ring.
+  void clock() {
+    if (way.back().push && way.back().entry.end) {
+      walk.advance();
+      finishing = false;
+    }
+    for (std::size_t n = way.size() - 1; n > 0; --n) way[n] = way[n - 1];
+    Step& step = way.front();
+    step.push = false;
+    if (wait) {
+      wait = false;
+      return;
+    }
+    switch (walk.state()) {
+      case TileWalk::State::idle:
+        break;
+      case TileWalk::State::block:
+        wait = walk.hit();
+        walk.advance();
+        wait = wait || walk.state() == TileWalk::State::end;
+        break;
+      case TileWalk::State::tile:
+        step.push = walk.hit();
+        if (step.push) step.entry = walk.entry();
+        walk.advance();
+        break;
+      case TileWalk::State::end:
+        step.push = !finishing;
+        if (step.push) step.entry = walk.entry();
+        finishing = true;
+        break;
+    }
+  }
+};
+
+/// stamp_coverage: an entry comes through three registers, then its rows through three.
+struct CoverageUnit {
+  struct Row {
+    bool valid = false;
+    std::uint32_t pointer = 0;  ///< no row before this entry is still to come
+    StampEntry stamp;
+
+    bool push() const { return valid && (stamp.end || stamp.mask != 0); }
+  };
+
+  std::uint32_t fetch = 0, load = 0, rows = 0;  ///< next entry of each register; the rows' own while rows_valid
+  bool tag_valid = false, context_valid = false, rows_valid = false;
+  int row = 0;
+  std::array<Row, 3> way{};  ///< rows on their way to the FIFO, the last one pushes
+  int room = 0;              ///< places of the FIFO that neither a stamp has nor a row on its way
+  bool freed = false;        ///< a stamp left the FIFO in the clock before
 };
 
 /// vertex_assembly: four beats make a quad.
@@ -67,72 +147,58 @@ struct ClockedModel::Impl {
   SetupUnit setup;
   std::vector<Slot> slots;
   std::uint32_t alloc = 0, in_use = 0;
-  TileWalk walk;
+  WalkUnit walk;
   std::vector<TileEntry> ring;
-  std::uint32_t ring_write = 0, ring_stamp = 0, ring_mask;
-  int stamp_row = 0;
-  Fifo<StampEntry> fifo;
+  std::uint32_t ring_write = 0, ring_tail = 0, ring_mask;
+  CoverageUnit coverage;
+  Fifo<StampEntry> stamps;
   std::uint32_t rest = 0;  ///< bits of the head's mask still to be emitted; valid when !first
   bool first = true;
-  std::array<PixelTrace, last_stage + 1> pipeline{};  ///< a delay line: register n is pipeline[(head + n) % size]
+  int places = fragment_places;  ///< of the fragment FIFO that neither a fragment has nor a pixel on its way
+  bool handed_over = false;      ///< a fragment left in the clock before
+  /// A delay line from emission to the last register: stage n is pipeline[(head + emit_stages + n) % size].
+  std::array<PixelTrace, emit_stages + last_stage + 1> pipeline{};
   std::size_t head = 0;
+  Fifo<Fragment> fragments;
 
   Impl(const Config& config, const DrawState& state)
       : context(config, state),
         slots(static_cast<std::size_t>(config.quad_slots())),
-        walk(config, state),
-        ring(static_cast<std::size_t>(config.tile_slots())),
-        ring_mask(static_cast<std::uint32_t>(2 * config.tile_slots() - 1)),
-        fifo(static_cast<std::size_t>(config.stamp_fifo())) {}
+        ring(static_cast<std::size_t>(ring_entries(config))),
+        ring_mask(static_cast<std::uint32_t>(2 * ring_entries(config) - 1)),
+        stamps(static_cast<std::size_t>(stamp_places(config))),
+        fragments(fragment_places) {
+    reset();
+  }
 
-  const PixelTrace& stage(int n) const { return pipeline[(head + static_cast<std::size_t>(n)) % pipeline.size()]; }
+  const PixelTrace& stage(int n) const {
+    return pipeline[(head + static_cast<std::size_t>(emit_stages + n)) % pipeline.size()];
+  }
 
   // Conditions of this clock, from registered state.
   bool start() const { return assembly.full && !setup.busy && in_use < slots.size(); }
-  bool take() const { return setup.done() && walk.state() == TileWalk::State::idle; }
-  std::uint32_t ring_tail() const { return fifo.empty() ? ring_stamp : fifo.head().tile_ptr; }
-  bool ring_full() const { return ((ring_write - ring_tail()) & ring_mask) == ring.size(); }
-  bool ring_has_stamp_work() const { return ring_stamp != ring_write; }
-  bool enable(bool fragment_ready) const { return !stage(last_stage).drawn || fragment_ready; }
+  bool take() const { return setup.done() && walk.walk.state() == TileWalk::State::idle; }
+  bool ring_full() const { return ((ring_write - ring_tail) & ring_mask) == ring.size(); }
   const TileEntry& ring_at(std::uint32_t pointer) const { return ring[pointer & (ring.size() - 1)]; }
 
-  /// The walk has an entry for the ring.
-  bool walk_wants_push() const {
-    return walk.state() == TileWalk::State::end || (walk.state() == TileWalk::State::tile && walk.hit());
-  }
+  bool walk_push() const { return walk.way.back().push && !ring_full(); }
 
-  /// What the stamp unit finds at its pointer: an entry to push (mask 0 and not end: nothing to push for this row).
+  /// The row that stamp_coverage is at.
   StampEntry stamp_work() const {
-    const TileEntry& tile = ring_at(ring_stamp);
+    const TileEntry& tile = ring_at(coverage.rows);
     StampEntry s;
-    s.tile_ptr = ring_stamp;
+    s.tile_ptr = coverage.rows;
     if (tile.end) {
       s.end = true;
       return s;
     }
-    const StampMasks masks = stamp_coverage(tile, slots[tile.slot].constants, stamp_row, context.config, context.state);
-    s.row = stamp_row;
+    const StampMasks masks =
+        stamp_coverage(tile, slots[tile.slot].constants, coverage.row, context.config, context.state);
+    s.row = coverage.row;
     s.mask = masks.mask;
     s.front = masks.front;
     s.tie = masks.tie;
     return s;
-  }
-
-  // Evaluated once per clock by refresh() and used by both comb() and clock().
-  bool walk_wants = false, walk_push = false, stamp_present = false, stamp_push = false;
-  TileEntry tile_entry;
-  StampEntry stamp_entry;
-
-  void refresh() {
-    walk_wants = walk_wants_push();
-    walk_push = walk_wants && !ring_full();
-    if (walk_push) tile_entry = walk.entry();
-    stamp_present = ring_has_stamp_work();
-    stamp_push = false;
-    if (stamp_present) {
-      stamp_entry = stamp_work();
-      stamp_push = (stamp_entry.end || stamp_entry.mask != 0) && !fifo.full();
-    }
   }
 
   void reset() {
@@ -140,26 +206,65 @@ struct ClockedModel::Impl {
     assembly.full = false;
     setup.busy = false;
     alloc = in_use = 0;
-    walk = TileWalk(context.config, context.state);
-    ring_write = ring_stamp = 0;
-    stamp_row = 0;
-    fifo.clear();
+    walk = {};
+    walk.walk = TileWalk(context.config, context.state);
+    ring_write = ring_tail = 0;
+    coverage = {};
+    coverage.room = stamp_places(context.config);
+    stamps.clear();
     first = true;
+    places = fragment_places;
+    handed_over = false;
     for (PixelTrace& p : pipeline) p = {};
-    refresh();
+    fragments.clear();
   }
 
-  void clock_pixels() {
+  /// stamp_coverage and the stamp FIFO; `pop`: emission takes the head.
+  void clock_stamps(bool pop) {
+    CoverageUnit& c = coverage;
+    const CoverageUnit::Row leaving = c.way.back();
+    const bool issue = c.rows_valid && c.room != 0;
+    for (std::size_t n = c.way.size() - 1; n > 0; --n) c.way[n] = c.way[n - 1];
+    c.way[0].valid = issue;
+    c.way[0].pointer = c.rows;
+    if (issue) c.way[0].stamp = stamp_work();
+
+    const bool rows_done = issue && (c.way[0].stamp.end || c.row == context.config.tile() - 1);
+    const bool rows_load = c.context_valid && (!c.rows_valid || rows_done);
+    const bool load = c.tag_valid && (!c.context_valid || rows_load);
+    const bool fetch = c.fetch != ring_write && (!c.tag_valid || load);
+    if (rows_done) c.rows = (c.rows + 1) & ring_mask;
+    if (load) c.load = (c.load + 1) & ring_mask;
+    if (fetch) c.fetch = (c.fetch + 1) & ring_mask;
+    c.row = rows_load ? 0 : c.row + (issue ? 1 : 0);
+    c.rows_valid = rows_load || (c.rows_valid && !rows_done);
+    c.context_valid = load || (c.context_valid && !rows_load);
+    c.tag_valid = fetch || (c.tag_valid && !load);
+    c.room += (c.freed ? 1 : 0) + (leaving.valid && !leaving.push() ? 1 : 0) - (issue ? 1 : 0);
+    c.freed = pop;
+
+    if (stamps.valid())
+      ring_tail = stamps.head().tile_ptr;
+    else if (stamps.empty())
+      ring_tail = leaving.pointer;
+    stamps.clock(pop, leaving.push() ? &leaving.stamp : nullptr);
+  }
+
+  /// pixel_emit and the pixel pipeline. Returns whether the stamp FIFO's head leaves.
+  bool clock_pixels() {
+    const PixelTrace& last = stage(last_stage);
+    int places_back = (handed_over ? 1 : 0) + (last.valid && !last.drawn ? 1 : 0);
     PixelTrace& entering = pipeline[(head + pipeline.size() - 1) % pipeline.size()];
     entering.valid = entering.end = entering.drawn = false;
-    if (!fifo.empty()) {
-      const StampEntry& s = fifo.head();
+    bool pop = false;
+    if (stamps.valid()) {
+      const StampEntry& s = stamps.head();
       const TileEntry& tile = ring_at(s.tile_ptr);
-      bool pop = true;
       if (s.end) {
         entering.end = true;
         entering.slot = tile.slot;
-      } else {
+        pop = true;
+      } else if (places > 0) {
         const std::uint32_t mask = first ? s.mask : rest;
         const int dx = std::countr_zero(mask);
         entering.front = s.front >> dx & 1;
@@ -169,10 +274,12 @@ struct ClockedModel::Impl {
         rest = mask & (mask - 1);
         pop = rest == 0;
         first = pop;
+        --places_back;
       }
-      if (pop) fifo.pop();
     }
+    places += places_back;
     head = (head + pipeline.size() - 1) % pipeline.size();
+    return pop;
   }
 
   void clock(const ClockedInputs& in) {
@@ -181,31 +288,28 @@ struct ClockedModel::Impl {
       return;
     }
     // All conditions first: every unit sees the state before the edge.
-    const bool en = enable(in.fragment_ready);
     const bool starting = start();
     const bool taking = take();
     const bool accept = in.vertex_valid && !assembly.full;
-    const bool release = en && stage(last_stage).end;
-    const bool push_tile = walk_push;
-    const bool walk_moves = walk.state() != TileWalk::State::idle && (push_tile || !walk_wants);
-    const bool stamp_moves = stamp_present && (stamp_push || !(stamp_entry.end || stamp_entry.mask != 0));
-    const bool push_stamp = stamp_push;
+    const bool release = stage(last_stage).end;
+    const bool push_tile = walk_push();
+    const bool walk_moves = push_tile || !walk.way.back().push;
 
-    if (en) clock_pixels();
-    if (push_stamp) fifo.push(stamp_entry);
-    if (stamp_moves) {
-      const bool leave = stamp_entry.end || stamp_row == context.config.tile() - 1;
-      if (leave) ring_stamp = (ring_stamp + 1) & ring_mask;
-      stamp_row = leave ? 0 : stamp_row + 1;
-    }
+    // The last register's fragment enters the FIFO in the clock in which the pipeline moves on.
+    const bool handing_over = fragments.valid() && in.fragment_ready;
+    const PixelTrace& last = stage(last_stage);
+    fragments.clock(handing_over, last.drawn ? &last.fragment : nullptr);
+    const bool pop = clock_pixels();
+    handed_over = handing_over;
+    clock_stamps(pop);
     if (push_tile) {
-      ring[ring_write & (ring.size() - 1)] = tile_entry;
+      ring[ring_write & (ring.size() - 1)] = walk.way.back().entry;
       ring_write = (ring_write + 1) & ring_mask;
     }
-    if (walk_moves) walk.advance();
+    if (walk_moves) walk.clock();
     if (taking) {
       slots[setup.result.slot].constants = QuadConstants(setup.result);
-      walk.take(setup.result);
+      walk.walk.take(setup.result);
       setup.busy = false;
     } else if (setup.busy && setup.remaining > 0) {
       --setup.remaining;
@@ -226,7 +330,6 @@ struct ClockedModel::Impl {
       assembly.full = assembly.count == 3;
       assembly.count = (assembly.count + 1) % 4;
     }
-    refresh();
   }
 };
 
@@ -242,13 +345,12 @@ ClockedOutputs ClockedModel::comb() const {
   const Impl& m = *impl_;
   ClockedOutputs out;
   out.vertex_ready = !m.assembly.full;
-  const PixelTrace& last = m.stage(last_stage);
-  out.fragment_valid = last.drawn;
-  if (last.drawn) out.fragment = last.fragment;
-  out.busy = m.assembly.full || m.assembly.count != 0 || m.in_use != 0;
+  out.fragment_valid = m.fragments.valid();
+  if (out.fragment_valid) out.fragment = m.fragments.head();
+  out.busy = m.assembly.full || m.assembly.count != 0 || m.in_use != 0 || !m.fragments.empty();
   if (m.take()) out.probes.setup = &m.setup.result;
-  if (m.walk_push) out.probes.tile = &m.tile_entry;
-  if (m.stamp_push) out.probes.stamp = &m.stamp_entry;
+  if (m.walk_push()) out.probes.tile = &m.walk.way.back().entry;
+  if (m.coverage.way.back().push()) out.probes.stamp = &m.coverage.way.back().stamp;
   const auto pixel = [&](int n) { return m.stage(n).valid ? &m.stage(n) : nullptr; };
   out.probes.diff = pixel(latency::diff_stage);
   out.probes.norm = pixel(latency::norm_stage);

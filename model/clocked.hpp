@@ -12,6 +12,12 @@
 
 namespace quadrille {
 
+/// Entries of the tile ring (quadrille_pkg::RING_LOG2): as many again as tiles in flight, for those on the way from the
+/// walk to their first stamp.
+inline int ring_entries(const Config& config) { return 2 * config.tile_slots(); }
+/// Places of the stamp FIFO (quadrille_pkg::STAMP_PLACES): four more than stamps may wait, for the rows on their way.
+inline int stamp_places(const Config& config) { return config.stamp_fifo() + 4; }
+
 struct ClockedInputs {
   bool reset = false;  ///< rst_ni = 0
   bool vertex_valid = false;

@@ -1,4 +1,4 @@
-// Enabled clocks that the units of the pixel pipeline take, and the registers at the boundaries between them: the
+// Clocks that the units of the pixel pipeline take, and the registers at the boundaries between them: the
 // figures of rtl/quadrille_pkg.sv under the same names, from the specification (rtl/README.md section 5).
 //
 // The model computes a pixel whole at its emission; these say when each boundary shows it.
@@ -19,7 +19,7 @@ inline constexpr int one_plus_stages = fp_add_stages;
 inline constexpr int fixed_point_stages = 2;
 inline constexpr int fragment_output_stages = product_stages + fixed_point_stages + 2;
 
-// The registers at the boundaries. A pixel is in register n during the clocks after n + 1 enabled edges.
+// The registers at the boundaries. A pixel is in register n during the clocks after n + 1 edges.
 inline constexpr int diff_stage = forward_difference_stages - 1;
 inline constexpr int norm_stage = diff_stage + normalise_stages;
 inline constexpr int rho_stage = norm_stage + rsqrt_stages;
@@ -30,7 +30,11 @@ inline constexpr int weight_stage = override_stage + 2 * product_stages;
 inline constexpr int sum_stage = weight_stage + product_stages + fp_sum_stages;
 inline constexpr int fragment_stage = sum_stage + reciprocal_stages + fragment_output_stages;
 
-/// Clocks from emission to the port.
+/// Clocks from a pixel at the pipeline's input to its last register.
 inline constexpr int pipeline = fragment_stage + 1;
+/// Clocks from pixel_emit's decision to the pipeline's input: its own register, the tile's tag, tile and quad.
+inline constexpr int emission = 3;
+/// Clocks from the last register to the port: the fragment FIFO's memory and its output register.
+inline constexpr int fragment_fifo = 2;
 
 }  // namespace quadrille::latency

@@ -1,54 +1,84 @@
-// Takes covered stamps apart: one pixel an enabled clock, lowest x first; an end entry becomes an end beat without a pixel.
+// Takes stamps apart: one pixel a clock, lowest x first; an end entry becomes an end beat without a pixel.
 //
-// Combinational from the FIFO head and the register of pixels already sent; the head is popped with its last pixel.
+// A pixel is sent only when a place of fragment_fifo is surely free, since the pipeline behind never waits: free places are counted here,
+// less one for each pixel sent, one more for each fragment handed over (freed_i) and each pixel discarded (discard_i). An end beat takes
+// no place. The head is popped with its last pixel; pixels leave in registers.
 module pixel_emit #(
+    localparam int RING = quadrille_pkg::RING_LOG2,
+    localparam int PLACES = quadrille_pkg::FRAGMENT_FIFO_LOG2,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
     input logic rst_ni,
-    input logic en_i,
     // Stamp FIFO head
     input logic head_valid_i,
     input logic head_end_i,
+    input logic [RING:0] head_ptr_i,
+    input logic [TILE_LOG2-1:0] head_row_i,
     input logic [TILE-1:0] head_mask_i,
     input logic [TILE-1:0] head_front_i,
     input logic [TILE-1:0] head_tie_i,
     output logic pop_o,
+    // Places of the fragment FIFO given back
+    input logic freed_i,
+    input logic discard_i,
     // Pixel
     output logic valid_o,
     output logic end_o,
+    output logic [RING:0] ptr_o,
+    output logic [TILE_LOG2-1:0] row_o,
     output logic [TILE_LOG2-1:0] dx_o,
     output logic front_o,
     output logic tie_o
 );
+  // Free places less one: negative when there is none, so that one bit of a register decides.
+  logic [PLACES+1:0] spare_q;
   logic [TILE-1:0] sent_q;
   logic [TILE-1:0] remaining, lowest;
+  logic [TILE_LOG2-1:0] dx;
+  logic may_send, send;
 
   assign remaining = head_mask_i & ~sent_q;
   assign lowest = remaining & (TILE'(0) - remaining);
-  assign valid_o = head_valid_i && !head_end_i;
-  assign end_o = head_valid_i && head_end_i;
-  assign pop_o = head_valid_i && en_i && (head_end_i || remaining == lowest);
-  assign front_o = (head_front_i & lowest) != '0;
-  assign tie_o = (head_tie_i & lowest) != '0;
+  assign may_send = !spare_q[PLACES+1];
+  assign send = head_valid_i && !head_end_i && may_send;
+  assign pop_o = head_valid_i && (head_end_i || (may_send && remaining == lowest));
 
   always_comb begin
-    dx_o = '0;
-    for (int i = 0; i < TILE; i++) if (lowest[i]) dx_o = dx_o | TILE_LOG2'(i);
+    dx = '0;
+    for (int i = 0; i < TILE; i++) if (lowest[i]) dx = dx | TILE_LOG2'(i);
   end
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) sent_q <= '0;
-    else if (pop_o) sent_q <= '0;
-    else if (head_valid_i && en_i) sent_q <= sent_q | lowest;
+    if (!rst_ni) begin
+      spare_q <= (PLACES + 2)'((1 << PLACES) - 1);
+      sent_q <= '0;
+      valid_o <= 1'b0;
+      end_o <= 1'b0;
+    end else begin
+      spare_q <= spare_q + (PLACES + 2)'(freed_i) + (PLACES + 2)'(discard_i) - (PLACES + 2)'(send);
+      if (pop_o) sent_q <= '0;
+      else if (send) sent_q <= sent_q | lowest;
+      valid_o <= send;
+      end_o <= head_valid_i && head_end_i;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    ptr_o <= head_ptr_i;
+    row_o <= head_row_i;
+    dx_o <= dx;
+    front_o <= (head_front_i & lowest) != '0;
+    tie_o <= (head_tie_i & lowest) != '0;
   end
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       assert ((lowest & (lowest - TILE'(1))) == '0);
-      assert (!valid_o || remaining != '0);
+      assert (!send || remaining != '0);
+      assert ($signed(spare_q) >= -(PLACES + 2)'(1) && $signed(spare_q) < $signed((PLACES + 2)'(1 << PLACES)));
     end
   end
 `endif

@@ -1,8 +1,8 @@
-// Everything behind the stamp FIFO: a pipeline of LATENCY registers with one enable, from a pixel's position to its fragment.
+// From a pixel's position to its fragment: a pipeline of LATENCY registers that never waits.
 //
-// Register n is written n enabled clocks after emission. The boundaries between units have the registers quadrille_pkg::DIFF_STAGE to
+// Register n is written n clocks after the pixel enters. The boundaries between units have the registers quadrille_pkg::DIFF_STAGE to
 // FRAGMENT_STAGE, and signals are named after the boundary that they cross (README.md section 5).
-// en_o = the output register is free. Per-quad data is not carried: the slot index is, and the bank is read one register before the
+// Per-quad data is not carried: the slot index is, and the bank is read one register before the
 // unit that needs it. An end beat (end, not valid) travels with the pixels; at the last register it releases its slot.
 module pixel_pipeline #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
@@ -26,7 +26,6 @@ module pixel_pipeline #(
 ) (
     input logic clk_i,
     input logic rst_ni,
-    output logic en_o,
     // Draw state
     input logic depth_on_i,
     input logic [DB:0] znear_i,
@@ -81,8 +80,8 @@ module pixel_pipeline #(
     output quadrille_pkg::probe_sum_t probe_sum_o,
 `endif
     // Fragment
+    output logic discard_o,  // a pixel that is no fragment, in the clock in which it would have been one
     output logic fragment_valid_o,
-    input logic fragment_ready_i,
     output logic [FB-1:0] fragment_o
 );
   // Registers at the boundaries
@@ -94,19 +93,19 @@ module pixel_pipeline #(
   localparam int LAST = quadrille_pkg::LATENCY - 1;  // the output register
 
   logic en;
-  logic [LAST-1:0] valid_q;  // the last register has the output's own
+  logic [LAST:0] valid_q;  // of the last register: pixels, drawn or discarded
   logic [LAST:0] end_q;
 
-  assign en = !fragment_valid_o || fragment_ready_i;
-  assign en_o = en;
-  assign release_o = end_q[LAST] && en;
+  assign en = 1'b1;
+  assign release_o = end_q[LAST];
+  assign discard_o = valid_q[LAST] && !fragment_valid_o;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       valid_q <= '0;
       end_q <= '0;
     end else if (en) begin
-      valid_q <= {valid_q[LAST-2:0], valid_i};
+      valid_q <= {valid_q[LAST-1:0], valid_i};
       end_q <= {end_q[LAST-1:0], end_i};
     end
   end
@@ -476,20 +475,12 @@ module pixel_pipeline #(
 `endif
 
 `ifndef SYNTHESIS
-  // Output port: valid held and payload stable under stall; zero when not valid. An end beat carries no pixel.
-  logic held_q;
-  logic [FB-1:0] fragment_q;
-
+  // Zero when not valid. An end beat carries no pixel.
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      held_q <= 1'b0;
-    end else begin
-      held_q <= fragment_valid_o && !fragment_ready_i;
-      fragment_q <= fragment_o;
-      assert (!held_q || (fragment_valid_o && fragment_o == fragment_q));
+    if (rst_ni) begin
       assert (fragment_valid_o || fragment_o == '0);
-      assert ((valid_q & end_q[LAST-1:0]) == '0);
-      assert (!(fragment_valid_o && end_q[LAST]));
+      assert ((valid_q & end_q) == '0);
+      assert (!fragment_valid_o || valid_q[LAST]);
       assert (!valid_q[NORM] || ((norm_class[12:9] & (norm_class[12:9] - 4'd1)) == '0));
     end
   end

@@ -3,7 +3,7 @@
 // Two banks. Vertex bank, written at start: id, k_eff (k, or W without perspective), W, Z, b as significand numbers with port
 // exponents. Function bank, written at take: gx, gy and tie signs of the linear and q of the quadratic functions, visibility, hull,
 // homogeneous.
-// Reads are combinational; a slot lives from start until the end beat leaves the pipeline. Not reset, except the pointers.
+// Reads of the front end end in registers, those of the pixel pipeline are combinational; a slot lives from start until the end beat leaves the pipeline. Not reset, except the pointers.
 module quad_slots #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
@@ -44,14 +44,15 @@ module quad_slots #(
     input logic [3:0] visible_i,
     input logic hull_i,
     input logic homogeneous_i,
-    // Read for coverage
+    // Read for coverage: there a clock after stamp_load_i, until the next
+    input logic stamp_load_i,
     input logic [SLOT-1:0] stamp_slot_i,
     output logic [5*GRAD-1:0] stamp_gx_o,
     output logic [5*GRAD-1:0] stamp_gy_o,
     output logic [4:0] stamp_tie_pos_o,
     output logic [4:0] stamp_tie_neg_o,
     output logic [3:0] stamp_visible_o,
-    // Read for emission
+    // Read for emission: there a clock after the slot
     input logic [SLOT-1:0] emit_slot_i,
     output logic [6*GRAD-1:0] emit_gx_o,
     output logic [6*GRAD-1:0] emit_gy_o,
@@ -177,22 +178,27 @@ module quad_slots #(
         gx_q[take_slot_i] <= lin_gx_i[g*GRAD+:GRAD];
         gy_q[take_slot_i] <= lin_gy_i[g*GRAD+:GRAD];
       end
+      emit_gx_o[g*GRAD+:GRAD] <= gx_q[emit_slot_i];
+      emit_gy_o[g*GRAD+:GRAD] <= gy_q[emit_slot_i];
     end
 
-    assign emit_gx_o[g*GRAD+:GRAD] = gx_q[emit_slot_i];
-    assign emit_gy_o[g*GRAD+:GRAD] = gy_q[emit_slot_i];
     if (g < 5) begin : gen_stamp
-      assign stamp_gx_o[g*GRAD+:GRAD] = gx_q[stamp_slot_i];
-      assign stamp_gy_o[g*GRAD+:GRAD] = gy_q[stamp_slot_i];
+      always_ff @(posedge clk_i) begin
+        if (stamp_load_i) begin
+          stamp_gx_o[g*GRAD+:GRAD] <= gx_q[stamp_slot_i];
+          stamp_gy_o[g*GRAD+:GRAD] <= gy_q[stamp_slot_i];
+        end
+      end
     end
   end
 
   for (genvar g = 0; g < 10; g++) begin : gen_quadratic
     logic [QCURV-1:0] curv_q[0:SLOTS-1];
 
-    always_ff @(posedge clk_i) if (take_i) curv_q[take_slot_i] <= quad_q_i[g*QCURV+:QCURV];
-
-    assign emit_q_o[g*QCURV+:QCURV] = curv_q[emit_slot_i];
+    always_ff @(posedge clk_i) begin
+      if (take_i) curv_q[take_slot_i] <= quad_q_i[g*QCURV+:QCURV];
+      emit_q_o[g*QCURV+:QCURV] <= curv_q[emit_slot_i];
+    end
   end
 
   logic [13:0] stamp_q[0:SLOTS-1];
@@ -203,9 +209,9 @@ module quad_slots #(
       stamp_q[take_slot_i] <= {tie_pos_i, tie_neg_i, visible_i};
       class_q[take_slot_i] <= {hull_i, homogeneous_i};
     end
+    if (stamp_load_i) {stamp_tie_pos_o, stamp_tie_neg_o, stamp_visible_o} <= stamp_q[stamp_slot_i];
   end
 
-  assign {stamp_tie_pos_o, stamp_tie_neg_o, stamp_visible_o} = stamp_q[stamp_slot_i];
   assign {output_hull_o, output_homogeneous_o} = class_q[output_slot_i];
 
 `ifndef SYNTHESIS

@@ -15,6 +15,7 @@ fp_normalise.sv
 fp_raw_product.sv
 fp_sum.sv
 fp_term.sv
+fragment_fifo.sv
 fragment_output.sv
 interpolate.sv
 mean_value_ratios.sv

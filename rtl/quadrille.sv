@@ -1,9 +1,10 @@
 // Quadrille: rasterizer whose primitive is the quadrilateral, with mean value coordinates. Top level: wiring only.
 //
-//     vertex_assembly -> quad_setup -> tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit -> pixel_pipeline
+//     vertex_assembly -> quad_setup -> tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit -> pixel_pipeline -> fragment_fifo
 //
 // Number formats, ports and clocks: README.md. Both streams are valid/ready: valid never depends on ready, payload is stable while
-// valid and not ready. state_i is static while busy_o. A pixel emitted in clock t is at the port in clock t + LATENCY without stalls.
+// valid and not ready. state_i is static while busy_o. The pixel pipeline never waits: pixel_emit counts the
+// places of the fragment FIFO.
 module quadrille (
     input logic clk_i,
     input logic rst_ni,
@@ -53,7 +54,7 @@ module quadrille (
   localparam int QGRAD = quadrille_pkg::QGRAD_BITS;
   localparam int QCURV = quadrille_pkg::QCURV_BITS;
   localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2;
-  localparam int RING = quadrille_pkg::TILE_SLOTS_LOG2;
+  localparam int RING = quadrille_pkg::RING_LOG2;
   localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int TILE = quadrille_pkg::TILE;
   localparam int SETS = 3 + N;
@@ -105,7 +106,7 @@ module quadrille (
 
   // ---- Setup --------------------------------------------------------------------------------------------------------------
   logic setup_idle, setup_done, take;
-  logic slot_available, slots_busy, slot_release;
+  logic slot_available, slots_busy, fragments_busy, slot_release, stamp_load;
   logic [SLOT-1:0] alloc_slot, setup_slot;
   logic [TC-1:0] tile_x0, tile_y0, tiles_x, tiles_y;
   logic homogeneous, hull;
@@ -119,7 +120,7 @@ module quadrille (
   logic [10*QCURV-1:0] setup_quad_q;
 
   assign start = full && setup_idle && slot_available;
-  assign busy_o = assembly_busy || slots_busy;
+  assign busy_o = assembly_busy || slots_busy || fragments_busy;
 
   quad_setup u_setup (
       .clk_i,
@@ -160,7 +161,7 @@ module quadrille (
   );
 
   // ---- Quad slots ---------------------------------------------------------------------------------------------------------
-  logic [SLOT-1:0] stamp_slot, head_slot, product_slot, override_slot, blend_slot, output_slot;
+  logic [SLOT-1:0] stamp_slot, tag_slot, emit_slot, product_slot, override_slot, blend_slot, output_slot;
   logic [5*GRAD-1:0] stamp_gx, stamp_gy;
   logic [4:0] stamp_tie_pos, stamp_tie_neg;
   logic [3:0] stamp_visible;
@@ -202,13 +203,14 @@ module quadrille (
       .visible_i(visible),
       .hull_i(hull),
       .homogeneous_i(homogeneous),
+      .stamp_load_i(stamp_load),
       .stamp_slot_i(stamp_slot),
       .stamp_gx_o(stamp_gx),
       .stamp_gy_o(stamp_gy),
       .stamp_tie_pos_o(stamp_tie_pos),
       .stamp_tie_neg_o(stamp_tie_neg),
       .stamp_visible_o(stamp_visible),
-      .emit_slot_i(head_slot),
+      .emit_slot_i(tag_slot),
       .emit_gx_o(emit_gx),
       .emit_gy_o(emit_gy),
       .emit_q_o(emit_q),
@@ -274,13 +276,14 @@ module quadrille (
   );
 
   // ---- Tile ring ----------------------------------------------------------------------------------------------------------
-  logic [RING:0] stamp_ptr, head_ptr;
-  logic stamp_present, stamp_end, head_valid;
-  logic [TC-1:0] stamp_tile_x, stamp_tile_y, head_tile_x, head_tile_y;
+  logic [RING:0] fetch_ptr, load_ptr, stamp_ptr, head_ptr, emit_ptr;
+  logic stamp_present, stamp_end, stamps_empty, head_valid, fetch;
+  logic emit_valid, emit_end;
+  logic [TC-1:0] stamp_tile_x, stamp_tile_y, emit_tile_x, emit_tile_y;
   logic [5*VAL-1:0] stamp_lin_value;
-  logic [6*VAL-1:0] head_lin_value;
-  logic [10*QVAL-1:0] head_quad_value;
-  logic [10*QGRAD-1:0] head_quad_gx, head_quad_gy;
+  logic [6*VAL-1:0] emit_lin_value;
+  logic [10*QVAL-1:0] emit_quad_value;
+  logic [10*QGRAD-1:0] emit_quad_gx, emit_quad_gy;
 
   tile_ring u_ring (
       .clk_i,
@@ -295,27 +298,35 @@ module quadrille (
       .quad_value_i(tile_quad_value),
       .quad_gx_i(tile_quad_gx),
       .quad_gy_i(tile_quad_gy),
-      .stamp_ptr_i(stamp_ptr),
+      .fetch_i(fetch),
+      .fetch_ptr_i(fetch_ptr),
       .stamp_present_o(stamp_present),
       .stamp_end_o(stamp_end),
       .stamp_slot_o(stamp_slot),
       .stamp_tile_x_o(stamp_tile_x),
       .stamp_tile_y_o(stamp_tile_y),
+      .load_i(stamp_load),
+      .load_ptr_i(load_ptr),
       .stamp_lin_value_o(stamp_lin_value),
+      .stamp_ptr_i(stamp_ptr),
+      .stamps_empty_i(stamps_empty),
       .head_valid_i(head_valid),
       .head_ptr_i(head_ptr),
-      .head_slot_o(head_slot),
-      .head_tile_x_o(head_tile_x),
-      .head_tile_y_o(head_tile_y),
-      .head_lin_value_o(head_lin_value),
-      .head_quad_value_o(head_quad_value),
-      .head_quad_gx_o(head_quad_gx),
-      .head_quad_gy_o(head_quad_gy)
+      .emit_valid_i(emit_valid),
+      .emit_ptr_i(emit_ptr),
+      .tag_slot_o(tag_slot),
+      .emit_slot_o(emit_slot),
+      .emit_tile_x_o(emit_tile_x),
+      .emit_tile_y_o(emit_tile_y),
+      .emit_lin_value_o(emit_lin_value),
+      .emit_quad_value_o(emit_quad_value),
+      .emit_quad_gx_o(emit_quad_gx),
+      .emit_quad_gy_o(emit_quad_gy)
   );
 
   // ---- Coverage and its FIFO ----------------------------------------------------------------------------------------------
   localparam int STAMP = 1 + RING + 1 + TILE_LOG2 + 3 * TILE;  // {end, tile pointer, row, mask, front, tie}
-  logic fifo_full, stamp_push, stamp_push_end, pop;
+  logic stamp_push, stamp_push_end, pop;
   logic [TILE_LOG2-1:0] stamp_row, head_row;
   logic [TILE-1:0] stamp_mask, stamp_front, stamp_tie;
   logic [TILE-1:0] head_mask, head_front, head_tie;
@@ -330,20 +341,24 @@ module quadrille (
       .scissor_y0_i(scissor_y0),
       .scissor_x1_i(scissor_x1),
       .scissor_y1_i(scissor_y1),
-      .stamp_ptr_o(stamp_ptr),
       .present_i(stamp_present),
+      .fetch_o(fetch),
+      .fetch_ptr_o(fetch_ptr),
       .end_i(stamp_end),
       .tile_x_i(stamp_tile_x),
       .tile_y_i(stamp_tile_y),
+      .load_o(stamp_load),
+      .load_ptr_o(load_ptr),
       .lin_value_i(stamp_lin_value),
       .lin_gx_i(stamp_gx),
       .lin_gy_i(stamp_gy),
       .tie_pos_i(stamp_tie_pos),
       .tie_neg_i(stamp_tie_neg),
       .visible_i(stamp_visible),
-      .fifo_full_i(fifo_full),
+      .freed_i(pop),
       .push_o(stamp_push),
       .end_o(stamp_push_end),
+      .stamp_ptr_o(stamp_ptr),
       .row_o(stamp_row),
       .mask_o(stamp_mask),
       .front_o(stamp_front),
@@ -354,63 +369,81 @@ module quadrille (
 
   sync_fifo #(
       .WIDTH(STAMP),
-      .DEPTH_LOG2(quadrille_pkg::STAMP_FIFO_LOG2)
+      .DEPTH(quadrille_pkg::STAMP_PLACES)
   ) u_fifo (
       .clk_i,
       .rst_ni,
       .push_i(stamp_push),
       .data_i(stamp),
-      .full_o(fifo_full),
       .pop_i(pop),
+      .empty_o(stamps_empty),
       .valid_o(head_valid),
       .data_o({head_end, head_ptr, head_row, head_mask, head_front, head_tie})
   );
 
   // ---- Pixels -------------------------------------------------------------------------------------------------------------
-  logic en;
-  logic emit_valid, emit_end, emit_front, emit_tie;
-  logic [TILE_LOG2-1:0] emit_dx;
+  localparam int PIXEL = 2 + 2 * TILE_LOG2 + 2;  // {valid, end, row, dx, front, tie}
+  logic emit_front, emit_tie;
+  logic freed, discard, drawn;
+  logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
+  logic [TILE_LOG2-1:0] emit_row, emit_dx;
+  logic pixel_valid, pixel_end, pixel_front, pixel_tie;
+  logic [TILE_LOG2-1:0] pixel_row, pixel_dx;
 
   pixel_emit u_emit (
       .clk_i,
       .rst_ni,
-      .en_i(en),
       .head_valid_i(head_valid),
       .head_end_i(head_end),
+      .head_ptr_i(head_ptr),
+      .head_row_i(head_row),
       .head_mask_i(head_mask),
       .head_front_i(head_front),
       .head_tie_i(head_tie),
       .pop_o(pop),
+      .freed_i(freed),
+      .discard_i(discard),
       .valid_o(emit_valid),
       .end_o(emit_end),
+      .ptr_o(emit_ptr),
+      .row_o(emit_row),
       .dx_o(emit_dx),
       .front_o(emit_front),
       .tie_o(emit_tie)
   );
 
+  // A pixel waits for what ring and slots have of its tile and quad.
+  logic [2*PIXEL-1:0] pixel_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) pixel_q <= '0;
+    else pixel_q <= {pixel_q[PIXEL-1:0], emit_valid, emit_end, emit_row, emit_dx, emit_front, emit_tie};
+  end
+
+  assign {pixel_valid, pixel_end, pixel_row, pixel_dx, pixel_front, pixel_tie} = pixel_q[2*PIXEL-1:PIXEL];
+
   pixel_pipeline u_pipeline (
       .clk_i,
       .rst_ni,
-      .en_o(en),
       .depth_on_i(state_i.depth),
       .znear_i(state_i.znear),
       .zfar_i(state_i.zfar),
       .attributes_i(state_i.attributes),
-      .valid_i(emit_valid),
-      .end_i(emit_end),
-      .slot_i(head_slot),
-      .x_i(V'({head_tile_x, emit_dx})),
-      .y_i(V'({head_tile_y, head_row})),
-      .row_i(head_row),
-      .dx_i(emit_dx),
-      .front_i(emit_front),
-      .tie_i(emit_tie),
-      .lin_value_i(head_lin_value),
+      .valid_i(pixel_valid),
+      .end_i(pixel_end),
+      .slot_i(emit_slot),
+      .x_i(V'({emit_tile_x, pixel_dx})),
+      .y_i(V'({emit_tile_y, pixel_row})),
+      .row_i(pixel_row),
+      .dx_i(pixel_dx),
+      .front_i(pixel_front),
+      .tie_i(pixel_tie),
+      .lin_value_i(emit_lin_value),
       .lin_gx_i(emit_gx),
       .lin_gy_i(emit_gy),
-      .quad_value_i(head_quad_value),
-      .quad_gx_i(head_quad_gx),
-      .quad_gy_i(head_quad_gy),
+      .quad_value_i(emit_quad_value),
+      .quad_gx_i(emit_quad_gx),
+      .quad_gy_i(emit_quad_gy),
       .quad_q_i(emit_q),
       .product_slot_o(product_slot),
       .product_k_neg_i(product_k_neg),
@@ -442,9 +475,22 @@ module quadrille (
       .probe_sum_valid_o,
       .probe_sum_o,
 `endif
-      .fragment_valid_o,
-      .fragment_ready_i,
-      .fragment_o(fragment_o)
+      .discard_o(discard),
+      .fragment_valid_o(drawn),
+      .fragment_o(fragment)
+  );
+
+  // ---- Fragments ----------------------------------------------------------------------------------------------------------
+  fragment_fifo u_fragments (
+      .clk_i,
+      .rst_ni,
+      .push_i(drawn),
+      .data_i(fragment),
+      .busy_o(fragments_busy),
+      .freed_o(freed),
+      .valid_o(fragment_valid_o),
+      .ready_i(fragment_ready_i),
+      .data_o(fragment_o)
   );
 
   assign fragment_mask_o = {quadrille_pkg::PIXELS_PER_CLOCK{fragment_valid_o}};

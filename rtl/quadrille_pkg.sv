@@ -160,9 +160,14 @@ package quadrille_pkg;
   localparam int DOT_OUT_BITS /*verilator public*/ = 2 * DOT_BITS + 1;
   // V . (V' x V''): three terms |T| |GRAD| or |W| |VAL|
   localparam int DET_BITS /*verilator public*/ = T_BITS + GRAD_BITS + 4;
+  // entries of the tile ring: as many again as tiles in flight, for those on the way from the walk to their first stamp
+  localparam int RING_LOG2 /*verilator public*/ = TILE_SLOTS_LOG2 + 1;
+  // places of the stamp FIFO: four more than stamps may wait, for the rows on their way, which have a place each until it is known
+  // whether they are covered
+  localparam int STAMP_PLACES /*verilator public*/ = (1 << STAMP_FIFO_LOG2) + 4;
 
   // ---- Latency of the pixel pipeline (README.md section 5, model/latency.hpp) ----------------------------------------------
-  // Enabled clocks from a unit's inputs to its outputs.
+  // Clocks from a unit's inputs to its outputs.
   localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = 3;  // row, column, bend
   localparam int FP_NORMALISE_STAGES /*verilator public*/ = 2;  // long shifts, short shifts
   localparam int NORMALISE_STAGES /*verilator public*/ = 1 + FP_NORMALISE_STAGES;  // magnitude
@@ -174,7 +179,7 @@ package quadrille_pkg;
   localparam int ONE_PLUS_STAGES /*verilator public*/ = FP_ADD_STAGES;  // distance, align, normalise; or fp_add itself
   localparam int FIXED_POINT_STAGES /*verilator public*/ = 2;  // distance, shift
   localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + FIXED_POINT_STAGES + 2;  // sign and limits, output
-  // Registers at the boundaries; register 0 is written by the edge that ends the emission's clock.
+  // Registers at the boundaries; register 0 is written by the edge that ends the clock in which the pixel is at the input.
   localparam int DIFF_STAGE /*verilator public*/ = FORWARD_DIFFERENCE_STAGES - 1;
   localparam int NORM_STAGE /*verilator public*/ = DIFF_STAGE + NORMALISE_STAGES;
   localparam int RHO_STAGE /*verilator public*/ = NORM_STAGE + RSQRT_STAGES;
@@ -187,8 +192,11 @@ package quadrille_pkg;
   localparam int WEIGHT_STAGE /*verilator public*/ = OVERRIDE_STAGE + 2 * PRODUCT_STAGES;
   localparam int SUM_STAGE /*verilator public*/ = WEIGHT_STAGE + PRODUCT_STAGES + FP_SUM_STAGES;
   localparam int FRAGMENT_STAGE /*verilator public*/ = SUM_STAGE + RECIPROCAL_STAGES + FRAGMENT_OUTPUT_STAGES;
-  // clocks from emission to the port
+  // clocks from a pixel at the input to the last register
   localparam int LATENCY /*verilator public*/ = FRAGMENT_STAGE + 1;
+  // places of the fragment FIFO: at full rate a place that a pixel takes is free again after LATENCY and 7 clocks (3 from emission to
+  // the pipeline, 2 through the FIFO, 2 until the count of free places knows)
+  localparam int FRAGMENT_FIFO_LOG2 /*verilator public*/ = $clog2(LATENCY + 7);
 
   // ---- Ports --------------------------------------------------------------------------------------------------------------
   typedef struct packed {
@@ -263,7 +271,7 @@ package quadrille_pkg;
 
   typedef struct packed {
     logic end_token;
-    logic [TILE_SLOTS_LOG2:0] tile_ptr;
+    logic [RING_LOG2:0] tile_ptr;
     logic [TILE_LOG2-1:0] row;
     logic [TILE-1:0] mask;
     logic [TILE-1:0] front;

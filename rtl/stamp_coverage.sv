@@ -3,13 +3,16 @@
 //
 // Ties: E = 0 counts as the sign of (dE/dx, dE/dy), the first that is not 0 (tie_pos_i, tie_neg_i); an edge function without
 // gradient has no sign.
-// Combinational from the ring entry and the row register; one clock per row, waits only when it has something to push.
+// An entry comes in three registers: its tag (read with fetch_o), then its values and its quad's constants (read with load_o), then
+// the rows' own, with the multiples of gx that the pixels of a row need. Behind them a row takes three registers (values; signs; masks)
+// that never wait: it is sent in only while the FIFO has a place for it, and the place of a row without a covered pixel is given back.
 module stamp_coverage #(
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int RING = quadrille_pkg::TILE_SLOTS_LOG2,
+    localparam int RING = quadrille_pkg::RING_LOG2,
+    localparam int PLACES = quadrille_pkg::STAMP_PLACES,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int TILE = quadrille_pkg::TILE
 ) (
@@ -20,121 +23,248 @@ module stamp_coverage #(
     input logic [V:0] scissor_y0_i,
     input logic [V:0] scissor_x1_i,
     input logic [V:0] scissor_y1_i,
-    // Tile ring
-    output logic [RING:0] stamp_ptr_o,
+    // Tile ring: the tag is there the clock after fetch_o, until the next
     input logic present_i,
+    output logic fetch_o,
+    output logic [RING:0] fetch_ptr_o,
     input logic end_i,
     input logic [TC-1:0] tile_x_i,
     input logic [TC-1:0] tile_y_i,
+    // Tile ring and quad: values and constants are there the clock after load_o, until the next
+    output logic load_o,
+    output logic [RING:0] load_ptr_o,
     input logic [5*VAL-1:0] lin_value_i,
-    // Quad
     input logic [5*GRAD-1:0] lin_gx_i,
     input logic [5*GRAD-1:0] lin_gy_i,
     input logic [4:0] tie_pos_i,
     input logic [4:0] tie_neg_i,
     input logic [3:0] visible_i,
-    // Stamp FIFO
-    input logic fifo_full_i,
+    // Stamp FIFO: freed_i when a stamp has left it
+    input logic freed_i,
     output logic push_o,
     output logic end_o,
+    output logic [RING:0] stamp_ptr_o,  // no row of an entry before this one is still to come
     output logic [TILE_LOG2-1:0] row_o,
     output logic [TILE-1:0] mask_o,
     output logic [TILE-1:0] front_o,
     output logic [TILE-1:0] tie_o
 );
-  logic [RING:0] stamp_q;
+  // ---- Control ------------------------------------------------------------------------------------------------------------
+  logic [RING:0] fetch_q, load_q, row_ptr_q;
+  logic tag_valid_q, context_valid_q, rows_valid_q;
+  logic rows_load, rows_done, issue;
+  logic context_end_q, rows_end_q;
   logic [TILE_LOG2-1:0] row_q;
-  logic step_row, next_tile;
-  logic any;
+  localparam int ROOM = $clog2(PLACES + 1);
+  logic [ROOM-1:0] room_q;  // places of the FIFO that no stamp has, nor a row on its way
+  logic freed_q, drop;
 
-  // ---- Signs of the five edge functions -----------------------------------------------------------------------------------
+  assign issue = rows_valid_q && room_q != '0;
+  assign rows_done = issue && (rows_end_q || row_q == '1);
+  assign rows_load = context_valid_q && (!rows_valid_q || rows_done);
+  assign load_o = tag_valid_q && (!context_valid_q || rows_load);
+  assign fetch_o = present_i && (!tag_valid_q || load_o);
+  assign fetch_ptr_o = fetch_q;
+  assign load_ptr_o = load_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      fetch_q <= '0;
+      load_q <= '0;
+      row_ptr_q <= '0;
+      tag_valid_q <= 1'b0;
+      context_valid_q <= 1'b0;
+      rows_valid_q <= 1'b0;
+      freed_q <= 1'b0;
+      room_q <= ROOM'(PLACES);
+    end else begin
+      if (fetch_o) fetch_q <= fetch_q + (RING + 1)'(1);
+      if (load_o) load_q <= load_q + (RING + 1)'(1);
+      if (rows_done) row_ptr_q <= row_ptr_q + (RING + 1)'(1);
+      tag_valid_q <= fetch_o || (tag_valid_q && !load_o);
+      context_valid_q <= load_o || (context_valid_q && !rows_load);
+      rows_valid_q <= rows_load || (rows_valid_q && !rows_done);
+      freed_q <= freed_i;
+      room_q <= room_q - ROOM'(issue) + ROOM'(drop) + ROOM'(freed_q);
+    end
+  end
+
+  logic [TC-1:0] context_x_q, context_y_q, tile_x_q, tile_y_q;
+  logic [4:0] tie_pos_q, tie_neg_q;
+  logic [3:0] visible_q;
+
+  always_ff @(posedge clk_i) begin
+    if (load_o) {context_end_q, context_x_q, context_y_q} <= {end_i, tile_x_i, tile_y_i};
+    if (rows_load) begin
+      {rows_end_q, tile_x_q, tile_y_q} <= {context_end_q, context_x_q, context_y_q};
+      {tie_pos_q, tie_neg_q, visible_q} <= {tie_pos_i, tie_neg_i, visible_i};
+      row_q <= '0;
+    end else if (issue) begin
+      row_q <= row_q + TILE_LOG2'(1);
+    end
+  end
+
+  // ---- Values, and their signs --------------------------------------------------------------------------------------------
+  localparam int MULT = GRAD + TILE_LOG2;  // TILE gx
+  logic [5*TILE-1:0] is_neg_q2, is_zero_q2;
+
+  for (genvar g = 0; g < 5; g++) begin : gen_edge
+    logic [MULT-1:0] gx;
+    logic [GRAD-1:0] gy_q;
+    logic [VAL-1:0] row_value_q;
+
+    assign gx = MULT'($signed(lin_gx_i[g*GRAD+:GRAD]));
+
+    always_ff @(posedge clk_i) begin
+      if (rows_load) begin
+        row_value_q <= lin_value_i[g*VAL+:VAL];
+        gy_q <= lin_gy_i[g*GRAD+:GRAD];
+      end else if (issue) begin
+        row_value_q <= row_value_q + VAL'($signed(gy_q));
+      end
+    end
+
+    // Odd multiples: the neighbour that four divides, plus or minus gx.
+    for (genvar k = 0; k < TILE / 2; k++) begin : gen_multiple
+      localparam int ODD = 2 * k + 1;
+      localparam int NEAR = (ODD % 4 == 3) ? ODD + 1 : ODD - 1;
+      localparam int ZEROS = (NEAR % 16 == 0) ? 4 : (NEAR % 8 == 0) ? 3 : 2;  // NEAR = its odd part times 2^ZEROS
+      logic [MULT-1:0] multiple, multiple_q;
+
+      if (ODD == 1) begin : gen_one
+        assign multiple = gx;
+      end else if (NEAR > ODD) begin : gen_below
+        assign multiple = (gen_multiple[(NEAR>>ZEROS)/2].multiple << ZEROS) - gx;
+      end else begin : gen_above
+        assign multiple = (gen_multiple[(NEAR>>ZEROS)/2].multiple << ZEROS) + gx;
+      end
+
+      always_ff @(posedge clk_i) if (rows_load) multiple_q <= multiple;
+    end
+
+    for (genvar dx = 0; dx < TILE; dx++) begin : gen_pixel
+      localparam int ZEROS = (dx % 8 == 0) ? 3 : (dx % 4 == 0) ? 2 : (dx % 2 == 0) ? 1 : 0;  // dx = its odd part times 2^ZEROS
+      logic [VAL-1:0] value_q1;
+
+      if (dx == 0) begin : gen_first
+        always_ff @(posedge clk_i) value_q1 <= row_value_q;
+      end else begin : gen_next
+        always_ff @(posedge clk_i) value_q1 <= row_value_q + (VAL'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
+      end
+
+      always_ff @(posedge clk_i) begin
+        is_zero_q2[g*TILE+dx] <= value_q1 == '0;
+        is_neg_q2[g*TILE+dx] <= value_q1[VAL-1];
+      end
+    end
+  end
+
+  // ---- Scissor, beside the values -----------------------------------------------------------------------------------------
+  logic [V:0] y;
+  logic [TC-1:0] first_tile, end_tile;  // of the rectangle's columns
+  logic [TILE_LOG2-1:0] first_dx, end_dx;
+  logic row_inside_q1, right_of_first_q1, in_first_q1, left_of_end_q1, in_end_q1;
+  logic [TILE-1:0] in_scissor, in_scissor_q2;
+
+  assign y = {tile_y_q, row_q};
+  assign {first_tile, first_dx} = scissor_x0_i;
+  assign {end_tile, end_dx} = scissor_x1_i;
+
+  always_ff @(posedge clk_i) begin
+    row_inside_q1 <= y >= scissor_y0_i && y < scissor_y1_i;
+    right_of_first_q1 <= tile_x_q > first_tile;
+    in_first_q1 <= tile_x_q == first_tile;
+    left_of_end_q1 <= tile_x_q < end_tile;
+    in_end_q1 <= tile_x_q == end_tile;
+    in_scissor_q2 <= in_scissor;
+  end
+
+  always_comb begin
+    for (int dx = 0; dx < TILE; dx++) begin
+      in_scissor[dx] = row_inside_q1 && (right_of_first_q1 || (in_first_q1 && TILE_LOG2'(dx) >= first_dx))
+          && (left_of_end_q1 || (in_end_q1 && TILE_LOG2'(dx) < end_dx));
+    end
+  end
+
+  // ---- What goes with a row -----------------------------------------------------------------------------------------------
+  localparam int SIGNS = 5 + 5 + 4;
+  logic [2:0] row_valid_q;
+  logic end_q1, end_q2, end_q3;
+  logic [RING:0] ptr_q1, ptr_q2, ptr_q3;
+  logic [TILE_LOG2-1:0] row_q1, row_q2, row_q3;
+  logic [SIGNS-1:0] signs_q1, signs_q2;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      row_valid_q <= '0;
+      ptr_q1 <= '0;
+      ptr_q2 <= '0;
+      ptr_q3 <= '0;
+    end else begin
+      row_valid_q <= {row_valid_q[1:0], issue};
+      ptr_q1 <= row_ptr_q;
+      ptr_q2 <= ptr_q1;
+      ptr_q3 <= ptr_q2;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    {end_q1, row_q1, signs_q1} <= {rows_end_q, row_q, tie_pos_q, tie_neg_q, visible_q};
+    {end_q2, row_q2, signs_q2} <= {end_q1, row_q1, signs_q1};
+    {end_q3, row_q3} <= {end_q2, row_q2};
+  end
+
+  // ---- Clauses ------------------------------------------------------------------------------------------------------------
+  logic [4:0] tie_pos, tie_neg;
+  logic [3:0] visible;
   logic [TILE-1:0] pos0, pos1, pos2, pos3, pos4;
   logic [TILE-1:0] neg0, neg1, neg2, neg3, neg4;
   logic [5*TILE-1:0] pos, neg, zero;
+  logic [TILE-1:0] back, front, mask;
+  logic [TILE-1:0] mask_q3, front_q3, tie_q3;
 
-  for (genvar g = 0; g < 5; g++) begin : gen_edge
-    logic [VAL-1:0] gx, gy;
-    logic [VAL-1:0] row_value_q, row_value;
+  assign {tie_pos, tie_neg, visible} = signs_q2;
+
+  for (genvar g = 0; g < 5; g++) begin : gen_sign
     logic [TILE-1:0] is_zero, is_neg;
 
-    assign gx = VAL'($signed(lin_gx_i[g*GRAD+:GRAD]));
-    assign gy = VAL'($signed(lin_gy_i[g*GRAD+:GRAD]));
-    assign row_value = (row_q == '0) ? lin_value_i[g*VAL+:VAL] : row_value_q;
-
-    for (genvar dx = 0; dx < TILE; dx++) begin : gen_pixel
-      logic [VAL-1:0] value;
-
-      if (dx == 0) begin : gen_first
-        assign value = row_value;
-      end else begin : gen_next  // a tree: from the pixel without the highest one of dx
-        localparam int HIGHEST = $clog2(dx + 1) - 1;
-        assign value = gen_pixel[dx-(1<<HIGHEST)].value + (gx << HIGHEST);
-      end
-      assign is_zero[dx] = value == '0;
-      assign is_neg[dx] = value[VAL-1];
-    end
-
-    assign zero[g*TILE+:TILE] = is_zero & {TILE{tie_pos_i[g] || tie_neg_i[g]}};  // an all-zero edge decides nothing
-    assign neg[g*TILE+:TILE] = is_neg | (is_zero & {TILE{tie_neg_i[g]}});
-    assign pos[g*TILE+:TILE] = (~is_neg & ~is_zero) | (is_zero & {TILE{tie_pos_i[g]}});
-
-    always_ff @(posedge clk_i) if (step_row) row_value_q <= row_value + gy;
+    assign is_zero = is_zero_q2[g*TILE+:TILE];
+    assign is_neg = is_neg_q2[g*TILE+:TILE];
+    assign zero[g*TILE+:TILE] = is_zero & {TILE{tie_pos[g] || tie_neg[g]}};  // an all-zero edge decides nothing
+    assign neg[g*TILE+:TILE] = is_neg | (is_zero & {TILE{tie_neg[g]}});
+    assign pos[g*TILE+:TILE] = (~is_neg & ~is_zero) | (is_zero & {TILE{tie_pos[g]}});
   end
 
   assign {pos4, pos3, pos2, pos1, pos0} = pos;
   assign {neg4, neg3, neg2, neg1, neg0} = neg;
-
-  // ---- Scissor ------------------------------------------------------------------------------------------------------------
-  logic [V:0] y;
-  logic [TC-1:0] first_tile, end_tile;  // of the rectangle's columns
-  logic [TILE_LOG2-1:0] first_dx, end_dx;
-  logic [TILE-1:0] in_scissor;
-  logic row_inside, right_of_first, in_first, left_of_end, in_end;
-
-  assign y = {tile_y_i, row_q};
-  assign row_inside = y >= scissor_y0_i && y < scissor_y1_i;
-  assign {first_tile, first_dx} = scissor_x0_i;
-  assign {end_tile, end_dx} = scissor_x1_i;
-  assign right_of_first = tile_x_i > first_tile;
-  assign in_first = tile_x_i == first_tile;
-  assign left_of_end = tile_x_i < end_tile;
-  assign in_end = tile_x_i == end_tile;
-
-  always_comb begin
-    for (int dx = 0; dx < TILE; dx++) begin
-      in_scissor[dx] = row_inside && (right_of_first || (in_first && TILE_LOG2'(dx) >= first_dx))
-          && (left_of_end || (in_end && TILE_LOG2'(dx) < end_dx));
-    end
-  end
-
-  // ---- Clauses ------------------------------------------------------------------------------------------------------------
-  logic [TILE-1:0] back, front;
-
-  assign back = ((pos4 & pos0 & pos1 & (pos2 | pos3) & {TILE{visible_i[0]}})
-      | (neg4 & pos2 & pos3 & (pos0 | pos1) & {TILE{visible_i[1]}})) & {TILE{cull_i != 2'd2}};
-  assign front = ((neg4 & neg0 & neg1 & (neg2 | neg3) & {TILE{visible_i[2]}})
-      | (pos4 & neg2 & neg3 & (neg0 | neg1) & {TILE{visible_i[3]}})) & {TILE{cull_i != 2'd1}};
-
-  assign end_o = end_i;
-  assign mask_o = end_i ? '0 : (back | front) & in_scissor;
-  assign front_o = front & mask_o;
-  assign tie_o = (zero[0+:TILE] | zero[TILE+:TILE] | zero[2*TILE+:TILE] | zero[3*TILE+:TILE] | zero[4*TILE+:TILE]) & mask_o;
-  assign row_o = row_q;
-
-  // ---- Control ------------------------------------------------------------------------------------------------------------
-  assign any = end_i || mask_o != '0;
-  assign push_o = present_i && any && !fifo_full_i;
-  assign step_row = present_i && !end_i && !(any && fifo_full_i);
-  assign next_tile = (step_row && row_q == '1) || (push_o && end_i);
-  assign stamp_ptr_o = stamp_q;
+  assign back = ((pos4 & pos0 & pos1 & (pos2 | pos3) & {TILE{visible[0]}})
+      | (neg4 & pos2 & pos3 & (pos0 | pos1) & {TILE{visible[1]}})) & {TILE{cull_i != 2'd2}};
+  assign front = ((neg4 & neg0 & neg1 & (neg2 | neg3) & {TILE{visible[2]}})
+      | (pos4 & neg2 & neg3 & (neg0 | neg1) & {TILE{visible[3]}})) & {TILE{cull_i != 2'd1}};
+  assign mask = end_q2 ? '0 : (back | front) & in_scissor_q2;
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      stamp_q <= '0;
-      row_q <= '0;
-    end else begin
-      if (next_tile) stamp_q <= stamp_q + (RING + 1)'(1);
-      if (step_row) row_q <= row_q + TILE_LOG2'(1);
+    mask_q3 <= mask;
+    front_q3 <= front & mask;
+    tie_q3 <= (zero[0+:TILE] | zero[TILE+:TILE] | zero[2*TILE+:TILE] | zero[3*TILE+:TILE] | zero[4*TILE+:TILE]) & mask;
+  end
+
+  // ---- Push ---------------------------------------------------------------------------------------------------------------
+  assign push_o = row_valid_q[2] && (end_q3 || mask_q3 != '0);
+  assign drop = row_valid_q[2] && !push_o;
+  assign end_o = end_q3;
+  assign stamp_ptr_o = ptr_q3;
+  assign row_o = row_q3;  // of an end entry 0
+  assign mask_o = mask_q3;
+  assign front_o = front_q3;
+  assign tie_o = tie_q3;
+
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      assert (room_q <= ROOM'(PLACES));
+      assert (!row_valid_q[2] || !end_q3 || (row_q3 == '0 && mask_q3 == '0));
     end
   end
+`endif
 endmodule

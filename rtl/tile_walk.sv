@@ -4,6 +4,11 @@
 // State is value (and gx, gy of the quadratics) at the first pixel of the current block and of the current tile, moved by exact
 // forward differences. The test is conservative over the extent: each edge function is 'somewhere positive', 'somewhere negative'
 // or both, by its value and edge_reach. Does not look at the scissor rectangle.
+//
+// The walk itself needs the linear functions alone and steps on before it knows what a test says: the test's signs come in a register,
+// the hit is known the clock after, and what then is done with the tile goes, as a command, through two more registers, where the
+// quadratic functions follow (their slopes, then their values). Blocks are walked one ahead: a hit turns back to the block before, and
+// the next one is ready when its tiles are done. A push that finds the ring full stops everything.
 module tile_walk #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int VAL = quadrille_pkg::VAL_BITS,
@@ -52,72 +57,77 @@ module tile_walk #(
 );
   localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2;
-  localparam int BLOCK_TILES = quadrille_pkg::BLOCK_TILES;
   localparam int TL = TILE_LOG2;  // log2 of a tile step in pixels
   localparam int BL = TILE_LOG2 + BLOCK_LOG2;  // log2 of a block step in pixels
 
-  localparam logic [1:0] IDLE = 2'd0;
-  localparam logic [1:0] BLOCK = 2'd1;
-  localparam logic [1:0] WALK = 2'd2;
-  localparam logic [1:0] FINISH = 2'd3;
+  localparam logic [2:0] IDLE = 3'd0;
+  localparam logic [2:0] BLOCK = 3'd1;
+  localparam logic [2:0] WALK = 3'd2;
+  localparam logic [2:0] FINISH = 3'd3;
+  localparam logic [2:0] FLUSH = 3'd4;  // until the end entry is in the ring
+
+  logic go;  // everything moves
+  logic may_cover, hit, enter_walk;
 
   // ---- Position and control -----------------------------------------------------------------------------------------------
-  logic [1:0] state_q;
-  logic [TC-1:0] tile_x0_q, tile_y0_q, tiles_x_q, tiles_y_q;
+  // block_*: the next block to test, while more_q; walk_*: the block whose tiles are tested.
+  logic [2:0] state_q;
+  logic more_q;
+  logic [TC-1:0] tile_x0_q, tile_y0_q;
+  logic [TC-1:0] last_x_q, last_y_q;  // of the quad's tiles
   logic [TC-1:0] block_x_q, block_y_q;
+  logic [TC-1:0] blocks_x_q, blocks_y_q;  // blocks behind it in its row, rows of blocks behind it
   logic block_left_q;
+  logic [TC-1:0] walk_x_q, walk_y_q;
+  logic [BLOCK_LOG2-1:0] tile_last_x_q, tile_last_y_q;
+  logic walk_row_end_q, walk_back_q;  // the step from it to the next block
   logic [BLOCK_LOG2-1:0] tile_x_q, tile_y_q;
   logic tile_left_q;
   logic [SLOT-1:0] slot_q;
   logic [3:0] visible_q;
-
-  logic in_block, in_walk;
-  logic may_cover, hit;
-  logic enter_walk, step_tile, step_block, leave_block;
   logic empty;
+  logic in_block, in_walk, test_block;
+  logic tile_row_end, tile_end, block_row_end, block_end, last_column, last_row;
+
+  // The test whose signs are known
+  logic block_q1, tile_q1, end_q1;
+  logic of_block_q1, row_end_q1, back_q1;  // the step after it
+  logic [TC-1:0] block_x_q1, block_y_q1, x_q1, y_q1;
+  logic [BLOCK_LOG2-1:0] tile_last_x_q1, tile_last_y_q1;
 
   assign take_o = setup_done_i && state_q == IDLE;
   assign empty = tiles_x_i == '0 || tiles_y_i == '0;
   assign in_block = state_q == BLOCK;
   assign in_walk = state_q == WALK;
   assign hit = may_cover || !reject_tiles_i;
+  assign enter_walk = block_q1 && hit;
+  assign test_block = in_block && more_q && !enter_walk;
 
-  // Ends of rows and columns. The rest of a block row, or 8.
-  logic [TC-1:0] rest_x, rest_y, block_last_x, block_last_y;
-  logic [BLOCK_LOG2-1:0] tile_last_x, tile_last_y;
-  logic tile_row_end, tile_end, block_row_end, block_end;
-
-  assign rest_x = tiles_x_q - TC'(1) - (block_x_q << BLOCK_LOG2);
-  assign rest_y = tiles_y_q - TC'(1) - (block_y_q << BLOCK_LOG2);
-  assign tile_last_x = (rest_x >= TC'(BLOCK_TILES - 1)) ? '1 : rest_x[BLOCK_LOG2-1:0];
-  assign tile_last_y = (rest_y >= TC'(BLOCK_TILES - 1)) ? '1 : rest_y[BLOCK_LOG2-1:0];
-  assign block_last_x = (tiles_x_q - TC'(1)) >> BLOCK_LOG2;
-  assign block_last_y = (tiles_y_q - TC'(1)) >> BLOCK_LOG2;
-  assign tile_row_end = tile_x_q == (tile_left_q ? '0 : tile_last_x);
-  assign tile_end = tile_row_end && tile_y_q == tile_last_y;
-  assign block_row_end = block_x_q == (block_left_q ? '0 : block_last_x);
-  assign block_end = block_row_end && block_y_q == block_last_y;
-
-  assign enter_walk = in_block && hit;
-  assign step_tile = in_walk && !(hit && ring_full_i);
-  assign leave_block = step_tile && tile_end;
-  assign step_block = (in_block && !hit) || leave_block;
-
-  assign end_o = state_q == FINISH;
-  assign push_o = ((in_walk && hit) || end_o) && !ring_full_i;
+  assign tile_row_end = tile_x_q == (tile_left_q ? '0 : tile_last_x_q);
+  assign tile_end = tile_row_end && tile_y_q == tile_last_y_q;
+  assign block_row_end = blocks_x_q == '0;
+  assign block_end = block_row_end && blocks_y_q == '0;
+  assign last_column = block_x_q == last_x_q >> BLOCK_LOG2;
+  assign last_row = block_y_q == last_y_q >> BLOCK_LOG2;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       state_q <= IDLE;
-    end else begin
+      block_q1 <= 1'b0;
+      tile_q1 <= 1'b0;
+      end_q1 <= 1'b0;
+    end else if (go) begin
       case (state_q)
         IDLE: if (take_o) state_q <= empty ? FINISH : BLOCK;
-        FINISH: if (!ring_full_i) state_q <= IDLE;
-        default: begin
-          if (enter_walk) state_q <= WALK;
-          if (step_block) state_q <= block_end ? FINISH : BLOCK;
-        end
+        BLOCK: if (enter_walk) state_q <= WALK;
+        else if (!more_q) state_q <= FINISH;
+        WALK: if (tile_end) state_q <= more_q ? BLOCK : FINISH;
+        FINISH: state_q <= FLUSH;
+        default: if (push_o && end_o) state_q <= IDLE;
       endcase
+      block_q1 <= test_block;
+      tile_q1 <= in_walk;
+      end_q1 <= state_q == FINISH;
     end
   end
 
@@ -127,48 +137,67 @@ module tile_walk #(
       visible_q <= visible_i;
       tile_x0_q <= tile_x0_i;
       tile_y0_q <= tile_y0_i;
-      tiles_x_q <= tiles_x_i;
-      tiles_y_q <= tiles_y_i;
+      last_x_q <= tiles_x_i - TC'(1);
+      last_y_q <= tiles_y_i - TC'(1);
+      blocks_x_q <= (tiles_x_i - TC'(1)) >> BLOCK_LOG2;
+      blocks_y_q <= (tiles_y_i - TC'(1)) >> BLOCK_LOG2;
       block_x_q <= '0;
       block_y_q <= '0;
       block_left_q <= 1'b0;
-    end else if (step_block) begin
+      more_q <= 1'b1;
+    end else if (test_block && go) begin
+      more_q <= !block_end;
       if (block_row_end) begin
         block_y_q <= block_y_q + TC'(1);
         block_left_q <= !block_left_q;
+        blocks_y_q <= blocks_y_q - TC'(1);
+        blocks_x_q <= last_x_q >> BLOCK_LOG2;
       end else begin
         block_x_q <= block_left_q ? block_x_q - TC'(1) : block_x_q + TC'(1);
+        blocks_x_q <= blocks_x_q - TC'(1);
       end
     end
-    if (enter_walk) begin
-      tile_x_q <= '0;
-      tile_y_q <= '0;
-      tile_left_q <= 1'b0;
-    end else if (step_tile) begin
-      if (tile_row_end) begin
-        tile_y_q <= tile_y_q + BLOCK_LOG2'(1);
-        tile_left_q <= !tile_left_q;
-      end else begin
-        tile_x_q <= tile_left_q ? tile_x_q - BLOCK_LOG2'(1) : tile_x_q + BLOCK_LOG2'(1);
+    if (go) begin
+      // Beside the test
+      block_x_q1 <= block_x_q;
+      block_y_q1 <= block_y_q;
+      tile_last_x_q1 <= last_column ? last_x_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
+      tile_last_y_q1 <= last_row ? last_y_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
+      of_block_q1 <= in_block || tile_end;
+      row_end_q1 <= in_block ? block_row_end : tile_end ? walk_row_end_q : tile_row_end;
+      back_q1 <= in_block ? block_left_q && !block_row_end : tile_end ? walk_back_q : tile_left_q && !tile_row_end;
+      x_q1 <= tile_x0_q + ((walk_x_q << BLOCK_LOG2) | TC'(tile_x_q));
+      y_q1 <= tile_y0_q + ((walk_y_q << BLOCK_LOG2) | TC'(tile_y_q));
+      if (enter_walk) begin
+        walk_x_q <= block_x_q1;
+        walk_y_q <= block_y_q1;
+        walk_row_end_q <= row_end_q1;
+        walk_back_q <= back_q1;
+        tile_last_x_q <= tile_last_x_q1;
+        tile_last_y_q <= tile_last_y_q1;
+        tile_x_q <= '0;
+        tile_y_q <= '0;
+        tile_left_q <= 1'b0;
+      end else if (in_walk) begin
+        if (tile_row_end) begin
+          tile_y_q <= tile_y_q + BLOCK_LOG2'(1);
+          tile_left_q <= !tile_left_q;
+        end else begin
+          tile_x_q <= tile_left_q ? tile_x_q - BLOCK_LOG2'(1) : tile_x_q + BLOCK_LOG2'(1);
+        end
       end
     end
   end
 
-  assign slot_o = slot_q;
-  assign tile_x_o = tile_x0_q + (block_x_q << BLOCK_LOG2) + TC'(tile_x_q);
-  assign tile_y_o = tile_y0_q + (block_y_q << BLOCK_LOG2) + TC'(tile_y_q);
-
-  // ---- A step: of the block, or of the tile within it -----------------------------------------------------------------------
-  // One set of adders does both: the clock that leaves a block moves the block alone, and the tile follows. A step to the left
-  // subtracts: ~x, and the one that is missing enters as carry ({a, 1} + {b, carry}).
-  logic of_block, row_end, back_x;
-
-  assign of_block = in_block || tile_end;
-  assign row_end = of_block ? block_row_end : tile_row_end;
-  assign back_x = !row_end && (of_block ? block_left_q : tile_left_q);
-
   // ---- Linear functions and the extent test -------------------------------------------------------------------------------
-  logic [4:0] some_pos, some_neg;
+  // Outside WALK the tile is the first of the block to test. One set of adders steps blocks and tiles: a step to the left subtracts: ~x,
+  // and the one that is missing enters as carry ({a, 1} + {b, carry}). After a block's last tile comes the next block, which is there.
+  logic row_end, back_x;
+  logic [4:0] some_pos_q1, some_neg_q1;
+  logic [6*VAL-1:0] lin_value_q1, lin_value_q2;
+
+  assign row_end = in_walk ? tile_row_end : block_row_end;
+  assign back_x = !row_end && (in_walk ? tile_left_q : block_left_q);
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     logic [GRAD-1:0] gx_q, gy_q;
@@ -176,19 +205,27 @@ module tile_walk #(
     logic [VAL-1:0] slope, move, next;
 
     assign slope = VAL'($signed(row_end ? gy_q : gx_q));
-    assign move = (of_block ? slope << BL : slope << TL) ^ {VAL{back_x}};
-    assign next = VAL'(({of_block ? block_q : tile_q, 1'b1} + {move, back_x}) >> 1);
+    assign move = (in_walk ? slope << TL : slope << BL) ^ {VAL{back_x}};
+    assign next = VAL'(({tile_q, 1'b1} + {move, back_x}) >> 1);
 
     always_ff @(posedge clk_i) begin
       if (take_o) begin
         gx_q <= lin_gx_i[g*GRAD+:GRAD];
         gy_q <= lin_gy_i[g*GRAD+:GRAD];
+        block_q <= lin_value_i[g*VAL+:VAL];
+        tile_q <= lin_value_i[g*VAL+:VAL];
+      end else if (go) begin
+        if (test_block) block_q <= next;
+        if (enter_walk) tile_q <= lin_value_q1[g*VAL+:VAL];
+        else if (in_walk && tile_end) tile_q <= block_q;
+        else if (in_walk || test_block) tile_q <= next;
       end
-      if (take_o || step_block) block_q <= take_o ? lin_value_i[g*VAL+:VAL] : next;
-      if (take_o || step_block || step_tile) tile_q <= take_o ? lin_value_i[g*VAL+:VAL] : next;
+      if (go) begin
+        lin_value_q1[g*VAL+:VAL] <= tile_q;
+        lin_value_q2[g*VAL+:VAL] <= lin_value_q1[g*VAL+:VAL];
+        lin_value_o[g*VAL+:VAL] <= lin_value_q2[g*VAL+:VAL];
+      end
     end
-
-    assign lin_value_o[g*VAL+:VAL] = tile_q;
 
     if (g < 5) begin : gen_test
       logic [REACH-1:0] fall_tile_q, fall_block_q, rise_tile_q, rise_block_q;
@@ -201,13 +238,14 @@ module tile_walk #(
           rise_tile_q <= rise_tile_i[g*REACH+:REACH];
           rise_block_q <= rise_block_i[g*REACH+:REACH];
         end
+        if (go) begin
+          some_neg_q1[g] <= low[VAL-1];
+          some_pos_q1[g] <= !high[VAL-1];
+        end
       end
 
-      // Outside WALK the tile is the first of its block.
       assign low = tile_q + VAL'($signed(in_walk ? fall_tile_q : fall_block_q));
       assign high = tile_q + VAL'($signed(in_walk ? rise_tile_q : rise_block_q));
-      assign some_neg[g] = low[VAL-1];
-      assign some_pos[g] = !high[VAL-1];
 
       logic unused;
       assign unused = ^{low, high};
@@ -216,45 +254,106 @@ module tile_walk #(
 
   logic back, front;
   logic back1, back2, front1, front2;  // clauses 1 and 2 of either orientation
+  logic [4:0] pos, neg;
 
-  assign back1 = some_pos[4] && some_pos[0] && some_pos[1] && (some_pos[2] || some_pos[3]) && visible_q[0];
-  assign back2 = some_neg[4] && some_pos[2] && some_pos[3] && (some_pos[0] || some_pos[1]) && visible_q[1];
-  assign front1 = some_neg[4] && some_neg[0] && some_neg[1] && (some_neg[2] || some_neg[3]) && visible_q[2];
-  assign front2 = some_pos[4] && some_neg[2] && some_neg[3] && (some_neg[0] || some_neg[1]) && visible_q[3];
+  assign pos = some_pos_q1;
+  assign neg = some_neg_q1;
+  assign back1 = pos[4] && pos[0] && pos[1] && (pos[2] || pos[3]) && visible_q[0];
+  assign back2 = neg[4] && pos[2] && pos[3] && (pos[0] || pos[1]) && visible_q[1];
+  assign front1 = neg[4] && neg[0] && neg[1] && (neg[2] || neg[3]) && visible_q[2];
+  assign front2 = pos[4] && neg[2] && neg[3] && (neg[0] || neg[1]) && visible_q[3];
   assign back = (back1 || back2) && cull_i != 2'd2;
   assign front = (front1 || front2) && cull_i != 2'd1;
   assign may_cover = back || front;
 
+  // ---- Commands -----------------------------------------------------------------------------------------------------------
+  // Push the tile; enter the block; step to the next tile or block. With the slopes (2), then with the values (3).
+  logic push_q2, end_q2, enter_q2, step_tile_q2, step_block_q2, row_end_q2, back_q2;
+  logic push_q3, end_q3, step_tile_q3, step_block_q3, back_q3;
+  logic [TC-1:0] x_q2, y_q2;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      {push_q2, end_q2, enter_q2, step_tile_q2, step_block_q2} <= '0;
+      {push_q3, end_q3, step_tile_q3, step_block_q3} <= '0;
+    end else if (go) begin
+      push_q2 <= (tile_q1 && hit) || end_q1;
+      end_q2 <= end_q1;
+      enter_q2 <= enter_walk;
+      step_tile_q2 <= tile_q1 && !of_block_q1;
+      step_block_q2 <= (tile_q1 && of_block_q1) || (block_q1 && !hit);
+      {push_q3, end_q3, step_tile_q3, step_block_q3} <= {push_q2, end_q2, step_tile_q2, step_block_q2};
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (go) begin
+      {row_end_q2, back_q2, x_q2, y_q2} <= {row_end_q1, back_q1, x_q1, y_q1};
+      {back_q3, tile_x_o, tile_y_o} <= {back_q2, x_q2, y_q2};
+    end
+  end
+
+  assign go = !push_q3 || !ring_full_i;
+  assign push_o = push_q3 && !ring_full_i;
+  assign end_o = end_q3;
+  assign slot_o = slot_q;
+
   // ---- Quadratic functions ------------------------------------------------------------------------------------------------
-  // Moving by +-h: value +- h gx + h^2 q, gx +- 2h q. With the slope halfway, middle = gx +- h q, that is value +- h middle,
-  // middle +- h q.
+  // Moving by +-h: value +- h gx + h^2 q, gx +- 2h q. With the slope halfway, middle = gx +- h q, that is value +- h middle.
   for (genvar g = 0; g < 10; g++) begin : gen_quadratic
     logic [QCURV-1:0] curv_q;
     logic [QVAL-1:0] block_value_q, tile_value_q;
     logic [QGRAD-1:0] block_gx_q, block_gy_q, tile_gx_q, tile_gy_q;
-    logic [QGRAD-1:0] bend, slope, middle, next_slope;
+    logic [QGRAD-1:0] curv, bend, turn, slope, next_slope, middle_q3;
     logic [QVAL-1:0] rise, move, next_value;
 
-    assign bend = (of_block ? QGRAD'($signed(curv_q)) << BL : QGRAD'($signed(curv_q)) << TL) ^ {QGRAD{back_x}};
-    assign slope = of_block ? (row_end ? block_gy_q : block_gx_q) : (row_end ? tile_gy_q : tile_gx_q);
-    assign middle = QGRAD'(({slope, 1'b1} + {bend, back_x}) >> 1);
-    assign next_slope = QGRAD'(({middle, 1'b1} + {bend, back_x}) >> 1);
-    assign rise = QVAL'($signed(middle));
-    assign move = (of_block ? rise << BL : rise << TL) ^ {QVAL{back_x}};
-    assign next_value = QVAL'(({of_block ? block_value_q : tile_value_q, 1'b1} + {move, back_x}) >> 1);
+    assign curv = QGRAD'($signed(curv_q));
+    assign bend = (step_block_q2 ? curv << BL : curv << TL) ^ {QGRAD{back_q2}};
+    assign turn = (step_block_q2 ? curv << (BL + 1) : curv << (TL + 1)) ^ {QGRAD{back_q2}};
+    assign slope = step_block_q2 ? (row_end_q2 ? block_gy_q : block_gx_q) : (row_end_q2 ? tile_gy_q : tile_gx_q);
+    assign next_slope = QGRAD'(({slope, 1'b1} + {turn, back_q2}) >> 1);
 
     always_ff @(posedge clk_i) begin
-      if (take_o) curv_q <= quad_q_i[g*QCURV+:QCURV];
-      if (take_o || step_block) block_value_q <= take_o ? quad_value_i[g*QVAL+:QVAL] : next_value;
-      if (take_o || step_block || step_tile) tile_value_q <= take_o ? quad_value_i[g*QVAL+:QVAL] : next_value;
-      if (take_o || (step_block && !row_end)) block_gx_q <= take_o ? quad_gx_i[g*QGRAD+:QGRAD] : next_slope;
-      if (take_o || (step_block && row_end)) block_gy_q <= take_o ? quad_gy_i[g*QGRAD+:QGRAD] : next_slope;
-      if (in_block || (step_tile && !row_end)) tile_gx_q <= in_block ? block_gx_q : next_slope;
-      if (in_block || (step_tile && row_end)) tile_gy_q <= in_block ? block_gy_q : next_slope;
+      if (take_o) begin
+        curv_q <= quad_q_i[g*QCURV+:QCURV];
+        block_gx_q <= quad_gx_i[g*QGRAD+:QGRAD];
+        block_gy_q <= quad_gy_i[g*QGRAD+:QGRAD];
+      end else if (go) begin
+        if (step_block_q2 && !row_end_q2) block_gx_q <= next_slope;
+        if (step_block_q2 && row_end_q2) block_gy_q <= next_slope;
+      end
+      if (go) begin
+        if (enter_q2 || (step_tile_q2 && !row_end_q2)) tile_gx_q <= enter_q2 ? block_gx_q : next_slope;
+        if (enter_q2 || (step_tile_q2 && row_end_q2)) tile_gy_q <= enter_q2 ? block_gy_q : next_slope;
+        middle_q3 <= QGRAD'(({slope, 1'b1} + {bend, back_q2}) >> 1);
+        quad_gx_o[g*QGRAD+:QGRAD] <= tile_gx_q;
+        quad_gy_o[g*QGRAD+:QGRAD] <= tile_gy_q;
+      end
+    end
+
+    assign rise = QVAL'($signed(middle_q3));
+    assign move = (step_block_q3 ? rise << BL : rise << TL) ^ {QVAL{back_q3}};
+    assign next_value = QVAL'(({step_block_q3 ? block_value_q : tile_value_q, 1'b1} + {move, back_q3}) >> 1);
+
+    always_ff @(posedge clk_i) begin
+      if (take_o) begin
+        block_value_q <= quad_value_i[g*QVAL+:QVAL];
+        tile_value_q <= quad_value_i[g*QVAL+:QVAL];
+      end else if (go) begin
+        if (step_block_q3) block_value_q <= next_value;
+        if (step_block_q3 || step_tile_q3) tile_value_q <= next_value;
+      end
     end
 
     assign quad_value_o[g*QVAL+:QVAL] = tile_value_q;
-    assign quad_gx_o[g*QGRAD+:QGRAD] = tile_gx_q;
-    assign quad_gy_o[g*QGRAD+:QGRAD] = tile_gy_q;
   end
+
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      assert (!take_o || !(push_q2 || push_q3 || step_block_q2 || step_block_q3 || step_tile_q2 || step_tile_q3));
+      assert (!enter_walk || in_block);
+    end
+  end
+`endif
 endmodule

@@ -22,7 +22,7 @@ Scoreboard::Scoreboard(const Config& config, std::span<const SnappedQuad> quads,
       probes_(probes),
       seed_(seed),
       quad_of_slot_(static_cast<std::size_t>(config.quad_slots())),
-      ring_(static_cast<std::size_t>(2 * config.tile_slots())) {
+      ring_(static_cast<std::size_t>(2 * ring_entries(config))) {
   std::size_t room = 0;
   for (std::size_t i = 0; i < boundary_count; ++i) {
     layouts_.push_back(boundary_layout(static_cast<Boundary>(i), config));

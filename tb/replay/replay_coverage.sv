@@ -1,4 +1,5 @@
-// Suite `coverage`: one tile entry in, mask, front and tie of its rows out. A clock a row; rows that are not pushed count as zero.
+// Suite `coverage`: one tile entry in, mask, front and tie of its rows out; rows that are not pushed count as zero. The stimulus stands
+// for ring and slots, which hold what they were read for while the entry is in work.
 module replay_coverage (
     `include "replay_ports.svh"
 );
@@ -6,8 +7,8 @@ module replay_coverage (
   localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int TILE = quadrille_pkg::TILE;
 
-  logic [quadrille_pkg::TILE_SLOTS_LOG2:0] pointer;
-  logic push, push_end;
+  logic [quadrille_pkg::RING_LOG2:0] fetch_ptr, load_ptr, stamp_ptr;
+  logic fetch, load, push, push_end;
   logic [TILE_LOG2-1:0] row;
   logic [TILE-1:0] mask, front, tie;
 
@@ -30,13 +31,20 @@ module replay_coverage (
     );
   end
 
+  logic fetched_q;
+  logic [TILE_LOG2+1:0] count_q;  // clocks since the fetch
+
   stamp_coverage u_coverage (
-      .stamp_ptr_o(pointer),
-      .present_i(valid_i),
+      .present_i(valid_i && !fetched_q),
+      .fetch_o(fetch),
+      .fetch_ptr_o(fetch_ptr),
+      .load_o(load),
+      .load_ptr_o(load_ptr),
       .end_i(1'b0),
-      .fifo_full_i(1'b0),
+      .freed_i(push),
       .push_o(push),
       .end_o(push_end),
+      .stamp_ptr_o(stamp_ptr),
       .row_o(row),
       .mask_o(mask),
       .front_o(front),
@@ -44,17 +52,18 @@ module replay_coverage (
       .*
   );
 
-  // The entry is taken with its last row; its rows are complete a clock later.
-  logic [TILE_LOG2-1:0] count_q;
-
+  // The entry stays until the last of its rows has surely gone by: three registers, a clock a row, three registers.
   assign ready_o = count_q == '1;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
+      fetched_q <= 1'b0;
       count_q <= '0;
       valid_o <= 1'b0;
     end else begin
-      if (valid_i) count_q <= count_q + TILE_LOG2'(1);
+      if (ready_o) fetched_q <= 1'b0;
+      else if (fetch) fetched_q <= 1'b1;
+      if (fetched_q) count_q <= count_q + (TILE_LOG2 + 2)'(1);
       valid_o <= valid_i && ready_o;
     end
   end
@@ -65,7 +74,7 @@ module replay_coverage (
         mask_o[g*TILE+:TILE] <= mask;
         front_o[g*TILE+:TILE] <= front;
         tie_o[g*TILE+:TILE] <= tie;
-      end else if (count_q == '0) begin
+      end else if (fetch) begin
         mask_o[g*TILE+:TILE] <= '0;
         front_o[g*TILE+:TILE] <= '0;
         tie_o[g*TILE+:TILE] <= '0;
@@ -74,5 +83,5 @@ module replay_coverage (
   end
 
   logic unused;
-  assign unused = ^{pointer, push_end};
+  assign unused = ^{fetch_ptr, load, load_ptr, stamp_ptr, push_end};
 endmodule
