@@ -83,7 +83,7 @@ def synthesise(program):
         axis, *settings = configuration.split()
         with tempfile.TemporaryDirectory() as directory:
             command = [program, "sweep", "--axis", axis, *(part for setting in settings for part in ("--set", setting)),
-                       "--synth", "all", "--cosim", "none", "--no-cycles", "--scene", "bowtie", "--size", "64x64", "--quiet",
+                       "--synth", "all", "--synth-target", "ecp5-nodsp", "--cosim", "none", "--no-cycles", "--scene", "bowtie", "--size", "64x64", "--quiet",
                        "--out", directory]
             done = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
             if done.returncode != 0:

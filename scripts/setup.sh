@@ -7,6 +7,7 @@ cd "$root"
 packages=(
   g++ make cmake ninja-build   # the build, and simulators on demand; make builds those of the replay benches
   verilator yosys iverilog     # RTL simulation, synthesis and round trip, replay of golden vectors
+  opensta qflow-tech-osu018    # scripts/timing.py: static timing, and the standard cells that it times
   libgtest-dev libopenexr-dev libpng-dev zlib1g-dev libssl-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   pkg-config libcairo2-dev fonts-dejavu-core   # contact sheets of quadrille compare
   clang-format                 # the format test

@@ -9,7 +9,6 @@ LUT counts LUT4 + 2 CCU2C (two bits of a carry chain each) + 6 DPR16X4 (16 words
 port), DSP counts MULT18X18D, BRAM DP16KD. A row has every instance of its unit, with what they instantiate. The longest path is counted
 in cells: LUT4, CCU2C, a DSP, a read of a memory. Exit status: 1 synthesis failed, 2 usage, 3 no Yosys."""
 import argparse
-import json
 import sys
 import tempfile
 
@@ -25,31 +24,25 @@ def main():
     synthesis.add_arguments(parser)
     parser.add_argument("--target", choices=TARGETS, default="ecp5")
     parser.add_argument("--markdown", action="store_true")
-    args = parser.parse_args()
+    args = parser.parse_intermixed_args()
     try:
         with tempfile.TemporaryDirectory() as work:
             rows, path = synthesis.ecp5(synthesis.Machine(args, work), TARGETS[args.target])
-    except (synthesis.SynthesisFailed, synthesis.InputRefused, synthesis.ToolMissing) as error:
+        synthesis.write_json(args.json, as_json(args.target, rows, path))
+    except tuple(synthesis.STATUS) as error:
         print(f"size.py: {error}", file=sys.stderr)
-        return {synthesis.SynthesisFailed: 1, synthesis.InputRefused: 2, synthesis.ToolMissing: 3}[type(error)]
-    if args.json:
-        write_json(args.json, args.target, rows, path)
-    if args.json != "-":
+        return synthesis.STATUS[type(error)]
+    if args.json != "-" and not args.quiet:
         print_table(rows, args.markdown)
         if not args.markdown:
             print(f"longest path: {path} cells")
     return 0
 
 
-def write_json(name, target, rows, path):
+def as_json(target, rows, path):
     units = [{"unit": unit, "instances": number} | {JSON_NAMES[key]: total[key] for key in synthesis.ECP5} for unit, number, total in rows]
-    text = json.dumps({"target": target} | {key: value for key, value in units[-1].items() if key not in ("unit", "instances")} |
-                      {"longest_path": path, "units": units[:-1]}, indent=2) + "\n"
-    if name == "-":
-        sys.stdout.write(text)
-    else:
-        with open(name, "w", encoding="utf-8") as file:
-            file.write(text)
+    whole = {key: value for key, value in units.pop().items() if key in JSON_NAMES.values()}
+    return {"target": target} | whole | {"longest_path": path, "units": units}
 
 
 def print_table(rows, markdown):

@@ -49,8 +49,11 @@ def setUpModule():
     full = Rows("full")
     chosen = [row for row in full.drawn.values() if row["attribute_frac_bits"] == row["significand_bits"] + 2][:3]
     with open(os.path.join(WORK, "full", "synth.csv"), "w", encoding="utf-8") as out:
-        out.write("row,luts,flip_flops,dsps,longest_path,cost\n")
-        out.writelines(f"{row['row']:.0f},{row['cost'] * 1.01:.0f},9000,0,40,{row['cost']}\n" for row in chosen)
+        out.write("row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost\n")
+        out.writelines(f"{row['row']:.0f},ecp5,{row['cost'] * 1.01:.0f},9000,57,0,40,,,,,{row['cost']}\n" for row in chosen)
+    with open(os.path.join(WORK, "one", "synth.csv"), "w", encoding="utf-8") as out:
+        out.write("row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost\n")
+        out.writelines(f"{row},cells,,9000,,,,{1e6 + 1e5 * row},4321,{40 + row},u_sum.a -> <b>: fp_sum 9.1 ns,{1000 + row}\n" for row in (1, 2))
     with open(os.path.join(WORK, "full", "cosim.csv"), "w", encoding="utf-8") as out:
         out.write("row,why,fragments,cycles,mismatches,cycle_mismatches,first_difference\n")
         out.write(f"{chosen[0]['row']:.0f},knee,10,12,0,0,\n{chosen[1]['row']:.0f},corner,10,12,3,0,\"cycle 8, n_sig[2]\"\n")
@@ -197,6 +200,15 @@ class ReportTest(unittest.TestCase):
         self.assertIn("<b class='bad'>3</b>", html)
         self.assertIn("No point of this sweep was co-simulated", page("outside"))
         self.assertIn("quadrille bench --error --json", page("outside"))  # the command that adds the missing plot
+
+    def test_synthesis_for_standard_cells(self):
+        html = page("one")
+        points = traces(embedded(html, "figures")["synthesis"][0])["points"]
+        self.assertEqual((list(points["x"]), list(points["y"])), ([1001, 1002], [1.1e6, 1.2e6]))
+        for text in ("standard cells, OSU 0.18 µm", "<th>MHz</th>", "<td>4,321</td>", "u_sum.a -&gt; &lt;b&gt;: fp_sum 9.1 ns"):
+            self.assertIn(text, html)
+        self.assertNotIn("<th>DSPs</th>", html)  # what the target does not have is no column
+        self.assertIn("<th>DSPs</th>", page("full"))
 
     def test_page_needs_no_network(self):
         from plotly.offline import get_plotlyjs
@@ -389,8 +401,9 @@ class BadInputTest(unittest.TestCase):
                 ("error_map.npy", rb"\A", b"PK", "pickle"),
                 ("error_map.npy", rb"\(64, 96\)", b"(96, 64)", "manifest.json says 96x64"),
                 ("error_map.npy", rb"(?s).{4}\Z", b"\0\0\xc0\x7f", "NaN"),
-                ("synth.csv", rb"\Z", b"77,1,1,1,1,1\n", "row 77 is not in points.csv"),
+                ("synth.csv", rb"\Z", b"77,ecp5,1,1,1,1,1,,,,,1\n", "row 77 is not in points.csv"),
                 ("synth.csv", rb"flip_flops", b"flops", "no column flip_flops"),
+                ("synth.csv", rb",ecp5,", b",ice40,", "target is not one of ecp5, ecp5-nodsp, cells"),
                 ("cosim.csv", rb"knee,10", b"knee,x", "fragments is 'x'")):
             with self.subTest(name=name, words=words):
                 self.restore()

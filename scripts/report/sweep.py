@@ -8,7 +8,9 @@ import numpy as np
 from report.files import InputError, numbers, read_columns, read_report, reading
 
 TEXT_COLUMNS = ("row", "status", "reason", "bound_lambda_kind", "bound_attribute_kind", "bound_depth_kind", "ranges", "worst")
-SYNTH_COLUMNS = ("luts", "flip_flops", "dsps", "longest_path", "cost")
+SYNTH_TARGETS = {"ecp5": "Lattice ECP5 with DSP blocks", "ecp5-nodsp": "Lattice ECP5, multipliers in logic",
+                 "cells": "standard cells, OSU 0.18 µm"}
+SYNTH_COLUMNS = ("target", "luts", "flip_flops", "dsps", "block_rams", "longest_path", "area_um2", "nand2", "mhz", "critical_path", "cost")
 COSIM_COLUMNS = ("why", "fragments", "cycles", "mismatches", "cycle_mismatches", "first_difference")
 QUANTITIES = {"lambda": "weights λ′", "attribute": "attributes", "depth": "window depth", "colour": "test colours"}
 STATISTICS = {"max": "max", "p999": "99.9th percentile", "rms": "RMS", "mean": "mean"}
@@ -70,6 +72,8 @@ class Sweep:
             if not (self.map >= -1).all():
                 raise ValueError("an error that is NaN or below −1")
         self.synth, self.cosim = self._read_rows(path("synth.csv"), SYNTH_COLUMNS), self._read_rows(path("cosim.csv"), COSIM_COLUMNS)
+        if self.synth and (len(set(self.synth["target"])) > 1 or self.synth["target"][0] not in SYNTH_TARGETS):
+            raise InputError(f"{path('synth.csv')}: target is not one of {', '.join(SYNTH_TARGETS)} throughout; `quadrille sweep` writes it")
 
     def _read_points(self, path):
         self.text = read_columns(path, self.columns)
@@ -106,7 +110,7 @@ class Sweep:
             return None
         with reading(path, "`quadrille sweep`"):
             cells = read_columns(path, ["row", *columns])
-            for name in set(columns) - {"why", "first_difference"}:
+            for name in set(columns) - {"why", "first_difference", "target", "critical_path"}:
                 cells[name] = numbers(name, cells[name])
             try:
                 cells["point"] = [self.index[int(row)] for row in cells["row"]]

@@ -5,7 +5,7 @@ import numpy as np
 
 from report.plot import (BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, Axis, ErrorAxis, Figure, Image, Panel, Plot, Series, around, escape, power,
                          seconds)
-from report.sweep import QUANTITIES, STATISTICS, error_title
+from report.sweep import QUANTITIES, STATISTICS, SYNTH_TARGETS, error_title
 from report.web import table
 
 STATISTIC_STYLE = {"max": (BLUE, "circle"), "p999": (ORANGE, "square"), "rms": (GREEN, "triangle-up")}
@@ -269,18 +269,29 @@ def run_time(bench):
         f"<p class='note'>Measured by <code>{escape(bench['command'])}</code></p>")
 
 
+SYNTH_TITLES = {"luts": "LUTs", "flip_flops": "flip-flops", "dsps": "DSPs", "block_rams": "block RAMs", "longest_path": "longest path, cells",
+                "area_um2": "area, µm²", "nand2": "area, NAND2", "mhz": "MHz", "cost": "cost estimate"}
+
+
 def synthesis(sweep):
     title = "Cost estimate against synthesis"
     intro = "The cost estimate is counted from the widths in microseconds; a synthesis of chosen points shows whether it ranks them rightly."
     if sweep.synth is None:
         return Plot("synthesis", title, intro, "No point of this sweep was synthesized (<code>quadrille sweep --synth pareto</code>). ")
-    points, x, y = sweep.synth["point"], sweep.synth["cost"], sweep.synth["luts"]
+    cells = sweep.synth["target"][0] == "cells"
+    points, x, y = sweep.synth["point"], sweep.synth["cost"], sweep.synth["area_um2" if cells else "luts"]
     rho = sweep.manifest["synthesis"]["rank_correlation"]
     span = around(x + y)
-    series = [Series("estimate = synthesis", span, span, GREY, "", "dash"), Series("points", x, y, BLUE, line="", size=9, points=points)]
-    lines = [[sweep.rows[i], ", ".join(sweep.words(i)), *(count(sweep.synth[name][n]) for name in sweep.synth if name not in ("row", "point"))]
+    measured = Axis("LUTs after synthesis", span, "count")
+    series = [Series("points", x, y, BLUE, line="", size=9, points=points)]
+    if cells:
+        measured = Axis("area of standard cells in µm²", around(y), "count")
+    else:
+        series.insert(0, Series("estimate = synthesis", span, span, GREY, "", "dash"))
+    columns = {name: title for name, title in SYNTH_TITLES.items() if any(math.isfinite(value) for value in sweep.synth[name])}
+    lines = [[sweep.rows[i], ", ".join(sweep.words(i)), *(count(sweep.synth[name][n]) for name in columns), escape(sweep.synth["critical_path"][n])]
              for n, i in enumerate(points)]
-    caption = f"{len(points)} points. Rank correlation (Spearman; 1: the same order): {'undefined' if rho is None else f'{rho:.4f}'}. "
+    caption = f"{len(points)} points on {SYNTH_TARGETS[sweep.synth['target'][0]]}. Rank correlation (Spearman; 1: the same order): {'undefined' if rho is None else f'{rho:.4f}'}. "
     return Plot("synthesis", title, intro, caption, [Figure([Panel(
-        Axis("cost estimate in LUTs", span, "count"), Axis("LUTs after synthesis", span, "count"), series)], columns=("cost",), height=480)],
-        extra=table(["row", "configuration", "LUTs", "flip-flops", "DSPs", "longest path", "cost estimate"], lines))
+        Axis("cost estimate in LUTs", around(x) if cells else span, "count"), measured, series)], columns=("cost",), height=480)],
+        extra=table(["row", "configuration", *columns.values(), "critical path"], lines))

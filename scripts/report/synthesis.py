@@ -1,11 +1,14 @@
 """The RTL through Yosys: its files, the modules that stay apart, what its cells count. For size.py, timing.py and `quadrille sweep --synth`."""
 import collections
 import glob
+import json
 import os
 import re
 import shutil
 import subprocess
+import sys
 
+from report.files import InputError, write_files
 from report.program import PROGRAM, ROOT
 
 UNITS = ("vertex_assembly quad_setup quad_slots tile_walk tile_ring stamp_coverage forward_difference normalise rsqrt mean_value_ratios "
@@ -19,12 +22,12 @@ class ToolMissing(Exception):
     """A fault of the environment: exit status 3."""
 
 
-class InputRefused(Exception):
-    """A unit or a configuration that is none: exit status 2."""
-
-
 class SynthesisFailed(Exception):
     """The tool ended with an error, or its output is not understood: exit status 1."""
+
+
+# The exit status that each of these ends a script with.
+STATUS = {SynthesisFailed: 1, InputError: 2, ToolMissing: 3}
 
 
 def find_tool(*names, packages):
@@ -35,12 +38,27 @@ def find_tool(*names, packages):
     raise ToolMissing(f"no {' or '.join(names)}; install with: apt-get install {packages}")
 
 
+def optional_tool(name):
+    """Path of a program, or None."""
+    return shutil.which(name)
+
+
+def write_json(name, result):
+    """To a file, to standard output (-), or not at all (None)."""
+    text = json.dumps(result, indent=2) + "\n"
+    if name == "-":
+        sys.stdout.write(text)
+    elif name:
+        write_files(os.path.dirname(os.path.abspath(name)), {os.path.basename(name): text.encode()})
+
+
 def add_arguments(parser):
     parser.add_argument("settings", nargs="*", metavar="KEY=VALUE", help="configuration keys, as of quadrille --set")
     parser.add_argument("--rtl", default=os.path.join(ROOT, "rtl"), metavar="DIR", help="folder of the RTL")
     parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program, for the tables")
     parser.add_argument("--tables", metavar="FILE", help="quadrille_tables_pkg.sv of this configuration, instead of asking the program for it")
     parser.add_argument("--json", metavar="FILE", help="write the result as JSON too (- for standard output, alone)")
+    parser.add_argument("--quiet", action="store_true", help="no table")
 
 
 def run(command, work, log):
@@ -62,14 +80,14 @@ class Machine:
         self.work = work
         for setting in args.settings:
             if not re.fullmatch(r"[a-z0-9_]+=-?\w+", setting):
-                raise InputRefused(f"{setting}: expected KEY=VALUE, such as significand_bits=12; `quadrille config` lists the keys")
+                raise InputError(f"{setting}: expected KEY=VALUE, such as significand_bits=12; `quadrille config` lists the keys")
         settings = [setting.split("=") for setting in args.settings]
         tables = os.path.abspath(args.tables) if args.tables else self._make_tables(args)
         defines = [f"-DQUADRILLE_{key.upper()}={-1 if value == 'auto' else value}" for key, value in settings]
         rtl = os.path.abspath(args.rtl)
         files = sorted(glob.glob(os.path.join(rtl, "*.sv")), key=lambda name: (not name.endswith("_pkg.sv"), name))
         if not files:
-            raise InputRefused(f"no SystemVerilog in {rtl}")
+            raise InputError(f"no SystemVerilog in {rtl}")
         self.modules = {os.path.splitext(os.path.basename(name))[0] for name in files if not name.endswith("_pkg.sv")}
         quoted = " ".join(f'"{name}"' for name in [files[0], tables, *files[1:]])
         self.read = f"read_verilog -sv -DSYNTHESIS=1 {' '.join(defines)} {quoted}\n"
@@ -82,14 +100,14 @@ class Machine:
         except OSError as error:
             raise ToolMissing(f"{args.quadrille}: {error.strerror}; build the program, or name it with --quadrille") from None
         if result.returncode != 0:
-            raise InputRefused(result.stderr.strip())
+            raise InputError(result.stderr.strip())
         return path
 
     def elaborate(self, top, parameters=()):
         """Yosys commands up to the hierarchy under `top`, in which the units stay apart: each is optimised and mapped once however often it
         is instantiated. The rest is flattened, so that the constants of a table or of a feature that is off reach the logic behind them."""
         if top not in self.modules:
-            raise InputRefused(f"no unit {top} in rtl/; there are: {' '.join(sorted(self.modules))}")
+            raise InputError(f"no unit {top} in rtl/; there are: {' '.join(sorted(self.modules))}")
         chparam = "".join(f" -chparam {name} {value}" for name, value in parameters)
         kept = " ".join(f"*{unit}*" for unit in (*UNITS, *SHARED))
         return (f"{self.read}hierarchy -check -top {top}{chparam}\n"

@@ -49,7 +49,7 @@ struct SweepOptions {
   StateOptions state;
   InputOptions input;
   std::vector<std::string> axes, targets;
-  std::string out, objective, synth = "none", cosim, shade;
+  std::string out, objective, synth = "none", synth_target = "ecp5", cosim, shade;
   std::uint64_t cosim_fragments = 200'000;
   bool one_at_a_time = false, force = false, fresh = false, exhaustive = false, no_confirm = false, no_cycles = false;
 };
@@ -153,6 +153,7 @@ class SweepRun {
     const std::vector<std::size_t> all = grid_rows(), none;
     const sweep::Candidates candidates{grid_, all, none, none};
     sweep::select_points(options_.synth, candidates);
+    tb::parse_synthesis_target(options_.synth_target);
     if (!options_.cosim.empty()) sweep::select_points(options_.cosim, candidates);
   }
 
@@ -337,15 +338,15 @@ class SweepRun {
     const tb::Stopwatch start;
     Progress progress("synthesis of " + std::to_string(synthesis.size()) + " points", synthesis.size(),
                       options_.common.show_progress());
-    synthesis_ =
-        sweep::synthesise(synthesis, weights_, threads, [&](std::size_t done, std::size_t) { progress.set(done); });
+    synthesis_ = sweep::synthesise(synthesis, tb::parse_synthesis_target(options_.synth_target), weights_, threads,
+                                   [&](std::size_t done, std::size_t) { progress.set(done); });
     if (!synthesis.empty()) store.add_timing({"synthesis", synthesis.size(), start.seconds()});
-    std::vector<double> estimates, luts;
+    std::vector<double> estimates, measured;
     for (const sweep::SynthesisRow& row : synthesis_) {
       estimates.push_back(row.cost);
-      luts.push_back(static_cast<double>(row.luts));
+      measured.push_back(sweep::measured_cost(row));
     }
-    correlation_ = sweep::rank_correlation(estimates, luts);
+    correlation_ = sweep::rank_correlation(estimates, measured);
   }
 
   // ---- files ----
@@ -373,6 +374,7 @@ class SweepRun {
     json["error_map_row"] = map_row < grid_.size() ? Json(map_row) : Json(nullptr);
     if (target_) json["search"] = to_json(*target_, targets_);
     json["synthesis"] = {{"points", synthesis_.size()},
+                         {"target", options_.synth_target},
                          {"rank_correlation", std::isnan(correlation_) ? Json(nullptr) : Json(correlation_)}};
     json["cosim"] = {{"points", cosim_.size()}, {"ok", cosim_ok()}};
     for (const sweep::PointColumn& column : sweep::point_columns())
@@ -387,12 +389,8 @@ class SweepRun {
 
   void write(sweep::Evaluator& evaluator, const sweep::Store& store) {
     constexpr auto refused = golden::AtomicFile::Dash::refused;
-    std::string text = "row,luts,flip_flops,dsps,longest_path,cost\n";
-    for (const sweep::SynthesisRow& r : synthesis_)
-      text += std::to_string(r.row) + "," + std::to_string(r.luts) + "," + std::to_string(r.flip_flops) + "," +
-              std::to_string(r.dsps) + "," + std::to_string(r.longest_path) + "," + sweep::csv_number(r.cost) + "\n";
-    golden::write_file(store.file("synth.csv"), text, refused);
-    text = "row,why,fragments,cycles,mismatches,cycle_mismatches,first_difference\n";
+    golden::write_file(store.file("synth.csv"), sweep::synthesis_table(synthesis_), refused);
+    std::string text = "row,why,fragments,cycles,mismatches,cycle_mismatches,first_difference\n";
     for (const CosimRow& r : cosim_)
       text += std::to_string(r.row) + "," + r.why + "," + std::to_string(r.fragments) + "," + std::to_string(r.cycles) +
               "," + std::to_string(r.mismatches) + "," + std::to_string(r.cycle_mismatches) + "," +
@@ -458,7 +456,8 @@ class SweepRun {
                    options_.cosim.empty() ? "default, knees and corners" : options_.cosim.c_str(),
                    cosim_ok() ? "no difference" : "DIFFERENCES");
     if (!synthesis_.empty()) {
-      std::fprintf(out, "synthesised %zu points; rank correlation of estimated cost and LUTs ", synthesis_.size());
+      std::fprintf(out, "synthesised %zu points for %s; rank correlation of estimated cost and %s ", synthesis_.size(),
+                   options_.synth_target.c_str(), options_.synth_target == "cells" ? "area" : "LUTs");
       if (std::isnan(correlation_))
         std::fprintf(out, "needs two different ones\n");
       else
@@ -567,6 +566,7 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       "  quadrille sweep --out sweep\n"
       "  quadrille sweep --axis significand_bits=10:26:2 --axis subpixel_bits=4,6,8 --scene fig7_floor --out floor\n"
       "  quadrille sweep --axis significand_bits=12:24:4 --synth all --cosim none --out synth\n"
+      "  quadrille sweep --axis significand_bits=8,12 --synth all --synth-target cells --cosim none --out clocks\n"
       "  quadrille sweep --target-error colour=0.5/255 --size 1920x1080 --out colour");
   const auto options = std::make_shared<SweepOptions>();
   options->input.add_to(*command);
@@ -605,6 +605,12 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command->add_option("--synth", options->synth, "Points to synthesise with Yosys (minutes each the first time)")
       ->type_name("SELECTION")
+      ->capture_default_str();
+  command
+      ->add_option("--synth-target", options->synth_target,
+                   "What for: ecp5 (LUTs, flip-flops, DSPs, block RAMs of a Lattice ECP5), ecp5-nodsp (multipliers in "
+                   "logic) or cells (area and clock on standard cells; needs OpenSTA)")
+      ->type_name("TARGET")
       ->capture_default_str();
   command
       ->add_option("--shade", options->shade,

@@ -292,6 +292,7 @@ TEST_F(SweepCli, BadInput) {
   refuses(2, sweep + "--out d --no-depth --axis significand_bits=10 --target-error depth=1e-6", {"--no-depth"});
   refuses(2, sweep + "--out d --axis significand_bits=10 --synth some", {"\"some\"", "pareto"});
   refuses(2, sweep + "--out d --axis significand_bits=10 --synth 5", {"row 5"});
+  refuses(2, sweep + "--out d --axis significand_bits=10 --synth-target ice40", {"\"ice40\"", "ecp5-nodsp"});
   refuses(2, sweep + "--out d --axis significand_bits=10 --objective error", {"unknown error"});
   write("plain", "a file");
   refuses(2, sweep + "--out plain --axis significand_bits=10", {"plain"});

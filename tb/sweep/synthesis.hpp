@@ -3,11 +3,12 @@
 
 #include "golden/analysis/hardware_cost.hpp"
 #include "model/config.hpp"
+#include "tb/yosys/yosys.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace quadrille::sweep {
@@ -17,22 +18,30 @@ struct SynthesisPoint {
   Config config;
 };
 
-/// One row of synth.csv; what is counted: tb::FpgaReport.
+/// One row of synth.csv.
 struct SynthesisRow {
   std::size_t row = 0;
-  std::uint64_t luts = 0, flip_flops = 0, dsps = 0, longest_path = 0;
+  tb::SynthesisTarget target{};
+  tb::HardwareSize size;
   double cost = 0;  ///< the estimate, scalar_cost() with the weights given
 
   friend bool operator==(const SynthesisRow&, const SynthesisRow&) = default;
 };
 
+/// What a cost estimate is an estimate of: LUTs, or on standard cells the area.
+double measured_cost(const SynthesisRow& row);
+
+/// synth.csv, header line first; empty cells are what the target does not have.
+std::string synthesis_table(std::span<const SynthesisRow> rows);
+
 /// Synthesises the points on up to `threads` processors, each with a Yosys of its own (about 2 GB); results in the
 /// order of the points. `progress` (may be empty) gets the number of
 /// points done on the calling thread now and then. Configurations
 /// synthesised before come from the cache. The first failure ends the call once the running syntheses are done:
-/// EnvironmentError without Yosys, VerilateError when it fails, ConfigError for a point that cannot be built.
-std::vector<SynthesisRow> synthesise(std::span<const SynthesisPoint> points, const CostWeights& weights,
-                                     unsigned threads,
+/// EnvironmentError without a tool of the target, VerilateError when it fails, ConfigError for a point that cannot be
+/// built.
+std::vector<SynthesisRow> synthesise(std::span<const SynthesisPoint> points, tb::SynthesisTarget target,
+                                     const CostWeights& weights, unsigned threads,
                                      const std::function<void(std::size_t done, std::size_t total)>& progress = {});
 
 }  // namespace quadrille::sweep

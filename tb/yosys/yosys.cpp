@@ -6,11 +6,12 @@
 #include "tb/support/process.hpp"
 #include "tb/support/source_paths.hpp"
 
-#include <array>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <fstream>
-#include <optional>
 #include <sstream>
-#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace quadrille::tb {
@@ -90,139 +91,100 @@ SynthesisReport yosys_synthesise(const Config& config, const fs::path& directory
 
 namespace {
 
-/// Synthesis for ECP5, faster than one flat run:
-/// - The modules listed stay apart: each is optimised and mapped once however often it is instantiated. The rest is
-///   flattened, so that the constants of a table or of a feature that is off reach the logic behind them.
-/// - `dsps` is counted beforehand, by the steps that lead to DSP blocks in `synth_ecp5`.
-/// - LUTs of more than four inputs are not formed: abc would spend LUT4s on them for speed.
-/// - For the longest path registers are cut out and a memory's read becomes one LUT4; ltp knows neither.
-constexpr std::string_view fpga_script = R"(
-setattr -mod -set keep_hierarchy 1 *quad_setup* *quad_slots* *tile_walk* *tile_ring* *stamp_coverage*
-setattr -mod -set keep_hierarchy 1 *vertex_assembly* *forward_difference* *normalise* *rsqrt* *reciprocal*
-setattr -mod -set keep_hierarchy 1 *mean_value_ratios* *interpolate* *fragment_output* *fixed_point*
-setattr -mod -set keep_hierarchy 1 *fp_multiply* *fp_raw_product* *fp_sum* *one_plus*
-setattr -mod -unset keep_hierarchy *fp_normalise*
-design -save start
-proc
-flatten
-opt -nodffe -nosdff
-opt
-wreduce
-peepopt
-opt_clean
-techmap -map +/mul2dsp.v -map +/ecp5/dsp_map.v -D DSP_A_MAXWIDTH=18 -D DSP_B_MAXWIDTH=18 -D DSP_A_MINWIDTH=2 -D DSP_B_MINWIDTH=2 -D DSP_NAME=$__MUL18X18
-tee -o dsps.txt stat
-design -load start
-synth_ecp5 -nodsp -nowidelut -top quadrille -run :check
-tee -o cells.txt stat
-delete t:TRELLIS_FF
-techmap -map read_port.v
-setattr -mod -unset keep_hierarchy *
-flatten
-tee -o path.txt ltp
-)";
+/// What runs for a target, and what else its result depends on.
+struct TargetFlow {
+  const char* script;
+  std::vector<std::string> arguments;
+  std::vector<fs::path> files;  ///< absent ones are the script's to complain of
+};
 
-constexpr std::string_view read_port = R"(
-module TRELLIS_DPR16X4 (input [3:0] DI, input [3:0] WAD, input WRE, input WCK, input [3:0] RAD, output [3:0] DO);
-  parameter WCKMUX = "WCK";
-  parameter WREMUX = "WRE";
-  parameter INITVAL = 64'd0;
-  genvar g;
-  generate
-    for (g = 0; g < 4; g = g + 1) LUT4 read (.A(RAD[0]), .B(RAD[1]), .C(RAD[2]), .D(RAD[3]), .Z(DO[g]));
-  endgenerate
-endmodule
-)";
-
-/// Cells of a type in the last statistics of a file; those of the whole design where there are several modules.
-std::uint64_t cells_of(const fs::path& statistics, std::string_view type) {
-  std::ifstream in(statistics);
-  std::uint64_t cells = 0;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);  // LUT4 123
-    std::string cell;
-    std::uint64_t count = 0;
-    if (line.find("=== ") != std::string::npos) {
-      cells = 0;
-    } else if (words >> cell >> count && cell == type) {
-      cells = count;
-    }
-  }
-  return cells;
+TargetFlow flow_of(SynthesisTarget target) {
+  if (target == SynthesisTarget::cells)
+    return {"timing.py", {"quadrille", "--target", "cells"}, {"/usr/share/qflow/tech/osu018/osu018_stdcells.lib"}};
+  return {"size.py", {"--target", std::string(synthesis_target_names[static_cast<std::size_t>(target)])}, {}};
 }
 
-std::optional<std::uint64_t> longest_path(const fs::path& file) {
-  std::ifstream in(file);
-  constexpr std::string_view before = "(length=";
-  for (std::string line; std::getline(in, line);) {
-    if (const std::size_t at = line.find(before); at != std::string::npos)
-      return std::stoull(line.substr(at + before.size()));
-  }
-  return std::nullopt;
+HardwareSize read_size(const fs::path& file) {
+  const nlohmann::json json = nlohmann::json::parse(read_text(file));
+  HardwareSize size;
+  json.at("flip_flops").get_to(size.flip_flops);
+  const auto optional = [&](const char* key, auto& to) {
+    if (json.contains(key)) to = json.at(key).get<typename std::remove_reference_t<decltype(to)>::value_type>();
+  };
+  optional("luts", size.luts);
+  optional("dsps", size.dsps);
+  optional("block_rams", size.block_rams);
+  optional("longest_path", size.longest_path);
+  optional("area_um2", size.area_um2);
+  optional("nand2", size.nand2);
+  optional("mhz", size.mhz);
+  if (json.contains("critical_path")) json.at("critical_path").get_to(size.critical_path);
+  return size;
 }
 
-constexpr std::array fpga_fields{&FpgaReport::luts, &FpgaReport::flip_flops, &FpgaReport::dsps, &FpgaReport::block_rams,
-                                 &FpgaReport::longest_path};
-
-std::optional<FpgaReport> read_report(const fs::path& file) {
-  std::ifstream in(file);
-  FpgaReport report;
-  for (const auto field : fpga_fields) {
-    if (!(in >> report.*field)) return std::nullopt;
-  }
-  return report;
-}
-
-FpgaReport run_fpga(const Config& config, const fs::path& directory, const fs::path& log) {
-  write_text(directory / "read_port.v", read_port);
-  run(read_commands(config, false, directory) + std::string(fpga_script), directory, "fpga", log);
-  const fs::path cells = directory / "cells.txt";
-  FpgaReport report;
-  const std::uint64_t lut4s = cells_of(cells, "LUT4");
-  report.luts = lut4s + 2 * cells_of(cells, "CCU2C") + 6 * cells_of(cells, "TRELLIS_DPR16X4");
-  report.flip_flops = cells_of(cells, "TRELLIS_FF");
-  report.dsps = cells_of(directory / "dsps.txt", "MULT18X18D");
-  report.block_rams = cells_of(cells, "DP16KD") + cells_of(cells, "PDPW16KD");
-  const std::optional<std::uint64_t> path = longest_path(directory / "path.txt");
-  if (lut4s == 0 || report.flip_flops == 0 || report.dsps == 0 || !path)
-    throw VerilateError("the statistics of this version of Yosys are not understood; see " + log.string());
-  report.longest_path = *path;
-  return report;
+/// The script's report.json in `directory`.
+void run_flow(const Config& config, const TargetFlow& flow, const fs::path& directory, const fs::path& log) {
+  const fs::path tables = directory / "quadrille_tables_pkg.sv";
+  write_text(tables, tables_package(config));
+  std::vector<std::string> command{find_program("/usr/bin/python3", "python3"), scripts_directory() / flow.script};
+  command.insert(command.end(), flow.arguments.begin(), flow.arguments.end());
+  for (const ConfigKey& key : Config::keys())
+    command.push_back(std::string(key.name) + "=" + std::to_string(config.get(key.name)));
+  command.insert(command.end(), {"--tables", tables, "--rtl", fs::absolute(rtl_directory()), "--json",
+                                 directory / "report.json", "--quiet"});
+  const int status = run_logged(command, directory, log);
+  if (status == 3) throw EnvironmentError(tail_of(log, 1));
+  if (status != 0) throw VerilateError("synthesis failed; log " + log.string() + ", which ends:\n" + tail_of(log, 25));
+  fs::remove(tables);
 }
 
 }  // namespace
 
-FpgaReport synthesise_fpga(const Config& config) {
+SynthesisTarget parse_synthesis_target(std::string_view name) {
+  const auto found = std::ranges::find(synthesis_target_names, name);
+  if (found == synthesis_target_names.end())
+    throw ConfigError("\"" + std::string(name) + "\" is no target of synthesis; there are ecp5, ecp5-nodsp and cells");
+  return static_cast<SynthesisTarget>(found - synthesis_target_names.begin());
+}
+
+HardwareSize synthesise_for(const Config& config, SynthesisTarget target) {
   config.validate();
-  const std::string yosys = find_program("yosys", "yosys");
+  const TargetFlow flow = flow_of(target);
   Fingerprint key;
-  key.add("fpga 1");
-  key.add(run_captured(std::vector<std::string>{yosys, "-V"}));
-  key.add(fpga_script);
-  key.add(read_port);
+  key.add("synthesis 2");
+  key.add(run_captured(std::vector<std::string>{find_program("yosys", "yosys"), "-V"}));
+  if (target == SynthesisTarget::cells)
+    key.add(run_captured(std::vector<std::string>{find_program("sta", "opensta"), "-version"}));
+  key.add(synthesis_target_names[static_cast<std::size_t>(target)]);
+  key.add_file(scripts_directory() / flow.script);
+  key.add_file(scripts_directory() / "report" / "synthesis.py");
+  for (const fs::path& file : flow.files)
+    if (fs::exists(file)) key.add_file(file);
   // The tables hold the resolved segments; a key on auto and its value are one machine.
   for (const ConfigKey& k : Config::keys())
     key.add(std::string(k.name) + "=" + std::to_string(config.resolved(k.name)));
   key.add(tables_package(config));
   for (const fs::path& source : rtl_sources(rtl_directory())) key.add_file(source);
-  const std::string name = "fpga-" + key.hex();
+  const std::string name = "synthesis-" + key.hex();
   const auto build = [&](const fs::path& work) {
     const fs::path log = writable_cache_directory() / ("failed-" + name + ".log");  // stays if it does
-    const FpgaReport report = run_fpga(config, work, log);
-    for (const fs::directory_entry& entry : fs::directory_iterator(work)) fs::remove_all(entry.path());
-    std::ostringstream text;
-    for (const auto field : fpga_fields) text << report.*field << '\n';
-    write_text(work / "report.txt", text.str());
+    run_flow(config, flow, work, log);
+    read_size(work / "report.json");
     std::error_code ignored;
     fs::remove(log, ignored);
   };
-  const auto stored = [&] {
-    return read_report(cached(name, "synthesis of " + summary(config), build).path() / "report.txt");
+  const auto stored = [&]() -> std::optional<HardwareSize> {
+    const CacheEntry entry = cached(name, "synthesis of " + summary(config), build);
+    try {
+      return read_size(entry.path() / "report.json");
+    } catch (const nlohmann::json::exception&) {
+      return std::nullopt;
+    }
   };
-  std::optional<FpgaReport> report = stored();
-  if (!report && remove_cached(name)) report = stored();  // a damaged entry is made again
-  if (!report) throw EnvironmentError("entry " + name + " of the cache is damaged and in use");
-  return *report;
+  std::optional<HardwareSize> size = stored();
+  if (!size && remove_cached(name)) size = stored();  // a damaged entry is made again
+  if (!size) throw EnvironmentError("entry " + name + " of the cache is damaged and in use");
+  return *size;
 }
 
 }  // namespace quadrille::tb

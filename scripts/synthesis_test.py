@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""Tests of size.py and timing.py: what they make of the tools' output, and their errors.
+
+  scripts/synthesis_test.py PROGRAM            without the tools: a second
+  scripts/synthesis_test.py PROGRAM --tools    on small units with Yosys and OpenSTA: a minute"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+import timing  # noqa: E402
+from report import synthesis  # noqa: E402
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+TOOLS = "--tools" in sys.argv
+sys.argv = [arg for arg in sys.argv if arg != "--tools"]
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+
+STATISTICS = """
+=== $paramod\\rsqrt\\N=s32'00000000000000000000000000000100 ===
+
+   Number of cells:                  7
+     CCU2C                           2
+     LUT4                            5
+     MULT18X18D                      2
+
+=== normalise ===
+
+     LUT4                           11
+     TRELLIS_FF                     13
+
+=== quadrille ===
+
+     $paramod\\rsqrt\\N=s32'00000000000000000000000000000100      4
+     LUT4                          100
+     TRELLIS_DPR16X4                 3
+     TRELLIS_FF                      1
+     wrapper                         1
+
+=== wrapper ===
+
+     normalise                       2
+
+=== design hierarchy ===
+
+     LUT4                       999999
+"""
+
+NETLIST = """module fp_sum(clk_i, term_i);
+  \\$paramod$0123\\fp_normalise  \\gen_x[0].u_norm  (
+    .a(b)
+  );
+  DFFPOSX1 _12_ (
+    .CLK(clk_i),
+    .D(_00_),
+    .Q(\\largest_q[1] [3])
+  );
+endmodule
+module \\$paramod$0123\\fp_normalise (a);
+  NAND2X1 _7_ (
+    .A(a),
+    .Y(b)
+  );
+  DFFPOSX1 _8_ (
+    .CLK(c),
+    .D(d),
+    .Q(shift_q[0])
+  );
+endmodule
+"""
+
+REPORT = """Startpoint: _12_ (rising edge-triggered flip-flop clocked by clock)
+   Delay      Time   Description
+---------------------------------------------------------
+  0.0000    0.0000   clock clock (rise edge)
+  0.0000    0.0000 ^ _12_/CLK (DFFPOSX1)
+  0.2500    0.2500 v _12_/Q (DFFPOSX1)
+  0.5000    0.7500 ^ gen_x\\[0\\].u_norm/_7_/Y (NAND2X1)
+  0.0000    0.7500 ^ gen_x\\[0\\].u_norm/_8_/D (DFFPOSX1)
+            0.7500   data arrival time
+
+1000.0000 1000.0000   clock clock (rise edge)
+ -0.2500  999.7500   library setup time
+          999.7500   data required time
+---------------------------------------------------------
+          998.9999   slack (MET)
+"""
+
+
+def run(script, *args, path=None):
+    environment = os.environ | ({"PATH": path} if path is not None else {})
+    return subprocess.run([sys.executable, os.path.join(HERE, script), "--quadrille", PROGRAM, *args], capture_output=True, text=True, env=environment,
+                          check=False)
+
+
+class Reading(unittest.TestCase):
+    def test_sizes_by_unit(self):
+        with tempfile.NamedTemporaryFile("w") as file:
+            file.write(STATISTICS)
+            file.flush()
+            cells = synthesis.statistics(file.name)
+        rows = {name: (number, dict(total)) for name, number, total in synthesis.units_of(cells, "quadrille", synthesis.ECP5)}
+        # A CCU2C is two LUTs, a DPR16X4 six; a unit inside something that is none belongs to the rest.
+        self.assertEqual(rows, {"rsqrt": (4, {"LUT": 36, "FF": 0, "DSP": 8, "BRAM": 0}), "the rest": (None, {"LUT": 140, "FF": 27, "DSP": 0, "BRAM": 0}),
+                                "all": (None, {"LUT": 176, "FF": 27, "DSP": 8, "BRAM": 0})})
+
+    def test_slowest_path(self):
+        netlist = timing.Netlist(NETLIST.splitlines(keepends=True), {"fp_sum", "fp_normalise"})
+        path = timing.SlowestPath(REPORT, netlist, "fp_sum")
+        self.assertAlmostEqual(path.length, 1.0001)
+        self.assertEqual(path.text(), "largest_q[1][3] -> gen_x[0].u_norm.shift_q[0]: fp_sum 0.25 ns, fp_normalise gen_x[0].u_norm 0.50 ns")
+        with self.assertRaises(synthesis.SynthesisFailed):
+            timing.SlowestPath("No paths found.\n", netlist, "fp_sum")
+
+    def test_every_port_of_a_wrapped_unit_is_registered(self):
+        ports = {"clk_i": ("input", 1), "rst_ni": ("input", 1), "a_i": ("input", 5), "b_i": ("input", 2), "x_o": ("output", 3)}
+        text, registers = timing.wrapped("unit", ports, [["TERMS", "4"]])
+        self.assertEqual(registers, 7 + 2 * 3 + 1)
+        self.assertIn("unit #(.TERMS(4)) u_unit (.clk_i(clk), .rst_ni(rst_q), .a_i(in_q[0 +: 5]), .b_i(in_q[5 +: 2]), .x_o(out[0 +: 3]));", text)
+
+
+class Errors(unittest.TestCase):
+    def fails(self, status, text, *command, path=None):
+        result = run(*command, path=path)
+        self.assertEqual((result.returncode, result.stdout), (status, ""), result.stderr)
+        self.assertIn(text, result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
+
+    def test_missing_tools(self):
+        with tempfile.TemporaryDirectory() as empty:
+            self.fails(3, "apt-get install yosys", "size.py", path=empty)
+            self.fails(3, "apt-get install opensta", "timing.py", "normalise", path=empty)
+            self.fails(3, "no nextpnr-ecp5 on PATH", "timing.py", "normalise", "--target", "ecp5", path=empty)
+            self.fails(3, "build the program", "size.py", "--quadrille", os.path.join(empty, "absent"))
+
+    def test_bad_input(self):
+        with tempfile.TemporaryDirectory() as tools:
+            for name in ("sta", "yosys", "nextpnr-ecp5"):  # that are not to be run
+                os.symlink("/bin/false", os.path.join(tools, name))
+            for script in (["size.py"], ["timing.py", "normalise", "--target", "ecp5"]):
+                self.fails(2, "significand_bits", *script, "significand_bit=12", path=tools)
+                self.fails(2, "expected KEY=VALUE", *script, "12", path=tools)
+                self.fails(2, "no SystemVerilog", *script, "--rtl", tools, path=tools)
+            self.fails(2, "no unit normalize in rtl/", "timing.py", "normalize", "--target", "ecp5", path=tools)
+            self.fails(2, "TERMS=4", "timing.py", "fp_sum", "-P", "TERMS", path=tools)
+            self.fails(1, "yosys failed", "size.py", path=tools)
+
+
+@unittest.skipUnless(TOOLS, "with --tools")
+class WithTheTools(unittest.TestCase):
+    def test_multiplier(self):
+        found = {}
+        for s in (8, 16):
+            result = run("timing.py", "fp_multiply", f"significand_bits={s}", "--target", "cells", "--json", "-")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            found[s] = json.loads(result.stdout)
+            self.assertEqual(found[s]["flip_flops"], 12 + s)  # exponent and significand of the product
+            # Clock to output and gates; what is missing is the setup time. No net waits for want of a buffer.
+            delays = [step["ns"] for step in found[s]["path"]]
+            self.assertTrue(0 < found[s]["ns"] - sum(delays) < 0.4, found[s])
+            self.assertLess(max(delays), 0.7, found[s]["path"])
+            self.assertAlmostEqual(found[s]["mhz"], 1000 / found[s]["ns"], delta=0.06)
+            self.assertAlmostEqual(found[s]["nand2"] * 24, found[s]["area_um2"], delta=2)
+            self.assertRegex(found[s]["critical_path"], r"^port \w+\[\d+\] -> (exp|sig)_o\[\d+\]: fp_multiply [\d.]+ ns$")
+        # Four times the partial products, twice the columns of the final adder.
+        self.assertTrue(2.5 < found[16]["area_um2"] / found[8]["area_um2"] < 4.5, found)
+        self.assertGreater(found[16]["ns"], found[8]["ns"])
+
+    def test_a_path_through_instances(self):
+        result = run("timing.py", "mean_value_ratios", "significand_bits=8", "--target", "cells", "--json", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = json.loads(result.stdout)
+        self.assertRegex(found["critical_path"], r"^\S+ -> gen_pair\[\d\]\.u_\w+\.\w+\[\d+\]: .*(fp_multiply|fp_raw_product|one_plus) gen_pair\[\d\]\.u_\w+ ")
+        self.assertLess(max(step["ns"] for step in found["path"]), 1.0, found["path"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)

@@ -1,0 +1,295 @@
+#!/usr/bin/env python3
+"""Clock and area of one unit of the RTL, or of the whole machine: static timing of standard cells, and place and route on an ECP5.
+
+  scripts/timing.py fp_sum -P TERMS=4            a unit of rtl/, with its parameters
+  scripts/timing.py normalise significand_bits=24   with configuration keys, as of quadrille --set
+  scripts/timing.py quadrille                    the whole machine: the better part of an hour
+  scripts/timing.py fp_multiply --target ecp5 --seed 1 --seed 2 --seed 3    the median of three placements
+
+Standard cells (--target cells, the default): Yosys maps onto the OSU 0.18 um library (typical, 1.8 V, 25 C) and buffers what drives more
+than ten inputs, OpenSTA finds the slowest path. Wires have no load, so the figures compare designs; they promise no chip. Memories
+become flip-flops. ECP5 (--target ecp5, also done when no target is given and nextpnr-ecp5 is on PATH): Yosys' synth_ecp5 with DSP
+blocks, then nextpnr-ecp5 on the smallest of LFE5U-25F, -45F and -85F that is large enough. Ports count as registers: a path starts at
+an input and ends at an output as it does at a register.
+
+Exit status: 1 a tool failed, or the unit fits no device; 2 usage; 3 a missing tool, with the command that installs it."""
+import argparse
+import json
+import os
+import re
+import statistics
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+from report import synthesis  # noqa: E402
+
+LIBERTY = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib"
+PACKAGES = "opensta qflow-tech-osu018"
+CLOCK, RESET = "clk_i", "rst_ni"
+NAND2_AREA = 24.0  # um2, NAND2X1 of the library
+PERIOD = 1000  # ns; longer than any path, whose length is this less its slack
+# In abc's terms: optimise, map for delay, buffer to ten inputs (primary inputs too, which registers are), then size.
+ABC = "+strash;ifraig;scorr;dc2;dch,-f;map,-B,0.9;topo;buffer,-p,-N,10;topo;upsize;dnsize;stime,-p"
+DEVICES = {"25k": (24_288, 28, 56), "45k": (43_848, 72, 108), "85k": (83_640, 156, 208)}  # LUTs, MULT18X18D, DP16KD
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("unit", metavar="UNIT", help="a module of rtl/; quadrille is the whole machine")
+    synthesis.add_arguments(parser)
+    parser.add_argument("-P", dest="parameters", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the unit")
+    parser.add_argument("--target", choices=["cells", "ecp5"], help="default: cells, and ecp5 where nextpnr-ecp5 is on PATH")
+    parser.add_argument("--seed", action="append", type=int, metavar="N", help="of nextpnr; given several times, the median counts (default: 1)")
+    parser.add_argument("--speed", choices=["6", "7", "8"], default="6", help="speed grade of the ECP5 (default: %(default)s)")
+    parser.add_argument("--path", action="store_true", help="print the slowest path cell by cell")
+    args = parser.parse_intermixed_args()
+    try:
+        result = measure(args)
+    except tuple(synthesis.STATUS) as error:
+        print(f"timing.py: {error}", file=sys.stderr)
+        return synthesis.STATUS[type(error)]
+    synthesis.write_json(args.json, result)
+    if args.json != "-" and not args.quiet:
+        print_result(result, args.path)
+    return 0
+
+
+def measure(args):
+    parameters = []
+    for text in args.parameters:
+        if not re.fullmatch(r"\w+=-?\d+", text):
+            raise synthesis.InputError(f"-P {text}: expected NAME=VALUE, such as TERMS=4")
+        parameters.append(text.split("="))
+    nextpnr = synthesis.optional_tool("nextpnr-ecp5")
+    if args.target == "ecp5" and not nextpnr:
+        raise synthesis.ToolMissing("no nextpnr-ecp5 on PATH; Debian 12 has no package of it: build it from its sources with Project Trellis")
+    if args.target != "ecp5":
+        sta = synthesis.find_tool("sta", "opensta", packages=PACKAGES)
+        if not os.path.exists(LIBERTY):
+            raise synthesis.ToolMissing(f"no {LIBERTY}; install with: apt-get install {PACKAGES}")
+    with tempfile.TemporaryDirectory() as work:
+        machine = synthesis.Machine(args, work)
+        result = {"unit": args.unit, "parameters": dict(parameters)}
+        if args.target != "ecp5":
+            result |= cells(machine, sta, args, parameters)
+        if args.target == "ecp5" or (args.target is None and nextpnr and args.unit != "quadrille"):
+            result["ecp5"] = place_and_route(machine, nextpnr, args, parameters)
+    return result
+
+
+# ---- standard cells ----
+
+
+def cells(machine, sta, args, parameters):
+    with open(os.path.join(machine.work, "abc.constr"), "w", encoding="utf-8") as file:
+        file.write("set_driving_cell BUFX2\nset_load 20\n")  # fF; abc knows no flip-flop to drive with
+    machine.yosys(machine.elaborate(args.unit, parameters) + f"""synth -flatten -top {args.unit}
+dfflibmap -liberty "{LIBERTY}"
+opt
+abc -liberty "{LIBERTY}" -constr abc.constr -script {ABC}
+opt_clean -purge
+tee -q -o stat.txt stat -liberty "{LIBERTY}"
+write_verilog -noattr -noexpr netlist.v
+""", "cells")
+    with open(os.path.join(machine.work, "stat.txt"), encoding="utf-8") as file:
+        areas = re.findall(r"Chip area for (?:top )?module '.*?': ([\d.]+)", file.read())
+    clocked = CLOCK in ports(machine, args.unit, parameters)
+    with open(os.path.join(machine.work, "timing.tcl"), "w", encoding="utf-8") as file:
+        file.write(f"""read_liberty "{LIBERTY}"
+read_verilog netlist.v
+link_design {args.unit}
+create_clock -name clock -period {PERIOD} {f'[get_ports {CLOCK}]' if clocked else ''}
+foreach port [all_inputs] {{
+  if {{[get_property $port full_name] ne "{CLOCK}"}} {{
+    set_input_delay 0 -clock clock $port
+    set_driving_cell -lib_cell DFFPOSX1 -pin Q $port
+  }}
+}}
+set_output_delay 0 -clock clock [all_outputs]
+set_load 0.02 [all_outputs]
+report_checks -path_delay max -format full -digits 4
+exit
+""")
+    text = synthesis.run([sta, "-no_splash", "-exit", "timing.tcl"], machine.work, "timing.log")
+    with open(os.path.join(machine.work, "netlist.v"), encoding="utf-8") as file:
+        path = SlowestPath(text, Netlist(file, machine.modules), args.unit)
+    cells_of = synthesis.statistics(os.path.join(machine.work, "stat.txt"))
+    top = next((name for name in cells_of if name == args.unit or re.search(rf"\\{args.unit}(\\|$)", name)), args.unit)
+    flip_flops = synthesis.size_of(cells_of, top, {"FF": {cell: 1 for module in cells_of.values() for cell in module if cell.startswith("DFF")}})["FF"]
+    if not areas:
+        raise synthesis.SynthesisFailed("Yosys gave no area")
+    area = float(areas[-1])
+    return {"area_um2": area, "nand2": round(area / NAND2_AREA, 1), "flip_flops": flip_flops,
+            "ns": path.length, "mhz": round(1000 / path.length, 1), "critical_path": path.text(), "path": path.steps}
+
+
+class Netlist:
+    """Which instance is of which module, and what its output Q is called, from Verilog as Yosys writes it."""
+
+    def __init__(self, lines, units):
+        self.instances, self.held, self.units = {}, {}, units
+        module = name = None
+        for line in lines:
+            if head := re.match(r"module (\S+) ?\(", line):
+                module = unescaped(head.group(1))
+                self.instances[module] = {}
+            elif module is not None and (entry := re.match(r"  (\S+) +(\S+) +\($", line)):
+                name = unescaped(entry.group(2))
+                self.instances[module][name] = unescaped(entry.group(1))
+            elif output := re.match(r"    \.Q\((.*)\),?$", line):
+                self.held[module, name] = unescaped(output.group(1)).replace(" ", "")
+
+    def unit_of(self, module):
+        """Name in rtl/ of a module, which may be called after its parameters too."""
+        return next((part for part in reversed(re.split(r"[\\$]", module)) if part in self.units), module)
+
+    def walk(self, top, pin):
+        """Instances and units from the top to the cell of a pin `a/b/cell/pin`, and the cell's name: a register's is the bit that it holds."""
+        module, place = top, []
+        names = pin.split("/")
+        while len(names) > 2:  # a name may have slashes of its own
+            for length in range(1, len(names) - 1):
+                name = "/".join(names[:length])
+                if self.instances.get(module, {}).get(name) in self.instances:
+                    module = self.instances[module][name]
+                    place.append((name, self.unit_of(module)))
+                    names = names[length:]
+                    break
+            else:
+                break
+        cell = "/".join(names[:-1])
+        return place, self.held.get((module, cell), cell)
+
+
+def unescaped(name):
+    return name.lstrip("\\")
+
+
+class SlowestPath:
+    """Of OpenSTA's report: `length` in ns with the setup time, and `steps`, a cell each with its place and delay."""
+
+    def __init__(self, text, netlist, unit):
+        slack = re.search(r"^ *(-?[\d.]+) +slack \(", text, re.M)
+        if not slack:
+            raise synthesis.SynthesisFailed("OpenSTA found no path:\n" + "\n".join(text.splitlines()[-15:]))
+        self.length = round(PERIOD - float(slack.group(1)), 4)
+        self.steps = []
+        top = next((name for name in netlist.instances if netlist.unit_of(name) == unit), unit)
+        for delay, pin, cell in re.findall(r"^ *(-?[\d.]+) +-?[\d.]+ +[v^] (\S+) \((\w+)\)$", text[:text.index("data arrival time")], re.M):
+            pin = pin.replace("\\", "")
+            if cell in ("in", "out"):
+                place, name = [], f"port {pin}"
+            else:
+                place, name = netlist.walk(top, pin)
+            self.steps.append({"unit": place[-1][1] if place else unit, "instance": ".".join(name for name, _ in place), "cell": name,
+                               "type": cell, "ns": float(delay)})
+
+    def stages(self):
+        """(unit, instance, cells, ns) of the stretches of the path in one instance."""
+        stages = []
+        for step in self.steps:
+            if not stages or stages[-1][1] != step["instance"]:
+                stages.append([step["unit"], step["instance"], 0, 0.0])
+            stages[-1][2] += step["type"] not in ("in", "out")
+            stages[-1][3] += step["ns"]
+        return stages
+
+    def text(self):
+        ends = (f"{step['instance']}{'.' if step['instance'] else ''}{step['cell']}" for step in (self.steps[0], self.steps[-1]))
+        return " -> ".join(ends) + ": " + ", ".join(
+            f"{unit}{f' {instance}' if instance else ''} {ns:.2f} ns" for unit, instance, _, ns in self.stages() if ns > 0)
+
+
+# ---- ECP5 ----
+
+
+def ports(machine, unit, parameters):
+    """Name -> (direction, width)."""
+    machine.yosys(machine.elaborate(unit, parameters) + "proc\nwrite_json ports.json\n", "ports")
+    with open(os.path.join(machine.work, "ports.json"), encoding="utf-8") as file:
+        modules = json.load(file)["modules"]
+    top = next(module for name, module in modules.items() if int(module["attributes"].get("top", "0"), 2))
+    return {name: (port["direction"], len(port["bits"])) for name, port in top["ports"].items()}
+
+
+def place_and_route(machine, nextpnr, args, parameters):
+    wrapper, registers = wrapped(args.unit, ports(machine, args.unit, parameters), parameters)
+    with open(os.path.join(machine.work, "wrapper.sv"), "w", encoding="utf-8") as file:
+        file.write(wrapper)
+    machine.yosys(f"""{machine.read}read_verilog -sv wrapper.sv
+synth_ecp5 -top timing_wrapper -json placed.json
+tee -q -o placed.txt stat
+""", "placed")
+    size = synthesis.size_of(synthesis.statistics(os.path.join(machine.work, "placed.txt")), "timing_wrapper", synthesis.ECP5)
+    device = next((name for name, has in DEVICES.items()
+                   if all(size[what] <= limit for what, limit in zip(("LUT", "DSP", "BRAM"), has))), None)
+    if device is None:
+        raise synthesis.SynthesisFailed(f"{args.unit} takes {size['LUT']:,} LUT, {size['DSP']} DSP, {size['BRAM']} BRAM; the largest device, LFE5U-85F, "
+                                        "has {:,}, {} and {}".format(*DEVICES["85k"]))
+    clocks, slowest = [], ""
+    for seed in args.seed or [1]:
+        text = synthesis.run([nextpnr, f"--{device}", "--package", "CABGA381", "--speed", args.speed, "--json", "placed.json", "--freq", "100",
+                              "--seed", str(seed), "--lpf-allow-unconstrained", "--timing-allow-fail", "--textcfg", "placed.cfg"],
+                             machine.work, "nextpnr.log")
+        found = re.findall(r"Max frequency for clock\s+'[^']*':\s+([\d.]+) MHz", text)
+        if not found:
+            raise synthesis.SynthesisFailed("nextpnr-ecp5 gave no clock:\n" + "\n".join(text.splitlines()[-10:]))
+        clocks.append(float(found[-1]))
+        slowest = text[text.rfind("Info: Critical path report for clock"):text.rfind("Info: Max frequency")]
+    ends = re.findall(r"(?:Source|Sink) (\S+)", slowest)
+    return {"device": "LFE5U-" + device.replace("k", "F"), "speed": args.speed, "luts": size["LUT"], "flip_flops": size["FF"] - registers,
+            "dsps": size["DSP"], "block_rams": size["BRAM"], "mhz": statistics.median(clocks), "mhz_by_seed": clocks,
+            "critical_path": f"{ends[0]} -> {ends[-1]}" if ends else ""}
+
+
+def wrapped(unit, ports_of_unit, parameters):
+    """The unit between registers: its inputs come from a shift register, its outputs are sampled and folded into one pin. Verilog, and
+    the number of flip-flops that are not the unit's."""
+    clock_and_reset = {CLOCK: "clk", RESET: "rst_q"}
+    widths = {direction: sum(width for name, (is_, width) in ports_of_unit.items() if is_ == direction and name not in clock_and_reset)
+              for direction in ("input", "output")}
+    at, connections = {"input": 0, "output": 0}, []
+    for name, (direction, width) in ports_of_unit.items():
+        if name in clock_and_reset:
+            connections.append(f".{name}({clock_and_reset[name]})")
+        else:
+            connections.append(f".{name}({'in_q' if direction == 'input' else 'out'}[{at[direction]} +: {width}])")
+            at[direction] += width
+    inputs, outputs = max(widths["input"], 1), max(widths["output"], 1)
+    override = f"#({', '.join(f'.{name}({value})' for name, value in parameters)}) " if parameters else ""
+    return f"""module timing_wrapper (input clk, input rst, input si, output so);
+  reg rst_q;
+  reg [{inputs - 1}:0] in_q;
+  wire [{outputs - 1}:0] out;
+  reg [{outputs - 1}:0] out_q, fold_q;
+  always @(posedge clk) begin
+    rst_q <= rst;
+    in_q <= {{in_q, si}};
+    out_q <= out;
+    fold_q <= out_q ^ {{fold_q, si}};
+  end
+  assign so = fold_q[{outputs - 1}];
+  {unit} {override}u_unit ({', '.join(connections)});
+endmodule
+""", inputs + 2 * outputs + 1
+
+
+# ---- for people ----
+
+
+def print_result(result, with_path):
+    name = " ".join([result["unit"], *(f"{key}={value}" for key, value in result["parameters"].items())])
+    if "mhz" in result:
+        print(f"{name}, standard cells: {result['mhz']:.1f} MHz ({result['ns']:.2f} ns), {result['area_um2']:,.0f} um2 = {result['nand2']:,.0f} NAND2, "
+              f"{result['flip_flops']:,} flip-flops\n  slowest path: {result['critical_path']}")
+    if with_path:
+        for step in result.get("path", []):
+            print(f"  {step['ns']:8.3f} ns  {step['type']:10} {step['instance']}{'.' if step['instance'] else ''}{step['cell']}  ({step['unit']})")
+    if on := result.get("ecp5"):
+        print(f"{name}, {on['device']} grade {on['speed']}: {on['mhz']:.1f} MHz, {on['luts']:,} LUT, {on['flip_flops']:,} FF, {on['dsps']} DSP, "
+              f"{on['block_rams']} BRAM\n  slowest path: {on['critical_path']}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
