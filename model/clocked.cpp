@@ -124,13 +124,43 @@ struct VertexAssembly {
   bool full = false;
 };
 
-/// The control half of quad_setup; the bits come from the function of that name at start.
+/// The control half of quad_setup; the bits come from the function of that name at start. A quad comes in and does its
+/// steps; behind it waits the one whose functions are computed, until they are taken.
 struct SetupUnit {
-  bool busy = false;  ///< PREP, RUN, DRAIN or DONE
-  int remaining = 0;  ///< clocks before DONE
+  enum class State { idle, box, prep, run };
+
+  State state = State::idle;
+  int steps = 0;      ///< left to do, in run
+  SetupResult next;   ///< of the quad in box or prep
+  bool busy = false;  ///< `result` is of a quad that is not taken yet
+  int wait = 0;       ///< clocks until the last step's result is there
   SetupResult result;
 
-  bool done() const { return busy && remaining == 0; }
+  bool done() const { return busy && state != State::run && wait == 0; }
+
+  /// The edge; start() comes after it.
+  void clock(bool taken) {
+    if (taken) busy = false;
+    if (wait > 0) --wait;
+    switch (state) {
+      case State::idle:
+        break;
+      case State::box:
+        state = State::prep;
+        break;
+      case State::prep:
+        if (busy) break;
+        state = State::run;
+        steps = quad_setup_steps(next.homogeneous);
+        result = next;
+        busy = true;
+        break;
+      case State::run:
+        wait = quad_setup_result_clocks;
+        if (--steps == 0) state = State::idle;
+        break;
+    }
+  }
 };
 
 /// What a slot of the bank holds: the back half's data and the front half's constants.
@@ -176,7 +206,7 @@ struct ClockedModel::Impl {
   }
 
   // Conditions of this clock, from registered state.
-  bool start() const { return assembly.full && !setup.busy && in_use < slots.size(); }
+  bool start() const { return assembly.full && setup.state == SetupUnit::State::idle && in_use < slots.size(); }
   bool take() const { return setup.done() && walk.walk.state() == TileWalk::State::idle; }
   bool ring_full() const { return ((ring_write - ring_tail) & ring_mask) == ring.size(); }
   const TileEntry& ring_at(std::uint32_t pointer) const { return ring[pointer & (ring.size() - 1)]; }
@@ -204,7 +234,7 @@ struct ClockedModel::Impl {
   void reset() {
     assembly.count = 0;
     assembly.full = false;
-    setup.busy = false;
+    setup = {};
     alloc = in_use = 0;
     walk = {};
     walk.walk = TileWalk(context.config, context.state);
@@ -310,16 +340,13 @@ struct ClockedModel::Impl {
     if (taking) {
       slots[setup.result.slot].constants = QuadConstants(setup.result);
       walk.walk.take(setup.result);
-      setup.busy = false;
-    } else if (setup.busy && setup.remaining > 0) {
-      --setup.remaining;
     }
+    setup.clock(taking);
     if (starting) {
-      setup.result = quad_setup(assembly.quad, context.config, context.state);
-      setup.result.slot = alloc;
-      slots[alloc].data = quad_data(assembly.quad, setup.result, context.config, context.state);
-      setup.busy = true;
-      setup.remaining = quad_setup_clocks(setup.result.homogeneous);
+      setup.next = quad_setup(assembly.quad, context.config, context.state);
+      setup.next.slot = alloc;
+      slots[alloc].data = quad_data(assembly.quad, setup.next, context.config, context.state);
+      setup.state = SetupUnit::State::box;
       alloc = (alloc + 1) % static_cast<std::uint32_t>(slots.size());
       assembly.full = false;
     }

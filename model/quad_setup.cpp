@@ -102,6 +102,6 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
   return r;
 }
 
-int quad_setup_clocks(bool homogeneous) { return 1 + (homogeneous ? 37 : 8) + 2; }
+int quad_setup_steps(bool homogeneous) { return homogeneous ? 37 : 8; }
 
 }  // namespace quadrille

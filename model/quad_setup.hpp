@@ -11,7 +11,8 @@ namespace quadrille {
 /// form of Olano & Greer.
 SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const DrawState& state);
 
-/// Clocks from start to done, both excluded: PREP + RUN + DRAIN of rtl/README.md section 4.
-int quad_setup_clocks(bool homogeneous);
+/// Clocks in RUN, and those from the last of them until its result is there: rtl/README.md section 4.
+int quad_setup_steps(bool homogeneous);
+inline constexpr int quad_setup_result_clocks = 6;
 
 }  // namespace quadrille

@@ -1,5 +1,5 @@
-// One multiplier pair of the setup: a*b + c*d or a*b - c*d, signed. Latency 2 (operand register, product register), one job a
-// clock; the sum is combinational behind the product registers, the user's destination register is the third.
+// One multiplier pair of the setup: a*b + c*d or a*b - c*d, signed. Latency 5, one job a clock: operands; four partial products each of
+// halves that a DSP block takes; the middle ones added; the products; the result.
 //
 // Operands are DOT_BITS signed. No enable and no valid: the user keeps track of which job comes out.
 module dot_unit #(
@@ -14,20 +14,45 @@ module dot_unit #(
     input logic subtract_i,
     output logic [OUT-1:0] result_o
 );
-  logic signed [W-1:0] a_q, b_q, c_q, d_q;
-  logic signed [2*W-1:0] ab_q, cd_q;
-  logic subtract_q, subtract_product_q;
+  localparam int LOW = 17;  // with a sign bit as wide as a multiplier of 18 bits
+  localparam int HIGH = W - LOW;
 
-  always_ff @(posedge clk_i) begin
-    a_q <= a_i;
-    b_q <= b_i;
-    c_q <= c_i;
-    d_q <= d_i;
-    subtract_q <= subtract_i;
-    ab_q <= (2 * W)'(a_q) * (2 * W)'(b_q);
-    cd_q <= (2 * W)'(c_q) * (2 * W)'(d_q);
-    subtract_product_q <= subtract_q;
+  logic [2*W-1:0] x, y;  // the factors of either product
+  logic [2*OUT-1:0] product;
+  logic [3:0] subtract_q;
+
+  assign x = {c_i, a_i};
+  assign y = {d_i, b_i};
+
+  for (genvar g = 0; g < 2; g++) begin : gen_product
+    logic signed [HIGH-1:0] xh_q, yh_q;
+    logic signed [LOW:0] xl_q, yl_q;  // not negative
+    logic signed [2*HIGH-1:0] hh_q;
+    logic signed [W:0] hl_q, lh_q;
+    logic [2*LOW-1:0] ll_q;
+    logic [2*W-1:0] ends_q;
+    logic signed [W+1:0] middle_q;
+    logic [2*W-1:0] product_q;
+
+    always_ff @(posedge clk_i) begin
+      xh_q <= x[g*W+LOW+:HIGH];
+      yh_q <= y[g*W+LOW+:HIGH];
+      xl_q <= {1'b0, x[g*W+:LOW]};
+      yl_q <= {1'b0, y[g*W+:LOW]};
+      hh_q <= (2 * HIGH)'(xh_q) * (2 * HIGH)'(yh_q);
+      hl_q <= (W + 1)'(xh_q) * (W + 1)'(yl_q);
+      lh_q <= (W + 1)'(xl_q) * (W + 1)'(yh_q);
+      ll_q <= (2 * LOW)'(xl_q) * (2 * LOW)'(yl_q);
+      ends_q <= {hh_q, ll_q};
+      middle_q <= (W + 2)'(hl_q) + (W + 2)'(lh_q);
+      product_q <= ends_q + ((2 * W)'(middle_q) << LOW);
+    end
+
+    assign product[g*OUT+:OUT] = {product_q[2*W-1], product_q};
   end
 
-  assign result_o = subtract_product_q ? {ab_q[2*W-1], ab_q} - {cd_q[2*W-1], cd_q} : {ab_q[2*W-1], ab_q} + {cd_q[2*W-1], cd_q};
+  always_ff @(posedge clk_i) begin
+    subtract_q <= {subtract_q[2:0], subtract_i};
+    result_o <= subtract_q[3] ? product[0+:OUT] - product[OUT+:OUT] : product[0+:OUT] + product[OUT+:OUT];
+  end
 endmodule

@@ -1,6 +1,7 @@
 // Setup of one quad: origin tile, 6 linear and 10 quadratic functions (value at the origin, first and second differences),
-// visibility of the clauses. README.md section 4 has the clocks: PREP, then one job per dot unit and clock, 8 (ordinary) or 37
-// (homogeneous) clocks, 2 clocks of drain, DONE until taken.
+// visibility of the clauses. README.md section 4 has the clocks: BOX, PREP, then one job per dot unit and clock, 8 (ordinary) or 37
+// (homogeneous) clocks, and 6 clocks until the last one's result is there; done until taken. The next quad comes in and waits in PREP
+// meanwhile.
 //
 // Linear function f: f*VAL_BITS, exact. Quadratic function f: without its QDROP lowest bits. All two's complement.
 // Does not test for a degenerate or culled quad; an empty bounding box gives zero tiles.
@@ -25,6 +26,11 @@ module quad_setup #(
     input logic [4*T-1:0] x_i,
     input logic [4*T-1:0] y_i,
     input logic [4*W-1:0] w_i,
+    input logic ordinary_i,  // all W are ONE
+    input logic [T-1:0] low_x_i,  // least and greatest coordinates
+    input logic [T-1:0] high_x_i,
+    input logic [T-1:0] low_y_i,
+    input logic [T-1:0] high_y_i,
     input logic [V:0] scissor_x0_i,
     input logic [V:0] scissor_y0_i,
     input logic [V:0] scissor_x1_i,
@@ -63,25 +69,25 @@ module quad_setup #(
   localparam int DET = quadrille_pkg::DET_BITS;
   localparam logic [5:0] LAST_ORDINARY = 6'd7;
   localparam logic [5:0] LAST_HOMOGENEOUS = 6'd36;
-  localparam logic [W-1:0] ONE = W'(1) << FRAC;
+  localparam int JOB_CLOCKS = 6;  // from a step to its destination: pair, operands, dot_unit's other registers
 
-  localparam logic [2:0] IDLE = 3'd0;
-  localparam logic [2:0] PREP = 3'd1;
-  localparam logic [2:0] RUN = 3'd2;
-  localparam logic [2:0] DRAIN = 3'd3;
-  localparam logic [2:0] DONE = 3'd4;
+  localparam logic [1:0] IDLE = 2'd0;
+  localparam logic [1:0] BOX = 2'd1;
+  localparam logic [1:0] PREP = 2'd2;
+  localparam logic [1:0] RUN = 2'd3;
 
-  // ---- Bounding box, at start ---------------------------------------------------------------------------------------------
-  logic ordinary;
+  // ---- Bounding box: clamped at start, tiles in BOX -----------------------------------------------------------------------
   logic empty_x, empty_y, empty;
   logic [TC-1:0] first_x, first_y, count_x, count_y;
 
-  assign ordinary = w_i[0*W+:W] == ONE && w_i[1*W+:W] == ONE && w_i[2*W+:W] == ONE && w_i[3*W+:W] == ONE;
   assign empty = empty_x || empty_y;
 
   bounding_range u_range_x (
-      .position_i(x_i),
-      .ordinary_i(ordinary),
+      .clk_i,
+      .load_i(start_i),
+      .low_i(low_x_i),
+      .high_i(high_x_i),
+      .ordinary_i,
       .scissor0_i(scissor_x0_i),
       .scissor1_i(scissor_x1_i),
       .empty_o(empty_x),
@@ -90,8 +96,11 @@ module quad_setup #(
   );
 
   bounding_range u_range_y (
-      .position_i(y_i),
-      .ordinary_i(ordinary),
+      .clk_i,
+      .load_i(start_i),
+      .low_i(low_y_i),
+      .high_i(high_y_i),
+      .ordinary_i,
       .scissor0_i(scissor_y0_i),
       .scissor1_i(scissor_y1_i),
       .empty_o(empty_y),
@@ -100,51 +109,61 @@ module quad_setup #(
   );
 
   // ---- State --------------------------------------------------------------------------------------------------------------
-  logic [2:0] state_q;
+  // The quad that comes in, up to the last step; behind it the one whose functions are computed and taken: busy_q from its first step
+  // until it is taken, wait_q clocks until its last result is there.
+  logic [1:0] state_q;
   logic [5:0] step_q;
-  logic drain_q;
-  logic ordinary_q;
-  logic last;
+  logic [SLOT-1:0] slot_q;
+  logic next_ordinary_q, ordinary_q;
+  logic [TC-1:0] box_x0_q, box_y0_q, box_x_q, box_y_q;
+  logic busy_q;
+  logic [2:0] wait_q;
+  logic last, run;
 
   assign last = step_q == (ordinary_q ? LAST_ORDINARY : LAST_HOMOGENEOUS);
+  assign run = state_q == PREP && (!busy_q || take_i);
   assign idle_o = state_q == IDLE;
-  assign done_o = state_q == DONE;
+  assign done_o = busy_q && state_q != RUN && wait_q == '0;
   assign homogeneous_o = !ordinary_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       state_q <= IDLE;
       step_q <= '0;
-      drain_q <= 1'b0;
+      busy_q <= 1'b0;
+      wait_q <= '0;
     end else begin
       case (state_q)
-        IDLE: if (start_i) state_q <= PREP;
-        PREP: begin
-          state_q <= RUN;
-          step_q <= '0;
-        end
-        RUN: begin
-          step_q <= step_q + 6'd1;
-          drain_q <= 1'b0;
-          if (last) state_q <= DRAIN;
-        end
-        DRAIN: begin
-          drain_q <= 1'b1;
-          if (drain_q) state_q <= DONE;
-        end
-        default: if (take_i) state_q <= IDLE;
+        IDLE: if (start_i) state_q <= BOX;
+        BOX: state_q <= PREP;
+        PREP: if (run) state_q <= RUN;
+        default: if (last) state_q <= IDLE;
       endcase
+      step_q <= (state_q == RUN) ? step_q + 6'd1 : '0;
+      busy_q <= run || (busy_q && !take_i);
+      if (state_q == RUN) wait_q <= 3'(JOB_CLOCKS);
+      else if (wait_q != '0) wait_q <= wait_q - 3'd1;
     end
   end
 
   always_ff @(posedge clk_i) begin
     if (start_i) begin
-      ordinary_q <= ordinary;
-      slot_o <= slot_i;
-      tile_x0_o <= empty ? '0 : first_x;
-      tile_y0_o <= empty ? '0 : first_y;
-      tiles_x_o <= empty ? '0 : count_x;
-      tiles_y_o <= empty ? '0 : count_y;
+      next_ordinary_q <= ordinary_i;
+      slot_q <= slot_i;
+    end
+    if (state_q == BOX) begin
+      box_x0_q <= empty ? '0 : first_x;
+      box_y0_q <= empty ? '0 : first_y;
+      box_x_q <= empty ? '0 : count_x;
+      box_y_q <= empty ? '0 : count_y;
+    end
+    if (run) begin
+      ordinary_q <= next_ordinary_q;
+      slot_o <= slot_q;
+      tile_x0_o <= box_x0_q;
+      tile_y0_o <= box_y0_q;
+      tiles_x_o <= box_x_q;
+      tiles_y_o <= box_y_q;
     end
   end
 
@@ -153,8 +172,8 @@ module quad_setup #(
   logic [4*T-1:0] tx_q, ty_q;
   logic [4*W-1:0] w_q;
 
-  assign origin_x = T'(tile_x0_o) << (quadrille_pkg::TILE_LOG2 + FRAC);
-  assign origin_y = T'(tile_y0_o) << (quadrille_pkg::TILE_LOG2 + FRAC);
+  assign origin_x = T'(box_x0_q) << (quadrille_pkg::TILE_LOG2 + FRAC);
+  assign origin_y = T'(box_y0_q) << (quadrille_pkg::TILE_LOG2 + FRAC);
 
   for (genvar g = 0; g < 4; g++) begin : gen_vertex
     always_ff @(posedge clk_i) begin
@@ -162,7 +181,7 @@ module quad_setup #(
         tx_q[g*T+:T] <= x_i[g*T+:T];
         ty_q[g*T+:T] <= y_i[g*T+:T];
         w_q[g*W+:W] <= w_i[g*W+:W];
-      end else if (state_q == PREP) begin
+      end else if (run) begin
         tx_q[g*T+:T] <= tx_q[g*T+:T] - origin_x;
         ty_q[g*T+:T] <= ty_q[g*T+:T] - origin_y;
       end
@@ -212,6 +231,9 @@ module quad_setup #(
     k1 = is_value ? step_q[3:0] : is_curvature ? k0 | 4'd1 : k0;
   end
 
+  // The vertices, and for a determinant the edge function, come in a register.
+  logic [T-1:0] txi0_d, txj0_d, tyi0_d, tyj0_d, txi1_d, txj1_d, tyi1_d, tyj1_d;
+  logic [W-1:0] wi0_d, wj0_d, wi1_d, wj1_d;
   logic [T-1:0] txi0, txj0, tyi0, tyj0, txi1, txj1, tyi1, tyj1;
   logic [W-1:0] wi0, wj0, wi1, wj1;
 
@@ -220,12 +242,12 @@ module quad_setup #(
       .x_i(tx_q),
       .y_i(ty_q),
       .w_i(w_q),
-      .xi_o(txi0),
-      .yi_o(tyi0),
-      .wi_o(wi0),
-      .xj_o(txj0),
-      .yj_o(tyj0),
-      .wj_o(wj0)
+      .xi_o(txi0_d),
+      .yi_o(tyi0_d),
+      .wi_o(wi0_d),
+      .xj_o(txj0_d),
+      .yj_o(tyj0_d),
+      .wj_o(wj0_d)
   );
 
   setup_pair u_pair1 (
@@ -233,17 +255,29 @@ module quad_setup #(
       .x_i(tx_q),
       .y_i(ty_q),
       .w_i(w_q),
-      .xi_o(txi1),
-      .yi_o(tyi1),
-      .wi_o(wi1),
-      .xj_o(txj1),
-      .yj_o(tyj1),
-      .wj_o(wj1)
+      .xi_o(txi1_d),
+      .yi_o(tyi1_d),
+      .wi_o(wi1_d),
+      .xj_o(txj1_d),
+      .yj_o(tyj1_d),
+      .wj_o(wj1_d)
   );
 
   logic [VAL-1:0] edge_value;
   logic [GRAD-1:0] edge_gx, edge_gy;
+  logic [VAL-1:0] edge_value_q;
+  logic [GRAD-1:0] edge_gx_q, edge_gy_q;
   logic [63:0] det_value, det_gx, det_gy;
+  logic use_linear, use_linear_gradient, use_quad_gradient, use_curvature, use_det, use_second;  // of the step in the registers
+
+  always_ff @(posedge clk_i) begin
+    {txi0, txj0, tyi0, tyj0, wi0, wj0} <= {txi0_d, txj0_d, tyi0_d, tyj0_d, wi0_d, wj0_d};
+    {txi1, txj1, tyi1, tyj1, wi1, wj1} <= {txi1_d, txj1_d, tyi1_d, tyj1_d, wi1_d, wj1_d};
+    {edge_value_q, edge_gx_q, edge_gy_q} <= {edge_value, edge_gx, edge_gy};
+    {use_linear, use_linear_gradient, use_quad_gradient, use_curvature, use_det, use_second} <= {
+      is_linear, is_linear_gradient, is_quad_gradient, is_curvature, is_det, det_step[0]
+    };
+  end
 
   one_of_four #(.WIDTH(VAL)) u_edge_value (
       .words_i(lin_value_o[4*VAL-1:0]),
@@ -261,9 +295,9 @@ module quad_setup #(
       .word_o(edge_gy)
   );
 
-  assign det_value = 64'($signed(edge_value));
-  assign det_gx = 64'($signed(edge_gx));
-  assign det_gy = 64'($signed(edge_gy));
+  assign det_value = 64'($signed(edge_value_q));
+  assign det_gx = 64'($signed(edge_gx_q));
+  assign det_gy = 64'($signed(edge_gy_q));
 
   logic [DOT-1:0] a0, b0, c0, d0, a1, b1, c1, d1;
   logic subtract0, subtract1;
@@ -271,16 +305,16 @@ module quad_setup #(
   always_comb begin
     // values
     a0 = DOT'($signed(txi0));
-    b0 = is_linear ? DOT'($signed(tyj0)) : DOT'($signed(txj0));
+    b0 = use_linear ? DOT'($signed(tyj0)) : DOT'($signed(txj0));
     c0 = DOT'($signed(tyi0));
-    d0 = is_linear ? DOT'($signed(txj0)) : DOT'($signed(tyj0));
-    subtract0 = is_linear || is_linear_gradient;
+    d0 = use_linear ? DOT'($signed(txj0)) : DOT'($signed(tyj0));
+    subtract0 = use_linear || use_linear_gradient;
     a1 = DOT'($signed(txi1));
     b1 = DOT'($signed(txj1));
     c1 = DOT'($signed(tyi1));
     d1 = DOT'($signed(tyj1));
-    subtract1 = is_linear_gradient;
-    if (is_linear_gradient) begin
+    subtract1 = use_linear_gradient;
+    if (use_linear_gradient) begin
       a0 = DOT'($signed(tyi0));
       b0 = DOT'($signed(wj0));
       c0 = DOT'($signed(wi0));
@@ -289,7 +323,7 @@ module quad_setup #(
       b1 = DOT'($signed(txj1));
       c1 = DOT'($signed(txi1));
       d1 = DOT'($signed(wj1));
-    end else if (is_quad_gradient) begin
+    end else if (use_quad_gradient) begin
       a0 = DOT'($signed(txi0));
       b0 = DOT'($signed(wj0));
       c0 = DOT'($signed(wi0));
@@ -298,7 +332,7 @@ module quad_setup #(
       b1 = DOT'($signed(wj1));
       c1 = DOT'($signed(wi1));
       d1 = DOT'($signed(tyj1));
-    end else if (is_curvature) begin
+    end else if (use_curvature) begin
       a0 = DOT'($signed(wi0));
       b0 = DOT'($signed(wj0));
       c0 = '0;
@@ -307,7 +341,7 @@ module quad_setup #(
       b1 = DOT'($signed(wj1));
       c1 = '0;
       d1 = '0;
-    end else if (is_det && !det_step[0]) begin
+    end else if (use_det && !use_second) begin
       a0 = DOT'($signed(txi0));
       b0 = DOT'(det_gx[31:0]);
       c0 = DOT'($signed(tyi0));
@@ -316,7 +350,7 @@ module quad_setup #(
       b1 = DOT'($signed(det_gx[63:32]));
       c1 = DOT'($signed(tyi0));
       d1 = DOT'($signed(det_gy[63:32]));
-    end else if (is_det) begin
+    end else if (use_det) begin
       a0 = DOT'($signed(wi0));
       b0 = DOT'(det_value[31:0]);
       c0 = '0;
@@ -359,43 +393,36 @@ module quad_setup #(
   logic [RISE-1:0] rise_x0_d, rise_y0_d, rise_x1_d, rise_y1_d;
   logic [RISE-1:0] rise_x0, rise_y0, rise_x1, rise_y1;
 
-  assign rise_x0_d = is_linear ? RISE'($signed(tyi0)) - RISE'($signed(tyj0)) : {txi0, 1'b0};  // unit 0 has squares alone
-  assign rise_y0_d = is_linear ? RISE'($signed(txj0)) - RISE'($signed(txi0)) : {tyi0, 1'b0};
+  assign rise_x0_d = use_linear ? RISE'($signed(tyi0)) - RISE'($signed(tyj0)) : {txi0, 1'b0};  // unit 0 has squares alone
+  assign rise_y0_d = use_linear ? RISE'($signed(txj0)) - RISE'($signed(txi0)) : {tyi0, 1'b0};
   assign rise_x1_d = RISE'($signed(txi1)) + RISE'($signed(txj1));
   assign rise_y1_d = RISE'($signed(tyi1)) + RISE'($signed(tyj1));
 
-  delay_line #(.WIDTH(4 * RISE), .DEPTH(2)) u_rise (
+  delay_line #(.WIDTH(4 * RISE), .DEPTH(JOB_CLOCKS - 1)) u_rise (
       .clk_i,
       .en_i(1'b1),
       .data_i({rise_x0_d, rise_y0_d, rise_x1_d, rise_y1_d}),
       .data_o({rise_x0, rise_y0, rise_x1, rise_y1})
   );
 
-  // ---- What the job at the units' outputs is, two clocks after its step ----------------------------------------------------
+  // ---- What the job at the units' outputs is -----------------------------------------------------------------------------
   localparam int JOB = 6 + 2 * 4 + 1;
-  logic run;
   logic value_linear, value, gradient_linear, gradient_quad, curvature, det, det_second;
   logic [3:0] dest0, dest1;
   logic [JOB-1:0] job;
-  logic [JOB-1:0] job_q1, job_q2;
+  logic [JOB_CLOCKS*JOB-1:0] job_q;
 
-  assign run = state_q == RUN;
   assign job = {
-    {6{run}} & {is_linear, is_value, is_linear_gradient, is_quad_gradient, is_curvature, is_det},
+    {6{state_q == RUN}} & {is_linear, is_value, is_linear_gradient, is_quad_gradient, is_curvature, is_det},
     k0,
     k1,
     det_step[0]
   };
-  assign {value_linear, value, gradient_linear, gradient_quad, curvature, det, dest0, dest1, det_second} = job_q2;
+  assign {value_linear, value, gradient_linear, gradient_quad, curvature, det, dest0, dest1, det_second} = job_q[JOB_CLOCKS*JOB-1-:JOB];
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      job_q1 <= '0;
-      job_q2 <= '0;
-    end else begin
-      job_q1 <= job;
-      job_q2 <= job_q1;
-    end
+    if (!rst_ni) job_q <= '0;
+    else job_q <= {job_q[(JOB_CLOCKS-1)*JOB-1:0], job};
   end
 
   // ---- Destinations: functions load from few buses -------------------------------------------------------------------------
@@ -414,9 +441,19 @@ module quad_setup #(
   logic tie_pos, tie_neg;
   logic [REACH-1:0] fall_tile, rise_tile, fall_block, rise_block;
 
+  // The reach of a function whose gradient was loaded in the clock before.
+  logic load_reach_q;
+  logic [3:0] reach_dest_q;
+  logic [GRAD-1:0] reach_gx_q, reach_gy_q;
+
+  always_ff @(posedge clk_i) begin
+    load_reach_q <= load_linear_gradient;
+    {reach_dest_q, reach_gx_q, reach_gy_q} <= {dest0, linear_gx, linear_gy};
+  end
+
   edge_reach u_reach (
-      .gx_i(linear_gx),
-      .gy_i(linear_gy),
+      .gx_i(reach_gx_q),
+      .gy_i(reach_gy_q),
       .tie_pos_o(tie_pos),
       .tie_neg_o(tie_neg),
       .fall_tile_o(fall_tile),
@@ -440,7 +477,7 @@ module quad_setup #(
 
     if (g < 5) begin : gen_reach  // not of the diagonal 13, which is no edge of a clause
       always_ff @(posedge clk_i) begin
-        if (load_gradient) begin
+        if (load_reach_q && reach_dest_q == g) begin
           tie_pos_o[g] <= tie_pos;
           tie_neg_o[g] <= tie_neg;
           fall_tile_o[g*REACH+:REACH] <= fall_tile;

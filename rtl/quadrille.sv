@@ -78,6 +78,8 @@ module quadrille (
   logic [ID-1:0] quad_id;
   logic [4*T-1:0] quad_x, quad_y;
   logic [4*W-1:0] quad_w;
+  logic quad_ordinary;
+  logic [T-1:0] quad_low_x, quad_high_x, quad_low_y, quad_high_y;
   logic [4*PE-1:0] quad_k_exp, quad_z_exp;
   logic [4*S-1:0] quad_k_sig, quad_z_sig;
   logic [3:0] quad_z_neg;
@@ -96,6 +98,11 @@ module quadrille (
       .x_o(quad_x),
       .y_o(quad_y),
       .w_o(quad_w),
+      .ordinary_o(quad_ordinary),
+      .low_x_o(quad_low_x),
+      .high_x_o(quad_high_x),
+      .low_y_o(quad_low_y),
+      .high_y_o(quad_high_y),
       .k_exp_o(quad_k_exp),
       .k_sig_o(quad_k_sig),
       .z_neg_o(quad_z_neg),
@@ -130,6 +137,11 @@ module quadrille (
       .x_i(quad_x),
       .y_i(quad_y),
       .w_i(quad_w),
+      .ordinary_i(quad_ordinary),
+      .low_x_i(quad_low_x),
+      .high_x_i(quad_high_x),
+      .low_y_i(quad_low_y),
+      .high_y_i(quad_high_y),
       .scissor_x0_i(scissor_x0),
       .scissor_y0_i(scissor_y0),
       .scissor_x1_i(scissor_x1),

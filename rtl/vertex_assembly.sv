@@ -1,6 +1,7 @@
 // Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i clears it.
 //
 // vertex_ready_o is a register's output (it depends neither on valid nor on start_i). The quad's id is that of v0.
+// Beside the quad: whether all its W are ONE, and its least and greatest X and Y, kept up with each beat.
 // Does not judge a vertex. Vertex i's field is at [i*width +: width] of each flat output.
 module vertex_assembly #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
@@ -21,6 +22,11 @@ module vertex_assembly #(
     output logic [4*T-1:0] x_o,
     output logic [4*T-1:0] y_o,
     output logic [4*W-1:0] w_o,
+    output logic ordinary_o,
+    output logic [T-1:0] low_x_o,
+    output logic [T-1:0] high_x_o,
+    output logic [T-1:0] low_y_o,
+    output logic [T-1:0] high_y_o,
     output logic [4*PE-1:0] k_exp_o,
     output logic [4*S-1:0] k_sig_o,
     output logic [3:0] z_neg_o,
@@ -66,7 +72,21 @@ module vertex_assembly #(
   assign z_sig = vertex_i.z_sig;
   assign attr = vertex_i.attr;
 
-  always_ff @(posedge clk_i) if (accept && count_q == 2'd0) id_o <= vertex_i.id;
+  localparam logic [W-1:0] ONE = W'(1) << quadrille_pkg::FRAC;
+  logic first;
+
+  assign first = count_q == 2'd0;
+
+  always_ff @(posedge clk_i) begin
+    if (accept && count_q == 2'd0) id_o <= vertex_i.id;
+    if (accept) begin
+      ordinary_o <= (first || ordinary_o) && w == ONE;
+      if (first || $signed(x) < $signed(low_x_o)) low_x_o <= x;
+      if (first || $signed(x) > $signed(high_x_o)) high_x_o <= x;
+      if (first || $signed(y) < $signed(low_y_o)) low_y_o <= y;
+      if (first || $signed(y) > $signed(high_y_o)) high_y_o <= y;
+    end
+  end
 
   for (genvar g = 0; g < 4; g++) begin : gen_vertex
     logic [T-1:0] x_q, y_q;
