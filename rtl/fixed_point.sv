@@ -1,4 +1,4 @@
-// Magnitude of a raw product as unsigned fixed point, truncated, saturated. Latency FIXED_POINT_STAGES (2), one per enabled clock.
+// Magnitude of a raw product as unsigned fixed point, truncated, saturated. Latency FIXED_POINT_STAGES (2), one per clock.
 //
 // value = prod_i * 2^(exp_i-(2S-2)); fixed_o has INT_BITS integer and FRAC_BITS fraction bits. overflow_o: value >= 2^INT_BITS,
 // fixed_o is all ones then. Does not know signs.
@@ -10,7 +10,6 @@ module fixed_point #(
     localparam int OUT = INT_BITS + FRAC_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [E-1:0] exp_i,
     input logic [2*S-1:0] prod_i,
     output logic overflow_o,
@@ -33,19 +32,15 @@ module fixed_point #(
   assign distance_d = (E + 1)'(({(E + 1)'(INT_BITS - 1), 1'b1} + {~{exp_i[E-1], exp_i}, !carry}) >> 1);
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      distance_q <= distance_d;
-      top_q <= OUT'((WIDE'(normalised) << (WIDE - 2 * S)) >> (WIDE - OUT));
-      overflow_q <= nonzero && distance_d[E];  // it belongs above the top
-    end
+    distance_q <= distance_d;
+    top_q <= OUT'((WIDE'(normalised) << (WIDE - 2 * S)) >> (WIDE - OUT));
+    overflow_q <= nonzero && distance_d[E];  // it belongs above the top
   end
 
   // Stage 2: shift.
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      overflow_o <= overflow_q;
-      fixed_o <= top_q >> distance_q[NEAR-1:0];
-      if (distance_q[E:NEAR] != '0) fixed_o <= overflow_q ? '1 : '0;
-    end
+    overflow_o <= overflow_q;
+    fixed_o <= top_q >> distance_q[NEAR-1:0];
+    if (distance_q[E:NEAR] != '0) fixed_o <= overflow_q ? '1 : '0;
   end
 endmodule

@@ -1,5 +1,5 @@
 // One function of the pixel position from the context of its tile: value + r gy + dx gx + q (r^2 + dx^2). Exact modulo 2^VALUE_BITS.
-// Latency FORWARD_DIFFERENCE_STAGES, one pixel an enabled clock: the row; the column, and beside it the bend q (r^2 + dx^2); their sum.
+// Latency FORWARD_DIFFERENCE_STAGES, one pixel a clock: the row; the column, and beside it the bend q (r^2 + dx^2); their sum.
 //
 // Two's complement throughout; r, dx and r^2 + dx^2 come as offset_digits, the last one clock after all the rest. A linear function
 // (QUADRATIC = 0) has no bend: it reads neither q_i nor norm_digits_i.
@@ -14,7 +14,6 @@ module forward_difference #(
     localparam int NORM_DIGITS = NORM_BITS / 2 + 1
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [2*OFFSET_DIGITS-1:0] row_digits_i,
     input logic [2*OFFSET_DIGITS-1:0] dx_digits_i,
     input logic [2*NORM_DIGITS-1:0] norm_digits_i,
@@ -47,11 +46,9 @@ module forward_difference #(
   assign row_d = VALUE_BITS'(({value_i, 1'b1} + {VALUE_BITS'($signed(rise_y)), carry_y}) >> 1);
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      row_q <= row_d;
-      gx_q <= gx_i;
-      dx_digits_q <= dx_digits_i;
-    end
+    row_q <= row_d;
+    gx_q <= gx_i;
+    dx_digits_q <= dx_digits_i;
   end
 
   // ---- Stage 2: column ------------------------------------------------------------------------------------------------------
@@ -69,7 +66,7 @@ module forward_difference #(
 
   assign column_d = VALUE_BITS'(({row_q, 1'b1} + {VALUE_BITS'($signed(rise_x)), carry_x}) >> 1);
 
-  always_ff @(posedge clk_i) if (en_i) column_q <= column_d;
+  always_ff @(posedge clk_i) column_q <= column_d;
 
   // ---- Stage 2, bend; stage 3, sum --------------------------------------------------------------------------------------------
   logic [VALUE_BITS-1:0] bent;
@@ -90,11 +87,9 @@ module forward_difference #(
     );
 
     always_ff @(posedge clk_i) begin
-      if (en_i) begin
-        q_q <= q_i;
-        bend_q <= bend_d;
-        carry_q <= carry_d;
-      end
+      q_q <= q_i;
+      bend_q <= bend_d;
+      carry_q <= carry_d;
     end
 
     assign bent = VALUE_BITS'(({column_q, 1'b1} + {VALUE_BITS'($signed(bend_q)), carry_q}) >> 1);
@@ -104,5 +99,5 @@ module forward_difference #(
     assign bent = column_q;
   end
 
-  always_ff @(posedge clk_i) if (en_i) value_o <= bent;
+  always_ff @(posedge clk_i) value_o <= bent;
 endmodule

@@ -1,5 +1,5 @@
 // Sum of two unsigned products, in fewer clocks than fp_sum and with its bits: without a difference the highest one can be in three
-// places only. Latency FP_ADD_STAGES (order, align, add), one per enabled clock.
+// places only. Latency FP_ADD_STAGES (order, align, add), one per clock.
 //
 // Rank and term as fp_term gives them, in the same clock here. Both zero: exp = sig = 0.
 module fp_add #(
@@ -9,7 +9,6 @@ module fp_add #(
     localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [RANK-1:0] a_rank_i,
     input logic [TERM-1:0] a_term_i,
     input logic [RANK-1:0] b_rank_i,
@@ -28,12 +27,10 @@ module fp_add #(
   assign swap = a_above[RANK];
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      first_q <= swap ? b_term_i : a_term_i;
-      second_q <= swap ? a_term_i : b_term_i;
-      first_exp_q <= quadrille_pkg::rank_exponent(swap ? b_rank_i : a_rank_i);
-      distance_q <= swap ? b_above[E-1:0] : a_above[E-1:0];  // of a zero: any
-    end
+    first_q <= swap ? b_term_i : a_term_i;
+    second_q <= swap ? a_term_i : b_term_i;
+    first_exp_q <= quadrille_pkg::rank_exponent(swap ? b_rank_i : a_rank_i);
+    distance_q <= swap ? b_above[E-1:0] : a_above[E-1:0];  // of a zero: any
   end
 
   // ---- Stage 2: align --------------------------------------------------------------------------------------------------------
@@ -42,12 +39,10 @@ module fp_add #(
   logic [E-1:0] exp_q;
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      augend_q <= first_q;
-      addend_q <= second_q >> distance_q[NEAR-1:0];
-      if (distance_q[E-1:NEAR] != '0) addend_q <= '0;  // by the registers' synchronous reset
-      exp_q <= first_exp_q;
-    end
+    augend_q <= first_q;
+    addend_q <= second_q >> distance_q[NEAR-1:0];
+    if (distance_q[E-1:NEAR] != '0) addend_q <= '0;  // by the registers' synchronous reset
+    exp_q <= first_exp_q;
   end
 
   // ---- Stage 3: add. A product in [1, 4) and less than another such one: the highest one is in the upper three places ----------
@@ -56,10 +51,8 @@ module fp_add #(
   assign sum = (TERM + 1)'(augend_q) + (TERM + 1)'(addend_q);
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      sig_o <= sum[TERM] ? sum[TERM-:S] : sum[TERM-1] ? sum[TERM-1-:S] : sum[TERM-2-:S];
-      exp_o <= exp_q + (sum[TERM] ? E'(2) : E'(sum[TERM-1]));
-    end
+    sig_o <= sum[TERM] ? sum[TERM-:S] : sum[TERM-1] ? sum[TERM-1-:S] : sum[TERM-2-:S];
+    exp_o <= exp_q + (sum[TERM] ? E'(2) : E'(sum[TERM-1]));
   end
 
   logic unused;

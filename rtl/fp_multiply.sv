@@ -1,4 +1,4 @@
-// Product of two unsigned significand numbers, truncated and normalised. Latency 1, one result per enabled clock.
+// Product of two unsigned significand numbers, truncated and normalised. Latency 1, one result per clock.
 //
 // value = sig * 2^(exp-(S-1)), sig's top bit set or sig = exp = 0. Zero if either factor is zero. Signs are the user's business.
 module fp_multiply #(
@@ -6,7 +6,6 @@ module fp_multiply #(
     localparam int E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [E-1:0] a_exp_i,
     input logic [S-1:0] a_sig_i,
     input logic [E-1:0] b_exp_i,
@@ -23,9 +22,7 @@ module fp_multiply #(
   assign zero = (a_sig_i == '0) || (b_sig_i == '0);
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      sig_o <= carry ? product[2*S-1:S] : product[2*S-2:S-1];  // all zero when a factor is
-      exp_o <= zero ? '0 : a_exp_i + b_exp_i + E'(carry);
-    end
+    sig_o <= carry ? product[2*S-1:S] : product[2*S-2:S-1];  // all zero when a factor is
+    exp_o <= zero ? '0 : a_exp_i + b_exp_i + E'(carry);
   end
 endmodule

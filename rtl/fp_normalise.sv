@@ -1,5 +1,5 @@
 // fp_from_magnitude of README.md section 2: an unsigned integer becomes a significand number. Latency FP_NORMALISE_STAGES (2): the long
-// shifts, then the short ones; one per enabled clock. Combinational with REGISTERED = 0.
+// shifts, then the short ones; one per clock. Combinational with REGISTERED = 0.
 //
 // value = magnitude * 2^(bias) read as integer: p = index of the highest one, sig has it at bit S-1 (lower bits dropped,
 // truncation), exp = p + bias. Magnitude 0 gives exp = 0, sig = 0.
@@ -10,7 +10,6 @@ module fp_normalise #(
     localparam int E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [WIDTH-1:0] magnitude_i,
     input logic [E-1:0] bias_i,
     output logic [E-1:0] exp_o,
@@ -41,7 +40,6 @@ module fp_normalise #(
 
   delay_line #(.WIDTH(KEPT + COUNT_BITS - SPLIT + E), .DEPTH(32'(REGISTERED))) u_coarse_q (
       .clk_i,
-      .en_i,
       .data_i({coarse_top, high_count_d, top_exp_d}),
       .data_o({coarse_q, high_count_q, top_exp_q})
   );
@@ -67,7 +65,6 @@ module fp_normalise #(
 
   delay_line #(.WIDTH(E + S), .DEPTH(32'(REGISTERED))) u_fine_q (
       .clk_i,
-      .en_i,
       .data_i({exp, sig}),
       .data_o({exp_o, sig_o})
   );

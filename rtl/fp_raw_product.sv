@@ -1,4 +1,4 @@
-// Raw product of two significand numbers: {neg, exp, 2S bits}, not normalised. Latency 1, one result per enabled clock.
+// Raw product of two significand numbers: {neg, exp, 2S bits}, not normalised. Latency 1, one result per clock.
 //
 // value = product * 2^(exp-(2S-2)). product = 0 if either factor is zero; neg and exp mean nothing then.
 module fp_raw_product #(
@@ -6,7 +6,6 @@ module fp_raw_product #(
     localparam int E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic neg_i,
     input logic [E-1:0] a_exp_i,
     input logic [S-1:0] a_sig_i,
@@ -17,10 +16,8 @@ module fp_raw_product #(
     output logic [2*S-1:0] prod_o
 );
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      neg_o <= neg_i;
-      exp_o <= a_exp_i + b_exp_i;
-      prod_o <= (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
-    end
+    neg_o <= neg_i;
+    exp_o <= a_exp_i + b_exp_i;
+    prod_o <= (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
   end
 endmodule

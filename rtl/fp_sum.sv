@@ -1,5 +1,5 @@
-// Signed sum of TERMS (2 or 4) products. Latency FP_SUM_STAGES from neg_i and term_i; the ranks come one enabled clock before those,
-// while the multipliers run (fp_term). One result per enabled clock.
+// Signed sum of TERMS (2 or 4) products. Latency FP_SUM_STAGES from neg_i and term_i; the ranks come one clock before those,
+// while the multipliers run (fp_term). One result per clock.
 //
 // The terms are aligned to the largest exponent E among the non-zero ones and truncated to PREC_BITS fraction bits below it:
 //
@@ -15,7 +15,6 @@ module fp_sum #(
     localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [TERMS*RANK-1:0] rank_i,
     input logic [TERMS-1:0] neg_i,
     input logic [TERMS*TERM-1:0] term_i,
@@ -34,11 +33,9 @@ module fp_sum #(
   logic [PAIRS*RANK-1:0] higher_q;
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      rank_q <= rank_i;
-      for (int p = 0; p < PAIRS; p++) begin
-        higher_q[p*RANK+:RANK] <= (rank_i[(2*p+1)*RANK+:RANK] > rank_i[2*p*RANK+:RANK]) ? rank_i[(2*p+1)*RANK+:RANK] : rank_i[2*p*RANK+:RANK];
-      end
+    rank_q <= rank_i;
+    for (int p = 0; p < PAIRS; p++) begin
+      higher_q[p*RANK+:RANK] <= (rank_i[(2*p+1)*RANK+:RANK] > rank_i[2*p*RANK+:RANK]) ? rank_i[(2*p+1)*RANK+:RANK] : rank_i[2*p*RANK+:RANK];
     end
   end
 
@@ -53,12 +50,10 @@ module fp_sum #(
   assign top = (PAIRS == 2 && higher_q[(PAIRS-1)*RANK+:RANK] > higher_q[0+:RANK]) ? higher_q[(PAIRS-1)*RANK+:RANK] : higher_q[0+:RANK];
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      for (int k = 0; k < TERMS; k++) distance_q[k*E+:E] <= top[E-1:0] - rank_q[k*RANK+:E];  // of a zero: any
-      term_q <= term_i;
-      neg_q <= neg_i;
-      top_exp_q <= quadrille_pkg::rank_exponent(top);
-    end
+    for (int k = 0; k < TERMS; k++) distance_q[k*E+:E] <= top[E-1:0] - rank_q[k*RANK+:E];  // of a zero: any
+    term_q <= term_i;
+    neg_q <= neg_i;
+    top_exp_q <= quadrille_pkg::rank_exponent(top);
   end
 
   // ---- Stage 2: align -------------------------------------------------------------------------------------------------------
@@ -69,16 +64,14 @@ module fp_sum #(
   logic [E-1:0] aligned_exp_q;
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      for (int k = 0; k < TERMS; k++) begin  // the far ones by the registers' synchronous reset
-        aligned_q[k*TERM+:TERM] <= term_q[k*TERM+:TERM] >> distance_q[k*E+:NEAR];
-        if (distance_q[k*E+NEAR+:E-NEAR] != '0) aligned_q[k*TERM+:TERM] <= '0;
-      end
-      for (int p = 0; p < PAIRS; p++) differ_q[p] <= neg_q[2*p] != neg_q[2*p+1];
-      across_q <= neg_q[0] != neg_q[TERMS-2];
-      aligned_neg_q <= neg_q[0];
-      aligned_exp_q <= top_exp_q;
+    for (int k = 0; k < TERMS; k++) begin  // the far ones by the registers' synchronous reset
+      aligned_q[k*TERM+:TERM] <= term_q[k*TERM+:TERM] >> distance_q[k*E+:NEAR];
+      if (distance_q[k*E+NEAR+:E-NEAR] != '0) aligned_q[k*TERM+:TERM] <= '0;
     end
+    for (int p = 0; p < PAIRS; p++) differ_q[p] <= neg_q[2*p] != neg_q[2*p+1];
+    across_q <= neg_q[0] != neg_q[TERMS-2];
+    aligned_neg_q <= neg_q[0];
+    aligned_exp_q <= top_exp_q;
   end
 
   // ---- Stage 3: add by pairs, each in the sign of its first term. {a, 1} + {b, carry} is an adder whose carry-in is used --------
@@ -103,11 +96,9 @@ module fp_sum #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      sum_q <= sum_d;
-      sum_neg_q <= aligned_neg_q;
-      sum_exp_q <= aligned_exp_q;
-    end
+    sum_q <= sum_d;
+    sum_neg_q <= aligned_neg_q;
+    sum_exp_q <= aligned_exp_q;
   end
 
   // ---- Stage 4: magnitude ----------------------------------------------------------------------------------------------------
@@ -116,11 +107,9 @@ module fp_sum #(
   logic [E-1:0] magnitude_exp_q;
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      magnitude_neg_q <= sum_q[SUM-1] != sum_neg_q;
-      magnitude_q <= sum_q[SUM-1] ? MAG'(-sum_q) : sum_q[MAG-1:0];
-      magnitude_exp_q <= sum_exp_q;
-    end
+    magnitude_neg_q <= sum_q[SUM-1] != sum_neg_q;
+    magnitude_q <= sum_q[SUM-1] ? MAG'(-sum_q) : sum_q[MAG-1:0];
+    magnitude_exp_q <= sum_exp_q;
   end
 
   // ---- Stages 5, 6: normalise ------------------------------------------------------------------------------------------------
@@ -128,11 +117,10 @@ module fp_sum #(
 
   assign nonzero_neg = magnitude_neg_q && magnitude_q != '0;
 
-  delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::FP_NORMALISE_STAGES)) u_neg (.clk_i, .en_i, .data_i(nonzero_neg), .data_o(neg_o));
+  delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::FP_NORMALISE_STAGES)) u_neg (.clk_i, .data_i(nonzero_neg), .data_o(neg_o));
 
   fp_normalise #(.WIDTH(MAG)) u_normalise (
       .clk_i,
-      .en_i,
       .magnitude_i(magnitude_q),
       .bias_i(magnitude_exp_q - E'(PREC)),
       .exp_o,

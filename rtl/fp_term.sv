@@ -9,7 +9,6 @@ module fp_term #(
     localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic neg_i,
     input logic [E-1:0] a_exp_i,
     input logic [S-1:0] a_sig_i,
@@ -22,9 +21,7 @@ module fp_term #(
   assign rank_o = quadrille_pkg::exponent_rank(a_exp_i + b_exp_i, a_sig_i[S-1] && b_sig_i[S-1]);
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      neg_o <= neg_i;
-      term_o <= TERM'(((2 * S)'(a_sig_i) * (2 * S)'(b_sig_i)) >> (2 * S - TERM));
-    end
+    neg_o <= neg_i;
+    term_o <= TERM'(((2 * S)'(a_sig_i) * (2 * S)'(b_sig_i)) >> (2 * S - TERM));
   end
 endmodule

@@ -3,7 +3,7 @@
 //
 // Attribute: two's complement, ATTRIBUTE_INT_BITS and ATTRIBUTE_FRAC_BITS, truncated toward zero, saturated. Depth: unsigned,
 // 1 integer bit, DEPTH_BITS fraction bits. A pixel is discarded outside [znear, zfar], for negative depth, and, in a quad whose hull
-// holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come one enabled clock before the port; the draw state is looked at two before.
+// holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come one clock before the port; the draw state is looked at two before.
 module fragment_output #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
@@ -16,7 +16,6 @@ module fragment_output #(
 ) (
     input logic clk_i,
     input logic rst_ni,
-    input logic en_i,
     // Draw state
     input logic depth_on_i,
     input logic [DB:0] znear_i,
@@ -63,7 +62,6 @@ module fragment_output #(
 
     fp_raw_product u_product (
         .clk_i,
-        .en_i,
         .neg_i(attr_neg_i[g] ^ rk_neg_i),
         .a_exp_i(attr_exp_i[g*E+:E]),
         .a_sig_i(attr_sig_i[g*S+:S]),
@@ -79,22 +77,19 @@ module fragment_output #(
         .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS)
     ) u_fixed (
         .clk_i,
-        .en_i,
         .exp_i(exp),
         .prod_i(prod),
         .overflow_o(saturated),
         .fixed_o(fixed)
     );
 
-    delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_neg (.clk_i, .en_i, .data_i(prod_neg), .data_o(neg));
+    delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_neg (.clk_i, .data_i(prod_neg), .data_o(neg));
 
     assign used = attributes_i > 4'(g);
 
     always_ff @(posedge clk_i) begin
-      if (en_i) begin
-        overflow[g] <= used && saturated;
-        attr[g*AO+:AO] <= !used ? '0 : neg ? AO'(0) - {1'b0, fixed} : {1'b0, fixed};
-      end
+      overflow[g] <= used && saturated;
+      attr[g*AO+:AO] <= !used ? '0 : neg ? AO'(0) - {1'b0, fixed} : {1'b0, fixed};
     end
   end
 
@@ -110,7 +105,6 @@ module fragment_output #(
 
   fp_raw_product u_product_z (
       .clk_i,
-      .en_i,
       .neg_i(z_neg_i ^ rw_neg_i),
       .a_exp_i(z_exp_i),
       .a_sig_i(z_sig_i),
@@ -121,10 +115,9 @@ module fragment_output #(
       .prod_o(z_prod)
   );
 
-  delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_z_neg (.clk_i, .en_i, .data_i(z_prod_neg), .data_o(z_neg));
+  delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_z_neg (.clk_i, .data_i(z_prod_neg), .data_o(z_neg));
   delay_line #(.WIDTH(2), .DEPTH(quadrille_pkg::PRODUCT_STAGES + TO_FIXED)) u_delay_w (
       .clk_i,
-      .en_i,
       .data_i({rw_sig_i == '0, rw_neg_i}),
       .data_o({w_zero, w_neg})
   );
@@ -134,7 +127,6 @@ module fragment_output #(
       .FRAC_BITS(DB)
   ) u_fixed_z (
       .clk_i,
-      .en_i,
       .exp_i(z_exp),
       .prod_i(z_prod),
       .overflow_o(z_saturated),
@@ -145,11 +137,9 @@ module fragment_output #(
   assign z_below = !w_zero && z_neg && z != '0;
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      depth_q <= depth_on_i ? z : (DB + 1)'(0);
-      depth_discard_q <= depth_on_i && (z_below || z < znear_i || z > zfar_i);
-      behind_q <= w_zero || w_neg;
-    end
+    depth_q <= depth_on_i ? z : (DB + 1)'(0);
+    depth_discard_q <= depth_on_i && (z_below || z < znear_i || z > zfar_i);
+    behind_q <= w_zero || w_neg;
   end
 
   // ---- Output register ----------------------------------------------------------------------------------------------------
@@ -167,7 +157,7 @@ module fragment_output #(
     if (!rst_ni) begin
       valid_o <= 1'b0;
       fragment_o <= '0;
-    end else if (en_i) begin
+    end else begin
       valid_o <= valid_d;
       fragment_o <= valid_d ? fragment_d : '0;
     end

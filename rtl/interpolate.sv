@@ -1,5 +1,5 @@
 // Weighted sums over the four corners: term set t gives sum_t = M_0 c_t0 + M_1 c_t1 + M_2 c_t2 + M_3 c_t3, signed, for the sets
-// k_eff, W, Z, b_0, b_1, ... Latency PRODUCT_STAGES + FP_SUM_STAGES (quadrille_pkg), one pixel per enabled clock.
+// k_eff, W, Z, b_0, b_1, ... Latency PRODUCT_STAGES + FP_SUM_STAGES (quadrille_pkg), one pixel per clock.
 //
 // Term t of corner v is at index t*4+v; term exponents have the port's width. Does not divide.
 module interpolate #(
@@ -9,7 +9,6 @@ module interpolate #(
     localparam int SETS = 3 + quadrille_pkg::ATTRIBUTE_SLOTS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [4*E-1:0] m_exp_i,
     input logic [4*S-1:0] m_sig_i,
     input logic [SETS*4-1:0] term_neg_i,
@@ -30,7 +29,6 @@ module interpolate #(
     for (genvar v = 0; v < 4; v++) begin : gen_corner
       fp_term u_term (
           .clk_i,
-          .en_i,
           .neg_i(term_neg_i[t*4+v]),
           .a_exp_i(m_exp_i[v*E+:E]),
           .a_sig_i(m_sig_i[v*S+:S]),
@@ -44,7 +42,6 @@ module interpolate #(
 
     fp_sum #(.TERMS(4)) u_sum (
         .clk_i,
-        .en_i,
         .rank_i(rank),
         .neg_i(neg),
         .term_i(term),

@@ -1,4 +1,4 @@
-// Mean value weights M_i, up to a common factor, from t_i = n_i / d_i and rho_i. One pixel per enabled clock.
+// Mean value weights M_i, up to a common factor, from t_i = n_i / d_i and rho_i. One pixel per clock.
 //
 //     M_i = N_i e'_i  *  rho'_i f'_i      N_i = n_{i-1} d_i + n_i d_{i-1}, e'_i = d_{i+1} d_{i+2}, f'_i = 1
 //
@@ -12,7 +12,6 @@ module mean_value_weights #(
     localparam int PE = quadrille_pkg::PORT_EXP_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     // at RHO_STAGE
     input logic [4*E-1:0] rho_exp_i,
     input logic [4*S-1:0] rho_sig_i,
@@ -46,28 +45,24 @@ module mean_value_weights #(
 
   delay_line #(.WIDTH(4 * (E + S)), .DEPTH(TO_RATIO)) u_delay_rho (
       .clk_i,
-      .en_i,
       .data_i({rho_exp_i, rho_sig_i}),
       .data_o({rho_exp, rho_sig})
   );
 
   delay_line #(.WIDTH(4 * (E + S)), .DEPTH(TO_OVERRIDE)) u_delay_late_rho (
       .clk_i,
-      .en_i,
       .data_i({rho_exp, rho_sig}),
       .data_o({late_rho_exp, late_rho_sig})
   );
 
   delay_line #(.WIDTH(13), .DEPTH(TO_N)) u_delay_class (
       .clk_i,
-      .en_i,
       .data_i(class_i),
       .data_o(n_class)
   );
 
   delay_line #(.WIDTH(13), .DEPTH(TO_OVERRIDE - TO_N)) u_delay_late_class (
       .clk_i,
-      .en_i,
       .data_i(n_class),
       .data_o(late_class)
   );
@@ -146,10 +141,8 @@ module mean_value_weights #(
     logic [S-1:0] a_sig_q, b_sig_q, c_sig_q, d_sig_q;
 
     always_ff @(posedge clk_i) begin
-      if (en_i) begin
-        {ab_neg_q, a_exp_q, a_sig_q, b_exp_q, b_sig_q} <= {ab_neg, a_exp, a_sig, b_exp, b_sig};
-        {cd_neg_q, c_exp_q, c_sig_q, d_exp_q, d_sig_q} <= {cd_neg, c_exp, c_sig, d_exp, d_sig};
-      end
+      {ab_neg_q, a_exp_q, a_sig_q, b_exp_q, b_sig_q} <= {ab_neg, a_exp, a_sig, b_exp, b_sig};
+      {cd_neg_q, c_exp_q, c_sig_q, d_exp_q, d_sig_q} <= {cd_neg, c_exp, c_sig, d_exp, d_sig};
     end
 
     logic [RANK-1:0] ab_rank, cd_rank;
@@ -160,7 +153,6 @@ module mean_value_weights #(
 
     fp_term u_ab (
         .clk_i,
-        .en_i,
         .neg_i(ab_neg_q),
         .a_exp_i(a_exp_q),
         .a_sig_i(a_sig_q),
@@ -173,7 +165,6 @@ module mean_value_weights #(
 
     fp_term u_cd (
         .clk_i,
-        .en_i,
         .neg_i(cd_neg_q),
         .a_exp_i(c_exp_q),
         .a_sig_i(c_sig_q),
@@ -186,7 +177,6 @@ module mean_value_weights #(
 
     fp_sum #(.TERMS(2)) u_sum (
         .clk_i,
-        .en_i,
         .rank_i({cd_rank, ab_rank}),
         .neg_i({cd_term_neg, ab_term_neg}),
         .term_i({cd_term, ab_term}),
@@ -202,7 +192,6 @@ module mean_value_weights #(
 
     fp_multiply u_e (
         .clk_i,
-        .en_i,
         .a_exp_i(d_exp_i[g*E+:E]),
         .a_sig_i(d_sig_i[g*S+:S]),
         .b_exp_i(d_exp_i[Q*E+:E]),
@@ -213,7 +202,6 @@ module mean_value_weights #(
 
     delay_line #(.WIDTH(E + S), .DEPTH(TO_OVERRIDE - quadrille_pkg::PRODUCT_STAGES)) u_delay_e (
         .clk_i,
-        .en_i,
         .data_i({e_exp, e_sig}),
         .data_o(late_e[g*(E+S)+:E+S])
     );
@@ -224,7 +212,6 @@ module mean_value_weights #(
 
   fp_multiply u_fa (
       .clk_i,
-      .en_i,
       .a_exp_i(n_exp_i[5*E+:E]),
       .a_sig_i(n_sig_i[5*S+:S]),
       .b_exp_i(d_exp_i[4*E+:E]),
@@ -235,7 +222,6 @@ module mean_value_weights #(
 
   fp_multiply u_fb (
       .clk_i,
-      .en_i,
       .a_exp_i(n_exp_i[4*E+:E]),
       .a_sig_i(n_sig_i[4*S+:S]),
       .b_exp_i(d_exp_i[5*E+:E]),
@@ -246,7 +232,6 @@ module mean_value_weights #(
 
   fp_multiply u_fc (
       .clk_i,
-      .en_i,
       .a_exp_i(d_exp_i[5*E+:E]),
       .a_sig_i(d_sig_i[5*S+:S]),
       .b_exp_i(d_exp_i[4*E+:E]),
@@ -257,7 +242,6 @@ module mean_value_weights #(
 
   delay_line #(.WIDTH(3 * (E + S)), .DEPTH(TO_OVERRIDE - quadrille_pkg::PRODUCT_STAGES)) u_delay_f (
       .clk_i,
-      .en_i,
       .data_i(f),
       .data_o(late_f)
   );
@@ -290,7 +274,6 @@ module mean_value_weights #(
   // Lone numbers are terms with the fraction bits of a product by 1.
   fp_add u_both (
       .clk_i,
-      .en_i,
       .a_rank_i(quadrille_pkg::exponent_rank(na_exp, na_sig[S-1])),
       .a_term_i(TERM'(na_sig) << (TERM - S - 1)),
       .b_rank_i(quadrille_pkg::exponent_rank(nb_exp, nb_sig[S-1])),
@@ -306,14 +289,12 @@ module mean_value_weights #(
 
   delay_line #(.WIDTH(4 * (E + S)), .DEPTH(TO_OVERRIDE - TO_N)) u_delay_n (
       .clk_i,
-      .en_i,
       .data_i({n_sum_exp, n_sum_sig}),
       .data_o(late_n)
   );
 
   delay_line #(.WIDTH(2 * (E + S)), .DEPTH(TO_OVERRIDE - TO_N)) u_delay_two (
       .clk_i,
-      .en_i,
       .data_i({na_exp, na_sig, nb_exp, nb_sig}),
       .data_o({late_na, late_nb})
   );
@@ -373,12 +354,10 @@ module mean_value_weights #(
     end
 
     always_ff @(posedge clk_i) begin
-      if (en_i) begin
-        num_q <= num_d;
-        e_q <= late_override ? {E'(0), ONE_SIG} : late_e[Q*(E+S)+:E+S];
-        rho_q <= (late_two_corner || late_on_vertex) ? {E'(0), ONE_SIG} : {late_rho_exp[g*E+:E], late_rho_sig[g*S+:S]};
-        f_q <= !late_cured ? {E'(0), ONE_SIG} : !late_differ[g] ? late_f[2*(E+S)+:E+S] : late_f[(g%2)*(E+S)+:E+S];
-      end
+      num_q <= num_d;
+      e_q <= late_override ? {E'(0), ONE_SIG} : late_e[Q*(E+S)+:E+S];
+      rho_q <= (late_two_corner || late_on_vertex) ? {E'(0), ONE_SIG} : {late_rho_exp[g*E+:E], late_rho_sig[g*S+:S]};
+      f_q <= !late_cured ? {E'(0), ONE_SIG} : !late_differ[g] ? late_f[2*(E+S)+:E+S] : late_f[(g%2)*(E+S)+:E+S];
     end
 
     logic [E-1:0] h_exp, g_exp;
@@ -386,7 +365,6 @@ module mean_value_weights #(
 
     fp_multiply u_h (
         .clk_i,
-        .en_i,
         .a_exp_i(num_q[S+:E]),
         .a_sig_i(num_q[0+:S]),
         .b_exp_i(e_q[S+:E]),
@@ -397,7 +375,6 @@ module mean_value_weights #(
 
     fp_multiply u_g (
         .clk_i,
-        .en_i,
         .a_exp_i(rho_q[S+:E]),
         .a_sig_i(rho_q[0+:S]),
         .b_exp_i(f_q[S+:E]),
@@ -408,7 +385,6 @@ module mean_value_weights #(
 
     fp_multiply u_m (
         .clk_i,
-        .en_i,
         .a_exp_i(h_exp),
         .a_sig_i(h_sig),
         .b_exp_i(g_exp),

@@ -1,4 +1,4 @@
-// Exact integer to significand number: sign and magnitude, then fp_normalise. Latency NORMALISE_STAGES, one per enabled clock.
+// Exact integer to significand number: sign and magnitude, then fp_normalise. Latency NORMALISE_STAGES, one per clock.
 //
 // value_i two's complement; exponent of the result = index of the highest one of |value| + BIAS; S bits kept, the rest dropped.
 // Zero gives neg = exp = sig = 0. With CLAMP set a negative value counts as zero.
@@ -10,7 +10,6 @@ module normalise #(
     localparam int E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [WIDTH-1:0] value_i,
     output logic neg_o,
     output logic [E-1:0] exp_o,
@@ -22,13 +21,12 @@ module normalise #(
   assign neg_d = value_i[WIDTH-1] && !CLAMP;
   assign magnitude_d = !value_i[WIDTH-1] ? value_i : CLAMP ? '0 : WIDTH'(0) - value_i;
 
-  always_ff @(posedge clk_i) if (en_i) magnitude_q <= magnitude_d;
+  always_ff @(posedge clk_i) magnitude_q <= magnitude_d;
 
-  delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::NORMALISE_STAGES)) u_neg (.clk_i, .en_i, .data_i(neg_d), .data_o(neg_o));
+  delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::NORMALISE_STAGES)) u_neg (.clk_i, .data_i(neg_d), .data_o(neg_o));
 
   fp_normalise #(.WIDTH(WIDTH)) u_normalise (
       .clk_i,
-      .en_i,
       .magnitude_i(magnitude_q),
       .bias_i(E'(BIAS)),
       .exp_o,

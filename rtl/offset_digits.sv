@@ -1,5 +1,5 @@
 // What the 16 forward differences need of a pixel's place in its tile, row r and column dx: the digits of r, dx and r^2 + dx^2 in
-// radix 4, shared by all of them. Those of r and dx combinational, those of r^2 + dx^2 an enabled clock later.
+// radix 4, shared by all of them. Those of r and dx combinational, those of r^2 + dx^2 a clock later.
 module offset_digits #(
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int NORM_BITS = 2 * TILE_LOG2 + 1,
@@ -7,7 +7,6 @@ module offset_digits #(
     localparam int NORM_DIGITS = NORM_BITS / 2 + 1
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [TILE_LOG2-1:0] row_i,
     input logic [TILE_LOG2-1:0] dx_i,
     output logic [2*OFFSET_DIGITS-1:0] row_digits_o,
@@ -41,5 +40,5 @@ module offset_digits #(
       .digits_o(norm_digits)
   );
 
-  always_ff @(posedge clk_i) if (en_i) norm_digits_o <= norm_digits;
+  always_ff @(posedge clk_i) norm_digits_o <= norm_digits;
 endmodule

@@ -92,11 +92,9 @@ module pixel_pipeline #(
   localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE;
   localparam int LAST = quadrille_pkg::LATENCY - 1;  // the output register
 
-  logic en;
   logic [LAST:0] valid_q;  // of the last register: pixels, drawn or discarded
   logic [LAST:0] end_q;
 
-  assign en = 1'b1;
   assign release_o = end_q[LAST];
   assign discard_o = valid_q[LAST] && !fragment_valid_o;
 
@@ -104,7 +102,7 @@ module pixel_pipeline #(
     if (!rst_ni) begin
       valid_q <= '0;
       end_q <= '0;
-    end else if (en) begin
+    end else begin
       valid_q <= {valid_q[LAST-1:0], valid_i};
       end_q <= {end_q[LAST-1:0], end_i};
     end
@@ -122,36 +120,31 @@ module pixel_pipeline #(
 
   delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (
       .clk_i,
-      .en_i(en),
       .data_i({slot_i, x_i, y_i, front_i, tie_i}),
       .data_o(diff_tag)
   );
-  delay_line #(.WIDTH(TAG), .DEPTH(NORM - DIFF)) u_norm_tag (.clk_i, .en_i(en), .data_i(diff_tag), .data_o(norm_tag));
+  delay_line #(.WIDTH(TAG), .DEPTH(NORM - DIFF)) u_norm_tag (.clk_i, .data_i(diff_tag), .data_o(norm_tag));
   delay_line #(.WIDTH(META), .DEPTH(RATIO - 1 - NORM)) u_product_meta (
       .clk_i,
-      .en_i(en),
       .data_i({norm_tag, norm_class[CLASS-1-:FLAGS]}),
       .data_o(product_meta)
   );
   delay_line #(.WIDTH(META), .DEPTH(OVERRIDE - 1 - RATIO)) u_override_meta (
       .clk_i,
-      .en_i(en),
       .data_i(product_meta),
       .data_o(override_meta)
   );
   delay_line #(.WIDTH(META), .DEPTH(WEIGHT + 1 - OVERRIDE)) u_blend_meta (
       .clk_i,
-      .en_i(en),
       .data_i(override_meta),
       .data_o(blend_meta)
   );
   delay_line #(.WIDTH(META), .DEPTH(LAST - 1 - WEIGHT)) u_output_meta (
       .clk_i,
-      .en_i(en),
       .data_i(blend_meta),
       .data_o(output_meta)
   );
-  delay_line #(.WIDTH(CLASS), .DEPTH(RATIO - NORM)) u_ratio_class (.clk_i, .en_i(en), .data_i(norm_class), .data_o(ratio_class));
+  delay_line #(.WIDTH(CLASS), .DEPTH(RATIO - NORM)) u_ratio_class (.clk_i, .data_i(norm_class), .data_o(ratio_class));
 
   // ---- Reads of the slot bank -----------------------------------------------------------------------------------------------
   logic [3:0] product_k_neg;
@@ -170,20 +163,18 @@ module pixel_pipeline #(
   assign output_slot_o = output_meta[META-1-:SLOT];
 
   always_ff @(posedge clk_i) begin
-    if (en) begin
-      product_k_neg <= product_k_neg_i;
-      product_k_exp <= product_k_exp_i;
-      product_k_sig <= product_k_sig_i;
-      override_k_exp <= override_k_exp_i;
-      override_k_sig <= override_k_sig_i;
-      blend_neg <= blend_neg_i;
-      blend_exp <= blend_exp_i;
-      blend_sig <= blend_sig_i;
-      output_id <= output_id_i;
-      output_hull <= output_hull_i;
-      output_homogeneous <= output_homogeneous_i;
-      output_rest <= output_meta[META-SLOT-1:0];
-    end
+    product_k_neg <= product_k_neg_i;
+    product_k_exp <= product_k_exp_i;
+    product_k_sig <= product_k_sig_i;
+    override_k_exp <= override_k_exp_i;
+    override_k_sig <= override_k_sig_i;
+    blend_neg <= blend_neg_i;
+    blend_exp <= blend_exp_i;
+    blend_sig <= blend_sig_i;
+    output_id <= output_id_i;
+    output_hull <= output_hull_i;
+    output_homogeneous <= output_homogeneous_i;
+    output_rest <= output_meta[META-SLOT-1:0];
   end
 
   // ---- Exact functions at the pixel --------------------------------------------------------------------------------------
@@ -194,7 +185,6 @@ module pixel_pipeline #(
 
   offset_digits u_offset (
       .clk_i,
-      .en_i(en),
       .row_i,
       .dx_i,
       .row_digits_o(row_digits),
@@ -209,7 +199,6 @@ module pixel_pipeline #(
         .QUADRATIC(1'b0)
     ) u_difference (
         .clk_i,
-        .en_i(en),
         .row_digits_i(row_digits),
         .dx_digits_i(dx_digits),
         .norm_digits_i(norm_digits),
@@ -228,7 +217,6 @@ module pixel_pipeline #(
         .CURV_BITS(QCURV)
     ) u_difference (
         .clk_i,
-        .en_i(en),
         .row_digits_i(row_digits),
         .dx_digits_i(dx_digits),
         .norm_digits_i(norm_digits),
@@ -254,7 +242,6 @@ module pixel_pipeline #(
         .BIAS(-quadrille_pkg::QDROP)
     ) u_a (
         .clk_i,
-        .en_i(en),
         .value_i(diff_a[g*VAL+:VAL]),
         .neg_o(norm_a_neg[g]),
         .exp_o(norm_a_exp[g*E+:E]),
@@ -263,7 +250,6 @@ module pixel_pipeline #(
 
     normalise #(.WIDTH(QVAL)) u_d (
         .clk_i,
-        .en_i(en),
         .value_i(diff_quad[g*QVAL+:QVAL]),
         .neg_o(norm_d_neg[g]),
         .exp_o(norm_d_exp[g*E+:E]),
@@ -277,7 +263,6 @@ module pixel_pipeline #(
         .CLAMP(1'b1)
     ) u_r2 (
         .clk_i,
-        .en_i(en),
         .value_i(diff_quad[(6+g)*QVAL+:QVAL]),
         .neg_o(norm_r2_neg[g]),
         .exp_o(norm_r2_exp[g*E+:E]),
@@ -287,7 +272,6 @@ module pixel_pipeline #(
 
   singular_class u_class (
       .clk_i,
-      .en_i(en),
       .a_i(diff_a[0+:4*VAL]),
       .d_i(diff_quad[0+:4*QVAL]),
       .r2_i(diff_quad[6*QVAL+:4*QVAL]),
@@ -301,7 +285,6 @@ module pixel_pipeline #(
   for (genvar g = 0; g < 4; g++) begin : gen_rsqrt
     rsqrt u_rsqrt (
         .clk_i,
-        .en_i(en),
         .exp_i(norm_r2_exp[g*E+:E]),
         .sig_i(norm_r2_sig[g*S+:S]),
         .exp_o(rho_exp[g*E+:E]),
@@ -317,7 +300,6 @@ module pixel_pipeline #(
 
   mean_value_ratios u_ratios (
       .clk_i,
-      .en_i(en),
       .a_exp_i(norm_a_exp),
       .a_sig_i(norm_a_sig),
       .d_neg_i(norm_d_neg),
@@ -333,7 +315,6 @@ module pixel_pipeline #(
 
   mean_value_weights u_weights (
       .clk_i,
-      .en_i(en),
       .rho_exp_i(rho_exp),
       .rho_sig_i(rho_sig),
       .n_exp_i(ratio_n_exp),
@@ -357,7 +338,6 @@ module pixel_pipeline #(
 
   interpolate u_interpolate (
       .clk_i,
-      .en_i(en),
       .m_exp_i(m_exp),
       .m_sig_i(m_sig),
       .term_neg_i(blend_neg),
@@ -379,7 +359,6 @@ module pixel_pipeline #(
 
   reciprocal u_reciprocal_k (
       .clk_i,
-      .en_i(en),
       .neg_i(sum_neg[0]),
       .exp_i(sum_exp[0+:E]),
       .sig_i(sum_sig[0+:S]),
@@ -390,7 +369,6 @@ module pixel_pipeline #(
 
   reciprocal u_reciprocal_w (
       .clk_i,
-      .en_i(en),
       .neg_i(sum_neg[1]),
       .exp_i(sum_exp[E+:E]),
       .sig_i(sum_sig[S+:S]),
@@ -402,7 +380,6 @@ module pixel_pipeline #(
   for (genvar g = 0; g < NUMS; g++) begin : gen_numerator
     delay_line #(.WIDTH(1 + E + S), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_delay (
         .clk_i,
-        .en_i(en),
         .data_i({sum_neg[2+g], sum_exp[(2+g)*E+:E], sum_sig[(2+g)*S+:S]}),
         .data_o({num_neg[g], num_exp[g*E+:E], num_sig[g*S+:S]})
     );
@@ -412,7 +389,6 @@ module pixel_pipeline #(
   fragment_output u_output (
       .clk_i,
       .rst_ni,
-      .en_i(en),
       .depth_on_i,
       .znear_i,
       .zfar_i,

@@ -400,7 +400,6 @@ module quad_setup #(
 
   delay_line #(.WIDTH(4 * RISE), .DEPTH(JOB_CLOCKS - 1)) u_rise (
       .clk_i,
-      .en_i(1'b1),
       .data_i({rise_x0_d, rise_y0_d, rise_x1_d, rise_y1_d}),
       .data_o({rise_x0, rise_y0, rise_x1, rise_y1})
   );

@@ -117,7 +117,6 @@ module quad_slots #(
         .REGISTERED(1'b0)
     ) u_w (
         .clk_i,
-        .en_i(1'b1),
         .magnitude_i(w_magnitude),
         .bias_i(W_BIAS),
         .exp_o(w_exp),

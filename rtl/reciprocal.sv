@@ -1,5 +1,5 @@
 // 1/a of a signed significand number by table. Latency RECIPROCAL_STAGES: table, inner and outer product, clamp. One result per
-// enabled clock.
+// clock.
 //
 // An exact power of two is exact; every other argument gives a significand in [1/2, 1) from the table of the top bits of the
 // fraction. Zero gives zero. The sign is kept.
@@ -8,7 +8,6 @@ module reciprocal #(
     localparam int E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic neg_i,
     input logic [E-1:0] exp_i,
     input logic [S-1:0] sig_i,
@@ -37,17 +36,14 @@ module reciprocal #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      word_q <= word;
-      dx_q <= dx;
-    end
+    word_q <= word;
+    dx_q <= dx;
   end
 
   logic [S-1:0] poly;
 
   table_polynomial #(.SEGMENTS_LOG2(K)) u_polynomial (
       .clk_i,
-      .en_i,
       .word_i(word_q),
       .dx_i(dx_q),
       .sig_o(poly)
@@ -58,16 +54,13 @@ module reciprocal #(
 
   delay_line #(.WIDTH(E + 3), .DEPTH(3)) u_delay (
       .clk_i,
-      .en_i,
       .data_i({zero, exact, neg_i, exp_d}),
       .data_o({zero_q, exact_q, neg_q, exp_q})
   );
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      neg_o <= neg_q;
-      exp_o <= exp_q;
-      sig_o <= zero_q ? '0 : exact_q ? {1'b1, (S - 1)'(0)} : poly;
-    end
+    neg_o <= neg_q;
+    exp_o <= exp_q;
+    sig_o <= zero_q ? '0 : exact_q ? {1'b1, (S - 1)'(0)} : poly;
   end
 endmodule

@@ -1,5 +1,5 @@
 // 1/sqrt(a) of an unsigned significand number by table. Latency RSQRT_STAGES: table, inner and outer product, clamp. One result per
-// enabled clock.
+// clock.
 //
 // a = sig 2^(exp-(S-1)); p = exp & 1, h = floor(exp/2): 1/sqrt(a) = 2^-h / sqrt(2^p m), m in [1, 2). An exact power of four is
 // exact; every other argument gives a significand in [1/2, 1) from the table {p, top bits of m}. Zero gives zero.
@@ -8,7 +8,6 @@ module rsqrt #(
     localparam int E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [E-1:0] exp_i,
     input logic [S-1:0] sig_i,
     output logic [E-1:0] exp_o,
@@ -37,17 +36,14 @@ module rsqrt #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      word_q <= word;
-      dx_q <= dx;
-    end
+    word_q <= word;
+    dx_q <= dx;
   end
 
   logic [S-1:0] poly;
 
   table_polynomial #(.SEGMENTS_LOG2(K)) u_polynomial (
       .clk_i,
-      .en_i,
       .word_i(word_q),
       .dx_i(dx_q),
       .sig_o(poly)
@@ -58,15 +54,12 @@ module rsqrt #(
 
   delay_line #(.WIDTH(E + 2), .DEPTH(3)) u_delay (
       .clk_i,
-      .en_i,
       .data_i({zero, exact, exp_d}),
       .data_o({zero_q, exact_q, exp_q})
   );
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      exp_o <= exp_q;
-      sig_o <= zero_q ? '0 : exact_q ? {1'b1, (S - 1)'(0)} : poly;
-    end
+    exp_o <= exp_q;
+    sig_o <= zero_q ? '0 : exact_q ? {1'b1, (S - 1)'(0)} : poly;
   end
 endmodule

@@ -1,5 +1,5 @@
 // Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, where neighbouring t differ
-// in sign. Latency NORMALISE_STAGES, one pixel per enabled clock.
+// in sign. Latency NORMALISE_STAGES, one pixel per clock.
 //
 // class_o = {two_corner, on_vertex, two_edge, on_edge, cured, differ[4], first[2], second[2]}: at most one of the first four is
 // set; first and second are the lowest two corners or edges concerned. differ[i]: A_{i-1} and A_i have strictly opposite signs.
@@ -8,7 +8,6 @@ module singular_class #(
     localparam int QVAL = quadrille_pkg::QVAL_BITS
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [4*VAL-1:0] a_i,
     input logic [4*QVAL-1:0] d_i,
     input logic [4*QVAL-1:0] r2_i,
@@ -29,12 +28,10 @@ module singular_class #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      a_neg_q <= a_neg_d;
-      a_pos_q <= a_pos_d;
-      corner_q <= corner_d;
-      edge_q <= edge_d;
-    end
+    a_neg_q <= a_neg_d;
+    a_pos_q <= a_pos_d;
+    corner_q <= corner_d;
+    edge_q <= edge_d;
   end
 
   // Stage 2: priority.
@@ -62,7 +59,6 @@ module singular_class #(
 
   delay_line #(.WIDTH(13), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 1)) u_delay (
       .clk_i,
-      .en_i,
       .data_i({two_corner, on_vertex, two_edge, on_edge, cured, differ, first, second}),
       .data_o(class_o)
   );

@@ -1,4 +1,4 @@
-// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function. Latency 2, one result per enabled clock; the result is clamped
+// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function. Latency 2, one result per clock; the result is clamped
 // behind the last register, for its user's.
 //
 // word_i = {C0[S+4], C1[S], C2[S]} unsigned, dx_i = the low R bits of the argument below the segment's index, read as a fraction
@@ -11,7 +11,6 @@ module table_polynomial #(
     localparam int DX_BITS = (R < 1) ? 1 : R
 ) (
     input logic clk_i,
-    input logic en_i,
     input logic [3*S+3:0] word_i,
     input logic [DX_BITS-1:0] dx_i,
     output logic [S-1:0] sig_o
@@ -26,11 +25,9 @@ module table_polynomial #(
   assign inner_d = word_i[S+:S] - S'(((S + DX_BITS)'(word_i[0+:S]) * (S + DX_BITS)'(dx_i)) >> R);
 
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      inner_q <= inner_d;
-      c0_q <= word_i[2*S+:C0_BITS];
-      dx_q <= dx_i;
-    end
+    inner_q <= inner_d;
+    c0_q <= word_i[2*S+:C0_BITS];
+    dx_q <= dx_i;
   end
 
   // Stage 2: outer product.
@@ -38,7 +35,7 @@ module table_polynomial #(
 
   assign outer_d = c0_q - C0_BITS'(((S + DX_BITS)'(inner_q) * (S + DX_BITS)'(dx_q)) >> R);
 
-  always_ff @(posedge clk_i) if (en_i) outer_q <= outer_d;
+  always_ff @(posedge clk_i) outer_q <= outer_d;
 
   // Drop the guard bits, clamp.
   logic [S:0] value;

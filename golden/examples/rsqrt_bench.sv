@@ -70,7 +70,6 @@ module rsqrt_bench;
     // Your module goes here.
     rsqrt u_rsqrt (
         .clk_i(clk),
-        .en_i(1'b1),
         .exp_i(stimulus[4*S+E*i+:E]),
         .sig_i(stimulus[S*i+:S]),
         .exp_o(response[4*S+E*i+:E]),

@@ -22,7 +22,6 @@ module example_bench;
   for (genvar g = 0; g < 4; g++) begin : gen_rsqrt
     rsqrt u_rsqrt (
         .clk_i(clk),
-        .en_i(1'b1),
         .exp_i(exp[g*E+:E]),
         .sig_i(sig[g*S+:S]),
         .exp_o(rho_exp[g*E+:E]),

@@ -20,7 +20,6 @@ module replay_depth (
 
   reciprocal u_reciprocal_k (
       .clk_i,
-      .en_i(1'b1),
       .neg_i(den_k_neg_i),
       .exp_i(den_k_exp_i),
       .sig_i(den_k_sig_i),
@@ -31,7 +30,6 @@ module replay_depth (
 
   reciprocal u_reciprocal_w (
       .clk_i,
-      .en_i(1'b1),
       .neg_i(den_w_neg_i),
       .exp_i(den_w_exp_i),
       .sig_i(den_w_sig_i),
@@ -44,9 +42,9 @@ module replay_depth (
   logic [STATE-1:0] late_state;
 
   delay_line #(.WIDTH(NUMERATORS), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_numerator (
-      .clk_i, .en_i(1'b1), .data_i({attr_neg_i, attr_exp_i, attr_sig_i, z_neg_i, z_exp_i, z_sig_i}), .data_o(late_numerator));
+      .clk_i, .data_i({attr_neg_i, attr_exp_i, attr_sig_i, z_neg_i, z_exp_i, z_sig_i}), .data_o(late_numerator));
   delay_line #(.WIDTH(STATE), .DEPTH(quadrille_pkg::FRAGMENT_STAGE - 2 - quadrille_pkg::SUM_STAGE)) u_state (
-      .clk_i, .en_i(1'b1), .data_i({depth_on_i, znear_i, zfar_i, attributes_i, hull_i}), .data_o(late_state));
+      .clk_i, .data_i({depth_on_i, znear_i, zfar_i, attributes_i, hull_i}), .data_o(late_state));
 
   // ---- Quotients. State is looked at two clocks before the port, hull one ----------------------------------------------------
   logic [N-1:0] attr_neg;
@@ -62,7 +60,7 @@ module replay_depth (
   assign {attr_neg, attr_exp, attr_sig, z_neg, z_exp, z_sig} = late_numerator;
   assign {depth_on, znear, zfar, attributes, early_hull} = late_state;
 
-  delay_line #(.WIDTH(1), .DEPTH(1)) u_hull (.clk_i, .en_i(1'b1), .data_i(early_hull), .data_o(hull));
+  delay_line #(.WIDTH(1), .DEPTH(1)) u_hull (.clk_i, .data_i(early_hull), .data_o(hull));
 
   logic [ID+2*V:0] identity;  // quad, x, y, front
   logic [6:0] class_flags;
@@ -71,7 +69,6 @@ module replay_depth (
   fragment_output u_output (
       .clk_i,
       .rst_ni,
-      .en_i(1'b1),
       .depth_on_i(depth_on),
       .znear_i(znear),
       .zfar_i(zfar),

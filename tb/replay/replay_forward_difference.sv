@@ -14,7 +14,6 @@ module replay_forward_difference (
   logic [2*(TILE_LOG2+1)-1:0] norm_digits_i;
 
   offset_digits u_offset (
-      .en_i(1'b1),
       .row_digits_o(row_digits_i),
       .dx_digits_o(dx_digits_i),
       .norm_digits_o(norm_digits_i),
@@ -27,7 +26,6 @@ module replay_forward_difference (
         .GRAD_BITS(GRAD),
         .QUADRATIC(1'b0)
     ) u_difference (
-        .en_i(1'b1),
         .value_i(lin_value_i[g*VAL+:VAL]),
         .gx_i(lin_gx_i[g*GRAD+:GRAD]),
         .gy_i(lin_gy_i[g*GRAD+:GRAD]),
@@ -46,7 +44,6 @@ module replay_forward_difference (
         .GRAD_BITS(QGRAD),
         .CURV_BITS(QCURV)
     ) u_difference (
-        .en_i(1'b1),
         .value_i(quad_value_i[g*QVAL+:QVAL]),
         .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
         .gy_i(quad_gy_i[g*QGRAD+:QGRAD]),

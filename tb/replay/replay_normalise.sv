@@ -20,7 +20,6 @@ module replay_normalise (
         .BIAS(-quadrille_pkg::QDROP)
     ) u_a (
         .clk_i,
-        .en_i(1'b1),
         .value_i(a_i[g*VAL+:VAL]),
         .neg_o(a_neg_o[g]),
         .exp_o(a_exp_o[g*E+:E]),
@@ -29,7 +28,6 @@ module replay_normalise (
 
     normalise #(.WIDTH(QVAL)) u_d (
         .clk_i,
-        .en_i(1'b1),
         .value_i(d_i[g*QVAL+:QVAL]),
         .neg_o(d_neg_o[g]),
         .exp_o(d_exp_o[g*E+:E]),
@@ -43,7 +41,6 @@ module replay_normalise (
         .CLAMP(1'b1)
     ) u_r2 (
         .clk_i,
-        .en_i(1'b1),
         .value_i(r2_i[g*QVAL+:QVAL]),
         .neg_o(r2_neg[g]),
         .exp_o(r2_exp_o[g*E+:E]),
@@ -52,7 +49,6 @@ module replay_normalise (
   end
 
   singular_class u_class (
-      .en_i(1'b1),
       .a_i(a_i[0+:4*VAL]),
       .d_i(d_i[0+:4*QVAL]),
       .class_o({two_corner_o, on_vertex_o, two_edge_o, on_edge_o, class_rest}),

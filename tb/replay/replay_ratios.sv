@@ -9,9 +9,9 @@ module replay_ratios (
   logic [4*E-1:0] late_rho_exp;
   logic [4*S-1:0] late_rho_sig;
 
-  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(quadrille_pkg::RSQRT_STAGES)) u_rho (.clk_i, .en_i(1'b1), .data_i({rho_exp_i, rho_sig_i}), .data_o({late_rho_exp, late_rho_sig}));
+  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(quadrille_pkg::RSQRT_STAGES)) u_rho (.clk_i, .data_i({rho_exp_i, rho_sig_i}), .data_o({late_rho_exp, late_rho_sig}));
 
-  mean_value_ratios u_ratios (.en_i(1'b1), .rho_exp_i(late_rho_exp), .rho_sig_i(late_rho_sig), .*);
+  mean_value_ratios u_ratios (.rho_exp_i(late_rho_exp), .rho_sig_i(late_rho_sig), .*);
 
   replay_valid #(.LATENCY(quadrille_pkg::RATIO_STAGE - quadrille_pkg::NORM_STAGE)) u_valid (.*);
 endmodule

@@ -9,7 +9,6 @@ module replay_rsqrt (
   for (genvar g = 0; g < 4; g++) begin : gen_rsqrt
     rsqrt u_rsqrt (
         .clk_i,
-        .en_i(1'b1),
         .exp_i(exp_i[g*E+:E]),
         .sig_i(sig_i[g*S+:S]),
         .exp_o(exp_o[g*E+:E]),

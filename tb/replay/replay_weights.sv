@@ -24,7 +24,6 @@ module replay_weights (
 
   singular_class u_class (
       .clk_i,
-      .en_i(1'b1),
       .a_i(a),
       .d_i(d),
       .r2_i(r2),
@@ -43,19 +42,18 @@ module replay_weights (
   logic unused;
 
   delay_line #(.WIDTH(13), .DEPTH(TO_RATIO - quadrille_pkg::NORMALISE_STAGES)) u_class_ratio (
-      .clk_i, .en_i(1'b1), .data_i(early_class), .data_o(ratio_class));
+      .clk_i, .data_i(early_class), .data_o(ratio_class));
   delay_line #(.WIDTH(12 * (E + S)), .DEPTH(TO_RATIO)) u_ratio (
-      .clk_i, .en_i(1'b1), .data_i({n_exp_i, n_sig_i, d_exp_i, d_sig_i}), .data_o({n_exp, n_sig, d_exp, d_sig}));
+      .clk_i, .data_i({n_exp_i, n_sig_i, d_exp_i, d_sig_i}), .data_o({n_exp, n_sig, d_exp, d_sig}));
   delay_line #(.WIDTH(K), .DEPTH(TO_RATIO)) u_k (
-      .clk_i, .en_i(1'b1), .data_i({k_neg_i, k_exp_i, k_sig_i}), .data_o({k_neg, k_exp, k_sig}));
+      .clk_i, .data_i({k_neg_i, k_exp_i, k_sig_i}), .data_o({k_neg, k_exp, k_sig}));
   delay_line #(.WIDTH(K), .DEPTH(TO_OVERRIDE)) u_override_k (
-      .clk_i, .en_i(1'b1), .data_i({k_neg, k_exp, k_sig}), .data_o({override_k_neg, override_k_exp, override_k_sig}));
+      .clk_i, .data_i({k_neg, k_exp, k_sig}), .data_o({override_k_neg, override_k_exp, override_k_sig}));
 
   assign unused = ^override_k_neg;  // overrides take the magnitude
 
   mean_value_weights u_weights (
       .clk_i,
-      .en_i(1'b1),
       .rho_exp_i,
       .rho_sig_i,
       .n_exp_i(n_exp),
