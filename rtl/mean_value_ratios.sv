@@ -22,8 +22,8 @@ module mean_value_ratios #(
   localparam int WAIT = quadrille_pkg::RSQRT_STAGES + quadrille_pkg::PRODUCT_STAGES;  // of A and D for rho rho'
 
   for (genvar g = 0; g < 6; g++) begin : gen_pair
-    localparam int I = 32'(quadrille_pkg::pair_first(4'(g)));
-    localparam int J = 32'(quadrille_pkg::pair_second(4'(g)));
+    localparam int I = {30'd0, quadrille_pkg::pair_first(4'(g))};
+    localparam int J = {30'd0, quadrille_pkg::pair_second(4'(g))};
 
     // A and D wait for rho and rho rho'.
     logic [E-1:0] a_exp, d_exp;

@@ -45,9 +45,13 @@ module pixel_emit #(
   assign send = head_valid_i && !head_end_i && may_send;
   assign pop_o = head_valid_i && (head_end_i || (may_send && remaining == lowest));
 
-  always_comb begin
-    dx = '0;
-    for (int i = 0; i < TILE; i++) if (lowest[i]) dx = dx | TILE_LOG2'(i);
+  // Bit b of the place of a single one. (A loop that adds up dx would read what it writes: Icarus would repeat it for ever.)
+  for (genvar b = 0; b < TILE_LOG2; b++) begin : gen_dx
+    logic [TILE-1:0] with_bit;
+    for (genvar i = 0; i < TILE; i++) begin : gen_place
+      assign with_bit[i] = lowest[i] && ((i >> b) & 1) == 1;
+    end
+    assign dx[b] = with_bit != '0;
   end
 
   always_ff @(posedge clk_i) begin
@@ -76,7 +80,7 @@ module pixel_emit #(
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      assert ((lowest & (lowest - TILE'(1))) == '0);
+      assert (!head_valid_i || (lowest & (lowest - TILE'(1))) == '0);
       assert (!send || remaining != '0);
       assert ($signed(spare_q) >= -(PLACES + 2)'(1) && $signed(spare_q) < $signed((PLACES + 2)'(1 << PLACES)));
     end

@@ -8,8 +8,8 @@
 module quadrille (
     input logic clk_i,
     input logic rst_ni,
-    input quadrille_pkg::state_t state_i,
-    input quadrille_pkg::vertex_t vertex_i,
+    input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
+    input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
 `ifdef QUADRILLE_PROBES
@@ -32,7 +32,7 @@ module quadrille (
     output logic probe_sum_valid_o,
     output quadrille_pkg::probe_sum_t probe_sum_o,
 `endif
-    output quadrille_pkg::fragment_t fragment_o,
+    output logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment_o,
     output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] fragment_mask_o,
     output logic fragment_valid_o,
     input logic fragment_ready_i,
@@ -62,16 +62,25 @@ module quadrille (
   config_check u_config_check ();
 
   // ---- Draw state ---------------------------------------------------------------------------------------------------------
-  logic [V:0] scissor_x0, scissor_y0, scissor_x1, scissor_y1;
-  logic [1:0] cull;
+  typedef struct packed {
+    logic [V:0] scissor_x0;
+    logic [V:0] scissor_y0;
+    logic [V:0] scissor_x1;
+    logic [V:0] scissor_y1;
+    logic [1:0] cull;
+    logic perspective;
+    logic depth;
+    logic [quadrille_pkg::DEPTH_BITS:0] znear;
+    logic [quadrille_pkg::DEPTH_BITS:0] zfar;
+    logic [3:0] attributes;
+    logic [7:0] skip;
+  } state_t;
+
+  state_t state;
   logic unused_skip;
 
-  assign scissor_x0 = state_i.scissor_x0;
-  assign scissor_y0 = state_i.scissor_y0;
-  assign scissor_x1 = state_i.scissor_x1;
-  assign scissor_y1 = state_i.scissor_y1;
-  assign cull = state_i.cull;
-  assign unused_skip = ^state_i.skip[7:1];
+  assign state = state_i;
+  assign unused_skip = ^state.skip[7:1];
 
   // ---- Vertices -----------------------------------------------------------------------------------------------------------
   logic start, full, assembly_busy;
@@ -142,10 +151,10 @@ module quadrille (
       .high_x_i(quad_high_x),
       .low_y_i(quad_low_y),
       .high_y_i(quad_high_y),
-      .scissor_x0_i(scissor_x0),
-      .scissor_y0_i(scissor_y0),
-      .scissor_x1_i(scissor_x1),
-      .scissor_y1_i(scissor_y1),
+      .scissor_x0_i(state.scissor_x0),
+      .scissor_y0_i(state.scissor_y0),
+      .scissor_x1_i(state.scissor_x1),
+      .scissor_y1_i(state.scissor_y1),
       .idle_o(setup_idle),
       .take_i(take),
       .done_o(setup_done),
@@ -196,7 +205,7 @@ module quadrille (
       .alloc_o(alloc_slot),
       .available_o(slot_available),
       .busy_o(slots_busy),
-      .perspective_i(state_i.perspective),
+      .perspective_i(state.perspective),
       .id_i(quad_id),
       .w_i(quad_w),
       .k_exp_i(quad_k_exp),
@@ -254,8 +263,8 @@ module quadrille (
   tile_walk u_walk (
       .clk_i,
       .rst_ni,
-      .cull_i(cull),
-      .reject_tiles_i(state_i.skip[0]),
+      .cull_i(state.cull),
+      .reject_tiles_i(state.skip[0]),
       .setup_done_i(setup_done),
       .take_o(take),
       .slot_i(setup_slot),
@@ -348,11 +357,11 @@ module quadrille (
   stamp_coverage u_coverage (
       .clk_i,
       .rst_ni,
-      .cull_i(cull),
-      .scissor_x0_i(scissor_x0),
-      .scissor_y0_i(scissor_y0),
-      .scissor_x1_i(scissor_x1),
-      .scissor_y1_i(scissor_y1),
+      .cull_i(state.cull),
+      .scissor_x0_i(state.scissor_x0),
+      .scissor_y0_i(state.scissor_y0),
+      .scissor_x1_i(state.scissor_x1),
+      .scissor_y1_i(state.scissor_y1),
       .present_i(stamp_present),
       .fetch_o(fetch),
       .fetch_ptr_o(fetch_ptr),
@@ -437,10 +446,10 @@ module quadrille (
   pixel_pipeline u_pipeline (
       .clk_i,
       .rst_ni,
-      .depth_on_i(state_i.depth),
-      .znear_i(state_i.znear),
-      .zfar_i(state_i.zfar),
-      .attributes_i(state_i.attributes),
+      .depth_on_i(state.depth),
+      .znear_i(state.znear),
+      .zfar_i(state.zfar),
+      .attributes_i(state.attributes),
       .valid_i(pixel_valid),
       .end_i(pixel_end),
       .slot_i(emit_slot),

@@ -198,44 +198,13 @@ package quadrille_pkg;
   // the pipeline, 2 through the FIFO, 2 until the count of free places knows)
   localparam int FRAGMENT_FIFO_LOG2 /*verilator public*/ = $clog2(LATENCY + 7);
 
-  // ---- Ports --------------------------------------------------------------------------------------------------------------
-  typedef struct packed {
-    logic [QUAD_ID_BITS-1:0] id;
-    logic [T_BITS-1:0] x;
-    logic [T_BITS-1:0] y;
-    logic [W_BITS-1:0] w;
-    logic [PORT_EXP_BITS-1:0] k_exp;
-    logic [SIGNIFICAND_BITS-1:0] k_sig;
-    logic z_neg;
-    logic [PORT_EXP_BITS-1:0] z_exp;
-    logic [SIGNIFICAND_BITS-1:0] z_sig;
-    logic [ATTRIBUTE_SLOTS*ATTR_PORT_BITS-1:0] attr;
-  } vertex_t;
-
-  typedef struct packed {
-    logic [VIEWPORT_BITS:0] scissor_x0;
-    logic [VIEWPORT_BITS:0] scissor_y0;
-    logic [VIEWPORT_BITS:0] scissor_x1;
-    logic [VIEWPORT_BITS:0] scissor_y1;
-    logic [1:0] cull;
-    logic perspective;
-    logic depth;
-    logic [DEPTH_BITS:0] znear;
-    logic [DEPTH_BITS:0] zfar;
-    logic [3:0] attributes;
-    logic [7:0] skip;
-  } state_t;
-
-  typedef struct packed {
-    logic [QUAD_ID_BITS-1:0] quad;
-    logic [VIEWPORT_BITS-1:0] x;
-    logic [VIEWPORT_BITS-1:0] y;
-    logic front;
-    logic [7:0] flags;
-    logic [DEPTH_BITS:0] depth;
-    logic [ATTRIBUTE_SLOTS*ATTR_OUT_BITS-1:0] attr;
-  } fragment_t;
-
+  // ---- Ports: flat vectors, whose fields README.md section 3 gives; the structs are declared where they are read -----------
+  // id, X, Y, W, k, Z, attributes
+  localparam int VERTEX_BITS /*verilator public*/ =
+      QUAD_ID_BITS + 2 * T_BITS + W_BITS + (PORT_EXP_BITS + SIGNIFICAND_BITS) + ATTR_PORT_BITS + ATTRIBUTE_SLOTS * ATTR_PORT_BITS;
+  // scissor, cull, perspective, depth, znear, zfar, attributes, skip
+  localparam int STATE_BITS /*verilator public*/ = 4 * (VIEWPORT_BITS + 1) + 2 + 1 + 1 + 2 * (DEPTH_BITS + 1) + 4 + 8;
+  // quad, x, y, front, flags, depth, attributes
   localparam int FRAGMENT_BITS /*verilator public*/ =
       QUAD_ID_BITS + 2 * VIEWPORT_BITS + 1 + 8 + DEPTH_BITS + 1 + ATTRIBUTE_SLOTS * ATTR_OUT_BITS;
 

@@ -12,7 +12,7 @@ module vertex_assembly #(
 ) (
     input logic clk_i,
     input logic rst_ni,
-    input quadrille_pkg::vertex_t vertex_i,
+    input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
     input logic start_i,
@@ -34,10 +34,25 @@ module vertex_assembly #(
     output logic [4*S-1:0] z_sig_o,
     output logic [4*ATTR-1:0] attr_o
 );
+  typedef struct packed {
+    logic [quadrille_pkg::QUAD_ID_BITS-1:0] id;
+    logic [T-1:0] x;
+    logic [T-1:0] y;
+    logic [W-1:0] w;
+    logic [PE-1:0] k_exp;
+    logic [S-1:0] k_sig;
+    logic z_neg;
+    logic [PE-1:0] z_exp;
+    logic [S-1:0] z_sig;
+    logic [ATTR-1:0] attr;
+  } vertex_t;
+
+  vertex_t vertex;
   logic [1:0] count_q;
   logic full_q;
   logic accept;
 
+  assign vertex = vertex_i;
   assign accept = vertex_valid_i && !full_q;
   assign vertex_ready_o = !full_q;
   assign full_o = full_q;
@@ -62,15 +77,15 @@ module vertex_assembly #(
   logic z_neg;
   logic [ATTR-1:0] attr;
 
-  assign x = vertex_i.x;
-  assign y = vertex_i.y;
-  assign w = vertex_i.w;
-  assign k_exp = vertex_i.k_exp;
-  assign k_sig = vertex_i.k_sig;
-  assign z_neg = vertex_i.z_neg;
-  assign z_exp = vertex_i.z_exp;
-  assign z_sig = vertex_i.z_sig;
-  assign attr = vertex_i.attr;
+  assign x = vertex.x;
+  assign y = vertex.y;
+  assign w = vertex.w;
+  assign k_exp = vertex.k_exp;
+  assign k_sig = vertex.k_sig;
+  assign z_neg = vertex.z_neg;
+  assign z_exp = vertex.z_exp;
+  assign z_sig = vertex.z_sig;
+  assign attr = vertex.attr;
 
   localparam logic [W-1:0] ONE = W'(1) << quadrille_pkg::FRAC;
   logic first;
@@ -78,7 +93,7 @@ module vertex_assembly #(
   assign first = count_q == 2'd0;
 
   always_ff @(posedge clk_i) begin
-    if (accept && count_q == 2'd0) id_o <= vertex_i.id;
+    if (accept && count_q == 2'd0) id_o <= vertex.id;
     if (accept) begin
       ordinary_o <= (first || ordinary_o) && w == ONE;
       if (first || $signed(x) < $signed(low_x_o)) low_x_o <= x;

@@ -186,7 +186,7 @@ expect 2 "manifest.json" "no set" $replay "$work" $tool
 mkdir "$work/bin"
 ln -s "$(python3 -c 'import sys; print(sys.executable)')" "$work/bin/python3"
 ln -s "$(command -v bash)" "$(command -v dirname)" "$work/bin"
-expect 3 "apt-get install iverilog yosys" "missing tools" env PATH="$work/bin" $replay "$set" icarus --suite rsqrt
+expect 3 "apt-get install iverilog" "missing tools" env PATH="$work/bin" $replay "$set" icarus --suite rsqrt
 
 cat >"$work/device.sv" <<'SV'
 module device (
@@ -275,12 +275,12 @@ PYTHON
 fault setup quad_setup.sv "subtract0 = is_linear || is_linear_gradient;" "subtract0 = 1'b0;"
 fault coverage stamp_coverage.sv "(pos2 | pos3)" "(pos2 & pos3)"
 fault forward_difference offset_digits.sv "row_square + dx_square" "row_square + row_square"
-fault normalise normalise.sv "E'(WIDTH - 1 + BIAS)" "E'(WIDTH + BIAS)"
+fault normalise normalise.sv "E'(BIAS)" "E'(BIAS + 1)"
 fault normalise singular_class.sv "a_zero && d_i[g*QVAL+QVAL-1]" "a_zero && !d_i[g*QVAL+QVAL-1]"
 fault rsqrt rsqrt.sv "DEPTH(3)" "DEPTH(2)"
 fault reciprocal reciprocal.sv "E'(0) - exp_i : ~exp_i" "E'(0) - exp_i : -exp_i"
-fault ratios one_plus.sv "distance = E'(0) - exp_i" "distance = E'(1) - exp_i"
-fault weights mean_value_weights.sv "take_both_15 <= two_edge_14 && on_a && on_b" "take_both_15 <= 1'b0"
+fault ratios one_plus.sv "distance_q <= E'(0) - exp_i" "distance_q <= E'(1) - exp_i"
+fault weights mean_value_weights.sv "late_two_edge && on_a && on_b" "1'b0"
 fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(t*4+v)*PE+:PE]))" "E'(term_exp_i[(t*4+v)*PE+:PE])"
 fault depth fragment_output.sv "z < znear_i" "z <= znear_i"
 fault $machine quadrille.sv "full && setup_idle && slot_available" "full && setup_idle && !slots_busy" # clocks alone

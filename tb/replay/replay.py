@@ -22,8 +22,6 @@ PROGRAM = os.path.normpath(os.path.join(ROOT, "build/release/quadrille" if IN_TR
 FORMAT = 1
 # Gate netlists that are quick to make and to simulate; others on request (--suite).
 NETLISTS = ("rsqrt", "reciprocal")
-# What Icarus Verilog 11 cannot read (a genvar cast, a packed struct of a package as a port); it gets Yosys' Verilog of these.
-THROUGH_YOSYS = ("quadrille", "replay_setup", "replay_ratios")
 # Their inputs enter at different stages; the manifest's latency counts from the last, the wrapper's from the first.
 STAGGERED = ("ratios", "weights")
 # Kinds of suites that no bench has a device for.
@@ -31,7 +29,7 @@ WITHOUT_RTL = ("snapping", "table")
 # A field that has the name of a wrapper's port.
 RENAMED = {"valid_o": "drawn_o"}
 PACKAGES = {"verilator": "verilator", "iverilog": "iverilog", "vvp": "iverilog", "yosys": "yosys", "make": "make", "g++": "g++"}
-TOOLS = {"verilator": ("verilator", "make", "g++"), "icarus": ("yosys", "iverilog", "vvp")}
+TOOLS = {"verilator": ("verilator", "make", "g++"), "icarus": ("iverilog", "vvp"), "netlist": ("yosys", "iverilog", "vvp")}
 
 
 class InputError(Exception):
@@ -284,11 +282,7 @@ class Build:
         self.command = ["vvp", "-N", os.path.join(self.directory, "replay.vvp")]
 
     def build_icarus(self, log):
-        if self.device in THROUGH_YOSYS:
-            self.yosys("proc\nopt\nwrite_verilog -noattr device.v", log)
-            self.compile_icarus(["device.v"], log)
-        else:
-            self.compile_icarus(self.sources(), log)
+        self.compile_icarus(self.sources(), log)
 
     def build_netlist(self, log):
         """Gates and flip-flops of Yosys' generic library, simulated with the library's own models."""
@@ -383,7 +377,7 @@ def main():
     begin = time.monotonic()
     try:
         suites, skipped = select(options)
-        require(TOOLS[options.simulator] + (TOOLS["icarus"] if options.netlist else ()))
+        require(TOOLS[options.simulator] + (TOOLS["netlist"] if options.netlist else ()))
         if shutil.which(options.quadrille) is None:
             raise MissingTool(f"no program {options.quadrille}: build it (scripts/test.sh) or name it in $QUADRILLE")
         if not os.path.exists(os.path.join(options.rtl, "quadrille_pkg.sv")):

@@ -1,0 +1,151 @@
+// Self-checking bench of quadrille_axi4_stream: plays the draws of a machine suite of golden vectors twice, first with every interface
+// open in each clock, then with pauses of the masters and backpressure of the slave at random. Compares every fragment, their order and
+// number, TKEEP and TLAST, that TVALID and payload stay until TREADY, and in four-state simulators that no bit is unknown.
+//
+// Plusargs: +set=DIRECTORY of the suite, +draws= +beats= +fragments=N lines of its states, stimulus and response, at most LINES.
+// Prints "axi4_stream: N fragments in D draws, M mismatches" for either pass; ends with $fatal unless M = 0.
+module axi4_stream_bench;
+  localparam int LINES = 4096;  // of each file, at most
+  localparam int SILENCE = 100000;  // clocks in which nothing moves before the run is given up
+  localparam int STATE = quadrille_pkg::STATE_BITS;
+  localparam int VERTEX = quadrille_pkg::VERTEX_BITS;
+  localparam int FRAGMENT = quadrille_pkg::FRAGMENT_BITS;
+  localparam int STATE_TDATA = (STATE + 7) / 8 * 8;
+  localparam int VERTEX_TDATA = (VERTEX + 7) / 8 * 8;
+  localparam int FRAGMENT_TDATA = (FRAGMENT + 7) / 8 * 8;
+
+  logic [STATE-1:0] states[0:LINES-1];
+  logic [16+VERTEX-1:0] stimuli[0:LINES-1];  // {draw, vertex}
+  logic [80+FRAGMENT-1:0] responses[0:LINES-1];  // {draw, two clocks of the bare machine, fragment}
+
+  logic clk = 1'b0;
+  logic rst_n = 1'b0;
+
+  always #5 clk = !clk;
+
+  string set;
+  int draws, beats, fragments;
+
+  initial begin
+    if (!$value$plusargs("set=%s", set)) $fatal(1, "+set=DIRECTORY is missing");
+    if (!$value$plusargs("draws=%d", draws)) $fatal(1, "+draws=N is missing");
+    if (!$value$plusargs("beats=%d", beats)) $fatal(1, "+beats=N is missing");
+    if (!$value$plusargs("fragments=%d", fragments)) $fatal(1, "+fragments=N is missing");
+    if (draws < 1 || beats < 1 || fragments < 1) $fatal(1, "no vectors");
+    if (draws > LINES || beats > LINES || fragments > LINES) $fatal(1, "more than %0d lines", LINES);
+    $readmemh({set, "/states.hex"}, states, 0, draws - 1);
+    $readmemh({set, "/stimulus.hex"}, stimuli, 0, beats - 1);
+    $readmemh({set, "/response.hex"}, responses, 0, fragments - 1);
+    repeat (4) @(negedge clk);
+    rst_n = 1'b1;
+  end
+
+  // ---- Masters and slave ----------------------------------------------------------------------------------------------------
+  logic paused = 1'b0;  // the second pass
+  logic [31:0] lots = 32'd1;  // xorshift
+  int state = 0, beat = 0, draw = 0, number = 0;  // next state and vertex, draw and fragment that are expected
+  logic state_held = 1'b0, vertex_held = 1'b0;  // offered and not taken: stays
+  logic [16+VERTEX-1:0] stimulus, next_stimulus;
+  logic state_tvalid, state_tready, vertex_tvalid, vertex_tready, vertex_tlast;
+  logic fragment_tvalid, fragment_tready, fragment_tlast;
+  logic [FRAGMENT_TDATA-1:0] fragment_tdata;
+  logic [FRAGMENT_TDATA/8-1:0] fragment_tkeep;
+
+  function automatic logic [31:0] xorshift(input logic [31:0] x);
+    x = x ^ (x << 13);
+    x = x ^ (x >> 17);
+    return x ^ (x << 5);
+  endfunction
+
+  assign stimulus = stimuli[beat];
+  assign next_stimulus = stimuli[beat+1];
+  assign state_tvalid = rst_n && state < draws && (!paused || state_held || lots[1:0] == 2'd0);
+  assign vertex_tvalid = rst_n && beat < beats && (!paused || vertex_held || lots[2]);
+  assign vertex_tlast = beat + 1 == beats || next_stimulus[VERTEX+:16] != stimulus[VERTEX+:16];
+  assign fragment_tready = rst_n && (!paused || lots[4:3] == 2'd0);
+
+  quadrille_axi4_stream u_dut (  // rubbish in the padding, and everywhere while not valid
+      .aclk(clk),
+      .aresetn(rst_n),
+      .s_axis_state_tdata(state_tvalid ? {{(STATE_TDATA - STATE) {1'b1}}, states[state]} : {STATE_TDATA{1'b1}}),
+      .s_axis_state_tvalid(state_tvalid),
+      .s_axis_state_tready(state_tready),
+      .s_axis_vertex_tdata(vertex_tvalid ? {{(VERTEX_TDATA - VERTEX) {1'b1}}, stimulus[VERTEX-1:0]} : {VERTEX_TDATA{1'b1}}),
+      .s_axis_vertex_tlast(!vertex_tvalid || vertex_tlast),
+      .s_axis_vertex_tvalid(vertex_tvalid),
+      .s_axis_vertex_tready(vertex_tready),
+      .m_axis_fragment_tdata(fragment_tdata),
+      .m_axis_fragment_tkeep(fragment_tkeep),
+      .m_axis_fragment_tlast(fragment_tlast),
+      .m_axis_fragment_tvalid(fragment_tvalid),
+      .m_axis_fragment_tready(fragment_tready)
+  );
+
+  // ---- Comparison -----------------------------------------------------------------------------------------------------------
+  localparam int PAYLOAD = 1 + FRAGMENT_TDATA / 8 + FRAGMENT_TDATA;
+  logic [PAYLOAD-1:0] payload, payload_q;
+  logic waiting_q = 1'b0;  // valid and not taken in the clock before
+  logic [80+FRAGMENT-1:0] response;
+  logic expected_here;  // the next response belongs to this draw
+  int mismatches = 0, silence = 0;
+
+  assign payload = {fragment_tlast, fragment_tkeep, fragment_tdata};
+  assign response = responses[number];
+  assign expected_here = number < fragments && response[FRAGMENT+64+:16] == draw[15:0];
+
+  task automatic mismatch(input string what);
+    begin
+      if (mismatches == 0) $display("axi4_stream: fragment %0d, draw %0d: %s", number + 1, draw, what);
+      mismatches = mismatches + 1;
+    end
+  endtask
+
+  always @(posedge clk) begin
+    if (rst_n) begin
+      lots <= xorshift(lots);
+      state_held <= state_tvalid && !state_tready;
+      vertex_held <= vertex_tvalid && !vertex_tready;
+      if (state_tvalid && state_tready) state <= state + 1;
+      if (vertex_tvalid && vertex_tready) begin
+        if (stimulus[VERTEX+:16] != draw[15:0] || state != draw + 1) mismatch("a vertex is taken before its draw");
+        beat <= beat + 1;
+      end
+
+      waiting_q <= fragment_tvalid && !fragment_tready;
+      payload_q <= payload;
+      if (fragment_tvalid !== 1'b0 && fragment_tvalid !== 1'b1) mismatch("TVALID is unknown");
+      if (waiting_q && (fragment_tvalid !== 1'b1 || payload !== payload_q)) mismatch("TVALID or payload did not stay");
+      if (fragment_tvalid === 1'b1 && fragment_tready) begin
+        if (fragment_tlast) begin
+          if (expected_here) mismatch("the draw ends too early");
+          if (payload !== {1'b1, {(PAYLOAD - 1) {1'b0}}}) mismatch("the draw's end is no null beat");
+          draw <= draw + 1;
+        end else if (!expected_here) begin
+          mismatch("a fragment too many");
+        end else begin
+          if (fragment_tkeep !== {(FRAGMENT_TDATA / 8) {1'b1}}) mismatch("TKEEP");
+          if (fragment_tdata !== {{(FRAGMENT_TDATA - FRAGMENT) {1'b0}}, response[FRAGMENT-1:0]}) begin
+            if (mismatches == 0) $display("axi4_stream: expected %h actual %h", response[FRAGMENT-1:0], fragment_tdata);
+            mismatch("fragment");
+          end
+          number <= number + 1;
+        end
+      end
+
+      silence <= (vertex_tvalid && vertex_tready) || (fragment_tvalid && fragment_tready) ? 0 : silence + 1;
+      if (silence > SILENCE) $fatal(1, "nothing moves in draw %0d", draw);
+      if (draw == draws) begin
+        if (number != fragments || beat != beats) mismatch("not all was drawn");
+        if (paused) $display("axi4_stream: %0d fragments in %0d draws with pauses, %0d mismatches", number, draws, mismatches);
+        else $display("axi4_stream: %0d fragments in %0d draws, %0d mismatches", number, draws, mismatches);
+        if (mismatches != 0) $fatal(1, "failed");
+        if (paused) $finish;
+        paused <= 1'b1;
+        state <= 0;
+        beat <= 0;
+        draw <= 0;
+        number <= 0;
+      end
+    end
+  end
+endmodule

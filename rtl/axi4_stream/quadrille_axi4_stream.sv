@@ -1,0 +1,92 @@
+// The machine between AXI4-Stream interfaces: a draw is a beat of state, a packet of vertices, and a packet of fragments.
+//
+//     s_axis_state     one beat a draw: state_i of `quadrille`
+//     s_axis_vertex    vertex_i, four beats a quad; TLAST with the draw's last beat
+//     m_axis_fragment  fragment_o, TKEEP all ones; then one null beat (TKEEP and TDATA 0) with TLAST, which ends the draw
+//
+// TDATA holds a record (README.md section 3) at its low end, padded with zeros to whole bytes; padding that comes in is not read. The
+// state of the next draw is taken behind the null beat. A packet of vertices has whole quads: an unfinished one never ends its draw.
+// Every TVALID comes from registers and waits for no TREADY; TREADY of the vertices does not wait for TVALID.
+module quadrille_axi4_stream #(
+    localparam int STATE_BYTES = (quadrille_pkg::STATE_BITS + 7) / 8,
+    localparam int VERTEX_BYTES = (quadrille_pkg::VERTEX_BITS + 7) / 8,
+    localparam int FRAGMENT_BYTES = (quadrille_pkg::FRAGMENT_BITS + 7) / 8
+) (
+    input logic aclk,
+    input logic aresetn,
+    input logic [8*STATE_BYTES-1:0] s_axis_state_tdata,
+    input logic s_axis_state_tvalid,
+    output logic s_axis_state_tready,
+    input logic [8*VERTEX_BYTES-1:0] s_axis_vertex_tdata,
+    input logic s_axis_vertex_tlast,
+    input logic s_axis_vertex_tvalid,
+    output logic s_axis_vertex_tready,
+    output logic [8*FRAGMENT_BYTES-1:0] m_axis_fragment_tdata,
+    output logic [FRAGMENT_BYTES-1:0] m_axis_fragment_tkeep,
+    output logic m_axis_fragment_tlast,
+    output logic m_axis_fragment_tvalid,
+    input logic m_axis_fragment_tready
+);
+  localparam logic [1:0] STATE = 2'd0, VERTICES = 2'd1, DRAIN = 2'd2, LAST = 2'd3;
+
+  logic [1:0] step_q;
+  logic [quadrille_pkg::STATE_BITS-1:0] state_q;
+  logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
+  logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] unused_mask;
+  logic vertex_ready, fragment_valid, busy;
+
+  assign s_axis_state_tready = step_q == STATE;
+  assign s_axis_vertex_tready = step_q == VERTICES && vertex_ready;
+
+  always_ff @(posedge aclk) begin
+    if (!aresetn) begin
+      step_q <= STATE;
+    end else begin
+      case (step_q)
+        STATE: if (s_axis_state_tvalid) step_q <= VERTICES;
+        VERTICES: if (s_axis_vertex_tvalid && vertex_ready && s_axis_vertex_tlast) step_q <= DRAIN;
+        DRAIN: if (!busy && !fragment_valid) step_q <= LAST;
+        LAST: if (m_axis_fragment_tready) step_q <= STATE;
+      endcase
+    end
+  end
+
+  always_ff @(posedge aclk) if (s_axis_state_tready) state_q <= s_axis_state_tdata[quadrille_pkg::STATE_BITS-1:0];
+
+  quadrille u_quadrille (
+      .clk_i(aclk),
+      .rst_ni(aresetn),
+      .state_i(state_q),
+      .vertex_i(s_axis_vertex_tdata[quadrille_pkg::VERTEX_BITS-1:0]),
+      .vertex_valid_i(s_axis_vertex_tvalid && step_q == VERTICES),
+      .vertex_ready_o(vertex_ready),
+      .fragment_o(fragment),
+      .fragment_mask_o(unused_mask),
+      .fragment_valid_o(fragment_valid),
+      .fragment_ready_i(m_axis_fragment_tready),
+      .busy_o(busy)
+  );
+
+  // The machine's fragment is zero when not valid, and never valid in the step LAST.
+  assign m_axis_fragment_tvalid = fragment_valid || step_q == LAST;
+  assign m_axis_fragment_tlast = step_q == LAST;
+  assign m_axis_fragment_tkeep = {FRAGMENT_BYTES{fragment_valid}};
+  assign m_axis_fragment_tdata = {(8 * FRAGMENT_BYTES - quadrille_pkg::FRAGMENT_BITS)'(0), fragment};
+
+  logic unused;
+  assign unused = ^{s_axis_state_tdata, s_axis_vertex_tdata, unused_mask};
+
+`ifndef SYNTHESIS
+  logic [1:0] corner_q;
+
+  always_ff @(posedge aclk) begin
+    if (!aresetn || step_q == STATE) begin
+      corner_q <= 2'd0;
+    end else if (s_axis_vertex_tvalid && s_axis_vertex_tready) begin
+      corner_q <= corner_q + 2'd1;
+      assert (!s_axis_vertex_tlast || corner_q == 2'd3);  // a packet has whole quads
+    end
+    if (aresetn) assert (step_q != LAST || !fragment_valid);
+  end
+`endif
+endmodule

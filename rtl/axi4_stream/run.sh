@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Simulates the machine between AXI4-Stream interfaces on the kept golden vectors, with and without backpressure; nothing but rtl/ and
+# those vectors is needed. Then with a fault in a copy of the wrapper, which the bench must find.
+#   rtl/axi4_stream/run.sh [verilator|icarus]
+# Exit status: 0 all agree and the fault was found, 1 otherwise, 2 usage, 3 a missing tool.
+set -euo pipefail
+simulator=${1:-verilator}
+case $simulator in
+  verilator) tool=verilator ;;
+  icarus) tool=iverilog ;;
+  *) sed -n '2,5s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+esac
+command -v $tool >/dev/null || { echo "$tool is missing; on Debian: apt-get install $tool" >&2; exit 3; }
+here=$(cd "$(dirname "$0")" && pwd)
+set=$here/../../golden/vectors/kept/machine
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+lines() { wc -l <"$set/$1"; }
+plusargs=("+set=$set" "+draws=$(lines states.hex)" "+beats=$(lines stimulus.hex)" "+fragments=$(lines response.hex)")
+
+mapfile -t rtl < <(sed "/^\/\//d; s|^|$here/../|" "$here/../quadrille.f")
+# build NAME WRAPPER: the bench around that wrapper as $work/NAME.
+build() {
+  local log=$work/$1.log
+  case $simulator in
+    verilator) verilator --binary --assert -Wall -Wno-BLKSEQ -CFLAGS -O1 --top-module axi4_stream_bench --Mdir "$work/$1.obj" -o "$work/$1" \
+      -F "$here/../quadrille.f" "$2" "$here/axi4_stream_bench.sv" ;;
+    icarus) iverilog -g2012 -s axi4_stream_bench -o "$work/$1" "${rtl[@]}" "$2" "$here/axi4_stream_bench.sv" ;;
+  esac >"$log" 2>&1 || { tail -25 "$log" >&2; echo "the bench does not build" >&2; exit 1; }
+}
+
+# run NAME: the status is the bench's. ($fatal ends in abort(), which the shell would report.)
+run() {
+  local command=("$work/$1" "${plusargs[@]}")
+  [ $simulator = verilator ] || command=(vvp -N "${command[@]}")
+  { "${command[@]}" >"$work/$1.out" 2>&1; } 2>/dev/null
+}
+
+build bench "$here/quadrille_axi4_stream.sv"
+if ! run bench || [ "$(grep -c '^axi4_stream: .*, 0 mismatches$' "$work/bench.out")" != 2 ]; then
+  cat "$work/bench.out" >&2
+  exit 1
+fi
+grep '^axi4_stream:' "$work/bench.out"
+
+# The fault: a draw ends when its last vertex was taken, not when the machine is idle.
+sed 's/DRAIN: if (!busy/DRAIN: if ((busy || !busy)/' "$here/quadrille_axi4_stream.sv" >"$work/quadrille_axi4_stream.sv"
+if cmp -s "$here/quadrille_axi4_stream.sv" "$work/quadrille_axi4_stream.sv"; then
+  echo "the fault is not in the copy of the wrapper" >&2
+  exit 1
+fi
+build broken "$work/quadrille_axi4_stream.sv"
+if run broken || ! grep -q '^axi4_stream: fragment' "$work/broken.out"; then
+  cat "$work/broken.out" >&2
+  echo "the fault was not found" >&2
+  exit 1
+fi
+echo "with a fault: $(grep '^axi4_stream: fragment' "$work/broken.out")"
