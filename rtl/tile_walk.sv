@@ -87,7 +87,11 @@ module tile_walk #(
   logic [3:0] visible_q;
   logic empty;
   logic in_block, in_walk, test_block;
-  logic tile_row_end, tile_end, block_row_end, block_end, last_column, last_row;
+  logic tile_end, block_end, last_column, last_row;
+
+  // The step after this clock's test: from the end of a row down, or to the left. Known a clock ahead, for it steers the adders.
+  logic row_end_q, back_q;
+  logic [BLOCK_LOG2-1:0] tiles_q;  // behind the tile in its row
 
   // The test whose signs are known
   logic block_q1, tile_q1, end_q1;
@@ -103,10 +107,8 @@ module tile_walk #(
   assign enter_walk = block_q1 && hit;
   assign test_block = in_block && more_q && !enter_walk;
 
-  assign tile_row_end = tile_x_q == (tile_left_q ? '0 : tile_last_x_q);
-  assign tile_end = tile_row_end && tile_y_q == tile_last_y_q;
-  assign block_row_end = blocks_x_q == '0;
-  assign block_end = block_row_end && blocks_y_q == '0;
+  assign tile_end = in_walk && row_end_q && tile_y_q == tile_last_y_q;
+  assign block_end = row_end_q && blocks_y_q == '0;
   assign last_column = block_x_q == last_x_q >> BLOCK_LOG2;
   assign last_row = block_y_q == last_y_q >> BLOCK_LOG2;
 
@@ -147,7 +149,7 @@ module tile_walk #(
       more_q <= 1'b1;
     end else if (test_block && go) begin
       more_q <= !block_end;
-      if (block_row_end) begin
+      if (row_end_q) begin
         block_y_q <= block_y_q + TC'(1);
         block_left_q <= !block_left_q;
         blocks_y_q <= blocks_y_q - TC'(1);
@@ -164,8 +166,8 @@ module tile_walk #(
       tile_last_x_q1 <= last_column ? last_x_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
       tile_last_y_q1 <= last_row ? last_y_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
       of_block_q1 <= in_block || tile_end;
-      row_end_q1 <= in_block ? block_row_end : tile_end ? walk_row_end_q : tile_row_end;
-      back_q1 <= in_block ? block_left_q && !block_row_end : tile_end ? walk_back_q : tile_left_q && !tile_row_end;
+      row_end_q1 <= tile_end ? walk_row_end_q : row_end_q;
+      back_q1 <= tile_end ? walk_back_q : back_q;
       x_q1 <= tile_x0_q + ((walk_x_q << BLOCK_LOG2) | TC'(tile_x_q));
       y_q1 <= tile_y0_q + ((walk_y_q << BLOCK_LOG2) | TC'(tile_y_q));
       if (enter_walk) begin
@@ -179,7 +181,7 @@ module tile_walk #(
         tile_y_q <= '0;
         tile_left_q <= 1'b0;
       end else if (in_walk) begin
-        if (tile_row_end) begin
+        if (row_end_q) begin
           tile_y_q <= tile_y_q + BLOCK_LOG2'(1);
           tile_left_q <= !tile_left_q;
         end else begin
@@ -189,24 +191,50 @@ module tile_walk #(
     end
   end
 
+  always_ff @(posedge clk_i) begin
+    if (take_o) begin
+      row_end_q <= tiles_x_i <= TC'(quadrille_pkg::BLOCK_TILES);
+      back_q <= 1'b0;
+    end else if (go) begin
+      if (enter_walk) begin
+        tiles_q <= tile_last_x_q1;
+        row_end_q <= tile_last_x_q1 == '0;
+        back_q <= 1'b0;
+      end else if (tile_end) begin
+        row_end_q <= blocks_x_q == '0;
+        back_q <= block_left_q && blocks_x_q != '0;
+      end else if (in_walk && row_end_q) begin
+        tiles_q <= tile_last_x_q;
+        row_end_q <= tile_last_x_q == '0;
+        back_q <= !tile_left_q && tile_last_x_q != '0;
+      end else if (in_walk) begin
+        tiles_q <= tiles_q - BLOCK_LOG2'(1);
+        row_end_q <= tiles_q == BLOCK_LOG2'(1);
+        back_q <= tile_left_q && tiles_q != BLOCK_LOG2'(1);
+      end else if (test_block && row_end_q) begin
+        row_end_q <= last_x_q < TC'(quadrille_pkg::BLOCK_TILES);
+        back_q <= !block_left_q && last_x_q >= TC'(quadrille_pkg::BLOCK_TILES);
+      end else if (test_block) begin
+        row_end_q <= blocks_x_q == TC'(1);
+        back_q <= block_left_q && blocks_x_q != TC'(1);
+      end
+    end
+  end
+
   // ---- Linear functions and the extent test -------------------------------------------------------------------------------
   // Outside WALK the tile is the first of the block to test. One set of adders steps blocks and tiles: a step to the left subtracts: ~x,
   // and the one that is missing enters as carry ({a, 1} + {b, carry}). After a block's last tile comes the next block, which is there.
-  logic row_end, back_x;
   logic [4:0] some_pos_q1, some_neg_q1;
   logic [6*VAL-1:0] lin_value_q1, lin_value_q2;
-
-  assign row_end = in_walk ? tile_row_end : block_row_end;
-  assign back_x = !row_end && (in_walk ? tile_left_q : block_left_q);
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     logic [GRAD-1:0] gx_q, gy_q;
     logic [VAL-1:0] block_q, tile_q;
     logic [VAL-1:0] slope, move, next;
 
-    assign slope = VAL'($signed(row_end ? gy_q : gx_q));
-    assign move = (in_walk ? slope << TL : slope << BL) ^ {VAL{back_x}};
-    assign next = VAL'(({tile_q, 1'b1} + {move, back_x}) >> 1);
+    assign slope = VAL'($signed(row_end_q ? gy_q : gx_q));
+    assign move = (in_walk ? slope << TL : slope << BL) ^ {VAL{back_q}};
+    assign next = VAL'(({tile_q, 1'b1} + {move, back_q}) >> 1);
 
     always_ff @(posedge clk_i) begin
       if (take_o) begin
@@ -217,7 +245,7 @@ module tile_walk #(
       end else if (go) begin
         if (test_block) block_q <= next;
         if (enter_walk) tile_q <= lin_value_q1[g*VAL+:VAL];
-        else if (in_walk && tile_end) tile_q <= block_q;
+        else if (tile_end) tile_q <= block_q;
         else if (in_walk || test_block) tile_q <= next;
       end
       if (go) begin
