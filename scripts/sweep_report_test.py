@@ -49,11 +49,11 @@ def setUpModule():
     full = Rows("full")
     chosen = [row for row in full.drawn.values() if row["attribute_frac_bits"] == row["significand_bits"] + 2][:3]
     with open(os.path.join(WORK, "full", "synth.csv"), "w", encoding="utf-8") as out:
-        out.write("row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost\n")
-        out.writelines(f"{row['row']:.0f},ecp5,{row['cost'] * 1.01:.0f},9000,57,0,40,,,,,{row['cost']}\n" for row in chosen)
+        out.write("row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost,cost_luts,cost_dsps\n")
+        out.writelines(f"{row['row']:.0f},ecp5,{row['cost'] * 1.01:.0f},9000,57,0,40,,,,,{row['cost']},{row['cost']},57\n" for row in chosen)
     with open(os.path.join(WORK, "one", "synth.csv"), "w", encoding="utf-8") as out:
-        out.write("row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost\n")
-        out.writelines(f"{row},cells,,9000,,,,{1e6 + 1e5 * row},4321,{40 + row},u_sum.a -> <b>: fp_sum 9.1 ns,{1000 + row}\n" for row in (1, 2))
+        out.write("row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost,cost_luts,cost_dsps\n")
+        out.writelines(f"{row},cells,,9000,,,,{1e6 + 1e5 * row},4321,{40 + row},u_sum.a -> <b>: fp_sum 9.1 ns,{1000 + row},{1000 + row},0\n" for row in (1, 2))
     with open(os.path.join(WORK, "full", "cosim.csv"), "w", encoding="utf-8") as out:
         out.write("row,why,fragments,cycles,mismatches,cycle_mismatches,first_difference\n")
         out.write(f"{chosen[0]['row']:.0f},knee,10,12,0,0,\n{chosen[1]['row']:.0f},corner,10,12,3,0,\"cycle 8, n_sig[2]\"\n")
@@ -401,7 +401,7 @@ class BadInputTest(unittest.TestCase):
                 ("error_map.npy", rb"\A", b"PK", "pickle"),
                 ("error_map.npy", rb"\(64, 96\)", b"(96, 64)", "manifest.json says 96x64"),
                 ("error_map.npy", rb"(?s).{4}\Z", b"\0\0\xc0\x7f", "NaN"),
-                ("synth.csv", rb"\Z", b"77,ecp5,1,1,1,1,1,,,,,1\n", "row 77 is not in points.csv"),
+                ("synth.csv", rb"\Z", b"77,ecp5,1,1,1,1,1,,,,,1,1,1\n", "row 77 is not in points.csv"),
                 ("synth.csv", rb"flip_flops", b"flops", "no column flip_flops"),
                 ("synth.csv", rb",ecp5,", b",ice40,", "target is not one of ecp5, ecp5-nodsp, cells"),
                 ("cosim.csv", rb"knee,10", b"knee,x", "fragments is 'x'")):

@@ -94,7 +94,9 @@ write_verilog -noattr -noexpr netlist.v
 """, "cells")
     with open(os.path.join(machine.work, "stat.txt"), encoding="utf-8") as file:
         areas = re.findall(r"Chip area for (?:top )?module '.*?': ([\d.]+)", file.read())
-    clocked = CLOCK in ports(machine, args.unit, parameters)
+    with open(os.path.join(machine.work, "netlist.v"), encoding="utf-8") as file:
+        netlist = file.read()
+    clocked = re.search(rf"^  input {CLOCK};$", netlist, re.M)
     with open(os.path.join(machine.work, "timing.tcl"), "w", encoding="utf-8") as file:
         file.write(f"""read_liberty "{LIBERTY}"
 read_verilog netlist.v
@@ -112,8 +114,7 @@ report_checks -path_delay max -format full -digits 4
 exit
 """)
     text = synthesis.run([sta, "-no_splash", "-exit", "timing.tcl"], machine.work, "timing.log")
-    with open(os.path.join(machine.work, "netlist.v"), encoding="utf-8") as file:
-        path = SlowestPath(text, Netlist(file, machine.modules), args.unit)
+    path = SlowestPath(text, Netlist(netlist.splitlines(keepends=True), machine.modules), args.unit)
     cells_of = synthesis.statistics(os.path.join(machine.work, "stat.txt"))
     top = next((name for name in cells_of if name == args.unit or re.search(rf"\\{args.unit}(\\|$)", name)), args.unit)
     flip_flops = synthesis.size_of(cells_of, top, {"FF": {cell: 1 for module in cells_of.values() for cell in module if cell.startswith("DFF")}})["FF"]

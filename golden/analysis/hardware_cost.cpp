@@ -10,6 +10,8 @@ HardwareCost& HardwareCost::operator+=(const HardwareCost& other) {
   multiplier_bits += other.multiplier_bits;
   adder_bits += other.adder_bits;
   table_bits += other.table_bits;
+  dsps += other.dsps;
+  join_bits += other.join_bits;
   return *this;
 }
 
@@ -23,15 +25,27 @@ HardwareCost operator+(HardwareCost a, const HardwareCost& b) { return a += b; }
 
 HardwareCost operator*(int instances, const HardwareCost& cost) {
   const Bits n = u(instances);
-  return {n * cost.state_bits, n * cost.multiplier_bits, n * cost.adder_bits, n * cost.table_bits};
+  return {n * cost.state_bits, n * cost.multiplier_bits, n * cost.adder_bits, n * cost.table_bits,
+          n * cost.dsps,       n * cost.join_bits};
 }
 
 // ---- What the counts are made of
 // --------------------------------------------------------------------------------------
 
 HardwareCost state(int bits) { return {.state_bits = u(bits)}; }
-/// One partial product bit for each pair of operand bits.
-HardwareCost multiplier(int a, int b) { return {.multiplier_bits = u(a) * u(b)}; }
+/// One partial product bit for each pair of operand bits, or blocks of 18 × 18.
+HardwareCost in_blocks(int a, int b) {
+  constexpr int block = 18;
+  const int rows = (a + block - 1) / block, columns = (b + block - 1) / block;
+  // The blocks of a row add up to a product by 18 bits of a, the rows to the whole; the lowest 18 bits pass each sum
+  // by.
+  return {.dsps = u(rows) * u(columns), .join_bits = u(rows) * u(columns - 1) * u(b) + u(rows - 1) * u(a + b - block)};
+}
+HardwareCost multiplier(int a, int b) {
+  HardwareCost cost = in_blocks(a, b);
+  cost.multiplier_bits = u(a) * u(b);
+  return cost;
+}
 /// Adder, subtracter, negation, comparison by magnitude: a bit of a carry chain.
 HardwareCost adder(int width) { return {.adder_bits = u(width)}; }
 /// `choices` to one: a two-to-one multiplexer a bit for each choice but the first.
@@ -53,8 +67,20 @@ HardwareCost shifter(int width, int kept) {
   return cost;
 }
 
-/// Halving: each level tests and halves what the level before left, so both come to about the width in all.
-HardwareCost leading_zeros(int width) { return zero_test(width) + mux(width, 2); }
+/// Highest one to the top by halving, `kept` bits used: a level tests 2^level bits and makes those that the shorter
+/// shifts after it can still bring among the kept ones.
+HardwareCost shift_to_top(int width, int kept) {
+  HardwareCost cost;
+  for (int level = 0; level < stages_of(width); ++level)
+    cost += zero_test(1 << level) + mux(std::min(width, kept + (1 << level) - 1), 2);
+  return cost;
+}
+
+/// Factor times an unsigned number of few bits: a selection for each digit in radix 4, an adder for each but the first.
+HardwareCost small_multiply(int factor, int number) {
+  const int digits = number / 2 + 1;
+  return digits * mux(factor, 2) + (digits - 1) * adder(factor + number);
+}
 
 // ---- Modules that others instantiate
 // ----------------------------------------------------------------------------------
@@ -89,18 +115,19 @@ struct Widths {
         TERM(1 + PE + S),
         ALIGNED(c.prec_bits() + 2),
         DET(T + GRAD + 4),
+        REACH(GRAD + 1 + TL + 3),
         FRAGMENT(ID + 2 * V + 1 + 8 + DB + 1 + N * AO) {}
 
   int S, E, PE, N, V, T, W, VAL, GRAD, CURV, QVAL, QGRAD, QCURV, TC, SLOT, RING, FIFO, TL, TILE, ID, DB, FRAC, AO;
   int NUMBER;   ///< exponent and significand
   int TERM;     ///< sign, port exponent, significand
   int ALIGNED;  ///< one aligned term of a sum: a product has two integer bits
-  int DET, FRAGMENT;
+  int DET;
+  int REACH;  ///< of an edge function over a block
+  int FRAGMENT;
 };
 
-HardwareCost fp_normalise(const Widths& w, int width) {
-  return leading_zeros(width) + shifter(width, w.S) + adder(w.E) + zero_test(width);
-}
+HardwareCost fp_normalise(const Widths& w, int width) { return shift_to_top(width, w.S) + adder(w.E); }
 
 HardwareCost fp_multiply(const Widths& w) {
   // The exponents' sum takes the carry as carry-in; the product is taken one bit higher or lower.
@@ -112,13 +139,19 @@ HardwareCost fp_raw_product(const Widths& w) { return state(1 + w.E + 2 * w.S) +
 HardwareCost fp_sum(const Widths& w, int terms) {
   const int magnitude = w.ALIGNED + stages_of(terms), sum = magnitude + 1;
   // Largest exponent of the non-zero terms.
-  HardwareCost cost = terms * zero_test(2 * w.S) + (terms - 1) * (adder(w.E) + mux(w.E, 2));
+  HardwareCost cost = (terms - 1) * (adder(w.E + 1) + mux(w.E + 1, 2));
   // Distance to it; the shift clears a term when the distance has a bit above its stages.
-  cost += terms * (adder(w.E + 1) + shifter(w.ALIGNED, w.ALIGNED) + mux(w.ALIGNED, 2));
-  // Sum or difference by the term's sign; the first term is only negated.
-  cost += (terms - 1) * (adder(sum) + adder(sum) + mux(sum, 2)) + adder(sum) + mux(sum, 2);
+  cost += terms * (adder(w.E) + shifter(w.ALIGNED, w.ALIGNED) + mux(w.ALIGNED, 2));
+  // The others are added in the sign of the first.
+  cost += (terms - 1) * (adder(sum) + mux(w.ALIGNED, 2));
   cost += adder(sum) + mux(magnitude, 2) + state(1 + magnitude + w.E);
   return cost + adder(w.E) + fp_normalise(w, magnitude) + state(1 + w.NUMBER);
+}
+
+/// 1 + c: only c is aligned, and the one is added to two bits. Without exact D and r² it is a sum as any other.
+HardwareCost one_plus(const Widths& w) {
+  if (w.QVAL < w.VAL) return fp_sum(w, 2);
+  return adder(w.E) + shifter(w.ALIGNED, w.ALIGNED) + mux(w.ALIGNED, 2) + mux(w.S, 2) + state(w.ALIGNED + 1 + w.S);
 }
 
 HardwareCost table_polynomial(const Widths& w, int segments_log2, int degree) {
@@ -155,8 +188,12 @@ HardwareCost bounding_range(const Widths& w) {
 }
 
 HardwareCost dot_unit(const Widths& w, int b) {
-  // a·b ± c·d: operand and product registers; the other operand of a product has T bits.
-  return state(2 * (w.T + b) + 2 * (w.T + b) + 2) + 2 * multiplier(w.T, b) + adder(w.T + b + 1) + mux(w.T + b + 1, 2);
+  // a·b ± c·d: operand and product registers; the other operand of a product has T bits. Logic takes the bits that are
+  // used, DSP blocks are divided among the operands as they stand.
+  const int operand = std::max(w.T, std::min(w.VAL, 32) + 1);
+  HardwareCost cost = 2 * in_blocks(operand, operand);
+  cost.multiplier_bits = 2 * u(w.T) * u(b);
+  return cost + state(2 * (w.T + b) + 2 * (w.T + b) + 2) + adder(w.T + b + 1) + mux(w.T + b + 1, 2);
 }
 
 HardwareCost quad_setup(const Widths& w) {
@@ -165,32 +202,32 @@ HardwareCost quad_setup(const Widths& w) {
   HardwareCost cost = dot_unit(w, low_half) + dot_unit(w, w.T);
   cost += 2 * bounding_range(w) + 4 * zero_test(w.W);
   // Control, jobs in flight, tile rectangle, vertices.
-  cost += state(3 + 6 + 1 + 1 + 2 * 17 + w.SLOT + 4 * w.TC + 8 * w.T + 4 * w.W);
+  cost += state(3 + 6 + 1 + 1 + 2 * 15 + w.SLOT + 4 * w.TC + 8 * w.T + 4 * w.W);
   cost += 8 * (adder(w.T) + mux(w.T, 2)) + 4 * mux(w.TC, 2);
-  // Operands: one of four vertices (two a unit and axis, one for the determinants), one of four edges for the
-  // determinants, then one of the five kinds of job.
-  cost += 10 * mux(w.T, 4) + 5 * mux(w.W, 4) + mux(w.VAL, 4) + 2 * mux(w.GRAD, 4);
+  // Operands: a pair of the four vertices a unit, one of four edges for the determinants, then one of the five kinds of
+  // job.
+  cost += 4 * mux(2 * w.T + w.W, 4) + mux(w.VAL, 4) + 2 * mux(w.GRAD, 4);
   cost += 2 * mux(low_half, 5) + 6 * mux(w.T, 5);
-  // Functions, with the sums of coordinates that an ordinary quad takes in place of a job's result.
-  cost += 6 * (state(w.VAL + 2 * w.GRAD) + 2 * (adder(w.T + 1) + mux(w.GRAD, 2)));
-  cost += 10 * (state(w.QVAL + 2 * w.QGRAD + w.QCURV) + mux(w.QVAL, 2) + mux(w.QCURV, 2));
-  cost += 20 * (adder(w.T + 1) + mux(w.QGRAD, 2) + adder(w.QGRAD));
-  // Four determinants accumulate both units' results.
-  return cost + 4 * (state(w.DET) + 2 * adder(w.DET) + zero_test(w.DET));
+  // Functions load from buses; sums of coordinates take the place of a product's gradient in an ordinary quad.
+  cost += 6 * state(w.VAL + 2 * w.GRAD) + 10 * state(w.QVAL + 2 * w.QGRAD + w.QCURV);
+  cost += 4 * (adder(w.T + 1) + state(2 * (w.T + 1))) + 2 * mux(w.T + 1, 2);
+  cost += 6 * mux(w.GRAD, 2) + 4 * adder(w.GRAD) + 2 * mux(w.QCURV, 2);
+  // Reach and tie signs of the edges, one edge after the other.
+  cost += 4 * mux(w.GRAD, 2) + 6 * adder(w.REACH) + 2 * zero_test(w.GRAD) + 5 * state(4 * w.REACH + 2);
+  // The determinants accumulate both units' results one after the other; signs of three are kept.
+  return cost + state(w.DET + 6) + 2 * adder(w.DET) + mux(w.DET, 2) + zero_test(w.DET);
 }
 
 HardwareCost tile_walk(const Widths& w) {
   HardwareCost cost = state(2 + 4 * w.TC + 2 * w.TC + 1 + 6 + 1 + w.SLOT + 4) + 14 * adder(w.TC);
-  // A step of a linear function: gy or ±gx, added to the block's or the tile's value, which may also be loaded.
-  const HardwareCost linear_step = adder(w.VAL) + mux(w.VAL, 3) + adder(w.VAL) + mux(w.VAL, 2);
-  cost += 6 * (state(2 * w.GRAD + 2 * w.VAL) + 2 * linear_step);
-  // Extremes of an edge function over the extent and its signs there.
-  cost += 5 * (mux(w.VAL, 2) + 2 * (mux(w.VAL, 2) + adder(w.VAL)) + 4 * adder(w.VAL) + 2 * zero_test(w.VAL) +
-               2 * zero_test(w.GRAD));
-  // A step of a quadratic function: value ± slope + curvature, one of the two slopes ± curvature.
-  const HardwareCost quadratic_step = mux(w.QGRAD, 2) + 2 * adder(w.QVAL) + mux(w.QVAL, 2) + adder(w.QVAL) +
-                                      mux(w.QVAL, 2) + 3 * adder(w.QGRAD) + mux(w.QGRAD, 2) + 2 * mux(w.QGRAD, 2);
-  cost += 10 * (state(w.QCURV + 2 * w.QVAL + 4 * w.QGRAD) + 2 * quadratic_step);
+  // A step of a linear function: gy or ±gx by a tile or a block, added to the tile's or the block's value, both of
+  // which may also be loaded.
+  cost += 6 * (state(2 * w.GRAD + 2 * w.VAL) + mux(w.GRAD, 2) + 3 * mux(w.VAL, 2) + adder(w.VAL));
+  // Extremes of an edge function over the extent.
+  cost += 5 * (state(4 * w.REACH) + 2 * (mux(w.REACH, 2) + adder(w.VAL)));
+  // A step of a quadratic function: twice half the bend onto one of four slopes, the slope halfway onto the value.
+  cost += 10 * (state(w.QCURV + 2 * w.QVAL + 4 * w.QGRAD) + mux(w.QCURV, 2) + mux(w.QGRAD, 4) + 2 * adder(w.QGRAD) +
+                3 * mux(w.QVAL, 2) + adder(w.QVAL) + 4 * mux(w.QGRAD, 2));
   return cost;
 }
 
@@ -201,7 +238,7 @@ HardwareCost tile_ring(const Widths& w) {
 }
 
 HardwareCost quad_slots(const Widths& w) {
-  const int vertices = 4 * (3 + w.N) * w.TERM + w.ID, functions = 12 * w.GRAD + 10 * w.QCURV + 6;
+  const int vertices = 4 * (3 + w.N) * w.TERM + w.ID, functions = 12 * w.GRAD + 10 * w.QCURV + 16;
   HardwareCost cost =
       memory(vertices + functions, 1 << w.SLOT) + state(2 * w.SLOT + 1) + adder(w.SLOT) + 2 * adder(w.SLOT + 1);
   // Blend terms and id; k for the weights' products and, without sign, for the overrides; functions for emission and,
@@ -214,11 +251,10 @@ HardwareCost quad_slots(const Widths& w) {
 
 HardwareCost stamp_coverage(const Widths& w) {
   HardwareCost cost = state(w.RING + 1 + w.TL);
-  // Of each edge function the row's value, moved along the row pixel by pixel.
-  cost += 5 * (state(w.VAL) + mux(w.VAL, 2) + adder(w.VAL) + (w.TILE - 1) * adder(w.VAL) + w.TILE * zero_test(w.VAL) +
-               2 * zero_test(w.GRAD));
-  // Scissor and clauses: about two gates an edge function.
-  return cost + w.TILE * (3 * adder(w.V + 1) + mux(10, 2)) + 2 * adder(w.V + 1);
+  // Of each edge function the row's value and that of its other pixels.
+  cost += 5 * (state(w.VAL) + mux(w.VAL, 2) + adder(w.VAL) + (w.TILE - 1) * adder(w.VAL) + w.TILE * zero_test(w.VAL));
+  // Scissor; clauses: about two gates an edge function.
+  return cost + w.TILE * mux(12, 2) + 2 * adder(w.V + 1) + 2 * (adder(w.TC) + zero_test(w.TC));
 }
 
 HardwareCost sync_fifo(const Widths& w) {
@@ -239,18 +275,21 @@ HardwareCost pixel_pipeline(const Widths& w) {
 }
 
 HardwareCost forward_difference(const Widths& w) {
-  // Row, then column: the product of a difference and a row or column number has the value's width.
-  const HardwareCost linear = state(w.VAL + w.GRAD + w.TL + w.VAL) + 2 * (multiplier(w.VAL, w.TL) + adder(w.VAL));
-  const HardwareCost square = multiplier(w.TL, w.TL) + multiplier(w.QVAL, 2 * w.TL) + adder(w.QVAL);
-  const HardwareCost quadratic =
-      state(w.QVAL + w.QGRAD + w.QCURV + w.TL + w.QVAL) + 2 * (multiplier(w.QVAL, w.TL) + adder(w.QVAL) + square);
+  // Row, then column, with the digits of the column in between; a quadratic has the bend q (r² + dx²) besides.
+  const int norm = 2 * w.TL + 1;
+  const HardwareCost linear =
+      state(w.VAL + w.GRAD + w.TL + 1 + w.VAL) + 2 * (small_multiply(w.GRAD, w.TL) + adder(w.VAL));
+  const HardwareCost quadratic = state(w.QVAL + w.QGRAD + w.TL + 1 + w.QCURV + norm + 1 + w.QVAL) +
+                                 2 * (small_multiply(w.QGRAD, w.TL) + adder(w.QVAL)) + small_multiply(w.QCURV, norm) +
+                                 adder(w.QVAL);
   return 6 * linear + 10 * quadratic;
 }
 
 HardwareCost normalise(const Widths& w) {
   const auto one = [&](int width) {
-    return adder(width) + mux(width, 2) + leading_zeros(width) + state(1 + width + stages_of(width)) +
-           shifter(width, w.S) + adder(w.E) + state(1 + w.NUMBER);
+    const int kept = w.S + 7, wide = std::max(width, kept);  // shifts by 8 and more, then the short ones
+    return adder(width) + mux(width, 2) + shift_to_top(wide, w.S) + state(1 + kept + stages_of(wide) - 3) + adder(w.E) +
+           state(1 + w.NUMBER);
   };
   return 6 * one(w.VAL) + 10 * one(w.QVAL);
 }
@@ -277,7 +316,7 @@ HardwareCost reciprocal(const Widths& w, const Config& c) {
 HardwareCost mean_value_ratios(const Widths& w) {
   // |A|, |D| wait for ρρ'; v waits for u; the sign of D crosses n and d.
   const HardwareCost delays = state(4 * w.NUMBER + 4 * (1 + w.NUMBER) + 2 + 2 * w.NUMBER + 1);
-  return 6 * (delays + 2 * fp_multiply(w) + fp_raw_product(w) + fp_sum(w, 2) + 4 * mux(w.NUMBER, 2));
+  return 6 * (delays + 2 * fp_multiply(w) + fp_raw_product(w) + one_plus(w) + 4 * mux(w.NUMBER, 2));
 }
 
 HardwareCost mean_value_weights(const Widths& w, bool notch_exact) {
@@ -341,10 +380,15 @@ HardwareCost hardware_cost(const Config& config) {
   return sum;
 }
 
-double scalar_cost(const HardwareCost& cost, const CostWeights& weights) {
+double lut_cost(const HardwareCost& cost, const CostWeights& weights) {
   return weights.state * static_cast<double>(cost.state_bits) +
          weights.multiplier * static_cast<double>(cost.multiplier_bits) +
-         weights.adder * static_cast<double>(cost.adder_bits) + weights.table * static_cast<double>(cost.table_bits);
+         weights.adder * static_cast<double>(cost.adder_bits) + weights.table * static_cast<double>(cost.table_bits) +
+         weights.join * static_cast<double>(cost.join_bits);
+}
+
+double scalar_cost(const HardwareCost& cost, const CostWeights& weights) {
+  return lut_cost(cost, weights) + weights.dsp * static_cast<double>(cost.dsps);
 }
 
 }  // namespace quadrille

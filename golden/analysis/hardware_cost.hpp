@@ -19,19 +19,29 @@ struct HardwareCost {
   std::uint64_t adder_bits = 0;  ///< Σ result bits of adders, subtracters, comparators, multiplexers (once for each
                                  ///< choice but the first) and of the stages of shifters; tests for zero a third
   std::uint64_t table_bits = 0;  ///< bits of the rsqrt and reciprocal ROMs, each copy counted
+  std::uint64_t dsps = 0;        ///< blocks of 18 × 18 bits that the multipliers take where there are such
+  std::uint64_t join_bits = 0;   ///< adder bits that join the blocks of one multiplier, there
 
   HardwareCost& operator+=(const HardwareCost& other);
   friend bool operator==(const HardwareCost&, const HardwareCost&) = default;
 };
 
-/// What a bit of each resource costs, in LUTs of four inputs. The defaults are a fit to synthesis (README.md,
-/// "Hardware cost"), save that of state: a flip-flop sits beside a LUT and takes none, but it is not free. Given in a
-/// configuration file as the table [cost].
+/// What a bit of each resource and a DSP block cost, in LUTs of four inputs. A target weighs what it has: multipliers
+/// are DSP blocks or logic, never both. The defaults are those of an ECP5 with DSP blocks. Given in a configuration
+/// file as the table [cost].
 struct CostWeights {
-  double state = 0.01, multiplier = 2.76, adder = 0.874, table = 0.056;
+  double state = 0.001, multiplier = 0, adder = 1.01, table = 0.051, dsp = 536, join = 1.01;
 
   friend bool operator==(const CostWeights&, const CostWeights&) = default;
 };
+
+/// Lattice ECP5 with DSP blocks: a block costs as many LUTs as the largest device has for each of its own (83,640 /
+/// 156).
+inline constexpr CostWeights ecp5_weights{};
+/// The same with multipliers in logic: all in one number. A fit to synthesis (README.md, "Hardware cost"), save state:
+/// a flip-flop sits beside a LUT and takes none, but it is not free.
+inline constexpr CostWeights ecp5_nodsp_weights{
+    .state = 0.001, .multiplier = 2.66, .adder = 1.01, .table = 0.051, .dsp = 0, .join = 0};
 
 struct ModuleCost {
   std::string module;  ///< name in rtl/
@@ -43,7 +53,9 @@ struct ModuleCost {
 std::vector<ModuleCost> module_costs(const Config& config);
 /// The sum.
 HardwareCost hardware_cost(const Config& config);
-/// Scalar cost in LUTs.
+/// The LUTs among the cost: everything but the DSP blocks.
+double lut_cost(const HardwareCost& cost, const CostWeights& weights);
+/// Scalar cost in LUTs, DSP blocks at their price.
 double scalar_cost(const HardwareCost& cost, const CostWeights& weights);
 
 }  // namespace quadrille

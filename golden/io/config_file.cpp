@@ -82,10 +82,9 @@ struct WeightKey {
 };
 
 constexpr std::array weight_keys{
-    WeightKey{"state", &CostWeights::state},
-    WeightKey{"multiplier", &CostWeights::multiplier},
-    WeightKey{"adder", &CostWeights::adder},
-    WeightKey{"table", &CostWeights::table},
+    WeightKey{"state", &CostWeights::state}, WeightKey{"multiplier", &CostWeights::multiplier},
+    WeightKey{"adder", &CostWeights::adder}, WeightKey{"table", &CostWeights::table},
+    WeightKey{"dsp", &CostWeights::dsp},     WeightKey{"join", &CostWeights::join},
 };
 
 void set_weight(const Entry& entry, const std::string& name, CostWeights& weights) {
@@ -129,7 +128,7 @@ void parse(std::string_view text, const std::string& name, Config& config, CostW
     } else {
       throw input_error(name, line_of(entry),
                         "key \"cost\" holds " + std::string(type_name(entry.second->type())) +
-                            "; a table [cost] with state, multiplier, adder, table is expected");
+                            "; a table [cost] with state, multiplier, adder, table, dsp, join is expected");
     }
   }
   config = new_config;
@@ -162,7 +161,7 @@ std::string config_text(const Config& config, const CostWeights& weights) {
                           std::to_string(key.maximum) + ", default " + value(key.standard) + ": " +
                           std::string(key.meaning));
   }
-  text += "\n# Weights of the scalar hardware cost: LUTs for a bit of each resource, 0 to " +
+  text += "\n# Weights of the scalar hardware cost: LUTs for a bit of each resource and for a DSP block, 0 to " +
           number_text(max_cost_weight) + "\n[cost]\n";
   for (const WeightKey& weight : weight_keys)
     text += std::string(weight.key) + " = " + number_text(weights.*weight.member) + "\n";

@@ -130,7 +130,7 @@ TEST(ConfigFile, TextGivesTheSameConfigurationBack) {
   for (const ConfigKey& key : Config::keys())  // a value that is neither the default nor auto, where there is one
     config.set(key.name, key.maximum != key.standard ? key.maximum : key.minimum);
   config.set("recip_segments_log2", -1);
-  const CostWeights weights{1.0 / 3, 0, 1e6, 5e-324};
+  const CostWeights weights{1.0 / 3, 0, 1e6, 5e-324, 7, 0.1};
   const std::string text = config_text(config, weights);
   Config read;
   CostWeights read_weights;

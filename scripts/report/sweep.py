@@ -10,7 +10,7 @@ from report.files import InputError, numbers, read_columns, read_report, reading
 TEXT_COLUMNS = ("row", "status", "reason", "bound_lambda_kind", "bound_attribute_kind", "bound_depth_kind", "ranges", "worst")
 SYNTH_TARGETS = {"ecp5": "Lattice ECP5 with DSP blocks", "ecp5-nodsp": "Lattice ECP5, multipliers in logic",
                  "cells": "standard cells, OSU 0.18 µm"}
-SYNTH_COLUMNS = ("target", "luts", "flip_flops", "dsps", "block_rams", "longest_path", "area_um2", "nand2", "mhz", "critical_path", "cost")
+SYNTH_COLUMNS = ("target", "luts", "flip_flops", "dsps", "block_rams", "longest_path", "area_um2", "nand2", "mhz", "critical_path", "cost", "cost_luts", "cost_dsps")
 COSIM_COLUMNS = ("why", "fragments", "cycles", "mismatches", "cycle_mismatches", "first_difference")
 QUANTITIES = {"lambda": "weights λ′", "attribute": "attributes", "depth": "window depth", "colour": "test colours"}
 STATISTICS = {"max": "max", "p999": "99.9th percentile", "rms": "RMS", "mean": "mean"}

@@ -92,7 +92,7 @@ def error_against_cost(sweep, shown):
         if sweep.base in points:
             series.append(marks("base configuration", [sweep.base], RED, "diamond", 12, outline=True))
         kind = column.split("_")[0]
-        return Figure([Panel(Axis("cost estimate in 4-input LUTs", around(cost[points]), "count"), scale.axis(error_title(column)),
+        return Figure([Panel(Axis(COST, around(cost[points]), "count"), scale.axis(error_title(column)),
                              [s for s in series if s.x])], error_title(column), scale.note(), f"{kind} error", (column, "cost"))
 
     columns = [name for name in sweep.errors if not name.endswith("_mean") or name == sweep.objective]
@@ -269,8 +269,10 @@ def run_time(bench):
         f"<p class='note'>Measured by <code>{escape(bench['command'])}</code></p>")
 
 
+COST = "cost estimate in 4-input LUTs, DSP blocks at their price"
 SYNTH_TITLES = {"luts": "LUTs", "flip_flops": "flip-flops", "dsps": "DSPs", "block_rams": "block RAMs", "longest_path": "longest path, cells",
-                "area_um2": "area, µm²", "nand2": "area, NAND2", "mhz": "MHz", "cost": "cost estimate"}
+                "area_um2": "area, µm²", "nand2": "area, NAND2", "mhz": "MHz", "cost_luts": "LUTs estimated",
+                "cost_dsps": "DSPs estimated", "cost": "cost"}
 
 
 def synthesis(sweep):
@@ -279,7 +281,7 @@ def synthesis(sweep):
     if sweep.synth is None:
         return Plot("synthesis", title, intro, "No point of this sweep was synthesized (<code>quadrille sweep --synth pareto</code>). ")
     cells = sweep.synth["target"][0] == "cells"
-    points, x, y = sweep.synth["point"], sweep.synth["cost"], sweep.synth["area_um2" if cells else "luts"]
+    points, x, y = sweep.synth["point"], sweep.synth["cost_luts"], sweep.synth["area_um2" if cells else "luts"]
     rho = sweep.manifest["synthesis"]["rank_correlation"]
     span = around(x + y)
     measured = Axis("LUTs after synthesis", span, "count")
@@ -293,5 +295,5 @@ def synthesis(sweep):
              for n, i in enumerate(points)]
     caption = f"{len(points)} points on {SYNTH_TARGETS[sweep.synth['target'][0]]}. Rank correlation (Spearman; 1: the same order): {'undefined' if rho is None else f'{rho:.4f}'}. "
     return Plot("synthesis", title, intro, caption, [Figure([Panel(
-        Axis("cost estimate in LUTs", around(x) if cells else span, "count"), measured, series)], columns=("cost",), height=480)],
+        Axis("LUTs estimated", around(x) if cells else span, "count"), measured, series)], columns=("cost",), height=480)],
         extra=table(["row", "configuration", *columns.values(), "critical path"], lines))

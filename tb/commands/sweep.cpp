@@ -127,6 +127,7 @@ class SweepRun {
                        " points, more than a million; --force if that "
                        "is meant, or --one-at-a-time");
     if (options_.exhaustive && options_.targets.empty()) throw UsageError("--exhaustive goes with --target-error");
+    weights_ = sweep::weights_of(tb::parse_synthesis_target(options_.synth_target));
     if (!options_.common.config_file.empty()) golden::load_cost_weights(options_.common.config_file, weights_);
     for (const std::string& target : options_.targets) targets_.push_back(parse_target(target));
     objective_ = !options_.objective.empty() ? sweep::parse_error_column(options_.objective, sweep::ErrorKind::total)
@@ -153,7 +154,6 @@ class SweepRun {
     const std::vector<std::size_t> all = grid_rows(), none;
     const sweep::Candidates candidates{grid_, all, none, none};
     sweep::select_points(options_.synth, candidates);
-    tb::parse_synthesis_target(options_.synth_target);
     if (!options_.cosim.empty()) sweep::select_points(options_.cosim, candidates);
   }
 
@@ -343,7 +343,7 @@ class SweepRun {
     if (!synthesis.empty()) store.add_timing({"synthesis", synthesis.size(), start.seconds()});
     std::vector<double> estimates, measured;
     for (const sweep::SynthesisRow& row : synthesis_) {
-      estimates.push_back(row.cost);
+      estimates.push_back(row.cost_luts);
       measured.push_back(sweep::measured_cost(row));
     }
     correlation_ = sweep::rank_correlation(estimates, measured);
@@ -364,10 +364,9 @@ class SweepRun {
     json["objective"] = objective_.name();
     json["front"] = front_;
     json["knees"] = knees_;
-    json["cost_weights"] = {{"state", weights_.state},
-                            {"multiplier", weights_.multiplier},
-                            {"adder", weights_.adder},
-                            {"table", weights_.table}};
+    json["cost_weights"] = {{"state", weights_.state}, {"multiplier", weights_.multiplier},
+                            {"adder", weights_.adder}, {"table", weights_.table},
+                            {"dsp", weights_.dsp},     {"join", weights_.join}};
     for (std::size_t s = 0; s < sweep::stage_count; ++s)
       json["counters"][std::string(sweep::stage_names[s])] = {{"settings", store.counters().settings[s]},
                                                               {"fragments", store.counters().fragments[s]}};
@@ -608,7 +607,8 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command
       ->add_option("--synth-target", options->synth_target,
-                   "What for: ecp5 (LUTs, flip-flops, DSPs, block RAMs of a Lattice ECP5), ecp5-nodsp (multipliers in "
+                   "What for, and what cost means: ecp5 (LUTs, flip-flops, DSPs, block RAMs of a Lattice ECP5), "
+                   "ecp5-nodsp (multipliers in "
                    "logic) or cells (area and clock on standard cells; needs OpenSTA)")
       ->type_name("TARGET")
       ->capture_default_str();

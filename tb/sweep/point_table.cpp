@@ -97,6 +97,8 @@ std::vector<PointColumn> make_columns() {
                   {"multiplier_bits", "bits^2", "sum over multipliers of operand widths' products"},
                   {"adder_bits", "bits", "adders, comparators, shifter stages"},
                   {"table_bits", "bits", "rsqrt and reciprocal tables"},
+                  {"dsps", "blocks", "multipliers of 18 x 18 bits, where the target has them"},
+                  {"join_bits", "bits", "adders that join those of one multiplier"},
                   {"cycles", "clocks", "the whole draw without stalls"},
                   {"pareto", "", "1 on the front of cost against the objective"},
                   {"worst_error", "1", "largest arithmetic error of a weight"},
@@ -194,7 +196,8 @@ std::string point_table(std::span<const PointRow> rows) {
            {r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated})
         cells.push_back(std::to_string(count));
       cells.push_back(csv_number(p.scalar_cost));
-      for (const std::uint64_t bits : {p.cost.state_bits, p.cost.multiplier_bits, p.cost.adder_bits, p.cost.table_bits})
+      for (const std::uint64_t bits : {p.cost.state_bits, p.cost.multiplier_bits, p.cost.adder_bits, p.cost.table_bits,
+                                       p.cost.dsps, p.cost.join_bits})
         cells.push_back(std::to_string(bits));
       cells.push_back(r.cycles > 0 ? std::to_string(r.cycles) : std::string());
       cells.push_back(p.pareto ? "1" : "0");

@@ -91,8 +91,8 @@ void compare(const char* what, const SweepInput& input) {
   std::size_t searches = 0, met = 0, most = 0, sum = 0;
   // The winner may not depend on the cost being right: other technologies weigh the same resources otherwise.
   for (const CostWeights& weights :
-       {CostWeights{}, CostWeights{.state = 0.1, .multiplier = 0.1, .adder = 1, .table = 0.1},
-        CostWeights{.state = 0, .multiplier = 10, .adder = 0, .table = 0}}) {
+       {ecp5_weights, ecp5_nodsp_weights,
+        CostWeights{.state = 0, .multiplier = 10, .adder = 0, .table = 0, .dsp = 0, .join = 0}}) {
     for (SearchPoint& point : points) point.cost = scalar_cost(hardware_cost(point.config), weights);
     std::vector<std::size_t> by_cost(points.size());
     std::iota(by_cost.begin(), by_cost.end(), std::size_t{0});

@@ -23,12 +23,18 @@ struct SynthesisRow {
   std::size_t row = 0;
   tb::SynthesisTarget target{};
   tb::HardwareSize size;
-  double cost = 0;  ///< the estimate, scalar_cost() with the weights given
+  // The estimates with the weights given.
+  double cost = 0;              ///< scalar_cost()
+  double cost_luts = 0;         ///< lut_cost()
+  std::uint64_t cost_dsps = 0;  ///< 0 where multipliers are logic
 
   friend bool operator==(const SynthesisRow&, const SynthesisRow&) = default;
 };
 
-/// What a cost estimate is an estimate of: LUTs, or on standard cells the area.
+/// The weights that estimate a target. Those of standard cells rank their area: multipliers are logic there.
+CostWeights weights_of(tb::SynthesisTarget target);
+
+/// What `cost_luts` estimates: LUTs, or in its order the area of standard cells.
 double measured_cost(const SynthesisRow& row);
 
 /// synth.csv, header line first; empty cells are what the target does not have.

@@ -107,7 +107,7 @@ class Synthesis : public ::testing::Test {
   }
 
   fs::path directory_;
-  CostWeights weights_{.state = 1, .multiplier = 2, .adder = 3, .table = 4};
+  CostWeights weights_{.state = 1, .multiplier = 2, .adder = 3, .table = 4, .dsp = 5};
 
  private:
   Environment cache_, calls_, path_;
@@ -131,7 +131,9 @@ TEST_F(Synthesis, RowsComeInTheOrderOfThePoints) {
                                          .nand2 = {},
                                          .mhz = {},
                                          .critical_path = {}},
-                                .cost = scalar_cost(hardware_cost(points[i].config), weights_)};
+                                .cost = scalar_cost(hardware_cost(points[i].config), weights_),
+                                .cost_luts = lut_cost(hardware_cost(points[i].config), weights_),
+                                .cost_dsps = hardware_cost(points[i].config).dsps};
     EXPECT_EQ(rows[i], expected) << i;
   }
   ASSERT_FALSE(told.empty());
@@ -175,10 +177,17 @@ TEST_F(Synthesis, EachTargetIsASynthesisOfItsOwn) {
   EXPECT_EQ(calls(), 2u);
   EXPECT_EQ(with.size.dsps, 5u);
   EXPECT_EQ(without.size.dsps, 2u);
+  // Estimated: 78 multipliers of 20 × 20 bits in four blocks each, twelve of the tables in two, and sixteen of the
+  // setup.
   EXPECT_EQ(synthesis_table(std::vector{with, without}),
-            "row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost\n"
+            "row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost,cost_luts,"
+            "cost_dsps\n"
             "0,ecp5,2039,7,5,4,86,,,,," +
-                csv_number(with.cost) + "\n0,ecp5-nodsp,2039,7,2,4,86,,,,," + csv_number(with.cost) + "\n");
+                csv_number(with.cost) + "," + csv_number(with.cost_luts) + ",352\n0,ecp5-nodsp,2039,7,2,4,86,,,,," +
+                csv_number(without.cost) + "," + csv_number(without.cost_luts) + ",0\n");
+  EXPECT_EQ(weights_of(ecp5).multiplier, 0);
+  EXPECT_EQ(weights_of(tb::SynthesisTarget::ecp5_nodsp).dsp, 0);
+  EXPECT_GT(weights_of(tb::SynthesisTarget::cells).multiplier, 0);
   for (const std::string_view name : tb::synthesis_target_names)
     EXPECT_EQ(tb::synthesis_target_names[static_cast<std::size_t>(tb::parse_synthesis_target(name))], name);
   try {
@@ -240,6 +249,7 @@ TEST(SynthesisByYosys, ASmallMachine) {
   // of the two factors in the tables' six polynomials.
   EXPECT_GE(row.size.dsps, 18u + 27u + 4u * 4u + 2u + 2u * 6u);
   EXPECT_LE(row.size.dsps, 100u);
+  EXPECT_NEAR(static_cast<double>(row.cost_dsps), static_cast<double>(*row.size.dsps), 3);
   // A carry chain is no shorter than its 28-bit values (T_BITS, two bits a cell), and a stage holds a few of them.
   EXPECT_GE(row.size.longest_path, 14u);
   EXPECT_LE(row.size.longest_path, 200u);
