@@ -438,7 +438,7 @@ class SweepRun {
                  rows_.size() < grid_.size() ? (" of " + std::to_string(grid_.size())).c_str() : "", evaluation_seconds,
                  static_cast<std::size_t>(refused), seconds);
     std::fprintf(out, "Pareto front of cost against %s (* knee)\n", objective_.name().c_str());
-    std::fprintf(out, "  %6s %10s %11s %9s  %s\n", "row", "LUTs", "error", "= 2^", "");
+    std::fprintf(out, "  %6s %10s %11s %9s  %s\n", "row", "cost", "error", "= 2^", "");
     for (const std::size_t row : front_) {
       const sweep::PointRow& point = row_of(row);
       const double error = objective_.value(point.result);
@@ -478,7 +478,7 @@ class SweepRun {
       const sweep::PointRow& point = row_of(row);
       char cost[32];
       std::snprintf(cost, sizeof cost, "%.0f", point.scalar_cost);
-      return "row " + std::to_string(row) + ", " + cost + " LUTs: " + varied(point.config);
+      return "row " + std::to_string(row) + ", cost " + cost + ": " + varied(point.config);
     };
     std::fprintf(out, "\ntarget %s: %zu evaluations\n", wanted.c_str(), t.evaluations);
     if (t.winner) std::fprintf(out, "  cheapest on %s:  %s\n", draw_.name.c_str(), describe(*t.winner).c_str());
