@@ -65,11 +65,13 @@ Temporary::Temporary(const fs::path& parent, Kind kind) {
   for (;;) {
     path_ = place / (start + std::to_string(counter++) + std::string(suffix));
     int error = 0;
+    bool made = false;
     without_interrupt([&] {
       if (kind == Kind::folder && ::mkdir(path_.c_str(), 0777) != 0) {
         error = errno;
         return;
       }
+      made = kind == Kind::folder;
       fd_ = kind == Kind::folder ? ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)
                                  : ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (fd_ >= 0)
@@ -81,7 +83,8 @@ Temporary::Temporary(const fs::path& parent, Kind kind) {
     if (fd_ >= 0) {  // taken for a stale one before the lock was there
       close();
       without_interrupt([&] { forget_temporary(path_); });
-    } else if (error != EEXIST) {
+    } else if (error != EEXIST &&
+               !(made && error == ENOENT)) {  // a folder may be taken for a stale one before it is open
       fail(error, "create a " + std::string(kind == Kind::file ? "file" : "folder") + " in " + parent.string());
     }
   }

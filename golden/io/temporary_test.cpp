@@ -74,6 +74,30 @@ TEST_F(TemporaryTest, AFolderTakesAFreeNameOnly) {
   Temporary(path("."), Kind::folder).publish(path("empty"));
 }
 
+// Each sweeps what it takes for stale, and may meet the other's folder before that is locked.
+TEST_F(TemporaryTest, ProcessesDoNotTakeEachOthers) {
+  const auto make = [&] {
+    for (int i = 0; i < 1500; ++i) {
+      const Temporary folder(path("."), Kind::folder);
+      if (!fs::exists(folder.path())) throw std::runtime_error(folder.path().string() + " is gone");
+    }
+  };
+  const pid_t other = ::fork();
+  if (other == 0) {
+    try {
+      make();
+    } catch (const std::exception&) {
+      ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  EXPECT_NO_THROW(make());
+  int status = 0;
+  ASSERT_EQ(::waitpid(other, &status, 0), other);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(entries(), 0u);
+}
+
 // What is left is known by its name, and as stale by the lock that ended with its process.
 TEST_F(TemporaryTest, SweepsWhatKilledProcessesLeft) {
   write(".quadrille-1-0.tmp", "left");
