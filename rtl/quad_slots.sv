@@ -57,7 +57,7 @@ module quad_slots #(
     output logic [6*GRAD-1:0] emit_gx_o,
     output logic [6*GRAD-1:0] emit_gy_o,
     output logic [10*QCURV-1:0] emit_q_o,
-    // Read of k_eff for the weights' products (stage 10) and overrides (stage 14)
+    // Read of k_eff for the weights' products and for the overrides
     input logic [SLOT-1:0] product_slot_i,
     output logic [3:0] product_k_neg_o,
     output logic [4*PE-1:0] product_k_exp_o,
@@ -65,12 +65,12 @@ module quad_slots #(
     input logic [SLOT-1:0] override_slot_i,
     output logic [4*PE-1:0] override_k_exp_o,
     output logic [4*S-1:0] override_k_sig_o,
-    // Read for interpolation (stage 17): term sets k_eff, W, Z, b0, b1, ..., each of four vertices
+    // Read for interpolation: term sets k_eff, W, Z, b0, b1, ..., each of four vertices
     input logic [SLOT-1:0] blend_slot_i,
     output logic [(3+N)*4-1:0] blend_neg_o,
     output logic [(3+N)*4*PE-1:0] blend_exp_o,
     output logic [(3+N)*4*S-1:0] blend_sig_o,
-    // Read for the output (stage 24)
+    // Read for the output
     input logic [SLOT-1:0] output_slot_i,
     output logic [ID-1:0] output_id_o,
     output logic output_hull_o,

@@ -30,7 +30,7 @@ struct SuiteInfo {
   std::string kind;  ///< stage, handshake, snapping, table, machine
   std::string title;
   std::string module;    ///< of rtl/, or "none"
-  int latency = 0;       ///< enabled clocks from the last input to the response; 0 where a handshake decides
+  int latency = 0;       ///< clocks from the last input to the response; 0 where a handshake decides
   std::string contract;  ///< what stimuli never contain
 };
 
