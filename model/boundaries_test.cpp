@@ -132,7 +132,7 @@ TEST(Boundaries, HaveTheirBits) {
   const std::vector<std::pair<Boundary, int>> bits{
       {Boundary::setup, 3 + 4 * 10 + 6 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32)},
       {Boundary::tile, 1 + 3 + 2 * 10 + 6 * 63 + 10 * (63 + 48 + 48)},
-      {Boundary::stamp, 1 + 3 + 3 + 3 * 8},
+      {Boundary::stamp, 1 + 4 + 3 + 3 * 8},
       {Boundary::diff, 3 + 12 + 12 + 2 + 16 * 63},
       {Boundary::norm, 4 + 12 * 31 + 4 * 30},
       {Boundary::rsqrt, 4 * 30},

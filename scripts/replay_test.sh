@@ -272,7 +272,7 @@ with open(path, "w", encoding="utf-8") as file:
 PYTHON
   expect 1 "^$1: (first difference|FAILED)" "$1: $2: ${4# }" $replay "$set" "${5:-$tool}" --suite "$1" --rtl "$work/rtl"
 }
-fault setup quad_setup.sv "subtract0 = is_linear || is_linear_gradient;" "subtract0 = 1'b0;"
+fault setup quad_setup.sv "subtract0 = use_linear || use_linear_gradient;" "subtract0 = 1'b0;"
 fault coverage stamp_coverage.sv "(pos2 | pos3)" "(pos2 & pos3)"
 fault forward_difference offset_digits.sv "row_square + dx_square" "row_square + row_square"
 fault normalise normalise.sv "E'(BIAS)" "E'(BIAS + 1)"
