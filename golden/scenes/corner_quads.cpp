@@ -40,7 +40,8 @@ constexpr std::array<CornerGroupInfo, 12> table{{
      "perspective off"},
     {CornerGroup::tall, "tall", "slanted strips over the whole height of the viewport, several blocks wide",
      "a viewport of more than four blocks in height and two in width"},
-    {CornerGroup::burst, "burst", "quads of one pixel, quick one after the other: every quad slot in use",
+    {CornerGroup::burst, "burst",
+     "quads of one pixel, quick one after the other behind one that fills the fragment FIFO: every quad slot in use",
      "a stall of 0.95"},
     {CornerGroup::extreme, "extreme", "X, Y and W of every vertex at an end of their ranges: the widest gradients", ""},
     {CornerGroup::far_corner, "far_corner",
@@ -302,8 +303,9 @@ void tall(Batch& b) {
 void burst(Batch& b) {
   for (int count = 0; count < 200; ++count) {
     const LatticePoint pixel = b.pixel();
+    const double spread = count % 50 == 0 ? 5 : 0;  // more pixels than the fragment FIFO has places
     const auto corner = [&](int x, int y) {
-      const double dx = 0.5 + x * b.rng.uniform(0.1, 0.4), dy = 0.5 + y * b.rng.uniform(0.1, 0.4);
+      const double dx = 0.5 + x * (spread + b.rng.uniform(0.1, 0.4)), dy = 0.5 + y * (spread + b.rng.uniform(0.1, 0.4));
       return WindowVertex{static_cast<double>(pixel.x) + dx, static_cast<double>(pixel.y) + dy, b.rng.uniform(0.1, 0.9),
                           1};
     };
