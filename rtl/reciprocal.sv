@@ -22,8 +22,8 @@ module reciprocal #(
   logic zero;
   logic exact;
   logic [E-1:0] exp_d;
-  logic [3*S+3:0] word, word_q;
-  logic [DX_BITS-1:0] dx, dx_q;
+  logic [3*S+3:0] word;
+  logic [DX_BITS-1:0] dx;
 
   assign zero = sig_i == '0;
   assign exact = sig_i[S-2:0] == '0;
@@ -35,24 +35,19 @@ module reciprocal #(
     assign dx = sig_i[DX_BITS-1:0];
   end
 
-  always_ff @(posedge clk_i) begin
-    word_q <= word;
-    dx_q <= dx;
-  end
-
   logic [S-1:0] poly;
 
   table_polynomial #(.SEGMENTS_LOG2(K)) u_polynomial (
       .clk_i,
-      .word_i(word_q),
-      .dx_i(dx_q),
+      .word_i(word),
+      .dx_i(dx),
       .sig_o(poly)
   );
 
   logic zero_q, exact_q, neg_q;
   logic [E-1:0] exp_q;
 
-  delay_line #(.WIDTH(E + 3), .DEPTH(3)) u_delay (
+  delay_line #(.WIDTH(E + 3), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES - 1)) u_delay (
       .clk_i,
       .data_i({zero, exact, neg_i, exp_d}),
       .data_o({zero_q, exact_q, neg_q, exp_q})

@@ -1,5 +1,5 @@
-// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function. Latency 2, one result per clock; the result is clamped
-// behind the last register, for its user's.
+// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function. Latency 3, one result per clock: the table's word, inner and
+// outer product; the result is clamped behind the last register, for its user's.
 //
 // word_i = {C0[S+4], C1[S], C2[S]} unsigned, dx_i = the low R bits of the argument below the segment's index, read as a fraction
 // of the segment. Two multipliers of S x R bits, truncated; the accumulator has TABLE_GUARD bits below the result, which is
@@ -17,23 +17,32 @@ module table_polynomial #(
 );
   localparam int C0_BITS = S + 4;
 
-  // Stage 1: inner factor.
+  // Stage 1: what the table gives.
+  logic [3*S+3:0] word_q;
+  logic [DX_BITS-1:0] dx_q1;
+
+  always_ff @(posedge clk_i) begin
+    word_q <= word_i;
+    dx_q1 <= dx_i;
+  end
+
+  // Stage 2: inner factor.
   logic [S-1:0] inner_d, inner_q;
   logic [C0_BITS-1:0] c0_q;
-  logic [DX_BITS-1:0] dx_q;
+  logic [DX_BITS-1:0] dx_q2;
 
-  assign inner_d = word_i[S+:S] - S'(((S + DX_BITS)'(word_i[0+:S]) * (S + DX_BITS)'(dx_i)) >> R);
+  assign inner_d = word_q[S+:S] - S'(((S + DX_BITS)'(word_q[0+:S]) * (S + DX_BITS)'(dx_q1)) >> R);
 
   always_ff @(posedge clk_i) begin
     inner_q <= inner_d;
-    c0_q <= word_i[2*S+:C0_BITS];
-    dx_q <= dx_i;
+    c0_q <= word_q[2*S+:C0_BITS];
+    dx_q2 <= dx_q1;
   end
 
-  // Stage 2: outer product.
+  // Stage 3: outer product.
   logic [C0_BITS-1:0] outer_d, outer_q;
 
-  assign outer_d = c0_q - C0_BITS'(((S + DX_BITS)'(inner_q) * (S + DX_BITS)'(dx_q)) >> R);
+  assign outer_d = c0_q - C0_BITS'(((S + DX_BITS)'(inner_q) * (S + DX_BITS)'(dx_q2)) >> R);
 
   always_ff @(posedge clk_i) outer_q <= outer_d;
 
