@@ -203,7 +203,7 @@ template <class Record, class F>
 requires std::same_as<std::remove_const_t<Record>, StampEntry>
 void visit(Record& s, const Config& c, F&& f) {
   f(plain("end_token", 1, "the quad has no further stamp; the masks are 0"), -1, s.end);
-  f(plain("tile_ptr", {c.tile_slots_log2 + 2, "TILE_SLOTS_LOG2+2"}, "entry of the tile ring"), -1, s.tile_ptr);
+  f(plain("tile_ptr", {c.ring_log2() + 1, "TILE_SLOTS_LOG2+2"}, "entry of the tile ring"), -1, s.tile_ptr);
   f(plain("row", tile_log2(c), "row in the tile", "px"), -1, s.row);
   f(plain("mask", tile_bits(c), "covered pixels, bit dx"), -1, s.mask);
   f(plain("front", tile_bits(c), "of these, front faces"), -1, s.front);

@@ -12,9 +12,8 @@
 
 namespace quadrille {
 
-/// Entries of the tile ring (quadrille_pkg::RING_LOG2): as many again as tiles in flight, for those on the way from the
-/// walk to their first stamp.
-inline int ring_entries(const Config& config) { return 2 * config.tile_slots(); }
+/// Entries of the tile ring.
+inline int ring_entries(const Config& config) { return 1 << config.ring_log2(); }
 /// Places of the stamp FIFO (quadrille_pkg::STAMP_PLACES): four more than stamps may wait, for the rows on their way.
 inline int stamp_places(const Config& config) { return config.stamp_fifo() + 4; }
 

@@ -89,6 +89,8 @@ struct Config {
   int attr_out_bits() const { return 1 + attribute_int_bits + attribute_frac(); }
   int quad_slots() const { return 1 << quad_slots_log2; }
   int tile_slots() const { return 1 << tile_slots_log2; }
+  /// The tile ring: as many entries again as tiles in flight, for those on the way from the walk to their first stamp.
+  int ring_log2() const { return tile_slots_log2 + 1; }
   int stamp_fifo() const { return 1 << stamp_fifo_log2; }
 
   static constexpr int exp_bits = 12;
