@@ -14,7 +14,9 @@ namespace {
 
 constexpr int last_stage = latency::fragment_stage;
 constexpr int emit_stages = latency::emission;
-constexpr std::size_t fragment_places = std::bit_ceil(latency::pipeline + 7u);  // quadrille_pkg::FRAGMENT_FIFO_LOG2
+/// quadrille_pkg::FRAGMENT_FIFO_LOG2: at full rate a place is free again so many clocks after its pixel was sent.
+constexpr std::size_t fragment_places = std::bit_ceil(
+    static_cast<std::size_t>(latency::emission + latency::pipeline + latency::fragment_fifo + latency::place_back));
 
 /// First-in first-out memory with its head in a register, as the RTL's: a word becomes the head two edges after its
 /// push. Who pushes knows that there is room.

@@ -36,5 +36,7 @@ inline constexpr int pipeline = fragment_stage + 1;
 inline constexpr int emission = 3;
 /// Clocks from the last register to the port: the fragment FIFO's memory and its output register.
 inline constexpr int fragment_fifo = 2;
+/// Clocks from a fragment's hand-over to the decision that knows of its place: a register, and the count of places.
+inline constexpr int place_back = 2;
 
 }  // namespace quadrille::latency
