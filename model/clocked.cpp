@@ -72,7 +72,10 @@ struct WalkUnit {
       walk.advance();
       finishing = false;
     }
-    for (std::size_t n = way.size() - 1; n > 0; --n) way[n] = way[n - 1];
+    for (std::size_t n = way.size() - 1; n > 0; --n) {
+      way[n].push = way[n - 1].push;
+      if (way[n].push) way[n].entry = way[n - 1].entry;  // most steps push nothing, and an entry is large
+    }
     Step& step = way.front();
     step.push = false;
     if (wait) {
