@@ -91,18 +91,19 @@ SynthesisReport yosys_synthesise(const Config& config, const fs::path& directory
 
 namespace {
 
-/// What runs for a target, and what else its result depends on.
+/// What runs for a target.
 struct TargetFlow {
   const char* script;
   std::vector<std::string> arguments;
-  std::vector<fs::path> files;  ///< absent ones are the script's to complain of
 };
 
 TargetFlow flow_of(SynthesisTarget target) {
-  if (target == SynthesisTarget::cells)
-    return {"timing.py", {"quadrille", "--target", "cells"}, {"/usr/share/qflow/tech/osu018/osu018_stdcells.lib"}};
-  return {"size.py", {"--target", std::string(synthesis_target_names[static_cast<std::size_t>(target)])}, {}};
+  if (target == SynthesisTarget::cells) return {"timing.py", {"quadrille", "--target", "cells"}};
+  return {"size.py", {"--target", std::string(synthesis_target_names[static_cast<std::size_t>(target)])}};
 }
+
+/// scripts/timing.py's library of cells, which says so where it is missing.
+constexpr const char* cell_library = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib";
 
 HardwareSize read_size(const fs::path& file) {
   const nlohmann::json json = nlohmann::json::parse(read_text(file));
@@ -153,13 +154,13 @@ HardwareSize synthesise_for(const Config& config, SynthesisTarget target) {
   Fingerprint key;
   key.add("synthesis 2");
   key.add(run_captured(std::vector<std::string>{find_program("yosys", "yosys"), "-V"}));
-  if (target == SynthesisTarget::cells)
+  if (target == SynthesisTarget::cells) {
     key.add(run_captured(std::vector<std::string>{find_program("sta", "opensta"), "-version"}));
+    if (fs::exists(cell_library)) key.add_file(cell_library);
+  }
   key.add(synthesis_target_names[static_cast<std::size_t>(target)]);
   key.add_file(scripts_directory() / flow.script);
   key.add_file(scripts_directory() / "report" / "synthesis.py");
-  for (const fs::path& file : flow.files)
-    if (fs::exists(file)) key.add_file(file);
   // The tables hold the resolved segments; a key on auto and its value are one machine.
   for (const ConfigKey& k : Config::keys())
     key.add(std::string(k.name) + "=" + std::to_string(config.resolved(k.name)));
