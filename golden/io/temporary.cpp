@@ -79,12 +79,12 @@ Temporary::Temporary(const fs::path& parent, Kind kind) {
       else
         error = errno;
     });
+    const bool swept = made && error == ENOENT;  // taken for a stale one before it was open
     if (fd_ >= 0 && lock(fd_) != Lock::held_elsewhere && same_file(fd_, path_)) return;
     if (fd_ >= 0) {  // taken for a stale one before the lock was there
       close();
       without_interrupt([&] { forget_temporary(path_); });
-    } else if (error != EEXIST &&
-               !(made && error == ENOENT)) {  // a folder may be taken for a stale one before it is open
+    } else if (error != EEXIST && !swept) {
       fail(error, "create a " + std::string(kind == Kind::file ? "file" : "folder") + " in " + parent.string());
     }
   }
