@@ -140,4 +140,11 @@ bool is_ordinary(const SnappedQuad& quad, const Config& config) {
   return true;
 }
 
+bool has_ordinary_vertices(const SnappedQuad& quad, const Config& config) {
+  const std::int32_t between = (1 << config.homogeneous_frac_bits) - 1;
+  for (const SnappedVertex& v : quad.vertex)
+    if (((v.x | v.y) & between) != 0) return false;
+  return is_ordinary(quad, config);
+}
+
 }  // namespace quadrille

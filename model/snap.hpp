@@ -28,4 +28,8 @@ SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawSt
 /// All four W are exactly 1: the machine's narrow case.
 bool is_ordinary(const SnappedQuad& quad, const Config& config);
 
+/// All four vertices are ordinary: W exactly 1, and the position on the 2^-subpixel_bits grid. A vertex in the last
+/// half step of the guard band is not, though its W may be 1.
+bool has_ordinary_vertices(const SnappedQuad& quad, const Config& config);
+
 }  // namespace quadrille

@@ -328,5 +328,20 @@ TEST(Snap, DependsOnTheVertexOnly) {
   }
 }
 
+/// In the last half step of the guard band a vertex keeps W = 1 without lying on the grid of ordinary ones.
+TEST(Snap, WOneIsNotOrdinaryInTheLastHalfStepOfTheGuardBand) {
+  const double edge = std::ldexp(1.0, standard.pos_int()), step = std::ldexp(1.0, -standard.subpixel_bits);
+  for (const double from_edge : {0.0, step / 8, step / 4, step, 1.0}) {
+    WindowQuad q;
+    for (std::size_t i = 0; i < 4; ++i) {
+      q.vertex[i] = {edge + 0.5 - from_edge, static_cast<double>(i) + 0.25 + step / 4, 0, 1};
+      q.attribute[i].assign(4, 0.0);
+    }
+    const SnappedQuad s = snap_quad(q, standard, draw);
+    EXPECT_TRUE(is_ordinary(s, standard)) << from_edge;
+    EXPECT_EQ(has_ordinary_vertices(s, standard), from_edge >= step) << from_edge;
+  }
+}
+
 }  // namespace
 }  // namespace quadrille

@@ -325,7 +325,9 @@ bool OrdinaryInput::operator()(const Config& config) {
   if (unknown) {
     DrawState state = input_.state;
     state.attributes = 0;
-    const auto ordinary = [&](const WindowQuad& quad) { return is_ordinary(snap_quad(quad, config, state), config); };
+    const auto ordinary = [&](const WindowQuad& quad) {
+      return has_ordinary_vertices(snap_quad(quad, config, state), config);
+    };
     try {
       found->second = std::ranges::all_of(input_.quads, ordinary);
     } catch (const SnapError&) {  // is refused by the evaluator

@@ -29,9 +29,9 @@ struct SweepInput {
   DrawState state;     ///< `attributes` in it is ignored
 };
 
-/// Whether every vertex of an input is ordinary (model/snap.hpp): W = 1 once snapped. False too where one cannot be
-/// snapped. Asks once for each placement of vertices; safe to call from several threads. Keeps a reference to the
-/// input.
+/// Whether every vertex of an input is ordinary (model/snap.hpp, has_ordinary_vertices) once snapped. False too where
+/// one cannot be snapped. Asks once for each placement of vertices; safe to call from several threads. Keeps a
+/// reference to the input.
 class OrdinaryInput {
  public:
   explicit OrdinaryInput(const SweepInput& input) : input_(input) {}

@@ -422,6 +422,20 @@ std::vector<Config> mixed_points() {
   return points;
 }
 
+/// W = 1 is not enough: a vertex in the last half step of the guard band keeps the bits that ordinary ones have not.
+TEST(OrdinaryInput, AVertexAtTheEndOfTheGuardBandIsNot) {
+  const Config config;
+  const double edge = std::ldexp(1.0, config.pos_int()) + 0.5, step = std::ldexp(1.0, -config.subpixel_bits);
+  for (const double from_edge : {step / 4, step}) {
+    SweepInput input = stress_input(golden::StressFamily::coincident);
+    input.quads.resize(1);
+    for (WindowVertex& v : input.quads[0].vertex) v = {10, 10, 0, 1};
+    ASSERT_TRUE(OrdinaryInput(input)(config));
+    input.quads[0].vertex[2].x = edge - from_edge;
+    EXPECT_EQ(OrdinaryInput(input)(config), from_edge == step);
+  }
+}
+
 TEST(Evaluator, ThreadsBatchesAndHistoryDoNotMatter) {
   const SweepInput input = mixed_input();
   const std::vector<Config> points = mixed_points();

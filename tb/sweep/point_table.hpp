@@ -27,8 +27,8 @@ struct PointRow {
   std::string worst;  ///< a command that prints the worst fragment
 };
 
-/// Fills what follows from the configuration: cost, bounds, ranges. `ordinary`: every snapped vertex of the input has
-/// W = 1. Otherwise the depth has no bound, and without perspective the others have none: those cells stay empty.
+/// Fills what follows from the configuration: cost, bounds, ranges. `ordinary`: every snapped vertex of the input is
+/// ordinary. Otherwise the depth has no bound, and without perspective the others have none: those cells stay empty.
 /// Safe to call from several threads.
 void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool perspective);
 
