@@ -35,6 +35,7 @@ inline Bits grad_bits(const Config& c) { return {c.grad_bits(), "GRAD_BITS"}; }
 inline Bits qval_bits(const Config& c) { return {c.qval_bits(), "QVAL_BITS"}; }
 inline Bits qgrad_bits(const Config& c) { return {c.qgrad_bits(), "QGRAD_BITS"}; }
 inline Bits qcurv_bits(const Config& c) { return {c.qcurv_bits(), "QCURV_BITS"}; }
+inline Bits length2_bits(const Config& c) { return {c.length2_bits(), "LENGTH2_BITS"}; }
 inline Bits significand_bits(const Config& c) { return {c.significand_bits, "S"}; }
 inline Bits significand_frac(const Config& c) { return {c.significand_bits - 1, "S−1"}; }
 inline Bits depth_code_bits(const Config& c) { return {c.depth_bits + 1, "DEPTH_BITS+1"}; }
@@ -68,6 +69,10 @@ inline FieldType quadratic_gy(const Config& c) {
 }
 inline FieldType quadratic_q(const Config& c) {
   return fixed("quad_q", qcurv_bits(c), quadratic_frac(c), "px^2", "quadratic coefficients");
+}
+inline FieldType squared_length(const Config& c) {
+  return {"length2",         length2_bits(c), false,
+          quadratic_frac(c), "px^2",          "squared distances of the vertices of the pairs 01 12 23 30 20 13"};
 }
 inline FieldType exact_a(const Config& c) {
   return fixed("a", val_bits(c), exact_frac(c), "px^2", "A: edge functions at the pixel, pairs 01 12 23 30 20 13");
@@ -173,13 +178,7 @@ void visit(Record& r, const Config& c, F&& f) {
   visit_array(
       f, linear_gy(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gy; });
   visit_array(
-      f, quadratic_value(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].value; });
-  visit_array(
-      f, quadratic_gx(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].gx; });
-  visit_array(
-      f, quadratic_gy(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].gy; });
-  visit_array(
-      f, quadratic_q(c), quadratic_count, [&](std::size_t i) -> auto& { return r.quadratic[i].q; });
+      f, squared_length(c), linear_count, [&](std::size_t i) -> auto& { return r.length2[i]; });
 }
 
 template <class Record, class F>
@@ -197,6 +196,8 @@ void visit(Record& t, const Config& c, F&& f) {
       f, quadratic_gx(c), quadratic_count, [&](std::size_t i) -> auto& { return t.quadratic[i].gx; });
   visit_array(
       f, quadratic_gy(c), quadratic_count, [&](std::size_t i) -> auto& { return t.quadratic[i].gy; });
+  visit_array(
+      f, quadratic_q(c), quadratic_count, [&](std::size_t i) -> auto& { return t.quadratic[i].q; });
 }
 
 template <class Record, class F>

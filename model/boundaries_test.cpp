@@ -88,7 +88,7 @@ TEST(BitPacker, AgreesWithTheSlowWayOnRandomRecords) {
     TileEntry tile;
     tile.slot = static_cast<std::uint32_t>(random.next());
     for (auto& v : tile.linear) v = static_cast<std::int64_t>(random.next());
-    for (auto& q : tile.quadratic) q.value = q.gx = q.gy = static_cast<std::int64_t>(random.next());
+    for (auto& q : tile.quadratic) q.value = q.gx = q.gy = q.q = static_cast<std::int64_t>(random.next());
     SlowPacker slow;
     visit(tile, config, slow);
     const RecordLayout layout = boundary_layout(Boundary::tile, config);
@@ -127,19 +127,18 @@ TEST(Layout, NamesTheFirstDifference) {
 }
 
 // Bits of the default configuration, added up by hand from section 6 of rtl/README.md: VAL = QVAL = 63, GRAD = QGRAD =
-// 48, QCURV = 32, TC = 10, S = 18, EXP = 12, four slots.
+// 48, QCURV = 32, LENGTH2 = 64, TC = 10, S = 18, EXP = 12, four slots.
 TEST(Boundaries, HaveTheirBits) {
-  const std::vector<std::pair<Boundary, int>> bits{
-      {Boundary::setup, 3 + 4 * 10 + 6 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32)},
-      {Boundary::tile, 1 + 3 + 2 * 10 + 6 * 63 + 10 * (63 + 48 + 48)},
-      {Boundary::stamp, 1 + 4 + 3 + 3 * 8},
-      {Boundary::diff, 3 + 12 + 12 + 2 + 16 * 63},
-      {Boundary::norm, 4 + 12 * 31 + 4 * 30},
-      {Boundary::rsqrt, 4 * 30},
-      {Boundary::ratio, 12 * 30},
-      {Boundary::weight, 4 * 30},
-      {Boundary::sum, 7 * 31},
-      {Boundary::fragment, 178}};
+  const std::vector<std::pair<Boundary, int>> bits{{Boundary::setup, 3 + 4 * 10 + 6 + 6 * (63 + 48 + 48) + 6 * 64},
+                                                   {Boundary::tile, 1 + 3 + 2 * 10 + 6 * 63 + 10 * (63 + 48 + 48 + 32)},
+                                                   {Boundary::stamp, 1 + 4 + 3 + 3 * 8},
+                                                   {Boundary::diff, 3 + 12 + 12 + 2 + 16 * 63},
+                                                   {Boundary::norm, 4 + 12 * 31 + 4 * 30},
+                                                   {Boundary::rsqrt, 4 * 30},
+                                                   {Boundary::ratio, 12 * 30},
+                                                   {Boundary::weight, 4 * 30},
+                                                   {Boundary::sum, 7 * 31},
+                                                   {Boundary::fragment, 178}};
   for (const auto& [boundary, expected] : bits)
     EXPECT_EQ(boundary_layout(boundary, Config{}).bits(), expected) << boundary_name(boundary);
 }

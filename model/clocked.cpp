@@ -4,6 +4,7 @@
 #include "model/pixel_pipeline.hpp"
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
+#include "model/tile_context.hpp"
 
 #include <bit>
 #include <deque>
@@ -53,18 +54,19 @@ class Fifo {
   T head_{};
 };
 
-/// The clocks of tile_walk: what is tested goes through three registers to the ring, and a block's test is known a
-/// clock after the walk went on.
+/// The clocks of tile_walk: what is tested goes through two registers to the ring, and a block's test is known a clock
+/// after the walk went on.
 struct WalkUnit {
   struct Step {
     bool push = false;
     TileEntry entry;
+    bool homogeneous = false;
   };
 
   TileWalk walk;
   bool wait = false;          ///< the walk stands: the block tested in the clock before is entered, or was the last
   bool finishing = false;     ///< the end entry is on its way
-  std::array<Step, 3> way{};  ///< steps on their way to the ring, the last one pushes
+  std::array<Step, 2> way{};  ///< steps on their way to the ring, the last one pushes
 
   /// The edge, unless a push waits for the ring.
   void clock() {
@@ -74,10 +76,14 @@ struct WalkUnit {
     }
     for (std::size_t n = way.size() - 1; n > 0; --n) {
       way[n].push = way[n - 1].push;
-      if (way[n].push) way[n].entry = way[n - 1].entry;  // most steps push nothing, and an entry is large
+      if (way[n].push) {  // most steps push nothing, and an entry is large
+        way[n].entry = way[n - 1].entry;
+        way[n].homogeneous = way[n - 1].homogeneous;
+      }
     }
     Step& step = way.front();
     step.push = false;
+    step.homogeneous = walk.constants().homogeneous;
     if (wait) {
       wait = false;
       return;
@@ -103,6 +109,43 @@ struct WalkUnit {
     }
   }
 };
+
+/// The control half of tile_context: a tile's steps, one a clock, and the words on their way to the ring.
+struct ContextUnit {
+  struct Commit {
+    bool valid = false;
+    bool homogeneous = false;
+  };
+
+  bool active = false, homogeneous = false, end = false;
+  int step = 0;
+  std::array<Commit, tile_context_result_clocks> way{};  ///< the last one makes its entry visible
+
+  int last_step() const { return end ? 1 : homogeneous ? tile_context_last_product : 2; }
+  bool ready() const { return !active || step == last_step(); }
+  /// The step is a job for the dot units, which then do none of the setup.
+  bool issues() const {
+    if (!active || step == 0 || end) return false;
+    if (!homogeneous) return true;
+    return step <= 4 || step >= tile_context_first_product;
+  }
+
+  /// The edge; an entry (or nullptr) comes in.
+  void clock(const WalkUnit::Step* push) {
+    for (std::size_t n = way.size() - 1; n > 0; --n) way[n] = way[n - 1];
+    way[0] = {active && step == last_step(), homogeneous && !end};
+    if (active && step++ == last_step()) active = false;
+    if (push != nullptr) {
+      active = true;
+      homogeneous = push->homogeneous;
+      end = push->entry.end;
+      step = 0;
+    }
+  }
+};
+
+/// Entries of the ring that a tile takes: one, or one for each part of its functions.
+std::uint32_t entries_of(bool homogeneous) { return homogeneous ? latency::homogeneous_parts : 1; }
 
 /// stamp_coverage: an entry comes through three registers, then its rows through three.
 struct CoverageUnit {
@@ -143,8 +186,8 @@ struct SetupUnit {
 
   bool done() const { return busy && state != State::run && wait == 0; }
 
-  /// The edge; start() comes after it.
-  void clock(bool taken) {
+  /// The edge; start() comes after it. The steps wait while the dot units work for a tile.
+  void clock(bool taken, bool units_taken) {
     if (taken) busy = false;
     if (wait > 0) --wait;
     switch (state) {
@@ -162,7 +205,7 @@ struct SetupUnit {
         break;
       case State::run:
         wait = quad_setup_result_clocks;
-        if (--steps == 0) state = State::idle;
+        if (!units_taken && --steps == 0) state = State::idle;
         break;
     }
   }
@@ -183,12 +226,17 @@ struct ClockedModel::Impl {
   std::vector<Slot> slots;
   std::uint32_t alloc = 0, in_use = 0;
   WalkUnit walk;
+  ContextUnit tile_unit;
   std::vector<TileEntry> ring;
-  std::uint32_t ring_write = 0, ring_tail = 0, ring_mask;
+  /// The next entry to write, the first one that coverage must not see yet, the first one in use.
+  std::uint32_t ring_write = 0, ring_complete = 0, ring_tail = 0, ring_mask;
+  bool completed = false;  ///< an entry became visible at the last edge: the one at last_completed
+  std::uint32_t last_completed = 0;
   CoverageUnit coverage;
   Fifo<StampEntry> stamps;
   std::uint32_t rest = 0;  ///< bits of the head's mask still to be emitted; valid when !first
   bool first = true;
+  int part = 0;                  ///< parts of the pixel that were sent, of a homogeneous quad
   int places = fragment_places;  ///< of the fragment FIFO that neither a fragment has nor a pixel on its way
   bool handed_over = false;      ///< a fragment left in the clock before
   /// A delay line from emission to the last register: stage n is pipeline[(head + emit_stages + n) % size].
@@ -213,10 +261,13 @@ struct ClockedModel::Impl {
   // Conditions of this clock, from registered state.
   bool start() const { return assembly.full && setup.state == SetupUnit::State::idle && in_use < slots.size(); }
   bool take() const { return setup.done() && walk.walk.state() == TileWalk::State::idle; }
-  bool ring_full() const { return ((ring_write - ring_tail) & ring_mask) == ring.size(); }
+  bool ring_full(std::uint32_t entries) const { return ((ring_write - ring_tail) & ring_mask) + entries > ring.size(); }
   const TileEntry& ring_at(std::uint32_t pointer) const { return ring[pointer & (ring.size() - 1)]; }
 
-  bool walk_push() const { return walk.way.back().push && !ring_full(); }
+  bool walk_push() const {
+    const WalkUnit::Step& step = walk.way.back();
+    return step.push && tile_unit.ready() && !ring_full(entries_of(step.homogeneous));
+  }
 
   /// The row that stamp_coverage is at.
   StampEntry stamp_work() const {
@@ -243,15 +294,24 @@ struct ClockedModel::Impl {
     alloc = in_use = 0;
     walk = {};
     walk.walk = TileWalk(context.config, context.state);
-    ring_write = ring_tail = 0;
+    tile_unit = {};
+    ring_write = ring_complete = ring_tail = 0;
+    completed = false;
     coverage = {};
     coverage.room = stamp_places(context.config);
     stamps.clear();
     first = true;
+    part = 0;
     places = fragment_places;
     handed_over = false;
     for (PixelTrace& p : pipeline) p = {};
     fragments.clear();
+  }
+
+  bool is_homogeneous(const TileEntry& tile) const { return !tile.end && slots[tile.slot].constants.homogeneous; }
+  /// The pointer of the entry behind this one.
+  std::uint32_t behind(std::uint32_t pointer) const {
+    return (pointer + entries_of(is_homogeneous(ring_at(pointer)))) & ring_mask;
   }
 
   /// stamp_coverage and the stamp FIFO; `pop`: emission takes the head.
@@ -267,10 +327,10 @@ struct ClockedModel::Impl {
     const bool rows_done = issue && (c.way[0].stamp.end || c.row == context.config.tile() - 1);
     const bool rows_load = c.context_valid && (!c.rows_valid || rows_done);
     const bool load = c.tag_valid && (!c.context_valid || rows_load);
-    const bool fetch = c.fetch != ring_write && (!c.tag_valid || load);
-    if (rows_done) c.rows = (c.rows + 1) & ring_mask;
-    if (load) c.load = (c.load + 1) & ring_mask;
-    if (fetch) c.fetch = (c.fetch + 1) & ring_mask;
+    const bool fetch = c.fetch != ring_complete && (!c.tag_valid || load);
+    if (rows_done) c.rows = behind(c.rows);
+    if (load) c.load = behind(c.load);
+    if (fetch) c.fetch = behind(c.fetch);
     c.row = rows_load ? 0 : c.row + (issue ? 1 : 0);
     c.rows_valid = rows_load || (c.rows_valid && !rows_done);
     c.context_valid = load || (c.context_valid && !rows_load);
@@ -299,7 +359,10 @@ struct ClockedModel::Impl {
         entering.end = true;
         entering.slot = tile.slot;
         pop = true;
+      } else if (places > 0 && is_homogeneous(tile) && part < latency::homogeneous_parts - 1) {
+        ++part;
       } else if (places > 0) {
+        part = 0;
         const std::uint32_t mask = first ? s.mask : rest;
         const int dx = std::countr_zero(mask);
         entering.front = s.front >> dx & 1;
@@ -337,16 +400,25 @@ struct ClockedModel::Impl {
     const bool pop = clock_pixels();
     handed_over = handing_over;
     clock_stamps(pop);
+    const bool units_taken = tile_unit.issues();
+    const ContextUnit::Commit commit = tile_unit.way.back();
+    completed = commit.valid;
+    if (completed) {
+      last_completed = ring_complete;
+      ring_complete = (ring_complete + entries_of(commit.homogeneous)) & ring_mask;
+    }
+    const WalkUnit::Step& pushed = walk.way.back();
+    tile_unit.clock(push_tile ? &pushed : nullptr);
     if (push_tile) {
-      ring[ring_write & (ring.size() - 1)] = walk.way.back().entry;
-      ring_write = (ring_write + 1) & ring_mask;
+      ring[ring_write & (ring.size() - 1)] = pushed.entry;
+      ring_write = (ring_write + entries_of(pushed.homogeneous && !pushed.entry.end)) & ring_mask;
     }
     if (walk_moves) walk.clock();
     if (taking) {
       slots[setup.result.slot].constants = QuadConstants(setup.result);
       walk.walk.take(setup.result);
     }
-    setup.clock(taking);
+    setup.clock(taking, units_taken);
     if (starting) {
       setup.next = quad_setup(assembly.quad, context.config, context.state);
       setup.next.slot = alloc;
@@ -381,7 +453,7 @@ ClockedOutputs ClockedModel::comb() const {
   if (out.fragment_valid) out.fragment = m.fragments.head();
   out.busy = m.assembly.full || m.assembly.count != 0 || m.in_use != 0 || !m.fragments.empty();
   if (m.take()) out.probes.setup = &m.setup.result;
-  if (m.walk_push()) out.probes.tile = &m.walk.way.back().entry;
+  if (m.completed) out.probes.tile = &m.ring_at(m.last_completed);
   if (m.coverage.way.back().push()) out.probes.stamp = &m.coverage.way.back().stamp;
   const auto pixel = [&](int n) { return m.stage(n).valid ? &m.stage(n) : nullptr; };
   out.probes.diff = pixel(latency::diff_stage);

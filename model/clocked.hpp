@@ -28,7 +28,7 @@ struct ClockedInputs {
 /// A boundary that carries a beat in this clock, or nullptr.
 struct ClockedProbes {
   const SetupResult* setup = nullptr;  ///< taken by the walk in this clock
-  const TileEntry* tile = nullptr;     ///< pushed in this clock
+  const TileEntry* tile = nullptr;     ///< complete in the ring since the last edge
   const StampEntry* stamp = nullptr;   ///< pushed in this clock
   const PixelTrace* diff = nullptr;    ///< in register diff_stage (latency.hpp)
   const PixelTrace* norm = nullptr;    ///< in norm_stage

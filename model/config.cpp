@@ -154,6 +154,8 @@ std::vector<DerivedWidth> Config::derived() const {
       {"CURV_BITS", curv_bits(), "2·FRAC + 2, signed: |W·W'| reaches 1 inclusive"},
       {"QDROP", qdrop(), "2·FRAC - quadratic_frac_bits: low bits of D and r² that are dropped"},
       {"QVAL_BITS", qval_bits(), "VAL_BITS - QDROP"},
+      {"LENGTH2_BITS", length2_bits(),
+       "2·(POS_INT + FRAC) + 4 - QDROP, unsigned: two squares of at most twice a position"},
       {"QGRAD_BITS", qgrad_bits(), "GRAD_BITS - QDROP"},
       {"QCURV_BITS", qcurv_bits(), "CURV_BITS - QDROP"},
       {"QUADRATIC_FRAC", quadratic_frac(), "quadratic_frac_bits, resolved"},

@@ -80,6 +80,7 @@ struct Config {
   int curv_bits() const { return 2 * frac() + 2; }
   int qdrop() const { return 2 * frac() - quadratic_frac(); }
   int qval_bits() const { return val_bits() - qdrop(); }
+  int length2_bits() const { return 2 * (pos_int() + frac()) + 4 - qdrop(); }
   int qgrad_bits() const { return grad_bits() - qdrop(); }
   int qcurv_bits() const { return curv_bits() - qdrop(); }
   int prec_bits() const { return significand_bits - 1 + align_guard_bits; }

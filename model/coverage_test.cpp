@@ -1,8 +1,10 @@
-// quad_setup, tile_walk and stamp_coverage against the vertices themselves, in 128-bit integers: every form at every
-// kind of pixel, expression (12) over the whole viewport, every pixel once.
+// quad_setup, tile_walk, tile_context and stamp_coverage against the vertices themselves, in 128-bit integers: every
+// form at every kind of pixel, expression (12) over the whole viewport, every pixel once.
 #include "model/boundaries.hpp"
+#include "model/pixel_pipeline.hpp"
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
+#include "model/tile_context.hpp"
 
 #include "model/support/prng.hpp"
 
@@ -184,8 +186,18 @@ bool fits(std::int64_t v, int width) {
   return width >= 64 || (v >= -(std::int64_t{1} << (width - 1)) && v < std::int64_t{1} << (width - 1));
 }
 
-TEST(QuadSetup, FormsEqualDirectEvaluation) {
-  Prng rng(21);
+/// A field of a boundary holds the value.
+template <class T>
+bool holds(const FieldType& type, T value) {
+  const auto v = static_cast<std::int64_t>(value);
+  if (type.is_signed) return fits(v, type.width);
+  return type.width == 64 || static_cast<std::uint64_t>(v) >> type.width == 0;
+}
+
+/// Wide and narrow, with all bits of the quadratic functions, some, as few as ordinary quads can spare (2
+/// homogeneous_frac_bits dropped), none.
+std::vector<Config> front_configs() {
+  std::vector<Config> configs;
   for (const auto& [vp, guard, sub, hom, qfrac, tile] : {std::array{12, 3, 8, 7, -1, 3},
                                                          {6, 3, 8, 7, -1, 2},
                                                          {6, 3, 8, 7, 0, 4},
@@ -200,6 +212,15 @@ TEST(QuadSetup, FormsEqualDirectEvaluation) {
     c.quadratic_frac_bits = qfrac;
     c.tile_log2 = tile;
     c.validate();
+    configs.push_back(c);
+  }
+  return configs;
+}
+
+TEST(QuadSetup, FormsEqualDirectEvaluation) {
+  Prng rng(21);
+  for (const Config& c : front_configs()) {
+    const int vp = c.viewport_bits, tile = c.tile_log2;
     DrawState state = state_of(c);
     const int span = 1 << vp, drop = c.qdrop();
     for (int n = 0; n < 4000 && !testing::Test::HasFailure(); ++n) {
@@ -224,38 +245,19 @@ TEST(QuadSetup, FormsEqualDirectEvaluation) {
           const LinearForm& f = r.linear[k];
           ASSERT_TRUE(f.value + dx * f.gx + dy * f.gy == at.cross(edges[k][0], edges[k][1])) << "edge " << k;
         }
-        for (std::size_t k = 0; k < 10; ++k) {
-          const std::size_t i = k < 6 ? edges[k][0] : k - 6, j = k < 6 ? edges[k][1] : k - 6;
-          const QuadraticForm& f = r.quadratic[k];
-          const Wide direct = at.dot(i, j), form = f.value + dx * f.gx + dy * f.gy + (dx * dx + dy * dy) * f.q;
-          if (drop == 0) {
-            ASSERT_TRUE(form == direct) << "quadratic " << k;
-          } else if (dx == 0 && dy == 0) {
-            ASSERT_TRUE(form == direct >> drop) << "quadratic " << k;
-          }
-        }
       }
-      if (drop != 0) {
-        // Each coefficient by itself is the floor of the exact one.
-        const Relative o(q, ox, oy);
-        for (std::size_t k = 0; k < 10; ++k) {
-          const std::size_t i = k < 6 ? edges[k][0] : k - 6, j = k < 6 ? edges[k][1] : k - 6;
-          const Wide wi = q.vertex[i].w, wj = q.vertex[j].w;
-          ASSERT_TRUE(r.quadratic[k].gx == -(o.x[i] * wj + wi * o.x[j]) >> drop);
-          ASSERT_TRUE(r.quadratic[k].gy == -(o.y[i] * wj + wi * o.y[j]) >> drop);
-          ASSERT_TRUE(r.quadratic[k].q == (wi * wj) >> drop);
-        }
+      // Squared distances of the vertices, wherever the origin is; the vertices as the origin pixel sees them.
+      for (std::size_t k = 0; k < 6; ++k) {
+        const SnappedVertex &a = q.vertex[edges[k][0]], &b = q.vertex[edges[k][1]];
+        const Wide x = Wide{a.x} - b.x, y = Wide{a.y} - b.y;
+        ASSERT_TRUE(r.length2[k] == (x * x + y * y) >> drop) << "pair " << k;
       }
+      const Relative o(q, ox, oy);
+      for (std::size_t i = 0; i < 4; ++i)
+        ASSERT_TRUE(r.vertex[i].x == o.x[i] && r.vertex[i].y == o.y[i] && r.vertex[i].w == q.vertex[i].w) << i;
       // Everything fits its field of the probe.
       visit(r, c, [&](const FieldType& type, int, auto v) {
-        const auto value = static_cast<std::int64_t>(v);
-        const std::string_view name = type.name;
-        const int width = type.width;
-        if (type.is_signed) {
-          ASSERT_TRUE(fits(value, width)) << name << " " << value << " in " << width;
-        } else {
-          ASSERT_TRUE(value >= 0 && value < std::int64_t{1} << width) << name << " " << value;
-        }
+        ASSERT_TRUE(holds(type, v)) << type.name << " " << +v << " in " << +type.width;
       });
 
       if (!r.homogeneous) {
@@ -294,6 +296,78 @@ TEST(QuadSetup, FormsEqualDirectEvaluation) {
   }
 }
 
+/// The quadratic functions of a tile, one by one the floor of what its vertices give, and what a pixel makes of them.
+TEST(TileContext, FormsEqualDirectEvaluation) {
+  Prng rng(24);
+  int whole = 0, halves = 0, homogeneous_pixels = 0;
+  for (const Config& c : front_configs()) {
+    const DrawState state = state_of(c);
+    const int span = 1 << c.viewport_bits, drop = c.qdrop(), size = c.tile();
+    for (int n = 0; n < 4000 && !testing::Test::HasFailure(); ++n) {
+      const auto kind = static_cast<Kind>(n % static_cast<int>(Kind::kinds));
+      const SnappedQuad q = random_quad(rng, kind, c);
+      const SetupResult r = quad_setup(q, c, state);
+      const QuadConstants constants(r);
+      TileEntry tile;
+      tile.tile_x = static_cast<int>(rng.below(static_cast<std::uint64_t>(span / size)));
+      tile.tile_y = static_cast<int>(rng.below(static_cast<std::uint64_t>(span / size)));
+      tile.quadratic =
+          tile_context(constants, (tile.tile_x - r.tile_x0) * size, (tile.tile_y - r.tile_y0) * size, drop);
+      const Relative o(q, tile.tile_x * size, tile.tile_y * size);
+      const auto coefficient = [&](std::size_t k, int which) -> Wide {
+        if (k < 6 && !r.homogeneous) return 0;
+        const std::size_t i = k < 6 ? edges[k][0] : k - 6, j = k < 6 ? edges[k][1] : k - 6;
+        const Wide wi = q.vertex[i].w, wj = q.vertex[j].w;
+        const Wide exact = which == 0   ? o.dot(i, j)
+                           : which == 1 ? -(o.x[i] * wj + wi * o.x[j])
+                           : which == 2 ? -(o.y[i] * wj + wi * o.y[j])
+                                        : wi * wj;
+        return exact >> drop;
+      };
+      for (std::size_t k = 0; k < 10; ++k) {
+        const QuadraticForm& f = tile.quadratic[k];
+        ASSERT_TRUE(f.value == coefficient(k, 0) && f.gx == coefficient(k, 1) && f.gy == coefficient(k, 2) &&
+                    f.q == coefficient(k, 3))
+            << "quadratic " << k;
+      }
+      visit(tile, c, [&](const FieldType& type, int, auto v) {
+        ASSERT_TRUE(holds(type, v)) << type.name << " " << +v << " in " << +type.width;
+      });
+
+      // Ordinary vertices lie on a grid of 2^homogeneous_frac_bits, and nothing is lost while products do not.
+      const bool exact = drop == 0 || (!r.homogeneous && drop <= 2 * c.homogeneous_frac_bits);
+      const int dx = static_cast<int>(rng.below(static_cast<std::uint64_t>(size))),
+                dy = static_cast<int>(rng.below(static_cast<std::uint64_t>(size)));
+      const Relative at(q, tile.tile_x * size + dx, tile.tile_y * size + dy);
+      PixelTrace p;
+      forward_difference(p, tile, constants, dx, dy);
+      const auto form = [&](std::size_t k) {
+        return coefficient(k, 0) + dx * coefficient(k, 1) + dy * coefficient(k, 2) +
+               (dx * dx + dy * dy) * coefficient(k, 3);
+      };
+      for (std::size_t k = 0; k < 10; ++k) {
+        const std::size_t i = k < 6 ? edges[k][0] : k - 6, j = k < 6 ? edges[k][1] : k - 6;
+        const std::int64_t value = k < 6 ? p.d[k] : p.r2[k - 6];
+        ASSERT_TRUE(fits(value, c.qval_bits())) << k;
+        if (exact) {
+          ASSERT_TRUE(Wide{value} * (Wide{1} << drop) == at.dot(i, j)) << "quadratic " << k << " at a pixel";
+        } else if (k >= 6 || r.homogeneous) {
+          ASSERT_TRUE(value == form(k)) << "quadratic " << k << " at a pixel";
+        } else {
+          const Wide x = Wide{q.vertex[i].x} - q.vertex[j].x, y = Wide{q.vertex[i].y} - q.vertex[j].y;
+          ASSERT_TRUE(value == (form(6 + i) + form(6 + j) - ((x * x + y * y) >> drop)) >> 1) << "D " << k;
+          ++halves;
+        }
+      }
+      whole += exact && drop > 0;
+      homogeneous_pixels += r.homogeneous;
+    }
+  }
+  EXPECT_GT(whole, 1000);
+  EXPECT_GT(halves, 1000);
+  EXPECT_GT(homogeneous_pixels, 1000);
+}
+
 struct Seen {
   int count = 0;
   bool front = false, tie = false;
@@ -321,13 +395,11 @@ void walk(const SnappedQuad& q, const Config& c, const DrawState& state, std::ma
       ASSERT_LT(e.tile_y, setup.tile_y0 + setup.tiles_y);
       const Relative at(q, x0, y0);
       for (std::size_t k = 0; k < 6; ++k) ASSERT_TRUE(e.linear[k] == at.cross(edges[k][0], edges[k][1]));
-      for (std::size_t k = 0; k < 10; ++k)
-        ASSERT_TRUE(e.quadratic[k].value == at.dot(k < 6 ? edges[k][0] : k - 6, k < 6 ? edges[k][1] : k - 6));
-      visit(e, c, [&](const FieldType& type, int, auto v) {
-        if (type.is_signed) {
-          ASSERT_TRUE(fits(static_cast<std::int64_t>(v), type.width)) << type.name;
-        }
-      });
+      for (std::size_t k = 0; k < 10; ++k) {
+        const Wide dot = at.dot(k < 6 ? edges[k][0] : k - 6, k < 6 ? edges[k][1] : k - 6);
+        ASSERT_TRUE(e.quadratic[k].value == (k < 6 && !setup.homogeneous ? 0 : dot));
+      }
+      visit(e, c, [&](const FieldType& type, int, auto v) { ASSERT_TRUE(holds(type, v)) << type.name; });
       for (int row = 0; row < edge; ++row) {
         const StampMasks m = stamp_coverage(e, w.constants(), row, c, state);
         ASSERT_EQ(m.front & ~m.mask, 0u);
@@ -421,7 +493,6 @@ TEST(TileWalk, MayCoverIsConservative) {
     const QuadConstants constants(setup);
     WalkState at;
     for (std::size_t k = 0; k < linear_count; ++k) at.linear[k] = setup.linear[k].value;
-    at.quadratic = setup.quadratic;
     const int dx = static_cast<int>(rng.integer(0, 15)), dy = static_cast<int>(rng.integer(0, 15)),
               extent = rng.chance(0.5) ? 4 : 32;
     walk_step(at, constants, dx, dy);

@@ -8,6 +8,7 @@ namespace quadrille::latency {
 
 // From a unit's inputs to its outputs.
 inline constexpr int forward_difference_stages = 3;
+inline constexpr int law_of_cosines_stages = 2;
 inline constexpr int fp_normalise_stages = 2;
 inline constexpr int normalise_stages = 1 + fp_normalise_stages;
 inline constexpr int rsqrt_stages = 4;
@@ -20,7 +21,7 @@ inline constexpr int fixed_point_stages = 2;
 inline constexpr int fragment_output_stages = product_stages + fixed_point_stages + 2;
 
 // The registers at the boundaries. A pixel is in register n during the clocks after n + 1 edges.
-inline constexpr int diff_stage = forward_difference_stages - 1;
+inline constexpr int diff_stage = forward_difference_stages + law_of_cosines_stages - 1;
 inline constexpr int norm_stage = diff_stage + normalise_stages;
 inline constexpr int rho_stage = norm_stage + rsqrt_stages;
 inline constexpr int ratio_stage = rho_stage + 2 * product_stages + one_plus_stages + 1;
@@ -38,5 +39,7 @@ inline constexpr int emission = 3;
 inline constexpr int fragment_fifo = 2;
 /// Clocks from a fragment's hand-over to the decision that knows of its place: a register, and the count of places.
 inline constexpr int place_back = 2;
+/// Clocks in which pixel_emit sends one pixel of a homogeneous quad, whose ten quadratic functions come in three parts.
+inline constexpr int homogeneous_parts = 3;
 
 }  // namespace quadrille::latency

@@ -181,15 +181,21 @@ LANE_INLINE void difference_stage(const TileEntry& tile, const QuadConstants& co
   const auto quadratic = [&](std::size_t k) LANE_LAMBDA {
     const QuadraticForm& f = tile.quadratic[k];
     return I(U(U{} + static_cast<std::uint64_t>(f.value)) + U(x) * static_cast<std::uint64_t>(f.gx) +
-             U(y) * static_cast<std::uint64_t>(f.gy) + U(square) * static_cast<std::uint64_t>(constants.q[k]));
+             U(y) * static_cast<std::uint64_t>(f.gy) + U(square) * static_cast<std::uint64_t>(f.q));
   };
+  for (std::size_t i = 0; i < 4; ++i) out.r2[i] = quadratic(6 + i);
   for (std::size_t k = 0; k < 6; ++k) {
     out.a[k] =
         I(U(U{} + static_cast<std::uint64_t>(tile.linear[k])) + U(x) * static_cast<std::uint64_t>(constants.gx[k]) +
           U(y) * static_cast<std::uint64_t>(constants.gy[k]));
-    out.d[k] = quadratic(k);
+    // The law of cosines: half of a sum that may have 65 bits, by halves.
+    const I& ri = out.r2[vertex_pair[k][0]];
+    const I& rj = out.r2[vertex_pair[k][1]];
+    const auto length2 = static_cast<std::int64_t>(constants.length2[k]);
+    const auto half = static_cast<std::int64_t>(constants.length2[k] >> 1);
+    out.d[k] = constants.homogeneous ? quadratic(k)
+                                     : (ri >> 1) + (rj >> 1) - half + (((ri & 1) + (rj & 1) - (length2 & 1)) >> 1);
   }
-  for (std::size_t i = 0; i < 4; ++i) out.r2[i] = quadratic(6 + i);
 }
 
 struct SingularMasks {

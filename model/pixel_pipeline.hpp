@@ -36,7 +36,8 @@ struct PipelineContext {
   int attribute_frac;
 };
 
-/// Stage 1. A, D, r² at pixel (dx, row) of the tile: value + dx·gx + row·gy + q(dx² + row²). Exact.
+/// A, D, r² at pixel (dx, row) of the tile: value + dx·gx + row·gy + q(dx² + row²); D of an ordinary quad by the law of
+/// cosines. Exact.
 void forward_difference(PixelTrace& p, const TileEntry& tile, const QuadConstants& quad, int dx, int row);
 /// Stages 2-3. S-bit significands of A, D, r² and the singular class (rtl/README.md section 5, in its priority).
 void normalise(PixelTrace& p, const PipelineContext& c);

@@ -9,21 +9,18 @@ namespace {
 
 using Wide = __int128;
 
-struct Vector3 {
-  std::int64_t x, y, w;
-};
-
 /// V_i × V_j: its components are the coefficients (gx, gy, value) of the homogeneous edge function E_ij.
-LinearForm cross(const Vector3& a, const Vector3& b) {
+LinearForm cross(const RelativeVertex& a, const RelativeVertex& b) {
   return {a.x * b.y - a.y * b.x, a.y * b.w - a.w * b.y, a.w * b.x - a.x * b.w};
 }
 
-QuadraticForm dot(const Vector3& a, const Vector3& b, int drop) {
-  return {(a.x * b.x + a.y * b.y) >> drop, -(a.x * b.w + a.w * b.x) >> drop, -(a.y * b.w + a.w * b.y) >> drop,
-          (a.w * b.w) >> drop};
+/// |a − b|², at most 2^63.
+std::uint64_t length2(const RelativeVertex& a, const RelativeVertex& b) {
+  const auto square = [](std::int64_t v) { return static_cast<std::uint64_t>(v * v); };
+  return square(a.x - b.x) + square(a.y - b.y);
 }
 
-Wide determinant(const LinearForm& edge, const Vector3& v) {
+Wide determinant(const LinearForm& edge, const RelativeVertex& v) {
   return static_cast<Wide>(edge.gx) * v.x + static_cast<Wide>(edge.gy) * v.y + static_cast<Wide>(edge.value) * v.w;
 }
 
@@ -55,7 +52,7 @@ bool eye_in_hull(Wide d012, Wide d023, Wide d123, Wide d013) {
 SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const DrawState& state) {
   const int frac = config.frac();
   SetupResult r;
-  std::array<Vector3, 4> v{};
+  std::array<RelativeVertex, 4>& v = r.vertex;
   r.homogeneous = false;
   for (std::size_t i = 0; i < 4; ++i) {
     v[i] = {quad.vertex[i].x, quad.vertex[i].y, quad.vertex[i].w};
@@ -79,14 +76,15 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
   }
 
   // Translate to the first tile's origin pixel.
-  for (Vector3& t : v) {
+  for (RelativeVertex& t : v) {
     t.x -= t.w * (r.tile_x0 << config.tile_log2);
     t.y -= t.w * (r.tile_y0 << config.tile_log2);
   }
-  for (std::size_t k = 0; k < linear_count; ++k) r.linear[k] = cross(v[vertex_pair[k][0]], v[vertex_pair[k][1]]);
-  for (std::size_t k = 0; k < linear_count; ++k)
-    r.quadratic[k] = dot(v[vertex_pair[k][0]], v[vertex_pair[k][1]], config.qdrop());
-  for (std::size_t i = 0; i < 4; ++i) r.quadratic[linear_count + i] = dot(v[i], v[i], config.qdrop());
+  for (std::size_t k = 0; k < linear_count; ++k) {
+    const auto [i, j] = vertex_pair[k];
+    r.linear[k] = cross(v[i], v[j]);
+    r.length2[k] = length2(v[i], v[j]) >> config.qdrop();
+  }
 
   r.visible = 0xf;
   if (r.homogeneous) {
@@ -102,6 +100,6 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
   return r;
 }
 
-int quad_setup_steps(bool homogeneous) { return homogeneous ? 37 : 8; }
+int quad_setup_steps(bool homogeneous) { return homogeneous ? 20 : 6; }
 
 }  // namespace quadrille

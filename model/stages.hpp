@@ -36,6 +36,11 @@ struct QuadraticForm {
   std::int64_t value = 0, gx = 0, gy = 0, q = 0;
 };
 
+/// A vertex relative to a pixel: (X − W x, Y − W y, W), units 2^-FRAC.
+struct RelativeVertex {
+  std::int64_t x = 0, y = 0, w = 0;
+};
+
 /// What quad_setup hands to tile_walk.
 struct SetupResult {
   std::uint32_t slot = 0;
@@ -44,7 +49,8 @@ struct SetupResult {
   bool hull = false;         ///< the eye is inside the hull: visibility per pixel
   std::uint8_t visible = 0;  ///< bit 0: clause 1 +, 1: clause 2 +, 2: clause 1 −, 3: clause 2 −
   std::array<LinearForm, linear_count> linear{};
-  std::array<QuadraticForm, quadratic_count> quadratic{};
+  std::array<std::uint64_t, linear_count> length2{};  ///< |V_i − V_j|² of the pairs, units 2^-quadratic_frac
+  std::array<RelativeVertex, 4> vertex{};             ///< relative to the first tile's origin pixel
 };
 
 /// One entry of the tile ring.
@@ -53,6 +59,8 @@ struct TileEntry {
   std::uint32_t slot = 0;
   int tile_x = 0, tile_y = 0;
   std::array<std::int64_t, linear_count> linear{};  ///< values at the tile's origin pixel
+  /// From the tile's origin pixel. An ordinary quad has the squared distances alone (6 to 9): its dot products follow
+  /// from them.
   std::array<QuadraticForm, quadratic_count> quadratic{};
 };
 

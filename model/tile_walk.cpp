@@ -1,5 +1,7 @@
 #include "model/tile_walk.hpp"
 
+#include "model/tile_context.hpp"
+
 namespace quadrille {
 bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull) {
   EdgeSign e[5];
@@ -17,19 +19,12 @@ bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull 
 void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy) {
   for (std::size_t k = 0; k < linear_count; ++k)
     at.linear[k] = wrap_add(at.linear[k], wrap_add(quad.gx[k] * dx, quad.gy[k] * dy));
-  for (std::size_t k = 0; k < quadratic_count; ++k) {
-    QuadraticForm& f = at.quadratic[k];
-    f.value = wrap_add(f.value, wrap_add(wrap_add(f.gx * dx, f.gy * dy), quad.q[k] * (dx * dx + dy * dy)));
-    f.gx += 2 * quad.q[k] * dx;
-    f.gy += 2 * quad.q[k] * dy;
-  }
 }
 
 void TileWalk::take(const SetupResult& setup) {
   slot_ = setup.slot;
   quad_ = QuadConstants(setup);
   for (std::size_t k = 0; k < linear_count; ++k) block_.linear[k] = setup.linear[k].value;
-  block_.quadratic = setup.quadratic;
   bx_ = by_ = 0;
   block_right_ = true;
   state_ = quad_.tiles_x == 0 || quad_.tiles_y == 0 ? State::end : State::block;
@@ -48,11 +43,11 @@ TileEntry TileWalk::entry() const {
     e.end = true;
     return e;
   }
-  e.tile_x = quad_.tile_x0 + bx_ * Config::block_tiles + tx_;
-  e.tile_y = quad_.tile_y0 + by_ * Config::block_tiles + ty_;
+  const int column = bx_ * Config::block_tiles + tx_, row = by_ * Config::block_tiles + ty_;
+  e.tile_x = quad_.tile_x0 + column;
+  e.tile_y = quad_.tile_y0 + row;
   e.linear = at_.linear;
-  e.quadratic = at_.quadratic;
-  for (std::size_t k = 0; k < quadratic_count; ++k) e.quadratic[k].q = quad_.q[k];
+  e.quadratic = tile_context(quad_, column * tile_, row * tile_, drop_);
   return e;
 }
 

@@ -1,4 +1,5 @@
 // Twin of rtl/tile_walk.sv: three-valued coverage of a square of pixels, and the serpentine walk over blocks and tiles.
+// Linear functions alone are walked; a tile that is hit gets its quadratic ones from tile_context.
 //
 // The walk is one state machine that both models run: the clocked shell once per clock, the untimed model in a loop. A
 // step back subtracts what a step forth adds; forward differences of exact integers are reversible, so no row start is
@@ -39,21 +40,29 @@ inline ClauseResult inside_expression(const EdgeSign* e, unsigned visible) {
   return {p1 || p2, n1 || n2};
 }
 
-/// What tile_walk needs of a quad; constant while the quad is drawn.
+/// What the front needs of a quad; constant while the quad is drawn.
 struct QuadConstants {
   std::array<std::int64_t, linear_count> gx{}, gy{};
-  std::array<std::int64_t, quadratic_count> q{};
+  bool homogeneous = false;
+  std::array<RelativeVertex, 4> vertex{};             ///< SetupResult::vertex
+  std::array<std::uint64_t, linear_count> length2{};  ///< SetupResult::length2
   std::array<bool, 5> tie_pos{}, tie_neg{};
   unsigned visible = 0;
   int tile_x0 = 0, tile_y0 = 0, tiles_x = 0, tiles_y = 0;
 
   explicit QuadConstants(const SetupResult& s)
-      : visible(s.visible), tile_x0(s.tile_x0), tile_y0(s.tile_y0), tiles_x(s.tiles_x), tiles_y(s.tiles_y) {
+      : homogeneous(s.homogeneous),
+        vertex(s.vertex),
+        length2(s.length2),
+        visible(s.visible),
+        tile_x0(s.tile_x0),
+        tile_y0(s.tile_y0),
+        tiles_x(s.tiles_x),
+        tiles_y(s.tiles_y) {
     for (std::size_t k = 0; k < linear_count; ++k) {
       gx[k] = s.linear[k].gx;
       gy[k] = s.linear[k].gy;
     }
-    for (std::size_t k = 0; k < quadratic_count; ++k) q[k] = s.quadratic[k].q;
     for (std::size_t k = 0; k < 5; ++k) {
       tie_pos[k] = tie_positive(s.linear[k]);
       tie_neg[k] = tie_negative(s.linear[k]);
@@ -62,10 +71,9 @@ struct QuadConstants {
   QuadConstants() = default;
 };
 
-/// Values of all functions at one pixel, with the gradients that change on the way.
+/// Values of the linear functions at one pixel.
 struct WalkState {
   std::array<std::int64_t, linear_count> linear{};
-  std::array<QuadraticForm, quadratic_count> quadratic{};
 };
 
 /// False only when no pixel of the extent×extent square at the state's origin can be drawn.
@@ -81,7 +89,7 @@ class TileWalk {
 
   TileWalk() = default;
   TileWalk(const Config& config, const DrawState& state)
-      : tile_(config.tile()), cull_(state.cull), reject_(state.skip & skip_hierarchical_tiles) {}
+      : tile_(config.tile()), drop_(config.qdrop()), cull_(state.cull), reject_(state.skip & skip_hierarchical_tiles) {}
 
   State state() const { return state_; }
   const QuadConstants& constants() const { return quad_; }
@@ -103,6 +111,7 @@ class TileWalk {
   }
 
   int tile_ = 8;
+  int drop_ = 0;
   Cull cull_ = Cull::none;
   bool reject_ = true;
   State state_ = State::idle;

@@ -1,4 +1,5 @@
-// Takes stamps apart: one pixel a clock, lowest x first; an end entry becomes an end beat without a pixel.
+// Takes stamps apart: one pixel a clock, lowest x first; an end entry becomes an end beat without a pixel. A pixel of a homogeneous
+// quad goes in its three parts, one a clock (quadrille_pkg: PART_*); it is a pixel, valid, with the last.
 //
 // A pixel is sent only when a place of fragment_fifo is surely free, since the pipeline behind never waits: free places are counted here,
 // less one for each pixel sent, one more for each fragment handed over (freed_i) and each pixel discarded (discard_i). An end beat takes
@@ -14,6 +15,7 @@ module pixel_emit #(
     // Stamp FIFO head
     input logic head_valid_i,
     input logic head_end_i,
+    input logic head_homogeneous_i,
     input logic [RING:0] head_ptr_i,
     input logic [TILE_LOG2-1:0] head_row_i,
     input logic [TILE-1:0] head_mask_i,
@@ -26,6 +28,7 @@ module pixel_emit #(
     // Pixel
     output logic valid_o,
     output logic end_o,
+    output logic [1:0] part_o,
     output logic [RING:0] ptr_o,
     output logic [TILE_LOG2-1:0] row_o,
     output logic [TILE_LOG2-1:0] dx_o,
@@ -37,13 +40,17 @@ module pixel_emit #(
   logic [TILE-1:0] sent_q;
   logic [TILE-1:0] remaining, lowest;
   logic [TILE_LOG2-1:0] dx;
-  logic may_send, send;
+  logic [1:0] part, part_q;  // part_q: the one before, of a homogeneous quad's pixel
+  logic may_send, send_part, whole, send;
 
   assign remaining = head_mask_i & ~sent_q;
   assign lowest = remaining & (TILE'(0) - remaining);
   assign may_send = !spare_q[PLACES+1];
-  assign send = head_valid_i && !head_end_i && may_send;
-  assign pop_o = head_valid_i && (head_end_i || (may_send && remaining == lowest));
+  assign part = head_homogeneous_i ? part_q + 2'd1 : quadrille_pkg::PART_WHOLE;
+  assign whole = !head_homogeneous_i || part == quadrille_pkg::PART_SQUARES;
+  assign send_part = head_valid_i && !head_end_i && may_send;
+  assign send = send_part && whole;
+  assign pop_o = head_valid_i && (head_end_i || (may_send && whole && remaining == lowest));
 
   // Bit b of the place of a single one. (A loop that adds up dx would read what it writes: Icarus would repeat it for ever.)
   for (genvar b = 0; b < TILE_LOG2; b++) begin : gen_dx
@@ -58,12 +65,16 @@ module pixel_emit #(
     if (!rst_ni) begin
       spare_q <= (PLACES + 2)'((1 << PLACES) - 1);
       sent_q <= '0;
+      part_q <= quadrille_pkg::PART_WHOLE;
+      part_o <= quadrille_pkg::PART_WHOLE;
       valid_o <= 1'b0;
       end_o <= 1'b0;
     end else begin
       spare_q <= spare_q + (PLACES + 2)'(freed_i) + (PLACES + 2)'(discard_i) - (PLACES + 2)'(send);
       if (pop_o) sent_q <= '0;
       else if (send) sent_q <= sent_q | lowest;
+      if (send_part) part_q <= whole ? quadrille_pkg::PART_WHOLE : part;
+      part_o <= send_part ? part : quadrille_pkg::PART_WHOLE;
       valid_o <= send;
       end_o <= head_valid_i && head_end_i;
     end

@@ -21,6 +21,7 @@ module pixel_pipeline #(
     localparam int QVAL = quadrille_pkg::QVAL_BITS,
     localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
     localparam int QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int SETS = 3 + N
 ) (
@@ -31,9 +32,10 @@ module pixel_pipeline #(
     input logic [DB:0] znear_i,
     input logic [DB:0] zfar_i,
     input logic [3:0] attributes_i,
-    // Emission
+    // Emission. A homogeneous quad's pixel is valid with its last part
     input logic valid_i,
     input logic end_i,
+    input logic [1:0] part_i,
     input logic [SLOT-1:0] slot_i,
     input logic [V-1:0] x_i,
     input logic [V-1:0] y_i,
@@ -44,11 +46,13 @@ module pixel_pipeline #(
     input logic [6*VAL-1:0] lin_value_i,
     input logic [6*GRAD-1:0] lin_gx_i,
     input logic [6*GRAD-1:0] lin_gy_i,
-    input logic [10*QVAL-1:0] quad_value_i,
-    input logic [10*QGRAD-1:0] quad_gx_i,
-    input logic [10*QGRAD-1:0] quad_gy_i,
-    input logic [10*QCURV-1:0] quad_q_i,
+    input logic [4*QVAL-1:0] quad_value_i,
+    input logic [4*QGRAD-1:0] quad_gx_i,
+    input logic [4*QGRAD-1:0] quad_gy_i,
+    input logic [4*QCURV-1:0] quad_q_i,
     // Slot bank
+    output logic [SLOT-1:0] length2_slot_o,
+    input logic [6*LENGTH2-1:0] length2_i,
     output logic [SLOT-1:0] product_slot_o,
     input logic [3:0] product_k_neg_i,
     input logic [4*PE-1:0] product_k_exp_i,
@@ -178,8 +182,10 @@ module pixel_pipeline #(
   end
 
   // ---- Exact functions at the pixel --------------------------------------------------------------------------------------
-  logic [6*VAL-1:0] diff_a;
-  logic [10*QVAL-1:0] diff_quad;
+  localparam int DIFFERENCE = quadrille_pkg::FORWARD_DIFFERENCE_STAGES;
+  logic [6*VAL-1:0] a, diff_a;
+  logic [4*QVAL-1:0] quad, diff_r2;  // four quadratic functions of one part
+  logic [6*QVAL-1:0] diff_d;
   logic [2*OFFSET_DIGITS-1:0] row_digits, dx_digits;
   logic [2*NORM_DIGITS-1:0] norm_digits;
 
@@ -206,11 +212,11 @@ module pixel_pipeline #(
         .gx_i(lin_gx_i[g*GRAD+:GRAD]),
         .gy_i(lin_gy_i[g*GRAD+:GRAD]),
         .q_i(1'b0),
-        .value_o(diff_a[g*VAL+:VAL])
+        .value_o(a[g*VAL+:VAL])
     );
   end
 
-  for (genvar g = 0; g < 10; g++) begin : gen_quadratic
+  for (genvar g = 0; g < 4; g++) begin : gen_quadratic
     forward_difference #(
         .VALUE_BITS(QVAL),
         .GRAD_BITS(QGRAD),
@@ -224,9 +230,55 @@ module pixel_pipeline #(
         .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
         .gy_i(quad_gy_i[g*QGRAD+:QGRAD]),
         .q_i(quad_q_i[g*QCURV+:QCURV]),
-        .value_o(diff_quad[g*QVAL+:QVAL])
+        .value_o(quad[g*QVAL+:QVAL])
     );
   end
+
+  // The dot products: of an ordinary quad from the squared distances, of a homogeneous one those of the parts before.
+  // Both come to law_of_cosines a clock after the squared distances.
+  logic [1:0] part;
+  logic squares_q;
+  logic [6*LENGTH2-1:0] length2_q;
+  logic [6*QVAL-1:0] dot_q;
+
+  delay_line #(.WIDTH(2), .DEPTH(DIFFERENCE)) u_part (
+      .clk_i,
+      .data_i(part_i),
+      .data_o(part)
+  );
+  delay_line #(.WIDTH(SLOT), .DEPTH(DIFFERENCE)) u_length2_slot (
+      .clk_i,
+      .data_i(slot_i),
+      .data_o(length2_slot_o)
+  );
+
+  always_ff @(posedge clk_i) begin
+    squares_q <= part == quadrille_pkg::PART_SQUARES;
+    length2_q <= length2_i;
+    if (part == quadrille_pkg::PART_EDGES) dot_q[0+:4*QVAL] <= quad;
+    if (part == quadrille_pkg::PART_DIAGONALS) dot_q[4*QVAL+:2*QVAL] <= quad[0+:2*QVAL];
+  end
+
+  for (genvar g = 0; g < 6; g++) begin : gen_dot
+    localparam int I = {30'd0, quadrille_pkg::pair_first(4'(g))};
+    localparam int J = {30'd0, quadrille_pkg::pair_second(4'(g))};
+
+    law_of_cosines u_dot (
+        .clk_i,
+        .r2_first_i(quad[I*QVAL+:QVAL]),
+        .r2_second_i(quad[J*QVAL+:QVAL]),
+        .homogeneous_i(squares_q),
+        .exact_i(dot_q[g*QVAL+:QVAL]),
+        .length2_i(length2_q[g*LENGTH2+:LENGTH2]),
+        .d_o(diff_d[g*QVAL+:QVAL])
+    );
+  end
+
+  delay_line #(.WIDTH(6 * VAL + 4 * QVAL), .DEPTH(quadrille_pkg::LAW_OF_COSINES_STAGES)) u_diff (
+      .clk_i,
+      .data_i({a, quad}),
+      .data_o({diff_a, diff_r2})
+  );
 
   // ---- Significand numbers and class -------------------------------------------------------------------------------------
   logic [5:0] norm_a_neg, norm_d_neg;
@@ -250,7 +302,7 @@ module pixel_pipeline #(
 
     normalise #(.WIDTH(QVAL)) u_d (
         .clk_i,
-        .value_i(diff_quad[g*QVAL+:QVAL]),
+        .value_i(diff_d[g*QVAL+:QVAL]),
         .neg_o(norm_d_neg[g]),
         .exp_o(norm_d_exp[g*E+:E]),
         .sig_o(norm_d_sig[g*S+:S])
@@ -263,7 +315,7 @@ module pixel_pipeline #(
         .CLAMP(1'b1)
     ) u_r2 (
         .clk_i,
-        .value_i(diff_quad[(6+g)*QVAL+:QVAL]),
+        .value_i(diff_r2[g*QVAL+:QVAL]),
         .neg_o(norm_r2_neg[g]),
         .exp_o(norm_r2_exp[g*E+:E]),
         .sig_o(norm_r2_sig[g*S+:S])
@@ -273,8 +325,8 @@ module pixel_pipeline #(
   singular_class u_class (
       .clk_i,
       .a_i(diff_a[0+:4*VAL]),
-      .d_i(diff_quad[0+:4*QVAL]),
-      .r2_i(diff_quad[6*QVAL+:4*QVAL]),
+      .d_i(diff_d[0+:4*QVAL]),
+      .r2_i(diff_r2),
       .class_o(norm_class)
   );
 
@@ -424,7 +476,7 @@ module pixel_pipeline #(
 `ifdef QUADRILLE_PROBES
   // ---- Probes -------------------------------------------------------------------------------------------------------------
   assign probe_diff_valid_o = valid_q[DIFF];
-  assign probe_diff_o = {diff_tag, diff_a, diff_quad[0+:6*QVAL], diff_quad[6*QVAL+:4*QVAL]};
+  assign probe_diff_o = {diff_tag, diff_a, diff_d, diff_r2};
   assign probe_norm_valid_o = valid_q[NORM];
   assign probe_norm_o = {norm_class[12:9], norm_a_neg, norm_a_exp, norm_a_sig, norm_d_neg, norm_d_exp, norm_d_sig, norm_r2_exp, norm_r2_sig};
   assign probe_rsqrt_valid_o = valid_q[quadrille_pkg::RHO_STAGE];

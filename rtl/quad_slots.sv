@@ -1,18 +1,17 @@
 // The quad slots: allocation, and everything that a pixel needs to know about its quad, read by slot index.
 //
 // Two banks. Vertex bank, written at start: id, k_eff (k, or W without perspective), W, Z, b as significand numbers with port
-// exponents. Function bank, written at take: gx, gy and tie signs of the linear and q of the quadratic functions, visibility, hull,
+// exponents. Function bank, written at take: gx, gy and tie signs of the linear functions, squared lengths, visibility, hull,
 // homogeneous.
 // Reads of the front end end in registers, those of the pixel pipeline are combinational; a slot lives from start until the end beat leaves the pipeline. Not reset, except the pointers.
 module quad_slots #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
     localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
     localparam int AP = quadrille_pkg::ATTR_PORT_BITS,
     localparam int ID = quadrille_pkg::QUAD_ID_BITS,
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
 ) (
     input logic clk_i,
@@ -26,7 +25,9 @@ module quad_slots #(
     // Vertex bank, written at start
     input logic perspective_i,
     input logic [ID-1:0] id_i,
-    input logic [4*W-1:0] w_i,
+    input logic [3:0] w_neg_i,
+    input logic [4*PE-1:0] w_exp_i,
+    input logic [4*S-1:0] w_sig_i,
     input logic [4*PE-1:0] k_exp_i,
     input logic [4*S-1:0] k_sig_i,
     input logic [3:0] z_neg_i,
@@ -38,7 +39,7 @@ module quad_slots #(
     input logic [SLOT-1:0] take_slot_i,
     input logic [6*GRAD-1:0] lin_gx_i,
     input logic [6*GRAD-1:0] lin_gy_i,
-    input logic [10*QCURV-1:0] quad_q_i,
+    input logic [6*LENGTH2-1:0] length2_i,
     input logic [4:0] tie_pos_i,
     input logic [4:0] tie_neg_i,
     input logic [3:0] visible_i,
@@ -56,7 +57,9 @@ module quad_slots #(
     input logic [SLOT-1:0] emit_slot_i,
     output logic [6*GRAD-1:0] emit_gx_o,
     output logic [6*GRAD-1:0] emit_gy_o,
-    output logic [10*QCURV-1:0] emit_q_o,
+    // Read for the dot products of an ordinary quad
+    input logic [SLOT-1:0] length2_slot_i,
+    output logic [6*LENGTH2-1:0] length2_o,
     // Read of k_eff for the weights' products and for the overrides
     input logic [SLOT-1:0] product_slot_i,
     output logic [3:0] product_k_neg_o,
@@ -77,8 +80,6 @@ module quad_slots #(
     output logic output_homogeneous_o
 );
   localparam int SLOTS = 1 << SLOT;
-  localparam logic [quadrille_pkg::EXP_BITS-1:0] W_BIAS =
-      quadrille_pkg::EXP_BITS'(0) - quadrille_pkg::EXP_BITS'(quadrille_pkg::FRAC);
 
   // ---- Allocation ---------------------------------------------------------------------------------------------------------
   logic [SLOT-1:0] alloc_q;
@@ -100,32 +101,13 @@ module quad_slots #(
 
   // ---- Vertex bank: one memory per vertex and term set --------------------------------------------------------------------
   for (genvar v = 0; v < 4; v++) begin : gen_vertex
-    logic w_neg, k_neg;
-    logic [W-1:0] w_magnitude;
-    logic [PE-1:0] w_exp_port, k_exp;
-    logic [quadrille_pkg::EXP_BITS-1:0] w_exp;
-    logic [S-1:0] w_sig, k_sig;
+    logic k_neg;
+    logic [PE-1:0] k_exp;
+    logic [S-1:0] k_sig;
 
-    assign w_neg = w_i[v*W+W-1];
-    assign w_magnitude = w_neg ? W'(0) - w_i[v*W+:W] : w_i[v*W+:W];
-    assign w_exp_port = w_exp[PE-1:0];  // -FRAC..0: fits
-    logic unused;
-    assign unused = ^w_exp[quadrille_pkg::EXP_BITS-1:PE];
-
-    fp_normalise #(
-        .WIDTH(W),
-        .REGISTERED(1'b0)
-    ) u_w (
-        .clk_i,
-        .magnitude_i(w_magnitude),
-        .bias_i(W_BIAS),
-        .exp_o(w_exp),
-        .sig_o(w_sig)
-    );
-
-    assign k_neg = perspective_i ? 1'b0 : w_neg;
-    assign k_exp = perspective_i ? k_exp_i[v*PE+:PE] : w_exp_port;
-    assign k_sig = perspective_i ? k_sig_i[v*S+:S] : w_sig;
+    assign k_neg = perspective_i ? 1'b0 : w_neg_i[v];
+    assign k_exp = perspective_i ? k_exp_i[v*PE+:PE] : w_exp_i[v*PE+:PE];
+    assign k_sig = perspective_i ? k_sig_i[v*S+:S] : w_sig_i[v*S+:S];
 
     for (genvar t = 0; t < 3 + N; t++) begin : gen_term
       localparam int WORD = 1 + PE + S;
@@ -145,7 +127,7 @@ module quad_slots #(
         logic unused_neg;
         assign unused_neg = override_word[WORD-1];  // magnitude only
       end else if (t == 1) begin : gen_w
-        assign write_word = {w_neg, w_exp_port, w_sig};
+        assign write_word = {w_neg_i[v], w_exp_i[v*PE+:PE], w_sig_i[v*S+:S]};
       end else if (t == 2) begin : gen_z
         assign write_word = {z_neg_i[v], z_exp_i[v*PE+:PE], z_sig_i[v*S+:S]};
       end else begin : gen_b
@@ -191,14 +173,11 @@ module quad_slots #(
     end
   end
 
-  for (genvar g = 0; g < 10; g++) begin : gen_quadratic
-    logic [QCURV-1:0] curv_q[0:SLOTS-1];
+  logic [6*LENGTH2-1:0] length2_q[0:SLOTS-1];
 
-    always_ff @(posedge clk_i) begin
-      if (take_i) curv_q[take_slot_i] <= quad_q_i[g*QCURV+:QCURV];
-      emit_q_o[g*QCURV+:QCURV] <= curv_q[emit_slot_i];
-    end
-  end
+  always_ff @(posedge clk_i) if (take_i) length2_q[take_slot_i] <= length2_i;
+
+  assign length2_o = length2_q[length2_slot_i];
 
   logic [13:0] stamp_q[0:SLOTS-1];
   logic [1:0] class_q[0:SLOTS-1];

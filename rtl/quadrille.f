@@ -18,6 +18,7 @@ fp_term.sv
 fragment_fifo.sv
 fragment_output.sv
 interpolate.sv
+law_of_cosines.sv
 mean_value_ratios.sv
 mean_value_weights.sv
 normalise.sv
@@ -39,6 +40,8 @@ small_multiply.sv
 stamp_coverage.sv
 sync_fifo.sv
 table_polynomial.sv
+tile_context.sv
 tile_ring.sv
 tile_walk.sv
 vertex_assembly.sv
+vertex_products.sv

@@ -1,6 +1,7 @@
 // Quadrille: rasterizer whose primitive is the quadrilateral, with mean value coordinates. Top level: wiring only.
 //
 //     vertex_assembly -> quad_setup -> tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit -> pixel_pipeline -> fragment_fifo
+//                             \____ vertex_products ____ tile_context __/
 //
 // Number formats, ports and clocks: README.md. Both streams are valid/ready: valid never depends on ready, payload is stable while
 // valid and not ready. state_i is static while busy_o. The pixel pipeline never waits: pixel_emit counts the
@@ -53,6 +54,9 @@ module quadrille (
   localparam int QVAL = quadrille_pkg::QVAL_BITS;
   localparam int QGRAD = quadrille_pkg::QGRAD_BITS;
   localparam int QCURV = quadrille_pkg::QCURV_BITS;
+  localparam int RISE = quadrille_pkg::RISE_BITS;
+  localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS;
+  localparam int OUT = quadrille_pkg::DOT_OUT_BITS;
   localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2;
   localparam int RING = quadrille_pkg::RING_LOG2;
   localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
@@ -88,6 +92,9 @@ module quadrille (
   logic [4*T-1:0] quad_x, quad_y;
   logic [4*W-1:0] quad_w;
   logic quad_ordinary;
+  logic [3:0] quad_w_neg;
+  logic [4*PE-1:0] quad_w_exp;
+  logic [4*S-1:0] quad_w_sig;
   logic [T-1:0] quad_low_x, quad_high_x, quad_low_y, quad_high_y;
   logic [4*PE-1:0] quad_k_exp, quad_z_exp;
   logic [4*S-1:0] quad_k_sig, quad_z_sig;
@@ -107,6 +114,9 @@ module quadrille (
       .x_o(quad_x),
       .y_o(quad_y),
       .w_o(quad_w),
+      .w_neg_o(quad_w_neg),
+      .w_exp_o(quad_w_exp),
+      .w_sig_o(quad_w_sig),
       .ordinary_o(quad_ordinary),
       .low_x_o(quad_low_x),
       .high_x_o(quad_high_x),
@@ -120,7 +130,18 @@ module quadrille (
       .attr_o(quad_attr)
   );
 
-  // ---- Setup --------------------------------------------------------------------------------------------------------------
+  // ---- Setup, and the multipliers that it shares with the tiles -----------------------------------------------------------
+  logic context_job;
+  logic [2:0] setup_kind, context_kind;
+  logic [3:0] setup_function, context_function;
+  logic [4*T-1:0] setup_job_x, setup_job_y, context_x, context_y;
+  logic [4*W-1:0] setup_job_w, context_w;
+  logic [V:0] offset_x, offset_y;
+  logic [VAL-1:0] edge_value;
+  logic [GRAD-1:0] edge_gx, edge_gy;
+  logic [T-1:0] xi, yi, xj, yj;
+  logic [RISE-1:0] apart_x, apart_y;
+  logic [OUT-1:0] result0, result1;
   logic setup_idle, setup_done, take;
   logic slot_available, slots_busy, fragments_busy, slot_release, stamp_load;
   logic [SLOT-1:0] alloc_slot, setup_slot;
@@ -131,9 +152,9 @@ module quadrille (
   logic [6*GRAD-1:0] setup_lin_gx, setup_lin_gy;
   logic [4:0] setup_tie_pos, setup_tie_neg;
   logic [5*REACH-1:0] setup_fall_tile, setup_rise_tile, setup_fall_block, setup_rise_block;
-  logic [10*QVAL-1:0] setup_quad_value;
-  logic [10*QGRAD-1:0] setup_quad_gx, setup_quad_gy;
-  logic [10*QCURV-1:0] setup_quad_q;
+  logic [6*LENGTH2-1:0] setup_length2;
+  logic [4*T-1:0] setup_x, setup_y;
+  logic [4*W-1:0] setup_w;
 
   assign start = full && setup_idle && slot_available;
   assign busy_o = assembly_busy || slots_busy || fragments_busy;
@@ -156,6 +177,19 @@ module quadrille (
       .scissor_x1_i(state.scissor_x1),
       .scissor_y1_i(state.scissor_y1),
       .idle_o(setup_idle),
+      .wait_i(context_job),
+      .kind_o(setup_kind),
+      .function_o(setup_function),
+      .x_o(setup_job_x),
+      .y_o(setup_job_y),
+      .w_o(setup_job_w),
+      .edge_value_o(edge_value),
+      .edge_gx_o(edge_gx),
+      .edge_gy_o(edge_gy),
+      .apart_x_i(apart_x),
+      .apart_y_i(apart_y),
+      .result0_i(result0),
+      .result1_i(result1),
       .take_i(take),
       .done_o(setup_done),
       .slot_o(setup_slot),
@@ -175,10 +209,38 @@ module quadrille (
       .rise_tile_o(setup_rise_tile),
       .fall_block_o(setup_fall_block),
       .rise_block_o(setup_rise_block),
-      .quad_value_o(setup_quad_value),
-      .quad_gx_o(setup_quad_gx),
-      .quad_gy_o(setup_quad_gy),
-      .quad_q_o(setup_quad_q)
+      .length2_o(setup_length2),
+      .vertex_x_o(setup_x),
+      .vertex_y_o(setup_y),
+      .vertex_w_o(setup_w)
+  );
+
+  vertex_products u_products (
+      .clk_i,
+      .tile_valid_i(context_job),
+      .tile_kind_i(context_kind),
+      .tile_function_i(context_function),
+      .tile_x_i(context_x),
+      .tile_y_i(context_y),
+      .tile_w_i(context_w),
+      .offset_x_i(offset_x),
+      .offset_y_i(offset_y),
+      .setup_kind_i(setup_kind),
+      .setup_function_i(setup_function),
+      .setup_x_i(setup_job_x),
+      .setup_y_i(setup_job_y),
+      .setup_w_i(setup_job_w),
+      .edge_value_i(edge_value),
+      .edge_gx_i(edge_gx),
+      .edge_gy_i(edge_gy),
+      .xi_o(xi),
+      .yi_o(yi),
+      .xj_o(xj),
+      .yj_o(yj),
+      .apart_x_o(apart_x),
+      .apart_y_o(apart_y),
+      .result0_o(result0),
+      .result1_o(result1)
   );
 
   // ---- Quad slots ---------------------------------------------------------------------------------------------------------
@@ -187,7 +249,8 @@ module quadrille (
   logic [4:0] stamp_tie_pos, stamp_tie_neg;
   logic [3:0] stamp_visible;
   logic [6*GRAD-1:0] emit_gx, emit_gy;
-  logic [10*QCURV-1:0] emit_q;
+  logic [SLOT-1:0] length2_slot;
+  logic [6*LENGTH2-1:0] length2;
   logic [3:0] product_k_neg;
   logic [4*PE-1:0] product_k_exp, override_k_exp;
   logic [4*S-1:0] product_k_sig, override_k_sig;
@@ -207,7 +270,9 @@ module quadrille (
       .busy_o(slots_busy),
       .perspective_i(state.perspective),
       .id_i(quad_id),
-      .w_i(quad_w),
+      .w_neg_i(quad_w_neg),
+      .w_exp_i(quad_w_exp),
+      .w_sig_i(quad_w_sig),
       .k_exp_i(quad_k_exp),
       .k_sig_i(quad_k_sig),
       .z_neg_i(quad_z_neg),
@@ -218,7 +283,7 @@ module quadrille (
       .take_slot_i(setup_slot),
       .lin_gx_i(setup_lin_gx),
       .lin_gy_i(setup_lin_gy),
-      .quad_q_i(setup_quad_q),
+      .length2_i(setup_length2),
       .tie_pos_i(setup_tie_pos),
       .tie_neg_i(setup_tie_neg),
       .visible_i(visible),
@@ -234,7 +299,8 @@ module quadrille (
       .emit_slot_i(tag_slot),
       .emit_gx_o(emit_gx),
       .emit_gy_o(emit_gy),
-      .emit_q_o(emit_q),
+      .length2_slot_i(length2_slot),
+      .length2_o(length2),
       .product_slot_i(product_slot),
       .product_k_neg_o(product_k_neg),
       .product_k_exp_o(product_k_exp),
@@ -253,12 +319,10 @@ module quadrille (
   );
 
   // ---- Walk ---------------------------------------------------------------------------------------------------------------
-  logic ring_full, tile_push, tile_end;
+  logic ring_full, context_ready, tile_push, tile_end, tile_homogeneous;
   logic [SLOT-1:0] tile_slot;
-  logic [TC-1:0] tile_x, tile_y;
+  logic [TC-1:0] tile_x, tile_y, tile_column, tile_row;
   logic [6*VAL-1:0] tile_lin_value;
-  logic [10*QVAL-1:0] tile_quad_value;
-  logic [10*QGRAD-1:0] tile_quad_gx, tile_quad_gy;
 
   tile_walk u_walk (
       .clk_i,
@@ -280,49 +344,110 @@ module quadrille (
       .rise_tile_i(setup_rise_tile),
       .fall_block_i(setup_fall_block),
       .rise_block_i(setup_rise_block),
-      .quad_value_i(setup_quad_value),
-      .quad_gx_i(setup_quad_gx),
-      .quad_gy_i(setup_quad_gy),
-      .quad_q_i(setup_quad_q),
-      .ring_full_i(ring_full),
+      .ready_i(context_ready && !ring_full),
       .push_o(tile_push),
       .end_o(tile_end),
       .slot_o(tile_slot),
       .tile_x_o(tile_x),
       .tile_y_o(tile_y),
-      .lin_value_o(tile_lin_value),
-      .quad_value_o(tile_quad_value),
-      .quad_gx_o(tile_quad_gx),
-      .quad_gy_o(tile_quad_gy)
+      .column_o(tile_column),
+      .row_o(tile_row),
+      .lin_value_o(tile_lin_value)
+  );
+
+  // ---- Quadratic functions of a tile --------------------------------------------------------------------------------------
+  logic [RING-1:0] tile_entry, value_entry, gradient_entry, q_entry;
+  logic [3:0] value_write, gradient_write, q_write;
+  logic [2*QVAL-1:0] word_value;
+  logic [2*QGRAD-1:0] word_gx, word_gy;
+  logic [QCURV-1:0] word_q;
+  logic complete, complete_homogeneous;
+
+  tile_context u_context (
+      .clk_i,
+      .rst_ni,
+      .take_i(take),
+      .homogeneous_i(homogeneous),
+      .x_i(setup_x),
+      .y_i(setup_y),
+      .w_i(setup_w),
+      .homogeneous_o(tile_homogeneous),
+      .push_i(tile_push),
+      .ready_o(context_ready),
+      .end_i(tile_end),
+      .column_i(tile_column),
+      .row_i(tile_row),
+      .entry_i(tile_entry),
+      .job_valid_o(context_job),
+      .kind_o(context_kind),
+      .function_o(context_function),
+      .x_o(context_x),
+      .y_o(context_y),
+      .w_o(context_w),
+      .offset_x_o(offset_x),
+      .offset_y_o(offset_y),
+      .xi_i(xi),
+      .yi_i(yi),
+      .xj_i(xj),
+      .yj_i(yj),
+      .result0_i(result0),
+      .result1_i(result1),
+      .value_write_o(value_write),
+      .value_entry_o(value_entry),
+      .value_o(word_value),
+      .gradient_write_o(gradient_write),
+      .gradient_entry_o(gradient_entry),
+      .gx_o(word_gx),
+      .gy_o(word_gy),
+      .q_write_o(q_write),
+      .q_entry_o(q_entry),
+      .q_o(word_q),
+      .complete_o(complete),
+      .complete_homogeneous_o(complete_homogeneous)
   );
 
   // ---- Tile ring ----------------------------------------------------------------------------------------------------------
   logic [RING:0] fetch_ptr, load_ptr, stamp_ptr, head_ptr, emit_ptr;
-  logic stamp_present, stamp_end, stamps_empty, head_valid, fetch;
+  logic stamp_present, stamp_end, stamp_homogeneous, stamps_empty, head_valid, fetch, fetch_homogeneous;
   logic emit_valid, emit_end;
+  logic [1:0] emit_part;
   logic [TC-1:0] stamp_tile_x, stamp_tile_y, emit_tile_x, emit_tile_y;
   logic [5*VAL-1:0] stamp_lin_value;
   logic [6*VAL-1:0] emit_lin_value;
-  logic [10*QVAL-1:0] emit_quad_value;
-  logic [10*QGRAD-1:0] emit_quad_gx, emit_quad_gy;
+  logic [4*QVAL-1:0] emit_quad_value;
+  logic [4*QGRAD-1:0] emit_quad_gx, emit_quad_gy;
+  logic [4*QCURV-1:0] emit_quad_q;
 
   tile_ring u_ring (
       .clk_i,
       .rst_ni,
       .push_i(tile_push),
       .full_o(ring_full),
+      .entry_o(tile_entry),
       .end_i(tile_end),
+      .homogeneous_i(tile_homogeneous),
       .slot_i(tile_slot),
       .tile_x_i(tile_x),
       .tile_y_i(tile_y),
       .lin_value_i(tile_lin_value),
-      .quad_value_i(tile_quad_value),
-      .quad_gx_i(tile_quad_gx),
-      .quad_gy_i(tile_quad_gy),
+      .value_write_i(value_write),
+      .value_entry_i(value_entry),
+      .value_i(word_value),
+      .gradient_write_i(gradient_write),
+      .gradient_entry_i(gradient_entry),
+      .gx_i(word_gx),
+      .gy_i(word_gy),
+      .q_write_i(q_write),
+      .q_entry_i(q_entry),
+      .q_i(word_q),
+      .complete_i(complete),
+      .complete_homogeneous_i(complete_homogeneous),
       .fetch_i(fetch),
       .fetch_ptr_i(fetch_ptr),
       .stamp_present_o(stamp_present),
+      .fetch_homogeneous_o(fetch_homogeneous),
       .stamp_end_o(stamp_end),
+      .stamp_homogeneous_o(stamp_homogeneous),
       .stamp_slot_o(stamp_slot),
       .stamp_tile_x_o(stamp_tile_x),
       .stamp_tile_y_o(stamp_tile_y),
@@ -335,6 +460,7 @@ module quadrille (
       .head_ptr_i(head_ptr),
       .emit_valid_i(emit_valid),
       .emit_ptr_i(emit_ptr),
+      .emit_part_i(emit_part),
       .tag_slot_o(tag_slot),
       .emit_slot_o(emit_slot),
       .emit_tile_x_o(emit_tile_x),
@@ -342,7 +468,12 @@ module quadrille (
       .emit_lin_value_o(emit_lin_value),
       .emit_quad_value_o(emit_quad_value),
       .emit_quad_gx_o(emit_quad_gx),
-      .emit_quad_gy_o(emit_quad_gy)
+      .emit_quad_gy_o(emit_quad_gy),
+`ifdef QUADRILLE_PROBES
+      .probe_tile_valid_o,
+      .probe_tile_o,
+`endif
+      .emit_quad_q_o(emit_quad_q)
   );
 
   // ---- Coverage and its FIFO ----------------------------------------------------------------------------------------------
@@ -351,7 +482,7 @@ module quadrille (
   logic [TILE_LOG2-1:0] stamp_row, head_row;
   logic [TILE-1:0] stamp_mask, stamp_front, stamp_tie;
   logic [TILE-1:0] head_mask, head_front, head_tie;
-  logic head_end;
+  logic head_end, stamp_push_homogeneous, head_homogeneous;
   logic [STAMP-1:0] stamp;
 
   stamp_coverage u_coverage (
@@ -365,7 +496,9 @@ module quadrille (
       .present_i(stamp_present),
       .fetch_o(fetch),
       .fetch_ptr_o(fetch_ptr),
+      .fetch_homogeneous_i(fetch_homogeneous),
       .end_i(stamp_end),
+      .homogeneous_i(stamp_homogeneous),
       .tile_x_i(stamp_tile_x),
       .tile_y_i(stamp_tile_y),
       .load_o(stamp_load),
@@ -379,6 +512,7 @@ module quadrille (
       .freed_i(pop),
       .push_o(stamp_push),
       .end_o(stamp_push_end),
+      .homogeneous_o(stamp_push_homogeneous),
       .stamp_ptr_o(stamp_ptr),
       .row_o(stamp_row),
       .mask_o(stamp_mask),
@@ -389,26 +523,27 @@ module quadrille (
   assign stamp = {stamp_push_end, stamp_ptr, stamp_row, stamp_mask, stamp_front, stamp_tie};
 
   sync_fifo #(
-      .WIDTH(STAMP),
+      .WIDTH(1 + STAMP),
       .DEPTH(quadrille_pkg::STAMP_PLACES)
   ) u_fifo (
       .clk_i,
       .rst_ni,
       .push_i(stamp_push),
-      .data_i(stamp),
+      .data_i({stamp_push_homogeneous, stamp}),
       .pop_i(pop),
       .empty_o(stamps_empty),
       .valid_o(head_valid),
-      .data_o({head_end, head_ptr, head_row, head_mask, head_front, head_tie})
+      .data_o({head_homogeneous, head_end, head_ptr, head_row, head_mask, head_front, head_tie})
   );
 
   // ---- Pixels -------------------------------------------------------------------------------------------------------------
-  localparam int PIXEL = 2 + 2 * TILE_LOG2 + 2;  // {valid, end, row, dx, front, tie}
+  localparam int PIXEL = 2 + 2 + 2 * TILE_LOG2 + 2;  // {valid, end, part, row, dx, front, tie}
   logic emit_front, emit_tie;
   logic freed, discard, drawn;
   logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
   logic [TILE_LOG2-1:0] emit_row, emit_dx;
   logic pixel_valid, pixel_end, pixel_front, pixel_tie;
+  logic [1:0] pixel_part;
   logic [TILE_LOG2-1:0] pixel_row, pixel_dx;
 
   pixel_emit u_emit (
@@ -416,6 +551,7 @@ module quadrille (
       .rst_ni,
       .head_valid_i(head_valid),
       .head_end_i(head_end),
+      .head_homogeneous_i(head_homogeneous),
       .head_ptr_i(head_ptr),
       .head_row_i(head_row),
       .head_mask_i(head_mask),
@@ -426,6 +562,7 @@ module quadrille (
       .discard_i(discard),
       .valid_o(emit_valid),
       .end_o(emit_end),
+      .part_o(emit_part),
       .ptr_o(emit_ptr),
       .row_o(emit_row),
       .dx_o(emit_dx),
@@ -438,10 +575,10 @@ module quadrille (
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) pixel_q <= '0;
-    else pixel_q <= {pixel_q[PIXEL-1:0], emit_valid, emit_end, emit_row, emit_dx, emit_front, emit_tie};
+    else pixel_q <= {pixel_q[PIXEL-1:0], emit_valid, emit_end, emit_part, emit_row, emit_dx, emit_front, emit_tie};
   end
 
-  assign {pixel_valid, pixel_end, pixel_row, pixel_dx, pixel_front, pixel_tie} = pixel_q[2*PIXEL-1:PIXEL];
+  assign {pixel_valid, pixel_end, pixel_part, pixel_row, pixel_dx, pixel_front, pixel_tie} = pixel_q[2*PIXEL-1:PIXEL];
 
   pixel_pipeline u_pipeline (
       .clk_i,
@@ -452,6 +589,7 @@ module quadrille (
       .attributes_i(state.attributes),
       .valid_i(pixel_valid),
       .end_i(pixel_end),
+      .part_i(pixel_part),
       .slot_i(emit_slot),
       .x_i(V'({emit_tile_x, pixel_dx})),
       .y_i(V'({emit_tile_y, pixel_row})),
@@ -465,7 +603,9 @@ module quadrille (
       .quad_value_i(emit_quad_value),
       .quad_gx_i(emit_quad_gx),
       .quad_gy_i(emit_quad_gy),
-      .quad_q_i(emit_q),
+      .quad_q_i(emit_quad_q),
+      .length2_slot_o(length2_slot),
+      .length2_i(length2),
       .product_slot_o(product_slot),
       .product_k_neg_i(product_k_neg),
       .product_k_exp_i(product_k_exp),
@@ -531,17 +671,7 @@ module quadrille (
     setup_lin_value,
     setup_lin_gx,
     setup_lin_gy,
-    setup_quad_value,
-    setup_quad_gx,
-    setup_quad_gy,
-    setup_quad_q
-  };
-  assign probe_tile_valid_o = tile_push;
-  localparam int TILE_CONTEXT = 2 * TC + 6 * VAL + 10 * QVAL + 20 * QGRAD;
-  assign probe_tile_o = {  // an end entry's context means nothing
-    tile_end,
-    tile_slot,
-    tile_end ? TILE_CONTEXT'(0) : {tile_x, tile_y, tile_lin_value, tile_quad_value, tile_quad_gx, tile_quad_gy}
+    setup_length2
   };
   assign probe_stamp_valid_o = stamp_push;
   assign probe_stamp_o = stamp;

@@ -130,6 +130,10 @@ package quadrille_pkg;
   localparam int QVAL_BITS /*verilator public*/ = VAL_BITS - QDROP;
   localparam int QGRAD_BITS /*verilator public*/ = GRAD_BITS - QDROP;
   localparam int QCURV_BITS /*verilator public*/ = CURV_BITS - QDROP;
+  // unsigned |V - V'|^2: two squares of at most twice a position
+  localparam int LENGTH2_BITS /*verilator public*/ = 2 * (POS_INT + FRAC) + 4 - QDROP;
+  // signed difference of two positions
+  localparam int RISE_BITS /*verilator public*/ = T_BITS + 1;
   // signed exponents inside: products of seven ratios >= 2^-64 and a port exponent stay within +-2^11
   localparam int EXP_BITS /*verilator public*/ = 12;
   // signed exponents of k, Z, b at the port
@@ -166,9 +170,32 @@ package quadrille_pkg;
   // whether they are covered
   localparam int STAMP_PLACES /*verilator public*/ = (1 << STAMP_FIFO_LOG2) + 4;
 
+  // ---- Jobs of vertex_products --------------------------------------------------------------------------------------------
+  localparam logic [2:0] EDGE = 3'd0;
+  localparam logic [2:0] EDGE_GRADIENT = 3'd1;
+  localparam logic [2:0] DOT = 3'd2;
+  localparam logic [2:0] DOT_GRADIENT = 3'd3;
+  localparam logic [2:0] SQUARES = 3'd4;
+  localparam logic [2:0] MOVE = 3'd5;
+  localparam logic [2:0] DET_VALUE = 3'd6;
+  localparam logic [2:0] DET_GRADIENT = 3'd7;
+  // from a job to its results: pair, operands, partial products, their middle ones, products, result
+  localparam int VERTEX_PRODUCT_CLOCKS /*verilator public*/ = 6;
+
+  // ---- Parts of a pixel ---------------------------------------------------------------------------------------------------
+  // A pixel of an ordinary quad is whole. One of a homogeneous quad comes in three parts, one a clock, with four quadratic functions
+  // each: the dot products of the edges, of the diagonals, then the squared distances, with which it is a pixel. In the tile ring the
+  // word of a part is so many entries behind the tile's (squares: none).
+  localparam logic [1:0] PART_WHOLE = 2'd0;
+  localparam logic [1:0] PART_EDGES = 2'd1;
+  localparam logic [1:0] PART_DIAGONALS = 2'd2;
+  localparam logic [1:0] PART_SQUARES = 2'd3;
+  localparam int HOMOGENEOUS_PARTS /*verilator public*/ = 3;
+
   // ---- Latency of the pixel pipeline (README.md section 5, model/latency.hpp) ----------------------------------------------
   // Clocks from a unit's inputs to its outputs.
   localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = 3;  // row, column, bend
+  localparam int LAW_OF_COSINES_STAGES /*verilator public*/ = 2;  // sum, difference
   localparam int FP_NORMALISE_STAGES /*verilator public*/ = 2;  // long shifts, short shifts
   localparam int NORMALISE_STAGES /*verilator public*/ = 1 + FP_NORMALISE_STAGES;  // magnitude
   localparam int RSQRT_STAGES /*verilator public*/ = 4;  // table, inner product, outer product, clamp
@@ -180,7 +207,7 @@ package quadrille_pkg;
   localparam int FIXED_POINT_STAGES /*verilator public*/ = 2;  // distance, shift
   localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + FIXED_POINT_STAGES + 2;  // sign and limits, output
   // Registers at the boundaries; register 0 is written by the edge that ends the clock in which the pixel is at the input.
-  localparam int DIFF_STAGE /*verilator public*/ = FORWARD_DIFFERENCE_STAGES - 1;
+  localparam int DIFF_STAGE /*verilator public*/ = FORWARD_DIFFERENCE_STAGES + LAW_OF_COSINES_STAGES - 1;
   localparam int NORM_STAGE /*verilator public*/ = DIFF_STAGE + NORMALISE_STAGES;
   localparam int RHO_STAGE /*verilator public*/ = NORM_STAGE + RSQRT_STAGES;
   // rho rho', its products with A and D, 1 + c, which of the two is n
@@ -221,10 +248,7 @@ package quadrille_pkg;
     logic [6*VAL_BITS-1:0] lin_value;
     logic [6*GRAD_BITS-1:0] lin_gx;
     logic [6*GRAD_BITS-1:0] lin_gy;
-    logic [10*QVAL_BITS-1:0] quad_value;
-    logic [10*QGRAD_BITS-1:0] quad_gx;
-    logic [10*QGRAD_BITS-1:0] quad_gy;
-    logic [10*QCURV_BITS-1:0] quad_q;
+    logic [6*LENGTH2_BITS-1:0] length2;
   } probe_setup_t;
 
   typedef struct packed {
@@ -236,6 +260,7 @@ package quadrille_pkg;
     logic [10*QVAL_BITS-1:0] quad_value;
     logic [10*QGRAD_BITS-1:0] quad_gx;
     logic [10*QGRAD_BITS-1:0] quad_gy;
+    logic [10*QCURV_BITS-1:0] quad_q;
   } probe_tile_t;
 
   typedef struct packed {

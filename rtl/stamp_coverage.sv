@@ -27,7 +27,9 @@ module stamp_coverage #(
     input logic present_i,
     output logic fetch_o,
     output logic [RING:0] fetch_ptr_o,
+    input logic fetch_homogeneous_i,  // of the entry at fetch_ptr_o
     input logic end_i,
+    input logic homogeneous_i,
     input logic [TC-1:0] tile_x_i,
     input logic [TC-1:0] tile_y_i,
     // Tile ring and quad: values and constants are there the clock after load_o, until the next
@@ -43,6 +45,7 @@ module stamp_coverage #(
     input logic freed_i,
     output logic push_o,
     output logic end_o,
+    output logic homogeneous_o,
     output logic [RING:0] stamp_ptr_o,  // no row of an entry before this one is still to come
     output logic [TILE_LOG2-1:0] row_o,
     output logic [TILE-1:0] mask_o,
@@ -50,10 +53,11 @@ module stamp_coverage #(
     output logic [TILE-1:0] tie_o
 );
   // ---- Control ------------------------------------------------------------------------------------------------------------
+  localparam logic [RING:0] PARTS = (RING + 1)'(quadrille_pkg::HOMOGENEOUS_PARTS);
   logic [RING:0] fetch_q, load_q, row_ptr_q;
   logic tag_valid_q, context_valid_q, rows_valid_q;
   logic rows_load, rows_done, issue;
-  logic context_end_q, rows_end_q;
+  logic context_end_q, rows_end_q, context_homogeneous_q, rows_homogeneous_q;
   logic [TILE_LOG2-1:0] row_q;
   localparam int ROOM = $clog2(PLACES + 1);
   logic [ROOM-1:0] room_q;  // places of the FIFO that no stamp has, nor a row on its way
@@ -78,9 +82,9 @@ module stamp_coverage #(
       freed_q <= 1'b0;
       room_q <= ROOM'(PLACES);
     end else begin
-      if (fetch_o) fetch_q <= fetch_q + (RING + 1)'(1);
-      if (load_o) load_q <= load_q + (RING + 1)'(1);
-      if (rows_done) row_ptr_q <= row_ptr_q + (RING + 1)'(1);
+      if (fetch_o) fetch_q <= fetch_q + (fetch_homogeneous_i ? PARTS : (RING + 1)'(1));
+      if (load_o) load_q <= load_q + (homogeneous_i ? PARTS : (RING + 1)'(1));
+      if (rows_done) row_ptr_q <= row_ptr_q + (rows_homogeneous_q ? PARTS : (RING + 1)'(1));
       tag_valid_q <= fetch_o || (tag_valid_q && !load_o);
       context_valid_q <= load_o || (context_valid_q && !rows_load);
       rows_valid_q <= rows_load || (rows_valid_q && !rows_done);
@@ -94,9 +98,9 @@ module stamp_coverage #(
   logic [3:0] visible_q;
 
   always_ff @(posedge clk_i) begin
-    if (load_o) {context_end_q, context_x_q, context_y_q} <= {end_i, tile_x_i, tile_y_i};
+    if (load_o) {context_end_q, context_homogeneous_q, context_x_q, context_y_q} <= {end_i, homogeneous_i, tile_x_i, tile_y_i};
     if (rows_load) begin
-      {rows_end_q, tile_x_q, tile_y_q} <= {context_end_q, context_x_q, context_y_q};
+      {rows_end_q, rows_homogeneous_q, tile_x_q, tile_y_q} <= {context_end_q, context_homogeneous_q, context_x_q, context_y_q};
       {tie_pos_q, tie_neg_q, visible_q} <= {tie_pos_i, tie_neg_i, visible_i};
       row_q <= '0;
     end else if (issue) begin
@@ -105,13 +109,16 @@ module stamp_coverage #(
   end
 
   // ---- Values, and their signs --------------------------------------------------------------------------------------------
+  // A row's values differ from its first by less than TILE |gx|: if that is further from zero than they reach, all have its sign.
   localparam int MULT = GRAD + TILE_LOG2;  // TILE gx
+  localparam int CLOSE = (MULT + 2 < VAL) ? MULT + 2 : VAL;  // a first value that is close, and what it reaches
   logic [5*TILE-1:0] is_neg_q2, is_zero_q2;
 
   for (genvar g = 0; g < 5; g++) begin : gen_edge
     logic [MULT-1:0] gx;
     logic [GRAD-1:0] gy_q;
     logic [VAL-1:0] row_value_q;
+    logic far, far_q1, far_neg_q1;
 
     assign gx = MULT'($signed(lin_gx_i[g*GRAD+:GRAD]));
 
@@ -122,6 +129,14 @@ module stamp_coverage #(
       end else if (issue) begin
         row_value_q <= row_value_q + VAL'($signed(gy_q));
       end
+    end
+
+    // Close: the sign, from the bit below the sign of CLOSE bits on.
+    assign far = CLOSE < VAL && row_value_q[VAL-1:CLOSE-2] != '0 && row_value_q[VAL-1:CLOSE-2] != '1;
+
+    always_ff @(posedge clk_i) begin
+      far_q1 <= far;
+      far_neg_q1 <= row_value_q[VAL-1];
     end
 
     // Odd multiples: the neighbour that four divides, plus or minus gx.
@@ -144,17 +159,17 @@ module stamp_coverage #(
 
     for (genvar dx = 0; dx < TILE; dx++) begin : gen_pixel
       localparam int ZEROS = (dx % 8 == 0) ? 3 : (dx % 4 == 0) ? 2 : (dx % 2 == 0) ? 1 : 0;  // dx = its odd part times 2^ZEROS
-      logic [VAL-1:0] value_q1;
+      logic [CLOSE-1:0] value_q1;
 
       if (dx == 0) begin : gen_first
-        always_ff @(posedge clk_i) value_q1 <= row_value_q;
+        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0];
       end else begin : gen_next
-        always_ff @(posedge clk_i) value_q1 <= row_value_q + (VAL'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
+        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0] + (CLOSE'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
       end
 
       always_ff @(posedge clk_i) begin
-        is_zero_q2[g*TILE+dx] <= value_q1 == '0;
-        is_neg_q2[g*TILE+dx] <= value_q1[VAL-1];
+        is_zero_q2[g*TILE+dx] <= value_q1 == '0 && !far_q1;
+        is_neg_q2[g*TILE+dx] <= far_q1 ? far_neg_q1 : value_q1[CLOSE-1];
       end
     end
   end
@@ -189,7 +204,7 @@ module stamp_coverage #(
   // ---- What goes with a row -----------------------------------------------------------------------------------------------
   localparam int SIGNS = 5 + 5 + 4;
   logic [2:0] row_valid_q;
-  logic end_q1, end_q2, end_q3;
+  logic end_q1, end_q2, end_q3, homogeneous_q1, homogeneous_q2;
   logic [RING:0] ptr_q1, ptr_q2, ptr_q3;
   logic [TILE_LOG2-1:0] row_q1, row_q2, row_q3;
   logic [SIGNS-1:0] signs_q1, signs_q2;
@@ -209,9 +224,9 @@ module stamp_coverage #(
   end
 
   always_ff @(posedge clk_i) begin
-    {end_q1, row_q1, signs_q1} <= {rows_end_q, row_q, tie_pos_q, tie_neg_q, visible_q};
-    {end_q2, row_q2, signs_q2} <= {end_q1, row_q1, signs_q1};
-    {end_q3, row_q3} <= {end_q2, row_q2};
+    {end_q1, homogeneous_q1, row_q1, signs_q1} <= {rows_end_q, rows_homogeneous_q, row_q, tie_pos_q, tie_neg_q, visible_q};
+    {end_q2, homogeneous_q2, row_q2, signs_q2} <= {end_q1, homogeneous_q1, row_q1, signs_q1};
+    {end_q3, homogeneous_o, row_q3} <= {end_q2, homogeneous_q2, row_q2};
   end
 
   // ---- Clauses ------------------------------------------------------------------------------------------------------------

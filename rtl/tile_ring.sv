@@ -1,15 +1,21 @@
-// Ring of tile contexts between the walk and the pixels. Write and stamp pointers have one extra bit.
+// Ring of tile contexts between the walk and the pixels. Pointers have one extra bit.
+//
+// A tile of an ordinary quad is one entry. One of a homogeneous quad takes HOMOGENEOUS_PARTS: its quadratic functions are in as many
+// words of four, one an entry, all else in the first. The walk writes linear functions and tag, tile_context the words; only then
+// (complete_i) coverage sees the entry.
 //
 // An entry lives until the last stamp of its tile has been emitted: the tail is the tile of the stamp FIFO's head, or, when the FIFO is
 // empty, the entry of the row that coverage has at its end. It is a register: an entry is free two clocks after its last stamp was popped,
 // which is the clock in which emission reads its values for the last time (asserted).
 // Reads end in registers. Coverage: tag with fetch_i, values with load_i. Emission, every clock: the tag a clock after the pointer,
-// all else two clocks after it, so that the quad's constants, found by the tag's slot, arrive together with it.
+// all else two clocks after it, so that the quad's constants, found by the tag's slot, arrive together with it; of the words that of
+// the pixel's part.
 module tile_ring #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int QVAL = quadrille_pkg::QVAL_BITS,
     localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
+    localparam int QCURV = quadrille_pkg::QCURV_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int RING = quadrille_pkg::RING_LOG2
 ) (
@@ -17,20 +23,34 @@ module tile_ring #(
     input logic rst_ni,
     // Write
     input logic push_i,
-    output logic full_o,
+    output logic full_o,  // no room for a tile of the kind that homogeneous_i says
+    output logic [RING-1:0] entry_o,  // that a push takes
     input logic end_i,
+    input logic homogeneous_i,
     input logic [SLOT-1:0] slot_i,
     input logic [TC-1:0] tile_x_i,
     input logic [TC-1:0] tile_y_i,
     input logic [6*VAL-1:0] lin_value_i,
-    input logic [10*QVAL-1:0] quad_value_i,
-    input logic [10*QGRAD-1:0] quad_gx_i,
-    input logic [10*QGRAD-1:0] quad_gy_i,
+    // Words: the four functions' write bits, with a bus for the even and one for the odd ones; q is the same
+    input logic [3:0] value_write_i,
+    input logic [RING-1:0] value_entry_i,
+    input logic [2*QVAL-1:0] value_i,
+    input logic [3:0] gradient_write_i,
+    input logic [RING-1:0] gradient_entry_i,
+    input logic [2*QGRAD-1:0] gx_i,
+    input logic [2*QGRAD-1:0] gy_i,
+    input logic [3:0] q_write_i,
+    input logic [RING-1:0] q_entry_i,
+    input logic [QCURV-1:0] q_i,
+    input logic complete_i,
+    input logic complete_homogeneous_i,
     // Read for coverage
     input logic fetch_i,
     input logic [RING:0] fetch_ptr_i,
     output logic stamp_present_o,
+    output logic fetch_homogeneous_o,  // the entry at fetch_ptr_i
     output logic stamp_end_o,
+    output logic stamp_homogeneous_o,
     output logic [SLOT-1:0] stamp_slot_o,
     output logic [TC-1:0] stamp_tile_x_o,
     output logic [TC-1:0] stamp_tile_y_o,
@@ -45,25 +65,34 @@ module tile_ring #(
     // Read for emission
     input logic emit_valid_i,
     input logic [RING:0] emit_ptr_i,
+    input logic [1:0] emit_part_i,
     output logic [SLOT-1:0] tag_slot_o,  // a clock after the pointer
     output logic [SLOT-1:0] emit_slot_o,  // two clocks after it, as all below
     output logic [TC-1:0] emit_tile_x_o,
     output logic [TC-1:0] emit_tile_y_o,
     output logic [6*VAL-1:0] emit_lin_value_o,
-    output logic [10*QVAL-1:0] emit_quad_value_o,
-    output logic [10*QGRAD-1:0] emit_quad_gx_o,
-    output logic [10*QGRAD-1:0] emit_quad_gy_o
+    output logic [4*QVAL-1:0] emit_quad_value_o,
+    output logic [4*QGRAD-1:0] emit_quad_gx_o,
+    output logic [4*QGRAD-1:0] emit_quad_gy_o,
+`ifdef QUADRILLE_PROBES
+    output logic probe_tile_valid_o,
+    output quadrille_pkg::probe_tile_t probe_tile_o,
+`endif
+    output logic [4*QCURV-1:0] emit_quad_q_o
 );
   localparam int ENTRIES = 1 << RING;
 
-  logic [RING:0] write_q, tail_q;
+  localparam logic [RING:0] PARTS = (RING + 1)'(quadrille_pkg::HOMOGENEOUS_PARTS);
+
+  logic [RING:0] write_q, complete_q, tail_q;  // next entry to write, first one that is not complete, first one in use
   logic [RING:0] used;
-  logic [RING-1:0] write_index, fetch_index, load_index, tag_index, emit_index_q;
+  logic [RING-1:0] write_index, fetch_index, load_index, tag_index, emit_index_q, word_index_q;
 
   assign used = write_q - tail_q;
-  assign full_o = used == (RING + 1)'(ENTRIES);
-  assign stamp_present_o = fetch_ptr_i != write_q;
+  assign full_o = used > (homogeneous_i ? (RING + 1)'(ENTRIES) - PARTS : (RING + 1)'(ENTRIES - 1));
+  assign stamp_present_o = fetch_ptr_i != complete_q;
   assign write_index = write_q[RING-1:0];
+  assign entry_o = write_index;
   assign fetch_index = fetch_ptr_i[RING-1:0];
   assign load_index = load_ptr_i[RING-1:0];
   assign tag_index = emit_ptr_i[RING-1:0];
@@ -71,28 +100,35 @@ module tile_ring #(
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       write_q <= '0;
+      complete_q <= '0;
       tail_q <= '0;
     end else begin
-      if (push_i) write_q <= write_q + (RING + 1)'(1);
+      if (push_i) write_q <= write_q + ((homogeneous_i && !end_i) ? PARTS : (RING + 1)'(1));
+      if (complete_i) complete_q <= complete_q + (complete_homogeneous_i ? PARTS : (RING + 1)'(1));
       if (head_valid_i) tail_q <= head_ptr_i;
       else if (stamps_empty_i) tail_q <= stamp_ptr_i;
     end
   end
 
-  always_ff @(posedge clk_i) emit_index_q <= tag_index;
+  always_ff @(posedge clk_i) begin
+    emit_index_q <= tag_index;
+    word_index_q <= (emit_part_i == quadrille_pkg::PART_SQUARES) ? tag_index : tag_index + RING'(emit_part_i);
+  end
 
-  // {end, slot, x, y}
-  localparam int TAG = 1 + SLOT + 2 * TC;
+  // {end, homogeneous, slot, x, y}
+  localparam int TAG = 2 + SLOT + 2 * TC;
   logic [TAG-1:0] tag_q[0:ENTRIES-1];
-  logic [TAG-1:0] tag_word;
+  logic [TAG-1:0] tag_word, fetch_word;
   logic [TC-1:0] tag_tile_x_q, tag_tile_y_q;
 
   assign tag_word = tag_q[tag_index];
+  assign fetch_word = tag_q[fetch_index];
+  assign fetch_homogeneous_o = fetch_word[TAG-2];
 
   always_ff @(posedge clk_i) begin
-    if (push_i) tag_q[write_index] <= {end_i, slot_i, tile_x_i, tile_y_i};
-    if (fetch_i) {stamp_end_o, stamp_slot_o, stamp_tile_x_o, stamp_tile_y_o} <= tag_q[fetch_index];
-    {tag_slot_o, tag_tile_x_q, tag_tile_y_q} <= tag_word[TAG-2:0];
+    if (push_i) tag_q[write_index] <= {end_i, homogeneous_i && !end_i, slot_i, tile_x_i, tile_y_i};
+    if (fetch_i) {stamp_end_o, stamp_homogeneous_o, stamp_slot_o, stamp_tile_x_o, stamp_tile_y_o} <= fetch_word;
+    {tag_slot_o, tag_tile_x_q, tag_tile_y_q} <= tag_word[TAG-3:0];
     {emit_slot_o, emit_tile_x_o, emit_tile_y_o} <= {tag_slot_o, tag_tile_x_q, tag_tile_y_q};
   end
 
@@ -109,26 +145,68 @@ module tile_ring #(
     end
   end
 
-  for (genvar g = 0; g < 10; g++) begin : gen_quadratic
+  for (genvar g = 0; g < 4; g++) begin : gen_quadratic
     logic [QVAL-1:0] value_q[0:ENTRIES-1];
     logic [QGRAD-1:0] gx_q[0:ENTRIES-1];
     logic [QGRAD-1:0] gy_q[0:ENTRIES-1];
+    logic [QCURV-1:0] curv_q[0:ENTRIES-1];
 
     always_ff @(posedge clk_i) begin
-      if (push_i) begin
-        value_q[write_index] <= quad_value_i[g*QVAL+:QVAL];
-        gx_q[write_index] <= quad_gx_i[g*QGRAD+:QGRAD];
-        gy_q[write_index] <= quad_gy_i[g*QGRAD+:QGRAD];
-      end
-      emit_quad_value_o[g*QVAL+:QVAL] <= value_q[emit_index_q];
-      emit_quad_gx_o[g*QGRAD+:QGRAD] <= gx_q[emit_index_q];
-      emit_quad_gy_o[g*QGRAD+:QGRAD] <= gy_q[emit_index_q];
+      if (value_write_i[g]) value_q[value_entry_i] <= value_i[(g%2)*QVAL+:QVAL];
+      if (gradient_write_i[g]) gx_q[gradient_entry_i] <= gx_i[(g%2)*QGRAD+:QGRAD];
+      if (gradient_write_i[g]) gy_q[gradient_entry_i] <= gy_i[(g%2)*QGRAD+:QGRAD];
+      if (q_write_i[g]) curv_q[q_entry_i] <= q_i;
+      emit_quad_value_o[g*QVAL+:QVAL] <= value_q[word_index_q];
+      emit_quad_gx_o[g*QGRAD+:QGRAD] <= gx_q[word_index_q];
+      emit_quad_gy_o[g*QGRAD+:QGRAD] <= gy_q[word_index_q];
+      emit_quad_q_o[g*QCURV+:QCURV] <= curv_q[word_index_q];
     end
   end
 
+`ifdef QUADRILLE_PROBES
+  // ---- Probe: a tile, in the clock in which coverage may see it first ------------------------------------------------------
+  // What is in its entry and, of a homogeneous quad, in the two behind. An end entry's context means nothing.
+  localparam int CONTEXT = 2 * TC + 6 * VAL + 10 * QVAL + 20 * QGRAD + 10 * QCURV;
+  logic [RING-1:0] seen_q;
+  logic seen_end, seen_homogeneous;
+  logic [SLOT-1:0] seen_slot;
+  logic [TC-1:0] seen_x, seen_y;
+  logic [6*VAL-1:0] seen_lin_value;
+  logic [10*QVAL-1:0] seen_value;
+  logic [10*QGRAD-1:0] seen_gx, seen_gy;
+  logic [10*QCURV-1:0] seen_curv;
+  logic [CONTEXT-1:0] seen_context;
+
+  always_ff @(posedge clk_i) begin
+    probe_tile_valid_o <= rst_ni && complete_i;
+    seen_q <= complete_q[RING-1:0];
+  end
+
+  assign {seen_end, seen_homogeneous, seen_slot, seen_x, seen_y} = tag_q[seen_q];
+
+  for (genvar g = 0; g < 6; g++) begin : gen_seen_linear
+    assign seen_lin_value[g*VAL+:VAL] = gen_linear[g].value_q[seen_q];
+  end
+
+  for (genvar g = 0; g < 10; g++) begin : gen_seen_quadratic
+    localparam int LANE = (g < 6) ? g % 4 : g - 6;
+    logic there;
+    logic [RING-1:0] word;
+    assign there = g >= 6 || seen_homogeneous;
+    assign word = seen_q + ((g >= 6) ? '0 : (g >= 4) ? RING'(quadrille_pkg::PART_DIAGONALS) : RING'(quadrille_pkg::PART_EDGES));
+    assign seen_value[g*QVAL+:QVAL] = there ? gen_quadratic[LANE].value_q[word] : '0;
+    assign seen_gx[g*QGRAD+:QGRAD] = there ? gen_quadratic[LANE].gx_q[word] : '0;
+    assign seen_gy[g*QGRAD+:QGRAD] = there ? gen_quadratic[LANE].gy_q[word] : '0;
+    assign seen_curv[g*QCURV+:QCURV] = there ? gen_quadratic[LANE].curv_q[word] : '0;
+  end
+
+  assign seen_context = {seen_x, seen_y, seen_lin_value, seen_value, seen_gx, seen_gy, seen_curv};
+  assign probe_tile_o = {seen_end, seen_slot, seen_end ? CONTEXT'(0) : seen_context};
+`endif
+
   // The pointer's upper bit is for the tail alone.
   logic unused;
-  assign unused = ^{fetch_ptr_i[RING], load_ptr_i[RING], emit_ptr_i[RING], tag_word[TAG-1]};
+  assign unused = ^{fetch_ptr_i[RING], load_ptr_i[RING], emit_ptr_i[RING], tag_word[TAG-1:TAG-2]};
 
 `ifndef SYNTHESIS
   logic value_valid_q;

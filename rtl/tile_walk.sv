@@ -1,22 +1,19 @@
 // Walks a quad's tiles, blocks of 8x8 tiles first, both in serpentine order, and pushes the tiles that may hold a covered pixel
 // into the tile ring. One step a clock, block or tile; after the last block an end entry.
 //
-// State is value (and gx, gy of the quadratics) at the first pixel of the current block and of the current tile, moved by exact
+// State is the values of the linear functions at the first pixel of the current block and of the current tile, moved by exact
 // forward differences. The test is conservative over the extent: each edge function is 'somewhere positive', 'somewhere negative'
-// or both, by its value and edge_reach. Does not look at the scissor rectangle.
+// or both, by its value and edge_reach. Does not look at the scissor rectangle. The quadratic functions of a tile that is pushed
+// are tile_context's.
 //
-// The walk itself needs the linear functions alone and steps on before it knows what a test says: the test's signs come in a register,
-// the hit is known the clock after, and what then is done with the tile goes, as a command, through two more registers, where the
-// quadratic functions follow (their slopes, then their values). Blocks are walked one ahead: a hit turns back to the block before, and
-// the next one is ready when its tiles are done. A push that finds the ring full stops everything.
+// The walk steps on before it knows what a test says: the test's signs come in a register, the hit is known the clock after, and a tile
+// that is hit is in the register that pushes in the clock after that. Blocks are walked one ahead: a hit turns back to the block
+// before, and the next one is ready when its tiles are done. A push that must wait stops everything.
 module tile_walk #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
     localparam int REACH = quadrille_pkg::REACH_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
 ) (
     input logic clk_i,
@@ -39,21 +36,16 @@ module tile_walk #(
     input logic [5*REACH-1:0] rise_tile_i,
     input logic [5*REACH-1:0] fall_block_i,
     input logic [5*REACH-1:0] rise_block_i,
-    input logic [10*QVAL-1:0] quad_value_i,
-    input logic [10*QGRAD-1:0] quad_gx_i,
-    input logic [10*QGRAD-1:0] quad_gy_i,
-    input logic [10*QCURV-1:0] quad_q_i,
     // Tile out; an end entry has a slot alone
-    input logic ring_full_i,
+    input logic ready_i,
     output logic push_o,
     output logic end_o,
     output logic [SLOT-1:0] slot_o,
     output logic [TC-1:0] tile_x_o,
     output logic [TC-1:0] tile_y_o,
-    output logic [6*VAL-1:0] lin_value_o,
-    output logic [10*QVAL-1:0] quad_value_o,
-    output logic [10*QGRAD-1:0] quad_gx_o,
-    output logic [10*QGRAD-1:0] quad_gy_o
+    output logic [TC-1:0] column_o,  // from the quad's first tile
+    output logic [TC-1:0] row_o,
+    output logic [6*VAL-1:0] lin_value_o
 );
   localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2;
@@ -80,7 +72,6 @@ module tile_walk #(
   logic block_left_q;
   logic [TC-1:0] walk_x_q, walk_y_q;
   logic [BLOCK_LOG2-1:0] tile_last_x_q, tile_last_y_q;
-  logic walk_row_end_q, walk_back_q;  // the step from it to the next block
   logic [BLOCK_LOG2-1:0] tile_x_q, tile_y_q;
   logic tile_left_q;
   logic [SLOT-1:0] slot_q;
@@ -95,8 +86,7 @@ module tile_walk #(
 
   // The test whose signs are known
   logic block_q1, tile_q1, end_q1;
-  logic of_block_q1, row_end_q1, back_q1;  // the step after it
-  logic [TC-1:0] block_x_q1, block_y_q1, x_q1, y_q1;
+  logic [TC-1:0] block_x_q1, block_y_q1, column_q1, row_q1;
   logic [BLOCK_LOG2-1:0] tile_last_x_q1, tile_last_y_q1;
 
   assign take_o = setup_done_i && state_q == IDLE;
@@ -165,16 +155,11 @@ module tile_walk #(
       block_y_q1 <= block_y_q;
       tile_last_x_q1 <= last_column ? last_x_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
       tile_last_y_q1 <= last_row ? last_y_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
-      of_block_q1 <= in_block || tile_end;
-      row_end_q1 <= tile_end ? walk_row_end_q : row_end_q;
-      back_q1 <= tile_end ? walk_back_q : back_q;
-      x_q1 <= tile_x0_q + ((walk_x_q << BLOCK_LOG2) | TC'(tile_x_q));
-      y_q1 <= tile_y0_q + ((walk_y_q << BLOCK_LOG2) | TC'(tile_y_q));
+      column_q1 <= (walk_x_q << BLOCK_LOG2) | TC'(tile_x_q);
+      row_q1 <= (walk_y_q << BLOCK_LOG2) | TC'(tile_y_q);
       if (enter_walk) begin
         walk_x_q <= block_x_q1;
         walk_y_q <= block_y_q1;
-        walk_row_end_q <= row_end_q1;
-        walk_back_q <= back_q1;
         tile_last_x_q <= tile_last_x_q1;
         tile_last_y_q <= tile_last_y_q1;
         tile_x_q <= '0;
@@ -225,7 +210,7 @@ module tile_walk #(
   // Outside WALK the tile is the first of the block to test. One set of adders steps blocks and tiles: a step to the left subtracts: ~x,
   // and the one that is missing enters as carry ({a, 1} + {b, carry}). After a block's last tile comes the next block, which is there.
   logic [4:0] some_pos_q1, some_neg_q1;
-  logic [6*VAL-1:0] lin_value_q1, lin_value_q2;
+  logic [6*VAL-1:0] lin_value_q1;
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     logic [GRAD-1:0] gx_q, gy_q;
@@ -250,8 +235,7 @@ module tile_walk #(
       end
       if (go) begin
         lin_value_q1[g*VAL+:VAL] <= tile_q;
-        lin_value_q2[g*VAL+:VAL] <= lin_value_q1[g*VAL+:VAL];
-        lin_value_o[g*VAL+:VAL] <= lin_value_q2[g*VAL+:VAL];
+        lin_value_o[g*VAL+:VAL] <= lin_value_q1[g*VAL+:VAL];
       end
     end
 
@@ -294,92 +278,31 @@ module tile_walk #(
   assign front = (front1 || front2) && cull_i != 2'd1;
   assign may_cover = back || front;
 
-  // ---- Commands -----------------------------------------------------------------------------------------------------------
-  // Push the tile; enter the block; step to the next tile or block. With the slopes (2), then with the values (3).
-  logic push_q2, end_q2, enter_q2, step_tile_q2, step_block_q2, row_end_q2, back_q2;
-  logic push_q3, end_q3, step_tile_q3, step_block_q3, back_q3;
-  logic [TC-1:0] x_q2, y_q2;
+  // ---- Push ---------------------------------------------------------------------------------------------------------------
+  logic push_q2, end_q2;
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      {push_q2, end_q2, enter_q2, step_tile_q2, step_block_q2} <= '0;
-      {push_q3, end_q3, step_tile_q3, step_block_q3} <= '0;
-    end else if (go) begin
-      push_q2 <= (tile_q1 && hit) || end_q1;
-      end_q2 <= end_q1;
-      enter_q2 <= enter_walk;
-      step_tile_q2 <= tile_q1 && !of_block_q1;
-      step_block_q2 <= (tile_q1 && of_block_q1) || (block_q1 && !hit);
-      {push_q3, end_q3, step_tile_q3, step_block_q3} <= {push_q2, end_q2, step_tile_q2, step_block_q2};
-    end
+    if (!rst_ni) {push_q2, end_q2} <= '0;
+    else if (go) {push_q2, end_q2} <= {(tile_q1 && hit) || end_q1, end_q1};
   end
 
   always_ff @(posedge clk_i) begin
     if (go) begin
-      {row_end_q2, back_q2, x_q2, y_q2} <= {row_end_q1, back_q1, x_q1, y_q1};
-      {back_q3, tile_x_o, tile_y_o} <= {back_q2, x_q2, y_q2};
+      {column_o, row_o} <= {column_q1, row_q1};
+      tile_x_o <= tile_x0_q + column_q1;
+      tile_y_o <= tile_y0_q + row_q1;
     end
   end
 
-  assign go = !push_q3 || !ring_full_i;
-  assign push_o = push_q3 && !ring_full_i;
-  assign end_o = end_q3;
+  assign go = !push_q2 || ready_i;
+  assign push_o = push_q2 && ready_i;
+  assign end_o = end_q2;
   assign slot_o = slot_q;
-
-  // ---- Quadratic functions ------------------------------------------------------------------------------------------------
-  // Moving by +-h: value +- h gx + h^2 q, gx +- 2h q. With the slope halfway, middle = gx +- h q, that is value +- h middle.
-  for (genvar g = 0; g < 10; g++) begin : gen_quadratic
-    logic [QCURV-1:0] curv_q;
-    logic [QVAL-1:0] block_value_q, tile_value_q;
-    logic [QGRAD-1:0] block_gx_q, block_gy_q, tile_gx_q, tile_gy_q;
-    logic [QGRAD-1:0] curv, bend, turn, slope, next_slope, middle_q3;
-    logic [QVAL-1:0] rise, move, next_value;
-
-    assign curv = QGRAD'($signed(curv_q));
-    assign bend = (step_block_q2 ? curv << BL : curv << TL) ^ {QGRAD{back_q2}};
-    assign turn = (step_block_q2 ? curv << (BL + 1) : curv << (TL + 1)) ^ {QGRAD{back_q2}};
-    assign slope = step_block_q2 ? (row_end_q2 ? block_gy_q : block_gx_q) : (row_end_q2 ? tile_gy_q : tile_gx_q);
-    assign next_slope = QGRAD'(({slope, 1'b1} + {turn, back_q2}) >> 1);
-
-    always_ff @(posedge clk_i) begin
-      if (take_o) begin
-        curv_q <= quad_q_i[g*QCURV+:QCURV];
-        block_gx_q <= quad_gx_i[g*QGRAD+:QGRAD];
-        block_gy_q <= quad_gy_i[g*QGRAD+:QGRAD];
-      end else if (go) begin
-        if (step_block_q2 && !row_end_q2) block_gx_q <= next_slope;
-        if (step_block_q2 && row_end_q2) block_gy_q <= next_slope;
-      end
-      if (go) begin
-        if (enter_q2 || (step_tile_q2 && !row_end_q2)) tile_gx_q <= enter_q2 ? block_gx_q : next_slope;
-        if (enter_q2 || (step_tile_q2 && row_end_q2)) tile_gy_q <= enter_q2 ? block_gy_q : next_slope;
-        middle_q3 <= QGRAD'(({slope, 1'b1} + {bend, back_q2}) >> 1);
-        quad_gx_o[g*QGRAD+:QGRAD] <= tile_gx_q;
-        quad_gy_o[g*QGRAD+:QGRAD] <= tile_gy_q;
-      end
-    end
-
-    assign rise = QVAL'($signed(middle_q3));
-    assign move = (step_block_q3 ? rise << BL : rise << TL) ^ {QVAL{back_q3}};
-    assign next_value = QVAL'(({step_block_q3 ? block_value_q : tile_value_q, 1'b1} + {move, back_q3}) >> 1);
-
-    always_ff @(posedge clk_i) begin
-      if (take_o) begin
-        block_value_q <= quad_value_i[g*QVAL+:QVAL];
-        tile_value_q <= quad_value_i[g*QVAL+:QVAL];
-      end else if (go) begin
-        if (step_block_q3) block_value_q <= next_value;
-        if (step_block_q3 || step_tile_q3) tile_value_q <= next_value;
-      end
-    end
-
-    assign quad_value_o[g*QVAL+:QVAL] = tile_value_q;
-  end
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      assert (!take_o || !(push_q2 || push_q3 || step_block_q2 || step_block_q3 || step_tile_q2 || step_tile_q3));
+      assert (!take_o || !push_q2);
       assert (!enter_walk || in_block);
     end
   end

@@ -1,7 +1,7 @@
 // Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i clears it.
 //
 // vertex_ready_o is a register's output (it depends neither on valid nor on start_i). The quad's id is that of v0.
-// Beside the quad: whether all its W are ONE, and its least and greatest X and Y, kept up with each beat.
+// Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X and Y, kept up with each beat.
 // Does not judge a vertex. Vertex i's field is at [i*width +: width] of each flat output.
 module vertex_assembly #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
@@ -22,6 +22,9 @@ module vertex_assembly #(
     output logic [4*T-1:0] x_o,
     output logic [4*T-1:0] y_o,
     output logic [4*W-1:0] w_o,
+    output logic [3:0] w_neg_o,
+    output logic [4*PE-1:0] w_exp_o,
+    output logic [4*S-1:0] w_sig_o,
     output logic ordinary_o,
     output logic [T-1:0] low_x_o,
     output logic [T-1:0] high_x_o,
@@ -103,9 +106,36 @@ module vertex_assembly #(
     end
   end
 
+  // W as a significand number: exponent -FRAC..0, which fits the port's width.
+  localparam int E = quadrille_pkg::EXP_BITS;
+  logic w_neg;
+  logic [W-1:0] w_magnitude;
+  logic [E-1:0] w_exp;
+  logic [S-1:0] w_sig;
+
+  assign w_neg = w[W-1];
+  assign w_magnitude = w_neg ? W'(0) - w : w;
+
+  fp_normalise #(
+      .WIDTH(W),
+      .REGISTERED(1'b0)
+  ) u_w (
+      .clk_i,
+      .magnitude_i(w_magnitude),
+      .bias_i(E'(0) - E'(quadrille_pkg::FRAC)),
+      .exp_o(w_exp),
+      .sig_o(w_sig)
+  );
+
+  logic unused;
+  assign unused = ^w_exp[E-1:PE];
+
   for (genvar g = 0; g < 4; g++) begin : gen_vertex
     logic [T-1:0] x_q, y_q;
     logic [W-1:0] w_q;
+    logic w_neg_q;
+    logic [PE-1:0] w_exp_q;
+    logic [S-1:0] w_sig_q;
     logic [PE-1:0] k_exp_q, z_exp_q;
     logic [S-1:0] k_sig_q, z_sig_q;
     logic z_neg_q;
@@ -116,6 +146,7 @@ module vertex_assembly #(
         x_q <= x;
         y_q <= y;
         w_q <= w;
+        {w_neg_q, w_exp_q, w_sig_q} <= {w_neg, w_exp[PE-1:0], w_sig};
         k_exp_q <= k_exp;
         k_sig_q <= k_sig;
         z_neg_q <= z_neg;
@@ -128,6 +159,9 @@ module vertex_assembly #(
     assign x_o[g*T+:T] = x_q;
     assign y_o[g*T+:T] = y_q;
     assign w_o[g*W+:W] = w_q;
+    assign w_neg_o[g] = w_neg_q;
+    assign w_exp_o[g*PE+:PE] = w_exp_q;
+    assign w_sig_o[g*S+:S] = w_sig_q;
     assign k_exp_o[g*PE+:PE] = k_exp_q;
     assign k_sig_o[g*S+:S] = k_sig_q;
     assign z_neg_o[g] = z_neg_q;

@@ -272,9 +272,12 @@ with open(path, "w", encoding="utf-8") as file:
 PYTHON
   expect 1 "^$1: (first difference|FAILED)" "$1: $2: ${4# }" $replay "$set" "${5:-$tool}" --suite "$1" --rtl "$work/rtl"
 }
-fault setup quad_setup.sv "subtract0 = use_linear || use_linear_gradient;" "subtract0 = 1'b0;"
+fault setup vertex_products.sv "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_y};" "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_x};"
+fault setup vertex_products.sv "subtract0 = kind == quadrille_pkg::EDGE ||" "subtract0 ="
 fault coverage stamp_coverage.sv "(pos2 | pos3)" "(pos2 & pos3)"
 fault forward_difference offset_digits.sv "row_square + dx_square" "row_square + row_square"
+fault forward_difference law_of_cosines.sv "twice[TWICE-1:1]" "QVAL'(sum_q >> 1) - QVAL'(length2_i >> 1)" # rounds otherwise
+fault forward_difference law_of_cosines.sv "homogeneous_i ? exact_i" "1'b1 ? exact_i"
 fault normalise normalise.sv "E'(BIAS)" "E'(BIAS + 1)"
 fault normalise singular_class.sv "a_zero && d_i[g*QVAL+QVAL-1]" "a_zero && !d_i[g*QVAL+QVAL-1]"
 fault rsqrt rsqrt.sv "RSQRT_STAGES - 1" "RSQRT_STAGES - 2"

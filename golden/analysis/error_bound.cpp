@@ -292,9 +292,7 @@ enum class Quads { any, ordinary };
 
 /// The best that can be said where the proof's assumptions do not hold; proved where they do, with no value yet.
 ErrorBound without_proof(const Config& c, Quads quads) {
-  // Positions of ordinary vertices have subpixel_bits fraction bits, so their D and r² have twice as many.
-  const bool exact_if_ordinary = c.quadratic_frac() >= 2 * c.subpixel_bits;
-  if (!exact_if_ordinary)
+  if (!keeps_ordinary_products(c))
     return {
         std::numeric_limits<double>::infinity(), false,
         "quadratic_frac_bits drops bits that D and r² of ordinary vertices have: their relative error has no bound"};
@@ -356,7 +354,7 @@ class RangeList {
 /// The exact integers up to the normalisation, in units of their least bits.
 struct FrontRange {
   Wide a, d_low, d_high, r2_high;  ///< |A|; D; r²
-  Wide dropped;                    ///< D and r² are too low by at most this through dropped bits
+  Wide dropped;                    ///< D and r² are off by at most this through dropped bits
 };
 
 FrontRange prove_front(const Config& c, const ProofWidths& w, RangeList& list) {
@@ -366,17 +364,21 @@ FrontRange prove_front(const Config& c, const ProofWidths& w, RangeList& list) {
   list.add("X, Y", -edge, edge, w.position);
   list.add("W", -one, one, w.weight);
 
-  // The origin is a tile of the viewport for an ordinary quad (W = 1), and (0, 0) for any other.
-  const Wide moved = edge + one * (viewport - tile);
-  list.add("T", -moved, edge, w.position);
+  // Seen from a tile's origin pixel: that of the walk (a tile of the viewport for an ordinary quad, (0, 0) for any
+  // other), then that of each tile that is hit. S = X - W·x; W has either sign, hence S has.
+  const auto reach = [&](Wide pixel) { return edge + one * pixel; };
+  const Wide origin = viewport - tile, moved = reach(origin);
+  list.add("T", -moved, moved, w.position);
   list.add("tile", 0, viewport / tile - 1, w.tile, false);
   list.add("tile count", 0, viewport / tile, w.tile, false);
-  list.add("dot unit operand", -moved, std::max(moved, power(32) - 1), w.dot_operand);  // 2^32: half a determinant's
-  const Wide widest = std::max(2 * moved * moved, 2 * edge * (power(32) - 1));
+  // 2^32: half a determinant's. Differences of vertices do not depend on the origin.
+  const Wide operand = std::max({moved, 2 * edge, power(32) - 1});
+  list.add("dot unit operand", -operand, operand, w.dot_operand);
+  const Wide longest = 2 * (2 * edge) * (2 * edge);
+  const Wide widest = std::max({2 * moved * moved, longest, 2 * edge * (power(32) - 1)});
   list.add("dot unit result", -widest, widest, w.dot_result);
+  list.add("length2", 0, floor_shift(longest, drop), w.length2, false);
 
-  // S = X - W·x; W has either sign, hence S has.
-  const auto reach = [&](Wide pixel) { return edge + one * pixel; };
   const auto products = [&](Wide pixel) { return 2 * reach(pixel) * reach(pixel); };
   // Block origins are tiles of the viewport, so a block's far corner is up to 7 tiles outside.
   const Wide last = viewport - 1, corner = viewport + (Config::block_tiles - 1) * tile - 1;
@@ -385,22 +387,25 @@ FrontRange prove_front(const Config& c, const ProofWidths& w, RangeList& list) {
   list.add("A at the corner of a block", -products(corner), products(corner), w.value);
   list.add("gx of A", -2 * edge * one, 2 * edge * one, w.grad);
 
-  // Value, gradient and curvature are each rounded down by `drop` bits and then multiplied by the way from the origin.
+  // Value, gradient and curvature are each rounded down by `drop` bits at the tile's origin and then multiplied by the
+  // way from there to the pixel: each of `terms` takes less than a unit.
   const auto floored = [&](Wide low, Wide high, Wide terms) {
     return std::pair{floor_shift(low - (power(drop) - 1) * terms, drop), floor_shift(high, drop)};
   };
-  const Wide way = 1 + 2 * last + 2 * last * last;
-  const auto [d_low, d_high] = floored(-f.a, f.a, way);
-  f.d_low = d_low;
-  f.d_high = d_high;
-  list.add("D", f.d_low, f.d_high, w.qvalue);
+  const Wide way = 1 + 2 * (tile - 1) + 2 * (tile - 1) * (tile - 1);
   const auto [r2_low, r2_high] = floored(0, f.a, way);
   list.add("r²", r2_low, r2_high, w.qvalue);
   f.r2_high = r2_high;
-  f.dropped = drop > 0 ? way : 0;
-  // Gradients are kept at tile origins.
-  const Wide origin = viewport - tile, slope = 2 * reach(origin) * one;
-  const auto [gx_low, gx_high] = floored(-slope, slope, 1 + 2 * origin);
+  // A homogeneous quad's own functions; by the law of cosines half of two r², low by the way, and of a squared length,
+  // whose lost unit makes D high.
+  const auto [own_low, own_high] = floored(-f.a, f.a, way);
+  const Wide lost = power(drop) - 1;
+  f.d_low = std::min(own_low, floor_shift(-2 * f.a - 2 * lost * way, drop + 1));
+  f.d_high = std::max(own_high, floor_shift(2 * f.a + lost, drop + 1));
+  list.add("D", f.d_low, f.d_high, w.qvalue);
+  f.dropped = drop > 0 ? way + 1 : 0;
+  const Wide slope = 2 * moved * one;
+  const auto [gx_low, gx_high] = floored(-slope, slope, 1);
   list.add("gx of D, r²", gx_low, gx_high, w.qgrad);
   const auto [q_low, q_high] = floored(-one * one, one * one, 1);
   list.add("q of D, r²", q_low, q_high, w.qcurv);
@@ -486,6 +491,8 @@ void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& fr
 
 }  // namespace
 
+bool keeps_ordinary_products(const Config& c) { return c.qdrop() <= 2 * c.homogeneous_frac_bits; }
+
 ProofWidths::ProofWidths(const Config& c)
     : position(c.t_bits()),
       weight(c.w_bits()),
@@ -494,6 +501,7 @@ ProofWidths::ProofWidths(const Config& c)
       qvalue(c.qval_bits()),
       qgrad(c.qgrad_bits()),
       qcurv(c.qcurv_bits()),
+      length2(c.length2_bits()),
       tile(c.tc_bits()),
       dot_operand(33),
       dot_result(67),

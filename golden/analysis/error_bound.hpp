@@ -27,11 +27,16 @@ struct RangeProof {
   bool proved = false;  ///< every signal fits
 };
 
+/// D and r² of ordinary vertices (snap.hpp) lose no bit: neither the functions of a tile, nor a squared length, nor
+/// half of a sum by the law of cosines. The rule is QDROP <= 2 homogeneous_frac_bits; README.md, "Dropped bits".
+bool keeps_ordinary_products(const Config& config);
+
 /// The widths that the proof is about, apart from the configuration, so that others can be tried.
 struct ProofWidths {
   int position, weight;          ///< T_BITS, W_BITS
   int value, grad;               ///< of linear functions
   int qvalue, qgrad, qcurv;      ///< of quadratic functions
+  int length2;                   ///< LENGTH2_BITS, unsigned
   int tile;                      ///< TC_BITS, unsigned
   int dot_operand, dot_result;   ///< of the setup's dot units
   int determinant;               ///< DET_BITS

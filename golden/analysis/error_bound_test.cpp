@@ -7,6 +7,7 @@
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
+#include "model/tile_context.hpp"
 
 #include <gtest/gtest.h>
 
@@ -115,9 +116,10 @@ TEST(RangeProof, FailsWithANarrowerWidth) {
       {"as A", &ProofWidths::qvalue, 0},
       {"1.125 * 2^46", &ProofWidths::qgrad, 0},
       {"2^30 inclusive", &ProofWidths::qcurv, 0},
+      {"2^63 inclusive", &ProofWidths::length2, 0},
       {"512 tiles", &ProofWidths::tile, 0},
       {"2^32 - 1, signed", &ProofWidths::dot_operand, 0},
-      {"2^31 (2^32 - 1): 64 bits", &ProofWidths::dot_result, 3},
+      {"2^63 inclusive: 65 bits", &ProofWidths::dot_result, 2},
       {"6 * 2^75: 79 bits", &ProofWidths::determinant, 5},
       {"beyond 2^-512", &ProofWidths::exponent, 1},
       {"-256", &ProofWidths::port_exponent, 0},
@@ -138,7 +140,8 @@ TEST(RangeProof, FailsWithANarrowerWidth) {
   }
 }
 
-/// The farthest vertex of the guard band at the farthest pixel has exactly the largest r² and D.
+/// The farthest vertex of the guard band at the farthest pixel has exactly the largest r² and D, and the largest
+/// gradient at the farthest tile; from there to the opposite corner is the largest length.
 TEST(RangeProof, LargestValuesOccur) {
   for (const int guard : {1, 2, 3}) {
     Config c;
@@ -149,23 +152,153 @@ TEST(RangeProof, LargestValuesOccur) {
     SnappedQuad q;
     q.vertex[0].x = q.vertex[0].y = q.vertex[1].x = q.vertex[1].y = -edge;
     q.vertex[0].w = q.vertex[1].w = one;
-    q.vertex[2].x = q.vertex[3].y = edge;  // points at infinity: the walk starts at (0, 0)
+    q.vertex[2].x = q.vertex[3].x = q.vertex[3].y = edge;  // points at infinity: the walk starts at (0, 0)
     DrawState state;
     state.width = state.height = state.scissor_x1 = state.scissor_y1 = 1 << c.viewport_bits;
     const SetupResult setup = quad_setup(q, c, state);
     ASSERT_EQ(setup.tile_x0, 0);
-    WalkState at;
-    at.quadratic = setup.quadratic;
-    const int last = (1 << c.viewport_bits) - 1;
-    walk_step(at, QuadConstants(setup), last, last);
-    EXPECT_EQ(static_cast<double>(at.quadratic[6].value), signal.at("r²").high);
-    EXPECT_EQ(static_cast<double>(at.quadratic[0].value), signal.at("D").high);
+    const int last = (1 << c.viewport_bits) - 1, origin = last + 1 - c.tile();
+    const QuadConstants constants(setup);
+    const auto pixel = tile_context(constants, last, last, 0), tile = tile_context(constants, origin, origin, 0);
+    EXPECT_EQ(static_cast<double>(pixel[6].value), signal.at("r²").high);
+    EXPECT_EQ(static_cast<double>(pixel[0].value), signal.at("D").high);
+    EXPECT_EQ(static_cast<double>(tile[6].gx), signal.at("gx of D, r²").high);
+    EXPECT_EQ(static_cast<double>(setup.length2[3]), signal.at("length2").high);
   }
+}
+
+/// Floor of D or r² of a quad at a pixel, exactly: the oracle of the dropped bits.
+__int128 dot_at(const SnappedQuad& q, std::size_t i, std::size_t j, int x, int y) {
+  const auto sx = [&](std::size_t k) { return q.vertex[k].x - static_cast<__int128>(q.vertex[k].w) * x; };
+  const auto sy = [&](std::size_t k) { return q.vertex[k].y - static_cast<__int128>(q.vertex[k].w) * y; };
+  return sx(i) * sx(j) + sy(i) * sy(j);
+}
+
+/// A random pixel of a random tile right of and below the quad's origin, as the machine has it.
+struct TilePixel {
+  int x = 0, y = 0, dx = 0, row = 0;
+  PixelTrace trace;
+
+  TilePixel(const SetupResult& setup, const Config& c, golden::Prng& rng) {
+    const QuadConstants constants(setup);
+    const std::int64_t last = (1 << (c.viewport_bits - c.tile_log2)) - 1;
+    TileEntry tile;
+    tile.tile_x = static_cast<int>(rng.integer(setup.tile_x0, last));
+    tile.tile_y = static_cast<int>(rng.integer(setup.tile_y0, last));
+    tile.quadratic = tile_context(constants, (tile.tile_x - setup.tile_x0) * c.tile(),
+                                  (tile.tile_y - setup.tile_y0) * c.tile(), c.qdrop());
+    dx = static_cast<int>(rng.below(static_cast<std::uint64_t>(c.tile())));
+    row = static_cast<int>(rng.below(static_cast<std::uint64_t>(c.tile())));
+    x = tile.tile_x * c.tile() + dx;
+    y = tile.tile_y * c.tile() + row;
+    forward_difference(trace, tile, constants, dx, row);
+  }
+};
+
+DrawState whole_viewport(const Config& c) {
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = 1 << c.viewport_bits;
+  return state;
+}
+
+/// Ordinary vertices lose nothing up to 2 homogeneous_frac_bits dropped bits, for every pair of grids, and something
+/// with one bit more.
+TEST(DroppedBits, OrdinaryQuadsLoseNoneUpToTheRule) {
+  golden::Prng rng(11);
+  for (int sub = 2; sub <= 8; ++sub)
+    for (int hom = 4; hom <= 10; ++hom)
+      for (const int more : {0, 1}) {
+        Config c;
+        c.viewport_bits = 8;
+        c.subpixel_bits = sub;
+        c.homogeneous_frac_bits = hom;
+        c.tile_log2 = static_cast<int>(rng.integer(2, 4));
+        c.quadratic_frac_bits = 2 * sub - more;
+        c.validate();
+        EXPECT_EQ(keeps_ordinary_products(c), more == 0);
+        const DrawState state = whole_viewport(c);
+        const int drop = c.qdrop();
+        int lost = 0;
+        for (int n = 0; n < 200; ++n) {
+          WindowQuad given;
+          const double reach = n % 2 == 0 ? 300 : 1900;  // the guard band is 2^11 wide
+          for (WindowVertex& v : given.vertex) {
+            const double w = rng.log2_spread(-3, 3);
+            v = {rng.uniform(-reach, reach) * w, rng.uniform(-reach, reach) * w, 0, w};
+          }
+          const SnappedQuad q = snap_quad(given, c, state);
+          const SetupResult setup = quad_setup(q, c, state);
+          ASSERT_FALSE(setup.homogeneous);
+          const TilePixel at(setup, c, rng);
+          const auto check = [&](__int128 kept, __int128 exact, const char* what) {
+            const bool same = kept * (__int128{1} << drop) == exact;
+            lost += !same;
+            EXPECT_TRUE(same || more == 1)
+                << what << " with subpixel_bits " << sub << ", homogeneous_frac_bits " << hom;
+          };
+          for (std::size_t k = 0; k < linear_count; ++k) {
+            const auto [i, j] = vertex_pair[k];
+            const __int128 x = __int128{q.vertex[i].x} - q.vertex[j].x, y = __int128{q.vertex[i].y} - q.vertex[j].y;
+            check(setup.length2[k], x * x + y * y, "length2");
+            check(at.trace.d[k], dot_at(q, i, j, at.x, at.y), "D");
+          }
+          for (std::size_t i = 0; i < 4; ++i) check(at.trace.r2[i], dot_at(q, i, i, at.x, at.y), "r²");
+        }
+        EXPECT_EQ(lost > 0, more == 1);
+      }
+}
+
+/// What is dropped counts from the tile's origin: never more than the way inside a tile, however far the quad's is.
+TEST(DroppedBits, LossIsThatOfTheWayInsideATile) {
+  golden::Prng rng(12);
+  int homogeneous = 0, ordinary = 0, most = 0;
+  for (const int quadratic : {20, 15, 8, 0}) {
+    Config c;
+    c.quadratic_frac_bits = quadratic;
+    c.validate();
+    const DrawState state = whole_viewport(c);
+    const int drop = c.qdrop();
+    const __int128 unit = __int128{1} << drop;
+    const std::int64_t edge = std::int64_t{1} << (c.pos_int() + c.frac()), one = std::int64_t{1} << c.frac();
+    for (int n = 0; n < 2000; ++n) {
+      SnappedQuad q;
+      for (SnappedVertex& v : q.vertex)  // ordinary by their w alone: beside the subpixel grid
+        v = {static_cast<std::int32_t>(rng.integer(-edge, edge)),
+             static_cast<std::int32_t>(rng.integer(-edge, edge)),
+             static_cast<std::int32_t>(n % 2 == 0 ? one : rng.integer(-one, one)),
+             {},
+             {},
+             {}};
+      const SetupResult setup = quad_setup(q, c, state);
+      const TilePixel at(setup, c, rng);
+      const __int128 way = (unit - 1) * (1 + at.dx + at.row + at.dx * at.dx + at.row * at.row);
+      ++(setup.homogeneous ? homogeneous : ordinary);
+      const auto loss = [&](std::int64_t kept, std::size_t i, std::size_t j) {
+        const __int128 lost = dot_at(q, i, j, at.x, at.y) - kept * unit;
+        most = std::max(most, static_cast<int>(lost >> drop));
+        return lost;
+      };
+      for (std::size_t i = 0; i < 4; ++i) {
+        const __int128 lost = loss(at.trace.r2[i], i, i);
+        ASSERT_TRUE(0 <= lost && lost <= way) << "r² " << i;
+      }
+      for (std::size_t k = 0; k < linear_count; ++k) {
+        const __int128 lost = loss(at.trace.d[k], vertex_pair[k][0], vertex_pair[k][1]);
+        if (setup.homogeneous)
+          ASSERT_TRUE(0 <= lost && lost <= way) << "D " << k;
+        else  // half of what two r² are low and a length is high, and of the sum's last bit
+          ASSERT_TRUE(-(unit - 1) <= 2 * lost && 2 * lost <= 2 * way + unit) << "D " << k;
+      }
+    }
+  }
+  EXPECT_GT(homogeneous, 1'000);
+  EXPECT_GT(ordinary, 1'000);
+  EXPECT_GT(most, 20) << "the bound of 113 is not touched at all";
 }
 
 /// Every stage of the pipeline at random pixels of the stress families.
 TEST(RangeProof, HoldsWhatThePipelineComputes) {
-  for (const int quadratic : {-1, 8}) {
+  for (const int quadratic : {-1, 16, 8}) {
     Config c;
     c.quadratic_frac_bits = quadratic;
     c.validate();
@@ -195,17 +328,18 @@ TEST(RangeProof, HoldsWhatThePipelineComputes) {
           TileEntry tile;
           tile.tile_x = static_cast<int>(rng.integer(setup.tile_x0, 63));
           tile.tile_y = static_cast<int>(rng.integer(setup.tile_y0, 63));
+          const int x = (tile.tile_x - setup.tile_x0) * 8, y = (tile.tile_y - setup.tile_y0) * 8;
           WalkState walk;
           for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
-          walk.quadratic = setup.quadratic;
-          walk_step(walk, constants, (tile.tile_x - setup.tile_x0) * 8, (tile.tile_y - setup.tile_y0) * 8);
+          walk_step(walk, constants, x, y);
           tile.linear = walk.linear;
-          tile.quadratic = walk.quadratic;
-          for (const QuadraticForm& f : walk.quadratic) {
+          tile.quadratic = tile_context(constants, x, y, c.qdrop());
+          for (const QuadraticForm& f : tile.quadratic) {
             inside("gx of D, r²", static_cast<double>(f.gx));
             inside("gx of D, r²", static_cast<double>(f.gy));
             inside("q of D, r²", static_cast<double>(f.q));
           }
+          for (const std::uint64_t v : setup.length2) inside("length2", static_cast<double>(v));
           PixelTrace p;
           pixel_pipeline(p, tile, constants, data, static_cast<int>(rng.below(8)), static_cast<int>(rng.below(8)),
                          context);

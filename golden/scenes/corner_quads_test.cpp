@@ -7,6 +7,7 @@
 #include "model/pixel_pipeline.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
+#include "model/tile_context.hpp"
 
 #include <gtest/gtest.h>
 
@@ -163,12 +164,13 @@ TEST(CornerQuads, SquaredDistancesBecomeNegative) {
   for (const int bits : {0, 3, 6}) {
     const Config config = coarse(bits);
     int ordinary = 0, homogeneous = 0, many = 0;
-    for_each_pixel(draw_of(config, CornerGroup::negative_r2), config,
-                   [&](const SnappedQuad& quad, const TileEntry&, const PixelTrace& p) {
-                     const bool negative = std::ranges::any_of(p.r2, [](std::int64_t r2) { return r2 < 0; });
-                     (is_ordinary(quad, config) ? ordinary : homogeneous) += negative;
-                     many += corners(p) >= 3;
-                   });
+    for (const std::uint64_t seed : {1, 2, 3})
+      for_each_pixel(draw_of(config, CornerGroup::negative_r2, seed), config,
+                     [&](const SnappedQuad& quad, const TileEntry&, const PixelTrace& p) {
+                       const bool negative = std::ranges::any_of(p.r2, [](std::int64_t r2) { return r2 < 0; });
+                       (is_ordinary(quad, config) ? ordinary : homogeneous) += negative;
+                       many += corners(p) >= 3;
+                     });
     EXPECT_GT(ordinary, 5) << bits;
     EXPECT_GT(homogeneous, 5) << bits;
     if (bits == 0) {
@@ -290,6 +292,7 @@ TEST(CornerQuads, ExtremesNeedEveryBit) {
       EXPECT_GE(value, std::int64_t{1} << (widths.at(name) - 2)) << name << ", guard_bits " << config.guard_bits;
     };
     std::int64_t t = 0, w = 0, gradient = 0, slope = 0, curvature = 0;
+    std::uint64_t length2 = 0;
     const CornerDraw extreme = draw_of(config, CornerGroup::extreme);
     for (const SnappedQuad& quad : extreme.quads) {
       for (const SnappedVertex& v : quad.vertex) {
@@ -298,7 +301,8 @@ TEST(CornerQuads, ExtremesNeedEveryBit) {
       }
       const SetupResult setup = quad_setup(quad, config, extreme.state);
       for (const LinearForm& f : setup.linear) gradient = largest(largest(gradient, f.gx), f.gy);
-      for (const QuadraticForm& f : setup.quadratic) {
+      length2 = std::max(length2, std::ranges::max(setup.length2));
+      for (const QuadraticForm& f : tile_context(QuadConstants(setup), 0, 0, config.qdrop())) {
         slope = largest(largest(slope, f.gx), f.gy);
         curvature = largest(curvature, f.q);
       }
@@ -308,6 +312,7 @@ TEST(CornerQuads, ExtremesNeedEveryBit) {
     needs("GRAD_BITS", gradient);
     needs("QGRAD_BITS", slope);
     needs("QCURV_BITS", curvature);
+    EXPECT_GE(length2, std::uint64_t{1} << (config.length2_bits() - 1)) << "LENGTH2_BITS";  // unsigned
 
     std::int64_t area = 0, dot = 0, square = 0;
     int pixels = 0;

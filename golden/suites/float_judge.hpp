@@ -128,15 +128,17 @@ inline void check_number(Judge& judge, const char* name, int index, const Number
 
 // ---- Integers ----
 
-/// A sum of integers, evaluated in Real: exact where all of it stays below 2^63.
+/// A sum of integers, evaluated in Real: exact while every term and every partial sum stays below 2^64.
 struct IntegerSum {
   Real value = 0, size = 0;
+  bool exact = true;
 
   void add(Real term) {
     value += term;
     size += fabsl(term);
+    exact = exact && fabsl(term) < 0x1p64L && fabsl(value) < 0x1p64L;
   }
-  Real tolerance() const { return size < 0x1p63L ? 0 : size * rounding; }
+  Real tolerance() const { return exact ? 0 : size * rounding; }
   bool decided() const { return value == 0 ? tolerance() == 0 : fabsl(value) > tolerance(); }
   int sign() const { return (value > 0) - (value < 0); }
 };

@@ -149,14 +149,13 @@ void setup(Judge& judge, const Vector& t) {
     check_integer(judge, "lin_gx", index, static_cast<Real>(f.gx), two(ty[i] * w[j], -w[i] * ty[j]));
     check_integer(judge, "lin_gy", index, static_cast<Real>(f.gy), two(w[i] * tx[j], -tx[i] * w[j]));
   }
-  for (std::size_t n = 0; n < quadratic_count; ++n) {
-    const std::size_t i = n < 6 ? vertex_pair[n][0] : n - 6, j = n < 6 ? vertex_pair[n][1] : n - 6;
-    const int index = static_cast<int>(n), drop = c.qdrop();
-    const auto& f = r.quadratic[n];
-    check_shifted(judge, "quad_value", index, static_cast<Real>(f.value), two(tx[i] * tx[j], ty[i] * ty[j]), drop);
-    check_shifted(judge, "quad_gx", index, static_cast<Real>(f.gx), two(-tx[i] * w[j], -w[i] * tx[j]), drop);
-    check_shifted(judge, "quad_gy", index, static_cast<Real>(f.gy), two(-ty[i] * w[j], -w[i] * ty[j]), drop);
-    check_shifted(judge, "quad_q", index, static_cast<Real>(f.q), two(w[i] * w[j], 0), drop);
+  // The same wherever the origin is. Differences of positions are at most 2^32, so their squares are exact.
+  for (std::size_t n = 0; n < linear_count; ++n) {
+    const auto [i, j] = vertex_pair[n];
+    const Real way_x = static_cast<Real>(v[i].x) - static_cast<Real>(v[j].x),
+               way_y = static_cast<Real>(v[i].y) - static_cast<Real>(v[j].y);
+    check_shifted(judge, "length2", static_cast<int>(n), static_cast<Real>(r.length2[n]),
+                  two(way_x * way_x, way_y * way_y), c.qdrop());
   }
 }
 
@@ -191,7 +190,7 @@ void coverage(Judge& judge, const Vector& t) {
     }
 }
 
-/// Exact integers.
+/// Exact integers. D of an ordinary quad is half of what the law of cosines says, by floor.
 void forward_differences(Judge& judge, const Vector& t) {
   const TileEntry& tile = t.in.tile;
   const Real dx = t.in.dx, row = t.in.row;
@@ -202,16 +201,29 @@ void forward_differences(Judge& judge, const Vector& t) {
     sum.add(static_cast<Real>(t.in.constants.gy[k]) * row);
     check_integer(judge, "a", static_cast<int>(k), static_cast<Real>(t.out.pixel.a[k]), sum);
   }
+  const auto add_function = [&](IntegerSum& sum, std::size_t k) {
+    const QuadraticForm& f = tile.quadratic[k];
+    sum.add(static_cast<Real>(f.value));
+    sum.add(static_cast<Real>(f.gx) * dx);
+    sum.add(static_cast<Real>(f.gy) * row);
+    sum.add(static_cast<Real>(f.q) * (dx * dx + row * row));
+  };
   for (std::size_t k = 0; k < quadratic_count; ++k) {
+    const int index = static_cast<int>(k);
     IntegerSum sum;
-    sum.add(static_cast<Real>(tile.quadratic[k].value));
-    sum.add(static_cast<Real>(tile.quadratic[k].gx) * dx);
-    sum.add(static_cast<Real>(tile.quadratic[k].gy) * row);
-    sum.add(static_cast<Real>(t.in.constants.q[k]) * (dx * dx + row * row));
-    if (k < 6)
-      check_integer(judge, "d", static_cast<int>(k), static_cast<Real>(t.out.pixel.d[k]), sum);
-    else
-      check_integer(judge, "r2", static_cast<int>(k) - 6, static_cast<Real>(t.out.pixel.r2[k - 6]), sum);
+    if (k >= linear_count) {
+      add_function(sum, k);
+      check_integer(judge, "r2", index - linear_count, static_cast<Real>(t.out.pixel.r2[k - linear_count]), sum);
+    } else if (t.in.constants.homogeneous) {
+      add_function(sum, k);
+      check_integer(judge, "d", index, static_cast<Real>(t.out.pixel.d[k]), sum);
+    } else {
+      const auto [i, j] = vertex_pair[k];
+      add_function(sum, linear_count + i);
+      sum.add(-static_cast<Real>(t.in.constants.length2[k]));  // between the two, so that no partial sum is large
+      add_function(sum, linear_count + j);
+      check_shifted(judge, "d", index, static_cast<Real>(t.out.pixel.d[k]), sum, 1);
+    }
   }
 }
 

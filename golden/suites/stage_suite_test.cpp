@@ -82,13 +82,14 @@ void for_each(const std::string& name, const Config& config, std::uint64_t limit
 // ---- Places of the bits ----
 
 // Widths of golden/vectors/README.md for the default configuration, added up by hand: T = 32, W = 17, V = 12, TC = 10,
-// VAL = QVAL = 63, GRAD = QGRAD = 48, QCURV = 32, S = 18, E = 12, PE = 9, N = 4, DB = 24, TL = 3, AO = 24.
+// VAL = QVAL = 63, GRAD = QGRAD = 48, QCURV = 32, LENGTH2 = 64, S = 18, E = 12, PE = 9, N = 4, DB = 24, TL = 3,
+// AO = 24.
 TEST(StageSuites, WidthsByHand) {
   const std::map<std::string, std::pair<int, int>> bits{
       {"snapping", {1 + 4 * 64 + 4 * 64, 1 + 2 * 32 + 17 + 9 + 18 + 28 + 4 * 28}},
-      {"setup", {8 * 32 + 4 * 17 + 4 * 13, 3 + 4 * 10 + 2 + 4 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32)}},
+      {"setup", {8 * 32 + 4 * 17 + 4 * 13, 3 + 4 * 10 + 2 + 4 + 6 * (63 + 48 + 48) + 6 * 64}},
       {"coverage", {2 + 4 * 13 + 20 + 5 * (63 + 48 + 48) + 4, 3 * 64}},
-      {"forward_difference", {3 + 3 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32), 16 * 63}},
+      {"forward_difference", {3 + 3 + 1 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32) + 6 * 64, 16 * 63}},
       {"normalise", {16 * 63, 4 + 12 * 31 + 4 * 30}},
       {"rsqrt", {4 * 30, 4 * 30}},
       {"reciprocal", {31, 31}},
@@ -117,7 +118,8 @@ TEST(StageSuites, StimulusFieldsInTheStatedOrder) {
   EXPECT_EQ(order("setup"), "x y w scissor_x0 scissor_y0 scissor_x1 scissor_y1");
   EXPECT_EQ(order("coverage"),
             "cull scissor_x0 scissor_y0 scissor_x1 scissor_y1 tile_x tile_y lin_value lin_gx lin_gy visible");
-  EXPECT_EQ(order("forward_difference"), "row dx lin_value lin_gx lin_gy quad_value quad_gx quad_gy quad_q");
+  EXPECT_EQ(order("forward_difference"),
+            "row dx homogeneous lin_value lin_gx lin_gy quad_value quad_gx quad_gy quad_q length2");
   EXPECT_EQ(order("normalise"), "a d r2");
   EXPECT_EQ(order("reciprocal"), "neg exp sig");
   EXPECT_EQ(order("ratios"), "a_exp a_sig d_neg d_exp d_sig rho_exp rho_sig");
@@ -278,7 +280,7 @@ TEST(StageResponses, Setup) {
   constexpr int first[] = {0, 1, 2, 3, 2, 1}, second[] = {1, 2, 3, 0, 0, 3};
   std::uint64_t empty = 0, hull = 0;
   for_each("setup", c, 1500, [&](const Values& in, const Values& out) {
-    // A function at a pixel is the cross or dot product of the vectors S_i = V_i - W_i (pixel) to the vertices there.
+    // A function at a pixel is the cross product of the vectors S_i = V_i - W_i (pixel) to the vertices there.
     const std::int64_t ox = out.integer("tile_x0") * 8, oy = out.integer("tile_y0") * 8;
     for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {3, 5}}) {
       __int128 sx[4], sy[4];
@@ -286,17 +288,19 @@ TEST(StageResponses, Setup) {
         sx[i] = in.integer("x", i) - in.integer("w", i) * (ox + dx);
         sy[i] = in.integer("y", i) - in.integer("w", i) * (oy + dy);
       }
-      for (int k = 0; k < 16; ++k) {
-        const std::string name = k < 6 ? "lin_" : "quad_";
-        const int f = k < 6 ? k : k - 6;
-        const int i = f < 6 ? first[f] : f - 6, j = f < 6 ? second[f] : f - 6;
-        const __int128 expected = k < 6 ? sx[i] * sy[j] - sy[i] * sx[j] : sx[i] * sx[j] + sy[i] * sy[j];
-        __int128 value = out.integer(name + "value", f);
-        value += static_cast<__int128>(out.integer(name + "gx", f)) * dx +
-                 static_cast<__int128>(out.integer(name + "gy", f)) * dy;
-        if (k >= 6) value += static_cast<__int128>(out.integer("quad_q", f)) * (dx * dx + dy * dy);
-        EXPECT_TRUE(value == expected) << name << f;
+      for (int k = 0; k < 6; ++k) {
+        const int i = first[k], j = second[k];
+        const __int128 value = out.integer("lin_value", k) + static_cast<__int128>(out.integer("lin_gx", k)) * dx +
+                               static_cast<__int128>(out.integer("lin_gy", k)) * dy;
+        EXPECT_TRUE(value == sx[i] * sy[j] - sy[i] * sx[j]) << "lin_" << k;
       }
+    }
+    for (int k = 0; k < 6; ++k) {
+      const __int128 x = in.integer("x", first[k]) - in.integer("x", second[k]),
+                     y = in.integer("y", first[k]) - in.integer("y", second[k]);
+      EXPECT_TRUE(static_cast<std::uint64_t>(out.integer("length2", k)) ==
+                  static_cast<unsigned __int128>(x * x + y * y))
+          << k;
     }
     const auto at = [](const std::array<std::int64_t, 4>& v) { return std::minmax_element(v.begin(), v.end()); };
     std::array<std::int64_t, 4> x{}, y{}, w{};
@@ -365,19 +369,39 @@ TEST(StageResponses, Coverage) {
 }
 
 TEST(StageResponses, ForwardDifference) {
-  for_each("forward_difference", Config{}, 1500, [](const Values& in, const Values& out) {
-    const std::int64_t x = in.integer("dx"), y = in.integer("row");
-    for (int k = 0; k < 16; ++k) {
-      const std::string name = k < 6 ? "lin_" : "quad_";
-      const int f = k < 6 ? k : k - 6;
-      __int128 v = in.integer(name + "value", f);
-      v +=
-          static_cast<__int128>(in.integer(name + "gx", f)) * x + static_cast<__int128>(in.integer(name + "gy", f)) * y;
-      if (k >= 6) v += static_cast<__int128>(in.integer("quad_q", f)) * (x * x + y * y);
-      const std::int64_t actual = k < 6 ? out.integer("a", f) : f < 6 ? out.integer("d", f) : out.integer("r2", f - 6);
-      EXPECT_TRUE(v == actual) << name << f;
-    }
-  });
+  constexpr int first[] = {0, 1, 2, 3, 2, 1}, second[] = {1, 2, 3, 0, 0, 3};
+  for (const Config& c : {Config{}, small_config()}) {
+    int homogeneous = 0, ordinary = 0, odd = 0;
+    for_each("forward_difference", c, 1500, [&](const Values& in, const Values& out) {
+      const std::int64_t x = in.integer("dx"), y = in.integer("row");
+      const auto at = [&](const std::string& name, int k) {
+        return in.integer(name + "value", k) + static_cast<__int128>(in.integer(name + "gx", k)) * x +
+               static_cast<__int128>(in.integer(name + "gy", k)) * y;
+      };
+      const auto quadratic = [&](int k) {
+        return at("quad_", k) + static_cast<__int128>(in.integer("quad_q", k)) * (x * x + y * y);
+      };
+      for (int k = 0; k < 4; ++k) EXPECT_TRUE(out.integer("r2", k) == quadratic(6 + k)) << k;
+      const bool own = in.integer("homogeneous") != 0;
+      ++(own ? homogeneous : ordinary);
+      for (int k = 0; k < 6; ++k) {
+        EXPECT_TRUE(out.integer("a", k) == at("lin_", k)) << k;
+        if (own) {
+          EXPECT_TRUE(out.integer("d", k) == quadratic(k)) << k;
+          continue;
+        }
+        // 2 D = r2 + r2' - length2, or one less.
+        const __int128 rest = quadratic(6 + first[k]) + quadratic(6 + second[k]) -
+                              static_cast<__int128>(static_cast<std::uint64_t>(in.integer("length2", k))) -
+                              2 * static_cast<__int128>(out.integer("d", k));
+        EXPECT_TRUE(rest == 0 || rest == 1) << k;
+        odd += rest == 1;
+      }
+    });
+    EXPECT_GT(homogeneous, 300);
+    EXPECT_GT(ordinary, 300);
+    EXPECT_GT(odd, 300);
+  }
 }
 
 TEST(StageResponses, Normalise) {

@@ -414,6 +414,8 @@ struct ForwardLists {
   static void stimulus(D& d, const Config& c, F&& f) {
     f(plain("row", tile_log2(c), "row in the tile", "px"), -1, d.row);
     f(plain("dx", tile_log2(c), "column in the tile", "px"), -1, d.dx);
+    f(plain("homogeneous", 1, "D as its functions say; else by the law of cosines, from r2 and length2"), -1,
+      d.constants.homogeneous);
     visit_array(
         f, linear_value(c), linear_count, [&](std::size_t i) -> auto& { return d.tile.linear[i]; });
     visit_array(
@@ -427,7 +429,9 @@ struct ForwardLists {
     visit_array(
         f, quadratic_gy(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].gy; });
     visit_array(
-        f, quadratic_q(c), quadratic_count, [&](std::size_t i) -> auto& { return d.constants.q[i]; });
+        f, quadratic_q(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].q; });
+    visit_array(
+        f, squared_length(c), linear_count, [&](std::size_t i) -> auto& { return d.constants.length2[i]; });
   }
 
   template <class D, class F>
@@ -461,16 +465,42 @@ class ForwardDifference : public StageOf<ForwardLists> {
       QuadraticForm& q = d.tile.quadratic[k];
       halve_until(
           [&] {
-            return fits(q.value, config().qval_bits()) &&
-                   fits(at(q.value, q.gx, q.gy, d.constants.q[k], d), config().qval_bits());
+            return fits(q.value, config().qval_bits()) && fits(at(q.value, q.gx, q.gy, q.q, d), config().qval_bits());
           },
-          q.value, q.gx, q.gy, d.constants.q[k]);
+          q.value, q.gx, q.gy, q.q);
     }
+    if (d.constants.homogeneous) return;
+    for (std::size_t k = 0; k < linear_count; ++k) {
+      const __int128 sum = r2(d, vertex_pair[k][0]) + r2(d, vertex_pair[k][1]);
+      std::uint64_t& length2 = d.constants.length2[k];
+      halve_until([&] { return fits((sum - static_cast<__int128>(length2)) >> 1, config().qval_bits()); }, length2);
+    }
+  }
+
+  void corners(const Sink& sink) const override {
+    // D of an ordinary quad at its ends, and the floor of every kind of odd sum.
+    const std::int64_t most = (std::int64_t{1} << (config().qval_bits() - 1)) - 1;
+    const std::uint64_t longest = std::uint64_t{1} << (config().length2_bits() - 1);
+    StageData d;
+    for (std::size_t k = 0; k < linear_count; ++k)
+      for (const std::int64_t first : {std::int64_t{0}, std::int64_t{1}, most})
+        for (const std::int64_t second : {std::int64_t{0}, std::int64_t{1}, most - 1, most})
+          for (const std::uint64_t length2 : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{2}, longest}) {
+            d = {};
+            d.tile.quadratic[linear_count + vertex_pair[k][0]].value = first;
+            d.tile.quadratic[linear_count + vertex_pair[k][1]].value = second;
+            d.constants.length2[k] = length2;
+            sink(d);
+          }
   }
 
  private:
   static __int128 at(__int128 value, __int128 gx, __int128 gy, __int128 q, const StageData& d) {
     return value + d.dx * gx + d.row * gy + (d.dx * d.dx + d.row * d.row) * q;
+  }
+  static __int128 r2(const StageData& d, std::size_t i) {
+    const QuadraticForm& f = d.tile.quadratic[linear_count + i];
+    return at(f.value, f.gx, f.gy, f.q, d);
   }
 };
 
@@ -483,7 +513,7 @@ void add_front_stages(std::vector<std::unique_ptr<Suite>>& suites) {
   add({"snapping", "snapping", "Vertices as given to the integers of the port", "none", 0,
        "nothing: every bit pattern of every double occurs"},
       make_stage<Snapping>);
-  add({"setup", "handshake", "Coefficients, tiles and visibility of a quad", "quad_setup", 0,
+  add({"setup", "handshake", "Edge functions, squared lengths, tiles and visibility of a quad", "quad_setup", 0,
        "|x| or |y| above 2^(POS_INT+FRAC); |w| above 2^FRAC; x = y = w = 0; a scissor rectangle beyond 2^VIEWPORT_BITS "
        "or with x0 > x1 or y0 > y1"},
       make_stage<Setup>);
@@ -493,7 +523,7 @@ void add_front_stages(std::vector<std::unique_ptr<Suite>>& suites) {
        "or 1 and 3, both set, unless all four are"},
       make_stage<Coverage>);
   add({"forward_difference", "stage", "A, D and squared distances at a pixel from those of its tile",
-       "forward_difference", latency::forward_difference_stages,
+       "forward_difference", latency::forward_difference_stages + latency::law_of_cosines_stages,
        "results beyond VAL_BITS (A) or QVAL_BITS (D, r2), though partial sums may be; a negative q of a squared "
        "distance"},
       make_stage<ForwardDifference>);

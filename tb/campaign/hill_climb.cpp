@@ -21,6 +21,7 @@
 #include "model/stamp_coverage.hpp"
 #include "model/support/parallel.hpp"
 #include "model/support/prng.hpp"
+#include "model/tile_context.hpp"
 #include "model/untimed.hpp"
 #include "tb/check/error_limits.hpp"
 
@@ -110,13 +111,12 @@ class Climber {
     TileEntry tile;
     tile.tile_x = at.x >> config_.tile_log2;
     tile.tile_y = at.y >> config_.tile_log2;
+    const int x = (tile.tile_x - setup.tile_x0) * config_.tile(), y = (tile.tile_y - setup.tile_y0) * config_.tile();
     WalkState walk;
     for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
-    walk.quadratic = setup.quadratic;
-    walk_step(walk, constants, (tile.tile_x - setup.tile_x0) * config_.tile(),
-              (tile.tile_y - setup.tile_y0) * config_.tile());
+    walk_step(walk, constants, x, y);
     tile.linear = walk.linear;
-    tile.quadratic = walk.quadratic;
+    tile.quadratic = tile_context(constants, x, y, config_.qdrop());
     const int dx = at.x & (config_.tile() - 1), row = at.y & (config_.tile() - 1);
     if (!(stamp_coverage(tile, constants, row, config_, state_).mask >> dx & 1)) return -1;
     std::array<double, 4> k;

@@ -1,5 +1,5 @@
-// Snapping, quad_setup, the walk's forward differences and the codes of znear and zfar against exact integers
-// (rtl/README.md sections 3 and 4).
+// Snapping, quad_setup, the walk's and the tiles' functions, those of a pixel and the codes of znear and zfar against
+// exact integers (rtl/README.md sections 3 and 4).
 #include "model/covered_pixels.hpp"
 #include "model/pixel_pipeline.hpp"
 #include "model/quad_setup.hpp"
@@ -160,6 +160,13 @@ Tiles tiles_along(const SnappedQuad& quad, Coordinate coordinate, bool homogeneo
   return out;
 }
 
+/// |V_i - V_j|^2 of a pair, which is the same from every origin when W_i = W_j.
+Wide length2(const SnappedQuad& quad, std::size_t pair) {
+  const SnappedVertex &a = quad.vertex[vertex_pair[pair][0]], &b = quad.vertex[vertex_pair[pair][1]];
+  const Wide x = Wide{a.x} - b.x, y = Wide{a.y} - b.y;
+  return x * x + y * y;
+}
+
 std::string setup_fault(const SnappedQuad& quad, const Config& config, const DrawState& state) {
   const SetupResult r = quad_setup(quad, config, state);
   const std::int32_t one = 1 << config.frac();
@@ -185,14 +192,8 @@ std::string setup_fault(const SnappedQuad& quad, const Config& config, const Dra
     if (f.value != x[i] * y[j] - y[i] * x[j] || f.gx != y[i] * w[j] - w[i] * y[j] || f.gy != w[i] * x[j] - x[i] * w[j])
       return "linear function " + std::to_string(k);
   }
-  for (std::size_t k = 0; k < quadratic_count; ++k) {
-    const std::size_t i = k < 6 ? vertex_pair[k][0] : k - 6, j = k < 6 ? vertex_pair[k][1] : k - 6;
-    const QuadraticForm& f = r.quadratic[k];
-    const int drop = config.qdrop();
-    if (f.value != (x[i] * x[j] + y[i] * y[j]) >> drop || f.gx != -(x[i] * w[j] + w[i] * x[j]) >> drop ||
-        f.gy != -(y[i] * w[j] + w[i] * y[j]) >> drop || f.q != (w[i] * w[j]) >> drop)
-      return "quadratic function " + std::to_string(k);
-  }
+  for (std::size_t k = 0; k < linear_count; ++k)
+    if (r.length2[k] != length2(quad, k) >> config.qdrop()) return "length " + std::to_string(k);
   // The signs of determinants do not depend on the origin.
   const auto det = [&](std::size_t a, std::size_t b, std::size_t c) {
     return sign_of(x[a] * (y[b] * w[c] - w[b] * y[c]) - y[a] * (x[b] * w[c] - w[b] * x[c]) +
@@ -227,33 +228,91 @@ void check_setup(const Config& config, Prng& rng, FunctionTally& tally) {
   }
 }
 
-/// value + dx gx + dy gy + q (dx^2 + dy^2)
-Wide value_at(const QuadraticForm& f, Wide dx, Wide dy) {
-  return f.value + dx * f.gx + dy * f.gy + (dx * dx + dy * dy) * f.q;
-}
+/// A quad seen from a pixel: what its linear and quadratic functions are there.
+struct SeenFrom {
+  std::array<Wide, 4> x, y, w;
 
-/// What is wrong with the functions at pixel (px, py), or nothing. The linear ones by the vertices, the quadratic ones,
-/// which may have lost bits, by the forms at pixel (ox, oy).
-template <class Linear, class Quadratic>
-std::string values_fault(const SnappedQuad& quad, const SetupResult& setup, Wide px, Wide py, Wide ox, Wide oy,
-                         const Linear& linear, const Quadratic& quadratic) {
-  std::array<Wide, 4> x, y;
-  for (std::size_t i = 0; i < 4; ++i) {
-    x[i] = quad.vertex[i].x - quad.vertex[i].w * px;
-    y[i] = quad.vertex[i].y - quad.vertex[i].w * py;
+  SeenFrom(const SnappedQuad& quad, Wide px, Wide py) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      w[i] = quad.vertex[i].w;
+      x[i] = quad.vertex[i].x - w[i] * px;
+      y[i] = quad.vertex[i].y - w[i] * py;
+    }
   }
-  for (std::size_t k = 0; k < linear_count; ++k) {
+  Wide linear(std::size_t k) const {
     const auto [i, j] = vertex_pair[k];
-    if (linear(k) != x[i] * y[j] - y[i] * x[j]) return "linear function " + std::to_string(k);
+    return x[i] * y[j] - y[i] * x[j];
   }
-  for (std::size_t k = 0; k < quadratic_count; ++k)
-    if (quadratic(k) != value_at(setup.quadratic[k], px - ox, py - oy))
-      return "quadratic function " + std::to_string(k);
+  /// Vertices of D (0 to 5) or R² (6 to 9).
+  static std::array<std::size_t, 2> vertices(std::size_t k) {
+    return k < linear_count ? vertex_pair[k] : std::array{k - linear_count, k - linear_count};
+  }
+  Wide quadratic(std::size_t k) const {
+    const auto [i, j] = vertices(k);
+    return x[i] * x[j] + y[i] * y[j];
+  }
+  /// Value, gx, gy and q around this pixel, each without its `drop` lowest bits.
+  std::array<Wide, 4> coefficients(std::size_t k, int drop) const {
+    const auto [i, j] = vertices(k);
+    return {quadratic(k) >> drop, -(x[i] * w[j] + w[i] * x[j]) >> drop, -(y[i] * w[j] + w[i] * y[j]) >> drop,
+            (w[i] * w[j]) >> drop};
+  }
+};
+
+/// What is wrong with a tile's functions, or nothing. An ordinary quad has no dot products there.
+std::string tile_fault(const SnappedQuad& quad, const Config& config, bool homogeneous, const TileEntry& tile) {
+  const SeenFrom origin(quad, Wide{tile.tile_x} * config.tile(), Wide{tile.tile_y} * config.tile());
+  for (std::size_t k = 0; k < linear_count; ++k)
+    if (tile.linear[k] != origin.linear(k)) return "linear function " + std::to_string(k);
+  for (std::size_t k = 0; k < quadratic_count; ++k) {
+    const QuadraticForm& f = tile.quadratic[k];
+    std::array<Wide, 4> expected{};
+    if (homogeneous || k >= linear_count) expected = origin.coefficients(k, config.qdrop());
+    if (std::array<Wide, 4>{f.value, f.gx, f.gy, f.q} != expected) return "quadratic function " + std::to_string(k);
+  }
   return "";
 }
 
-/// Every tile of the bounding box once, and at each the values of all functions, however many steps away; then those of
-/// a pixel of it.
+/// Positions that all lie on the subpixel grid, with W = 1: their products are multiples of 2^(2
+/// homogeneous_frac_bits).
+bool on_subpixel_grid(const SnappedQuad& quad, const Config& config) {
+  const std::int32_t grid = 1 << config.homogeneous_frac_bits;
+  return std::ranges::all_of(quad.vertex, [&](const SnappedVertex& v) {
+    return v.w == 1 << config.frac() && v.x % grid == 0 && v.y % grid == 0;
+  });
+}
+
+/// What is wrong with the functions at pixel (dx, dy) of a tile, or nothing: by the vertices where no bit is lost, else
+/// by the tile's coefficients, and D of an ordinary quad by the law of cosines from these.
+std::string pixel_fault(const SnappedQuad& quad, const Config& config, bool homogeneous, const TileEntry& tile, int dx,
+                        int dy, const PixelTrace& p) {
+  const int drop = config.qdrop();
+  const Wide x = Wide{tile.tile_x} * config.tile(), y = Wide{tile.tile_y} * config.tile();
+  const SeenFrom origin(quad, x, y), pixel(quad, x + dx, y + dy);
+  const bool exact = drop == 0 || (drop <= 2 * config.homogeneous_frac_bits && on_subpixel_grid(quad, config));
+  const auto stepped = [&](std::size_t k) {
+    const auto [value, gx, gy, q] = origin.coefficients(k, drop);
+    return value + dx * gx + dy * gy + (dx * dx + dy * dy) * q;
+  };
+  for (std::size_t k = 0; k < linear_count; ++k)
+    if (p.a[k] != pixel.linear(k)) return "A " + std::to_string(k);
+  for (std::size_t k = 0; k < quadratic_count; ++k) {
+    const bool is_dot = k < linear_count;
+    const Wide actual = is_dot ? p.d[k] : p.r2[k - linear_count];
+    Wide expected = stepped(k);
+    if (exact)
+      expected = pixel.quadratic(k) / (Wide{1} << drop);  // no rest
+    else if (is_dot && !homogeneous)
+      expected = (stepped(linear_count + vertex_pair[k][0]) + stepped(linear_count + vertex_pair[k][1]) -
+                  (length2(quad, k) >> drop)) >>
+                 1;
+    if (actual != expected || (exact && actual << drop != pixel.quadratic(k)))
+      return (is_dot ? "D " : "R2 ") + std::to_string(is_dot ? k : k - linear_count);
+  }
+  return "";
+}
+
+/// Every tile of the bounding box once, with its functions, however many steps away; then those of a pixel of it.
 void check_walk(const Config& config, Prng& rng, FunctionTally& tiles, FunctionTally& pixels) {
   DrawState state;
   state.width = state.height = state.scissor_x1 = state.scissor_y1 = std::min(160, 1 << config.viewport_bits);
@@ -261,24 +320,24 @@ void check_walk(const Config& config, Prng& rng, FunctionTally& tiles, FunctionT
   TileWalk walk(config, state);
   for (int n = 0; n < walked_quads; ++n) {
     SnappedQuad quad = random_quad(config, rng, n);
+    if (n % 8 == 7)  // W = 1 beside the subpixel grid, as in the last half step of the guard band
+      for (SnappedVertex& v : quad.vertex) v.w = 1 << config.frac();
     if (n % 4 < 2)  // over several blocks
       for (SnappedVertex& v : quad.vertex) v.x *= 2, v.y *= 2;
     const SetupResult setup = quad_setup(quad, config, state);
-    const int size = config.tile(), ox = setup.tile_x0 * size, oy = setup.tile_y0 * size;
+    const std::int32_t one = 1 << config.frac();
+    const bool homogeneous = std::ranges::any_of(quad.vertex, [&](const SnappedVertex& v) { return v.w != one; });
+    const int size = config.tile();
     std::vector<int> seen(static_cast<std::size_t>(setup.tiles_x * setup.tiles_y));
     walk_tiles(walk, setup, [&](const TileEntry& tile) {
       const int column = tile.tile_x - setup.tile_x0, row = tile.tile_y - setup.tile_y0;
       const bool inside = column >= 0 && column < setup.tiles_x && row >= 0 && row < setup.tiles_y;
       std::string fault = inside ? "" : "outside the bounding box";
       if (inside && seen[static_cast<std::size_t>(row * setup.tiles_x + column)]++ != 0) fault = "twice";
-      const int x = tile.tile_x * size, y = tile.tile_y * size;
-      if (fault.empty())
-        fault = values_fault(
-            quad, setup, x, y, ox, oy, [&](std::size_t k) { return tile.linear[k]; },
-            [&](std::size_t k) { return tile.quadratic[k].value; });
+      if (fault.empty()) fault = tile_fault(quad, config, homogeneous, tile);
       const auto place = [&] {
-        return fault + " at (" + std::to_string(x) + ", " + std::to_string(y) + "), origin (" + std::to_string(ox) +
-               ", " + std::to_string(oy) + ")";
+        return fault + " of tile (" + std::to_string(tile.tile_x) + ", " + std::to_string(tile.tile_y) +
+               "), the quad's first one (" + std::to_string(setup.tile_x0) + ", " + std::to_string(setup.tile_y0) + ")";
       };
       tiles.expect(fault.empty(), place);
       if (!fault.empty()) return;
@@ -286,9 +345,7 @@ void check_walk(const Config& config, Prng& rng, FunctionTally& tiles, FunctionT
                 dy = static_cast<int>(rng.below(static_cast<std::uint64_t>(size)));
       PixelTrace p;
       forward_difference(p, tile, walk.constants(), dx, dy);
-      fault = values_fault(
-          quad, setup, x + dx, y + dy, ox, oy, [&](std::size_t k) { return p.a[k]; },
-          [&](std::size_t k) { return k < 6 ? p.d[k] : p.r2[k - 6]; });
+      fault = pixel_fault(quad, config, homogeneous, tile, dx, dy, p);
       pixels.expect(fault.empty(), place);
     });
     const auto missed = std::ranges::count(seen, 0);

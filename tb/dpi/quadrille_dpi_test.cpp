@@ -158,7 +158,8 @@ TEST_F(Dpi, SetupOfASquare) {
   EXPECT_EQ(get_signed("setup", "lin_value", 0), 0);
   EXPECT_EQ(get_signed("setup", "lin_gx", 0), 0);
   EXPECT_EQ(get_signed("setup", "lin_gy", 0), std::int64_t{16} << 30) << "S0 × S1 at (0, y) = 16 y";
-  EXPECT_EQ(get_signed("setup", "quad_value", 8), std::int64_t{2 * 16 * 16} << 30) << "r² of corner 2 at the origin";
+  EXPECT_EQ(get("setup", "length2", 0), std::int64_t{16 * 16} << 30) << "side 01";
+  EXPECT_EQ(get("setup", "length2", 4), std::int64_t{2 * 16 * 16} << 30) << "diagonal 20";
 }
 
 TEST_F(Dpi, CoverageOfATileInsideFourEdges) {
@@ -190,13 +191,19 @@ TEST_F(Dpi, ForwardDifferenceAtAPixel) {
     set("forward_difference", "quad_gy", k, -1);
     set("forward_difference", "quad_q", k, 2);
   }
-  ASSERT_EQ(quadrille_forward_difference(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
   const auto quadratic = [](int k) { return 500 * k + 5 * k - 3 + 2 * (5 * 5 + 3 * 3); };
-  for (int k = 0; k < 6; ++k) {
-    EXPECT_EQ(get_signed("forward_difference", "a", k), -1000 * k + 5 * 7 - 3 * 11) << k;
-    EXPECT_EQ(get_signed("forward_difference", "d", k), quadratic(k)) << k;
+  const int first[] = {0, 1, 2, 3, 2, 1}, second[] = {1, 2, 3, 0, 0, 3};
+  for (const bool homogeneous : {false, true}) {
+    set("forward_difference", "homogeneous", -1, homogeneous);
+    for (int k = 0; k < 6; ++k) set("forward_difference", "length2", k, 1000 * k);
+    ASSERT_EQ(quadrille_forward_difference(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
+    for (int k = 0; k < 6; ++k) {
+      const int twice = quadratic(6 + first[k]) + quadratic(6 + second[k]) - 1000 * k;  // the law of cosines
+      EXPECT_EQ(get_signed("forward_difference", "a", k), -1000 * k + 5 * 7 - 3 * 11) << k;
+      EXPECT_EQ(get_signed("forward_difference", "d", k), homogeneous ? quadratic(k) : (twice - (twice & 1)) / 2) << k;
+    }
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(get_signed("forward_difference", "r2", k), quadratic(6 + k)) << k;
   }
-  for (int k = 0; k < 4; ++k) EXPECT_EQ(get_signed("forward_difference", "r2", k), quadratic(6 + k)) << k;
 }
 
 TEST_F(Dpi, NormaliseOfSmallIntegers) {

@@ -8,7 +8,7 @@ module replay_coverage (
   localparam int TILE = quadrille_pkg::TILE;
 
   logic [quadrille_pkg::RING_LOG2:0] fetch_ptr, load_ptr, stamp_ptr;
-  logic fetch, load, push, push_end;
+  logic fetch, load, push, push_end, push_homogeneous;
   logic [TILE_LOG2-1:0] row;
   logic [TILE-1:0] mask, front, tie;
 
@@ -41,6 +41,9 @@ module replay_coverage (
       .load_o(load),
       .load_ptr_o(load_ptr),
       .end_i(1'b0),
+      .fetch_homogeneous_i(1'b0),
+      .homogeneous_i(1'b0),
+      .homogeneous_o(push_homogeneous),
       .freed_i(push),
       .push_o(push),
       .end_o(push_end),
@@ -83,5 +86,5 @@ module replay_coverage (
   end
 
   logic unused;
-  assign unused = ^{fetch_ptr, load, load_ptr, stamp_ptr, push_end};
+  assign unused = ^{fetch_ptr, load, load_ptr, stamp_ptr, push_end, push_homogeneous};
 endmodule

@@ -1,4 +1,4 @@
-// Suite `forward_difference`: the 16 functions of a tile and a pixel of it in, A, D and r^2 at that pixel out.
+// Suite `forward_difference`: the 16 functions of a tile, the squared lengths and a pixel of the tile in, A, D and r^2 at that pixel out.
 module replay_forward_difference (
     `include "replay_ports.svh"
 );
@@ -8,6 +8,9 @@ module replay_forward_difference (
   localparam int QVAL = quadrille_pkg::QVAL_BITS;
   localparam int QGRAD = quadrille_pkg::QGRAD_BITS;
   localparam int QCURV = quadrille_pkg::QCURV_BITS;
+  localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS;
+  localparam int FORWARD = quadrille_pkg::FORWARD_DIFFERENCE_STAGES;
+  localparam int LAW = quadrille_pkg::LAW_OF_COSINES_STAGES;
 
   localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   logic [2*(TILE_LOG2/2+1)-1:0] row_digits_i, dx_digits_i;
@@ -20,6 +23,9 @@ module replay_forward_difference (
       .*
   );
 
+  logic [6*VAL-1:0] a;
+  logic [10*QVAL-1:0] quadratic;  // D of a homogeneous quad, r^2
+
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     forward_difference #(
         .VALUE_BITS(VAL),
@@ -30,13 +36,10 @@ module replay_forward_difference (
         .gx_i(lin_gx_i[g*GRAD+:GRAD]),
         .gy_i(lin_gy_i[g*GRAD+:GRAD]),
         .q_i(1'b0),
-        .value_o(a_o[g*VAL+:VAL]),
+        .value_o(a[g*VAL+:VAL]),
         .*
     );
   end
-
-  logic [10*QVAL-1:0] quad_o;
-  assign {r2_o, d_o} = quad_o;
 
   for (genvar g = 0; g < 10; g++) begin : gen_quadratic
     forward_difference #(
@@ -48,10 +51,53 @@ module replay_forward_difference (
         .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
         .gy_i(quad_gy_i[g*QGRAD+:QGRAD]),
         .q_i(quad_q_i[g*QCURV+:QCURV]),
-        .value_o(quad_o[g*QVAL+:QVAL]),
+        .value_o(quadratic[g*QVAL+:QVAL]),
         .*
     );
   end
 
-  replay_valid #(.LATENCY(quadrille_pkg::FORWARD_DIFFERENCE_STAGES)) u_valid (.*);
+  // D, with what goes beside it: law_of_cosines takes the squared distances a clock before all else.
+  logic [6*QVAL-1:0] exact;
+  logic homogeneous;
+  logic [6*LENGTH2-1:0] length2;
+
+  delay_line #(
+      .WIDTH(1 + 6 * LENGTH2),
+      .DEPTH(FORWARD + 1)
+  ) u_quad (
+      .clk_i,
+      .data_i({homogeneous_i, length2_i}),
+      .data_o({homogeneous, length2})
+  );
+
+  delay_line #(.WIDTH(6 * QVAL), .DEPTH(1)) u_exact (
+      .clk_i,
+      .data_i(quadratic[6*QVAL-1:0]),
+      .data_o(exact)
+  );
+
+  for (genvar g = 0; g < 6; g++) begin : gen_d
+    localparam int FIRST = 6 + {30'd0, quadrille_pkg::pair_first(4'(g))};
+    localparam int SECOND = 6 + {30'd0, quadrille_pkg::pair_second(4'(g))};
+    law_of_cosines u_law (
+        .clk_i,
+        .homogeneous_i(homogeneous),
+        .exact_i(exact[g*QVAL+:QVAL]),
+        .r2_first_i(quadratic[FIRST*QVAL+:QVAL]),
+        .r2_second_i(quadratic[SECOND*QVAL+:QVAL]),
+        .length2_i(length2[g*LENGTH2+:LENGTH2]),
+        .d_o(d_o[g*QVAL+:QVAL])
+    );
+  end
+
+  delay_line #(
+      .WIDTH(6 * VAL + 4 * QVAL),
+      .DEPTH(LAW)
+  ) u_beside (
+      .clk_i,
+      .data_i({a, quadratic[10*QVAL-1:6*QVAL]}),
+      .data_o({a_o, r2_o})
+  );
+
+  replay_valid #(.LATENCY(FORWARD + LAW)) u_valid (.*);
 endmodule

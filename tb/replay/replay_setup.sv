@@ -5,13 +5,16 @@ module replay_setup (
   `include "replay_fields.svh"
   localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2;
 
-  // What follows from the gradients is not of the boundary: the walk and the coverage show it.
+  // What follows from the gradients is not of the boundary: the walk and the coverage show it; the vertices, the tiles' functions.
   logic [4:0] tie_pos_o, tie_neg_o;
   logic [5*quadrille_pkg::REACH_BITS-1:0] fall_tile_o, rise_tile_o, fall_block_o, rise_block_o;
+  logic [4*quadrille_pkg::T_BITS-1:0] vertex_x_o, vertex_y_o;
+  logic [4*quadrille_pkg::W_BITS-1:0] vertex_w_o;
 
   // What vertex_assembly finds out beat by beat.
   localparam int T = quadrille_pkg::T_BITS;
   localparam int W = quadrille_pkg::W_BITS;
+  localparam int V = quadrille_pkg::VIEWPORT_BITS;
   localparam logic [W-1:0] ONE = W'(1) << quadrille_pkg::FRAC;
   logic ordinary;
   logic [T-1:0] low_x, high_x, low_y, high_y;
@@ -31,7 +34,59 @@ module replay_setup (
     end
   end
 
+  // The multipliers, for the setup alone.
+  logic [2:0] job_kind;
+  logic [3:0] job_function;
+  logic [4*T-1:0] job_x, job_y;
+  logic [4*W-1:0] job_w;
+  logic [quadrille_pkg::VAL_BITS-1:0] edge_value;
+  logic [quadrille_pkg::GRAD_BITS-1:0] edge_gx, edge_gy;
+  logic [quadrille_pkg::RISE_BITS-1:0] apart_x, apart_y;
+  logic [quadrille_pkg::DOT_OUT_BITS-1:0] result0, result1;
+  logic [T-1:0] xi, yi, xj, yj;
+
+  vertex_products u_products (
+      .clk_i,
+      .tile_valid_i(1'b0),
+      .tile_kind_i(3'd0),
+      .tile_function_i(4'd0),
+      .tile_x_i((4 * T)'(0)),
+      .tile_y_i((4 * T)'(0)),
+      .tile_w_i((4 * W)'(0)),
+      .offset_x_i((V + 1)'(0)),
+      .offset_y_i((V + 1)'(0)),
+      .setup_kind_i(job_kind),
+      .setup_function_i(job_function),
+      .setup_x_i(job_x),
+      .setup_y_i(job_y),
+      .setup_w_i(job_w),
+      .edge_value_i(edge_value),
+      .edge_gx_i(edge_gx),
+      .edge_gy_i(edge_gy),
+      .xi_o(xi),
+      .yi_o(yi),
+      .xj_o(xj),
+      .yj_o(yj),
+      .apart_x_o(apart_x),
+      .apart_y_o(apart_y),
+      .result0_o(result0),
+      .result1_o(result1)
+  );
+
   quad_setup u_setup (
+      .wait_i(1'b0),
+      .kind_o(job_kind),
+      .function_o(job_function),
+      .x_o(job_x),
+      .y_o(job_y),
+      .w_o(job_w),
+      .edge_value_o(edge_value),
+      .edge_gx_o(edge_gx),
+      .edge_gy_o(edge_gy),
+      .apart_x_i(apart_x),
+      .apart_y_i(apart_y),
+      .result0_i(result0),
+      .result1_i(result1),
       .ordinary_i(ordinary),
       .low_x_i(low_x),
       .high_x_i(high_x),
@@ -44,4 +99,7 @@ module replay_setup (
       .done_o(valid_o),
       .*
   );
+
+  logic unused;
+  assign unused = ^{xi, yi, xj, yj};
 endmodule

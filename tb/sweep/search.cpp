@@ -1,5 +1,7 @@
 #include "tb/sweep/search.hpp"
 
+#include "golden/analysis/error_bound.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +42,7 @@ constexpr std::array key_effects{
     KeyEffect{"attribute_int_bits", Effect::larger_is_better},  // attributes that are refused or clamped
     KeyEffect{"attribute_frac_bits", Effect::larger_is_better},
     KeyEffect{"depth_bits", Effect::larger_is_better},
-    KeyEffect{"tile_log2", Effect::unordered},  // where inexact D and r² start; see abilities()
+    KeyEffect{"tile_log2", Effect::unordered},  // the origins of inexact D and r²; see abilities()
     KeyEffect{"pixels_per_clock", Effect::none},
     KeyEffect{"quad_slots_log2", Effect::none},
     KeyEffect{"tile_slots_log2", Effect::none},
@@ -63,10 +65,9 @@ struct alignas(16) Abilities {
 
 constexpr std::int8_t exact = 127;  ///< as good as every value
 
-/// `ordinary`: of inputs whose coordinates have subpixel_bits fraction bits.
+/// `ordinary`: of inputs whose vertices are all ordinary.
 Abilities abilities(const Config& config, bool ordinary, std::span<const std::string_view> idle_keys) {
-  const bool exact_quadratics =
-      config.qdrop() == 0 || (ordinary && config.quadratic_frac() >= 2 * config.subpixel_bits);
+  const bool exact_quadratics = config.qdrop() == 0 || (ordinary && keeps_ordinary_products(config));
   Abilities result;
   for (std::size_t i = 0; i < key_effects.size(); ++i) {
     const auto [key, effect] = key_effects[i];
@@ -74,7 +75,7 @@ Abilities abilities(const Config& config, bool ordinary, std::span<const std::st
     const auto value = static_cast<std::int8_t>(config.resolved(key));
     result.of[2 * i] = value;
     if (effect == Effect::unordered) result.of[2 * i + 1] = static_cast<std::int8_t>(-value);
-    // Exact D and r² do not depend on where they start.
+    // Exact D and r² are the same from every origin.
     if (key == "tile_log2" && exact_quadratics) result.of[2 * i] = result.of[2 * i + 1] = exact;
     if (key == "quadratic_frac_bits" && exact_quadratics && ordinary) result.of[2 * i] = exact;
   }

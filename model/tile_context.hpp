@@ -1,0 +1,20 @@
+// Twin of rtl/tile_context.sv: the quadratic functions of a tile that is hit, from its quad's vertices.
+#pragma once
+
+#include "model/tile_walk.hpp"
+
+namespace quadrille {
+
+/// D and R² around the pixel (x, y) that is so far from the quad's origin pixel: value, gx, gy, q each the floor by
+/// `drop` (QDROP) bits of the exact one; exact for an ordinary quad whose positions have no bits there. Of an ordinary
+/// quad the squared distances alone, the rest 0.
+std::array<QuadraticForm, quadratic_count> tile_context(const QuadConstants& quad, int x, int y, int drop);
+
+// Clocks: rtl/README.md section 4. Step 0 moves an ordinary quad's vertices to the tile, steps 1 and 2 are its squares.
+/// From a step until its result is in the ring.
+inline constexpr int tile_context_result_clocks = 6;
+/// A homogeneous quad's: steps 1 to 4 move the vertices; the first product, when those of its pair are there; the last.
+inline constexpr int tile_context_first_product = 3 + tile_context_result_clocks;
+inline constexpr int tile_context_last_product = tile_context_first_product + 19;
+
+}  // namespace quadrille

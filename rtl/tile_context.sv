@@ -1,0 +1,259 @@
+// The quadratic functions of a tile that is hit, from its quad's vertices relative to the tile: value, gx, gy, q of f(dx, dy) = value
+// + dx gx + dy gy + q (dx^2 + dy^2), each without its QDROP lowest bits, written into the tile's entry of the ring as they come.
+//
+// Ordinary quad: the four squared distances, gx = -2 X ONE, gy = -2 Y ONE, q = ONE^2; 3 clocks a tile. Homogeneous quad: all ten, in three
+// words of the ring (quadrille_pkg: PART_*), 29 clocks a tile. README.md section 4 has the steps. The multipliers are those
+// of vertex_products; a job here takes the clock from the setup.
+//
+// An entry is complete, in the order of the pushes, VERTEX_PRODUCT_CLOCKS after its last step (complete_o). An end entry has no step
+// of its own but waits its turn.
+module tile_context #(
+    localparam int T = quadrille_pkg::T_BITS,
+    localparam int W = quadrille_pkg::W_BITS,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int TC = quadrille_pkg::TC_BITS,
+    localparam int GRAD = quadrille_pkg::GRAD_BITS,
+    localparam int QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
+    localparam int QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
+    localparam int RING = quadrille_pkg::RING_LOG2
+) (
+    input logic clk_i,
+    input logic rst_ni,
+    // Quad: vertices relative to its first tile's origin pixel
+    input logic take_i,
+    input logic homogeneous_i,
+    input logic [4*T-1:0] x_i,
+    input logic [4*T-1:0] y_i,
+    input logic [4*W-1:0] w_i,
+    output logic homogeneous_o,  // of the quad that was taken last
+    // Tile: how far from the quad's first one, and its entry in the ring
+    input logic push_i,
+    output logic ready_o,
+    input logic end_i,
+    input logic [TC-1:0] column_i,
+    input logic [TC-1:0] row_i,
+    input logic [RING-1:0] entry_i,
+    // Job
+    output logic job_valid_o,
+    output logic [2:0] kind_o,
+    output logic [3:0] function_o,
+    output logic [4*T-1:0] x_o,
+    output logic [4*T-1:0] y_o,
+    output logic [4*W-1:0] w_o,
+    output logic [V:0] offset_x_o,
+    output logic [V:0] offset_y_o,
+    // Its pair of vertices a clock later, its results VERTEX_PRODUCT_CLOCKS later
+    input logic [T-1:0] xi_i,
+    input logic [T-1:0] yi_i,
+    input logic [T-1:0] xj_i,
+    input logic [T-1:0] yj_i,
+    input logic [OUT-1:0] result0_i,
+    input logic [OUT-1:0] result1_i,
+    // Words of the ring, one of four functions each. The even and the odd functions have a bus each; q is the same
+    output logic [3:0] value_write_o,
+    output logic [RING-1:0] value_entry_o,
+    output logic [2*QVAL-1:0] value_o,
+    output logic [3:0] gradient_write_o,
+    output logic [RING-1:0] gradient_entry_o,
+    output logic [2*QGRAD-1:0] gx_o,
+    output logic [2*QGRAD-1:0] gy_o,
+    output logic [3:0] q_write_o,
+    output logic [RING-1:0] q_entry_o,
+    output logic [QCURV-1:0] q_o,
+    output logic complete_o,
+    output logic complete_homogeneous_o
+);
+  localparam int FRAC = quadrille_pkg::FRAC;
+  localparam int QDROP = quadrille_pkg::QDROP;
+  localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
+  localparam int CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
+
+  // ---- Steps --------------------------------------------------------------------------------------------------------------
+  // Step 0 loads the vertices, an ordinary quad's moved to the tile; then SQUARES of two pairs. A homogeneous quad: MOVE of four vertices;
+  // when those of the first pair are there (each next product finds its vertices in time) DOT and DOT_GRADIENT of the ten functions.
+  // The next tile may come then: its own results come later than the last ones of this.
+  localparam logic [5:0] MOVE_END = 6'd5;
+  localparam logic [5:0] PRODUCT = MOVE_END - 6'd2 + 6'(CLOCKS);
+  localparam logic [5:0] GRADIENT = PRODUCT + 6'd10;
+  localparam logic [5:0] LAST_HOMOGENEOUS = GRADIENT + 6'd9;
+  localparam logic [5:0] LAST_ORDINARY = 6'd2;
+  localparam logic [5:0] LAST_END = 6'd1;
+
+  logic active_q, end_q, homogeneous_q;  // homogeneous_q: of the tile
+  logic [5:0] step_q, last_step;
+  logic [TC-1:0] column_q, row_q;
+  logic [RING-1:0] entry_q;
+  logic last, load, complete;
+
+  assign last_step = end_q ? LAST_END : homogeneous_q ? LAST_HOMOGENEOUS : LAST_ORDINARY;
+  assign last = step_q == last_step;
+  assign ready_o = !active_q || last;
+  assign load = active_q && step_q == '0;
+  assign job_valid_o = active_q && !end_q && step_q != '0 && (!homogeneous_q || step_q < MOVE_END || step_q >= PRODUCT);
+  assign complete = active_q && last;
+
+  always_comb begin
+    if (!homogeneous_q) begin
+      kind_o = quadrille_pkg::SQUARES;
+      function_o = step_q[0] ? 4'd0 : 4'd2;  // pairs 01, 23
+    end else if (step_q < MOVE_END) begin
+      kind_o = quadrille_pkg::MOVE;
+      function_o = 4'd6 + 4'(step_q - 6'd1);  // the pair of a vertex with itself
+    end else if (step_q < GRADIENT) begin
+      kind_o = quadrille_pkg::DOT;
+      function_o = 4'(step_q - PRODUCT);
+    end else begin
+      kind_o = quadrille_pkg::DOT_GRADIENT;
+      function_o = 4'(step_q - GRADIENT);
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      active_q <= 1'b0;
+    end else begin
+      if (push_i) active_q <= 1'b1;
+      else if (last) active_q <= 1'b0;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (push_i) begin
+      step_q <= '0;
+      {end_q, homogeneous_q, column_q, row_q, entry_q} <= {end_i, homogeneous_o && !end_i, column_i, row_i, entry_i};
+    end else begin
+      step_q <= step_q + 6'd1;
+    end
+  end
+
+  // ---- Vertices -----------------------------------------------------------------------------------------------------------
+  logic [4*T-1:0] quad_x_q, quad_y_q;
+  logic [4*W-1:0] quad_w_q;
+  logic moved;
+  logic [1:0] moved_vertex;
+  logic [T-1:0] shift_x, shift_y;  // ONE times the offset
+
+  assign offset_x_o = {column_q, TILE_LOG2'(0)};
+  assign offset_y_o = {row_q, TILE_LOG2'(0)};
+  assign shift_x = homogeneous_q ? '0 : T'(offset_x_o) << FRAC;
+  assign shift_y = homogeneous_q ? '0 : T'(offset_y_o) << FRAC;
+
+  always_ff @(posedge clk_i) begin
+    if (take_i) {homogeneous_o, quad_x_q, quad_y_q, quad_w_q} <= {homogeneous_i, x_i, y_i, w_i};
+    if (load) w_o <= quad_w_q;
+  end
+
+  for (genvar g = 0; g < 4; g++) begin : gen_vertex
+    always_ff @(posedge clk_i) begin
+      if (load) begin
+        x_o[g*T+:T] <= quad_x_q[g*T+:T] - shift_x;
+        y_o[g*T+:T] <= quad_y_q[g*T+:T] - shift_y;
+      end else if (moved && moved_vertex == 2'(g)) begin
+        x_o[g*T+:T] <= T'(result0_i);
+        y_o[g*T+:T] <= T'(result1_i);
+      end
+    end
+  end
+
+  // ---- What the jobs under way are ------------------------------------------------------------------------------------------
+  // A clock after the job an ordinary quad's gradients and q are there; with the results all else.
+  localparam int JOB = 5 + 4 + RING + 1;
+  logic [JOB-1:0] job;
+  logic [CLOCKS*JOB-1:0] job_q;
+  logic early_squares;
+  logic [3:0] early_function, late_function;
+  logic [RING-1:0] early_entry, late_entry;
+  logic late_move, late_dot, late_gradient, late_squares;
+
+  assign job = {
+    {4{job_valid_o}} & {
+      kind_o == quadrille_pkg::MOVE,
+      kind_o == quadrille_pkg::DOT,
+      kind_o == quadrille_pkg::DOT_GRADIENT,
+      kind_o == quadrille_pkg::SQUARES
+    },
+    complete,
+    function_o,
+    entry_q,
+    homogeneous_q
+  };
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) job_q <= '0;
+    else job_q <= {job_q[(CLOCKS-1)*JOB-1:0], job};
+  end
+
+  assign early_squares = job_q[JOB-4];
+  assign {early_function, early_entry} = job_q[1+:4+RING];
+  assign {late_move, late_dot, late_gradient, late_squares, complete_o, late_function, late_entry, complete_homogeneous_o} =
+      job_q[CLOCKS*JOB-1-:JOB];
+  assign moved = late_move;
+  assign moved_vertex = late_function[1:0] - 2'd2;  // functions 6 to 9
+
+  // ---- Where a function is in the ring: its word of four functions, and which of them ---------------------------------------
+  logic [3:0] late_lane, late_pair, early_pair;
+  logic [RING-1:0] late_word;
+
+  always_comb begin
+    case (late_function)
+      4'd0, 4'd4, 4'd6: late_lane = 4'b0001;
+      4'd1, 4'd5, 4'd7: late_lane = 4'b0010;
+      4'd2, 4'd8: late_lane = 4'b0100;
+      default: late_lane = 4'b1000;
+    endcase
+    if (late_squares || late_function >= 4'd6) late_word = late_entry;
+    else if (late_function >= 4'd4) late_word = late_entry + RING'(quadrille_pkg::PART_DIAGONALS);
+    else late_word = late_entry + RING'(quadrille_pkg::PART_EDGES);
+  end
+
+  assign late_pair = (late_function == 4'd0) ? 4'b0011 : 4'b1100;
+  assign early_pair = (early_function == 4'd0) ? 4'b0011 : 4'b1100;
+
+  logic [QVAL-1:0] value0, value1;
+
+  assign value0 = QVAL'(result0_i >> QDROP);
+  assign value1 = QVAL'(result1_i >> QDROP);
+  assign value_write_o = ({4{late_dot}} & late_lane) | ({4{late_squares}} & late_pair);
+  assign value_entry_o = late_word;
+  assign value_o[0+:QVAL] = value0;
+  assign value_o[QVAL+:QVAL] = late_dot ? value0 : value1;
+
+  // gx = -(Xi Wj + Wi Xj); of an ordinary quad's square -2 X ONE.
+  logic [4*T-1:0] early;  // gy, gx of the odd, of the even function
+  logic [2*GRAD-1:0] late;
+  logic [4*QGRAD-1:0] gradient;
+
+  assign early = {yj_i, xj_i, yi_i, xi_i};
+  assign late = {result1_i[GRAD-1:0], result0_i[GRAD-1:0]};
+
+  for (genvar g = 0; g < 4; g++) begin : gen_gradient
+    logic [GRAD-1:0] minus, exact;
+    assign minus = early_squares ? GRAD'($signed(early[g*T+:T])) << (FRAC + 1) : late[(g%2)*GRAD+:GRAD];
+    assign exact = GRAD'(0) - minus;
+    assign gradient[g*QGRAD+:QGRAD] = QGRAD'(exact >> QDROP);
+  end
+
+  assign gradient_write_o = early_squares ? early_pair : {4{late_gradient}} & late_lane;
+  assign gradient_entry_o = early_squares ? early_entry : late_word;
+  assign gx_o = {gradient[2*QGRAD+:QGRAD], gradient[0+:QGRAD]};
+  assign gy_o = {gradient[3*QGRAD+:QGRAD], gradient[QGRAD+:QGRAD]};
+
+  localparam int CURV = quadrille_pkg::CURV_BITS;
+  logic [CURV-1:0] q;
+
+  assign q = early_squares ? CURV'(1) << (2 * FRAC) : result1_i[CURV-1:0];
+  assign q_write_o = early_squares ? early_pair : {4{late_dot}} & late_lane;
+  assign q_entry_o = early_squares ? early_entry : late_word;
+  assign q_o = QCURV'(q >> QDROP);
+
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      assert (!push_i || ready_o);
+      assert (!early_squares || !(late_gradient || late_dot));  // one word a clock
+    end
+  end
+`endif
+endmodule
