@@ -4,7 +4,7 @@
 
 namespace quadrille {
 bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull) {
-  EdgeSign e[5];
+  EdgeSigns e[5];
   for (std::size_t k = 0; k < 5; ++k) {
     const std::int64_t sx = quad.gx[k] * (extent - 1);
     const std::int64_t sy = quad.gy[k] * (extent - 1);
@@ -12,8 +12,8 @@ bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull 
     const std::int64_t hi = wrap_add(at.linear[k], std::max<std::int64_t>(sx, 0) + std::max<std::int64_t>(sy, 0));
     e[k] = {hi > 0 || (hi == 0 && quad.tie_pos[k]), lo < 0 || (lo == 0 && quad.tie_neg[k])};
   }
-  const ClauseResult c = inside_expression(e, quad.visible);
-  return (c.back && cull != Cull::back) || (c.front && cull != Cull::front);
+  const InsidePlaces inside = inside_expression(e, quad.visible, cull);
+  return (inside.back | inside.front) != 0;
 }
 
 void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy) {

@@ -6,6 +6,7 @@
 // kept.
 #pragma once
 
+#include "model/inside_expression.hpp"
 #include "model/stages.hpp"
 
 #include <algorithm>
@@ -18,27 +19,9 @@ inline std::int64_t wrap_add(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
 
-/// A sign that an edge function can take: with ties, E = 0 counts by the direction of (+ε, +ε²), and an all-zero edge
-/// has none.
-struct EdgeSign {
-  bool positive, negative;
-};
-
-/// Expression (12) of Hormann & Tarini and its negation, each clause masked by `visible` (SetupResult::visible).
-struct ClauseResult {
-  bool back, front;  ///< the positive form (clockwise on a y-down screen) and the negated form
-};
-
+/// Whether a zero of the edge function counts as positive: by the direction of (+ε, +ε²). An all-zero edge has no sign.
 inline bool tie_positive(const LinearForm& e) { return e.gx > 0 || (e.gx == 0 && e.gy > 0); }
 inline bool tie_negative(const LinearForm& e) { return e.gx < 0 || (e.gx == 0 && e.gy < 0); }
-
-inline ClauseResult inside_expression(const EdgeSign* e, unsigned visible) {
-  const bool p1 = e[4].positive && e[0].positive && e[1].positive && (e[2].positive || e[3].positive) && (visible & 1);
-  const bool p2 = e[4].negative && e[2].positive && e[3].positive && (e[0].positive || e[1].positive) && (visible & 2);
-  const bool n1 = e[4].negative && e[0].negative && e[1].negative && (e[2].negative || e[3].negative) && (visible & 4);
-  const bool n2 = e[4].positive && e[2].negative && e[3].negative && (e[0].negative || e[1].negative) && (visible & 8);
-  return {p1 || p2, n1 || n2};
-}
 
 /// What the front needs of a quad; constant while the quad is drawn.
 struct QuadConstants {

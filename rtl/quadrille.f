@@ -17,6 +17,7 @@ fp_sum.sv
 fp_term.sv
 fragment_fifo.sv
 fragment_output.sv
+inside_expression.sv
 interpolate.sv
 law_of_cosines.sv
 mean_value_ratios.sv

@@ -232,8 +232,6 @@ module stamp_coverage #(
   // ---- Clauses ------------------------------------------------------------------------------------------------------------
   logic [4:0] tie_pos, tie_neg;
   logic [3:0] visible;
-  logic [TILE-1:0] pos0, pos1, pos2, pos3, pos4;
-  logic [TILE-1:0] neg0, neg1, neg2, neg3, neg4;
   logic [5*TILE-1:0] pos, neg, zero;
   logic [TILE-1:0] back, front, mask;
   logic [TILE-1:0] mask_q3, front_q3, tie_q3;
@@ -250,12 +248,15 @@ module stamp_coverage #(
     assign pos[g*TILE+:TILE] = (~is_neg & ~is_zero) | (is_zero & {TILE{tie_pos[g]}});
   end
 
-  assign {pos4, pos3, pos2, pos1, pos0} = pos;
-  assign {neg4, neg3, neg2, neg1, neg0} = neg;
-  assign back = ((pos4 & pos0 & pos1 & (pos2 | pos3) & {TILE{visible[0]}})
-      | (neg4 & pos2 & pos3 & (pos0 | pos1) & {TILE{visible[1]}})) & {TILE{cull_i != 2'd2}};
-  assign front = ((neg4 & neg0 & neg1 & (neg2 | neg3) & {TILE{visible[2]}})
-      | (pos4 & neg2 & neg3 & (neg0 | neg1) & {TILE{visible[3]}})) & {TILE{cull_i != 2'd1}};
+  inside_expression #(.PLACES(TILE)) u_inside (
+      .cull_i,
+      .visible_i(visible),
+      .pos_i(pos),
+      .neg_i(neg),
+      .back_o(back),
+      .front_o(front)
+  );
+
   assign mask = end_q2 ? '0 : (back | front) & in_scissor_q2;
 
   always_ff @(posedge clk_i) begin

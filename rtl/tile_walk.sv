@@ -265,17 +265,16 @@ module tile_walk #(
   end
 
   logic back, front;
-  logic back1, back2, front1, front2;  // clauses 1 and 2 of either orientation
-  logic [4:0] pos, neg;
 
-  assign pos = some_pos_q1;
-  assign neg = some_neg_q1;
-  assign back1 = pos[4] && pos[0] && pos[1] && (pos[2] || pos[3]) && visible_q[0];
-  assign back2 = neg[4] && pos[2] && pos[3] && (pos[0] || pos[1]) && visible_q[1];
-  assign front1 = neg[4] && neg[0] && neg[1] && (neg[2] || neg[3]) && visible_q[2];
-  assign front2 = pos[4] && neg[2] && neg[3] && (neg[0] || neg[1]) && visible_q[3];
-  assign back = (back1 || back2) && cull_i != 2'd2;
-  assign front = (front1 || front2) && cull_i != 2'd1;
+  inside_expression u_inside (
+      .cull_i,
+      .visible_i(visible_q),
+      .pos_i(some_pos_q1),
+      .neg_i(some_neg_q1),
+      .back_o(back),
+      .front_o(front)
+  );
+
   assign may_cover = back || front;
 
   // ---- Push ---------------------------------------------------------------------------------------------------------------

@@ -274,7 +274,7 @@ PYTHON
 }
 fault setup vertex_products.sv "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_y};" "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_x};"
 fault setup vertex_products.sv "subtract0 = kind == quadrille_pkg::EDGE ||" "subtract0 ="
-fault coverage stamp_coverage.sv "(pos2 | pos3)" "(pos2 & pos3)"
+fault coverage inside_expression.sv "(pos2 | pos3)" "(pos2 & pos3)"
 fault forward_difference offset_digits.sv "row_square + dx_square" "row_square + row_square"
 fault forward_difference law_of_cosines.sv "twice[TWICE-1:1]" "QVAL'(sum_q >> 1) - QVAL'(length2_i >> 1)" # rounds otherwise
 fault forward_difference law_of_cosines.sv "homogeneous_i ? exact_i" "1'b1 ? exact_i"
