@@ -165,7 +165,8 @@ module tile_ring #(
 
 `ifdef QUADRILLE_PROBES
   // ---- Probe: a tile, in the clock in which coverage may see it first ------------------------------------------------------
-  // What is in its entry and, of a homogeneous quad, in the two behind. An end entry's context means nothing.
+  // What is in its entry and, of a homogeneous quad, in the two behind; read in that clock alone, which is what a simulator has to do.
+  // An end entry's context means nothing.
   localparam int CONTEXT = 2 * TC + 6 * VAL + 10 * QVAL + 20 * QGRAD + 10 * QCURV;
   logic [RING-1:0] seen_q;
   logic seen_end, seen_homogeneous;
@@ -182,17 +183,17 @@ module tile_ring #(
     seen_q <= complete_q[RING-1:0];
   end
 
-  assign {seen_end, seen_homogeneous, seen_slot, seen_x, seen_y} = tag_q[seen_q];
+  assign {seen_end, seen_homogeneous, seen_slot, seen_x, seen_y} = probe_tile_valid_o ? tag_q[seen_q] : '0;
 
   for (genvar g = 0; g < 6; g++) begin : gen_seen_linear
-    assign seen_lin_value[g*VAL+:VAL] = gen_linear[g].value_q[seen_q];
+    assign seen_lin_value[g*VAL+:VAL] = probe_tile_valid_o ? gen_linear[g].value_q[seen_q] : '0;
   end
 
   for (genvar g = 0; g < 10; g++) begin : gen_seen_quadratic
     localparam int LANE = (g < 6) ? g % 4 : g - 6;
     logic there;
     logic [RING-1:0] word;
-    assign there = g >= 6 || seen_homogeneous;
+    assign there = probe_tile_valid_o && (g >= 6 || seen_homogeneous);
     assign word = seen_q + ((g >= 6) ? '0 : (g >= 4) ? RING'(quadrille_pkg::PART_DIAGONALS) : RING'(quadrille_pkg::PART_EDGES));
     assign seen_value[g*QVAL+:QVAL] = there ? gen_quadratic[LANE].value_q[word] : '0;
     assign seen_gx[g*QGRAD+:QGRAD] = there ? gen_quadratic[LANE].gx_q[word] : '0;
