@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 export QUADRILLE
 QUADRILLE=$(realpath "$1")
 kept=golden/vectors/kept
-suites=(snapping setup coverage forward_difference normalise rsqrt reciprocal ratios weights interpolation depth machine
+suites=(snapping setup tile_context coverage forward_difference normalise rsqrt reciprocal ratios weights interpolation depth machine
   stress_reflex stress_bowtie stress_eye_crossing)
 generate() {
   local arguments=()

@@ -18,7 +18,7 @@ set=${2:-$work/set}
 machine=stress_reflex  # the suite that stands for the machine
 if [ $# -lt 2 ]; then
   suites=()
-  for suite in snapping setup coverage forward_difference normalise rsqrt reciprocal ratios weights interpolation depth $machine stress_on_vertex; do
+  for suite in snapping setup tile_context coverage forward_difference normalise rsqrt reciprocal ratios weights interpolation depth $machine stress_on_vertex; do
     suites+=(--suite "$suite")
   done
   "$QUADRILLE" golden generate --level 1 --limit 150 --out "$set" --quiet "${suites[@]}"
@@ -274,6 +274,19 @@ PYTHON
 }
 fault setup vertex_products.sv "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_y};" "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_x};"
 fault setup vertex_products.sv "subtract0 = kind == quadrille_pkg::EDGE ||" "subtract0 ="
+fault tile_context tile_context.sv "T'(offset_x_o) << FRAC" "T'(offset_x_o[TILE_LOG2+2:0]) << FRAC"
+fault tile_context tile_context.sv "GRAD'(\$signed(early[g*T+:T])) << (FRAC + 1)" "GRAD'(\$signed(early[g*T+:T])) << FRAC"
+fault tile_context tile_context.sv "4'd2, 4'd8: late_lane = 4'b0100" "4'd2, 4'd9: late_lane = 4'b0100"
+fault tile_context tile_context.sv "MOVE_END - 6'd2 + 6'(CLOCKS)" "MOVE_END - 6'd3 + 6'(CLOCKS)" # before the first vertices have moved
+fault tile_context vertex_products.sv "DOT'(offset_y_i)" "DOT'(offset_x_i)"
+fault tile_context vertex_products.sv "{a0, b0, c0, d0} = {x_i, w_j, w_i, x_j};" "{a0, b0, c0, d0} = {x_i, w_j, w_j, x_i};"
+# Bits that are dropped, each coefficient by itself.
+dropped=$work/dropped
+"$QUADRILLE" golden generate --level 1 --limit 150 --out "$dropped" --quiet --suite tile_context --set quadratic_frac_bits=12
+expect 0 "^tile_context: [0-9]+ vectors, 0 mismatches" "tile_context with dropped bits" $replay "$dropped" $tool
+set=$dropped fault tile_context tile_context.sv "QVAL'(result0_i >> QDROP)" "QVAL'((result0_i + ((OUT'(1) << QDROP) >> 1)) >> QDROP)"
+set=$dropped fault tile_context tile_context.sv "QGRAD'(exact >> QDROP)" "QGRAD'(0) - QGRAD'(minus >> QDROP)"
+set=$dropped fault tile_context tile_context.sv "QCURV'(q >> QDROP)" "QCURV'((q + ((CURV'(1) << QDROP) >> 1)) >> QDROP)"
 fault coverage inside_expression.sv "(pos2 | pos3)" "(pos2 & pos3)"
 fault forward_difference offset_digits.sv "row_square + dx_square" "row_square + row_square"
 fault forward_difference law_of_cosines.sv "twice[TWICE-1:1]" "QVAL'(sum_q >> 1) - QVAL'(length2_i >> 1)" # rounds otherwise

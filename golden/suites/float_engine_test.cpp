@@ -140,11 +140,10 @@ TEST(FloatEngine, FindsDamagedFields) {
 
 TEST(FloatEngine, FindsADamagedBitOfAnyMask) {
   const Config config;
-  const StageSuite* suite = stage_suites()[2];
-  ASSERT_EQ(suite->info().name, "coverage");
-  const auto stage = suite->stage(config);
+  const auto& suite = dynamic_cast<const StageSuite&>(find_suite("coverage"));
+  const auto stage = suite.stage(config);
   std::size_t drawn = 0;
-  for (const Record& stimulus : stimuli(*suite, config, 60)) {
+  for (const Record& stimulus : stimuli(suite, config, 60)) {
     const Record response = stage->respond(stimulus);
     for (int bit = 0; bit < response.bits(); ++bit) {
       Record wrong = response;

@@ -159,6 +159,42 @@ void setup(Judge& judge, const Vector& t) {
   }
 }
 
+/// Exact integers, from what the functions are: dot products of the vectors to two vertices at the tile's origin pixel
+/// and its neighbours on either side. Twice gx is f(1) - f(-1), twice q f(1) - 2 f(0) + f(-1), of which one
+/// coordinate's part is enough. Each coefficient is the floor by itself.
+void tile_contexts(Judge& judge, const Vector& t) {
+  const Config& c = t.config;
+  const Real x0 = static_cast<Real>(t.in.tile_column) * c.tile(), y0 = static_cast<Real>(t.in.tile_row) * c.tile();
+  for (std::size_t n = 0; n < quadratic_count; ++n) {
+    const int index = static_cast<int>(n);
+    const QuadraticForm& f = t.out.tile.quadratic[n];
+    if (n < linear_count && !t.in.constants.homogeneous) {
+      judge.same("quad_value", index, static_cast<Real>(f.value), 0);
+      judge.same("quad_gx", index, static_cast<Real>(f.gx), 0);
+      judge.same("quad_gy", index, static_cast<Real>(f.gy), 0);
+      judge.same("quad_q", index, static_cast<Real>(f.q), 0);
+      continue;
+    }
+    const RelativeVertex& a = t.in.constants.vertex[n < linear_count ? vertex_pair[n][0] : n - linear_count];
+    const RelativeVertex& b = t.in.constants.vertex[n < linear_count ? vertex_pair[n][1] : n - linear_count];
+    const auto part = [&](std::int64_t RelativeVertex::*coordinate, Real pixel) {
+      return (static_cast<Real>(a.*coordinate) - static_cast<Real>(a.w) * pixel) *
+             (static_cast<Real>(b.*coordinate) - static_cast<Real>(b.w) * pixel);
+    };
+    const auto x = [&](Real dx) { return part(&RelativeVertex::x, x0 + dx); };
+    const auto y = [&](Real dy) { return part(&RelativeVertex::y, y0 + dy); };
+    const auto check = [&](const char* name, std::int64_t actual, std::initializer_list<Real> terms, int drop) {
+      IntegerSum sum;
+      for (const Real term : terms) sum.add(term);
+      check_shifted(judge, name, index, static_cast<Real>(actual), sum, drop);
+    };
+    check("quad_value", f.value, {x(0), y(0)}, c.qdrop());
+    check("quad_gx", f.gx, {x(1), -x(-1)}, c.qdrop() + 1);
+    check("quad_gy", f.gy, {y(1), -y(-1)}, c.qdrop() + 1);
+    check("quad_q", f.q, {x(1), -x(0), x(-1), -x(0)}, c.qdrop() + 1);
+  }
+}
+
 /// Signs of exact integers; a pixel is left out where Real cannot tell one.
 void coverage(Judge& judge, const Vector& t) {
   const Config& c = t.config;
@@ -424,6 +460,7 @@ StageCheck find_stage(std::string_view suite) {
   static const std::map<std::string_view, StageCheck> stages{
       {"snapping", snapping},
       {"setup", setup},
+      {"tile_context", tile_contexts},
       {"coverage", coverage},
       {"forward_difference", forward_differences},
       {"normalise", normalised},

@@ -82,6 +82,8 @@ void tap_quad(StageData& data, Source source, const PipelineContext& context, go
   if (source == Source::tiles) {
     for (const TileEntry& tile : tiles.kept()) {
       data.tile = tile;
+      data.tile_column = tile.tile_x - data.setup.tile_x0;
+      data.tile_row = tile.tile_y - data.setup.tile_y0;
       sink(data);
     }
     return;

@@ -27,6 +27,7 @@ struct StageData {
   SetupResult setup;
   QuadConstants constants;
   TileEntry tile;
+  int tile_column = 0, tile_row = 0;  ///< of the tile, from the quad's first one
   std::array<StampMasks, 16> row_masks{};
   int row = 0, dx = 0;
   // pixel

@@ -88,6 +88,7 @@ TEST(StageSuites, WidthsByHand) {
   const std::map<std::string, std::pair<int, int>> bits{
       {"snapping", {1 + 4 * 64 + 4 * 64, 1 + 2 * 32 + 17 + 9 + 18 + 28 + 4 * 28}},
       {"setup", {8 * 32 + 4 * 17 + 4 * 13, 3 + 4 * 10 + 2 + 4 + 6 * (63 + 48 + 48) + 6 * 64}},
+      {"tile_context", {1 + 8 * 32 + 4 * 17 + 20, 10 * (63 + 48 + 48 + 32)}},
       {"coverage", {2 + 4 * 13 + 20 + 5 * (63 + 48 + 48) + 4, 3 * 64}},
       {"forward_difference", {3 + 3 + 1 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32) + 6 * 64, 16 * 63}},
       {"normalise", {16 * 63, 4 + 12 * 31 + 4 * 30}},
@@ -116,6 +117,7 @@ TEST(StageSuites, StimulusFieldsInTheStatedOrder) {
   };
   EXPECT_EQ(order("snapping"), "perspective x y z w attr");
   EXPECT_EQ(order("setup"), "x y w scissor_x0 scissor_y0 scissor_x1 scissor_y1");
+  EXPECT_EQ(order("tile_context"), "homogeneous x y w column row");
   EXPECT_EQ(order("coverage"),
             "cull scissor_x0 scissor_y0 scissor_x1 scissor_y1 tile_x tile_y lin_value lin_gx lin_gy visible");
   EXPECT_EQ(order("forward_difference"),
@@ -327,6 +329,42 @@ TEST(StageResponses, Setup) {
   });
   EXPECT_GT(empty, 50u);
   EXPECT_GT(hull, 20u);
+}
+
+TEST(StageResponses, TileContext) {
+  constexpr int first[] = {0, 1, 2, 3, 2, 1, 0, 1, 2, 3}, second[] = {1, 2, 3, 0, 0, 3, 0, 1, 2, 3};
+  for (const Config& c : {Config{}, small_config()}) {
+    int homogeneous = 0, ordinary = 0, turned = 0;
+    const __int128 dropped = static_cast<__int128>(1) << c.qdrop();
+    for_each("tile_context", c, 3000, [&](const Values& in, const Values& out) {
+      const bool own = in.integer("homogeneous") != 0;
+      ++(own ? homogeneous : ordinary);
+      for (int k = 0; k < 10; ++k) {
+        const __int128 value = out.integer("quad_value", k), gx = out.integer("quad_gx", k),
+                       gy = out.integer("quad_gy", k), q = out.integer("quad_q", k);
+        if (!own && k < 6) {
+          EXPECT_TRUE(value == 0 && gx == 0 && gy == 0 && q == 0) << k;
+          continue;
+        }
+        // The vectors to two vertices from a pixel of the tile, multiplied; what the floors of the coefficients take
+        // away shows most at the pixels that one of them counts at alone.
+        for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {3, 2}}) {
+          const auto to = [&](const char* coordinate, int i, std::int64_t pixel) {
+            return static_cast<__int128>(in.integer(coordinate, i)) - static_cast<__int128>(in.integer("w", i)) * pixel;
+          };
+          const std::int64_t x = in.integer("column") * c.tile() + dx, y = in.integer("row") * c.tile() + dy;
+          const int i = first[k], j = second[k];
+          const __int128 exact = to("x", i, x) * to("x", j, x) + to("y", i, y) * to("y", j, y);
+          const __int128 rest = exact - (value + gx * dx + gy * dy + q * (dx * dx + dy * dy)) * dropped;
+          EXPECT_TRUE(rest >= 0 && rest <= (dropped - 1) * (1 + dx + dy + dx * dx + dy * dy)) << k << " " << dx << dy;
+        }
+        turned += q < 0;
+      }
+    });
+    EXPECT_GT(homogeneous, 1000);
+    EXPECT_GT(ordinary, 1000);
+    EXPECT_GT(turned, 1000);
+  }
 }
 
 TEST(StageResponses, Coverage) {

@@ -4,6 +4,7 @@
 #include "model/latency.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
+#include "model/tile_context.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -270,6 +271,147 @@ class Setup : public StageOf<SetupLists> {
   }
 };
 
+// ---- tile contexts ----
+
+/// The ten functions as the `tile` boundary has them.
+template <class D, class F>
+void visit_quadratic(D& d, const Config& c, F&& f) {
+  visit_array(
+      f, quadratic_value(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].value; });
+  visit_array(
+      f, quadratic_gx(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].gx; });
+  visit_array(
+      f, quadratic_gy(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].gy; });
+  visit_array(
+      f, quadratic_q(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].q; });
+}
+
+struct TileContextLists {
+  template <class D, class F>
+  static void stimulus(D& d, const Config& c, F&& f) {
+    auto& v = d.constants.vertex;
+    f(plain("homogeneous", 1, "some w is not 1: ten functions; else the four squared distances"), -1,
+      d.constants.homogeneous);
+    visit_array(
+        f, fixed("x", t_bits(c), frac_bits(c), "px", "X - W x0 of the vertices; x0: the quad's first tile"),
+        4, [&](std::size_t i) -> auto& { return v[i].x; });
+    visit_array(
+        f, fixed("y", t_bits(c), frac_bits(c), "px", "Y - W y0"), 4, [&](std::size_t i) -> auto& { return v[i].y; });
+    visit_array(
+        f, fixed("w", w_bits(c), frac_bits(c), "1", "W; all 1: an ordinary quad"),
+        4, [&](std::size_t i) -> auto& { return v[i].w; });
+    f(plain("column", tc_bits(c), "column of the tile, from the quad's first one", "tiles"), -1, d.tile_column);
+    f(plain("row", tc_bits(c), "row of the tile, from the quad's first one", "tiles"), -1, d.tile_row);
+  }
+
+  template <class D, class F>
+  static void response(D& d, const Config& c, F&& f) {
+    visit_quadratic(d, c, f);
+  }
+};
+
+class TileContext : public StageOf<TileContextLists> {
+ public:
+  explicit TileContext(const Config& config) : StageOf(config) {}
+
+  Source source() const override { return Source::tiles; }
+
+  void run(StageData& d) const override {
+    d.tile.quadratic = tile_context(d.constants, d.tile_column << config().tile_log2, d.tile_row << config().tile_log2,
+                                    config().qdrop());
+  }
+
+  FieldRange range(const RecordField& f) const override {
+    if (f.name == "homogeneous") return {0, 1};
+    if (f.name == "w") return {-one(), one()};
+    if (f.name == "column" || f.name == "row") return {0, last_tile()};
+    return {-reach() - last_tile() * tile_step(), reach()};
+  }
+
+  void constrain(StageData& d) const override {
+    auto& v = d.constants.vertex;
+    if (d.constants.homogeneous) {
+      // Its first tile is the viewport's.
+      for (RelativeVertex& s : v) {
+        s.x = std::max(s.x, -reach());
+        s.y = std::max(s.y, -reach());
+      }
+      return;
+    }
+    for (RelativeVertex& s : v) s.w = one();
+    keep_inside(v, &RelativeVertex::x, d.tile_column);
+    keep_inside(v, &RelativeVertex::y, d.tile_row);
+  }
+
+  void shape(golden::Prng& prng, StageData& d) const override {
+    // Vertices about the tile, on pixels often, and equal or opposite ones.
+    auto& v = d.constants.vertex;
+    const bool on_pixels = prng.chance(0.3), near = prng.chance(0.7);
+    const std::int64_t extent = one() << (near ? 6 : config().viewport_bits - 1);
+    for (RelativeVertex& s : v) {
+      if (!d.constants.homogeneous) s.w = one();
+      if (prng.chance(0.8)) {
+        s.x =
+            std::clamp(s.w * (d.tile_column << config().tile_log2) + prng.integer(-extent, extent), -reach(), reach());
+        s.y = std::clamp(s.w * (d.tile_row << config().tile_log2) + prng.integer(-extent, extent), -reach(), reach());
+      }
+      if (on_pixels) {
+        s.x &= -one();
+        s.y &= -one();
+      }
+    }
+    const std::size_t i = prng.below(4), j = prng.below(4);
+    if (prng.chance(0.2)) v[i] = v[j];
+    if (prng.chance(0.2)) v[i] = {-std::max(v[j].x, -reach()), -std::max(v[j].y, -reach()), -v[j].w};
+  }
+
+  void corners(const Sink& sink) const override {
+    // Positions at both ends, W of either sign and 0, the tile at each corner of the viewport.
+    StageData d;
+    auto& v = d.constants.vertex;
+    const int far = static_cast<int>(last_tile());
+    for (const int column : {0, 1, far})
+      for (const int row : {0, 1, far}) {
+        d.tile_column = column;
+        d.tile_row = row;
+        d.constants.homogeneous = true;
+        for (const std::int64_t w : {one(), -one(), std::int64_t{1}, std::int64_t{-1}, std::int64_t{0}})
+          for (const std::int64_t x : {reach(), -reach(), std::int64_t{1}})
+            for (const std::int64_t y : {reach(), -reach(), std::int64_t{-1}}) {
+              v = {{{x, y, w}, {-x, y, -w}, {x, -y, w / 2}, {y, x, one()}}};
+              sink(d);
+            }
+        // First tile as far to the right and below as the tile lets it be, or the viewport's.
+        d.constants.homogeneous = false;
+        for (const std::int64_t first_x : {std::int64_t{0}, last_tile() - column})
+          for (const std::int64_t first_y : {std::int64_t{0}, last_tile() - row}) {
+            const std::int64_t x = first_x * tile_step(), y = first_y * tile_step();
+            v = {{{-reach() - x, -reach() - y, one()},
+                  {reach() - x, -reach() - y, one()},
+                  {reach() - x, reach() - y, one()},
+                  {-reach() - x, reach() - y, one()}}};
+            sink(d);
+          }
+      }
+  }
+
+ private:
+  std::int64_t one() const { return std::int64_t{1} << config().frac(); }
+  std::int64_t reach() const { return std::int64_t{1} << (config().pos_int() + config().frac()); }
+  std::int64_t last_tile() const { return (std::int64_t{1} << (config().viewport_bits - config().tile_log2)) - 1; }
+  /// A tile's edge in units of a position.
+  std::int64_t tile_step() const { return one() << config().tile_log2; }
+
+  /// Of an ordinary quad: there is a first tile that leaves the tile in the viewport and every vertex in the guard
+  /// band.
+  void keep_inside(std::array<RelativeVertex, 4>& v, std::int64_t RelativeVertex::*coordinate, int& tile) const {
+    const std::int64_t least = std::ranges::min(v, {}, coordinate).*coordinate;
+    const std::int64_t first = std::max<std::int64_t>(0, (-reach() - least + tile_step() - 1) / tile_step());
+    tile = static_cast<int>(std::min<std::int64_t>(tile, last_tile() - first));
+    for (RelativeVertex& s : v) s.*coordinate = std::min(s.*coordinate, reach() - first * tile_step());
+  }
+};
+
 // ---- coverage ----
 
 struct CoverageLists {
@@ -422,14 +564,7 @@ struct ForwardLists {
         f, linear_gx(c), linear_count, [&](std::size_t i) -> auto& { return d.constants.gx[i]; });
     visit_array(
         f, linear_gy(c), linear_count, [&](std::size_t i) -> auto& { return d.constants.gy[i]; });
-    visit_array(
-        f, quadratic_value(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].value; });
-    visit_array(
-        f, quadratic_gx(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].gx; });
-    visit_array(
-        f, quadratic_gy(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].gy; });
-    visit_array(
-        f, quadratic_q(c), quadratic_count, [&](std::size_t i) -> auto& { return d.tile.quadratic[i].q; });
+    visit_quadratic(d, c, f);
     visit_array(
         f, squared_length(c), linear_count, [&](std::size_t i) -> auto& { return d.constants.length2[i]; });
   }
@@ -517,6 +652,11 @@ void add_front_stages(std::vector<std::unique_ptr<Suite>>& suites) {
        "|x| or |y| above 2^(POS_INT+FRAC); |w| above 2^FRAC; x = y = w = 0; a scissor rectangle beyond 2^VIEWPORT_BITS "
        "or with x0 > x1 or y0 > y1"},
       make_stage<Setup>);
+  add({"tile_context", "handshake", "Quadratic functions of a tile from its quad's vertices", "tile_context", 0,
+       "a column or row beyond 2^VIEWPORT_BITS pixels; |w| above 2^FRAC; a homogeneous quad's |x| or |y| above "
+       "2^(POS_INT+FRAC); an ordinary quad's w other than 2^FRAC, or its vertices beyond 2^(POS_INT+FRAC) from the "
+       "viewport's origin wherever the first tile is, as long as the tile is in the viewport"},
+      make_stage<TileContext>);
   add({"coverage", "handshake", "Covered pixels of a tile", "stamp_coverage", 0,
        "a function beyond VAL_BITS anywhere on the tile; a tile beyond 2^VIEWPORT_BITS; cull = 3; visible bits 0 and "
        "2, "

@@ -55,8 +55,8 @@ TEST_F(GoldenCli, ListsSuites) {
   std::istringstream in(outcome.out);
   std::vector<std::string> names;
   for (std::string line; std::getline(in, line);) names.push_back(line);
-  for (const char* name : {"snapping", "setup", "coverage", "forward_difference", "normalise", "rsqrt", "reciprocal",
-                           "ratios", "weights", "interpolation", "depth"})
+  for (const char* name : {"snapping", "setup", "tile_context", "coverage", "forward_difference", "normalise", "rsqrt",
+                           "reciprocal", "ratios", "weights", "interpolation", "depth"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 

@@ -232,6 +232,7 @@ QUADRILLE_EXPORT int quadrille_respond(void* model, const char* suite, const std
 
 QUADRILLE_STAGE(quadrille_snap, "snapping")
 QUADRILLE_STAGE(quadrille_quad_setup, "setup")
+QUADRILLE_STAGE(quadrille_tile_context, "tile_context")
 QUADRILLE_STAGE(quadrille_stamp_coverage, "coverage")
 QUADRILLE_STAGE(quadrille_forward_difference, "forward_difference")
 QUADRILLE_STAGE(quadrille_normalise, "normalise")

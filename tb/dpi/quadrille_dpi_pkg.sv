@@ -83,6 +83,11 @@ package quadrille_dpi_pkg;
     input record_t stimulus,
     output record_t response
   );  // suite setup
+  import "DPI-C" function int quadrille_tile_context(
+    input chandle model,
+    input record_t stimulus,
+    output record_t response
+  );
   import "DPI-C" function int quadrille_stamp_coverage(
     input chandle model,
     input record_t stimulus,

@@ -23,9 +23,9 @@ int quadrille_stimulus_field(void* model, const char* suite, const char* name, i
 int quadrille_response_field(void* model, const char* suite, const char* name, int index, int* position, int* width);
 int quadrille_respond(void* model, const char* suite, const std::uint32_t* stimulus, std::uint32_t* response);
 using StageCall = int(void* model, const std::uint32_t* stimulus, std::uint32_t* response);
-StageCall quadrille_snap, quadrille_quad_setup, quadrille_stamp_coverage, quadrille_forward_difference,
-    quadrille_normalise, quadrille_rsqrt, quadrille_reciprocal, quadrille_mean_value_ratios,
-    quadrille_mean_value_weights, quadrille_interpolate, quadrille_fragment_output;
+StageCall quadrille_snap, quadrille_quad_setup, quadrille_tile_context, quadrille_stamp_coverage,
+    quadrille_forward_difference, quadrille_normalise, quadrille_rsqrt, quadrille_reciprocal,
+    quadrille_mean_value_ratios, quadrille_mean_value_weights, quadrille_interpolate, quadrille_fragment_output;
 }
 
 namespace {
@@ -162,6 +162,32 @@ TEST_F(Dpi, SetupOfASquare) {
   EXPECT_EQ(get("setup", "length2", 4), std::int64_t{2 * 16 * 16} << 30) << "diagonal 20";
 }
 
+TEST_F(Dpi, TileContextOfVerticesOnPixels) {
+  // Vertex i at (10 + i, -i) of the quad's first tile, seen from the tile 2 columns and 1 row further, that is (16, 8).
+  for (int i = 0; i < 4; ++i) {
+    set("tile_context", "x", i, (10 + i) * (1 << 15));
+    set("tile_context", "y", i, -i * (1 << 15));
+    set("tile_context", "w", i, 1 << 15);
+  }
+  set("tile_context", "column", -1, 2);
+  set("tile_context", "row", -1, 1);
+  const std::int64_t unit = std::int64_t{1} << 30;
+  for (const bool homogeneous : {false, true}) {
+    set("tile_context", "homogeneous", -1, homogeneous);
+    ASSERT_EQ(quadrille_tile_context(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
+    // Squared distance of vertex 3, which is at (-3, -11) from there: (-3 - dx)^2 + (-11 - dy)^2.
+    EXPECT_EQ(get_signed("tile_context", "quad_value", 9), (3 * 3 + 11 * 11) * unit);
+    EXPECT_EQ(get_signed("tile_context", "quad_gx", 9), 6 * unit);
+    EXPECT_EQ(get_signed("tile_context", "quad_gy", 9), 22 * unit);
+    EXPECT_EQ(get_signed("tile_context", "quad_q", 9), unit);
+    // Vertex 0 is at (-6, -8) from there, vertex 2 at (-4, -10): D20 is for a homogeneous quad.
+    EXPECT_EQ(get_signed("tile_context", "quad_value", 4), homogeneous ? (24 + 80) * unit : 0);
+    EXPECT_EQ(get_signed("tile_context", "quad_gx", 4), homogeneous ? 10 * unit : 0);
+    EXPECT_EQ(get_signed("tile_context", "quad_gy", 4), homogeneous ? 18 * unit : 0);
+    EXPECT_EQ(get_signed("tile_context", "quad_q", 4), homogeneous ? unit : 0);
+  }
+}
+
 TEST_F(Dpi, CoverageOfATileInsideFourEdges) {
   for (int k = 0; k < 5; ++k) set("coverage", "lin_value", k, 1);
   set("coverage", "visible", -1, 1);
@@ -274,8 +300,9 @@ TEST_F(Dpi, DepthIsAQuotientInFixedPoint) {
 }
 
 TEST_F(Dpi, EveryStageFunctionIsTheSuiteThatItNames) {
-  const std::array<std::pair<StageCall*, std::string>, 11> stages{{{quadrille_snap, "snapping"},
+  const std::array<std::pair<StageCall*, std::string>, 12> stages{{{quadrille_snap, "snapping"},
                                                                    {quadrille_quad_setup, "setup"},
+                                                                   {quadrille_tile_context, "tile_context"},
                                                                    {quadrille_stamp_coverage, "coverage"},
                                                                    {quadrille_forward_difference, "forward_difference"},
                                                                    {quadrille_normalise, "normalise"},
@@ -319,8 +346,8 @@ TEST_F(Dpi, TheConfigurationSetsTheWidths) {
 
 TEST_F(Dpi, TheLongestRecordFits) {
   reopen("viewport_bits=14 guard_bits=1 subpixel_bits=8 homogeneous_frac_bits=6 significand_bits=26 attribute_slots=8");
-  for (const char* suite : {"snapping", "setup", "coverage", "forward_difference", "normalise", "rsqrt", "reciprocal",
-                            "ratios", "weights", "interpolation", "depth"}) {
+  for (const char* suite : {"snapping", "setup", "tile_context", "coverage", "forward_difference", "normalise", "rsqrt",
+                            "reciprocal", "ratios", "weights", "interpolation", "depth"}) {
     int in = 0, out = 0;
     ASSERT_EQ(quadrille_record_bits(model_, suite, &in, &out), ok) << quadrille_error();
     EXPECT_LT(in, 4096) << suite;
@@ -369,6 +396,7 @@ TEST(DpiPackage, ImportsWhatTheLibraryExports) {
                                        "quadrille_respond",
                                        "quadrille_snap",
                                        "quadrille_quad_setup",
+                                       "quadrille_tile_context",
                                        "quadrille_stamp_coverage",
                                        "quadrille_forward_difference",
                                        "quadrille_normalise",
