@@ -28,7 +28,7 @@ unreachable = {
     ("model/fragment_output.cpp", "shift >= 0 ? r.p << shift"): "2S - 2 = 34 exceeds the bits of either output format",
     ("model/fragment_output.cpp", "p.valid && !discard"): "a bubble of the pipeline is no vector",
     ("model/mean_value_weights.cpp", "c.config.notch_exact &&"): "a constant of the configuration",
-    ("model/quad_setup.cpp", "int quad_setup_clocks"): "clocks, not values",
+    ("model/quad_setup.cpp", "int quad_setup_steps"): "clocks, not values",
     ("model/snap.cpp", "a product with k is too large"): "k is below 2^96 and z at most 2^80; the port reaches 2^256",
     ("model/snap.cpp", "extent == 0"): "w = 0 here leaves x and y as given, which are not both 0",
     ("model/snap.cpp", "quad_id_bits"): "ids belong to quads; the suite snaps vertices",
@@ -37,6 +37,9 @@ unreachable = {
     ("model/snap.cpp", "for (const SnappedVertex& v : quad.vertex)"): "as above",
     ("model/snap.cpp", "if (v.w != 1 << config.frac()) return false;"): "as above",
     ("model/snap.cpp", "return true;"): "as above",
+    ("model/snap.cpp", "has_ordinary_vertices"): "as above",
+    ("model/snap.cpp", "const std::int32_t between"): "as above",
+    ("model/snap.cpp", "& between) != 0) return false;"): "as above",
 }
 
 

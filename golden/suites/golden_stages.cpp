@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 int main(int argc, char** argv) {
+  using namespace quadrille;
   using namespace quadrille::vectors;
   GenerateOptions options;
   options.level = argc > 1 ? std::atoi(argv[1]) : 1;
