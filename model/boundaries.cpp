@@ -8,7 +8,7 @@ namespace quadrille {
 namespace {
 
 constexpr std::array boundary_names{"setup", "tile",  "stamp",  "diff", "norm",
-                                    "rsqrt", "ratio", "weight", "sum",  "fragment"};
+                                    "sqrt",  "ratio", "weight", "sum",  "fragment"};
 
 /// Calls f with what visit() says of boundary `b`.
 template <class F>

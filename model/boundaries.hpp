@@ -149,8 +149,7 @@ void visit(Record& g, const Config& c, F&& f) {
   f(plain("x", viewport_bits(c), "column", "px"), -1, g.x);
   f(plain("y", viewport_bits(c), "row", "px"), -1, g.y);
   f(plain("front", 1, "front face: counter-clockwise on the screen"), -1, g.front);
-  f(plain("flags", 8,
-          "0 on edge, 1 on vertex, 2 two corners, 3 two edges, 4 tie, 5 homogeneous, 6 notch cured, 7 saturated"),
+  f(plain("flags", 8, "0 on edge, 1 on vertex, 2 two corners, 3 two edges, 4 tie, 5 homogeneous, 6 notch, 7 saturated"),
     -1, g.flags);
   f(depth_type(c, "depth", "window z"), -1, g.depth);
   visit_array(
@@ -250,17 +249,18 @@ void visit(Record& p, Boundary b, const Config& c, F&& f) {
           f, magnitudes("r2_exp", "r2_sig", c, "r2 in the same units"),
           4, [&](std::size_t i) -> auto& { return p.r2_fp[i]; });
       break;
-    case Boundary::rsqrt:
+    case Boundary::sqrt:
       visit_numbers(
-          f, magnitudes("exp", "sig", c, "rho = r2^(-1/2); of 0: 0"),
-          4, [&](std::size_t i) -> auto& { return p.rho[i]; });
+          f, magnitudes("exp", "sig", c, "r = r2^(1/2); of 0: 0"),
+          4, [&](std::size_t i) -> auto& { return p.root[i]; });
       break;
     case Boundary::ratio:
       visit_numbers(
-          f, magnitudes("n_exp", "n_sig", c, "n: |tan of half the angle| = n/d, pairs 01 12 23 30 20 13"),
-          6, [&](std::size_t i) -> auto& { return p.num[i]; });
+          f, magnitudes("u_exp", "u_sig", c, "u = r r' + |D|, pairs 01 12 23 30 20 13"),
+          6, [&](std::size_t i) -> auto& { return p.u[i]; });
       visit_numbers(
-          f, magnitudes("d_exp", "d_sig", c, "d, the same pairs"), 6, [&](std::size_t i) -> auto& { return p.den[i]; });
+          f, magnitudes("v_exp", "v_sig", c, "v = |A|: |tan of half the angle| = v/u, of D < 0 u/v"),
+          6, [&](std::size_t i) -> auto& { return p.v[i]; });
       break;
     case Boundary::weight:
       visit_numbers(

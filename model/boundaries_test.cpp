@@ -134,7 +134,7 @@ TEST(Boundaries, HaveTheirBits) {
                                                    {Boundary::stamp, 1 + 4 + 3 + 3 * 8},
                                                    {Boundary::diff, 3 + 12 + 12 + 2 + 16 * 63},
                                                    {Boundary::norm, 4 + 12 * 31 + 4 * 30},
-                                                   {Boundary::rsqrt, 4 * 30},
+                                                   {Boundary::sqrt, 4 * 30},
                                                    {Boundary::ratio, 12 * 30},
                                                    {Boundary::weight, 4 * 30},
                                                    {Boundary::sum, 7 * 31},

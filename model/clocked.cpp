@@ -458,7 +458,7 @@ ClockedOutputs ClockedModel::comb() const {
   const auto pixel = [&](int n) { return m.stage(n).valid ? &m.stage(n) : nullptr; };
   out.probes.diff = pixel(latency::diff_stage);
   out.probes.norm = pixel(latency::norm_stage);
-  out.probes.rsqrt = pixel(latency::rho_stage);
+  out.probes.sqrt = pixel(latency::root_stage);
   out.probes.ratio = pixel(latency::ratio_stage);
   out.probes.weight = pixel(latency::weight_stage);
   out.probes.sum = pixel(latency::sum_stage);

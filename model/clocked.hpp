@@ -32,7 +32,7 @@ struct ClockedProbes {
   const StampEntry* stamp = nullptr;   ///< pushed in this clock
   const PixelTrace* diff = nullptr;    ///< in register diff_stage (latency.hpp)
   const PixelTrace* norm = nullptr;    ///< in norm_stage
-  const PixelTrace* rsqrt = nullptr;   ///< in rho_stage
+  const PixelTrace* sqrt = nullptr;    ///< in root_stage
   const PixelTrace* ratio = nullptr;   ///< in ratio_stage
   const PixelTrace* weight = nullptr;  ///< in weight_stage
   const PixelTrace* sum = nullptr;     ///< in sum_stage

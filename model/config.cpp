@@ -27,11 +27,11 @@ constexpr std::array entries{
     Entry{{"significand_bits", 8, 26, 18, "bits",
            "s: bits of every multiplier operand after normalisation, tables included"},
           &Config::significand_bits},
-    Entry{{"notch_exact", 0, 1, 1, "", "half-angle cure of the cancellation at reflex corners"}, &Config::notch_exact},
-    Entry{{"rsqrt_segments_log2", 3, 14, -1, "log2",
-           "rsqrt table segments per octave; auto: ceil((s-4)/3), degree 1 ceil(s/2), at least 3"},
-          &Config::rsqrt_segments_log2},
-    Entry{{"rsqrt_degree", 1, 2, 2, "", "polynomial degree of the rsqrt table"}, &Config::rsqrt_degree},
+    Entry{{"notch_exact", 0, 1, 1, "", "flag 6 where neighbouring A differ in sign"}, &Config::notch_exact},
+    Entry{{"sqrt_segments_log2", 3, 14, -1, "log2",
+           "sqrt table segments per octave; auto: ceil((s-4)/3), degree 1 ceil(s/2), at least 3"},
+          &Config::sqrt_segments_log2},
+    Entry{{"sqrt_degree", 1, 2, 2, "", "polynomial degree of the sqrt table"}, &Config::sqrt_degree},
     Entry{{"recip_segments_log2", 3, 14, -1, "log2",
            "reciprocal table segments; auto: ceil((s-2)/3), degree 1 ceil((s+1)/2), at least 3"},
           &Config::recip_segments_log2},
@@ -82,7 +82,7 @@ int Config::get(std::string_view key) const { return this->*find(key).member; }
 
 int Config::resolved(std::string_view key) const {
   if (key == "quadratic_frac_bits") return quadratic_frac();
-  if (key == "rsqrt_segments_log2") return rsqrt_segments();
+  if (key == "sqrt_segments_log2") return sqrt_segments();
   if (key == "recip_segments_log2") return recip_segments();
   if (key == "attribute_frac_bits") return attribute_frac();
   return get(key);
@@ -102,10 +102,10 @@ void Config::set(std::string_view key, int value) {
 
 int Config::quadratic_frac() const { return quadratic_frac_bits == -1 ? 2 * frac() : quadratic_frac_bits; }
 
-int Config::rsqrt_segments() const {
-  if (rsqrt_segments_log2 != -1) return rsqrt_segments_log2;
+int Config::sqrt_segments() const {
+  if (sqrt_segments_log2 != -1) return sqrt_segments_log2;
   const int s = significand_bits;
-  return std::clamp(rsqrt_degree == 2 ? ceil_div(s - 4, 3) : ceil_div(s, 2), 3, 14);
+  return std::clamp(sqrt_degree == 2 ? ceil_div(s - 4, 3) : ceil_div(s, 2), 3, 14);
 }
 
 int Config::recip_segments() const {
@@ -137,7 +137,7 @@ void Config::validate() const {
                                                     " is below significand_bits = " + std::to_string(significand_bits) +
                                                     "; outputs keep at least s fraction bits");
   require(attribute_frac() <= 30, "attribute_frac_bits exceeds 30");
-  require(rsqrt_segments() <= significand_bits - 2, "rsqrt_segments_log2 must be at most significand_bits - 2");
+  require(sqrt_segments() <= significand_bits - 2, "sqrt_segments_log2 must be at most significand_bits - 2");
   require(recip_segments() <= significand_bits - 2, "recip_segments_log2 must be at most significand_bits - 2");
   require(tile_log2 < viewport_bits, "tile_log2 must be below viewport_bits");
 }
@@ -159,11 +159,11 @@ std::vector<DerivedWidth> Config::derived() const {
       {"QGRAD_BITS", qgrad_bits(), "GRAD_BITS - QDROP"},
       {"QCURV_BITS", qcurv_bits(), "CURV_BITS - QDROP"},
       {"QUADRATIC_FRAC", quadratic_frac(), "quadratic_frac_bits, resolved"},
-      {"EXP_BITS", exp_bits, "signed: products of seven ratios >= 2^-64 and a port exponent stay within ±2^11"},
+      {"EXP_BITS", exp_bits, "signed: weights up to 2^378, port exponents and a quotient of sums stay within ±2^11"},
       {"PORT_EXP_BITS", port_exp_bits, "signed: inputs are refused outside 2^±80, so k, Z, b stay within ±2^8"},
       {"PREC_BITS", prec_bits(), "S - 1 + align_guard_bits: fraction bits of an aligned sum"},
       {"TABLE_GUARD", table_guard, "accumulator bits of a table below its S-bit result"},
-      {"RSQRT_SEGMENTS", rsqrt_segments(), "rsqrt_segments_log2, resolved: cubic error of a segment about 1/8 ulp"},
+      {"SQRT_SEGMENTS", sqrt_segments(), "sqrt_segments_log2, resolved: cubic error of a segment about 1/8 ulp"},
       {"RECIP_SEGMENTS", recip_segments(), "recip_segments_log2, resolved: cubic error of a segment about 1/8 ulp"},
       {"ATTRIBUTE_FRAC", attribute_frac(), "attribute_frac_bits, resolved: output truncation is 1/4 of 2^-s"},
       {"TILE", tile(), "2^tile_log2 pixels"},

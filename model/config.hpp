@@ -39,8 +39,8 @@ struct Config {
   int quadratic_frac_bits = -1;
   int significand_bits = 18;
   int notch_exact = 1;
-  int rsqrt_segments_log2 = -1;
-  int rsqrt_degree = 2;
+  int sqrt_segments_log2 = -1;
+  int sqrt_degree = 2;
   int recip_segments_log2 = -1;
   int recip_degree = 2;
   int align_guard_bits = 2;
@@ -68,7 +68,7 @@ struct Config {
 
   // ---- resolved and derived (each formula has its reason in derived()) ----
   int quadratic_frac() const;  ///< kept fraction bits of D and R²
-  int rsqrt_segments() const;  ///< log2 of the segments per octave
+  int sqrt_segments() const;   ///< log2 of the segments per octave
   int recip_segments() const;
   int attribute_frac() const;
   int pos_int() const { return viewport_bits + guard_bits; }

@@ -21,7 +21,7 @@ constexpr Row table[] = {
     {"subpixel_bits", 8, 2, 8},         {"homogeneous_frac_bits", 7, 4, 10},
     {"quadratic_frac_bits", -1, 0, 36},  // 2·FRAC at most; the key alone can only be held to the largest of these
     {"significand_bits", 18, 8, 26},    {"notch_exact", 1, 0, 1},
-    {"rsqrt_segments_log2", -1, 3, 14}, {"rsqrt_degree", 2, 1, 2},
+    {"sqrt_segments_log2", -1, 3, 14},  {"sqrt_degree", 2, 1, 2},
     {"recip_segments_log2", -1, 3, 14}, {"recip_degree", 2, 1, 2},
     {"align_guard_bits", 2, 0, 6},      {"attribute_slots", 4, 1, 8},
     {"attribute_int_bits", 3, 1, 8},    {"attribute_frac_bits", -1, 8, 30},
@@ -97,7 +97,7 @@ TEST(Config, UnknownKeySuggestsTheNearest) {
                                                        {"viewport_bit", "viewport_bits"},
                                                        {"tile_log", "tile_log2"},
                                                        {"NOTCH_EXACT ", "'"},
-                                                       {"rsqrt_segment_log2", "rsqrt_segments_log2"},
+                                                       {"sqrt_segment_log2", "sqrt_segments_log2"},
                                                        {"recip_degre", "recip_degree"},
                                                        {"depthbits", "depth_bits"}};
   for (const auto& [wrong, right] : cases) {
@@ -112,23 +112,23 @@ TEST(Config, UnknownKeySuggestsTheNearest) {
 
 TEST(Config, AutomaticValues) {
   // ceil((S-4)/3), ceil(S/2) for degree 1, ceil((S-2)/3), ceil((S+1)/2), at least 3; written out, not computed.
-  constexpr int rsqrt2[] = {3, 3, 3, 3, 3, 3, 4, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 7, 8};  // S = 8..26
-  constexpr int rsqrt1[] = {4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13};
+  constexpr int sqrt2[] = {3, 3, 3, 3, 3, 3, 4, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 7, 8};  // S = 8..26
+  constexpr int sqrt1[] = {4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13};
   constexpr int recip2[] = {3, 3, 3, 3, 4, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 7, 8, 8, 8};
   constexpr int recip1[] = {5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13, 14};
   for (int s = 8; s <= 26; ++s) {
     Config c;
     c.set("significand_bits", s);
-    EXPECT_EQ(c.rsqrt_segments(), rsqrt2[s - 8]) << "S = " << s;
+    EXPECT_EQ(c.sqrt_segments(), sqrt2[s - 8]) << "S = " << s;
     EXPECT_EQ(c.recip_segments(), recip2[s - 8]) << "S = " << s;
     EXPECT_EQ(c.attribute_frac(), s + 2);
-    c.set("rsqrt_degree", 1);
+    c.set("sqrt_degree", 1);
     c.set("recip_degree", 1);
-    EXPECT_EQ(c.rsqrt_segments(), rsqrt1[s - 8]) << "S = " << s;
+    EXPECT_EQ(c.sqrt_segments(), sqrt1[s - 8]) << "S = " << s;
     EXPECT_EQ(c.recip_segments(), recip1[s - 8]) << "S = " << s;
-    c.set("rsqrt_segments_log2", 5);
+    c.set("sqrt_segments_log2", 5);
     c.set("recip_segments_log2", 6);
-    EXPECT_EQ(c.rsqrt_segments(), 5);
+    EXPECT_EQ(c.sqrt_segments(), 5);
     EXPECT_EQ(c.recip_segments(), 6);
   }
   Config c;
@@ -193,7 +193,7 @@ TEST(Config, ImpossibleCombinationsNameTheirRule) {
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 14}, {"guard_bits", 2}}), ""));
   EXPECT_TRUE(contains(refusal_of({{"quadratic_frac_bits", 31}}), "quadratic_frac_bits"));
   EXPECT_TRUE(contains(refusal_of({{"attribute_frac_bits", 17}}), "attribute_frac_bits"));
-  EXPECT_TRUE(contains(refusal_of({{"significand_bits", 8}, {"rsqrt_segments_log2", 7}}), "rsqrt_segments_log2"));
+  EXPECT_TRUE(contains(refusal_of({{"significand_bits", 8}, {"sqrt_segments_log2", 7}}), "sqrt_segments_log2"));
   EXPECT_TRUE(contains(refusal_of({{"significand_bits", 8}, {"recip_segments_log2", 7}}), "recip_segments_log2"));
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 6}, {"guard_bits", 1}, {"tile_log2", 4}}), "tile_log2"));
   // |A| could reach 2^(VAL_BITS-1) exactly, one too many; rtl/config_check.sv refuses it too.
@@ -204,7 +204,7 @@ TEST(Config, ImpossibleCombinationsNameTheirRule) {
   EXPECT_EQ(refusal_of({{"viewport_bits", 14}, {"guard_bits", 1}}), "");
   EXPECT_EQ(refusal_of({{"quadratic_frac_bits", 30}}), "");
   EXPECT_EQ(refusal_of({{"attribute_frac_bits", 18}}), "");
-  EXPECT_EQ(refusal_of({{"significand_bits", 8}, {"rsqrt_segments_log2", 6}, {"recip_segments_log2", 6}}), "");
+  EXPECT_EQ(refusal_of({{"significand_bits", 8}, {"sqrt_segments_log2", 6}, {"recip_segments_log2", 6}}), "");
   Config wild;
   wild.significand_bits = 40;  // past set()
   EXPECT_TRUE(contains(refusal([&] { wild.validate(); }), "significand_bits"));

@@ -24,12 +24,11 @@ struct alignas(lane_bytes) DifferenceLanes {
 struct alignas(lane_bytes) NormalisedLanes {
   LaneReals a[6], d[6], r2[4];
 };
-struct alignas(lane_bytes) RsqrtLanes {
-  LaneReals rho[4];
+struct alignas(lane_bytes) SqrtLanes {
+  LaneReals root[4];
 };
-/// t = num / den, magnitudes.
 struct alignas(lane_bytes) RatioLanes {
-  LaneReals num[6], den[6];
+  LaneReals u[6], v[6];
 };
 struct alignas(lane_bytes) WeightLanes {
   LaneReals m[4];
@@ -70,17 +69,16 @@ double to_double(const PipelineFloat& v, int s);
 /// Lanes that the lane stages do not compute: corner and two-edge pixels.
 unsigned singular_lanes(const DifferenceLanes& d);
 /// The four M of one such lane by the plain pipeline, put where the lanes' weights are; what follows treats it as any
-/// other. Of `c` the format and the rsqrt table matter.
+/// other. Of `c` the format and the sqrt table matter.
 void singular_weights(const DifferenceLanes& d, std::size_t lane, const QuadData& quad, const PipelineContext& c,
                       WeightLanes& out);
 
 // Each output has as many blocks as the input; s = significand_bits, g = align_guard_bits.
 void normalise_blocks(std::span<const DifferenceLanes> in, int s, int quadratic_bias, NormalisedLanes* out);
-void rsqrt_blocks(std::span<const NormalisedLanes> in, int s, const LaneTable& table, RsqrtLanes* out);
-void ratio_blocks(std::span<const DifferenceLanes> signs, const NormalisedLanes* in, const RsqrtLanes* rho, int s,
-                  int g, RatioLanes* out);
-void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in, const RsqrtLanes* rho, int s, int g,
-                   bool notch_exact, WeightLanes* out);
+void sqrt_blocks(std::span<const NormalisedLanes> in, int s, const LaneTable& table, SqrtLanes* out);
+void ratio_blocks(std::span<const NormalisedLanes> in, const SqrtLanes* root, int s, int g, RatioLanes* out);
+void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in, int s, int g, const LaneTable& table,
+                   WeightLanes* out);
 /// quad[n]: position in `values` of block n's quad. num_z is left out (0) without `depth`.
 void interpolate_blocks(std::span<const WeightLanes> in, const std::uint32_t* quad, const QuadColumns* values,
                         std::size_t columns, bool depth, int s, int g, LaneColumn* sums);

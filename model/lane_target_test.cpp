@@ -75,7 +75,7 @@ TEST(LaneStages, EachIsThePlainOne) {
     c.align_guard_bits = static_cast<int>(rng.below(7));
     c.notch_exact = static_cast<int>(rng.below(2));
     if (rng.chance(0.3)) c.quadratic_frac_bits = static_cast<int>(rng.integer(8, 30));
-    if (rng.chance(0.3)) c.rsqrt_degree = c.recip_degree = 1;
+    if (rng.chance(0.3)) c.sqrt_degree = c.recip_degree = 1;
     c.attribute_slots = static_cast<int>(columns);
     c.attribute_int_bits = static_cast<int>(rng.integer(1, 8));
     c.depth_bits = static_cast<int>(rng.integer(8, 30));
@@ -115,16 +115,16 @@ TEST(LaneStages, EachIsThePlainOne) {
 
     on_each_lane_target([&] {
       std::vector<NormalisedLanes> normalised(blocks);
-      std::vector<RsqrtLanes> rsqrt(blocks);
+      std::vector<SqrtLanes> sqrt(blocks);
       std::vector<RatioLanes> ratio(blocks);
       std::vector<WeightLanes> weight(blocks);
       std::vector<LaneColumn> sums(blocks * sums_per_block(columns)), out(blocks * (1 + columns));
       std::vector<ReciprocalLanes> reciprocals(blocks);
       std::vector<LaneMasks> masks(blocks);
       normalise_blocks(difference, s, context.quadratic_bias, normalised.data());
-      rsqrt_blocks(normalised, s, tables.rsqrt, rsqrt.data());
-      ratio_blocks(difference, normalised.data(), rsqrt.data(), s, g, ratio.data());
-      weight_blocks(difference, ratio.data(), rsqrt.data(), s, g, c.notch_exact != 0, weight.data());
+      sqrt_blocks(normalised, s, tables.sqrt, sqrt.data());
+      ratio_blocks(normalised, sqrt.data(), s, g, ratio.data());
+      weight_blocks(difference, ratio.data(), s, g, tables.sqrt, weight.data());
       interpolate_blocks(weight, quad.data(), values.data(), columns, state.depth, s, g, sums.data());
       reciprocal_blocks(blocks, sums.data(), columns, s, tables.recip, reciprocals.data());
       const LaneOutputFormat format{c.attribute_int_bits, context.attribute_frac, c.depth_bits,
@@ -144,7 +144,7 @@ TEST(LaneStages, EachIsThePlainOne) {
           }
           for (std::size_t i = 0; i < 4; ++i) p.r2[i] = difference[b].r2[i][l];
           normalise(p, context);
-          quadrille::rsqrt_stage(p, context);
+          quadrille::sqrt_stage(p, context);
           mean_value_ratios(p, context);
           mean_value_weights(p, data, context);
           interpolate(p, data, context);
@@ -153,12 +153,12 @@ TEST(LaneStages, EachIsThePlainOne) {
           for (std::size_t k = 0; k < 6; ++k) {
             ASSERT_EQ(normalised[b].a[k][l], size(p.a_fp[k]));
             ASSERT_EQ(normalised[b].d[k][l], size(p.d_fp[k]));
-            ASSERT_EQ(ratio[b].num[k][l], size(p.num[k]));
-            ASSERT_EQ(ratio[b].den[k][l], size(p.den[k]));
+            ASSERT_EQ(ratio[b].u[k][l], size(p.u[k]));
+            ASSERT_EQ(ratio[b].v[k][l], size(p.v[k]));
           }
           for (std::size_t i = 0; i < 4; ++i) {
             ASSERT_EQ(normalised[b].r2[i][l], size(p.r2_fp[i]));
-            ASSERT_EQ(rsqrt[b].rho[i][l], size(p.rho[i]));
+            ASSERT_EQ(sqrt[b].root[i][l], size(p.root[i]));
             ASSERT_EQ(weight[b].m[i][l], size(p.m[i]));
           }
           const LaneColumn* sum = &sums[b * sums_per_block(columns)];

@@ -11,23 +11,22 @@ inline constexpr int forward_difference_stages = 3;
 inline constexpr int law_of_cosines_stages = 2;
 inline constexpr int fp_normalise_stages = 2;
 inline constexpr int normalise_stages = 1 + fp_normalise_stages;
-inline constexpr int rsqrt_stages = 4;
-inline constexpr int reciprocal_stages = rsqrt_stages;
+inline constexpr int sqrt_stages = 4;
+inline constexpr int reciprocal_stages = sqrt_stages;
 inline constexpr int product_stages = 1;
 inline constexpr int fp_sum_stages = 4 + fp_normalise_stages;  ///< from the product
 inline constexpr int fp_add_stages = 3;
-inline constexpr int one_plus_stages = fp_add_stages;
 inline constexpr int fixed_point_stages = 2;
 inline constexpr int fragment_output_stages = product_stages + fixed_point_stages + 2;
 
 // The registers at the boundaries. A pixel is in register n during the clocks after n + 1 edges.
 inline constexpr int diff_stage = forward_difference_stages + law_of_cosines_stages - 1;
 inline constexpr int norm_stage = diff_stage + normalise_stages;
-inline constexpr int rho_stage = norm_stage + rsqrt_stages;
-inline constexpr int ratio_stage = rho_stage + 2 * product_stages + one_plus_stages + 1;
+inline constexpr int root_stage = norm_stage + sqrt_stages;
+inline constexpr int ratio_stage = root_stage + product_stages + fp_add_stages;
 inline constexpr int n_stage = ratio_stage + 1 + product_stages + fp_sum_stages;
-inline constexpr int override_stage = n_stage + fp_add_stages + 1;
-inline constexpr int weight_stage = override_stage + 2 * product_stages;
+inline constexpr int override_stage = n_stage + 1;
+inline constexpr int weight_stage = override_stage + product_stages + fp_add_stages + 1;
 inline constexpr int sum_stage = weight_stage + product_stages + fp_sum_stages;
 inline constexpr int fragment_stage = sum_stage + reciprocal_stages + fragment_output_stages;
 

@@ -8,96 +8,97 @@ PipelineFloat magnitude(PipelineFloat v) {
   return v;
 }
 
-/// What replaces the regular factors at a singular pixel.
-struct Singular {
-  std::array<PipelineFloat, 4> numerator{};
-  bool rho_is_one = false;
+/// sqrt(q_far / q_near) of two pairs without a corner in common, as num / den.
+struct RootRatio {
+  PipelineFloat num, den;
 };
 
-Singular two_corner(const PixelTrace& p, const QuadData& quad) {
+/// q = r r' + D of an edge, r r' - D of a diagonal. Where the terms are of one sign that is u; where they cancel it is
+/// A² / u, by (r r')² - D² = A².
+RootRatio root_ratio(const PixelTrace& p, std::size_t near, std::size_t far, const PipelineContext& c) {
+  const auto cancels = [&](std::size_t k) { return p.d_fp[k].neg == (k < 4); };
+  const PipelineFloat root = fp_sqrt(fp_multiply(p.u[near], p.u[far], c.format), c.sqrt_table, c.format);
+  if (!cancels(near)) return {cancels(far) ? p.v[far] : p.u[far], root};
+  if (!cancels(far)) return {root, p.v[near]};
+  return {fp_multiply(p.v[far], p.u[near], c.format), fp_multiply(p.v[near], root, c.format)};
+}
+
+/// M_i = product of the three.
+struct Factors {
+  PipelineFloat x, y, z;
+};
+
+std::array<Factors, 4> regular(const PixelTrace& p, const PipelineContext& c) {
+  const RootRatio a = root_ratio(p, 0, 2, c);  // 23 / 01
+  const RootRatio b = root_ratio(p, 3, 1, c);  // 12 / 30
+  const RootRatio d = root_ratio(p, 4, 5, c);  // 13 / 20
+  return {{{a.num, b.num, d.num}, {a.num, b.den, d.den}, {a.den, b.den, d.num}, {a.den, b.num, d.den}}};
+}
+
+std::array<Factors, 4> two_corner(const PixelTrace& p, const QuadData& quad, const PipelineContext& c) {
   std::size_t i = 0;
   while (p.r2[i] > 0) ++i;
   std::size_t j = i + 1;
   while (p.r2[j] > 0) ++j;
   // Crossed factors: λ'_i = k_j·k_i / (k_j·k_i + k_i·k_j) = 1/2 whatever the k.
-  Singular s{{}, true};
-  s.numerator[i] = magnitude(quad.k[j]);
-  s.numerator[j] = magnitude(quad.k[i]);
-  return s;
+  const PipelineFloat one = c.format.one();
+  std::array<Factors, 4> m{};
+  m[i] = {magnitude(quad.k[j]), one, one};
+  m[j] = {magnitude(quad.k[i]), one, one};
+  return m;
 }
 
-Singular on_vertex(const PixelTrace& p, const PipelineContext& c) {
-  Singular s{{}, true};
+std::array<Factors, 4> on_vertex(const PixelTrace& p, const PipelineContext& c) {
+  const PipelineFloat one = c.format.one();
+  std::array<Factors, 4> m{};
   for (std::size_t i = 0; i < 4; ++i)
-    if (p.r2[i] <= 0) s.numerator[i] = c.format.one();
-  return s;
+    if (p.r2[i] <= 0) m[i] = {one, one, one};
+  return m;
 }
 
-/// `edge_sum[i]` = |ρ_i k_i + ρ_{i+1} k_{i+1}|. Each edge's own interpolation is ρ k over that sum; crossing the sums
-/// gives their mean.
-Singular two_edge(const PixelTrace& p, const std::array<PipelineFloat, 4>& edge_sum, const PipelineContext& c) {
+/// Along an edge (i, j) the weights are r_j and r_i, with the denominator r_j k_i + r_i k_j; crossing the denominators
+/// of two edges gives the mean of their interpolations. A vertex on both has two such terms.
+void two_edge(PixelTrace& p, const QuadData& quad, const PipelineContext& c) {
+  const SignificandFormat& f = c.format;
   const auto is_on = [&](std::size_t e) { return p.a[e] == 0 && p.d[e] < 0; };
   std::size_t a = 0;
   while (!is_on(a)) ++a;
   std::size_t b = a + 1;
   while (!is_on(b)) ++b;
-  const PipelineFloat both =
-      magnitude(fp_sum({raw_from_fp(edge_sum[a], c.format), raw_from_fp(edge_sum[b], c.format)}, c.format));
-  Singular s;
+  const auto denominator = [&](std::size_t e) {
+    const std::size_t j = (e + 1) % 4;
+    return magnitude(fp_sum({raw_product(p.root[j], quad.k[e]), raw_product(p.root[e], quad.k[j])}, f));
+  };
+  const PipelineFloat of_a = denominator(a), of_b = denominator(b);
   for (std::size_t i = 0; i < 4; ++i) {
-    const bool on_a = i == a || i == (a + 1) % 4;
-    const bool on_b = i == b || i == (b + 1) % 4;
-    s.numerator[i] = on_a && on_b ? both : on_a ? edge_sum[b] : on_b ? edge_sum[a] : PipelineFloat{};
+    /// The weight along an edge that has vertex i, or nothing.
+    const auto along = [&](std::size_t e, const PipelineFloat& other_denominator) -> PipelineFloat {
+      if (i == e) return fp_multiply(p.root[(e + 1) % 4], other_denominator, f);
+      if (i == (e + 1) % 4) return fp_multiply(p.root[e], other_denominator, f);
+      return {};
+    };
+    p.m[i] = fp_sum({raw_from_fp(along(a, of_b), f), raw_from_fp(along(b, of_a), f)}, f);
   }
-  return s;
+}
+
+/// Two neighbouring A have opposite signs: an edge turns backward as seen from the pixel.
+bool is_notch(const PixelTrace& p) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::int64_t before = p.a[(i + 3) % 4];
+    if ((before < 0 && p.a[i] > 0) || (before > 0 && p.a[i] < 0)) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
 void mean_value_weights(PixelTrace& p, const QuadData& quad, const PipelineContext& c) {
-  const SignificandFormat& f = c.format;
-  const bool singular = p.two_corner || p.on_vertex || p.two_edge;
-  std::array<bool, 4> differ{};
-  bool any_differ = false;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::int64_t before = p.a[(i + 3) % 4];
-    differ[i] = (before < 0 && p.a[i] > 0) || (before > 0 && p.a[i] < 0);
-    any_differ |= differ[i];
-  }
-  p.cured = c.config.notch_exact && any_differ && !singular;
-
-  std::array<PipelineFloat, 4> numerator;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t h = (i + 3) % 4;
-    const std::size_t j = (i + 1) % 4;
-    if (p.two_edge) {
-      numerator[i] = fp_sum({raw_product(p.rho[i], quad.k[i]), raw_product(p.rho[j], quad.k[j])}, f);
-    } else if (p.cured && differ[i]) {
-      numerator[i] = fp_sum({raw_product(p.num[h], p.num[i]), raw_product(p.den[h], p.den[i])}, f);
-    } else {
-      RawProduct second = raw_product(p.num[i], p.den[h]);
-      second.neg = differ[i];
-      numerator[i] = fp_sum({raw_product(p.num[h], p.den[i]), second}, f);
-    }
-    numerator[i].neg = false;
-  }
-
-  Singular special;
-  if (p.two_corner) special = two_corner(p, quad);
-  if (p.on_vertex) special = on_vertex(p, c);
-  if (p.two_edge) special = two_edge(p, numerator, c);
-
-  const PipelineFloat one = f.one();
-  const PipelineFloat even_factor = fp_multiply(p.num[5], p.den[4], f);  // n13·d20
-  const PipelineFloat odd_factor = fp_multiply(p.num[4], p.den[5], f);   // n20·d13
-  const PipelineFloat plain_factor = fp_multiply(p.den[5], p.den[4], f);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const PipelineFloat lead = singular ? special.numerator[i] : numerator[i];
-    const PipelineFloat denominators = singular ? one : fp_multiply(p.den[(i + 1) % 4], p.den[(i + 2) % 4], f);
-    const PipelineFloat rho = singular && special.rho_is_one ? one : p.rho[i];
-    const PipelineFloat factor = !p.cured ? one : differ[i] ? (i % 2 == 0 ? even_factor : odd_factor) : plain_factor;
-    p.m[i] = fp_multiply(fp_multiply(lead, denominators, f), fp_multiply(rho, factor, f), f);
-  }
+  p.cured = c.config.notch_exact && !p.two_corner && !p.on_vertex && !p.two_edge && is_notch(p);
+  if (p.two_edge) return two_edge(p, quad, c);
+  const std::array<Factors, 4> m = p.two_corner  ? two_corner(p, quad, c)
+                                   : p.on_vertex ? on_vertex(p, c)
+                                                 : regular(p, c);
+  for (std::size_t i = 0; i < 4; ++i) p.m[i] = fp_multiply(fp_multiply(m[i].x, m[i].y, c.format), m[i].z, c.format);
 }
 
 }  // namespace quadrille

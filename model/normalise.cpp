@@ -19,8 +19,8 @@ void normalise(PixelTrace& p, const PipelineContext& c) {
   p.on_edge = corners == 0 && edges == 1;
 }
 
-void rsqrt_stage(PixelTrace& p, const PipelineContext& c) {
-  for (std::size_t i = 0; i < 4; ++i) p.rho[i] = rsqrt(p.r2_fp[i], c.rsqrt_table, c.format);
+void sqrt_stage(PixelTrace& p, const PipelineContext& c) {
+  for (std::size_t i = 0; i < 4; ++i) p.root[i] = fp_sqrt(p.r2_fp[i], c.sqrt_table, c.format);
 }
 
 }  // namespace quadrille

@@ -102,13 +102,13 @@ struct LaneArithmetic {
   LANE_INLINE V cut(V v) const { return from_bits(bits(v) & significand_mask); }
   LANE_INLINE V multiply(V a, V b) const { return cut(a * b); }
 
-  LANE_INLINE V sum2(V a0, V b0, V a1, V b1, I negate1) const {
+  /// fp_sum of two raw products, neither negative.
+  LANE_INLINE V sum2(V a0, V b0, V a1, V b1) const {
     const V p0 = a0 * b0, p1 = a1 * b1;
     const I e0 = select(p0 != 0, exponent(a0) + exponent(b0), splat(std::int64_t{-4096}));
     const I e1 = select(p1 != 0, exponent(a1) + exponent(b1), splat(std::int64_t{-4096}));
     const I q = select(e0 > e1, e0, e1) - prec;
-    const V t1 = from_bits(bits(truncate_at(p1, q)) ^ (negate1 & INT64_MIN));
-    return cut(truncate_at(p0, q) + t1);
+    return cut(truncate_at(p0, q) + truncate_at(p1, q));
   }
 
   /// fp_sum of four raw products m_i·v_i; `exponent_m` = exponent(m).
@@ -128,7 +128,7 @@ struct LaneArithmetic {
 };
 
 /// The polynomial of table_polynomial.hpp; `fraction` has S−1 bits. Result: integer significand.
-LANE_INLINE V polynomial(const LaneTable& table, I segment, I fraction, int s) {
+LANE_INLINE V polynomial(const LaneTable& table, I segment, I fraction, int s, bool rising) {
   V c0, c1, c2;
   for (int l = 0; l < lane_count; ++l) {
     const LaneTable::Entry& e = table.entries[static_cast<std::size_t>(segment[l])];
@@ -140,7 +140,7 @@ LANE_INLINE V polynomial(const LaneTable& table, I segment, I fraction, int s) {
   const V dx = from_bits((fraction & ((std::int64_t{1} << table.rest_bits) - 1)) | 0x4330000000000000) - 0x1p52;
   const V t1 = c1 - integer_part(c2 * dx * scale);
   const V t0 = integer_part(t1 * dx * scale);
-  V y = integer_part((c0 - t0) * (1.0 / (1 << Config::table_guard)));
+  V y = integer_part((rising ? c0 + t0 : c0 - t0) * (1.0 / (1 << Config::table_guard)));
   const V low = splat(power_of_two(s - 1)), high = splat(power_of_two(s) - 1);
   y = select(y < low, low, y);
   return select(y > high, high, y);
@@ -148,20 +148,19 @@ LANE_INLINE V polynomial(const LaneTable& table, I segment, I fraction, int s) {
 
 LANE_INLINE I fraction_bits(V v, int s) { return (bits(v) >> (53 - s)) & ((std::int64_t{1} << (s - 1)) - 1); }
 
-LANE_INLINE V rsqrt_lanes(V a, const LaneTable& table, int s) {
+LANE_INLINE V sqrt_lanes(V a, const LaneTable& table, int s) {
   const I e = exponent(a);
   const I odd = e & 1;
   const I half = e >> 1;
   const I fraction = fraction_bits(a, s);
-  const V y = polynomial(table, (fraction >> table.rest_bits) + (odd << table.segments_log2), fraction, s);
-  const V regular = y * power_of_two(-half - s);
-  return select((fraction == 0) & (odd == 0), power_of_two(-half), regular);
+  const V y = polynomial(table, (fraction >> table.rest_bits) + (odd << table.segments_log2), fraction, s, true);
+  return y * power_of_two(half - (s - 1));
 }
 
 LANE_INLINE V recip_lanes(V a, const LaneTable& table, int s) {
   const I e = exponent(a);
   const I fraction = fraction_bits(a, s);
-  const V y = polynomial(table, fraction >> table.rest_bits, fraction, s);
+  const V y = polynomial(table, fraction >> table.rest_bits, fraction, s, false);
   const V regular = select(fraction == 0, power_of_two(-e), y * power_of_two(-e - s));
   return select(a == 0, V{}, from_bits(bits(regular) | (bits(a) & INT64_MIN)));
 }
@@ -220,46 +219,55 @@ LANE_INLINE void normalise_stage(const DifferenceLanes& p, const LaneArithmetic&
   for (std::size_t i = 0; i < 4; ++i) out.r2[i] = arithmetic.cut(leading_magnitude(p.r2[i]));
 }
 
-LANE_INLINE void rsqrt_stage(const NormalisedLanes& p, const LaneTable& table, int s, RsqrtLanes& out) {
-  for (int i = 0; i < 4; ++i) out.rho[i] = rsqrt_lanes(p.r2[i], table, s);
+LANE_INLINE void sqrt_stage(const NormalisedLanes& p, const LaneTable& table, int s, SqrtLanes& out) {
+  for (int i = 0; i < 4; ++i) out.root[i] = sqrt_lanes(p.r2[i], table, s);
 }
 
-LANE_INLINE void ratio_stage(const DifferenceLanes& signs, const NormalisedLanes& p, const RsqrtLanes& r,
-                             const LaneArithmetic& arithmetic, RatioLanes& out) {
+LANE_INLINE void ratio_stage(const NormalisedLanes& p, const SqrtLanes& r, const LaneArithmetic& arithmetic,
+                             RatioLanes& out) {
   const V one = splat(1.0);
   for (std::size_t k = 0; k < 6; ++k) {
-    const V scale = arithmetic.multiply(r.rho[vertex_pair[k][0]], r.rho[vertex_pair[k][1]]);
-    const V u = arithmetic.sum2(one, one, p.d[k], scale, I{});
-    const V v = arithmetic.multiply(p.a[k], scale);
-    const I obtuse = signs.d[k] < 0;
-    out.num[k] = select(obtuse, u, v);
-    out.den[k] = select(obtuse, v, u);
+    out.u[k] = arithmetic.sum2(r.root[vertex_pair[k][0]], r.root[vertex_pair[k][1]], p.d[k], one);
+    out.v[k] = p.a[k];
   }
 }
 
-/// Returns the mask of the cured lanes.
-LANE_INLINE I weight_stage(const DifferenceLanes& signs, const RatioLanes& p, const RsqrtLanes& r,
-                           const LaneArithmetic& arithmetic, bool notch_exact, WeightLanes& out) {
+/// Lanes in which neighbouring A have opposite signs.
+LANE_INLINE I notch_lanes(const DifferenceLanes& signs) {
   const I* a = signs.a;
-  I differ[4], any{};
+  I any{};
   for (int i = 0; i < 4; ++i) {
     const int h = (i + 3) % 4;
-    differ[i] = ((a[h] < 0) & (a[i] > 0)) | ((a[h] > 0) & (a[i] < 0));
-    any |= differ[i];
+    any |= ((a[h] < 0) & (a[i] > 0)) | ((a[h] > 0) & (a[i] < 0));
   }
-  const I cured = notch_exact ? any : I{};
-  const V factor_of[2] = {arithmetic.multiply(p.num[5], p.den[4]), arithmetic.multiply(p.num[4], p.den[5])};
-  const V plain = select(cured, arithmetic.multiply(p.den[5], p.den[4]), splat(1.0));
-  for (int i = 0; i < 4; ++i) {
-    const int h = (i + 3) % 4;
-    const I cure = cured & differ[i];
-    const V lead = magnitude(arithmetic.sum2(p.num[h], select(cure, p.num[i], p.den[i]),
-                                             select(cure, p.den[i], p.num[i]), p.den[h], differ[i] & ~cured));
-    const V denominators = arithmetic.multiply(p.den[(i + 1) % 4], p.den[(i + 2) % 4]);
-    const V factor = select(cure, factor_of[i % 2], plain);
-    out.m[i] = arithmetic.multiply(arithmetic.multiply(lead, denominators), arithmetic.multiply(r.rho[i], factor));
-  }
-  return cured;
+  return any;
+}
+
+/// sqrt(q_far / q_near) as num / den (mean_value_weights.cpp).
+struct RootRatioLanes {
+  V num, den;
+};
+
+LANE_INLINE RootRatioLanes root_ratio(const DifferenceLanes& signs, const RatioLanes& p, std::size_t near,
+                                      std::size_t far, const LaneArithmetic& arithmetic, const LaneTable& table,
+                                      int s) {
+  const auto cancels = [&](std::size_t k) LANE_LAMBDA { return k < 4 ? I(signs.d[k] < 0) : I(signs.d[k] >= 0); };
+  const I near_cancels = cancels(near), far_cancels = cancels(far);
+  const V root = sqrt_lanes(arithmetic.multiply(p.u[near], p.u[far]), table, s);
+  const V crossed = arithmetic.multiply(p.v[far], p.u[near]), scaled = arithmetic.multiply(p.v[near], root);
+  return {select(near_cancels, select(far_cancels, crossed, root), select(far_cancels, p.v[far], p.u[far])),
+          select(near_cancels, select(far_cancels, scaled, p.v[near]), root)};
+}
+
+LANE_INLINE void weight_stage(const DifferenceLanes& signs, const RatioLanes& p, const LaneArithmetic& arithmetic,
+                              const LaneTable& table, int s, WeightLanes& out) {
+  const RootRatioLanes a = root_ratio(signs, p, 0, 2, arithmetic, table, s);
+  const RootRatioLanes b = root_ratio(signs, p, 3, 1, arithmetic, table, s);
+  const RootRatioLanes d = root_ratio(signs, p, 4, 5, arithmetic, table, s);
+  out.m[0] = arithmetic.multiply(arithmetic.multiply(a.num, b.num), d.num);
+  out.m[1] = arithmetic.multiply(arithmetic.multiply(a.num, b.den), d.den);
+  out.m[2] = arithmetic.multiply(arithmetic.multiply(a.den, b.den), d.num);
+  out.m[3] = arithmetic.multiply(arithmetic.multiply(a.den, b.num), d.den);
 }
 
 /// |num·rec| in units of the last fraction bit, an integer below 2^51, clamped.
@@ -325,13 +333,13 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     out.on_edge = to_mask(masks.on_edge);
     NormalisedLanes normalised;
     normalise_stage(difference, arithmetic, power_of_two(c.quadratic_bias), normalised);
-    RsqrtLanes rsqrt;
-    rsqrt_stage(normalised, tables.rsqrt, s, rsqrt);
+    SqrtLanes sqrt;
+    sqrt_stage(normalised, tables.sqrt, s, sqrt);
     RatioLanes ratios;
-    ratio_stage(difference, normalised, rsqrt, arithmetic, ratios);
+    ratio_stage(normalised, sqrt, arithmetic, ratios);
     WeightLanes weights;
-    const I cured = weight_stage(difference, ratios, rsqrt, arithmetic, c.config.notch_exact != 0, weights);
-    out.cured = to_mask(cured) & ~out.singular;
+    weight_stage(difference, ratios, arithmetic, tables.sqrt, s, weights);
+    out.cured = c.config.notch_exact ? to_mask(notch_lanes(difference)) & ~out.singular : 0;
     I exponent_m[4];
     for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);
 
@@ -375,7 +383,7 @@ void singular_weights(const DifferenceLanes& d, std::size_t lane, const QuadData
   }
   for (std::size_t i = 0; i < 4; ++i) p.r2[i] = d.r2[i][lane];
   normalise(p, c);
-  quadrille::rsqrt_stage(p, c);
+  quadrille::sqrt_stage(p, c);
   mean_value_ratios(p, c);
   mean_value_weights(p, quad, c);
   for (std::size_t i = 0; i < 4; ++i) out.m[i][lane] = to_double(p.m[i], c.format.s);
@@ -389,26 +397,24 @@ void normalise_blocks(std::span<const DifferenceLanes> in, int s, int quadratic_
   });
 }
 
-void rsqrt_blocks(std::span<const NormalisedLanes> in, int s, const LaneTable& table, RsqrtLanes* out) {
+void sqrt_blocks(std::span<const NormalisedLanes> in, int s, const LaneTable& table, SqrtLanes* out) {
   on_lane_target([&]() LANE_LAMBDA {
-    for (std::size_t n = 0; n < in.size(); ++n) rsqrt_stage(in[n], table, s, out[n]);
+    for (std::size_t n = 0; n < in.size(); ++n) sqrt_stage(in[n], table, s, out[n]);
   });
 }
 
-void ratio_blocks(std::span<const DifferenceLanes> signs, const NormalisedLanes* in, const RsqrtLanes* rho, int s,
-                  int g, RatioLanes* out) {
+void ratio_blocks(std::span<const NormalisedLanes> in, const SqrtLanes* root, int s, int g, RatioLanes* out) {
   on_lane_target([&]() LANE_LAMBDA {
     const LaneArithmetic arithmetic(s, g);
-    for (std::size_t n = 0; n < signs.size(); ++n) ratio_stage(signs[n], in[n], rho[n], arithmetic, out[n]);
+    for (std::size_t n = 0; n < in.size(); ++n) ratio_stage(in[n], root[n], arithmetic, out[n]);
   });
 }
 
-void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in, const RsqrtLanes* rho, int s, int g,
-                   bool notch_exact, WeightLanes* out) {
+void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in, int s, int g, const LaneTable& table,
+                   WeightLanes* out) {
   on_lane_target([&]() LANE_LAMBDA {
     const LaneArithmetic arithmetic(s, g);
-    for (std::size_t n = 0; n < signs.size(); ++n)
-      weight_stage(signs[n], in[n], rho[n], arithmetic, notch_exact, out[n]);
+    for (std::size_t n = 0; n < signs.size(); ++n) weight_stage(signs[n], in[n], arithmetic, table, s, out[n]);
   });
 }
 

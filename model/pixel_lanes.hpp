@@ -33,9 +33,9 @@ struct LaneTable {
 };
 
 struct LaneTables {
-  LaneTable rsqrt, recip;
+  LaneTable sqrt, recip;
 
-  explicit LaneTables(const PipelineContext& c) : rsqrt(c.rsqrt_table), recip(c.recip_table) {}
+  explicit LaneTables(const PipelineContext& c) : sqrt(c.sqrt_table), recip(c.recip_table) {}
 };
 
 /// Results of up to eight pixels. Bit l of a mask is lane l.

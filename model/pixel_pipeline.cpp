@@ -11,7 +11,7 @@ PipelineContext::PipelineContext(const Config& c, const DrawState& s)
     : config(c),
       state(s),
       format{c.significand_bits, c.align_guard_bits},
-      rsqrt_table(make_rsqrt_table(c)),
+      sqrt_table(make_sqrt_table(c)),
       recip_table(make_recip_table(c)),
       znear(depth_code(s.znear, c)),
       zfar(depth_code(s.zfar, c)),
@@ -45,7 +45,7 @@ void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& c
   p.hull = quad.hull;
   forward_difference(p, tile, constants, dx, row);
   normalise(p, c);
-  rsqrt_stage(p, c);
+  sqrt_stage(p, c);
   mean_value_ratios(p, c);
   mean_value_weights(p, quad, c);
   interpolate(p, quad, c);

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "model/reciprocal.hpp"
-#include "model/rsqrt.hpp"
 #include "model/significand.hpp"
+#include "model/sqrt.hpp"
 #include "model/tile_walk.hpp"
 
 namespace quadrille {
@@ -30,7 +30,7 @@ struct PipelineContext {
   Config config;
   DrawState state;
   SignificandFormat format;
-  Table rsqrt_table, recip_table;
+  Table sqrt_table, recip_table;
   std::uint32_t znear, zfar;
   int quadratic_bias;  ///< exponent of A's bit 0 relative to D's and r²'s: −QDROP
   int attribute_frac;
@@ -41,8 +41,8 @@ struct PipelineContext {
 void forward_difference(PixelTrace& p, const TileEntry& tile, const QuadConstants& quad, int dx, int row);
 /// Stages 2-3. S-bit significands of A, D, r² and the singular class (rtl/README.md section 5, in its priority).
 void normalise(PixelTrace& p, const PipelineContext& c);
-/// Stages 4-6. ρ_i = r_i^-1, faithful.
-void rsqrt_stage(PixelTrace& p, const PipelineContext& c);
+/// r_i = sqrt(r_i²), faithful.
+void sqrt_stage(PixelTrace& p, const PipelineContext& c);
 /// Stages 7-10. t_i = n_i / d_i by the switch on D's sign, for the four edges and both diagonals; |n|, |d| <= 2.
 void mean_value_ratios(PixelTrace& p, const PipelineContext& c);
 /// Stages 11-17. M_i, up to a common factor; Hormann & Tarini eq. (8), division-free.

@@ -85,10 +85,10 @@ struct PixelTrace {
   bool two_corner = false, on_vertex = false, two_edge = false, on_edge = false;
   std::array<PipelineFloat, 6> a_fp{}, d_fp{};
   std::array<PipelineFloat, 4> r2_fp{};
-  // rsqrt
-  std::array<PipelineFloat, 4> rho{};
+  // sqrt
+  std::array<PipelineFloat, 4> root{};
   // ratio
-  std::array<PipelineFloat, 6> num{}, den{};  ///< t = num / den, magnitudes
+  std::array<PipelineFloat, 6> u{}, v{};  ///< r r' + |D| and |A|: tan of half the angle is v/u where D >= 0, else u/v
   bool cured = false;
   // weight
   std::array<PipelineFloat, 4> m{};
@@ -101,7 +101,7 @@ struct PixelTrace {
 };
 
 /// The boundaries that have probes, in the order of the data's way, and the fragment port.
-enum class Boundary { setup, tile, stamp, diff, norm, rsqrt, ratio, weight, sum, fragment };
+enum class Boundary { setup, tile, stamp, diff, norm, sqrt, ratio, weight, sum, fragment };
 
 /// Window z as the port has it: depth_bits fraction bits (rounding in draw_state.cpp).
 std::uint32_t depth_code(double z, const Config& c);

@@ -8,13 +8,14 @@
 
 namespace quadrille {
 
-/// y = c0 - (c1 - c2·dx)·dx with truncations as in rtl/README.md section 2; dx has table.rest_bits bits. Result: S bits
-/// with the top bit set, value y / 2^S in [1/2, 1).
-inline std::uint32_t table_polynomial(const TableEntry& e, std::uint32_t dx, int rest_bits, int s) {
+/// y = c0 ∓ (c1 - c2·dx)·dx (+ for `rising`) with truncations as in rtl/README.md section 2; dx has table.rest_bits
+/// bits. Result: S bits with the top bit set, value y / 2^S in [1/2, 1).
+inline std::uint32_t table_polynomial(const TableEntry& e, std::uint32_t dx, int rest_bits, int s,
+                                      bool rising = false) {
   const std::uint64_t t2 = (static_cast<std::uint64_t>(e.c2) * dx) >> rest_bits;
   const std::uint64_t t1 = e.c1 - t2;
   const std::uint64_t t0 = (t1 * dx) >> rest_bits;
-  const std::uint64_t y = (e.c0 - t0) >> Config::table_guard;
+  const std::uint64_t y = (rising ? e.c0 + t0 : e.c0 - t0) >> Config::table_guard;
   return static_cast<std::uint32_t>(
       std::clamp<std::uint64_t>(y, std::uint64_t{1} << (s - 1), (std::uint64_t{1} << s) - 1));
 }

@@ -12,10 +12,11 @@ namespace {
 // same on every x86-64 machine.
 using Real = long double;
 
-/// Units (2^-(S + table_guard)) added to c0 so that the evaluated polynomial is never below the function: approximation
-/// (<= 1 unit at the automatic segment counts), coefficient rounding (1.5 units at most) and the truncation of t0 and
-/// t1.
-constexpr int bias_units = 3;
+/// Units (2^-(S + table_guard)) added to c0. Of the reciprocal: so that the evaluated polynomial is never below the
+/// function: approximation (<= 1 unit at the automatic segment counts), coefficient rounding (1.5 units at most) and
+/// the truncation of t0 and t1. Of the root: half of the last bit, so that the truncation behind it rounds to nearest;
+/// roots stand in the numerators of weights as often as in the denominators.
+constexpr int recip_bias_units = 3, root_bias_units = 4;
 
 /// Interpolates f on [x0, x0 + h] in `degree + 1` Chebyshev points; returns y = a0 + a1·u + a2·u², u in [0, 1].
 template <class F>
@@ -30,8 +31,8 @@ void fit(F f, Real x0, Real h, int degree, Real a[3]) {
     a[1] = d01 - a[2] * (u[0] + u[1]);
     a[0] = y[0] - u[0] * (d01 - a[2] * u[1]);
   } else {
-    // The minimax line of a convex function: the chord, lowered by half of its largest error; the nodes of degree 1
-    // give it to first order.
+    // The minimax line of a function that bends one way: the chord, lowered by half of its largest error; the nodes of
+    // degree 1 give it to first order.
     const Real k = sqrtl(0.5L);
     const Real u[2] = {(1 - k) / 2, (1 + k) / 2};
     const Real y[2] = {f(x0 + h * u[0]), f(x0 + h * u[1])};
@@ -42,19 +43,20 @@ void fit(F f, Real x0, Real h, int degree, Real a[3]) {
 }
 
 template <class F>
-TableEntry make_entry(F f, Real x0, Real h, int degree, const Config& config, const char* key) {
+TableEntry make_entry(F f, Real x0, Real h, bool rising, int degree, const Config& config, const char* key) {
   Real a[3];
   fit(f, x0, h, degree, a);
   const Real unit = ldexpl(1.0L, config.significand_bits + Config::table_guard);
   const Real limit = ldexpl(1.0L, config.significand_bits);
-  const auto c1 = static_cast<std::int64_t>(floorl(-a[1] * unit + 0.5L));
-  const auto c2 = static_cast<std::int64_t>(floorl(a[2] * unit + 0.5L));
+  const Real sign = rising ? 1 : -1;  // of the slope; that of the bend is the other one
+  const auto c1 = static_cast<std::int64_t>(floorl(sign * a[1] * unit + 0.5L));
+  const auto c2 = static_cast<std::int64_t>(floorl(-sign * a[2] * unit + 0.5L));
   if (c1 < 0 || static_cast<Real>(c1) >= limit || c2 < 0 || static_cast<Real>(c2) >= limit || c1 < c2)
     throw ConfigError(
         std::string("impossible configuration: a coefficient of the table does not fit significand_bits; raise ") +
         key);
-  return {static_cast<std::uint32_t>(floorl(a[0] * unit + 0.5L)) + bias_units, static_cast<std::uint32_t>(c1),
-          static_cast<std::uint32_t>(c2)};
+  return {static_cast<std::uint32_t>(floorl(a[0] * unit + 0.5L)) + (rising ? root_bias_units : recip_bias_units),
+          static_cast<std::uint32_t>(c1), static_cast<std::uint32_t>(c2)};
 }
 
 Table empty_table(int segments_log2, const Config& config) {
@@ -77,15 +79,15 @@ void emit_rom(std::ostringstream& out, const char* name, const Table& table, con
 
 }  // namespace
 
-Table make_rsqrt_table(const Config& config) {
-  Table table = empty_table(config.rsqrt_segments(), config);
+Table make_sqrt_table(const Config& config) {
+  Table table = empty_table(config.sqrt_segments(), config);
   const int n = 1 << table.segments_log2;
-  const auto f = [](Real x) { return 1 / sqrtl(x); };
+  const auto f = [](Real x) { return sqrtl(x) / 2; };
   for (int octave = 0; octave < 2; ++octave)
     for (int i = 0; i < n; ++i) {
       const Real h = ldexpl(1.0L, octave - table.segments_log2);
-      table.entries.push_back(make_entry(f, ldexpl(1.0L, octave) + static_cast<Real>(i) * h, h, config.rsqrt_degree,
-                                         config, "rsqrt_segments_log2"));
+      table.entries.push_back(make_entry(f, ldexpl(1.0L, octave) + static_cast<Real>(i) * h, h, true,
+                                         config.sqrt_degree, config, "sqrt_segments_log2"));
     }
   return table;
 }
@@ -97,7 +99,7 @@ Table make_recip_table(const Config& config) {
   for (int i = 0; i < n; ++i) {
     const Real h = ldexpl(1.0L, -table.segments_log2);
     table.entries.push_back(
-        make_entry(f, 1 + static_cast<Real>(i) * h, h, config.recip_degree, config, "recip_segments_log2"));
+        make_entry(f, 1 + static_cast<Real>(i) * h, h, false, config.recip_degree, config, "recip_segments_log2"));
   }
   return table;
 }
@@ -109,11 +111,11 @@ std::string tables_package(const Config& config) {
       << "package quadrille_tables_pkg;\n"
       << "  // What the tables were made for; config_check compares.\n"
       << "  localparam int SIGNIFICAND_BITS = " << config.significand_bits << ";\n"
-      << "  localparam int RSQRT_SEGMENTS_LOG2 = " << config.rsqrt_segments() << ";\n"
-      << "  localparam int RSQRT_DEGREE = " << config.rsqrt_degree << ";\n"
+      << "  localparam int SQRT_SEGMENTS_LOG2 = " << config.sqrt_segments() << ";\n"
+      << "  localparam int SQRT_DEGREE = " << config.sqrt_degree << ";\n"
       << "  localparam int RECIP_SEGMENTS_LOG2 = " << config.recip_segments() << ";\n"
       << "  localparam int RECIP_DEGREE = " << config.recip_degree << ";\n";
-  emit_rom(out, "rsqrt_rom", make_rsqrt_table(config), config);
+  emit_rom(out, "sqrt_rom", make_sqrt_table(config), config);
   emit_rom(out, "recip_rom", make_recip_table(config), config);
   out << "endpackage\n";
   return out.str();

@@ -1,4 +1,4 @@
-// The rsqrt and reciprocal tables: coefficients (shared with the RTL as constants) and the generated package text.
+// The sqrt and reciprocal tables: coefficients (shared with the RTL as constants) and the generated package text.
 #pragma once
 
 #include "model/config.hpp"
@@ -9,7 +9,8 @@
 
 namespace quadrille {
 
-/// One segment: y = c0 - (c1 - c2·dx)·dx in units 2^-(S + table_guard); see rtl/README.md section 2.
+/// One segment: y = c0 - (c1 - c2·dx)·dx, of the root c0 + (c1 - c2·dx)·dx, in units 2^-(S + table_guard); see
+/// rtl/README.md section 2.
 struct TableEntry {
   std::uint32_t c0 = 0, c1 = 0, c2 = 0;
 };
@@ -20,8 +21,8 @@ struct Table {
   std::vector<TableEntry> entries;
 };
 
-Table make_rsqrt_table(const Config& config);  ///< 2·2^K entries: x in [1, 4)
-Table make_recip_table(const Config& config);  ///< 2^K entries: x in [1, 2)
+Table make_sqrt_table(const Config& config);   ///< 2·2^K entries: sqrt(x) / 2, x in [1, 4)
+Table make_recip_table(const Config& config);  ///< 2^K entries: 1 / x, x in [1, 2)
 
 /// `quadrille_tables_pkg.sv` for this configuration.
 std::string tables_package(const Config& config);

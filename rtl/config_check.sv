@@ -14,7 +14,7 @@ module config_check;
   localparam int POS_INT = quadrille_pkg::POS_INT;
   localparam int FRAC = quadrille_pkg::FRAC;
   localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
-  localparam int RK = quadrille_pkg::RSQRT_SEGMENTS_LOG2;
+  localparam int RK = quadrille_pkg::SQRT_SEGMENTS_LOG2;
   localparam int CK = quadrille_pkg::RECIP_SEGMENTS_LOG2;
   // max |S| in pixels: guard band, viewport, and the part of a block that hangs over
   localparam int REACH = (1 << POS_INT) + (1 << VIEWPORT_BITS) + (1 << (quadrille_pkg::TILE_LOG2 + quadrille_pkg::BLOCK_LOG2));
@@ -27,9 +27,9 @@ module config_check;
   `QUADRILLE_REQUIRE(quadrille_pkg::QUADRATIC_FRAC_BITS <= 2 * FRAC, quadratic_frac_bits_must_be_at_most_twice_the_fraction_bits)
   `QUADRILLE_REQUIRE(S >= 8 && S <= 26, significand_bits_must_be_8_to_26)
   `QUADRILLE_REQUIRE(quadrille_pkg::NOTCH_EXACT >= 0 && quadrille_pkg::NOTCH_EXACT <= 1, notch_exact_must_be_0_or_1)
-  `QUADRILLE_REQUIRE(RK >= 3 && RK <= S - 1, rsqrt_segments_log2_must_be_at_least_3_and_below_significand_bits)
+  `QUADRILLE_REQUIRE(RK >= 3 && RK <= S - 1, sqrt_segments_log2_must_be_at_least_3_and_below_significand_bits)
   `QUADRILLE_REQUIRE(CK >= 3 && CK <= S - 1, recip_segments_log2_must_be_at_least_3_and_below_significand_bits)
-  `QUADRILLE_REQUIRE(quadrille_pkg::RSQRT_DEGREE >= 1 && quadrille_pkg::RSQRT_DEGREE <= 2, rsqrt_degree_must_be_1_or_2)
+  `QUADRILLE_REQUIRE(quadrille_pkg::SQRT_DEGREE >= 1 && quadrille_pkg::SQRT_DEGREE <= 2, sqrt_degree_must_be_1_or_2)
   `QUADRILLE_REQUIRE(quadrille_pkg::RECIP_DEGREE >= 1 && quadrille_pkg::RECIP_DEGREE <= 2, recip_degree_must_be_1_or_2)
   `QUADRILLE_REQUIRE(quadrille_pkg::ALIGN_GUARD_BITS >= 0 && quadrille_pkg::ALIGN_GUARD_BITS <= 6, align_guard_bits_must_be_0_to_6)
   `QUADRILLE_REQUIRE(quadrille_pkg::ATTRIBUTE_SLOTS >= 1 && quadrille_pkg::ATTRIBUTE_SLOTS <= 8, attribute_slots_must_be_1_to_8)
@@ -51,8 +51,8 @@ module config_check;
 
   // The tables are a file of their own, made for one configuration.
   `QUADRILLE_REQUIRE(quadrille_tables_pkg::SIGNIFICAND_BITS == S, tables_must_be_of_this_significand_bits)
-  `QUADRILLE_REQUIRE(quadrille_tables_pkg::RSQRT_SEGMENTS_LOG2 == RK, tables_must_be_of_this_rsqrt_segments_log2)
-  `QUADRILLE_REQUIRE(quadrille_tables_pkg::RSQRT_DEGREE == quadrille_pkg::RSQRT_DEGREE, tables_must_be_of_this_rsqrt_degree)
+  `QUADRILLE_REQUIRE(quadrille_tables_pkg::SQRT_SEGMENTS_LOG2 == RK, tables_must_be_of_this_sqrt_segments_log2)
+  `QUADRILLE_REQUIRE(quadrille_tables_pkg::SQRT_DEGREE == quadrille_pkg::SQRT_DEGREE, tables_must_be_of_this_sqrt_degree)
   `QUADRILLE_REQUIRE(quadrille_tables_pkg::RECIP_SEGMENTS_LOG2 == CK, tables_must_be_of_this_recip_segments_log2)
   `QUADRILLE_REQUIRE(quadrille_tables_pkg::RECIP_DEGREE == quadrille_pkg::RECIP_DEGREE, tables_must_be_of_this_recip_degree)
 endmodule

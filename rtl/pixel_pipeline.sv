@@ -74,8 +74,8 @@ module pixel_pipeline #(
     output quadrille_pkg::probe_diff_t probe_diff_o,
     output logic probe_norm_valid_o,
     output quadrille_pkg::probe_norm_t probe_norm_o,
-    output logic probe_rsqrt_valid_o,
-    output quadrille_pkg::probe_rsqrt_t probe_rsqrt_o,
+    output logic probe_sqrt_valid_o,
+    output quadrille_pkg::probe_sqrt_t probe_sqrt_o,
     output logic probe_ratio_valid_o,
     output quadrille_pkg::probe_ratio_t probe_ratio_o,
     output logic probe_weight_valid_o,
@@ -115,11 +115,12 @@ module pixel_pipeline #(
   // ---- Side band: slot, position, facing, tie; from the norm boundary on the class with them -------------------------------
   // A read of the slot bank ends in a register: the slot leaves two registers before the data's user.
   localparam int TAG = SLOT + 2 * V + 2;
-  localparam int CLASS = 13;
+  localparam int CLASS = 9;
   localparam int FLAGS = 5;  // class bits that the fragment shows
   localparam int META = TAG + FLAGS;
   logic [TAG-1:0] diff_tag, norm_tag;
   logic [CLASS-1:0] norm_class, ratio_class;
+  logic [5:0] norm_d_neg, ratio_d_neg;  // signs of D
   logic [META-1:0] product_meta, override_meta, blend_meta, output_meta;
 
   delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (
@@ -148,7 +149,11 @@ module pixel_pipeline #(
       .data_i(blend_meta),
       .data_o(output_meta)
   );
-  delay_line #(.WIDTH(CLASS), .DEPTH(RATIO - NORM)) u_ratio_class (.clk_i, .data_i(norm_class), .data_o(ratio_class));
+  delay_line #(.WIDTH(CLASS + 6), .DEPTH(RATIO - NORM)) u_ratio_class (
+      .clk_i,
+      .data_i({norm_class, norm_d_neg}),
+      .data_o({ratio_class, ratio_d_neg})
+  );
 
   // ---- Reads of the slot bank -----------------------------------------------------------------------------------------------
   logic [3:0] product_k_neg;
@@ -281,7 +286,7 @@ module pixel_pipeline #(
   );
 
   // ---- Significand numbers and class -------------------------------------------------------------------------------------
-  logic [5:0] norm_a_neg, norm_d_neg;
+  logic [5:0] norm_a_neg;
   logic [6*E-1:0] norm_a_exp, norm_d_exp;
   logic [6*S-1:0] norm_a_sig, norm_d_sig;
   logic [3:0] norm_r2_neg;
@@ -330,23 +335,23 @@ module pixel_pipeline #(
       .class_o(norm_class)
   );
 
-  // ---- rho_i = 1/R_i ------------------------------------------------------------------------------------------------------
-  logic [4*E-1:0] rho_exp;
-  logic [4*S-1:0] rho_sig;
+  // ---- r_i, the corners' distances ------------------------------------------------------------------------------------------------------
+  logic [4*E-1:0] root_exp;
+  logic [4*S-1:0] root_sig;
 
-  for (genvar g = 0; g < 4; g++) begin : gen_rsqrt
-    rsqrt u_rsqrt (
+  for (genvar g = 0; g < 4; g++) begin : gen_sqrt
+    sqrt u_sqrt (
         .clk_i,
         .exp_i(norm_r2_exp[g*E+:E]),
         .sig_i(norm_r2_sig[g*S+:S]),
-        .exp_o(rho_exp[g*E+:E]),
-        .sig_o(rho_sig[g*S+:S])
+        .exp_o(root_exp[g*E+:E]),
+        .sig_o(root_sig[g*S+:S])
     );
   end
 
   // ---- Ratios and weights -------------------------------------------------------------------------------------------------
-  logic [6*E-1:0] ratio_n_exp, ratio_d_exp;
-  logic [6*S-1:0] ratio_n_sig, ratio_d_sig;
+  logic [6*E-1:0] ratio_u_exp, ratio_v_exp;
+  logic [6*S-1:0] ratio_u_sig, ratio_v_sig;
   logic [4*E-1:0] m_exp;
   logic [4*S-1:0] m_sig;
 
@@ -354,25 +359,25 @@ module pixel_pipeline #(
       .clk_i,
       .a_exp_i(norm_a_exp),
       .a_sig_i(norm_a_sig),
-      .d_neg_i(norm_d_neg),
       .d_exp_i(norm_d_exp),
       .d_sig_i(norm_d_sig),
-      .rho_exp_i(rho_exp),
-      .rho_sig_i(rho_sig),
-      .n_exp_o(ratio_n_exp),
-      .n_sig_o(ratio_n_sig),
-      .d_exp_o(ratio_d_exp),
-      .d_sig_o(ratio_d_sig)
+      .root_exp_i(root_exp),
+      .root_sig_i(root_sig),
+      .u_exp_o(ratio_u_exp),
+      .u_sig_o(ratio_u_sig),
+      .v_exp_o(ratio_v_exp),
+      .v_sig_o(ratio_v_sig)
   );
 
   mean_value_weights u_weights (
       .clk_i,
-      .rho_exp_i(rho_exp),
-      .rho_sig_i(rho_sig),
-      .n_exp_i(ratio_n_exp),
-      .n_sig_i(ratio_n_sig),
-      .d_exp_i(ratio_d_exp),
-      .d_sig_i(ratio_d_sig),
+      .root_exp_i(root_exp),
+      .root_sig_i(root_sig),
+      .u_exp_i(ratio_u_exp),
+      .u_sig_i(ratio_u_sig),
+      .v_exp_i(ratio_v_exp),
+      .v_sig_i(ratio_v_sig),
+      .d_neg_i(ratio_d_neg),
       .class_i(ratio_class),
       .k_neg_i(product_k_neg),
       .k_exp_i(product_k_exp),
@@ -478,11 +483,11 @@ module pixel_pipeline #(
   assign probe_diff_valid_o = valid_q[DIFF];
   assign probe_diff_o = {diff_tag, diff_a, diff_d, diff_r2};
   assign probe_norm_valid_o = valid_q[NORM];
-  assign probe_norm_o = {norm_class[12:9], norm_a_neg, norm_a_exp, norm_a_sig, norm_d_neg, norm_d_exp, norm_d_sig, norm_r2_exp, norm_r2_sig};
-  assign probe_rsqrt_valid_o = valid_q[quadrille_pkg::RHO_STAGE];
-  assign probe_rsqrt_o = {rho_exp, rho_sig};
+  assign probe_norm_o = {norm_class[CLASS-1-:4], norm_a_neg, norm_a_exp, norm_a_sig, norm_d_neg, norm_d_exp, norm_d_sig, norm_r2_exp, norm_r2_sig};
+  assign probe_sqrt_valid_o = valid_q[quadrille_pkg::ROOT_STAGE];
+  assign probe_sqrt_o = {root_exp, root_sig};
   assign probe_ratio_valid_o = valid_q[RATIO];
-  assign probe_ratio_o = {ratio_n_exp, ratio_n_sig, ratio_d_exp, ratio_d_sig};
+  assign probe_ratio_o = {ratio_u_exp, ratio_u_sig, ratio_v_exp, ratio_v_sig};
   assign probe_weight_valid_o = valid_q[WEIGHT];
   assign probe_weight_o = {m_exp, m_sig};
   assign probe_sum_valid_o = valid_q[quadrille_pkg::SUM_STAGE];
@@ -509,7 +514,7 @@ module pixel_pipeline #(
       assert (fragment_valid_o || fragment_o == '0);
       assert ((valid_q & end_q) == '0);
       assert (!fragment_valid_o || valid_q[LAST]);
-      assert (!valid_q[NORM] || ((norm_class[12:9] & (norm_class[12:9] - 4'd1)) == '0));
+      assert (!valid_q[NORM] || ((norm_class[CLASS-1-:4] & (norm_class[CLASS-1-:4] - 4'd1)) == '0));
     end
   end
 `endif

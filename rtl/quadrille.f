@@ -12,6 +12,7 @@ forward_difference.sv
 fp_add.sv
 fp_multiply.sv
 fp_normalise.sv
+fp_product.sv
 fp_raw_product.sv
 fp_sum.sv
 fp_term.sv
@@ -25,7 +26,6 @@ mean_value_weights.sv
 normalise.sv
 offset_digits.sv
 one_of_four.sv
-one_plus.sv
 pixel_emit.sv
 pixel_pipeline.sv
 quad_setup.sv
@@ -33,11 +33,12 @@ quad_slots.sv
 quadrille.sv
 radix4_digits.sv
 reciprocal.sv
-rsqrt.sv
+root_ratio.sv
 setup_pair.sv
 shift_to_top.sv
 singular_class.sv
 small_multiply.sv
+sqrt.sv
 stamp_coverage.sv
 sync_fifo.sv
 table_polynomial.sv

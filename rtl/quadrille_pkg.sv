@@ -24,11 +24,11 @@
 `ifndef QUADRILLE_NOTCH_EXACT
 `define QUADRILLE_NOTCH_EXACT 1
 `endif
-`ifndef QUADRILLE_RSQRT_SEGMENTS_LOG2
-`define QUADRILLE_RSQRT_SEGMENTS_LOG2 -1
+`ifndef QUADRILLE_SQRT_SEGMENTS_LOG2
+`define QUADRILLE_SQRT_SEGMENTS_LOG2 -1
 `endif
-`ifndef QUADRILLE_RSQRT_DEGREE
-`define QUADRILLE_RSQRT_DEGREE 2
+`ifndef QUADRILLE_SQRT_DEGREE
+`define QUADRILLE_SQRT_DEGREE 2
 `endif
 `ifndef QUADRILLE_RECIP_SEGMENTS_LOG2
 `define QUADRILLE_RECIP_SEGMENTS_LOG2 -1
@@ -79,7 +79,7 @@ package quadrille_pkg;
   localparam int HOMOGENEOUS_FRAC_BITS /*verilator public*/ = `QUADRILLE_HOMOGENEOUS_FRAC_BITS;
   localparam int SIGNIFICAND_BITS /*verilator public*/ = `QUADRILLE_SIGNIFICAND_BITS;
   localparam int NOTCH_EXACT /*verilator public*/ = `QUADRILLE_NOTCH_EXACT;
-  localparam int RSQRT_DEGREE /*verilator public*/ = `QUADRILLE_RSQRT_DEGREE;
+  localparam int SQRT_DEGREE /*verilator public*/ = `QUADRILLE_SQRT_DEGREE;
   localparam int RECIP_DEGREE /*verilator public*/ = `QUADRILLE_RECIP_DEGREE;
   localparam int ALIGN_GUARD_BITS /*verilator public*/ = `QUADRILLE_ALIGN_GUARD_BITS;
   localparam int ATTRIBUTE_SLOTS /*verilator public*/ = `QUADRILLE_ATTRIBUTE_SLOTS;
@@ -94,7 +94,7 @@ package quadrille_pkg;
 
   // ---- Keys with an automatic value ---------------------------------------------------------------------------------------
   localparam int QUADRATIC_FRAC_KEY = `QUADRILLE_QUADRATIC_FRAC_BITS;
-  localparam int RSQRT_SEGMENTS_KEY = `QUADRILLE_RSQRT_SEGMENTS_LOG2;
+  localparam int SQRT_SEGMENTS_KEY = `QUADRILLE_SQRT_SEGMENTS_LOG2;
   localparam int RECIP_SEGMENTS_KEY = `QUADRILLE_RECIP_SEGMENTS_LOG2;
   localparam int ATTRIBUTE_FRAC_KEY = `QUADRILLE_ATTRIBUTE_FRAC_BITS;
 
@@ -103,9 +103,9 @@ package quadrille_pkg;
   // a product of two positions has 2 FRAC fraction bits: keep all unless told otherwise
   localparam int QUADRATIC_FRAC_BITS /*verilator public*/ = (QUADRATIC_FRAC_KEY < 0) ? 2 * FRAC : QUADRATIC_FRAC_KEY;
   // segments for a table error below one unit: the error falls by 2^3 (degree 2) or 2^2 (degree 1) per doubling
-  localparam int RSQRT_AUTO = (RSQRT_DEGREE == 1) ? (SIGNIFICAND_BITS + 1) / 2 : (SIGNIFICAND_BITS - 4 + 2) / 3;
-  localparam int RSQRT_SEGMENTS_LOG2 /*verilator public*/ =
-      (RSQRT_SEGMENTS_KEY >= 0) ? RSQRT_SEGMENTS_KEY : (RSQRT_AUTO < 3) ? 3 : RSQRT_AUTO;
+  localparam int SQRT_AUTO = (SQRT_DEGREE == 1) ? (SIGNIFICAND_BITS + 1) / 2 : (SIGNIFICAND_BITS - 4 + 2) / 3;
+  localparam int SQRT_SEGMENTS_LOG2 /*verilator public*/ =
+      (SQRT_SEGMENTS_KEY >= 0) ? SQRT_SEGMENTS_KEY : (SQRT_AUTO < 3) ? 3 : SQRT_AUTO;
   localparam int RECIP_AUTO = (RECIP_DEGREE == 1) ? (SIGNIFICAND_BITS + 2) / 2 : (SIGNIFICAND_BITS - 2 + 2) / 3;
   localparam int RECIP_SEGMENTS_LOG2 /*verilator public*/ =
       (RECIP_SEGMENTS_KEY >= 0) ? RECIP_SEGMENTS_KEY : (RECIP_AUTO < 3) ? 3 : RECIP_AUTO;
@@ -134,7 +134,7 @@ package quadrille_pkg;
   localparam int LENGTH2_BITS /*verilator public*/ = 2 * (POS_INT + FRAC) + 4 - QDROP;
   // signed difference of two positions
   localparam int RISE_BITS /*verilator public*/ = T_BITS + 1;
-  // signed exponents inside: products of seven ratios >= 2^-64 and a port exponent stay within +-2^11
+  // signed exponents inside: weights up to 2^378, port exponents and a quotient of sums stay within +-2^11
   localparam int EXP_BITS /*verilator public*/ = 12;
   // signed exponents of k, Z, b at the port
   localparam int PORT_EXP_BITS /*verilator public*/ = 9;
@@ -198,25 +198,25 @@ package quadrille_pkg;
   localparam int LAW_OF_COSINES_STAGES /*verilator public*/ = 2;  // sum, difference
   localparam int FP_NORMALISE_STAGES /*verilator public*/ = 2;  // long shifts, short shifts
   localparam int NORMALISE_STAGES /*verilator public*/ = 1 + FP_NORMALISE_STAGES;  // magnitude
-  localparam int RSQRT_STAGES /*verilator public*/ = 4;  // table, inner product, outer product, clamp
-  localparam int RECIPROCAL_STAGES /*verilator public*/ = RSQRT_STAGES;  // the same polynomial
+  localparam int SQRT_STAGES /*verilator public*/ = 4;  // table, inner product, outer product, clamp
+  localparam int RECIPROCAL_STAGES /*verilator public*/ = SQRT_STAGES;  // the same polynomial
   localparam int PRODUCT_STAGES /*verilator public*/ = 1;  // fp_multiply, fp_raw_product
   localparam int FP_SUM_STAGES /*verilator public*/ = 4 + FP_NORMALISE_STAGES;  // from the product: distances, align, add, magnitude
   localparam int FP_ADD_STAGES /*verilator public*/ = 3;  // order, align, add
-  localparam int ONE_PLUS_STAGES /*verilator public*/ = FP_ADD_STAGES;  // distance, align, normalise; or fp_add itself
   localparam int FIXED_POINT_STAGES /*verilator public*/ = 2;  // distance, shift
   localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + FIXED_POINT_STAGES + 2;  // sign and limits, output
   // Registers at the boundaries; register 0 is written by the edge that ends the clock in which the pixel is at the input.
   localparam int DIFF_STAGE /*verilator public*/ = FORWARD_DIFFERENCE_STAGES + LAW_OF_COSINES_STAGES - 1;
   localparam int NORM_STAGE /*verilator public*/ = DIFF_STAGE + NORMALISE_STAGES;
-  localparam int RHO_STAGE /*verilator public*/ = NORM_STAGE + RSQRT_STAGES;
-  // rho rho', its products with A and D, 1 + c, which of the two is n
-  localparam int RATIO_STAGE /*verilator public*/ = RHO_STAGE + 2 * PRODUCT_STAGES + ONE_PLUS_STAGES + 1;
-  // the factors of N, N; then the sum of two edges' N, and the register in which the overrides have been applied
+  localparam int ROOT_STAGE /*verilator public*/ = NORM_STAGE + SQRT_STAGES;
+  // r r', its sum with |D|
+  localparam int RATIO_STAGE /*verilator public*/ = ROOT_STAGE + PRODUCT_STAGES + FP_ADD_STAGES;
+  // operands, products, the denominators of two edges; beside them the roots, their products, and which is a factor; then the register
+  // in which the overrides have been applied
   localparam int N_STAGE /*verilator public*/ = RATIO_STAGE + 1 + PRODUCT_STAGES + FP_SUM_STAGES;
-  localparam int OVERRIDE_STAGE /*verilator public*/ = N_STAGE + FP_ADD_STAGES + 1;
-  // h and g, M
-  localparam int WEIGHT_STAGE /*verilator public*/ = OVERRIDE_STAGE + 2 * PRODUCT_STAGES;
+  localparam int OVERRIDE_STAGE /*verilator public*/ = N_STAGE + 1;
+  // the first product, the sum of two of them, which of both is M; beside them the second product
+  localparam int WEIGHT_STAGE /*verilator public*/ = OVERRIDE_STAGE + PRODUCT_STAGES + FP_ADD_STAGES + 1;
   localparam int SUM_STAGE /*verilator public*/ = WEIGHT_STAGE + PRODUCT_STAGES + FP_SUM_STAGES;
   localparam int FRAGMENT_STAGE /*verilator public*/ = SUM_STAGE + RECIPROCAL_STAGES + FRAGMENT_OUTPUT_STAGES;
   // clocks from a pixel at the input to the last register
@@ -301,13 +301,13 @@ package quadrille_pkg;
   typedef struct packed {
     logic [4*EXP_BITS-1:0] exp;
     logic [4*SIGNIFICAND_BITS-1:0] sig;
-  } probe_rsqrt_t;
+  } probe_sqrt_t;
 
   typedef struct packed {
-    logic [6*EXP_BITS-1:0] n_exp;
-    logic [6*SIGNIFICAND_BITS-1:0] n_sig;
-    logic [6*EXP_BITS-1:0] d_exp;
-    logic [6*SIGNIFICAND_BITS-1:0] d_sig;
+    logic [6*EXP_BITS-1:0] u_exp;
+    logic [6*SIGNIFICAND_BITS-1:0] u_sig;
+    logic [6*EXP_BITS-1:0] v_exp;
+    logic [6*SIGNIFICAND_BITS-1:0] v_sig;
   } probe_ratio_t;
 
   typedef struct packed {

@@ -1,8 +1,8 @@
-// Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, where neighbouring t differ
-// in sign. Latency NORMALISE_STAGES, one pixel per clock.
+// Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, whether an edge turns
+// backward. Latency NORMALISE_STAGES, one pixel per clock.
 //
-// class_o = {two_corner, on_vertex, two_edge, on_edge, cured, differ[4], first[2], second[2]}: at most one of the first four is
-// set; first and second are the lowest two corners or edges concerned. differ[i]: A_{i-1} and A_i have strictly opposite signs.
+// class_o = {two_corner, on_vertex, two_edge, on_edge, notch, first[2], second[2]}: at most one of the first four is set; first and
+// second are the lowest two corners or edges concerned. notch: two neighbouring A have strictly opposite signs, at no singular pixel.
 module singular_class #(
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int QVAL = quadrille_pkg::QVAL_BITS
@@ -11,7 +11,7 @@ module singular_class #(
     input logic [4*VAL-1:0] a_i,
     input logic [4*QVAL-1:0] d_i,
     input logic [4*QVAL-1:0] r2_i,
-    output logic [12:0] class_o
+    output logic [8:0] class_o
 );
   // Stage 1: signs.
   logic [3:0] a_neg_d, a_pos_d, corner_d, edge_d;
@@ -36,7 +36,7 @@ module singular_class #(
 
   // Stage 2: priority.
   logic any_corner, many_corners, any_edge, many_edges;
-  logic two_corner, on_vertex, two_edge, on_edge, cured;
+  logic two_corner, on_vertex, two_edge, on_edge, notch;
   logic [3:0] concerned;
   logic [2:1] others;  // inner ones, without the lowest
   logic [3:0] differ;
@@ -51,15 +51,15 @@ module singular_class #(
   assign two_edge = !any_corner && many_edges;
   assign on_edge = !any_corner && any_edge && !many_edges;
   assign differ = ({a_neg_q[2:0], a_neg_q[3]} & a_pos_q) | ({a_pos_q[2:0], a_pos_q[3]} & a_neg_q);
-  assign cured = quadrille_pkg::NOTCH_EXACT != 0 && differ != 4'd0 && !two_corner && !on_vertex && !two_edge;
+  assign notch = quadrille_pkg::NOTCH_EXACT != 0 && differ != 4'd0 && !two_corner && !on_vertex && !two_edge;
   assign concerned = any_corner ? corner_q : edge_q;
   assign others = 2'((concerned & (concerned - 4'd1)) >> 1);
   assign first = concerned[0] ? 2'd0 : concerned[1] ? 2'd1 : concerned[2] ? 2'd2 : 2'd3;
   assign second = others[1] ? 2'd1 : others[2] ? 2'd2 : 2'd3;
 
-  delay_line #(.WIDTH(13), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 1)) u_delay (
+  delay_line #(.WIDTH(9), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 1)) u_delay (
       .clk_i,
-      .data_i({two_corner, on_vertex, two_edge, on_edge, cured, differ, first, second}),
+      .data_i({two_corner, on_vertex, two_edge, on_edge, notch, first, second}),
       .data_o(class_o)
   );
 endmodule

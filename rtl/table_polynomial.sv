@@ -1,4 +1,4 @@
-// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function. Latency 3, one result per clock: the table's word, inner and
+// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function, C0 + (C1 - C2 dx) dx of a rising concave one. Latency 3, one result per clock: the table's word, inner and
 // outer product; the result is clamped behind the last register, for its user's.
 //
 // word_i = {C0[S+4], C1[S], C2[S]} unsigned, dx_i = the low R bits of the argument below the segment's index, read as a fraction
@@ -6,6 +6,7 @@
 // clamped to [2^(S-1), 2^S - 1]. A degree 1 table has C2 = 0 in every word.
 module table_polynomial #(
     parameter int SEGMENTS_LOG2 = 5,
+    parameter bit RISING = 1'b0,
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int R = S - 1 - SEGMENTS_LOG2,
     localparam int DX_BITS = (R < 1) ? 1 : R
@@ -40,9 +41,10 @@ module table_polynomial #(
   end
 
   // Stage 3: outer product.
-  logic [C0_BITS-1:0] outer_d, outer_q;
+  logic [C0_BITS-1:0] slope, outer_d, outer_q;
 
-  assign outer_d = c0_q - C0_BITS'(((S + DX_BITS)'(inner_q) * (S + DX_BITS)'(dx_q2)) >> R);
+  assign slope = C0_BITS'(((S + DX_BITS)'(inner_q) * (S + DX_BITS)'(dx_q2)) >> R);
+  assign outer_d = RISING ? c0_q + slope : c0_q - slope;
 
   always_ff @(posedge clk_i) outer_q <= outer_d;
 

@@ -37,7 +37,7 @@ CONFIGURATIONS = [
     "significand_bits=15",
     "significand_bits=22",
     "significand_bits=26",
-    "significand_bits=18 rsqrt_degree=1 recip_degree=1",
+    "significand_bits=18 sqrt_degree=1 recip_degree=1",
     "significand_bits=18 attribute_slots=8",
     "significand_bits=14 attribute_slots=1 tile_log2=2 notch_exact=0 quad_slots_log2=1 tile_slots_log2=1",
     "significand_bits=10 tile_log2=4 align_guard_bits=6 quad_slots_log2=4 stamp_fifo_log2=5",

@@ -20,7 +20,7 @@ python3 - "$build" <<'PYTHON'
 import json, pathlib, subprocess, sys
 
 stages = {f"model/{name}" for name in (
-    "snap.cpp", "quad_setup.cpp", "tile_context.cpp", "stamp_coverage.cpp", "forward_difference.cpp", "normalise.cpp", "rsqrt.hpp", "reciprocal.hpp",
+    "snap.cpp", "quad_setup.cpp", "tile_context.cpp", "stamp_coverage.cpp", "forward_difference.cpp", "normalise.cpp", "sqrt.hpp", "reciprocal.hpp",
     "table_polynomial.hpp", "significand.hpp", "mean_value_ratios.cpp", "mean_value_weights.cpp", "interpolate.cpp",
     "fragment_output.cpp")}
 # (file, piece of the source line): why no stimulus gets there in the default configuration.

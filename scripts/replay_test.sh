@@ -18,7 +18,7 @@ set=${2:-$work/set}
 machine=stress_reflex  # the suite that stands for the machine
 if [ $# -lt 2 ]; then
   suites=()
-  for suite in snapping setup tile_context coverage forward_difference normalise rsqrt reciprocal ratios weights interpolation depth $machine stress_on_vertex; do
+  for suite in snapping setup tile_context coverage forward_difference normalise sqrt reciprocal ratios weights interpolation depth $machine stress_on_vertex; do
     suites+=(--suite "$suite")
   done
   "$QUADRILLE" golden generate --level 1 --limit 150 --out "$set" --quiet "${suites[@]}"
@@ -118,22 +118,22 @@ tool=icarus  # the quick one to build
 
 # ---- An intact set ----
 intact=()
-if $sample; then intact=(--suite rsqrt --suite coverage); fi
-expect 0 "^rsqrt: [0-9]+ vectors, 0 mismatches" "an intact set under Icarus" $replay "$set" icarus --netlist ${intact[@]+"${intact[@]}"}
+if $sample; then intact=(--suite sqrt --suite coverage); fi
+expect 0 "^sqrt: [0-9]+ vectors, 0 mismatches" "an intact set under Icarus" $replay "$set" icarus --netlist ${intact[@]+"${intact[@]}"}
 cp "$work/out" "$work/icarus"
 $sample || expect 0 "" "the machine among them" grep -E "^$machine: [1-9][0-9]* vectors, 0 mismatches" "$work/icarus"
-expect 0 "" "rsqrt as gates" grep -E "^rsqrt \(netlist\): [1-9][0-9]* vectors, 0 mismatches" "$work/icarus"
+expect 0 "" "sqrt as gates" grep -E "^sqrt \(netlist\): [1-9][0-9]* vectors, 0 mismatches" "$work/icarus"
 expect 0 "^$machine: [0-9]+ vectors, 0 mismatches" "all suites under Verilator" $replay "$set" verilator
 
 # ---- Damaged vectors ----
 for simulator in icarus verilator; do
-  damage rsqrt 'flip("response.hex", -1, 0)'
-  expect 1 "^rsqrt: sig\[0\]: expected" "$simulator: a bit of the last response" $replay "$work/bad" $simulator --suite rsqrt
+  damage sqrt 'flip("response.hex", -1, 0)'
+  expect 1 "^sqrt: sig\[0\]: expected" "$simulator: a bit of the last response" $replay "$work/bad" $simulator --suite sqrt
   damage $machine 'flip("response.hex", 7, 0)'
   expect 1 "first difference in line 8," "$simulator: a bit of a fragment" $replay "$work/bad" $simulator --suite $machine
 done
-damage rsqrt 'flip("response.hex", 0, bits("response") - 1)'
-expect 1 "first difference in line 1:" "the top bit of the first response" $replay "$work/bad" $tool --suite rsqrt
+damage sqrt 'flip("response.hex", 0, bits("response") - 1)'
+expect 1 "first difference in line 1:" "the top bit of the first response" $replay "$work/bad" $tool --suite sqrt
 damage setup 'flip("stimulus.hex", 1, 60)'
 expect 1 "first difference in line 2:" "a bit of a stimulus" $replay "$work/bad" $tool --suite setup
 # clock_stalled is the second 32-bit field of a fragment's line, clock the one above it
@@ -162,31 +162,31 @@ for bit in 0 1; do
   expect 2 "stalls.hex: the pattern never (offers|takes) anything" "a pattern without bit $bit" $replay "$work/bad" $tool --suite $machine
 done
 
-for suite in rsqrt $machine; do
+for suite in sqrt $machine; do
   damage $suite 'write("response.hex", read("response.hex")[:-1])'
   expect 2 "response.hex: [0-9]+ lines, the manifest says" "$suite: a line less" $replay "$work/bad" $tool --suite $suite
   damage $suite 'write("response.hex", [])'
   expect 2 "response.hex: no vectors" "$suite: no line" $replay "$work/bad" $tool --suite $suite
 done
-damage rsqrt 'write("response.hex", read("response.hex")[:-1]); lines_in_manifest("response.hex", -1)'
-expect 2 "different numbers of lines" "a response less" $replay "$work/bad" $tool --suite rsqrt
-damage rsqrt 'write("stimulus.hex", ["x" + line[1:] for line in read("stimulus.hex")])'
-expect 2 "stimulus.hex:1: not a record" "a line that is no number" $replay "$work/bad" $tool --suite rsqrt
-damage rsqrt 'open(f"{suite}/manifest.json", "w").write("{")'
-expect 2 "manifest.json" "half a manifest" $replay "$work/bad" $tool --suite rsqrt
-damage rsqrt 'open(f"{suite}/manifest.json", "w").write("[" * 100000)'
-expect 2 "manifest.json: .*recursion" "a manifest nested deeply" $replay "$work/bad" $tool --suite rsqrt
-damage rsqrt 'os.remove(f"{suite}/manifest.json"); os.mkfifo(f"{suite}/manifest.json")'
-expect 2 "manifest.json: not a regular file" "a pipe as manifest" timeout 20 $replay "$work/bad" $tool --suite rsqrt
-damage rsqrt 'import os; os.remove(f"{suite}/stimulus.hex")'
-expect 2 "stimulus.hex" "a missing file" $replay "$work/bad" $tool --suite rsqrt
+damage sqrt 'write("response.hex", read("response.hex")[:-1]); lines_in_manifest("response.hex", -1)'
+expect 2 "different numbers of lines" "a response less" $replay "$work/bad" $tool --suite sqrt
+damage sqrt 'write("stimulus.hex", ["x" + line[1:] for line in read("stimulus.hex")])'
+expect 2 "stimulus.hex:1: not a record" "a line that is no number" $replay "$work/bad" $tool --suite sqrt
+damage sqrt 'open(f"{suite}/manifest.json", "w").write("{")'
+expect 2 "manifest.json" "half a manifest" $replay "$work/bad" $tool --suite sqrt
+damage sqrt 'open(f"{suite}/manifest.json", "w").write("[" * 100000)'
+expect 2 "manifest.json: .*recursion" "a manifest nested deeply" $replay "$work/bad" $tool --suite sqrt
+damage sqrt 'os.remove(f"{suite}/manifest.json"); os.mkfifo(f"{suite}/manifest.json")'
+expect 2 "manifest.json: not a regular file" "a pipe as manifest" timeout 20 $replay "$work/bad" $tool --suite sqrt
+damage sqrt 'import os; os.remove(f"{suite}/stimulus.hex")'
+expect 2 "stimulus.hex" "a missing file" $replay "$work/bad" $tool --suite sqrt
 expect 2 "no suite rsqr" "an unknown suite" $replay "$set" $tool --suite rsqr
 expect 2 "nothing to replay: snapping has no RTL" "only a suite without RTL" $replay "$set" $tool --suite snapping
 expect 2 "manifest.json" "no set" $replay "$work" $tool
 mkdir "$work/bin"
 ln -s "$(python3 -c 'import sys; print(sys.executable)')" "$work/bin/python3"
 ln -s "$(command -v bash)" "$(command -v dirname)" "$work/bin"
-expect 3 "apt-get install iverilog" "missing tools" env PATH="$work/bin" $replay "$set" icarus --suite rsqrt
+expect 3 "apt-get install iverilog" "missing tools" env PATH="$work/bin" $replay "$set" icarus --suite sqrt
 
 cat >"$work/device.sv" <<'SV'
 module device (
@@ -203,8 +203,8 @@ expect 1 "reciprocal: no vectors" "the bench itself, without vectors" \
 
 # ---- Through golden verify: damage with right hashes ----
 expect 1 "^quadrille: no vector was compared" "verify: only a suite without RTL" "$QUADRILLE" golden verify "$set" --engine rtl --suite snapping
-damage rsqrt 'flip("response.hex", 2, 0); sign()'
-expect 1 "^rsqrt: [0-9]+ vectors, 1 mismatches" "verify: a bit of a response" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite rsqrt
+damage sqrt 'flip("response.hex", 2, 0); sign()'
+expect 1 "^sqrt: [0-9]+ vectors, 1 mismatches" "verify: a bit of a response" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite sqrt
 damage $machine 'lines = read("response.hex"); write("response.hex", lines + lines[-1:]); sign(vectors=len(lines) + 1)'
 expect 1 "^quadrille: $machine: FAILED" "verify: a run that stops" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite $machine
 damage $machine "write('stalls.hex', ['1'] * len(read('stalls.hex'))); sign()"
@@ -213,24 +213,24 @@ expect 2 "stalls.hex: the pattern never offers" "verify: a pattern that never of
 # ---- The examples ----
 if ! $sample; then
 "$QUADRILLE" config --quiet --emit-tables "$work/tables.sv"
-verilator --binary -Wno-fatal --top-module rsqrt_bench --Mdir "$work/obj" rtl/quadrille_pkg.sv "$work/tables.sv" -y rtl golden/examples/rsqrt_bench.sv >"$work/log" 2>&1 ||
+verilator --binary -Wno-fatal --top-module sqrt_bench --Mdir "$work/obj" rtl/quadrille_pkg.sv "$work/tables.sv" -y rtl golden/examples/sqrt_bench.sv >"$work/log" 2>&1 ||
   { cat "$work/log" >&2; exit 1; }
-iverilog -g2012 -o "$work/rsqrt" rtl/quadrille_pkg.sv "$work/tables.sv" rtl/{rsqrt,table_polynomial,delay_line}.sv golden/examples/rsqrt_bench.sv
-vectors=$(wc -l <"$set/rsqrt/stimulus.hex")
+iverilog -g2012 -o "$work/sqrt" rtl/quadrille_pkg.sv "$work/tables.sv" rtl/{sqrt,table_polynomial,delay_line}.sv golden/examples/sqrt_bench.sv
+vectors=$(wc -l <"$set/sqrt/stimulus.hex")
 # bench STATUS PATTERN DESCRIPTION DIR VECTORS: under both simulators; Verilator's $fatal aborts.
 bench() {
-  expect "$1" "$2" "example, Icarus: $3" vvp -N "$work/rsqrt" +dir="$4" +vectors="$5"
-  expect $(($1 ? 134 : 0)) "$2" "example, Verilator: $3" bash -c '"$@"; exit $?' bash "$work/obj/Vrsqrt_bench" +dir="$4" +vectors="$5"
+  expect "$1" "$2" "example, Icarus: $3" vvp -N "$work/sqrt" +dir="$4" +vectors="$5"
+  expect $(($1 ? 134 : 0)) "$2" "example, Verilator: $3" bash -c '"$@"; exit $?' bash "$work/obj/Vsqrt_bench" +dir="$4" +vectors="$5"
 }
-bench 0 "^rsqrt: $vectors vectors, 0 differences" "an intact suite" "$set/rsqrt" "$vectors"
+bench 0 "^sqrt: $vectors vectors, 0 differences" "an intact suite" "$set/sqrt" "$vectors"
 bench 1 "stimulus.hex: cannot be read" "no suite" "$work/nowhere" "$vectors"
-bench 1 "stimulus.hex: $vectors lines, not $((vectors + 1))" "more vectors than lines" "$set/rsqrt" $((vectors + 1))
-damage rsqrt 'write("response.hex", read("response.hex")[:-1])'
-bench 1 "response.hex: $((vectors - 1)) lines, not $vectors" "a response less" "$work/bad/rsqrt" "$vectors"
-damage rsqrt 'write("response.hex", ["x" + line[1:] for line in read("response.hex")])'
-bench 1 "response.hex:1: no hexadecimal number" "unknown digits" "$work/bad/rsqrt" "$vectors"
-damage rsqrt 'flip("response.hex", -1, 0)'
-bench 1 "rsqrt: failed" "a bit of the last response" "$work/bad/rsqrt" "$vectors"
+bench 1 "stimulus.hex: $vectors lines, not $((vectors + 1))" "more vectors than lines" "$set/sqrt" $((vectors + 1))
+damage sqrt 'write("response.hex", read("response.hex")[:-1])'
+bench 1 "response.hex: $((vectors - 1)) lines, not $vectors" "a response less" "$work/bad/sqrt" "$vectors"
+damage sqrt 'write("response.hex", ["x" + line[1:] for line in read("response.hex")])'
+bench 1 "response.hex:1: no hexadecimal number" "unknown digits" "$work/bad/sqrt" "$vectors"
+damage sqrt 'flip("response.hex", -1, 0)'
+bench 1 "sqrt: failed" "a bit of the last response" "$work/bad/sqrt" "$vectors"
 fi
 
 damage coverage 'open(f"{suite}/manifest.json", "w").write("[" * 100000)'
@@ -293,10 +293,10 @@ fault forward_difference law_of_cosines.sv "twice[TWICE-1:1]" "QVAL'(sum_q >> 1)
 fault forward_difference law_of_cosines.sv "homogeneous_i ? exact_i" "1'b1 ? exact_i"
 fault normalise normalise.sv "E'(BIAS)" "E'(BIAS + 1)"
 fault normalise singular_class.sv "a_zero && d_i[g*QVAL+QVAL-1]" "a_zero && !d_i[g*QVAL+QVAL-1]"
-fault rsqrt rsqrt.sv "RSQRT_STAGES - 1" "RSQRT_STAGES - 2"
+fault sqrt sqrt.sv "SQRT_STAGES - 1" "SQRT_STAGES - 2"
 fault reciprocal reciprocal.sv "E'(0) - exp_i : ~exp_i" "E'(0) - exp_i : -exp_i"
-fault ratios one_plus.sv "distance_q <= E'(0) - exp_i" "distance_q <= E'(1) - exp_i"
-fault weights mean_value_weights.sv "late_two_edge && on_a && on_b" "1'b0"
+fault ratios mean_value_ratios.sv "rr_rank_q <= rr_rank" "rr_rank_q <= rr_rank + RANK'(1)"
+fault weights mean_value_weights.sv "neighbours && last_corner == 2'(g)" "1'b0"
 fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(t*4+v)*PE+:PE]))" "E'(term_exp_i[(t*4+v)*PE+:PE])"
 fault depth fragment_output.sv "z < znear_i" "z <= znear_i"
 fault $machine quadrille.sv "full && setup_idle && slot_available" "full && setup_idle && !slots_busy" # clocks alone

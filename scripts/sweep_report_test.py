@@ -34,7 +34,7 @@ SIZE = (96, 64)
 COMMON = ["sweep", "--scene", "sphere", "--size", "96x64", "--cosim", "none", "--quiet", "--out"]
 SWEEPS = {  # attribute_frac_bits below significand_bits is refused
     "full": ["--axis", "significand_bits=10:26:4", "--axis", "align_guard_bits=0,2", "--axis", "attribute_frac_bits=14,auto"],
-    "one": ["--one-at-a-time", "--axis", "significand_bits=8:26:2", "--axis", "rsqrt_segments_log2=3,8,auto", "--axis", "attribute_frac_bits=16,22",
+    "one": ["--one-at-a-time", "--axis", "significand_bits=8:26:2", "--axis", "sqrt_segments_log2=3,8,auto", "--axis", "attribute_frac_bits=16,22",
             "--axis", "notch_exact=1"],
     "outside": ["--axis", "significand_bits=8,12", "--axis", "align_guard_bits=0,3"],
     "search": ["--axis", "significand_bits=8:20:2", "--axis", "align_guard_bits=0,2", "--target-error", "lambda=2^-9", "--no-confirm"]}
@@ -236,7 +236,7 @@ class ReportTest(unittest.TestCase):
         rows, html = Rows("one"), page("one")
         figures = embedded(html, "figures")
         panels = {chosen[0]["layout"]["xaxis"]["title"]["text"]: chosen[0] for name, chosen in figures.items() if name.startswith("sensitivity-")}
-        self.assertEqual(list(panels), ["significand_bits", "rsqrt_segments_log2", "attribute_frac_bits"])
+        self.assertEqual(list(panels), ["significand_bits", "sqrt_segments_log2", "attribute_frac_bits"])
         self.assertIn("is a point of its own: notch_exact.", html)
         # significand_bits moves the automatic keys with it, and is still one key.
         bits = traces(panels["significand_bits"])
@@ -244,7 +244,7 @@ class ReportTest(unittest.TestCase):
         for row, ratio in zip(bits["cost"]["customdata"], bits["cost"]["y"]):
             self.assertAlmostEqual(ratio / (rows.drawn[row]["cost"] / rows.drawn[0]["cost"]), 1, places=4)
         # "auto" counts with its value: 5 is the base.
-        segments = traces(panels["rsqrt_segments_log2"])["weights λ′"]
+        segments = traces(panels["sqrt_segments_log2"])["weights λ′"]
         self.assertEqual((segments["x"], segments["customdata"][1]), ([3, 5, 8], 0))
         self.assertEqual(traces(panels["attribute_frac_bits"])["refused"]["x"], [16])
         self.assertEqual(traces(figures["error_bits"][0])["arithmetic, max"]["customdata"], bits["weights λ′"]["customdata"])
@@ -332,11 +332,11 @@ class ArithmeticTest(unittest.TestCase):
         self.assertEqual(sweep_plots.pareto_front(range(6), [4, 1, 2, 2, 3, 1], [1, 9, 5, 5, 6, 9]), [1, 2, 0])
 
     def test_auto_is_the_programs(self):
-        names = {"quadratic_frac_bits": "QUADRATIC_FRAC", "rsqrt_segments_log2": "RSQRT_SEGMENTS", "recip_segments_log2": "RECIP_SEGMENTS",
+        names = {"quadratic_frac_bits": "QUADRATIC_FRAC", "sqrt_segments_log2": "SQRT_SEGMENTS", "recip_segments_log2": "RECIP_SEGMENTS",
                  "attribute_frac_bits": "ATTRIBUTE_FRAC"}
         base = Rows("full").manifest["config"]
         for s, degree in itertools.product((8, 11, 12, 19, 26), (1, 2)):
-            changed = {"significand_bits": s, "rsqrt_degree": degree, "recip_degree": degree, "subpixel_bits": 4 + 2 * degree}
+            changed = {"significand_bits": s, "sqrt_degree": degree, "recip_degree": degree, "subpixel_bits": 4 + 2 * degree}
             printed = subprocess.run([PROGRAM, "config", "--json", "-", *(f"--set={key}={value}" for key, value in changed.items())],
                                      stdout=subprocess.PIPE, check=True).stdout
             derived = {entry["name"]: entry["value"] for entry in json.loads(printed)["derived"]}

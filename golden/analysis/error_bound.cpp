@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace quadrille {
@@ -21,17 +20,10 @@ struct Interval {
 };
 Interval operator+(Interval a, Interval b) { return {a.lo + b.lo, a.hi + b.hi}; }
 Interval operator-(Interval a, Interval b) { return {a.lo - b.hi, a.hi - b.lo}; }
-Interval operator+(double a, Interval b) { return {a + b.lo, a + b.hi}; }
-Interval operator-(double a, Interval b) { return {a - b.hi, a - b.lo}; }
-Interval operator*(Interval a, Interval b) {
-  const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
-  return {lo, hi};
-}
 Interval operator*(double a, Interval b) {
   return a >= 0 ? Interval{a * b.lo, a * b.hi} : Interval{a * b.hi, a * b.lo};
 }
 Interval hull(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
-double largest(Interval r) { return std::max(-r.lo, r.hi); }
 
 double widened(double bound) { return bound * (1 + 0x1p-16); }
 
@@ -51,15 +43,16 @@ Interval cubic_range(double d0, double d1, double d2, double d3) {
 }
 
 /// Calls visit(m, error) for each segment: m its first significand in [1, 2), error the logarithm of result / f over
-/// all its arguments. f = x^-power, power 1 or 1/2, over 1 or 2 octaves.
+/// all its arguments. f = 1/x over one octave, or sqrt(x)/2 (`rising`) over two.
 template <class Visit>
-void visit_segments(const Table& table, int s, double power, Visit visit) {
+void visit_segments(const Table& table, int s, bool rising, Visit visit) {
   const double unit = std::ldexp(1.0, s + Config::table_guard);
   const std::size_t per_octave = std::size_t{1} << table.segments_log2;
   const double rest = 1 - std::ldexp(1.0, -table.rest_bits);  // the largest fraction of a segment
-  // Binomial coefficients of (1 + r)^-power.
-  const double b1 = -power, b2 = b1 * (-power - 1) / 2, b3 = b2 * (-power - 2) / 3, b4 = b3 * (-power - 3) / 4;
-  const auto f = [&](double x) { return unit * (power == 1 ? 1 / x : 1 / std::sqrt(x)); };
+  // Binomial coefficients of (1 + r)^power.
+  const double power = rising ? 0.5 : -1, sign = rising ? 1 : -1;
+  const double b1 = power, b2 = b1 * (power - 1) / 2, b3 = b2 * (power - 2) / 3, b4 = b3 * (power - 3) / 4;
+  const auto f = [&](double x) { return unit * (rising ? std::sqrt(x) / 2 : 1 / x); };
   for (std::size_t i = 0; i < table.entries.size(); ++i) {
     const double octave = i < per_octave ? 1 : 2;
     const double width = octave / static_cast<double>(per_octave);
@@ -67,14 +60,17 @@ void visit_segments(const Table& table, int s, double power, Visit visit) {
     const double middle = left + width / 2, step = width / middle, f0 = f(middle);
     const double c0 = table.entries[i].c0, c1 = table.entries[i].c1, c2 = table.entries[i].c2;
     // The polynomial of the ROM minus the Taylor series of f about the middle, and the rest of that series.
-    Interval d = cubic_range(c0 - c1 / 2 + c2 / 4 - f0, c2 - c1 - f0 * b1 * step, c2 - f0 * b2 * step * step,
-                             -f0 * b3 * step * step * step);
-    const double series = f0 * b4 * std::pow(step / 2, 4) / (1 - step / 2);
-    // t1 loses less than one unit times dx and that raises t0; t0 loses less than one unit; the result 7 of 8.
-    d = d + Interval{-series - (table.entries[i].c2 != 0 ? rest * rest : 0) - 7, series + rest};
-    // The clamp moves the result towards f, or f is above the largest significand by less than 2^-(s-4) units.
-    d = hull(d, {-std::ldexp(1.0, 4 - s), 0});
-    const double least = f(left + width);
+    Interval d = cubic_range(c0 + sign * (c1 / 2 - c2 / 4) - f0, sign * (c1 - c2) - f0 * b1 * step,
+                             -sign * c2 - f0 * b2 * step * step, -f0 * b3 * step * step * step);
+    const double series = f0 * std::fabs(b4) * std::pow(step / 2, 4) / (1 - step / 2);
+    // The product with C2 loses less than one unit times dx, and that raises t0; t0 loses less than one unit; the
+    // result 7 of 8.
+    const double raised = table.entries[i].c2 != 0 ? rest * rest : 0;
+    d = d + Interval{-series - (rising ? rest : raised) - 7, series + (rising ? raised : rest)};
+    // The clamp moves the result towards f, or f is above the largest significand by less than half of its last bit
+    // (the root), or 2^-(s-4) units.
+    d = hull(d, {rising ? -4 : -std::ldexp(1.0, 4 - s), 0});
+    const double least = f(rising ? left : left + width);
     visit(left / octave, Interval{std::log1p(d.lo / least), std::log1p(d.hi / least)});
   }
 }
@@ -88,7 +84,7 @@ struct Ingredients {
   double sum2;          ///< a sum of two positive terms is in [-sum2, 0]
   double sum4;          ///< of four
   double align4;        ///< what the alignment of four terms takes, relative to the largest
-  Interval rho;         ///< rsqrt of the truncated r²
+  Interval root;        ///< square root of a truncated argument
   Interval quotient_k;  ///< weight of one term: truncation of the numerator, the denominator's sum, the reciprocal
   Interval quotient_z;  ///< the same with a numerator of four positive terms
 };
@@ -101,11 +97,11 @@ Ingredients ingredients(const Config& c) {
   in.sum2 = std::log1p(in.u * (1 + guard));
   in.sum4 = std::log1p(in.u * (1 + 3 * guard));
   in.align4 = 4 * guard * in.u;
-  const TableError rsqrt = rsqrt_error(c);
-  in.rho = {rsqrt.low, rsqrt.high};
+  const TableError root = sqrt_error(c);
+  in.root = {root.low, root.high};
   // The denominator's loss is relative to its significand, and so is the error of the reciprocal.
   Interval denominator{0, in.sum4};
-  visit_segments(make_recip_table(c), c.significand_bits, 1, [&](double m, Interval error) {
+  visit_segments(make_recip_table(c), c.significand_bits, false, [&](double m, Interval error) {
     denominator = hull(denominator, error + Interval{0, std::log1p(in.u * (1 + 3 * guard) / m)});
   });
   in.quotient_k = denominator + Interval{-in.t, 0};
@@ -113,164 +109,60 @@ Ingredients ingredients(const Config& c) {
   return in;
 }
 
-// ---- The ratios t --------------------------------------------------------------------------------------------------
-//
-// G = v/u for v = |sin|, u = 1 + |cos|; t is G or 1/G. With Q = ρρ truncated, c = |cos|, ĉ = c δ Q its stored value and
-// g = 1 / (1 + ĉ): ln G = α + ν + g Q - (1 - g) δ - κ, all in logarithms and by the mean value theorem, where α, ν, δ
-// and σ (in Q = ρ + ρ + σ) are truncations and κ is that of the sum u.
-
-/// Where g can be, and κ in [-kappa, 0].
-struct Sine {
-  Interval g;
-  double kappa;
-};
-struct Sines {
-  std::array<Sine, 2> at;
-  std::size_t count = 1;
-};
-
-/// For c in the interval. Where ĉ can reach 1, u is cut but not below 2 >= 1 + c, so ln G lies between that without a
-/// cut and, above, that of u = 1 + c exactly, which is g = 1: a second case, for the upper bound of G and the lower one
-/// of 1/G.
-Sines sines(Interval c, const Ingredients& in) {
-  const double least = c.lo * std::exp(2 * in.rho.lo - 2 * in.t), most = c.hi * std::exp(2 * in.rho.hi);
-  Sines r;
-  r.at[0] = {{1 / (1 + most), 1 / (1 + least)}, std::log1p(in.u / std::max(1.0, 1 + least - in.u))};
-  if (most >= 1) r.at[r.count++] = {{1, 1}, 0};
-  return r;
-}
-
-/// ln t^e without the ρ of the two vertices; e > 0 for t = G.
-Interval ratio_error(const Sine& s, Interval e, const Ingredients& in) {
-  const Interval cut{-in.t, 0};
-  return 2.0 * (e * cut) + (e * s.g) * cut - e * (1.0 - s.g) * cut - e * Interval{-s.kappa, 0};
-}
-
 // ---- The weights M -------------------------------------------------------------------------------------------------
+//
+// M_i / M_j for the vertices i, j and the others k, l is sqrt(q_jk q_jl / (q_ik q_il)), where q = u = r r' + |D|, or
+// A²/u where the terms of q cancel. With c = |D| / (r r') <= 1 and g = 1 / (1 + c) in [1/2, 1], ln û/u = g (ρ + ρ') +
+// (1-g) δ + κ by the mean value theorem: ρ the errors of the two roots, δ the truncation of D, κ that of the sum.
 
-/// Hull in which the second case of `sines` counts above (e > 0) or below only.
-Interval hull_case(Interval all, Interval r, std::size_t sine, double e) {
-  if (sine == 0 || e > 0) all.hi = std::max(all.hi, r.hi);
-  if (sine == 0 || e < 0) all.lo = std::min(all.lo, r.lo);
-  return all;
-}
-
-/// ρ_i t for any angle: a sum of two t of one sign is within the hull of its terms.
-Interval plain_weight(const Ingredients& in) {
-  constexpr int cells = 64;
-  Interval all = in.rho;  // one edge: t is common to the two weights
-  for (int i = 0; i < cells; ++i) {
-    const Sines s = sines({static_cast<double>(i) / cells, (i + 1.0) / cells}, in);
-    for (std::size_t k = 0; k < s.count; ++k)
-      for (const double e : {1.0, -1.0}) {
-        const Interval slope = e * s.at[k].g;
-        all = hull_case(all, ratio_error(s.at[k], {e, e}, in) + (1.0 + slope) * in.rho + slope * in.rho, k, e);
-      }
-  }
-  return all;
-}
-
-/// A weight with the cure, ρ_i t_diagonal (1 + |t_p t_m|), for angles p > m of its two edges, the diagonal's being
-/// p - m. With w = |t_p t_m| / (1 + |t_p t_m|) its logarithm is ρ_i + ln t_diagonal + w (ln t_p + ln t_m).
-struct CuredWeight {
-  std::size_t p;  ///< cell of the angle
-  Interval own;   ///< without ln t_m and without the ρ of edge m's two vertices
-  Interval w;
-  Interval near, far;  ///< coefficients of these ρ: of the weight's own vertex, and of the other
-  bool above, below;   ///< counts for the upper, the lower bound
+/// One of the four pairs of a ratio M_i / M_j.
+struct Pair {
+  bool above;    ///< in the numerator
+  bool cancels;  ///< q = A²/u
+  double g;
 };
 
-/// Angles in cells of 180 degrees / cells; even, so that no cell contains 90 degrees.
-constexpr std::size_t cells = 48;
-
-struct Angles {
-  std::array<double, cells + 1> cosine, half_tangent;
-
-  Angles() {
-    for (std::size_t i = 0; i <= cells; ++i) {
-      const double angle = std::numbers::pi * static_cast<double>(i) / cells;
-      cosine[i] = std::cos(angle);
-      half_tangent[i] = i == cells ? std::numeric_limits<double>::infinity() : std::tan(angle / 2);
-    }
-  }
-  static bool acute(std::size_t cell) { return cell < cells / 2; }
-  static double sign(std::size_t cell) { return acute(cell) ? 1 : -1; }
-  /// |cos| over cells first to last, all on one side of 90 degrees.
-  Interval absolute_cosine(std::size_t first, std::size_t last) const {
-    const double a = std::fabs(cosine[first]), b = std::fabs(cosine[last + 1]);
-    return {std::min(a, b), std::max(a, b)};
-  }
-};
-
-/// Appends all cured weights with edge m's angle in cell m.
-void cured_weights(const Angles& angles, std::size_t m, const Sine& at_m, const Ingredients& in,
-                   std::vector<CuredWeight>& out) {
-  // No ln t exceeds half of this; it widens w from exact to stored values.
-  const double stray = std::exp(2 * (4 * in.t + 2 * largest(in.rho)));
-  const auto append = [&](std::size_t p, Interval w, double e, Interval cosine_d) {
-    const Interval wp = Angles::sign(p) * w, wm = Angles::sign(m) * w;
-    const Sines at_d = sines(cosine_d, in), at_p = sines(angles.absolute_cosine(p, p), in);
-    for (std::size_t x = 0; x < at_d.count; ++x)
-      for (std::size_t y = 0; y < at_p.count; ++y) {
-        const Interval gd = e * at_d.at[x].g, gp = wp * at_p.at[y].g, gm = wm * at_m.g;
-        out.push_back({p, ratio_error(at_d.at[x], {e, e}, in) + ratio_error(at_p.at[y], wp, in) + (gd + gp) * in.rho, w,
-                       1.0 + gp + gm, gd + gm, (x == 0 || e > 0) && (y == 0 || Angles::acute(p)),
-                       (x == 0 || e < 0) && (y == 0 || !Angles::acute(p))});
-      }
-  };
-  for (std::size_t p = m; p < cells; ++p) {
-    const double low = angles.half_tangent[p] * angles.half_tangent[m] / stray;
-    const double high = angles.half_tangent[p + 1] * angles.half_tangent[m + 1] * stray;
-    const Interval w{low / (1 + low), 1 - 1 / (1 + high)};
-    // Near p = 180, m = 0 a cell holds many w; in slices, since w enters several coefficients.
-    const int slices = static_cast<int>((w.hi - w.lo) * 8) + 1;
-    // The difference spans two cells, which may lie on both sides of 90 degrees.
-    const std::size_t first = p > m ? p - m - 1 : 0, last = p - m;
-    for (int n = 0; n < slices; ++n) {
-      const Interval slice{std::lerp(w.lo, w.hi, static_cast<double>(n) / slices),
-                           std::lerp(w.lo, w.hi, (n + 1.0) / slices)};
-      if (Angles::acute(first)) append(p, slice, 1, angles.absolute_cosine(first, std::min(last, cells / 2 - 1)));
-      if (!Angles::acute(last)) append(p, slice, -1, angles.absolute_cosine(std::max(first, cells / 2), last));
-    }
-  }
+/// Roundings of sqrt(q_above / q_below) behind the two u and A, by either of the ways in which root_ratio may form it.
+Interval ratio_roundings(bool above_cancels, bool below_cancels, const Ingredients& in) {
+  const Interval down = -1.0 * in.root;
+  if (above_cancels && below_cancels) return hull(down, in.root) + Interval{-in.t, in.t};
+  if (above_cancels) return down;
+  if (below_cancels) return in.root;
+  return hull(down, in.root);
 }
 
 /// Largest ln of (M̂_i / M_i) / (M̂_j / M_j) over the vertices i, j of one pixel.
 double weight_spread(const Ingredients& in) {
   const auto width = [](Interval r) { return r.hi - r.lo; };
-  const Interval plain = plain_weight(in);
-  // N, e, N·e, M.
-  const double uncured = width(plain) + in.sum2 + 3 * in.t;
-  // Two edges: ρ_i times a sum of ρ k, or of two such sums. A corner at the pixel has no error here.
-  const double two_edge = 2 * width(in.rho) + 2 * in.sum2 + in.t;
+  // Two edges: r times a sum of r k, or two such terms. A corner at the pixel has no error here.
+  const double two_edge = 2 * width(in.root) + 2 * in.sum2 + in.t;
 
-  // With the cure exactly one edge turns backward, by an angle m; the weights of its two ends are cured and the angles
-  // p, x of the edges beyond them exceed m and satisfy p + x > 180 + m.
-  static const Angles angles;
-  double spread = width(plain);
-  std::vector<CuredWeight> cured;
-  for (std::size_t m = 0; m < cells; ++m) {
-    const Sines at_m = sines(angles.absolute_cosine(m, m), in);
-    for (std::size_t z = 0; z < at_m.count; ++z) {
-      cured.clear();
-      cured_weights(angles, m, at_m.at[z], in, cured);
-      const Interval ratio_m = ratio_error(at_m.at[z], {Angles::sign(m), Angles::sign(m)}, in);
-      for (const CuredWeight& a : cured) {
-        const Interval alone =
-            a.own + ratio_error(at_m.at[z], Angles::sign(m) * a.w, in) + a.near * in.rho + a.far * in.rho;
-        if (a.above) spread = std::max(spread, alone.hi - plain.lo);
-        if (a.below) spread = std::max(spread, plain.hi - alone.lo);
-        for (const CuredWeight& b : cured) {
-          if (!a.above || !b.below || a.p + b.p + 2 <= cells + m) continue;
-          spread = std::max(
-              spread,
-              (a.own - b.own + (a.w - b.w) * ratio_m + (a.near - b.far) * in.rho + (a.far - b.near) * in.rho).hi);
-        }
-      }
+  // In u the stored and the exact terms are both possible weights of the mean.
+  const double least_g = 1 / (1 + std::exp(-2 * in.root.lo));
+  double spread = 0;
+  // The expression is linear in each g and each error, so its largest value is at a corner of their ranges. Bits of
+  // `code`: g of the pairs jk, jl, ik, il, then which of them cancel.
+  for (unsigned code = 0; code < 256; ++code) {
+    std::array<Pair, 4> pair;
+    for (std::size_t n = 0; n < 4; ++n)
+      pair[n] = {n < 2, (code >> (4 + n) & 1) != 0, (code >> n & 1) != 0 ? 1 : least_g};
+    // The factor of u's logarithm.
+    const auto sign = [&](std::size_t n) { return 0.5 * (pair[n].above == pair[n].cancels ? -1 : 1); };
+    Interval error{-2 * in.t, 2 * in.t};  // M_i and M_j, two products each
+    for (std::size_t n = 0; n < 4; ++n) {
+      error = error + sign(n) * (Interval{-in.sum2, 0} + (1 - pair[n].g) * Interval{-in.t, 0});
+      if (pair[n].cancels) error = error + (pair[n].above ? 1.0 : -1.0) * Interval{-in.t, 0};  // of A
     }
+    // Each vertex is in two of the pairs: j in 0, 1; i in 2, 3; k in 0, 2; l in 1, 3.
+    const auto slope = [&](std::size_t n) { return sign(n) * pair[n].g; };
+    for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {2, 3}, {0, 2}, {1, 3}})
+      error = error + (slope(a) + slope(b)) * in.root;
+    // Pairs without a vertex in common share a root: jk with il, jl with ik.
+    error = error + ratio_roundings(pair[0].cancels, pair[3].cancels, in) +
+            ratio_roundings(pair[1].cancels, pair[2].cancels, in);
+    spread = std::max(spread, error.hi);
   }
-  // N, e, f, N·e, ρ·f, M.
-  return std::max({uncured, two_edge, spread + in.sum2 + 5 * in.t});
+  return std::max(two_edge, spread);
 }
 
 // ---- Quotients of sums ---------------------------------------------------------------------------------------------
@@ -297,10 +189,10 @@ ErrorBound without_proof(const Config& c, Quads quads) {
         std::numeric_limits<double>::infinity(), false,
         "quadratic_frac_bits drops bits that D and r² of ordinary vertices have: their relative error has no bound"};
   const double rule = std::ldexp(1.0, 3 - c.significand_bits);
-  if (!c.notch_exact) return {rule, false, "notch_exact = 0: the terms of a weight may cancel at a reflex corner"};
   if (c.qdrop() > 0 && quads == Quads::any)
     return {rule, false, "quadratic_frac_bits drops bits that D and r² of homogeneous vertices have"};
-  return {0, true, "relative errors of every truncation and of both tables, accumulated over t, M and the sums"};
+  return {0, true,
+          "relative errors of every truncation and of both tables, accumulated over the roots, M and the sums"};
 }
 
 // ---- Ranges --------------------------------------------------------------------------------------------------------
@@ -430,7 +322,7 @@ void prove_tables(const Config& c, const ProofWidths& w, RangeList& list) {
     list.add(name + " before the clamp", low >> Config::table_guard, high >> Config::table_guard, w.table_factor + 1,
              false);
   };
-  prove("rsqrt", make_rsqrt_table(c));
+  prove("sqrt", make_sqrt_table(c));
   prove("reciprocal", make_recip_table(c));
 }
 
@@ -451,29 +343,25 @@ void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& fr
 
   const Exponents a{-drop, log2_of(front.a) - drop};
   const Exponents d{0, log2_of(std::max(front.d_high, -front.d_low))}, r2{0, log2_of(front.r2_high)};
-  const Exponents rho{-(r2.hi / 2) - 1, 0}, scale{2 * rho.lo, 0};
+  const Exponents root{0, r2.hi / 2};
   list.add_exponent("A", a, e);
   list.add_exponent("D", d, e);
   list.add_exponent("r²", r2, e);
-  list.add_exponent("ρ", rho, e);
-  list.add_exponent("ρρ", scale, e);
-  // |D| <= r r' and |A| <= r r' exactly. With `dropped` bits r² >= 1 stands for r² <= 1 + dropped. Errors are far below
-  // a factor of 2.
-  const int stray = front.dropped > 0 ? log2_of(2 * front.dropped + 1) + 1 : 0;
-  const Exponents v{a.lo + scale.lo, stray}, u{0, 1 + stray}, ratio = hull(v, u);
-  list.add_exponent("D·ρρ", {d.lo + scale.lo, stray}, e);
-  list.add_exponent("u, v", ratio, e);
+  list.add_exponent("r", root, e);
+  const Exponents u = sum(hull(root * root, d), 1);
+  list.add_exponent("u", u, e);
 
-  const Exponents products = ratio * ratio;
-  const Exponents regular = c.notch_exact ? sum(products, 1) : cancelling(products, 1);
+  // Of two pairs' ratio: the root of u u', and v = |A| times u or times that root.
+  const Exponents product = u * u, shared{product.lo / 2, product.hi / 2};
+  const Exponents regular = hull(hull(hull(a, u), shared), hull(a * u, a * shared));
+  list.add_exponent("u u'", product, e);
+  list.add_exponent("factors of M", regular, e);
   const Exponents k_eff = hull(k, weight);
-  const Exponents on_edge = cancelling(rho * k_eff, 1),
-                  singular = hull(hull(on_edge, sum(on_edge, 1)), hull(k_eff, {0, 0}));
-  list.add_exponent("N", hull(regular, singular), e);
-  const Exponents regular_h = regular * products, regular_g = hull(rho, rho * products);
-  list.add_exponent("h = N·e", hull(regular_h, singular), e);
-  list.add_exponent("g = ρ·f", regular_g, e);
-  const Exponents m = hull(regular_h * regular_g, hull(singular, singular * rho));
+  const Exponents denominator = cancelling(root * k_eff, 1);
+  list.add_exponent("N of an edge", denominator, e);
+  const Exponents singular = hull(sum(root * denominator, 1), hull(k_eff, {0, 0}));
+  list.add_exponent("first product of M", hull(regular * regular, singular), e);
+  const Exponents m = hull(regular * regular * regular, singular);
   list.add_exponent("M", m, e);
 
   const Exponents den_k = cancelling(m * k_eff, 2), den_w = cancelling(m * weight, 2);
@@ -534,18 +422,18 @@ RangeProof prove_ranges(const Config& config, const ProofWidths& w) {
   return list.result();
 }
 
-TableError rsqrt_error(const Config& config) {
+TableError sqrt_error(const Config& config) {
   const double u = std::ldexp(1.0, 1 - config.significand_bits);
-  Interval all{0, std::log1p(u) / 2};  // an even power of two is exact
-  visit_segments(make_rsqrt_table(config), config.significand_bits, 0.5, [&](double m, Interval error) {
-    all = hull(all, error + Interval{0, std::log1p(u / m) / 2});
+  Interval all;
+  visit_segments(make_sqrt_table(config), config.significand_bits, true, [&](double m, Interval error) {
+    all = hull(all, error - Interval{0, std::log1p(u / m) / 2});
   });
   return {all.lo, all.hi};
 }
 
 TableError reciprocal_error(const Config& config) {
   Interval all;
-  visit_segments(make_recip_table(config), config.significand_bits, 1,
+  visit_segments(make_recip_table(config), config.significand_bits, false,
                  [&](double, Interval error) { all = hull(all, error); });
   return {all.lo, all.hi};
 }

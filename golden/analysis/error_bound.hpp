@@ -59,12 +59,12 @@ struct ErrorBound {
   std::string reason;   ///< what the proof rests on, or which assumption fails
 };
 
-/// Least and largest relative error of a table with truncation of its argument to S bits (rsqrt) or without
+/// Least and largest relative error of a table with truncation of its argument to S bits (sqrt) or without
 /// (reciprocal), as natural logarithms of result / exact result.
 struct TableError {
   double low = 0, high = 0;
 };
-TableError rsqrt_error(const Config& config);
+TableError sqrt_error(const Config& config);
 TableError reciprocal_error(const Config& config);
 
 /// max |Δλ'| against exact arithmetic on the same snapped quad, with perspective (or every W = 1 without), by analysis

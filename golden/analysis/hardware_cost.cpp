@@ -303,9 +303,9 @@ HardwareCost inverse(const Widths& w, int flags) {
   return state(3 * (w.E + flags)) + adder(w.E) + mux(w.E, 2) + zero_test(2 * w.S) + mux(w.S, 2);
 }
 
-HardwareCost rsqrt(const Widths& w, const Config& c) {
-  const int segments = c.rsqrt_segments();
-  return 4 * (inverse(w, 2) + table_polynomial(w, segments, c.rsqrt_degree) + table(w, segments + 1, c.rsqrt_degree));
+HardwareCost fp_sqrt(const Widths& w, const Config& c) {
+  const int segments = c.sqrt_segments();
+  return 4 * (inverse(w, 2) + table_polynomial(w, segments, c.sqrt_degree) + table(w, segments + 1, c.sqrt_degree));
 }
 
 HardwareCost reciprocal(const Widths& w, const Config& c) {
@@ -365,7 +365,7 @@ std::vector<ModuleCost> module_costs(const Config& config) {
       {"forward_difference", forward_difference(w)},
       {"normalise", normalise(w)},
       {"singular_class", singular_class(w)},
-      {"rsqrt", rsqrt(w, config)},
+      {"sqrt", fp_sqrt(w, config)},
       {"mean_value_ratios", mean_value_ratios(w)},
       {"mean_value_weights", mean_value_weights(w, config.notch_exact != 0)},
       {"interpolate", interpolate(w)},

@@ -18,7 +18,7 @@ struct HardwareCost {
   std::uint64_t multiplier_bits = 0;  ///< Σ (bits of one operand × bits of the other)
   std::uint64_t adder_bits = 0;  ///< Σ result bits of adders, subtracters, comparators, multiplexers (once for each
                                  ///< choice but the first) and of the stages of shifters; tests for zero a third
-  std::uint64_t table_bits = 0;  ///< bits of the rsqrt and reciprocal ROMs, each copy counted
+  std::uint64_t table_bits = 0;  ///< bits of the sqrt and reciprocal ROMs, each copy counted
   std::uint64_t dsps = 0;        ///< blocks of 18 × 18 bits that the multipliers take where there are such
   std::uint64_t join_bits = 0;   ///< adder bits that join the blocks of one multiplier, there
 

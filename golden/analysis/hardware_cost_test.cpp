@@ -31,7 +31,7 @@ const std::vector<Config>& bases() {
   static const std::vector<Config> list{
       with({}),
       with({{"significand_bits", 8}, {"attribute_slots", 1}, {"tile_log2", 2}, {"quadratic_frac_bits", 8}}),
-      with({{"significand_bits", 24}, {"rsqrt_degree", 1}, {"recip_degree", 1}, {"subpixel_bits", 4}}),
+      with({{"significand_bits", 24}, {"sqrt_degree", 1}, {"recip_degree", 1}, {"subpixel_bits", 4}}),
       with({{"notch_exact", 0}, {"attribute_slots", 7}, {"viewport_bits", 10}, {"quad_slots_log2", 1}}),
   };
   return list;
@@ -58,7 +58,7 @@ TEST(HardwareCost, StateIsWhatYosysCounts) {
        36'507, 0.003},
       {with({{"significand_bits", 20},
              {"align_guard_bits", 6},
-             {"rsqrt_degree", 1},
+             {"sqrt_degree", 1},
              {"recip_degree", 1},
              {"attribute_slots", 8},
              {"depth_bits", 16},
@@ -118,7 +118,7 @@ const std::vector<Synthesised>& synthesised() {
        94'077, 106},
       {with({{"significand_bits", 15}}), 119'443, 106},
       {with({{"significand_bits", 22}}), 186'853, 352},
-      {with({{"significand_bits", 18}, {"rsqrt_degree", 1}, {"recip_degree", 1}}), 151'445, 106},
+      {with({{"significand_bits", 18}, {"sqrt_degree", 1}, {"recip_degree", 1}}), 151'445, 106},
       {with({{"significand_bits", 8},
              {"viewport_bits", 6},
              {"guard_bits", 2},
@@ -164,7 +164,7 @@ TEST(HardwareCost, CountsDspBlocks) {
     // is off, and one in each table of degree 1.
     const Config& c = point.config;
     const std::uint64_t constant =
-        (c.notch_exact == 0 ? 4 : 0) + (c.rsqrt_degree == 1 ? 4 : 0) + (c.recip_degree == 1 ? 2 : 0);
+        (c.notch_exact == 0 ? 4 : 0) + (c.sqrt_degree == 1 ? 4 : 0) + (c.recip_degree == 1 ? 2 : 0);
     EXPECT_EQ(dsps + constant, point.dsps) << point.luts;
   }
 }
@@ -278,22 +278,22 @@ TEST(HardwareCost, TheCureTakesSevenMultipliers) {
 
 TEST(HardwareCost, TablesAreCountedPerCopy) {
   for (const Config& config : bases()) {
-    // Four rsqrt units and two reciprocals. A word has C0 with S + 4 bits, C1 and (degree 2) C2 with S.
+    // Four sqrt units and two reciprocals. A word has C0 with S + 4 bits, C1 and (degree 2) C2 with S.
     const std::uint64_t s = static_cast<std::uint64_t>(config.significand_bits);
     const auto word = [&](int degree) { return degree == 2 ? 3 * s + 4 : 2 * s + 4; };
     EXPECT_EQ(hardware_cost(config).table_bits,
-              4 * make_rsqrt_table(config).entries.size() * word(config.rsqrt_degree) +
+              4 * make_sqrt_table(config).entries.size() * word(config.sqrt_degree) +
                   2 * make_recip_table(config).entries.size() * word(config.recip_degree));
   }
 }
 
 TEST(HardwareCost, DegreeOneSavesTheInnerMultipliers) {
   for (const int s : {10, 18, 24}) {
-    Config config = with({{"significand_bits", s}, {"rsqrt_segments_log2", 6}, {"recip_segments_log2", 7}});
+    Config config = with({{"significand_bits", s}, {"sqrt_segments_log2", 6}, {"recip_segments_log2", 7}});
     const HardwareCost quadratic = hardware_cost(config);
-    config.rsqrt_degree = config.recip_degree = 1;
+    config.sqrt_degree = config.recip_degree = 1;
     const HardwareCost linear = hardware_cost(config);
-    // An S × R multiplier in each of the four rsqrt (R = S - 1 - 6) and two reciprocals (R = S - 1 - 7).
+    // An S × R multiplier in each of the four sqrt (R = S - 1 - 6) and two reciprocals (R = S - 1 - 7).
     EXPECT_EQ(quadratic.multiplier_bits - linear.multiplier_bits,
               static_cast<std::uint64_t>(4 * s * (s - 7) + 2 * s * (s - 8)));
     EXPECT_LT(linear.adder_bits, quadratic.adder_bits);

@@ -147,64 +147,69 @@ def magnitude(a):
     return (0, a[1], a[2])
 
 
-def negated(a):
-    return (1 - a[0], a[1], a[2]) if a[2] else ZERO
+def root(suite, number):
+    """The square root of a number by the table of golden/README.md, as rtl/README.md section 2 reads it."""
+    if not number[2]:
+        return ZERO
+    from tables import table  # which takes Suite from here
+
+    config = suite.config
+    if not hasattr(suite, "root_entries"):
+        suite.root_entries = list(table("sqrt_table", config))
+    _, exp, sig = number
+    s, segments = config["significand_bits"], config["sqrt_segments_log2"]
+    rest = s - 1 - segments
+    fraction = sig - (1 << s - 1)
+    c0, c1, c2 = suite.root_entries[(exp % 2 << segments) + (fraction >> rest)]
+    dx = fraction % (1 << rest)
+    inner = c1 - (c2 * dx >> rest)
+    result = c0 + (inner * dx >> rest) >> 3
+    return 0, exp // 2, min(max(result, 1 << s - 1), (1 << s) - 1)
 
 
 def weights(suite, v):
-    """M_0..M_3 from t = n/d of the edges (0-3) and diagonals (4: 20, 5: 13), ρ = 1/r and k."""
+    """M_0..M_3 from u = r r' + |D| and v = |A| of the edges (0-3) and diagonals (4: 20, 5: 13), r and k."""
     fp = Arithmetic(suite.config["significand_bits"], suite.config["align_guard_bits"])
-    n = [(0, exp, sig) for exp, sig in zip(v["n_exp"], v["n_sig"])]
-    d = [(0, exp, sig) for exp, sig in zip(v["d_exp"], v["d_sig"])]
-    rho = [(0, exp, sig) for exp, sig in zip(v["rho_exp"], v["rho_sig"])]
+    u = [(0, exp, sig) for exp, sig in zip(v["u_exp"], v["u_sig"])]
+    area = [(0, exp, sig) for exp, sig in zip(v["v_exp"], v["v_sig"])]
+    r = [(0, exp, sig) for exp, sig in zip(v["root_exp"], v["root_sig"])]
     k = list(zip(v["k_neg"], v["k_exp"], v["k_sig"]))
-    a_sign = v["a_sign"]
 
     # The singular class, in its priority.
     corners = [i for i in range(4) if v["corner"][i]]
-    edges = [i for i in range(4) if a_sign[i] == 0 and v["d_negative"][i]]
-    two_corner = len(corners) >= 2
-    on_vertex = len(corners) == 1
-    two_edge = not corners and len(edges) >= 2
-    override = two_corner or on_vertex or two_edge
-    differ = [a_sign[(i + 3) % 4] * a_sign[i] < 0 for i in range(4)]
-    cured = bool(suite.config["notch_exact"]) and any(differ) and not override
-
-    numerator = []
-    for i in range(4):
-        h = (i + 3) % 4
-        if two_edge:
-            sum_ = fp.sum_of_products((rho[i], k[i]), (rho[(i + 1) % 4], k[(i + 1) % 4]))
-        elif cured and differ[i]:
-            sum_ = fp.sum_of_products((n[h], n[i]), (d[h], d[i]))
-        else:
-            sum_ = fp.sum_of_products((n[h], d[i]), (negated(n[i]) if differ[i] else n[i], d[h]))
-        numerator.append(magnitude(sum_))
-
-    if two_corner:
+    edges = [i for i in range(4) if v["a_sign"][i] == 0 and v["d_negative"][i]]
+    m = [ZERO] * 4
+    if len(corners) >= 2:
         i, j = corners[:2]
-        numerator = [ZERO] * 4
-        numerator[i], numerator[j] = magnitude(k[j]), magnitude(k[i])
-    elif on_vertex:
-        numerator = [fp.one if i in corners else ZERO for i in range(4)]
-    elif two_edge:
-        a, b = edges[:2]
-        both = fp.sum_of_products((numerator[a], fp.one), (numerator[b], fp.one))
-        # Vertex i is on edges i - 1 and i.
-        numerator = [both if {a, b} == {(i - 1) % 4, i} else numerator[b] if a in ((i - 1) % 4, i) else
-                     numerator[a] if b in ((i - 1) % 4, i) else ZERO for i in range(4)]
+        m[i], m[j] = magnitude(k[j]), magnitude(k[i])
+    elif corners:
+        m[corners[0]] = fp.one
+    elif len(edges) >= 2:
+        def denominator(e):
+            f = (e + 1) % 4
+            return magnitude(fp.sum_of_products((r[f], k[e]), (r[e], k[f])))
 
-    cure = [fp.multiply(n[5], d[4]), fp.multiply(n[4], d[5])]  # corners 0 and 2, corners 1 and 3
-    plain = fp.multiply(d[5], d[4])
-    result = {"exp": [], "sig": []}
-    for i in range(4):
-        denominators = fp.one if override else fp.multiply(d[(i + 1) % 4], d[(i + 2) % 4])
-        radius = fp.one if two_corner or on_vertex else rho[i]
-        factor = fp.one if not cured else cure[i % 2] if differ[i] else plain
-        _, exp, sig = fp.multiply(fp.multiply(numerator[i], denominators), fp.multiply(radius, factor))
-        result["exp"].append(exp)
-        result["sig"].append(sig)
-    return result
+        for e, other in (edges[:2], edges[1::-1]):
+            f = (e + 1) % 4
+            for corner, end in ((e, f), (f, e)):
+                term = fp.multiply(r[end], denominator(other))
+                m[corner] = fp.sum_of_products((m[corner], fp.one), (term, fp.one))
+    else:
+        def ratio(near, far):
+            """Square root of q_far / q_near: numerator, denominator."""
+            def cancels(pair):
+                return bool(v["d_negative"][pair]) == (pair < 4)
+
+            s = root(suite, fp.multiply(u[near], u[far]))
+            if not cancels(near):
+                return (area[far] if cancels(far) else u[far]), s
+            if not cancels(far):
+                return s, area[near]
+            return fp.multiply(area[far], u[near]), fp.multiply(area[near], s)
+
+        (an, ad), (bn, bd), (cn, cd) = ratio(0, 2), ratio(3, 1), ratio(4, 5)
+        m = [fp.multiply(fp.multiply(x, y), z) for x, y, z in ((an, bn, cn), (an, bd, cd), (ad, bd, cn), (ad, bn, cd))]
+    return {"exp": [exp for _, exp, _ in m], "sig": [sig for _, _, sig in m]}
 
 
 # ------------------------------------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Recomputes the rsqrt and reciprocal tables of a set of golden vectors from their written construction, in 60 decimal digits.
+"""Recomputes the sqrt and reciprocal tables of a set of golden vectors from their written construction, in 60 decimal digits.
 
-  golden/examples/tables.py DIR                     DIR as written by `quadrille golden generate --suite rsqrt_table --suite reciprocal_table --out DIR`
+  golden/examples/tables.py DIR                     DIR as written by `quadrille golden generate --suite sqrt_table --suite reciprocal_table --out DIR`
 
 golden/README.md ("The tables") has the construction. Exit status: 0 every entry agrees, 1 a difference, 2 the set cannot be read.
 """
@@ -12,17 +12,17 @@ from pathlib import Path
 from check_edges_and_weights import BadSet, Suite
 
 getcontext().prec = 60
-BIAS = 3  # units of C0, so that the truncated result is never below the function
-# Suite: the function, keys of segments and degree, octaves.
-TABLES = {"rsqrt_table": (lambda x: 1 / x.sqrt(), "rsqrt_segments_log2", "rsqrt_degree", 2),
-          "reciprocal_table": (lambda x: 1 / x, "recip_segments_log2", "recip_degree", 1)}
+# Suite: the function, keys of segments and degree, octaves, sign of the slope, units added to C0: half of the last bit of the root; of the
+# reciprocal so many that the truncated result is never below it.
+TABLES = {"sqrt_table": (lambda x: x.sqrt() / 2, "sqrt_segments_log2", "sqrt_degree", 2, 1, 4),
+          "reciprocal_table": (lambda x: 1 / x, "recip_segments_log2", "recip_degree", 1, -1, 3)}
 
 
 def rounded(value):
     return int((value + Decimal("0.5")).to_integral_value(ROUND_FLOOR))
 
 
-def entry(f, x0, h, degree, significand_bits):
+def entry(f, x0, h, degree, significand_bits, sign, bias):
     """C0, C1, C2 of the segment [x0, x0 + h): f through degree + 1 Chebyshev points, by Lagrange's formula."""
     half = Decimal("0.5")
     c = Decimal(3).sqrt() / 4 if degree == 2 else Decimal(2).sqrt() / 4
@@ -39,17 +39,17 @@ def entry(f, x0, h, degree, significand_bits):
             terms = (-others[0], 1, 0)
         a = [sum_ + scale * term for sum_, term in zip(a, terms)]
     unit = 2 ** (significand_bits + 3)
-    return rounded(a[0] * unit) + BIAS, rounded(-a[1] * unit), rounded(a[2] * unit)
+    return rounded(a[0] * unit) + bias, rounded(sign * a[1] * unit), rounded(-sign * a[2] * unit)
 
 
 def table(name, config):
     """The table of a suite, entry by entry."""
-    f, segments_key, degree_key, octaves = TABLES[name]
+    f, segments_key, degree_key, octaves, sign, bias = TABLES[name]
     segments = 2 ** config[segments_key]
     for octave in range(octaves):
         h = Decimal(2 ** octave) / segments
         for i in range(segments):
-            yield entry(f, 2 ** octave + i * h, h, config[degree_key], config["significand_bits"])
+            yield entry(f, 2 ** octave + i * h, h, config[degree_key], config["significand_bits"], sign, bias)
 
 
 def check(folder):

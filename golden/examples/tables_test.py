@@ -15,7 +15,7 @@ import tables
 
 QUADRILLE = None
 SETTINGS = ["", "significand_bits=8", "significand_bits=12", "significand_bits=24", "significand_bits=26",
-            "significand_bits=12 rsqrt_degree=1 recip_degree=1", "significand_bits=16 rsqrt_segments_log2=7 recip_segments_log2=8"]
+            "significand_bits=12 sqrt_degree=1 recip_degree=1", "significand_bits=16 sqrt_segments_log2=7 recip_segments_log2=8"]
 
 
 class Tables(unittest.TestCase):
@@ -24,7 +24,7 @@ class Tables(unittest.TestCase):
         self.addCleanup(work.cleanup)
         folder = Path(work.name) / "set"
         options = [word for key in settings.split() for word in ("--set", key)]
-        subprocess.run([QUADRILLE, "golden", "generate", "--quiet", "--suite", "rsqrt_table", "--suite", "reciprocal_table", *options,
+        subprocess.run([QUADRILLE, "golden", "generate", "--quiet", "--suite", "sqrt_table", "--suite", "reciprocal_table", *options,
                         "--out", str(folder)], check=True)
         return folder
 
@@ -37,7 +37,7 @@ class Tables(unittest.TestCase):
 
     def test_one_unit_is_a_difference(self):
         folder = self.generate("")
-        path, manifest = folder / "rsqrt_table" / "response.hex", folder / "rsqrt_table" / "manifest.json"
+        path, manifest = folder / "sqrt_table" / "response.hex", folder / "sqrt_table" / "manifest.json"
         lines = path.read_text().split()
         lines[5] = f"{int(lines[5], 16) ^ 1:0{len(lines[5])}x}"
         path.write_text("\n".join(lines) + "\n")

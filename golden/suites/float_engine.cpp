@@ -19,7 +19,7 @@ namespace quadrille::vectors {
 namespace {
 
 /// Relative error of a segment's polynomial (floating::Losses), at places from one end of it to the other.
-VectorOutcome check_table(bool rsqrt, const floating::Losses& l, const Table& table, const Record& stimulus,
+VectorOutcome check_table(bool sqrt, const floating::Losses& l, const Table& table, const Record& stimulus,
                           const TableEntry& entry) {
   using floating::Real;
   floating::Judge judge;
@@ -28,10 +28,9 @@ VectorOutcome check_table(bool rsqrt, const floating::Losses& l, const Table& ta
   for (int part = 0; part <= 8; ++part) {
     const Real u = ldexpl(static_cast<Real>(part), -3);
     const Real x = ldexpl(1 + (static_cast<Real>(index % segments) + u) / static_cast<Real>(segments), octave);
-    const Real y =
-        ldexpl(static_cast<Real>(entry.c0) - (static_cast<Real>(entry.c1) - static_cast<Real>(entry.c2) * u) * u,
-               -(l.s + Config::table_guard));
-    const Real exact = rsqrt ? 1 / sqrtl(x) : 1 / x, tolerance = (rsqrt ? l.rsqrt : l.reciprocal) * exact;
+    const Real rise = (static_cast<Real>(entry.c1) - static_cast<Real>(entry.c2) * u) * u;
+    const Real y = ldexpl(static_cast<Real>(entry.c0) + (sqrt ? rise : -rise), -(l.s + Config::table_guard));
+    const Real exact = sqrt ? sqrtl(x) / 2 : 1 / x, tolerance = (sqrt ? l.sqrt : l.reciprocal) * exact;
     judge.within("c0", -1, y, exact - tolerance, exact + tolerance);
   }
   return judge.outcome();
@@ -133,7 +132,7 @@ VerifyResult verify_float(const Suite& suite, const SuiteReader& reader, unsigne
     return check_vectors(reader, threads,
                          [&, losses = floating::Losses(config), table = tables->table(config)](const Record& stimulus,
                                                                                                const Record& response) {
-                           return check_table(suite.info().name == "rsqrt_table", losses, table, stimulus,
+                           return check_table(suite.info().name == "sqrt_table", losses, table, stimulus,
                                               tables->entry(response, config));
                          });
   }

@@ -38,7 +38,7 @@ std::vector<Config> configurations() {
           config_of({{"significand_bits", 8},
                      {"align_guard_bits", 0},
                      {"attribute_slots", 1},
-                     {"rsqrt_degree", 1},
+                     {"sqrt_degree", 1},
                      {"recip_degree", 1}}),
           config_of({{"significand_bits", 26}, {"align_guard_bits", 6}, {"attribute_slots", 8}}),
           config_of({{"significand_bits", 12},
@@ -50,7 +50,7 @@ std::vector<Config> configurations() {
                      {"guard_bits", 1},
                      {"tile_log2", 4},
                      {"recip_segments_log2", 3},
-                     {"rsqrt_segments_log2", 3}})};
+                     {"sqrt_segments_log2", 3}})};
 }
 
 std::vector<const StageSuite*> stage_suites() {
@@ -101,9 +101,11 @@ std::vector<Record> damaged(const Record& response, const RecordField& f, const 
   };
   const std::uint64_t value = response.get(f), one = std::uint64_t{1} << (f.width - 1);
   if (f.name.ends_with("sig")) {
-    // 8 units are 4u to 8u. A bound narrower than 8u excludes one of both sides, wherever the response is in it.
-    if (value == 0) add(8);
-    if (value >= one + 8 && value + 8 < 2 * one) add(value - 8), add(value + 8);
+    // n units are n/2 u to n u. A bound narrower than n u excludes one of both sides, wherever the response is in it.
+    // That of a weight has up to 12.5u: three roots times a number, two products.
+    const std::uint64_t n = suite == "weights" ? 16 : 8;
+    if (value == 0) add(n);
+    if (value >= one + n && value + n < 2 * one) add(value - n), add(value + n);
   } else if (suite == "depth" && f.width > 1) {
     add(value ^ one >> 3);  // truncated quotients differ in low bits
   } else {

@@ -88,19 +88,22 @@ struct Losses {
   explicit Losses(const Config& c)
       : s(c.significand_bits), unit(ldexpl(1, -(s - 1))), grain(ldexpl(1, -c.prec_bits())) {
     // A polynomial through Chebyshev points misses by f^(n)/n! · 2 (h/4)^n, n = degree + 1, h the width of a segment;
-    // of 1/x and x^(-1/2), relative to them, that is largest at x = 1.
-    const Real h_recip = ldexpl(1, -c.recip_segments()), h_rsqrt = ldexpl(1, -c.rsqrt_segments());
+    // of 1/x and x^(1/2), relative to them, that is largest at x = 1 (and 2).
+    const Real h_recip = ldexpl(1, -c.recip_segments()), h_sqrt = ldexpl(1, -c.sqrt_segments());
     reciprocal = unit + (c.recip_degree == 2 ? h_recip * h_recip * h_recip / 32 : h_recip * h_recip / 8);
-    rsqrt = unit + (c.rsqrt_degree == 2 ? 5 * h_rsqrt * h_rsqrt * h_rsqrt / 512 : 3 * h_rsqrt * h_rsqrt / 64);
+    sqrt = unit + (c.sqrt_degree == 2 ? h_sqrt * h_sqrt * h_sqrt / 512 : h_sqrt * h_sqrt / 64);
   }
 
   int s;
-  Real unit;               ///< u = 2^-(s-1): a truncation to S bits leaves (1 - u, 1] of the value
-  Real grain;              ///< of the largest term: a term of an aligned sum loses less than that
-  Real reciprocal, rsqrt;  ///< relative errors: u, and what the polynomial of a segment misses
+  Real unit;              ///< u = 2^-(s-1): a truncation to S bits leaves (1 - u, 1] of the value
+  Real grain;             ///< of the largest term: a term of an aligned sum loses less than that
+  Real reciprocal, sqrt;  ///< relative errors: u, and what the polynomial of a segment misses
 
   /// Truncated toward zero to S bits.
   Span cut(Span v) const { return {v.lo > 0 ? v.lo * (1 - unit) : v.lo, v.hi < 0 ? v.hi * (1 - unit) : v.hi}; }
+
+  /// Of exact roots what the table makes of them.
+  Span rooted(Span v) const { return {v.lo * (1 - sqrt), v.hi * (1 + sqrt)}; }
 
   /// A sum of exact terms, aligned and truncated: every term loses magnitude, so positive ones pull down, negative ones
   /// up. The largest exponent is never above that of the largest term.

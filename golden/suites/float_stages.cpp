@@ -284,11 +284,10 @@ void normalised(Judge& judge, const Vector& t) {
 }
 
 /// Relative error u, and the table's polynomial (Losses).
-void rsqrts(Judge& judge, const Vector& t) {
+void sqrts(Judge& judge, const Vector& t) {
   for (std::size_t i = 0; i < 4; ++i) {
-    const Real r2 = value_of(t.in.pixel.r2_fp[i], t.losses.s), exact = r2 == 0 ? 0 : 1 / sqrtl(r2);
-    check_number(judge, "sig", static_cast<int>(i), t.out.pixel.rho[i],
-                 {exact * (1 - t.losses.rsqrt), exact * (1 + t.losses.rsqrt)}, t.losses);
+    const Real exact = sqrtl(value_of(t.in.pixel.r2_fp[i], t.losses.s));
+    check_number(judge, "sig", static_cast<int>(i), t.out.pixel.root[i], t.losses.rooted(exactly(exact)), t.losses);
   }
 }
 
@@ -298,80 +297,78 @@ void reciprocals(Judge& judge, const Vector& t) {
   check_number(judge, "sig", -1, t.out.inverse, {exact - tolerance, exact + tolerance}, t.losses);
 }
 
-/// t = n/d by the half-angle formulas: v = |A| rho rho loses two truncations, 2u; u' = 1 + |D| rho rho one of rho rho,
-/// one grain of the alignment (1 is exact in it) and one of the sum, at most 3u with no guard bits. All toward zero.
+/// u = r r' + |D| loses a grain of each term in the alignment and the truncation; v is |A| as it came.
 void ratios(Judge& judge, const Vector& t) {
   const Losses& l = t.losses;
   const PixelTrace &in = t.in.pixel, &out = t.out.pixel;
   for (std::size_t k = 0; k < 6; ++k) {
     const auto [i, j] = vertex_pair[k];
-    const Span scale = l.cut(exactly(value_of(in.rho[i], l.s) * value_of(in.rho[j], l.s)));
-    const Span v = l.cut(exactly(fabsl(value_of(in.a_fp[k], l.s))) * scale);
-    const Span term = exactly(fabsl(value_of(in.d_fp[k], l.s))) * scale;
-    const Real grain = term.hi > 0 ? l.grain * std::max(1.0L, term.hi) : 0;
-    const Span u = l.cut({1 + term.lo - grain, 1 + term.hi});
-    const bool swapped = in.d_fp[k].neg;
-    check_number(judge, "n_sig", static_cast<int>(k), out.num[k], swapped ? u : v, l);
-    check_number(judge, "d_sig", static_cast<int>(k), out.den[k], swapped ? v : u, l);
+    const Real scale = value_of(in.root[i], l.s) * value_of(in.root[j], l.s);
+    check_number(judge, "u_sig", static_cast<int>(k), out.u[k],
+                 l.sum(std::array{scale, fabsl(value_of(in.d_fp[k], l.s))}), l);
+    check_number(judge, "v_sig", static_cast<int>(k), out.v[k], exactly(fabsl(value_of(in.a_fp[k], l.s))), l);
   }
 }
 
-/// rtl/README.md section 5. Truncations of N, e, h, M, with the cure of f and g as well: below 6u and two grains of N's
-/// alignment, at most 8u, all toward zero. Sums with terms of both signs (an edge whose k differ in sign, NOTCH_EXACT =
-/// 0) are off by a grain of their largest term to either side. Corners are exact.
+/// M_i = sqrt of the product of q over the pairs without i, up to a common factor, q = r r' + D of an edge, r r' - D of
+/// a diagonal (rtl/README.md section 5). Of pairs without a corner in common only the ratio of the q matters:
+/// sqrt(q'/q) with q = u, or v²/u where its terms cancel. Truncations of u u', of the two products where both cancel,
+/// and of the two that make M; the table's error in each root. Corners are exact.
 void weights(Judge& judge, const Vector& t) {
   const Losses& l = t.losses;
   const PixelTrace& in = t.in.pixel;
   const SingularClass is = singular_class([&](std::size_t i) { return t.in.corner[i]; },
                                           [&](std::size_t i) { return t.in.a_sign[i] == 0 && t.in.d_negative[i]; });
-  std::array<Real, 6> n{}, d{};
-  std::array<Real, 4> rho{}, k{};
-  for (std::size_t i = 0; i < 6; ++i) n[i] = value_of(in.num[i], l.s), d[i] = value_of(in.den[i], l.s);
-  for (std::size_t i = 0; i < 4; ++i) rho[i] = value_of(in.rho[i], l.s), k[i] = value_of(t.in.data.k[i], l.s);
+  std::array<Real, 4> root{}, k{};
+  for (std::size_t i = 0; i < 4; ++i) root[i] = value_of(in.root[i], l.s), k[i] = value_of(t.in.data.k[i], l.s);
 
   std::array<Span, 4> m{};
-  if (is.corners > 0) {
+  const auto lowest_two = [](const std::array<bool, 4>& set) {
     std::array<std::size_t, 2> at{};
     for (std::size_t i = 0, found = 0; i < 4; ++i)
-      if (is.corner[i] && found < 2) at[found++] = i;
+      if (set[i] && found < 2) at[found++] = i;
+    return at;
+  };
+  if (is.corners > 0) {
+    const auto at = lowest_two(is.corner);
     if (is.two_corner())
       m[at[0]] = exactly(fabsl(k[at[1]])), m[at[1]] = exactly(fabsl(k[at[0]]));
     else
       m[at[0]] = exactly(1);
   } else if (is.two_edge()) {
     // The mean of the interpolations along the two lowest edges: each vertex takes the other edge's denominator.
-    std::array<std::size_t, 2> at{};
-    for (std::size_t i = 0, found = 0; i < 4; ++i)
-      if (is.edge[i] && found < 2) at[found++] = i;
+    const auto at = lowest_two(is.edge);
+    const auto next = [](std::size_t e) { return (e + 1) % 4; };
     const auto denominator = [&](std::size_t e) {
-      return magnitude(l.sum(std::array{rho[e] * k[e], rho[(e + 1) % 4] * k[(e + 1) % 4]}));
+      return magnitude(l.sum(std::array{root[next(e)] * k[e], root[e] * k[next(e)]}));
     };
-    const Span a = denominator(at[0]), b = denominator(at[1]);
+    const std::array<Span, 2> d{denominator(at[0]), denominator(at[1])};
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto on = [&](std::size_t e) { return i == e || i == (e + 1) % 4; };
-      Span sum = a + b;
-      const Real grains = 2 * l.grain * std::max(a.hi, b.hi);
-      sum = l.cut({std::max(0.0L, sum.lo - grains), sum.hi});
-      const Span factor = on(at[0]) && on(at[1]) ? sum : on(at[0]) ? b : on(at[1]) ? a : Span{};
-      m[i] = l.cut(factor * exactly(rho[i]));
+      std::array<Span, 2> along{};
+      std::size_t terms = 0;
+      for (std::size_t n = 0; n < 2; ++n)
+        if (i == at[n] || i == next(at[n]))
+          along[n] = l.cut(d[1 - n] * exactly(root[i == at[n] ? next(at[n]) : at[n]])), ++terms;
+      m[i] = along[0] + along[1];
+      if (terms < 2) continue;
+      const Real grains = 2 * l.grain * std::max(along[0].hi, along[1].hi);
+      m[i] = l.cut({std::max(0.0L, m[i].lo - grains), m[i].hi});
     }
   } else {
-    std::array<bool, 4> differ{};
-    for (std::size_t i = 0; i < 4; ++i) differ[i] = t.in.a_sign[(i + 3) % 4] * t.in.a_sign[i] < 0;
-    const bool cured = t.config.notch_exact && std::ranges::any_of(differ, [](bool v) { return v; });
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t before = (i + 3) % 4;
-      const Span sum = cured && differ[i]
-                           ? l.sum(std::array{n[before] * n[i], d[before] * d[i]})
-                           : l.sum(std::array{n[before] * d[i], (differ[i] ? -1 : 1) * n[i] * d[before]});
-      const Span e = l.cut(exactly(d[(i + 1) % 4] * d[(i + 2) % 4]));
-      Span g = exactly(rho[i]);
-      if (cured) {
-        const Real f = !differ[i] ? d[5] * d[4] : i % 2 == 0 ? n[5] * d[4] : n[4] * d[5];
-        g = l.cut(g * l.cut(exactly(f)));
-      }
-      m[i] = l.cut(l.cut(magnitude(sum) * e) * g);
-    }
+    // Square root of q_far / q_near: {numerator, denominator}.
+    const auto ratio = [&](std::size_t near, std::size_t far) -> std::array<Span, 2> {
+      const auto u = [&](std::size_t n) { return value_of(in.u[n], l.s); };
+      const auto v = [&](std::size_t n) { return value_of(in.v[n], l.s); };
+      const auto adds = [&](std::size_t n) { return n < 4 ? !t.in.d_negative[n] : t.in.d_negative[n]; };
+      const Span product = l.cut(exactly(u(near) * u(far)));
+      const Span shared = l.rooted({sqrtl(product.lo), sqrtl(product.hi)});
+      if (adds(near)) return {exactly(adds(far) ? u(far) : v(far)), shared};
+      if (adds(far)) return {shared, exactly(v(near))};
+      return {l.cut(exactly(v(far) * u(near))), l.cut(exactly(v(near)) * shared)};
+    };
+    const auto a = ratio(0, 2), b = ratio(3, 1), d = ratio(4, 5);
+    const auto product = [&](Span x, Span y, Span z) { return l.cut(l.cut(x * y) * z); };
+    m = {product(a[0], b[0], d[0]), product(a[0], b[1], d[1]), product(a[1], b[1], d[0]), product(a[1], b[0], d[1])};
   }
   for (std::size_t i = 0; i < 4; ++i) check_number(judge, "sig", static_cast<int>(i), t.out.pixel.m[i], m[i], l);
 }
@@ -464,7 +461,7 @@ StageCheck find_stage(std::string_view suite) {
       {"coverage", coverage},
       {"forward_difference", forward_differences},
       {"normalise", normalised},
-      {"rsqrt", rsqrts},
+      {"sqrt", sqrts},
       {"reciprocal", reciprocals},
       {"ratios", ratios},
       {"weights", weights},

@@ -36,7 +36,7 @@ class Set : public golden::InDirectory {
     }
     writer.commit(false);
   }
-  void SetUp() override { generate("set", {"rsqrt", "coverage", "depth"}); }
+  void SetUp() override { generate("set", {"sqrt", "coverage", "depth"}); }
 
   /// Reads all of a set; the number of its vectors.
   static std::uint64_t check(const std::string& directory) {
@@ -72,7 +72,7 @@ class Set : public golden::InDirectory {
 
 TEST_F(Set, ReadsBackWhatWasWritten) {
   const SetReader set(path("set"));
-  EXPECT_EQ(set.suites(), (std::vector<std::string>{"rsqrt", "coverage", "depth"}));
+  EXPECT_EQ(set.suites(), (std::vector<std::string>{"sqrt", "coverage", "depth"}));
   EXPECT_EQ(set.info().level, 1);
   EXPECT_EQ(set.info().limit, 30u);
   EXPECT_EQ(set_command(info()), "quadrille golden generate --level 1 --seed 1 --limit 30");
@@ -115,39 +115,39 @@ TEST_F(Set, EverySingleBitIsGuarded) {
 }
 
 TEST_F(Set, DamageOfFilesIsNamed) {
-  const std::string response = path("set/rsqrt/response.hex");
+  const std::string response = path("set/sqrt/response.hex");
   const std::string text = read(response);
   const std::size_t line = text.find('\n') + 1;
 
-  write("set/rsqrt/response.hex", text.substr(0, text.size() - line));
+  write("set/sqrt/response.hex", text.substr(0, text.size() - line));
   EXPECT_NE(complaint().find("response.hex: has " + std::to_string(text.size() - line) + " bytes"), std::string::npos);
   std::string upper = text;
   upper[line + 3] = 'G';
-  write("set/rsqrt/response.hex", upper);
+  write("set/sqrt/response.hex", upper);
   EXPECT_EQ(complaint(), response + ":2: column 4 is not a lower-case hexadecimal digit");
   // One line longer, one shorter: as many bytes, as many lines.
   std::string shifted = text;
   shifted[2 * line - 1] = '0';
   shifted[2 * line] = '\n';
-  write("set/rsqrt/response.hex", shifted);
+  write("set/sqrt/response.hex", shifted);
   EXPECT_EQ(complaint().find(response + ":2: has "), 0u);
   std::string joined = text;
   joined[2 * line - 1] = ' ';
-  write("set/rsqrt/response.hex", joined);
+  write("set/sqrt/response.hex", joined);
   EXPECT_EQ(complaint().find(response + ":2: has "), 0u);
   std::string endless = text;
   endless.back() = '0';
-  write("set/rsqrt/response.hex", endless);
+  write("set/sqrt/response.hex", endless);
   EXPECT_NE(complaint().find("has "), std::string::npos);
-  write("set/rsqrt/response.hex", text);
+  write("set/sqrt/response.hex", text);
 
   fs::rename(response, path("elsewhere"));
   EXPECT_EQ(complaint(), response + ": is missing");
   fs::rename(path("elsewhere"), response);
 
-  write("set/rsqrt/notes.txt", "mine");
-  EXPECT_EQ(complaint(), path("set/rsqrt/notes.txt") + ": does not belong to the set");
-  fs::remove(path("set/rsqrt/notes.txt"));
+  write("set/sqrt/notes.txt", "mine");
+  EXPECT_EQ(complaint(), path("set/sqrt/notes.txt") + ": does not belong to the set");
+  fs::remove(path("set/sqrt/notes.txt"));
   write("set/notes.txt", "mine");
   EXPECT_EQ(complaint(), path("set/notes.txt") + ": does not belong to the set");
   fs::remove(path("set/notes.txt"));
@@ -184,8 +184,8 @@ TEST_F(Set, DamageOfManifestsIsNamed) {
   EXPECT_EQ(with("\"seed\": 1", "\"seed\": 1.5"), set + ": \"seed\" is not a whole number from 0");
   EXPECT_EQ(with("\"seed\": 1", "\"seed\": -1"), set + ": \"seed\" is not a whole number from 0");
   EXPECT_EQ(with("\"level\": 1", "\"level\": 7"), set + ": \"level\" is not a whole number from 1 to 2");
-  EXPECT_EQ(with("--limit 30", "--limit 31"), set + ": \"command\" differs from that of suite rsqrt");
-  EXPECT_EQ(with("\"rsqrt\"", "\"../rsqrt\""), set + ": \"../rsqrt\" is no name of a suite");
+  EXPECT_EQ(with("--limit 30", "--limit 31"), set + ": \"command\" differs from that of suite sqrt");
+  EXPECT_EQ(with("\"sqrt\"", "\"../sqrt\""), set + ": \"../sqrt\" is no name of a suite");
   EXPECT_EQ(with("  \"seed\"", " \"seed\"").find(set + ":4: is not written as a manifest is"), 0u);
   EXPECT_EQ(with("{", "{\n  \"more\": 1,"), set + ": has \"more\", which is unknown in format 1");
   EXPECT_EQ(with("{", "[").find(set + ":"), 0u);
@@ -202,42 +202,42 @@ TEST_F(Set, DamageOfManifestsIsNamed) {
 
 // A set whose hashes are right but whose contents are not: what someone else's generator may write.
 TEST_F(Set, ConsistentNonsenseIsRefused) {
-  const std::string manifest = path("set/rsqrt/manifest.json"), text = read(manifest),
+  const std::string manifest = path("set/sqrt/manifest.json"), text = read(manifest),
                     top = read(path("set/manifest.json"));
   const auto with = [&](const std::string& from, const std::string& to) {
-    write("set/rsqrt/manifest.json", text);
+    write("set/sqrt/manifest.json", text);
     write("set/manifest.json", top);
-    replace_text("set/rsqrt/manifest.json", from, to);
-    sign("rsqrt");
+    replace_text("set/sqrt/manifest.json", from, to);
+    sign("sqrt");
     return complaint();
   };
   EXPECT_EQ(with("\"position\": 0", "\"position\": 1").find(manifest + ": the fields of record"), 0u);
   EXPECT_EQ(with("\"width\": 18", "\"width\": 0"), manifest + ": \"width\" is not a whole number from 1 to 64");
   EXPECT_EQ(with("\"width\": 18", "\"width\": 19").find(manifest + ": the fields of record"), 0u);
   EXPECT_EQ(with("\"bits\": 120", "\"bits\": 121").find(manifest + ": record stimulus has 120 bits of fields"), 0u);
-  EXPECT_EQ(with("\"suite\": \"rsqrt\"", "\"suite\": \"depth\""),
-            manifest + ": is the manifest of \"depth\", not of rsqrt");
+  EXPECT_EQ(with("\"suite\": \"sqrt\"", "\"suite\": \"depth\""),
+            manifest + ": is the manifest of \"depth\", not of sqrt");
   EXPECT_EQ(
       with("\"file\": \"stimulus.hex\"", "\"file\": \"../x\"").find(manifest + ": record \"stimulus\" has no file"),
       0u);
-  EXPECT_EQ(with("\"response.hex\": {", "\"other.hex\": {").find(path("set/rsqrt/")), 0u);
+  EXPECT_EQ(with("\"response.hex\": {", "\"other.hex\": {").find(path("set/sqrt/")), 0u);
   EXPECT_EQ(with("\"title\"", "\"notes\": 1,\n  \"title\""),
             manifest + ": has \"notes\", which is unknown in format 1");
-  EXPECT_EQ(with("--suite rsqrt", "--suite depth"), manifest + ": \"command\" is not that of suite rsqrt");
+  EXPECT_EQ(with("--suite sqrt", "--suite depth"), manifest + ": \"command\" is not that of suite sqrt");
   // What a reader takes, but is not what this program says of the suite.
   const auto known = [&](const std::string& from, const std::string& to) {
-    write("set/rsqrt/manifest.json", text);
+    write("set/sqrt/manifest.json", text);
     write("set/manifest.json", top);
-    replace_text("set/rsqrt/manifest.json", from, to);
-    sign("rsqrt");
-    return golden::input_error_of([&] { require_known(SetReader(path("set")).suite("rsqrt")); });
+    replace_text("set/sqrt/manifest.json", from, to);
+    sign("sqrt");
+    return golden::input_error_of([&] { require_known(SetReader(path("set")).suite("sqrt")); });
   };
-  const std::string says = "\" is not what this program says of suite rsqrt";
+  const std::string says = "\" is not what this program says of suite sqrt";
   EXPECT_EQ(known("\"kind\": \"stage\"", "\"kind\": \"machine\""), manifest + ": \"kind" + says);
-  EXPECT_EQ(known("\"latency\": " + std::to_string(latency::rsqrt_stages), "\"latency\": 99"),
+  EXPECT_EQ(known("\"latency\": " + std::to_string(latency::sqrt_stages), "\"latency\": 99"),
             manifest + ": \"latency" + says);
-  EXPECT_EQ(known("\"module\": \"rsqrt\"", "\"module\": \"rsqrx\""), manifest + ": \"module" + says);
-  EXPECT_EQ(known("\"title\": \"R", "\"title\": \"r"), manifest + ": \"title" + says);
+  EXPECT_EQ(known("\"module\": \"sqrt\"", "\"module\": \"rsqrx\""), manifest + ": \"module" + says);
+  EXPECT_EQ(known("\"title\": \"S", "\"title\": \"s"), manifest + ": \"title" + says);
   EXPECT_EQ(known("\"contract\": \"a", "\"contract\": \"A"), manifest + ": \"contract" + says);
   EXPECT_EQ(known("\"corner\": 10", "\"corner\": 11").find(manifest + ": \"counts\" should be {"), 0u);
   EXPECT_EQ(known("\"random\": 10", "\"random\": 9").find(manifest + ": \"counts\" should be {"), 0u);
@@ -246,25 +246,25 @@ TEST_F(Set, ConsistentNonsenseIsRefused) {
   EXPECT_EQ(with("\"VAL_BITS\": 63", "\"VAL_BITS\": 62"), manifest + ": \"derived\" does not follow from \"config\"");
 
   // A wrong response with all hashes right is for verify to find.
-  write("set/rsqrt/manifest.json", text);
-  std::string response = read(path("set/rsqrt/response.hex"));
+  write("set/sqrt/manifest.json", text);
+  std::string response = read(path("set/sqrt/response.hex"));
   const std::size_t digits = response.find('\n');
   char& digit = response[2 * (digits + 1) + digits - 1];  // line 3, the lowest digit: sig[0]
   digit = digit == '0' ? '1' : '0';
-  const std::string old_hash = sha256(read(path("set/rsqrt/response.hex")));
-  write("set/rsqrt/response.hex", response);
-  replace_text("set/rsqrt/manifest.json", old_hash, sha256(response));
-  sign("rsqrt");
-  const VerifyResult result = find_suite("rsqrt").verify(SetReader(path("set")).suite("rsqrt"), 2);
+  const std::string old_hash = sha256(read(path("set/sqrt/response.hex")));
+  write("set/sqrt/response.hex", response);
+  replace_text("set/sqrt/manifest.json", old_hash, sha256(response));
+  sign("sqrt");
+  const VerifyResult result = find_suite("sqrt").verify(SetReader(path("set")).suite("sqrt"), 2);
   EXPECT_FALSE(result.ok());
   EXPECT_EQ(result.mismatches, 1u);
-  EXPECT_EQ(result.first_difference.find(path("set/rsqrt/response.hex") + ":3: sig[0]: expected "), 0u)
+  EXPECT_EQ(result.first_difference.find(path("set/sqrt/response.hex") + ":3: sig[0]: expected "), 0u)
       << result.first_difference;
 }
 
 // Any bytes at all in the place of a manifest, rightly signed: an InputError or a set that reads, never a crash.
 TEST_F(Set, FuzzedManifests) {
-  const std::string names[] = {"set/manifest.json", "set/rsqrt/manifest.json"};
+  const std::string names[] = {"set/manifest.json", "set/sqrt/manifest.json"};
   const std::string top = read(path(names[0]));
   golden::Prng prng(3);
   const std::string_view pieces[] = {
@@ -300,7 +300,7 @@ TEST_F(Set, FuzzedManifests) {
     const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
     if (!json.is_discarded()) text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     write(name, text);
-    if (i % 2 == 1) sign("rsqrt");
+    if (i % 2 == 1) sign("sqrt");
     try {
       check(path("set"));
     } catch (const golden::InputError&) {
@@ -314,25 +314,25 @@ TEST_F(Set, FuzzedManifests) {
 
 TEST_F(Set, NothingIsReplacedUnasked) {
   const std::string before = read(path("set/manifest.json"));
-  EXPECT_NE(golden::input_error_of([&] { generate("set", {"rsqrt"}); }).find("is not empty; --force"),
+  EXPECT_NE(golden::input_error_of([&] { generate("set", {"sqrt"}); }).find("is not empty; --force"),
             std::string::npos);
   EXPECT_EQ(read(path("set/manifest.json")), before);
-  generate("set", {"rsqrt"}, true);
-  EXPECT_EQ(SetReader(path("set")).suites(), std::vector<std::string>{"rsqrt"});
+  generate("set", {"sqrt"}, true);
+  EXPECT_EQ(SetReader(path("set")).suites(), std::vector<std::string>{"sqrt"});
   // What is no set stays, even when asked to replace it.
   write("set/thesis.txt", "mine");
-  EXPECT_NE(golden::input_error_of([&] { generate("set", {"rsqrt"}, true); }).find("does not belong"),
+  EXPECT_NE(golden::input_error_of([&] { generate("set", {"sqrt"}, true); }).find("does not belong"),
             std::string::npos);
   EXPECT_EQ(read(path("set/thesis.txt")), "mine");
   fs::remove(path("set/thesis.txt"));
-  write("set/rsqrt/thesis.txt", "mine");
-  EXPECT_NE(golden::input_error_of([&] { generate("set", {"rsqrt"}, true); }), "");
-  EXPECT_EQ(read(path("set/rsqrt/thesis.txt")), "mine");
+  write("set/sqrt/thesis.txt", "mine");
+  EXPECT_NE(golden::input_error_of([&] { generate("set", {"sqrt"}, true); }), "");
+  EXPECT_EQ(read(path("set/sqrt/thesis.txt")), "mine");
   fs::create_directory(path("other"));
   write("other/file", "mine");
-  EXPECT_NE(golden::input_error_of([&] { generate("other", {"rsqrt"}, true); }), "");
+  EXPECT_NE(golden::input_error_of([&] { generate("other", {"sqrt"}, true); }), "");
   fs::create_directory(path("empty"));
-  generate("empty", {"rsqrt"});
+  generate("empty", {"sqrt"});
   EXPECT_EQ(check(path("empty")), check(path("empty")));
 }
 
@@ -340,7 +340,7 @@ TEST_F(Set, AnUnfinishedSetLeavesNothing) {
   const std::size_t before = entries();
   {
     SetWriter writer(path("new"), info(), false);
-    writer.add(find_suite("rsqrt").info(), [&](SuiteWriter& out) { find_suite("rsqrt").write(out, options()); });
+    writer.add(find_suite("sqrt").info(), [&](SuiteWriter& out) { find_suite("sqrt").write(out, options()); });
   }
   EXPECT_EQ(entries(), before);
   SetWriter empty(path("new"), info(), false);
@@ -352,10 +352,10 @@ TEST_F(Set, AnUnfinishedSetLeavesNothing) {
 TEST_F(Set, ASetThatAppearsMeanwhileIsNotReplaced) {
   SetWriter late(path("new"), info(), false);
   late.add(find_suite("depth").info(), [&](SuiteWriter& out) { find_suite("depth").write(out, options()); });
-  generate("new", {"rsqrt"});
+  generate("new", {"sqrt"});
   const std::string message = golden::input_error_of([&] { late.commit(false); });
   EXPECT_EQ(message.find(path("new") + ": was filled by another run in the meantime; --force"), 0u) << message;
-  EXPECT_EQ(SetReader(path("new")).suites(), std::vector<std::string>{"rsqrt"});
+  EXPECT_EQ(SetReader(path("new")).suites(), std::vector<std::string>{"sqrt"});
   // With --force the last one wins, whole.
   SetWriter forced(path("new"), info(), true);
   forced.add(find_suite("depth").info(), [&](SuiteWriter& out) { find_suite("depth").write(out, options()); });
@@ -367,17 +367,17 @@ TEST_F(Set, ASetThatAppearsMeanwhileIsNotReplaced) {
 TEST_F(Set, LinksLeadToTheSetAndNotOutOfIt) {
   fs::create_directory(path("target"));
   fs::create_directory_symlink("target", path("link"));
-  generate("link", {"rsqrt"});
+  generate("link", {"sqrt"});
   EXPECT_TRUE(fs::is_symlink(path("link")));
-  EXPECT_EQ(SetReader(path("target")).suites(), std::vector<std::string>{"rsqrt"});
+  EXPECT_EQ(SetReader(path("target")).suites(), std::vector<std::string>{"sqrt"});
   generate("link", {"depth"}, true);
   EXPECT_TRUE(fs::is_symlink(path("link")));
   EXPECT_EQ(check(path("link")), check(path("target")));
   fs::create_directory_symlink("nothing", path("dangling"));
-  EXPECT_EQ(golden::input_error_of([&] { generate("dangling", {"rsqrt"}); }),
+  EXPECT_EQ(golden::input_error_of([&] { generate("dangling", {"sqrt"}); }),
             path("dangling") + ": is a symbolic link to nothing");
 
-  for (const char* name : {"set/rsqrt/response.hex", "set/rsqrt/manifest.json", "set/depth", "set/manifest.json"}) {
+  for (const char* name : {"set/sqrt/response.hex", "set/sqrt/manifest.json", "set/depth", "set/manifest.json"}) {
     fs::rename(path(name), path("outside"));
     fs::create_symlink(path("outside"), path(name));
     EXPECT_EQ(complaint().find(path(name) + ": "), 0u) << complaint();
@@ -388,7 +388,7 @@ TEST_F(Set, LinksLeadToTheSetAndNotOutOfIt) {
 }
 
 TEST_F(Set, OnlyRegularFilesAreOpened) {
-  for (const char* name : {"set/rsqrt/response.hex", "set/rsqrt/manifest.json", "set/manifest.json"}) {
+  for (const char* name : {"set/sqrt/response.hex", "set/sqrt/manifest.json", "set/manifest.json"}) {
     fs::rename(path(name), path("outside"));
     ASSERT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
     EXPECT_EQ(complaint().find(path(name) + ": "), 0u);
@@ -408,9 +408,9 @@ TEST_F(Set, TheCurrentDirectoryIsNotReplaced) {
 }
 
 TEST_F(Set, ASuiteIsNoSet) {
-  EXPECT_EQ(golden::input_error_of([&] { SetReader(path("set/rsqrt")); }),
-            path("set/rsqrt/manifest.json") +
-                ": is the manifest of one suite; name the directory of its set, which is above");
+  EXPECT_EQ(
+      golden::input_error_of([&] { SetReader(path("set/sqrt")); }),
+      path("set/sqrt/manifest.json") + ": is the manifest of one suite; name the directory of its set, which is above");
 }
 
 TEST_F(Set, FilesBesideTheRecordsAreGuardedToo) {

@@ -34,7 +34,8 @@ struct StageData {
   QuadData data;
   PixelTrace pixel;
   std::array<std::int8_t, 4> a_sign{};
-  std::array<bool, 4> d_negative{}, corner{};
+  std::array<bool, 4> corner{};
+  std::array<bool, 6> d_negative{};
   PipelineFloat number, inverse;  ///< reciprocal
 };
 

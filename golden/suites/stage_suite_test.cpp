@@ -92,10 +92,10 @@ TEST(StageSuites, WidthsByHand) {
       {"coverage", {2 + 4 * 13 + 20 + 5 * (63 + 48 + 48) + 4, 3 * 64}},
       {"forward_difference", {3 + 3 + 1 + 6 * (63 + 48 + 48) + 10 * (63 + 48 + 48 + 32) + 6 * 64, 16 * 63}},
       {"normalise", {16 * 63, 4 + 12 * 31 + 4 * 30}},
-      {"rsqrt", {4 * 30, 4 * 30}},
+      {"sqrt", {4 * 30, 4 * 30}},
       {"reciprocal", {31, 31}},
       {"ratios", {6 * 30 + 6 * 31 + 4 * 30, 12 * 30}},
-      {"weights", {8 + 4 + 4 + 4 * 28 + 4 * 30 + 12 * 30, 4 * 30}},
+      {"weights", {8 + 6 + 4 + 4 * 28 + 4 * 30 + 12 * 30, 4 * 30}},
       {"interpolation", {4 * 30 + 28 * 28, 7 * 31}},
       {"depth", {1 + 25 + 25 + 4 + 1 + 7 * 31, 1 + 1 + 25 + 4 * 24}},
   };
@@ -124,8 +124,8 @@ TEST(StageSuites, StimulusFieldsInTheStatedOrder) {
             "row dx homogeneous lin_value lin_gx lin_gy quad_value quad_gx quad_gy quad_q length2");
   EXPECT_EQ(order("normalise"), "a d r2");
   EXPECT_EQ(order("reciprocal"), "neg exp sig");
-  EXPECT_EQ(order("ratios"), "a_exp a_sig d_neg d_exp d_sig rho_exp rho_sig");
-  EXPECT_EQ(order("weights"), "a_sign d_negative corner k_neg k_exp k_sig rho_exp rho_sig n_exp n_sig d_exp d_sig");
+  EXPECT_EQ(order("ratios"), "a_exp a_sig d_neg d_exp d_sig root_exp root_sig");
+  EXPECT_EQ(order("weights"), "a_sign d_negative corner k_neg k_exp k_sig root_exp root_sig u_exp u_sig v_exp v_sig");
   EXPECT_EQ(order("interpolation"),
             "m_exp m_sig k_neg k_exp k_sig w_neg w_exp w_sig z_neg z_exp z_sig b_neg b_exp b_sig");
   EXPECT_EQ(order("depth"),
@@ -478,7 +478,7 @@ TEST(StageResponses, Normalise) {
   }
 }
 
-TEST(StageResponses, RsqrtAndReciprocalWithinOneUlp) {
+TEST(StageResponses, SqrtAndReciprocalWithinOneUlp) {
   for (const Config& c : {Config{}, small_config()}) {
     const int s = c.significand_bits;
     const auto faithful = [&](long double actual, long double exact) {
@@ -487,10 +487,10 @@ TEST(StageResponses, RsqrtAndReciprocalWithinOneUlp) {
       frexpl(exact, &exponent);
       return fabsl(actual - exact) < ldexpl(1, exponent - s);  // one unit in the last place of S bits
     };
-    for_each("rsqrt", c, 6000, [&](const Values& in, const Values& out) {
+    for_each("sqrt", c, 6000, [&](const Values& in, const Values& out) {
       for (int i = 0; i < 4; ++i) {
         const long double a = in.number("", i);
-        EXPECT_TRUE(faithful(out.number("", i), a == 0 ? 0 : 1 / sqrtl(a))) << i;
+        EXPECT_TRUE(faithful(out.number("", i), sqrtl(a))) << i;
       }
     });
     for_each("reciprocal", c, 6000, [&](const Values& in, const Values& out) {
@@ -505,15 +505,11 @@ TEST(StageResponses, Ratios) {
   constexpr int first[] = {0, 1, 2, 3, 2, 1}, second[] = {1, 2, 3, 0, 0, 3};
   for_each("ratios", Config{}, 3000, [&](const Values& in, const Values& out) {
     for (int k = 0; k < 6; ++k) {
-      const long double scale = in.number("rho_", first[k]) * in.number("rho_", second[k]);
-      const long double sine = in.number("a_", k) * scale, cosine = in.number("d_", k) * scale;
-      const long double n = out.number("n_", k), d = out.number("d_", k), u = 1 + cosine;
-      const bool obtuse = in.integer("d_neg", k) != 0;
-      // Two truncations in each, of 2^-17; the aligned cosine loses up to 2^-19 more.
-      EXPECT_NEAR(static_cast<double>(obtuse ? n : d), static_cast<double>(u), 0x1p-15) << k;
-      const long double v = obtuse ? d : n;
-      EXPECT_LE(v, sine) << k;
-      EXPECT_GE(v, sine * (1 - 0x1p-16L)) << k;
+      const long double exact = in.number("root_", first[k]) * in.number("root_", second[k]) + in.number("d_", k);
+      // One truncation, of 2^-17; the alignment takes up to 2^-19 more.
+      EXPECT_LE(out.number("u_", k), exact) << k;
+      EXPECT_GE(out.number("u_", k), exact * (1 - 0x5p-19L)) << k;
+      EXPECT_EQ(out.number("v_", k), in.number("a_", k)) << k;
     }
   });
 }
@@ -522,28 +518,32 @@ TEST(StageResponses, Weights) {
   std::uint64_t plain = 0, vertex = 0;
   for_each("weights", Config{}, 6000, [&](const Values& in, const Values& out) {
     int corners = 0, on_edge = 0, at = 0;
-    bool differ = false;
     for (int i = 0; i < 4; ++i) {
       if (in.integer("corner", i) != 0) ++corners, at = i;
       on_edge += in.integer("a_sign", i) == 0 && in.integer("d_negative", i) != 0;
-      differ = differ || in.integer("a_sign", i) * in.integer("a_sign", (i + 3) % 4) < 0;
     }
     if (corners == 1) {
       ++vertex;
       for (int i = 0; i < 4; ++i) EXPECT_EQ(out.number("", i), i == at ? 1.0L : 0.0L);
     }
-    if (corners > 0 || on_edge > 0 || differ) return;
+    if (corners > 0 || on_edge > 0) return;
+    // The weight of a corner is the square root of the product of q over the three pairs without it: q_k = u or v²/u.
+    long double q[6], product[4];
+    for (int k = 0; k < 6; ++k) {
+      const long double u = in.number("u_", k), v = in.number("v_", k);
+      q[k] = (in.integer("d_negative", k) != 0) == (k < 4) ? v * v / u : u;
+      if (q[k] == 0) return;
+    }
     ++plain;
-    // Hormann & Tarini: lambda_i ~ (t_{i-1} + t_i) / r_i, here times the product of all d.
-    for (int i = 0; i < 4; ++i) {
-      const int h = (i + 3) % 4;
-      const long double all = in.number("d_", 0) * in.number("d_", 1) * in.number("d_", 2) * in.number("d_", 3);
-      if (all == 0) return;
-      const long double t = in.number("n_", h) / in.number("d_", h) + in.number("n_", i) / in.number("d_", i);
-      const long double exact = t * in.number("rho_", i) * all;
-      // Truncations only: four of 2^-17 and the alignment's.
-      EXPECT_LE(out.number("", i), exact * (1 + 0x1p-60L)) << i;
-      EXPECT_GE(out.number("", i), exact * (1 - 6 * 0x1p-17L)) << i;
+    product[0] = q[1] * q[2] * q[5];
+    product[1] = q[2] * q[3] * q[4];
+    product[2] = q[3] * q[0] * q[5];
+    product[3] = q[0] * q[1] * q[4];
+    for (int i = 1; i < 4; ++i) {
+      const long double ratio = out.number("", i) / out.number("", 0), exact = sqrtl(product[i] / product[0]);
+      // Of each of two ratios a truncated root of a truncated argument and up to two truncated products; two products
+      // in each weight: below 11 of 2^-17.
+      EXPECT_NEAR(static_cast<double>(ratio / exact), 1, 11 * 0x1p-17) << i;
     }
   });
   EXPECT_GT(plain, 500u);

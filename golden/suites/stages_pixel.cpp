@@ -14,9 +14,9 @@ namespace {
 struct Exponents {
   int a_lo, a_hi;      ///< A: its bit 0 is 2^-QDROP beside D's
   int d_hi;            ///< D and r², from 0
-  int rho_lo;          ///< to 0
-  int ratio_lo;        ///< |sin|, to 0; 1 + |cos| is in [1, 2]
-  int m_lo, m_hi;      ///< weights: seven factors, or at singular pixels two numbers of the port
+  int root_hi;         ///< of r, from 0
+  int u_hi;            ///< r r' + |D|, from 0
+  int m_lo, m_hi;      ///< weights: three factors of two u or v each at most, or a number of the port and two of r
   int sum_lo, sum_hi;  ///< sums: a weight times a number of the port, with cancellation
 
   explicit Exponents(const Config& c) {
@@ -24,10 +24,10 @@ struct Exponents {
     a_lo = -c.qdrop();
     a_hi = c.val_bits() - 2 - c.qdrop();
     d_hi = c.qval_bits() - 2;
-    rho_lo = -(c.qval_bits() / 2 + 1);
-    ratio_lo = -(c.val_bits() + 1);
-    m_lo = std::min(6 * ratio_lo + rho_lo - 1, -port + 2 * rho_lo - 2 * cancelled);
-    m_hi = port + 3;
+    root_hi = c.qval_bits() / 2;
+    u_hi = 2 * root_hi + 2;
+    m_lo = std::min(3 * a_lo, -port - cancelled);
+    m_hi = std::max(3 * (2 * u_hi + 1) + 2, port + 2 * root_hi + 4);
     sum_lo = m_lo - port - cancelled;
     sum_hi = m_hi + port + 2;
   }
@@ -92,13 +92,13 @@ void random_geometry(golden::Prng& prng, PixelTrace& p, const Config& c) {
 void random_ratios(golden::Prng& prng, StageData& d, const PipelineContext& c) {
   random_geometry(prng, d.pixel, c.config);
   normalise(d.pixel, c);
-  rsqrt_stage(d.pixel, c);
+  sqrt_stage(d.pixel, c);
   mean_value_ratios(d.pixel, c);
   for (std::size_t i = 0; i < 4; ++i) {
     d.a_sign[i] = static_cast<std::int8_t>((d.pixel.a[i] > 0) - (d.pixel.a[i] < 0));
-    d.d_negative[i] = d.pixel.d[i] < 0;
     d.corner[i] = d.pixel.r2[i] <= 0;
   }
+  for (std::size_t k = 0; k < 6; ++k) d.d_negative[k] = d.pixel.d[k] < 0;
 }
 
 // ---- normalise ----
@@ -152,9 +152,9 @@ class Normalise : public StageOf<NormaliseLists> {
   }
 };
 
-// ---- rsqrt ----
+// ---- sqrt ----
 
-struct RsqrtLists {
+struct SqrtLists {
   template <class D, class F>
   static void stimulus(D& d, const Config& c, F&& f) {
     visit_numbers(
@@ -163,14 +163,14 @@ struct RsqrtLists {
   }
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
-    visit(d.pixel, Boundary::rsqrt, c, f);
+    visit(d.pixel, Boundary::sqrt, c, f);
   }
 };
 
-class Rsqrt : public StageOf<RsqrtLists> {
+class Sqrt : public StageOf<SqrtLists> {
  public:
-  explicit Rsqrt(const Config& config) : StageOf(config) {}
-  void run(StageData& d) const override { rsqrt_stage(d.pixel, context_); }
+  explicit Sqrt(const Config& config) : StageOf(config) {}
+  void run(StageData& d) const override { sqrt_stage(d.pixel, context_); }
 
   FieldRange range(const RecordField& f) const override {
     return f.name == "exp" ? FieldRange{0, Exponents(config()).d_hi} : StageUnderTest::range(f);
@@ -182,7 +182,7 @@ class Rsqrt : public StageOf<RsqrtLists> {
   void corners(const Sink& sink) const override {
     // Both sides of every segment boundary in both octaves.
     const std::uint32_t lowest = std::uint32_t{1} << (config().significand_bits - 1);
-    const std::uint32_t step = std::uint32_t{1} << context_.rsqrt_table.rest_bits;
+    const std::uint32_t step = std::uint32_t{1} << context_.sqrt_table.rest_bits;
     for (std::uint32_t sig = lowest; sig < 2 * lowest; sig += step)
       for (const int exp : {20, 21}) {
         StageData d;
@@ -233,10 +233,10 @@ class Reciprocal : public StageOf<ReciprocalLists> {
 // ---- ratios ----
 
 template <class D, class F>
-void visit_rho(D& d, const Config& c, F&& f) {
+void visit_root(D& d, const Config& c, F&& f) {
   visit_numbers(
-      f, magnitudes("rho_exp", "rho_sig", c, "rho = 1/r of the corners; 0: the pixel is at the corner"),
-      4, [&](std::size_t i) -> auto& { return d.pixel.rho[i]; });
+      f, magnitudes("root_exp", "root_sig", c, "r of the corners; 0: the pixel is at the corner"),
+      4, [&](std::size_t i) -> auto& { return d.pixel.root[i]; });
 }
 
 struct RatiosLists {
@@ -249,7 +249,7 @@ struct RatiosLists {
     visit_numbers(
         f, signed_numbers("d_neg", "d_exp", "d_sig", c, "D, the same pairs"),
         6, [&](std::size_t i) -> auto& { return p.d_fp[i]; });
-    visit_rho(d, c, f);
+    visit_root(d, c, f);
   }
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
@@ -266,20 +266,16 @@ class Ratios : public StageOf<RatiosLists> {
     const Exponents e(config());
     if (f.name == "a_exp") return {e.a_lo, e.a_hi};
     if (f.name == "d_exp") return {0, e.d_hi};
-    if (f.name == "rho_exp") return {e.rho_lo, 0};
+    if (f.name == "root_exp") return {0, e.root_hi};
     return StageUnderTest::range(f);
   }
 
   void constrain(StageData& d) const override {
     PixelTrace& p = d.pixel;
     const int s = config().significand_bits;
-    for (PipelineFloat& v : p.rho) {
-      clear_zero(v);
-      // rho is at most 1: r2 is at least 1 in its units.
-      if (v.exp >= 0 && v.sig != 0) v = {false, 0, std::uint32_t{1} << (s - 1)};
-    }
+    for (PipelineFloat& v : p.root) clear_zero(v);
     for (std::size_t k = 0; k < 6; ++k) {
-      const double scale = value_of(p.rho[vertex_pair[k][0]], s) * value_of(p.rho[vertex_pair[k][1]], s);
+      const double scale = value_of(p.root[vertex_pair[k][0]], s) * value_of(p.root[vertex_pair[k][1]], s);
       bound(p.a_fp[k], scale, Exponents(config()).a_lo);
       bound(p.d_fp[k], scale, 0);
     }
@@ -291,8 +287,8 @@ class Ratios : public StageOf<RatiosLists> {
   /// |A| and |D| are at most r r', but for rounding.
   void bound(PipelineFloat& v, double scale, int lowest) const {
     clear_zero(v);
-    const double most = 1 + std::ldexp(1.0, 2 - config().significand_bits);
-    while (v.sig != 0 && value_of(v, config().significand_bits) * scale > most) {
+    const double most = scale * (1 + std::ldexp(1.0, 2 - config().significand_bits));
+    while (v.sig != 0 && value_of(v, config().significand_bits) > most) {
       --v.exp;
       if (v.exp < lowest) v = {};
     }
@@ -308,14 +304,15 @@ struct WeightsLists {
         f, FieldType{"a_sign", 2, true, {}, "", "sign of A of edges 01 12 23 30: -1, 0, 1"},
         4, [&](std::size_t i) -> auto& { return d.a_sign[i]; });
     visit_array(
-        f, plain("d_negative", 1, "D < 0, the same edges"), 4, [&](std::size_t i) -> auto& { return d.d_negative[i]; });
+        f, plain("d_negative", 1, "D < 0, pairs 01 12 23 30 20 13"),
+        6, [&](std::size_t i) -> auto& { return d.d_negative[i]; });
     visit_array(
         f, plain("corner", 1, "r2 is at most 0: the pixel is at the corner"),
         4, [&](std::size_t i) -> auto& { return d.corner[i]; });
     visit_numbers(
         f, port_numbers("k_neg", "k_exp", "k_sig", c, "k of the corners; without perspective w"),
         4, [&](std::size_t i) -> auto& { return d.data.k[i]; });
-    visit_rho(d, c, f);
+    visit_root(d, c, f);
     visit(d.pixel, Boundary::ratio, c, f);
   }
   template <class D, class F>
@@ -333,9 +330,9 @@ class Weights : public StageOf<WeightsLists> {
     // Integers with the signs that the stage looks at; normalise() finds the singular class from them.
     for (std::size_t i = 0; i < 4; ++i) {
       p.a[i] = d.a_sign[i];
-      p.d[i] = d.d_negative[i] ? -1 : 1;
       p.r2[i] = d.corner[i] ? 0 : 1;
     }
+    for (std::size_t k = 0; k < 6; ++k) p.d[k] = d.d_negative[k] ? -1 : 1;
     normalise(p, context_);
     mean_value_weights(p, d.data, context_);
   }
@@ -343,8 +340,9 @@ class Weights : public StageOf<WeightsLists> {
   FieldRange range(const RecordField& f) const override {
     const Exponents e(config());
     if (f.name == "a_sign") return {-1, 1};
-    if (f.name == "rho_exp") return {e.rho_lo, 0};
-    if (f.name == "n_exp" || f.name == "d_exp") return {e.ratio_lo, 0};
+    if (f.name == "root_exp") return {0, e.root_hi};
+    if (f.name == "u_exp") return {0, e.u_hi};
+    if (f.name == "v_exp") return {e.a_lo, e.a_hi};
     return StageUnderTest::range(f);
   }
 
@@ -353,26 +351,23 @@ class Weights : public StageOf<WeightsLists> {
     const PipelineFloat one = context_.format.one();
     for (std::size_t i = 0; i < 4; ++i) {
       clear_zero(d.data.k[i]);
-      if (d.corner[i]) p.rho[i] = {};
-      if (!d.corner[i] && (p.rho[i].sig == 0 || p.rho[i].exp >= 0)) p.rho[i] = one;
-      clear_zero(p.rho[i]);
+      if (d.corner[i]) p.root[i] = {};
+      if (!d.corner[i] && p.root[i].sig == 0) p.root[i] = one;
+      clear_zero(p.root[i]);
     }
     for (std::size_t k = 0; k < 6; ++k) {
-      const bool at_corner = d.corner[vertex_pair[k][0]] || d.corner[vertex_pair[k][1]];
+      const auto [i, j] = vertex_pair[k];
+      const bool at_corner = d.corner[i] || d.corner[j];
       const bool edge = k < 4;
-      if (edge && at_corner) {
-        d.a_sign[k] = 0;
-        d.d_negative[k] = false;
-      }
-      // One of n, d is u = 1 + |cos| in [1, 2], the other v = |sin|; D < 0: n is u.
-      const bool swapped = edge ? d.d_negative[k] : greater(p.num[k], p.den[k]);
-      PipelineFloat& u = swapped ? p.num[k] : p.den[k];
-      PipelineFloat& v = swapped ? p.den[k] : p.num[k];
-      if (at_corner) u = one, v = {};
-      if (u.exp != 1 || u.sig != one.sig) u.exp = 0;
-      if (u.sig == 0) u = one;
+      if (at_corner) d.d_negative[k] = false;
+      if (edge && at_corner) d.a_sign[k] = 0;
+      // u = r r' + |D| is 0 at a corner, and at least 1 elsewhere; v = |A| is no larger.
+      PipelineFloat &u = p.u[k], &v = p.v[k];
+      clear_zero(u);
       clear_zero(v);
-      if (v.exp >= 0 && v.sig != 0 && (v.exp > 0 || v.sig > one.sig + 4)) v = one;
+      if (at_corner) u = v = {};
+      if (!at_corner && u.sig == 0) u = one;
+      if (greater(v, u)) u = v;
       if (edge && d.a_sign[k] == 0) v = {};
       if (edge && d.a_sign[k] != 0 && v.sig == 0) v = one;
     }
@@ -387,20 +382,20 @@ class Weights : public StageOf<WeightsLists> {
     for (std::size_t i = 0; i < 4; ++i) {
       const auto n = static_cast<std::uint32_t>(i);
       d.data.k[i] = {false, 3 - static_cast<int>(i), one + 5 * n};
-      d.pixel.rho[i] = {false, -4 - static_cast<int>(i), one + 9 * n};
+      d.pixel.root[i] = {false, 4 + static_cast<int>(i), one + 9 * n};
     }
     for (std::size_t k = 0; k < 6; ++k) {
       const auto n = static_cast<std::uint32_t>(k);
-      d.pixel.num[k] = {false, -1 - static_cast<int>(k), one + 3 * n};
-      d.pixel.den[k] = {false, 0, one + 7 * n};
+      d.pixel.v[k] = {false, 9 - static_cast<int>(k), one + 3 * n};
+      d.pixel.u[k] = {false, 11, one + 7 * n};
     }
-    for (int code = 0; code < 81 * 16; ++code) {
-      int rest = code / 16;
+    for (int code = 0; code < 81 * 64; ++code) {
+      int rest = code / 64;
       StageData each = d;
+      for (std::size_t k = 4; k < 6; ++k) each.d_negative[k] = code >> k & 1;
       for (std::size_t i = 0; i < 4; ++i, rest /= 3) {
         each.a_sign[i] = static_cast<std::int8_t>(rest % 3 - 1);
         each.d_negative[i] = code >> i & 1;
-        if (each.d_negative[i]) std::swap(each.pixel.num[i], each.pixel.den[i]);
       }
       sink(each);
     }
@@ -421,7 +416,7 @@ class Weights : public StageOf<WeightsLists> {
         StageData each = d;
         for (std::size_t i = 0; i < 4; ++i) {
           each.data.k[i] = {signs[i] < 0, 0, signs[i] == 0 ? 0 : one};
-          each.pixel.rho[i] = {false, -3, one};
+          each.pixel.root[i] = {false, 3, one};
           each.a_sign[i] = edges >> i & 1 ? 0 : 1;
           each.d_negative[i] = edges >> i & 1;
         }
@@ -557,7 +552,7 @@ struct DepthLists {
 
 class Depth : public StageOf<DepthLists> {
  public:
-  explicit Depth(const Config& config) : StageOf(config) { context_.rsqrt_table = {}; }
+  explicit Depth(const Config& config) : StageOf(config) { context_.sqrt_table = {}; }
 
   void run(StageData& d) const override {
     PipelineContext c = context_;
@@ -676,27 +671,24 @@ void add_pixel_stages(std::vector<std::unique_ptr<Suite>>& suites) {
   add({"normalise", "stage", "Significand numbers of A, D and squared distances; the singular class", "normalise",
        latency::normalise_stages, "the most negative value of a width; r2 below -256"},
       make_stage<Normalise>);
-  add({"rsqrt", "stage", "Reciprocal square roots of the squared distances", "rsqrt", latency::rsqrt_stages,
+  add({"sqrt", "stage", "Square roots of the squared distances", "sqrt", latency::sqrt_stages,
        numbers + "exponents below 0 or above QVAL_BITS - 2"},
-      make_stage<Rsqrt>);
+      make_stage<Sqrt>);
   add({"reciprocal", "stage", "Reciprocal of a denominator", "reciprocal", latency::reciprocal_stages,
        numbers + "exponents that no sum has (see interpolation)"},
       make_stage<Reciprocal>);
-  add({"ratios", "stage", "Half-angle tangents of the edges and diagonals as n/d", "mean_value_ratios",
-       latency::ratio_stage - latency::rho_stage,
-       numbers + "|A| or |D| above r r' by more than the rounding of rho; rho above 1"},
+  add({"ratios", "stage", "Half-angle tangents of the edges and diagonals as v/u or u/v", "mean_value_ratios",
+       latency::ratio_stage - latency::root_stage, numbers + "|A| or |D| above r r' by more than the rounding of r"},
       make_stage<Ratios>);
   add({"weights", "stage", "Mean value weights up to a common factor", "mean_value_weights",
        latency::weight_stage - latency::ratio_stage,
-       numbers + "rho = 0 elsewhere than at a corner, and another rho there; rho above 1; an n (where D < 0) or d "
-                 "(elsewhere) "
-                 "outside of [1, 2]; the other of the two above 1 by more than rounding, or 0 elsewhere than where A "
-                 "is 0, or "
-                 "not 0 there; n and d other than 0 and 1 at a corner"},
+       numbers +
+           "r = 0 elsewhere than at a corner, and another r there; u = 0 elsewhere than at a corner, and another u "
+           "or v there; v above u, or 0 elsewhere than where A is 0, or not 0 there"},
       make_stage<Weights>);
   add({"interpolation", "stage", "Weighted sums over the corners", "interpolate",
        latency::sum_stage - latency::weight_stage,
-       numbers + "exponents of M that neither seven factors nor a number of the port have; |W| above 1"},
+       numbers + "exponents of M that neither three factors nor a number of the port have; |W| above 1"},
       make_stage<Interpolation>);
   add({"depth", "stage", "Quotients, fixed point, saturation and discard", "fragment_output",
        latency::fragment_stage - latency::sum_stage,

@@ -11,7 +11,7 @@ namespace {
 template <class Index, class F>
 void visit_index(Index& index, const Table& table, F&& f) {
   f(plain("index", std::countr_zero(table.entries.size()),
-          "entry: the segment; of rsqrt behind the exponent's lowest bit"),
+          "entry: the segment; of sqrt behind the exponent's lowest bit"),
     -1, index);
 }
 
@@ -86,8 +86,7 @@ VerifyResult TableSuite::verify(const SuiteReader& reader, unsigned threads) con
 void add_table_suites(std::vector<std::unique_ptr<Suite>>& suites) {
   const std::string contract = "nothing: every entry is there, in order";
   suites.push_back(std::make_unique<TableSuite>(
-      SuiteInfo{"rsqrt_table", "table", "Coefficients of the reciprocal square root", "none", 0, contract},
-      make_rsqrt_table));
+      SuiteInfo{"sqrt_table", "table", "Coefficients of the square root", "none", 0, contract}, make_sqrt_table));
   suites.push_back(std::make_unique<TableSuite>(
       SuiteInfo{"reciprocal_table", "table", "Coefficients of the reciprocal", "none", 0, contract}, make_recip_table));
 }

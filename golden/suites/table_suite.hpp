@@ -1,4 +1,4 @@
-// Suites of the rsqrt and reciprocal tables: an entry a line, every entry.
+// Suites of the sqrt and reciprocal tables: an entry a line, every entry.
 #pragma once
 
 #include "golden/suites/suite.hpp"
@@ -30,7 +30,7 @@ class TableSuite : public Suite {
   Make make_;
 };
 
-/// `rsqrt_table` and `reciprocal_table`.
+/// `sqrt_table` and `reciprocal_table`.
 void add_table_suites(std::vector<std::unique_ptr<Suite>>& suites);
 
 }  // namespace quadrille::vectors

@@ -1,7 +1,7 @@
-// fp_from_signed, fp_multiply, fp_sum, rsqrt, reciprocal against exact integers.
+// fp_from_signed, fp_multiply, fp_sum, sqrt, reciprocal against exact integers.
 #include "model/reciprocal.hpp"
-#include "model/rsqrt.hpp"
 #include "model/significand.hpp"
+#include "model/sqrt.hpp"
 #include "model/support/prng.hpp"
 #include "tb/check/exact_number.hpp"
 #include "tb/check/function_tally.hpp"
@@ -117,24 +117,20 @@ struct Limits {
       : below(static_cast<Wide>(std::ceil(limit.below * 32))), above(static_cast<Wide>(std::ceil(limit.above * 32))) {}
 };
 
-void check_rsqrt(const Config& config, const SignificandFormat& f, Prng& rng, FunctionTally& tally) {
-  const Table table = make_rsqrt_table(config);
-  const Limits limit(rsqrt_limit(config));
+void check_sqrt(const Config& config, const SignificandFormat& f, Prng& rng, FunctionTally& tally) {
+  const Table table = make_sqrt_table(config);
+  const Limits limit(sqrt_limit(config));
   const std::uint32_t half = 1u << (f.s - 1);
   const auto attempt = [&](std::uint32_t sig, int exponent) {
-    const PipelineFloat a{false, exponent, sig}, r = rsqrt(a, table, f);
+    const PipelineFloat a{false, exponent, sig}, r = fp_sqrt(a, table, f);
     const int octave = exponent & 1, whole = (exponent - octave) / 2;
-    bool right = !r.neg;
-    if (sig == half && octave == 0) {
-      right = right && r.sig == half && r.exp == -whole;
-    } else {
-      // sig 2^octave = x 2^(S-1), 1 < x < 4; the result is y 2^(-whole-1) with y = 2 / sqrt(x), in last bits y 2^(S-1)
-      // = t: t^2 sig 2^octave = 2^(3S-1).
-      right = right && r.exp == -whole - 1 && r.sig >> (f.s - 1) == 1;
-      const Wide x = Wide{sig} << octave, square = Wide{1} << (3 * f.s - 1 + 16);
-      const Wide low = (Wide{r.sig} << 8) - limit.above, high = (Wide{r.sig} << 8) + limit.below;
-      right = right && low * low * x <= square && square <= high * high * x;
-    }
+    // sig 2^octave = x 2^(S-1), 1 <= x < 4; the result is t 2^(whole-(S-1)) with t = sqrt(x) 2^(S-1): t^2 = sig
+    // 2^(octave+S-1).
+    bool right = !r.neg && r.exp == whole && r.sig >> (f.s - 1) == 1;
+    if (sig == half && octave == 0) right = right && r.sig == half;
+    const Wide square = Wide{sig} << (octave + f.s - 1 + 16);
+    const Wide low = (Wide{r.sig} << 8) - limit.above, high = (Wide{r.sig} << 8) + limit.below;
+    right = right && low * low <= square && square <= high * high;
     tally.expect(right, [&] { return "of " + text(a) + " gives " + text(r); });
   };
   for_each_argument(f.s, table.rest_bits, rng, [&](std::uint32_t sig) {
@@ -145,7 +141,7 @@ void check_rsqrt(const Config& config, const SignificandFormat& f, Prng& rng, Fu
     attempt(half, exponent);
     attempt(half + static_cast<std::uint32_t>(rng.below(half)), exponent);
   }
-  tally.expect(rsqrt({}, table, f) == PipelineFloat{}, [] { return std::string("of zero is not zero"); });
+  tally.expect(fp_sqrt({}, table, f) == PipelineFloat{}, [] { return std::string("of zero is not zero"); });
 }
 
 void check_reciprocal(const Config& config, const SignificandFormat& f, Prng& rng, FunctionTally& tally) {
@@ -176,35 +172,36 @@ void check_reciprocal(const Config& config, const SignificandFormat& f, Prng& rn
 }
 
 /// A segment's polynomial interpolates in Chebyshev points, so it misses by `miss` (of the function's values) at most.
-/// In units of 2^-(S+3): coefficients are rounded to nearest (1/2 each), 3 are added, t1 and t0 are truncated (one
-/// down, one up), and the last truncation takes up to 7 away.
-TableLimit table_limit(const Config& config, double miss, int degree) {
+/// In units of 2^-(S+3): coefficients are rounded to nearest (1/2 each), `added` are added, t1 and t0 are truncated
+/// (one down, one up), and the last truncation takes up to 7 away.
+TableLimit table_limit(const Config& config, double miss, int degree, double added) {
   const double rounding = degree == 2 ? 1.5 : 1, polynomial = std::ldexp(miss, config.significand_bits + 3) + rounding;
-  constexpr double added = 3, truncated = 1, units = 8;
+  constexpr double truncated = 1, units = 8;
   return {units + polynomial + truncated - added, polynomial + truncated + added};
 }
 
 }  // namespace
 
-TableLimit rsqrt_limit(const Config& config) {
-  // x^(-1/2): the n-th derivative over n! times 2 (h/4)^n, n = degree + 1, is largest at x = 1.
-  const double h = std::ldexp(1.0, -config.rsqrt_segments());
-  return table_limit(config, config.rsqrt_degree == 2 ? 5 * h * h * h / 512 : 3 * h * h / 64, config.rsqrt_degree);
+TableLimit sqrt_limit(const Config& config) {
+  // x^(1/2)/2: the n-th derivative over n! times 2 (h/4)^n, n = degree + 1; relative to the value largest at x = 1 and
+  // 2, and the value is below 1.
+  const double h = std::ldexp(1.0, -config.sqrt_segments());
+  return table_limit(config, config.sqrt_degree == 2 ? h * h * h / 512 : h * h / 64, config.sqrt_degree, 4);
 }
 
 TableLimit reciprocal_limit(const Config& config) {
   const double h = std::ldexp(1.0, -config.recip_segments());
-  return table_limit(config, config.recip_degree == 2 ? h * h * h / 32 : h * h / 8, config.recip_degree);
+  return table_limit(config, config.recip_degree == 2 ? h * h * h / 32 : h * h / 8, config.recip_degree, 3);
 }
 
 void check_arithmetic(const Config& config, std::vector<FunctionResult>& results) {
   const SignificandFormat f{config.significand_bits, config.align_guard_bits};
-  FunctionTally significand("significand"), multiply("multiply"), sum("sum"), root("rsqrt"), inverse("reciprocal");
+  FunctionTally significand("significand"), multiply("multiply"), sum("sum"), root("sqrt"), inverse("reciprocal");
   Prng rng(1);
   check_significand(f, rng, significand);
   check_multiply(f, rng, multiply);
   check_sum(f, rng, sum);
-  check_rsqrt(config, f, rng, root);
+  check_sqrt(config, f, rng, root);
   check_reciprocal(config, f, rng, inverse);
   for (const FunctionTally* tally : {&significand, &multiply, &sum, &root, &inverse})
     results.push_back(tally->result());

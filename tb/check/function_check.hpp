@@ -24,12 +24,12 @@ struct FunctionReport {
   std::uint64_t arguments() const;
   std::uint64_t beyond() const;
   bool ok() const { return arguments() > 0 && beyond() == 0; }
-  /// "rsqrt: …" of the first fault; empty without one.
+  /// "sqrt: …" of the first fault; empty without one.
   std::string first() const;
 };
 
 /// Evaluates every function of the machine behind the port:
-///   rsqrt, reciprocal   every argument up to S = 17 bits, else the ends of every segment of the table and random ones;
+///   sqrt, reciprocal   every argument up to S = 17 bits, else the ends of every segment of the table and random ones;
 ///                       within table_limit() of the exact value, powers of four (two) and zero exactly
 ///   multiply, sum       random and extreme operands, cancellation, terms far apart: every bit
 ///   normalise … output  the stages behind the front, stage by stage, each on what the stage before gave: every bit
@@ -42,7 +42,7 @@ FunctionReport check_functions(const Config& config);
 struct TableLimit {
   double below = 0, above = 0;
 };
-TableLimit rsqrt_limit(const Config& config);
+TableLimit sqrt_limit(const Config& config);
 TableLimit reciprocal_limit(const Config& config);
 
 }  // namespace quadrille::cli

@@ -30,8 +30,8 @@ TEST(FunctionCheck, PassesEverySignificand) {
 TEST(FunctionCheck, LimitsOfTheAutomaticTablesAreFaithful) {
   for (int s = 8; s <= 26; ++s)
     for (int degree = 1; degree <= 2; ++degree) {
-      const Config config = configured({{"significand_bits", s}, {"rsqrt_degree", degree}, {"recip_degree", degree}});
-      for (const TableLimit& limit : {rsqrt_limit(config), reciprocal_limit(config)}) {
+      const Config config = configured({{"significand_bits", s}, {"sqrt_degree", degree}, {"recip_degree", degree}});
+      for (const TableLimit& limit : {sqrt_limit(config), reciprocal_limit(config)}) {
         EXPECT_LE(limit.below, 10) << "in eighths, s = " << s << ", degree " << degree;
         EXPECT_LE(limit.above, 8) << "s = " << s << ", degree " << degree;
         EXPECT_GT(limit.below, 6);
@@ -71,10 +71,10 @@ TEST(ExactNumber, KnowsTheNormalForm) {
 TEST(FunctionCheck, PassesOtherConfigurations) {
   expect_passes(configured({{"align_guard_bits", 0}, {"notch_exact", 0}}), "no guard bits");
   expect_passes(configured({{"align_guard_bits", 6}, {"attribute_slots", 8}}), "six guard bits");
-  expect_passes(configured({{"rsqrt_degree", 1}, {"recip_degree", 1}}), "degree 1");
-  expect_passes(configured({{"significand_bits", 12}, {"rsqrt_segments_log2", 5}, {"recip_segments_log2", 6}}),
+  expect_passes(configured({{"sqrt_degree", 1}, {"recip_degree", 1}}), "degree 1");
+  expect_passes(configured({{"significand_bits", 12}, {"sqrt_segments_log2", 5}, {"recip_segments_log2", 6}}),
                 "finer tables");
-  expect_passes(configured({{"rsqrt_segments_log2", 4}, {"recip_segments_log2", 4}}), "coarser tables");
+  expect_passes(configured({{"sqrt_segments_log2", 4}, {"recip_segments_log2", 4}}), "coarser tables");
   expect_passes(configured({{"quadratic_frac_bits", 12}, {"depth_bits", 16}}), "dropped bits");
   expect_passes(configured({{"viewport_bits", 6},
                             {"guard_bits", 1},

@@ -48,7 +48,7 @@ class StageCheck {
       PixelTrace& t = p.trace;
       normalise(t, context_);
       tally(*tallies[0], p, normalised(p));
-      rsqrt_stage(t, context_);
+      sqrt_stage(t, context_);
       mean_value_ratios(t, context_);
       tally(*tallies[1], p, ratios(p));
       mean_value_weights(t, p.quad, context_);
@@ -207,15 +207,11 @@ class StageCheck {
 
   std::string ratios(const Pixel& p) const {
     const PixelTrace& t = p.trace;
-    const Number one{1, 0};
     for (std::size_t k = 0; k < 6; ++k) {
       const auto [i, j] = vertex_pair[k];
-      const Number scale = multiply(real(t.rho[i]), real(t.rho[j]));
-      const Number u = sum(std::array{Term{one, one}, Term{size(t.d_fp[k]), scale}});
-      const Number v = multiply(size(t.a_fp[k]), scale);
-      const bool obtuse = t.d[k] < 0;
-      if (!same(t.num[k], obtuse ? u : v)) return "n[" + std::to_string(k) + "]";
-      if (!same(t.den[k], obtuse ? v : u)) return "d[" + std::to_string(k) + "]";
+      const Number u = sum(std::array{Term{real(t.root[i]), real(t.root[j])}, Term{size(t.d_fp[k])}});
+      if (!same(t.u[k], u)) return "u[" + std::to_string(k) + "]";
+      if (!same(t.v[k], size(t.a_fp[k]))) return "v[" + std::to_string(k) + "]";
     }
     return "";
   }
@@ -224,37 +220,36 @@ class StageCheck {
     const PixelTrace& t = p.trace;
     const bool any = p.differ[0] || p.differ[1] || p.differ[2] || p.differ[3];
     const bool cured = config_.notch_exact && any && !p.singular();
-    if (t.cured != cured) return cured ? "not cured" : "cured";
-    std::array<Number, 6> n, d;
-    for (std::size_t k = 0; k < 6; ++k) n[k] = real(t.num[k]), d[k] = real(t.den[k]);
-    const std::array<Number, 4> lead = p.singular() ? singular_numerators(p) : numerators(p, n, d, cured);
-    const Number one{1, 0};
-    const Number even = multiply(n[5], d[4]), odd = multiply(n[4], d[5]), plain = multiply(d[5], d[4]);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Number e = p.singular() ? one : multiply(d[(i + 1) % 4], d[(i + 2) % 4]);
-      const Number rho = p.corners > 0 ? one : real(t.rho[i]);
-      const Number f = !cured ? one : !p.differ[i] ? plain : i % 2 == 0 ? even : odd;
-      if (!same(t.m[i], multiply(multiply(lead[i], e), multiply(rho, f)))) return "M[" + std::to_string(i) + "]";
-    }
+    if (t.cured != cured) return cured ? "no notch" : "a notch";
+    const std::array<Number, 4> m = p.singular() ? singular_weights(p) : regular_weights(p);
+    for (std::size_t i = 0; i < 4; ++i)
+      if (!same(t.m[i], m[i])) return "M[" + std::to_string(i) + "]";
     return "";
   }
 
-  std::array<Number, 4> numerators(const Pixel& p, const std::array<Number, 6>& n, const std::array<Number, 6>& d,
-                                   bool cured) const {
-    std::array<Number, 4> out;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t h = (i + 3) % 4;
-      if (cured && p.differ[i]) {
-        out[i] = sum(std::array{Term{n[h], n[i]}, Term{d[h], d[i]}});
-      } else {
-        const Number second{p.differ[i] ? -n[i].m : n[i].m, n[i].e};
-        out[i] = positive(sum(std::array{Term{n[h], d[i]}, Term{second, d[h]}}));
-      }
-    }
-    return out;
+  /// sqrt(q_b / q_a) as {numerator, denominator}; q = r r' + D of an edge, r r' - D of a diagonal.
+  std::array<Number, 2> root_ratio(const Pixel& p, std::size_t a, std::size_t b) const {
+    const PixelTrace& t = p.trace;
+    const auto u = [&](std::size_t k) { return real(t.u[k]); };
+    const auto v = [&](std::size_t k) { return real(t.v[k]); };
+    const auto adds = [&](std::size_t k) { return k < 4 ? t.d[k] >= 0 : t.d[k] < 0; };
+    const Number root = real(fp_sqrt(float_of(multiply(u(a), u(b))), context_.sqrt_table, context_.format));
+    if (adds(a) && adds(b)) return {u(b), root};
+    if (adds(a)) return {v(b), root};
+    if (adds(b)) return {root, v(a)};
+    return {multiply(v(b), u(a)), multiply(v(a), root)};
   }
 
-  std::array<Number, 4> singular_numerators(const Pixel& p) const {
+  /// M_0 : M_1 : M_2 : M_3 = abc : a : c : b with a² = q23/q01, b² = q12/q30, c² = q13/q20.
+  std::array<Number, 4> regular_weights(const Pixel& p) const {
+    const auto [an, ad] = root_ratio(p, 0, 2);
+    const auto [bn, bd] = root_ratio(p, 3, 1);
+    const auto [cn, cd] = root_ratio(p, 4, 5);
+    return {multiply(multiply(an, bn), cn), multiply(multiply(an, bd), cd), multiply(multiply(ad, bd), cn),
+            multiply(multiply(ad, bn), cd)};
+  }
+
+  std::array<Number, 4> singular_weights(const Pixel& p) const {
     std::array<Number, 4> out{};
     const auto lowest_two = [](const std::array<bool, 4>& is) {
       std::array<std::size_t, 2> at{};
@@ -273,21 +268,20 @@ class StageCheck {
       }
       return out;
     }
-    const auto [a, b] = lowest_two(p.edge);
+    const auto edges = lowest_two(p.edge);
     const auto denominator = [&](std::size_t e) {
       const std::size_t f = (e + 1) % 4;
       return positive(sum(
-          std::array{Term{real(p.trace.rho[e]), real(p.quad.k[e])}, Term{real(p.trace.rho[f]), real(p.quad.k[f])}}));
+          std::array{Term{real(p.trace.root[f]), real(p.quad.k[e])}, Term{real(p.trace.root[e]), real(p.quad.k[f])}}));
     };
-    const Number of_a = denominator(a), of_b = denominator(b);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const bool on_a = i == a || i == (a + 1) % 4, on_b = i == b || i == (b + 1) % 4;
-      if (on_a && on_b)
-        out[i] = sum(std::array{Term{of_a}, Term{of_b}});
-      else if (on_a)
-        out[i] = of_b;
-      else if (on_b)
-        out[i] = of_a;
+    for (std::size_t n = 0; n < 2; ++n) {
+      const std::size_t e = edges[n], f = (e + 1) % 4;
+      const Number other = denominator(edges[1 - n]);
+      const auto add = [&](std::size_t at, const Number& term) {
+        out[at] = out[at].zero() ? term : sum(std::array{Term{out[at]}, Term{term}});
+      };
+      add(e, multiply(real(p.trace.root[f]), other));
+      add(f, multiply(real(p.trace.root[e]), other));
     }
     return out;
   }

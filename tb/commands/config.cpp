@@ -152,7 +152,7 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
   options->common.add_to(*command, false);
   command
       ->add_option("--emit-tables", options->emit_tables,
-                   "Write the package of the rsqrt and reciprocal tables; - is standard output")
+                   "Write the package of the sqrt and reciprocal tables; - is standard output")
       ->type_name("F.sv");
   auto* boundaries =
       command

@@ -62,7 +62,7 @@ TEST_F(Examples, Configuration) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json config = json::parse(outcome.out)["config"];
   const std::map<std::string, int> given{{"viewport_bits", 8},   {"significand_bits", 12}, {"quadratic_frac_bits", 18},
-                                         {"attribute_slots", 3}, {"notch_exact", 1},       {"rsqrt_segments_log2", -1}};
+                                         {"attribute_slots", 3}, {"notch_exact", 1},       {"sqrt_segments_log2", -1}};
   const json standard = json::parse(run("config --json -").out)["config"];
   for (const auto& [key, value] : config.items())
     EXPECT_EQ(value, given.contains(key) ? json(given.at(key)) : standard[key]) << key;

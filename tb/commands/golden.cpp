@@ -265,7 +265,7 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
       "draw state go with it. Attributes are those of the shading, or the weights where it needs none.\n\n"
       "Examples:\n"
       "  quadrille golden generate --level 1 --out vectors\n"
-      "  quadrille golden generate --suite rsqrt --suite weights --set significand_bits=12 --out vectors12\n"
+      "  quadrille golden generate --suite sqrt --suite weights --set significand_bits=12 --out vectors12\n"
       "  quadrille golden generate --scene bowtie --size 64x64 --out mine\n"
       "  quadrille golden generate --mesh pawn.obj --shade uv --cull back --set significand_bits=16 --out pawn\n"
       "  quadrille golden generate --list-suites");

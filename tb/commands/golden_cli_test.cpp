@@ -55,24 +55,24 @@ TEST_F(GoldenCli, ListsSuites) {
   std::istringstream in(outcome.out);
   std::vector<std::string> names;
   for (std::string line; std::getline(in, line);) names.push_back(line);
-  for (const char* name : {"snapping", "setup", "tile_context", "coverage", "forward_difference", "normalise", "rsqrt",
+  for (const char* name : {"snapping", "setup", "tile_context", "coverage", "forward_difference", "normalise", "sqrt",
                            "reciprocal", "ratios", "weights", "interpolation", "depth"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 
 TEST_F(GoldenCli, GeneratesAndVerifies) {
-  generate("--suite weights --suite rsqrt --out set");
+  generate("--suite weights --suite sqrt --out set");
   const json manifest = json::parse(read(file("set") / "manifest.json"));
   EXPECT_EQ(manifest["command"],
-            "quadrille golden generate --level 1 --seed 1 --limit 30 --suite rsqrt --suite weights");
+            "quadrille golden generate --level 1 --seed 1 --limit 30 --suite sqrt --suite weights");
   EXPECT_EQ(manifest["suites"].size(), 2u);
-  const json suite = json::parse(read(file("set") / "rsqrt" / "manifest.json"));
+  const json suite = json::parse(read(file("set") / "sqrt" / "manifest.json"));
   EXPECT_EQ(suite["config"]["attribute_frac_bits"], 20);
   EXPECT_EQ(suite["counts"]["vectors"], suite["files"]["stimulus.hex"]["lines"]);
 
   const Outcome outcome = run("golden verify set");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(outcome.out.find("rsqrt: " + suite["counts"]["vectors"].dump() + " vectors, 0 mismatches\nweights: "), 0u)
+  EXPECT_EQ(outcome.out.find("sqrt: " + suite["counts"]["vectors"].dump() + " vectors, 0 mismatches\nweights: "), 0u)
       << outcome.out;
   const Outcome one = run("golden verify set --suite weights --json -");
   ASSERT_EQ(one.status, 0) << one.err;
@@ -100,32 +100,32 @@ TEST_F(GoldenCli, SameBytesForAnyThreadsAndSpelling) {
 }
 
 TEST_F(GoldenCli, DamageEndsWithStatus2) {
-  generate("--suite rsqrt --out set");
-  const fs::path response = file("set") / "rsqrt" / "response.hex";
+  generate("--suite sqrt --out set");
+  const fs::path response = file("set") / "sqrt" / "response.hex";
   const std::string text = read(response);
   std::string flipped = text;
   flipped[5] = flipped[5] == '1' ? '2' : '1';
-  write("set/rsqrt/response.hex", flipped);
+  write("set/sqrt/response.hex", flipped);
   refuses(2, "golden verify set", {"response.hex", "SHA-256"});
-  write("set/rsqrt/response.hex", text);
-  write("set/rsqrt/more", "");
-  refuses(2, "golden verify set", {"rsqrt/more: does not belong to the set"});
-  fs::remove(file("set") / "rsqrt" / "more");
+  write("set/sqrt/response.hex", text);
+  write("set/sqrt/more", "");
+  refuses(2, "golden verify set", {"sqrt/more: does not belong to the set"});
+  fs::remove(file("set") / "sqrt" / "more");
   EXPECT_EQ(run("golden verify set").status, 0);
   refuses(2, "golden verify nowhere", {"nowhere", "is no directory"});
 }
 
 // A set that is intact but wrong: one digit changed and every hash made right again.
 TEST_F(GoldenCli, WrongVectorsEndWithStatus1) {
-  generate("--suite rsqrt --out set");
-  std::string text = read(file("set/rsqrt/response.hex"));
+  generate("--suite sqrt --out set");
+  std::string text = read(file("set/sqrt/response.hex"));
   char& lowest = text[text.find('\n') - 1];
   lowest = lowest == '0' ? '1' : '0';
-  put("set", "rsqrt", "response.hex", text);
+  put("set", "sqrt", "response.hex", text);
   const Outcome outcome = run("golden verify set --json report.json");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.out.find("vectors, 1 mismatches"), std::string::npos) << outcome.out;
-  EXPECT_EQ(outcome.err.find("quadrille: set/rsqrt/response.hex:1: sig[0]: expected "), 0u) << outcome.err;
+  EXPECT_EQ(outcome.err.find("quadrille: set/sqrt/response.hex:1: sig[0]: expected "), 0u) << outcome.err;
   EXPECT_EQ(json::parse(read(file("report.json")))["ok"], false);
 }
 
@@ -134,7 +134,7 @@ TEST_F(GoldenCli, WrongPicturesAreFound) {
   generate("--suite stress_bowtie --out set");
   ASSERT_EQ(run("golden verify set").status, 0);
   const std::string good = read(file("set/stress_bowtie/image_0.exr"));
-  for (const std::size_t at : {good.size() / 4, good.size() / 2, good.size() - 2}) {
+  for (const std::size_t at : {good.size() / 4, good.size() / 2, good.size() * 7 / 8}) {
     std::string text = good;
     text[at] = static_cast<char>(text[at] ^ 1);
     put("set", "stress_bowtie", "image_0.exr", text);
@@ -174,46 +174,46 @@ TEST_F(GoldenCli, NarrowIds) {
 }
 
 TEST_F(GoldenCli, TheWholeSetIsRead) {
-  generate("--suite rsqrt --suite weights --out set");
-  const std::string response = read(file("set/rsqrt/response.hex"));
+  generate("--suite sqrt --suite weights --out set");
+  const std::string response = read(file("set/sqrt/response.hex"));
   std::string flipped = response;
   flipped[5] = flipped[5] == '1' ? '2' : '1';
-  write("set/rsqrt/response.hex", flipped);
-  refuses(2, "golden verify set --suite weights", {"rsqrt/response.hex", "SHA-256"});
-  write("set/rsqrt/response.hex", response);
-  std::string manifest = read(file("set/rsqrt/manifest.json"));
+  write("set/sqrt/response.hex", flipped);
+  refuses(2, "golden verify set --suite weights", {"sqrt/response.hex", "SHA-256"});
+  write("set/sqrt/response.hex", response);
+  std::string manifest = read(file("set/sqrt/manifest.json"));
   const std::string good = manifest;
   manifest.insert(manifest.find("\"latency\": ") + 11, "7");
-  put("set", "rsqrt", "manifest.json", manifest);
-  refuses(2, "golden verify set --suite weights", {"rsqrt/manifest.json", "latency"});
-  put("set", "rsqrt", "manifest.json", good);
+  put("set", "sqrt", "manifest.json", manifest);
+  refuses(2, "golden verify set --suite weights", {"sqrt/manifest.json", "latency"});
+  put("set", "sqrt", "manifest.json", good);
   // A command without --suite stands for every suite.
-  replace("set/manifest.json", " --suite rsqrt --suite weights", "");
+  replace("set/manifest.json", " --suite sqrt --suite weights", "");
   refuses(2, "golden verify set", {"set/manifest.json", "generates other suites"});
 }
 
 TEST_F(GoldenCli, NumbersThatDoNotFit) {
   for (const char* seed : {"18446744073709551616", "1e3", "-1", "3x"})
-    refuses(2, std::string("golden generate --suite rsqrt --out set --seed ") + seed,
+    refuses(2, std::string("golden generate --suite sqrt --out set --seed ") + seed,
             {"--seed", "from 0 to 18446744073709551615"});
   for (const char* limit : {"1000001", "18446744073709551616", "-1"})
-    refuses(2, std::string("golden generate --suite rsqrt --out set --limit ") + limit,
+    refuses(2, std::string("golden generate --suite sqrt --out set --limit ") + limit,
             {"--limit", "from 0 to 1000000"});
   EXPECT_FALSE(fs::exists(file("set")));
-  const Outcome largest = run("golden generate --suite rsqrt --limit 30 --seed 18446744073709551615 --out set");
+  const Outcome largest = run("golden generate --suite sqrt --limit 30 --seed 18446744073709551615 --out set");
   EXPECT_EQ(largest.status, 0) << largest.err;
   EXPECT_EQ(json::parse(read(file("set/manifest.json")))["seed"], 18446744073709551615u);
   EXPECT_EQ(run("golden verify set").status, 0);
 }
 
 TEST_F(GoldenCli, WhereTheSetGoes) {
-  refuses(2, "golden generate --suite rsqrt --limit 30 --out .", {"current directory"});
+  refuses(2, "golden generate --suite sqrt --limit 30 --out .", {"current directory"});
   fs::create_directory(file("target"));
   fs::create_directory_symlink("target", file("link"));
-  generate("--suite rsqrt --out link");
+  generate("--suite sqrt --out link");
   EXPECT_TRUE(fs::is_symlink(file("link")));
   EXPECT_EQ(run("golden verify target").status, 0);
-  refuses(2, "golden verify target/rsqrt", {"one suite", "above"});
+  refuses(2, "golden verify target/sqrt", {"one suite", "above"});
 }
 
 TEST_F(GoldenCli, NothingToReplayIsStatus1) {
@@ -225,7 +225,7 @@ TEST_F(GoldenCli, NothingToReplayIsStatus1) {
 }
 
 TEST_F(GoldenCli, SealsResponsesOfOnesOwn) {
-  generate("--suite rsqrt --suite stress_tiny --out " + file("set").string());
+  generate("--suite sqrt --suite stress_tiny --out " + file("set").string());
   const auto copy = [&] {
     fs::remove_all(file("mine")), fs::copy(file("set"), file("mine"), fs::copy_options::recursive);
   };
@@ -235,10 +235,10 @@ TEST_F(GoldenCli, SealsResponsesOfOnesOwn) {
   EXPECT_EQ(bytes("mine"), bytes("set")) << "a set that is right stays as it is";
 
   // Another significand in the first line: refused until it is sealed, then a difference.
-  std::string text = read(file("set/rsqrt/response.hex"));
+  std::string text = read(file("set/sqrt/response.hex"));
   const std::size_t last = text.find('\n') - 1;
   text[last] = text[last] == '0' ? '1' : '0';
-  write("mine/rsqrt/response.hex", text);
+  write("mine/sqrt/response.hex", text);
   EXPECT_EQ(run("golden verify " + file("mine").string()).status, 2);
   ASSERT_EQ(seal().status, 0);
   Outcome outcome = run("golden verify " + file("mine").string());
@@ -246,7 +246,7 @@ TEST_F(GoldenCli, SealsResponsesOfOnesOwn) {
   EXPECT_NE(outcome.err.find("response.hex:1: sig[0]"), std::string::npos) << outcome.err;
   outcome = run("golden diff " + file("set").string() + " " + file("mine").string());
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.out.find("rsqrt/response.hex: 1 of "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("sqrt/response.hex: 1 of "), std::string::npos) << outcome.out;
 
   // A machine that draws one fragment less.
   copy();
@@ -258,18 +258,18 @@ TEST_F(GoldenCli, SealsResponsesOfOnesOwn) {
 }
 
 TEST_F(GoldenCli, SealRefusesMalformedFiles) {
-  generate("--suite rsqrt --out " + file("set").string());
-  const std::string response = read(file("set/rsqrt/response.hex")), stimulus = read(file("set/rsqrt/stimulus.hex"));
-  const std::string manifest = read(file("set/rsqrt/manifest.json"));
+  generate("--suite sqrt --out " + file("set").string());
+  const std::string response = read(file("set/sqrt/response.hex")), stimulus = read(file("set/sqrt/stimulus.hex"));
+  const std::string manifest = read(file("set/sqrt/manifest.json"));
   const std::size_t line = response.find('\n') + 1;
   const auto refused = [&](const std::string& name, const std::string& text, const std::string& why) {
-    const std::string before = read(file("set/rsqrt/" + name));
-    write("set/rsqrt/" + name, text);
+    const std::string before = read(file("set/sqrt/" + name));
+    write("set/sqrt/" + name, text);
     const Outcome outcome = run("golden seal " + file("set").string());
     EXPECT_EQ(outcome.status, 2) << why;
     EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
-    EXPECT_EQ(read(file("set/rsqrt/manifest.json")), manifest) << "nothing is written";
-    write("set/rsqrt/" + name, before);
+    EXPECT_EQ(read(file("set/sqrt/manifest.json")), manifest) << "nothing is written";
+    write("set/sqrt/" + name, before);
   };
   refused("response.hex", response.substr(0, line) + "x" + response.substr(line + 1), "response.hex:2: column 1");
   refused("response.hex", response.substr(0, line) + "0" + response.substr(line), "response.hex:2: has 31 characters");
@@ -370,7 +370,7 @@ TEST_F(GoldenCli, RefusesInputsThatMakeNoSet) {
     refuses(2, "golden generate --out own " + arguments, pieces);
     EXPECT_FALSE(fs::exists(file("own"))) << arguments;
   };
-  refused("--quads square.quads --suite rsqrt", {"--suite", "leave it out"});
+  refused("--quads square.quads --suite sqrt", {"--suite", "leave it out"});
   refused("--quads square.quads --level 2", {"--level"});
   refused("--quads square.quads --scene bowtie", {"one input", "2 were given"});
   refused("--quads nowhere.quads", {"nowhere.quads", "cannot be read"});
@@ -386,13 +386,13 @@ TEST_F(GoldenCli, RefusesInputsThatMakeNoSet) {
 
 // The entries are the constants that the RTL is built with, and wrong ones are found by either engine.
 TEST_F(GoldenCli, TablesAreTheConstantsOfTheRtl) {
-  for (const char* settings : {"", "--set significand_bits=10", "--set significand_bits=14 --set rsqrt_degree=1"}) {
+  for (const char* settings : {"", "--set significand_bits=10", "--set significand_bits=14 --set sqrt_degree=1"}) {
     SCOPED_TRACE(settings);
-    generate("--force --suite rsqrt_table --suite reciprocal_table --out set " + std::string(settings));
+    generate("--force --suite sqrt_table --suite reciprocal_table --out set " + std::string(settings));
     ASSERT_EQ(run("config --quiet --emit-tables tables.sv " + std::string(settings)).status, 0);
     const json config = json::parse(read(file("set/manifest.json")))["config"];
     const int s = config["significand_bits"];
-    // "      5'd3: rsqrt_rom = {22'd2060, 18'd77, 18'd5};" against the records {c0[S+4], c1[S], c2[S]} in order.
+    // "      5'd3: sqrt_rom = {22'd2060, 18'd77, 18'd5};" against the records {c0[S+4], c1[S], c2[S]} in order.
     std::map<std::string, std::string> roms;
     std::istringstream lines(read(file("tables.sv")));
     for (std::string line; std::getline(lines, line);) {
@@ -405,14 +405,14 @@ TEST_F(GoldenCli, TablesAreTheConstantsOfTheRtl) {
       std::snprintf(record, sizeof record, "%0*lx\n", (3 * s + 4 + 3) / 4, c0 << 2 * s | c1 << s | c2);
       roms[rom] += record;
     }
-    EXPECT_EQ(read(file("set/rsqrt_table/response.hex")), roms["rsqrt_rom"]);
+    EXPECT_EQ(read(file("set/sqrt_table/response.hex")), roms["sqrt_rom"]);
     EXPECT_EQ(read(file("set/reciprocal_table/response.hex")), roms["recip_rom"]);
-    EXPECT_EQ(std::ranges::count(roms["rsqrt_rom"], '\n'), 2 << config["rsqrt_segments_log2"].get<int>());
+    EXPECT_EQ(std::ranges::count(roms["sqrt_rom"], '\n'), 2 << config["sqrt_segments_log2"].get<int>());
     EXPECT_EQ(std::ranges::count(roms["recip_rom"], '\n'), 1 << config["recip_segments_log2"].get<int>());
     for (const char* engine : {"model", "float"})
       EXPECT_EQ(run(std::string("golden verify set --engine ") + engine).status, 0) << engine;
   }
-  for (const char* suite : {"rsqrt_table", "reciprocal_table"}) {
+  for (const char* suite : {"sqrt_table", "reciprocal_table"}) {
     const std::string response = read(file("set") / suite / "response.hex");
     std::string text = response;
     text[1] = text[1] == '0' ? '1' : '0';  // a high digit of C0
@@ -436,13 +436,13 @@ TEST_F(GoldenCli, RefusesWhatItCannotDo) {
   refuses(2, "golden generate --levle 1 --out set", {"did you mean --level?", "quadrille golden generate --help"});
   refuses(2, "golden", {"subcommand"});
   EXPECT_FALSE(fs::exists(file("set")));
-  generate("--suite rsqrt --out set");
-  refuses(2, "golden generate --suite rsqrt --out set", {"is not empty", "--force"});
+  generate("--suite sqrt --out set");
+  refuses(2, "golden generate --suite sqrt --out set", {"is not empty", "--force"});
   generate("--suite reciprocal --out set --force");
-  refuses(2, "golden verify set --suite rsqrt", {"rsqrt", "reciprocal"});
+  refuses(2, "golden verify set --suite sqrt", {"sqrt", "reciprocal"});
   refuses(2, "golden verify set --engine modle", {"unknown engine \"modle\"", "did you mean \"model\""});
   write("taken", "");
-  refuses(2, "golden generate --suite rsqrt --out taken", {"taken: is no directory"});
+  refuses(2, "golden generate --suite sqrt --out taken", {"taken: is no directory"});
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ class GoldenDiffCli : public Cli {
 };
 
 TEST_F(GoldenDiffCli, SetsThatAreEqual) {
-  generate("a", "--suite rsqrt --suite stress_bowtie");
-  generate("b", "--suite rsqrt --suite stress_bowtie --threads 3");
+  generate("a", "--suite sqrt --suite stress_bowtie");
+  generate("b", "--suite sqrt --suite stress_bowtie --threads 3");
   const Outcome outcome = run("golden diff a b --json d.json");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "2 suites are equal\n");
@@ -30,21 +30,21 @@ TEST_F(GoldenDiffCli, SetsThatAreEqual) {
   EXPECT_EQ(report["sets"][1]["set"], "b");
   EXPECT_EQ(report["sets"][1]["seed"], 1);
   EXPECT_EQ(report["sets"][1]["config"]["significand_bits"], 18);
-  generate("one", "--suite rsqrt");
+  generate("one", "--suite sqrt");
   EXPECT_EQ(run("golden diff one one").out, "1 suite is equal\n");
-  refuses(2, "golden diff a/rsqrt b/rsqrt", {"a/rsqrt/manifest.json", "one suite"});
+  refuses(2, "golden diff a/sqrt b/sqrt", {"a/sqrt/manifest.json", "one suite"});
 }
 
 TEST_F(GoldenDiffCli, TheFirstDifferingFieldIsNamed) {
-  generate("a", "--suite rsqrt");
-  generate("b", "--suite rsqrt --seed 2");
+  generate("a", "--suite sqrt");
+  generate("b", "--suite sqrt --seed 2");
   const Outcome other_seed = run("golden diff a b");
   EXPECT_EQ(other_seed.status, 1);
-  EXPECT_NE(other_seed.out.find("rsqrt/stimulus.hex: "), std::string::npos) << other_seed.out;
+  EXPECT_NE(other_seed.out.find("sqrt/stimulus.hex: "), std::string::npos) << other_seed.out;
   EXPECT_NE(other_seed.out.find("lines differ; the first, line "), std::string::npos) << other_seed.out;
   EXPECT_NE(other_seed.out.find("exp["), std::string::npos) << other_seed.out;
 
-  generate("c", "--suite rsqrt --suite reciprocal --set significand_bits=12");
+  generate("c", "--suite sqrt --suite reciprocal --set significand_bits=12");
   const Outcome other_machine = run("golden diff a c");
   EXPECT_EQ(other_machine.status, 1);
   EXPECT_NE(other_machine.out.find("significand_bits = 18 against 12"), std::string::npos) << other_machine.out;
@@ -85,13 +85,13 @@ TEST_F(GoldenDiffCli, Pictures) {
 }
 
 TEST_F(GoldenDiffCli, BadInput) {
-  generate("a", "--suite rsqrt");
+  generate("a", "--suite sqrt");
   write("x.exr", "no picture");
   refuses(2, "golden diff a x.exr", {"two sets"});
   refuses(2, "golden diff x.exr x.exr", {"x.exr"});
   refuses(2, "golden diff a a --heat-map h.png", {"--heat-map"});
   refuses(2, "golden diff a nowhere", {"nowhere"});
-  write("a/rsqrt/response.hex", "00\n");
+  write("a/sqrt/response.hex", "00\n");
   refuses(2, "golden diff a a", {"response.hex"});
 }
 

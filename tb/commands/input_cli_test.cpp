@@ -97,7 +97,7 @@ TEST_F(Cli, HintsOnlyWhereSomethingIsNear) {
 
 // Both found the name free; the first to finish has it.
 TEST_F(Cli, TwoRunsIntoOneNewSet) {
-  const std::string program = "'" QUADRILLE_PROGRAM "' golden generate --suite rsqrt --limit 400000 --out set";
+  const std::string program = "'" QUADRILLE_PROGRAM "' golden generate --suite sqrt --limit 400000 --out set";
   write("both", program + " --seed 1 >/dev/null 2>e1 & a=$!\n" + program +
                     " --seed 2 >/dev/null 2>e2; second=$?\nwait $a; echo $? $second >statuses\n");
   const std::string line = "cd '" + file("").string() + "' && sh ./both";

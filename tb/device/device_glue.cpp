@@ -141,7 +141,7 @@ struct quadrille_device {
 
 // f(index, name) for every boundary, in the order of quadrille_sample::probe.
 #define QUADRILLE_FOR_EACH_PROBE(f) \
-  f(0, setup) f(1, tile) f(2, stamp) f(3, diff) f(4, norm) f(5, rsqrt) f(6, ratio) f(7, weight) f(8, sum)
+  f(0, setup) f(1, tile) f(2, stamp) f(3, diff) f(4, norm) f(5, sqrt) f(6, ratio) f(7, weight) f(8, sum)
 
 namespace {
 

@@ -87,7 +87,7 @@ TEST(Verilate, EveryKeyBecomesADefine) {
   const std::vector<std::string> defines = key_defines(config);
   EXPECT_EQ(defines.size(), Config::keys().size());
   EXPECT_NE(std::find(defines.begin(), defines.end(), "-DQUADRILLE_SIGNIFICAND_BITS=12"), defines.end());
-  EXPECT_NE(std::find(defines.begin(), defines.end(), "-DQUADRILLE_RSQRT_SEGMENTS_LOG2=-1"), defines.end());
+  EXPECT_NE(std::find(defines.begin(), defines.end(), "-DQUADRILLE_SQRT_SEGMENTS_LOG2=-1"), defines.end());
 }
 
 TEST(Process, LinesAreHandedOnAndLogged) {

@@ -1,4 +1,4 @@
-// A bench of one's own against the model: four reciprocal square roots (rtl/rsqrt.sv stands for yours) on random numbers and corners.
+// A bench of one's own against the model: four square roots (rtl/sqrt.sv stands for yours) on random numbers and corners.
 //
 // Plusargs: "+settings=key=value key=value", the model's configuration (the one that the RTL was built with); +vectors=N; +seed=N.
 // Ends with a fatal error when the model refuses something, and after the last vector if any differed.
@@ -16,16 +16,16 @@ module example_bench;
   always #1 clk = !clk;
 
   // ---- What is tested -----------------------------------------------------------------------------------------------------
-  logic [4*E-1:0] exp, rho_exp;
-  logic [4*S-1:0] sig, rho_sig;
+  logic [4*E-1:0] exp, root_exp;
+  logic [4*S-1:0] sig, root_sig;
 
-  for (genvar g = 0; g < 4; g++) begin : gen_rsqrt
-    rsqrt u_rsqrt (
+  for (genvar g = 0; g < 4; g++) begin : gen_sqrt
+    sqrt u_sqrt (
         .clk_i(clk),
         .exp_i(exp[g*E+:E]),
         .sig_i(sig[g*S+:S]),
-        .exp_o(rho_exp[g*E+:E]),
-        .sig_o(rho_sig[g*S+:S])
+        .exp_o(root_exp[g*E+:E]),
+        .sig_o(root_sig[g*S+:S])
     );
   end
 
@@ -61,26 +61,26 @@ module example_bench;
     if ($value$plusargs("seed=%d", seed) == 0) seed = 1;
     void'($urandom(seed));
     if (quadrille_open(settings, model) != OK) $fatal(1, "%s", quadrille_error());
-    if (quadrille_record_bits(model, "rsqrt", bits_in, bits_out) != OK) $fatal(1, "%s", quadrille_error());
+    if (quadrille_record_bits(model, "sqrt", bits_in, bits_out) != OK) $fatal(1, "%s", quadrille_error());
     if (bits_in != BITS || bits_out != BITS)
       $fatal(1, "the model's records have %0d and %0d bits, this bench's %0d: set both alike", bits_in, bits_out, BITS);
   end
 
   always @(negedge clk) begin
-    if (n >= LATENCY && {rho_exp, rho_sig} != responses[n%LATENCY][BITS-1:0]) begin
+    if (n >= LATENCY && {root_exp, root_sig} != responses[n%LATENCY][BITS-1:0]) begin
       mismatches++;
       if (mismatches <= SHOWN)
         $display("vector %0d: stimulus %h: expected %h, actual %h", n - LATENCY, stimuli[n%LATENCY][BITS-1:0],
-                 responses[n%LATENCY][BITS-1:0], {rho_exp, rho_sig});
+                 responses[n%LATENCY][BITS-1:0], {root_exp, root_sig});
     end
     if (n == vectors + LATENCY) begin
       quadrille_close(model);
-      $display("rsqrt: %0d vectors, %0d mismatches", vectors, mismatches);
+      $display("sqrt: %0d vectors, %0d mismatches", vectors, mismatches);
       if (mismatches != 0) $fatal(1, "the device and the model disagree");
       $finish;
     end else begin
       stimuli[n%LATENCY] = record_t'(random_numbers());
-      if (quadrille_rsqrt(model, stimuli[n%LATENCY], responses[n%LATENCY]) != OK) $fatal(1, "%s", quadrille_error());
+      if (quadrille_sqrt(model, stimuli[n%LATENCY], responses[n%LATENCY]) != OK) $fatal(1, "%s", quadrille_error());
       {exp, sig} <= stimuli[n%LATENCY][BITS-1:0];
       n++;
     end

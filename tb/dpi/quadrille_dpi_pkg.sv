@@ -103,7 +103,7 @@ package quadrille_dpi_pkg;
     input record_t stimulus,
     output record_t response
   );
-  import "DPI-C" function int quadrille_rsqrt(
+  import "DPI-C" function int quadrille_sqrt(
     input chandle model,
     input record_t stimulus,
     output record_t response

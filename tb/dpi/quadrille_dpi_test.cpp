@@ -24,7 +24,7 @@ int quadrille_response_field(void* model, const char* suite, const char* name, i
 int quadrille_respond(void* model, const char* suite, const std::uint32_t* stimulus, std::uint32_t* response);
 using StageCall = int(void* model, const std::uint32_t* stimulus, std::uint32_t* response);
 StageCall quadrille_snap, quadrille_quad_setup, quadrille_tile_context, quadrille_stamp_coverage,
-    quadrille_forward_difference, quadrille_normalise, quadrille_rsqrt, quadrille_reciprocal,
+    quadrille_forward_difference, quadrille_normalise, quadrille_sqrt, quadrille_reciprocal,
     quadrille_mean_value_ratios, quadrille_mean_value_weights, quadrille_interpolate, quadrille_fragment_output;
 }
 
@@ -86,10 +86,10 @@ TEST_F(Dpi, ARecordIsLaidOutFromTheMostSignificantFieldDown) {
   ASSERT_EQ(quadrille_record_bits(model_, "reciprocal", &in, &out), ok);
   EXPECT_EQ(in, 1 + 12 + 18);
   EXPECT_EQ(out, 31);
-  ASSERT_EQ(quadrille_record_bits(model_, "rsqrt", &in, &out), ok);
+  ASSERT_EQ(quadrille_record_bits(model_, "sqrt", &in, &out), ok);
   EXPECT_EQ(in, 4 * (12 + 18));
   int position = 0, width = 0;
-  ASSERT_EQ(quadrille_stimulus_field(model_, "rsqrt", "exp", 1, &position, &width), ok);
+  ASSERT_EQ(quadrille_stimulus_field(model_, "sqrt", "exp", 1, &position, &width), ok);
   EXPECT_EQ(position, 4 * 18 + 12);
   EXPECT_EQ(width, 12);
   ASSERT_EQ(quadrille_response_field(model_, "reciprocal", "neg", -1, &position, &width), ok);
@@ -110,16 +110,16 @@ TEST_F(Dpi, ReciprocalOfMinusThree) {
   for (std::size_t i = 1; i < response_.size(); ++i) EXPECT_EQ(response_[i], 0u) << "word " << i;
 }
 
-TEST_F(Dpi, RsqrtOfFourPowersKeepsTheirOrder) {
+TEST_F(Dpi, SqrtOfFourPowersKeepsTheirOrder) {
   const std::array<int, 4> exponents{0, 2, 4, 40};  // 1, 4, 16, 2^40
   for (int i = 0; i < 4; ++i) {
-    set("rsqrt", "sig", i, one);
-    set("rsqrt", "exp", i, exponents[static_cast<std::size_t>(i)]);
+    set("sqrt", "sig", i, one);
+    set("sqrt", "exp", i, exponents[static_cast<std::size_t>(i)]);
   }
-  ASSERT_EQ(quadrille_rsqrt(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
+  ASSERT_EQ(quadrille_sqrt(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
   for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(get("rsqrt", "sig", i), one) << i;
-    EXPECT_EQ(get_signed("rsqrt", "exp", i), -exponents[static_cast<std::size_t>(i)] / 2) << i;
+    EXPECT_EQ(get("sqrt", "sig", i), one) << i;
+    EXPECT_EQ(get_signed("sqrt", "exp", i), exponents[static_cast<std::size_t>(i)] / 2) << i;
   }
 }
 
@@ -244,18 +244,18 @@ TEST_F(Dpi, NormaliseOfSmallIntegers) {
 }
 
 TEST_F(Dpi, RatioOfARightAngle) {
-  // D = 0: t = |A| ρρ / 1, here 2^5·2^-1·2^-2.
+  // D = 0: u = r r', here 2^1·2^2, and v = |A| = 2^3.
   for (int i = 0; i < 4; ++i) {
-    set("ratios", "rho_sig", i, one);
-    set("ratios", "rho_exp", i, i == 0 ? -1 : i == 1 ? -2 : 0);
+    set("ratios", "root_sig", i, one);
+    set("ratios", "root_exp", i, i == 0 ? 1 : i == 1 ? 2 : 0);
   }
   set("ratios", "a_sig", 0, one);
-  set("ratios", "a_exp", 0, 5);
+  set("ratios", "a_exp", 0, 3);
   ASSERT_EQ(quadrille_mean_value_ratios(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
-  EXPECT_EQ(get("ratios", "n_sig", 0), one);
-  EXPECT_EQ(get_signed("ratios", "n_exp", 0), 2);
-  EXPECT_EQ(get("ratios", "d_sig", 0), one);
-  EXPECT_EQ(get_signed("ratios", "d_exp", 0), 0);
+  EXPECT_EQ(get("ratios", "u_sig", 0), one);
+  EXPECT_EQ(get_signed("ratios", "u_exp", 0), 3);
+  EXPECT_EQ(get("ratios", "v_sig", 0), one);
+  EXPECT_EQ(get_signed("ratios", "v_exp", 0), 3);
 }
 
 TEST_F(Dpi, WeightAtAVertexIsOneThere) {
@@ -306,7 +306,7 @@ TEST_F(Dpi, EveryStageFunctionIsTheSuiteThatItNames) {
                                                                    {quadrille_stamp_coverage, "coverage"},
                                                                    {quadrille_forward_difference, "forward_difference"},
                                                                    {quadrille_normalise, "normalise"},
-                                                                   {quadrille_rsqrt, "rsqrt"},
+                                                                   {quadrille_sqrt, "sqrt"},
                                                                    {quadrille_reciprocal, "reciprocal"},
                                                                    {quadrille_mean_value_ratios, "ratios"},
                                                                    {quadrille_mean_value_weights, "weights"},
@@ -335,7 +335,7 @@ TEST_F(Dpi, TheConfigurationSetsTheWidths) {
   int value = 0;
   ASSERT_EQ(quadrille_value(model_, "significand_bits", &value), ok);
   EXPECT_EQ(value, 12);
-  ASSERT_EQ(quadrille_value(model_, "rsqrt_segments_log2", &value), ok);
+  ASSERT_EQ(quadrille_value(model_, "sqrt_segments_log2", &value), ok);
   EXPECT_EQ(value, 3) << "auto is resolved: ceil((12 - 4) / 3)";
   ASSERT_EQ(quadrille_value(model_, "TILE", &value), ok);
   EXPECT_EQ(value, 4);
@@ -346,7 +346,7 @@ TEST_F(Dpi, TheConfigurationSetsTheWidths) {
 
 TEST_F(Dpi, TheLongestRecordFits) {
   reopen("viewport_bits=14 guard_bits=1 subpixel_bits=8 homogeneous_frac_bits=6 significand_bits=26 attribute_slots=8");
-  for (const char* suite : {"snapping", "setup", "tile_context", "coverage", "forward_difference", "normalise", "rsqrt",
+  for (const char* suite : {"snapping", "setup", "tile_context", "coverage", "forward_difference", "normalise", "sqrt",
                             "reciprocal", "ratios", "weights", "interpolation", "depth"}) {
     int in = 0, out = 0;
     ASSERT_EQ(quadrille_record_bits(model_, suite, &in, &out), ok) << quadrille_error();
@@ -364,20 +364,20 @@ TEST_F(Dpi, RefusesWhatItCannotDo) {
   EXPECT_EQ(quadrille_open("significand_bits", &other), bad_config);
   EXPECT_EQ(quadrille_open("significand_bits=1e1", &other), bad_config);
   EXPECT_EQ(quadrille_open("viewport_bits=14 guard_bits=4", &other), bad_config) << "A, D, r² need more than 64 bits";
-  EXPECT_EQ(quadrille_respond(nullptr, "rsqrt", stimulus_.data(), response_.data()), bad_model);
-  EXPECT_EQ(quadrille_rsqrt(nullptr, stimulus_.data(), response_.data()), bad_model);
+  EXPECT_EQ(quadrille_respond(nullptr, "sqrt", stimulus_.data(), response_.data()), bad_model);
+  EXPECT_EQ(quadrille_sqrt(nullptr, stimulus_.data(), response_.data()), bad_model);
   EXPECT_EQ(quadrille_respond(model_, "rsqr", stimulus_.data(), response_.data()), bad_name);
   EXPECT_EQ(quadrille_respond(model_, "machine", stimulus_.data(), response_.data()), bad_name);
   int position = 0, width = 0;
-  EXPECT_EQ(quadrille_stimulus_field(model_, "rsqrt", "sig", 4, &position, &width), bad_name);
-  EXPECT_EQ(quadrille_response_field(model_, "rsqrt", "neg", 0, &position, &width), bad_name);
+  EXPECT_EQ(quadrille_stimulus_field(model_, "sqrt", "sig", 4, &position, &width), bad_name);
+  EXPECT_EQ(quadrille_response_field(model_, "sqrt", "neg", 0, &position, &width), bad_name);
   EXPECT_EQ(quadrille_value(model_, "EXP_BIT", &width), bad_name);
 }
 
 TEST_F(Dpi, ANumberThatTheStageCannotBeGivenIsRefusedWithItsRange) {
-  set("rsqrt", "sig", 1, one / 2);  // no top bit
+  set("sqrt", "sig", 1, one / 2);  // no top bit
   response_.fill(1);
-  EXPECT_EQ(quadrille_rsqrt(model_, stimulus_.data(), response_.data()), bad_stimulus);
+  EXPECT_EQ(quadrille_sqrt(model_, stimulus_.data(), response_.data()), bad_stimulus);
   EXPECT_EQ(response_, Words{});
   const std::string text = quadrille_error();
   EXPECT_NE(text.find("sig[1]"), std::string::npos) << text;
@@ -400,7 +400,7 @@ TEST(DpiPackage, ImportsWhatTheLibraryExports) {
                                        "quadrille_stamp_coverage",
                                        "quadrille_forward_difference",
                                        "quadrille_normalise",
-                                       "quadrille_rsqrt",
+                                       "quadrille_sqrt",
                                        "quadrille_reciprocal",
                                        "quadrille_mean_value_ratios",
                                        "quadrille_mean_value_weights",

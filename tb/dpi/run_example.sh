@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds example_bench.sv with Verilator and runs it; then builds it around an rsqrt with a fault, which the bench must find.
+# Builds example_bench.sv with Verilator and runs it; then builds it around an sqrt with a fault, which the bench must find.
 #   tb/dpi/run_example.sh LIBRARY QUADRILLE [KEY=VALUE]...     libquadrille_dpi.so, the program, a configuration
 # Exit status: 0 the RTL agrees with the model and the fault was found, 1 otherwise, 2 usage, 3 no Verilator.
 set -euo pipefail
@@ -25,7 +25,7 @@ for kv in "$@"; do
 done
 "$quadrille" config --quiet ${sets[@]+"${sets[@]}"} --emit-tables "$work/quadrille_tables_pkg.sv" >/dev/null
 
-# build NAME RSQRT: the bench around that file as $work/NAME/bench.
+# build NAME SQRT: the bench around that file as $work/NAME/bench.
 build() {
   if ! verilator --binary -Wall -Wno-UNUSEDPARAM -Wno-BLKSEQ -CFLAGS -O1 --top-module example_bench --Mdir "$work/$1" -o bench \
       ${defines[@]+"${defines[@]}"} "$rtl/quadrille_pkg.sv" "$work/quadrille_tables_pkg.sv" "$rtl/delay_line.sv" \
@@ -43,23 +43,23 @@ run() {
 }
 settings="$*"
 
-build rtl "$rtl/rsqrt.sv"
-if ! run rtl || ! grep -qx "rsqrt: $vectors vectors, 0 mismatches" "$work/rtl.out"; then
+build rtl "$rtl/sqrt.sv"
+if ! run rtl || ! grep -qx "sqrt: $vectors vectors, 0 mismatches" "$work/rtl.out"; then
   cat "$work/rtl.out" >&2
   exit 1
 fi
-grep '^rsqrt:' "$work/rtl.out"
+grep '^sqrt:' "$work/rtl.out"
 
 # The fault: every power of two counts as a power of four. Only significands without fraction show it.
-sed 's/ && !exp_i\[0\];/;/' "$rtl/rsqrt.sv" >"$work/rsqrt.sv"
-if cmp -s "$rtl/rsqrt.sv" "$work/rsqrt.sv"; then
-  echo "the fault is not in the copy of rsqrt.sv" >&2
+sed 's/ && !exp_i\[0\];/;/' "$rtl/sqrt.sv" >"$work/sqrt.sv"
+if cmp -s "$rtl/sqrt.sv" "$work/sqrt.sv"; then
+  echo "the fault is not in the copy of sqrt.sv" >&2
   exit 1
 fi
-build broken "$work/rsqrt.sv"
-if run broken || ! grep -qE "^rsqrt: $vectors vectors, [1-9][0-9]* mismatches$" "$work/broken.out"; then
+build broken "$work/sqrt.sv"
+if run broken || ! grep -qE "^sqrt: $vectors vectors, [1-9][0-9]* mismatches$" "$work/broken.out"; then
   cat "$work/broken.out" >&2
   echo "the fault was not found" >&2
   exit 1
 fi
-echo "with a fault: $(grep '^rsqrt:' "$work/broken.out")"
+echo "with a fault: $(grep '^sqrt:' "$work/broken.out")"

@@ -46,8 +46,8 @@ const Named odd{"odd",
                  {"quadratic_frac_bits", 23},
                  {"significand_bits", 15},
                  {"notch_exact", 0},
-                 {"rsqrt_segments_log2", 8},
-                 {"rsqrt_degree", 1},
+                 {"sqrt_segments_log2", 8},
+                 {"sqrt_degree", 1},
                  {"recip_segments_log2", 7},
                  {"recip_degree", 1},
                  {"align_guard_bits", 1},
@@ -74,11 +74,11 @@ TEST_P(Configuration, RtlSeesTheSameNumbers) {
 
   // Keys with an automatic value are compared as resolved.
   const std::map<std::string, int> resolved{{"quadratic_frac_bits", config.quadratic_frac()},
-                                            {"rsqrt_segments_log2", config.rsqrt_segments()},
+                                            {"sqrt_segments_log2", config.sqrt_segments()},
                                             {"recip_segments_log2", config.recip_segments()},
                                             {"attribute_frac_bits", config.attribute_frac()}};
   const std::map<std::string, std::string> resolved_names{{"QUADRATIC_FRAC", "QUADRATIC_FRAC_BITS"},
-                                                          {"RSQRT_SEGMENTS", "RSQRT_SEGMENTS_LOG2"},
+                                                          {"SQRT_SEGMENTS", "SQRT_SEGMENTS_LOG2"},
                                                           {"RECIP_SEGMENTS", "RECIP_SEGMENTS_LOG2"},
                                                           {"ATTRIBUTE_FRAC", "ATTRIBUTE_FRAC_BITS"}};
   std::size_t compared = 0;

@@ -78,7 +78,7 @@ class ModelDevice : public Device {
     };
     pixel(Boundary::diff, p.diff);
     pixel(Boundary::norm, p.norm);
-    pixel(Boundary::rsqrt, p.rsqrt);
+    pixel(Boundary::sqrt, p.sqrt);
     pixel(Boundary::ratio, p.ratio);
     pixel(Boundary::weight, p.weight);
     pixel(Boundary::sum, p.sum);
@@ -146,28 +146,28 @@ TEST_F(Lockstep, AgreesWithItself) {
 }
 
 TEST_F(Lockstep, NamesTheFieldThatDiffers) {
-  // Bit 2 of rho[1]'s significand in the stage register, from cycle 300 on.
+  // Bit 2 of root[1]'s significand in the stage register, from cycle 300 on.
   std::uint64_t at = 0;
   PixelTrace pixel;
-  const RecordField field = boundary_layout(Boundary::rsqrt, options.config).field("sig", 1);
+  const RecordField field = boundary_layout(Boundary::sqrt, options.config).field("sig", 1);
   const LockstepReport report = run([&](std::uint64_t cycle, ModelDevice::Outputs& out) {
-    if (cycle < 300 || !out.sample.probe[static_cast<std::size_t>(Boundary::rsqrt)].valid) return;
+    if (cycle < 300 || !out.sample.probe[static_cast<std::size_t>(Boundary::sqrt)].valid) return;
     if (at == 0) {
       at = cycle;
-      pixel = *out.model.probes.rsqrt;
+      pixel = *out.model.probes.sqrt;
     }
     const int bit = field.position + 2;
-    out.words[static_cast<std::size_t>(Boundary::rsqrt)][static_cast<std::size_t>(bit / 32)] ^= std::uint32_t{1}
-                                                                                                << bit % 32;
+    out.words[static_cast<std::size_t>(Boundary::sqrt)][static_cast<std::size_t>(bit / 32)] ^= std::uint32_t{1}
+                                                                                               << bit % 32;
   });
   EXPECT_EQ(report.mismatches, 1u);
   EXPECT_EQ(report.cycle_mismatches, 0u);
   EXPECT_FALSE(report.complete);
   ASSERT_TRUE(report.first_divergence);
-  const std::uint32_t sig = pixel.rho[1].sig;
+  const std::uint32_t sig = pixel.root[1].sig;
   EXPECT_EQ(*report.first_divergence, "cycle " + std::to_string(at) + ", quad " + std::to_string(pixel.quad) +
                                           ", pixel (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) +
-                                          "), stage rsqrt, field sig[1]: expected " + hex(sig, 12) +
+                                          "), stage sqrt, field sig[1]: expected " + hex(sig, 12) +
                                           " (model), actual " + hex(sig ^ 4u, 12) + " (RTL); seed 1");
 }
 

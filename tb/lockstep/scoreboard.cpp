@@ -132,7 +132,7 @@ Scoreboard::Verdict Scoreboard::compare(std::uint64_t cycle, const ClockedOutput
     };
     pixel(Boundary::diff, p.diff);
     pixel(Boundary::norm, p.norm);
-    pixel(Boundary::rsqrt, p.rsqrt);
+    pixel(Boundary::sqrt, p.sqrt);
     pixel(Boundary::ratio, p.ratio);
     pixel(Boundary::weight, p.weight);
     pixel(Boundary::sum, p.sum);

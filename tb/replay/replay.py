@@ -21,7 +21,7 @@ IN_TREE = os.path.exists(os.path.join(ROOT, "CMakeLists.txt"))
 PROGRAM = os.path.normpath(os.path.join(ROOT, "build/release/quadrille" if IN_TREE else "../../bin/quadrille"))
 FORMAT = 1
 # Gate netlists that are quick to make and to simulate; others on request (--suite).
-NETLISTS = ("rsqrt", "reciprocal")
+NETLISTS = ("sqrt", "reciprocal")
 # Their inputs enter at different stages; the manifest's latency counts from the last, the wrapper's from the first.
 STAGGERED = ("ratios", "weights")
 # Kinds of suites that no bench has a device for.
@@ -363,7 +363,7 @@ def main():
     parser = argparse.ArgumentParser(
         prog="replay.sh", formatter_class=argparse.RawDescriptionHelpFormatter, description="Replays golden vectors against the RTL.",
         epilog="Exit status: 0 all agree, 1 a mismatch, 2 usage, a damaged set or nothing to replay, 3 a missing tool.\n\nExamples:\n"
-               "  scripts/replay.sh golden/vectors/kept\n  scripts/replay.sh DIR icarus --suite rsqrt --netlist")
+               "  scripts/replay.sh golden/vectors/kept\n  scripts/replay.sh DIR icarus --suite sqrt --netlist")
     parser.add_argument("directory", metavar="DIR", help="a set of golden vectors")
     parser.add_argument("simulator", nargs="?", choices=("verilator", "icarus"), default="verilator")
     parser.add_argument("--suite", action="append", metavar="NAME", help="only this one; may be repeated")

@@ -1,4 +1,4 @@
-// Suite `ratios`: A, D (of NORM_STAGE) and rho (of RHO_STAGE) together in, the `ratio` boundary out.
+// Suite `ratios`: A, D (of NORM_STAGE) and r (of ROOT_STAGE) together in, the `ratio` boundary out.
 module replay_ratios (
     `include "replay_ports.svh"
 );
@@ -6,12 +6,15 @@ module replay_ratios (
   localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
   localparam int E = quadrille_pkg::EXP_BITS;
 
-  logic [4*E-1:0] late_rho_exp;
-  logic [4*S-1:0] late_rho_sig;
+  logic [4*E-1:0] late_root_exp;
+  logic [4*S-1:0] late_root_sig;
 
-  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(quadrille_pkg::RSQRT_STAGES)) u_rho (.clk_i, .data_i({rho_exp_i, rho_sig_i}), .data_o({late_rho_exp, late_rho_sig}));
+  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(quadrille_pkg::SQRT_STAGES)) u_root (.clk_i, .data_i({root_exp_i, root_sig_i}), .data_o({late_root_exp, late_root_sig}));
 
-  mean_value_ratios u_ratios (.rho_exp_i(late_rho_exp), .rho_sig_i(late_rho_sig), .*);
+  logic unused;
+  assign unused = ^d_neg_i;  // |D|
+
+  mean_value_ratios u_ratios (.root_exp_i(late_root_exp), .root_sig_i(late_root_sig), .*);
 
   replay_valid #(.LATENCY(quadrille_pkg::RATIO_STAGE - quadrille_pkg::NORM_STAGE)) u_valid (.*);
 endmodule

@@ -1,4 +1,4 @@
-// Suite `weights`: signs, k_eff, rho (of RHO_STAGE), n and d (of RATIO_STAGE) together in, the `weight` boundary out.
+// Suite `weights`: signs, k_eff, r (of ROOT_STAGE), u and v (of RATIO_STAGE) together in, the `weight` boundary out.
 //
 // The class word is singular_class's, from integers that have the signs given: A = -1, 0, 1, D = -1 or 1, r^2 = 0 or 1.
 module replay_weights (
@@ -14,7 +14,7 @@ module replay_weights (
   // ---- Class -----------------------------------------------------------------------------------------------------------
   logic [4*VAL-1:0] a;
   logic [4*QVAL-1:0] d, r2;
-  logic [12:0] early_class, ratio_class;
+  logic [8:0] early_class, ratio_class;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sign
     assign a[g*VAL+:VAL] = {{(VAL - 1) {a_sign_i[2*g+1]}}, a_sign_i[2*g]};
@@ -31,20 +31,22 @@ module replay_weights (
   );
 
   // ---- Each input to its stage ---------------------------------------------------------------------------------------------
-  localparam int TO_RATIO = quadrille_pkg::RATIO_STAGE - quadrille_pkg::RHO_STAGE;
+  localparam int TO_RATIO = quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE;
   localparam int TO_OVERRIDE = quadrille_pkg::OVERRIDE_STAGE - 1 - quadrille_pkg::RATIO_STAGE;
   localparam int K = 4 * (1 + PE + S);
-  logic [6*E-1:0] n_exp, d_exp;
-  logic [6*S-1:0] n_sig, d_sig;
+  logic [6*E-1:0] u_exp, v_exp;
+  logic [6*S-1:0] u_sig, v_sig;
+  logic [5:0] d_neg;
   logic [3:0] k_neg, override_k_neg;
   logic [4*PE-1:0] k_exp, override_k_exp;
   logic [4*S-1:0] k_sig, override_k_sig;
   logic unused;
 
-  delay_line #(.WIDTH(13), .DEPTH(TO_RATIO - quadrille_pkg::NORMALISE_STAGES)) u_class_ratio (
+  delay_line #(.WIDTH(9), .DEPTH(TO_RATIO - quadrille_pkg::NORMALISE_STAGES)) u_class_ratio (
       .clk_i, .data_i(early_class), .data_o(ratio_class));
   delay_line #(.WIDTH(12 * (E + S)), .DEPTH(TO_RATIO)) u_ratio (
-      .clk_i, .data_i({n_exp_i, n_sig_i, d_exp_i, d_sig_i}), .data_o({n_exp, n_sig, d_exp, d_sig}));
+      .clk_i, .data_i({u_exp_i, u_sig_i, v_exp_i, v_sig_i}), .data_o({u_exp, u_sig, v_exp, v_sig}));
+  delay_line #(.WIDTH(6), .DEPTH(TO_RATIO)) u_d_neg (.clk_i, .data_i(d_negative_i), .data_o(d_neg));
   delay_line #(.WIDTH(K), .DEPTH(TO_RATIO)) u_k (
       .clk_i, .data_i({k_neg_i, k_exp_i, k_sig_i}), .data_o({k_neg, k_exp, k_sig}));
   delay_line #(.WIDTH(K), .DEPTH(TO_OVERRIDE)) u_override_k (
@@ -54,12 +56,13 @@ module replay_weights (
 
   mean_value_weights u_weights (
       .clk_i,
-      .rho_exp_i,
-      .rho_sig_i,
-      .n_exp_i(n_exp),
-      .n_sig_i(n_sig),
-      .d_exp_i(d_exp),
-      .d_sig_i(d_sig),
+      .root_exp_i,
+      .root_sig_i,
+      .u_exp_i(u_exp),
+      .u_sig_i(u_sig),
+      .v_exp_i(v_exp),
+      .v_sig_i(v_sig),
+      .d_neg_i(d_neg),
       .class_i(ratio_class),
       .k_neg_i(k_neg),
       .k_exp_i(k_exp),
@@ -70,5 +73,5 @@ module replay_weights (
       .m_sig_o(sig_o)
   );
 
-  replay_valid #(.LATENCY(quadrille_pkg::WEIGHT_STAGE - quadrille_pkg::RHO_STAGE)) u_valid (.*);
+  replay_valid #(.LATENCY(quadrille_pkg::WEIGHT_STAGE - quadrille_pkg::ROOT_STAGE)) u_valid (.*);
 endmodule

@@ -85,7 +85,7 @@ TEST_P(SampledError, StaysBelowTheProof) {
   Config config;
   config.significand_bits = p.s;
   config.align_guard_bits = p.align_guard_bits;
-  config.rsqrt_degree = config.recip_degree = p.degree;
+  config.sqrt_degree = config.recip_degree = p.degree;
   config.attribute_slots = 5;
   config.depth_bits = 30;
   config.validate();

@@ -158,7 +158,7 @@ struct Evaluator::Impl {
       return std::to_string(input.quads.size()) +
              " quads are more than quad_id_bits = " + std::to_string(config.quad_id_bits) + " can number";
     try {
-      tables.rsqrt(config);
+      tables.sqrt(config);
       tables.recip(config);
     } catch (const ConfigError& error) {
       return error.what();

@@ -51,7 +51,7 @@ enum class Stage {
                 ///< subpixel_bits homogeneous_frac_bits
   difference,   ///< snapping, setup, traversal, forward differences: quadratic_frac_bits tile_log2
   normalise,    ///< significand_bits
-  rsqrt,        ///< rsqrt_segments_log2 rsqrt_degree
+  sqrt,         ///< sqrt_segments_log2 sqrt_degree
   ratios,       ///< align_guard_bits
   weights,      ///< notch_exact
   interpolate,  ///< the sums, all columns at once
@@ -61,7 +61,7 @@ enum class Stage {
 };
 inline constexpr std::size_t stage_count = 11;
 inline constexpr std::array<std::string_view, stage_count> stage_names{
-    "given_truth", "snap_truth",  "difference", "normalise", "rsqrt", "ratios",
+    "given_truth", "snap_truth",  "difference", "normalise", "sqrt",  "ratios",
     "weights",     "interpolate", "reciprocal", "output",    "cycles"};
 
 /// How often each stage was executed.

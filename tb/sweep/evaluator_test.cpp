@@ -244,7 +244,7 @@ std::vector<Variant> variants() {
       {"S 26, G 5", config({{"significand_bits", 26}, {"align_guard_bits", 5}, {"depth_bits", 30}})},
       {"quadratic 12", config({{"quadratic_frac_bits", 12}, {"significand_bits", 14}})},
       {"quadratic 2, small tiles", config({{"quadratic_frac_bits", 2}, {"tile_log2", 2}})},
-      {"degree 1", config({{"rsqrt_degree", 1}, {"recip_degree", 1}, {"significand_bits", 16}})},
+      {"degree 1", config({{"sqrt_degree", 1}, {"recip_degree", 1}, {"significand_bits", 16}})},
       {"coarse", config({{"subpixel_bits", 4}, {"homogeneous_frac_bits", 5}, {"tile_log2", 4}})},
       {"few outputs", config({{"attribute_int_bits", 1}, {"attribute_frac_bits", 18}, {"depth_bits", 8}})},
       {"no perspective", Config{}, [](DrawState& s) { s.perspective = false; }},
@@ -570,7 +570,7 @@ TEST(Evaluator, AFullGridRunsTheProductOfTheSettings) {
                                              {"recip_segments_log2", recip},
                                              {"notch_exact", notch},
                                              {"align_guard_bits", g},
-                                             {"rsqrt_degree", degree},
+                                             {"sqrt_degree", degree},
                                              {"significand_bits", s},
                                              {"quadratic_frac_bits", quadratic},
                                              {"subpixel_bits", subpixel}}));

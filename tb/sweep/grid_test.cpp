@@ -114,7 +114,7 @@ TEST(ParseAxis, RefusalsNameTheTextAndTheRule) {
 TEST(Resolved, ReplacesAuto) {
   const Config c = resolved(Config());
   EXPECT_EQ(c.quadratic_frac_bits, 30);  // 2·(8 + 7)
-  EXPECT_EQ(c.rsqrt_segments_log2, 5);   // ceil(14 / 3)
+  EXPECT_EQ(c.sqrt_segments_log2, 5);    // ceil(14 / 3)
   EXPECT_EQ(c.recip_segments_log2, 6);   // ceil(16 / 3)
   EXPECT_EQ(c.attribute_frac_bits, 20);  // 18 + 2
   EXPECT_EQ(c.significand_bits, 18);

@@ -96,7 +96,7 @@ std::vector<PointColumn> make_columns() {
                   {"state_bits", "bits", "flip-flops"},
                   {"multiplier_bits", "bits^2", "sum over multipliers of operand widths' products"},
                   {"adder_bits", "bits", "adders, comparators, shifter stages"},
-                  {"table_bits", "bits", "rsqrt and reciprocal tables"},
+                  {"table_bits", "bits", "sqrt and reciprocal tables"},
                   {"dsps", "blocks", "multipliers of 18 x 18 bits, where the target has them"},
                   {"join_bits", "bits", "adders that join those of one multiplier"},
                   {"cycles", "clocks", "the whole draw without stalls"},

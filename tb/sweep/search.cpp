@@ -33,8 +33,8 @@ constexpr std::array key_effects{
     KeyEffect{"quadratic_frac_bits", Effect::larger_is_better},
     KeyEffect{"significand_bits", Effect::larger_is_better},
     KeyEffect{"notch_exact", Effect::unordered},  // the cure is other arithmetic: no better where nothing cancels
-    KeyEffect{"rsqrt_segments_log2", Effect::larger_is_better},
-    KeyEffect{"rsqrt_degree", Effect::larger_is_better},
+    KeyEffect{"sqrt_segments_log2", Effect::larger_is_better},
+    KeyEffect{"sqrt_degree", Effect::larger_is_better},
     KeyEffect{"recip_segments_log2", Effect::larger_is_better},
     KeyEffect{"recip_degree", Effect::larger_is_better},
     KeyEffect{"align_guard_bits", Effect::larger_is_better},

@@ -40,8 +40,8 @@ constexpr Known known[] = {
     {"quadratic_frac_bits", true, 1},
     {"significand_bits", true, 1},
     {"notch_exact", true, 0},  // other arithmetic: better where t cancels, up to twice worse where nothing does
-    {"rsqrt_segments_log2", true, 1},
-    {"rsqrt_degree", true, 1},
+    {"sqrt_segments_log2", true, 1},
+    {"sqrt_degree", true, 1},
     {"recip_segments_log2", true, 1},
     {"recip_degree", true, 1},
     {"align_guard_bits", true, 1},
@@ -95,7 +95,7 @@ double plausible_error(const Config& c, double noise, std::uint64_t seed) {
     return degree == 2 ? std::exp2(-3 * segments - 7) : std::exp2(-2 * segments - 3);
   };
   const double s = std::exp2(-c.significand_bits);
-  const double e = s * (2.5 + 2 * std::exp2(-c.align_guard_bits)) + table(c.rsqrt_degree, c.rsqrt_segments()) +
+  const double e = s * (2.5 + 2 * std::exp2(-c.align_guard_bits)) + table(c.sqrt_degree, c.sqrt_segments()) +
                    0.5 * table(c.recip_degree, c.recip_segments()) +
                    (c.quadratic_frac() == 2 * c.frac() ? 0 : std::exp2(2 - c.quadratic_frac()));
   return e * (1 + (noise - 1) * hashed(seed, error_values(c)));
@@ -105,7 +105,7 @@ double plausible_error(const Config& c, double noise, std::uint64_t seed) {
 double plausible_cost(const Config& c) {
   const double s = c.significand_bits;
   return 60 * s * s + 30 * c.prec_bits() + 900.0 * c.frac() + 250.0 * c.quadratic_frac() +
-         std::ldexp(s * (1 + c.rsqrt_degree), c.rsqrt_segments() - 1) +
+         std::ldexp(s * (1 + c.sqrt_degree), c.sqrt_segments() - 1) +
          std::ldexp(s * (1 + c.recip_degree), c.recip_segments() - 2) + 8.0 * c.depth_bits + 40.0 * c.attribute_frac();
 }
 
@@ -203,10 +203,10 @@ TEST(NowhereBetter, ComparesResolvedValues) {
   EXPECT_TRUE(worse({{"quadratic_frac_bits", 0}}, {}));
   EXPECT_FALSE(worse({}, {{"quadratic_frac_bits", 29}}));
   // auto is 5 segments for degree 2 and 9 for degree 1: neither is worse, until the segments are the same.
-  EXPECT_FALSE(worse({{"rsqrt_degree", 1}}, {}));
-  EXPECT_FALSE(worse({}, {{"rsqrt_degree", 1}}));
-  EXPECT_TRUE(worse({{"rsqrt_degree", 1}, {"rsqrt_segments_log2", 5}}, {}));
-  EXPECT_TRUE(worse({{"rsqrt_degree", 1}}, {{"rsqrt_segments_log2", 9}}));
+  EXPECT_FALSE(worse({{"sqrt_degree", 1}}, {}));
+  EXPECT_FALSE(worse({}, {{"sqrt_degree", 1}}));
+  EXPECT_TRUE(worse({{"sqrt_degree", 1}, {"sqrt_segments_log2", 5}}, {}));
+  EXPECT_TRUE(worse({{"sqrt_degree", 1}}, {{"sqrt_segments_log2", 9}}));
   // auto is s + 2, so 20: fewer bits than the auto of more significand bits.
   EXPECT_TRUE(worse({{"attribute_frac_bits", 20}}, {{"significand_bits", 19}}));
   EXPECT_FALSE(worse({{"attribute_frac_bits", 22}}, {{"significand_bits", 19}}));
@@ -450,10 +450,10 @@ TEST(CheapestMeeting, AsFullEvaluationOnRandomLandscapes) {
                                          "quadratic_frac_bits=8,16,24,26,28,auto",
                                          "significand_bits=8:20:3",
                                          "notch_exact=0,1",
-                                         "rsqrt_degree=1,2",
+                                         "sqrt_degree=1,2",
                                          "recip_degree=2,1",
                                          "align_guard_bits=0:4:2",
-                                         "rsqrt_segments_log2=auto,4:6",
+                                         "sqrt_segments_log2=auto,4:6",
                                          "attribute_slots=1,3",
                                          "attribute_int_bits=2,3",
                                          "attribute_frac_bits=auto,22",

@@ -10,8 +10,8 @@ LevelKey level_key(const Config& c, Level level) {
       return {c.quadratic_frac(), c.tile_log2};
     case Level::normalise:
       return {c.significand_bits};
-    case Level::rsqrt:
-      return {c.rsqrt_segments(), c.rsqrt_degree};
+    case Level::sqrt:
+      return {c.sqrt_segments(), c.sqrt_degree};
     case Level::ratios:
       return {c.align_guard_bits};
     case Level::weights:

@@ -9,7 +9,7 @@ namespace quadrille::sweep {
 
 /// Levels of the tree of configurations, from the root. Those before `normalise` are computed for the whole input and
 /// kept; `weights` includes the sums.
-enum class Level { positions, differences, normalise, rsqrt, ratios, weights, reciprocal, output };
+enum class Level { positions, differences, normalise, sqrt, ratios, weights, reciprocal, output };
 inline constexpr std::size_t level_count = 8;
 
 /// Resolved values of the keys that enter at one level; unused places are 0.

@@ -45,10 +45,10 @@ void LeafTotals::merge(const LeafTotals& other) {
   if (w.any && (!worst.any || w.error > worst.error || (w.error == worst.error && order(w) < order(worst)))) worst = w;
 }
 
-std::shared_ptr<const LaneTable> TableCache::rsqrt(const Config& config) {
-  const LevelKey key{config.significand_bits, config.rsqrt_segments(), config.rsqrt_degree};
-  if (const auto* found = find(rsqrt_, key)) return found->value;
-  return rsqrt_.emplace_back(key, std::make_shared<LaneTable>(make_rsqrt_table(config))).value;
+std::shared_ptr<const LaneTable> TableCache::sqrt(const Config& config) {
+  const LevelKey key{config.significand_bits, config.sqrt_segments(), config.sqrt_degree};
+  if (const auto* found = find(sqrt_, key)) return found->value;
+  return sqrt_.emplace_back(key, std::make_shared<LaneTable>(make_sqrt_table(config))).value;
 }
 
 std::shared_ptr<const LaneTable> TableCache::recip(const Config& config) {
@@ -58,7 +58,7 @@ std::shared_ptr<const LaneTable> TableCache::recip(const Config& config) {
 }
 
 std::shared_ptr<const PipelineContext> TableCache::context(const Config& config, const DrawState& state) {
-  const LevelKey key{config.significand_bits, config.rsqrt_segments(), config.rsqrt_degree};
+  const LevelKey key{config.significand_bits, config.sqrt_segments(), config.sqrt_degree};
   if (const auto* found = find(context_, key)) return found->value;
   return context_.emplace_back(key, std::make_shared<PipelineContext>(config, state)).value;
 }
@@ -66,7 +66,7 @@ std::shared_ptr<const PipelineContext> TableCache::context(const Config& config,
 struct StageTree::Scratch {
   std::vector<LeafTotals> totals;
   std::vector<NormalisedLanes> normalised{blocks_per_chunk};
-  std::vector<RsqrtLanes> rho{blocks_per_chunk};
+  std::vector<SqrtLanes> root{blocks_per_chunk};
   std::vector<RatioLanes> ratios{blocks_per_chunk};
   std::vector<WeightLanes> weights{blocks_per_chunk};
   std::vector<LaneColumn> sums;
@@ -99,12 +99,11 @@ void StageTree::add(std::size_t point, const Config& config, TableCache& tables,
   const auto key = [&](Level level) { return level_key(config, level); };
   NormaliseNode* normalise = find(roots_, key(Level::normalise));
   if (!normalise) normalise = &roots_.emplace_back(key(Level::normalise), port());
-  RsqrtNode* rsqrt = find(normalise->rsqrts, key(Level::rsqrt));
-  if (!rsqrt)
-    rsqrt =
-        &normalise->rsqrts.emplace_back(key(Level::rsqrt), tables.rsqrt(config), tables.context(config, input_.state));
-  RatioNode* ratio = find(rsqrt->ratios, key(Level::ratios));
-  if (!ratio) ratio = &rsqrt->ratios.emplace_back(key(Level::ratios));
+  SqrtNode* sqrt = find(normalise->sqrts, key(Level::sqrt));
+  if (!sqrt)
+    sqrt = &normalise->sqrts.emplace_back(key(Level::sqrt), tables.sqrt(config), tables.context(config, input_.state));
+  RatioNode* ratio = find(sqrt->ratios, key(Level::ratios));
+  if (!ratio) ratio = &sqrt->ratios.emplace_back(key(Level::ratios));
   WeightNode* weight = find(ratio->weights, key(Level::weights));
   if (!weight) weight = &ratio->weights.emplace_back(key(Level::weights));
   ReciprocalNode* reciprocal = find(weight->reciprocals, key(Level::reciprocal));
@@ -144,14 +143,14 @@ void StageTree::walk(std::size_t chunk, Scratch& t, std::span<float> map) const 
         t.truth_codes[3 * n + channel] =
             colour_code(t.truth[n * truth_per_block(columns_) + 1 + columns_.first_colour() + channel]);
     normalise_blocks(differences, s, differences_->quadratic_bias, t.normalised.data());
-    for (const RsqrtNode& rsqrt : normalise.rsqrts) {
-      rsqrt_blocks({t.normalised.data(), count}, s, *rsqrt.table, t.rho.data());
-      for (const RatioNode& ratio : rsqrt.ratios) {
+    for (const SqrtNode& sqrt : normalise.sqrts) {
+      sqrt_blocks({t.normalised.data(), count}, s, *sqrt.table, t.root.data());
+      for (const RatioNode& ratio : sqrt.ratios) {
         const int g = ratio.key[0];
-        ratio_blocks(differences, t.normalised.data(), t.rho.data(), s, g, t.ratios.data());
+        ratio_blocks({t.normalised.data(), count}, t.root.data(), s, g, t.ratios.data());
         for (const WeightNode& weight : ratio.weights) {
-          weight_blocks(differences, t.ratios.data(), t.rho.data(), s, g, weight.key[0] != 0, t.weights.data());
-          singular_pixels(normalise, rsqrt, ratio, first, count, t);
+          weight_blocks(differences, t.ratios.data(), s, g, *sqrt.table, t.weights.data());
+          singular_pixels(normalise, sqrt, ratio, first, count, t);
           interpolate_blocks({t.weights.data(), count}, quad, numbers, columns, input_.state.depth, s, g,
                              t.sums.data());
           for (const ReciprocalNode& reciprocal : weight.reciprocals) {
@@ -168,13 +167,13 @@ void StageTree::walk(std::size_t chunk, Scratch& t, std::span<float> map) const 
   }
 }
 
-void StageTree::singular_pixels(const NormaliseNode& normalise, const RsqrtNode& rsqrt, const RatioNode& ratio,
+void StageTree::singular_pixels(const NormaliseNode& normalise, const SqrtNode& sqrt, const RatioNode& ratio,
                                 std::size_t first, std::size_t count, Scratch& t) const {
   std::unique_ptr<PipelineContext> context;
   for (std::size_t n = 0; n < count; ++n)
     for (unsigned rest = differences_->singular[first + n]; rest != 0; rest &= rest - 1) {
       if (!context) {
-        context = std::make_unique<PipelineContext>(*rsqrt.context);
+        context = std::make_unique<PipelineContext>(*sqrt.context);
         context->format.g = ratio.key[0];
       }
       singular_weights(differences_->blocks[first + n], static_cast<std::size_t>(std::countr_zero(rest)),
@@ -240,9 +239,9 @@ StageCounters StageTree::executed() const {
   };
   for (const NormaliseNode& normalise : roots_) {
     count(Stage::normalise);
-    for (const RsqrtNode& rsqrt : normalise.rsqrts) {
-      count(Stage::rsqrt);
-      for (const RatioNode& ratio : rsqrt.ratios) {
+    for (const SqrtNode& sqrt : normalise.sqrts) {
+      count(Stage::sqrt);
+      for (const RatioNode& ratio : sqrt.ratios) {
         count(Stage::ratios);
         for (const WeightNode& weight : ratio.weights) {
           count(Stage::weights);
@@ -260,8 +259,8 @@ StageCounters StageTree::executed() const {
 
 void StageTree::for_each_leaf(const std::function<void(const OutputNode&, const PortQuads&)>& f) const {
   for (const NormaliseNode& normalise : roots_)
-    for (const RsqrtNode& rsqrt : normalise.rsqrts)
-      for (const RatioNode& ratio : rsqrt.ratios)
+    for (const SqrtNode& sqrt : normalise.sqrts)
+      for (const RatioNode& ratio : sqrt.ratios)
         for (const WeightNode& weight : ratio.weights)
           for (const ReciprocalNode& reciprocal : weight.reciprocals)
             for (const OutputNode& output : reciprocal.outputs) f(output, *normalise.port);

@@ -42,7 +42,7 @@ struct RatioNode {
   LevelKey key;
   std::vector<WeightNode> weights;
 };
-struct RsqrtNode {
+struct SqrtNode {
   LevelKey key;
   std::shared_ptr<const LaneTable> table;
   std::shared_ptr<const PipelineContext> context;  ///< with these bits and table; for singular pixels
@@ -51,14 +51,14 @@ struct RsqrtNode {
 struct NormaliseNode {
   LevelKey key;
   std::shared_ptr<const PortQuads> port;
-  std::vector<RsqrtNode> rsqrts;
+  std::vector<SqrtNode> sqrts;
 };
 
 /// Tables that a tree needs, kept for the next one.
 class TableCache {
  public:
   /// Throw ConfigError when a coefficient does not fit.
-  std::shared_ptr<const LaneTable> rsqrt(const Config& config);
+  std::shared_ptr<const LaneTable> sqrt(const Config& config);
   std::shared_ptr<const LaneTable> recip(const Config& config);
   std::shared_ptr<const PipelineContext> context(const Config& config, const DrawState& state);
 
@@ -68,7 +68,7 @@ class TableCache {
     LevelKey key;
     std::shared_ptr<const T> value;
   };
-  std::vector<Entry<LaneTable>> rsqrt_, recip_;
+  std::vector<Entry<LaneTable>> sqrt_, recip_;
   std::vector<Entry<PipelineContext>> context_;
 };
 
@@ -104,8 +104,8 @@ class StageTree {
 
  private:
   /// Replaces the weights of the singular lanes of a chunk.
-  void singular_pixels(const NormaliseNode& normalise, const RsqrtNode& rsqrt, const RatioNode& ratio,
-                       std::size_t first, std::size_t count, Scratch& scratch) const;
+  void singular_pixels(const NormaliseNode& normalise, const SqrtNode& sqrt, const RatioNode& ratio, std::size_t first,
+                       std::size_t count, Scratch& scratch) const;
   /// A leaf's output at a chunk against the truth.
   void compare(LeafTotals& leaf, std::size_t first, std::size_t count, const Scratch& scratch,
                std::span<float> map) const;

@@ -1,13 +1,13 @@
-// Suite `rsqrt`: four r^2 in, their four rho out.
-module replay_rsqrt (
+// Suite `sqrt`: four r^2 in, their four root out.
+module replay_sqrt (
     `include "replay_ports.svh"
 );
   `include "replay_fields.svh"
   localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
   localparam int E = quadrille_pkg::EXP_BITS;
 
-  for (genvar g = 0; g < 4; g++) begin : gen_rsqrt
-    rsqrt u_rsqrt (
+  for (genvar g = 0; g < 4; g++) begin : gen_sqrt
+    sqrt u_sqrt (
         .clk_i,
         .exp_i(exp_i[g*E+:E]),
         .sig_i(sig_i[g*S+:S]),
@@ -16,5 +16,5 @@ module replay_rsqrt (
     );
   end
 
-  replay_valid #(.LATENCY(quadrille_pkg::RSQRT_STAGES)) u_valid (.*);
+  replay_valid #(.LATENCY(quadrille_pkg::SQRT_STAGES)) u_valid (.*);
 endmodule

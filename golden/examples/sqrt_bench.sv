@@ -1,4 +1,4 @@
-// Checks an inverse square root of your own against golden vectors: suite `rsqrt`, default configuration (S = 18, E = 12).
+// Checks a square root of your own against golden vectors: suite `sqrt`, default configuration (S = 18, E = 12).
 //
 // Uses nothing of the project but stimulus.hex and response.hex. Where the fields lie, how many vectors there are and what the latency is
 // stands in the suite's manifest.json:
@@ -7,7 +7,7 @@
 //
 // Run it with +dir=SUITE_DIRECTORY +vectors=N, N the manifest's counts.vectors. It counts the lines itself: $readmemh takes a missing
 // or short file for granted, and leaves unknown bits (Icarus Verilog) or anything at all (Verilator) in its place.
-module rsqrt_bench;
+module sqrt_bench;
   localparam int S = 18;
   localparam int E = 12;
   localparam int BITS = 4 * (E + S);
@@ -68,7 +68,7 @@ module rsqrt_bench;
 
   for (genvar i = 0; i < 4; i++) begin : gen_lane
     // Your module goes here.
-    rsqrt u_rsqrt (
+    sqrt u_sqrt (
         .clk_i(clk),
         .exp_i(stimulus[4*S+E*i+:E]),
         .sig_i(stimulus[S*i+:S]),
@@ -87,8 +87,8 @@ module rsqrt_bench;
         $display("response.hex:%0d: stimulus %h expected %h actual %h", cycle - LATENCY + 1, stimuli[cycle-LATENCY], expected, response);
     end
     if (cycle == vectors + LATENCY - 1) begin
-      $display("rsqrt: %0d vectors, %0d differences", vectors, differences);
-      if (differences != 0) $fatal(1, "rsqrt: failed");
+      $display("sqrt: %0d vectors, %0d differences", vectors, differences);
+      if (differences != 0) $fatal(1, "sqrt: failed");
       $finish;
     end
   end
