@@ -60,7 +60,13 @@ constexpr auto key_list = [] {
   return list;
 }();
 
+/// Names that keys had while the tables were of 1/sqrt: files and scripts have them.
+constexpr std::array<std::array<std::string_view, 2>, 2> former_names{
+    {{"rsqrt_segments_log2", "sqrt_segments_log2"}, {"rsqrt_degree", "sqrt_degree"}}};
+
 const Entry& find(std::string_view key) {
+  for (const auto& [former, name] : former_names)
+    if (key == former) key = name;
   for (const Entry& e : entries)
     if (e.key.name == key) return e;
   throw ConfigError("unknown configuration key '" + std::string(key) + "'" +
@@ -78,9 +84,12 @@ void require(bool ok, const std::string& rule) {
 
 std::span<const ConfigKey> Config::keys() { return key_list; }
 
+const ConfigKey& Config::key(std::string_view name) { return find(name).key; }
+
 int Config::get(std::string_view key) const { return this->*find(key).member; }
 
-int Config::resolved(std::string_view key) const {
+int Config::resolved(std::string_view given) const {
+  const std::string_view key = find(given).key.name;
   if (key == "quadratic_frac_bits") return quadratic_frac();
   if (key == "sqrt_segments_log2") return sqrt_segments();
   if (key == "recip_segments_log2") return recip_segments();

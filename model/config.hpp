@@ -57,6 +57,9 @@ struct Config {
 
   /// The keys in order, with range, default, unit and meaning.
   static std::span<const ConfigKey> keys();
+  /// A key by its name, or by the one that it had before (rsqrt_segments_log2, rsqrt_degree); throws ConfigError for an
+  /// unknown name (the nearest one is suggested). So do the next two.
+  static const ConfigKey& key(std::string_view name);
   /// Value of a key by name; throws ConfigError for an unknown name (the nearest one is suggested).
   int get(std::string_view key) const;
   /// The same with auto replaced by the value that it stands for.

@@ -243,5 +243,16 @@ TEST(Config, EveryAcceptedGeometryFitsSixtyFourBits) {
   EXPECT_GT(refused, 100);
 }
 
+TEST(Config, FormerNamesOfKeysAreKnown) {
+  Config config;
+  config.set("rsqrt_segments_log2", 7);
+  config.set("rsqrt_degree", 1);
+  EXPECT_EQ(config.get("sqrt_segments_log2"), 7);
+  EXPECT_EQ(config.sqrt_degree, 1);
+  EXPECT_EQ(config.resolved("rsqrt_segments_log2"), 7);
+  EXPECT_EQ(Config::key("rsqrt_degree").name, "sqrt_degree");
+  EXPECT_THROW(config.set("rsqrt", 1), ConfigError);
+}
+
 }  // namespace
 }  // namespace quadrille

@@ -10,11 +10,6 @@
 namespace quadrille::sweep {
 namespace {
 
-const ConfigKey& find_key(const std::string& name) {
-  Config().get(name);  // an unknown key: names the nearest
-  return *std::ranges::find(Config::keys(), name, &ConfigKey::name);
-}
-
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (;;) {
@@ -92,7 +87,8 @@ Axis parse_axis(const std::string& text) {
     if (equals == std::string::npos || equals == 0)
       throw ConfigError("expected KEY=VALUES, such as significand_bits=8:26:2");
     Axis axis{text.substr(0, equals), {}};
-    const ConfigKey& key = find_key(axis.key);
+    const ConfigKey& key = Config::key(axis.key);
+    axis.key = key.name;
     for (const std::string_view item : split(std::string_view(text).substr(equals + 1), ',')) {
       for (const int value : item_values(key, item)) {
         if (std::ranges::find(axis.values, value) != axis.values.end())
