@@ -69,20 +69,6 @@ module pixel_pipeline #(
     input logic output_hull_i,
     input logic output_homogeneous_i,
     output logic release_o,
-`ifdef QUADRILLE_PROBES
-    output logic probe_diff_valid_o,
-    output quadrille_pkg::probe_diff_t probe_diff_o,
-    output logic probe_norm_valid_o,
-    output quadrille_pkg::probe_norm_t probe_norm_o,
-    output logic probe_sqrt_valid_o,
-    output quadrille_pkg::probe_sqrt_t probe_sqrt_o,
-    output logic probe_ratio_valid_o,
-    output quadrille_pkg::probe_ratio_t probe_ratio_o,
-    output logic probe_weight_valid_o,
-    output quadrille_pkg::probe_weight_t probe_weight_o,
-    output logic probe_sum_valid_o,
-    output quadrille_pkg::probe_sum_t probe_sum_o,
-`endif
     // Fragment
     output logic discard_o,  // a pixel that is no fragment, in the clock in which it would have been one
     output logic fragment_valid_o,
@@ -477,35 +463,6 @@ module pixel_pipeline #(
 
   logic unused;
   assign unused = ^{norm_r2_neg, norm_a_neg};
-
-`ifdef QUADRILLE_PROBES
-  // ---- Probes -------------------------------------------------------------------------------------------------------------
-  assign probe_diff_valid_o = valid_q[DIFF];
-  assign probe_diff_o = {diff_tag, diff_a, diff_d, diff_r2};
-  assign probe_norm_valid_o = valid_q[NORM];
-  assign probe_norm_o = {norm_class[CLASS-1-:4], norm_a_neg, norm_a_exp, norm_a_sig, norm_d_neg, norm_d_exp, norm_d_sig, norm_r2_exp, norm_r2_sig};
-  assign probe_sqrt_valid_o = valid_q[quadrille_pkg::ROOT_STAGE];
-  assign probe_sqrt_o = {root_exp, root_sig};
-  assign probe_ratio_valid_o = valid_q[RATIO];
-  assign probe_ratio_o = {ratio_u_exp, ratio_u_sig, ratio_v_exp, ratio_v_sig};
-  assign probe_weight_valid_o = valid_q[WEIGHT];
-  assign probe_weight_o = {m_exp, m_sig};
-  assign probe_sum_valid_o = valid_q[quadrille_pkg::SUM_STAGE];
-  assign probe_sum_o = {
-    sum_neg[SETS-1:3],
-    sum_exp[SETS*E-1:3*E],
-    sum_sig[SETS*S-1:3*S],
-    sum_neg[2],
-    sum_exp[2*E+:E],
-    sum_sig[2*S+:S],
-    sum_neg[0],
-    sum_exp[0+:E],
-    sum_sig[0+:S],
-    sum_neg[1],
-    sum_exp[E+:E],
-    sum_sig[S+:S]
-  };
-`endif
 
 `ifndef SYNTHESIS
   // Zero when not valid. An end beat carries no pixel.

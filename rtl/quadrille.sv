@@ -13,26 +13,6 @@ module quadrille (
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
-`ifdef QUADRILLE_PROBES
-    output logic probe_setup_valid_o,
-    output quadrille_pkg::probe_setup_t probe_setup_o,
-    output logic probe_tile_valid_o,
-    output quadrille_pkg::probe_tile_t probe_tile_o,
-    output logic probe_stamp_valid_o,
-    output quadrille_pkg::probe_stamp_t probe_stamp_o,
-    output logic probe_diff_valid_o,
-    output quadrille_pkg::probe_diff_t probe_diff_o,
-    output logic probe_norm_valid_o,
-    output quadrille_pkg::probe_norm_t probe_norm_o,
-    output logic probe_sqrt_valid_o,
-    output quadrille_pkg::probe_sqrt_t probe_sqrt_o,
-    output logic probe_ratio_valid_o,
-    output quadrille_pkg::probe_ratio_t probe_ratio_o,
-    output logic probe_weight_valid_o,
-    output quadrille_pkg::probe_weight_t probe_weight_o,
-    output logic probe_sum_valid_o,
-    output quadrille_pkg::probe_sum_t probe_sum_o,
-`endif
     output logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment_o,
     output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] fragment_mask_o,
     output logic fragment_valid_o,
@@ -469,10 +449,6 @@ module quadrille (
       .emit_quad_value_o(emit_quad_value),
       .emit_quad_gx_o(emit_quad_gx),
       .emit_quad_gy_o(emit_quad_gy),
-`ifdef QUADRILLE_PROBES
-      .probe_tile_valid_o,
-      .probe_tile_o,
-`endif
       .emit_quad_q_o(emit_quad_q)
   );
 
@@ -622,20 +598,6 @@ module quadrille (
       .output_hull_i(output_hull),
       .output_homogeneous_i(output_homogeneous),
       .release_o(slot_release),
-`ifdef QUADRILLE_PROBES
-      .probe_diff_valid_o,
-      .probe_diff_o,
-      .probe_norm_valid_o,
-      .probe_norm_o,
-      .probe_sqrt_valid_o,
-      .probe_sqrt_o,
-      .probe_ratio_valid_o,
-      .probe_ratio_o,
-      .probe_weight_valid_o,
-      .probe_weight_o,
-      .probe_sum_valid_o,
-      .probe_sum_o,
-`endif
       .discard_o(discard),
       .fragment_valid_o(drawn),
       .fragment_o(fragment)
@@ -655,25 +617,4 @@ module quadrille (
   );
 
   assign fragment_mask_o = {quadrille_pkg::PIXELS_PER_CLOCK{fragment_valid_o}};
-
-`ifdef QUADRILLE_PROBES
-  // ---- Probes of the front end --------------------------------------------------------------------------------------------
-  assign probe_setup_valid_o = take;
-  assign probe_setup_o = {
-    setup_slot,
-    tile_x0,
-    tile_y0,
-    tiles_x,
-    tiles_y,
-    homogeneous,
-    hull,
-    visible,
-    setup_lin_value,
-    setup_lin_gx,
-    setup_lin_gy,
-    setup_length2
-  };
-  assign probe_stamp_valid_o = stamp_push;
-  assign probe_stamp_o = stamp;
-`endif
 endmodule

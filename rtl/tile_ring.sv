@@ -74,10 +74,6 @@ module tile_ring #(
     output logic [4*QVAL-1:0] emit_quad_value_o,
     output logic [4*QGRAD-1:0] emit_quad_gx_o,
     output logic [4*QGRAD-1:0] emit_quad_gy_o,
-`ifdef QUADRILLE_PROBES
-    output logic probe_tile_valid_o,
-    output quadrille_pkg::probe_tile_t probe_tile_o,
-`endif
     output logic [4*QCURV-1:0] emit_quad_q_o
 );
   localparam int ENTRIES = 1 << RING;
@@ -162,48 +158,6 @@ module tile_ring #(
       emit_quad_q_o[g*QCURV+:QCURV] <= curv_q[word_index_q];
     end
   end
-
-`ifdef QUADRILLE_PROBES
-  // ---- Probe: a tile, in the clock in which coverage may see it first ------------------------------------------------------
-  // What is in its entry and, of a homogeneous quad, in the two behind; read in that clock alone, which is what a simulator has to do.
-  // An end entry's context means nothing.
-  localparam int CONTEXT = 2 * TC + 6 * VAL + 10 * QVAL + 20 * QGRAD + 10 * QCURV;
-  logic [RING-1:0] seen_q;
-  logic seen_end, seen_homogeneous;
-  logic [SLOT-1:0] seen_slot;
-  logic [TC-1:0] seen_x, seen_y;
-  logic [6*VAL-1:0] seen_lin_value;
-  logic [10*QVAL-1:0] seen_value;
-  logic [10*QGRAD-1:0] seen_gx, seen_gy;
-  logic [10*QCURV-1:0] seen_curv;
-  logic [CONTEXT-1:0] seen_context;
-
-  always_ff @(posedge clk_i) begin
-    probe_tile_valid_o <= rst_ni && complete_i;
-    seen_q <= complete_q[RING-1:0];
-  end
-
-  assign {seen_end, seen_homogeneous, seen_slot, seen_x, seen_y} = probe_tile_valid_o ? tag_q[seen_q] : '0;
-
-  for (genvar g = 0; g < 6; g++) begin : gen_seen_linear
-    assign seen_lin_value[g*VAL+:VAL] = probe_tile_valid_o ? gen_linear[g].value_q[seen_q] : '0;
-  end
-
-  for (genvar g = 0; g < 10; g++) begin : gen_seen_quadratic
-    localparam int LANE = (g < 6) ? g % 4 : g - 6;
-    logic there;
-    logic [RING-1:0] word;
-    assign there = probe_tile_valid_o && (g >= 6 || seen_homogeneous);
-    assign word = seen_q + ((g >= 6) ? '0 : (g >= 4) ? RING'(quadrille_pkg::PART_DIAGONALS) : RING'(quadrille_pkg::PART_EDGES));
-    assign seen_value[g*QVAL+:QVAL] = there ? gen_quadratic[LANE].value_q[word] : '0;
-    assign seen_gx[g*QGRAD+:QGRAD] = there ? gen_quadratic[LANE].gx_q[word] : '0;
-    assign seen_gy[g*QGRAD+:QGRAD] = there ? gen_quadratic[LANE].gy_q[word] : '0;
-    assign seen_curv[g*QCURV+:QCURV] = there ? gen_quadratic[LANE].curv_q[word] : '0;
-  end
-
-  assign seen_context = {seen_x, seen_y, seen_lin_value, seen_value, seen_gx, seen_gy, seen_curv};
-  assign probe_tile_o = {seen_end, seen_slot, seen_end ? CONTEXT'(0) : seen_context};
-`endif
 
   // The pointer's upper bit is for the tail alone.
   logic unused;

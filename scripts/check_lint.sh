@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `verilator --lint-only -Wall` over rtl/ for a spread of configurations; any warning fails.
+# `verilator --lint-only -Wall` over rtl/, and over the machine with probes, for a spread of configurations; any warning fails.
 #   scripts/check_lint.sh PATH_TO_QUADRILLE
 set -euo pipefail
 quadrille=$(realpath "$1")
@@ -15,11 +15,11 @@ lint() {
     defines+=("-DQUADRILLE_${key^^}=${kv#*=}")
   done
   "$quadrille" config --quiet "${sets[@]}" --emit-tables "$tables/quadrille_tables_pkg.sv" >/dev/null
-  for probes in "" -DQUADRILLE_PROBES; do
-    verilator --lint-only -Wall $probes "${defines[@]}" --top-module quadrille quadrille_pkg.sv \
-      "$tables/quadrille_tables_pkg.sv" $(ls ./*.sv | grep -v _pkg.sv)
-    count=$((count + 1))
-  done
+  local machine=(quadrille_pkg.sv "$tables/quadrille_tables_pkg.sv" $(ls ./*.sv | grep -v _pkg.sv))
+  verilator --lint-only -Wall "${defines[@]}" --top-module quadrille "${machine[@]}"
+  verilator --lint-only -Wall "${defines[@]}" --top-module quadrille_probed "${machine[@]}" \
+    ../tb/device/quadrille_probes_pkg.sv ../tb/device/quadrille_probed.sv
+  count=$((count + 1))
 }
 lint significand_bits=18
 lint significand_bits=8 notch_exact=0

@@ -316,6 +316,7 @@ class CosimRun {
     lockstep.gap = options_.gap;
     lockstep.limit_fragments = options_.limit_fragments;
     lockstep.source = options_.rtl;
+    lockstep.probes = !std::filesystem::is_regular_file(options_.rtl);  // one file has none: ports alone are compared
     PartialFile trace(first ? options_.trace : std::string{});
     if (trace.active()) lockstep.trace = trace.path();
     Progress progress(input.name + (first ? "" : ", attributes"), 1000, options_.common.show_progress());
@@ -657,7 +658,9 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
                    "uv, texture, normal, lambda, depth, quad, planes or colour; default: what suits the input")
       ->type_name("MODE");
   options->input.add_light_to(*command);
-  command->add_option("--rtl", options->rtl, "Verilog instead of the project's: a directory or one file")
+  command
+      ->add_option("--rtl", options->rtl,
+                   "Verilog instead of the project's: a directory, or one file, of which the ports alone are compared")
       ->type_name("PATH");
   command->add_flag("--no-snapping-error", options->no_snapping, "Do not measure the error of snapping (quicker)");
   command->add_flag("--no-alone", options->no_alone, "Do not time the RTL alone");

@@ -12,6 +12,7 @@
 #include <map>
 #include <mutex>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 namespace quadrille::tb {
@@ -237,6 +238,9 @@ std::vector<fs::path> sources_of(const VerilateOptions& options) {
   } else {
     sources = {options.source};
   }
+  if (options.probes)
+    for (const char* file : {"quadrille_probes_pkg.sv", "quadrille_probed.sv"})
+      sources.push_back(glue_directory() / file);
   sources.insert(sources.end(), options.extra.begin(), options.extra.end());
   return sources;
 }
@@ -319,6 +323,8 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
   const fs::path glue = glue_directory();
   const std::vector<fs::path> sources = sources_of(options);
   const bool one_file = !options.source.empty() && !fs::is_directory(options.source);
+  if (one_file && options.probes)
+    throw std::invalid_argument("a machine in one file has no probes: they name the modules and packages of rtl/");
   const std::string tables = one_file ? "" : tables_package(config);
 
   // 1. Everything that decides the result.
@@ -349,15 +355,15 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
     fs::create_directories(generated);
 
     // 2. SystemVerilog to C++.
+    const std::string top_module = options.probes ? "quadrille_probed" : "quadrille";
     std::vector<std::string> command{tools.verilator, "--cc",           "--prefix", "Vquadrille",
-                                     "--top-module",  "quadrille",      "--Mdir",   generated.string(),
+                                     "--top-module",  top_module,       "--Mdir",   generated.string(),
                                      "-O3",           "--x-assign",     "fast",     "--x-initial",
                                      "unique",        "--output-split", "12000",    "--no-timing"};
     if (options.assertions) command.push_back("--assert");
     command.push_back("-Wall");
     if (!options.source.empty()) command.push_back("-Wno-fatal");  // lint is for the project's own sources
     if (options.trace) command.push_back("--trace-fst");
-    if (options.probes) command.push_back("-DQUADRILLE_PROBES=1");
     for (const std::string& define : key_defines(config)) command.push_back(define);
     command.insert(command.end(), options.arguments.begin(), options.arguments.end());
     if (!one_file) {

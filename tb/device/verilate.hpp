@@ -20,7 +20,8 @@ struct VerilateOptions {
   bool assertions = true;  ///< --assert
   int optimise = 2;        ///< g++ -O level of the simulated clock; 0-3
   unsigned jobs = 0;       ///< compilers at a time; 0: one per processor
-  /// Sources instead of the project's: a directory with *.sv, or one Verilog file that has the tables and every module.
+  /// Sources instead of the project's: a directory with *.sv, or one Verilog file that has the tables and every module,
+  /// without probes (std::invalid_argument).
   std::filesystem::path source;
   /// Further files, read after the others.
   std::vector<std::filesystem::path> extra;

@@ -52,6 +52,7 @@ TEST(Verilate, MissingNinjaIsAnEnvironmentError) {
   std::ofstream(scratch.path / "empty.v") << "module quadrille(input clk_i); endmodule\n";
   VerilateOptions options;
   options.source = scratch.path / "empty.v";
+  options.probes = false;
   try {
     verilate(Config{}, options);
     FAIL() << "no error";
@@ -66,6 +67,8 @@ TEST(Verilate, BrokenSourceNamesTheLog) {
   std::ofstream(scratch.path / "broken.v") << "module quadrille(input clk_i); this is no Verilog endmodule\n";
   VerilateOptions options;
   options.source = scratch.path / "broken.v";
+  EXPECT_THROW(verilate(Config{}, options), std::invalid_argument) << "probes of a machine in one file";
+  options.probes = false;
   testing::internal::CaptureStderr();
   try {
     verilate(Config{}, options);
@@ -75,7 +78,7 @@ TEST(Verilate, BrokenSourceNamesTheLog) {
     EXPECT_NE(std::string(error.what()).find("broken.v"), std::string::npos) << error.what();
   }
   const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_TRUE(said.starts_with("quadrille: building the simulator of default with probes, RTL ")) << said;
+  EXPECT_TRUE(said.starts_with("quadrille: building the simulator of default without probes, RTL ")) << said;
   EXPECT_NE(said.find("0 of 4 steps, 0 s\n"), std::string::npos) << said;
   for (const fs::directory_entry& entry : fs::directory_iterator(scratch.path / "cache"))
     EXPECT_TRUE(entry.path().filename().string().starts_with("failed-device-")) << entry.path();

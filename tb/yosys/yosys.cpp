@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// `read_verilog` of tables, packages and modules with the configuration's defines.
-std::string read_commands(const Config& config, bool probes, const fs::path& directory) {
+std::string read_commands(const Config& config, const fs::path& directory) {
   const fs::path tables = directory / "quadrille_tables_pkg.sv";
   std::ofstream out(tables);
   out << tables_package(config);
@@ -29,7 +29,6 @@ std::string read_commands(const Config& config, bool probes, const fs::path& dir
   if (!out) throw EnvironmentError("cannot write " + tables.string());
   std::string command = "read_verilog -sv -DSYNTHESIS=1";
   for (const std::string& define : key_defines(config)) command += " " + define;
-  if (probes) command += " -DQUADRILLE_PROBES=1";
   command += " \"" + tables.string() + "\"";
   for (const fs::path& source : rtl_sources(rtl_directory())) command += " \"" + fs::absolute(source).string() + "\"";
   return command + "\nhierarchy -check -top quadrille\n";
@@ -49,18 +48,18 @@ void run(const std::string& script, const fs::path& directory, const std::string
 
 }  // namespace
 
-fs::path yosys_verilog(const Config& config, bool probes, const fs::path& directory) {
+fs::path yosys_verilog(const Config& config, const fs::path& directory) {
   fs::create_directories(directory);
   const fs::path verilog = directory / "quadrille_yosys.v";
-  run(read_commands(config, probes, directory) + "proc\nopt\nwrite_verilog -noattr \"" + verilog.string() + "\"\n",
-      directory, "roundtrip", directory / "roundtrip.log");
+  run(read_commands(config, directory) + "proc\nopt\nwrite_verilog -noattr \"" + verilog.string() + "\"\n", directory,
+      "roundtrip", directory / "roundtrip.log");
   return verilog;
 }
 
 SynthesisReport yosys_synthesise(const Config& config, const fs::path& directory) {
   fs::create_directories(directory);
   const fs::path log = directory / "synth.log";
-  run(read_commands(config, false, directory) + "synth -top quadrille\ncheck -assert\nstat\n", directory, "synth", log);
+  run(read_commands(config, directory) + "synth -top quadrille\ncheck -assert\nstat\n", directory, "synth", log);
   std::ifstream in(log);
   SynthesisReport report;
   // The last statistics count the whole design ("design hierarchy" sums over instances where there is more than one

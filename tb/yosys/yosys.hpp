@@ -15,7 +15,7 @@ namespace quadrille::tb {
 
 /// `proc; opt; write_verilog` of the whole machine for `config`: one Verilog file in `directory`, fit for
 /// LockstepOptions::source. Throws EnvironmentError without Yosys, VerilateError when Yosys refuses the sources.
-std::filesystem::path yosys_verilog(const Config& config, bool probes, const std::filesystem::path& directory);
+std::filesystem::path yosys_verilog(const Config& config, const std::filesystem::path& directory);
 
 struct SynthesisReport {
   std::uint64_t cells = 0;
@@ -24,7 +24,7 @@ struct SynthesisReport {
   std::uint64_t warnings = 0;
 };
 
-/// `synth -top quadrille` without probes.
+/// `synth -top quadrille`.
 SynthesisReport yosys_synthesise(const Config& config, const std::filesystem::path& directory);
 
 /// What a configuration is synthesised for.

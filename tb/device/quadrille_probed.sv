@@ -1,0 +1,179 @@
+// The machine with probes: what crosses each boundary between its units, as outputs (rtl/README.md section 6). Verilator's alone: they are
+// taken out of the machine by hierarchical reference, so that rtl/ has no port and no register for them.
+//
+// probe_<name>_valid_o: the boundary carries a beat in this clock: setup when the walk takes a quad, tile when coverage may see it first,
+// stamp when the FIFO takes it, the others with the register that they are named after.
+module quadrille_probed (
+    input logic clk_i,
+    input logic rst_ni,
+    input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
+    input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
+    input logic vertex_valid_i,
+    output logic vertex_ready_o,
+    output logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment_o,
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] fragment_mask_o,
+    output logic fragment_valid_o,
+    input logic fragment_ready_i,
+    output logic busy_o,
+    // Probes
+    output logic probe_setup_valid_o,
+    output quadrille_probes_pkg::probe_setup_t probe_setup_o,
+    output logic probe_tile_valid_o,
+    output quadrille_probes_pkg::probe_tile_t probe_tile_o,
+    output logic probe_stamp_valid_o,
+    output quadrille_probes_pkg::probe_stamp_t probe_stamp_o,
+    output logic probe_diff_valid_o,
+    output quadrille_probes_pkg::probe_diff_t probe_diff_o,
+    output logic probe_norm_valid_o,
+    output quadrille_probes_pkg::probe_norm_t probe_norm_o,
+    output logic probe_sqrt_valid_o,
+    output quadrille_probes_pkg::probe_sqrt_t probe_sqrt_o,
+    output logic probe_ratio_valid_o,
+    output quadrille_probes_pkg::probe_ratio_t probe_ratio_o,
+    output logic probe_weight_valid_o,
+    output quadrille_probes_pkg::probe_weight_t probe_weight_o,
+    output logic probe_sum_valid_o,
+    output quadrille_probes_pkg::probe_sum_t probe_sum_o
+);
+  quadrille u_quadrille (
+      .clk_i,
+      .rst_ni,
+      .state_i,
+      .vertex_i,
+      .vertex_valid_i,
+      .vertex_ready_o,
+      .fragment_o,
+      .fragment_mask_o,
+      .fragment_valid_o,
+      .fragment_ready_i,
+      .busy_o
+  );
+
+  // ---- Setup, stamp ---------------------------------------------------------------------------------------------------------
+  assign probe_setup_valid_o = u_quadrille.take;
+  assign probe_setup_o = {
+    u_quadrille.setup_slot,
+    u_quadrille.tile_x0,
+    u_quadrille.tile_y0,
+    u_quadrille.tiles_x,
+    u_quadrille.tiles_y,
+    u_quadrille.homogeneous,
+    u_quadrille.hull,
+    u_quadrille.visible,
+    u_quadrille.setup_lin_value,
+    u_quadrille.setup_lin_gx,
+    u_quadrille.setup_lin_gy,
+    u_quadrille.setup_length2
+  };
+
+  assign probe_stamp_valid_o = u_quadrille.stamp_push;
+  assign probe_stamp_o = u_quadrille.stamp;
+
+  // ---- Tile: its entry of the ring and, of a homogeneous quad, the two behind ------------------------------------------------
+  // Read in that clock alone, which is what a simulator has to do. An end entry's context means nothing.
+  localparam int RING = quadrille_pkg::RING_LOG2;
+  localparam int TC = quadrille_pkg::TC_BITS;
+  localparam int VAL = quadrille_pkg::VAL_BITS;
+  localparam int QVAL = quadrille_pkg::QVAL_BITS;
+  localparam int QGRAD = quadrille_pkg::QGRAD_BITS;
+  localparam int QCURV = quadrille_pkg::QCURV_BITS;
+  localparam int CONTEXT = 2 * TC + 6 * VAL + 10 * QVAL + 20 * QGRAD + 10 * QCURV;
+
+  logic [RING-1:0] entry_q;
+  logic tile_end, tile_homogeneous;
+  logic [quadrille_pkg::QUAD_SLOTS_LOG2-1:0] tile_slot;
+  logic [TC-1:0] tile_x, tile_y;
+  logic [6*VAL-1:0] lin_value;
+  logic [10*QVAL-1:0] quad_value;
+  logic [10*QGRAD-1:0] quad_gx, quad_gy;
+  logic [10*QCURV-1:0] quad_q;
+  logic [CONTEXT-1:0] context_bits;
+
+  always_ff @(posedge clk_i) begin
+    probe_tile_valid_o <= rst_ni && u_quadrille.u_ring.complete_i;
+    entry_q <= u_quadrille.u_ring.complete_q[RING-1:0];
+  end
+
+  assign {tile_end, tile_homogeneous, tile_slot, tile_x, tile_y} = probe_tile_valid_o ? u_quadrille.u_ring.tag_q[entry_q] : '0;
+
+  for (genvar g = 0; g < 6; g++) begin : gen_linear
+    assign lin_value[g*VAL+:VAL] = probe_tile_valid_o ? u_quadrille.u_ring.gen_linear[g].value_q[entry_q] : '0;
+  end
+
+  for (genvar g = 0; g < 10; g++) begin : gen_quadratic
+    localparam int LANE = (g < 6) ? g % 4 : g - 6;
+    localparam logic [1:0] PART = (g >= 6) ? 2'd0 : (g >= 4) ? quadrille_pkg::PART_DIAGONALS : quadrille_pkg::PART_EDGES;
+    logic there;
+    logic [RING-1:0] entry;
+    assign there = probe_tile_valid_o && (g >= 6 || tile_homogeneous);
+    assign entry = entry_q + RING'(PART);
+    assign quad_value[g*QVAL+:QVAL] = there ? u_quadrille.u_ring.gen_quadratic[LANE].value_q[entry] : '0;
+    assign quad_gx[g*QGRAD+:QGRAD] = there ? u_quadrille.u_ring.gen_quadratic[LANE].gx_q[entry] : '0;
+    assign quad_gy[g*QGRAD+:QGRAD] = there ? u_quadrille.u_ring.gen_quadratic[LANE].gy_q[entry] : '0;
+    assign quad_q[g*QCURV+:QCURV] = there ? u_quadrille.u_ring.gen_quadratic[LANE].curv_q[entry] : '0;
+  end
+
+  assign context_bits = {tile_x, tile_y, lin_value, quad_value, quad_gx, quad_gy, quad_q};
+  assign probe_tile_o = {tile_end, tile_slot, tile_end ? CONTEXT'(0) : context_bits};
+
+  // ---- Pixels ---------------------------------------------------------------------------------------------------------------
+  localparam int CLASS = 9;  // of singular_class: what the probe shows of it is on top
+  localparam int E = quadrille_pkg::EXP_BITS;
+  localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
+  localparam int SETS = 3 + quadrille_pkg::ATTRIBUTE_SLOTS;
+
+  assign probe_diff_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::DIFF_STAGE];
+  assign probe_diff_o = {
+    u_quadrille.u_pipeline.diff_tag, u_quadrille.u_pipeline.diff_a, u_quadrille.u_pipeline.diff_d, u_quadrille.u_pipeline.diff_r2
+  };
+
+  assign probe_norm_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::NORM_STAGE];
+  assign probe_norm_o = {
+    u_quadrille.u_pipeline.norm_class[CLASS-1-:4],
+    u_quadrille.u_pipeline.norm_a_neg,
+    u_quadrille.u_pipeline.norm_a_exp,
+    u_quadrille.u_pipeline.norm_a_sig,
+    u_quadrille.u_pipeline.norm_d_neg,
+    u_quadrille.u_pipeline.norm_d_exp,
+    u_quadrille.u_pipeline.norm_d_sig,
+    u_quadrille.u_pipeline.norm_r2_exp,
+    u_quadrille.u_pipeline.norm_r2_sig
+  };
+
+  assign probe_sqrt_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::ROOT_STAGE];
+  assign probe_sqrt_o = {u_quadrille.u_pipeline.root_exp, u_quadrille.u_pipeline.root_sig};
+
+  assign probe_ratio_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::RATIO_STAGE];
+  assign probe_ratio_o = {
+    u_quadrille.u_pipeline.ratio_u_exp,
+    u_quadrille.u_pipeline.ratio_u_sig,
+    u_quadrille.u_pipeline.ratio_v_exp,
+    u_quadrille.u_pipeline.ratio_v_sig
+  };
+
+  assign probe_weight_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::WEIGHT_STAGE];
+  assign probe_weight_o = {u_quadrille.u_pipeline.m_exp, u_quadrille.u_pipeline.m_sig};
+
+  logic [SETS-1:0] sum_neg;
+  logic [SETS*E-1:0] sum_exp;
+  logic [SETS*S-1:0] sum_sig;
+
+  assign sum_neg = u_quadrille.u_pipeline.sum_neg;
+  assign sum_exp = u_quadrille.u_pipeline.sum_exp;
+  assign sum_sig = u_quadrille.u_pipeline.sum_sig;
+  assign probe_sum_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::SUM_STAGE];
+  assign probe_sum_o = {
+    sum_neg[SETS-1:3],
+    sum_exp[SETS*E-1:3*E],
+    sum_sig[SETS*S-1:3*S],
+    sum_neg[2],
+    sum_exp[2*E+:E],
+    sum_sig[2*S+:S],
+    sum_neg[0],
+    sum_exp[0+:E],
+    sum_sig[0+:S],
+    sum_neg[1],
+    sum_exp[E+:E],
+    sum_sig[S+:S]
+  };
+endmodule
