@@ -14,15 +14,10 @@ module fp_multiply #(
     output logic [S-1:0] sig_o
 );
   logic [2*S-1:0] product;
-  logic carry;
-  logic zero;
+  logic nonzero;
 
   assign product = (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
-  assign carry = product[2*S-1];
-  assign zero = (a_sig_i == '0) || (b_sig_i == '0);
+  assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
 
-  always_ff @(posedge clk_i) begin
-    sig_o <= carry ? product[2*S-1:S] : product[2*S-2:S-1];  // all zero when a factor is
-    exp_o <= zero ? '0 : a_exp_i + b_exp_i + E'(carry);
-  end
+  always_ff @(posedge clk_i) {exp_o, sig_o} <= quadrille_pkg::truncated_product(a_exp_i + b_exp_i, product, nonzero);
 endmodule

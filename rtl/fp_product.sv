@@ -18,17 +18,15 @@ module fp_product #(
 );
   logic [E-1:0] exp_sum;
   logic [2*S-1:0] product;
-  logic carry, nonzero;
+  logic nonzero;
 
   assign exp_sum = a_exp_i + b_exp_i;
   assign product = (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
-  assign carry = product[2*S-1];
   assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
   assign rank_o = quadrille_pkg::exponent_rank(exp_sum, nonzero);
 
   always_ff @(posedge clk_i) begin
-    sig_o <= carry ? product[2*S-1:S] : product[2*S-2:S-1];  // all zero when a factor is
-    exp_o <= nonzero ? exp_sum + E'(carry) : '0;
-    term_o <= TERM'(product >> (2 * S - TERM));
+    {exp_o, sig_o} <= quadrille_pkg::truncated_product(exp_sum, product, nonzero);
+    term_o <= quadrille_pkg::product_term(product);
   end
 endmodule

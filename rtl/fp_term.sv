@@ -22,6 +22,6 @@ module fp_term #(
 
   always_ff @(posedge clk_i) begin
     neg_o <= neg_i;
-    term_o <= TERM'(((2 * S)'(a_sig_i) * (2 * S)'(b_sig_i)) >> (2 * S - TERM));
+    term_o <= quadrille_pkg::product_term((2 * S)'(a_sig_i) * (2 * S)'(b_sig_i));
   end
 endmodule

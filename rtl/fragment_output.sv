@@ -12,7 +12,8 @@ module fragment_output #(
     localparam int DB = quadrille_pkg::DEPTH_BITS,
     localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
     localparam int ID = quadrille_pkg::QUAD_ID_BITS,
-    localparam int FB = quadrille_pkg::FRAGMENT_BITS
+    localparam int FB = quadrille_pkg::FRAGMENT_BITS,
+    localparam int FLAGS = quadrille_pkg::CLASS_FLAGS
 ) (
     input logic clk_i,
     input logic rst_ni,
@@ -43,7 +44,7 @@ module fragment_output #(
     input logic [V-1:0] y_i,
     input logic front_i,
     input logic tie_i,
-    input logic [4:0] class_i,  // two_corner, on_vertex, two_edge, on_edge, cured
+    input logic [FLAGS-1:0] flags_i,  // of the class, CLASS_NOTCH lowest
     // Port
     output logic valid_o,
     output logic [FB-1:0] fragment_o
@@ -143,13 +144,13 @@ module fragment_output #(
   end
 
   // ---- Output register ----------------------------------------------------------------------------------------------------
-  logic two_corner, on_vertex, two_edge, on_edge, cured;
+  logic two_corner, on_vertex, two_edge, on_edge, notch;
   logic [7:0] flags;
   logic valid_d;
   logic [FB-1:0] fragment_d;
 
-  assign {two_corner, on_vertex, two_edge, on_edge, cured} = class_i;
-  assign flags = {overflow != '0, cured, homogeneous_i, tie_i, two_edge, two_corner, on_vertex, on_edge};
+  assign {two_corner, on_vertex, two_edge, on_edge, notch} = flags_i;
+  assign flags = {overflow != '0, notch, homogeneous_i, tie_i, two_edge, two_corner, on_vertex, on_edge};
   assign valid_d = valid_i && !(hull_i && behind_q) && !depth_discard_q;
   assign fragment_d = {id_i, x_i, y_i, front_i, flags, depth_q, attr};
 

@@ -43,7 +43,7 @@ module mean_value_ratios #(
 
     always_ff @(posedge clk_i) rr_rank_q <= rr_rank;
 
-    // |D| waits for the root and the product. A lone number is a term with the fraction bits of a product by 1.
+    // |D| waits for the root and the product.
     logic [E-1:0] d_exp;
     logic [S-1:0] d_sig;
 
@@ -58,7 +58,7 @@ module mean_value_ratios #(
         .a_rank_i(rr_rank_q),
         .a_term_i(rr_term),
         .b_rank_i(quadrille_pkg::exponent_rank(d_exp, d_sig[S-1])),
-        .b_term_i(TERM'(d_sig) << (TERM - S - 1)),
+        .b_term_i(quadrille_pkg::lone_term(d_sig)),
         .exp_o(u_exp_o[g*E+:E]),
         .sig_o(u_sig_o[g*S+:S])
     );

@@ -101,13 +101,21 @@ module pixel_pipeline #(
   // ---- Side band: slot, position, facing, tie; from the norm boundary on the class with them -------------------------------
   // A read of the slot bank ends in a register: the slot leaves two registers before the data's user.
   localparam int TAG = SLOT + 2 * V + 2;
-  localparam int CLASS = 9;
-  localparam int FLAGS = 5;  // class bits that the fragment shows
+  localparam int CLASS = quadrille_pkg::CLASS_BITS;
+  localparam int FLAGS = quadrille_pkg::CLASS_FLAGS;
   localparam int META = TAG + FLAGS;
+  typedef struct packed {
+    logic [SLOT-1:0] slot;
+    logic [V-1:0] x;
+    logic [V-1:0] y;
+    logic front;
+    logic tie;
+    logic [FLAGS-1:0] flags;  // of the class
+  } meta_t;
   logic [TAG-1:0] diff_tag, norm_tag;
   logic [CLASS-1:0] norm_class, ratio_class;
   logic [5:0] norm_d_neg, ratio_d_neg;  // signs of D
-  logic [META-1:0] product_meta, override_meta, blend_meta, output_meta;
+  meta_t product_meta, override_meta, blend_meta, output_meta;
 
   delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (
       .clk_i,
@@ -150,12 +158,12 @@ module pixel_pipeline #(
   logic [SETS*4*S-1:0] blend_sig;
   logic [ID-1:0] output_id;
   logic output_hull, output_homogeneous;
-  logic [META-SLOT-1:0] output_rest;  // of output_meta, in step with what was read
+  meta_t fragment_meta;  // output_meta in step with what was read
 
-  assign product_slot_o = product_meta[META-1-:SLOT];
-  assign override_slot_o = override_meta[META-1-:SLOT];
-  assign blend_slot_o = blend_meta[META-1-:SLOT];
-  assign output_slot_o = output_meta[META-1-:SLOT];
+  assign product_slot_o = product_meta.slot;
+  assign override_slot_o = override_meta.slot;
+  assign blend_slot_o = blend_meta.slot;
+  assign output_slot_o = output_meta.slot;
 
   always_ff @(posedge clk_i) begin
     product_k_neg <= product_k_neg_i;
@@ -169,7 +177,7 @@ module pixel_pipeline #(
     output_id <= output_id_i;
     output_hull <= output_hull_i;
     output_homogeneous <= output_homogeneous_i;
-    output_rest <= output_meta[META-SLOT-1:0];
+    fragment_meta <= output_meta;
   end
 
   // ---- Exact functions at the pixel --------------------------------------------------------------------------------------
@@ -452,17 +460,17 @@ module pixel_pipeline #(
       .id_i(output_id),
       .hull_i(output_hull),
       .homogeneous_i(output_homogeneous),
-      .x_i(output_rest[FLAGS+2+V+:V]),
-      .y_i(output_rest[FLAGS+2+:V]),
-      .front_i(output_rest[FLAGS+1]),
-      .tie_i(output_rest[FLAGS]),
-      .class_i(output_rest[FLAGS-1:0]),
+      .x_i(fragment_meta.x),
+      .y_i(fragment_meta.y),
+      .front_i(fragment_meta.front),
+      .tie_i(fragment_meta.tie),
+      .flags_i(fragment_meta.flags),
       .valid_o(fragment_valid_o),
       .fragment_o
   );
 
   logic unused;
-  assign unused = ^{norm_r2_neg, norm_a_neg};
+  assign unused = ^{norm_r2_neg, norm_a_neg, fragment_meta.slot};
 
 `ifndef SYNTHESIS
   // Zero when not valid. An end beat carries no pixel.
@@ -471,7 +479,7 @@ module pixel_pipeline #(
       assert (fragment_valid_o || fragment_o == '0);
       assert ((valid_q & end_q) == '0);
       assert (!fragment_valid_o || valid_q[LAST]);
-      assert (!valid_q[NORM] || ((norm_class[CLASS-1-:4] & (norm_class[CLASS-1-:4] - 4'd1)) == '0));
+      assert (!valid_q[NORM] || ((norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS] & (norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS] - quadrille_pkg::CLASS_KINDS'(1))) == '0));
     end
   end
 `endif

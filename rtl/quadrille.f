@@ -5,8 +5,10 @@ default_tables/quadrille_tables_pkg.sv
 bounding_range.sv
 config_check.sv
 delay_line.sv
+denominator_operands.sv
 dot_unit.sv
 edge_reach.sv
+factor_products.sv
 fixed_point.sv
 forward_difference.sv
 fp_add.sv
@@ -32,6 +34,7 @@ quad_setup.sv
 quad_slots.sv
 quadrille.sv
 radix4_digits.sv
+ratio_products.sv
 reciprocal.sv
 root_ratio.sv
 setup_pair.sv
@@ -47,3 +50,4 @@ tile_ring.sv
 tile_walk.sv
 vertex_assembly.sv
 vertex_products.sv
+weight_factors.sv

@@ -198,6 +198,19 @@ package quadrille_pkg;
   localparam logic [1:0] PART_SQUARES = 2'd3;
   localparam int HOMOGENEOUS_PARTS /*verilator public*/ = 3;
 
+  // ---- Class of a pixel: the word of singular_class, by bit position ---------------------------------------------------------
+  // At most one of the first four is set. FIRST and SECOND: low bits of the numbers of the lowest two corners or edges concerned.
+  localparam int CLASS_TWO_CORNER = 8;
+  localparam int CLASS_ON_VERTEX = 7;
+  localparam int CLASS_TWO_EDGE = 6;
+  localparam int CLASS_ON_EDGE = 5;
+  localparam int CLASS_NOTCH = 4;
+  localparam int CLASS_FIRST = 2;
+  localparam int CLASS_SECOND = 0;
+  localparam int CLASS_BITS = 9;
+  localparam int CLASS_KINDS = CLASS_BITS - CLASS_ON_EDGE;  // the singular kinds, at its upper end
+  localparam int CLASS_FLAGS = CLASS_BITS - CLASS_NOTCH;  // what a fragment shows: those and the notch
+
   // ---- Latency of the pixel pipeline (README.md section 5, model/latency.hpp) ----------------------------------------------
   // Clocks from a unit's inputs to its outputs.
   localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = 3;  // row, column, bend
@@ -258,6 +271,26 @@ package quadrille_pkg;
       4'd1, 4'd8: pair_second = 2'd2;
       default: pair_second = 2'd3;
     endcase
+  endfunction
+
+  // ---- Products of significands, 2 SIGNIFICAND_BITS wide and, but for 0, with a one in the upper two places --------------------
+  // fp_multiply of README.md section 2: {exponent, significand} of the product truncated; exp: sum of the factors' exponents.
+  function automatic logic [EXP_BITS+SIGNIFICAND_BITS-1:0] truncated_product(input logic [EXP_BITS-1:0] exp,
+                                                                             input logic [2*SIGNIFICAND_BITS-1:0] product, input logic nonzero);
+    truncated_product = {
+      nonzero ? exp + EXP_BITS'(product[2*SIGNIFICAND_BITS-1]) : EXP_BITS'(0),
+      product[2*SIGNIFICAND_BITS-1] ? product[2*SIGNIFICAND_BITS-1-:SIGNIFICAND_BITS] : product[2*SIGNIFICAND_BITS-2-:SIGNIFICAND_BITS]
+    };
+  endfunction
+
+  // The bits of a product that a sum aligns.
+  function automatic logic [TERM_BITS-1:0] product_term(input logic [2*SIGNIFICAND_BITS-1:0] product);
+    product_term = TERM_BITS'(product >> (2 * SIGNIFICAND_BITS - TERM_BITS));
+  endfunction
+
+  // A lone number as a term of a sum: its product by 1.
+  function automatic logic [TERM_BITS-1:0] lone_term(input logic [SIGNIFICAND_BITS-1:0] sig);
+    lone_term = TERM_BITS'(sig) << (TERM_BITS - SIGNIFICAND_BITS - 1);
   endfunction
 
   // ---- Rank of a number among others: 0 for zero, else {1, exponent + 2^(EXP_BITS-1)} --------------------------------------

@@ -1,17 +1,18 @@
 // Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, whether an edge turns
 // backward. Latency NORMALISE_STAGES, one pixel per clock.
 //
-// class_o = {two_corner, on_vertex, two_edge, on_edge, notch, first[2], second[2]}: at most one of the first four is set; first and
-// second are the lowest two corners or edges concerned. notch: two neighbouring A have strictly opposite signs, at no singular pixel.
+// class_o: quadrille_pkg::CLASS_* names its bits. notch: two neighbouring A have strictly opposite signs, and no override applies; it
+// is for the fragment's flag alone.
 module singular_class #(
     localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS
+    localparam int QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int CLASS = quadrille_pkg::CLASS_BITS
 ) (
     input logic clk_i,
     input logic [4*VAL-1:0] a_i,
     input logic [4*QVAL-1:0] d_i,
     input logic [4*QVAL-1:0] r2_i,
-    output logic [8:0] class_o
+    output logic [CLASS-1:0] class_o
 );
   // Stage 1: signs.
   logic [3:0] a_neg_d, a_pos_d, corner_d, edge_d;
@@ -57,9 +58,19 @@ module singular_class #(
   assign first = concerned[0] ? 2'd0 : concerned[1] ? 2'd1 : concerned[2] ? 2'd2 : 2'd3;
   assign second = others[1] ? 2'd1 : others[2] ? 2'd2 : 2'd3;
 
-  delay_line #(.WIDTH(9), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 1)) u_delay (
+  logic [CLASS-1:0] word;
+
+  assign word[quadrille_pkg::CLASS_TWO_CORNER] = two_corner;
+  assign word[quadrille_pkg::CLASS_ON_VERTEX] = on_vertex;
+  assign word[quadrille_pkg::CLASS_TWO_EDGE] = two_edge;
+  assign word[quadrille_pkg::CLASS_ON_EDGE] = on_edge;
+  assign word[quadrille_pkg::CLASS_NOTCH] = notch;
+  assign word[quadrille_pkg::CLASS_FIRST+:2] = first;
+  assign word[quadrille_pkg::CLASS_SECOND+:2] = second;
+
+  delay_line #(.WIDTH(CLASS), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 1)) u_delay (
       .clk_i,
-      .data_i({two_corner, on_vertex, two_edge, on_edge, notch, first, second}),
+      .data_i(word),
       .data_o(class_o)
   );
 endmodule

@@ -296,7 +296,7 @@ fault normalise singular_class.sv "a_zero && d_i[g*QVAL+QVAL-1]" "a_zero && !d_i
 fault sqrt sqrt.sv "SQRT_STAGES - 1" "SQRT_STAGES - 2"
 fault reciprocal reciprocal.sv "E'(0) - exp_i : ~exp_i" "E'(0) - exp_i : -exp_i"
 fault ratios mean_value_ratios.sv "rr_rank_q <= rr_rank" "rr_rank_q <= rr_rank + RANK'(1)"
-fault weights mean_value_weights.sv "neighbours && last_corner == 2'(g)" "1'b0"
+fault weights factor_products.sv "late_neighbours && late_corner == 2'(g)" "1'b0"
 fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(t*4+v)*PE+:PE]))" "E'(term_exp_i[(t*4+v)*PE+:PE])"
 fault depth fragment_output.sv "z < znear_i" "z <= znear_i"
 fault $machine quadrille.sv "full && setup_idle && slot_available" "full && setup_idle && !slots_busy" # clocks alone

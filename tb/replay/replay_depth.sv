@@ -93,7 +93,7 @@ module replay_depth (
       .y_i(V'(0)),
       .front_i(1'b0),
       .tie_i(1'b0),
-      .class_i(5'd0),
+      .flags_i(quadrille_pkg::CLASS_FLAGS'(0)),
       .valid_o(drawn_o),
       .fragment_o({identity, saturated_o, class_flags, depth_o, attr_o})
   );

@@ -9,7 +9,7 @@ module replay_normalise (
   localparam int QVAL = quadrille_pkg::QVAL_BITS;
 
   logic [3:0] r2_neg;
-  logic [4:0] class_rest;
+  logic [quadrille_pkg::CLASS_ON_EDGE-1:0] class_rest;
   logic unused;
 
   assign unused = ^{r2_neg, class_rest};

@@ -10,11 +10,12 @@ module replay_weights (
   localparam int PE = quadrille_pkg::PORT_EXP_BITS;
   localparam int VAL = quadrille_pkg::VAL_BITS;
   localparam int QVAL = quadrille_pkg::QVAL_BITS;
+  localparam int CLASS = quadrille_pkg::CLASS_BITS;
 
   // ---- Class -----------------------------------------------------------------------------------------------------------
   logic [4*VAL-1:0] a;
   logic [4*QVAL-1:0] d, r2;
-  logic [8:0] early_class, ratio_class;
+  logic [CLASS-1:0] early_class, ratio_class;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sign
     assign a[g*VAL+:VAL] = {{(VAL - 1) {a_sign_i[2*g+1]}}, a_sign_i[2*g]};
@@ -42,7 +43,7 @@ module replay_weights (
   logic [4*S-1:0] k_sig, override_k_sig;
   logic unused;
 
-  delay_line #(.WIDTH(9), .DEPTH(TO_RATIO - quadrille_pkg::NORMALISE_STAGES)) u_class_ratio (
+  delay_line #(.WIDTH(CLASS), .DEPTH(TO_RATIO - quadrille_pkg::NORMALISE_STAGES)) u_class_ratio (
       .clk_i, .data_i(early_class), .data_o(ratio_class));
   delay_line #(.WIDTH(12 * (E + S)), .DEPTH(TO_RATIO)) u_ratio (
       .clk_i, .data_i({u_exp_i, u_sig_i, v_exp_i, v_sig_i}), .data_o({u_exp, u_sig, v_exp, v_sig}));
