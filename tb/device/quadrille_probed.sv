@@ -117,7 +117,7 @@ module quadrille_probed (
   assign probe_tile_o = {tile_end, tile_slot, tile_end ? CONTEXT'(0) : context_bits};
 
   // ---- Pixels ---------------------------------------------------------------------------------------------------------------
-  localparam int CLASS = 9;  // of singular_class: what the probe shows of it is on top
+  localparam int CLASS = quadrille_pkg::CLASS_BITS;
   localparam int E = quadrille_pkg::EXP_BITS;
   localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
   localparam int SETS = 3 + quadrille_pkg::ATTRIBUTE_SLOTS;
@@ -129,7 +129,7 @@ module quadrille_probed (
 
   assign probe_norm_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::NORM_STAGE];
   assign probe_norm_o = {
-    u_quadrille.u_pipeline.norm_class[CLASS-1-:4],
+    u_quadrille.u_pipeline.norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS],
     u_quadrille.u_pipeline.norm_a_neg,
     u_quadrille.u_pipeline.norm_a_exp,
     u_quadrille.u_pipeline.norm_a_sig,
