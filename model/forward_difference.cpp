@@ -11,12 +11,20 @@ std::int64_t law_of_cosines(std::int64_t r2i, std::int64_t r2j, std::uint64_t le
 
 }  // namespace
 
-void forward_difference(PixelTrace& p, const TileEntry& tile, const QuadConstants& quad, int dx, int row) {
-  for (std::size_t k = 0; k < linear_count; ++k) p.a[k] = wrap_add(tile.linear[k], dx * quad.gx[k] + row * quad.gy[k]);
-  const int square = dx * dx + row * row;
+TileRow forward_difference_row(const TileEntry& tile, const QuadConstants& quad, int row) {
+  TileRow r{tile, row};
+  for (std::size_t k = 0; k < linear_count; ++k) r.linear[k] = wrap_add(tile.linear[k], row * quad.gy[k]);
+  for (std::size_t k = quad.homogeneous ? 0 : 6; k < quadratic_count; ++k)
+    r.quadratic[k] = wrap_add(tile.quadratic[k].value, row * tile.quadratic[k].gy);
+  return r;
+}
+
+void forward_difference_column(PixelTrace& p, const TileRow& row, const QuadConstants& quad, int dx) {
+  for (std::size_t k = 0; k < linear_count; ++k) p.a[k] = wrap_add(row.linear[k], dx * quad.gx[k]);
+  const int square = dx * dx + row.row * row.row;
   const auto at = [&](std::size_t k) {
-    const QuadraticForm& f = tile.quadratic[k];
-    return wrap_add(f.value, dx * f.gx + row * f.gy + square * f.q);
+    const QuadraticForm& f = row.tile.quadratic[k];
+    return wrap_add(row.quadratic[k], dx * f.gx + square * f.q);
   };
   for (std::size_t k = 0; k < 4; ++k) p.r2[k] = at(6 + k);
   for (std::size_t k = 0; k < 6; ++k) {

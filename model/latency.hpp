@@ -7,7 +7,9 @@
 namespace quadrille::latency {
 
 // From a unit's inputs to its outputs.
-inline constexpr int forward_difference_stages = 3;
+inline constexpr int forward_difference_row_stages = 1;
+inline constexpr int forward_difference_column_stages = 2;
+inline constexpr int forward_difference_stages = forward_difference_row_stages + forward_difference_column_stages;
 inline constexpr int law_of_cosines_stages = 2;
 inline constexpr int fp_normalise_stages = 2;
 inline constexpr int normalise_stages = 1 + fp_normalise_stages;

@@ -34,16 +34,16 @@ QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Conf
   return d;
 }
 
-void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, int dx,
-                    int row, const PipelineContext& c) {
+void pixel_lane(PixelTrace& p, const TileRow& row, const QuadConstants& constants, const QuadData& quad, int dx,
+                const PipelineContext& c) {
   p.valid = true;
-  p.slot = tile.slot;
+  p.slot = row.tile.slot;
   p.quad = quad.id;
-  p.x = (tile.tile_x << c.config.tile_log2) + dx;
-  p.y = (tile.tile_y << c.config.tile_log2) + row;
+  p.x = (row.tile.tile_x << c.config.tile_log2) + dx;
+  p.y = (row.tile.tile_y << c.config.tile_log2) + row.row;
   p.homogeneous = quad.homogeneous;
   p.hull = quad.hull;
-  forward_difference(p, tile, constants, dx, row);
+  forward_difference_column(p, row, constants, dx);
   normalise(p, c);
   sqrt_stage(p, c);
   mean_value_ratios(p, c);

@@ -36,9 +36,21 @@ struct PipelineContext {
   int attribute_frac;
 };
 
-/// A, D, r² at pixel (dx, row) of the tile: value + dx·gx + row·gy + q(dx² + row²); D of an ordinary quad by the law of
-/// cosines. Exact.
-void forward_difference(PixelTrace& p, const TileEntry& tile, const QuadConstants& quad, int dx, int row);
+/// What the pixels of a row of a tile have in common: value + row·gy of its functions. `tile` must outlive it.
+struct TileRow {
+  const TileEntry& tile;
+  int row = 0;
+  std::array<std::int64_t, linear_count> linear{};
+  std::array<std::int64_t, quadratic_count> quadratic{};  ///< 0 to 5 of a homogeneous quad alone
+};
+
+TileRow forward_difference_row(const TileEntry& tile, const QuadConstants& quad, int row);
+/// A, D, r² at pixel dx of the row: + dx·gx + q(dx² + row²); D of an ordinary quad by the law of cosines. Exact.
+void forward_difference_column(PixelTrace& p, const TileRow& row, const QuadConstants& quad, int dx);
+/// The two together, for whoever wants one pixel.
+inline void forward_difference(PixelTrace& p, const TileEntry& tile, const QuadConstants& quad, int dx, int row) {
+  forward_difference_column(p, forward_difference_row(tile, quad, row), quad, dx);
+}
 /// Stages 2-3. S-bit significands of A, D, r² and the singular class (rtl/README.md section 5, in its priority).
 void normalise(PixelTrace& p, const PipelineContext& c);
 /// r_i = sqrt(r_i²), faithful.
@@ -52,8 +64,14 @@ void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 /// Stages 21-25. Two reciprocals, fixed point, flags, discard.
 void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 
-/// All of them.
-void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, int dx,
-                    int row, const PipelineContext& c);
+/// All that a pixel has of its own, from its row on.
+void pixel_lane(PixelTrace& p, const TileRow& row, const QuadConstants& constants, const QuadData& quad, int dx,
+                const PipelineContext& c);
+
+/// All of them, for one pixel.
+inline void pixel_pipeline(PixelTrace& p, const TileEntry& tile, const QuadConstants& constants, const QuadData& quad,
+                           int dx, int row, const PipelineContext& c) {
+  pixel_lane(p, forward_difference_row(tile, constants, row), constants, quad, dx, c);
+}
 
 }  // namespace quadrille

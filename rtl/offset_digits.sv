@@ -1,5 +1,5 @@
-// What the 16 forward differences need of a pixel's place in its tile, row r and column dx: the digits of r, dx and r^2 + dx^2 in
-// radix 4, shared by all of them. Those of r and dx combinational, those of r^2 + dx^2 a clock later.
+// What the forward differences need of a pixel's place in its tile, row r and column dx: the digits of dx and r^2 + dx^2 in radix 4,
+// shared by all of them. Both in registers, a clock later.
 module offset_digits #(
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int NORM_BITS = 2 * TILE_LOG2 + 1,
@@ -9,11 +9,11 @@ module offset_digits #(
     input logic clk_i,
     input logic [TILE_LOG2-1:0] row_i,
     input logic [TILE_LOG2-1:0] dx_i,
-    output logic [2*OFFSET_DIGITS-1:0] row_digits_o,
     output logic [2*OFFSET_DIGITS-1:0] dx_digits_o,
     output logic [2*NORM_DIGITS-1:0] norm_digits_o
 );
   logic [NORM_BITS-1:0] row_square, dx_square;
+  logic [2*OFFSET_DIGITS-1:0] dx_digits;
   logic [2*NORM_DIGITS-1:0] norm_digits;
 
   always_comb begin  // a table: `*` would ask for a multiplier
@@ -25,14 +25,9 @@ module offset_digits #(
     end
   end
 
-  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row (
-      .number_i(row_i),
-      .digits_o(row_digits_o)
-  );
-
   radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_dx (
       .number_i(dx_i),
-      .digits_o(dx_digits_o)
+      .digits_o(dx_digits)
   );
 
   radix4_digits #(.NUMBER_BITS(NORM_BITS)) u_norm (
@@ -40,5 +35,8 @@ module offset_digits #(
       .digits_o(norm_digits)
   );
 
-  always_ff @(posedge clk_i) norm_digits_o <= norm_digits;
+  always_ff @(posedge clk_i) begin
+    dx_digits_o <= dx_digits;
+    norm_digits_o <= norm_digits;
+  end
 endmodule

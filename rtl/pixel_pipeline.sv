@@ -1,12 +1,12 @@
-// From a pixel's position to its fragment: a pipeline of LATENCY registers that never waits.
+// From pixels' positions to their fragments, PIXELS_PER_CLOCK a clock: a pipeline of LATENCY registers that never waits.
 //
-// Register n is written n clocks after the pixel enters. The boundaries between units have the registers quadrille_pkg::DIFF_STAGE to
-// FRAGMENT_STAGE, and signals are named after the boundary that they cross (README.md section 5).
-// Per-quad data is not carried: the slot index is, and the bank is read one register before the
-// unit that needs it. An end beat (end, not valid) travels with the pixels; at the last register it releases its slot.
+// The pixels of a clock are of one row of one tile. What they have in common is here: that row's values, the slot index, which travels
+// with them, and what is read from the slot bank by it, one register before its users; all else is in pixel_lane.
+// Register n is written n clocks after the pixels enter. The boundaries between units have the registers quadrille_pkg::DIFF_STAGE to
+// FRAGMENT_STAGE (README.md section 5). An end beat (end, no lane valid) travels with the pixels; at the last register it releases its slot.
 module pixel_pipeline #(
+    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
     localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
@@ -15,7 +15,6 @@ module pixel_pipeline #(
     localparam int FB = quadrille_pkg::FRAGMENT_BITS,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
-    localparam int NORM_DIGITS = (2 * TILE_LOG2 + 1) / 2 + 1,
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
     localparam int QVAL = quadrille_pkg::QVAL_BITS,
@@ -32,17 +31,12 @@ module pixel_pipeline #(
     input logic [DB:0] znear_i,
     input logic [DB:0] zfar_i,
     input logic [3:0] attributes_i,
-    // Emission. A homogeneous quad's pixel is valid with its last part
-    input logic valid_i,
+    // Emission: the pixels' row. Those of a homogeneous quad are valid with their last part
     input logic end_i,
     input logic [1:0] part_i,
     input logic [SLOT-1:0] slot_i,
-    input logic [V-1:0] x_i,
+    input logic [V-TILE_LOG2-1:0] tile_x_i,
     input logic [V-1:0] y_i,
-    input logic [TILE_LOG2-1:0] row_i,
-    input logic [TILE_LOG2-1:0] dx_i,
-    input logic front_i,
-    input logic tie_i,
     input logic [6*VAL-1:0] lin_value_i,
     input logic [6*GRAD-1:0] lin_gx_i,
     input logic [6*GRAD-1:0] lin_gy_i,
@@ -50,6 +44,11 @@ module pixel_pipeline #(
     input logic [4*QGRAD-1:0] quad_gx_i,
     input logic [4*QGRAD-1:0] quad_gy_i,
     input logic [4*QCURV-1:0] quad_q_i,
+    // The pixel of each lane
+    input logic [P-1:0] valid_i,
+    input logic [P*TILE_LOG2-1:0] dx_i,
+    input logic [P-1:0] front_i,
+    input logic [P-1:0] tie_i,
     // Slot bank
     output logic [SLOT-1:0] length2_slot_o,
     input logic [6*LENGTH2-1:0] length2_i,
@@ -69,85 +68,48 @@ module pixel_pipeline #(
     input logic output_hull_i,
     input logic output_homogeneous_i,
     output logic release_o,
-    // Fragment
-    output logic discard_o,  // a pixel that is no fragment, in the clock in which it would have been one
-    output logic fragment_valid_o,
-    output logic [FB-1:0] fragment_o
+    // Fragments
+    output logic discard_o,  // pixels of which none is a fragment, in the clock in which they would have been
+    output logic [P-1:0] fragment_valid_o,
+    output logic [P*FB-1:0] fragment_o  // zero in a lane without a fragment
 );
   // Registers at the boundaries
   localparam int DIFF = quadrille_pkg::DIFF_STAGE;
-  localparam int NORM = quadrille_pkg::NORM_STAGE;
   localparam int RATIO = quadrille_pkg::RATIO_STAGE;
   localparam int OVERRIDE = quadrille_pkg::OVERRIDE_STAGE;
   localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE;
   localparam int LAST = quadrille_pkg::LATENCY - 1;  // the output register
 
-  logic [LAST:0] valid_q;  // of the last register: pixels, drawn or discarded
   logic [LAST:0] end_q;
+  logic [P-1:0] pixel;  // in the last register, drawn or discarded
 
   assign release_o = end_q[LAST];
-  assign discard_o = valid_q[LAST] && !fragment_valid_o;
+  assign discard_o = pixel != '0 && fragment_valid_o == '0;
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      valid_q <= '0;
-      end_q <= '0;
-    end else begin
-      valid_q <= {valid_q[LAST-1:0], valid_i};
-      end_q <= {end_q[LAST-1:0], end_i};
-    end
+    if (!rst_ni) end_q <= '0;
+    else end_q <= {end_q[LAST-1:0], end_i};
   end
 
-  // ---- Side band: slot, position, facing, tie; from the norm boundary on the class with them -------------------------------
+  // ---- Side band: slot, tile column, row -----------------------------------------------------------------------------------
   // A read of the slot bank ends in a register: the slot leaves two registers before the data's user.
-  localparam int TAG = SLOT + 2 * V + 2;
-  localparam int CLASS = quadrille_pkg::CLASS_BITS;
-  localparam int FLAGS = quadrille_pkg::CLASS_FLAGS;
-  localparam int META = TAG + FLAGS;
   typedef struct packed {
     logic [SLOT-1:0] slot;
-    logic [V-1:0] x;
+    logic [V-TILE_LOG2-1:0] tile_x;
     logic [V-1:0] y;
-    logic front;
-    logic tie;
-    logic [FLAGS-1:0] flags;  // of the class
-  } meta_t;
-  logic [TAG-1:0] diff_tag, norm_tag;
-  logic [CLASS-1:0] norm_class, ratio_class;
-  logic [5:0] norm_d_neg, ratio_d_neg;  // signs of D
-  meta_t product_meta, override_meta, blend_meta, output_meta;
+  } tag_t;
+  localparam int TAG = SLOT + V - TILE_LOG2 + V;
+  tag_t diff_tag, product_tag, override_tag, blend_tag, output_tag;
 
-  delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (
+  delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (.clk_i, .data_i({slot_i, tile_x_i, y_i}), .data_o(diff_tag));
+  delay_line #(.WIDTH(TAG), .DEPTH(RATIO - 1 - DIFF)) u_product_tag (.clk_i, .data_i(diff_tag), .data_o(product_tag));
+  delay_line #(.WIDTH(TAG), .DEPTH(OVERRIDE - 1 - RATIO)) u_override_tag (
       .clk_i,
-      .data_i({slot_i, x_i, y_i, front_i, tie_i}),
-      .data_o(diff_tag)
+      .data_i(product_tag),
+      .data_o(override_tag)
   );
-  delay_line #(.WIDTH(TAG), .DEPTH(NORM - DIFF)) u_norm_tag (.clk_i, .data_i(diff_tag), .data_o(norm_tag));
-  delay_line #(.WIDTH(META), .DEPTH(RATIO - 1 - NORM)) u_product_meta (
-      .clk_i,
-      .data_i({norm_tag, norm_class[CLASS-1-:FLAGS]}),
-      .data_o(product_meta)
-  );
-  delay_line #(.WIDTH(META), .DEPTH(OVERRIDE - 1 - RATIO)) u_override_meta (
-      .clk_i,
-      .data_i(product_meta),
-      .data_o(override_meta)
-  );
-  delay_line #(.WIDTH(META), .DEPTH(WEIGHT + 1 - OVERRIDE)) u_blend_meta (
-      .clk_i,
-      .data_i(override_meta),
-      .data_o(blend_meta)
-  );
-  delay_line #(.WIDTH(META), .DEPTH(LAST - 1 - WEIGHT)) u_output_meta (
-      .clk_i,
-      .data_i(blend_meta),
-      .data_o(output_meta)
-  );
-  delay_line #(.WIDTH(CLASS + 6), .DEPTH(RATIO - NORM)) u_ratio_class (
-      .clk_i,
-      .data_i({norm_class, norm_d_neg}),
-      .data_o({ratio_class, ratio_d_neg})
-  );
+  delay_line #(.WIDTH(TAG), .DEPTH(WEIGHT + 1 - OVERRIDE)) u_blend_tag (.clk_i, .data_i(override_tag), .data_o(blend_tag));
+  delay_line #(.WIDTH(TAG), .DEPTH(LAST - 1 - WEIGHT)) u_output_tag (.clk_i, .data_i(blend_tag), .data_o(output_tag));
 
   // ---- Reads of the slot bank -----------------------------------------------------------------------------------------------
   logic [3:0] product_k_neg;
@@ -158,12 +120,12 @@ module pixel_pipeline #(
   logic [SETS*4*S-1:0] blend_sig;
   logic [ID-1:0] output_id;
   logic output_hull, output_homogeneous;
-  meta_t fragment_meta;  // output_meta in step with what was read
+  tag_t fragment_tag;  // output_tag in step with what was read
 
-  assign product_slot_o = product_meta.slot;
-  assign override_slot_o = override_meta.slot;
-  assign blend_slot_o = blend_meta.slot;
-  assign output_slot_o = output_meta.slot;
+  assign product_slot_o = product_tag.slot;
+  assign override_slot_o = override_tag.slot;
+  assign blend_slot_o = blend_tag.slot;
+  assign output_slot_o = output_tag.slot;
 
   always_ff @(posedge clk_i) begin
     product_k_neg <= product_k_neg_i;
@@ -177,68 +139,67 @@ module pixel_pipeline #(
     output_id <= output_id_i;
     output_hull <= output_hull_i;
     output_homogeneous <= output_homogeneous_i;
-    fragment_meta <= output_meta;
+    fragment_tag <= output_tag;
   end
 
-  // ---- Exact functions at the pixel --------------------------------------------------------------------------------------
-  localparam int DIFFERENCE = quadrille_pkg::FORWARD_DIFFERENCE_STAGES;
-  logic [6*VAL-1:0] a, diff_a;
-  logic [4*QVAL-1:0] quad, diff_r2;  // four quadratic functions of one part
-  logic [6*QVAL-1:0] diff_d;
-  logic [2*OFFSET_DIGITS-1:0] row_digits, dx_digits;
-  logic [2*NORM_DIGITS-1:0] norm_digits;
+  // ---- The row: value + r gy of all functions ---------------------------------------------------------------------------------
+  logic [TILE_LOG2-1:0] row;
+  logic [2*OFFSET_DIGITS-1:0] row_digits;
+  logic [6*VAL-1:0] lin_row;
+  logic [6*GRAD-1:0] lin_gx;
+  logic [4*QVAL-1:0] quad_row;
+  logic [4*QGRAD-1:0] quad_gx;
+  logic [4*QCURV-1:0] quad_q;
 
-  offset_digits u_offset (
-      .clk_i,
-      .row_i,
-      .dx_i,
-      .row_digits_o(row_digits),
-      .dx_digits_o(dx_digits),
-      .norm_digits_o(norm_digits)
+  assign row = y_i[TILE_LOG2-1:0];
+
+  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
+      .number_i(row),
+      .digits_o(row_digits)
   );
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
-    forward_difference #(
+    logic unused;
+
+    forward_difference_row #(
         .VALUE_BITS(VAL),
-        .GRAD_BITS(GRAD),
-        .QUADRATIC(1'b0)
-    ) u_difference (
+        .GRAD_BITS(GRAD)
+    ) u_row (
         .clk_i,
         .row_digits_i(row_digits),
-        .dx_digits_i(dx_digits),
-        .norm_digits_i(norm_digits),
         .value_i(lin_value_i[g*VAL+:VAL]),
         .gx_i(lin_gx_i[g*GRAD+:GRAD]),
         .gy_i(lin_gy_i[g*GRAD+:GRAD]),
         .q_i(1'b0),
-        .value_o(a[g*VAL+:VAL])
+        .row_o(lin_row[g*VAL+:VAL]),
+        .gx_o(lin_gx[g*GRAD+:GRAD]),
+        .q_o(unused)
     );
   end
 
   for (genvar g = 0; g < 4; g++) begin : gen_quadratic
-    forward_difference #(
+    forward_difference_row #(
         .VALUE_BITS(QVAL),
         .GRAD_BITS(QGRAD),
         .CURV_BITS(QCURV)
-    ) u_difference (
+    ) u_row (
         .clk_i,
         .row_digits_i(row_digits),
-        .dx_digits_i(dx_digits),
-        .norm_digits_i(norm_digits),
         .value_i(quad_value_i[g*QVAL+:QVAL]),
         .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
         .gy_i(quad_gy_i[g*QGRAD+:QGRAD]),
         .q_i(quad_q_i[g*QCURV+:QCURV]),
-        .value_o(quad[g*QVAL+:QVAL])
+        .row_o(quad_row[g*QVAL+:QVAL]),
+        .gx_o(quad_gx[g*QGRAD+:QGRAD]),
+        .q_o(quad_q[g*QCURV+:QCURV])
     );
   end
 
-  // The dot products: of an ordinary quad from the squared distances, of a homogeneous one those of the parts before.
-  // Both come to law_of_cosines a clock after the squared distances.
+  // What law_of_cosines needs of quad and part; both come to it a clock after the squared distances.
+  localparam int DIFFERENCE = quadrille_pkg::FORWARD_DIFFERENCE_STAGES;
   logic [1:0] part;
   logic squares_q;
   logic [6*LENGTH2-1:0] length2_q;
-  logic [6*QVAL-1:0] dot_q;
 
   delay_line #(.WIDTH(2), .DEPTH(DIFFERENCE)) u_part (
       .clk_i,
@@ -254,233 +215,54 @@ module pixel_pipeline #(
   always_ff @(posedge clk_i) begin
     squares_q <= part == quadrille_pkg::PART_SQUARES;
     length2_q <= length2_i;
-    if (part == quadrille_pkg::PART_EDGES) dot_q[0+:4*QVAL] <= quad;
-    if (part == quadrille_pkg::PART_DIAGONALS) dot_q[4*QVAL+:2*QVAL] <= quad[0+:2*QVAL];
   end
 
-  for (genvar g = 0; g < 6; g++) begin : gen_dot
-    localparam int I = {30'd0, quadrille_pkg::pair_first(4'(g))};
-    localparam int J = {30'd0, quadrille_pkg::pair_second(4'(g))};
-
-    law_of_cosines u_dot (
+  // ---- The pixels -------------------------------------------------------------------------------------------------------------
+  for (genvar g = 0; g < P; g++) begin : gen_lane
+    pixel_lane u_lane (
         .clk_i,
-        .r2_first_i(quad[I*QVAL+:QVAL]),
-        .r2_second_i(quad[J*QVAL+:QVAL]),
-        .homogeneous_i(squares_q),
-        .exact_i(dot_q[g*QVAL+:QVAL]),
-        .length2_i(length2_q[g*LENGTH2+:LENGTH2]),
-        .d_o(diff_d[g*QVAL+:QVAL])
+        .rst_ni,
+        .depth_on_i,
+        .znear_i,
+        .zfar_i,
+        .attributes_i,
+        .valid_i(valid_i[g]),
+        .row_i(row),
+        .dx_i(dx_i[g*TILE_LOG2+:TILE_LOG2]),
+        .front_i(front_i[g]),
+        .tie_i(tie_i[g]),
+        .lin_row_i(lin_row),
+        .lin_gx_i(lin_gx),
+        .quad_row_i(quad_row),
+        .quad_gx_i(quad_gx),
+        .quad_q_i(quad_q),
+        .part_i(part),
+        .squares_i(squares_q),
+        .length2_i(length2_q),
+        .product_k_neg_i(product_k_neg),
+        .product_k_exp_i(product_k_exp),
+        .product_k_sig_i(product_k_sig),
+        .override_k_exp_i(override_k_exp),
+        .override_k_sig_i(override_k_sig),
+        .blend_neg_i(blend_neg),
+        .blend_exp_i(blend_exp),
+        .blend_sig_i(blend_sig),
+        .output_id_i(output_id),
+        .output_hull_i(output_hull),
+        .output_homogeneous_i(output_homogeneous),
+        .output_tile_x_i(fragment_tag.tile_x),
+        .output_y_i(fragment_tag.y),
+        .pixel_o(pixel[g]),
+        .fragment_valid_o(fragment_valid_o[g]),
+        .fragment_o(fragment_o[g*FB+:FB])
     );
   end
-
-  delay_line #(.WIDTH(6 * VAL + 4 * QVAL), .DEPTH(quadrille_pkg::LAW_OF_COSINES_STAGES)) u_diff (
-      .clk_i,
-      .data_i({a, quad}),
-      .data_o({diff_a, diff_r2})
-  );
-
-  // ---- Significand numbers and class -------------------------------------------------------------------------------------
-  logic [5:0] norm_a_neg;
-  logic [6*E-1:0] norm_a_exp, norm_d_exp;
-  logic [6*S-1:0] norm_a_sig, norm_d_sig;
-  logic [3:0] norm_r2_neg;
-  logic [4*E-1:0] norm_r2_exp;
-  logic [4*S-1:0] norm_r2_sig;
-
-  for (genvar g = 0; g < 6; g++) begin : gen_norm
-    normalise #(
-        .WIDTH(VAL),
-        .BIAS(-quadrille_pkg::QDROP)
-    ) u_a (
-        .clk_i,
-        .value_i(diff_a[g*VAL+:VAL]),
-        .neg_o(norm_a_neg[g]),
-        .exp_o(norm_a_exp[g*E+:E]),
-        .sig_o(norm_a_sig[g*S+:S])
-    );
-
-    normalise #(.WIDTH(QVAL)) u_d (
-        .clk_i,
-        .value_i(diff_d[g*QVAL+:QVAL]),
-        .neg_o(norm_d_neg[g]),
-        .exp_o(norm_d_exp[g*E+:E]),
-        .sig_o(norm_d_sig[g*S+:S])
-    );
-  end
-
-  for (genvar g = 0; g < 4; g++) begin : gen_norm_r2
-    normalise #(
-        .WIDTH(QVAL),
-        .CLAMP(1'b1)
-    ) u_r2 (
-        .clk_i,
-        .value_i(diff_r2[g*QVAL+:QVAL]),
-        .neg_o(norm_r2_neg[g]),
-        .exp_o(norm_r2_exp[g*E+:E]),
-        .sig_o(norm_r2_sig[g*S+:S])
-    );
-  end
-
-  singular_class u_class (
-      .clk_i,
-      .a_i(diff_a[0+:4*VAL]),
-      .d_i(diff_d[0+:4*QVAL]),
-      .r2_i(diff_r2),
-      .class_o(norm_class)
-  );
-
-  // ---- r_i, the corners' distances ------------------------------------------------------------------------------------------------------
-  logic [4*E-1:0] root_exp;
-  logic [4*S-1:0] root_sig;
-
-  for (genvar g = 0; g < 4; g++) begin : gen_sqrt
-    sqrt u_sqrt (
-        .clk_i,
-        .exp_i(norm_r2_exp[g*E+:E]),
-        .sig_i(norm_r2_sig[g*S+:S]),
-        .exp_o(root_exp[g*E+:E]),
-        .sig_o(root_sig[g*S+:S])
-    );
-  end
-
-  // ---- Ratios and weights -------------------------------------------------------------------------------------------------
-  logic [6*E-1:0] ratio_u_exp, ratio_v_exp;
-  logic [6*S-1:0] ratio_u_sig, ratio_v_sig;
-  logic [4*E-1:0] m_exp;
-  logic [4*S-1:0] m_sig;
-
-  mean_value_ratios u_ratios (
-      .clk_i,
-      .a_exp_i(norm_a_exp),
-      .a_sig_i(norm_a_sig),
-      .d_exp_i(norm_d_exp),
-      .d_sig_i(norm_d_sig),
-      .root_exp_i(root_exp),
-      .root_sig_i(root_sig),
-      .u_exp_o(ratio_u_exp),
-      .u_sig_o(ratio_u_sig),
-      .v_exp_o(ratio_v_exp),
-      .v_sig_o(ratio_v_sig)
-  );
-
-  mean_value_weights u_weights (
-      .clk_i,
-      .root_exp_i(root_exp),
-      .root_sig_i(root_sig),
-      .u_exp_i(ratio_u_exp),
-      .u_sig_i(ratio_u_sig),
-      .v_exp_i(ratio_v_exp),
-      .v_sig_i(ratio_v_sig),
-      .d_neg_i(ratio_d_neg),
-      .class_i(ratio_class),
-      .k_neg_i(product_k_neg),
-      .k_exp_i(product_k_exp),
-      .k_sig_i(product_k_sig),
-      .override_k_exp_i(override_k_exp),
-      .override_k_sig_i(override_k_sig),
-      .m_exp_o(m_exp),
-      .m_sig_o(m_sig)
-  );
-
-  // ---- Sums. Sets: 0 k_eff, 1 W, 2 Z, 3.. attributes ------------------------------------------------------
-  logic [SETS-1:0] sum_neg;
-  logic [SETS*E-1:0] sum_exp;
-  logic [SETS*S-1:0] sum_sig;
-
-  interpolate u_interpolate (
-      .clk_i,
-      .m_exp_i(m_exp),
-      .m_sig_i(m_sig),
-      .term_neg_i(blend_neg),
-      .term_exp_i(blend_exp),
-      .term_sig_i(blend_sig),
-      .sum_neg_o(sum_neg),
-      .sum_exp_o(sum_exp),
-      .sum_sig_o(sum_sig)
-  );
-
-  // ---- Reciprocals, the numerators wait -----------------------------------------------------------------------------------
-  localparam int NUMS = 1 + N;  // Z and the attributes
-  logic rk_neg, rw_neg;
-  logic [E-1:0] rk_exp, rw_exp;
-  logic [S-1:0] rk_sig, rw_sig;
-  logic [NUMS-1:0] num_neg;
-  logic [NUMS*E-1:0] num_exp;
-  logic [NUMS*S-1:0] num_sig;
-
-  reciprocal u_reciprocal_k (
-      .clk_i,
-      .neg_i(sum_neg[0]),
-      .exp_i(sum_exp[0+:E]),
-      .sig_i(sum_sig[0+:S]),
-      .neg_o(rk_neg),
-      .exp_o(rk_exp),
-      .sig_o(rk_sig)
-  );
-
-  reciprocal u_reciprocal_w (
-      .clk_i,
-      .neg_i(sum_neg[1]),
-      .exp_i(sum_exp[E+:E]),
-      .sig_i(sum_sig[S+:S]),
-      .neg_o(rw_neg),
-      .exp_o(rw_exp),
-      .sig_o(rw_sig)
-  );
-
-  for (genvar g = 0; g < NUMS; g++) begin : gen_numerator
-    delay_line #(.WIDTH(1 + E + S), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_delay (
-        .clk_i,
-        .data_i({sum_neg[2+g], sum_exp[(2+g)*E+:E], sum_sig[(2+g)*S+:S]}),
-        .data_o({num_neg[g], num_exp[g*E+:E], num_sig[g*S+:S]})
-    );
-  end
-
-  // ---- Quotients, output --------------------------------------------------------------------------------------------------
-  fragment_output u_output (
-      .clk_i,
-      .rst_ni,
-      .depth_on_i,
-      .znear_i,
-      .zfar_i,
-      .attributes_i,
-      .attr_neg_i(num_neg[NUMS-1:1]),
-      .attr_exp_i(num_exp[NUMS*E-1:E]),
-      .attr_sig_i(num_sig[NUMS*S-1:S]),
-      .z_neg_i(num_neg[0]),
-      .z_exp_i(num_exp[E-1:0]),
-      .z_sig_i(num_sig[S-1:0]),
-      .rk_neg_i(rk_neg),
-      .rk_exp_i(rk_exp),
-      .rk_sig_i(rk_sig),
-      .rw_neg_i(rw_neg),
-      .rw_exp_i(rw_exp),
-      .rw_sig_i(rw_sig),
-      .valid_i(valid_q[LAST-1]),
-      .id_i(output_id),
-      .hull_i(output_hull),
-      .homogeneous_i(output_homogeneous),
-      .x_i(fragment_meta.x),
-      .y_i(fragment_meta.y),
-      .front_i(fragment_meta.front),
-      .tie_i(fragment_meta.tie),
-      .flags_i(fragment_meta.flags),
-      .valid_o(fragment_valid_o),
-      .fragment_o
-  );
 
   logic unused;
-  assign unused = ^{norm_r2_neg, norm_a_neg, fragment_meta.slot};
+  assign unused = ^fragment_tag.slot;
 
 `ifndef SYNTHESIS
-  // Zero when not valid. An end beat carries no pixel.
-  always_ff @(posedge clk_i) begin
-    if (rst_ni) begin
-      assert (fragment_valid_o || fragment_o == '0);
-      assert ((valid_q & end_q) == '0);
-      assert (!fragment_valid_o || valid_q[LAST]);
-      assert (!valid_q[NORM] || ((norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS] & (norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS] - quadrille_pkg::CLASS_KINDS'(1))) == '0));
-    end
-  end
+  // An end beat carries no pixel.
+  always_ff @(posedge clk_i) if (rst_ni) assert (pixel == '0 || !end_q[LAST]);
 `endif
 endmodule

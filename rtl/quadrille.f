@@ -10,7 +10,8 @@ dot_unit.sv
 edge_reach.sv
 factor_products.sv
 fixed_point.sv
-forward_difference.sv
+forward_difference_column.sv
+forward_difference_row.sv
 fp_add.sv
 fp_multiply.sv
 fp_normalise.sv
@@ -29,6 +30,7 @@ normalise.sv
 offset_digits.sv
 one_of_four.sv
 pixel_emit.sv
+pixel_lane.sv
 pixel_pipeline.sv
 quad_setup.sv
 quad_slots.sv

@@ -13,7 +13,7 @@ module quadrille (
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
-    output logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment_o,
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::FRAGMENT_BITS-1:0] fragment_o,
     output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] fragment_mask_o,
     output logic fragment_valid_o,
     input logic fragment_ready_i,
@@ -389,7 +389,7 @@ module quadrille (
   // ---- Tile ring ----------------------------------------------------------------------------------------------------------
   logic [RING:0] fetch_ptr, load_ptr, stamp_ptr, head_ptr, emit_ptr;
   logic stamp_present, stamp_end, stamp_homogeneous, stamps_empty, head_valid, fetch, fetch_homogeneous;
-  logic emit_valid, emit_end;
+  logic emit_end;
   logic [1:0] emit_part;
   logic [TC-1:0] stamp_tile_x, stamp_tile_y, emit_tile_x, emit_tile_y;
   logic [5*VAL-1:0] stamp_lin_value;
@@ -438,7 +438,7 @@ module quadrille (
       .stamps_empty_i(stamps_empty),
       .head_valid_i(head_valid),
       .head_ptr_i(head_ptr),
-      .emit_valid_i(emit_valid),
+      .emit_valid_i(emit_valid != '0),
       .emit_ptr_i(emit_ptr),
       .emit_part_i(emit_part),
       .tag_slot_o(tag_slot),
@@ -513,14 +513,19 @@ module quadrille (
   );
 
   // ---- Pixels -------------------------------------------------------------------------------------------------------------
-  localparam int PIXEL = 2 + 2 + 2 * TILE_LOG2 + 2;  // {valid, end, part, row, dx, front, tie}
-  logic emit_front, emit_tie;
-  logic freed, discard, drawn;
-  logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
-  logic [TILE_LOG2-1:0] emit_row, emit_dx;
-  logic pixel_valid, pixel_end, pixel_front, pixel_tie;
+  localparam int P = quadrille_pkg::PIXELS_PER_CLOCK;
+  localparam int PIXEL = TILE_LOG2 + 3;  // {dx, valid, front, tie}
+  localparam int PIXELS = 1 + 2 + TILE_LOG2 + P * PIXEL;  // {end, part, row} and the pixels of the lanes
+  logic freed, discard;
+  logic [P-1:0] emit_valid, emit_front, emit_tie;
+  logic [P*TILE_LOG2-1:0] emit_dx;
+  logic [TILE_LOG2-1:0] emit_row;
+  logic [P-1:0] pixel_valid, pixel_front, pixel_tie, drawn;
+  logic [P*TILE_LOG2-1:0] pixel_dx;
+  logic [TILE_LOG2-1:0] pixel_row;
+  logic pixel_end;
   logic [1:0] pixel_part;
-  logic [TILE_LOG2-1:0] pixel_row, pixel_dx;
+  logic [P*quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
 
   pixel_emit u_emit (
       .clk_i,
@@ -536,25 +541,25 @@ module quadrille (
       .pop_o(pop),
       .freed_i(freed),
       .discard_i(discard),
-      .valid_o(emit_valid),
       .end_o(emit_end),
       .part_o(emit_part),
       .ptr_o(emit_ptr),
       .row_o(emit_row),
+      .valid_o(emit_valid),
       .dx_o(emit_dx),
       .front_o(emit_front),
       .tie_o(emit_tie)
   );
 
-  // A pixel waits for what ring and slots have of its tile and quad.
-  logic [2*PIXEL-1:0] pixel_q;
+  // Pixels wait for what ring and slots have of their tile and quad.
+  logic [2*PIXELS-1:0] pixels_q;
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) pixel_q <= '0;
-    else pixel_q <= {pixel_q[PIXEL-1:0], emit_valid, emit_end, emit_part, emit_row, emit_dx, emit_front, emit_tie};
+    if (!rst_ni) pixels_q <= '0;
+    else pixels_q <= {pixels_q[PIXELS-1:0], emit_end, emit_part, emit_row, emit_dx, emit_valid, emit_front, emit_tie};
   end
 
-  assign {pixel_valid, pixel_end, pixel_part, pixel_row, pixel_dx, pixel_front, pixel_tie} = pixel_q[2*PIXEL-1:PIXEL];
+  assign {pixel_end, pixel_part, pixel_row, pixel_dx, pixel_valid, pixel_front, pixel_tie} = pixels_q[2*PIXELS-1:PIXELS];
 
   pixel_pipeline u_pipeline (
       .clk_i,
@@ -563,16 +568,11 @@ module quadrille (
       .znear_i(state.znear),
       .zfar_i(state.zfar),
       .attributes_i(state.attributes),
-      .valid_i(pixel_valid),
       .end_i(pixel_end),
       .part_i(pixel_part),
       .slot_i(emit_slot),
-      .x_i(V'({emit_tile_x, pixel_dx})),
+      .tile_x_i((V - TILE_LOG2)'({emit_tile_x})),
       .y_i(V'({emit_tile_y, pixel_row})),
-      .row_i(pixel_row),
-      .dx_i(pixel_dx),
-      .front_i(pixel_front),
-      .tie_i(pixel_tie),
       .lin_value_i(emit_lin_value),
       .lin_gx_i(emit_gx),
       .lin_gy_i(emit_gy),
@@ -580,6 +580,10 @@ module quadrille (
       .quad_gx_i(emit_quad_gx),
       .quad_gy_i(emit_quad_gy),
       .quad_q_i(emit_quad_q),
+      .valid_i(pixel_valid),
+      .dx_i(pixel_dx),
+      .front_i(pixel_front),
+      .tie_i(pixel_tie),
       .length2_slot_o(length2_slot),
       .length2_i(length2),
       .product_slot_o(product_slot),
@@ -613,8 +617,7 @@ module quadrille (
       .freed_o(freed),
       .valid_o(fragment_valid_o),
       .ready_i(fragment_ready_i),
+      .mask_o(fragment_mask_o),
       .data_o(fragment_o)
   );
-
-  assign fragment_mask_o = {quadrille_pkg::PIXELS_PER_CLOCK{fragment_valid_o}};
 endmodule

@@ -213,7 +213,9 @@ package quadrille_pkg;
 
   // ---- Latency of the pixel pipeline (README.md section 5, model/latency.hpp) ----------------------------------------------
   // Clocks from a unit's inputs to its outputs.
-  localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = 3;  // row, column, bend
+  localparam int FORWARD_DIFFERENCE_ROW_STAGES /*verilator public*/ = 1;
+  localparam int FORWARD_DIFFERENCE_COLUMN_STAGES /*verilator public*/ = 2;  // column, bend
+  localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = FORWARD_DIFFERENCE_ROW_STAGES + FORWARD_DIFFERENCE_COLUMN_STAGES;
   localparam int LAW_OF_COSINES_STAGES /*verilator public*/ = 2;  // sum, difference
   localparam int FP_NORMALISE_STAGES /*verilator public*/ = 2;  // long shifts, short shifts
   localparam int NORMALISE_STAGES /*verilator public*/ = 1 + FP_NORMALISE_STAGES;  // magnitude
@@ -240,7 +242,7 @@ package quadrille_pkg;
   localparam int FRAGMENT_STAGE /*verilator public*/ = SUM_STAGE + RECIPROCAL_STAGES + FRAGMENT_OUTPUT_STAGES;
   // clocks from a pixel at the input to the last register
   localparam int LATENCY /*verilator public*/ = FRAGMENT_STAGE + 1;
-  // places of the fragment FIFO: at full rate a place that a pixel takes is free again after LATENCY and 7 clocks (3 from emission to
+  // places of the fragment FIFO: at full rate a place that the pixels of a clock take is free again after LATENCY and 7 clocks (3 from emission to
   // the pipeline, 2 through the FIFO, 2 until the count of free places knows)
   localparam int FRAGMENT_FIFO_LOG2 /*verilator public*/ = $clog2(LATENCY + 7);
 
@@ -250,7 +252,7 @@ package quadrille_pkg;
       QUAD_ID_BITS + 2 * T_BITS + W_BITS + (PORT_EXP_BITS + SIGNIFICAND_BITS) + ATTR_PORT_BITS + ATTRIBUTE_SLOTS * ATTR_PORT_BITS;
   // scissor, cull, perspective, depth, znear, zfar, attributes, skip
   localparam int STATE_BITS /*verilator public*/ = 4 * (VIEWPORT_BITS + 1) + 2 + 1 + 1 + 2 * (DEPTH_BITS + 1) + 4 + 8;
-  // quad, x, y, front, flags, depth, attributes
+  // quad, x, y, front, flags, depth, attributes: of one lane
   localparam int FRAGMENT_BITS /*verilator public*/ =
       QUAD_ID_BITS + 2 * VIEWPORT_BITS + 1 + 8 + DEPTH_BITS + 1 + ATTRIBUTE_SLOTS * ATTR_OUT_BITS;
 

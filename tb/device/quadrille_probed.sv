@@ -2,7 +2,7 @@
 // taken out of the machine by hierarchical reference, so that rtl/ has no port and no register for them.
 //
 // probe_<name>_valid_o: the boundary carries a beat in this clock: setup when the walk takes a quad, tile when coverage may see it first,
-// stamp when the FIFO takes it, the others with the register that they are named after.
+// stamp when the FIFO takes it, the others, one for each lane, with the register that they are named after.
 module quadrille_probed (
     input logic clk_i,
     input logic rst_ni,
@@ -10,7 +10,7 @@ module quadrille_probed (
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
-    output logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment_o,
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::FRAGMENT_BITS-1:0] fragment_o,
     output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] fragment_mask_o,
     output logic fragment_valid_o,
     input logic fragment_ready_i,
@@ -22,18 +22,18 @@ module quadrille_probed (
     output quadrille_probes_pkg::probe_tile_t probe_tile_o,
     output logic probe_stamp_valid_o,
     output quadrille_probes_pkg::probe_stamp_t probe_stamp_o,
-    output logic probe_diff_valid_o,
-    output quadrille_probes_pkg::probe_diff_t probe_diff_o,
-    output logic probe_norm_valid_o,
-    output quadrille_probes_pkg::probe_norm_t probe_norm_o,
-    output logic probe_sqrt_valid_o,
-    output quadrille_probes_pkg::probe_sqrt_t probe_sqrt_o,
-    output logic probe_ratio_valid_o,
-    output quadrille_probes_pkg::probe_ratio_t probe_ratio_o,
-    output logic probe_weight_valid_o,
-    output quadrille_probes_pkg::probe_weight_t probe_weight_o,
-    output logic probe_sum_valid_o,
-    output quadrille_probes_pkg::probe_sum_t probe_sum_o
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_diff_valid_o,
+    output quadrille_probes_pkg::probe_diff_t [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_diff_o,
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_norm_valid_o,
+    output quadrille_probes_pkg::probe_norm_t [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_norm_o,
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_sqrt_valid_o,
+    output quadrille_probes_pkg::probe_sqrt_t [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_sqrt_o,
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_ratio_valid_o,
+    output quadrille_probes_pkg::probe_ratio_t [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_ratio_o,
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_weight_valid_o,
+    output quadrille_probes_pkg::probe_weight_t [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_weight_o,
+    output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_sum_valid_o,
+    output quadrille_probes_pkg::probe_sum_t [quadrille_pkg::PIXELS_PER_CLOCK-1:0] probe_sum_o
 );
   quadrille u_quadrille (
       .clk_i,
@@ -116,64 +116,76 @@ module quadrille_probed (
   assign context_bits = {tile_x, tile_y, lin_value, quad_value, quad_gx, quad_gy, quad_q};
   assign probe_tile_o = {tile_end, tile_slot, tile_end ? CONTEXT'(0) : context_bits};
 
-  // ---- Pixels ---------------------------------------------------------------------------------------------------------------
+  // ---- Pixels, lane by lane -------------------------------------------------------------------------------------------------
+  localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int CLASS = quadrille_pkg::CLASS_BITS;
   localparam int E = quadrille_pkg::EXP_BITS;
   localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
   localparam int SETS = 3 + quadrille_pkg::ATTRIBUTE_SLOTS;
 
-  assign probe_diff_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::DIFF_STAGE];
-  assign probe_diff_o = {
-    u_quadrille.u_pipeline.diff_tag, u_quadrille.u_pipeline.diff_a, u_quadrille.u_pipeline.diff_d, u_quadrille.u_pipeline.diff_r2
-  };
+  for (genvar g = 0; g < quadrille_pkg::PIXELS_PER_CLOCK; g++) begin : gen_lane
+    logic [SETS-1:0] sum_neg;
+    logic [SETS*E-1:0] sum_exp;
+    logic [SETS*S-1:0] sum_sig;
 
-  assign probe_norm_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::NORM_STAGE];
-  assign probe_norm_o = {
-    u_quadrille.u_pipeline.norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS],
-    u_quadrille.u_pipeline.norm_a_neg,
-    u_quadrille.u_pipeline.norm_a_exp,
-    u_quadrille.u_pipeline.norm_a_sig,
-    u_quadrille.u_pipeline.norm_d_neg,
-    u_quadrille.u_pipeline.norm_d_exp,
-    u_quadrille.u_pipeline.norm_d_sig,
-    u_quadrille.u_pipeline.norm_r2_exp,
-    u_quadrille.u_pipeline.norm_r2_sig
-  };
+    assign probe_diff_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::DIFF_STAGE];
+    assign probe_diff_o[g] = {
+      u_quadrille.u_pipeline.diff_tag.slot,
+      u_quadrille.u_pipeline.diff_tag.tile_x,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.diff_tag[2+:TILE_LOG2],
+      u_quadrille.u_pipeline.diff_tag.y,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.diff_tag[1:0],
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.diff_a,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.diff_d,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.diff_r2
+    };
 
-  assign probe_sqrt_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::ROOT_STAGE];
-  assign probe_sqrt_o = {u_quadrille.u_pipeline.root_exp, u_quadrille.u_pipeline.root_sig};
+    assign probe_norm_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::NORM_STAGE];
+    assign probe_norm_o[g] = {
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS],
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_neg,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_exp,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_sig,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_neg,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_exp,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_sig,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_r2_exp,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_r2_sig
+    };
 
-  assign probe_ratio_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::RATIO_STAGE];
-  assign probe_ratio_o = {
-    u_quadrille.u_pipeline.ratio_u_exp,
-    u_quadrille.u_pipeline.ratio_u_sig,
-    u_quadrille.u_pipeline.ratio_v_exp,
-    u_quadrille.u_pipeline.ratio_v_sig
-  };
+    assign probe_sqrt_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::ROOT_STAGE];
+    assign probe_sqrt_o[g] = {
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.root_exp, u_quadrille.u_pipeline.gen_lane[g].u_lane.root_sig
+    };
 
-  assign probe_weight_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::WEIGHT_STAGE];
-  assign probe_weight_o = {u_quadrille.u_pipeline.m_exp, u_quadrille.u_pipeline.m_sig};
+    assign probe_ratio_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::RATIO_STAGE];
+    assign probe_ratio_o[g] = {
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_u_exp,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_u_sig,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_v_exp,
+      u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_v_sig
+    };
 
-  logic [SETS-1:0] sum_neg;
-  logic [SETS*E-1:0] sum_exp;
-  logic [SETS*S-1:0] sum_sig;
+    assign probe_weight_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::WEIGHT_STAGE];
+    assign probe_weight_o[g] = {u_quadrille.u_pipeline.gen_lane[g].u_lane.m_exp, u_quadrille.u_pipeline.gen_lane[g].u_lane.m_sig};
 
-  assign sum_neg = u_quadrille.u_pipeline.sum_neg;
-  assign sum_exp = u_quadrille.u_pipeline.sum_exp;
-  assign sum_sig = u_quadrille.u_pipeline.sum_sig;
-  assign probe_sum_valid_o = u_quadrille.u_pipeline.valid_q[quadrille_pkg::SUM_STAGE];
-  assign probe_sum_o = {
-    sum_neg[SETS-1:3],
-    sum_exp[SETS*E-1:3*E],
-    sum_sig[SETS*S-1:3*S],
-    sum_neg[2],
-    sum_exp[2*E+:E],
-    sum_sig[2*S+:S],
-    sum_neg[0],
-    sum_exp[0+:E],
-    sum_sig[0+:S],
-    sum_neg[1],
-    sum_exp[E+:E],
-    sum_sig[S+:S]
-  };
+    assign sum_neg = u_quadrille.u_pipeline.gen_lane[g].u_lane.sum_neg;
+    assign sum_exp = u_quadrille.u_pipeline.gen_lane[g].u_lane.sum_exp;
+    assign sum_sig = u_quadrille.u_pipeline.gen_lane[g].u_lane.sum_sig;
+    assign probe_sum_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::SUM_STAGE];
+    assign probe_sum_o[g] = {
+      sum_neg[SETS-1:3],
+      sum_exp[SETS*E-1:3*E],
+      sum_sig[SETS*S-1:3*S],
+      sum_neg[2],
+      sum_exp[2*E+:E],
+      sum_sig[2*S+:S],
+      sum_neg[0],
+      sum_exp[0+:E],
+      sum_sig[0+:S],
+      sum_neg[1],
+      sum_exp[E+:E],
+      sum_sig[S+:S]
+    };
+  end
 endmodule

@@ -13,46 +13,93 @@ module replay_forward_difference (
   localparam int LAW = quadrille_pkg::LAW_OF_COSINES_STAGES;
 
   localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
-  logic [2*(TILE_LOG2/2+1)-1:0] row_digits_i, dx_digits_i;
-  logic [2*(TILE_LOG2+1)-1:0] norm_digits_i;
+  logic [2*(TILE_LOG2/2+1)-1:0] row_digits, dx_digits;
+  logic [2*(TILE_LOG2+1)-1:0] norm_digits;
+
+  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
+      .number_i(row_i),
+      .digits_o(row_digits)
+  );
 
   offset_digits u_offset (
-      .row_digits_o(row_digits_i),
-      .dx_digits_o(dx_digits_i),
-      .norm_digits_o(norm_digits_i),
-      .*
+      .clk_i,
+      .row_i,
+      .dx_i,
+      .dx_digits_o(dx_digits),
+      .norm_digits_o(norm_digits)
   );
 
   logic [6*VAL-1:0] a;
   logic [10*QVAL-1:0] quadratic;  // D of a homogeneous quad, r^2
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
-    forward_difference #(
+    logic [VAL-1:0] row;
+    logic [GRAD-1:0] gx;
+    logic unused;
+
+    forward_difference_row #(
         .VALUE_BITS(VAL),
-        .GRAD_BITS(GRAD),
-        .QUADRATIC(1'b0)
-    ) u_difference (
+        .GRAD_BITS(GRAD)
+    ) u_row (
+        .clk_i,
+        .row_digits_i(row_digits),
         .value_i(lin_value_i[g*VAL+:VAL]),
         .gx_i(lin_gx_i[g*GRAD+:GRAD]),
         .gy_i(lin_gy_i[g*GRAD+:GRAD]),
         .q_i(1'b0),
-        .value_o(a[g*VAL+:VAL]),
-        .*
+        .row_o(row),
+        .gx_o(gx),
+        .q_o(unused)
+    );
+
+    forward_difference_column #(
+        .VALUE_BITS(VAL),
+        .GRAD_BITS(GRAD),
+        .QUADRATIC(1'b0)
+    ) u_column (
+        .clk_i,
+        .dx_digits_i(dx_digits),
+        .norm_digits_i(norm_digits),
+        .row_i(row),
+        .gx_i(gx),
+        .q_i(1'b0),
+        .value_o(a[g*VAL+:VAL])
     );
   end
 
   for (genvar g = 0; g < 10; g++) begin : gen_quadratic
-    forward_difference #(
+    logic [QVAL-1:0] row;
+    logic [QGRAD-1:0] gx;
+    logic [QCURV-1:0] q;
+
+    forward_difference_row #(
         .VALUE_BITS(QVAL),
         .GRAD_BITS(QGRAD),
         .CURV_BITS(QCURV)
-    ) u_difference (
+    ) u_row (
+        .clk_i,
+        .row_digits_i(row_digits),
         .value_i(quad_value_i[g*QVAL+:QVAL]),
         .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
         .gy_i(quad_gy_i[g*QGRAD+:QGRAD]),
         .q_i(quad_q_i[g*QCURV+:QCURV]),
-        .value_o(quadratic[g*QVAL+:QVAL]),
-        .*
+        .row_o(row),
+        .gx_o(gx),
+        .q_o(q)
+    );
+
+    forward_difference_column #(
+        .VALUE_BITS(QVAL),
+        .GRAD_BITS(QGRAD),
+        .CURV_BITS(QCURV)
+    ) u_column (
+        .clk_i,
+        .dx_digits_i(dx_digits),
+        .norm_digits_i(norm_digits),
+        .row_i(row),
+        .gx_i(gx),
+        .q_i(q),
+        .value_o(quadratic[g*QVAL+:QVAL])
     );
   end
 
