@@ -50,7 +50,7 @@ void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext&
   g.flags = static_cast<std::uint8_t>((p.on_edge ? flag_on_edge : 0) | (p.on_vertex ? flag_on_vertex : 0) |
                                       (p.two_corner ? flag_two_corner : 0) | (p.two_edge ? flag_two_edge : 0) |
                                       (p.tie ? flag_tie : 0) | (p.homogeneous ? flag_homogeneous : 0) |
-                                      (p.cured ? flag_cured : 0) | (saturated ? flag_saturated : 0));
+                                      (p.notch ? flag_notch : 0) | (saturated ? flag_saturated : 0));
   p.drawn = p.valid && !discard;
 }
 

@@ -243,7 +243,7 @@ LANE_INLINE I notch_lanes(const DifferenceLanes& signs) {
   return any;
 }
 
-/// sqrt(q_far / q_near) as num / den (mean_value_weights.cpp).
+/// sqrt(q_far / q_near) as num / den (root_ratio.hpp).
 struct RootRatioLanes {
   V num, den;
 };
@@ -339,7 +339,7 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     ratio_stage(normalised, sqrt, arithmetic, ratios);
     WeightLanes weights;
     weight_stage(difference, ratios, arithmetic, tables.sqrt, s, weights);
-    out.cured = c.config.notch_exact ? to_mask(notch_lanes(difference)) & ~out.singular : 0;
+    out.notch = c.config.notch_exact ? to_mask(notch_lanes(difference)) & ~out.singular : 0;
     I exponent_m[4];
     for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);
 

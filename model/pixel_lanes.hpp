@@ -42,7 +42,7 @@ struct LaneTables {
 struct LaneResult {
   unsigned drawn = 0;
   unsigned singular = 0;  ///< corner or two-edge pixels: not computed here, take the plain pipeline
-  unsigned on_edge = 0, cured = 0, saturated = 0;
+  unsigned on_edge = 0, notch = 0, saturated = 0;
   std::array<std::uint32_t, lane_count> depth{};
   std::array<std::array<std::int64_t, lane_count>, max_attribute_slots> attribute{};
 };

@@ -51,17 +51,18 @@ void forward_difference_column(PixelTrace& p, const TileRow& row, const QuadCons
 inline void forward_difference(PixelTrace& p, const TileEntry& tile, const QuadConstants& quad, int dx, int row) {
   forward_difference_column(p, forward_difference_row(tile, quad, row), quad, dx);
 }
-/// Stages 2-3. S-bit significands of A, D, r² and the singular class (rtl/README.md section 5, in its priority).
+/// S-bit significands of A, D, r² and the singular class (rtl/README.md section 5, in its priority).
 void normalise(PixelTrace& p, const PipelineContext& c);
 /// r_i = sqrt(r_i²), faithful.
 void sqrt_stage(PixelTrace& p, const PipelineContext& c);
-/// Stages 7-10. t_i = n_i / d_i by the switch on D's sign, for the four edges and both diagonals; |n|, |d| <= 2.
+/// u = r r' + |D| and v = |A| of the four edges and both diagonals: no term cancels, nothing is divided.
 void mean_value_ratios(PixelTrace& p, const PipelineContext& c);
-/// Stages 11-17. M_i, up to a common factor; Hormann & Tarini eq. (8), division-free.
+/// M_i, up to a common factor: products of three roots of ratios q/q', q = r r' ± D; Hormann & Tarini eq. (8) with the
+/// tangents of half the angles left out.
 void mean_value_weights(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
-/// Stages 18-20. The sums of eqs. (4), (10), (11).
+/// The sums of eqs. (4), (10), (11).
 void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
-/// Stages 21-25. Two reciprocals, fixed point, flags, discard.
+/// Two reciprocals, fixed point, flags, discard.
 void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 
 /// All that a pixel has of its own, from its row on.

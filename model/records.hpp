@@ -74,7 +74,7 @@ enum FragmentFlag : std::uint8_t {
                        ///< by the tie rule
   flag_homogeneous =
       1u << 5,               ///< the quad has a vertex that is not ordinary (behind the eye, or outside the guard band)
-  flag_cured = 1u << 6,      ///< the notch cure was used
+  flag_notch = 1u << 6,      ///< an edge turns backward as seen from the pixel: neighbouring A differ in sign
   flag_saturated = 1u << 7,  ///< an attribute in use was clamped to its format
 };
 

@@ -83,13 +83,13 @@ struct PixelTrace {
   std::array<std::int64_t, 4> r2{};
   // norm
   bool two_corner = false, on_vertex = false, two_edge = false, on_edge = false;
+  bool notch = false;  ///< an edge turns backward as seen from the pixel, and none of the first three; flag 6
   std::array<PipelineFloat, 6> a_fp{}, d_fp{};
   std::array<PipelineFloat, 4> r2_fp{};
   // sqrt
   std::array<PipelineFloat, 4> root{};
   // ratio
   std::array<PipelineFloat, 6> u{}, v{};  ///< r r' + |D| and |A|: tan of half the angle is v/u where D >= 0, else u/v
-  bool cured = false;
   // weight
   std::array<PipelineFloat, 4> m{};
   // sum

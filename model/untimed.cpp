@@ -25,7 +25,7 @@ DrawStats& DrawStats::operator+=(const DrawStats& o) {
   two_corner += o.two_corner;
   two_edge += o.two_edge;
   tie += o.tie;
-  cured += o.cured;
+  notch += o.notch;
   saturated += o.saturated;
   return *this;
 }
@@ -54,7 +54,7 @@ struct UntimedModel::Impl {
     stats.two_corner += (flags & flag_two_corner) != 0;
     stats.two_edge += (flags & flag_two_edge) != 0;
     stats.tie += (flags & flag_tie) != 0;
-    stats.cured += (flags & flag_cured) != 0;
+    stats.notch += (flags & flag_notch) != 0;
     stats.saturated += (flags & flag_saturated) != 0;
     if (drawn) batch.push_back(fragment);
   }
@@ -91,7 +91,7 @@ struct UntimedModel::Impl {
       g.x = static_cast<std::uint16_t>((tile.tile_x << context.config.tile_log2) + lane_dx[l]);
       g.y = static_cast<std::uint16_t>((tile.tile_y << context.config.tile_log2) + lane_row[l]);
       g.front = at.front;
-      g.flags = static_cast<std::uint8_t>(bit(r.on_edge, flag_on_edge) | bit(r.cured, flag_cured) |
+      g.flags = static_cast<std::uint8_t>(bit(r.on_edge, flag_on_edge) | bit(r.notch, flag_notch) |
                                           bit(r.saturated, flag_saturated) | (at.tie ? flag_tie : 0) |
                                           (data.homogeneous ? flag_homogeneous : 0));
       g.depth = r.depth[static_cast<std::size_t>(l)];

@@ -17,7 +17,7 @@ struct DrawStats {
   std::uint64_t blocks_tested = 0, tiles_tested = 0, tiles_entered = 0, stamps_covered = 0;
   std::uint64_t pixels = 0;     ///< covered pixels that entered the pipeline
   std::uint64_t fragments = 0;  ///< of these, not discarded
-  std::uint64_t on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0, cured = 0, saturated = 0;
+  std::uint64_t on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0, notch = 0, saturated = 0;
 
   DrawStats& operator+=(const DrawStats& other);
 };

@@ -21,13 +21,13 @@ import json, pathlib, subprocess, sys
 
 stages = {f"model/{name}" for name in (
     "snap.cpp", "quad_setup.cpp", "tile_context.cpp", "stamp_coverage.cpp", "forward_difference.cpp", "normalise.cpp", "sqrt.hpp", "reciprocal.hpp",
-    "table_polynomial.hpp", "significand.hpp", "mean_value_ratios.cpp", "mean_value_weights.cpp", "interpolate.cpp",
+    "table_polynomial.hpp", "significand.hpp", "mean_value_ratios.cpp", "root_ratio.hpp", "weight_factors.cpp", "mean_value_weights.cpp", "interpolate.cpp",
     "fragment_output.cpp")}
 # (file, piece of the source line): why no stimulus gets there in the default configuration.
 unreachable = {
     ("model/fragment_output.cpp", "shift >= 0 ? r.p << shift"): "2S - 2 = 34 exceeds the bits of either output format",
     ("model/fragment_output.cpp", "p.valid && !discard"): "a bubble of the pipeline is no vector",
-    ("model/mean_value_weights.cpp", "c.config.notch_exact &&"): "a constant of the configuration",
+    ("model/normalise.cpp", "c.config.notch_exact &&"): "a constant of the configuration",
     ("model/quad_setup.cpp", "int quad_setup_steps"): "clocks, not values",
     ("model/snap.cpp", "a product with k is too large"): "k is below 2^96 and z at most 2^80; the port reaches 2^256",
     ("model/snap.cpp", "extent == 0"): "w = 0 here leaves x and y as given, which are not both 0",

@@ -56,7 +56,7 @@ void expect_same_stats(const DrawStats& a, const DrawStats& b) {
   const auto list = [](const DrawStats& s) {
     return std::array{s.quads,         s.homogeneous_quads, s.hull_quads, s.blocks_tested, s.tiles_tested,
                       s.tiles_entered, s.stamps_covered,    s.pixels,     s.fragments,     s.on_edge,
-                      s.on_vertex,     s.two_corner,        s.two_edge,   s.tie,           s.cured,
+                      s.on_vertex,     s.two_corner,        s.two_edge,   s.tie,           s.notch,
                       s.saturated};
   };
   ASSERT_EQ(list(a), list(b));
@@ -116,7 +116,7 @@ TEST_P(Engines, PlainAndLanesAreOne) {
   std::uint64_t fragments = 0;
   for (int n = 0; n < 70; ++n) {
     Config c = random_config(rng);
-    if (n < 38) {  // every width with the cure on and off
+    if (n < 38) {  // every width with the flag on and off
       c.significand_bits = 8 + n / 2;
       c.notch_exact = n % 2;
       c.attribute_frac_bits = -1;
@@ -237,7 +237,7 @@ TEST(PixelLanes, HardBitPatterns) {
         for (std::size_t l = 0; l < lane_count; ++l) {
           ASSERT_EQ(quick.drawn >> l & 1, p.drawn ? 1u : 0u);
           ASSERT_EQ(quick.on_edge >> l & 1, p.on_edge ? 1u : 0u);
-          ASSERT_EQ(quick.cured >> l & 1, p.cured ? 1u : 0u);
+          ASSERT_EQ(quick.notch >> l & 1, p.notch ? 1u : 0u);
           ASSERT_EQ(quick.saturated >> l & 1, p.fragment.flags & flag_saturated ? 1u : 0u);
           ASSERT_EQ(quick.depth[l], p.fragment.depth);
           for (std::size_t j = 0; j < 4; ++j) ASSERT_EQ(quick.attribute[j][l], p.fragment.attribute[j]);

@@ -18,7 +18,7 @@ struct ReferenceSample {
       false;  ///< the formulas as printed divide by zero here (float engine only); lambda etc. are not to be used
   std::uint8_t flags = 0;  ///< FragmentFlag bits on_edge, on_vertex, two_corner, two_edge, tie, homogeneous
   bool notch = false;  ///< neighbouring t differ in sign (A_{i-1} A_i < 0 for some i) and the weights are their sums,
-                       ///< that is at no corner and on fewer than two edges: where a notch cure is due (truth only)
+                       ///< that is at no corner and on fewer than two edges (truth only)
   double visible_margin = 0;       ///< sum(M w) / sum(|M w|), in [-1, 1]
   double condition = 1;            ///< sum((|t_{i-1}| + |t_i|) k_i / R_i) / |sum(M k)| ; 1 at singular pixels
   std::array<double, 4> lambda{};  ///< perspective-correct weights; without perspective the screen-space ones

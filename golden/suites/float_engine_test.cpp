@@ -32,7 +32,7 @@ Config config_of(std::initializer_list<std::pair<const char*, int>> values) {
   return config;
 }
 
-/// Widths at both ends, dropped bits, no guard bits, no cure, short and linear tables, 64-bit integers.
+/// Widths at both ends, dropped bits, no guard bits, no flag of notches, short and linear tables, 64-bit integers.
 std::vector<Config> configurations() {
   return {Config{},
           config_of({{"significand_bits", 8},
@@ -278,7 +278,7 @@ TEST(FloatEngine, FindsDamagedFragments) {
       ASSERT_TRUE(finds([](Fragment& g) { g.flags ^= flag_homogeneous; }));
       ASSERT_TRUE(finds([](Fragment& g) { g.flags ^= flag_on_vertex; }));
       ASSERT_TRUE(finds([](Fragment& g) { g.flags ^= flag_tie; }));
-      ASSERT_TRUE(finds([](Fragment& g) { g.flags ^= flag_cured; }));
+      ASSERT_TRUE(finds([](Fragment& g) { g.flags ^= flag_notch; }));
       ASSERT_TRUE(finds([](Fragment& g) { g.x = static_cast<std::uint16_t>(g.x + 48); }));
       ++tried;
       found_values += finds([](Fragment& g) { g.depth ^= 1u << 20; });

@@ -86,7 +86,6 @@ VectorOutcome FloatQuad::check(const Fragment& g) const {
   bool notch = false;
   for (std::size_t i = 0; i < 4; ++i) notch = notch || e[(i + 3) % 4].sign() * e[i].sign() < 0;
   if (pixel.decided && decided) {
-    const bool cured = config_.notch_exact && notch && is.corners == 0 && is.edges < 2;
     unsigned expected = 0, known = 0;
     const auto expect = [&](FragmentFlag flag, bool set) {
       known |= flag;
@@ -99,7 +98,7 @@ VectorOutcome FloatQuad::check(const Fragment& g) const {
       expect(flag_on_vertex, is.on_vertex());
       expect(flag_two_corner, is.two_corner());
       expect(flag_two_edge, is.two_edge());
-      expect(flag_cured, cured);
+      expect(flag_notch, config_.notch_exact && notch && is.corners == 0 && is.edges < 2);
     }
     judge.same("flags", -1, g.flags & known, expected);
   }
@@ -119,9 +118,9 @@ VectorOutcome FloatQuad::check(const Fragment& g) const {
   return values;
 }
 
-/// The machine's weights lambda' err by at most 2^-(s-3) (times the condition without the notch cure), so an attribute
-/// by that times the sum of |a_i|, and each M by at most twice that, relatively; where weights may cancel (z, and
-/// attributes without perspective behind the eye) this multiplies the terms. An output code is lost on top.
+/// The machine's weights lambda' err by at most 2^-(s-3), so an attribute by that times the sum of |a_i|, and each M by
+/// at most twice that, relatively; where weights may cancel (z, and attributes without perspective behind the eye) this
+/// multiplies the terms. An output code is lost on top.
 ///
 /// The paper's formulas in double: with e = 2^-52 a corner's s = v - p is off by ds = e (|v| + |p|), r and A, D by ds
 /// times lengths, t = (r r' - D)/A by 3 dA (1 + |t|)/|A|, mu by the sum of its dt over r; quotients of sums of mu
@@ -153,8 +152,7 @@ VectorOutcome FloatQuad::check_values(const Fragment& g) const {
     sum_k += p.mu[i] * k_over_w_[i];
     spread += (std::fabs(p.t[before]) + std::fabs(p.t[i])) / r * std::fabs(k_over_w_[i]);
   }
-  const double bound = std::ldexp(1.0, 3 - config_.significand_bits) *
-                       (config_.notch_exact ? 1 : std::max(1.0, spread / std::fabs(sum_k)));
+  const double bound = std::ldexp(1.0, 3 - config_.significand_bits);
 
   Judge judge;
   if (hull_) {

@@ -26,7 +26,7 @@ constexpr double near_vertex_distance = 1;
 
 /// Flags that D and R² decide, which are exact only with all of their bits.
 constexpr std::uint8_t flags_of_quadratics =
-    flag_on_edge | flag_on_vertex | flag_two_corner | flag_two_edge | flag_cured;
+    flag_on_edge | flag_on_vertex | flag_two_corner | flag_two_edge | flag_notch;
 
 constexpr std::pair<std::uint8_t, std::uint64_t CheckResult::*> counted_flags[]{
     {flag_on_edge, &CheckResult::on_edge},
@@ -35,7 +35,7 @@ constexpr std::pair<std::uint8_t, std::uint64_t CheckResult::*> counted_flags[]{
     {flag_two_edge, &CheckResult::two_edge},
     {flag_tie, &CheckResult::tie},
     {flag_homogeneous, &CheckResult::homogeneous},
-    {flag_cured, &CheckResult::cured},
+    {flag_notch, &CheckResult::notch},
     {flag_saturated, &CheckResult::saturated}};
 
 auto order(const Place& p) { return std::tuple(p.index, p.y, p.x); }
@@ -240,7 +240,7 @@ class FragmentChecker::FragmentJudge {
     if (!reference_ || fragment.quad != place_.index) reference_.emplace(checker_, fragment.quad);
     place_ = {fragment.quad, checker_.given_[fragment.quad].id, fragment.x, fragment.y};
     truth_ = reference_->truth().sample(fragment.x, fragment.y);
-    bound_ = checker_.bound_ * (config_.notch_exact ? 1 : std::max(1.0, truth_.condition));
+    bound_ = checker_.bound_;
     corner_ = exact_ && (truth_.flags & flag_on_vertex) != 0 ? reference_->corner_at(fragment.x, fragment.y) : -1;
     cancelled_ = false;
     ++part_.compared;
@@ -391,7 +391,7 @@ class FragmentChecker::FragmentJudge {
   void judge_flags(const Fragment& fragment, bool may_saturate) {
     unsigned known = flag_tie | flag_homogeneous, expected = truth_.flags;
     if (exact_) known |= flags_of_quadratics;
-    if (config_.notch_exact && truth_.notch) expected |= flag_cured;
+    if (config_.notch_exact && truth_.notch) expected |= flag_notch;
     if (((expected ^ fragment.flags) & known) != 0) {
       char text[80];
       std::snprintf(text, sizeof text, "flags 0x%02x, expected 0x%02x", fragment.flags & known, expected & known);
@@ -502,8 +502,7 @@ void FragmentChecker::cover(std::size_t first, const std::vector<std::vector<std
             ++part.discarded;
             continue;
           }
-          const double bound = bound_ * (settings_.config.notch_exact ? 1 : std::max(1.0, truth.condition));
-          if (!code && limits.side(truth.z, reference.depth_tolerance(x, y, bound)) == 0) {
+          if (!code && limits.side(truth.z, reference.depth_tolerance(x, y, bound_)) == 0) {
             ++part.tolerated_depth;
             continue;
           }

@@ -77,7 +77,7 @@ struct CheckResult {
 
   // What the fragments were.
   std::uint64_t eye_crossing = 0, homogeneous = 0, on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0,
-                cured = 0, saturated = 0, near_edge = 0, near_vertex = 0, tiny = 0;
+                notch = 0, saturated = 0, near_edge = 0, near_vertex = 0, tiny = 0;
 
   /// The fragment nearest to (or farthest beyond) the bound.
   struct Worst {
@@ -123,7 +123,7 @@ inline constexpr Counter<CheckResult> check_counters[]{{"reference_mismatches", 
                                                        {"near_edge", &CheckResult::near_edge},
                                                        {"near_vertex", &CheckResult::near_vertex},
                                                        {"tiny", &CheckResult::tiny},
-                                                       {"cured", &CheckResult::cured},
+                                                       {"notch", &CheckResult::notch},
                                                        {"saturated", &CheckResult::saturated},
                                                        {"discarded", &CheckResult::discarded},
                                                        {"coverage_flips", &CheckResult::coverage_flips},

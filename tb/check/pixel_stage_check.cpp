@@ -202,7 +202,10 @@ class StageCheck {
         return "r2[" + std::to_string(i) + "]";
     const bool right = t.two_corner == p.two_corner() && t.on_vertex == p.on_vertex() && t.two_edge == p.two_edge() &&
                        t.on_edge == (p.corners == 0 && p.edges == 1);
-    return right ? "" : "the class";
+    if (!right) return "the class";
+    const bool differ = p.differ[0] || p.differ[1] || p.differ[2] || p.differ[3];
+    const bool notch = config_.notch_exact && differ && !p.singular();
+    return t.notch == notch ? "" : notch ? "no notch" : "a notch";
   }
 
   std::string ratios(const Pixel& p) const {
@@ -218,9 +221,6 @@ class StageCheck {
 
   std::string weights(const Pixel& p) const {
     const PixelTrace& t = p.trace;
-    const bool any = p.differ[0] || p.differ[1] || p.differ[2] || p.differ[3];
-    const bool cured = config_.notch_exact && any && !p.singular();
-    if (t.cured != cured) return cured ? "no notch" : "a notch";
     const std::array<Number, 4> m = p.singular() ? singular_weights(p) : regular_weights(p);
     for (std::size_t i = 0; i < 4; ++i)
       if (!same(t.m[i], m[i])) return "M[" + std::to_string(i) + "]";
@@ -339,7 +339,7 @@ class StageCheck {
     expect(flag_two_edge, p.two_edge());
     expect(flag_tie, t.tie);
     expect(flag_homogeneous, t.homogeneous);
-    expect(flag_cured, t.cured);
+    expect(flag_notch, t.notch);
     expect(flag_saturated, saturated);
     if (g.flags != flags) return "flags " + std::to_string(g.flags) + ", expected " + std::to_string(flags);
 

@@ -447,7 +447,6 @@ class CosimRun {
     json["fragment_hash"] = hash;
     json["error"] = {{"arithmetic", error_json(c.arithmetic)}, {"snapping", error_json(c.snapping)}};
     json["bound"] = {{"lambda_max", weight_bound(config_)},
-                     {"times_condition", config_.notch_exact == 0},
                      {"applies", bound_applies()},
                      {"held", bound_applies() && c.within_bound()},
                      {"exempt_fragments", c.bound_exempt}};
@@ -559,9 +558,8 @@ class CosimRun {
     if (!bound_applies())
       std::fprintf(out, "    bound              none: quadratic_frac_bits drops bits of D and R^2\n");
     else
-      std::fprintf(out, "    bound              %9.2e%s  %s, worst %.1f %% of it\n", weight_bound(config_),
-                   config_.notch_exact ? "" : " x max(1, condition)", c.within_bound() ? "held" : "EXCEEDED",
-                   100 * std::max(0.0, c.worst.ratio));
+      std::fprintf(out, "    bound              %9.2e  %s, worst %.1f %% of it\n", weight_bound(config_),
+                   c.within_bound() ? "held" : "EXCEEDED", 100 * std::max(0.0, c.worst.ratio));
     if (r.limits_checked > 0)
       std::fprintf(out, "    regression limits  %s\n", r.beyond_limits.empty() ? "held" : "EXCEEDED");
     print(
@@ -572,7 +570,7 @@ class CosimRun {
         json["counts"]);
     if (options_.common.verbose)
       print(
-          "                 notch cure {cured}, saturated {saturated}, discarded by z {discarded}, moved by snapping "
+          "                 notches {notch}, saturated {saturated}, discarded by z {discarded}, moved by snapping "
           "{coverage_flips}, tolerated {tolerated_visible} + {tolerated_depth}\n",
           json["counts"]);
     const double rate = ratio(static_cast<double>(r.pass_cycles), r.loop_seconds);

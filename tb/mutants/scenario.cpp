@@ -19,7 +19,7 @@ Config exact() {
   return config;
 }
 
-/// What the other has not: bits of D and r² dropped, no cure of notches, buffers of the least size, other widths.
+/// What the other has not: bits of D and r² dropped, no flag of notches, buffers of the least size, other widths.
 Config reduced() {
   Config config;
   config.set("significand_bits", 15);

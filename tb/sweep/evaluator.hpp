@@ -53,7 +53,7 @@ enum class Stage {
   normalise,    ///< significand_bits
   sqrt,         ///< sqrt_segments_log2 sqrt_degree
   ratios,       ///< align_guard_bits
-  weights,      ///< notch_exact
+  weights,      ///< no key
   interpolate,  ///< the sums, all columns at once
   reciprocal,   ///< recip_segments_log2 recip_degree
   output,       ///< attribute_int_bits attribute_frac_bits depth_bits

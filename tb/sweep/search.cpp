@@ -32,7 +32,7 @@ constexpr std::array key_effects{
     KeyEffect{"homogeneous_frac_bits", Effect::unordered},
     KeyEffect{"quadratic_frac_bits", Effect::larger_is_better},
     KeyEffect{"significand_bits", Effect::larger_is_better},
-    KeyEffect{"notch_exact", Effect::unordered},  // the cure is other arithmetic: no better where nothing cancels
+    KeyEffect{"notch_exact", Effect::none},  // flag 6 alone
     KeyEffect{"sqrt_segments_log2", Effect::larger_is_better},
     KeyEffect{"sqrt_degree", Effect::larger_is_better},
     KeyEffect{"recip_segments_log2", Effect::larger_is_better},

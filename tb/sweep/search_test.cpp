@@ -39,7 +39,7 @@ constexpr Known known[] = {
     {"homogeneous_frac_bits", true, 0},
     {"quadratic_frac_bits", true, 1},
     {"significand_bits", true, 1},
-    {"notch_exact", true, 0},  // other arithmetic: better where t cancels, up to twice worse where nothing does
+    {"notch_exact", false, 0},  // flag 6 alone
     {"sqrt_segments_log2", true, 1},
     {"sqrt_degree", true, 1},
     {"recip_segments_log2", true, 1},

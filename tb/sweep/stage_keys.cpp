@@ -15,7 +15,7 @@ LevelKey level_key(const Config& c, Level level) {
     case Level::ratios:
       return {c.align_guard_bits};
     case Level::weights:
-      return {c.notch_exact};
+      return {};
     case Level::reciprocal:
       return {c.recip_segments(), c.recip_degree};
     case Level::output:
