@@ -7,7 +7,7 @@
 #include "model/tile_context.hpp"
 
 #include <bit>
-#include <deque>
+#include <span>
 #include <vector>
 
 namespace quadrille {
@@ -15,6 +15,7 @@ namespace {
 
 constexpr int last_stage = latency::fragment_stage;
 constexpr int emit_stages = latency::emission;
+constexpr std::size_t pipeline_stages = emit_stages + last_stage + 1;
 /// quadrille_pkg::FRAGMENT_FIFO_LOG2: at full rate a place is free again so many clocks after its pixel was sent.
 constexpr std::size_t fragment_places = std::bit_ceil(
     static_cast<std::size_t>(latency::emission + latency::pipeline + latency::fragment_fifo + latency::place_back));
@@ -211,6 +212,12 @@ struct SetupUnit {
   }
 };
 
+/// What leaves the pipeline in a clock: the fragments of its lanes.
+struct FragmentBeat {
+  std::array<bool, Config::most_pixels_per_clock> drawn{};
+  std::array<Fragment, Config::most_pixels_per_clock> fragment{};
+};
+
 /// What a slot of the bank holds: the back half's data and the front half's constants.
 struct Slot {
   QuadData data;
@@ -236,13 +243,15 @@ struct ClockedModel::Impl {
   Fifo<StampEntry> stamps;
   std::uint32_t rest = 0;  ///< bits of the head's mask still to be emitted; valid when !first
   bool first = true;
-  int part = 0;                  ///< parts of the pixel that were sent, of a homogeneous quad
-  int places = fragment_places;  ///< of the fragment FIFO that neither a fragment has nor a pixel on its way
-  bool handed_over = false;      ///< a fragment left in the clock before
-  /// A delay line from emission to the last register: stage n is pipeline[(head + emit_stages + n) % size].
-  std::array<PixelTrace, emit_stages + last_stage + 1> pipeline{};
+  int part = 0;                  ///< parts of the pixels that were sent, of a homogeneous quad
+  int places = fragment_places;  ///< of the fragment FIFO that neither fragments have nor pixels on their way
+  bool handed_over = false;      ///< fragments left in the clock before
+  /// A delay line from emission to the last register, `lanes` pixels for each: those of stage n begin at
+  /// pipeline[(head + emit_stages + n) % pipeline_stages * lanes].
+  std::size_t lanes;
+  std::vector<PixelTrace> pipeline;
   std::size_t head = 0;
-  Fifo<Fragment> fragments;
+  Fifo<FragmentBeat> fragments;
 
   Impl(const Config& config, const DrawState& state)
       : context(config, state),
@@ -250,12 +259,14 @@ struct ClockedModel::Impl {
         ring(static_cast<std::size_t>(ring_entries(config))),
         ring_mask(static_cast<std::uint32_t>(2 * ring_entries(config) - 1)),
         stamps(static_cast<std::size_t>(stamp_places(config))),
+        lanes(static_cast<std::size_t>(config.pixels_per_clock)),
+        pipeline(pipeline_stages * lanes),
         fragments(fragment_places) {
     reset();
   }
 
-  const PixelTrace& stage(int n) const {
-    return pipeline[(head + static_cast<std::size_t>(emit_stages + n)) % pipeline.size()];
+  std::span<const PixelTrace> stage(int n) const {
+    return {&pipeline[(head + static_cast<std::size_t>(emit_stages + n)) % pipeline_stages * lanes], lanes};
   }
 
   // Conditions of this clock, from registered state.
@@ -347,36 +358,45 @@ struct ClockedModel::Impl {
 
   /// pixel_emit and the pixel pipeline. Returns whether the stamp FIFO's head leaves.
   bool clock_pixels() {
-    const PixelTrace& last = stage(last_stage);
-    int places_back = (handed_over ? 1 : 0) + (last.valid && !last.drawn ? 1 : 0);
-    PixelTrace& entering = pipeline[(head + pipeline.size() - 1) % pipeline.size()];
-    entering.valid = entering.end = entering.drawn = false;
+    bool pixel = false, drawn = false;
+    for (const PixelTrace& last : stage(last_stage)) {
+      pixel |= last.valid;
+      drawn |= last.drawn;
+    }
+    int places_back = (handed_over ? 1 : 0) + (pixel && !drawn ? 1 : 0);
+    const std::size_t next_head = (head + pipeline_stages - 1) % pipeline_stages;
+    const std::span<PixelTrace> entering{&pipeline[next_head * lanes], lanes};
+    for (PixelTrace& p : entering) p.valid = p.end = p.drawn = false;
     bool pop = false;
     if (stamps.valid()) {
       const StampEntry& s = stamps.head();
       const TileEntry& tile = ring_at(s.tile_ptr);
       if (s.end) {
-        entering.end = true;
-        entering.slot = tile.slot;
+        entering[0].end = true;
+        entering[0].slot = tile.slot;
         pop = true;
       } else if (places > 0 && is_homogeneous(tile) && part < latency::homogeneous_parts - 1) {
         ++part;
       } else if (places > 0) {
         part = 0;
-        const std::uint32_t mask = first ? s.mask : rest;
-        const int dx = std::countr_zero(mask);
-        entering.front = s.front >> dx & 1;
-        entering.tie = s.tie >> dx & 1;
         const Slot& slot = slots[tile.slot];
-        pixel_pipeline(entering, tile, slot.constants, slot.data, dx, s.row, context);
-        rest = mask & (mask - 1);
+        const TileRow row = forward_difference_row(tile, slot.constants, s.row);
+        std::uint32_t mask = first ? s.mask : rest;
+        for (std::size_t lane = 0; lane < lanes && mask != 0; ++lane, mask &= mask - 1) {
+          const int dx = std::countr_zero(mask);
+          PixelTrace& p = entering[lane];
+          p.front = s.front >> dx & 1;
+          p.tie = s.tie >> dx & 1;
+          pixel_lane(p, row, slot.constants, slot.data, dx, context);
+        }
+        rest = mask;
         pop = rest == 0;
         first = pop;
         --places_back;
       }
     }
     places += places_back;
-    head = (head + pipeline.size() - 1) % pipeline.size();
+    head = next_head;
     return pop;
   }
 
@@ -389,14 +409,21 @@ struct ClockedModel::Impl {
     const bool starting = start();
     const bool taking = take();
     const bool accept = in.vertex_valid && !assembly.full;
-    const bool release = stage(last_stage).end;
+    const bool release = stage(last_stage).front().end;
     const bool push_tile = walk_push();
     const bool walk_moves = push_tile || !walk.way.back().push;
 
-    // The last register's fragment enters the FIFO in the clock in which the pipeline moves on.
+    // The last register's fragments enter the FIFO in the clock in which the pipeline moves on.
     const bool handing_over = fragments.valid() && in.fragment_ready;
-    const PixelTrace& last = stage(last_stage);
-    fragments.clock(handing_over, last.drawn ? &last.fragment : nullptr);
+    const std::span<const PixelTrace> last = stage(last_stage);
+    FragmentBeat beat;
+    bool some = false;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!last[lane].drawn) continue;
+      some = beat.drawn[lane] = true;
+      beat.fragment[lane] = last[lane].fragment;
+    }
+    fragments.clock(handing_over, some ? &beat : nullptr);
     const bool pop = clock_pixels();
     handed_over = handing_over;
     clock_stamps(pop);
@@ -450,18 +477,22 @@ ClockedOutputs ClockedModel::comb() const {
   ClockedOutputs out;
   out.vertex_ready = !m.assembly.full;
   out.fragment_valid = m.fragments.valid();
-  if (out.fragment_valid) out.fragment = m.fragments.head();
+  for (std::size_t lane = 0; out.fragment_valid && lane < m.lanes; ++lane)
+    if (m.fragments.head().drawn[lane]) out.fragment[lane] = &m.fragments.head().fragment[lane];
   out.busy = m.assembly.full || m.assembly.count != 0 || m.in_use != 0 || !m.fragments.empty();
   if (m.take()) out.probes.setup = &m.setup.result;
   if (m.completed) out.probes.tile = &m.ring_at(m.last_completed);
   if (m.coverage.way.back().push()) out.probes.stamp = &m.coverage.way.back().stamp;
-  const auto pixel = [&](int n) { return m.stage(n).valid ? &m.stage(n) : nullptr; };
-  out.probes.diff = pixel(latency::diff_stage);
-  out.probes.norm = pixel(latency::norm_stage);
-  out.probes.sqrt = pixel(latency::root_stage);
-  out.probes.ratio = pixel(latency::ratio_stage);
-  out.probes.weight = pixel(latency::weight_stage);
-  out.probes.sum = pixel(latency::sum_stage);
+  for (std::size_t lane = 0; lane < m.lanes; ++lane) {
+    const auto pixel = [&](int n) { return m.stage(n)[lane].valid ? &m.stage(n)[lane] : nullptr; };
+    LaneProbes& probes = out.probes.lane[lane];
+    probes.diff = pixel(latency::diff_stage);
+    probes.norm = pixel(latency::norm_stage);
+    probes.sqrt = pixel(latency::root_stage);
+    probes.ratio = pixel(latency::ratio_stage);
+    probes.weight = pixel(latency::weight_stage);
+    probes.sum = pixel(latency::sum_stage);
+  }
   return out;
 }
 

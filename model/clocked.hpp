@@ -8,6 +8,7 @@
 #include "model/records.hpp"
 #include "model/stages.hpp"
 
+#include <array>
 #include <memory>
 
 namespace quadrille {
@@ -25,11 +26,8 @@ struct ClockedInputs {
   SnappedVertex vertex;         ///< the beat, when vertex_valid
 };
 
-/// A boundary that carries a beat in this clock, or nullptr.
-struct ClockedProbes {
-  const SetupResult* setup = nullptr;  ///< taken by the walk in this clock
-  const TileEntry* tile = nullptr;     ///< complete in the ring since the last edge
-  const StampEntry* stamp = nullptr;   ///< pushed in this clock
+/// Boundaries of one lane that carry a pixel in this clock, or nullptr.
+struct LaneProbes {
   const PixelTrace* diff = nullptr;    ///< in register diff_stage (latency.hpp)
   const PixelTrace* norm = nullptr;    ///< in norm_stage
   const PixelTrace* sqrt = nullptr;    ///< in root_stage
@@ -38,12 +36,34 @@ struct ClockedProbes {
   const PixelTrace* sum = nullptr;     ///< in sum_stage
 };
 
+/// A boundary that carries a beat in this clock, or nullptr.
+struct ClockedProbes {
+  const SetupResult* setup = nullptr;  ///< taken by the walk in this clock
+  const TileEntry* tile = nullptr;     ///< complete in the ring since the last edge
+  const StampEntry* stamp = nullptr;   ///< pushed in this clock
+  std::array<LaneProbes, Config::most_pixels_per_clock> lane;
+};
+
 struct ClockedOutputs {
   bool vertex_ready = false;
   bool fragment_valid = false;
   bool busy = false;
-  Fragment fragment;     ///< all zero when not valid
-  ClockedProbes probes;  ///< valid until the next clock()
+  /// By lane, nullptr where there is none. These and the probes are valid until the next clock().
+  std::array<const Fragment*, Config::most_pixels_per_clock> fragment{};
+  ClockedProbes probes;
+
+  /// The lanes that have a fragment, bit 0 the first.
+  std::uint32_t fragment_mask() const {
+    std::uint32_t mask = 0;
+    for (std::size_t lane = 0; lane < fragment.size(); ++lane) mask |= (fragment[lane] != nullptr ? 1u : 0u) << lane;
+    return mask;
+  }
+  /// Calls f(const Fragment&) for those of this clock, in their order.
+  template <class F>
+  void for_each_fragment(F&& f) const {
+    for (const Fragment* one : fragment)
+      if (one != nullptr) f(*one);
+  }
 };
 
 class ClockedModel {

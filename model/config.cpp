@@ -46,7 +46,9 @@ constexpr std::array entries{
     Entry{{"depth_bits", 8, 30, 24, "bits", "fraction bits of window z"}, &Config::depth_bits},
     Entry{{"tile_log2", 2, 4, 3, "log2 px", "tile edge, also the width of a stamp; a block is 8x8 tiles"},
           &Config::tile_log2},
-    Entry{{"pixels_per_clock", 1, 1, 1, "", "lanes of the fragment port (one so far)"}, &Config::pixels_per_clock},
+    Entry{{"pixels_per_clock", 1, Config::most_pixels_per_clock, 1, "",
+           "lanes of the fragment port: 1, 2 or 4 pixels of a row"},
+          &Config::pixels_per_clock},
     Entry{{"quad_slots_log2", 1, 4, 3, "log2", "quads in flight between setup and their last fragment"},
           &Config::quad_slots_log2},
     Entry{{"tile_slots_log2", 1, 4, 2, "log2", "tile contexts in flight"}, &Config::tile_slots_log2},
@@ -149,6 +151,7 @@ void Config::validate() const {
   require(sqrt_segments() <= significand_bits - 2, "sqrt_segments_log2 must be at most significand_bits - 2");
   require(recip_segments() <= significand_bits - 2, "recip_segments_log2 must be at most significand_bits - 2");
   require(tile_log2 < viewport_bits, "tile_log2 must be below viewport_bits");
+  require(pixels_per_clock != 3, "pixels_per_clock = 3; it must be 1, 2 or 4");
 }
 
 std::vector<DerivedWidth> Config::derived() const {

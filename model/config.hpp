@@ -97,6 +97,7 @@ struct Config {
   int ring_log2() const { return tile_slots_log2 + 1; }
   int stamp_fifo() const { return 1 << stamp_fifo_log2; }
 
+  static constexpr int most_pixels_per_clock = 4;
   static constexpr int exp_bits = 12;
   static constexpr int port_exp_bits = 9;
   static constexpr int table_guard = 3;

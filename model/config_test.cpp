@@ -26,7 +26,7 @@ constexpr Row table[] = {
     {"align_guard_bits", 2, 0, 6},      {"attribute_slots", 4, 1, 8},
     {"attribute_int_bits", 3, 1, 8},    {"attribute_frac_bits", -1, 8, 30},
     {"depth_bits", 24, 8, 30},          {"tile_log2", 3, 2, 4},
-    {"pixels_per_clock", 1, 1, 1},      {"quad_slots_log2", 3, 1, 4},
+    {"pixels_per_clock", 1, 1, 4},      {"quad_slots_log2", 3, 1, 4},
     {"tile_slots_log2", 2, 1, 4},       {"stamp_fifo_log2", 3, 1, 5},
     {"quad_id_bits", 24, 8, 32},
 };
@@ -191,6 +191,7 @@ TEST(Config, DerivedWidthsOfTheDefault) {
 TEST(Config, ImpossibleCombinationsNameTheirRule) {
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 14}, {"homogeneous_frac_bits", 10}}), "VAL_BITS"));
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 14}, {"guard_bits", 2}}), ""));
+  EXPECT_TRUE(contains(refusal_of({{"pixels_per_clock", 3}}), "it must be 1, 2 or 4"));
   EXPECT_TRUE(contains(refusal_of({{"quadratic_frac_bits", 31}}), "quadratic_frac_bits"));
   EXPECT_TRUE(contains(refusal_of({{"attribute_frac_bits", 17}}), "attribute_frac_bits"));
   EXPECT_TRUE(contains(refusal_of({{"significand_bits", 8}, {"sqrt_segments_log2", 7}}), "sqrt_segments_log2"));
@@ -203,6 +204,7 @@ TEST(Config, ImpossibleCombinationsNameTheirRule) {
   // The edges of the same rules are possible.
   EXPECT_EQ(refusal_of({{"viewport_bits", 14}, {"guard_bits", 1}}), "");
   EXPECT_EQ(refusal_of({{"quadratic_frac_bits", 30}}), "");
+  EXPECT_EQ(refusal_of({{"pixels_per_clock", 4}, {"tile_log2", 2}}), "");
   EXPECT_EQ(refusal_of({{"attribute_frac_bits", 18}}), "");
   EXPECT_EQ(refusal_of({{"significand_bits", 8}, {"sqrt_segments_log2", 6}, {"recip_segments_log2", 6}}), "");
   Config wild;

@@ -298,7 +298,7 @@ std::vector<Fragment> clocked_stream(const std::vector<SnappedQuad>& quads, cons
   std::vector<Fragment> out;
   std::size_t beat = 0;
   bool held = false, offered = false;
-  Fragment held_fragment;
+  std::vector<Fragment> held_fragments;
   for (std::uint64_t clock = 0; clock < 40'000'000; ++clock) {
     if (beat < 4 * quads.size()) {
       // Valid, once up, stays until accepted.
@@ -310,16 +310,17 @@ std::vector<Fragment> clocked_stream(const std::vector<SnappedQuad>& quads, cons
     }
     in.fragment_ready = !rng.chance(stall);
     const ClockedOutputs o = model.comb();
+    std::vector<Fragment> offered_fragments;
+    o.for_each_fragment([&](const Fragment& f) { offered_fragments.push_back(f); });
     if (held) {
       EXPECT_TRUE(o.fragment_valid) << "valid dropped under stall";
-      EXPECT_EQ(o.fragment, held_fragment) << "payload changed under stall";
+      EXPECT_EQ(offered_fragments, held_fragments) << "payload changed under stall";
     }
-    if (!o.fragment_valid) {
-      EXPECT_EQ(o.fragment, Fragment{});
-    }
+    EXPECT_EQ(o.fragment_valid, !offered_fragments.empty());
     held = o.fragment_valid && !in.fragment_ready;
-    held_fragment = o.fragment;
-    if (o.fragment_valid && in.fragment_ready) out.push_back(o.fragment);
+    if (o.fragment_valid && in.fragment_ready)
+      out.insert(out.end(), offered_fragments.begin(), offered_fragments.end());
+    held_fragments = std::move(offered_fragments);
     offered = in.vertex_valid && !o.vertex_ready;
     if (in.vertex_valid && o.vertex_ready) ++beat;
     if (beat == 4 * quads.size() && !o.busy && !in.vertex_valid) return out;

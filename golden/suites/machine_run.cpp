@@ -59,7 +59,7 @@ MachineRun run_machine(std::span<const SnappedQuad> quads, const Config& config,
   MachineRun run;
   drive(model, beats, [&](std::uint64_t cycle, const ClockedOutputs& out, bool taken) {
     const auto clock = static_cast<std::uint32_t>(cycle);
-    if (out.fragment_valid && beats.ready()) run.fragments.push_back({out.fragment, clock});
+    if (beats.ready()) out.for_each_fragment([&](const Fragment& f) { run.fragments.push_back({f, clock}); });
     if (taken) run.taken.push_back(clock);
     return !beats.done() || out.busy;
   });

@@ -1,6 +1,6 @@
 // Self-checking bench of quadrille_axi4_stream: plays the draws of a machine suite of golden vectors twice, first with every interface
 // open in each clock, then with pauses of the masters and backpressure of the slave at random. Compares every fragment, their order and
-// number, TKEEP and TLAST, that TVALID and payload stay until TREADY, and in four-state simulators that no bit is unknown.
+// number (lane 0 of a beat first), TKEEP and TLAST, that TVALID and payload stay until TREADY, and in four-state simulators that no bit is unknown.
 //
 // Plusargs: +set=DIRECTORY of the suite, +draws= +beats= +fragments=N lines of its states, stimulus and response, at most LINES.
 // Prints "axi4_stream: N fragments in D draws, M mismatches" for either pass; ends with $fatal unless M = 0.
@@ -12,7 +12,9 @@ module axi4_stream_bench;
   localparam int FRAGMENT = quadrille_pkg::FRAGMENT_BITS;
   localparam int STATE_TDATA = (STATE + 7) / 8 * 8;
   localparam int VERTEX_TDATA = (VERTEX + 7) / 8 * 8;
-  localparam int FRAGMENT_TDATA = (FRAGMENT + 7) / 8 * 8;
+  localparam int LANES = quadrille_pkg::PIXELS_PER_CLOCK;
+  localparam int LANE_TDATA = (FRAGMENT + 7) / 8 * 8;
+  localparam int FRAGMENT_TDATA = LANES * LANE_TDATA;
 
   logic [STATE-1:0] states[0:LINES-1];
   logic [16+VERTEX-1:0] stimuli[0:LINES-1];  // {draw, vertex}
@@ -87,24 +89,27 @@ module axi4_stream_bench;
   logic [PAYLOAD-1:0] payload, payload_q;
   logic waiting_q = 1'b0;  // valid and not taken in the clock before
   logic [FRAGMENT-1:0] response;
-  logic [15:0] response_draw;
-  logic expected_here;  // the next response belongs to this draw
+  logic [LANE_TDATA/8-1:0] lane_tkeep;
+  logic [LANE_TDATA-1:0] lane_tdata;
+  int next;  // fragment: `number` and the lanes of this beat that were looked at
   int mismatches = 0, silence = 0;
 
   assign payload = {fragment_tlast, fragment_tkeep, fragment_tdata};
-  assign response = FRAGMENT'(responses[number]);
-  assign response_draw = 16'(responses[number] >> (FRAGMENT + 64));
-  assign expected_here = number < fragments && response_draw == draw[15:0];
+
+  function automatic logic expected_here(input int n);  // response n belongs to this draw
+    return n < fragments && 16'(responses[n] >> (FRAGMENT + 64)) == draw[15:0];
+  endfunction
 
   task automatic mismatch(input string what);
     begin
-      if (mismatches == 0) $display("axi4_stream: fragment %0d, draw %0d: %s", number + 1, draw, what);
+      if (mismatches == 0) $display("axi4_stream: fragment %0d, draw %0d: %s", next + 1, draw, what);
       mismatches = mismatches + 1;
     end
   endtask
 
   always @(posedge clk) begin
     if (rst_n) begin
+      next = number;
       lots <= xorshift(lots);
       state_held <= state_tvalid && !state_tready;
       vertex_held <= vertex_tvalid && !vertex_tready;
@@ -120,18 +125,29 @@ module axi4_stream_bench;
       if (waiting_q && (fragment_tvalid !== 1'b1 || payload !== payload_q)) mismatch("TVALID or payload did not stay");
       if (fragment_tvalid === 1'b1 && fragment_tready) begin
         if (fragment_tlast) begin
-          if (expected_here) mismatch("the draw ends too early");
+          if (expected_here(number)) mismatch("the draw ends too early");
           if (payload !== {1'b1, {(PAYLOAD - 1) {1'b0}}}) mismatch("the draw's end is no null beat");
           draw <= draw + 1;
-        end else if (!expected_here) begin
-          mismatch("a fragment too many");
         end else begin
-          if (fragment_tkeep !== {(FRAGMENT_TDATA / 8) {1'b1}}) mismatch("TKEEP");
-          if (fragment_tdata !== {{(FRAGMENT_TDATA - FRAGMENT) {1'b0}}, response}) begin
-            if (mismatches == 0) $display("axi4_stream: expected %h actual %h", response, fragment_tdata);
-            mismatch("fragment");
+          if (fragment_tkeep === {(FRAGMENT_TDATA / 8) {1'b0}}) mismatch("a beat without a fragment");
+          for (int lane = 0; lane < LANES; lane = lane + 1) begin
+            lane_tkeep = fragment_tkeep[lane*LANE_TDATA/8+:LANE_TDATA/8];
+            lane_tdata = fragment_tdata[lane*LANE_TDATA+:LANE_TDATA];
+            if (lane_tkeep === {(LANE_TDATA / 8) {1'b0}}) begin
+              if (lane_tdata !== {LANE_TDATA{1'b0}}) mismatch("TDATA in a lane without a fragment");
+            end else if (!expected_here(next)) begin
+              mismatch("a fragment too many");
+            end else begin
+              response = FRAGMENT'(responses[next]);
+              if (lane_tkeep !== {(LANE_TDATA / 8) {1'b1}}) mismatch("TKEEP");
+              if (lane_tdata !== {{(LANE_TDATA - FRAGMENT) {1'b0}}, response}) begin
+                if (mismatches == 0) $display("axi4_stream: expected %h actual %h", response, lane_tdata);
+                mismatch("fragment");
+              end
+              next = next + 1;
+            end
           end
-          number <= number + 1;
+          number <= next;
         end
       end
 

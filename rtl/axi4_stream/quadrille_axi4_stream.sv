@@ -2,15 +2,18 @@
 //
 //     s_axis_state     one beat a draw: state_i of `quadrille`
 //     s_axis_vertex    vertex_i, four beats a quad; TLAST with the draw's last beat
-//     m_axis_fragment  fragment_o, TKEEP all ones; then one null beat (TKEEP and TDATA 0) with TLAST, which ends the draw
+//     m_axis_fragment  fragment_o, TKEEP ones in the bytes of the lanes that have a fragment, at least one; then one null beat (TKEEP and
+//                      TDATA 0) with TLAST, which ends the draw
 //
-// TDATA holds a record (README.md section 3) at its low end, padded with zeros to whole bytes; padding that comes in is not read. The
+// TDATA holds a record (README.md section 3) at its low end, each lane's padded with zeros to whole bytes; padding that comes in is not read. The
 // state of the next draw is taken behind the null beat. A packet of vertices has whole quads: an unfinished one never ends its draw.
 // Every TVALID comes from registers and waits for no TREADY; TREADY of the vertices does not wait for TVALID.
 module quadrille_axi4_stream #(
     localparam int STATE_BYTES = (quadrille_pkg::STATE_BITS + 7) / 8,
     localparam int VERTEX_BYTES = (quadrille_pkg::VERTEX_BITS + 7) / 8,
-    localparam int FRAGMENT_BYTES = (quadrille_pkg::FRAGMENT_BITS + 7) / 8
+    localparam int LANES = quadrille_pkg::PIXELS_PER_CLOCK,
+    localparam int LANE_BYTES = (quadrille_pkg::FRAGMENT_BITS + 7) / 8,
+    localparam int FRAGMENT_BYTES = LANES * LANE_BYTES
 ) (
     input logic aclk,
     input logic aresetn,
@@ -31,8 +34,8 @@ module quadrille_axi4_stream #(
 
   logic [1:0] step_q;
   logic [quadrille_pkg::STATE_BITS-1:0] state_q;
-  logic [quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
-  logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] unused_mask;
+  logic [LANES*quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
+  logic [LANES-1:0] mask;
   logic vertex_ready, fragment_valid, busy;
 
   assign s_axis_state_tready = step_q == STATE;
@@ -61,20 +64,23 @@ module quadrille_axi4_stream #(
       .vertex_valid_i(s_axis_vertex_tvalid && step_q == VERTICES),
       .vertex_ready_o(vertex_ready),
       .fragment_o(fragment),
-      .fragment_mask_o(unused_mask),
+      .fragment_mask_o(mask),
       .fragment_valid_o(fragment_valid),
       .fragment_ready_i(m_axis_fragment_tready),
       .busy_o(busy)
   );
 
-  // The machine's fragment is zero when not valid, and never valid in the step LAST.
+  // The machine's fragments are zero in a lane without one, and never valid in the step LAST.
   assign m_axis_fragment_tvalid = fragment_valid || step_q == LAST;
   assign m_axis_fragment_tlast = step_q == LAST;
-  assign m_axis_fragment_tkeep = {FRAGMENT_BYTES{fragment_valid}};
-  assign m_axis_fragment_tdata = {(8 * FRAGMENT_BYTES - quadrille_pkg::FRAGMENT_BITS)'(0), fragment};
+  for (genvar g = 0; g < LANES; g++) begin : gen_lane
+    assign m_axis_fragment_tkeep[g*LANE_BYTES+:LANE_BYTES] = {LANE_BYTES{mask[g]}};
+    assign m_axis_fragment_tdata[8*g*LANE_BYTES+:8*LANE_BYTES] =
+        (8 * LANE_BYTES)'(fragment[g*quadrille_pkg::FRAGMENT_BITS+:quadrille_pkg::FRAGMENT_BITS]);
+  end
 
   logic unused;
-  assign unused = ^{s_axis_state_tdata, s_axis_vertex_tdata, unused_mask};
+  assign unused = ^{s_axis_state_tdata, s_axis_vertex_tdata};
 
 `ifndef SYNTHESIS
   logic [1:0] corner_q;

@@ -1,14 +1,18 @@
 #!/usr/bin/env bash
 # Simulates the machine between AXI4-Stream interfaces on the kept golden vectors, with and without backpressure; nothing but rtl/ and
 # those vectors is needed. Then with a fault in a copy of the wrapper, which the bench must find.
-#   rtl/axi4_stream/run.sh [verilator|icarus]
+#   rtl/axi4_stream/run.sh [verilator|icarus] [PIXELS_PER_CLOCK]     the fragments are the same with 1, 2 and 4 pixels a clock
 # Exit status: 0 all agree and the fault was found, 1 otherwise, 2 usage, 3 a missing tool.
 set -euo pipefail
-simulator=${1:-verilator}
+simulator=${1:-verilator} lanes=${2:-1}
 case $simulator in
   verilator) tool=verilator ;;
   icarus) tool=iverilog ;;
   *) sed -n '2,5s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+esac
+case $lanes in
+  1 | 2 | 4) ;;
+  *) echo "$lanes pixels per clock: 1, 2 or 4" >&2; exit 2 ;;
 esac
 command -v $tool >/dev/null || { echo "$tool is missing; on Debian: apt-get install $tool" >&2; exit 3; }
 here=$(cd "$(dirname "$0")" && pwd)
@@ -24,9 +28,9 @@ mapfile -t rtl < <(sed "/^\/\//d; s|^|$here/../|" "$here/../quadrille.f")
 build() {
   local log=$work/$1.log
   case $simulator in
-    verilator) verilator --binary --assert -Wall -Wno-BLKSEQ -CFLAGS -O1 --top-module axi4_stream_bench --Mdir "$work/$1.obj" -o "$work/$1" \
+    verilator) verilator --binary --assert -Wall -Wno-BLKSEQ "-DQUADRILLE_PIXELS_PER_CLOCK=$lanes" -CFLAGS -O1 --top-module axi4_stream_bench --Mdir "$work/$1.obj" -o "$work/$1" \
       -F "$here/../quadrille.f" "$2" "$here/axi4_stream_bench.sv" ;;
-    icarus) iverilog -g2012 -s axi4_stream_bench -o "$work/$1" "${rtl[@]}" "$2" "$here/axi4_stream_bench.sv" ;;
+    icarus) iverilog -g2012 "-DQUADRILLE_PIXELS_PER_CLOCK=$lanes" -s axi4_stream_bench -o "$work/$1" "${rtl[@]}" "$2" "$here/axi4_stream_bench.sv" ;;
   esac >"$log" 2>&1 || { tail -25 "$log" >&2; echo "the bench does not build" >&2; exit 1; }
 }
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -27,6 +28,7 @@ constexpr std::uint64_t most_clocks = 100'000'000;
 struct Session {
   std::uint64_t clocks = 0;                    ///< from the first beat until idle
   std::uint64_t fragments = 0;                 ///< accepted at the port
+  std::vector<Fragment> stream;                ///< they, in order
   std::vector<std::uint64_t> accepted, taken;  ///< per quad: clock of the fourth beat, clock of the setup probe
 };
 
@@ -35,11 +37,12 @@ Session run(const std::vector<SnappedQuad>& quads, const Config& config, const D
   SteadyBeats beats(quads);
   Session r;
   r.clocks = drive(model, beats, [&](std::uint64_t cycle, const ClockedOutputs& o, bool taken) {
-    if (o.fragment_valid) ++r.fragments;
+    o.for_each_fragment([&](const Fragment& f) { r.stream.push_back(f); });
     if (o.probes.setup != nullptr) r.taken.push_back(cycle);
     if (taken && beats.taken() % 4 == 3) r.accepted.push_back(cycle);
     return (!beats.done() || o.busy) && cycle < most_clocks;
   });
+  r.fragments = r.stream.size();
   EXPECT_LT(r.clocks, most_clocks) << "the machine does not become idle";
   return r;
 }
@@ -135,6 +138,56 @@ TEST(Throughput, ConcaveQuads) {
               pixels_per_clock(r));
   EXPECT_GT(r.fragments, 200'000u);
   EXPECT_GE(pixels_per_clock(r), concave_per_clock);
+}
+
+/// Squares of `edge` pixels whose corners are on corners of tiles, or nowhere in particular.
+std::vector<SnappedQuad> squares(int count, double edge, bool aligned, const Config& config, std::uint64_t seed) {
+  Prng rng(seed);
+  std::vector<SnappedQuad> out;
+  for (int n = 0; n < count; ++n) {
+    const double x = aligned ? 8.0 * static_cast<double>(rng.below(50)) : rng.uniform(0, 400);
+    const double y = aligned ? 8.0 * static_cast<double>(rng.below(50)) : rng.uniform(0, 400);
+    const double p[4][2] = {{x, y}, {x + edge, y}, {x + edge, y + edge}, {x, y + edge}};
+    out.push_back(snapped(p, static_cast<std::uint32_t>(n), config));
+  }
+  return out;
+}
+
+/// What the lanes give: pixels of one row of one tile share a clock, so a row that a quad covers in part leaves lanes
+/// empty. Fragments and their order are those of one lane.
+TEST(Throughput, PixelsPerClock) {
+  struct Load {
+    const char* name;
+    std::vector<SnappedQuad> quads;
+    std::array<double, 3> least;  ///< pixels per clock with 1, 2, 4 lanes, as measured: clocks are exact
+  };
+  Config config;
+  const std::vector<Load> loads{
+      {"64x64 on tiles", squares(100, 64, true, config, 7), {0.999, 1.998, 3.992}},
+      {"8x8 on tiles", squares(1000, 8, true, config, 8), {0.983, 1.933, 3.744}},
+      {"64x64 anywhere", squares(100, 64, false, config, 9), {0.999, 1.956, 3.724}},
+      {"8x8 anywhere", squares(1000, 8, false, config, 10), {0.982, 1.694, 2.130}},
+      {"32x32 turned", turned_squares(300, config, 1), {0.998, 1.910, 3.410}},
+      {"32x32 concave", concave_quads(300, config, 2), {0.974, 1.641, 2.287}},
+      {"12x12 homogeneous", homogeneous_quads(100, 12, config, 5), {0.262, 0.388, 0.489}},
+  };
+  for (const Load& load : loads) {
+    std::vector<Fragment> stream;
+    for (std::size_t i = 0; i < 3; ++i) {
+      config.pixels_per_clock = 1 << i;
+      DrawState state = draw_state();
+      if (load.quads.front().vertex[2].w != load.quads.front().vertex[0].w) state.scissor_x1 = state.scissor_y1 = 80;
+      const Session r = run(load.quads, config, state);
+      std::printf("%-18s %d lanes: %7zu pixels, %.4f per clock\n", load.name, config.pixels_per_clock, r.stream.size(),
+                  pixels_per_clock(r));
+      EXPECT_GE(pixels_per_clock(r), load.least[i]) << load.name;
+      if (i == 0)
+        stream = r.stream;
+      else
+        EXPECT_TRUE(r.stream == stream) << load.name << ": other fragments or another order";
+    }
+    config.pixels_per_clock = 1;
+  }
 }
 
 /// One quad in an idle machine: clocks from the accepted fourth beat to the setup probe.

@@ -19,17 +19,22 @@ struct DeviceError : std::runtime_error {
 
 inline constexpr std::size_t probe_count = static_cast<std::size_t>(Boundary::fragment);  ///< boundaries setup to sum
 
-/// A boundary in this clock: 32-bit words, least significant first. words is null on a device without probes.
+/// The lanes of the fragment port. Boundaries in front of the pixels have one, the first.
+inline constexpr std::size_t most_lanes = Config::most_pixels_per_clock;
+/// Vectors of the lanes: 32-bit words, least significant first; null beyond the device's lanes.
+using LaneWords = std::array<const std::uint32_t*, most_lanes>;
+
+/// A boundary in this clock. words is null on a device without probes.
 struct ProbeSample {
-  bool valid = false;
-  const std::uint32_t* words = nullptr;
+  std::uint32_t valid = 0;  ///< bit g: lane g carries something
+  LaneWords words{};
 };
 
 /// Everything that leaves the machine in one clock.
 struct DeviceSample {
   bool vertex_ready = false, fragment_valid = false, busy = false;
   std::uint32_t fragment_mask = 0;
-  const std::uint32_t* fragment = nullptr;       ///< the packed fragment_t, zero when not valid
+  LaneWords fragment{};                          ///< the packed fragment_t, zero in a lane without one
   std::array<ProbeSample, probe_count> probe{};  ///< indexed by Boundary
 };
 

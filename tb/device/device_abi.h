@@ -11,24 +11,24 @@
 extern "C" {
 #endif
 
-enum { quadrille_device_abi_version = 2, quadrille_probe_count = 9 };
+enum { quadrille_device_abi_version = 3, quadrille_probe_count = 9, quadrille_most_lanes = 4 };
 
 /* Status of a function that failed because the waveform cannot be written, on a full disk say; else it is 1. */
 enum { quadrille_no_waveform = 2 };
 
-/* One boundary in this clock. words stays where it is for the device's life; its contents change with every evaluation.
- */
+/* One boundary in this clock; those in front of the pixels have one lane. words stay where they are for the device's
+ * life; their contents change with every evaluation. */
 typedef struct {
-  uint32_t valid;
-  uint32_t width; /* bits; 0: built without probes */
-  const uint32_t* words;
+  uint32_t valid;                              /* bit g: lane g carries something */
+  uint32_t width;                              /* bits of a lane; 0: built without probes */
+  const uint32_t* words[quadrille_most_lanes]; /* NULL beyond the lanes of the machine */
 } quadrille_probe;
 
 /* Everything that leaves the machine in this clock. */
 typedef struct {
   uint32_t vertex_ready, fragment_valid, fragment_mask, busy;
-  uint32_t fragment_width; /* bits */
-  const uint32_t* fragment_words;
+  uint32_t fragment_width; /* bits of a lane */
+  const uint32_t* fragment_words[quadrille_most_lanes];
   quadrille_probe probe[quadrille_probe_count]; /* setup tile stamp diff norm sqrt ratio weight sum */
 } quadrille_sample;
 

@@ -11,11 +11,13 @@ thread_local int quadrille_trace_error = 0;  // set by device_trace.h
 }
 #endif
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "device_constants.inc"  // includes the package's header and defines quadrille_constants[]
 
@@ -45,25 +47,51 @@ void assign(T& port, const uint32_t* words) {
   }
 }
 
-/// Words of an output port: a wide port is read where it lies, a narrow one is copied by refresh().
-struct NarrowCopy {
-  uint32_t words[2] = {0, 0};
+/// Words of the lanes of an output port, lane 0 in its lowest bits. A wide port with one lane is read where it lies,
+/// any other is copied by refresh().
+struct LaneCopy {
+  uint32_t width = 0;  ///< bits of a lane
+  uint32_t lanes = 0;  ///< 0: nothing to copy
+  std::vector<uint32_t> words;
 };
 
+constexpr uint32_t words_of(uint32_t bits) { return (bits + 31) / 32; }
+
+/// `bits`: of the port, all lanes together.
 template <class T>
-const uint32_t* address(const T& port, NarrowCopy& copy) {
+void bind(const T& port, uint32_t bits, uint32_t lanes, uint32_t& width, const uint32_t** words, LaneCopy& copy) {
+  width = bits / lanes;
   if constexpr (PortTraits<T>::wide) {
-    return port.data();
-  } else {
-    return copy.words;
+    if (lanes == 1) {
+      words[0] = port.data();
+      return;
+    }
   }
+  copy.width = width;
+  copy.lanes = lanes;
+  copy.words.resize(lanes * words_of(width));
+  for (uint32_t lane = 0; lane < lanes; ++lane) words[lane] = &copy.words[lane * words_of(width)];
 }
 
 template <class T>
-void refresh(const T& port, NarrowCopy& copy) {
-  if constexpr (!PortTraits<T>::wide) {
-    copy.words[0] = static_cast<uint32_t>(port);
-    if constexpr (PortTraits<T>::words > 1) copy.words[1] = static_cast<uint32_t>(static_cast<uint64_t>(port) >> 32);
+void refresh(const T& port, LaneCopy& copy) {
+  if (copy.lanes == 0) return;
+  uint32_t narrow[2] = {0, 0};
+  const uint32_t* from = narrow;
+  if constexpr (PortTraits<T>::wide) {
+    from = port.data();
+  } else {
+    narrow[0] = static_cast<uint32_t>(port);
+    if constexpr (PortTraits<T>::words > 1) narrow[1] = static_cast<uint32_t>(static_cast<uint64_t>(port) >> 32);
+  }
+  uint32_t* to = copy.words.data();
+  for (uint32_t lane = 0; lane < copy.lanes; ++lane) {
+    for (uint32_t bit = 0; bit < copy.width; bit += 32) {
+      const uint32_t at = lane * copy.width + bit, low = at % 32, count = std::min(32u, copy.width - bit);
+      uint64_t two = from[at / 32];
+      if (low + count > 32) two |= static_cast<uint64_t>(from[at / 32 + 1]) << 32;
+      *to++ = static_cast<uint32_t>(two >> low) & (count == 32 ? ~0u : (1u << count) - 1);
+    }
   }
 }
 
@@ -103,8 +131,8 @@ struct quadrille_device {
   std::unique_ptr<VerilatedFstC> trace;
 #endif
   quadrille_sample sample{};
-  NarrowCopy fragment_copy;
-  NarrowCopy probe_copy[quadrille_probe_count];
+  LaneCopy fragment_copy;
+  LaneCopy probe_copy[quadrille_probe_count];
   std::string error;
 
   int dump() {
@@ -140,6 +168,7 @@ struct quadrille_device {
 };
 
 // f(index, name) for every boundary, in the order of quadrille_sample::probe.
+constexpr int first_pixel_probe = 3;  // it and those behind it have lanes
 #define QUADRILLE_FOR_EACH_PROBE(f) \
   f(0, setup) f(1, tile) f(2, stamp) f(3, diff) f(4, norm) f(5, sqrt) f(6, ratio) f(7, weight) f(8, sum)
 
@@ -158,12 +187,13 @@ quadrille_device* create(uint64_t seed) {
     device->top = std::make_unique<Vquadrille>(device->context.get(), "quadrille");
     Vquadrille& top = *device->top;
     quadrille_sample& s = device->sample;
-    s.fragment_width = QUADRILLE_WIDTH_fragment;
-    s.fragment_words = address(top.fragment_o, device->fragment_copy);
+    constexpr uint32_t lanes = QUADRILLE_WIDTH_fragment_mask;
+    static_assert(lanes <= quadrille_most_lanes);
+    bind(top.fragment_o, QUADRILLE_WIDTH_fragment, lanes, s.fragment_width, s.fragment_words, device->fragment_copy);
 #ifdef QUADRILLE_PROBES
-#define QUADRILLE_BIND(i, name)              \
-  s.probe[i].width = QUADRILLE_WIDTH_##name; \
-  s.probe[i].words = address(top.probe_##name##_o, device->probe_copy[i]);
+#define QUADRILLE_BIND(i, name)                                                                             \
+  bind(top.probe_##name##_o, QUADRILLE_WIDTH_##name, (i) < first_pixel_probe ? 1 : lanes, s.probe[i].width, \
+       s.probe[i].words, device->probe_copy[i]);
     QUADRILLE_FOR_EACH_PROBE(QUADRILLE_BIND)
 #undef QUADRILLE_BIND
 #endif

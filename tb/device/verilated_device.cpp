@@ -6,9 +6,11 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
+
 namespace quadrille::tb {
 
-static_assert(probe_count == quadrille_probe_count);
+static_assert(probe_count == quadrille_probe_count && most_lanes == quadrille_most_lanes);
 
 namespace {
 
@@ -82,9 +84,9 @@ VerilatedDevice::VerilatedDevice(const Simulator& simulator, const Config& confi
   for (std::size_t i = 0; i < probe_count; ++i) {
     const auto b = static_cast<Boundary>(i);
     if (s.probe[i].width != 0) same(boundary_name(b), s.probe[i].width, boundary_layout(b, config).bits());
-    impl_->sample.probe[i].words = s.probe[i].words;
+    std::copy_n(s.probe[i].words, most_lanes, impl_->sample.probe[i].words.begin());
   }
-  impl_->sample.fragment = s.fragment_words;
+  std::copy_n(s.fragment_words, most_lanes, impl_->sample.fragment.begin());
 }
 
 VerilatedDevice::~VerilatedDevice() = default;
@@ -109,7 +111,7 @@ const DeviceSample& VerilatedDevice::sample() {
   out.fragment_valid = s.fragment_valid != 0;
   out.busy = s.busy != 0;
   out.fragment_mask = s.fragment_mask;
-  for (std::size_t i = 0; i < probe_count; ++i) out.probe[i].valid = s.probe[i].valid != 0;
+  for (std::size_t i = 0; i < probe_count; ++i) out.probe[i].valid = s.probe[i].valid;
   return out;
 }
 

@@ -56,15 +56,19 @@ const Named odd{"odd",
                  {"attribute_frac_bits", 19},
                  {"depth_bits", 17},
                  {"tile_log2", 2},
+                 {"pixels_per_clock", 2},
                  {"quad_slots_log2", 1},
                  {"tile_slots_log2", 1},
                  {"stamp_fifo_log2", 1},
                  {"quad_id_bits", 13}}};
 
+/// Four lanes, little in each.
+const Named lanes{"lanes", {{"significand_bits", 10}, {"attribute_slots", 1}, {"pixels_per_clock", 4}}};
+
 std::string test_name(const testing::TestParamInfo<Named>& info) { return info.param.name; }
 
 class Configuration : public testing::TestWithParam<Named> {};
-INSTANTIATE_TEST_SUITE_P(Cosim, Configuration, testing::Values(standard, s12, s24, coarse, odd), test_name);
+INSTANTIATE_TEST_SUITE_P(Cosim, Configuration, testing::Values(standard, s12, s24, coarse, odd, lanes), test_name);
 
 TEST_P(Configuration, RtlSeesTheSameNumbers) {
   const Config config = GetParam().config();

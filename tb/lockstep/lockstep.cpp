@@ -147,7 +147,14 @@ struct Run {
   }
 };
 
-/// `hand_over(monitor, outputs)` for every fragment that leaves.
+/// Calls f(lane, words) for the fragments of this clock, in their order.
+template <class F>
+void for_each_lane(const DeviceSample& out, F&& f) {
+  for (std::size_t lane = 0; lane < most_lanes; ++lane)
+    if ((out.fragment_mask >> lane & 1) != 0) f(lane, out.fragment[lane]);
+}
+
+/// `hand_over(monitor, outputs)` in every clock in which fragments leave.
 template <class Machine, class HandOver>
 AloneRun run_alone(Machine& machine, std::span<const SnappedQuad> quads, const LockstepOptions& o,
                    const FragmentSink& sink, HandOver&& hand_over) {
@@ -192,8 +199,11 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
     // 1. Compare.
     const Scoreboard::Verdict verdict = scoreboard.compare(cycle, expected, actual);
     const bool moved = actual.fragment_valid && run.stimulus.ready();
-    if (moved) run.monitor.handed_over(actual.fragment, verdict.fragment ? &expected.fragment : nullptr);
-    if (expected.probes.diff != nullptr && (!expected.fragment_valid || run.stimulus.ready())) ++report.pixels;
+    if (moved)
+      for_each_lane(actual, [&](std::size_t lane, const std::uint32_t* words) {
+        run.monitor.handed_over(words, verdict.fragment ? expected.fragment[lane] : nullptr);
+      });
+    for (const LaneProbes& lane : expected.probes.lane) report.pixels += lane.diff != nullptr ? 1 : 0;
 
     // 2. Whether and how the run ends. The model says when all is drawn.
     const bool model_idle = run.stimulus.done() && !expected.busy, rtl_idle = run.stimulus.done() && !actual.busy;
@@ -248,7 +258,7 @@ AloneRun run_rtl_alone(const Simulator& simulator, std::span<const SnappedQuad> 
   if (o.trace) device.open_trace(*o.trace);
   DrivenDevice machine(device, o);
   const AloneRun run = run_alone(machine, quads, o, sink, [](FragmentMonitor& monitor, const DeviceSample& out) {
-    monitor.handed_over(out.fragment, nullptr);
+    for_each_lane(out, [&](std::size_t, const std::uint32_t* words) { monitor.handed_over(words, nullptr); });
   });
   device.close_trace();
   return run;
@@ -265,9 +275,11 @@ AloneRun run_clocked_model_alone(std::span<const SnappedQuad> quads, const Locks
   std::vector<std::uint32_t> words(words_for(width));
   DrivenModel machine(o.config, o.state);
   return run_alone(machine, quads, o, sink, [&](FragmentMonitor& monitor, const ClockedOutputs& out) {
-    pack_fragment(out.fragment, o.config, packed.data(), width);
-    std::memcpy(words.data(), packed.data(), words.size() * sizeof words[0]);
-    monitor.handed_over(words.data(), &out.fragment);
+    out.for_each_fragment([&](const Fragment& fragment) {
+      pack_fragment(fragment, o.config, packed.data(), width);
+      std::memcpy(words.data(), packed.data(), words.size() * sizeof words[0]);
+      monitor.handed_over(words.data(), &fragment);
+    });
   });
 }
 

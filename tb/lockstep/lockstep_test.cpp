@@ -20,7 +20,7 @@ class ModelDevice : public Device {
   struct Outputs {
     ClockedOutputs model;
     DeviceSample sample;
-    std::array<std::vector<std::uint32_t>, probe_count + 1> words;
+    std::array<std::array<std::vector<std::uint32_t>, most_lanes>, probe_count + 1> words;  ///< by boundary and lane
   };
   using Fault = std::function<void(std::uint64_t cycle, Outputs&)>;
 
@@ -57,7 +57,8 @@ class ModelDevice : public Device {
   void settle() override {
     out_.model = model_.comb();
     const ClockedProbes& p = out_.model.probes;
-    const auto fill = [&](Boundary b, const auto* record, auto&& pack) {
+    for (ProbeSample& probe : out_.sample.probe) probe.valid = 0;
+    const auto fill = [&](Boundary b, std::size_t lane, const auto* record, auto&& pack) {
       const auto i = static_cast<std::size_t>(b);
       std::vector<std::uint64_t> wide(static_cast<std::size_t>(layouts_[i].bits() + 63) / 64);
       if (record != nullptr) {
@@ -65,29 +66,36 @@ class ModelDevice : public Device {
         pack(*record, packer);
         packer.finish();
       }
-      out_.words[i].resize(words_for(layouts_[i].bits()));
-      std::memcpy(out_.words[i].data(), wide.data(), out_.words[i].size() * 4);
-      if (i < probe_count) out_.sample.probe[i] = {record != nullptr, out_.words[i].data()};
+      std::vector<std::uint32_t>& words = out_.words[i][lane];
+      words.resize(words_for(layouts_[i].bits()));
+      std::memcpy(words.data(), wide.data(), words.size() * 4);
+      if (i == probe_count) {
+        out_.sample.fragment[lane] = words.data();
+      } else {
+        out_.sample.probe[i].valid |= (record != nullptr ? 1u : 0u) << lane;
+        out_.sample.probe[i].words[lane] = words.data();
+      }
     };
     const auto plain = [&](const auto& r, BitPacker& packer) { visit(r, config_, packer); };
-    fill(Boundary::setup, p.setup, plain);
-    fill(Boundary::tile, p.tile, plain);
-    fill(Boundary::stamp, p.stamp, plain);
-    const auto pixel = [&](Boundary b, const PixelTrace* t) {
-      fill(b, t, [&](const PixelTrace& r, BitPacker& packer) { visit(r, b, config_, packer); });
-    };
-    pixel(Boundary::diff, p.diff);
-    pixel(Boundary::norm, p.norm);
-    pixel(Boundary::sqrt, p.sqrt);
-    pixel(Boundary::ratio, p.ratio);
-    pixel(Boundary::weight, p.weight);
-    pixel(Boundary::sum, p.sum);
-    fill(Boundary::fragment, &out_.model.fragment, plain);
+    fill(Boundary::setup, 0, p.setup, plain);
+    fill(Boundary::tile, 0, p.tile, plain);
+    fill(Boundary::stamp, 0, p.stamp, plain);
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(config_.pixels_per_clock); ++lane) {
+      const auto pixel = [&](Boundary b, const PixelTrace* t) {
+        fill(b, lane, t, [&](const PixelTrace& r, BitPacker& packer) { visit(r, b, config_, packer); });
+      };
+      pixel(Boundary::diff, p.lane[lane].diff);
+      pixel(Boundary::norm, p.lane[lane].norm);
+      pixel(Boundary::sqrt, p.lane[lane].sqrt);
+      pixel(Boundary::ratio, p.lane[lane].ratio);
+      pixel(Boundary::weight, p.lane[lane].weight);
+      pixel(Boundary::sum, p.lane[lane].sum);
+      fill(Boundary::fragment, lane, out_.model.fragment[lane], plain);
+    }
     out_.sample.vertex_ready = out_.model.vertex_ready;
     out_.sample.fragment_valid = out_.model.fragment_valid;
     out_.sample.busy = out_.model.busy;
-    out_.sample.fragment_mask = out_.model.fragment_valid ? 1 : 0;
-    out_.sample.fragment = out_.words[probe_count].data();
+    out_.sample.fragment_mask = out_.model.fragment_mask();
     if (fault_ && !inputs_.reset) fault_(cycle_, out_);
   }
   const DeviceSample& sample() override { return out_.sample; }
@@ -145,6 +153,51 @@ TEST_F(Lockstep, AgreesWithItself) {
   EXPECT_EQ(alone.cycles, report.cycles_model);
 }
 
+/// The lanes of the port change when fragments leave, not which, nor their order.
+TEST_F(Lockstep, TheSameFragmentsInEveryNumberOfLanes) {
+  const LockstepReport one = run({});
+  for (const int lanes : {2, 4}) {
+    options.config.set("pixels_per_clock", lanes);
+    const LockstepReport report = run({});
+    EXPECT_TRUE(report.agreed()) << report.first_divergence.value_or("");
+    EXPECT_TRUE(report.complete);
+    EXPECT_EQ(report.fragments, one.fragments) << lanes;
+    EXPECT_EQ(report.fragment_hash, one.fragment_hash) << lanes;
+    EXPECT_EQ(report.pixels, one.pixels) << lanes;
+    EXPECT_LT(report.cycles_model, one.cycles_model) << lanes;
+  }
+}
+
+/// Every bit of every lane counts: of its valid, of its payload, of its fragment.
+TEST_F(Lockstep, SeesEveryLane) {
+  options.config.set("pixels_per_clock", 4);
+  const auto expect = [&](const std::string& text, ModelDevice::Fault fault) {
+    const LockstepReport report = run(std::move(fault));
+    EXPECT_EQ(report.mismatches + report.cycle_mismatches, 1u) << text;
+    ASSERT_TRUE(report.first_divergence) << text;
+    EXPECT_NE(report.first_divergence->find(text), std::string::npos) << *report.first_divergence;
+  };
+  constexpr auto first_pixel_boundary = static_cast<std::size_t>(Boundary::diff);
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const std::string name = "lane " + std::to_string(lane);
+    for (std::size_t i = first_pixel_boundary; i < probe_count; ++i) {
+      const std::string stage = name + ", stage " + boundary_name(static_cast<Boundary>(i));
+      expect(stage + ", valid", [=](auto cycle, auto& o) {
+        if (cycle == 350) o.sample.probe[i].valid ^= 1u << lane;
+      });
+      expect(stage + ", field", [=](auto cycle, auto& o) {
+        if (cycle > 300 && (o.sample.probe[i].valid >> lane & 1) != 0) o.words[i][lane][0] ^= 1u;
+      });
+    }
+    expect("fragment_mask: expected", [=](auto cycle, auto& o) {
+      if (cycle == 400) o.sample.fragment_mask ^= 1u << lane;
+    });
+    expect(name + ", stage fragment, field", [=](auto cycle, auto& o) {
+      if (cycle == 400) o.words[probe_count][lane][0] ^= 1u;
+    });
+  }
+}
+
 TEST_F(Lockstep, NamesTheFieldThatDiffers) {
   // Bit 2 of root[1]'s significand in the stage register, from cycle 300 on.
   std::uint64_t at = 0;
@@ -154,11 +207,11 @@ TEST_F(Lockstep, NamesTheFieldThatDiffers) {
     if (cycle < 300 || !out.sample.probe[static_cast<std::size_t>(Boundary::sqrt)].valid) return;
     if (at == 0) {
       at = cycle;
-      pixel = *out.model.probes.sqrt;
+      pixel = *out.model.probes.lane[0].sqrt;
     }
     const int bit = field.position + 2;
-    out.words[static_cast<std::size_t>(Boundary::sqrt)][static_cast<std::size_t>(bit / 32)] ^= std::uint32_t{1}
-                                                                                               << bit % 32;
+    out.words[static_cast<std::size_t>(Boundary::sqrt)][0][static_cast<std::size_t>(bit / 32)] ^= std::uint32_t{1}
+                                                                                                  << bit % 32;
   });
   EXPECT_EQ(report.mismatches, 1u);
   EXPECT_EQ(report.cycle_mismatches, 0u);
@@ -174,7 +227,7 @@ TEST_F(Lockstep, NamesTheFieldThatDiffers) {
 TEST_F(Lockstep, CountsOnWhenAsked) {
   options.stop_at_first = false;
   const LockstepReport report = run([&](std::uint64_t cycle, ModelDevice::Outputs& out) {
-    if (out.sample.fragment_valid && cycle % 7 == 0) out.words[probe_count][0] ^= 1u;
+    if (out.sample.fragment_valid && cycle % 7 == 0) out.words[probe_count][0][0] ^= 1u;
   });
   EXPECT_GT(report.mismatches, 10u);
   EXPECT_EQ(report.cycle_mismatches, 0u);
@@ -206,14 +259,14 @@ TEST_F(Lockstep, SeesTimingOfEverySignal) {
   for (std::size_t i = 0; i < probe_count; ++i) {
     const std::string name = std::string("stage ") + boundary_name(static_cast<Boundary>(i)) + ", valid";
     expect_timing(name.c_str(), [i](auto cycle, auto& o) {
-      if (cycle == 350) o.sample.probe[i].valid = !o.sample.probe[i].valid;
+      if (cycle == 350) o.sample.probe[i].valid ^= 1u;
     });
   }
 }
 
 TEST_F(Lockstep, FragmentBitsCountWhenNotValidToo) {
   const LockstepReport report = run([&](std::uint64_t, ModelDevice::Outputs& out) {
-    if (!out.sample.fragment_valid) out.words[probe_count][1] ^= 0x10u;
+    if (!out.sample.fragment_valid) out.words[probe_count][0][1] ^= 0x10u;
   });
   EXPECT_EQ(report.mismatches, 1u);
   EXPECT_EQ(report.cycle_mismatches, 0u);

@@ -1,6 +1,7 @@
 #include "tb/lockstep/scoreboard.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace quadrille::tb {
@@ -21,6 +22,7 @@ Scoreboard::Scoreboard(const Config& config, std::span<const SnappedQuad> quads,
       quads_(quads),
       probes_(probes),
       seed_(seed),
+      lanes_(static_cast<std::size_t>(config.pixels_per_clock)),
       quad_of_slot_(static_cast<std::size_t>(config.quad_slots())),
       ring_(static_cast<std::size_t>(2 * ring_entries(config))) {
   std::size_t room = 0;
@@ -38,6 +40,7 @@ std::string Scoreboard::where(const Place& place) const {
   if (place.x >= 0) {
     text += std::string(", ") + place.unit + " (" + std::to_string(place.x) + ", " + std::to_string(place.y) + ")";
   }
+  if (place.lane >= 0) text += ", lane " + std::to_string(place.lane);
   return text;
 }
 
@@ -72,13 +75,16 @@ void Scoreboard::payload_differs(Boundary b, const std::uint32_t* actual, const 
 }
 
 template <class Record, class Pack, class Locate>
-void Scoreboard::boundary(Boundary b, const Record* expected, const ProbeSample& actual, Pack&& pack, Locate&& locate) {
-  const bool valid = expected != nullptr;
-  if (!valid && !actual.valid) return;
-  if (valid != actual.valid) {
+void Scoreboard::boundary(Boundary b, std::size_t lane, const Record* expected, const ProbeSample& actual, Pack&& pack,
+                          Locate&& locate) {
+  const bool valid = expected != nullptr, actual_valid = (actual.valid >> lane & 1) != 0;
+  if (!valid && !actual_valid) return;
+  if (valid != actual_valid) {
     verdict_.timing = false;
     if (!first_) {
-      first_ = where(valid ? locate(*expected) : Place{}) + ", stage " + boundary_name(b) + ", valid: expected " +
+      Place place;
+      place.lane = lane_to_name(lane);
+      first_ = where(valid ? locate(*expected) : place) + ", stage " + boundary_name(b) + ", valid: expected " +
                (valid ? "1 (model), actual 0 (RTL)" : "0 (model), actual 1 (RTL)") + "; seed " + std::to_string(seed_);
     }
     return;
@@ -90,8 +96,8 @@ void Scoreboard::boundary(Boundary b, const Record* expected, const ProbeSample&
   BoundaryCount& count = counts_[index_of(b)];
   ++count.beats;
   count.bits += static_cast<std::uint64_t>(layout.bits());
-  if (!same_words(packed_.data(), actual.words, words_for(layout.bits())))
-    payload_differs(b, actual.words, locate(*expected));
+  const std::uint32_t* words = actual.words[lane];
+  if (!same_words(packed_.data(), words, words_for(layout.bits()))) payload_differs(b, words, locate(*expected));
 }
 
 void Scoreboard::follow(const ClockedProbes& probes) {
@@ -113,58 +119,69 @@ Scoreboard::Verdict Scoreboard::compare(std::uint64_t cycle, const ClockedOutput
     const ClockedProbes& p = expected.probes;
     const auto probe = [&](Boundary b) -> const ProbeSample& { return actual.probe[index_of(b)]; };
     const auto pack = [&](const auto& record, BitPacker& packer) { visit(record, config_, packer); };
-    boundary(Boundary::setup, p.setup, probe(Boundary::setup), pack,
+    boundary(Boundary::setup, 0, p.setup, probe(Boundary::setup), pack,
              [&](const SetupResult&) { return Place{quad_at(quads_set_up_)}; });
-    boundary(Boundary::tile, p.tile, probe(Boundary::tile), pack, [&](const TileEntry& t) {
+    boundary(Boundary::tile, 0, p.tile, probe(Boundary::tile), pack, [&](const TileEntry& t) {
       return Place{quad_at(quad_of_slot_[t.slot % quad_of_slot_.size()]), t.end ? -1 : t.tile_x, t.tile_y, "tile"};
     });
-    boundary(Boundary::stamp, p.stamp, probe(Boundary::stamp), pack, [&](const StampEntry& s) {
+    boundary(Boundary::stamp, 0, p.stamp, probe(Boundary::stamp), pack, [&](const StampEntry& s) {
       const RingPlace& ring = ring_[s.tile_ptr % ring_.size()];
       return Place{quad_at(ring.quad), s.end ? -1 : ring.tile_x * config_.tile(), ring.tile_y * config_.tile() + s.row,
                    "row at"};
     });
-    const auto pixel = [&](Boundary b, const PixelTrace* trace) {
-      boundary(
-          b, trace, probe(b), [&, b](const PixelTrace& t, BitPacker& packer) { visit(t, b, config_, packer); },
-          [&](const PixelTrace& t) {
-            return Place{quad_at(quad_of_slot_[t.slot % quad_of_slot_.size()]), t.x, t.y};
-          });
+    const auto pixels = [&](Boundary b, const PixelTrace* LaneProbes::*trace) {
+      for (std::size_t lane = 0; lane < lanes_; ++lane) {
+        boundary(
+            b, lane, p.lane[lane].*trace, probe(b),
+            [&, b](const PixelTrace& t, BitPacker& packer) { visit(t, b, config_, packer); },
+            [&](const PixelTrace& t) {
+              return Place{quad_at(quad_of_slot_[t.slot % quad_of_slot_.size()]), t.x, t.y, "pixel",
+                           lane_to_name(lane)};
+            });
+      }
     };
-    pixel(Boundary::diff, p.diff);
-    pixel(Boundary::norm, p.norm);
-    pixel(Boundary::sqrt, p.sqrt);
-    pixel(Boundary::ratio, p.ratio);
-    pixel(Boundary::weight, p.weight);
-    pixel(Boundary::sum, p.sum);
+    pixels(Boundary::diff, &LaneProbes::diff);
+    pixels(Boundary::norm, &LaneProbes::norm);
+    pixels(Boundary::sqrt, &LaneProbes::sqrt);
+    pixels(Boundary::ratio, &LaneProbes::ratio);
+    pixels(Boundary::weight, &LaneProbes::weight);
+    pixels(Boundary::sum, &LaneProbes::sum);
     follow(p);
   }
 
-  // Ports. The fragment's bits are compared in every clock: they are zero when there is none.
-  const auto fragment_place = [&] {
+  // Ports. The fragments' bits are compared in every clock: they are zero in a lane that has none.
+  const auto fragment_place = [&](std::size_t lane) {
     Place place;
-    if (!expected.fragment_valid) return place;
-    const auto quad =
-        std::find_if(quads_.begin(), quads_.end(), [&](const auto& q) { return q.id == expected.fragment.quad; });
+    const Fragment* fragment = expected.fragment[lane];
+    if (fragment == nullptr) return place;
+    const auto quad = std::find_if(quads_.begin(), quads_.end(), [&](const auto& q) { return q.id == fragment->quad; });
     if (quad != quads_.end()) place.quad = &*quad;
-    place.x = expected.fragment.x;
-    place.y = expected.fragment.y;
+    place.x = fragment->x;
+    place.y = fragment->y;
     return place;
   };
-  signal("fragment_valid", expected.fragment_valid, actual.fragment_valid, fragment_place);
-  signal("fragment_mask", expected.fragment_valid ? 1 : 0, actual.fragment_mask, fragment_place);
+  const auto first_place = [&] {
+    return fragment_place(expected.fragment_valid ? std::countr_zero(expected.fragment_mask()) : 0);
+  };
+  signal("fragment_valid", expected.fragment_valid, actual.fragment_valid, first_place);
+  signal("fragment_mask", expected.fragment_mask(), actual.fragment_mask, first_place);
   const RecordLayout& layout = layouts_[index_of(Boundary::fragment)];
   BoundaryCount& count = counts_[index_of(Boundary::fragment)];
-  if (expected.fragment_valid) {
-    BitPacker packer(packed_.data(), layout.bits());
-    visit(expected.fragment, config_, packer);
-    packer.finish();
-    ++count.beats;
-  } else {
-    std::memset(packed_.data(), 0, packed_.size() * sizeof packed_[0]);
-  }
-  count.bits += static_cast<std::uint64_t>(layout.bits());
-  if (!same_words(packed_.data(), actual.fragment, words_for(layout.bits()))) {
-    payload_differs(Boundary::fragment, actual.fragment, fragment_place());
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    if (expected.fragment[lane] != nullptr) {
+      BitPacker packer(packed_.data(), layout.bits());
+      visit(*expected.fragment[lane], config_, packer);
+      packer.finish();
+      ++count.beats;
+    } else {
+      std::memset(packed_.data(), 0, packed_.size() * sizeof packed_[0]);
+    }
+    count.bits += static_cast<std::uint64_t>(layout.bits());
+    if (!same_words(packed_.data(), actual.fragment[lane], words_for(layout.bits()))) {
+      Place place = fragment_place(lane);
+      place.lane = lane_to_name(lane);
+      payload_differs(Boundary::fragment, actual.fragment[lane], place);
+    }
   }
   const auto nowhere = [] { return Place{}; };
   signal("vertex_ready", expected.vertex_ready, actual.vertex_ready, nowhere);

@@ -18,7 +18,7 @@ namespace quadrille::tb {
 /// What was compared at one boundary.
 struct BoundaryCount {
   std::string name;
-  std::uint64_t beats = 0;       ///< clocks in which a payload was there on both sides and was compared
+  std::uint64_t beats = 0;       ///< payloads that were there on both sides and were compared
   std::uint64_t bits = 0;        ///< payload bits compared
   std::uint64_t mismatches = 0;  ///< beats that differ
 };
@@ -51,6 +51,7 @@ class Scoreboard {
     const SnappedQuad* quad = nullptr;
     int x = -1, y = -1;
     const char* unit = "pixel";
+    int lane = -1;  ///< none: of all lanes, or of a machine with one
   };
   struct RingPlace {
     std::size_t quad = 0;
@@ -58,11 +59,13 @@ class Scoreboard {
   };
 
   template <class Record, class Pack, class Locate>
-  void boundary(Boundary b, const Record* expected, const ProbeSample& actual, Pack&& pack, Locate&& locate);
+  void boundary(Boundary b, std::size_t lane, const Record* expected, const ProbeSample& actual, Pack&& pack,
+                Locate&& locate);
   template <class Locate>
   void signal(const char* name, std::uint32_t expected, std::uint32_t actual, Locate&& locate);
   void payload_differs(Boundary b, const std::uint32_t* actual, const Place& place);
   std::string where(const Place& place) const;
+  int lane_to_name(std::size_t lane) const { return config_.pixels_per_clock > 1 ? static_cast<int>(lane) : -1; }
   const SnappedQuad* quad_at(std::size_t ordinal) const { return ordinal < quads_.size() ? &quads_[ordinal] : nullptr; }
   void follow(const ClockedProbes& probes);
 
@@ -70,6 +73,7 @@ class Scoreboard {
   std::span<const SnappedQuad> quads_;
   bool probes_;
   std::uint64_t seed_;
+  std::size_t lanes_;
   std::vector<RecordLayout> layouts_;  // by Boundary
   std::vector<std::uint64_t> packed_;  // room for the widest boundary
   std::vector<BoundaryCount> counts_;  // by Boundary

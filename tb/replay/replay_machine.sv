@@ -1,6 +1,6 @@
 // Self-checking bench of the whole machine: plays the draws of a set twice, without stalls and with the stall pattern, and compares
-// every bit of every fragment, their order and number, the clock in which each is handed over, the clock in which each vertex beat is
-// taken, and that the machine becomes idle.
+// every bit of every fragment, their order and number (lane 0 of a clock first), the clock in which each is handed over, the clock in which
+// each vertex beat is taken, and that the machine becomes idle.
 //
 // Macros: REPLAY_STATE_BITS, REPLAY_VERTEX_BITS, REPLAY_FRAGMENT_BITS, and the most lines of each file REPLAY_DRAWS, REPLAY_BEATS,
 // REPLAY_FRAGMENTS, REPLAY_STALLS. Plusargs: +suite=NAME, +states= +stimulus= +taken= +response= +stalls=FILE, +draws= +beats= +fragments=
@@ -11,6 +11,7 @@ module replay_machine;
   localparam int STATE = `REPLAY_STATE_BITS;
   localparam int VERTEX = `REPLAY_VERTEX_BITS;
   localparam int FRAGMENT = `REPLAY_FRAGMENT_BITS;
+  localparam int LANES = quadrille_pkg::PIXELS_PER_CLOCK;
   localparam int SILENCE = 2000000;  // clocks in which nothing moves before the run is given up: more than the longest walk
 
   string suite, states_file, stimulus_file, response_file, stalls_file, taken_file;
@@ -62,10 +63,10 @@ module replay_machine;
   logic [16+VERTEX-1:0] stimulus;
   logic [1:0] allowed;
   logic offering, vertex_valid, vertex_ready, fragment_valid, fragment_ready, busy;
-  logic [0:0] fragment_mask;
+  logic [LANES-1:0] fragment_mask;
   logic [STATE-1:0] state;
   logic [VERTEX-1:0] vertex;
-  logic [FRAGMENT-1:0] fragment;
+  logic [LANES*FRAGMENT-1:0] fragments_out;
 
   assign stimulus = stimuli[beat];
   assign state = states[draw];
@@ -82,7 +83,7 @@ module replay_machine;
       .vertex_i(vertex),
       .vertex_valid_i(vertex_valid),
       .vertex_ready_o(vertex_ready),
-      .fragment_o(fragment),
+      .fragment_o(fragments_out),
       .fragment_mask_o(fragment_mask),
       .fragment_valid_o(fragment_valid),
       .fragment_ready_i(fragment_ready),
@@ -91,6 +92,8 @@ module replay_machine;
 
   // ---- Comparison ----------------------------------------------------------------------------------------------------------
   logic [80+FRAGMENT-1:0] response;
+  logic [FRAGMENT-1:0] fragment;
+  int next;  // fragment: `number` and the lanes of this clock that were looked at
   logic [31:0] expected_cycle, expected_taken;
   logic expected_here;  // the next response belongs to this draw
   string how = "";  // the pass, in messages
@@ -98,16 +101,14 @@ module replay_machine;
   int silence = 0;
   longint clocks = 0;  // of a pass
 
-  assign response = responses[number];
-  assign expected_cycle = stalled ? response[FRAGMENT+:32] : response[FRAGMENT+32+:32];
   assign expected_taken = stalled ? taken[beat][31:0] : taken[beat][63:32];
-  assign expected_here = number < fragments && response[FRAGMENT+64+:16] == draw[15:0];
+  assign expected_here = number < fragments && responses[number][FRAGMENT+64+:16] == draw[15:0];
 
-  // Blocking, as nothing else reads `mismatches`.
+  // Blocking, as nothing else reads `mismatches`; neither does anything else read `next` and what is set in the loop over the lanes.
   task automatic mismatch(input string what);
     begin
       if (mismatches == 0)
-        $display("%s: first difference in line %0d, draw %0d, clock %0d%s: %s", suite, number + 1, draw, cycle, how, what);
+        $display("%s: first difference in line %0d, draw %0d, clock %0d%s: %s", suite, next + 1, draw, cycle, how, what);
       mismatches = mismatches + 1;
     end
   endtask
@@ -120,6 +121,7 @@ module replay_machine;
       phase <= 0;
       silence <= 0;
     end else if (rst_n) begin
+      next = number;
       cycle <= cycle + 1;
       clocks <= clocks + 1;
       phase <= (phase == pattern - 1) ? 0 : phase + 1;
@@ -135,10 +137,16 @@ module replay_machine;
       end
       silence <= ((vertex_valid && vertex_ready) || (fragment_valid && fragment_ready)) ? 0 : silence + 1;
       if (silence > SILENCE) $fatal(1, "%s: nothing moves in draw %0d", suite, draw);
-      if (fragment_mask !== fragment_valid) mismatch("fragment_mask_o is not fragment_valid_o");
-      if (fragment_valid === 1'b1) begin
-        if (fragment_ready) begin
-          if (!expected_here) begin
+      if (fragment_valid !== 1'b0 && fragment_valid !== 1'b1) mismatch("fragment_valid_o is not 0 or 1");
+      if (|fragment_mask !== fragment_valid) mismatch("fragment_mask_o is not that of fragment_valid_o");
+      for (int lane = 0; lane < LANES; lane = lane + 1) begin
+        fragment = fragments_out[lane*FRAGMENT+:FRAGMENT];
+        response = responses[next];
+        expected_cycle = stalled ? response[FRAGMENT+:32] : response[FRAGMENT+32+:32];
+        if (fragment_mask[lane] !== 1'b1) begin
+          if (fragment !== {FRAGMENT{1'b0}}) mismatch("fragment_o is not zero in a lane without a fragment");
+        end else if (fragment_ready) begin
+          if (next >= fragments || response[FRAGMENT+64+:16] != draw[15:0]) begin
             mismatch("a fragment too many");
           end else begin
             if (fragment !== response[FRAGMENT-1:0]) begin
@@ -148,13 +156,11 @@ module replay_machine;
               if (mismatches == 0) $display("%s: expected clock %0d actual clock %0d", suite, expected_cycle, cycle);
               mismatch("clock");
             end
-            number <= number + 1;
+            next = next + 1;
           end
         end
-      end else begin
-        if (fragment_valid !== 1'b0) mismatch("fragment_valid_o is not 0 or 1");
-        if (fragment !== {FRAGMENT{1'b0}}) mismatch("fragment_o is not zero while not valid");
       end
+      number <= next;
       if (!offering && busy === 1'b0) begin
         if (expected_here) $fatal(1, "%s: idle after draw %0d without the fragment of line %0d", suite, draw, number + 1);
         if (vertex_ready !== 1'b1) mismatch("idle, but no beat is taken");
