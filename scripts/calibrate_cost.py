@@ -1,19 +1,24 @@
 #!/usr/bin/python3
-"""Fit of the hardware cost's weights (golden/analysis/hardware_cost.hpp) to synthesis of the RTL as it is.
+"""Fit of the hardware cost's weights (golden/analysis/hardware_cost.hpp) to synthesis of the RTL.
 
-Synthesizes a list of diverse configurations with `quadrille sweep --synth`, fits LUTs = sum of weight * bits (not negative, no
-constant, least relative squares) and prints the weights, the residuals, and how well estimates rank configurations that the fit has not
-seen: each row by the fit to all others. With DSP blocks multipliers take no LUTs, and the blocks are counted, not fitted.
+golden/analysis/synthesised.csv has what scripts/size.py gave for a list of configurations, for each target; those marked `fit` are
+fitted, those marked `check` are not. LUTs = sum of weight * bits (not negative, no constant, least relative squares), multipliers as
+logic or as DSP blocks, which are counted like block RAMs and not fitted. Prints the weights, the residuals, and how well estimates rank
+configurations that the fit has not seen: each fitted row by the fit to the others, and the rows to check.
 
-  scripts/calibrate_cost.py                      the whole list: minutes for each configuration the first time, then from the cache
-  scripts/calibrate_cost.py --target ecp5-nodsp  with multipliers in logic
-  scripts/calibrate_cost.py DIR [DIR ...]        sweeps that are there already (points.csv, synth.csv), all of one target
+  scripts/calibrate_cost.py                        from the figures that are there: seconds
+  scripts/calibrate_cost.py --target ecp5-nodsp    with multipliers in logic
+  scripts/calibrate_cost.py --check                also fails where the program's weights are not this fit, a count of blocks is wrong, or a
+                                                   rank correlation is below 0.95
+  scripts/calibrate_cost.py --synthesise --target ecp5    makes the figures of a target anew with Yosys: minutes each
 
-The fitted weights are printed as the table [cost] of a configuration file.
-"""
+The fitted weights are printed as the table [cost] of a configuration file. Exit status: 1 a check or a synthesis failed, 2 usage or
+input, 3 a missing tool."""
 import argparse
 import csv
 import itertools
+import json
+import math
 import os
 import subprocess
 import sys
@@ -27,107 +32,174 @@ except ImportError as missing:
           file=sys.stderr)
     sys.exit(3)
 
-from report.program import PROGRAM  # noqa: E402
+from report.files import InputError, write_files  # noqa: E402
+from report.program import PROGRAM, ROOT  # noqa: E402
 
-# Every key that moves many LUTs, at both ends and together with others.
-CONFIGURATIONS = [
-    "significand_bits=18",
-    "significand_bits=8",
-    "significand_bits=12",
-    "significand_bits=15",
-    "significand_bits=22",
-    "significand_bits=26",
-    "significand_bits=18 sqrt_degree=1 recip_degree=1",
-    "significand_bits=18 attribute_slots=8",
-    "significand_bits=14 attribute_slots=1 tile_log2=2 notch_exact=0 quad_slots_log2=1 tile_slots_log2=1",
-    "significand_bits=10 tile_log2=4 align_guard_bits=6 quad_slots_log2=4 stamp_fifo_log2=5",
-    "significand_bits=12 subpixel_bits=4 homogeneous_frac_bits=5 viewport_bits=10 depth_bits=16",
-    "significand_bits=16 quadratic_frac_bits=8 align_guard_bits=0 attribute_slots=2",
-]
-RESOURCES = {"ecp5": ["state_bits", "adder_bits", "table_bits", "join_bits"],
-             "ecp5-nodsp": ["state_bits", "multiplier_bits", "adder_bits", "table_bits"]}
-ALL_RESOURCES = ["state_bits", "multiplier_bits", "adder_bits", "table_bits", "join_bits"]
+FIGURES = os.path.join(ROOT, "golden/analysis/synthesised.csv")
+COLUMNS = ["target", "use", "luts", "flip_flops", "dsps", "block_rams", "configuration"]
+COUNTS = COLUMNS[2:6]
+USES = {"fit", "check"}
+# Target -> (resources fitted, those whose weights are another target's): the logic beside the multipliers is the same.
+FITTED = {"ecp5": (["adder", "table", "join"], None), "ecp5-nodsp": (["multiplier"], ("ecp5", ["adder", "table"]))}
+RESOURCES = ["state", "multiplier", "adder", "table", "join"]
+BLOCKS = {"dsp": "dsps", "block_ram": "block_rams"}
+STATE = 0.001  # a flip-flop sits beside a LUT and takes none, but it is not free
+GOOD_RANK = 0.95
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("directories", metavar="DIR", nargs="*", help="results of `quadrille sweep --synth`; default: make them")
-    parser.add_argument("--target", choices=RESOURCES, default="ecp5", help="what to synthesize for")
+    parser.add_argument("--target", choices=FITTED, help="default: each of which there are figures")
+    parser.add_argument("--figures", default=FIGURES, metavar="FILE", help="default: %(default)s")
+    parser.add_argument("--check", action="store_true", help="compare with the program's weights and demand good ranks")
+    parser.add_argument("--synthesise", action="store_true", help="make the figures of --target (or all) anew first")
     parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program")
     args = parser.parse_args()
-
     try:
-        if args.directories:
-            rows = [row for directory in args.directories for row in read(directory)]
-        else:
-            rows = synthesise(args.quadrille, args.target)
-    except (OSError, KeyError) as error:
-        sys.exit(f"calibrate_cost.py: {error}")
-    targets = {row["target"] for row in rows}
-    if len(targets) != 1 or not targets <= set(RESOURCES):
-        sys.exit(f"calibrate_cost.py: rows of one of the targets {', '.join(RESOURCES)} are needed, not of {', '.join(sorted(targets)) or 'none'}")
-    resources = RESOURCES[targets.pop()]
-    if len(rows) <= len(resources):
-        sys.exit(f"{len(rows)} synthesized configurations; more than {len(resources)} are needed")
+        if args.synthesise:
+            synthesise(args)
+        rows = read(args.figures)
+        for row in rows:
+            row |= resources(args.quadrille, row["configuration"])
+    except (OSError, InputError) as error:
+        print(f"calibrate_cost.py: {error}", file=sys.stderr)
+        return 2
+    faults, weights = [], {}
+    for target, (fitted, taken) in FITTED.items():
+        mine = [row for row in rows if row["target"] == target]
+        if not mine:
+            continue
+        seen = [row for row in mine if row["use"] == "fit"]
+        if len(seen) <= len(fitted):
+            print(f"calibrate_cost.py: {args.figures}: {len(seen)} rows to fit for {target}; more than {len(fitted)} are needed", file=sys.stderr)
+            return 2
+        known = {"state": STATE} | ({name: weights[taken[0]][name] for name in taken[1]} if taken else {})
+        weights[target] = fit(seen, fitted, known)
+        if args.target in (None, target):
+            faults += calibrate(target, lambda rows, fitted=fitted, known=known: fit(rows, fitted, known), mine, seen,
+                                args.quadrille if args.check else None)
+    for fault in faults:
+        print(f"calibrate_cost.py: {fault}", file=sys.stderr)
+    return 1 if faults else 0
 
-    luts = [row["luts"] for row in rows]
-    weights = fit(rows, resources)
-    unseen = [estimate(row, fit(rows[:i] + rows[i + 1:], resources)) for i, row in enumerate(rows)]
-    print(f"{'LUTs':>9} {'flip-flops':>10} {'DSPs':>5} {'path':>5} {'cost':>9} {'fitted':>9} {'off by':>7} {'unseen':>7} {'counted':>7}  configuration")
-    for row, guess in zip(rows, unseen):
-        print(f"{row['luts']:9.0f} {row['flip_flops']:10.0f} {row['dsps']:5.0f} {row['longest_path']:5.0f} {row['cost_luts']:9.0f} "
-              f"{estimate(row, weights):9.0f} {100 * (estimate(row, weights) / row['luts'] - 1):6.1f}% {100 * (guess / row['luts'] - 1):6.1f}% "
-              f"{row['cost_dsps']:7.0f}  {row['configuration']}")
-    print(f"\nrank correlation with synthesized LUTs: {spearman([row['cost_luts'] for row in rows], luts):.3f} with the weights used, "
-          f"{spearman([estimate(row, weights) for row in rows], luts):.3f} fitted, {spearman(unseen, luts):.3f} each by the fit to the others\n")
+
+def calibrate(target, fit_to, rows, seen, program):
+    """Prints the fit of a target; what is wrong with it, as the weights of `program` have it."""
+    weights = fit_to(seen)
+    unseen = {id(row): estimate(row, fit_to([other for other in seen if other is not row])) for row in rows}
+    faults = []
+    print(f"{target}\n{'LUTs':>9} {'fitted':>9} {'off by':>7} {'unseen':>7} {'FF':>7} {'counted':>7} {'DSP':>5} {'BRAM':>5}  configuration")
+    for row in rows:
+        print(f"{row['luts']:9} {estimate(row, weights):9.0f} {off(estimate(row, weights), row):6.1f}% {off(unseen[id(row)], row):6.1f}% "
+              f"{row['flip_flops']:>7} {row['state'] - row['memory']:7} {row['dsps']:5} {row['block_rams']:5}  {row['configuration']}"
+              f"{'' if row['use'] == 'fit' else '  (not fitted)'}")
+        for name, column in BLOCKS.items():
+            if row[name] != row[column] and not (name == "dsp" and target == "ecp5-nodsp"):
+                faults.append(f"{target} {row['configuration']}: {row[column]} {name} blocks, counted {row[name]}")
+    for what, among in (("each fitted row by the fit to the others", seen), ("rows that were not fitted", [r for r in rows if r["use"] == "check"]),
+                        ("all rows, none in its own fit", rows)):
+        if len(among) > 2:
+            rank = spearman([unseen[id(row)] for row in among], [row["luts"] for row in among])
+            print(f"rank correlation, {len(among)} {what}: {rank:.3f}")
+            if rank < GOOD_RANK:
+                faults.append(f"{target}: rank correlation {rank:.3f} of {what}, at least {GOOD_RANK} is needed")
     print("[cost]")
-    for name in ALL_RESOURCES:
-        print(f"{name.removesuffix('_bits')} = {weights.get(name, 0):.4g}")
+    for name in RESOURCES:
+        print(f"{name} = {weights.get(name, 0):.3g}")
+    print()
+    if program:
+        faults += weights_that_differ(target, weights, program)
+    return faults
+
+
+def weights_that_differ(target, weights, program):
+    """The program's weights are the fit, in three digits."""
+    used = sweep(program, "significand_bits=18", target)[1]["cost_weights"]
+    return [f"{target}: the program's weight of {name} is {used[name]:g}, the fit is {weights.get(name, 0):.3g}"
+            for name in RESOURCES if not math.isclose(used[name], float(f"{weights.get(name, 0):.3g}"), rel_tol=1e-9)]
 
 
 def estimate(row, weights):
     return sum(weight * row[name] for name, weight in weights.items())
 
 
-def synthesise(program, target):
-    """One sweep of one point for each configuration; the input does not matter, so it is small."""
-    rows = []
-    for index, configuration in enumerate(CONFIGURATIONS):
-        print(f"{index + 1}/{len(CONFIGURATIONS)} {configuration}", file=sys.stderr, flush=True)
-        axis, *settings = configuration.split()
-        with tempfile.TemporaryDirectory() as directory:
-            command = [program, "sweep", "--axis", axis, *(part for setting in settings for part in ("--set", setting)),
-                       "--synth", "all", "--synth-target", target, "--cosim", "none", "--no-cycles", "--scene", "bowtie", "--size", "64x64", "--quiet",
-                       "--out", directory]
-            done = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
-            if done.returncode != 0:
-                sys.exit(f"{' '.join(command)} ended with status {done.returncode}")
-            rows += [row | {"configuration": configuration} for row in read(directory)]
+def off(guess, row):
+    return 100 * (guess / row["luts"] - 1)
+
+
+# ---- figures ----
+
+
+def read(name):
+    with open(name, newline="", encoding="utf-8") as file:
+        lines = [line for line in file if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    for number, row in enumerate(rows, 1):
+        if list(row) != COLUMNS or None in row.values():
+            raise InputError(f"{name}: row {number}: columns are {','.join(COLUMNS)}")
+        counted = [column for column in COUNTS if column != "flip_flops" or row[column]]
+        if row["target"] not in FITTED or row["use"] not in USES or not all(row[column].isdigit() for column in counted):
+            raise InputError(f"{name}: row {number}: a target of {', '.join(FITTED)}, a use of fit, check and four counts are expected")
+        row |= {column: int(row[column]) for column in counted}
     return rows
 
 
-def read(directory):
-    """Rows of synth.csv with the resources from points.csv."""
-    with open(os.path.join(directory, "points.csv"), newline="", encoding="utf-8") as file:
-        points = {row["row"]: row for row in csv.DictReader(file)}
-    with open(os.path.join(directory, "synth.csv"), newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            numbers = {name: float(row[name]) for name in ["luts", "flip_flops", "dsps", "longest_path", "cost_luts", "cost_dsps"]}
-            numbers |= {name: float(points[row["row"]][name]) for name in ALL_RESOURCES}
-            yield numbers | {"target": row["target"], "configuration": f"{directory} row {row['row']}"}
+def synthesise(args):
+    """Rewrites the counts of the rows of the target."""
+    with open(args.figures, encoding="utf-8") as file:
+        head = [line for line in file if line.startswith("#")]
+    rows = read(args.figures)
+    for index, row in enumerate(rows, 1):
+        if args.target not in (None, row["target"]):
+            continue
+        print(f"{index}/{len(rows)} {row['target']} {row['configuration']}", file=sys.stderr, flush=True)
+        command = [sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "size.py"), "--target", row["target"], "--quadrille",
+                   args.quadrille, "--json", "-", *row["configuration"].split()]
+        done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
+        if done.returncode != 0:
+            sys.exit(done.returncode)
+        row |= {column: json.loads(done.stdout)[column] for column in COUNTS}
+        text = "".join([*head, ",".join(COLUMNS) + "\n", *(",".join(str(r[column]) for column in COLUMNS) + "\n" for r in rows)])
+        write_files(os.path.dirname(os.path.abspath(args.figures)), {os.path.basename(args.figures): text.encode()})
 
 
-def fit(rows, resources):
-    """Non-negative least squares of the relative error: of all choices of weights that are not zero the best one."""
-    share = np.array([[row[name] / row["luts"] for name in resources] for row in rows])
+def resources(program, configuration):
+    """What hardware_cost() counts: resource -> bits, `memory` among the state, `dsp` and `block_ram`."""
+    point = sweep(program, configuration, "ecp5")[0]
+    counted = {name: int(point[f"{name}_bits"]) for name in RESOURCES}
+    return counted | {name: int(point[column]) for name, column in BLOCKS.items()} | {"memory": int(point["memory_bits"])}
+
+
+def sweep(program, configuration, target):
+    """A sweep of one point, whose input does not matter: its row of points.csv, and its manifest."""
+    axis, *settings = configuration.split()
+    with tempfile.TemporaryDirectory() as directory:
+        command = [program, "sweep", "--axis", axis, *(part for setting in settings for part in ("--set", setting)), "--synth-target", target,
+                   "--cosim", "none", "--no-cycles", "--scene", "bowtie", "--size", "16x16", "--quiet", "--out", directory]
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+        if done.returncode != 0:
+            raise InputError(f"{' '.join(command)}: {done.stderr.strip()}")
+        with open(os.path.join(directory, "points.csv"), newline="", encoding="utf-8") as file:
+            point = next(csv.DictReader(file))
+        with open(os.path.join(directory, "manifest.json"), encoding="utf-8") as file:
+            return point, json.load(file)
+
+
+# ---- arithmetic ----
+
+
+def fit(rows, names, known):
+    """Non-negative least squares of the relative error with some weights known: of all choices of weights that are not zero the best one."""
+    share = np.array([[row[name] / row["luts"] for name in names] for row in rows])
+    wanted = np.array([1 - estimate(row, known) / row["luts"] for row in rows])
     found = []
-    for count in range(1, len(resources) + 1):
-        for used in itertools.combinations(range(len(resources)), count):
-            weights = np.linalg.lstsq(share[:, used], np.ones(len(rows)), rcond=None)[0]
+    for count in range(1, len(names) + 1):
+        for used in itertools.combinations(range(len(names)), count):
+            weights = np.linalg.lstsq(share[:, used], wanted, rcond=None)[0]
             if (weights >= 0).all():
-                found.append((((share[:, used] @ weights - 1) ** 2).sum(), dict(zip(used, weights))))
+                found.append((((share[:, used] @ weights - wanted) ** 2).sum(), dict(zip(used, weights))))
     best = min(found, key=lambda candidate: candidate[0])[1]
-    return {name: float(best.get(i, 0)) for i, name in enumerate(resources)}
+    return known | {name: float(best.get(i, 0)) for i, name in enumerate(names)}
 
 
 def spearman(a, b):
@@ -140,4 +212,4 @@ def spearman(a, b):
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -3,7 +3,6 @@
 
   scripts/size.py [KEY=VALUE ...]        configuration keys as for quadrille; minutes
   scripts/size.py --target ecp5-nodsp    with multipliers in logic instead of DSP blocks
-  scripts/size.py --markdown             the table of rtl/README.md section 8
 
 LUT counts LUT4 + 2 CCU2C (two bits of a carry chain each) + 6 DPR16X4 (16 words of four bits: four hold them, two go to the write
 port), DSP counts MULT18X18D, BRAM DP16KD. A row has every instance of its unit, with what they instantiate. The longest path is counted
@@ -23,7 +22,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     synthesis.add_arguments(parser)
     parser.add_argument("--target", choices=TARGETS, default="ecp5")
-    parser.add_argument("--markdown", action="store_true")
     args = parser.parse_intermixed_args()
     try:
         with tempfile.TemporaryDirectory() as work:
@@ -33,9 +31,8 @@ def main():
         print(f"size.py: {error}", file=sys.stderr)
         return synthesis.STATUS[type(error)]
     if args.json != "-" and not args.quiet:
-        print_table(rows, args.markdown)
-        if not args.markdown:
-            print(f"longest path: {path} cells")
+        print_table(rows)
+        print(f"longest path: {path} cells")
     return 0
 
 
@@ -45,15 +42,9 @@ def as_json(target, rows, path):
     return {"target": target} | whole | {"longest_path": path, "units": units}
 
 
-def print_table(rows, markdown):
-    if markdown:
-        print("| unit | instances | " + " | ".join(synthesis.ECP5) + " |\n|" + "---|" * (2 + len(synthesis.ECP5)))
+def print_table(rows):
     for unit, number, total in rows:
-        values = [f"{total[key]:,}" for key in synthesis.ECP5]
-        if markdown:
-            print("| " + " | ".join([unit if number is None else f"`{unit}`", str(number or ""), *values]) + " |")
-        else:
-            print(f"{unit:20} {number or '':>3} " + " ".join(f"{value:>8} {key}" for key, value in zip(synthesis.ECP5, values)))
+        print(f"{unit:26} {number or '':>3} " + " ".join(f"{total[key]:>8,} {key}" for key in synthesis.ECP5))
 
 
 if __name__ == "__main__":

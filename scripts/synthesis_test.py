@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of size.py and timing.py: what they make of the tools' output, and their errors.
+"""Tests of size.py, timing.py and unit_table.py: what they make of the tools' output, and their errors.
 
   scripts/synthesis_test.py PROGRAM            without the tools: a second
   scripts/synthesis_test.py PROGRAM --tools    on small units with Yosys and OpenSTA: a minute"""
@@ -12,6 +12,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 import timing  # noqa: E402
+import unit_table  # noqa: E402
 from report import synthesis  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -96,6 +97,36 @@ def run(script, *args, path=None):
                           check=False)
 
 
+class UnitTable(unittest.TestCase):
+    def setUp(self):
+        self.package = unit_table.Package()
+        self.units = unit_table.read_units()
+
+    def test_evaluates_what_the_package_says(self):
+        for expression, value in (("7 / 2 + $clog2(9)", 7), ("(FRAC < 0) ? 1 : (FRAC > 99) ? 2 : FRAC", 15), ("2 * ((FRAC == 15) ? 3 : 4)", 6), ("1 << TILE_LOG2", 8)):
+            self.assertEqual(self.package.value(expression, {}), value, expression)
+        for name, value in (("VAL_BITS", 63), ("SQRT_SEGMENTS_LOG2", 5), ("STAMP_PLACES", 12)):  # README.md section 1 by hand
+            self.assertEqual(self.package.constants[name], value, name)
+
+    def test_counts_the_bits_of_ports(self):
+        self.assertEqual(self.package.ports("law_of_cosines", {}), (3 * 63 + 64 + 1, 63))
+        self.assertEqual(self.package.ports("normalise", {"WIDTH": 40}), (40, 1 + 12 + 18))
+
+    def test_sees_what_does_not_agree(self):
+        self.assertEqual(unit_table.faults_of(self.units, self.package), [])
+        slower = [unit | ({"latency": "5"} if unit["name"] == "sqrt" else {}) for unit in self.units]
+        self.assertIn("add up to 47, LATENCY is 46", " ".join(unit_table.faults_of(slower, self.package)))
+        fewer = [unit for unit in self.units if unit["name"] != "tile_walk"]
+        self.assertIn("quadrille instantiates tile_walk", " ".join(unit_table.faults_of(fewer, self.package)))
+        self.package.constants["FP_SUM_STAGES"] += 1
+        self.assertIn("fp_sum_stages is 6 in model/latency.hpp and 7", " ".join(unit_table.faults_of(self.units, self.package)))
+
+    def test_says_how_many_placements_there_were(self):
+        self.assertEqual(unit_table.mhz({"mhz": [99.2, 120, 102.8]}), "103")
+        self.assertEqual(unit_table.mhz({"mhz": [99.2]}), "99 (1 seed)")
+        self.assertEqual(unit_table.mhz({"mhz": [99.2, 101.4]}), "100 (2 seeds)")
+
+
 class Reading(unittest.TestCase):
     def test_sizes_by_unit(self):
         with tempfile.NamedTemporaryFile("w") as file:
@@ -168,6 +199,12 @@ class WithTheTools(unittest.TestCase):
         # Four times the partial products, twice the columns of the final adder.
         self.assertTrue(2.5 < found[16]["area_um2"] / found[8]["area_um2"] < 4.5, found)
         self.assertGreater(found[16]["ns"], found[8]["ns"])
+
+    def test_output_bits_that_are_one_net(self):
+        # Yosys would write them as an assignment to a concatenation, which OpenSTA does not read.
+        result = run("timing.py", "edge_reach", "significand_bits=8", "--target", "cells", "--json", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(json.loads(result.stdout)["critical_path"], r"^port g[xy]_i\[\d+\] -> port (fall|rise)_(tile|block)_o\[\d+\]: edge_reach ")
 
     def test_a_path_through_instances(self):
         result = run("timing.py", "mean_value_ratios", "significand_bits=8", "--target", "cells", "--json", "-")

@@ -90,6 +90,8 @@ opt
 abc -liberty "{LIBERTY}" -constr abc.constr -script {ABC}
 opt_clean -purge
 tee -q -o stat.txt stat -liberty "{LIBERTY}"
+splitnets -ports
+opt_clean -purge
 write_verilog -noattr -noexpr netlist.v
 """, "cells")
     with open(os.path.join(machine.work, "stat.txt"), encoding="utf-8") as file:
@@ -114,6 +116,8 @@ report_checks -path_delay max -format full -digits 4
 exit
 """)
     text = synthesis.run([sta, "-no_splash", "-exit", "timing.tcl"], machine.work, "timing.log")
+    if error := re.search(r"^Error: .*$", text, re.M):  # it goes on with what it understood
+        raise synthesis.SynthesisFailed(f"OpenSTA does not read the netlist: {error.group()}")
     path = SlowestPath(text, Netlist(netlist.splitlines(keepends=True), machine.modules), args.unit)
     cells_of = synthesis.statistics(os.path.join(machine.work, "stat.txt"))
     top = next((name for name in cells_of if name == args.unit or re.search(rf"\\{args.unit}(\\|$)", name)), args.unit)

@@ -1,5 +1,7 @@
 #include "golden/analysis/hardware_cost.hpp"
 
+#include "model/latency.hpp"
+
 #include <algorithm>
 #include <bit>
 
@@ -12,6 +14,8 @@ HardwareCost& HardwareCost::operator+=(const HardwareCost& other) {
   table_bits += other.table_bits;
   dsps += other.dsps;
   join_bits += other.join_bits;
+  memory_bits += other.memory_bits;
+  block_rams += other.block_rams;
   return *this;
 }
 
@@ -25,61 +29,86 @@ HardwareCost operator+(HardwareCost a, const HardwareCost& b) { return a += b; }
 
 HardwareCost operator*(int instances, const HardwareCost& cost) {
   const Bits n = u(instances);
-  return {n * cost.state_bits, n * cost.multiplier_bits, n * cost.adder_bits, n * cost.table_bits,
-          n * cost.dsps,       n * cost.join_bits};
+  return {n * cost.state_bits, n * cost.multiplier_bits, n * cost.adder_bits,  n * cost.table_bits,
+          n * cost.dsps,       n * cost.join_bits,       n * cost.memory_bits, n * cost.block_rams};
 }
 
 // ---- What the counts are made of
 // --------------------------------------------------------------------------------------
 
 HardwareCost state(int bits) { return {.state_bits = u(bits)}; }
-/// One partial product bit for each pair of operand bits, or blocks of 18 × 18.
-HardwareCost in_blocks(int a, int b) {
+/// One partial product bit for each pair of operand bits; blocks of 18 × 18, which factors of one bit do not take.
+HardwareCost multiplier(int a, int b) {
   constexpr int block = 18;
   const int rows = (a + block - 1) / block, columns = (b + block - 1) / block;
+  if (a < 2 || b < 2) return {.multiplier_bits = u(a) * u(b)};
   // The blocks of a row add up to a product by 18 bits of a, the rows to the whole; the lowest 18 bits pass each sum
   // by.
-  return {.dsps = u(rows) * u(columns), .join_bits = u(rows) * u(columns - 1) * u(b) + u(rows - 1) * u(a + b - block)};
-}
-HardwareCost multiplier(int a, int b) {
-  HardwareCost cost = in_blocks(a, b);
-  cost.multiplier_bits = u(a) * u(b);
-  return cost;
+  return {.multiplier_bits = u(a) * u(b),
+          .dsps = u(rows) * u(columns),
+          .join_bits = u(rows) * u(columns - 1) * u(b) + u(rows - 1) * u(a + b - block)};
 }
 /// Adder, subtracter, negation, comparison by magnitude: a bit of a carry chain.
 HardwareCost adder(int width) { return {.adder_bits = u(width)}; }
-/// `choices` to one: a two-to-one multiplexer a bit for each choice but the first.
+/// `choices` to one, the first that holds: a two-to-one multiplexer a bit for each choice but the first. An enable, or
+/// a zero instead, is the register's.
 HardwareCost mux(int width, int choices) { return {.adder_bits = u(width) * u(choices - 1)}; }
-/// Words of `width` bits; every read port gives a word. With the depths here (at most 32) a port is a small RAM or a
-/// multiplexer tree, hardly dearer for more words; the words themselves are state.
-HardwareCost memory(int width, int words) { return state(width * words); }
-HardwareCost read_port(int width) { return mux(width, 2); }
+/// By a number of two bits: two LUTs of four inputs a bit.
+HardwareCost one_of_four(int width) { return mux(width, 3); }
+/// Block RAMs of 18 Kbit for words of `width` bits: the fewer words, the wider, up to 36 bits.
+int blocks_of(int width, int words) {
+  constexpr int widths[] = {36, 18, 9, 4, 2, 1};
+  int deeper = 0;
+  while (words > (512 << deeper)) ++deeper;
+  return (width + widths[deeper] - 1) / widths[deeper];
+}
+/// Words of `width` bits. Up to 32 of them are in small RAMs of 16 words, six LUTs for four bits, with a copy for each
+/// read port, or in registers where those are fewer than the LUTs that hold bits; more words (which have one port) are
+/// in block RAM, where a word written and read in one clock goes around it.
+HardwareCost memory(int width, int words, int ports) {
+  HardwareCost cost{.state_bits = u(width * words), .memory_bits = u(width * words)};
+  if (words > 32) {
+    cost.block_rams = u(blocks_of(width, words));
+    return cost + state(width + 1) + mux(width, 2);
+  }
+  const int blocks = (words + 15) / 16;
+  if (width * words <= ports * blocks * 4 * ((width + 3) / 4)) return state(width * words) + ports * mux(width, words);
+  return cost + ports * (blocks * adder(6 * ((width + 3) / 4)) + mux(width, blocks));
+}
 /// Test for zero or equality with a constant: a tree of wide gates, about a third of a comparison.
 HardwareCost zero_test(int width) { return {.adder_bits = u((width + 2) / 3)}; }
 
+/// Counters, decoding and handshakes that no width changes, in LUTs as synthesised.
+HardwareCost control(int luts) { return {.adder_bits = u(luts)}; }
+
 int stages_of(int width) { return std::bit_width(static_cast<unsigned>(width - 1)); }
 
-/// Barrel shifter by up to width - 1 of which `kept` bits are used: the last stage makes those, each stage before it at
-/// most twice as many as the next.
-HardwareCost shifter(int width, int kept) {
-  HardwareCost cost;
-  for (int stage = 0, bits = kept; stage < stages_of(width); ++stage, bits *= 2) cost += mux(std::min(width, bits), 2);
+/// Shifter to the right by up to width - 1. A stage chooses between the bits that it has both of; above them zeros come
+/// in, half a LUT for each bit that any stage clears.
+HardwareCost shifter(int width) {
+  HardwareCost cost = adder(width / 2);
+  for (int stage = 0; stage < stages_of(width); ++stage) cost += mux(width - (1 << stage), 2);
   return cost;
 }
 
-/// Highest one to the top by halving, `kept` bits used: a level tests 2^level bits and makes those that the shorter
-/// shifts after it can still bring among the kept ones.
-HardwareCost shift_to_top(int width, int kept) {
+/// Highest one to the top by halving, levels first down to last, `kept` bits used behind them: a level tests 2^level
+/// bits and makes those that the shorter shifts after it can still bring among the kept ones.
+HardwareCost shift_to_top(int width, int kept, int first, int last) {
   HardwareCost cost;
-  for (int level = 0; level < stages_of(width); ++level)
-    cost += zero_test(1 << level) + mux(std::min(width, kept + (1 << level) - 1), 2);
+  for (int level = first; level >= last; --level)
+    cost += zero_test(1 << level) + mux(std::min(width, kept + (1 << level) - (1 << last)), 2);
   return cost;
 }
 
 /// Factor times an unsigned number of few bits: a selection for each digit in radix 4, an adder for each but the first.
 HardwareCost small_multiply(int factor, int number) {
-  const int digits = number / 2 + 1;
-  return digits * mux(factor, 2) + (digits - 1) * adder(factor + number);
+  HardwareCost cost;
+  for (int digit = 0; digit <= number / 2; ++digit) {
+    const int bits = factor + number - 2 * digit;
+    cost += mux(bits, 2);
+    if (digit > 0) cost += adder(bits);
+  }
+  return cost;
 }
 
 // ---- Modules that others instantiate
@@ -101,276 +130,419 @@ struct Widths {
         QVAL(c.qval_bits()),
         QGRAD(c.qgrad_bits()),
         QCURV(c.qcurv_bits()),
+        LENGTH2(c.length2_bits()),
         TC(c.tc_bits()),
         SLOT(c.quad_slots_log2),
-        RING(c.tile_slots_log2),
+        RING(c.ring_log2()),
         FIFO(c.stamp_fifo_log2),
         TL(c.tile_log2),
         TILE(c.tile()),
         ID(c.quad_id_bits),
         DB(c.depth_bits),
+        P(c.pixels_per_clock),
+        PAIRS(1),
         FRAC(c.frac()),
         AO(c.attr_out_bits()),
         NUMBER(E + S),
-        TERM(1 + PE + S),
-        ALIGNED(c.prec_bits() + 2),
+        WORD(1 + PE + S),
+        RANK(E + 1),
+        TERM(c.prec_bits() + 2),
         DET(T + GRAD + 4),
-        REACH(GRAD + 1 + TL + 3),
+        REACH(GRAD + 1 + TL + block_log2),
         FRAGMENT(ID + 2 * V + 1 + 8 + DB + 1 + N * AO) {}
 
-  int S, E, PE, N, V, T, W, VAL, GRAD, CURV, QVAL, QGRAD, QCURV, TC, SLOT, RING, FIFO, TL, TILE, ID, DB, FRAC, AO;
-  int NUMBER;   ///< exponent and significand
-  int TERM;     ///< sign, port exponent, significand
-  int ALIGNED;  ///< one aligned term of a sum: a product has two integer bits
+  static constexpr int block_log2 = 3;  ///< a block is 8 × 8 tiles
+
+  int S, E, PE, N, V, T, W, VAL, GRAD, CURV, QVAL, QGRAD, QCURV, LENGTH2, TC, SLOT, RING, FIFO, TL, TILE, ID, DB, P,
+      PAIRS, FRAC, AO;
+  int NUMBER;  ///< exponent and significand
+  int WORD;    ///< sign, port exponent, significand
+  int RANK;    ///< exponent in the order of unsigned numbers
+  int TERM;    ///< one aligned term of a sum: a product has two integer bits
   int DET;
   int REACH;  ///< of an edge function over a block
   int FRAGMENT;
 };
 
-HardwareCost fp_normalise(const Widths& w, int width) { return shift_to_top(width, w.S) + adder(w.E); }
+/// Two stages, which share the levels of shift_to_top, with `exp` bits of exponent that differ from one another.
+HardwareCost fp_normalise(const Widths& w, int width, int exp, bool registered = true) {
+  constexpr int split = 3;
+  const int kept = w.S + (1 << split) - 1, wide = std::max(width, kept), count = stages_of(wide);
+  HardwareCost cost = shift_to_top(wide, kept, count - 1, split) + shift_to_top(kept, w.S, split - 1, 0) + adder(exp);
+  if (registered) cost += state(kept + count - split + (exp == w.E ? w.E : 0)) + state(exp + w.S);
+  return cost;
+}
 
+/// Exponent's sum and the product's carry into it; the product is taken one bit higher or lower.
 HardwareCost fp_multiply(const Widths& w) {
-  // The exponents' sum takes the carry as carry-in; the product is taken one bit higher or lower.
   return state(w.NUMBER) + multiplier(w.S, w.S) + adder(w.E) + mux(w.S, 2) + zero_test(2 * w.S);
 }
 
 HardwareCost fp_raw_product(const Widths& w) { return state(1 + w.E + 2 * w.S) + multiplier(w.S, w.S) + adder(w.E); }
 
-HardwareCost fp_sum(const Widths& w, int terms) {
-  const int magnitude = w.ALIGNED + stages_of(terms), sum = magnitude + 1;
-  // Largest exponent of the non-zero terms.
-  HardwareCost cost = (terms - 1) * (adder(w.E + 1) + mux(w.E + 1, 2));
-  // Distance to it; the shift clears a term when the distance has a bit above its stages.
-  cost += terms * (adder(w.E) + shifter(w.ALIGNED, w.ALIGNED) + mux(w.ALIGNED, 2));
+/// Sum of exponents, gated by the factors' top bits, and the product's upper bits.
+HardwareCost fp_term(const Widths& w) { return state(w.TERM) + multiplier(w.S, w.S) + adder(2 * w.E); }
+
+/// fp_multiply with the rank; the upper bits for a sum are registers beside.
+HardwareCost fp_product(const Widths& w) { return fp_multiply(w) + adder(w.E); }
+
+HardwareCost fp_sum(const Widths& w, int terms, bool with_sign) {
+  const int pairs = terms / 2, magnitude = w.TERM + stages_of(terms), sum = magnitude + 1;
+  // The higher rank of each pair, then the highest; distances to it.
+  HardwareCost cost = state((terms + pairs) * w.RANK) + (terms - 1) * (adder(w.RANK) + mux(w.RANK, 2));
+  cost += terms * (state(w.E + w.TERM + 1) + adder(w.E)) + state(w.E);
+  // Far terms by the registers' reset.
+  cost += terms * (state(w.TERM) + shifter(w.TERM) + zero_test(w.E - stages_of(w.TERM)));
+  cost += state(pairs + (pairs - 1) + 1 + w.E);
   // The others are added in the sign of the first.
-  cost += (terms - 1) * (adder(sum) + mux(w.ALIGNED, 2));
-  cost += adder(sum) + mux(magnitude, 2) + state(1 + magnitude + w.E);
-  return cost + adder(w.E) + fp_normalise(w, magnitude) + state(1 + w.NUMBER);
+  cost += pairs * (adder(w.TERM + 2) + mux(w.TERM, 2)) + (pairs - 1) * (adder(sum) + mux(w.TERM + 2, 2));
+  cost += state(sum + 1 + w.E) + adder(sum) + mux(magnitude, 2) + state((with_sign ? 1 : 0) + magnitude + w.E);
+  cost += adder(w.E);  // less the fraction bits
+  if (with_sign) cost += zero_test(magnitude) + state(2);
+  return cost + fp_normalise(w, magnitude, w.E);
 }
 
-/// 1 + c: only c is aligned, and the one is added to two bits. Without exact D and r² it is a sum as any other.
-HardwareCost one_plus(const Widths& w) {
-  if (w.QVAL < w.VAL) return fp_sum(w, 2);
-  return adder(w.E) + shifter(w.ALIGNED, w.ALIGNED) + mux(w.ALIGNED, 2) + mux(w.S, 2) + state(w.ALIGNED + 1 + w.S);
+HardwareCost fp_add(const Widths& w) {
+  // Both differences of the ranks, of which one is the distance; the larger first.
+  HardwareCost cost = 2 * adder(w.RANK + 1) + 2 * mux(w.TERM, 2) + 2 * mux(w.E, 2) + state(2 * w.TERM + 2 * w.E);
+  cost += shifter(w.TERM) + zero_test(w.E - stages_of(w.TERM)) + state(2 * w.TERM + w.E);
+  return cost + adder(w.TERM + 1) + mux(w.S, 3) + adder(w.E) + state(w.NUMBER);
 }
 
-HardwareCost table_polynomial(const Widths& w, int segments_log2, int degree) {
-  const int rest = w.S - 1 - segments_log2, accumulator = w.S + 4;
-  // Inner factor (C1 alone for degree 1), outer product, clamp.
-  HardwareCost cost = state(w.S + accumulator + rest) + state(accumulator) + state(w.S);
-  if (degree == 2) cost += multiplier(w.S, rest) + adder(w.S);
-  return cost + multiplier(w.S, rest) + adder(accumulator) + mux(w.S, 2);
+/// A table: its words {C0, C1, C2} without the bits that are the same in all of them, and where it is.
+struct Table {
+  int c0, c1, c2, entries_log2;
+
+  int columns() const { return c0 + c1 + c2; }
+  int blocks() const { return blocks_of(columns(), 1 << entries_log2); }
+  /// As Yosys decides: a block RAM is worth 2,048 bits in logic.
+  bool in_block_ram() const { return columns() << entries_log2 > 2048 * blocks(); }
+};
+
+/// C1 and C2 are the slope and half the bend of a function times 2^-K and 2^-2K, K log2 of the segments. Degree 1 has
+/// no C2.
+Table sqrt_table(const Config& c) {
+  const int s = c.significand_bits, k = c.sqrt_segments();
+  return {s + 2, s - k + 2, c.sqrt_degree == 2 ? std::max(s - 2 * k, 0) : 0, k + 1};
+}
+Table reciprocal_table(const Config& c) {
+  const int s = c.significand_bits, k = c.recip_segments();
+  return {s + 4, s - k + 3, c.recip_degree == 2 ? std::max(s - 2 * k + 3, 0) : 0, k};
 }
 
-/// C0 has S + 4 bits, C1 and C2 have S; C2 is zero throughout for degree 1 and takes no hardware.
-HardwareCost table(const Widths& w, int entries_log2, int degree) {
-  return {.table_bits = (Bits{1} << entries_log2) * u((1 + degree) * w.S + 4)};
+HardwareCost table_polynomial(const Widths& w, const Table& table, int segments_log2) {
+  const int rest = std::max(w.S - 1 - segments_log2, 1), accumulator = w.S + 4;
+  // The word and dx; inner factor (C1 alone for degree 1), C0 and dx; outer product; clamp. A block RAM has the word's
+  // register.
+  HardwareCost cost =
+      state(rest) + state(table.c1 + table.c0 + rest) + state(accumulator) + adder(accumulator) + mux(w.S, 2);
+  if (table.in_block_ram()) {
+    cost.block_rams += u(table.blocks());
+  } else {
+    cost.table_bits += u(table.columns() << table.entries_log2);
+    cost += state(table.columns());
+  }
+  if (table.c2 > 0) cost += adder(table.c1);
+  // Blocks are made for the factors as they are declared, before constant bits are seen: two products even for
+  // degree 1.
+  HardwareCost products = 2 * multiplier(w.S, rest);
+  products.multiplier_bits = u(table.c1 * rest) + u(table.c2 * rest);
+  if (table.c2 == 0) products.join_bits /= 2;
+  return cost + products;
 }
 
 HardwareCost fixed_point(const Widths& w, int integer_bits, int fraction_bits) {
-  const int out = integer_bits + fraction_bits;
-  return mux(2 * w.S, 2) + adder(w.E + 1) + adder(w.E + 1) + adder(w.E + 1) + zero_test(2 * w.S) + shifter(out, out) +
-         mux(out, 2);
+  const int out = integer_bits + fraction_bits, kept = std::min(2 * w.S, out);
+  return mux(kept, 2) + adder(w.E + 1) + state(w.E + 1 + kept + 1) + shifter(out) + mux(out, 3) +
+         zero_test(w.E + 1 - stages_of(out)) + state(1 + out);
 }
 
-// ---- Modules of the pipeline
-// ------------------------------------------------------------------------------------------
+// ---- The front
+// ----------------------------------------------------------------------------------------------------------
 
 HardwareCost vertex_assembly(const Widths& w) {
-  const int vertex = 2 * w.T + w.W + (w.PE + w.S) + (1 + w.PE + w.S) + w.N * w.TERM;
-  return state(w.ID + 4 * vertex + 3);
+  // The vertices; whether all are ordinary; least and greatest coordinates; W as a significand number beside W.
+  const int vertex = 2 * w.T + w.W + (w.PE + w.S) + w.WORD + w.N * w.WORD;
+  return state(w.ID + 4 * (vertex + w.WORD) + 3 + 1 + 4 * w.T) + 4 * adder(w.T) + zero_test(w.W) + adder(w.W) +
+         mux(w.W, 2) + fp_normalise(w, w.W, w.PE, false) + control(30);
 }
 
 HardwareCost bounding_range(const Widths& w) {
   const int whole = w.T - w.FRAC;
-  return 6 * (adder(w.T) + mux(w.T, 2)) + adder(w.T) + 4 * adder(whole) + 4 * mux(whole, 2) + adder(w.V + 1) +
-         2 * adder(w.TC);
+  return state(2 * whole + 2) + adder(w.T) + 4 * adder(whole) + 4 * mux(whole, 2) + adder(w.V + 1) + 2 * adder(w.TC);
 }
 
-HardwareCost dot_unit(const Widths& w, int b) {
-  // a·b ± c·d: operand and product registers; the other operand of a product has T bits. Logic takes the bits that are
-  // used, DSP blocks are divided among the operands as they stand.
-  const int operand = std::max(w.T, std::min(w.VAL, 32) + 1);
-  HardwareCost cost = 2 * in_blocks(operand, operand);
-  cost.multiplier_bits = 2 * u(w.T) * u(b);
-  return cost + state(2 * (w.T + b) + 2 * (w.T + b) + 2) + adder(w.T + b + 1) + mux(w.T + b + 1, 2);
+HardwareCost quad_setup(const Widths& w, int clocks) {
+  // Bounding box, control; of the quads that do their steps, that wait for results and that wait to be taken the slot,
+  // tile rectangle and vertices relative to the origin.
+  const int place = w.SLOT + 4 * w.TC + w.TL + 1 + 4 * (2 * w.T + w.W);
+  HardwareCost cost = 2 * bounding_range(w) + state(2 + 4 * w.TC + w.TL + 5 + 5 + 3 * place) + 8 * adder(w.T);
+  // Jobs under way, and a quad's end.
+  cost += state(clocks * 8 + clocks + w.PAIRS - 1 + 4);
+  // Of a determinant one of four edge functions; differences of coordinates wait for an ordinary quad's gradients;
+  // reach and tie signs of an edge.
+  HardwareCost pair = one_of_four(w.VAL + 2 * w.GRAD) + state((clocks - 1) * 2 * (w.T + 1)) + 2 * mux(w.GRAD, 2);
+  pair += state(2 * w.GRAD) + 4 * mux(w.GRAD, 2) + 2 * adder(w.GRAD + 1) + 4 * adder(w.REACH) + 2 * zero_test(w.GRAD);
+  // The determinants accumulate both results one after the other; signs of those before are kept.
+  pair += state(w.DET + 2 * (4 / w.PAIRS - 1)) + 2 * adder(w.DET) + mux(w.DET, 2) + zero_test(w.DET);
+  // The functions as they come, and of the quad that waits to be taken; steps.
+  return cost + w.PAIRS * pair + 2 * (6 * state(w.VAL + w.LENGTH2 + 2 * w.GRAD) + 5 * state(4 * w.REACH + 2)) +
+         state(5) + control(130);
 }
 
-HardwareCost quad_setup(const Widths& w) {
-  // Unit 0 also takes the low 32 bits of a linear function, unsigned; unit 1 the rest, no wider than T.
-  const int low_half = std::min(w.VAL, 32) + 1;
-  HardwareCost cost = dot_unit(w, low_half) + dot_unit(w, w.T);
-  cost += 2 * bounding_range(w) + 4 * zero_test(w.W);
-  // Control, jobs in flight, tile rectangle, vertices.
-  cost += state(3 + 6 + 1 + 1 + 2 * 15 + w.SLOT + 4 * w.TC + 8 * w.T + 4 * w.W);
-  cost += 8 * (adder(w.T) + mux(w.T, 2)) + 4 * mux(w.TC, 2);
-  // Operands: a pair of the four vertices a unit, one of four edges for the determinants, then one of the five kinds of
-  // job.
-  cost += 4 * mux(2 * w.T + w.W, 4) + mux(w.VAL, 4) + 2 * mux(w.GRAD, 4);
-  cost += 2 * mux(low_half, 5) + 6 * mux(w.T, 5);
-  // Functions load from buses; sums of coordinates take the place of a product's gradient in an ordinary quad.
-  cost += 6 * state(w.VAL + 2 * w.GRAD) + 10 * state(w.QVAL + 2 * w.QGRAD + w.QCURV);
-  cost += 4 * (adder(w.T + 1) + state(2 * (w.T + 1))) + 2 * mux(w.T + 1, 2);
-  cost += 6 * mux(w.GRAD, 2) + 4 * adder(w.GRAD) + 2 * mux(w.QCURV, 2);
-  // Reach and tie signs of the edges, one edge after the other.
-  cost += 4 * mux(w.GRAD, 2) + 6 * adder(w.REACH) + 2 * zero_test(w.GRAD) + 5 * state(4 * w.REACH + 2);
-  // The determinants accumulate both units' results one after the other; signs of three are kept.
-  return cost + state(w.DET + 6) + 2 * adder(w.DET) + mux(w.DET, 2) + zero_test(w.DET);
+HardwareCost dot_unit(const Widths& w) {
+  // Two products of three multipliers each, by halves: operands, products of the halves and the halves' sums, the
+  // sums' product, the whole. One factor of a product is a coordinate.
+  constexpr int operand = 33, low = 16, high = operand - low, sum = high + 1, out = 2 * operand + 1;
+  const int upper = std::clamp(w.T - low, 1, high);
+  HardwareCost product = state(upper + high + 2 * low + 2 * high + 2 * low + 2 * sum + 2 * sum + (2 * high + 2 * low) +
+                               2 * sum - 1 + 2 * operand);
+  // Logic has no product of bits that are only sign.
+  HardwareCost upper_halves = multiplier(high, high);
+  upper_halves.multiplier_bits = u(upper) * u(std::clamp(std::max(w.T, w.VAL) - low, 1, high));
+  product += multiplier(low, low) + multiplier(sum, sum) + upper_halves;
+  product += 2 * adder(sum) + 2 * adder(2 * sum) + adder(2 * operand - low);
+  return 2 * product + state(4 + out) + 2 * adder(out) + mux(out, 2);
+}
+
+HardwareCost vertex_products(const Widths& w) {
+  constexpr int operand = 33;
+  // A pair of units: its job's vertices, and how far they are apart.
+  HardwareCost pair = 2 * one_of_four(2 * w.T + w.W) + 2 * adder(w.T + 1);
+  pair += state(3 + 4 * w.T + 2 * w.W + w.VAL + 2 * w.GRAD);
+  // The eight operands have 39 choices in all, by the eight kinds of job; some are no wider than a coordinate.
+  pair += 31 * mux(std::min(operand, w.T), 2) + 2 * dot_unit(w);
+  return mux(4 * (2 * w.T + w.W), 2) + w.PAIRS * pair;  // one of two users
 }
 
 HardwareCost tile_walk(const Widths& w) {
-  HardwareCost cost = state(2 + 4 * w.TC + 2 * w.TC + 1 + 6 + 1 + w.SLOT + 4) + 14 * adder(w.TC);
-  // A step of a linear function: gy or ±gx by a tile or a block, added to the tile's or the block's value, both of
-  // which may also be loaded.
-  cost += 6 * (state(2 * w.GRAD + 2 * w.VAL) + mux(w.GRAD, 2) + 3 * mux(w.VAL, 2) + adder(w.VAL));
+  constexpr int block = Widths::block_log2;
+  HardwareCost cost = state(3 + 1 + 18 * w.TC + 4 + 5 * block + 3 * w.SLOT + 2 * w.TL + 4 + 2 + 3 + 10 + 2) +
+                      14 * adder(w.TC) + 10 * mux(w.TC, 2) + control(45);
+  // A step of a linear function: gx or gy, by a tile or a block, to the left or the right, added to the tile's value,
+  // which may also be that of a block, of the walked block's first tile, or a new quad's.
+  cost += 6 * (state(2 * w.GRAD + 4 * w.VAL) + mux(w.GRAD, 2) + mux(w.GRAD + block, 2) + adder(w.VAL) + mux(w.VAL, 2) +
+               mux(w.VAL, 4));
   // Extremes of an edge function over the extent.
-  cost += 5 * (state(4 * w.REACH) + 2 * (mux(w.REACH, 2) + adder(w.VAL)));
-  // A step of a quadratic function: twice half the bend onto one of four slopes, the slope halfway onto the value.
-  cost += 10 * (state(w.QCURV + 2 * w.QVAL + 4 * w.QGRAD) + mux(w.QCURV, 2) + mux(w.QGRAD, 4) + 2 * adder(w.QGRAD) +
-                3 * mux(w.QVAL, 2) + adder(w.QVAL) + 4 * mux(w.QGRAD, 2));
-  return cost;
+  return cost + 5 * (state(4 * w.REACH) + 2 * (mux(w.REACH, 2) + adder(w.VAL)));
+}
+
+HardwareCost tile_context(const Widths& w, int clocks) {
+  HardwareCost cost = state(3 + 6 + 2 * w.TC + w.RING + 1 + 2 * 4 * (2 * w.T + w.W) + clocks * (10 + w.RING));
+  // Vertices, moved to the tile or by the products; of a shifted offset the low bits are zero.
+  cost += 8 * (adder(w.T - w.FRAC - w.TL) + mux(w.T, 2));
+  // Gradients, of squares a clock after the job; q; a value's bus.
+  return cost + w.PAIRS * (4 * (adder(w.GRAD) + mux(w.GRAD, 2)) + mux(w.QCURV, 2) + mux(w.QVAL, 2)) +
+         adder(w.T - w.FRAC) + 6 * adder(4 + w.RING) + control(85);
 }
 
 HardwareCost tile_ring(const Widths& w) {
-  const int tag = 1 + w.SLOT + 2 * w.TC, values = 6 * w.VAL + 10 * w.QVAL + 20 * w.QGRAD;
-  return memory(tag + values, 1 << w.RING) + state(w.RING + 1) + 3 * adder(w.RING + 1) + read_port(tag + 5 * w.VAL) +
-         read_port(tag - 1 + values);
+  const int words = 1 << w.RING, tag = 2 + w.SLOT + 2 * w.TC, word = w.QVAL + 2 * w.QGRAD + w.QCURV;
+  HardwareCost cost = state(3 * (w.RING + 1) + 2 * w.RING) + 5 * adder(w.RING + 1);
+  cost += memory(tag, words, 2) + state(tag + 2 * (tag - 2)) + memory(w.TL, words, 1) + state(w.TL);
+  cost += 5 * memory(w.VAL, words, 2) + memory(w.VAL, words, 1) + state(11 * w.VAL);
+  for (const int width : {w.QVAL, w.QGRAD, w.QGRAD, w.QCURV}) cost += 4 * memory(width, words, 1);
+  return cost + state(4 * word);
 }
 
 HardwareCost quad_slots(const Widths& w) {
-  const int vertices = 4 * (3 + w.N) * w.TERM + w.ID, functions = 12 * w.GRAD + 10 * w.QCURV + 16;
-  HardwareCost cost =
-      memory(vertices + functions, 1 << w.SLOT) + state(2 * w.SLOT + 1) + adder(w.SLOT) + 2 * adder(w.SLOT + 1);
-  // Blend terms and id; k for the weights' products and, without sign, for the overrides; functions for emission and,
-  // five of the six linear ones, for coverage.
-  cost += read_port(vertices) + read_port(4 * w.TERM) + read_port(4 * (w.TERM - 1)) + read_port(functions) +
-          read_port(10 * w.GRAD);
-  // W as a significand number; k_eff.
-  return cost + 4 * (adder(w.W) + mux(w.W, 2) + fp_normalise(w, w.W) + mux(w.PE + w.S, 2));
+  const int words = 1 << w.SLOT;
+  // Terms for the sums; k_eff, chosen at the start, for the weights' products and the overrides too.
+  HardwareCost cost = 4 * (2 + w.N) * memory(w.WORD, words, 1) + 4 * memory(w.WORD, words, 3) + 4 * mux(w.WORD, 2);
+  // Gradients for emission and, of the five edges, for coverage; what ends in registers here.
+  cost += 10 * memory(w.GRAD, words, 2) + 2 * memory(w.GRAD, words, 1) + state(22 * w.GRAD);
+  cost +=
+      memory(6 * w.LENGTH2, words, 1) + memory(14, words, 1) + state(14) + memory(2, words, 1) + memory(w.ID, words, 1);
+  return cost + state(2 * w.SLOT + 1) + adder(w.SLOT) + 2 * adder(w.SLOT + 1);
 }
 
 HardwareCost stamp_coverage(const Widths& w) {
-  HardwareCost cost = state(w.RING + 1 + w.TL);
-  // Of each edge function the row's value and that of its other pixels.
-  cost += 5 * (state(w.VAL) + mux(w.VAL, 2) + adder(w.VAL) + (w.TILE - 1) * adder(w.VAL) + w.TILE * zero_test(w.VAL));
-  // Scissor; clauses: about two gates an edge function.
-  return cost + w.TILE * mux(12, 2) + 2 * adder(w.V + 1) + 2 * (adder(w.TC) + zero_test(w.TC));
+  const int multiple = w.GRAD + w.TL, close = std::min(multiple + 2, w.VAL), places = (1 << w.FIFO) + 4;
+  const int room = stages_of(places + 1);
+  // Pointers, valid bits, tags, the row; three registers of a row on its way.
+  HardwareCost cost = state(3 * (w.RING + 1) + 4 + room + 2 * (2 + 2 * w.TC) + 14 + 3 * w.TL) + 3 * adder(w.RING + 1);
+  cost += state(3 + 3 * (w.RING + 1) + 6 + 3 * w.TL + 2 * 14 + 3 * w.TILE) + adder(2 * room) + adder(w.TL);
+  // Of each edge function the row's value; the odd multiples of gx; a sum, its sign and whether it is zero a pixel.
+  HardwareCost edge = state(w.VAL + w.GRAD + 2 + w.TILE / 2 * multiple + w.TILE * close + 2 * w.TILE);
+  edge += adder(w.VAL) + mux(w.VAL, 2) + zero_test(2 * (w.VAL - close + 2));
+  edge += (w.TILE / 2 - 1) * adder(multiple) + w.TILE * (zero_test(close) + mux(1, 2));
+  for (int dx = 1; dx < w.TILE; ++dx) edge += adder(close - std::countr_zero(static_cast<unsigned>(dx)));
+  // Scissor; clauses, about three gates an edge function.
+  return cost + 5 * edge + w.TILE * adder(5 * 4 + 8) + state(5 + w.TILE) + 2 * adder(w.V + 1) + 4 * adder(w.TC) +
+         w.TILE * adder(w.TL) + control(60);
 }
 
 HardwareCost sync_fifo(const Widths& w) {
-  const int stamp = 1 + w.RING + 1 + w.TL + 3 * w.TILE;
-  return memory(stamp, 1 << w.FIFO) + state(3 * w.FIFO + 1) + 3 * adder(w.FIFO) + read_port(stamp);
+  const int stamp = 2 + w.RING + 1 + w.TL + 3 * w.TILE, places = (1 << w.FIFO) + 4;
+  const int pointer = stages_of(places), count = stages_of(places + 1);
+  return memory(stamp, 1 << pointer, 1) + state(stamp + 2 * pointer + count + 1) + 2 * adder(2 * pointer + count);
 }
+
+/// Places of the fragment FIFO, log2.
+int fragment_places() { return stages_of(latency::pipeline + 7); }
 
 HardwareCost pixel_emit(const Widths& w) {
-  // Remaining pixels, the lowest of them, front and tie there.
-  return state(w.TILE) + adder(w.TILE) + 4 * mux(w.TILE, 2);
+  // Free places, part; each lane has the lowest pixel that those below it leave, its column, front and tie.
+  const int spare = fragment_places() + 2;
+  const HardwareCost lane = state(w.TL + 3) + adder(w.TILE) + (w.TL + 2) * zero_test(w.TILE) + mux(w.TILE, 2);
+  return state(spare + w.TILE + 5 + w.RING + 1 + w.TL) + adder(spare) + mux(w.TILE, 2) + w.P * lane +
+         state(2 * (3 + w.TL + w.P * (w.TL + 3)));
 }
 
-/// The side band alone: valid and end bits, the pixel's slot, position and flags from stage 0 and its class from stage
-/// 3 to stage 24 (eight class bits only to stage 14), numerators waiting for the reciprocals.
+// ---- The pixel pipeline
+// ------------------------------------------------------------------------------------------------
+
+/// What the pixels of a clock have in common.
 HardwareCost pixel_pipeline(const Widths& w) {
-  const int tag = w.SLOT + 2 * w.V + 2;
-  return state(25 + 26 + 4 * tag + 21 * (tag + 13) - 10 * 8 + 3 * (1 + w.N) * (1 + w.NUMBER));
+  using namespace latency;
+  constexpr int vertices = 4;
+  // End bits; slot, tile column and row; what is read of the slots.
+  const int tag = w.SLOT + w.V - w.TL + w.V;
+  HardwareCost cost = state(pipeline + (pipeline - 1) * tag + tag - w.SLOT);
+  cost += state(vertices * (2 * w.WORD - 1) + (3 + w.N) * vertices * w.WORD + w.ID + 2);
+  // Row's digits; part, slot and squared lengths for the law of cosines.
+  return cost + state(forward_difference_stages * (2 + w.SLOT) + 1 + 6 * w.LENGTH2) + adder(2 * w.TL) + control(140);
 }
 
-HardwareCost forward_difference(const Widths& w) {
-  // Row, then column, with the digits of the column in between; a quadratic has the bend q (r² + dx²) besides.
+/// What a pixel has of its own, between the units.
+HardwareCost pixel_lane(const Widths& w) {
+  using namespace latency;
+  // Valid bit; column, front and tie; from the norm boundary on what the fragment shows of the class; class and signs
+  // of D for the weights.
+  HardwareCost cost = state(pipeline + (norm_stage + 1) * (w.TL + 2) + (pipeline - 1 - norm_stage) * (w.TL + 2 + 5));
+  cost += state((ratio_stage - norm_stage) * (9 + 6));
+  // Digits of the column and of r² + dx²; D of the parts before; A and r² beside the law of cosines; numerators.
+  cost += state(2 * (w.TL / 2 + 1) + 2 * (w.TL + 1)) + adder(4 * w.TL + w.TILE) + state(6 * w.QVAL);
+  cost += state(law_of_cosines_stages * (6 * w.VAL + 4 * w.QVAL));
+  return cost + state(reciprocal_stages * (1 + w.N) * (1 + w.NUMBER));
+}
+
+HardwareCost forward_difference_row(const Widths& w) {
+  const auto one = [&](int value, int gradient) {
+    return state(value + gradient) + small_multiply(gradient, w.TL) + adder(value);
+  };
+  return 6 * one(w.VAL, w.GRAD) + 4 * (one(w.QVAL, w.QGRAD) + state(w.QCURV));
+}
+
+HardwareCost forward_difference_column(const Widths& w) {
+  // A quadratic function has the bend q (r² + dx²) besides.
   const int norm = 2 * w.TL + 1;
-  const HardwareCost linear =
-      state(w.VAL + w.GRAD + w.TL + 1 + w.VAL) + 2 * (small_multiply(w.GRAD, w.TL) + adder(w.VAL));
-  const HardwareCost quadratic = state(w.QVAL + w.QGRAD + w.TL + 1 + w.QCURV + norm + 1 + w.QVAL) +
-                                 2 * (small_multiply(w.QGRAD, w.TL) + adder(w.QVAL)) + small_multiply(w.QCURV, norm) +
-                                 adder(w.QVAL);
-  return 6 * linear + 10 * quadratic;
+  const auto one = [&](int value, int gradient) {
+    return state(2 * value) + small_multiply(gradient, w.TL) + adder(value);
+  };
+  const HardwareCost bend = state(w.QCURV + norm + 1) + small_multiply(w.QCURV, norm) + adder(w.QVAL);
+  return 6 * one(w.VAL, w.GRAD) + 4 * (one(w.QVAL, w.QGRAD) + bend);
+}
+
+HardwareCost law_of_cosines(const Widths& w) {
+  return 6 * (2 * adder(w.QVAL + 1) + mux(w.QVAL, 2) + state(2 * w.QVAL + 1));
 }
 
 HardwareCost normalise(const Widths& w) {
-  const auto one = [&](int width) {
-    const int kept = w.S + 7, wide = std::max(width, kept);  // shifts by 8 and more, then the short ones
-    return adder(width) + mux(width, 2) + shift_to_top(wide, w.S) + state(1 + kept + stages_of(wide) - 3) + adder(w.E) +
-           state(1 + w.NUMBER);
-  };
-  return 6 * one(w.VAL) + 10 * one(w.QVAL);
+  // The exponent of an integer is a small number. r² has no sign.
+  const auto magnitude = [&](int width) { return fp_normalise(w, width, stages_of(std::max(width, w.S + 7)) + 1); };
+  const auto with_sign = [&](int width) { return magnitude(width) + state(width + 3) + adder(width) + mux(width, 2); };
+  return 6 * with_sign(w.VAL) + 6 * with_sign(w.QVAL) + 4 * (magnitude(w.QVAL) + state(w.QVAL - 1));
 }
 
 HardwareCost singular_class(const Widths& w) {
-  return state(16 + 13) + 4 * (zero_test(w.VAL) + zero_test(w.QVAL)) + mux(30, 2);
-}
-
-/// Exponent of an inverse, exact powers, and what waits for the polynomial: `flags` bits and the exponent.
-HardwareCost inverse(const Widths& w, int flags) {
-  return state(3 * (w.E + flags)) + adder(w.E) + mux(w.E, 2) + zero_test(2 * w.S) + mux(w.S, 2);
+  return state(16 + 2 * 9) + 4 * (zero_test(w.VAL) + zero_test(w.QVAL)) + mux(30, 2);
 }
 
 HardwareCost fp_sqrt(const Widths& w, const Config& c) {
-  const int segments = c.sqrt_segments();
-  return 4 * (inverse(w, 2) + table_polynomial(w, segments, c.sqrt_degree) + table(w, segments + 1, c.sqrt_degree));
+  // Half the exponent, and whether the number is zero, wait for the polynomial.
+  return table_polynomial(w, sqrt_table(c), c.sqrt_segments()) +
+         state(latency::sqrt_stages * (w.E - 1) + (latency::sqrt_stages - 1) + w.S) + zero_test(w.S);
 }
 
 HardwareCost reciprocal(const Widths& w, const Config& c) {
-  const int segments = c.recip_segments();
-  return 2 * (inverse(w, 3) + table_polynomial(w, segments, c.recip_degree) + table(w, segments, c.recip_degree));
+  return table_polynomial(w, reciprocal_table(c), c.recip_segments()) +
+         state(latency::reciprocal_stages * (w.E + 1) + (latency::reciprocal_stages - 1) * 2 + w.S) + adder(w.E) +
+         mux(w.E, 2) + zero_test(2 * w.S) + mux(w.S, 2);
 }
 
 HardwareCost mean_value_ratios(const Widths& w) {
-  // |A|, |D| wait for ρρ'; v waits for u; the sign of D crosses n and d.
-  const HardwareCost delays = state(4 * w.NUMBER + 4 * (1 + w.NUMBER) + 2 + 2 * w.NUMBER + 1);
-  return 6 * (delays + 2 * fp_multiply(w) + fp_raw_product(w) + one_plus(w) + 4 * mux(w.NUMBER, 2));
+  using namespace latency;
+  // |D| waits for the product, v for u.
+  const int waits = sqrt_stages + product_stages + ratio_stage - norm_stage;
+  return 6 * (fp_term(w) + state(w.RANK) + state(waits * w.NUMBER) + fp_add(w));
 }
 
-HardwareCost mean_value_weights(const Widths& w, bool notch_exact) {
-  HardwareCost cost = state(8 * 4 * w.NUMBER);  // ρ for stages 11 and 15
-  // N_i from ratios or from ρ and k, cured or not; e_i and its delay.
-  cost += 4 * (4 * mux(w.NUMBER, 2) + 2 * fp_raw_product(w) + fp_sum(w, 2) + fp_multiply(w) + state(3 * w.NUMBER));
-  // Two edges: the two sums, their sum, all sums delayed. Two corners: their k.
-  cost += 2 * mux(w.NUMBER, 4) + fp_sum(w, 2) + state(6 * w.NUMBER) + 2 * mux(w.PE + w.S, 4);
-  // Overrides, h_i and M_i.
-  cost += 4 * (state(3 * w.NUMBER + 1) + mux(w.NUMBER, 6) + 3 * mux(w.NUMBER, 2) + 2 * fp_multiply(w));
-  if (notch_exact) {
-    // The factors f of the cure and their delay; N_i = n n' + d d'; g_i = ρ' f'.
-    cost += 3 * (fp_multiply(w) + state(3 * w.NUMBER));
-    cost += 4 * (2 * mux(w.NUMBER, 2) + mux(w.NUMBER, 3) + state(w.NUMBER) + fp_multiply(w));
-  } else {
-    cost += 4 * state(w.NUMBER);  // ρ' passes g's register
-  }
-  return cost;
+HardwareCost root_ratio(const Widths& w, const Config& c) {
+  // The root, v·s, what waits for them; numerator and denominator are one of three each.
+  using namespace latency;
+  const int waits = sqrt_stages + 2 * product_stages + sqrt_stages + product_stages;
+  return fp_sqrt(w, c) + fp_multiply(w) + state(waits * w.NUMBER + 2 * (sqrt_stages + product_stages)) +
+         2 * (mux(w.NUMBER, 3) + state(w.NUMBER));
 }
 
-HardwareCost interpolate(const Widths& w) { return (3 + w.N) * (4 * fp_raw_product(w) + fp_sum(w, 4)); }
+HardwareCost mean_value_weights(const Widths& w, const Config& c) {
+  using namespace latency;
+  // r and the class wait for the denominators and the overrides.
+  HardwareCost cost = state((n_stage - root_stage) * 4 * w.NUMBER + (n_stage - ratio_stage) * 7);
+  cost += state((1 + product_stages) * 5 + fp_add_stages * 5);
+  // Two edges' r and k; the operands of z and w of three ratios, or of those edges' products.
+  cost += 4 * (one_of_four(w.NUMBER) + one_of_four(w.WORD)) + 8 * mux(w.NUMBER, 2) + 3 * mux(w.NUMBER, 3);
+  cost += state(12 * w.NUMBER) + (1 + product_stages) * state(3 * w.NUMBER + 10);
+  cost += 6 * fp_product(w) + 4 * state(w.TERM) + 3 * root_ratio(w, c) + 2 * fp_sum(w, 2, false);
+  // Factors of M_i: the ratios', or r, N, k or one; their products.
+  cost += 2 * one_of_four(w.PE + w.S);
+  cost += 4 * (mux(w.NUMBER, 5) + mux(w.NUMBER, 3) + mux(w.NUMBER, 2) + adder(10) + state(3 * w.NUMBER));
+  cost += 4 * (2 * fp_multiply(w) + state(w.NUMBER) + state((fp_add_stages - product_stages) * w.NUMBER));
+  // The corner on both edges.
+  return cost + 2 * one_of_four(w.NUMBER) + fp_add(w) + 4 * (mux(w.NUMBER, 2) + state(w.NUMBER));
+}
+
+HardwareCost interpolate(const Widths& w) { return (3 + w.N) * (4 * fp_term(w) + state(4) + fp_sum(w, 4, true)); }
 
 HardwareCost fragment_output(const Widths& w, const Config& c) {
-  // Two's complement, slots not in use, z interval, and the output register, which is cleared when not valid.
-  const HardwareCost attribute =
-      fp_raw_product(w) + fixed_point(w, c.attribute_int_bits, c.attribute_frac()) + adder(w.AO) + mux(w.AO, 2);
-  const HardwareCost depth =
-      fp_raw_product(w) + fixed_point(w, 1, w.DB) + state(2) + 2 * adder(w.DB + 1) + 2 * mux(w.DB + 1, 2);
-  return w.N * attribute + depth + state(1 + w.FRAGMENT) + mux(w.FRAGMENT, 2);
+  // Two's complement, slots not in use; z interval; the output register, which is cleared when not valid.
+  const HardwareCost attribute = fp_raw_product(w) + fixed_point(w, c.attribute_int_bits, c.attribute_frac()) +
+                                 state(2 + 1 + w.AO) + adder(w.AO) + mux(w.AO, 2);
+  const HardwareCost depth = fp_raw_product(w) + fixed_point(w, 1, w.DB) + state(2 + 2 * 3 + w.DB + 1 + 2) +
+                             2 * adder(w.DB + 1) + 2 * mux(w.DB + 1, 2) + zero_test(w.DB + 1);
+  return w.N * attribute + depth + state(1 + w.FRAGMENT);
+}
+
+HardwareCost fragment_fifo(const Widths& w) {
+  // A word is the fragments of a clock and, of several lanes, which of them there are.
+  const int places = fragment_places(), word = w.P * w.FRAGMENT;
+  HardwareCost cost =
+      memory(word, 1 << places, 1) + state(3 * places + 1 + 3 + word) + adder(4 * places) + mux(word, 2) + control(55);
+  if (w.P > 1) cost += memory(w.P, 1 << places, 1) + state(w.P) + mux(w.P, 2);
+  return cost;
 }
 
 }  // namespace
 
 std::vector<ModuleCost> module_costs(const Config& config) {
+  constexpr int product_clocks = 6;  // from a job of vertex_products to its results
   const Widths w(config);
   return {
       {"vertex_assembly", vertex_assembly(w)},
-      {"quad_setup", quad_setup(w)},
+      {"quad_setup", quad_setup(w, product_clocks)},
+      {"vertex_products", vertex_products(w)},
       {"quad_slots", quad_slots(w)},
       {"tile_walk", tile_walk(w)},
+      {"tile_context", tile_context(w, product_clocks)},
       {"tile_ring", tile_ring(w)},
       {"stamp_coverage", stamp_coverage(w)},
       {"sync_fifo", sync_fifo(w)},
       {"pixel_emit", pixel_emit(w)},
       {"pixel_pipeline", pixel_pipeline(w)},
-      {"forward_difference", forward_difference(w)},
-      {"normalise", normalise(w)},
-      {"singular_class", singular_class(w)},
-      {"sqrt", fp_sqrt(w, config)},
-      {"mean_value_ratios", mean_value_ratios(w)},
-      {"mean_value_weights", mean_value_weights(w, config.notch_exact != 0)},
-      {"interpolate", interpolate(w)},
-      {"reciprocal", reciprocal(w, config)},
-      {"fragment_output", fragment_output(w, config)},
+      {"forward_difference_row", forward_difference_row(w)},
+      {"pixel_lane", w.P * pixel_lane(w)},
+      {"forward_difference_column", w.P * forward_difference_column(w)},
+      {"law_of_cosines", w.P * law_of_cosines(w)},
+      {"normalise", w.P * normalise(w)},
+      {"singular_class", w.P * singular_class(w)},
+      {"sqrt", w.P * (4 * fp_sqrt(w, config))},
+      {"mean_value_ratios", w.P * mean_value_ratios(w)},
+      {"mean_value_weights", w.P * mean_value_weights(w, config)},
+      {"interpolate", w.P * interpolate(w)},
+      {"reciprocal", w.P * (2 * reciprocal(w, config))},
+      {"fragment_output", w.P * fragment_output(w, config)},
+      {"fragment_fifo", fragment_fifo(w)},
   };
 }
 
@@ -388,7 +560,8 @@ double lut_cost(const HardwareCost& cost, const CostWeights& weights) {
 }
 
 double scalar_cost(const HardwareCost& cost, const CostWeights& weights) {
-  return lut_cost(cost, weights) + weights.dsp * static_cast<double>(cost.dsps);
+  return lut_cost(cost, weights) + weights.dsp * static_cast<double>(cost.dsps) +
+         weights.block_ram * static_cast<double>(cost.block_rams);
 }
 
 }  // namespace quadrille

@@ -82,9 +82,13 @@ struct WeightKey {
 };
 
 constexpr std::array weight_keys{
-    WeightKey{"state", &CostWeights::state}, WeightKey{"multiplier", &CostWeights::multiplier},
-    WeightKey{"adder", &CostWeights::adder}, WeightKey{"table", &CostWeights::table},
-    WeightKey{"dsp", &CostWeights::dsp},     WeightKey{"join", &CostWeights::join},
+    WeightKey{"state", &CostWeights::state},
+    WeightKey{"multiplier", &CostWeights::multiplier},
+    WeightKey{"adder", &CostWeights::adder},
+    WeightKey{"table", &CostWeights::table},
+    WeightKey{"dsp", &CostWeights::dsp},
+    WeightKey{"join", &CostWeights::join},
+    WeightKey{"block_ram", &CostWeights::block_ram},
 };
 
 void set_weight(const Entry& entry, const std::string& name, CostWeights& weights) {
@@ -94,7 +98,8 @@ void set_weight(const Entry& entry, const std::string& name, CostWeights& weight
   const auto* found = std::find_if(weight_keys.begin(), weight_keys.end(), [&](const auto& w) { return w.key == key; });
   if (found == weight_keys.end()) {
     throw failure("unknown key " + in_quotes(key) + " in the table [cost]" +
-                  did_you_mean(key, weight_keys, &WeightKey::key) + " (state, multiplier, adder, table)");
+                  did_you_mean(key, weight_keys, &WeightKey::key) +
+                  " (state, multiplier, adder, table, dsp, join, block_ram)");
   }
   const std::string wanted =
       "; a number from 0 to " + std::to_string(static_cast<long>(max_cost_weight)) + " is expected, LUTs a bit";
@@ -128,7 +133,7 @@ void parse(std::string_view text, const std::string& name, Config& config, CostW
     } else {
       throw input_error(name, line_of(entry),
                         "key \"cost\" holds " + std::string(type_name(entry.second->type())) +
-                            "; a table [cost] with state, multiplier, adder, table, dsp, join is expected");
+                            "; a table [cost] with state, multiplier, adder, table, dsp, join, block_ram is expected");
     }
   }
   config = new_config;
@@ -161,8 +166,9 @@ std::string config_text(const Config& config, const CostWeights& weights) {
                           std::to_string(key.maximum) + ", default " + value(key.standard) + ": " +
                           std::string(key.meaning));
   }
-  text += "\n# Weights of the scalar hardware cost: LUTs for a bit of each resource and for a DSP block, 0 to " +
-          number_text(max_cost_weight) + "\n[cost]\n";
+  text +=
+      "\n# Weights of the scalar hardware cost: LUTs for a bit of each resource, a DSP block and a block RAM, 0 to " +
+      number_text(max_cost_weight) + "\n[cost]\n";
   for (const WeightKey& weight : weight_keys)
     text += std::string(weight.key) + " = " + number_text(weights.*weight.member) + "\n";
   return text;

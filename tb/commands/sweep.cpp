@@ -364,9 +364,13 @@ class SweepRun {
     json["objective"] = objective_.name();
     json["front"] = front_;
     json["knees"] = knees_;
-    json["cost_weights"] = {{"state", weights_.state}, {"multiplier", weights_.multiplier},
-                            {"adder", weights_.adder}, {"table", weights_.table},
-                            {"dsp", weights_.dsp},     {"join", weights_.join}};
+    json["cost_weights"] = {{"state", weights_.state},
+                            {"multiplier", weights_.multiplier},
+                            {"adder", weights_.adder},
+                            {"table", weights_.table},
+                            {"dsp", weights_.dsp},
+                            {"join", weights_.join},
+                            {"block_ram", weights_.block_ram}};
     for (std::size_t s = 0; s < sweep::stage_count; ++s)
       json["counters"][std::string(sweep::stage_names[s])] = {{"settings", store.counters().settings[s]},
                                                               {"fragments", store.counters().fragments[s]}};

@@ -93,12 +93,14 @@ std::vector<PointColumn> make_columns() {
                   {"colour_codes", "channels", "8-bit channels that differ from the truth's"},
                   {"saturated", "fragments", "with an attribute clamped to its format"},
                   {"cost", "LUTs", "scalar cost"},
-                  {"state_bits", "bits", "flip-flops"},
+                  {"state_bits", "bits", "registers and memories"},
                   {"multiplier_bits", "bits^2", "sum over multipliers of operand widths' products"},
-                  {"adder_bits", "bits", "adders, comparators, shifter stages"},
-                  {"table_bits", "bits", "sqrt and reciprocal tables"},
+                  {"adder_bits", "bits", "adders, comparators, shifter stages, small memories"},
+                  {"table_bits", "bits", "sqrt and reciprocal tables in logic"},
                   {"dsps", "blocks", "multipliers of 18 x 18 bits, where the target has them"},
                   {"join_bits", "bits", "adders that join those of one multiplier"},
+                  {"memory_bits", "bits", "of state_bits those in memories, where the target has them"},
+                  {"block_rams", "blocks", "memories of 18 Kbit, where the target has them"},
                   {"cycles", "clocks", "the whole draw without stalls"},
                   {"pareto", "", "1 on the front of cost against the objective"},
                   {"worst_error", "1", "largest arithmetic error of a weight"},
@@ -197,7 +199,7 @@ std::string point_table(std::span<const PointRow> rows) {
         cells.push_back(std::to_string(count));
       cells.push_back(csv_number(p.scalar_cost));
       for (const std::uint64_t bits : {p.cost.state_bits, p.cost.multiplier_bits, p.cost.adder_bits, p.cost.table_bits,
-                                       p.cost.dsps, p.cost.join_bits})
+                                       p.cost.dsps, p.cost.join_bits, p.cost.memory_bits, p.cost.block_rams})
         cells.push_back(std::to_string(bits));
       cells.push_back(r.cycles > 0 ? std::to_string(r.cycles) : std::string());
       cells.push_back(p.pareto ? "1" : "0");

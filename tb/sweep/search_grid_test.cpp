@@ -92,7 +92,7 @@ void compare(const char* what, const SweepInput& input) {
   // The winner may not depend on the cost being right: other technologies weigh the same resources otherwise.
   for (const CostWeights& weights :
        {ecp5_weights, ecp5_nodsp_weights,
-        CostWeights{.state = 0, .multiplier = 10, .adder = 0, .table = 0, .dsp = 0, .join = 0}}) {
+        CostWeights{.state = 0, .multiplier = 10, .adder = 0, .table = 0, .dsp = 0, .join = 0, .block_ram = 0}}) {
     for (SearchPoint& point : points) point.cost = scalar_cost(hardware_cost(point.config), weights);
     std::vector<std::size_t> by_cost(points.size());
     std::iota(by_cost.begin(), by_cost.end(), std::size_t{0});

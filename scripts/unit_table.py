@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+"""The table of the machine's units in rtl/README.md section 8: what, bits, latency, LUT, FF, DSP, BRAM, MHz, and the whole.
+
+rtl/units.toml lists the units, rtl/units_measured.json has what size.py and timing.py gave, golden/analysis/synthesised.csv the whole in
+other configurations. Latencies and widths are evaluated from rtl/quadrille_pkg.sv, bits counted from the units' ports.
+
+  scripts/unit_table.py                        checks that the README has this table, that the list has every unit that the machine
+                                               instantiates, and that latencies are those of model/latency.hpp and add up; no tools needed
+  scripts/unit_table.py --update               writes the table
+  scripts/unit_table.py --measure size         sizes of the default configuration anew (Yosys, minutes)
+  scripts/unit_table.py --measure UNIT ...     clocks anew: place and route with seeds 1 to 3 (nextpnr-ecp5 on PATH); --seed N for others
+
+Exit status: 1 a check or a tool failed, 2 usage or input, 3 a missing tool."""
+import argparse
+import csv
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tomllib
+
+sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+from report.files import InputError, write_files  # noqa: E402
+from report.program import PROGRAM, ROOT  # noqa: E402
+
+RTL = os.path.join(ROOT, "rtl")
+LIST, MEASURED, README = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json", "README.md"))
+CONFIGURATIONS = os.path.join(ROOT, "golden/analysis/synthesised.csv")
+BEGIN, END = "<!-- scripts/unit_table.py -->\n", "<!-- end -->\n"
+SIZES = {"lut": "luts", "ff": "flip_flops", "dsp": "dsps", "bram": "block_rams"}  # here -> in size.py's report
+SCRIPTS = os.path.dirname(os.path.abspath(__file__))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--update", action="store_true", help="write the table")
+    parser.add_argument("--measure", nargs="+", metavar="WHAT", help="size, or units whose clock is wanted")
+    parser.add_argument("--seed", action="append", type=int, metavar="N", help="of nextpnr with --measure (default: 1, 2, 3)")
+    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program, with --measure")
+    args = parser.parse_args()
+    try:
+        units = read_units()
+        if args.measure:
+            return measure(args, units)
+        package = Package()
+        faults = faults_of(units, package)
+        for fault in faults:
+            print(f"unit_table.py: {fault}", file=sys.stderr)
+        if faults:
+            return 1
+        old = read_text(README)
+        if old.count(BEGIN) != 1:
+            raise InputError(f"{README}: no line {BEGIN.strip()}, or several")
+        head, rest = old.split(BEGIN)
+        new = head + BEGIN + table(units, package) + rest[rest.index(END):]
+        if args.update:
+            write_files(RTL, {"README.md": new.encode()})
+        elif old != new:
+            print("unit_table.py: rtl/README.md: the table is not what its data give; run scripts/unit_table.py --update", file=sys.stderr)
+            return 1
+    except (OSError, InputError, tomllib.TOMLDecodeError, KeyError) as error:
+        print(f"unit_table.py: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def read_text(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def read_units():
+    units = tomllib.loads(read_text(LIST))["unit"]
+    for unit in units:
+        if missing := {"name", "what", "format", "latency"} - unit.keys():
+            raise InputError(f"{LIST}: unit {unit.get('name', '')}: no {', '.join(sorted(missing))}")
+    return units
+
+
+# ---- Constants and ports, as the RTL has them ----
+
+
+class Package:
+    """Constants of quadrille_pkg in the default configuration."""
+
+    def __init__(self):
+        text = without_comments(read_text(os.path.join(RTL, "quadrille_pkg.sv")))
+        self.macros = dict(re.findall(r"`define (QUADRILLE_\w+) (\S+)", text))
+        self.constants = {}
+        for name, expression in re.findall(r"localparam int (\w+)\s*=\s*([^;]+);", text):
+            self.constants[name] = self.value(expression, {})
+
+    def value(self, expression, names):
+        """An integer expression of SystemVerilog."""
+        text = re.sub(r"`(\w+)", lambda match: self.macros[match.group(1)], expression)
+        text = re.sub(r"quadrille_pkg::", "", text).replace("$clog2", "clog2").replace("/", "//").replace("&&", " and ").replace("||", " or ")
+        try:
+            return int(eval(conditional(" ".join(text.split())), {"clog2": lambda n: (n - 1).bit_length()}, self.constants | names))  # noqa: S307
+        except (NameError, SyntaxError, TypeError) as error:
+            raise InputError(f"{expression}: {error}") from None
+
+    def ports(self, unit, parameters):
+        """Bits of the inputs, clock and reset apart, and of the outputs."""
+        text = without_comments(read_text(os.path.join(RTL, unit + ".sv")))
+        header = text[text.index(f"module {unit}"):].split(");", 1)[0]
+        names = {}
+        for name, expression in re.findall(r"(?:parameter|localparam) (?:int|bit) (\w+)\s*=\s*((?:[^,()]|\((?:[^()]|\([^()]*\))*\))+)", header):
+            names[name] = int(parameters[name]) if name in parameters else self.value(expression.replace("1'b", ""), names)
+        bits = {"input": 0, "output": 0}
+        for direction, high, name in re.findall(r"(input|output) logic (?:\[([^\]]+):0\] )?(\w+)", header):
+            if name not in ("clk_i", "rst_ni"):
+                bits[direction] += 1 + self.value(high, names) if high else 1
+        return bits["input"], bits["output"]
+
+
+def without_comments(text):
+    return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
+
+
+def conditional(text):
+    """c ? a : b in Python, from the outside in."""
+    depth = 0
+    for at, letter in enumerate(text):
+        depth += (letter == "(") - (letter == ")")
+        if letter == "?" and depth == 0:
+            colon, nested = at, 0
+            while nested or text[colon] != ":":
+                colon += 1
+                nested += (text[colon] == "(") - (text[colon] == ")")
+            return f"(({conditional(text[at + 1:colon])}) if ({conditional(text[:at])}) else ({conditional(text[colon + 1:])}))"
+    return re.sub(r"\(([^()]*(?:\([^()]*\)[^()]*)*)\)", lambda match: f"({conditional(match.group(1))})", text)
+
+
+# ---- Checks ----
+
+
+def faults_of(units, package):
+    faults = []
+    listed = [unit["name"] for unit in units]
+    for top in ("quadrille", "pixel_pipeline", "pixel_lane"):
+        text = without_comments(read_text(os.path.join(RTL, top + ".sv")))
+        for module in dict.fromkeys(re.findall(r"^ +(\w+) (?:#\(.*?\) )?u_\w+ \(", text, re.M | re.DOTALL)):
+            if module not in listed and module not in ("config_check", "delay_line", "pixel_pipeline", "pixel_lane", "offset_digits", "radix4_digits"):
+                faults.append(f"rtl/units.toml: {top} instantiates {module}, which is not in the list")
+    model = {}
+    for name, expression in re.findall(r"inline constexpr int (\w+) = ([^;]+);", without_comments(read_text(os.path.join(ROOT, "model/latency.hpp")))):
+        model[name] = package.value(expression, model)
+        if name.upper() in package.constants and package.constants[name.upper()] != model[name]:
+            faults.append(f"{name} is {model[name]} in model/latency.hpp and {package.constants[name.upper()]} in quadrille_pkg")
+    on_path = sum(package.value(unit["latency"], {}) for unit in units if unit.get("on_path"))
+    if on_path != package.constants["LATENCY"]:
+        faults.append(f"rtl/units.toml: latencies on the path add up to {on_path}, LATENCY is {package.constants['LATENCY']}")
+    measured = json.loads(read_text(MEASURED))
+    faults += [f"{MEASURED}: {name} is not in rtl/units.toml" for name in {**measured["size"], **measured["clock"]} if name not in [*listed, "the rest", "all"]]
+    for unit in units:
+        clock = measured["clock"].get(unit["name"])
+        if clock and clock["parameters"] != {name: str(value) for name, value in unit.get("parameters", {}).items()}:
+            faults.append(f"{MEASURED}: {unit['name']}: measured with other parameters than in rtl/units.toml")
+    return faults
+
+
+# ---- The table ----
+
+
+def table(units, package):
+    measured = json.loads(read_text(MEASURED))
+    lines = ["| unit | what | bits | latency | instances | LUT | FF | DSP | BRAM | MHz |", "|---|---|---|---|---|---|---|---|---|---|"]
+    for unit in units:
+        inputs, outputs = package.ports(unit["name"], unit.get("parameters", {}))
+        text = {key: re.sub(r"\{(\w+)\}", lambda match: str(package.constants[match.group(1)]), unit[key]) for key in ("what", "format")}
+        size, clock = measured["size"].get(unit["name"]), measured["clock"].get(unit["name"])
+        lines.append(row(f"`{unit['name']}`", text["what"], f"{inputs:,} → {outputs:,}: {text['format']}", latency(unit["latency"], package),
+                         f"{size['instances']}" if size else "1", *(f"{size[key]:,}" if size else "" for key in SIZES), mhz(clock)))
+    for name, title in (("the rest", "the rest"), ("all", "the whole")):
+        lines.append(row(title, "", "", package.constants["LATENCY"] if name == "all" else "", "", *(f"{measured['size'][name][key]:,}" for key in SIZES), ""))
+    first = measured["first"]
+    lines.append(row("as first built", first["what"], "", first["latency"], "", *(f"{first[key]:,}" if key in first else "" for key in SIZES), first["mhz"]))
+    return "\n".join(lines) + "\n\n" + configurations()
+
+
+def row(*cells):
+    return "| " + " | ".join(str(cell) for cell in cells) + " |"
+
+
+def latency(text, package):
+    return str(package.value(text, {})) if re.fullmatch(r"[A-Z0-9_+\- ]+", text) else text
+
+
+def mhz(clock):
+    if not clock:
+        return ""
+    count = len(clock["mhz"])
+    return f"{statistics.median(clock['mhz']):.0f}{'' if count >= 3 else f' ({count} seed' + ('s)' if count > 1 else ')')}"
+
+
+def configurations():
+    """The whole at S = 12, 18, 24 with 1 and 4 attributes."""
+    lines = ["| significand bits | attributes | LUT | FF | DSP | BRAM |", "|---|---|---|---|---|---|"]
+    rows = list(csv.DictReader(line for line in read_text(CONFIGURATIONS).splitlines() if not line.startswith("#")))
+    found = {row["configuration"]: row for row in rows if row["target"] == "ecp5"}
+    for bits in (12, 18, 24):
+        for slots, keys in ((1, " attribute_slots=1"), (4, "")):
+            what = found[f"significand_bits={bits}{keys}"]
+            lines.append(row(bits, slots, *(f"{int(what[column]):,}" if what[column] else "–" for column in SIZES.values())))
+    return "\n".join(lines) + "\n"
+
+
+# ---- Measurements ----
+
+
+def measure(args, units):
+    measured = json.loads(read_text(MEASURED))
+    for what in args.measure:
+        if what == "size":
+            report = run(["size.py", "--quadrille", args.quadrille])
+            rows = report["units"] + [{"unit": "all", "instances": None} | report]
+            measured["size"] = {row["unit"]: {"instances": row["instances"]} | {key: row[name] for key, name in SIZES.items()} for row in rows}
+        else:
+            unit = next((unit for unit in units if unit["name"] == what), None)
+            if unit is None:
+                raise InputError(f"{what}: not in rtl/units.toml; there are {' '.join(unit['name'] for unit in units)}")
+            parameters = {name: str(value) for name, value in unit.get("parameters", {}).items()}
+            report = run(["timing.py", what, *(part for name, value in parameters.items() for part in ("-P", f"{name}={value}")), "--target", "ecp5",
+                          *(part for seed in args.seed or [1, 2, 3] for part in ("--seed", str(seed))), "--quadrille", args.quadrille])
+            measured["clock"][what] = {"parameters": parameters, "mhz": report["ecp5"]["mhz_by_seed"]}
+        write_files(RTL, {"units_measured.json": (json.dumps(measured, indent=1) + "\n").encode()})
+    return 0
+
+
+def run(command):
+    done = subprocess.run([sys.executable, os.path.join(SCRIPTS, command[0]), *command[1:], "--json", "-"], stdout=subprocess.PIPE, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(done.returncode)
+    return json.loads(done.stdout)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
