@@ -255,8 +255,13 @@ LANE_INLINE RootRatioLanes root_ratio(const DifferenceLanes& signs, const RatioL
   const I near_cancels = cancels(near), far_cancels = cancels(far);
   const V root = sqrt_lanes(arithmetic.multiply(p.u[near], p.u[far]), table, s);
   const V crossed = arithmetic.multiply(p.v[far], p.u[near]), scaled = arithmetic.multiply(p.v[near], root);
-  return {select(near_cancels, select(far_cancels, crossed, root), select(far_cancels, p.v[far], p.u[far])),
-          select(near_cancels, select(far_cancels, scaled, p.v[near]), root)};
+  const V num = select(near_cancels, select(far_cancels, crossed, root), select(far_cancels, p.v[far], p.u[far]));
+  const V den = select(near_cancels, select(far_cancels, scaled, p.v[near]), root);
+  // Exponents in balance: opposite but for one, beside a zero 0.
+  const I num_used = num != 0, den_used = den != 0;
+  const I sum = (exponent(num) & num_used) + (exponent(den) & den_used);
+  const V move = power_of_two(-select(num_used & den_used, (sum + 1) >> 1, sum));
+  return {num * move, den * move};
 }
 
 LANE_INLINE void weight_stage(const DifferenceLanes& signs, const RatioLanes& p, const LaneArithmetic& arithmetic,

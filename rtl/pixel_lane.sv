@@ -383,6 +383,28 @@ module pixel_lane #(
   assign unused = ^{norm_r2_neg, norm_a_neg};
 
 `ifndef SYNTHESIS
+  // A regular pixel's weights are near 1.
+  localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE;
+  localparam int OVERRIDES = quadrille_pkg::CLASS_OVERRIDES;
+  logic [OVERRIDES-1:0] weight_overrides;
+
+  delay_line #(.WIDTH(OVERRIDES), .DEPTH(WEIGHT - NORM)) u_weight_overrides (
+      .clk_i,
+      .data_i(norm_class[CLASS-1-:OVERRIDES]),
+      .data_o(weight_overrides)
+  );
+
+  for (genvar g = 0; g < 4; g++) begin : gen_range
+    int exp;
+
+    assign exp = 32'($signed(m_exp[g*E+:E]));
+    always_ff @(posedge clk_i) begin
+      if (rst_ni && valid_q[WEIGHT] && weight_overrides == '0) begin
+        assert (exp <= quadrille_pkg::WEIGHT_EXP_LIMIT && exp >= -quadrille_pkg::WEIGHT_EXP_LIMIT);
+      end
+    end
+  end
+
   // Zero when not valid.
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin

@@ -140,8 +140,10 @@ package quadrille_pkg;
   localparam int LENGTH2_BITS /*verilator public*/ = 2 * (POS_INT + FRAC) + 4 - QDROP;
   // signed difference of two positions
   localparam int RISE_BITS /*verilator public*/ = T_BITS + 1;
-  // signed exponents inside: weights up to 2^378, port exponents and a quotient of sums stay within +-2^11
+  // signed exponents inside: numbers of the port, weights, sums and a quotient of two sums stay within +-2^10, a bit to spare
   localparam int EXP_BITS /*verilator public*/ = 12;
+  // of a regular pixel's weights: |exponent| (README.md section 5; proved in golden/analysis)
+  localparam int WEIGHT_EXP_LIMIT = 120;
   // signed exponents of k, Z, b at the port
   localparam int PORT_EXP_BITS /*verilator public*/ = 9;
   // fraction bits of an aligned sum
@@ -210,6 +212,7 @@ package quadrille_pkg;
   localparam int CLASS_BITS = 9;
   localparam int CLASS_KINDS = CLASS_BITS - CLASS_ON_EDGE;  // the singular kinds, at its upper end
   localparam int CLASS_FLAGS = CLASS_BITS - CLASS_NOTCH;  // what a fragment shows: those and the notch
+  localparam int CLASS_OVERRIDES = CLASS_BITS - CLASS_TWO_EDGE;  // at its upper end: one of them is set where the pixel is not regular
 
   // ---- Latency of the pixel pipeline (README.md section 5, model/latency.hpp) ----------------------------------------------
   // Clocks from a unit's inputs to its outputs.

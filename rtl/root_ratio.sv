@@ -8,6 +8,10 @@
 //     both cancel                w / v_near s
 //
 // own_i is the one of m, v_near that the case needs. Latency SQRT_STAGES + PRODUCT_STAGES + 1.
+//
+// Both then move by one power of two, to exponents that are opposite but for one: a ratio of 2^e has num near 2^(e/2) and den near
+// 2^(-e/2), and beside a zero the other is in [1, 2). So no product of three of them leaves 2^+-120 (README.md section 5), and the
+// move is common to all weights.
 module root_ratio #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS
@@ -73,9 +77,21 @@ module root_ratio #(
       .data_o({late_w, near_cancels, far_cancels})
   );
 
-  // ---- Which is which --------------------------------------------------------------------------------------------------------
+  // ---- Which is which, and the exponents in balance --------------------------------------------------------------------------
+  logic [E+S-1:0] num, den;
+  logic [E-1:0] distance, half;
+  logic neither_zero;
+
+  assign num = !near_cancels ? late_own : far_cancels ? late_w : late_root;
+  assign den = !near_cancels ? late_root : far_cancels ? scaled : late_own;
+  assign distance = num[S+:E] - den[S+:E];
+  assign half = {distance[E-1], distance[E-1:1]};
+  assign neither_zero = num[S-1] && den[S-1];
+
   always_ff @(posedge clk_i) begin
-    {num_exp_o, num_sig_o} <= !near_cancels ? late_own : far_cancels ? late_w : late_root;
-    {den_exp_o, den_sig_o} <= !near_cancels ? late_root : far_cancels ? scaled : late_own;
+    num_exp_o <= neither_zero ? half : '0;
+    den_exp_o <= neither_zero ? ~half + E'(!distance[0]) : '0;  // half - distance
+    num_sig_o <= num[0+:S];
+    den_sig_o <= den[0+:S];
   end
 endmodule

@@ -326,10 +326,46 @@ void prove_tables(const Config& c, const ProofWidths& w, RangeList& list) {
   prove("reciprocal", make_recip_table(c));
 }
 
+/// A sum of positive terms.
+Exponents sum(Exponents a, int log2_terms) { return {a.lo, a.hi + 1 + log2_terms}; }
+
+/// Up to u, in units of D's and r²'s least bit.
+struct FrontExponents {
+  Exponents a, d, r2, root, u;
+
+  FrontExponents(const Config& c, const FrontRange& front)
+      : a{-c.qdrop(), log2_of(front.a) - c.qdrop()},
+        d{0, log2_of(std::max(front.d_high, -front.d_low))},
+        r2{0, log2_of(front.r2_high)},
+        root{0, r2.hi / 2},
+        u(sum(hull(root * root, d), 1)) {}
+};
+
+/// What the weights of a regular pixel go through, from A, u in units of D's and r²'s least bit.
+struct RegularExponents {
+  Exponents product;        ///< z = u u'
+  Exponents fraction;       ///< numerator and denominator of a ratio as they come: u, v, s = sqrt(z), v' u, v s
+  Exponents factor;         ///< the same in balance
+  Exponents first, weight;  ///< x y, and M = x y z
+
+  /// With v <= 2^slack u the ratios lie between 1 and its largest value, that of one whose terms both cancel:
+  /// (v'/v) sqrt(u/u') = (v'/sqrt(u')) (sqrt(u)/v) <= 2^slack sqrt(u') sqrt(u) / v. |A| <= r r' <= u, but for bits that
+  /// were dropped: r² of `dropped` + 1 units at most may be stored as 1. Two roundings are less than 2.
+  RegularExponents(Exponents v, Exponents u, Wide dropped) {
+    const int slack = dropped > 0 ? log2_of(dropped + 1) + 1 : 0;
+    product = u * u;
+    const Exponents root{product.lo / 2, product.hi / 2};
+    fraction = hull(hull(hull(v, u), root), hull(v * u, v * root));
+    const int reach = std::max(u.hi - v.lo, v.hi - u.lo) + slack + 2;
+    factor = {-(reach + 1) / 2, (reach + 1) / 2};
+    first = factor * factor;
+    weight = first * factor;
+  }
+};
+
 void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& front, RangeList& list) {
-  const int drop = c.qdrop(), prec = c.prec_bits(), e = w.exponent;
-  // A sum of n positive terms; one whose terms may cancel keeps at least the least bit of its window.
-  const auto sum = [](Exponents a, int log2_terms) { return Exponents{a.lo, a.hi + 1 + log2_terms}; };
+  const int prec = c.prec_bits(), e = w.exponent;
+  // A sum whose terms may cancel keeps at least the least bit of its window.
   const auto cancelling = [&](Exponents a, int log2_terms) { return Exponents{a.lo - prec, a.hi + 1 + log2_terms}; };
 
   // What snapping lets through: |x|, |y|, |w| <= 2^80, one of them >= 2^-80, |z| <= 2^80, |a| < 2^8. Half a pixel and
@@ -341,27 +377,24 @@ void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& fr
   list.add("exponent of Z", z.lo, z.hi, w.port_exponent);
   list.add("exponent of b", b.lo, b.hi, w.port_exponent);
 
-  const Exponents a{-drop, log2_of(front.a) - drop};
-  const Exponents d{0, log2_of(std::max(front.d_high, -front.d_low))}, r2{0, log2_of(front.r2_high)};
-  const Exponents root{0, r2.hi / 2};
+  const auto [a, d, r2, root, u] = FrontExponents(c, front);
   list.add_exponent("A", a, e);
   list.add_exponent("D", d, e);
   list.add_exponent("r²", r2, e);
   list.add_exponent("r", root, e);
-  const Exponents u = sum(hull(root * root, d), 1);
   list.add_exponent("u", u, e);
 
   // Of two pairs' ratio: the root of u u', and v = |A| times u or times that root.
-  const Exponents product = u * u, shared{product.lo / 2, product.hi / 2};
-  const Exponents regular = hull(hull(hull(a, u), shared), hull(a * u, a * shared));
-  list.add_exponent("u u'", product, e);
-  list.add_exponent("factors of M", regular, e);
+  const RegularExponents regular(a, u, front.dropped);
+  list.add_exponent("u u'", regular.product, e);
+  list.add_exponent("fraction of M", regular.fraction, e);
+  list.add_exponent("factors of M", regular.factor, e);
   const Exponents k_eff = hull(k, weight);
   const Exponents denominator = cancelling(root * k_eff, 1);
   list.add_exponent("N of an edge", denominator, e);
   const Exponents singular = hull(sum(root * denominator, 1), hull(k_eff, {0, 0}));
-  list.add_exponent("first product of M", hull(regular * regular, singular), e);
-  const Exponents m = hull(regular * regular * regular, singular);
+  list.add_exponent("first product of M", hull(regular.first, singular), e);
+  const Exponents m = hull(regular.weight, singular);
   list.add_exponent("M", m, e);
 
   const Exponents den_k = cancelling(m * k_eff, 2), den_w = cancelling(m * weight, 2);
@@ -420,6 +453,29 @@ RangeProof prove_ranges(const Config& config, const ProofWidths& w) {
   list.add("attribute", -attribute, attribute, w.attribute);
   list.add("depth", 0, power(config.depth_bits + 1) - 1, w.depth, false);
   return list.result();
+}
+
+RangeProof prove_regular_range(const Config& config) {
+  RangeList unused;
+  const FrontRange front = prove_front(config, ProofWidths(config), unused);
+  const FrontExponents e(config, front);
+  const RegularExponents regular(e.a, e.u, front.dropped);
+  RangeProof proof;
+  // `degree` of a square of pixels: the least bits are 2^-quadratic_frac of it.
+  const auto add = [&](const char* signal, Exponents v, int degree) {
+    const double low = v.lo - degree * config.quadratic_frac(), high = v.hi - degree * config.quadratic_frac();
+    const bool fits = low >= -regular_exponent_limit && high < regular_exponent_limit;
+    proof.signals.push_back({signal, low, high, 0, true, fits});
+  };
+  add("A, D, r²", hull(hull(e.a, e.d), e.r2), 1);
+  add("u", e.u, 1);
+  add("u u'", regular.product, 2);
+  add("v u, v s", hull(e.a * e.u, e.a * Exponents{regular.product.lo / 2, regular.product.hi / 2}), 2);
+  add("factors of M", regular.factor, 0);
+  add("first product of M", regular.first, 0);
+  add("M", regular.weight, 0);
+  proof.proved = std::all_of(proof.signals.begin(), proof.signals.end(), [](const auto& s) { return s.fits; });
+  return proof;
 }
 
 TableError sqrt_error(const Config& config) {

@@ -52,6 +52,11 @@ struct ProofWidths {
 RangeProof prove_ranges(const Config& config);
 RangeProof prove_ranges(const Config& config, const ProofWidths& widths);
 
+/// Regular pixels keep within 2^±120 from A, D and r² to M, lengths in pixels: exponents of a single precision number,
+/// with room. The sums have numbers of the port on top. Rounded outward; `bits` is 0.
+inline constexpr int regular_exponent_limit = 120;
+RangeProof prove_regular_range(const Config& config);
+
 /// Bound of an absolute error, or the best that can be said.
 struct ErrorBound {
   double value = 0;     ///< rounded up; infinity where nothing is claimed

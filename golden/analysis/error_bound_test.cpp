@@ -8,13 +8,17 @@
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/tile_context.hpp"
+#include "model/untimed.hpp"
+#include "model/weight_factors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace quadrille {
 namespace {
@@ -44,7 +48,7 @@ std::string misfits(const RangeProof& proof) {
 TEST(RangeProof, HoldsForRandomConfigurations) {
   golden::Prng rng(7);
   int accepted = 0, reduced = 0, refused_tables = 0;
-  for (int n = 0; n < 2'000; ++n) {
+  for (int n = 0; n < 2'500; ++n) {
     Config c;
     for (const ConfigKey& key : Config::keys()) {
       const bool automatic = key.standard == -1 && rng.chance(key.name == "quadratic_frac_bits" ? 0.4 : 0.9);
@@ -65,6 +69,7 @@ TEST(RangeProof, HoldsForRandomConfigurations) {
         for (const ConfigKey& key : Config::keys())
           keys += std::string(key.name) + "=" + std::to_string(c.get(key.name)) + " ";
       ASSERT_TRUE(proof.proved) << misfits(proof) << keys;
+      ASSERT_TRUE(prove_regular_range(c).proved) << misfits(prove_regular_range(c)) << keys;
     } catch (const ConfigError&) {
       ++refused_tables;
     }
@@ -97,6 +102,7 @@ TEST(RangeProof, HoldsForEveryFront) {
               ASSERT_TRUE(proof.proved) << misfits(proof) << "viewport_bits=" << v << " guard_bits=" << g
                                         << " subpixel_bits=" << sub << " homogeneous_frac_bits=" << hom
                                         << " tile_log2=" << tile << " quadratic_frac_bits=" << quadratic;
+              ASSERT_TRUE(prove_regular_range(c).proved) << misfits(prove_regular_range(c));
             }
   EXPECT_GT(accepted, 1'000);
 }
@@ -248,6 +254,43 @@ TEST(DroppedBits, OrdinaryQuadsLoseNoneUpToTheRule) {
       }
 }
 
+/// The rule as a user sees it: the fragments of ordinary quads are the same bits with all of the bits of D and r² and
+/// with those of products on the ordinary grid alone, and with one bit less they are not.
+TEST(DroppedBits, OrdinaryFragmentsAreTheSameUpToTheRule) {
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = 64;
+  std::size_t compared = 0;
+  for (const int sub : {4, 8}) {
+    Config all;
+    all.subpixel_bits = sub;
+    all.significand_bits = 24;
+    all.validate();
+    Config least = all, below = all;
+    least.quadratic_frac_bits = 2 * sub;
+    below.quadratic_frac_bits = 2 * sub - 1;
+    std::size_t lost = 0;
+    for (const auto& info : golden::stress_families()) {
+      std::vector<SnappedQuad> quads;
+      for (const WindowQuad& given : golden::make_stress(info.family, 40, 9, 1.0, 64, 64, 4))
+        if (const SnappedQuad q = snap_quad(given, all, state); has_ordinary_vertices(q, all)) quads.push_back(q);
+      const auto fragments = [&](const Config& c) {
+        std::vector<Fragment> out;
+        UntimedModel model(c, state, PixelEngine::lanes);
+        for (const SnappedQuad& q : quads)
+          model.draw(q, [&](std::span<const Fragment> f) { out.insert(out.end(), f.begin(), f.end()); });
+        return out;
+      };
+      const std::vector<Fragment> drawn = fragments(all);
+      EXPECT_EQ(fragments(least), drawn) << info.name << ", subpixel_bits " << sub;
+      const std::vector<Fragment> other = fragments(below);
+      for (std::size_t n = 0; n < std::min(drawn.size(), other.size()); ++n) lost += !(drawn[n] == other[n]);
+      compared += drawn.size();
+    }
+    EXPECT_GT(lost, 100u) << "subpixel_bits " << sub;
+  }
+  EXPECT_GT(compared, 20'000u);
+}
+
 /// What is dropped counts from the tile's origin: never more than the way inside a tile, however far the quad's is.
 TEST(DroppedBits, LossIsThatOfTheWayInsideATile) {
   golden::Prng rng(12);
@@ -306,7 +349,17 @@ TEST(RangeProof, HoldsWhatThePipelineComputes) {
     DrawState state;
     const PipelineContext context(c, state);
     golden::Prng rng(3);
-    std::size_t pixels = 0;
+    std::size_t pixels = 0, regular = 0;
+    const auto regular_range = by_name(prove_regular_range(c));
+    int farthest = 0;  // exponent of a regular weight
+    // In powers of pixels of this degree / 2.
+    const auto in_pixels = [&](const char* name, const PipelineFloat& v, int degree) {
+      if (v.sig == 0) return;
+      const SignalRange& s = regular_range.at(name);
+      const int e = v.exp - degree * c.quadratic_frac();
+      EXPECT_TRUE(s.low <= e && e <= s.high) << name << " 2^" << e << " [" << s.low << ", " << s.high << "]";
+      EXPECT_LE(std::abs(e), regular_exponent_limit) << name;
+    };
     const auto inside = [&](const char* name, double value) {
       const SignalRange& s = signal.at(name);
       EXPECT_TRUE(s.low <= value && value <= s.high) << name << " " << value << " [" << s.low << ", " << s.high << "]";
@@ -360,9 +413,33 @@ TEST(RangeProof, HoldsWhatThePipelineComputes) {
           exponent("exponent of Σ M·W", p.den_w);
           exponent("exponent of Σ M·Z", p.num_z);
           for (const PipelineFloat& v : p.num_a) exponent("exponent of Σ M·b", v);
+          if (p.two_corner || p.on_vertex || p.two_edge) continue;
+          ++regular;
+          const SignificandFormat& f = context.format;
+          for (std::size_t k = 0; k < 6; ++k) {
+            in_pixels("A, D, r²", p.a_fp[k], 1);
+            in_pixels("A, D, r²", p.d_fp[k], 1);
+            in_pixels("u", p.u[k], 1);
+          }
+          for (const auto& [near, far] : {std::pair<std::size_t, std::size_t>{0, 2}, {3, 1}, {4, 5}}) {
+            const PipelineFloat product = fp_multiply(p.u[near], p.u[far], f);
+            in_pixels("u u'", product, 2);
+            in_pixels("v u, v s", fp_multiply(p.v[far], p.u[near], f), 2);
+            in_pixels("v u, v s", fp_multiply(p.v[near], fp_sqrt(product, context.sqrt_table, f), f), 2);
+          }
+          const std::array<WeightFactors, 4> factors = weight_factors(p, data, context);
+          for (std::size_t i = 0; i < 4; ++i) {
+            in_pixels("A, D, r²", p.r2_fp[i], 1);
+            for (const PipelineFloat& v : {factors[i].x, factors[i].y, factors[i].z}) in_pixels("factors of M", v, 0);
+            in_pixels("first product of M", fp_multiply(factors[i].x, factors[i].y, f), 0);
+            in_pixels("M", p.m[i], 0);
+            if (p.m[i].sig != 0) farthest = std::max(farthest, std::abs(p.m[i].exp));
+          }
         }
       }
     EXPECT_GT(pixels, 5'000u);
+    EXPECT_GT(regular, 4'000u);
+    EXPECT_GT(farthest, 15) << "no weight is far from 1";
   }
 }
 

@@ -195,8 +195,8 @@ def weights(suite, v):
                 term = fp.multiply(r[end], denominator(other))
                 m[corner] = fp.sum_of_products((m[corner], fp.one), (term, fp.one))
     else:
-        def ratio(near, far):
-            """Square root of q_far / q_near: numerator, denominator."""
+        def fraction(near, far):
+            """Square root of q_far / q_near: numerator, denominator, before the balance."""
             def cancels(pair):
                 return bool(v["d_negative"][pair]) == (pair < 4)
 
@@ -206,6 +206,12 @@ def weights(suite, v):
             if not cancels(far):
                 return s, area[near]
             return fp.multiply(area[far], u[near]), fp.multiply(area[near], s)
+
+        def ratio(near, far):
+            """The same with exponents that are opposite but for one, beside a zero 0."""
+            num, den = fraction(near, far)
+            distance = num[1] - den[1] if num[2] and den[2] else 0
+            return (num[0], distance // 2, num[2]), (den[0], distance // 2 - distance, den[2])
 
         (an, ad), (bn, bd), (cn, cd) = ratio(0, 2), ratio(3, 1), ratio(4, 5)
         m = [fp.multiply(fp.multiply(x, y), z) for x, y, z in ((an, bn, cn), (an, bd, cd), (ad, bd, cn), (ad, bn, cd))]

@@ -310,8 +310,8 @@ void ratios(Judge& judge, const Vector& t) {
   }
 }
 
-/// M_i = sqrt of the product of q over the pairs without i, up to a common factor, q = r r' + D of an edge, r r' - D of
-/// a diagonal (rtl/README.md section 5). Of pairs without a corner in common only the ratio of the q matters:
+/// M_i = sqrt of the product of q over the pairs without i, up to a common power of two, q = r r' + D of an edge, r r'
+/// - D of a diagonal (rtl/README.md section 5). Of pairs without a corner in common only the ratio of the q matters:
 /// sqrt(q'/q) with q = u, or v²/u where its terms cancel. Truncations of u u', of the two products where both cancel,
 /// and of the two that make M; the table's error in each root. Corners are exact.
 void weights(Judge& judge, const Vector& t) {
@@ -369,6 +369,13 @@ void weights(Judge& judge, const Vector& t) {
     const auto a = ratio(0, 2), b = ratio(3, 1), d = ratio(4, 5);
     const auto product = [&](Span x, Span y, Span z) { return l.cut(l.cut(x * y) * z); };
     m = {product(a[0], b[0], d[0]), product(a[0], b[1], d[1]), product(a[1], b[1], d[0]), product(a[1], b[0], d[1])};
+    // The machine's power of two, by the largest weight.
+    std::size_t largest = 0;
+    for (std::size_t i = 1; i < 4; ++i)
+      if (m[i].hi > m[largest].hi) largest = i;
+    const Real given = value_of(t.out.pixel.m[largest], l.s);
+    const int move = m[largest].hi > 0 && given > 0 ? static_cast<int>(lroundl(log2l(given / m[largest].hi))) : 0;
+    for (Span& v : m) v = {ldexpl(v.lo, move), ldexpl(v.hi, move)};
   }
   for (std::size_t i = 0; i < 4; ++i) check_number(judge, "sig", static_cast<int>(i), t.out.pixel.m[i], m[i], l);
 }

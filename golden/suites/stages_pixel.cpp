@@ -16,7 +16,7 @@ struct Exponents {
   int d_hi;            ///< D and r², from 0
   int root_hi;         ///< of r, from 0
   int u_hi;            ///< r r' + |D|, from 0
-  int m_lo, m_hi;      ///< weights: three factors of two u or v each at most, or a number of the port and two of r
+  int m_lo, m_hi;      ///< weights: within 2^±120, or of two edges a number of the port and two of r
   int sum_lo, sum_hi;  ///< sums: a weight times a number of the port, with cancellation
 
   explicit Exponents(const Config& c) {
@@ -26,8 +26,8 @@ struct Exponents {
     d_hi = c.qval_bits() - 2;
     root_hi = c.qval_bits() / 2;
     u_hi = 2 * root_hi + 2;
-    m_lo = std::min(3 * a_lo, -port - cancelled);
-    m_hi = std::max(3 * (2 * u_hi + 1) + 2, port + 2 * root_hi + 4);
+    m_lo = -port - cancelled;
+    m_hi = port + 2 * root_hi + 4;
     sum_lo = m_lo - port - cancelled;
     sum_hi = m_hi + port + 2;
   }

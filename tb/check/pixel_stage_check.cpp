@@ -234,10 +234,28 @@ class StageCheck {
     const auto v = [&](std::size_t k) { return real(t.v[k]); };
     const auto adds = [&](std::size_t k) { return k < 4 ? t.d[k] >= 0 : t.d[k] < 0; };
     const Number root = real(fp_sqrt(float_of(multiply(u(a), u(b))), context_.sqrt_table, context_.format));
-    if (adds(a) && adds(b)) return {u(b), root};
-    if (adds(a)) return {v(b), root};
-    if (adds(b)) return {root, v(a)};
-    return {multiply(v(b), u(a)), multiply(v(a), root)};
+    if (adds(a) && adds(b)) return balanced(u(b), root);
+    if (adds(a)) return balanced(v(b), root);
+    if (adds(b)) return balanced(root, v(a));
+    return balanced(multiply(v(b), u(a)), multiply(v(a), root));
+  }
+
+  /// Both times one power of two: then the numerator's exponent is half of their difference, rounded down. Beside a
+  /// zero the other's is 0.
+  static std::array<Number, 2> balanced(Number num, Number den) {
+    if (num.zero()) {
+      if (!den.zero()) den.e -= den.exponent();
+      return {num, den};
+    }
+    if (den.zero()) {
+      num.e -= num.exponent();
+      return {num, den};
+    }
+    const int n = num.exponent(), twice = n - den.exponent();
+    const int half = (twice - (twice % 2 != 0 && twice < 0 ? 1 : 0)) / 2;
+    num.e += half - n;
+    den.e += half - n;
+    return {num, den};
   }
 
   /// M_0 : M_1 : M_2 : M_3 = abc : a : c : b with a² = q23/q01, b² = q12/q30, c² = q13/q20.
