@@ -6,8 +6,8 @@
 
 namespace quadrille {
 
-/// 1/a with a's sign; zero gives zero. Error below 1 ulp of S bits (faithful) with the automatic table sizes; exact for
-/// powers of two.
+/// 1/a with a's sign; zero gives zero, a power of two is exact. Error at most 0.81 ulp with automatic tables of degree
+/// 2, below 1 of degree 1 (bounds: rtl/reciprocal.sv).
 inline PipelineFloat reciprocal(const PipelineFloat& a, const Table& table, const SignificandFormat& f) {
   if (a.sig == 0) return {};
   const std::uint32_t fraction = a.sig - (std::uint32_t{1} << (f.s - 1));

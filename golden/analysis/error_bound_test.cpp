@@ -443,6 +443,17 @@ TEST(RangeProof, HoldsWhatThePipelineComputes) {
   }
 }
 
+/// What the headers of sqrt and reciprocal say is proved, in units of 2^-(S-1).
+TEST(TableErrors, AreWithinWhatTheHeadersSay) {
+  for (int s = 8; s <= 26; ++s) {
+    const Config c = with_significand(s);
+    const double unit = std::ldexp(1.0, 1 - s);
+    const TableError root = sqrt_error(c), inverse = reciprocal_error(c);
+    EXPECT_TRUE(std::expm1(root.low) > -1.13 * unit && std::expm1(root.high) < 0.76 * unit) << "s " << s;
+    EXPECT_TRUE(std::expm1(inverse.low) > -0.76 * unit && std::expm1(inverse.high) < 0.65 * unit) << "s " << s;
+  }
+}
+
 /// Every argument: the analysis is never below the truth, and above it by little.
 TEST(TableErrors, HoldForEveryArgument) {
   for (int s = 8; s <= 17; ++s)
