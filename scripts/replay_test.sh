@@ -287,6 +287,13 @@ expect 0 "^tile_context: [0-9]+ vectors, 0 mismatches" "tile_context with droppe
 set=$dropped fault tile_context tile_context.sv "QVAL'(result0_i >> QDROP)" "QVAL'((result0_i + ((OUT'(1) << QDROP) >> 1)) >> QDROP)"
 set=$dropped fault tile_context tile_context.sv "QGRAD'(exact >> QDROP)" "QGRAD'(0) - QGRAD'(minus >> QDROP)"
 set=$dropped fault tile_context tile_context.sv "QCURV'(q >> QDROP)" "QCURV'((q + ((CURV'(1) << QDROP) >> 1)) >> QDROP)"
+# Several pixels a clock: the whole machine, whose fault one lane cannot show.
+if ! $sample; then
+  lanes=$work/lanes
+  "$QUADRILLE" golden generate --level 1 --limit 150 --out "$lanes" --quiet --suite $machine --set pixels_per_clock=4
+  expect 0 "^$machine: [0-9]+ vectors, 0 mismatches" "four lanes" $replay "$lanes" verilator
+  set=$lanes fault $machine pixel_pipeline.sv "dx_i[g*TILE_LOG2+:TILE_LOG2]" "dx_i[(P-1-g)*TILE_LOG2+:TILE_LOG2]" verilator
+fi
 fault coverage inside_expression.sv "(pos2 | pos3)" "(pos2 & pos3)"
 fault forward_difference offset_digits.sv "row_square + dx_square" "row_square + row_square"
 fault forward_difference law_of_cosines.sv "twice[TWICE-1:1]" "QVAL'(sum_q >> 1) - QVAL'(length2_i >> 1)" # rounds otherwise

@@ -34,6 +34,15 @@ Config reduced() {
   return config;
 }
 
+/// Four pixels a clock; few slots, for a machine that is quick to build.
+Config four_lanes() {
+  Config config;
+  config.set("significand_bits", 12);
+  config.set("attribute_slots", 1);
+  config.set("pixels_per_clock", 4);
+  return config;
+}
+
 LockstepOptions options(const Config& config, int edge) {
   LockstepOptions o;
   o.config = config;
@@ -191,12 +200,23 @@ Scenario dropped_bits_signed() {
   return {"dropped bits, signed grid", o, drawn(o, 7, 300, [](golden::Prng& random) { return on_grid(random, 4, w); })};
 }
 
+/// Depth limits discard some of a clock's pixels, stalls fill the fragment FIFO, two of three quads are homogeneous.
+Scenario lanes() {
+  LockstepOptions o = options(four_lanes(), 64);
+  o.state.attributes = 1;
+  o.state.znear = 0.25;
+  o.state.zfar = 0.75;
+  o.stall = 0.6;
+  return {"four lanes", o, random_quads(o.config, o.state, 35, 150)};
+}
+
 }  // namespace
 
 std::span<const Scenario> scenarios() {
   static const std::vector<Scenario> list = [] {
     std::vector<Scenario> all{mixture(),      flat(), grid(),      signed_grid(),  flat_signed_grid(),
-                              depth_limits(), wide(), depth_off(), dropped_bits(), dropped_bits_signed()};
+                              depth_limits(), wide(), depth_off(), dropped_bits(), dropped_bits_signed(),
+                              lanes()};
     const auto add = [&](const Config& config, const std::string& before, golden::CornerDraw draw) {
       for (std::size_t i = 0; i < draw.quads.size(); ++i) draw.quads[i].id = static_cast<std::uint32_t>(i);
       LockstepOptions o = options(config, draw.state.width);

@@ -136,7 +136,8 @@ class Suite:
         """(top module, device, macros with the record widths, macros with capacities)."""
         if self.kind == "machine":
             widths = {"STATE_BITS": self.bits["states"], "VERTEX_BITS": self.position("stimulus", "draw"),
-                      "FRAGMENT_BITS": self.position("response", "clock_stalled")}
+                      "FRAGMENT_BITS": self.position("response", "clock_stalled"),
+                      "LANES": self.config.get("pixels_per_clock", 1)}
             sizes = {"DRAWS": self.lines["states.hex"], "BEATS": self.lines["stimulus.hex"],
                      "FRAGMENTS": self.lines["response.hex"], "STALLS": self.lines["stalls.hex"]}
             return "replay_machine", "quadrille", widths, sizes

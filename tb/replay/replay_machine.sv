@@ -2,7 +2,7 @@
 // every bit of every fragment, their order and number (lane 0 of a clock first), the clock in which each is handed over, the clock in which
 // each vertex beat is taken, and that the machine becomes idle.
 //
-// Macros: REPLAY_STATE_BITS, REPLAY_VERTEX_BITS, REPLAY_FRAGMENT_BITS, and the most lines of each file REPLAY_DRAWS, REPLAY_BEATS,
+// Macros: REPLAY_STATE_BITS, REPLAY_VERTEX_BITS, REPLAY_FRAGMENT_BITS (of a lane), REPLAY_LANES of the fragment port, and the most lines of each file REPLAY_DRAWS, REPLAY_BEATS,
 // REPLAY_FRAGMENTS, REPLAY_STALLS. Plusargs: +suite=NAME, +states= +stimulus= +taken= +response= +stalls=FILE, +draws= +beats= +fragments=
 // +pattern=N (lines of these files). A draw begins when the machine is not busy; clock 0 is the first clock in which its first beat
 // may be offered. Prints the first difference and "NAME: N vectors, M mismatches"; ends with $fatal unless M = 0.
@@ -11,7 +11,7 @@ module replay_machine;
   localparam int STATE = `REPLAY_STATE_BITS;
   localparam int VERTEX = `REPLAY_VERTEX_BITS;
   localparam int FRAGMENT = `REPLAY_FRAGMENT_BITS;
-  localparam int LANES = quadrille_pkg::PIXELS_PER_CLOCK;
+  localparam int LANES = `REPLAY_LANES;
   localparam int SILENCE = 2000000;  // clocks in which nothing moves before the run is given up: more than the longest walk
 
   string suite, states_file, stimulus_file, response_file, stalls_file, taken_file;
