@@ -6,6 +6,7 @@
 #include "model/stamp_coverage.hpp"
 #include "model/tile_context.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <span>
 #include <vector>
@@ -61,7 +62,6 @@ struct WalkUnit {
   struct Step {
     bool push = false;
     TileEntry entry;
-    bool homogeneous = false;
   };
 
   TileWalk walk;
@@ -69,22 +69,27 @@ struct WalkUnit {
   bool finishing = false;     ///< the end entry is on its way
   std::array<Step, 2> way{};  ///< steps on their way to the ring, the last one pushes
 
+  /// The end entry waits to be pushed, and all tiles are in the ring.
+  bool at_end() const { return finishing && way.back().push && way.back().entry.end; }
+  bool ready() const { return walk.state() == TileWalk::State::idle || at_end(); }
+  /// The next quad comes in, once ready(); after clock(), if the walk moves.
+  void take(const SetupResult& setup) {
+    walk.take(setup);
+    finishing = false;
+  }
+
   /// The edge, unless a push waits for the ring.
   void clock() {
-    if (way.back().push && way.back().entry.end) {
+    if (at_end()) {
       walk.advance();
       finishing = false;
     }
     for (std::size_t n = way.size() - 1; n > 0; --n) {
       way[n].push = way[n - 1].push;
-      if (way[n].push) {  // most steps push nothing, and an entry is large
-        way[n].entry = way[n - 1].entry;
-        way[n].homogeneous = way[n - 1].homogeneous;
-      }
+      if (way[n].push) way[n].entry = way[n - 1].entry;  // most steps push nothing, and an entry is large
     }
     Step& step = way.front();
     step.push = false;
-    step.homogeneous = walk.constants().homogeneous;
     if (wait) {
       wait = false;
       return;
@@ -113,33 +118,29 @@ struct WalkUnit {
 
 /// The control half of tile_context: a tile's steps, one a clock, and the words on their way to the ring.
 struct ContextUnit {
-  struct Commit {
-    bool valid = false;
-    bool homogeneous = false;
-  };
-
+  int pairs = 1;  ///< of dot units
   bool active = false, homogeneous = false, end = false;
   int step = 0;
-  std::array<Commit, tile_context_result_clocks> way{};  ///< the last one makes its entry visible
+  std::array<bool, tile_context_result_clocks> way{};  ///< last steps; the last one makes its entry visible
 
-  int last_step() const { return end ? 1 : homogeneous ? tile_context_last_product : 2; }
+  int last_step() const { return end ? 1 : tile_context_last_step(homogeneous, pairs); }
   bool ready() const { return !active || step == last_step(); }
   /// The step is a job for the dot units, which then do none of the setup.
   bool issues() const {
     if (!active || step == 0 || end) return false;
     if (!homogeneous) return true;
-    return step <= 4 || step >= tile_context_first_product;
+    return step <= tile_context_last_move(pairs) || step >= tile_context_first_product;
   }
 
-  /// The edge; an entry (or nullptr) comes in.
-  void clock(const WalkUnit::Step* push) {
+  /// The edge; an entry (or nullptr) comes in, of a homogeneous quad's tile or not.
+  void clock(const TileEntry* push, bool push_homogeneous) {
     for (std::size_t n = way.size() - 1; n > 0; --n) way[n] = way[n - 1];
-    way[0] = {active && step == last_step(), homogeneous && !end};
+    way[0] = active && step == last_step();
     if (active && step++ == last_step()) active = false;
     if (push != nullptr) {
       active = true;
-      homogeneous = push->homogeneous;
-      end = push->entry.end;
+      homogeneous = push_homogeneous;
+      end = push->end;
       step = 0;
     }
   }
@@ -173,42 +174,54 @@ struct VertexAssembly {
   bool full = false;
 };
 
-/// The control half of quad_setup; the bits come from the function of that name at start. A quad comes in and does its
-/// steps; behind it waits the one whose functions are computed, until they are taken.
+/// The control half of quad_setup; the bits come from the function of that name at start. Three quads may be there: one
+/// does its steps (front), of one the results come (sum), one waits complete for the walk (done).
 struct SetupUnit {
-  enum class State { idle, box, prep, run };
+  int pairs = 1;       ///< of dot units
+  int box = 0;         ///< clocks of the bounding box, of the quad in vertex_assembly: 2 when it is there
+  int steps = 0;       ///< left to do
+  bool front = false;  ///< `next` has not moved on
+  bool sum = false;    ///< `summed` has not
+  std::array<bool, quad_setup_result_clocks(2)> ends{};  ///< last steps whose results are on their way
+  bool complete = false;                                 ///< all of `summed` is there
+  bool done = false;                                     ///< `result` is not taken yet
+  SetupResult next, summed, result;
 
-  State state = State::idle;
-  int steps = 0;      ///< left to do, in run
-  SetupResult next;   ///< of the quad in box or prep
-  bool busy = false;  ///< `result` is of a quad that is not taken yet
-  int wait = 0;       ///< clocks until the last step's result is there
-  SetupResult result;
+  /// The last step is done in this clock; the steps wait while the dot units work for a tile.
+  bool ends_run(bool units_taken) const { return steps == 1 && !units_taken; }
+  /// A quad may start: those before it will have moved on when its first result comes.
+  bool ready(bool taken, bool units_taken) const {
+    const bool run_over = steps == 0 || (pairs == 1 && ends_run(units_taken));
+    return box == 2 && run_over && !front && (!sum || !done || taken);
+  }
 
-  bool done() const { return busy && state != State::run && wait == 0; }
-
-  /// The edge; start() comes after it. The steps wait while the dot units work for a tile.
-  void clock(bool taken, bool units_taken) {
-    if (taken) busy = false;
-    if (wait > 0) --wait;
-    switch (state) {
-      case State::idle:
-        break;
-      case State::box:
-        state = State::prep;
-        break;
-      case State::prep:
-        if (busy) break;
-        state = State::run;
-        steps = quad_setup_steps(next.homogeneous);
-        result = next;
-        busy = true;
-        break;
-      case State::run:
-        wait = quad_setup_result_clocks;
-        if (!units_taken && --steps == 0) state = State::idle;
-        break;
+  /// The edge; start() comes after it. `held`: vertex_assembly has a quad.
+  void clock(bool held, bool taken, bool units_taken) {
+    const bool hand_over = complete && (!done || taken);
+    const bool advance = front && (!sum || hand_over);
+    if (taken) done = false;
+    if (hand_over) {
+      result = summed;
+      done = true;
+      sum = false;
     }
+    if (advance) {
+      summed = next;
+      front = false;
+      sum = true;
+    }
+    complete = ends[static_cast<std::size_t>(quad_setup_result_clocks(pairs) - 1)] || (complete && !hand_over);
+    for (std::size_t n = ends.size() - 1; n > 0; --n) ends[n] = ends[n - 1];
+    ends[0] = ends_run(units_taken);
+    if (steps > 0 && !units_taken) --steps;
+    if (box != 0 || held) box = std::min(box + 1, 2);
+  }
+
+  void start(const SetupResult& quad) {
+    next = quad;
+    front = true;
+    steps = quad_setup_steps(quad.homogeneous, pairs);
+    box = 0;
   }
 };
 
@@ -270,14 +283,14 @@ struct ClockedModel::Impl {
   }
 
   // Conditions of this clock, from registered state.
-  bool start() const { return assembly.full && setup.state == SetupUnit::State::idle && in_use < slots.size(); }
-  bool take() const { return setup.done() && walk.walk.state() == TileWalk::State::idle; }
+  bool start() const { return assembly.full && setup.ready(take(), tile_unit.issues()) && in_use < slots.size(); }
+  bool take() const { return setup.done && walk.ready(); }
   bool ring_full(std::uint32_t entries) const { return ((ring_write - ring_tail) & ring_mask) + entries > ring.size(); }
   const TileEntry& ring_at(std::uint32_t pointer) const { return ring[pointer & (ring.size() - 1)]; }
 
   bool walk_push() const {
     const WalkUnit::Step& step = walk.way.back();
-    return step.push && tile_unit.ready() && !ring_full(entries_of(step.homogeneous));
+    return step.push && tile_unit.ready() && !ring_full(entries_of(is_homogeneous(step.entry)));
   }
 
   /// The row that stamp_coverage is at.
@@ -302,10 +315,12 @@ struct ClockedModel::Impl {
     assembly.count = 0;
     assembly.full = false;
     setup = {};
+    setup.pairs = context.config.product_pairs();
     alloc = in_use = 0;
     walk = {};
     walk.walk = TileWalk(context.config, context.state);
     tile_unit = {};
+    tile_unit.pairs = context.config.product_pairs();
     ring_write = ring_complete = ring_tail = 0;
     completed = false;
     coverage = {};
@@ -335,7 +350,7 @@ struct ClockedModel::Impl {
     c.way[0].pointer = c.rows;
     if (issue) c.way[0].stamp = stamp_work();
 
-    const bool rows_done = issue && (c.way[0].stamp.end || c.row == context.config.tile() - 1);
+    const bool rows_done = issue && (c.way[0].stamp.end || c.row == ring_at(c.rows).last_row);
     const bool rows_load = c.context_valid && (!c.rows_valid || rows_done);
     const bool load = c.tag_valid && (!c.context_valid || rows_load);
     const bool fetch = c.fetch != ring_complete && (!c.tag_valid || load);
@@ -428,29 +443,28 @@ struct ClockedModel::Impl {
     handed_over = handing_over;
     clock_stamps(pop);
     const bool units_taken = tile_unit.issues();
-    const ContextUnit::Commit commit = tile_unit.way.back();
-    completed = commit.valid;
+    completed = tile_unit.way.back();
     if (completed) {
       last_completed = ring_complete;
-      ring_complete = (ring_complete + entries_of(commit.homogeneous)) & ring_mask;
+      ring_complete = behind(ring_complete);
     }
-    const WalkUnit::Step& pushed = walk.way.back();
-    tile_unit.clock(push_tile ? &pushed : nullptr);
+    const TileEntry& pushed = walk.way.back().entry;
+    tile_unit.clock(push_tile ? &pushed : nullptr, is_homogeneous(pushed));
     if (push_tile) {
-      ring[ring_write & (ring.size() - 1)] = pushed.entry;
-      ring_write = (ring_write + entries_of(pushed.homogeneous && !pushed.entry.end)) & ring_mask;
+      ring[ring_write & (ring.size() - 1)] = pushed;
+      ring_write = behind(ring_write);
     }
     if (walk_moves) walk.clock();
     if (taking) {
       slots[setup.result.slot].constants = QuadConstants(setup.result);
-      walk.walk.take(setup.result);
+      walk.take(setup.result);
     }
-    setup.clock(taking, units_taken);
+    setup.clock(assembly.full, taking, units_taken);
     if (starting) {
-      setup.next = quad_setup(assembly.quad, context.config, context.state);
-      setup.next.slot = alloc;
-      slots[alloc].data = quad_data(assembly.quad, setup.next, context.config, context.state);
-      setup.state = SetupUnit::State::box;
+      SetupResult result = quad_setup(assembly.quad, context.config, context.state);
+      result.slot = alloc;
+      slots[alloc].data = quad_data(assembly.quad, result, context.config, context.state);
+      setup.start(result);
       alloc = (alloc + 1) % static_cast<std::uint32_t>(slots.size());
       assembly.full = false;
     }

@@ -49,12 +49,15 @@ constexpr std::array entries{
     Entry{{"pixels_per_clock", 1, Config::most_pixels_per_clock, 1, "",
            "lanes of the fragment port: 1, 2 or 4 pixels of a row"},
           &Config::pixels_per_clock},
+    Entry{{"dot_units", 2, 4, 2, "", "multiplier pairs of setup and tile contexts: 2 or 4"}, &Config::dot_units},
     Entry{{"quad_slots_log2", 1, 4, 3, "log2", "quads in flight between setup and their last fragment"},
           &Config::quad_slots_log2},
     Entry{{"tile_slots_log2", 1, 4, 2, "log2", "tile contexts in flight"}, &Config::tile_slots_log2},
     Entry{{"stamp_fifo_log2", 1, 5, 3, "log2", "covered stamps that may wait"}, &Config::stamp_fifo_log2},
     Entry{{"quad_id_bits", 8, 32, 24, "bits", "width of the quad id"}, &Config::quad_id_bits},
 };
+
+static_assert(entries.size() <= Config::most_keys);
 
 constexpr auto key_list = [] {
   std::array<ConfigKey, entries.size()> list{};
@@ -150,6 +153,7 @@ void Config::validate() const {
   require(attribute_frac() <= 30, "attribute_frac_bits exceeds 30");
   require(sqrt_segments() <= significand_bits - 2, "sqrt_segments_log2 must be at most significand_bits - 2");
   require(recip_segments() <= significand_bits - 2, "recip_segments_log2 must be at most significand_bits - 2");
+  require(dot_units != 3, "dot_units = 3; it must be 2 or 4");
   require(tile_log2 < viewport_bits, "tile_log2 must be below viewport_bits");
   require(pixels_per_clock != 3, "pixels_per_clock = 3; it must be 1, 2 or 4");
 }

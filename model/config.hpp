@@ -2,6 +2,7 @@
 // macros QUADRILLE_<KEY> (rtl/quadrille_pkg.sv) and derives its widths itself; a test proves both sides equal.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
@@ -50,11 +51,14 @@ struct Config {
   int depth_bits = 24;
   int tile_log2 = 3;
   int pixels_per_clock = 1;
+  int dot_units = 2;
   int quad_slots_log2 = 3;
   int tile_slots_log2 = 2;
   int stamp_fifo_log2 = 3;
   int quad_id_bits = 24;
 
+  /// At most so many keys: what a user is asked to look through.
+  static constexpr std::size_t most_keys = 32;
   /// The keys in order, with range, default, unit and meaning.
   static std::span<const ConfigKey> keys();
   /// A key by its name, or by the one that it had before (rsqrt_segments_log2, rsqrt_degree); throws ConfigError for an
@@ -91,6 +95,8 @@ struct Config {
   int tc_bits() const { return viewport_bits - tile_log2 + 1; }
   int attr_port_bits() const { return 1 + port_exp_bits + significand_bits; }
   int attr_out_bits() const { return 1 + attribute_int_bits + attribute_frac(); }
+  /// Pairs of dot units: each has a job a clock.
+  int product_pairs() const { return dot_units / 2; }
   int quad_slots() const { return 1 << quad_slots_log2; }
   int tile_slots() const { return 1 << tile_slots_log2; }
   /// The tile ring: as many entries again as tiles in flight, for those on the way from the walk to their first stamp.

@@ -73,6 +73,7 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
     r.tile_y0 = y.lo >> config.tile_log2;
     r.tiles_x = (x.hi >> config.tile_log2) - r.tile_x0 + 1;
     r.tiles_y = (y.hi >> config.tile_log2) - r.tile_y0 + 1;
+    r.last_row = y.hi & (config.tile() - 1);
   }
 
   // Translate to the first tile's origin pixel.
@@ -100,6 +101,9 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
   return r;
 }
 
-int quad_setup_steps(bool homogeneous) { return homogeneous ? 20 : 6; }
+int quad_setup_steps(bool homogeneous, int pairs) {
+  if (pairs == 2) return homogeneous ? 11 : 3;
+  return homogeneous ? 20 : 6;
+}
 
 }  // namespace quadrille

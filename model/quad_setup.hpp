@@ -11,8 +11,10 @@ namespace quadrille {
 /// form of Olano & Greer.
 SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const DrawState& state);
 
-/// Clocks in RUN, and those from the last of them until its result is there: rtl/README.md section 4.
-int quad_setup_steps(bool homogeneous);
-inline constexpr int quad_setup_result_clocks = 6;
+// Clocks: rtl/README.md section 4. `pairs` of dot units.
+/// Steps of a quad, one a clock.
+int quad_setup_steps(bool homogeneous, int pairs);
+/// From the last step until all results are there; with two pairs the reach of the last edge is a clock behind.
+constexpr int quad_setup_result_clocks(int pairs) { return 5 + pairs; }
 
 }  // namespace quadrille

@@ -45,6 +45,7 @@ struct RelativeVertex {
 struct SetupResult {
   std::uint32_t slot = 0;
   int tile_x0 = 0, tile_y0 = 0, tiles_x = 0, tiles_y = 0;
+  int last_row = 0;  ///< last pixel row that may be covered, in its tile
   bool homogeneous = false;
   bool hull = false;         ///< the eye is inside the hull: visibility per pixel
   std::uint8_t visible = 0;  ///< bit 0: clause 1 +, 1: clause 2 +, 2: clause 1 −, 3: clause 2 −
@@ -58,6 +59,7 @@ struct TileEntry {
   bool end = false;
   std::uint32_t slot = 0;
   int tile_x = 0, tile_y = 0;
+  int last_row = 0;                                 ///< the rows below have no covered pixel
   std::array<std::int64_t, linear_count> linear{};  ///< values at the tile's origin pixel
   /// From the tile's origin pixel. An ordinary quad has the squared distances alone (6 to 9): its dot products follow
   /// from them.

@@ -10,11 +10,16 @@ namespace quadrille {
 /// quad the squared distances alone, the rest 0.
 std::array<QuadraticForm, quadratic_count> tile_context(const QuadConstants& quad, int x, int y, int drop);
 
-// Clocks: rtl/README.md section 4. Step 0 moves an ordinary quad's vertices to the tile, steps 1 and 2 are its squares.
+// Clocks: rtl/README.md section 4. Step 0 moves an ordinary quad's vertices to the tile, the next are its squares.
+// `pairs` of dot units.
 /// From a step until its result is in the ring.
 inline constexpr int tile_context_result_clocks = 6;
-/// A homogeneous quad's: steps 1 to 4 move the vertices; the first product, when those of its pair are there; the last.
+/// A homogeneous quad's first product, when the vertices before it are there.
 inline constexpr int tile_context_first_product = 3 + tile_context_result_clocks;
-inline constexpr int tile_context_last_product = tile_context_first_product + 19;
+/// A homogeneous quad's last step with a vertex to move.
+constexpr int tile_context_last_move(int pairs) { return 4 / pairs; }
+constexpr int tile_context_last_step(bool homogeneous, int pairs) {
+  return homogeneous ? tile_context_first_product + 20 / pairs - 1 : 2 / pairs;
+}
 
 }  // namespace quadrille

@@ -46,6 +46,7 @@ TileEntry TileWalk::entry() const {
   const int column = bx_ * Config::block_tiles + tx_, row = by_ * Config::block_tiles + ty_;
   e.tile_x = quad_.tile_x0 + column;
   e.tile_y = quad_.tile_y0 + row;
+  e.last_row = row == quad_.tiles_y - 1 ? quad_.last_row : tile_ - 1;
   e.linear = at_.linear;
   e.quadratic = tile_context(quad_, column * tile_, row * tile_, drop_);
   return e;

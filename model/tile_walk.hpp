@@ -31,7 +31,7 @@ struct QuadConstants {
   std::array<std::uint64_t, linear_count> length2{};  ///< SetupResult::length2
   std::array<bool, 5> tie_pos{}, tie_neg{};
   unsigned visible = 0;
-  int tile_x0 = 0, tile_y0 = 0, tiles_x = 0, tiles_y = 0;
+  int tile_x0 = 0, tile_y0 = 0, tiles_x = 0, tiles_y = 0, last_row = 0;
 
   explicit QuadConstants(const SetupResult& s)
       : homogeneous(s.homogeneous),
@@ -41,7 +41,8 @@ struct QuadConstants {
         tile_x0(s.tile_x0),
         tile_y0(s.tile_y0),
         tiles_x(s.tiles_x),
-        tiles_y(s.tiles_y) {
+        tiles_y(s.tiles_y),
+        last_row(s.last_row) {
     for (std::size_t k = 0; k < linear_count; ++k) {
       gx[k] = s.linear[k].gx;
       gy[k] = s.linear[k].gy;
@@ -77,7 +78,7 @@ class TileWalk {
   State state() const { return state_; }
   const QuadConstants& constants() const { return quad_; }
 
-  /// Loads a quad (state idle).
+  /// Loads a quad, when the one before has no tile left.
   void take(const SetupResult& setup);
   /// The square under test may be drawn: a BLOCK is entered, a TILE is pushed.
   bool hit() const;

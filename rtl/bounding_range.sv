@@ -1,11 +1,12 @@
 // First tile and tile count of a quad along one axis, from its least and greatest coordinate: there the clock after load_i.
 //
 // Ordinary quad: lo = max(ceil(low), scissor0), hi = min(floor(high), scissor1 - 1), in pixels.
-// Homogeneous quad: lo = 0, hi = scissor1 - 1, empty if scissor0 >= scissor1. Empty: both outputs mean nothing.
+// Homogeneous quad: lo = 0, hi = scissor1 - 1, empty if scissor0 >= scissor1. Empty: the other outputs mean nothing.
 module bounding_range #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS
+    localparam int TC = quadrille_pkg::TC_BITS,
+    localparam int TL = quadrille_pkg::TILE_LOG2
 ) (
     input logic clk_i,
     input logic load_i,
@@ -16,10 +17,10 @@ module bounding_range #(
     input logic [V:0] scissor1_i,
     output logic empty_o,
     output logic [TC-1:0] first_o,
-    output logic [TC-1:0] count_o
+    output logic [TC-1:0] count_o,
+    output logic [TL-1:0] last_o  // last pixel, in its tile
 );
   localparam int FRAC = quadrille_pkg::FRAC;
-  localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int IW = T - FRAC;  // whole pixels, signed; two bits more than a guard band position
 
   logic [T-1:0] low_up;
@@ -44,6 +45,7 @@ module bounding_range #(
   end
 
   assign empty_o = ordinary_q ? $signed(lo_q) > $signed(hi_q) : no_scissor_q;
-  assign first_o = TC'(lo_q >> TILE_LOG2);
-  assign count_o = TC'(hi_q >> TILE_LOG2) - first_o + TC'(1);
+  assign first_o = TC'(lo_q >> TL);
+  assign count_o = TC'(hi_q >> TL) - first_o + TC'(1);
+  assign last_o = TL'(hi_q);
 endmodule

@@ -41,6 +41,7 @@ module config_check;
   `QUADRILLE_REQUIRE(quadrille_pkg::TILE_LOG2 >= 2 && quadrille_pkg::TILE_LOG2 <= 4, tile_log2_must_be_2_to_4)
   `QUADRILLE_REQUIRE(quadrille_pkg::PIXELS_PER_CLOCK == 1 || quadrille_pkg::PIXELS_PER_CLOCK == 2 || quadrille_pkg::PIXELS_PER_CLOCK == 4,
       pixels_per_clock_must_be_1_2_or_4)
+  `QUADRILLE_REQUIRE(quadrille_pkg::DOT_UNITS == 2 || quadrille_pkg::DOT_UNITS == 4, dot_units_must_be_2_or_4)
   `QUADRILLE_REQUIRE(quadrille_pkg::QUAD_SLOTS_LOG2 >= 1 && quadrille_pkg::QUAD_SLOTS_LOG2 <= 4, quad_slots_log2_must_be_1_to_4)
   `QUADRILLE_REQUIRE(quadrille_pkg::TILE_SLOTS_LOG2 >= 1 && quadrille_pkg::TILE_SLOTS_LOG2 <= 4, tile_slots_log2_must_be_1_to_4)
   `QUADRILLE_REQUIRE(quadrille_pkg::STAMP_FIFO_LOG2 >= 1 && quadrille_pkg::STAMP_FIFO_LOG2 <= 5, stamp_fifo_log2_must_be_1_to_5)

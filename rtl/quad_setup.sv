@@ -1,7 +1,10 @@
 // Setup of one quad: origin tile, 6 linear functions (value at the origin, first differences), squared lengths of its sides and
-// diagonals, visibility of the clauses. README.md section 4 has the clocks: BOX, PREP, then one job of vertex_products a step, 6
-// (ordinary) or 20 (homogeneous), and 6 clocks until the last one's result is there; done until taken. The next quad comes in and waits
-// in PREP meanwhile.
+// diagonals, visibility of the clauses. README.md section 4 has the clocks: two for the bounding box, while vertex_assembly holds the
+// quad; start; then a step a clock, in which every pair of dot units has a job: 6 steps or, of a homogeneous quad, 20; with two pairs 3 or 11.
+//
+// Three quads may be here, one behind the other: one does its steps (front_*), of one the results come, six clocks after their jobs
+// (sum_*), one waits complete for take_i (the outputs). So the steps go on while results are on their way and while the walk is busy. A
+// quad starts only when those before it will surely have moved on by the time its first result comes.
 //
 // Linear function f: f*VAL_BITS, exact, two's complement. Squared lengths: unsigned, without their QDROP lowest bits.
 // Does not test for a degenerate or culled quad; an empty bounding box gives zero tiles.
@@ -16,12 +19,16 @@ module quad_setup #(
     localparam int RISE = quadrille_pkg::RISE_BITS,
     localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
     localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
+    localparam int TL = quadrille_pkg::TILE_LOG2,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
 ) (
     input logic clk_i,
     input logic rst_ni,
-    // Quad in
+    // Quad in: held until start_i, which needs ready_o
+    input logic held_i,
     input logic start_i,
+    output logic ready_o,
     input logic [SLOT-1:0] slot_i,
     input logic [4*T-1:0] x_i,
     input logic [4*T-1:0] y_i,
@@ -35,21 +42,20 @@ module quad_setup #(
     input logic [V:0] scissor_y0_i,
     input logic [V:0] scissor_x1_i,
     input logic [V:0] scissor_y1_i,
-    output logic idle_o,
-    // Job of vertex_products, its step repeated while wait_i
+    // Jobs of vertex_products, one for each pair of its units; their step is repeated while wait_i
     input logic wait_i,
-    output logic [2:0] kind_o,
-    output logic [3:0] function_o,
+    output logic [PAIRS*3-1:0] kind_o,
+    output logic [PAIRS*4-1:0] function_o,
     output logic [4*T-1:0] x_o,
     output logic [4*T-1:0] y_o,
     output logic [4*W-1:0] w_o,
-    output logic [VAL-1:0] edge_value_o,
-    output logic [GRAD-1:0] edge_gx_o,
-    output logic [GRAD-1:0] edge_gy_o,
-    input logic [RISE-1:0] apart_x_i,
-    input logic [RISE-1:0] apart_y_i,
-    input logic [OUT-1:0] result0_i,
-    input logic [OUT-1:0] result1_i,
+    output logic [PAIRS*VAL-1:0] edge_value_o,
+    output logic [PAIRS*GRAD-1:0] edge_gx_o,
+    output logic [PAIRS*GRAD-1:0] edge_gy_o,
+    input logic [PAIRS*RISE-1:0] apart_x_i,
+    input logic [PAIRS*RISE-1:0] apart_y_i,
+    input logic [PAIRS*OUT-1:0] result0_i,
+    input logic [PAIRS*OUT-1:0] result1_i,
     // Functions out
     input logic take_i,
     output logic done_o,
@@ -58,6 +64,7 @@ module quad_setup #(
     output logic [TC-1:0] tile_y0_o,
     output logic [TC-1:0] tiles_x_o,
     output logic [TC-1:0] tiles_y_o,
+    output logic [TL-1:0] last_row_o,  // last pixel row, in its tile
     output logic homogeneous_o,
     output logic hull_o,
     output logic [3:0] visible_o,
@@ -79,23 +86,23 @@ module quad_setup #(
   localparam int QDROP = quadrille_pkg::QDROP;
   localparam int DET = quadrille_pkg::DET_BITS;
   localparam int CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
-  localparam logic [5:0] LAST_ORDINARY = 6'd5;
-  localparam logic [5:0] LAST_HOMOGENEOUS = 6'd19;
 
-  localparam logic [1:0] IDLE = 2'd0;
-  localparam logic [1:0] BOX = 2'd1;
-  localparam logic [1:0] PREP = 2'd2;
-  localparam logic [1:0] RUN = 2'd3;
-
-  // ---- Bounding box: clamped at start, tiles in BOX -----------------------------------------------------------------------
+  // ---- Bounding box: clamped in the first clock in which the quad is there, its tiles in the second -------------------------
+  localparam logic [1:0] NEW = 2'd0;
+  localparam logic [1:0] CLAMPED = 2'd1;
+  localparam logic [1:0] BOXED = 2'd2;
+  logic [1:0] box_state_q;
   logic empty_x, empty_y, empty;
   logic [TC-1:0] first_x, first_y, count_x, count_y;
+  logic [TL-1:0] last_column, last_row;
+  logic [TC-1:0] box_x0_q, box_y0_q, box_x_q, box_y_q;
+  logic [TL-1:0] box_row_q;
 
   assign empty = empty_x || empty_y;
 
   bounding_range u_range_x (
       .clk_i,
-      .load_i(start_i),
+      .load_i(box_state_q == NEW),
       .low_i(low_x_i),
       .high_i(high_x_i),
       .ordinary_i,
@@ -103,12 +110,13 @@ module quad_setup #(
       .scissor1_i(scissor_x1_i),
       .empty_o(empty_x),
       .first_o(first_x),
-      .count_o(count_x)
+      .count_o(count_x),
+      .last_o(last_column)
   );
 
   bounding_range u_range_y (
       .clk_i,
-      .load_i(start_i),
+      .load_i(box_state_q == NEW),
       .low_i(low_y_i),
       .high_i(high_y_i),
       .ordinary_i,
@@ -116,272 +124,350 @@ module quad_setup #(
       .scissor1_i(scissor_y1_i),
       .empty_o(empty_y),
       .first_o(first_y),
-      .count_o(count_y)
+      .count_o(count_y),
+      .last_o(last_row)
   );
 
-  // ---- State --------------------------------------------------------------------------------------------------------------
-  // The quad that comes in, up to the last step; behind it the one whose functions are computed and taken: busy_q from its first step
-  // until it is taken, wait_q clocks until its last result is there.
-  logic [1:0] state_q;
-  logic [5:0] step_q;
-  logic [SLOT-1:0] slot_q;
-  logic next_ordinary_q, ordinary_q;
-  logic [TC-1:0] box_x0_q, box_y0_q, box_x_q, box_y_q;
-  logic busy_q;
-  logic [2:0] wait_q;
-  logic last, run;
-
-  assign last = step_q == (ordinary_q ? LAST_ORDINARY : LAST_HOMOGENEOUS);
-  assign run = state_q == PREP && (!busy_q || take_i);
-  assign idle_o = state_q == IDLE;
-  assign done_o = busy_q && state_q != RUN && wait_q == '0;
-  assign homogeneous_o = !ordinary_q;
-
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      state_q <= IDLE;
-      step_q <= '0;
-      busy_q <= 1'b0;
-      wait_q <= '0;
-    end else begin
-      case (state_q)
-        IDLE: if (start_i) state_q <= BOX;
-        BOX: state_q <= PREP;
-        PREP: if (run) state_q <= RUN;
-        default: if (last && !wait_i) state_q <= IDLE;
-      endcase
-      step_q <= (state_q != RUN) ? '0 : step_q + 6'(!wait_i);
-      busy_q <= run || (busy_q && !take_i);
-      if (state_q == RUN) wait_q <= 3'(CLOCKS);
-      else if (wait_q != '0) wait_q <= wait_q - 3'd1;
-    end
+    if (!rst_ni || start_i) box_state_q <= NEW;
+    else if (box_state_q == NEW) box_state_q <= held_i ? CLAMPED : NEW;
+    else box_state_q <= BOXED;
   end
 
   always_ff @(posedge clk_i) begin
-    if (start_i) begin
-      next_ordinary_q <= ordinary_i;
-      slot_q <= slot_i;
-    end
-    if (state_q == BOX) begin
+    if (box_state_q == CLAMPED) begin
       box_x0_q <= empty ? '0 : first_x;
       box_y0_q <= empty ? '0 : first_y;
       box_x_q <= empty ? '0 : count_x;
       box_y_q <= empty ? '0 : count_y;
-    end
-    if (run) begin
-      ordinary_q <= next_ordinary_q;
-      slot_o <= slot_q;
-      tile_x0_o <= box_x0_q;
-      tile_y0_o <= box_y0_q;
-      tiles_x_o <= box_x_q;
-      tiles_y_o <= box_y_q;
+      box_row_q <= last_row;
     end
   end
 
-  // ---- Vertices, moved to the origin pixel in PREP (a shift: W = ONE or the origin is 0) -----------------------------------
+  // ---- The three quads ----------------------------------------------------------------------------------------------------
+  logic run_q;  // steps are left
+  logic [4:0] step_q;
+  logic front_q;  // what goes with the quad of the steps has not moved on yet
+  logic sum_q;  // results are of a quad that is not among the outputs yet
+  logic complete_q;  // all are there
+  logic last, run_end, advance, hand_over;
+
+  // The step is the last one, and done. With one pair of units the next quad's first result then comes in the very clock after the last of
+  // this one; with two pairs a function's reach is a clock behind, so that the steps pause for one.
+  assign run_end = run_q && last && !wait_i;
+  assign advance = front_q && (!sum_q || hand_over);
+  assign hand_over = complete_q && (!done_o || take_i);
+  assign ready_o = box_state_q == BOXED && (!run_q || (PAIRS == 1 && run_end)) && !front_q && (!sum_q || !done_o || take_i);
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      run_q <= 1'b0;
+      front_q <= 1'b0;
+      sum_q <= 1'b0;
+      done_o <= 1'b0;
+    end else begin
+      run_q <= start_i || (run_q && !run_end);
+      front_q <= start_i || (front_q && !advance);
+      sum_q <= advance || (sum_q && !hand_over);
+      done_o <= hand_over || (done_o && !take_i);
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (start_i) step_q <= '0;
+    else step_q <= step_q + 5'(!wait_i);
+  end
+
+  // ---- What goes with a quad: slot, tiles, vertices relative to the origin pixel (a shift: W = ONE or the origin is 0) --------
+  localparam int PLACE = SLOT + 4 * TC + TL + 1 + 4 * (2 * T + W);
   logic [T-1:0] origin_x, origin_y;
+  logic front_ordinary_q, sum_ordinary;
+  logic [SLOT-1:0] front_slot_q;
+  logic [4*TC-1:0] front_tiles_q;
+  logic [TL-1:0] front_row_q;
   logic [4*T-1:0] tx_q, ty_q;
   logic [4*W-1:0] w_q;
+  logic [PLACE-1:0] sum_place_q;
 
-  assign origin_x = T'(box_x0_q) << (quadrille_pkg::TILE_LOG2 + FRAC);
-  assign origin_y = T'(box_y0_q) << (quadrille_pkg::TILE_LOG2 + FRAC);
+  assign origin_x = T'(box_x0_q) << (TL + FRAC);
+  assign origin_y = T'(box_y0_q) << (TL + FRAC);
+  assign sum_ordinary = sum_place_q[PLACE-1];
+
+  always_ff @(posedge clk_i) begin
+    if (start_i) begin
+      front_ordinary_q <= ordinary_i;
+      front_slot_q <= slot_i;
+      front_tiles_q <= {box_x0_q, box_y0_q, box_x_q, box_y_q};
+      front_row_q <= box_row_q;
+      w_q <= w_i;
+    end
+    if (advance) sum_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, tx_q, ty_q, w_q};
+    if (hand_over) begin
+      {slot_o, tile_x0_o, tile_y0_o, tiles_x_o, tiles_y_o, last_row_o, vertex_x_o, vertex_y_o, vertex_w_o} <= sum_place_q[PLACE-2:0];
+      homogeneous_o <= !sum_ordinary;
+    end
+  end
 
   for (genvar g = 0; g < 4; g++) begin : gen_vertex
     always_ff @(posedge clk_i) begin
       if (start_i) begin
-        tx_q[g*T+:T] <= x_i[g*T+:T];
-        ty_q[g*T+:T] <= y_i[g*T+:T];
-        w_q[g*W+:W] <= w_i[g*W+:W];
-      end else if (run) begin
-        tx_q[g*T+:T] <= tx_q[g*T+:T] - origin_x;
-        ty_q[g*T+:T] <= ty_q[g*T+:T] - origin_y;
+        tx_q[g*T+:T] <= x_i[g*T+:T] - origin_x;
+        ty_q[g*T+:T] <= y_i[g*T+:T] - origin_y;
       end
     end
   end
 
-  always_ff @(posedge clk_i) if (state_q == RUN) {vertex_x_o, vertex_y_o, vertex_w_o} <= {tx_q, ty_q, w_q};
-
   // ---- Steps --------------------------------------------------------------------------------------------------------------
-  // An edge function and its pair's squared length a step. An ordinary quad needs no product for the gradients, and no determinant. A
-  // determinant, vector times vector, takes two steps: by then its edge function has its gradients.
-  localparam logic [5:0] EDGE_END = 6'd6;
-  localparam logic [5:0] GRADIENT_END = 6'd12;
+  // Of an ordinary quad the edge functions and with each its pair's squared length; its gradients need no product. Of a homogeneous quad
+  // each edge function's gradient, then its value; then the determinants, vector times vector, in two steps, gradient and value. By then
+  // its edge function has both: with two pairs of units a step without a job is needed. In a step pair p of the units has function
+  // PAIRS group + p, or the determinant (4 / PAIRS) p + group.
+  localparam logic [4:0] LAST_ORDINARY = 5'(6 / PAIRS - 1);
+  localparam logic [4:0] FUNCTIONS_END = 5'(12 / PAIRS);
+  localparam logic [4:0] DETERMINANTS = (PAIRS == 1) ? 5'd12 : 5'd7;
+  localparam logic [4:0] LAST_HOMOGENEOUS = DETERMINANTS + 5'(8 / PAIRS - 1);
 
   logic is_edge, is_gradient, is_det;
-  logic [2:0] det_step;  // 2 (determinant) + half
-  logic [1:0] det_edge, det_vertex;  // d_012 = E01 . V2, d_023 = E23 . V0, d_123 = E12 . V3, d_013 = E30 . V1
+  logic [4:0] det_step;  // 2 group + half
+  logic [2:0] group;
 
-  assign is_edge = step_q < EDGE_END;
-  assign is_gradient = !is_edge && step_q < GRADIENT_END;
-  assign is_det = step_q >= GRADIENT_END;
-  assign det_step = step_q[2:0] - GRADIENT_END[2:0];
-
-  always_comb begin
-    case (det_step[2:1])
-      2'd0: {det_edge, det_vertex} = {2'd0, 2'd2};
-      2'd1: {det_edge, det_vertex} = {2'd2, 2'd0};
-      2'd2: {det_edge, det_vertex} = {2'd1, 2'd3};
-      default: {det_edge, det_vertex} = {2'd3, 2'd1};
-    endcase
-  end
-
-  always_comb begin
-    if (is_edge) begin
-      kind_o = quadrille_pkg::EDGE;
-      function_o = step_q[3:0];
-    end else if (is_gradient) begin
-      kind_o = quadrille_pkg::EDGE_GRADIENT;
-      function_o = step_q[3:0] - EDGE_END[3:0];
-    end else begin
-      kind_o = det_step[0] ? quadrille_pkg::DET_GRADIENT : quadrille_pkg::DET_VALUE;
-      function_o = 4'd6 + 4'(det_vertex);  // the pair of the vertex with itself
-    end
-  end
+  assign last = step_q == (front_ordinary_q ? LAST_ORDINARY : LAST_HOMOGENEOUS);
+  assign is_edge = front_ordinary_q || (step_q < FUNCTIONS_END && step_q[0]);
+  assign is_gradient = !front_ordinary_q && step_q < FUNCTIONS_END && !step_q[0];
+  assign is_det = !front_ordinary_q && step_q >= DETERMINANTS;
+  assign det_step = step_q - DETERMINANTS;
+  assign group = front_ordinary_q ? step_q[2:0] : step_q[3:1];
 
   assign x_o = tx_q;
   assign y_o = ty_q;
   assign w_o = w_q;
 
-  one_of_four #(.WIDTH(VAL)) u_edge_value (
-      .words_i(lin_value_o[4*VAL-1:0]),
-      .index_i(det_edge),
-      .word_o(edge_value_o)
-  );
-  one_of_four #(.WIDTH(GRAD)) u_edge_gx (
-      .words_i(lin_gx_o[4*GRAD-1:0]),
-      .index_i(det_edge),
-      .word_o(edge_gx_o)
-  );
-  one_of_four #(.WIDTH(GRAD)) u_edge_gy (
-      .words_i(lin_gy_o[4*GRAD-1:0]),
-      .index_i(det_edge),
-      .word_o(edge_gy_o)
-  );
+  localparam int EDGE_WIDTH = VAL + 2 * GRAD;
+  logic [6*VAL-1:0] lin_value_q;
+  logic [6*GRAD-1:0] lin_gx_q, lin_gy_q;
+  logic [4*EDGE_WIDTH-1:0] edges;
+
+  for (genvar g = 0; g < 4; g++) begin : gen_edge
+    assign edges[g*EDGE_WIDTH+:EDGE_WIDTH] = {lin_value_q[g*VAL+:VAL], lin_gx_q[g*GRAD+:GRAD], lin_gy_q[g*GRAD+:GRAD]};
+  end
+
+  for (genvar p = 0; p < PAIRS; p++) begin : gen_job
+    logic [1:0] determinant, det_edge, det_vertex;  // d_012 = E01 . V2, d_023 = E23 . V0, d_123 = E12 . V3, d_013 = E30 . V1
+
+    assign determinant = (PAIRS == 1) ? det_step[2:1] : {1'(p), det_step[1]};
+
+    always_comb begin
+      case (determinant)
+        2'd0: {det_edge, det_vertex} = {2'd0, 2'd2};
+        2'd1: {det_edge, det_vertex} = {2'd2, 2'd0};
+        2'd2: {det_edge, det_vertex} = {2'd1, 2'd3};
+        default: {det_edge, det_vertex} = {2'd3, 2'd1};
+      endcase
+    end
+
+    assign kind_o[p*3+:3] = is_det ? (det_step[0] ? quadrille_pkg::DET_VALUE : quadrille_pkg::DET_GRADIENT) :
+        is_edge ? quadrille_pkg::EDGE : quadrille_pkg::EDGE_GRADIENT;
+    // of a determinant the pair of the vertex with itself
+    assign function_o[p*4+:4] = is_det ? 4'd6 + 4'(det_vertex) : 4'(PAIRS) * 4'(group) + 4'(p);
+
+    one_of_four #(.WIDTH(EDGE_WIDTH)) u_edge (
+        .words_i(edges),
+        .index_i(det_edge),
+        .word_o({edge_value_o[p*VAL+:VAL], edge_gx_o[p*GRAD+:GRAD], edge_gy_o[p*GRAD+:GRAD]})
+    );
+  end
 
   // ---- Gradients of an ordinary quad: differences of coordinates, which wait beside the products of the value's job ----------
   // gx = Ty_i - Ty_j, gy = Tx_j - Tx_i, both times 2^FRAC.
-  logic [RISE-1:0] apart_x, apart_y;
+  logic [PAIRS*RISE-1:0] apart_x, apart_y;
 
-  delay_line #(.WIDTH(2 * RISE), .DEPTH(CLOCKS - 1)) u_apart (
+  delay_line #(.WIDTH(2 * PAIRS * RISE), .DEPTH(CLOCKS - 1)) u_apart (
       .clk_i,
       .data_i({apart_x_i, apart_y_i}),
       .data_o({apart_x, apart_y})
   );
 
-  // ---- What the job is whose results are there ------------------------------------------------------------------------------
-  localparam int JOB = 3 + 4 + 1;
-  logic edge_job, gradient_job, det_job, det_second;
-  logic [3:0] dest;
+  // ---- What the jobs are whose results are there ----------------------------------------------------------------------------
+  localparam int JOB = 3 + 3 + 1 + 1;
+  logic step_done;
+  logic edge_job, gradient_job, det_job, det_second, ordinary_job;
+  logic [2:0] job_group;
   logic [JOB-1:0] job;
   logic [CLOCKS*JOB-1:0] job_q;
 
-  assign job = {{3{state_q == RUN && !wait_i}} & {is_edge, is_gradient, is_det}, function_o, det_step[0]};
-  assign {edge_job, gradient_job, det_job, dest, det_second} = job_q[CLOCKS*JOB-1-:JOB];
+  assign step_done = run_q && !wait_i;
+  assign job = {{3{step_done}} & {is_edge, is_gradient, is_det}, group, det_step[0], front_ordinary_q};
+  assign {edge_job, gradient_job, det_job, job_group, det_second, ordinary_job} = job_q[CLOCKS*JOB-1-:JOB];
+
+  // From a quad's last step until all is there: its result, with two pairs of units also the reach of its last edge.
+  localparam int END_CLOCKS = CLOCKS + PAIRS - 1;
+  logic [END_CLOCKS-1:0] end_q;
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) job_q <= '0;
-    else job_q <= {job_q[(CLOCKS-1)*JOB-1:0], job};
+    if (!rst_ni) begin
+      job_q <= '0;
+      end_q <= '0;
+      complete_q <= 1'b0;
+    end else begin
+      job_q <= {job_q[(CLOCKS-1)*JOB-1:0], job};
+      end_q <= {end_q[END_CLOCKS-2:0], run_end};
+      complete_q <= end_q[END_CLOCKS-1] || (complete_q && !hand_over);
+    end
   end
 
   // ---- Destinations: functions load from few buses -------------------------------------------------------------------------
-  logic [VAL-1:0] value;
-  logic [LENGTH2-1:0] length2;
-  logic [GRAD-1:0] gx, gy;
-  logic load_gradient;
+  logic load_gradient, load_reach_q;
+  logic [2:0] reach_group_q;
 
-  assign value = VAL'(result0_i);
-  assign length2 = LENGTH2'(result1_i >> QDROP);
-  assign gx = ordinary_q ? GRAD'($signed(apart_y)) << FRAC : GRAD'(result0_i);
-  assign gy = ordinary_q ? GRAD'($signed(apart_x)) << FRAC : GRAD'(result1_i);
-  assign load_gradient = ordinary_q ? edge_job : gradient_job;
-
-  logic tie_pos, tie_neg;
-  logic [REACH-1:0] fall_tile, rise_tile, fall_block, rise_block;
-
-  // The reach of a function whose gradient was loaded in the clock before.
-  logic load_reach_q;
-  logic [3:0] reach_dest_q;
-  logic [GRAD-1:0] reach_gx_q, reach_gy_q;
+  assign load_gradient = gradient_job || (edge_job && ordinary_job);
 
   always_ff @(posedge clk_i) begin
     load_reach_q <= load_gradient;
-    {reach_dest_q, reach_gx_q, reach_gy_q} <= {dest, gx, gy};
+    reach_group_q <= job_group;
   end
 
-  edge_reach u_reach (
-      .gx_i(reach_gx_q),
-      .gy_i(reach_gy_q),
-      .tie_pos_o(tie_pos),
-      .tie_neg_o(tie_neg),
-      .fall_tile_o(fall_tile),
-      .rise_tile_o(rise_tile),
-      .fall_block_o(fall_block),
-      .rise_block_o(rise_block)
-  );
+  for (genvar p = 0; p < PAIRS; p++) begin : gen_result
+    logic [OUT-1:0] result0, result1;
+    logic [VAL-1:0] value;
+    logic [LENGTH2-1:0] length2;
+    logic [GRAD-1:0] gx, gy;
+    logic tie_pos, tie_neg;
+    logic [REACH-1:0] fall_tile, rise_tile, fall_block, rise_block;
+    logic [GRAD-1:0] reach_gx_q, reach_gy_q;
+
+    assign result0 = result0_i[p*OUT+:OUT];
+    assign result1 = result1_i[p*OUT+:OUT];
+    assign value = VAL'(result0);
+    assign length2 = LENGTH2'(result1 >> QDROP);
+    assign gx = ordinary_job ? GRAD'($signed(apart_y[p*RISE+:RISE])) << FRAC : GRAD'(result0);
+    assign gy = ordinary_job ? GRAD'($signed(apart_x[p*RISE+:RISE])) << FRAC : GRAD'(result1);
+
+    // The reach of a function whose gradient was loaded in the clock before.
+    always_ff @(posedge clk_i) {reach_gx_q, reach_gy_q} <= {gx, gy};
+
+    edge_reach u_reach (
+        .gx_i(reach_gx_q),
+        .gy_i(reach_gy_q),
+        .tie_pos_o(tie_pos),
+        .tie_neg_o(tie_neg),
+        .fall_tile_o(fall_tile),
+        .rise_tile_o(rise_tile),
+        .fall_block_o(fall_block),
+        .rise_block_o(rise_block)
+    );
+
+    logic unused;
+    assign unused = ^{result0, result1};  // the upper bits, in small configurations
+  end
+
+  localparam int REACHES = 2 + 4 * REACH;
+  logic [6*LENGTH2-1:0] length2_q;
 
   for (genvar g = 0; g < 6; g++) begin : gen_function
+    localparam int P = g % PAIRS;
+    localparam logic [2:0] GROUP = 3'(g / PAIRS);
+
     always_ff @(posedge clk_i) begin
-      if (edge_job && dest == g) begin
-        lin_value_o[g*VAL+:VAL] <= value;
-        length2_o[g*LENGTH2+:LENGTH2] <= length2;
+      if (edge_job && job_group == GROUP) begin
+        lin_value_q[g*VAL+:VAL] <= gen_result[P].value;
+        length2_q[g*LENGTH2+:LENGTH2] <= gen_result[P].length2;
       end
-      if (load_gradient && dest == g) begin
-        lin_gx_o[g*GRAD+:GRAD] <= gx;
-        lin_gy_o[g*GRAD+:GRAD] <= gy;
+      if (load_gradient && job_group == GROUP) begin
+        lin_gx_q[g*GRAD+:GRAD] <= gen_result[P].gx;
+        lin_gy_q[g*GRAD+:GRAD] <= gen_result[P].gy;
+      end
+      if (hand_over) begin
+        lin_value_o[g*VAL+:VAL] <= lin_value_q[g*VAL+:VAL];
+        length2_o[g*LENGTH2+:LENGTH2] <= length2_q[g*LENGTH2+:LENGTH2];
+        lin_gx_o[g*GRAD+:GRAD] <= lin_gx_q[g*GRAD+:GRAD];
+        lin_gy_o[g*GRAD+:GRAD] <= lin_gy_q[g*GRAD+:GRAD];
       end
     end
 
     if (g < 5) begin : gen_reach  // not of the diagonal 13, which is no edge of a clause
+      logic [REACHES-1:0] reach_q;
+
       always_ff @(posedge clk_i) begin
-        if (load_reach_q && reach_dest_q == g) begin
-          tie_pos_o[g] <= tie_pos;
-          tie_neg_o[g] <= tie_neg;
-          fall_tile_o[g*REACH+:REACH] <= fall_tile;
-          rise_tile_o[g*REACH+:REACH] <= rise_tile;
-          fall_block_o[g*REACH+:REACH] <= fall_block;
-          rise_block_o[g*REACH+:REACH] <= rise_block;
+        if (load_reach_q && reach_group_q == GROUP) begin
+          reach_q <= {
+            gen_result[P].tie_pos,
+            gen_result[P].tie_neg,
+            gen_result[P].fall_tile,
+            gen_result[P].rise_tile,
+            gen_result[P].fall_block,
+            gen_result[P].rise_block
+          };
+        end
+        if (hand_over) begin
+          {
+            tie_pos_o[g],
+            tie_neg_o[g],
+            fall_tile_o[g*REACH+:REACH],
+            rise_tile_o[g*REACH+:REACH],
+            fall_block_o[g*REACH+:REACH],
+            rise_block_o[g*REACH+:REACH]
+          } <= reach_q;
         end
       end
     end
   end
 
-  logic unused;
-  assign unused = ^{result0_i, result1_i};  // the upper bits, in small configurations
+  // ---- Determinants d_012, d_023, d_123, d_013, a pair of units' own one after the other in one accumulator ------------------
+  localparam int DETS = 4 / PAIRS;
+  logic [3:0] negative, zero, positive;
 
-  // ---- Determinants d_012, d_023, d_123, d_013, one after the other in one accumulator ---------------------------------------
-  logic [DET-1:0] det_q;
-  logic [2:0] det_neg_q, det_zero_q;  // of those before the last, the latest at bit 0
-  logic det_neg, det_zero;
+  for (genvar p = 0; p < PAIRS; p++) begin : gen_determinant
+    logic [DET-1:0] det_q;
+    logic [DETS-2:0] det_neg_q, det_zero_q;  // of those before the last, the latest at bit 0
+    logic det_neg, det_zero;
 
-  assign det_neg = det_q[DET-1];
-  assign det_zero = det_q == '0;
+    assign det_neg = det_q[DET-1];
+    assign det_zero = det_q == '0;
 
-  always_ff @(posedge clk_i) begin
-    if (det_job) begin
-      det_q <= (det_second ? det_q : '0) + DET'($signed(result0_i)) + (DET'($signed(result1_i)) << 32);
-      if (!det_second) begin
-        det_neg_q <= {det_neg_q[1:0], det_neg};
-        det_zero_q <= {det_zero_q[1:0], det_zero};
+    always_ff @(posedge clk_i) begin
+      if (det_job) begin
+        det_q <= (det_second ? det_q : '0) + DET'($signed(result0_i[p*OUT+:OUT])) + (DET'($signed(result1_i[p*OUT+:OUT])) << 32);
+        if (!det_second) begin
+          det_neg_q <= (DETS - 1)'({det_neg_q, det_neg});
+          det_zero_q <= (DETS - 1)'({det_zero_q, det_zero});
+        end
       end
+    end
+
+    assign negative[p*DETS+DETS-1] = det_neg;
+    assign zero[p*DETS+DETS-1] = det_zero;
+
+    for (genvar k = 0; k < DETS - 1; k++) begin : gen_before
+      assign negative[p*DETS+k] = det_neg_q[DETS-2-k];
+      assign zero[p*DETS+k] = det_zero_q[DETS-2-k];
     end
   end
 
-  logic [3:0] negative, zero, positive;
   logic some_pos, some_neg;  // among d_123, -d_023, d_013, -d_012
+  logic hull;
 
-  assign negative = {det_neg, det_neg_q[0], det_neg_q[1], det_neg_q[2]};
-  assign zero = {det_zero, det_zero_q[0], det_zero_q[1], det_zero_q[2]};
   assign positive = ~negative & ~zero;
   assign some_pos = positive[2] || negative[1] || positive[3] || negative[0];
   assign some_neg = negative[2] || positive[1] || negative[3] || positive[0];
-  assign hull_o = !ordinary_q && !(some_pos && some_neg);
-  assign visible_o = (ordinary_q || hull_o) ? 4'b1111 : {negative[1:0], positive[1:0]};
+  assign hull = !sum_ordinary && !(some_pos && some_neg);
+
+  always_ff @(posedge clk_i) begin
+    if (hand_over) begin
+      hull_o <= hull;
+      visible_o <= (sum_ordinary || hull) ? 4'b1111 : {negative[1:0], positive[1:0]};
+    end
+  end
+
+  logic unused;
+  assign unused = ^{last_column, det_step[4:3]};
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      assert (!start_i || idle_o);
+      assert (!start_i || (held_i && ready_o));
       assert (!take_i || done_o);
+      assert (!(edge_job || gradient_job || det_job) || sum_q || advance);  // results have a quad
+      assert (!(edge_job || gradient_job || det_job) || !complete_q || hand_over);  // and do not overwrite one that waits
     end
   end
 `endif

@@ -112,20 +112,23 @@ module quadrille (
 
   // ---- Setup, and the multipliers that it shares with the tiles -----------------------------------------------------------
   logic context_job;
-  logic [2:0] setup_kind, context_kind;
-  logic [3:0] setup_function, context_function;
+  localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS;
+  localparam int BUSES = quadrille_pkg::CONTEXT_BUSES;
+  logic [PAIRS*3-1:0] setup_kind, context_kind;
+  logic [PAIRS*4-1:0] setup_function, context_function;
   logic [4*T-1:0] setup_job_x, setup_job_y, context_x, context_y;
   logic [4*W-1:0] setup_job_w, context_w;
   logic [V:0] offset_x, offset_y;
-  logic [VAL-1:0] edge_value;
-  logic [GRAD-1:0] edge_gx, edge_gy;
-  logic [T-1:0] xi, yi, xj, yj;
-  logic [RISE-1:0] apart_x, apart_y;
-  logic [OUT-1:0] result0, result1;
-  logic setup_idle, setup_done, take;
+  logic [PAIRS*VAL-1:0] edge_value;
+  logic [PAIRS*GRAD-1:0] edge_gx, edge_gy;
+  logic [PAIRS*T-1:0] xi, yi, xj, yj;
+  logic [PAIRS*RISE-1:0] apart_x, apart_y;
+  logic [PAIRS*OUT-1:0] result0, result1;
+  logic setup_ready, setup_done, take;
   logic slot_available, slots_busy, fragments_busy, slot_release, stamp_load;
   logic [SLOT-1:0] alloc_slot, setup_slot;
   logic [TC-1:0] tile_x0, tile_y0, tiles_x, tiles_y;
+  logic [TILE_LOG2-1:0] setup_last_row;
   logic homogeneous, hull;
   logic [3:0] visible;
   logic [6*VAL-1:0] setup_lin_value;
@@ -136,13 +139,15 @@ module quadrille (
   logic [4*T-1:0] setup_x, setup_y;
   logic [4*W-1:0] setup_w;
 
-  assign start = full && setup_idle && slot_available;
+  assign start = full && setup_ready && slot_available;
   assign busy_o = assembly_busy || slots_busy || fragments_busy;
 
   quad_setup u_setup (
       .clk_i,
       .rst_ni,
+      .held_i(full),
       .start_i(start),
+      .ready_o(setup_ready),
       .slot_i(alloc_slot),
       .x_i(quad_x),
       .y_i(quad_y),
@@ -156,7 +161,6 @@ module quadrille (
       .scissor_y0_i(state.scissor_y0),
       .scissor_x1_i(state.scissor_x1),
       .scissor_y1_i(state.scissor_y1),
-      .idle_o(setup_idle),
       .wait_i(context_job),
       .kind_o(setup_kind),
       .function_o(setup_function),
@@ -177,6 +181,7 @@ module quadrille (
       .tile_y0_o(tile_y0),
       .tiles_x_o(tiles_x),
       .tiles_y_o(tiles_y),
+      .last_row_o(setup_last_row),
       .homogeneous_o(homogeneous),
       .hull_o(hull),
       .visible_o(visible),
@@ -302,6 +307,7 @@ module quadrille (
   logic ring_full, context_ready, tile_push, tile_end, tile_homogeneous;
   logic [SLOT-1:0] tile_slot;
   logic [TC-1:0] tile_x, tile_y, tile_column, tile_row;
+  logic [TILE_LOG2-1:0] tile_last_row;
   logic [6*VAL-1:0] tile_lin_value;
 
   tile_walk u_walk (
@@ -316,6 +322,7 @@ module quadrille (
       .tile_y0_i(tile_y0),
       .tiles_x_i(tiles_x),
       .tiles_y_i(tiles_y),
+      .last_row_i(setup_last_row),
       .visible_i(visible),
       .lin_value_i(setup_lin_value),
       .lin_gx_i(setup_lin_gx),
@@ -332,15 +339,16 @@ module quadrille (
       .tile_y_o(tile_y),
       .column_o(tile_column),
       .row_o(tile_row),
+      .last_row_o(tile_last_row),
       .lin_value_o(tile_lin_value)
   );
 
   // ---- Quadratic functions of a tile --------------------------------------------------------------------------------------
   logic [RING-1:0] tile_entry, value_entry, gradient_entry, q_entry;
   logic [3:0] value_write, gradient_write, q_write;
-  logic [2*QVAL-1:0] word_value;
-  logic [2*QGRAD-1:0] word_gx, word_gy;
-  logic [QCURV-1:0] word_q;
+  logic [BUSES*QVAL-1:0] word_value;
+  logic [BUSES*QGRAD-1:0] word_gx, word_gy;
+  logic [PAIRS*QCURV-1:0] word_q;
   logic complete, complete_homogeneous;
 
   tile_context u_context (
@@ -392,6 +400,7 @@ module quadrille (
   logic emit_end;
   logic [1:0] emit_part;
   logic [TC-1:0] stamp_tile_x, stamp_tile_y, emit_tile_x, emit_tile_y;
+  logic [TILE_LOG2-1:0] stamp_last_row;
   logic [5*VAL-1:0] stamp_lin_value;
   logic [6*VAL-1:0] emit_lin_value;
   logic [4*QVAL-1:0] emit_quad_value;
@@ -409,6 +418,7 @@ module quadrille (
       .slot_i(tile_slot),
       .tile_x_i(tile_x),
       .tile_y_i(tile_y),
+      .last_row_i(tile_last_row),
       .lin_value_i(tile_lin_value),
       .value_write_i(value_write),
       .value_entry_i(value_entry),
@@ -431,6 +441,7 @@ module quadrille (
       .stamp_slot_o(stamp_slot),
       .stamp_tile_x_o(stamp_tile_x),
       .stamp_tile_y_o(stamp_tile_y),
+      .stamp_last_row_o(stamp_last_row),
       .load_i(stamp_load),
       .load_ptr_i(load_ptr),
       .stamp_lin_value_o(stamp_lin_value),
@@ -477,6 +488,7 @@ module quadrille (
       .homogeneous_i(stamp_homogeneous),
       .tile_x_i(stamp_tile_x),
       .tile_y_i(stamp_tile_y),
+      .last_row_i(stamp_last_row),
       .load_o(stamp_load),
       .load_ptr_o(load_ptr),
       .lin_value_i(stamp_lin_value),

@@ -63,6 +63,9 @@
 `ifndef QUADRILLE_PIXELS_PER_CLOCK
 `define QUADRILLE_PIXELS_PER_CLOCK 1
 `endif
+`ifndef QUADRILLE_DOT_UNITS
+`define QUADRILLE_DOT_UNITS 2
+`endif
 `ifndef QUADRILLE_QUAD_SLOTS_LOG2
 `define QUADRILLE_QUAD_SLOTS_LOG2 3
 `endif
@@ -93,6 +96,7 @@ package quadrille_pkg;
   localparam int DEPTH_BITS /*verilator public*/ = `QUADRILLE_DEPTH_BITS;
   localparam int TILE_LOG2 /*verilator public*/ = `QUADRILLE_TILE_LOG2;
   localparam int PIXELS_PER_CLOCK /*verilator public*/ = `QUADRILLE_PIXELS_PER_CLOCK;
+  localparam int DOT_UNITS /*verilator public*/ = `QUADRILLE_DOT_UNITS;
   localparam int QUAD_SLOTS_LOG2 /*verilator public*/ = `QUADRILLE_QUAD_SLOTS_LOG2;
   localparam int TILE_SLOTS_LOG2 /*verilator public*/ = `QUADRILLE_TILE_SLOTS_LOG2;
   localparam int STAMP_FIFO_LOG2 /*verilator public*/ = `QUADRILLE_STAMP_FIFO_LOG2;
@@ -187,6 +191,10 @@ package quadrille_pkg;
   localparam logic [2:0] MOVE = 3'd5;
   localparam logic [2:0] DET_VALUE = 3'd6;
   localparam logic [2:0] DET_GRADIENT = 3'd7;
+  // pairs of dot units, a job each a clock
+  localparam int PRODUCT_PAIRS /*verilator public*/ = DOT_UNITS / 2;
+  // functions of a tile that may come to the ring in one clock: SQUARES gives two
+  localparam int CONTEXT_BUSES /*verilator public*/ = 2 * PRODUCT_PAIRS;
   // from a job to its results: pair, operands, partial products, their middle ones, products, result
   localparam int VERTEX_PRODUCT_CLOCKS /*verilator public*/ = 6;
 

@@ -1,4 +1,4 @@
-// The two vertices of a function of quad_setup (quadrille_pkg: pair_first, pair_second). Combinational.
+// The two vertices of a function, of quad_setup or tile_context (quadrille_pkg: pair_first, pair_second). Combinational.
 module setup_pair #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int W = quadrille_pkg::W_BITS

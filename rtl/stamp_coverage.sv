@@ -32,6 +32,7 @@ module stamp_coverage #(
     input logic homogeneous_i,
     input logic [TC-1:0] tile_x_i,
     input logic [TC-1:0] tile_y_i,
+    input logic [TILE_LOG2-1:0] last_row_i,  // the rows below have no covered pixel
     // Tile ring and quad: values and constants are there the clock after load_o, until the next
     output logic load_o,
     output logic [RING:0] load_ptr_o,
@@ -58,13 +59,13 @@ module stamp_coverage #(
   logic tag_valid_q, context_valid_q, rows_valid_q;
   logic rows_load, rows_done, issue;
   logic context_end_q, rows_end_q, context_homogeneous_q, rows_homogeneous_q;
-  logic [TILE_LOG2-1:0] row_q;
+  logic [TILE_LOG2-1:0] row_q, last_row_q, context_last_row_q;
   localparam int ROOM = $clog2(PLACES + 1);
   logic [ROOM-1:0] room_q;  // places of the FIFO that no stamp has, nor a row on its way
   logic freed_q, drop;
 
   assign issue = rows_valid_q && room_q != '0;
-  assign rows_done = issue && (rows_end_q || row_q == '1);
+  assign rows_done = issue && (rows_end_q || row_q == last_row_q);
   assign rows_load = context_valid_q && (!rows_valid_q || rows_done);
   assign load_o = tag_valid_q && (!context_valid_q || rows_load);
   assign fetch_o = present_i && (!tag_valid_q || load_o);
@@ -98,11 +99,15 @@ module stamp_coverage #(
   logic [3:0] visible_q;
 
   always_ff @(posedge clk_i) begin
-    if (load_o) {context_end_q, context_homogeneous_q, context_x_q, context_y_q} <= {end_i, homogeneous_i, tile_x_i, tile_y_i};
+    if (load_o) begin
+      {context_end_q, context_homogeneous_q, context_x_q, context_y_q} <= {end_i, homogeneous_i, tile_x_i, tile_y_i};
+      context_last_row_q <= last_row_i;
+    end
     if (rows_load) begin
       {rows_end_q, rows_homogeneous_q, tile_x_q, tile_y_q} <= {context_end_q, context_homogeneous_q, context_x_q, context_y_q};
       {tie_pos_q, tie_neg_q, visible_q} <= {tie_pos_i, tie_neg_i, visible_i};
       row_q <= '0;
+      last_row_q <= context_last_row_q;
     end else if (issue) begin
       row_q <= row_q + TILE_LOG2'(1);
     end

@@ -17,31 +17,35 @@ module tile_ring #(
     localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
     localparam int QCURV = quadrille_pkg::QCURV_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int RING = quadrille_pkg::RING_LOG2
+    localparam int RING = quadrille_pkg::RING_LOG2,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
+    localparam int BUSES = quadrille_pkg::CONTEXT_BUSES
 ) (
     input logic clk_i,
     input logic rst_ni,
     // Write
     input logic push_i,
-    output logic full_o,  // no room for a tile of the kind that homogeneous_i says
+    output logic full_o,  // no room for the entry
     output logic [RING-1:0] entry_o,  // that a push takes
     input logic end_i,
     input logic homogeneous_i,
     input logic [SLOT-1:0] slot_i,
     input logic [TC-1:0] tile_x_i,
     input logic [TC-1:0] tile_y_i,
+    input logic [TILE_LOG2-1:0] last_row_i,
     input logic [6*VAL-1:0] lin_value_i,
-    // Words: the four functions' write bits, with a bus for the even and one for the odd ones; q is the same
+    // Words: the four functions' write bits; function g takes bus g mod BUSES, of q g mod PAIRS
     input logic [3:0] value_write_i,
     input logic [RING-1:0] value_entry_i,
-    input logic [2*QVAL-1:0] value_i,
+    input logic [BUSES*QVAL-1:0] value_i,
     input logic [3:0] gradient_write_i,
     input logic [RING-1:0] gradient_entry_i,
-    input logic [2*QGRAD-1:0] gx_i,
-    input logic [2*QGRAD-1:0] gy_i,
+    input logic [BUSES*QGRAD-1:0] gx_i,
+    input logic [BUSES*QGRAD-1:0] gy_i,
     input logic [3:0] q_write_i,
     input logic [RING-1:0] q_entry_i,
-    input logic [QCURV-1:0] q_i,
+    input logic [PAIRS*QCURV-1:0] q_i,
     input logic complete_i,
     input logic complete_homogeneous_i,
     // Read for coverage
@@ -54,6 +58,7 @@ module tile_ring #(
     output logic [SLOT-1:0] stamp_slot_o,
     output logic [TC-1:0] stamp_tile_x_o,
     output logic [TC-1:0] stamp_tile_y_o,
+    output logic [TILE_LOG2-1:0] stamp_last_row_o,
     input logic load_i,
     input logic [RING:0] load_ptr_i,
     output logic [5*VAL-1:0] stamp_lin_value_o,
@@ -82,10 +87,12 @@ module tile_ring #(
 
   logic [RING:0] write_q, complete_q, tail_q;  // next entry to write, first one that is not complete, first one in use
   logic [RING:0] used;
+  logic in_parts;  // the entry that comes takes one for each part
   logic [RING-1:0] write_index, fetch_index, load_index, tag_index, emit_index_q, word_index_q;
 
   assign used = write_q - tail_q;
-  assign full_o = used > (homogeneous_i ? (RING + 1)'(ENTRIES) - PARTS : (RING + 1)'(ENTRIES - 1));
+  assign in_parts = homogeneous_i && !end_i;
+  assign full_o = used > (in_parts ? (RING + 1)'(ENTRIES) - PARTS : (RING + 1)'(ENTRIES - 1));
   assign stamp_present_o = fetch_ptr_i != complete_q;
   assign write_index = write_q[RING-1:0];
   assign entry_o = write_index;
@@ -99,7 +106,7 @@ module tile_ring #(
       complete_q <= '0;
       tail_q <= '0;
     end else begin
-      if (push_i) write_q <= write_q + ((homogeneous_i && !end_i) ? PARTS : (RING + 1)'(1));
+      if (push_i) write_q <= write_q + (in_parts ? PARTS : (RING + 1)'(1));
       if (complete_i) complete_q <= complete_q + (complete_homogeneous_i ? PARTS : (RING + 1)'(1));
       if (head_valid_i) tail_q <= head_ptr_i;
       else if (stamps_empty_i) tail_q <= stamp_ptr_i;
@@ -114,6 +121,7 @@ module tile_ring #(
   // {end, homogeneous, slot, x, y}
   localparam int TAG = 2 + SLOT + 2 * TC;
   logic [TAG-1:0] tag_q[0:ENTRIES-1];
+  logic [TILE_LOG2-1:0] last_row_q[0:ENTRIES-1];  // coverage's alone
   logic [TAG-1:0] tag_word, fetch_word;
   logic [TC-1:0] tag_tile_x_q, tag_tile_y_q;
 
@@ -122,8 +130,10 @@ module tile_ring #(
   assign fetch_homogeneous_o = fetch_word[TAG-2];
 
   always_ff @(posedge clk_i) begin
-    if (push_i) tag_q[write_index] <= {end_i, homogeneous_i && !end_i, slot_i, tile_x_i, tile_y_i};
+    if (push_i) tag_q[write_index] <= {end_i, in_parts, slot_i, tile_x_i, tile_y_i};
+    if (push_i) last_row_q[write_index] <= last_row_i;
     if (fetch_i) {stamp_end_o, stamp_homogeneous_o, stamp_slot_o, stamp_tile_x_o, stamp_tile_y_o} <= fetch_word;
+    if (fetch_i) stamp_last_row_o <= last_row_q[fetch_index];
     {tag_slot_o, tag_tile_x_q, tag_tile_y_q} <= tag_word[TAG-3:0];
     {emit_slot_o, emit_tile_x_o, emit_tile_y_o} <= {tag_slot_o, tag_tile_x_q, tag_tile_y_q};
   end
@@ -148,10 +158,10 @@ module tile_ring #(
     logic [QCURV-1:0] curv_q[0:ENTRIES-1];
 
     always_ff @(posedge clk_i) begin
-      if (value_write_i[g]) value_q[value_entry_i] <= value_i[(g%2)*QVAL+:QVAL];
-      if (gradient_write_i[g]) gx_q[gradient_entry_i] <= gx_i[(g%2)*QGRAD+:QGRAD];
-      if (gradient_write_i[g]) gy_q[gradient_entry_i] <= gy_i[(g%2)*QGRAD+:QGRAD];
-      if (q_write_i[g]) curv_q[q_entry_i] <= q_i;
+      if (value_write_i[g]) value_q[value_entry_i] <= value_i[(g%BUSES)*QVAL+:QVAL];
+      if (gradient_write_i[g]) gx_q[gradient_entry_i] <= gx_i[(g%BUSES)*QGRAD+:QGRAD];
+      if (gradient_write_i[g]) gy_q[gradient_entry_i] <= gy_i[(g%BUSES)*QGRAD+:QGRAD];
+      if (q_write_i[g]) curv_q[q_entry_i] <= q_i[(g%PAIRS)*QCURV+:QCURV];
       emit_quad_value_o[g*QVAL+:QVAL] <= value_q[word_index_q];
       emit_quad_gx_o[g*QGRAD+:QGRAD] <= gx_q[word_index_q];
       emit_quad_gy_o[g*QGRAD+:QGRAD] <= gy_q[word_index_q];

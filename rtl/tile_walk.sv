@@ -8,13 +8,15 @@
 //
 // The walk steps on before it knows what a test says: the test's signs come in a register, the hit is known the clock after, and a tile
 // that is hit is in the register that pushes in the clock after that. Blocks are walked one ahead: a hit turns back to the block
-// before, and the next one is ready when its tiles are done. A push that must wait stops everything.
+// before, and the next one is ready when its tiles are done. A push that must wait stops everything, but the next quad comes in while the
+// end entry waits.
 module tile_walk #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
     localparam int REACH = quadrille_pkg::REACH_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2
 ) (
     input logic clk_i,
     input logic rst_ni,
@@ -28,6 +30,7 @@ module tile_walk #(
     input logic [TC-1:0] tile_y0_i,
     input logic [TC-1:0] tiles_x_i,
     input logic [TC-1:0] tiles_y_i,
+    input logic [TILE_LOG2-1:0] last_row_i,  // last pixel row of the quad, in its tile
     input logic [3:0] visible_i,
     input logic [6*VAL-1:0] lin_value_i,
     input logic [6*GRAD-1:0] lin_gx_i,
@@ -45,9 +48,9 @@ module tile_walk #(
     output logic [TC-1:0] tile_y_o,
     output logic [TC-1:0] column_o,  // from the quad's first tile
     output logic [TC-1:0] row_o,
+    output logic [TILE_LOG2-1:0] last_row_o,  // the tile has no covered pixel below
     output logic [6*VAL-1:0] lin_value_o
 );
-  localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2;
   localparam int TL = TILE_LOG2;  // log2 of a tile step in pixels
   localparam int BL = TILE_LOG2 + BLOCK_LOG2;  // log2 of a block step in pixels
@@ -56,7 +59,7 @@ module tile_walk #(
   localparam logic [2:0] BLOCK = 3'd1;
   localparam logic [2:0] WALK = 3'd2;
   localparam logic [2:0] FINISH = 3'd3;
-  localparam logic [2:0] FLUSH = 3'd4;  // until the end entry is in the ring
+  localparam logic [2:0] FLUSH = 3'd4;  // until the end entry is in the ring, or the next quad comes
 
   logic go;  // everything moves
   logic may_cover, hit, enter_walk;
@@ -74,7 +77,8 @@ module tile_walk #(
   logic [BLOCK_LOG2-1:0] tile_last_x_q, tile_last_y_q;
   logic [BLOCK_LOG2-1:0] tile_x_q, tile_y_q;
   logic tile_left_q;
-  logic [SLOT-1:0] slot_q;
+  logic [SLOT-1:0] slot_q, slot_q1;
+  logic [TILE_LOG2-1:0] last_row_q;
   logic [3:0] visible_q;
   logic empty;
   logic in_block, in_walk, test_block;
@@ -86,10 +90,12 @@ module tile_walk #(
 
   // The test whose signs are known
   logic block_q1, tile_q1, end_q1;
+  logic push_q2, end_q2;
   logic [TC-1:0] block_x_q1, block_y_q1, column_q1, row_q1;
   logic [BLOCK_LOG2-1:0] tile_last_x_q1, tile_last_y_q1;
 
-  assign take_o = setup_done_i && state_q == IDLE;
+  // The last tile's entry has its functions' vertices when the end entry is where pushes wait.
+  assign take_o = setup_done_i && (state_q == IDLE || (state_q == FLUSH && end_q2));
   assign empty = tiles_x_i == '0 || tiles_y_i == '0;
   assign in_block = state_q == BLOCK;
   assign in_walk = state_q == WALK;
@@ -108,24 +114,31 @@ module tile_walk #(
       block_q1 <= 1'b0;
       tile_q1 <= 1'b0;
       end_q1 <= 1'b0;
-    end else if (go) begin
-      case (state_q)
-        IDLE: if (take_o) state_q <= empty ? FINISH : BLOCK;
-        BLOCK: if (enter_walk) state_q <= WALK;
-        else if (!more_q) state_q <= FINISH;
-        WALK: if (tile_end) state_q <= more_q ? BLOCK : FINISH;
-        FINISH: state_q <= FLUSH;
-        default: if (push_o && end_o) state_q <= IDLE;
-      endcase
-      block_q1 <= test_block;
-      tile_q1 <= in_walk;
-      end_q1 <= state_q == FINISH;
+    end else begin
+      if (take_o) begin
+        state_q <= empty ? FINISH : BLOCK;
+      end else if (go) begin
+        case (state_q)
+          IDLE: state_q <= IDLE;
+          BLOCK: if (enter_walk) state_q <= WALK;
+          else if (!more_q) state_q <= FINISH;
+          WALK: if (tile_end) state_q <= more_q ? BLOCK : FINISH;
+          FINISH: state_q <= FLUSH;
+          default: if (end_q2) state_q <= IDLE;
+        endcase
+      end
+      if (go) begin
+        block_q1 <= test_block;
+        tile_q1 <= in_walk;
+        end_q1 <= state_q == FINISH;
+      end
     end
   end
 
   always_ff @(posedge clk_i) begin
     if (take_o) begin
       slot_q <= slot_i;
+      last_row_q <= last_row_i;
       visible_q <= visible_i;
       tile_x0_q <= tile_x0_i;
       tile_y0_q <= tile_y0_i;
@@ -151,6 +164,7 @@ module tile_walk #(
     end
     if (go) begin
       // Beside the test
+      slot_q1 <= slot_q;
       block_x_q1 <= block_x_q;
       block_y_q1 <= block_y_q;
       tile_last_x_q1 <= last_column ? last_x_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
@@ -278,8 +292,6 @@ module tile_walk #(
   assign may_cover = back || front;
 
   // ---- Push ---------------------------------------------------------------------------------------------------------------
-  logic push_q2, end_q2;
-
   always_ff @(posedge clk_i) begin
     if (!rst_ni) {push_q2, end_q2} <= '0;
     else if (go) {push_q2, end_q2} <= {(tile_q1 && hit) || end_q1, end_q1};
@@ -287,7 +299,9 @@ module tile_walk #(
 
   always_ff @(posedge clk_i) begin
     if (go) begin
+      slot_o <= slot_q1;
       {column_o, row_o} <= {column_q1, row_q1};
+      last_row_o <= (row_q1 == last_y_q) ? last_row_q : '1;
       tile_x_o <= tile_x0_q + column_q1;
       tile_y_o <= tile_y0_q + row_q1;
     end
@@ -296,12 +310,11 @@ module tile_walk #(
   assign go = !push_q2 || ready_i;
   assign push_o = push_q2 && ready_i;
   assign end_o = end_q2;
-  assign slot_o = slot_q;
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      assert (!take_o || !push_q2);
+      assert (!take_o || !push_q2 || end_q2);
       assert (!enter_walk || in_block);
     end
   end

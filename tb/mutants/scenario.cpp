@@ -26,6 +26,7 @@ Config reduced() {
   config.set("quadratic_frac_bits", 8);
   config.set("notch_exact", 0);
   config.set("tile_log2", 2);
+  config.set("dot_units", 4);
   config.set("quad_slots_log2", 1);
   config.set("tile_slots_log2", 1);
   config.set("stamp_fifo_log2", 1);

@@ -43,6 +43,7 @@ module replay_coverage (
       .end_i(1'b0),
       .fetch_homogeneous_i(1'b0),
       .homogeneous_i(1'b0),
+      .last_row_i({TILE_LOG2{1'b1}}),
       .homogeneous_o(push_homogeneous),
       .freed_i(push),
       .push_o(push),

@@ -10,6 +10,7 @@ module replay_setup (
   logic [5*quadrille_pkg::REACH_BITS-1:0] fall_tile_o, rise_tile_o, fall_block_o, rise_block_o;
   logic [4*quadrille_pkg::T_BITS-1:0] vertex_x_o, vertex_y_o;
   logic [4*quadrille_pkg::W_BITS-1:0] vertex_w_o;
+  logic [quadrille_pkg::TILE_LOG2-1:0] last_row_o;
 
   // What vertex_assembly finds out beat by beat.
   localparam int T = quadrille_pkg::T_BITS;
@@ -35,21 +36,22 @@ module replay_setup (
   end
 
   // The multipliers, for the setup alone.
-  logic [2:0] job_kind;
-  logic [3:0] job_function;
+  localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS;
+  logic [PAIRS*3-1:0] job_kind;
+  logic [PAIRS*4-1:0] job_function;
   logic [4*T-1:0] job_x, job_y;
   logic [4*W-1:0] job_w;
-  logic [quadrille_pkg::VAL_BITS-1:0] edge_value;
-  logic [quadrille_pkg::GRAD_BITS-1:0] edge_gx, edge_gy;
-  logic [quadrille_pkg::RISE_BITS-1:0] apart_x, apart_y;
-  logic [quadrille_pkg::DOT_OUT_BITS-1:0] result0, result1;
-  logic [T-1:0] xi, yi, xj, yj;
+  logic [PAIRS*quadrille_pkg::VAL_BITS-1:0] edge_value;
+  logic [PAIRS*quadrille_pkg::GRAD_BITS-1:0] edge_gx, edge_gy;
+  logic [PAIRS*quadrille_pkg::RISE_BITS-1:0] apart_x, apart_y;
+  logic [PAIRS*quadrille_pkg::DOT_OUT_BITS-1:0] result0, result1;
+  logic [PAIRS*T-1:0] xi, yi, xj, yj;
 
   vertex_products u_products (
       .clk_i,
       .tile_valid_i(1'b0),
-      .tile_kind_i(3'd0),
-      .tile_function_i(4'd0),
+      .tile_kind_i((PAIRS * 3)'(0)),
+      .tile_function_i((PAIRS * 4)'(0)),
       .tile_x_i((4 * T)'(0)),
       .tile_y_i((4 * T)'(0)),
       .tile_w_i((4 * W)'(0)),
@@ -92,9 +94,10 @@ module replay_setup (
       .high_x_i(high_x),
       .low_y_i(low_y),
       .high_y_i(high_y),
+      .held_i(valid_i),
       .start_i(valid_i && ready_o),
+      .ready_o,
       .slot_i(SLOT'(0)),
-      .idle_o(ready_o),
       .take_i(valid_o),
       .done_o(valid_o),
       .*

@@ -35,20 +35,23 @@ module replay_tile_context (
 
   // ---- Device ---------------------------------------------------------------------------------------------------------------
   logic job_valid;
-  logic [2:0] job_kind;
-  logic [3:0] job_function;
+  localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS;
+  localparam int BUSES = quadrille_pkg::CONTEXT_BUSES;
+  logic [PAIRS*3-1:0] job_kind;
+  logic [PAIRS*4-1:0] job_function;
   logic [4*T-1:0] job_x, job_y;
   logic [4*W-1:0] job_w;
   logic [V:0] offset_x, offset_y;
-  logic [T-1:0] xi, yi, xj, yj;
-  logic [OUT-1:0] result0, result1;
+  logic [PAIRS*T-1:0] xi, yi, xj, yj;
+  logic [PAIRS*OUT-1:0] result0, result1;
   logic [3:0] value_write, gradient_write, q_write;
   logic [RING-1:0] value_entry, gradient_entry, q_entry;
-  logic [2*QVAL-1:0] value;
-  logic [2*QGRAD-1:0] gx, gy;
-  logic [QCURV-1:0] q;
+  logic [BUSES*QVAL-1:0] value;
+  logic [BUSES*QGRAD-1:0] gx, gy;
+  logic [PAIRS*QCURV-1:0] q;
   logic quad_homogeneous, complete_homogeneous;
-  logic [2*quadrille_pkg::RISE_BITS-1:0] apart;
+  localparam int APART = PAIRS * quadrille_pkg::RISE_BITS;
+  logic [2*APART-1:0] apart;
 
   vertex_products u_products (
       .clk_i,
@@ -60,20 +63,20 @@ module replay_tile_context (
       .tile_w_i(job_w),
       .offset_x_i(offset_x),
       .offset_y_i(offset_y),
-      .setup_kind_i(3'd0),
-      .setup_function_i(4'd0),
+      .setup_kind_i((PAIRS * 3)'(0)),
+      .setup_function_i((PAIRS * 4)'(0)),
       .setup_x_i((4 * T)'(0)),
       .setup_y_i((4 * T)'(0)),
       .setup_w_i((4 * W)'(0)),
-      .edge_value_i(quadrille_pkg::VAL_BITS'(0)),
-      .edge_gx_i(quadrille_pkg::GRAD_BITS'(0)),
-      .edge_gy_i(quadrille_pkg::GRAD_BITS'(0)),
+      .edge_value_i((PAIRS * quadrille_pkg::VAL_BITS)'(0)),
+      .edge_gx_i((PAIRS * quadrille_pkg::GRAD_BITS)'(0)),
+      .edge_gy_i((PAIRS * quadrille_pkg::GRAD_BITS)'(0)),
       .xi_o(xi),
       .yi_o(yi),
       .xj_o(xj),
       .yj_o(yj),
-      .apart_x_o(apart[0+:quadrille_pkg::RISE_BITS]),
-      .apart_y_o(apart[quadrille_pkg::RISE_BITS+:quadrille_pkg::RISE_BITS]),
+      .apart_x_o(apart[0+:APART]),
+      .apart_y_o(apart[APART+:APART]),
       .result0_o(result0),
       .result1_o(result1)
   );
@@ -128,12 +131,12 @@ module replay_tile_context (
         quad_gy_o[g*QGRAD+:QGRAD] <= '0;
         quad_q_o[g*QCURV+:QCURV] <= '0;
       end else begin
-        if (value_write[LANE] && value_entry == place) quad_value_o[g*QVAL+:QVAL] <= value[LANE%2*QVAL+:QVAL];
+        if (value_write[LANE] && value_entry == place) quad_value_o[g*QVAL+:QVAL] <= value[LANE%BUSES*QVAL+:QVAL];
         if (gradient_write[LANE] && gradient_entry == place) begin
-          quad_gx_o[g*QGRAD+:QGRAD] <= gx[LANE%2*QGRAD+:QGRAD];
-          quad_gy_o[g*QGRAD+:QGRAD] <= gy[LANE%2*QGRAD+:QGRAD];
+          quad_gx_o[g*QGRAD+:QGRAD] <= gx[LANE%BUSES*QGRAD+:QGRAD];
+          quad_gy_o[g*QGRAD+:QGRAD] <= gy[LANE%BUSES*QGRAD+:QGRAD];
         end
-        if (q_write[LANE] && q_entry == place) quad_q_o[g*QCURV+:QCURV] <= q;
+        if (q_write[LANE] && q_entry == place) quad_q_o[g*QCURV+:QCURV] <= q[LANE%PAIRS*QCURV+:QCURV];
       end
     end
   end

@@ -57,7 +57,7 @@ enum class Stage {
   interpolate,  ///< the sums, all columns at once
   reciprocal,   ///< recip_segments_log2 recip_degree
   output,       ///< attribute_int_bits attribute_frac_bits depth_bits
-  cycles,       ///< the clocked model alone: positions, tile_log2, quad_slots_log2 tile_slots_log2 stamp_fifo_log2
+  cycles,  ///< the clocked model alone: positions, tile_log2, dot_units quad_slots_log2 tile_slots_log2 stamp_fifo_log2
 };
 inline constexpr std::size_t stage_count = 11;
 inline constexpr std::array<std::string_view, stage_count> stage_names{

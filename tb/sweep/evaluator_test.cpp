@@ -613,6 +613,7 @@ TEST(Evaluator, CyclesAreTheClockedModels) {
       config({{"tile_log2", 2}}),
       config({{"stamp_fifo_log2", 1}, {"tile_slots_log2", 1}}),
       config({{"quad_slots_log2", 1}}),
+      config({{"dot_units", 4}}),
       config({{"subpixel_bits", 3}}),
   };
   Evaluator evaluator(input, {.threads = 2});
@@ -630,7 +631,7 @@ TEST(Evaluator, CyclesAreTheClockedModels) {
     EXPECT_EQ(evaluator.evaluate(c).cycles, clocks);
     different.insert(clocks);
   }
-  EXPECT_EQ(settings(evaluator.counters(), Stage::cycles), 5u);
+  EXPECT_EQ(settings(evaluator.counters(), Stage::cycles), 6u);
   EXPECT_GE(different.size(), 3u);
   EXPECT_EQ(Evaluator(input, {.cycles = false}).evaluate(Config{}).cycles, 0u);
 }

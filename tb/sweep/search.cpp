@@ -44,6 +44,7 @@ constexpr std::array key_effects{
     KeyEffect{"depth_bits", Effect::larger_is_better},
     KeyEffect{"tile_log2", Effect::unordered},  // the origins of inexact D and r²; see abilities()
     KeyEffect{"pixels_per_clock", Effect::none},
+    KeyEffect{"dot_units", Effect::none},
     KeyEffect{"quad_slots_log2", Effect::none},
     KeyEffect{"tile_slots_log2", Effect::none},
     KeyEffect{"stamp_fifo_log2", Effect::none},

@@ -24,6 +24,8 @@ LevelKey level_key(const Config& c, Level level) {
   return {};
 }
 
-LevelKey cycles_key(const Config& c) { return {c.tile_log2, c.quad_slots_log2, c.tile_slots_log2, c.stamp_fifo_log2}; }
+LevelKey cycles_key(const Config& c) {
+  return {c.tile_log2, c.dot_units, c.quad_slots_log2, c.tile_slots_log2, c.stamp_fifo_log2};
+}
 
 }  // namespace quadrille::sweep

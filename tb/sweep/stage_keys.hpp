@@ -13,12 +13,12 @@ enum class Level { positions, differences, normalise, sqrt, ratios, weights, rec
 inline constexpr std::size_t level_count = 8;
 
 /// Resolved values of the keys that enter at one level; unused places are 0.
-using LevelKey = std::array<int, 4>;
+using LevelKey = std::array<int, 5>;
 
 LevelKey level_key(const Config& config, Level level);
 
-/// What the clocks of a draw depend on besides the positions: tile_log2, quad_slots_log2, tile_slots_log2,
-/// stamp_fifo_log2.
+/// What the clocks of a draw depend on besides the positions: tile_log2, dot_units, quad_slots_log2,
+/// tile_slots_log2, stamp_fifo_log2.
 LevelKey cycles_key(const Config& config);
 
 }  // namespace quadrille::sweep
