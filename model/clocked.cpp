@@ -2,6 +2,7 @@
 
 #include "model/latency.hpp"
 #include "model/pixel_pipeline.hpp"
+#include "model/quad_reject.hpp"
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
 #include "model/tile_context.hpp"
@@ -170,8 +171,13 @@ struct CoverageUnit {
 /// vertex_assembly: four beats make a quad.
 struct VertexAssembly {
   SnappedQuad quad;
+  std::size_t number = 0;  ///< of the quad: those before it
   int count = 0;
   bool full = false;
+  QuadReject reject = QuadReject::none;  ///< by the vertices, once full
+
+  /// The quad is left out in this clock.
+  bool drops() const { return full && reject != QuadReject::none; }
 };
 
 /// The control half of quad_setup; the bits come from the function of that name at start. Three quads may be there: one
@@ -184,22 +190,22 @@ struct SetupUnit {
   bool sum = false;    ///< `summed` has not
   std::array<bool, quad_setup_result_clocks(2)> ends{};  ///< last steps whose results are on their way
   bool complete = false;                                 ///< all of `summed` is there
-  bool done = false;                                     ///< `result` is not taken yet
+  bool done = false;                                     ///< `result` is there, neither taken nor dropped yet
   SetupResult next, summed, result;
 
   /// The last step is done in this clock; the steps wait while the dot units work for a tile.
   bool ends_run(bool units_taken) const { return steps == 1 && !units_taken; }
   /// A quad may start: those before it will have moved on when its first result comes.
-  bool ready(bool taken, bool units_taken) const {
+  bool ready(bool gone, bool units_taken) const {
     const bool run_over = steps == 0 || (pairs == 1 && ends_run(units_taken));
-    return box == 2 && run_over && !front && (!sum || !done || taken);
+    return box == 2 && run_over && !front && (!sum || !done || gone);
   }
 
-  /// The edge; start() comes after it. `held`: vertex_assembly has a quad.
-  void clock(bool held, bool taken, bool units_taken) {
-    const bool hand_over = complete && (!done || taken);
+  /// The edge; start() comes after it. `held`: vertex_assembly has a quad. `gone`: `result` is taken or dropped.
+  void clock(bool held, bool gone, bool units_taken) {
+    const bool hand_over = complete && (!done || gone);
     const bool advance = front && (!sum || hand_over);
-    if (taken) done = false;
+    if (gone) done = false;
     if (hand_over) {
       result = summed;
       done = true;
@@ -235,6 +241,7 @@ struct FragmentBeat {
 struct Slot {
   QuadData data;
   QuadConstants constants;
+  std::size_t quad = 0;  ///< VertexAssembly::number
 };
 
 }  // namespace
@@ -244,7 +251,8 @@ struct ClockedModel::Impl {
   VertexAssembly assembly;
   SetupUnit setup;
   std::vector<Slot> slots;
-  std::uint32_t alloc = 0, in_use = 0;
+  std::uint32_t alloc = 0;   ///< the slot that the next quad gets, once it is free
+  std::uint32_t in_use = 0;  ///< bit i: slot i
   WalkUnit walk;
   ContextUnit tile_unit;
   std::vector<TileEntry> ring;
@@ -283,8 +291,12 @@ struct ClockedModel::Impl {
   }
 
   // Conditions of this clock, from registered state.
-  bool start() const { return assembly.full && setup.ready(take(), tile_unit.issues()) && in_use < slots.size(); }
-  bool take() const { return setup.done && walk.ready(); }
+  bool start() const {
+    return assembly.full && !assembly.drops() && setup.ready(take() || drop(), tile_unit.issues()) &&
+           (in_use >> alloc & 1) == 0;
+  }
+  bool drop() const { return setup.done && reject_by_areas(setup.result, context.state) != QuadReject::none; }
+  bool take() const { return setup.done && walk.ready() && !drop(); }
   bool ring_full(std::uint32_t entries) const { return ((ring_write - ring_tail) & ring_mask) + entries > ring.size(); }
   const TileEntry& ring_at(std::uint32_t pointer) const { return ring[pointer & (ring.size() - 1)]; }
 
@@ -312,6 +324,7 @@ struct ClockedModel::Impl {
   }
 
   void reset() {
+    assembly.number = 0;
     assembly.count = 0;
     assembly.full = false;
     setup = {};
@@ -423,8 +436,12 @@ struct ClockedModel::Impl {
     // All conditions first: every unit sees the state before the edge.
     const bool starting = start();
     const bool taking = take();
-    const bool accept = in.vertex_valid && !assembly.full;
-    const bool release = stage(last_stage).front().end;
+    const bool dropping = drop();
+    const bool dropping_vertices = assembly.drops();
+    const bool accept = in.vertex_valid && (!assembly.full || starting || dropping_vertices);
+    std::uint32_t free_slots = 0;
+    if (stage(last_stage).front().end) free_slots |= 1u << stage(last_stage).front().slot;
+    if (dropping) free_slots |= 1u << setup.result.slot;
     const bool push_tile = walk_push();
     const bool walk_moves = push_tile || !walk.way.back().push;
 
@@ -459,20 +476,29 @@ struct ClockedModel::Impl {
       slots[setup.result.slot].constants = QuadConstants(setup.result);
       walk.take(setup.result);
     }
-    setup.clock(assembly.full, taking, units_taken);
+    // A slot is skipped while it is in use and another is not: quads that setup drops leave theirs before older ones
+    // do.
+    const bool next_slot = starting || ((in_use >> alloc & 1) != 0 && in_use != (1u << slots.size()) - 1);
+    const std::uint32_t slot = alloc;
+    if (next_slot) alloc = (alloc + 1) % static_cast<std::uint32_t>(slots.size());
+    in_use &= ~free_slots;
+    setup.clock(assembly.full && !dropping_vertices, taking || dropping, units_taken);
+    if (dropping_vertices) assembly.full = false;
     if (starting) {
       SetupResult result = quad_setup(assembly.quad, context.config, context.state);
-      result.slot = alloc;
-      slots[alloc].data = quad_data(assembly.quad, result, context.config, context.state);
+      result.slot = slot;
+      slots[slot].quad = assembly.number;
+      slots[slot].data = quad_data(assembly.quad, result, context.config, context.state);
       setup.start(result);
-      alloc = (alloc + 1) % static_cast<std::uint32_t>(slots.size());
+      in_use |= 1u << slot;
       assembly.full = false;
     }
-    in_use += (starting ? 1u : 0u) - (release ? 1u : 0u);
+    if (starting || dropping_vertices) ++assembly.number;
     if (accept) {
       if (assembly.count == 0) assembly.quad.id = in.vertex_id;
       assembly.quad.vertex[static_cast<std::size_t>(assembly.count)] = in.vertex;
       assembly.full = assembly.count == 3;
+      if (assembly.full) assembly.reject = reject_by_vertices(assembly.quad, context.config, context.state);
       assembly.count = (assembly.count + 1) % 4;
     }
   }
@@ -489,12 +515,15 @@ ClockedModel& ClockedModel::operator=(ClockedModel&&) noexcept = default;
 ClockedOutputs ClockedModel::comb() const {
   const Impl& m = *impl_;
   ClockedOutputs out;
-  out.vertex_ready = !m.assembly.full;
+  out.vertex_ready = !m.assembly.full || m.start() || m.assembly.drops();
   out.fragment_valid = m.fragments.valid();
   for (std::size_t lane = 0; out.fragment_valid && lane < m.lanes; ++lane)
     if (m.fragments.head().drawn[lane]) out.fragment[lane] = &m.fragments.head().fragment[lane];
   out.busy = m.assembly.full || m.assembly.count != 0 || m.in_use != 0 || !m.fragments.empty();
-  if (m.take()) out.probes.setup = &m.setup.result;
+  if (m.take()) {
+    out.probes.setup = &m.setup.result;
+    out.probes.setup_quad = m.slots[m.setup.result.slot].quad;
+  }
   if (m.completed) out.probes.tile = &m.ring_at(m.last_completed);
   if (m.coverage.way.back().push()) out.probes.stamp = &m.coverage.way.back().stamp;
   for (std::size_t lane = 0; lane < m.lanes; ++lane) {

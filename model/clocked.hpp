@@ -39,6 +39,7 @@ struct LaneProbes {
 /// A boundary that carries a beat in this clock, or nullptr.
 struct ClockedProbes {
   const SetupResult* setup = nullptr;  ///< taken by the walk in this clock
+  std::size_t setup_quad = 0;          ///< its quad: how many were accepted before it since the reset
   const TileEntry* tile = nullptr;     ///< complete in the ring since the last edge
   const StampEntry* stamp = nullptr;   ///< pushed in this clock
   std::array<LaneProbes, Config::most_pixels_per_clock> lane;

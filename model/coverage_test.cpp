@@ -443,7 +443,7 @@ TEST(TileWalk, CoversWhatExpressionTwelveCovers) {
       std::map<std::pair<int, int>, Seen> with, without;
       state.skip = 0;
       walk(q, c, state, without, tiles_without);
-      state.skip = skip_hierarchical_tiles;
+      state.skip = skip_tiles;
       walk(q, c, state, with, tiles_with);
       hulls += quad_setup(q, c, state).hull;
       for (int py = 0; py < span; ++py)

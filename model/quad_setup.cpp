@@ -1,5 +1,7 @@
 #include "model/quad_setup.hpp"
 
+#include "model/snap.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -49,32 +51,32 @@ bool eye_in_hull(Wide d012, Wide d023, Wide d123, Wide d013) {
 
 }  // namespace
 
-SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const DrawState& state) {
-  const int frac = config.frac();
-  SetupResult r;
-  std::array<RelativeVertex, 4>& v = r.vertex;
-  r.homogeneous = false;
-  for (std::size_t i = 0; i < 4; ++i) {
-    v[i] = {quad.vertex[i].x, quad.vertex[i].y, quad.vertex[i].w};
-    if (v[i].w != std::int64_t{1} << frac) r.homogeneous = true;
-  }
-
-  // Tiles to walk: the bounding box, or the scissor's far corner when a vertex is not ordinary.
+TileRange bounding_tiles(const SnappedQuad& quad, const Config& config, const DrawState& state) {
   PixelSpan x{0, state.scissor_x1 - 1};
   PixelSpan y{0, state.scissor_y1 - 1};
   bool empty = state.scissor_x0 >= state.scissor_x1 || state.scissor_y0 >= state.scissor_y1;
-  if (!r.homogeneous) {
-    x = pixel_range({v[0].x, v[1].x, v[2].x, v[3].x}, frac, state.scissor_x0, state.scissor_x1);
-    y = pixel_range({v[0].y, v[1].y, v[2].y, v[3].y}, frac, state.scissor_y0, state.scissor_y1);
+  if (is_ordinary(quad, config)) {
+    const auto& v = quad.vertex;
+    x = pixel_range({v[0].x, v[1].x, v[2].x, v[3].x}, config.frac(), state.scissor_x0, state.scissor_x1);
+    y = pixel_range({v[0].y, v[1].y, v[2].y, v[3].y}, config.frac(), state.scissor_y0, state.scissor_y1);
     empty = x.lo > x.hi || y.lo > y.hi;
   }
-  if (!empty) {
-    r.tile_x0 = x.lo >> config.tile_log2;
-    r.tile_y0 = y.lo >> config.tile_log2;
-    r.tiles_x = (x.hi >> config.tile_log2) - r.tile_x0 + 1;
-    r.tiles_y = (y.hi >> config.tile_log2) - r.tile_y0 + 1;
-    r.last_row = y.hi & (config.tile() - 1);
-  }
+  if (empty) return {};
+  const int tile = config.tile_log2, x0 = x.lo >> tile, y0 = y.lo >> tile;
+  return {x0, y0, (x.hi >> tile) - x0 + 1, (y.hi >> tile) - y0 + 1, y.hi & (config.tile() - 1)};
+}
+
+SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const DrawState& state) {
+  SetupResult r;
+  std::array<RelativeVertex, 4>& v = r.vertex;
+  r.homogeneous = !is_ordinary(quad, config);
+  for (std::size_t i = 0; i < 4; ++i) v[i] = {quad.vertex[i].x, quad.vertex[i].y, quad.vertex[i].w};
+  const TileRange tiles = bounding_tiles(quad, config, state);
+  r.tile_x0 = tiles.x0;
+  r.tile_y0 = tiles.y0;
+  r.tiles_x = tiles.columns;
+  r.tiles_y = tiles.rows;
+  r.last_row = tiles.last_row;
 
   // Translate to the first tile's origin pixel.
   for (RelativeVertex& t : v) {
@@ -87,6 +89,9 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
     r.length2[k] = length2(v[i], v[j]) >> config.qdrop();
   }
 
+  const auto clauses_of = [](Wide d012, Wide d023) {
+    return static_cast<std::uint8_t>((d012 > 0 ? 1 : 0) | (d023 > 0 ? 2 : 0) | (d012 < 0 ? 4 : 0) | (d023 < 0 ? 8 : 0));
+  };
   r.visible = 0xf;
   if (r.homogeneous) {
     const Wide d012 = determinant(r.linear[0], v[2]);
@@ -94,9 +99,12 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
     const Wide d123 = determinant(r.linear[1], v[3]);
     const Wide d013 = determinant(r.linear[3], v[1]);
     r.hull = eye_in_hull(d012, d023, d123, d013);
-    if (!r.hull)
-      r.visible =
-          static_cast<std::uint8_t>((d012 > 0 ? 1 : 0) | (d023 > 0 ? 2 : 0) | (d012 < 0 ? 4 : 0) | (d023 < 0 ? 8 : 0));
+    r.clauses = r.hull ? 0xf : clauses_of(d012, d023);
+    if (!r.hull) r.visible = r.clauses;
+  } else {  // E01 + E12 + E20 is twice the area of the triangle 012, anywhere
+    const Wide d012 = Wide{r.linear[0].value} + r.linear[1].value + r.linear[4].value;
+    const Wide d023 = Wide{r.linear[2].value} + r.linear[3].value - r.linear[4].value;
+    r.clauses = clauses_of(d012, d023);
   }
   return r;
 }

@@ -11,6 +11,14 @@ namespace quadrille {
 /// form of Olano & Greer.
 SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const DrawState& state);
 
+/// Tiles to walk: those of the bounding box within the scissor, or from the screen's origin to the scissor's far corner
+/// when some w is not 1. No columns and no rows when there is no pixel centre in it.
+struct TileRange {
+  int x0 = 0, y0 = 0, columns = 0, rows = 0;
+  int last_row = 0;  ///< last pixel row, in its tile
+};
+TileRange bounding_tiles(const SnappedQuad& quad, const Config& config, const DrawState& state);
+
 // Clocks: rtl/README.md section 4. `pairs` of dot units.
 /// Steps of a quad, one a clock.
 int quad_setup_steps(bool homogeneous, int pairs);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -23,8 +24,24 @@ struct WindowQuad {
 
 enum class Cull : std::uint8_t { none = 0, front = 1, back = 2 };
 
-/// Skips that are exact and may be switched off; bit numbers of `DrawState::skip`.
-enum SkipBit : std::uint32_t { skip_hierarchical_tiles = 1u << 0 };
+/// What the machine may leave out without changing a fragment; bits of `DrawState::skip`.
+enum SkipBit : std::uint32_t {
+  skip_tiles = 1u << 0,  ///< blocks and tiles that no covered pixel can be in (tile_walk)
+  skip_quads = 1u << 1,  ///< quads that cannot give a fragment (quad_reject)
+};
+/// Those that keep the list of fragments: on unless switched off.
+inline constexpr std::uint32_t skip_default = skip_tiles | skip_quads;
+
+/// Why quad_reject leaves a quad out, the first reason that holds.
+enum class QuadReject : std::uint8_t {
+  none,
+  empty,   ///< no pixel centre of the scissor in the bounding box
+  behind,  ///< no w > 0
+  depth,   ///< every pixel's depth code is outside [znear, zfar]
+  line,    ///< both triangles of expression (12) are degenerate
+  culled,  ///< no pixel can have a face that is wanted
+};
+inline constexpr std::size_t quad_reject_count = 6;
 
 /// Constant over a draw, given to model and RTL alike.
 struct DrawState {
@@ -36,7 +53,7 @@ struct DrawState {
   bool depth = true;  ///< window z is computed and clipped; the depth test (LESS, clear 1) is the frame buffer's
   double znear = 0.0, zfar = 1.0;  ///< window z interval; fragments outside are discarded (depth on)
   int attributes = 4;              ///< attributes in use, at most attribute_slots
-  std::uint32_t skip = skip_hierarchical_tiles;
+  std::uint32_t skip = skip_default;
 };
 
 /// Significand number at the port: value = (-1)^neg * sig * 2^(exp - (S-1)); sig has exactly S = significand_bits bits,

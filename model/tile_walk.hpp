@@ -73,7 +73,7 @@ class TileWalk {
 
   TileWalk() = default;
   TileWalk(const Config& config, const DrawState& state)
-      : tile_(config.tile()), drop_(config.qdrop()), cull_(state.cull), reject_(state.skip & skip_hierarchical_tiles) {}
+      : tile_(config.tile()), drop_(config.qdrop()), cull_(state.cull), reject_(state.skip & skip_tiles) {}
 
   State state() const { return state_; }
   const QuadConstants& constants() const { return quad_; }

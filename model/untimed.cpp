@@ -2,6 +2,7 @@
 
 #include "model/covered_pixels.hpp"
 #include "model/pixel_lanes.hpp"
+#include "model/quad_reject.hpp"
 #include "model/quad_setup.hpp"
 
 #include <algorithm>
@@ -12,6 +13,7 @@ namespace quadrille {
 
 DrawStats& DrawStats::operator+=(const DrawStats& o) {
   quads += o.quads;
+  for (std::size_t i = 0; i < rejected.size(); ++i) rejected[i] += o.rejected[i];
   homogeneous_quads += o.homogeneous_quads;
   hull_quads += o.hull_quads;
   blocks_tested += o.blocks_tested;
@@ -127,10 +129,17 @@ const DrawStats& UntimedModel::stats() const { return impl_->stats; }
 
 void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::span<const Fragment>)>& sink) {
   Impl& m = *impl_;
-  const SetupResult setup = quad_setup(quad, m.context.config, m.context.state);
+  ++m.stats.quads;
+  QuadReject reject = reject_by_vertices(quad, m.context.config, m.context.state);
+  SetupResult setup;
+  if (reject == QuadReject::none) {
+    setup = quad_setup(quad, m.context.config, m.context.state);
+    reject = reject_by_areas(setup, m.context.state);
+  }
+  ++m.stats.rejected[static_cast<std::size_t>(reject)];
+  if (reject != QuadReject::none) return;
   const QuadData data = quad_data(quad, setup, m.context.config, m.context.state);
   const QuadLanes values(data, m.context);
-  ++m.stats.quads;
   m.stats.homogeneous_quads += setup.homogeneous;
   m.stats.hull_quads += setup.hull;
   const WalkCounts counts = walk_tiles(m.walk, setup, [&](const TileEntry& tile) {

@@ -4,6 +4,7 @@
 #include "model/config.hpp"
 #include "model/records.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,7 +14,9 @@ namespace quadrille {
 
 /// What a draw did; every counter is exact and deterministic.
 struct DrawStats {
-  std::uint64_t quads = 0, homogeneous_quads = 0, hull_quads = 0;
+  std::uint64_t quads = 0;
+  std::array<std::uint64_t, quad_reject_count> rejected{};  ///< of these, by reason; [0] those that are none of them
+  std::uint64_t homogeneous_quads = 0, hull_quads = 0;      ///< of those that were not rejected
   std::uint64_t blocks_tested = 0, tiles_tested = 0, tiles_entered = 0, stamps_covered = 0;
   std::uint64_t pixels = 0;     ///< covered pixels that entered the pipeline
   std::uint64_t fragments = 0;  ///< of these, not discarded

@@ -1,7 +1,8 @@
-// First tile and tile count of a quad along one axis, from its least and greatest coordinate: there the clock after load_i.
+// First tile and tile count of a quad along one axis, from its least and greatest coordinate: there the clock after load_i. That there is
+// no pixel, empty_o, is known at once; the other outputs mean nothing then.
 //
-// Ordinary quad: lo = max(ceil(low), scissor0), hi = min(floor(high), scissor1 - 1), in pixels.
-// Homogeneous quad: lo = 0, hi = scissor1 - 1, empty if scissor0 >= scissor1. Empty: the other outputs mean nothing.
+// Ordinary quad: lo = max(ceil(low), scissor0), hi = min(floor(high), scissor1 - 1), in pixels, empty if lo > hi.
+// Homogeneous quad: lo = 0, hi = scissor1 - 1, empty if scissor0 >= scissor1.
 module bounding_range #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
@@ -27,7 +28,7 @@ module bounding_range #(
   logic [IW-1:0] low_px, high_px;
   logic [IW-1:0] begin_px, last_px;
   logic [IW-1:0] lo_q, hi_q;
-  logic ordinary_q, no_scissor_q;
+  logic low_inside, high_inside;
 
   assign low_up = low_i + T'((1 << FRAC) - 1);
   assign low_px = IW'($signed(low_up) >>> FRAC);
@@ -35,16 +36,19 @@ module bounding_range #(
   assign begin_px = IW'(scissor0_i);
   assign last_px = IW'(scissor1_i) - IW'(1);
 
+  assign low_inside = $signed(low_px) > $signed(begin_px);
+  assign high_inside = $signed(high_px) < $signed(last_px);
+
   always_ff @(posedge clk_i) begin
     if (load_i) begin
-      ordinary_q <= ordinary_i;
-      no_scissor_q <= scissor0_i >= scissor1_i;
-      lo_q <= !ordinary_i ? '0 : ($signed(low_px) > $signed(begin_px)) ? low_px : begin_px;
-      hi_q <= !ordinary_i ? last_px : ($signed(high_px) < $signed(last_px)) ? high_px : last_px;
+      lo_q <= !ordinary_i ? '0 : low_inside ? low_px : begin_px;
+      hi_q <= !ordinary_i ? last_px : high_inside ? high_px : last_px;
     end
   end
 
-  assign empty_o = ordinary_q ? $signed(lo_q) > $signed(hi_q) : no_scissor_q;
+  // lo > hi, by every pair that these may be
+  assign empty_o = scissor0_i >= scissor1_i || (ordinary_i &&
+      ($signed(low_px) > $signed(high_px) || $signed(low_px) > $signed(last_px) || $signed(high_px) < $signed(begin_px)));
   assign first_o = TC'(lo_q >> TL);
   assign count_o = TC'(hi_q >> TL) - first_o + TC'(1);
   assign last_o = TL'(hi_q);

@@ -7,7 +7,8 @@
 // quad starts only when those before it will surely have moved on by the time its first result comes.
 //
 // Linear function f: f*VAL_BITS, exact, two's complement. Squared lengths: unsigned, without their QDROP lowest bits.
-// Does not test for a degenerate or culled quad; an empty bounding box gives zero tiles.
+// A quad that cannot give a fragment by its triangles' areas is dropped when it is complete (reject_i). An empty bounding box
+// gives zero tiles.
 module quad_setup #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int W = quadrille_pkg::W_BITS,
@@ -29,6 +30,7 @@ module quad_setup #(
     input logic held_i,
     input logic start_i,
     output logic ready_o,
+    output logic empty_o,  // no pixel centre inside scissor and bounding box, in any clock in which the quad is held
     input logic [SLOT-1:0] slot_i,
     input logic [4*T-1:0] x_i,
     input logic [4*T-1:0] y_i,
@@ -57,8 +59,11 @@ module quad_setup #(
     input logic [PAIRS*OUT-1:0] result0_i,
     input logic [PAIRS*OUT-1:0] result1_i,
     // Functions out
+    input logic reject_i,  // draw state: leave out what cannot give a fragment
+    input logic [1:0] cull_i,
     input logic take_i,
     output logic done_o,
+    output logic drop_o,  // the quad among the outputs, of this slot, is left out
     output logic [SLOT-1:0] slot_o,
     output logic [TC-1:0] tile_x0_o,
     output logic [TC-1:0] tile_y0_o,
@@ -99,6 +104,7 @@ module quad_setup #(
   logic [TL-1:0] box_row_q;
 
   assign empty = empty_x || empty_y;
+  assign empty_o = empty;
 
   bounding_range u_range_x (
       .clk_i,
@@ -150,26 +156,29 @@ module quad_setup #(
   logic front_q;  // what goes with the quad of the steps has not moved on yet
   logic sum_q;  // results are of a quad that is not among the outputs yet
   logic complete_q;  // all are there
-  logic last, run_end, advance, hand_over;
+  logic done_q;  // a quad is among the outputs
+  logic left_out_q;  // one that cannot give a fragment
+  logic last, run_end, advance, hand_over, gone;
 
   // The step is the last one, and done. With one pair of units the next quad's first result then comes in the very clock after the last of
   // this one; with two pairs a function's reach is a clock behind, so that the steps pause for one.
   assign run_end = run_q && last && !wait_i;
   assign advance = front_q && (!sum_q || hand_over);
-  assign hand_over = complete_q && (!done_o || take_i);
-  assign ready_o = box_state_q == BOXED && (!run_q || (PAIRS == 1 && run_end)) && !front_q && (!sum_q || !done_o || take_i);
+  assign hand_over = complete_q && (!done_q || gone);
+  assign gone = take_i || drop_o;
+  assign ready_o = box_state_q == BOXED && (!run_q || (PAIRS == 1 && run_end)) && !front_q && (!sum_q || !done_q || gone);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       run_q <= 1'b0;
       front_q <= 1'b0;
       sum_q <= 1'b0;
-      done_o <= 1'b0;
+      done_q <= 1'b0;
     end else begin
       run_q <= start_i || (run_q && !run_end);
       front_q <= start_i || (front_q && !advance);
       sum_q <= advance || (sum_q && !hand_over);
-      done_o <= hand_over || (done_o && !take_i);
+      done_q <= hand_over || (done_q && !gone);
     end
   end
 
@@ -451,12 +460,40 @@ module quad_setup #(
   assign some_neg = negative[2] || positive[1] || negative[3] || positive[0];
   assign hull = !sum_ordinary && !(some_pos && some_neg);
 
-  always_ff @(posedge clk_i) begin
-    if (hand_over) begin
-      hull_o <= hull;
-      visible_o <= (sum_ordinary || hull) ? 4'b1111 : {negative[1:0], positive[1:0]};
-    end
+  logic [3:0] visible;
+
+  assign visible = (sum_ordinary || hull) ? 4'b1111 : {negative[1:0], positive[1:0]};
+
+  always_ff @(posedge clk_i) if (hand_over) {hull_o, visible_o} <= {hull, visible};
+
+  // ---- Left out: both triangles of expression (12) without area, or turned away -------------------------------------------------
+  // An ordinary quad's triangles have the areas of E01 + E12 + E20 and E23 + E30 - E20, anywhere; these five are there a clock before all
+  // is. A homogeneous quad's clauses are those of its determinants.
+  localparam int AREA = VAL + 2;
+  logic [5*AREA-1:0] values;
+  logic [AREA-1:0] area_012, area_023;
+  logic [3:0] area_signs_q, wanted;  // as the clauses of visible_o
+
+  for (genvar g = 0; g < 5; g++) begin : gen_value
+    assign values[g*AREA+:AREA] = AREA'($signed(lin_value_q[g*VAL+:VAL]));
   end
+
+  assign area_012 = values[0+:AREA] + values[AREA+:AREA] + values[4*AREA+:AREA];
+  assign area_023 = values[2*AREA+:AREA] + values[3*AREA+:AREA] - values[4*AREA+:AREA];
+  assign wanted = {{2{cull_i != 2'd1}}, {2{cull_i != 2'd2}}};
+
+  always_ff @(posedge clk_i) begin
+    area_signs_q <= {
+      area_023[AREA-1],
+      area_012[AREA-1],
+      !area_023[AREA-1] && area_023 != '0,
+      !area_012[AREA-1] && area_012 != '0
+    };
+    if (hand_over) left_out_q <= reject_i && ((sum_ordinary ? area_signs_q : visible) & wanted) == '0;
+  end
+
+  assign drop_o = done_q && left_out_q;
+  assign done_o = done_q && !left_out_q;
 
   logic unused;
   assign unused = ^{last_column, det_step[4:3]};

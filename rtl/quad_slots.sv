@@ -18,7 +18,9 @@ module quad_slots #(
     input logic rst_ni,
     // Allocation
     input logic start_i,
-    input logic release_i,
+    input logic release_i,  // the quad's end beat is in the pipeline's last register, two clocks behind its slot's at output_slot_i
+    input logic drop_i,  // a quad that setup leaves out
+    input logic [SLOT-1:0] drop_slot_i,
     output logic [SLOT-1:0] alloc_o,
     output logic available_o,
     output logic busy_o,
@@ -81,21 +83,24 @@ module quad_slots #(
 );
   localparam int SLOTS = 1 << SLOT;
 
-  // ---- Allocation ---------------------------------------------------------------------------------------------------------
-  logic [SLOT-1:0] alloc_q;
-  logic [SLOT:0] in_use_q;
+  // ---- Allocation: one slot after the other; those of dropped quads are free earlier than older ones, so that the next may be in use --
+  logic [SLOT-1:0] alloc_q, output_slot_q, release_slot_q;
+  logic [SLOTS-1:0] in_use_q;
 
   assign alloc_o = alloc_q;
-  assign available_o = in_use_q < (SLOT + 1)'(SLOTS);
+  assign available_o = !in_use_q[alloc_q];
   assign busy_o = in_use_q != '0;
 
   always_ff @(posedge clk_i) begin
+    {release_slot_q, output_slot_q} <= {output_slot_q, output_slot_i};  // of the end beat in the pipeline's last register
     if (!rst_ni) begin
       alloc_q <= '0;
       in_use_q <= '0;
     end else begin
-      if (start_i) alloc_q <= alloc_q + SLOT'(1);
-      in_use_q <= in_use_q + (SLOT + 1)'(start_i) - (SLOT + 1)'(release_i);
+      alloc_q <= alloc_q + SLOT'(start_i || (in_use_q[alloc_q] && in_use_q != '1));
+      if (release_i) in_use_q[release_slot_q] <= 1'b0;
+      if (drop_i) in_use_q[drop_slot_i] <= 1'b0;
+      if (start_i) in_use_q[alloc_q] <= 1'b1;
     end
   end
 

@@ -32,6 +32,7 @@ one_of_four.sv
 pixel_emit.sv
 pixel_lane.sv
 pixel_pipeline.sv
+quad_reject.sv
 quad_setup.sv
 quad_slots.sv
 quadrille.sv

@@ -61,13 +61,15 @@ module quadrille (
   } state_t;
 
   state_t state;
-  logic unused_skip;
+  logic depth_on, unused_skip;
 
   assign state = state_i;
-  assign unused_skip = ^state.skip[7:1];
+  assign depth_on = state.depth;
+  assign unused_skip = ^state.skip[7:2];
 
   // ---- Vertices -----------------------------------------------------------------------------------------------------------
   logic start, full, assembly_busy;
+  logic drop_vertices, empty, behind, outside_depth;
   logic [ID-1:0] quad_id;
   logic [4*T-1:0] quad_x, quad_y;
   logic [4*W-1:0] quad_w;
@@ -88,6 +90,12 @@ module quadrille (
       .vertex_valid_i,
       .vertex_ready_o,
       .start_i(start),
+      .drop_i(drop_vertices),
+      .depth_on_i(depth_on),
+      .znear_i(state.znear),
+      .zfar_i(state.zfar),
+      .behind_o(behind),
+      .depth_o(outside_depth),
       .full_o(full),
       .busy_o(assembly_busy),
       .id_o(quad_id),
@@ -124,7 +132,7 @@ module quadrille (
   logic [PAIRS*T-1:0] xi, yi, xj, yj;
   logic [PAIRS*RISE-1:0] apart_x, apart_y;
   logic [PAIRS*OUT-1:0] result0, result1;
-  logic setup_ready, setup_done, take;
+  logic setup_ready, setup_done, take, drop;
   logic slot_available, slots_busy, fragments_busy, slot_release, stamp_load;
   logic [SLOT-1:0] alloc_slot, setup_slot;
   logic [TC-1:0] tile_x0, tile_y0, tiles_x, tiles_y;
@@ -139,15 +147,17 @@ module quadrille (
   logic [4*T-1:0] setup_x, setup_y;
   logic [4*W-1:0] setup_w;
 
+  assign drop_vertices = full && state.skip[1] && (empty || behind || outside_depth);
   assign start = full && setup_ready && slot_available;
   assign busy_o = assembly_busy || slots_busy || fragments_busy;
 
   quad_setup u_setup (
       .clk_i,
       .rst_ni,
-      .held_i(full),
+      .held_i(full && !drop_vertices),
       .start_i(start),
       .ready_o(setup_ready),
+      .empty_o(empty),
       .slot_i(alloc_slot),
       .x_i(quad_x),
       .y_i(quad_y),
@@ -174,8 +184,11 @@ module quadrille (
       .apart_y_i(apart_y),
       .result0_i(result0),
       .result1_i(result1),
+      .reject_i(state.skip[1]),
+      .cull_i(state.cull),
       .take_i(take),
       .done_o(setup_done),
+      .drop_o(drop),
       .slot_o(setup_slot),
       .tile_x0_o(tile_x0),
       .tile_y0_o(tile_y0),
@@ -250,6 +263,8 @@ module quadrille (
       .rst_ni,
       .start_i(start),
       .release_i(slot_release),
+      .drop_i(drop),
+      .drop_slot_i(setup_slot),
       .alloc_o(alloc_slot),
       .available_o(slot_available),
       .busy_o(slots_busy),
@@ -576,7 +591,7 @@ module quadrille (
   pixel_pipeline u_pipeline (
       .clk_i,
       .rst_ni,
-      .depth_on_i(state.depth),
+      .depth_on_i(depth_on),
       .znear_i(state.znear),
       .zfar_i(state.zfar),
       .attributes_i(state.attributes),

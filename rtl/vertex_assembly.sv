@@ -1,13 +1,15 @@
-// Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i clears it.
+// Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i or drop_i clears it, in whose clock the
+// next quad's first beat is taken.
 //
-// vertex_ready_o is a register's output (it depends neither on valid nor on start_i). The quad's id is that of v0.
-// Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X and Y, kept up with each beat.
-// Does not judge a vertex. Vertex i's field is at [i*width +: width] of each flat output.
+// vertex_ready_o depends on registers alone, not on valid. The quad's id is that of v0.
+// Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X and Y, kept up with each beat; and
+// quad_reject's judgement of its vertices. Vertex i's field is at [i*width +: width] of each flat output.
 module vertex_assembly #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
     localparam int T = quadrille_pkg::T_BITS,
     localparam int W = quadrille_pkg::W_BITS,
+    localparam int DB = quadrille_pkg::DEPTH_BITS,
     localparam int ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
 ) (
     input logic clk_i,
@@ -16,6 +18,12 @@ module vertex_assembly #(
     input logic vertex_valid_i,
     output logic vertex_ready_o,
     input logic start_i,
+    input logic drop_i,
+    input logic depth_on_i,
+    input logic [DB:0] znear_i,
+    input logic [DB:0] zfar_i,
+    output logic behind_o,
+    output logic depth_o,
     output logic full_o,
     output logic busy_o,
     output logic [quadrille_pkg::QUAD_ID_BITS-1:0] id_o,
@@ -56,8 +64,8 @@ module vertex_assembly #(
   logic accept;
 
   assign vertex = vertex_i;
-  assign accept = vertex_valid_i && !full_q;
-  assign vertex_ready_o = !full_q;
+  assign accept = vertex_valid_i && vertex_ready_o;
+  assign vertex_ready_o = !full_q || start_i || drop_i;
   assign full_o = full_q;
   assign busy_o = full_q || (count_q != 2'd0);
 
@@ -68,7 +76,7 @@ module vertex_assembly #(
     end else begin
       if (accept) count_q <= count_q + 2'd1;
       if (accept && count_q == 2'd3) full_q <= 1'b1;
-      else if (start_i) full_q <= 1'b0;
+      else if (start_i || drop_i) full_q <= 1'b0;
     end
   end
 
@@ -129,6 +137,23 @@ module vertex_assembly #(
 
   logic unused;
   assign unused = ^w_exp[E-1:PE];
+
+  quad_reject u_reject (
+      .clk_i,
+      .depth_on_i,
+      .znear_i,
+      .zfar_i,
+      .accept_i(accept),
+      .first_i(first),
+      .w_positive_i(!w_neg && w_sig[S-1]),
+      .w_exp_i(w_exp[PE-1:0]),
+      .w_single_i((w_magnitude & (w_magnitude - W'(1))) == '0),
+      .z_neg_i(z_neg),
+      .z_exp_i(z_exp),
+      .z_sig_i(z_sig),
+      .behind_o,
+      .depth_o
+  );
 
   for (genvar g = 0; g < 4; g++) begin : gen_vertex
     logic [T-1:0] x_q, y_q;

@@ -140,7 +140,7 @@ struct Widths {
         ID(c.quad_id_bits),
         DB(c.depth_bits),
         P(c.pixels_per_clock),
-        PAIRS(1),
+        PAIRS(c.dot_units / 2),
         FRAC(c.frac()),
         AO(c.attr_out_bits()),
         NUMBER(E + S),

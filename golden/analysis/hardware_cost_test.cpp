@@ -179,7 +179,7 @@ TEST(HardwareCost, AWiderKeyNeverCostsLess) {
   for (const char* key : {"viewport_bits", "guard_bits", "subpixel_bits", "homogeneous_frac_bits",
                           "quadratic_frac_bits", "significand_bits", "align_guard_bits", "attribute_slots",
                           "attribute_int_bits", "attribute_frac_bits", "depth_bits", "tile_log2", "quad_slots_log2",
-                          "tile_slots_log2", "stamp_fifo_log2", "quad_id_bits", "pixels_per_clock"}) {
+                          "tile_slots_log2", "stamp_fifo_log2", "quad_id_bits", "pixels_per_clock", "dot_units"}) {
     int steps = 0;
     for (const Config& base : bases()) {
       const auto range = std::ranges::find(Config::keys(), std::string_view(key), &ConfigKey::name);
@@ -223,6 +223,16 @@ TEST(HardwareCost, LanesHaveWhatIsAPixelsOwn) {
         EXPECT_EQ(module(config, name), module(one, name)) << name;
       EXPECT_GT(module(config, "fragment_fifo").block_rams, module(one, "fragment_fifo").block_rams);
     }
+  }
+}
+
+TEST(HardwareCost, APairOfDotUnitsTakesTwelveBlocks) {
+  for (Config config : bases()) {
+    const HardwareCost two = hardware_cost(config);
+    config.dot_units = 4;
+    EXPECT_EQ(hardware_cost(config).dsps, two.dsps + 12);
+    EXPECT_GT(hardware_cost(config).adder_bits, two.adder_bits);
+    EXPECT_GT(hardware_cost(config).state_bits, two.state_bits);
   }
 }
 

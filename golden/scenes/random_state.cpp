@@ -72,7 +72,8 @@ DrawState random_draw_state(const Config& config, int width, int height, std::sp
     state.attributes = static_cast<int>(rng.integer(1, config.attribute_slots));
   else
     state.attributes = config.attribute_slots;
-  if (rng.chance(0.25)) state.skip &= ~std::uint32_t{skip_hierarchical_tiles};
+  if (rng.chance(0.25)) state.skip &= ~std::uint32_t{skip_tiles};
+  if (rng.chance(0.25)) state.skip &= ~std::uint32_t{skip_quads};
   return state;
 }
 

@@ -34,7 +34,8 @@ TEST(RandomState, IsAValidStateAndEveryKindOccurs) {
     kinds["znear"] += s.depth && s.znear > 0;
     kinds["zfar"] += s.depth && s.zfar < 1;
     kinds["fewer attributes"] += s.attributes < config.attribute_slots;
-    kinds["no tile skip"] += (s.skip & skip_hierarchical_tiles) == 0;
+    kinds["no tile skip"] += (s.skip & skip_tiles) == 0;
+    kinds["no quad skip"] += (s.skip & skip_quads) == 0;
   }
   for (const auto& [kind, count] : kinds) {
     EXPECT_GT(count, seeds / 8) << kind;

@@ -5,6 +5,7 @@
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/scenes/random_state.hpp"
+#include "model/quad_reject.hpp"
 #include "model/snap.hpp"
 #include "tb/check/check.hpp"
 #include "tb/check/error_limits.hpp"
@@ -53,6 +54,8 @@ struct InputResult {
                 cycle_mismatches = 0, compared_bits = 0;
   std::uint64_t pass_cycles = 0;     ///< of all passes
   std::uint64_t at_depth_limit = 0;  ///< fragments whose depth is exactly znear or zfar (where not 0 and 1)
+  std::uint64_t left_out = 0, left_out_empty = 0, left_out_behind = 0, left_out_depth = 0, left_out_line = 0,
+                left_out_culled = 0;  ///< quads, by QuadReject
   std::uint64_t alone_cycles = 0;
   double alone_seconds = 0, seconds = 0, loop_seconds = 0;
   bool complete = true;
@@ -81,11 +84,13 @@ constexpr Metric cycle_metrics[]{
     {"cycles_all_passes", &InputResult::pass_cycles}, {"cycles_rtl", &InputResult::cycles_rtl},
     {"cycles_model", &InputResult::cycles_model},     {"cycle_mismatches", &InputResult::cycle_mismatches},
     {"compared_bits", &InputResult::compared_bits},   {"covered_pixels", &InputResult::pixels}};
-constexpr Metric count_metrics[]{{"eye_crossing_quads", &InputResult::eye_crossing_quads},
-                                 {"homogeneous_quads", &InputResult::homogeneous_quads},
-                                 {"antipodal_quads", &InputResult::antipodal_quads},
-                                 {"tiny_quads", &InputResult::tiny_quads},
-                                 {"at_depth_limit", &InputResult::at_depth_limit}};
+constexpr Metric count_metrics[]{
+    {"eye_crossing_quads", &InputResult::eye_crossing_quads}, {"homogeneous_quads", &InputResult::homogeneous_quads},
+    {"antipodal_quads", &InputResult::antipodal_quads},       {"tiny_quads", &InputResult::tiny_quads},
+    {"at_depth_limit", &InputResult::at_depth_limit},         {"left_out", &InputResult::left_out},
+    {"left_out_empty", &InputResult::left_out_empty},         {"left_out_behind", &InputResult::left_out_behind},
+    {"left_out_depth", &InputResult::left_out_depth},         {"left_out_line", &InputResult::left_out_line},
+    {"left_out_culled", &InputResult::left_out_culled}};
 
 template <class Owner>
 void put_counters(nlohmann::ordered_json& json, const Owner& owner,
@@ -376,6 +381,13 @@ class CosimRun {
       result.homogeneous_quads += is_ordinary(snapped[i], config_) ? 0 : 1;
       result.antipodal_quads += has_antipodal_edge(snapped[i]) ? 1 : 0;
       result.tiny_quads += is_tiny(snapped[i], config_) ? 1 : 0;
+      const QuadReject reject = quad_reject(snapped[i], config_, state);
+      result.left_out += reject != QuadReject::none;
+      result.left_out_empty += reject == QuadReject::empty;
+      result.left_out_behind += reject == QuadReject::behind;
+      result.left_out_depth += reject == QuadReject::depth;
+      result.left_out_line += reject == QuadReject::line;
+      result.left_out_culled += reject == QuadReject::culled;
     }
     if (!options_.no_alone && report.agreed()) time_alone(snapped, lockstep, report, result);
   }
@@ -532,6 +544,12 @@ class CosimRun {
       std::fprintf(out, "  draw state    %s\n", state.c_str());
     print("  lockstep       {quads_drawn} quads, {fragments} fragments, {cycles_rtl} cycles", json);
     std::fputs(r.complete ? "\n" : " (ended early)\n", out);
+    if (r.left_out != 0)
+      print(
+          "                 {left_out} quads left out: {left_out_empty} without a pixel centre, {left_out_behind} "
+          "behind "
+          "the eye, {left_out_depth} outside znear and zfar, {left_out_line} on a line, {left_out_culled} culled\n",
+          json.at("counts"));
     if (r.fanned_faces)
       print("                 {fanned_faces} faces with more than four corners cut into {fan_primitives} primitives\n",
             json);
@@ -640,7 +658,7 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
   command
       ->add_option("--draw-state", options->draw_state,
                    "random or random:SEED: draws scissor, culling, perspective, depth, znear, zfar, attributes in use "
-                   "and the tile skip, and says which (default seed: --seed)")
+                   "and the skips, and says which (default seed: --seed)")
       ->type_name("random[:SEED]");
   command
       ->add_option("--limit-fragments", options->limit_fragments, "End each input after so many fragments; 0: no limit")

@@ -342,7 +342,7 @@ TEST_F(GoldenCli, InputsOfEveryKind) {
         std::string("--scene bloomenthal10_a --scissor 3,5,20,30 --no-perspective --set attribute_slots=5"),
         "--mesh '" + examples + "box.obj' --camera '" + examples + "camera.json' --shade normal " + narrow,
         "--mesh '" + examples + "box.obj' --up z --view back --znear 0.1",
-        "--quads '" + examples + "winding.quads' --no-tile-skip " + narrow}) {
+        "--quads '" + examples + "winding.quads' --skip none " + narrow}) {
     SCOPED_TRACE(input);
     const Outcome made = run("golden generate --force --size 40x32 --out own " + input);
     ASSERT_EQ(made.status, 0) << made.err;

@@ -5,6 +5,7 @@
 #include "golden/scenes/stress.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
+#include "model/untimed.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/lockstep.hpp"
 
@@ -153,7 +154,7 @@ TEST_P(Configuration, LockstepInEveryDrawState) {
     state.perspective = i % 2 == 0;
     state.depth = i % 4 != 1;
     state.attributes = i % (options.config.attribute_slots + 1);
-    state.skip = i % 5 == 0 ? 0 : static_cast<std::uint32_t>(skip_hierarchical_tiles);
+    state.skip = i % 5 == 0 ? 0u : i % 5 == 1 ? skip_tiles : i % 5 == 2 ? skip_quads : skip_default;
     state.znear = i % 3 == 0 ? 0.25 : 0;
     state.zfar = i % 3 == 1 ? 0.75 : 1;
     if (i >= 6) {
@@ -224,6 +225,63 @@ TEST_P(Configuration, LockstepInRandomDrawStates) {
   }
   EXPECT_GT(total, 10000u);
   std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
+}
+
+/// Quads that are left out, for every reason, between others: while slots are free and while they are not.
+TEST_P(Configuration, LockstepAcrossQuadsLeftOut) {
+  LockstepOptions options;
+  options.config = GetParam().config();
+  VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
+  options.state = small_state(options.config, 48);
+  options.state.cull = Cull::front;
+  options.state.znear = 0.25;
+  options.state.zfar = 0.75;
+  golden::Prng rng(31);
+  std::vector<SnappedQuad> quads;
+  for (std::uint32_t id = 0; id < 400; ++id) {
+    WindowQuad q;
+    q.id = id;
+    const double x = rng.uniform(0, 40), y = rng.uniform(0, 40), dx = rng.uniform(1, 6), dy = rng.uniform(1, 6);
+    q.vertex = {{{x, y, 0.5, 1}, {x + dx, y, 0.5, 1}, {x + dx, y + dy, 0.5, 1}, {x, y + dy, 0.5, 1}}};
+    switch (rng.below(9)) {
+      case 0:  // beside the screen
+        for (WindowVertex& v : q.vertex) v.x += 60;
+        break;
+      case 1:  // between two pixel centres
+        for (WindowVertex& v : q.vertex) v.y = 7.625 + v.y / 1024;
+        break;
+      case 2:  // behind the eye
+        for (WindowVertex& v : q.vertex) v.w = -1 - v.x / 64;
+        break;
+      case 3:  // too near, too far, or with a negative depth
+        for (WindowVertex& v : q.vertex) v.z = id % 3 == 0 ? 0.125 : id % 3 == 1 ? 0.875 : -0.5;
+        break;
+      case 4:  // on one line
+        for (WindowVertex& v : q.vertex) v.y = v.x;
+        break;
+      case 5:  // turned away
+        std::swap(q.vertex[1], q.vertex[3]);
+        break;
+      case 6:  // turned away, seen from behind the eye: homogeneous
+        std::swap(q.vertex[1], q.vertex[3]);
+        q.vertex[0] = {-x, -y, -0.5, -1};
+        break;
+      default:
+        break;
+    }
+    quads.push_back(snap_quad(q, options.config, options.state));
+  }
+  UntimedModel model(options.config, options.state);
+  for (const SnappedQuad& quad : quads) model.draw(quad, [](std::span<const Fragment>) {});
+  for (std::size_t reason = 0; reason < quad_reject_count; ++reason)
+    EXPECT_GT(model.stats().rejected[reason], 20u) << reason;
+  for (const double stall : {0.0, 0.9}) {
+    options.stall = stall;
+    const LockstepReport report = run_lockstep(device, quads, options);
+    ASSERT_TRUE(report.agreed()) << report.first_divergence.value_or("");
+    EXPECT_EQ(report.quads, quads.size());
+    EXPECT_EQ(report.fragments, model.stats().fragments);
+  }
 }
 
 /// What `burst` is for: while a fragment in twenty clocks is taken, vertices wait for a quad slot; with more slots more

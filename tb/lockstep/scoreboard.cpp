@@ -101,7 +101,7 @@ void Scoreboard::boundary(Boundary b, std::size_t lane, const Record* expected, 
 }
 
 void Scoreboard::follow(const ClockedProbes& probes) {
-  if (probes.setup != nullptr) quad_of_slot_[probes.setup->slot % quad_of_slot_.size()] = quads_set_up_++;
+  if (probes.setup != nullptr) quad_of_slot_[probes.setup->slot % quad_of_slot_.size()] = probes.setup_quad;
   if (probes.tile != nullptr) {
     ring_[ring_write_] = {quad_of_slot_[probes.tile->slot % quad_of_slot_.size()], probes.tile->tile_x,
                           probes.tile->tile_y};
@@ -120,7 +120,7 @@ Scoreboard::Verdict Scoreboard::compare(std::uint64_t cycle, const ClockedOutput
     const auto probe = [&](Boundary b) -> const ProbeSample& { return actual.probe[index_of(b)]; };
     const auto pack = [&](const auto& record, BitPacker& packer) { visit(record, config_, packer); };
     boundary(Boundary::setup, 0, p.setup, probe(Boundary::setup), pack,
-             [&](const SetupResult&) { return Place{quad_at(quads_set_up_)}; });
+             [&](const SetupResult&) { return Place{quad_at(p.setup_quad)}; });
     boundary(Boundary::tile, 0, p.tile, probe(Boundary::tile), pack, [&](const TileEntry& t) {
       return Place{quad_at(quad_of_slot_[t.slot % quad_of_slot_.size()]), t.end ? -1 : t.tile_x, t.tile_y, "tile"};
     });

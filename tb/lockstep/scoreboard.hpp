@@ -83,7 +83,6 @@ class Scoreboard {
   std::optional<std::string> first_;
 
   // Which quad and tile a slot or a ring pointer stands for.
-  std::size_t quads_set_up_ = 0;
   std::vector<std::size_t> quad_of_slot_;
   std::vector<RingPlace> ring_;
   std::size_t ring_write_ = 0;

@@ -51,6 +51,30 @@ std::string larger_viewport(const Config& config, int pixels) {
 }
 
 const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
+const std::array<std::string, 2> skip_names{"tiles", "quads"};         // in the order of SkipBit's bits
+constexpr std::uint32_t skip_all = (1u << skip_names.size()) - 1;
+
+/// all, none, or names with commas between.
+std::uint32_t parse_skips(std::string_view list) {
+  if (list == "all") return skip_all;
+  if (list == "none") return 0;
+  std::uint32_t skips = 0;
+  while (true) {
+    const std::size_t comma = std::min(list.find(','), list.size());
+    skips |= 1u << choose("--skip value (all, none, or names with commas between)", list.substr(0, comma),
+                          {skip_names.begin(), skip_names.end()});
+    if (comma == list.size()) return skips;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+std::string skips_text(std::uint32_t skips) {
+  if (skips == 0) return "none";
+  std::string text;
+  for (std::size_t i = 0; i < skip_names.size(); ++i)
+    if ((skips >> i & 1) != 0) text += (text.empty() ? "" : ",") + skip_names[i];
+  return text;
+}
 
 /// Shortest decimal text of a number.
 std::string number(double value) {
@@ -163,7 +187,13 @@ void StateOptions::add_to(CLI::App& app) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--scissor", scissor, "Half-open pixel rectangle to draw in")->type_name("X0,Y0,X1,Y1")->group(group);
-  app.add_flag("--no-tile-skip", no_tile_skip, "Visit every tile, also those that cannot be covered")->group(group);
+  app.add_option(
+         "--skip", skip,
+         "What the machine may leave out: all, none, or a list of tiles (blocks and tiles that no covered pixel "
+         "can be in) and quads (those that cannot give a fragment); the fragments are the same")
+      ->type_name("LIST")
+      ->capture_default_str()
+      ->group(group);
 }
 
 DrawState StateOptions::state(const CommonOptions& common, const Config& config) const {
@@ -193,7 +223,7 @@ DrawState StateOptions::state(const CommonOptions& common, const Config& config)
     throw UsageError("--znear, --zfar: 0 <= znear <= zfar <= 1 is required");
   state.znear = znear;
   state.zfar = zfar;
-  if (no_tile_skip) state.skip &= ~std::uint32_t{skip_hierarchical_tiles};
+  state.skip = parse_skips(skip);
   return state;
 }
 
@@ -204,7 +234,7 @@ StateOptions StateOptions::of(const DrawState& state) {
   options.no_depth = !state.depth;
   options.znear = state.znear;
   options.zfar = state.zfar;
-  options.no_tile_skip = (state.skip & skip_hierarchical_tiles) == 0;
+  options.skip = skips_text(state.skip);
   if (state.scissor_x0 != 0 || state.scissor_y0 != 0 || state.scissor_x1 != state.width ||
       state.scissor_y1 != state.height)
     options.scissor = std::to_string(state.scissor_x0) + "," + std::to_string(state.scissor_y0) + "," +
@@ -220,7 +250,7 @@ std::string StateOptions::spelled() const {
   if (znear != 0) text += " --znear " + number(znear);
   if (zfar != 1) text += " --zfar " + number(zfar);
   if (!scissor.empty()) text += " --scissor " + scissor;
-  if (no_tile_skip) text += " --no-tile-skip";
+  if (skip != StateOptions{}.skip) text += " --skip " + skip;
   return text;
 }
 

@@ -47,12 +47,13 @@ struct CommonOptions {
   std::FILE* text() const;
 };
 
-/// --cull --no-perspective --no-depth --znear --zfar --scissor --no-tile-skip
+/// --cull --no-perspective --no-depth --znear --zfar --scissor --skip
 struct StateOptions {
   std::string cull = "none";
-  bool no_perspective = false, no_depth = false, no_tile_skip = false;
+  bool no_perspective = false, no_depth = false;
   double znear = 0, zfar = 1;
   std::string scissor;
+  std::string skip = "tiles,quads";  ///< those of skip_default
 
   void add_to(CLI::App& app);
   DrawState state(const CommonOptions& common, const Config& config) const;

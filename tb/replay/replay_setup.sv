@@ -46,6 +46,7 @@ module replay_setup (
   logic [PAIRS*quadrille_pkg::RISE_BITS-1:0] apart_x, apart_y;
   logic [PAIRS*quadrille_pkg::DOT_OUT_BITS-1:0] result0, result1;
   logic [PAIRS*T-1:0] xi, yi, xj, yj;
+  logic empty, drop;
 
   vertex_products u_products (
       .clk_i,
@@ -98,11 +99,15 @@ module replay_setup (
       .start_i(valid_i && ready_o),
       .ready_o,
       .slot_i(SLOT'(0)),
+      .empty_o(empty),
+      .reject_i(1'b0),
+      .cull_i(2'd0),
+      .drop_o(drop),
       .take_i(valid_o),
       .done_o(valid_o),
       .*
   );
 
   logic unused;
-  assign unused = ^{xi, yi, xj, yj};
+  assign unused = ^{xi, yi, xj, yj, empty, drop};
 endmodule

@@ -176,6 +176,7 @@ std::vector<Axis> default_axes() {
                      "attribute_frac_bits=18:26:2,auto",
                      "depth_bits=16:28:4",
                      "tile_log2=2:4",
+                     "pixels_per_clock=1,2,4",
                      "dot_units=2,4",
                      "quad_slots_log2=1:4",
                      "tile_slots_log2=1:4",

@@ -1,0 +1,269 @@
+// Quads left out before their tiles are walked: the same fragments with and without, every quad of small grids and many
+// drawn around each rule's limit; and that what can be left out is.
+#include "model/quad_reject.hpp"
+#include "model/snap.hpp"
+#include "model/untimed.hpp"
+
+#include "golden/analysis/error_bound.hpp"
+#include "golden/scenes/random_state.hpp"
+#include "golden/scenes/stress.hpp"
+#include "model/support/prng.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace quadrille {
+namespace {
+
+using golden::Prng;
+
+using Counts = std::array<std::uint64_t, quad_reject_count>;
+constexpr std::array reasons{"none", "empty", "behind", "depth", "line", "culled"};
+
+/// Draws with and without the skip and compares.
+class BothWays {
+ public:
+  BothWays(const Config& config, const DrawState& state)
+      : config_(config),
+        state_(skipping(state, state.skip | skip_quads)),
+        with_(config, skipping(state, state.skip | skip_quads), PixelEngine::plain),
+        without_(config, skipping(state, state.skip & ~std::uint32_t{skip_quads}), PixelEngine::plain) {}
+
+  /// Fragments of the quad; differences are failures.
+  std::size_t draw(const SnappedQuad& quad) {
+    std::vector<Fragment> kept, all;
+    with_.draw(quad, [&](std::span<const Fragment> f) { kept.insert(kept.end(), f.begin(), f.end()); });
+    without_.draw(quad, [&](std::span<const Fragment> f) { all.insert(all.end(), f.begin(), f.end()); });
+    EXPECT_TRUE(kept == all) << kept.size() << " fragments of " << all.size() << ", " << reason(quad);
+    return all.size();
+  }
+  Counts rejected() const { return with_.stats().rejected; }
+
+ private:
+  std::string reason(const SnappedQuad& quad) const {
+    std::string text = reasons[static_cast<std::size_t>(quad_reject(quad, config_, state_))];
+    for (const SnappedVertex& v : quad.vertex)
+      text += " (" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.w) + ")";
+    return text;
+  }
+  static DrawState skipping(DrawState state, std::uint32_t skip) {
+    state.skip = skip;
+    return state;
+  }
+
+  Config config_;
+  DrawState state_;
+  UntimedModel with_, without_;
+};
+
+void add(Counts& to, const Counts& of) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += of[i];
+}
+
+void print(const char* what, const Counts& counts) {
+  std::printf("%s:", what);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    std::printf(" %s %llu", reasons[i], static_cast<unsigned long long>(counts[i]));
+  std::printf("\n");
+}
+
+Config tiny() {
+  Config c;
+  for (const auto& [key, value] : std::initializer_list<std::pair<const char*, int>>{
+           {"viewport_bits", 6}, {"subpixel_bits", 2}, {"homogeneous_frac_bits", 4}, {"significand_bits", 8}})
+    c.set(key, value);
+  c.validate();
+  return c;
+}
+
+/// Every quad of a 3 by 3 grid with w of -1, 0 and 1, but one in `stride`; rejected ones are a third and more of them.
+void grid(std::uint64_t stride) {
+  const Config c = tiny();
+  std::vector<SnappedVertex> vertices;
+  const int one = 1 << c.frac();
+  for (const int w : {-1, 0, 1})
+    for (const int x : {0, 2, 4})
+      for (const int y : {0, 2, 4}) {
+        if (w == 0 && x == 2 && y == 2) continue;  // (0, 0, 0) relative to the grid's middle is no vertex
+        SnappedVertex v;
+        v.x = (w == 0 ? x - 2 : x * w) * one;
+        v.y = (w == 0 ? y - 2 : y * w) * one;
+        v.w = w * one;
+        v.k = {false, 0, 1u << (c.significand_bits - 1)};
+        v.z = {false, -1, 1u << (c.significand_bits - 1)};  // Z = 1/2
+        vertices.push_back(v);
+      }
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = 5;
+  state.attributes = 0;
+  Counts total{};
+  std::uint64_t drawn = 0;
+  for (const Cull cull : {Cull::none, Cull::front, Cull::back}) {
+    state.cull = cull;
+    BothWays both(c, state);
+    const std::uint64_t n = vertices.size();
+    for (std::uint64_t i = static_cast<std::uint64_t>(cull); i < n * n * n * n && !testing::Test::HasFailure();
+         i += stride) {
+      SnappedQuad q;
+      q.vertex = {vertices[i % n], vertices[i / n % n], vertices[i / n / n % n], vertices[i / n / n / n]};
+      drawn += both.draw(q) != 0;
+      if (testing::Test::HasFailure()) std::printf("quad %llu\n", static_cast<unsigned long long>(i));
+    }
+    add(total, both.rejected());
+  }
+  print("grid", total);
+  std::printf("%llu quads have fragments\n", static_cast<unsigned long long>(drawn));
+  for (const QuadReject r : {QuadReject::behind, QuadReject::line, QuadReject::culled})
+    EXPECT_GT(total[static_cast<std::size_t>(r)], 100u) << reasons[static_cast<std::size_t>(r)];
+  EXPECT_GE(total[0], drawn);
+  EXPECT_GT(drawn, 1000u);
+}
+
+TEST(QuadReject, SomeOfASmallGrid) { grid(101); }
+TEST(QuadReject, AllOfASmallGrid) { grid(1); }
+
+/// Families in draw states at random: scissors, culling, depth limits at corners' depths.
+TEST(QuadReject, FamiliesKeepTheirFragments) {
+  Counts total{};
+  std::uint64_t fragments = 0;
+  for (const golden::StressFamilyInfo& info : golden::stress_families())
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      Config c;
+      c.set("viewport_bits", 8);
+      c.set("align_guard_bits", static_cast<int>(seed) - 1);
+      const int size = 64;
+      const std::vector<WindowQuad> quads = golden::make_stress(info.family, 60, seed, 1.0, size, size, 4);
+      const DrawState state = golden::random_draw_state(c, size, size, quads, seed);
+      BothWays both(c, state);
+      for (const WindowQuad& q : quads) fragments += both.draw(snap_quad(q, c, state));
+      add(total, both.rejected());
+    }
+  print("families", total);
+  EXPECT_GT(fragments, 100'000u);
+  for (std::size_t i = 0; i < total.size(); ++i)
+    if (i != static_cast<std::size_t>(QuadReject::depth)) {
+      EXPECT_GT(total[i], 10u) << reasons[i];
+    }
+}
+
+/// Corners within some units of the last place of a limit, on either side, at every width and number of guard bits.
+TEST(QuadReject, DepthAtItsLimits) {
+  Prng rng(5);
+  Counts total{};
+  std::uint64_t kept_without_fragment = 0;
+  for (int n = 0; n < 4000 && !HasFailure(); ++n) {
+    Config c = tiny();
+    c.significand_bits = static_cast<int>(rng.integer(8, 26));
+    c.align_guard_bits = static_cast<int>(rng.below(7));
+    c.depth_bits = static_cast<int>(rng.integer(8, 30));
+    c.validate();
+    DrawState state;
+    state.width = state.height = state.scissor_x1 = state.scissor_y1 = 4;
+    state.attributes = 0;
+    state.znear = rng.uniform(0.0, 0.5);
+    state.zfar = rng.uniform(state.znear, 1.0);
+    const bool far = rng.chance(0.5), homogeneous = rng.chance(0.3);
+    const double limit = std::ldexp(depth_code(far ? state.zfar : state.znear, c), -c.depth_bits);
+    SnappedQuad q;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int one = 1 << c.frac();
+      SnappedVertex& v = q.vertex[i];
+      v.w = homogeneous ? static_cast<std::int32_t>(rng.integer(one / 2, one)) : one;
+      v.x = ((i == 1 || i == 2) ? 4 * v.w : -v.w) + static_cast<std::int32_t>(rng.integer(0, one / 4));
+      v.y = (i >= 2 ? 4 * v.w : -v.w) + static_cast<std::int32_t>(rng.integer(0, one / 4));
+      v.k = {false, 0, 1u << (c.significand_bits - 1)};
+      // A corner's depth near the limit, by up to twenty units of the last place towards the outside and four inwards.
+      const double units = rng.uniform(-4, 20) * (far ? 1 : -1);
+      const double u = std::ldexp(1.0, 1 - c.significand_bits);
+      const double z = limit * (1 + units * u) * v.w / one;
+      if (z <= 0) continue;
+      int exponent = 0;
+      const double fraction = std::frexp(z, &exponent);
+      v.z = {false, exponent - 1, static_cast<std::uint32_t>(std::ldexp(fraction, c.significand_bits))};
+    }
+    BothWays both(c, state);
+    const std::size_t fragments = both.draw(q);
+    add(total, both.rejected());
+    kept_without_fragment += fragments == 0 && both.rejected()[0] != 0;
+  }
+  print("near the limits", total);
+  std::printf("%llu kept that have no fragment\n", static_cast<unsigned long long>(kept_without_fragment));
+  EXPECT_GT(total[static_cast<std::size_t>(QuadReject::depth)], 300u);
+  EXPECT_GT(kept_without_fragment, 300u);
+}
+
+/// Beyond the margin no quad with W = 1 is kept.
+TEST(QuadReject, DepthIsUsedFully) {
+  const Config c = tiny();
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = 4;
+  state.znear = 0.25;
+  state.zfar = 0.5;
+  const int one = 1 << c.frac();
+  const std::uint32_t low = 1u << (c.significand_bits - 1);
+  const auto quad_at = [&](int exponent, std::uint32_t sig, bool neg) {
+    SnappedQuad q;
+    for (std::size_t i = 0; i < 4; ++i) {
+      SnappedVertex& v = q.vertex[i];
+      v = {(i == 1 || i == 2) ? 3 * one : 0, i >= 2 ? 3 * one : 0, one, {false, 0, low}, {neg, exponent, sig}, {}};
+    }
+    return q;
+  };
+  const auto steps = static_cast<std::uint32_t>(2 * depth_margin(c) + 1);
+  const auto reject = [&](const SnappedQuad& q) { return reject_by_vertices(q, c, state); };
+  // zfar: the code after it is 0.5 + 2^-24, truncated 0.5, and the next number is beyond it.
+  EXPECT_EQ(reject(quad_at(-1, low + steps, false)), QuadReject::none);
+  EXPECT_EQ(reject(quad_at(-1, low + steps + 1, false)), QuadReject::depth);
+  EXPECT_EQ(reject(quad_at(-3, 2 * low - steps + 1, false)), QuadReject::none);
+  EXPECT_EQ(reject(quad_at(-3, 2 * low - steps, false)), QuadReject::depth);
+  EXPECT_EQ(reject(quad_at(-2, low, true)), QuadReject::depth);
+  EXPECT_EQ(reject(quad_at(-c.depth_bits - 1, low, true)), QuadReject::depth) << "below znear, whatever its sign";
+  state.znear = 0;
+  EXPECT_EQ(reject(quad_at(-c.depth_bits - 1, low, true)), QuadReject::none) << "minus a code of 0 is not outside";
+  EXPECT_EQ(reject(quad_at(-c.depth_bits, low + steps - 1, true)), QuadReject::none);
+  EXPECT_EQ(reject(quad_at(-c.depth_bits, low + steps, true)), QuadReject::depth);
+  state.depth = false;
+  EXPECT_EQ(reject(quad_at(-2, low, true)), QuadReject::none);
+  state.depth = true;
+  state.skip = 0;
+  EXPECT_EQ(reject(quad_at(-2, low, true)), QuadReject::none);
+}
+
+/// What the margin is made of, by the tables that the machine has.
+TEST(QuadReject, MarginCoversTheReciprocal) {
+  for (int s = 8; s <= 26; ++s)
+    for (const int degree : {1, 2}) {
+      Config c;
+      c.significand_bits = s;
+      c.recip_degree = degree;
+      try {
+        c.validate();
+      } catch (const ConfigError&) {
+        continue;
+      }
+      ASSERT_TRUE(rejects_by_depth(c));
+      const double u = std::ldexp(1.0, 1 - s);
+      const TableError table = reciprocal_error(c);
+      for (int g = 0; g <= 6; ++g) {
+        c.align_guard_bits = g;
+        const double sum = u * (1 + 3 * std::ldexp(1.0, -g));
+        const double margin = depth_margin(c) * u;
+        EXPECT_LE(std::expm1(table.high) + 1, (1 + margin) * (1 - sum))
+            << "s " << s << " degree " << degree << " g " << g;
+        EXPECT_GE((1 - sum) * std::exp(table.low), 1 - margin) << "s " << s << " degree " << degree << " g " << g;
+      }
+      const int automatic = c.recip_segments();
+      if (automatic > 3) {
+        c.recip_segments_log2 = automatic - 1;
+        EXPECT_FALSE(rejects_by_depth(c));
+      }
+    }
+}
+
+}  // namespace
+}  // namespace quadrille
