@@ -155,7 +155,8 @@ Scenario flat_signed_grid() {
           })};
 }
 
-/// Window z exactly on the limits: powers of two, all corners alike. Some have a corner beyond the guard band.
+/// Window z exactly on the limits: powers of two, all corners alike. Some have a corner beyond the guard band that is
+/// the only one inside them.
 Scenario depth_limits() {
   LockstepOptions o = options(exact(), 16);
   o.state.znear = 0.25;
@@ -165,7 +166,12 @@ Scenario depth_limits() {
             WindowQuad quad = on_grid(random, 5, w);
             const double z = depths[random.below(4)];
             for (WindowVertex& v : quad.vertex) v.z = random.chance(0.9) ? z : -z;
-            if (random.chance(0.25)) quad.vertex[random.below(4)].x += 50'000;
+            if (random.chance(0.25)) {
+              for (WindowVertex& v : quad.vertex) v.z = 0.625;
+              WindowVertex& far = quad.vertex[random.below(4)];
+              far.x += 50'000;
+              far.z = 0.5;
+            }
             return quad;
           })};
 }
