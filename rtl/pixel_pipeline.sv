@@ -92,7 +92,8 @@ module pixel_pipeline #(
   end
 
   // ---- Side band: slot, tile column, row -----------------------------------------------------------------------------------
-  // A read of the slot bank ends in a register: the slot leaves two registers before the data's user.
+  // A read of the slot bank ends in a register: the slot leaves two registers before the data's user; three for interpolation and
+  // squared lengths, whose memories have a register of their own.
   typedef struct packed {
     logic [SLOT-1:0] slot;
     logic [V-TILE_LOG2-1:0] tile_x;
@@ -108,8 +109,8 @@ module pixel_pipeline #(
       .data_i(product_tag),
       .data_o(override_tag)
   );
-  delay_line #(.WIDTH(TAG), .DEPTH(WEIGHT + 1 - OVERRIDE)) u_blend_tag (.clk_i, .data_i(override_tag), .data_o(blend_tag));
-  delay_line #(.WIDTH(TAG), .DEPTH(LAST - 1 - WEIGHT)) u_output_tag (.clk_i, .data_i(blend_tag), .data_o(output_tag));
+  delay_line #(.WIDTH(TAG), .DEPTH(WEIGHT - OVERRIDE)) u_blend_tag (.clk_i, .data_i(override_tag), .data_o(blend_tag));
+  delay_line #(.WIDTH(TAG), .DEPTH(LAST - WEIGHT)) u_output_tag (.clk_i, .data_i(blend_tag), .data_o(output_tag));
 
   // ---- Reads of the slot bank -----------------------------------------------------------------------------------------------
   logic [3:0] product_k_neg;
@@ -206,7 +207,7 @@ module pixel_pipeline #(
       .data_i(part_i),
       .data_o(part)
   );
-  delay_line #(.WIDTH(SLOT), .DEPTH(DIFFERENCE)) u_length2_slot (
+  delay_line #(.WIDTH(SLOT), .DEPTH(DIFFERENCE - 1)) u_length2_slot (
       .clk_i,
       .data_i(slot_i),
       .data_o(length2_slot_o)

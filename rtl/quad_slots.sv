@@ -3,7 +3,7 @@
 // Two banks. Vertex bank, written at start: id, k_eff (k, or W without perspective), W, Z, b as significand numbers with port
 // exponents. Function bank, written at take: gx, gy and tie signs of the linear functions, squared lengths, visibility, hull,
 // homogeneous.
-// Reads of the front end end in registers, those of the pixel pipeline are combinational; a slot lives from start until the end beat leaves the pipeline. Not reset, except the pointers.
+// Reads of the front end, of squared lengths and for interpolation end in registers, the pixel pipeline's others are combinational; a slot lives from start until the end beat leaves the pipeline. Not reset, except the pointers.
 module quad_slots #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
@@ -59,7 +59,7 @@ module quad_slots #(
     input logic [SLOT-1:0] emit_slot_i,
     output logic [6*GRAD-1:0] emit_gx_o,
     output logic [6*GRAD-1:0] emit_gy_o,
-    // Read for the dot products of an ordinary quad
+    // Read for the dot products of an ordinary quad: there a clock after the slot
     input logic [SLOT-1:0] length2_slot_i,
     output logic [6*LENGTH2-1:0] length2_o,
     // Read of k_eff for the weights' products and for the overrides
@@ -70,7 +70,7 @@ module quad_slots #(
     input logic [SLOT-1:0] override_slot_i,
     output logic [4*PE-1:0] override_k_exp_o,
     output logic [4*S-1:0] override_k_sig_o,
-    // Read for interpolation: term sets k_eff, W, Z, b0, b1, ..., each of four vertices
+    // Read for interpolation: term sets k_eff, W, Z, b0, b1, ..., each of four vertices; there a clock after the slot
     input logic [SLOT-1:0] blend_slot_i,
     output logic [(3+N)*4-1:0] blend_neg_o,
     output logic [(3+N)*4*PE-1:0] blend_exp_o,
@@ -104,7 +104,20 @@ module quad_slots #(
     end
   end
 
-  // ---- Vertex bank: one memory per vertex and term set --------------------------------------------------------------------
+  // ---- Vertex bank --------------------------------------------------------------------------------------------------------
+  // k_eff, which is read three times, in a small memory per vertex; the other term sets, read once for interpolation, in one word.
+  localparam int WORD = 1 + PE + S;
+  localparam int SETS = 3 + N;
+  localparam int BLEND = 4 * (SETS - 1) * WORD;
+  // Block RAM: a slot that is read is in use, so it is never the one that is written.
+  (* ram_style = "block", no_rw_check *) logic [BLEND-1:0] blend_q[0:SLOTS-1];
+  logic [BLEND-1:0] write_blend, blend_word;
+
+  always_ff @(posedge clk_i) begin
+    if (start_i) blend_q[alloc_q] <= write_blend;
+    blend_word <= blend_q[blend_slot_i];
+  end
+
   for (genvar v = 0; v < 4; v++) begin : gen_vertex
     logic k_neg;
     logic [PE-1:0] k_exp;
@@ -114,14 +127,22 @@ module quad_slots #(
     assign k_exp = perspective_i ? k_exp_i[v*PE+:PE] : w_exp_i[v*PE+:PE];
     assign k_sig = perspective_i ? k_sig_i[v*S+:S] : w_sig_i[v*S+:S];
 
-    for (genvar t = 0; t < 3 + N; t++) begin : gen_term
-      localparam int WORD = 1 + PE + S;
-      logic [WORD-1:0] bank_q[0:SLOTS-1];
-      logic [WORD-1:0] write_word, blend_word;
+    for (genvar t = 0; t < SETS; t++) begin : gen_term
+      logic [WORD-1:0] read_word;
+
+      assign blend_neg_o[t*4+v] = read_word[WORD-1];
+      assign blend_exp_o[(t*4+v)*PE+:PE] = read_word[S+:PE];
+      assign blend_sig_o[(t*4+v)*S+:S] = read_word[0+:S];
 
       if (t == 0) begin : gen_k
+        logic [WORD-1:0] bank_q[0:SLOTS-1];
         logic [WORD-1:0] product_word, override_word;
-        assign write_word = {k_neg, k_exp, k_sig};
+
+        always_ff @(posedge clk_i) begin
+          if (start_i) bank_q[alloc_q] <= {k_neg, k_exp, k_sig};
+          read_word <= bank_q[blend_slot_i];
+        end
+
         assign product_word = bank_q[product_slot_i];
         assign override_word = bank_q[override_slot_i];
         assign product_k_neg_o[v] = product_word[WORD-1];
@@ -131,20 +152,18 @@ module quad_slots #(
         assign override_k_sig_o[v*S+:S] = override_word[0+:S];
         logic unused_neg;
         assign unused_neg = override_word[WORD-1];  // magnitude only
-      end else if (t == 1) begin : gen_w
-        assign write_word = {w_neg_i[v], w_exp_i[v*PE+:PE], w_sig_i[v*S+:S]};
-      end else if (t == 2) begin : gen_z
-        assign write_word = {z_neg_i[v], z_exp_i[v*PE+:PE], z_sig_i[v*S+:S]};
-      end else begin : gen_b
-        assign write_word = attr_i[(v*N+t-3)*AP+:AP];
+      end else begin : gen_blend
+        localparam int AT = ((t - 1) * 4 + v) * WORD;
+        assign read_word = blend_word[AT+:WORD];
+
+        if (t == 1) begin : gen_w
+          assign write_blend[AT+:WORD] = {w_neg_i[v], w_exp_i[v*PE+:PE], w_sig_i[v*S+:S]};
+        end else if (t == 2) begin : gen_z
+          assign write_blend[AT+:WORD] = {z_neg_i[v], z_exp_i[v*PE+:PE], z_sig_i[v*S+:S]};
+        end else begin : gen_b
+          assign write_blend[AT+:WORD] = attr_i[(v*N+t-3)*AP+:AP];
+        end
       end
-
-      always_ff @(posedge clk_i) if (start_i) bank_q[alloc_q] <= write_word;
-
-      assign blend_word = bank_q[blend_slot_i];
-      assign blend_neg_o[t*4+v] = blend_word[WORD-1];
-      assign blend_exp_o[(t*4+v)*PE+:PE] = blend_word[S+:PE];
-      assign blend_sig_o[(t*4+v)*S+:S] = blend_word[0+:S];
     end
   end
 
@@ -178,11 +197,12 @@ module quad_slots #(
     end
   end
 
-  logic [6*LENGTH2-1:0] length2_q[0:SLOTS-1];
+  (* ram_style = "block", no_rw_check *) logic [6*LENGTH2-1:0] length2_q[0:SLOTS-1];  // as blend_q
 
-  always_ff @(posedge clk_i) if (take_i) length2_q[take_slot_i] <= length2_i;
-
-  assign length2_o = length2_q[length2_slot_i];
+  always_ff @(posedge clk_i) begin
+    if (take_i) length2_q[take_slot_i] <= length2_i;
+    length2_o <= length2_q[length2_slot_i];
+  end
 
   logic [13:0] stamp_q[0:SLOTS-1];
   logic [1:0] class_q[0:SLOTS-1];
