@@ -275,17 +275,17 @@ PYTHON
 fault setup vertex_products.sv "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_y};" "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_x};"
 fault setup vertex_products.sv "subtract0 = kind == quadrille_pkg::EDGE ||" "subtract0 ="
 fault tile_context tile_context.sv "T'(offset_x_o) << FRAC" "T'(offset_x_o[TILE_LOG2+2:0]) << FRAC"
-fault tile_context tile_context.sv "GRAD'(\$signed(early[g*T+:T])) << (FRAC + 1)" "GRAD'(\$signed(early[g*T+:T])) << FRAC"
-fault tile_context tile_context.sv "4'd2, 4'd8: late_lane = 4'b0100" "4'd2, 4'd9: late_lane = 4'b0100"
-fault tile_context tile_context.sv "MOVE_END - 6'd2 + 6'(CLOCKS)" "MOVE_END - 6'd3 + 6'(CLOCKS)" # before the first vertices have moved
+fault tile_context tile_context.sv "GRAD'(\$signed(early_x)) << (FRAC + 1)" "GRAD'(\$signed(early_x)) << FRAC"
+fault tile_context tile_context.sv "4'd2, 4'd8: late_lanes" "4'd2, 4'd9: late_lanes"
+fault tile_context tile_context.sv "PRODUCT = 6'd3 + 6'(CLOCKS)" "PRODUCT = 6'd2 + 6'(CLOCKS)" # before the first vertices have moved
 fault tile_context vertex_products.sv "DOT'(offset_y_i)" "DOT'(offset_x_i)"
 fault tile_context vertex_products.sv "{a0, b0, c0, d0} = {x_i, w_j, w_i, x_j};" "{a0, b0, c0, d0} = {x_i, w_j, w_j, x_i};"
 # Bits that are dropped, each coefficient by itself.
 dropped=$work/dropped
 "$QUADRILLE" golden generate --level 1 --limit 150 --out "$dropped" --quiet --suite tile_context --set quadratic_frac_bits=12
 expect 0 "^tile_context: [0-9]+ vectors, 0 mismatches" "tile_context with dropped bits" $replay "$dropped" $tool
-set=$dropped fault tile_context tile_context.sv "QVAL'(result0_i >> QDROP)" "QVAL'((result0_i + ((OUT'(1) << QDROP) >> 1)) >> QDROP)"
-set=$dropped fault tile_context tile_context.sv "QGRAD'(exact >> QDROP)" "QGRAD'(0) - QGRAD'(minus >> QDROP)"
+set=$dropped fault tile_context tile_context.sv "QVAL'((late_dot ? dot : square) >> QDROP)" "QVAL'(((late_dot ? dot : square) + ((OUT'(1) << QDROP) >> 1)) >> QDROP)"
+set=$dropped fault tile_context tile_context.sv "QGRAD'(exact_x >> QDROP)" "QGRAD'(0) - QGRAD'(minus_x >> QDROP)"
 set=$dropped fault tile_context tile_context.sv "QCURV'(q >> QDROP)" "QCURV'((q + ((CURV'(1) << QDROP) >> 1)) >> QDROP)"
 # Several pixels a clock: the whole machine, whose fault one lane cannot show.
 if ! $sample; then
@@ -306,8 +306,8 @@ fault ratios mean_value_ratios.sv "rr_rank_q <= rr_rank" "rr_rank_q <= rr_rank +
 fault weights factor_products.sv "late_neighbours && late_corner == 2'(g)" "1'b0"
 fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(t*4+v)*PE+:PE]))" "E'(term_exp_i[(t*4+v)*PE+:PE])"
 fault depth fragment_output.sv "z < znear_i" "z <= znear_i"
-fault $machine quadrille.sv "full && setup_idle && slot_available" "full && setup_idle && !slots_busy" # clocks alone
-fault $machine quadrille.sv "full && setup_idle && slot_available" "full && setup_idle && !slots_busy" verilator
+fault $machine quadrille.sv "full && setup_ready && slot_available" "full && setup_ready && !slots_busy" # clocks alone
+fault $machine quadrille.sv "full && setup_ready && slot_available" "full && setup_ready && !slots_busy" verilator
 
 echo "$checked expectations"
 [ "$failures" -eq 0 ] || { echo "$failures failed" >&2; exit 1; }
