@@ -51,28 +51,66 @@ module pixel_emit #(
   assign send = send_part && whole;
   assign pop_o = head_valid_i && (head_end_i || (may_send && whole && remaining == chosen));
 
-  // ---- Lanes: each has the lowest pixel that those below it leave -----------------------------------------------------------
+  // ---- Ranks: bit n of a pixel's P bits says that more than n remaining pixels lie in a range that ends with it ---------------
+  // Ranges double from level to level: up to the pixel's 2^l-th place, the range of the block before is joined to its own.
+  for (genvar l = 0; l <= TILE_LOG2; l++) begin : gen_level
+    logic [TILE*P-1:0] more;
+
+    for (genvar i = 0; i < TILE; i++) begin : gen_pixel
+      if (l == 0) begin : gen_one
+        assign more[i*P+:P] = P'(remaining[i]);
+      end else if (((i >> (l - 1)) & 1) == 1) begin : gen_join
+        assign more[i*P+:P] = join_ranges(gen_level[l-1].more[i*P+:P], gen_level[l-1].more[((i>>(l-1)<<(l-1))-1)*P+:P]);
+      end else begin : gen_keep
+        assign more[i*P+:P] = gen_level[l-1].more[i*P+:P];
+      end
+    end
+  end
+
+  // More than n in two ranges: more than n in one of them, or more than k in one and more than n - 1 - k in the other.
+  function automatic logic [P-1:0] join_ranges(input logic [P-1:0] a, input logic [P-1:0] b);
+    for (int n = 0; n < P; n++) begin
+      join_ranges[n] = a[n] | b[n];
+      for (int k = 0; k < n; k++) join_ranges[n] = join_ranges[n] | (a[k] & b[n-1-k]);
+    end
+  endfunction
+
+  // ---- Lanes: lane g has the pixel that has g remaining ones below it -------------------------------------------------------
+  for (genvar i = 0; i < TILE; i++) begin : gen_chosen
+    if (i == 0) begin : gen_lowest
+      assign chosen[i] = remaining[i];
+    end else begin : gen_other
+      assign chosen[i] = remaining[i] && !gen_level[TILE_LOG2].more[(i-1)*P+P-1];
+    end
+  end
+
   for (genvar g = 0; g < P; g++) begin : gen_lane
-    logic [TILE-1:0] rest, lowest, taken;  // taken: by the lanes up to this one
+    logic [TILE-1:0] own;  // its pixel
     logic [TILE_LOG2-1:0] dx;
     logic present;
 
-    if (g == 0) begin : gen_first
-      assign rest = remaining;
-      assign taken = lowest;
-      assign present = 1'b1;  // a head that is no end has a pixel left
-    end else begin : gen_next
-      assign rest = remaining & ~gen_lane[g-1].taken;
-      assign taken = gen_lane[g-1].taken | lowest;
-      assign present = rest != '0;
+    for (genvar i = 0; i < TILE; i++) begin : gen_own
+      logic enough, too_many;  // remaining ones below
+      if (i == 0) begin : gen_none
+        assign enough = g == 0;
+        assign too_many = 1'b0;
+      end else if (g == 0) begin : gen_first
+        assign enough = 1'b1;
+        assign too_many = gen_level[TILE_LOG2].more[(i-1)*P];
+      end else begin : gen_next
+        assign enough = gen_level[TILE_LOG2].more[(i-1)*P+g-1];
+        assign too_many = gen_level[TILE_LOG2].more[(i-1)*P+g];
+      end
+      assign own[i] = remaining[i] && enough && !too_many;
     end
-    assign lowest = rest & (TILE'(0) - rest);
+
+    assign present = g == 0 || own != '0;  // a head that is no end has a pixel left
 
     // Bit b of the place of a single one. (A loop that adds up dx would read what it writes: Icarus would repeat it for ever.)
     for (genvar b = 0; b < TILE_LOG2; b++) begin : gen_dx
       logic [TILE-1:0] with_bit;
       for (genvar i = 0; i < TILE; i++) begin : gen_place
-        assign with_bit[i] = lowest[i] && ((i >> b) & 1) == 1;
+        assign with_bit[i] = own[i] && ((i >> b) & 1) == 1;
       end
       assign dx[b] = with_bit != '0;
     end
@@ -84,12 +122,10 @@ module pixel_emit #(
 
     always_ff @(posedge clk_i) begin
       dx_o[g*TILE_LOG2+:TILE_LOG2] <= dx;
-      front_o[g] <= (head_front_i & lowest) != '0;
-      tie_o[g] <= (head_tie_i & lowest) != '0;
+      front_o[g] <= (head_front_i & own) != '0;
+      tie_o[g] <= (head_tie_i & own) != '0;
     end
   end
-
-  assign chosen = gen_lane[P-1].taken;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
