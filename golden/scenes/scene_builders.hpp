@@ -19,6 +19,7 @@ std::span<const SceneEntry> surface_scenes();   ///< meshes
 std::span<const SceneEntry> affinity_scenes();  ///< geometry against texture, colours and normals: Bloomenthal
 std::span<const SceneEntry> sphere_scenes();    ///< Bloomenthal's spheres and parts of them
 std::span<const SceneEntry> adaptive_scenes();  ///< Oliveira
+std::span<const SceneEntry> workload_scenes();  ///< of no paper
 
 inline constexpr std::array<Vec2, 4> unit_square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 

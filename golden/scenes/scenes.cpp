@@ -9,7 +9,7 @@
 namespace quadrille::golden {
 namespace {
 
-std::vector<SceneEntry> all_entries() {
+std::vector<SceneEntry> figure_entries() {
   std::vector<SceneEntry> all;
   for (const auto part :
        {figure_scenes(), exterior_scenes(), surface_scenes(), affinity_scenes(), sphere_scenes(), adaptive_scenes()})
@@ -23,6 +23,15 @@ Scene build(const SceneEntry& entry) {
   scene.title = entry.title;
   scene.paper = entry.paper;
   return scene;
+}
+
+std::vector<SceneInfo> list(std::span<const SceneEntry> entries) {
+  std::vector<SceneInfo> list;
+  for (const SceneEntry& entry : entries) {
+    const Scene scene = build(entry);
+    list.push_back({scene.name, scene.title, scene.paper, scene.mesh.faces.size()});
+  }
+  return list;
 }
 
 }  // namespace
@@ -47,17 +56,12 @@ Camera look_from(const Vec3& eye, const Vec3& target, double fovy) {
   return camera;
 }
 
-std::vector<SceneInfo> list_scenes() {
-  std::vector<SceneInfo> list;
-  for (const SceneEntry& entry : all_entries()) {
-    const Scene scene = build(entry);
-    list.push_back({scene.name, scene.title, scene.paper, scene.mesh.faces.size()});
-  }
-  return list;
-}
+std::vector<SceneInfo> list_scenes() { return list(figure_entries()); }
+std::vector<SceneInfo> list_workloads() { return list(workload_scenes()); }
 
 Scene make_scene(std::string_view name) {
-  const auto entries = all_entries();
+  auto entries = figure_entries();
+  entries.insert(entries.end(), workload_scenes().begin(), workload_scenes().end());
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const SceneEntry& e) { return e.name == name; });
   if (found != entries.end()) return build(*found);
   throw std::invalid_argument("no scene '" + std::string(name) + "'" + did_you_mean(name, entries, &SceneEntry::name));

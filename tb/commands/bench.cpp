@@ -125,7 +125,7 @@ class ErrorCommand {
     ErrorBench::Settings settings;
     settings.config = config_;
     settings.state = state_;
-    settings.state.perspective = input.perspective;
+    adjust_state(input, settings.state);
     settings.limit_fragments = options_.limit_fragments;
     settings.rtl = !options_.speed.no_rtl;
     try {

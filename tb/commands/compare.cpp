@@ -77,7 +77,7 @@ Scene load_scene(const CompareOptions& options, int width, int height) {
   scene.settings.snap = false;
   scene.input = load_input(options.input, shade_of(options.shade, options.texture), scene.settings.state,
                            scene.settings.config, common.seed);
-  scene.settings.state.perspective = scene.settings.state.perspective && scene.input.perspective;
+  adjust_state(scene.input, scene.settings.state);
   scene.shading.shade = scene.input.shade;
   scene.shading.slots = shade_slots(scene.input.shade, scene.input);
   scene.shading.texture = make_texture(options.texture, scene.input);

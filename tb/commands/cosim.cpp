@@ -238,7 +238,7 @@ class CosimRun {
       slots = state.attributes;
       if (!input_options.corner.empty()) input = load();  // corner quads may depend on the state
     }
-    state.perspective = state.perspective && input.perspective;
+    adjust_state(input, state);
     check_quad_count(input.quads.size(), config_);
 
     InputResult result;

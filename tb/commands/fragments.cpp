@@ -51,7 +51,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   check_outputs({options.out, options.input.save_camera, options.common.json}, read);
 
   DrawInput input = load_input(options.input, options.shade, settings.state, settings.config, options.common.seed);
-  settings.state.perspective = settings.state.perspective && input.perspective;
+  adjust_state(input, settings.state);
   if (options.quad >= 0) {
     if (static_cast<std::uint64_t>(options.quad) >= input.quads.size())
       throw UsageError("--quad " + std::to_string(options.quad) + ": " + input.name + " has " +

@@ -69,7 +69,7 @@ std::unique_ptr<InputSuite> input_suite(const GenerateCommandOptions& options, c
   DrawState state = options.state.state(common, config);
   DrawInput input = load_input(options.input, options.shade, state, config, common.seed);
   print_remark(input, common);
-  state.perspective = state.perspective && input.perspective;
+  adjust_state(input, state);
   if (input.attributes == 0) {
     input.attributes = std::min(4, config.attribute_slots);
     for (WindowQuad& quad : input.quads)

@@ -46,7 +46,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   const DrawInput input = load_input(options.input, shade_of(options.shade, options.texture), settings.state,
                                      settings.config, options.common.seed);
   print_remark(input, options.common);
-  settings.state.perspective = settings.state.perspective && input.perspective;
+  adjust_state(input, settings.state);
   ShadeSettings shading;
   shading.shade = input.shade;
   shading.slots = shade_slots(input.shade, input);

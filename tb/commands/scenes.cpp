@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -44,7 +45,8 @@ int list(const ScenesOptions& options) {
     if (!options.json.empty()) golden::save_json(options.json, json);
     return exit_ok;
   }
-  const std::vector<golden::SceneInfo> scenes = golden::list_scenes();
+  std::vector<golden::SceneInfo> scenes = golden::list_scenes();
+  std::ranges::copy(golden::list_workloads(), std::back_inserter(scenes));
   if (!options.json.empty()) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const golden::SceneInfo& scene : scenes)

@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -181,7 +182,9 @@ void remark_on_texture(const golden::Mesh& mesh, DrawInput& input) {
 }
 
 void load_scene(const InputOptions& options, const std::string& shade, int width, int height, DrawInput& input) {
-  choose("scene", options.scene, scene_names());
+  std::vector<std::string> names = scene_names();
+  std::ranges::copy(workload_names(), std::back_inserter(names));
+  choose("scene", options.scene, names);
   const golden::Scene scene = golden::make_scene(options.scene);
   input.name = scene.name;
   input.title = scene.title;
@@ -189,6 +192,7 @@ void load_scene(const InputOptions& options, const std::string& shade, int width
   input.option = golden::command_line(std::array<std::string, 2>{"--scene", options.scene});
   input.shade = shade.empty() ? scene.shade : shade;
   input.perspective = scene.perspective;
+  input.cull = scene.cull;
   input.texture = scene.texture;
   need_colours(scene.mesh, input);
   project(scene.mesh, scene.camera, width, height, options.strict, "scene " + scene.name, input);
@@ -257,6 +261,12 @@ void load_corner(const InputOptions& options, const std::string& shade, const Dr
   input.layout = AttributeLayout::file;
 }
 
+std::vector<std::string> names_of(const std::vector<golden::SceneInfo>& scenes) {
+  std::vector<std::string> names;
+  for (const golden::SceneInfo& scene : scenes) names.push_back(scene.name);
+  return names;
+}
+
 }  // namespace
 
 int inputs_given(const InputOptions& options) {
@@ -301,6 +311,11 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, cons
   return input;
 }
 
+void adjust_state(const DrawInput& input, DrawState& state) {
+  state.perspective = state.perspective && input.perspective;
+  if (state.cull == Cull::none) state.cull = input.cull;
+}
+
 void print_remark(const DrawInput& input, const CommonOptions& common) {
   if (!input.remark.empty() && !common.quiet)
     std::fprintf(stderr, "quadrille: %s: %s\n", input.name.c_str(), input.remark.c_str());
@@ -310,11 +325,8 @@ std::vector<std::string> shade_modes() {
   return {"uv", "texture", "normal", "lambda", "depth", "quad", "planes", "colour"};
 }
 
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const golden::SceneInfo& scene : golden::list_scenes()) names.push_back(scene.name);
-  return names;
-}
+std::vector<std::string> scene_names() { return names_of(golden::list_scenes()); }
+std::vector<std::string> workload_names() { return names_of(golden::list_workloads()); }
 
 std::vector<std::string> stress_names() {
   std::vector<std::string> names;

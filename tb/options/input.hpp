@@ -35,6 +35,7 @@ struct DrawInput {
   int attributes = 0;                                 ///< per vertex
   AttributeLayout layout = AttributeLayout::none;
   bool perspective = true;       ///< as the scene wants it
+  Cull cull = Cull::none;        ///< likewise
   std::string shade = "lambda";  ///< shading that suits it
   golden::TextureKind texture = golden::TextureKind::checker;
   Lighting lighting;
@@ -54,15 +55,20 @@ int inputs_given(const InputOptions& options);
 DrawInput load_input(const InputOptions& options, const std::string& shade, const DrawState& state,
                      const Config& config, std::uint64_t seed);
 
+/// The draw state of an input: perspective off where the scene has none, the scene's culling where no other is asked
+/// for.
+void adjust_state(const DrawInput& input, DrawState& state);
+
 /// Says the remark of an input, if there is one, on standard error unless --quiet.
 void print_remark(const DrawInput& input, const CommonOptions& common);
 
 /// What --shade is when --texture is given too: texture. Throws UsageError for another explicit --shade.
 std::string shade_of(const std::string& shade, const std::string& texture);
 
-/// Shading modes, names of scenes, families and corner groups.
+/// Shading modes, names of scenes (figures and loads apart), families and corner groups.
 std::vector<std::string> shade_modes();
 std::vector<std::string> scene_names();
+std::vector<std::string> workload_names();
 std::vector<std::string> stress_names();
 std::vector<std::string> corner_names();
 
