@@ -65,7 +65,13 @@ struct WalkUnit {
     TileEntry entry;
   };
 
+  /// Tests whose result is known in this clock.
+  struct Tests {
+    bool block = false, enter = false, tile = false;
+  };
+
   TileWalk walk;
+  Tests tests;
   bool wait = false;          ///< the walk stands: the block tested in the clock before is entered, or was the last
   bool finishing = false;     ///< the end entry is on its way
   std::array<Step, 2> way{};  ///< steps on their way to the ring, the last one pushes
@@ -91,6 +97,7 @@ struct WalkUnit {
     }
     Step& step = way.front();
     step.push = false;
+    tests = {};
     if (wait) {
       wait = false;
       return;
@@ -100,11 +107,14 @@ struct WalkUnit {
         break;
       case TileWalk::State::block:
         wait = walk.hit();
+        tests.block = true;
+        tests.enter = wait;
         walk.advance();
         wait = wait || walk.state() == TileWalk::State::end;
         break;
       case TileWalk::State::tile:
         step.push = walk.hit();
+        tests.tile = true;
         if (step.push) step.entry = walk.entry();
         walk.advance();
         break;
@@ -193,6 +203,12 @@ struct SetupUnit {
   bool done = false;                                     ///< `result` is there, neither taken nor dropped yet
   SetupResult next, summed, result;
 
+  bool busy() const { return front || sum || done; }
+  /// The step of this clock has jobs for the dot units, should they be free.
+  bool has_jobs() const {
+    const int step = quad_setup_steps(next.homogeneous, pairs) - steps;
+    return steps > 0 && !(pairs == 2 && next.homogeneous && step == 6);
+  }
   /// The last step is done in this clock; the steps wait while the dot units work for a tile.
   bool ends_run(bool units_taken) const { return steps == 1 && !units_taken; }
   /// A quad may start: those before it will have moved on when its first result comes.
@@ -273,6 +289,8 @@ struct ClockedModel::Impl {
   std::vector<PixelTrace> pipeline;
   std::size_t head = 0;
   Fifo<FragmentBeat> fragments;
+  PerformanceCounters counters;
+  UnitProducts products;
 
   Impl(const Config& config, const DrawState& state)
       : context(config, state),
@@ -282,7 +300,8 @@ struct ClockedModel::Impl {
         stamps(static_cast<std::size_t>(stamp_places(config))),
         lanes(static_cast<std::size_t>(config.pixels_per_clock)),
         pipeline(pipeline_stages * lanes),
-        fragments(fragment_places) {
+        fragments(fragment_places),
+        products(config) {
     reset();
   }
 
@@ -345,6 +364,63 @@ struct ClockedModel::Impl {
     handed_over = false;
     for (PixelTrace& p : pipeline) p = {};
     fragments.clear();
+    counters = {};
+  }
+
+  bool busy() const { return assembly.full || assembly.count != 0 || in_use != 0 || !fragments.empty(); }
+
+  /// performance_counters: what this clock does, from the state before its edge.
+  void count(bool starting, bool taking, bool dropping, bool push_tile, bool walk_moves) {
+    using enum PerformanceCounter;
+    const auto add = [this](PerformanceCounter counter, auto amount) {
+      counters[counter] += static_cast<std::uint64_t>(amount);
+    };
+    add(clocks, 1);
+    add(quads, starting || assembly.drops());
+    if (assembly.drops())
+      add(assembly.reject == QuadReject::empty    ? quads_empty
+          : assembly.reject == QuadReject::behind ? quads_behind
+                                                  : quads_depth,
+          1);
+    if (dropping) add(reject_by_areas(setup.result, context.state) == QuadReject::line ? quads_line : quads_culled, 1);
+    if (taking) add(setup.result.homogeneous ? quads_homogeneous : quads_ordinary, 1);
+
+    add(blocks_tested, walk_moves && walk.tests.block);
+    add(blocks_entered, walk_moves && walk.tests.enter);
+    add(tiles_tested, walk_moves && walk.tests.tile);
+    add(tiles_entered, push_tile && !walk.way.back().entry.end);
+    add(rows_tested, coverage.rows_valid && coverage.room != 0 && !ring_at(coverage.rows).end);
+    add(stamps, coverage.way.back().push() && !coverage.way.back().stamp.end);
+
+    const auto pixels_in = [this](int n) {
+      return std::ranges::count_if(stage(n), [](const PixelTrace& p) { return p.valid; });
+    };
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      add(static_cast<PerformanceCounter>(static_cast<std::size_t>(pixels_lane0) + lane), stage(0)[lane].valid);
+    add(PerformanceCounter::fragments,
+        std::ranges::count_if(stage(last_stage), [](const PixelTrace& p) { return p.drawn; }));
+
+    if (tile_unit.issues() || setup.has_jobs()) add(products_vertex_products, products.vertex_products);
+    add(products_sqrt, pixels_in(latency::norm_stage) * products.sqrt);
+    add(products_mean_value_ratios, pixels_in(latency::root_stage) * products.mean_value_ratios);
+    add(products_mean_value_weights, pixels_in(latency::ratio_stage) * products.mean_value_weights);
+    add(products_interpolate, pixels_in(latency::weight_stage) * products.interpolate);
+    add(products_reciprocal, pixels_in(latency::sum_stage) * products.reciprocal);
+    add(products_fragment_output,
+        pixels_in(latency::fragment_stage - latency::fragment_output_stages) * products.fragment_output);
+
+    BoundInputs bound;
+    bound.head = this->stamps.valid();
+    bound.head_waits = bound.head && !this->stamps.head().end && places <= 0;
+    bound.rows = coverage.rows_valid;
+    bound.rows_behind = coverage.context_valid;
+    bound.walk = walk.walk.state() != TileWalk::State::idle;
+    bound.walk_behind = setup.done && !taking && !dropping;
+    bound.setup = setup.busy();
+    bound.setup_behind = assembly.full && !starting && !assembly.drops();
+    bound.assembly = assembly.full || assembly.count != 0;
+    bound.busy = busy();
+    add(bound_of(bound), 1);
   }
 
   bool is_homogeneous(const TileEntry& tile) const { return !tile.end && slots[tile.slot].constants.homogeneous; }
@@ -444,6 +520,7 @@ struct ClockedModel::Impl {
     if (dropping) free_slots |= 1u << setup.result.slot;
     const bool push_tile = walk_push();
     const bool walk_moves = push_tile || !walk.way.back().push;
+    count(starting, taking, dropping, push_tile, walk_moves);
 
     // The last register's fragments enter the FIFO in the clock in which the pipeline moves on.
     const bool handing_over = fragments.valid() && in.fragment_ready;
@@ -519,7 +596,7 @@ ClockedOutputs ClockedModel::comb() const {
   out.fragment_valid = m.fragments.valid();
   for (std::size_t lane = 0; out.fragment_valid && lane < m.lanes; ++lane)
     if (m.fragments.head().drawn[lane]) out.fragment[lane] = &m.fragments.head().fragment[lane];
-  out.busy = m.assembly.full || m.assembly.count != 0 || m.in_use != 0 || !m.fragments.empty();
+  out.busy = m.busy();
   if (m.take()) {
     out.probes.setup = &m.setup.result;
     out.probes.setup_quad = m.slots[m.setup.result.slot].quad;
@@ -540,5 +617,6 @@ ClockedOutputs ClockedModel::comb() const {
 }
 
 void ClockedModel::clock(const ClockedInputs& inputs) { impl_->clock(inputs); }
+const PerformanceCounters& ClockedModel::counters() const { return impl_->counters; }
 
 }  // namespace quadrille

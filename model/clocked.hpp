@@ -5,6 +5,7 @@
 #pragma once
 
 #include "model/config.hpp"
+#include "model/performance_counters.hpp"
 #include "model/records.hpp"
 #include "model/stages.hpp"
 
@@ -78,6 +79,8 @@ class ClockedModel {
   ClockedOutputs comb() const;
   /// The clock edge.
   void clock(const ClockedInputs& inputs);
+  /// What the clocks since reset counted, whether the configuration has counters in hardware or not.
+  const PerformanceCounters& counters() const;
 
  private:
   struct Impl;

@@ -55,6 +55,8 @@ constexpr std::array entries{
     Entry{{"tile_slots_log2", 1, 4, 2, "log2", "tile contexts in flight"}, &Config::tile_slots_log2},
     Entry{{"stamp_fifo_log2", 1, 5, 3, "log2", "covered stamps that may wait"}, &Config::stamp_fifo_log2},
     Entry{{"quad_id_bits", 8, 32, 24, "bits", "width of the quad id"}, &Config::quad_id_bits},
+    Entry{{"performance_counters", 0, 1, 0, "", "counters of what the machine did; 0: no hardware for them"},
+          &Config::performance_counters},
 };
 
 static_assert(entries.size() <= Config::most_keys);

@@ -56,6 +56,7 @@ struct Config {
   int tile_slots_log2 = 2;
   int stamp_fifo_log2 = 3;
   int quad_id_bits = 24;
+  int performance_counters = 0;
 
   /// At most so many keys: what a user is asked to look through.
   static constexpr std::size_t most_keys = 32;

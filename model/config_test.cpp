@@ -29,6 +29,7 @@ constexpr Row table[] = {
     {"pixels_per_clock", 1, 1, 4},      {"dot_units", 2, 2, 4},
     {"quad_slots_log2", 3, 1, 4},       {"tile_slots_log2", 2, 1, 4},
     {"stamp_fifo_log2", 3, 1, 5},       {"quad_id_bits", 24, 8, 32},
+    {"performance_counters", 0, 0, 1},
 };
 
 std::string refusal(const auto& action) {

@@ -52,6 +52,7 @@ class DrivenModel {
     return model_.comb();
   }
   void clock() { model_.clock(inputs_); }
+  const PerformanceCounters& counters() const { return model_.counters(); }
 
  private:
   ClockedModel model_;

@@ -23,6 +23,7 @@ module pixel_emit #(
     input logic [TILE-1:0] head_front_i,
     input logic [TILE-1:0] head_tie_i,
     output logic pop_o,
+    output logic count_wait_o,  // for performance_counters, else 0: the head has no place for its fragments
     // Places of the fragment FIFO given back
     input logic freed_i,
     input logic discard_i,
@@ -49,6 +50,7 @@ module pixel_emit #(
   assign whole = !head_homogeneous_i || part == quadrille_pkg::PART_SQUARES;
   assign send_part = head_valid_i && !head_end_i && may_send;
   assign send = send_part && whole;
+  assign count_wait_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && head_valid_i && !head_end_i && !may_send;
   assign pop_o = head_valid_i && (head_end_i || (may_send && whole && remaining == chosen));
 
   // ---- Ranks: bit n of a pixel's P bits says that more than n remaining pixels lie in a range that ends with it ---------------

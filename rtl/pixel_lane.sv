@@ -61,7 +61,7 @@ module pixel_lane #(
     input logic [V-TILE_LOG2-1:0] output_tile_x_i,
     input logic [V-1:0] output_y_i,
     // Fragment
-    output logic pixel_o,  // a pixel is in the last register, drawn or discarded
+    output logic [quadrille_pkg::LATENCY-1:0] valid_o,  // a pixel is in register n, drawn or discarded
     output logic fragment_valid_o,
     output logic [FB-1:0] fragment_o  // zero when there is none
 );
@@ -73,7 +73,7 @@ module pixel_lane #(
 
   logic [LAST:0] valid_q;
 
-  assign pixel_o = valid_q[LAST];
+  assign valid_o = valid_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) valid_q <= '0;

@@ -70,6 +70,7 @@ module pixel_pipeline #(
     output logic release_o,
     // Fragments
     output logic discard_o,  // pixels of which none is a fragment, in the clock in which they would have been
+    output logic [P*quadrille_pkg::LATENCY-1:0] lane_valid_o,  // a pixel is in register n of a lane
     output logic [P-1:0] fragment_valid_o,
     output logic [P*FB-1:0] fragment_o  // zero in a lane without a fragment
 );
@@ -220,6 +221,8 @@ module pixel_pipeline #(
 
   // ---- The pixels -------------------------------------------------------------------------------------------------------------
   for (genvar g = 0; g < P; g++) begin : gen_lane
+    assign pixel[g] = lane_valid_o[g*quadrille_pkg::LATENCY+LAST];
+
     pixel_lane u_lane (
         .clk_i,
         .rst_ni,
@@ -253,7 +256,7 @@ module pixel_pipeline #(
         .output_homogeneous_i(output_homogeneous),
         .output_tile_x_i(fragment_tag.tile_x),
         .output_y_i(fragment_tag.y),
-        .pixel_o(pixel[g]),
+        .valid_o(lane_valid_o[g*quadrille_pkg::LATENCY+:quadrille_pkg::LATENCY]),
         .fragment_valid_o(fragment_valid_o[g]),
         .fragment_o(fragment_o[g*FB+:FB])
     );

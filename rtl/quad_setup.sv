@@ -64,6 +64,9 @@ module quad_setup #(
     input logic take_i,
     output logic done_o,
     output logic drop_o,  // the quad among the outputs, of this slot, is left out
+    output logic count_line_o,  // for performance_counters, else 0: because it is on a line
+    output logic count_job_o,  // the dot units get a job of each pair
+    output logic count_busy_o,  // a quad is here
     output logic [SLOT-1:0] slot_o,
     output logic [TC-1:0] tile_x0_o,
     output logic [TC-1:0] tile_y0_o,
@@ -490,6 +493,18 @@ module quad_setup #(
       !area_012[AREA-1] && area_012 != '0
     };
     if (hand_over) left_out_q <= reject_i && ((sum_ordinary ? area_signs_q : visible) & wanted) == '0;
+  end
+
+  if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
+    logic line_q;
+
+    always_ff @(posedge clk_i) if (hand_over) line_q <= (sum_ordinary ? area_signs_q : visible) == '0;
+
+    assign count_line_o = line_q;
+    assign count_job_o = run_q && !wait_i && (is_edge || is_gradient || is_det);
+    assign count_busy_o = front_q || sum_q || done_q;
+  end else begin : gen_no_count
+    assign {count_line_o, count_job_o, count_busy_o} = '0;
   end
 
   assign drop_o = done_q && left_out_q;

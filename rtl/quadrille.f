@@ -29,6 +29,7 @@ mean_value_weights.sv
 normalise.sv
 offset_digits.sv
 one_of_four.sv
+performance_counters.sv
 pixel_emit.sv
 pixel_lane.sv
 pixel_pipeline.sv

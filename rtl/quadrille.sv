@@ -17,7 +17,10 @@ module quadrille (
     output logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] fragment_mask_o,
     output logic fragment_valid_o,
     input logic fragment_ready_i,
-    output logic busy_o
+    output logic busy_o,
+    // A performance counter by its index; 0 without them
+    input logic [quadrille_pkg::COUNTER_INDEX_BITS-1:0] counter_index_i,
+    output logic [quadrille_pkg::COUNTER_BITS-1:0] counter_o
 );
   localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
   localparam int PE = quadrille_pkg::PORT_EXP_BITS;
@@ -66,6 +69,11 @@ module quadrille (
   assign state = state_i;
   assign depth_on = state.depth;
   assign unused_skip = ^state.skip[7:2];
+
+  // ---- For performance_counters: 0 without them -----------------------------------------------------------------------------
+  logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_walk;
+  logic count_row, count_rows, count_rows_behind, count_head_waits;
+  logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::LATENCY-1:0] lane_valid;
 
   // ---- Vertices -----------------------------------------------------------------------------------------------------------
   logic start, full, assembly_busy;
@@ -189,6 +197,9 @@ module quadrille (
       .take_i(take),
       .done_o(setup_done),
       .drop_o(drop),
+      .count_line_o(count_line),
+      .count_job_o(count_setup_job),
+      .count_busy_o(count_setup),
       .slot_o(setup_slot),
       .tile_x0_o(tile_x0),
       .tile_y0_o(tile_y0),
@@ -348,6 +359,10 @@ module quadrille (
       .rise_block_i(setup_rise_block),
       .ready_i(context_ready && !ring_full),
       .push_o(tile_push),
+      .count_block_o(count_block),
+      .count_enter_o(count_enter),
+      .count_tile_o(count_tile),
+      .count_busy_o(count_walk),
       .end_o(tile_end),
       .slot_o(tile_slot),
       .tile_x_o(tile_x),
@@ -514,6 +529,9 @@ module quadrille (
       .visible_i(stamp_visible),
       .freed_i(pop),
       .push_o(stamp_push),
+      .count_row_o(count_row),
+      .count_busy_o(count_rows),
+      .count_behind_o(count_rows_behind),
       .end_o(stamp_push_end),
       .homogeneous_o(stamp_push_homogeneous),
       .stamp_ptr_o(stamp_ptr),
@@ -566,6 +584,7 @@ module quadrille (
       .head_front_i(head_front),
       .head_tie_i(head_tie),
       .pop_o(pop),
+      .count_wait_o(count_head_waits),
       .freed_i(freed),
       .discard_i(discard),
       .end_o(emit_end),
@@ -630,6 +649,7 @@ module quadrille (
       .output_homogeneous_i(output_homogeneous),
       .release_o(slot_release),
       .discard_o(discard),
+      .lane_valid_o(lane_valid),
       .fragment_valid_o(drawn),
       .fragment_o(fragment)
   );
@@ -647,4 +667,60 @@ module quadrille (
       .mask_o(fragment_mask_o),
       .data_o(fragment_o)
   );
+
+  // ---- Performance counters -------------------------------------------------------------------------------------------------
+  if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_counters
+    performance_counters u_counters (
+        .clk_i,
+        .rst_ni,
+        .index_i(counter_index_i),
+        .value_o(counter_o),
+        .start_i(start),
+        .drop_vertices_i(drop_vertices),
+        .empty_i(empty),
+        .behind_i(behind),
+        .drop_i(drop),
+        .drop_line_i(count_line),
+        .take_i(take),
+        .homogeneous_i(homogeneous),
+        .block_test_i(count_block),
+        .block_enter_i(count_enter),
+        .tile_test_i(count_tile),
+        .tile_push_i(tile_push && !tile_end),
+        .row_i(count_row),
+        .stamp_push_i(stamp_push && !stamp_push_end),
+        .lane_valid_i(lane_valid),
+        .drawn_i(drawn),
+        .context_job_i(context_job),
+        .setup_job_i(count_setup_job),
+        .head_i(head_valid),
+        .head_waits_i(count_head_waits),
+        .rows_i(count_rows),
+        .rows_behind_i(count_rows_behind),
+        .walk_i(count_walk),
+        .walk_behind_i(setup_done && !take),
+        .setup_i(count_setup),
+        .setup_behind_i(full && !start && !drop_vertices),
+        .assembly_i(assembly_busy),
+        .busy_i(busy_o)
+    );
+  end else begin : gen_no_counters
+    logic unused_counters;
+    assign counter_o = '0;
+    assign unused_counters = ^{
+      counter_index_i,
+      count_line,
+      count_setup_job,
+      count_setup,
+      count_block,
+      count_enter,
+      count_tile,
+      count_walk,
+      count_row,
+      count_rows,
+      count_rows_behind,
+      count_head_waits,
+      lane_valid
+    };
+  end
 endmodule

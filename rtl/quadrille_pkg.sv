@@ -75,6 +75,9 @@
 `ifndef QUADRILLE_STAMP_FIFO_LOG2
 `define QUADRILLE_STAMP_FIFO_LOG2 3
 `endif
+`ifndef QUADRILLE_PERFORMANCE_COUNTERS
+`define QUADRILLE_PERFORMANCE_COUNTERS 0
+`endif
 `ifndef QUADRILLE_QUAD_ID_BITS
 `define QUADRILLE_QUAD_ID_BITS 24
 `endif
@@ -101,6 +104,8 @@ package quadrille_pkg;
   localparam int TILE_SLOTS_LOG2 /*verilator public*/ = `QUADRILLE_TILE_SLOTS_LOG2;
   localparam int STAMP_FIFO_LOG2 /*verilator public*/ = `QUADRILLE_STAMP_FIFO_LOG2;
   localparam int QUAD_ID_BITS /*verilator public*/ = `QUADRILLE_QUAD_ID_BITS;
+
+  localparam int PERFORMANCE_COUNTERS /*verilator public*/ = `QUADRILLE_PERFORMANCE_COUNTERS;
 
   // ---- Keys with an automatic value ---------------------------------------------------------------------------------------
   localparam int QUADRATIC_FRAC_KEY = `QUADRILLE_QUADRATIC_FRAC_BITS;
@@ -181,6 +186,11 @@ package quadrille_pkg;
   // places of the stamp FIFO: four more than stamps may wait, for the rows on their way, which have a place each until it is known
   // whether they are covered
   localparam int STAMP_PLACES /*verilator public*/ = (1 << STAMP_FIFO_LOG2) + 4;
+
+  // ---- performance_counters --------------------------------------------------------------------------------------------------
+  // wraps around after 14 s at 300 MHz: whoever counts for longer reads them more often than that
+  localparam int COUNTER_BITS /*verilator public*/ = 32;
+  localparam int COUNTER_INDEX_BITS /*verilator public*/ = 6;
 
   // ---- Jobs of vertex_products --------------------------------------------------------------------------------------------
   localparam logic [2:0] EDGE = 3'd0;

@@ -45,6 +45,9 @@ module stamp_coverage #(
     // Stamp FIFO: freed_i when a stamp has left it
     input logic freed_i,
     output logic push_o,
+    output logic count_row_o,  // for performance_counters, else 0: a row is tested
+    output logic count_busy_o,  // a tile, or an end entry, is in the rows register
+    output logic count_behind_o,  // another one is behind it
     output logic end_o,
     output logic homogeneous_o,
     output logic [RING:0] stamp_ptr_o,  // no row of an entry before this one is still to come
@@ -63,6 +66,14 @@ module stamp_coverage #(
   localparam int ROOM = $clog2(PLACES + 1);
   logic [ROOM-1:0] room_q;  // places of the FIFO that no stamp has, nor a row on its way
   logic freed_q, drop;
+
+  if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
+    assign count_row_o = issue && !rows_end_q;
+    assign count_busy_o = rows_valid_q;
+    assign count_behind_o = context_valid_q;
+  end else begin : gen_no_count
+    assign {count_row_o, count_busy_o, count_behind_o} = '0;
+  end
 
   assign issue = rows_valid_q && room_q != '0;
   assign rows_done = issue && (rows_end_q || row_q == last_row_q);

@@ -42,6 +42,10 @@ module tile_walk #(
     // Tile out; an end entry has a slot alone
     input logic ready_i,
     output logic push_o,
+    output logic count_block_o,  // for performance_counters, else 0: a block was tested
+    output logic count_enter_o,  // and may be covered
+    output logic count_tile_o,  // a tile was tested
+    output logic count_busy_o,  // a quad is here
     output logic end_o,
     output logic [SLOT-1:0] slot_o,
     output logic [TC-1:0] tile_x_o,
@@ -305,6 +309,15 @@ module tile_walk #(
       tile_x_o <= tile_x0_q + column_q1;
       tile_y_o <= tile_y0_q + row_q1;
     end
+  end
+
+  if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
+    assign count_block_o = block_q1 && go;
+    assign count_enter_o = enter_walk && go;
+    assign count_tile_o = tile_q1 && go;
+    assign count_busy_o = state_q != IDLE;
+  end else begin : gen_no_count
+    assign {count_block_o, count_enter_o, count_tile_o, count_busy_o} = '0;
   end
 
   assign go = !push_q2 || ready_i;

@@ -167,7 +167,7 @@ class Campaign:
             settings = {"significand_bits": rng.randint(12, 26), "notch_exact": rng.choice([1, 1, 0]), "align_guard_bits": rng.randint(0, 4),
                         "subpixel_bits": rng.randint(4, 8), "attribute_slots": rng.randint(1, 8), "depth_bits": rng.randint(12, 30),
                         "tile_log2": rng.randint(2, 4), "quad_slots_log2": rng.randint(1, 4), "tile_slots_log2": rng.randint(1, 4),
-                        "stamp_fifo_log2": rng.randint(1, 5), "pixels_per_clock": rng.choice([1, 2, 4]), "dot_units": rng.choice([2, 4])}
+                        "stamp_fifo_log2": rng.randint(1, 5), "pixels_per_clock": rng.choice([1, 2, 4]), "dot_units": rng.choice([2, 4]), "performance_counters": rng.choice([0, 1])}
             if dropped_bits:
                 settings["quadratic_frac_bits"] = rng.randint(0, 12)
             options = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]

@@ -23,7 +23,8 @@ lint() {
 }
 lint significand_bits=18
 lint significand_bits=8 notch_exact=0
-lint significand_bits=12 tile_log2=2 attribute_slots=1 pixels_per_clock=4
+lint significand_bits=12 tile_log2=2 attribute_slots=1 pixels_per_clock=4 performance_counters=1
+lint performance_counters=1
 lint significand_bits=24 tile_log2=4 attribute_slots=8 pixels_per_clock=2
 lint significand_bits=26 sqrt_degree=1 recip_degree=1
 lint significand_bits=12 quadratic_frac_bits=8 align_guard_bits=0 attribute_frac_bits=30

@@ -56,6 +56,8 @@ module quadrille_axi4_stream #(
 
   always_ff @(posedge aclk) if (s_axis_state_tready) state_q <= s_axis_state_tdata[quadrille_pkg::STATE_BITS-1:0];
 
+  logic [quadrille_pkg::COUNTER_BITS-1:0] unused_counter;
+
   quadrille u_quadrille (
       .clk_i(aclk),
       .rst_ni(aresetn),
@@ -67,7 +69,9 @@ module quadrille_axi4_stream #(
       .fragment_mask_o(mask),
       .fragment_valid_o(fragment_valid),
       .fragment_ready_i(m_axis_fragment_tready),
-      .busy_o(busy)
+      .busy_o(busy),
+      .counter_index_i(quadrille_pkg::COUNTER_INDEX_BITS'(0)),
+      .counter_o(unused_counter)
   );
 
   // The machine's fragments are zero in a lane without one, and never valid in the step LAST.
@@ -80,7 +84,7 @@ module quadrille_axi4_stream #(
   end
 
   logic unused;
-  assign unused = ^{s_axis_state_tdata, s_axis_vertex_tdata};
+  assign unused = ^{s_axis_state_tdata, s_axis_vertex_tdata, unused_counter};
 
 `ifndef SYNTHESIS
   logic [1:0] corner_q;

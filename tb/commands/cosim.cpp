@@ -1,5 +1,6 @@
 // quadrille cosim: the RTL and its model in lockstep on real quads, the fragments compared with the truth as they come.
 #include "tb/commands/commands.hpp"
+#include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"
 
 #include "golden/io/exr.hpp"
@@ -56,6 +57,7 @@ struct InputResult {
   std::uint64_t at_depth_limit = 0;  ///< fragments whose depth is exactly znear or zfar (where not 0 and 1)
   std::uint64_t left_out = 0, left_out_empty = 0, left_out_behind = 0, left_out_depth = 0, left_out_line = 0,
                 left_out_culled = 0;  ///< quads, by QuadReject
+  PerformanceCounters counters;
   std::uint64_t alone_cycles = 0;
   double alone_seconds = 0, seconds = 0, loop_seconds = 0;
   bool complete = true;
@@ -102,6 +104,7 @@ void merge(InputResult& sum, const InputResult& part) {
   for (const std::span<const Metric> metrics :
        {std::span<const Metric>(draw_metrics), {cycle_metrics}, {count_metrics}})
     add_counters(sum, part, metrics);
+  sum.counters += part.counters;
   sum.alone_cycles += part.alone_cycles;
   sum.alone_seconds += part.alone_seconds;
   sum.seconds += part.seconds;
@@ -374,6 +377,7 @@ class CosimRun {
     result.pixels = report.pixels;
     result.cycles_rtl = report.cycles_rtl;
     result.cycles_model = report.cycles_model;
+    result.counters = report.counters;
     result.fragment_hash = report.fragment_hash;
     result.complete = report.complete;
     for (std::size_t i = 0; i < report.quads; ++i) {
@@ -471,6 +475,7 @@ class CosimRun {
     }
     put_counters(json["counts"], r, count_metrics);
     put_counters(json["counts"], c, fragment_counters);
+    json["counters"] = counters_json(r.counters);
     json["regression"] = {{"inputs_with_limits", r.limits_checked}, {"beyond", r.beyond_limits}};
     if (r.first_divergence) json["first_divergence"] = *r.first_divergence;
     if (c.first.any) json["first_reference_difference"] = c.first.text;
@@ -566,6 +571,7 @@ class CosimRun {
                  static_cast<unsigned long long>(model.directed.faults()));
     std::fprintf(out, "  throughput     %.3f covered pixels per clock\n",
                  ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl)));
+    print_counters(out, r.counters, config_.performance_counters != 0);
     std::fprintf(out, "\n  error                   max        p99.9      rms        attribute  depth\n");
     const auto row = [&](const char* name, const QuantityErrors& e) {
       std::fprintf(out, "    %-18s %9.2e  %9.2e  %9.2e  %9.2e  %9.2e\n", name, e.lambda.max(), e.lambda.p999(),

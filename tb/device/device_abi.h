@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-enum { quadrille_device_abi_version = 3, quadrille_probe_count = 9, quadrille_most_lanes = 4 };
+enum { quadrille_device_abi_version = 4, quadrille_probe_count = 9, quadrille_most_lanes = 4 };
 
 /* Status of a function that failed because the waveform cannot be written, on a full disk say; else it is 1. */
 enum { quadrille_no_waveform = 2 };
@@ -57,6 +57,8 @@ typedef struct {
   int (*settle)(quadrille_device*);
   /* The rising edge. */
   int (*clock)(quadrille_device*);
+  /* A performance counter by its index, after settle(); 0 beyond the last one and on a machine without them. */
+  uint32_t (*counter)(quadrille_device*, uint32_t index);
   /* The outputs after settle(). */
   const quadrille_sample* (*sample)(quadrille_device*);
 

@@ -280,6 +280,13 @@ const quadrille_device_table table = {
         },
     .settle = [](quadrille_device* d) { return d->evaluate(0); },
     .clock = [](quadrille_device* d) { return d->evaluate(1); },
+    .counter =
+        [](quadrille_device* d, uint32_t index) {
+          Verilated::threadContextp(d->context.get());
+          d->top->counter_index_i = static_cast<CData>(index);
+          d->top->eval();  // a read is no time of the waveform
+          return static_cast<uint32_t>(d->top->counter_o);
+        },
     .sample = sample,
     .trace_open = trace_open,
     .trace_close = trace_close,

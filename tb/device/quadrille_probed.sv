@@ -15,6 +15,8 @@ module quadrille_probed (
     output logic fragment_valid_o,
     input logic fragment_ready_i,
     output logic busy_o,
+    input logic [quadrille_pkg::COUNTER_INDEX_BITS-1:0] counter_index_i,
+    output logic [quadrille_pkg::COUNTER_BITS-1:0] counter_o,
     // Probes
     output logic probe_setup_valid_o,
     output quadrille_probes_pkg::probe_setup_t probe_setup_o,
@@ -46,7 +48,9 @@ module quadrille_probed (
       .fragment_mask_o,
       .fragment_valid_o,
       .fragment_ready_i,
-      .busy_o
+      .busy_o,
+      .counter_index_i,
+      .counter_o
   );
 
   // ---- Setup, stamp ---------------------------------------------------------------------------------------------------------

@@ -103,6 +103,9 @@ void VerilatedDevice::set_handshake(bool vertex_valid, bool fragment_ready) {
 }
 void VerilatedDevice::settle() { impl_->check(impl_->table->settle(impl_->device)); }
 void VerilatedDevice::clock() { impl_->check(impl_->table->clock(impl_->device)); }
+std::uint32_t VerilatedDevice::counter(std::size_t index) {
+  return impl_->table->counter(impl_->device, static_cast<std::uint32_t>(index));
+}
 
 const DeviceSample& VerilatedDevice::sample() {
   const quadrille_sample& s = *impl_->table->sample(impl_->device);

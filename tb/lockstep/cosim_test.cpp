@@ -63,7 +63,8 @@ const Named odd{"odd",
                  {"quad_slots_log2", 1},
                  {"tile_slots_log2", 1},
                  {"stamp_fifo_log2", 1},
-                 {"quad_id_bits", 13}}};
+                 {"quad_id_bits", 13},
+                 {"performance_counters", 1}}};
 
 /// Four lanes, little in each.
 const Named lanes{"lanes", {{"significand_bits", 10}, {"attribute_slots", 1}, {"pixels_per_clock", 4}}};

@@ -114,6 +114,7 @@ class DrivenPair {
     model_.clock();
     ++cycle_;
   }
+  const PerformanceCounters& counters() const { return model_.counters(); }
 
  private:
   DrivenDevice device_;
@@ -225,7 +226,9 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
   };
   try {
     DrivenPair pair(device, o, clocks);
-    drive(pair, run.stimulus, look);
+    const std::uint64_t end = drive(pair, run.stimulus, look);
+    report.counters = pair.counters();
+    if (o.config.performance_counters != 0) scoreboard.compare_counters(end, report.counters, device);
   } catch (const DeviceError& stop) {
     scoreboard.device_stopped(clocks, stop.what());
   }
@@ -257,9 +260,11 @@ AloneRun run_rtl_alone(const Simulator& simulator, std::span<const SnappedQuad> 
   VerilatedDevice device(simulator, o.config, o.seed);
   if (o.trace) device.open_trace(*o.trace);
   DrivenDevice machine(device, o);
-  const AloneRun run = run_alone(machine, quads, o, sink, [](FragmentMonitor& monitor, const DeviceSample& out) {
+  AloneRun run = run_alone(machine, quads, o, sink, [](FragmentMonitor& monitor, const DeviceSample& out) {
     for_each_lane(out, [&](std::size_t, const std::uint32_t* words) { monitor.handed_over(words, nullptr); });
   });
+  if (o.config.performance_counters != 0)
+    for (std::size_t i = 0; i < counter_count; ++i) run.counters.value[i] = device.counter(i);
   device.close_trace();
   return run;
 }
@@ -274,13 +279,15 @@ AloneRun run_clocked_model_alone(std::span<const SnappedQuad> quads, const Locks
   std::vector<std::uint64_t> packed(static_cast<std::size_t>((width + 63) / 64));
   std::vector<std::uint32_t> words(words_for(width));
   DrivenModel machine(o.config, o.state);
-  return run_alone(machine, quads, o, sink, [&](FragmentMonitor& monitor, const ClockedOutputs& out) {
+  AloneRun run = run_alone(machine, quads, o, sink, [&](FragmentMonitor& monitor, const ClockedOutputs& out) {
     out.for_each_fragment([&](const Fragment& fragment) {
       pack_fragment(fragment, o.config, packed.data(), width);
       std::memcpy(words.data(), packed.data(), words.size() * sizeof words[0]);
       monitor.handed_over(words.data(), &fragment);
     });
   });
+  run.counters = machine.counters();
+  return run;
 }
 
 }  // namespace quadrille::tb

@@ -54,6 +54,7 @@ struct LockstepReport {
   bool complete = false;  ///< every quad was drawn: not ended by a limit, a difference or the watchdog
   std::optional<std::string> first_divergence;
   std::vector<BoundaryCount> boundaries;
+  PerformanceCounters counters;     ///< of the model; the RTL's were the same if the configuration has them
   std::uint64_t compared_bits = 0;  ///< over all boundaries
   double wall_seconds = 0;          ///< of the loop; building the RTL is not in it
   std::uint64_t fragment_hash = 0;  ///< of the fragment stream, bits and order
@@ -77,6 +78,7 @@ struct AloneRun {
   std::uint64_t quads = 0, fragments = 0, cycles = 0;
   double seconds = 0;  ///< of the loop
   std::uint64_t fragment_hash = 0;
+  PerformanceCounters counters;  ///< of the clocked model; of the RTL if the configuration has them, else 0
 };
 
 /// The RTL without probes and without comparison: its own speed, and `--engine rtl`. Of the options probes and the

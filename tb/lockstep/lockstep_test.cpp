@@ -105,6 +105,10 @@ class ModelDevice : public Device {
     model_.clock(inputs_);
     if (!inputs_.reset) ++cycle_;
   }
+  std::uint32_t counter(std::size_t index) override {
+    return static_cast<std::uint32_t>(model_.counters().value[index]) + (index == wrong_counter ? 1 : 0);
+  }
+  std::size_t wrong_counter = counter_count;  ///< one too many
 
  private:
   Config config_;
@@ -227,6 +231,23 @@ TEST_F(Lockstep, NamesTheFieldThatDiffers) {
                                           ", pixel (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) +
                                           "), stage sqrt, field sig[1]: expected " + hex(sig, 12) +
                                           " (model), actual " + hex(sig ^ 4u, 12) + " (RTL); seed 1");
+}
+
+TEST_F(Lockstep, EveryPerformanceCounterIsCompared) {
+  for (std::size_t i = 0; i <= counter_count; ++i) {
+    for (const int there : {0, 1}) {
+      options.config.set("performance_counters", there);
+      ModelDevice device(options.config, options.state);
+      device.wrong_counter = i;
+      const LockstepReport report = run_lockstep(device, quads, options);
+      EXPECT_EQ(report.mismatches, there == 1 && i < counter_count ? 1u : 0u) << i;
+      EXPECT_EQ(report.counters[PerformanceCounter::clocks], report.cycles_model);
+      EXPECT_EQ(report.counters[PerformanceCounter::fragments], report.fragments);
+      if (report.mismatches == 0) continue;
+      const std::string name = "performance counter " + std::string(counter_info[i].name) + ": expected ";
+      EXPECT_NE(report.first_divergence->find(name), std::string::npos) << *report.first_divergence;
+    }
+  }
 }
 
 TEST_F(Lockstep, CountsOnWhenAsked) {

@@ -191,6 +191,19 @@ Scoreboard::Verdict Scoreboard::compare(std::uint64_t cycle, const ClockedOutput
   return verdict_;
 }
 
+void Scoreboard::compare_counters(std::uint64_t cycle, const PerformanceCounters& expected, Device& actual) {
+  cycle_ = cycle;
+  for (std::size_t i = 0; i < counter_count; ++i) {
+    const auto wanted = static_cast<std::uint32_t>(expected.value[i]);
+    const std::uint32_t got = actual.counter(i);
+    if (got == wanted) continue;
+    ++mismatches_;
+    if (!first_)
+      first_ = where({}) + ", performance counter " + std::string(counter_info[i].name) + ": expected " +
+               std::to_string(wanted) + ", actual " + std::to_string(got) + "; seed " + std::to_string(seed_);
+  }
+}
+
 void Scoreboard::device_stopped(std::uint64_t cycle, const std::string& why) {
   cycle_ = cycle;
   ++mismatches_;

@@ -37,6 +37,9 @@ class Scoreboard {
   /// Both sides settled in clock `cycle`.
   Verdict compare(std::uint64_t cycle, const ClockedOutputs& expected, const DeviceSample& actual);
 
+  /// At the end of a run, both sides settled in clock `cycle`: each counter that differs is a mismatch.
+  void compare_counters(std::uint64_t cycle, const PerformanceCounters& expected, Device& actual);
+
   /// The device stopped by itself (an assertion).
   void device_stopped(std::uint64_t cycle, const std::string& why);
 

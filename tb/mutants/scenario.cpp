@@ -32,6 +32,7 @@ Config reduced() {
   config.set("stamp_fifo_log2", 1);
   config.set("attribute_slots", 3);
   config.set("depth_bits", 16);
+  config.set("performance_counters", 1);
   return config;
 }
 
@@ -41,6 +42,7 @@ Config four_lanes() {
   config.set("significand_bits", 12);
   config.set("attribute_slots", 1);
   config.set("pixels_per_clock", 4);
+  config.set("performance_counters", 1);
   return config;
 }
 

@@ -87,7 +87,9 @@ module replay_machine;
       .fragment_mask_o(fragment_mask),
       .fragment_valid_o(fragment_valid),
       .fragment_ready_i(fragment_ready),
-      .busy_o(busy)
+      .busy_o(busy),
+      .counter_index_i(6'd0),
+      .counter_o()
   );
 
   // ---- Comparison ----------------------------------------------------------------------------------------------------------

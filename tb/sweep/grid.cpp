@@ -181,7 +181,8 @@ std::vector<Axis> default_axes() {
                      "quad_slots_log2=1:4",
                      "tile_slots_log2=1:4",
                      "stamp_fifo_log2=1:5",
-                     "quad_id_bits=16,24,32"});
+                     "quad_id_bits=16,24,32",
+                     "performance_counters=0,1"});
 }
 
 std::vector<Axis> thousand_point_axes() {

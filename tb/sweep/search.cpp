@@ -49,6 +49,7 @@ constexpr std::array key_effects{
     KeyEffect{"tile_slots_log2", Effect::none},
     KeyEffect{"stamp_fifo_log2", Effect::none},
     KeyEffect{"quad_id_bits", Effect::larger_is_better},  // ids that are refused
+    KeyEffect{"performance_counters", Effect::none},
 };
 
 Effect effect_of(std::string_view key) {

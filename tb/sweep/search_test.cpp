@@ -56,6 +56,7 @@ constexpr Known known[] = {
     {"tile_slots_log2", false, 0},
     {"stamp_fifo_log2", false, 0},
     {"quad_id_bits", true, 1},  // fewer refused
+    {"performance_counters", false, 0},
 };
 
 Config configured(std::initializer_list<std::pair<const char*, int>> values) {
