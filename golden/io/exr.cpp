@@ -72,6 +72,7 @@ void save_exr(const std::string& path, const FrameImage& frame) {
       {"R", &frame.r}, {"G", &frame.g}, {"B", &frame.b}, {"A", &frame.a}, {"Z", &frame.z}};
   for (std::size_t i = 0; i < 4; ++i) floats["L" + std::to_string(i)] = &frame.lambda[i];
   for (const auto& [name, values] : frame.error) floats["error." + name] = &values;
+  for (const auto& [name, values] : frame.layer) floats[name] = &values;
 
   Imf::Header header(frame.width, frame.height);
   header.compression() = Imf::PIZ_COMPRESSION;  // lossless, and its bytes are OpenEXR's own: no zlib

@@ -30,6 +30,7 @@ struct FrameImage {
   std::vector<std::uint32_t> quad;           ///< quad id
   std::map<std::string, std::vector<float>>
       error;  ///< optional layers, named by the channel they judge: "L0" becomes `error.L0`
+  std::map<std::string, std::vector<float>> layer;  ///< further ones, by their own names
 };
 
 }  // namespace quadrille::golden

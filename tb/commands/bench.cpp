@@ -5,6 +5,7 @@
 #include "model/support/parallel.hpp"
 #include "tb/check/check.hpp"
 #include "tb/commands/bench_error.hpp"
+#include "tb/commands/bench_skips.hpp"
 #include "tb/commands/bench_speed.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/options/command_line.hpp"
@@ -25,11 +26,13 @@ struct BenchOptions {
   InputOptions input;
   std::optional<int> repeat;
   std::uint64_t limit_fragments = 16'000;
-  bool error = false;
+  std::string pictures;
+  bool error = false, skips = false;
 };
 
 constexpr int speed_repeat = 5, error_repeat = 3;
-constexpr const char* error_size = "128x128";
+constexpr int skips_repeat = 3;
+constexpr const char *error_size = "128x128", *skips_size = "256x256";
 
 /// A magnitude as a power of two.
 std::string power(double value) {
@@ -269,6 +272,11 @@ class ErrorCommand {
 };
 
 int bench(BenchOptions& options, bool size_given, const std::vector<std::string>& arguments) {
+  if (options.skips) {
+    if (!size_given) options.speed.common.size = skips_size;
+    return run_skip_bench(
+        {options.speed.common, options.input, options.repeat.value_or(skips_repeat), options.pictures}, arguments);
+  }
   if (options.error) {
     if (!size_given) options.speed.common.size = error_size;
     return ErrorCommand(options, arguments).run();
@@ -295,10 +303,17 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       "and hold set-up, weights, attributes and depth; the machine's also traversal and coverage, the truth's "
       "coverage.\n"
       "Errors are the same in every run. Exit status 1: a machine is beyond its bound, or two machines differ.\n\n"
+      "With --skips: the clocked model's clocks and counters, the untimed model's time with lanes on one core. In the\n"
+      "pictures grey tiles were entered, green ones were not hit, blue ones lie in a block that was not, and those of\n"
+      "quads left out are orange (depth), yellow (on a line), red (culled); a mixture where quads differ. Exit status "
+      "1:\n"
+      "a skip that must keep the list of fragments changed it.\n\n"
       "Examples:\n"
       "  quadrille bench\n"
       "  quadrille bench --no-rtl --set significand_bits=24 --json bench.json\n"
       "  quadrille bench --error --no-rtl --json error.json\n"
+      "  quadrille bench --skips --json skips.json --pictures skips\n"
+      "  quadrille bench --skips --mesh pawn.obj --size 512x512\n"
       "  quadrille bench --error --stress sliver --count 200 --verbose");
   const auto options = std::make_shared<BenchOptions>();
   SpeedOptions& speed = options->speed;
@@ -306,25 +321,36 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       command->add_flag("--error", options->error,
                         "Errors and run times of all engines; without an input on all built-in scenes and stress "
                         "families. --size is 128x128 unless it is given");
+  CLI::Option* skips =
+      command
+          ->add_flag(
+              "--skips", options->skips,
+              "What each skip saves: clocks, pixels, products and model time with none, each alone and all; without an "
+              "input on all loads (`quadrille scenes`). --size is 256x256 unless it is given")
+          ->excludes(error);
+  command
+      ->add_option("--pictures", options->pictures,
+                   "With --skips: folder for a PNG and an EXR of each scene, its tiles coloured by what became of them")
+      ->type_name("DIR")
+      ->needs(skips);
   options->input.add_to(*command);
-  for (const char* input : {"--scene", "--mesh", "--camera", "--view", "--up", "--save-camera", "--quads", "--stress",
-                            "--count", "--corner", "--strict"})
-    command->get_option(input)->needs(error);
   speed.common.add_to(*command);
-  command->add_option("--repeat", options->repeat, "Runs of each; default 5, with --error 3")
+  command->add_option("--repeat", options->repeat, "Runs of each; default 5, with --error or --skips 3")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   command->add_option("--quad-size", speed.quad_size, "Size of the mesh's quads in pixels")
       ->type_name("PX")
       ->check(CLI::Range(2, 4096))
       ->capture_default_str()
-      ->excludes(error);
+      ->excludes(error)
+      ->excludes(skips);
   command
       ->add_option("--fragments", speed.fragments, "Fragments of the model per run; slower bodies get a part of that")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40))
       ->capture_default_str()
-      ->excludes(error);
+      ->excludes(error)
+      ->excludes(skips);
   command
       ->add_option("--limit-fragments", options->limit_fragments,
                    "With --error: draw the quads of an input in order until there are so many fragments and 16 quads; "
@@ -341,7 +367,14 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       ->type_name("NAME");
   command->add_flag("--no-rtl", speed.no_rtl, "Leave the RTL out (no Verilator needed)");
   const CLI::Option* size = command->get_option("--size");
-  command->callback([options, size, &invocation] {
+  std::vector<const CLI::Option*> of_input;
+  for (const char* input : {"--scene", "--mesh", "--camera", "--view", "--up", "--save-camera", "--quads", "--stress",
+                            "--count", "--corner", "--strict"})
+    of_input.push_back(command->get_option(input));
+  command->callback([options, size, of_input, &invocation] {
+    if (!options->error && !options->skips)
+      for (const CLI::Option* input : of_input)
+        if (input->count() != 0) throw UsageError(input->get_name() + " goes with --error or --skips");
     invocation.run = [options, size, &invocation] { return bench(*options, size->count() != 0, invocation.arguments); };
   });
 }

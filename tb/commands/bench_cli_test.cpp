@@ -1,9 +1,11 @@
-// `quadrille bench --error` as a program: bad input, the report, results that do not depend on threads.
+// `quadrille bench --error` and `--skips` as a program: bad input, the report, results that do not depend on threads.
 #include "tb/commands/cli_fixture.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <set>
+#include <string>
+#include <vector>
 
 namespace quadrille::cli_test {
 namespace {
@@ -34,6 +36,48 @@ TEST_F(Cli, BenchErrorRefuses) {
   write("same.quads", good_quad);
   refuses(2, "bench --error --no-rtl --quads same.quads --json same.quads", {"same.quads"});
   EXPECT_EQ(read(file("same.quads")), good_quad);
+}
+
+TEST_F(Cli, BenchSkipsRefuses) {
+  refuses(2, "bench --skips --error", {"--skips", "--error"});
+  refuses(2, "bench --skips --quad-size 8", {"--quad-size", "--skips"});
+  refuses(2, "bench --pictures here", {"--pictures", "--skips"});
+  refuses(2, "bench --skips --scene ciy_front", {"unknown scene", "did you mean \"city_front\""});
+  refuses(2, "bench --skips --scene room --json nowhere/s.json", {"nowhere"});
+}
+
+/// Eight quads over the whole picture, of which nothing can be skipped: every number follows from that.
+TEST_F(Cli, BenchSkipsReports) {
+  const auto skips = [&](const std::string& arguments) {
+    const Outcome outcome = run("bench --skips --scene layers_large --size 64x64 --repeat 1 --json - " + arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    json report = json::parse(outcome.out);
+    EXPECT_TRUE(report["ok"]);
+    for (json& entry : report["skips"]) entry.erase("model_seconds");
+    return report;
+  };
+  const json report = skips("--threads 1 --pictures pictures");
+  std::vector<std::string> columns;
+  for (const json& entry : report["skips"]) {
+    columns.push_back(entry["skip"]);
+    EXPECT_EQ(entry["pixels"], 8 * 64 * 64);
+    EXPECT_EQ(entry["counters"]["quads_ordinary"], 8);
+    EXPECT_EQ(entry["counters"]["tiles_entered"], 8 * 64);
+    EXPECT_EQ(entry["counters"]["stamps"], 8 * 64 * 8);
+    EXPECT_EQ(entry["counters"]["bound_pixels"], 8 * (64 * 64 + 1));
+    EXPECT_LT(entry["cycles"], 1.01 * 8 * 64 * 64);
+  }
+  ASSERT_GE(columns.size(), 4u);
+  EXPECT_EQ(columns.front(), "none");
+  EXPECT_EQ(columns[1], "tiles");
+  EXPECT_EQ(columns[2], "quads");
+  EXPECT_EQ(columns.back(), "all");
+  EXPECT_EQ(report["tiles"]["layers_large"]["entered"], 8 * 64);
+  EXPECT_EQ(report["tiles"]["layers_large"]["block"], 0);
+  const std::string png = read(file("pictures/layers_large.png")), exr = read(file("pictures/layers_large.exr"));
+  EXPECT_GT(png.size(), 50u);
+  EXPECT_NE(exr.find("skip.entered"), std::string::npos);
+  EXPECT_EQ(skips("--threads 2")["skips"], report["skips"]);
 }
 
 TEST_F(Cli, BenchErrorReports) {

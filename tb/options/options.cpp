@@ -85,6 +85,8 @@ std::string number(double value) {
 
 }  // namespace
 
+std::span<const std::string> known_skips() { return skip_names; }
+
 CLI::Validator whole_number(std::uint64_t most) {
   return CLI::Validator(
       [most](std::string& text) {

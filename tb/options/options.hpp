@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,9 @@ struct CommonOptions {
   /// Where a person's text goes: standard output, or standard error when --json - has taken it; nowhere when quiet.
   std::FILE* text() const;
 };
+
+/// Names of the skips, in the order of SkipBit's bits.
+std::span<const std::string> known_skips();
 
 /// --cull --no-perspective --no-depth --znear --zfar --scissor --skip
 struct StateOptions {

@@ -1,0 +1,258 @@
+#include "tb/commands/bench_skips.hpp"
+
+#include "golden/io/exr.hpp"
+#include "golden/io/json_report.hpp"
+#include "model/snap.hpp"
+#include "model/support/parallel.hpp"
+#include "model/untimed.hpp"
+#include "tb/commands/bench_timing.hpp"
+#include "tb/commands/counters_report.hpp"
+#include "tb/engines/engine.hpp"
+#include "tb/lockstep/lockstep.hpp"
+#include "tb/render/frame.hpp"
+#include "tb/render/skip_picture.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
+#include "tb/support/progress.hpp"
+#include "tb/support/staged_directory.hpp"
+
+#include <cstdio>
+#include <memory>
+
+namespace quadrille::cli {
+namespace {
+
+/// One scene with one set of skips.
+struct Run {
+  PerformanceCounters counters;
+  std::uint64_t cycles = 0, hash = 0;
+  double model_seconds = 0;
+};
+
+struct SkipScene {
+  DrawInput input;
+  DrawState state;
+  std::vector<SnappedQuad> quads;
+  std::vector<Run> runs;  ///< by set of skips
+};
+
+/// A column of the table.
+struct SkipSet {
+  std::string name;  ///< as --skip takes it, but for all and none
+  std::uint32_t skips;
+};
+
+/// None, each that the program knows, and all together.
+std::vector<SkipSet> skip_sets() {
+  std::vector<SkipSet> sets{{"none", 0}};
+  std::uint32_t all = 0;
+  for (std::size_t i = 0; i < known_skips().size(); ++i) {
+    sets.push_back({known_skips()[i], 1u << i});
+    all |= 1u << i;
+  }
+  sets.push_back({"all", all});
+  return sets;
+}
+
+class SkipBench {
+ public:
+  SkipBench(const SkipBenchOptions& options, const std::vector<std::string>& arguments)
+      : options_(options), arguments_(arguments), config_(options.common.config()), sets_(skip_sets()) {}
+
+  int run() {
+    std::vector<std::string> read = options_.input.files();
+    read.push_back(options_.common.config_file);
+    check_outputs({options_.common.json}, read);
+    std::optional<StagedDirectory> pictures;
+    if (!options_.pictures.empty()) pictures.emplace(options_.pictures);
+    load();
+    measure();
+    if (pictures) {
+      for (const SkipScene& scene : scenes_) save_picture(scene, *pictures);
+      pictures->commit({});
+    }
+    if (std::FILE* text = options_.common.text()) print(text);
+    if (!options_.common.json.empty()) golden::save_json(options_.common.json, report());
+    bool ok = true;
+    for (const SkipScene& scene : scenes_) {
+      if (const std::string fault = fault_of(scene); !fault.empty()) {
+        std::fprintf(stderr, "quadrille: %s: %s\n", scene.input.name.c_str(), fault.c_str());
+        ok = false;
+      }
+    }
+    return ok ? exit_ok : exit_mismatch;
+  }
+
+ private:
+  void load() {
+    if (inputs_given(options_.input) != 0) {
+      add(options_.input);
+      return;
+    }
+    for (const std::string& name : workload_names()) {
+      InputOptions input = options_.input;
+      input.scene = name;
+      add(input);
+    }
+  }
+
+  void add(const InputOptions& input_options) {
+    SkipScene scene;
+    StateOptions state;
+    scene.state = state.state(options_.common, config_);
+    scene.input = load_input(input_options, "", scene.state, config_, options_.common.seed);
+    print_remark(scene.input, options_.common);
+    adjust_state(scene.input, scene.state);
+    check_quad_count(scene.input.quads.size(), config_);
+    const Pass pass = plan_passes(scene.input.attributes, false, config_).front();
+    scene.state.attributes = static_cast<int>(pass.columns.size());
+    try {
+      for (std::size_t i = 0; i < scene.input.quads.size(); ++i)
+        scene.quads.push_back(
+            snap_as(pass_quad(scene.input.quads[i], pass), static_cast<std::uint32_t>(i), config_, scene.state));
+    } catch (const SnapError& error) {
+      throw UsageError(describe(error, scene.input));
+    }
+    scene.runs.resize(sets_.size());
+    scenes_.push_back(std::move(scene));
+  }
+
+  DrawState state_of(const SkipScene& scene, std::size_t set) const {
+    DrawState state = scene.state;
+    state.skip = sets_[set].skips;
+    return state;
+  }
+
+  /// Clocks on all threads, then times with nothing beside them.
+  void measure() {
+    const std::size_t runs = scenes_.size() * sets_.size();
+    Progress progress("bench --skips", 2 * runs, options_.common.show_progress());
+    std::uint64_t done = 0;
+    ordered_parallel(
+        runs, options_.common.thread_count(),
+        [&](std::size_t i) {
+          const SkipScene& scene = scenes_[i / sets_.size()];
+          tb::LockstepOptions lockstep;
+          lockstep.config = config_;
+          lockstep.state = state_of(scene, i % sets_.size());
+          return tb::run_clocked_model_alone(scene.quads, lockstep);
+        },
+        [&](std::size_t i, const tb::AloneRun& alone) {
+          Run& run = scenes_[i / sets_.size()].runs[i % sets_.size()];
+          run.counters = alone.counters;
+          run.cycles = alone.cycles;
+          run.hash = alone.fragment_hash;
+          progress.set(++done, scenes_[i / sets_.size()].input.name);
+        });
+    for (SkipScene& scene : scenes_) {
+      std::vector<std::vector<double>> seconds(sets_.size());
+      for (int n = 0; n < options_.repeat; ++n)
+        for (std::size_t set = 0; set < sets_.size(); ++set) seconds[set].push_back(time(scene, set));
+      for (std::size_t set = 0; set < sets_.size(); ++set) scene.runs[set].model_seconds = median(seconds[set]);
+      progress.set(done += sets_.size(), scene.input.name);
+    }
+  }
+
+  double time(const SkipScene& scene, std::size_t set) const {
+    UntimedModel model(config_, state_of(scene, set));
+    const Stopwatch stopwatch;
+    for (const SnappedQuad& quad : scene.quads) model.draw(quad, [](std::span<const Fragment>) {});
+    return stopwatch.seconds();
+  }
+
+  /// What a skip that must keep the list of fragments did to it; empty: nothing.
+  std::string fault_of(const SkipScene& scene) const {
+    for (std::size_t set = 1; set < sets_.size(); ++set) {
+      const bool keeps = (sets_[set].skips & ~skip_default) == 0;
+      if (keeps && scene.runs[set].hash != scene.runs[0].hash)
+        return "--skip " + sets_[set].name + " draws other fragments than --skip none";
+    }
+    return "";
+  }
+
+  void save_picture(const SkipScene& scene, const StagedDirectory& folder) const {
+    const TileFates fates = tile_fates(scene.quads, config_, state_of(scene, sets_.size() - 1));
+    const golden::FrameImage image = skip_picture(fates, config_, scene.state);
+    save_frame_png(folder.path(scene.input.name + ".png"), image);
+    golden::save_exr(folder.path(scene.input.name + ".exr"), image);
+  }
+
+  void print(std::FILE* text) const {
+    std::fprintf(text, "%s\n%zu scene%s, %s; configuration %s; model times of one core, median of %d runs\n\n",
+                 golden::command_line(arguments_).c_str(), scenes_.size(), scenes_.size() == 1 ? "" : "s",
+                 options_.common.size.c_str(), summary(config_).c_str(), options_.repeat);
+    std::fprintf(text, "%-22s %-9s", "", "--skip");
+    for (const SkipSet& set : sets_) std::fprintf(text, " %12s", set.name.c_str());
+    std::fputs("\n", text);
+    for (const SkipScene& scene : scenes_) {
+      std::string name = scene.input.name;
+      const auto row = [&](const char* what, auto&& value) {
+        std::fprintf(text, "%-22s %-9s", name.c_str(), what);
+        for (const Run& run : scene.runs) std::fprintf(text, " %12s", value(run).c_str());
+        std::fputs("\n", text);
+        name.clear();
+      };
+      row("clocks", [](const Run& run) { return std::to_string(run.cycles); });
+      row("pixels", [](const Run& run) { return std::to_string(run.counters.pixels()); });
+      row("products", [](const Run& run) { return std::to_string(run.counters.products()); });
+      row("bound by", [](const Run& run) { return bound_name(run.counters); });
+      row("model ms", [](const Run& run) {
+        char number[32];
+        std::snprintf(number, sizeof number, "%.1f", run.model_seconds * 1e3);
+        return std::string(number);
+      });
+    }
+  }
+
+  /// What most clocks are charged to, idle ones apart.
+  static std::string bound_name(const PerformanceCounters& counters) {
+    const auto first = static_cast<std::size_t>(PerformanceCounter::bound_pixels);
+    std::size_t most = first;
+    for (std::size_t i = first; i < static_cast<std::size_t>(PerformanceCounter::bound_idle); ++i)
+      if (counters.value[i] > counters.value[most]) most = i;
+    return std::string(counter_info[most].name.substr(sizeof "bound_" - 1));
+  }
+
+  nlohmann::ordered_json report() const {
+    nlohmann::ordered_json json = golden::begin_report(config_, options_.common.seed, arguments_);
+    json["size"] = options_.common.size;
+    json["repeat"] = options_.repeat;
+    json["skips"] = nlohmann::ordered_json::array();
+    bool ok = true;
+    for (const SkipScene& scene : scenes_) {
+      const TileFates fates = tile_fates(scene.quads, config_, state_of(scene, sets_.size() - 1));
+      for (std::size_t set = 0; set < sets_.size(); ++set) {
+        const Run& run = scene.runs[set];
+        nlohmann::ordered_json entry;
+        entry["input"] = scene.input.name;
+        entry["skip"] = sets_[set].name;
+        entry["cycles"] = run.cycles;
+        entry["pixels"] = run.counters.pixels();
+        entry["products"] = run.counters.products();
+        entry["model_seconds"] = run.model_seconds;
+        entry["counters"] = counters_json(run.counters);
+        json["skips"].push_back(std::move(entry));
+      }
+      nlohmann::ordered_json& tiles = json["tiles"][scene.input.name];
+      for (std::size_t fate = 0; fate < tile_fate_count; ++fate)
+        tiles[std::string(tile_fate_names[fate])] = fates.total(static_cast<TileFate>(fate));
+      ok = ok && fault_of(scene).empty();
+    }
+    json["ok"] = ok;
+    return json;
+  }
+
+  const SkipBenchOptions& options_;
+  const std::vector<std::string>& arguments_;
+  const Config config_;
+  const std::vector<SkipSet> sets_;
+  std::vector<SkipScene> scenes_;
+};
+
+}  // namespace
+
+int run_skip_bench(const SkipBenchOptions& options, const std::vector<std::string>& arguments) {
+  return SkipBench(options, arguments).run();
+}
+
+}  // namespace quadrille::cli

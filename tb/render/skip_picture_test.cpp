@@ -1,0 +1,59 @@
+// Which tiles the picture of the skips counts, of squares whose boxes are known.
+#include "tb/render/skip_picture.hpp"
+
+#include "model/snap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace quadrille::cli {
+namespace {
+
+SnappedQuad quad(const std::array<std::array<double, 2>, 4>& points, const DrawState& state) {
+  WindowQuad q;
+  for (std::size_t i = 0; i < 4; ++i) {
+    q.vertex[i] = {points[i][0], points[i][1], 0.5, 1};
+    q.attribute[i].assign(4, 0);
+  }
+  return snap_quad(q, Config{}, state);
+}
+
+TEST(SkipPicture, EveryTileOfABoxHasAFate) {
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = 256;
+  state.cull = Cull::back;
+  const std::vector<SnappedQuad> quads{
+      quad({{{64, 128}, {128, 128}, {128, 64}, {64, 64}}}, state),      // 8 × 8 tiles, all covered
+      quad({{{0, 128}, {128, 256}, {129, 256}, {1, 128}}}, state),      // a strip: 17 × 16 tiles, three blocks
+      quad({{{8, 8}, {24, 8}, {24, 24}, {8, 24}}}, state),              // a back face: 2 × 2 tiles
+      quad({{{0, 0}, {8, 8}, {16, 16}, {24, 24}}}, state),              // a line: 3 × 3 tiles
+      quad({{{10.6, 11}, {11, 11}, {11, 10.6}, {10.6, 10.6}}}, state),  // no pixel centre
+  };
+  const TileFates fates = tile_fates(quads, Config{}, state);
+  EXPECT_EQ(fates.columns, 32);
+  EXPECT_EQ(fates.rows, 32);
+  EXPECT_EQ(fates.total(TileFate::culled), 4u);
+  EXPECT_EQ(fates.total(TileFate::line), 9u);
+  EXPECT_EQ(fates.total(TileFate::entered) + fates.total(TileFate::tile) + fates.total(TileFate::block), 64u + 17 * 16);
+  EXPECT_EQ(fates.total(TileFate::entered), 64u + 16);  // of the strip a pixel in each row, x = y - 128
+  EXPECT_GE(fates.total(TileFate::block), 64u + 64);    // the two blocks beside the diagonal
+  EXPECT_EQ(fates.count[static_cast<std::size_t>(TileFate::entered)][8 * 32 + 8], 1u);
+
+  DrawState all = state;
+  all.skip = 0;
+  const TileFates nothing = tile_fates(quads, Config{}, all);
+  EXPECT_EQ(nothing.total(TileFate::entered), 64u + 17 * 16 + 4 + 9);
+  EXPECT_EQ(nothing.total(TileFate::tile) + nothing.total(TileFate::block) + nothing.total(TileFate::culled), 0u);
+
+  const golden::FrameImage image = skip_picture(fates, Config{}, state);
+  ASSERT_EQ(image.layer.size(), tile_fate_count);
+  EXPECT_EQ(image.layer.at("skip.culled")[image.index(23, 23)], 1);
+  EXPECT_EQ(image.layer.at("skip.culled")[image.index(24, 23)], 0);
+  EXPECT_EQ(image.layer.at("skip.entered")[image.index(127, 127)], 1);
+  EXPECT_GT(image.b[image.index(100, 140)], image.g[image.index(100, 140)]);  // a block beside the strip is blue
+  EXPECT_EQ(image.r[image.index(255, 0)], 0);                                 // no quad there
+}
+
+}  // namespace
+}  // namespace quadrille::cli
