@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Bits that switch in each unit of the RTL while it draws: with no skip, and with skips.
+
+  scripts/switching.py [--quadrille PATH] [--skip LIST ...] [--json F.json] -- COSIM OPTIONS
+
+  scripts/switching.py -- --scene closed_mesh --size 64x64
+  scripts/switching.py --skip tiles --skip all -- --scene room --size 64x64 --limit-fragments 2000
+
+Each run is a lockstep run with a waveform (`quadrille cosim --trace`), from the end of reset to its last clock; a bit that changes between two
+clocks is a toggle, the clock's own apart. Waveforms have every register and net that Verilator keeps, in its own time step, so a bit toggles
+at most once a clock edge: glitches of gates are not in it, nor is capacitance. Nets that are the same count once, at the unit that drives them.
+Memories above 32 words are not in a waveform.
+
+Exit status: 1 a run failed, 2 usage or input, 3 a missing tool."""
+import argparse
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+from report.files import InputError, write_files  # noqa: E402
+from report.program import PROGRAM, ROOT  # noqa: E402
+
+RESET_END = 8  # tb/README.md: what a message calls cycle n is at time 8 + 2n
+READER = ("fstapi.c", "fastlz.c", "lz4.c")  # of Verilator
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program")
+    parser.add_argument("--skip", action="append", metavar="LIST", help="compared with none, as cosim takes it (default: all)")
+    parser.add_argument("--json", metavar="F.json", help="write the counts")
+    parser.add_argument("cosim", nargs="+", metavar="OPTION", help="options of quadrille cosim, after --")
+    args = parser.parse_args()
+    for option in ("--skip", "--trace", "--json", "--no-alone", "--no-snapping-error", "--quiet"):
+        if option in args.cosim:
+            parser.error(f"{option} is this script's own")
+    runs = ["none", *(args.skip or ["all"])]
+    with tempfile.TemporaryDirectory() as work:
+        reader = build_reader(work)
+        results = {skip: measure(args, skip, reader, work) for skip in runs}
+    print_table(results)
+    if args.json:
+        report = {"command": [*args.cosim], "runs": results}
+        write_files(os.path.dirname(os.path.abspath(args.json)),
+                    {os.path.basename(args.json): (json.dumps(report, indent=2) + "\n").encode()})
+    return 0
+
+
+def tool(name):
+    if shutil.which(name) is None:
+        print(f"switching.py: missing: {name}", file=sys.stderr)
+        sys.exit(3)
+    return name
+
+
+def reader_source():
+    root = subprocess.run([tool("verilator"), "--getenv", "VERILATOR_ROOT"], capture_output=True, text=True, check=True).stdout.strip()
+    include = os.path.join(root or "/usr/share/verilator", "include", "gtkwave")
+    if not os.path.isfile(os.path.join(include, READER[0])):
+        print(f"switching.py: missing: {include}/{READER[0]}", file=sys.stderr)
+        sys.exit(3)
+    return include
+
+
+def build_reader(work):
+    """The program that counts toggles; Verilator brings the reader of its waveforms as source."""
+    include = reader_source()
+    objects = []
+    for source in READER:
+        objects.append(os.path.join(work, source + ".o"))
+        run([tool("gcc"), "-O2", "-w", f"-I{include}", '-DFST_CONFIG_INCLUDE="fst_config.h"', "-c", os.path.join(include, source), "-o", objects[-1]])
+    reader = os.path.join(work, "fst_toggles")
+    own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "fst_toggles.cpp")
+    run([tool("g++"), "-std=c++20", "-O2", f"-I{include}", own, *objects, "-lz", "-o", reader])
+    return reader
+
+
+def run(command):
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if result.returncode != 0:
+        sys.stderr.write(result.stderr)
+        print(f"switching.py: {command[0]} failed with status {result.returncode}", file=sys.stderr)
+        sys.exit(result.returncode if result.returncode in (2, 3) else 1)
+    return result.stdout
+
+
+def measure(args, skip, reader, work):
+    wave, report = os.path.join(work, "wave.fst"), os.path.join(work, "report.json")
+    run([args.quadrille, "cosim", *args.cosim, "--skip", skip, "--trace", wave, "--json", report, "--no-alone", "--no-snapping-error", "--quiet"])
+    lines = run([reader, wave, str(RESET_END)]).splitlines()
+    os.unlink(wave)
+    with open(report, encoding="utf-8") as file:
+        result = json.load(file)
+    return {"cycles": result["cycles_rtl"], "pixels": result["covered_pixels"], "units": by_unit(lines)}
+
+
+def by_unit(lines):
+    """Toggles and bits of each unit; those of several instances together, what has no unit as quadrille's own."""
+    modules = instances()
+    units = {}
+    for line in lines:
+        toggles, bits, scope = line.split(" ", 2)
+        path = re.findall(r"\bu_\w+", scope)
+        if not path or path[0] != "u_quadrille":  # the probes of the test bench
+            continue
+        path = [modules.get(name, name) for name in path[1:]]
+        while len(path) > 1 and path[0] in ("pixel_pipeline", "pixel_lane"):
+            path.pop(0)
+        unit = units.setdefault(path[0] if path else "quadrille", {"toggles": 0, "bits": 0})
+        unit["toggles"] += int(toggles)
+        unit["bits"] += int(bits)
+    if not units:
+        raise InputError("the waveform has no machine in it")
+    return units
+
+
+def instances():
+    """Module of each instance of the machine, its pipeline and its lanes."""
+    modules = {}
+    for name in ("quadrille.sv", "pixel_pipeline.sv", "pixel_lane.sv"):
+        with open(os.path.join(ROOT, "rtl", name), encoding="utf-8") as file:
+            text = re.sub(r"//[^\n]*", "", file.read())
+        for module, instance in re.findall(r"\b([a-z]\w*)\s+(?:#\((?:[^()]|\([^()]*\))*\)\s*)?(u_\w+)\s*\(", text):
+            modules[instance] = module
+    return modules
+
+
+def print_table(results):
+    base = results["none"]
+    names = list(results)
+    print(f"{'':24} {'bits':>8}" + "".join(f" {'--skip ' + name:>16}" for name in names) + "".join(f" {name + ' of none':>14}" for name in names[1:]))
+    print(f"{'clocks':24} {'':8}" + "".join(f" {results[name]['cycles']:16}" for name in names)
+          + "".join(f" {ratio(results[name]['cycles'], base['cycles']):>14}" for name in names[1:]))
+    units = sorted(base["units"], key=lambda unit: -base["units"][unit]["toggles"])
+    count = lambda name, unit: results[name]["units"].get(unit, {"toggles": 0})["toggles"]  # noqa: E731
+    for unit in units:
+        print(f"{unit:24} {base['units'][unit]['bits']:8}" + "".join(f" {count(name, unit):16}" for name in names)
+              + "".join(f" {ratio(count(name, unit), count('none', unit)):>14}" for name in names[1:]))
+    total = {name: sum(unit["toggles"] for unit in results[name]["units"].values()) for name in names}
+    print(f"{'all toggles':24} {sum(unit['bits'] for unit in base['units'].values()):8}" + "".join(f" {total[name]:16}" for name in names)
+          + "".join(f" {ratio(total[name], total['none']):>14}" for name in names[1:]))
+
+
+def ratio(a, b):
+    return f"{a / b:.3f}" if b else "-"
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except InputError as error:
+        print(f"switching.py: {error}", file=sys.stderr)
+        sys.exit(2)
