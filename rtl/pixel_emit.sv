@@ -9,6 +9,7 @@ module pixel_emit #(
     localparam int RING = quadrille_pkg::RING_LOG2,
     localparam int PLACES = quadrille_pkg::FRAGMENT_FIFO_LOG2,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
     localparam int TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
@@ -32,6 +33,7 @@ module pixel_emit #(
     output logic [1:0] part_o,
     output logic [RING:0] ptr_o,
     output logic [TILE_LOG2-1:0] row_o,
+    output logic [2*OFFSET_DIGITS-1:0] row_digits_o,  // row_functions multiplies by them: they come out of a register
     output logic [P-1:0] valid_o,
     output logic [P*TILE_LOG2-1:0] dx_o,
     output logic [P-1:0] front_o,
@@ -146,9 +148,17 @@ module pixel_emit #(
     end
   end
 
+  logic [2*OFFSET_DIGITS-1:0] row_digits;
+
+  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
+      .number_i(head_row_i),
+      .digits_o(row_digits)
+  );
+
   always_ff @(posedge clk_i) begin
     ptr_o <= head_ptr_i;
     row_o <= head_row_i;
+    row_digits_o <= row_digits;
   end
 
 `ifndef SYNTHESIS

@@ -37,6 +37,7 @@ module pixel_pipeline #(
     input logic [SLOT-1:0] slot_i,
     input logic [V-TILE_LOG2-1:0] tile_x_i,
     input logic [V-1:0] y_i,
+    input logic [2*OFFSET_DIGITS-1:0] row_digits_i,
     input logic [6*VAL-1:0] lin_value_i,
     input logic [6*GRAD-1:0] lin_gx_i,
     input logic [6*GRAD-1:0] lin_gy_i,
@@ -146,7 +147,6 @@ module pixel_pipeline #(
 
   // ---- The row: value + r gy of all functions ---------------------------------------------------------------------------------
   logic [TILE_LOG2-1:0] row;
-  logic [2*OFFSET_DIGITS-1:0] row_digits;
   logic [6*VAL-1:0] lin_row;
   logic [6*GRAD-1:0] lin_gx;
   logic [4*QVAL-1:0] quad_row;
@@ -155,47 +155,22 @@ module pixel_pipeline #(
 
   assign row = y_i[TILE_LOG2-1:0];
 
-  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
-      .number_i(row),
-      .digits_o(row_digits)
+  row_functions u_row (
+      .clk_i,
+      .row_digits_i,
+      .lin_value_i,
+      .lin_gx_i,
+      .lin_gy_i,
+      .quad_value_i,
+      .quad_gx_i,
+      .quad_gy_i,
+      .quad_q_i,
+      .lin_row_o(lin_row),
+      .lin_gx_o(lin_gx),
+      .quad_row_o(quad_row),
+      .quad_gx_o(quad_gx),
+      .quad_q_o(quad_q)
   );
-
-  for (genvar g = 0; g < 6; g++) begin : gen_linear
-    logic unused;
-
-    forward_difference_row #(
-        .VALUE_BITS(VAL),
-        .GRAD_BITS(GRAD)
-    ) u_row (
-        .clk_i,
-        .row_digits_i(row_digits),
-        .value_i(lin_value_i[g*VAL+:VAL]),
-        .gx_i(lin_gx_i[g*GRAD+:GRAD]),
-        .gy_i(lin_gy_i[g*GRAD+:GRAD]),
-        .q_i(1'b0),
-        .row_o(lin_row[g*VAL+:VAL]),
-        .gx_o(lin_gx[g*GRAD+:GRAD]),
-        .q_o(unused)
-    );
-  end
-
-  for (genvar g = 0; g < 4; g++) begin : gen_quadratic
-    forward_difference_row #(
-        .VALUE_BITS(QVAL),
-        .GRAD_BITS(QGRAD),
-        .CURV_BITS(QCURV)
-    ) u_row (
-        .clk_i,
-        .row_digits_i(row_digits),
-        .value_i(quad_value_i[g*QVAL+:QVAL]),
-        .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
-        .gy_i(quad_gy_i[g*QGRAD+:QGRAD]),
-        .q_i(quad_q_i[g*QCURV+:QCURV]),
-        .row_o(quad_row[g*QVAL+:QVAL]),
-        .gx_o(quad_gx[g*QGRAD+:QGRAD]),
-        .q_o(quad_q[g*QCURV+:QCURV])
-    );
-  end
 
   // What law_of_cosines needs of quad and part; both come to it a clock after the squared distances.
   localparam int DIFFERENCE = quadrille_pkg::FORWARD_DIFFERENCE_STAGES;

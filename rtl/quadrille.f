@@ -41,6 +41,7 @@ radix4_digits.sv
 ratio_products.sv
 reciprocal.sv
 root_ratio.sv
+row_functions.sv
 setup_pair.sv
 shift_to_top.sv
 singular_class.sv

@@ -560,14 +560,17 @@ module quadrille (
   // ---- Pixels -------------------------------------------------------------------------------------------------------------
   localparam int P = quadrille_pkg::PIXELS_PER_CLOCK;
   localparam int PIXEL = TILE_LOG2 + 3;  // {dx, valid, front, tie}
-  localparam int PIXELS = 1 + 2 + TILE_LOG2 + P * PIXEL;  // {end, part, row} and the pixels of the lanes
+  localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1;
+  localparam int PIXELS = 1 + 2 + TILE_LOG2 + 2 * OFFSET_DIGITS + P * PIXEL;  // {end, part, row, its digits} and the pixels of the lanes
   logic freed, discard;
   logic [P-1:0] emit_valid, emit_front, emit_tie;
   logic [P*TILE_LOG2-1:0] emit_dx;
   logic [TILE_LOG2-1:0] emit_row;
+  logic [2*OFFSET_DIGITS-1:0] emit_row_digits;
   logic [P-1:0] pixel_valid, pixel_front, pixel_tie, drawn;
   logic [P*TILE_LOG2-1:0] pixel_dx;
   logic [TILE_LOG2-1:0] pixel_row;
+  logic [2*OFFSET_DIGITS-1:0] pixel_row_digits;
   logic pixel_end;
   logic [1:0] pixel_part;
   logic [P*quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
@@ -591,6 +594,7 @@ module quadrille (
       .part_o(emit_part),
       .ptr_o(emit_ptr),
       .row_o(emit_row),
+      .row_digits_o(emit_row_digits),
       .valid_o(emit_valid),
       .dx_o(emit_dx),
       .front_o(emit_front),
@@ -602,10 +606,30 @@ module quadrille (
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) pixels_q <= '0;
-    else pixels_q <= {pixels_q[PIXELS-1:0], emit_end, emit_part, emit_row, emit_dx, emit_valid, emit_front, emit_tie};
+    else
+      pixels_q <= {
+        pixels_q[PIXELS-1:0],
+        emit_end,
+        emit_part,
+        emit_row,
+        emit_row_digits,
+        emit_dx,
+        emit_valid,
+        emit_front,
+        emit_tie
+      };
   end
 
-  assign {pixel_end, pixel_part, pixel_row, pixel_dx, pixel_valid, pixel_front, pixel_tie} = pixels_q[2*PIXELS-1:PIXELS];
+  assign {
+    pixel_end,
+    pixel_part,
+    pixel_row,
+    pixel_row_digits,
+    pixel_dx,
+    pixel_valid,
+    pixel_front,
+    pixel_tie
+  } = pixels_q[2*PIXELS-1:PIXELS];
 
   pixel_pipeline u_pipeline (
       .clk_i,
@@ -619,6 +643,7 @@ module quadrille (
       .slot_i(emit_slot),
       .tile_x_i((V - TILE_LOG2)'({emit_tile_x})),
       .y_i(V'({emit_tile_y, pixel_row})),
+      .row_digits_i(pixel_row_digits),
       .lin_value_i(emit_lin_value),
       .lin_gx_i(emit_gx),
       .lin_gy_i(emit_gy),

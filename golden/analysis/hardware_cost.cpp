@@ -75,6 +75,11 @@ HardwareCost memory(int width, int words, int ports) {
   if (width * words <= ports * blocks * 4 * ((width + 3) / 4)) return state(width * words) + ports * mux(width, words);
   return cost + ports * (blocks * adder(6 * ((width + 3) / 4)) + mux(width, blocks));
 }
+/// Words of `width` bits in block RAM by demand, with the register in which a read ends.
+HardwareCost block_memory(int width, int words) {
+  const Bits bits = u(width * (words + 1));
+  return {.state_bits = bits, .memory_bits = bits, .block_rams = u(blocks_of(width, words))};
+}
 /// Test for zero or equality with a constant: a tree of wide gates, about a third of a comparison.
 HardwareCost zero_test(int width) { return {.adder_bits = u((width + 2) / 3)}; }
 
@@ -260,11 +265,20 @@ HardwareCost fixed_point(const Widths& w, int integer_bits, int fraction_bits) {
 // ---- The front
 // ----------------------------------------------------------------------------------------------------------
 
+/// Limits as ranks, registers; the beat's ratio of powers of two and its rank against them; what holds for all beats.
+HardwareCost quad_reject(const Widths& w) {
+  const int rank = w.PE + 2 + w.S - 1;
+  HardwareCost cost = fp_normalise(w, w.DB + 1, w.E, false) + fp_normalise(w, w.DB + 2, w.E, false);
+  cost += adder(w.DB + 2) + 2 * (adder(rank) + state(rank)) + state(1);
+  cost += state(6 + rank) + 2 * adder(w.PE + 2) + 3 * adder(rank);
+  return cost + state(7) + mux(7, 2) + control(10);
+}
+
 HardwareCost vertex_assembly(const Widths& w) {
   // The vertices; whether all are ordinary; least and greatest coordinates; W as a significand number beside W.
   const int vertex = 2 * w.T + w.W + (w.PE + w.S) + w.WORD + w.N * w.WORD;
   return state(w.ID + 4 * (vertex + w.WORD) + 3 + 1 + 4 * w.T) + 4 * adder(w.T) + zero_test(w.W) + adder(w.W) +
-         mux(w.W, 2) + fp_normalise(w, w.W, w.PE, false) + control(30);
+         mux(w.W, 2) + fp_normalise(w, w.W, w.PE, false) + quad_reject(w) + control(30);
 }
 
 HardwareCost bounding_range(const Widths& w) {
@@ -285,6 +299,9 @@ HardwareCost quad_setup(const Widths& w, int clocks) {
   pair += state(2 * w.GRAD) + 4 * mux(w.GRAD, 2) + 2 * adder(w.GRAD + 1) + 4 * adder(w.REACH) + 2 * zero_test(w.GRAD);
   // The determinants accumulate both results one after the other; signs of those before are kept.
   pair += state(w.DET + 2 * (4 / w.PAIRS - 1)) + 2 * adder(w.DET) + mux(w.DET, 2) + zero_test(w.DET);
+  // Left out by its triangles' areas, or the determinants' signs.
+  const int area = w.VAL + 2;
+  cost += 4 * adder(area) + 2 * zero_test(area) + state(4 + 1) + control(12);
   // The functions as they come, and of the quad that waits to be taken; steps.
   return cost + w.PAIRS * pair + 2 * (6 * state(w.VAL + w.LENGTH2 + 2 * w.GRAD) + 5 * state(4 * w.REACH + 2)) +
          state(5) + control(130);
@@ -348,12 +365,14 @@ HardwareCost tile_ring(const Widths& w) {
 HardwareCost quad_slots(const Widths& w) {
   const int words = 1 << w.SLOT;
   // Terms for the sums; k_eff, chosen at the start, for the weights' products and the overrides too.
-  HardwareCost cost = 4 * (2 + w.N) * memory(w.WORD, words, 1) + 4 * memory(w.WORD, words, 3) + 4 * mux(w.WORD, 2);
+  HardwareCost cost =
+      block_memory(4 * (2 + w.N) * w.WORD, words) + 4 * (memory(w.WORD, words, 3) + state(w.WORD)) + 4 * mux(w.WORD, 2);
   // Gradients for emission and, of the five edges, for coverage; what ends in registers here.
   cost += 10 * memory(w.GRAD, words, 2) + 2 * memory(w.GRAD, words, 1) + state(22 * w.GRAD);
-  cost +=
-      memory(6 * w.LENGTH2, words, 1) + memory(14, words, 1) + state(14) + memory(2, words, 1) + memory(w.ID, words, 1);
-  return cost + state(2 * w.SLOT + 1) + adder(w.SLOT) + 2 * adder(w.SLOT + 1);
+  cost += block_memory(6 * w.LENGTH2, words) + memory(14, words, 1) + state(14) + memory(2, words, 1) +
+          memory(w.ID, words, 1);
+  // The next slot, those of end beats on their way; a bit for each slot that is in use, set and cleared by its number.
+  return cost + state(3 * w.SLOT) + adder(w.SLOT) + state(words) + mux(words, 4) + zero_test(2 * words);
 }
 
 HardwareCost stamp_coverage(const Widths& w) {
@@ -384,9 +403,10 @@ int fragment_places() { return stages_of(latency::pipeline + 7); }
 HardwareCost pixel_emit(const Widths& w) {
   // Free places, part; each lane has the lowest pixel that those below it leave, its column, front and tie.
   const int spare = fragment_places() + 2;
+  const int digits = 2 * (w.TL / 2 + 1);  // of the row, in radix 4
   const HardwareCost lane = state(w.TL + 3) + adder(w.TILE) + (w.TL + 2) * zero_test(w.TILE) + mux(w.TILE, 2);
-  return state(spare + w.TILE + 5 + w.RING + 1 + w.TL) + adder(spare) + mux(w.TILE, 2) + w.P * lane +
-         state(2 * (3 + w.TL + w.P * (w.TL + 3)));
+  return state(spare + w.TILE + 5 + w.RING + 1 + w.TL + digits) + adder(spare) + adder(digits) + mux(w.TILE, 2) +
+         w.P * lane + state(2 * (3 + w.TL + digits + w.P * (w.TL + 3)));
 }
 
 // ---- The pixel pipeline
@@ -400,8 +420,8 @@ HardwareCost pixel_pipeline(const Widths& w) {
   const int tag = w.SLOT + w.V - w.TL + w.V;
   HardwareCost cost = state(pipeline + (pipeline - 1) * tag + tag - w.SLOT);
   cost += state(vertices * (2 * w.WORD - 1) + (3 + w.N) * vertices * w.WORD + w.ID + 2);
-  // Row's digits; part, slot and squared lengths for the law of cosines.
-  return cost + state(forward_difference_stages * (2 + w.SLOT) + 1 + 6 * w.LENGTH2) + adder(2 * w.TL) + control(140);
+  // Part, slot and squared lengths for the law of cosines.
+  return cost + state(forward_difference_stages * (2 + w.SLOT) + 1 + 6 * w.LENGTH2) + control(140);
 }
 
 /// What a pixel has of its own, between the units.
@@ -417,7 +437,7 @@ HardwareCost pixel_lane(const Widths& w) {
   return cost + state(reciprocal_stages * (1 + w.N) * (1 + w.NUMBER));
 }
 
-HardwareCost forward_difference_row(const Widths& w) {
+HardwareCost row_functions(const Widths& w) {
   const auto one = [&](int value, int gradient) {
     return state(value + gradient) + small_multiply(gradient, w.TL) + adder(value);
   };
@@ -530,7 +550,7 @@ std::vector<ModuleCost> module_costs(const Config& config) {
       {"sync_fifo", sync_fifo(w)},
       {"pixel_emit", pixel_emit(w)},
       {"pixel_pipeline", pixel_pipeline(w)},
-      {"forward_difference_row", forward_difference_row(w)},
+      {"row_functions", row_functions(w)},
       {"pixel_lane", w.P * pixel_lane(w)},
       {"forward_difference_column", w.P * forward_difference_column(w)},
       {"law_of_cosines", w.P * law_of_cosines(w)},

@@ -219,7 +219,7 @@ TEST(HardwareCost, LanesHaveWhatIsAPixelsOwn) {
                                "interpolate", "fragment_output"})
         EXPECT_EQ(module(config, name).state_bits, n * module(one, name).state_bits) << name;
       for (const char* name : {"quad_setup", "vertex_products", "tile_walk", "quad_slots", "tile_ring",
-                               "stamp_coverage", "pixel_pipeline", "forward_difference_row"})
+                               "stamp_coverage", "pixel_pipeline", "row_functions"})
         EXPECT_EQ(module(config, name), module(one, name)) << name;
       EXPECT_GT(module(config, "fragment_fifo").block_rams, module(one, "fragment_fifo").block_rams);
     }
