@@ -1,8 +1,8 @@
-// First tile and tile count of a quad along one axis, from its least and greatest coordinate: there the clock after load_i. That there is
-// no pixel, empty_o, is known at once; the other outputs mean nothing then.
+// First tile and tile count of a quad along one axis, from its least and greatest coordinate: there the clock after load_i. They mean
+// nothing when there is no pixel (range_empty).
 //
-// Ordinary quad: lo = max(ceil(low), scissor0), hi = min(floor(high), scissor1 - 1), in pixels, empty if lo > hi.
-// Homogeneous quad: lo = 0, hi = scissor1 - 1, empty if scissor0 >= scissor1.
+// Ordinary quad: lo = max(ceil(low), scissor0), hi = min(floor(high), scissor1 - 1), in pixels.
+// Homogeneous quad: lo = 0, hi = scissor1 - 1.
 module bounding_range #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
@@ -16,7 +16,6 @@ module bounding_range #(
     input logic ordinary_i,
     input logic [V:0] scissor0_i,
     input logic [V:0] scissor1_i,
-    output logic empty_o,
     output logic [TC-1:0] first_o,
     output logic [TC-1:0] count_o,
     output logic [TL-1:0] last_o  // last pixel, in its tile
@@ -46,9 +45,6 @@ module bounding_range #(
     end
   end
 
-  // lo > hi, by every pair that these may be
-  assign empty_o = scissor0_i >= scissor1_i || (ordinary_i &&
-      ($signed(low_px) > $signed(high_px) || $signed(low_px) > $signed(last_px) || $signed(high_px) < $signed(begin_px)));
   assign first_o = TC'(lo_q >> TL);
   assign count_o = TC'(hi_q >> TL) - first_o + TC'(1);
   assign last_o = TL'(hi_q);

@@ -30,7 +30,7 @@ module quad_setup #(
     input logic held_i,
     input logic start_i,
     output logic ready_o,
-    output logic empty_o,  // no pixel centre inside scissor and bounding box, in any clock in which the quad is held
+    input logic empty_i,  // no pixel centre inside scissor and bounding box
     input logic [SLOT-1:0] slot_i,
     input logic [4*T-1:0] x_i,
     input logic [4*T-1:0] y_i,
@@ -100,14 +100,10 @@ module quad_setup #(
   localparam logic [1:0] CLAMPED = 2'd1;
   localparam logic [1:0] BOXED = 2'd2;
   logic [1:0] box_state_q;
-  logic empty_x, empty_y, empty;
   logic [TC-1:0] first_x, first_y, count_x, count_y;
   logic [TL-1:0] last_column, last_row;
   logic [TC-1:0] box_x0_q, box_y0_q, box_x_q, box_y_q;
   logic [TL-1:0] box_row_q;
-
-  assign empty = empty_x || empty_y;
-  assign empty_o = empty;
 
   bounding_range u_range_x (
       .clk_i,
@@ -117,7 +113,6 @@ module quad_setup #(
       .ordinary_i,
       .scissor0_i(scissor_x0_i),
       .scissor1_i(scissor_x1_i),
-      .empty_o(empty_x),
       .first_o(first_x),
       .count_o(count_x),
       .last_o(last_column)
@@ -131,7 +126,6 @@ module quad_setup #(
       .ordinary_i,
       .scissor0_i(scissor_y0_i),
       .scissor1_i(scissor_y1_i),
-      .empty_o(empty_y),
       .first_o(first_y),
       .count_o(count_y),
       .last_o(last_row)
@@ -145,10 +139,10 @@ module quad_setup #(
 
   always_ff @(posedge clk_i) begin
     if (box_state_q == CLAMPED) begin
-      box_x0_q <= empty ? '0 : first_x;
-      box_y0_q <= empty ? '0 : first_y;
-      box_x_q <= empty ? '0 : count_x;
-      box_y_q <= empty ? '0 : count_y;
+      box_x0_q <= empty_i ? '0 : first_x;
+      box_y0_q <= empty_i ? '0 : first_y;
+      box_x_q <= empty_i ? '0 : count_x;
+      box_y_q <= empty_i ? '0 : count_y;
       box_row_q <= last_row;
     end
   end

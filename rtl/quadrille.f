@@ -38,6 +38,7 @@ quad_setup.sv
 quad_slots.sv
 quadrille.sv
 radix4_digits.sv
+range_empty.sv
 ratio_products.sv
 reciprocal.sv
 root_ratio.sv

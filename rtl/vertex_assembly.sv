@@ -3,13 +3,14 @@
 //
 // vertex_ready_o depends on registers alone, not on valid. The quad's id is that of v0.
 // Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X and Y, kept up with each beat; and
-// quad_reject's judgement of its vertices. Vertex i's field is at [i*width +: width] of each flat output.
+// quad_reject's and range_empty's judgements of its vertices. Vertex i's field is at [i*width +: width] of each flat output.
 module vertex_assembly #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
     localparam int T = quadrille_pkg::T_BITS,
     localparam int W = quadrille_pkg::W_BITS,
     localparam int DB = quadrille_pkg::DEPTH_BITS,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS,
     localparam int ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
 ) (
     input logic clk_i,
@@ -22,6 +23,11 @@ module vertex_assembly #(
     input logic depth_on_i,
     input logic [DB:0] znear_i,
     input logic [DB:0] zfar_i,
+    input logic [V:0] scissor_x0_i,
+    input logic [V:0] scissor_y0_i,
+    input logic [V:0] scissor_x1_i,
+    input logic [V:0] scissor_y1_i,
+    output logic empty_o,  // no pixel centre inside scissor and bounding box
     output logic behind_o,
     output logic depth_o,
     output logic full_o,
@@ -114,6 +120,34 @@ module vertex_assembly #(
     end
   end
 
+  logic empty_x, empty_y;
+
+  assign empty_o = empty_x || empty_y;
+
+  range_empty u_empty_x (
+      .clk_i,
+      .accept_i(accept),
+      .first_i(first),
+      .coordinate_i(x),
+      .low_i(low_x_o),
+      .scissor0_i(scissor_x0_i),
+      .scissor1_i(scissor_x1_i),
+      .ordinary_i(ordinary_o),
+      .empty_o(empty_x)
+  );
+
+  range_empty u_empty_y (
+      .clk_i,
+      .accept_i(accept),
+      .first_i(first),
+      .coordinate_i(y),
+      .low_i(low_y_o),
+      .scissor0_i(scissor_y0_i),
+      .scissor1_i(scissor_y1_i),
+      .ordinary_i(ordinary_o),
+      .empty_o(empty_y)
+  );
+
   // W as a significand number: exponent -FRAC..0, which fits the port's width.
   localparam int E = quadrille_pkg::EXP_BITS;
   logic w_neg;
@@ -145,9 +179,7 @@ module vertex_assembly #(
       .zfar_i,
       .accept_i(accept),
       .first_i(first),
-      .w_positive_i(!w_neg && w_sig[S-1]),
-      .w_exp_i(w_exp[PE-1:0]),
-      .w_single_i((w_magnitude & (w_magnitude - W'(1))) == '0),
+      .w_i(w),
       .z_neg_i(z_neg),
       .z_exp_i(z_exp),
       .z_sig_i(z_sig),

@@ -241,7 +241,8 @@ tee -q -o placed.txt stat
         if not found:
             raise synthesis.SynthesisFailed("nextpnr-ecp5 gave no clock:\n" + "\n".join(text.splitlines()[-10:]))
         clocks.append(float(found[-1]))
-        slowest = text[text.rfind("Info: Critical path report for clock"):text.rfind("Info: Max frequency")]
+        # Max frequency is an `Info` or, below --freq, a `Warning`.
+        slowest = re.split("Critical path report for cross-domain|Max frequency", text[text.rfind("Critical path report for clock"):])[0]
     ends = re.findall(r"(?:Source|Sink) (\S+)", slowest)
     return {"device": "LFE5U-" + device.replace("k", "F"), "speed": args.speed, "luts": size["LUT"], "flip_flops": size["FF"] - registers,
             "dsps": size["DSP"], "block_rams": size["BRAM"], "mhz": statistics.median(clocks), "mhz_by_seed": clocks,

@@ -19,6 +19,7 @@ module replay_setup (
   localparam logic [W-1:0] ONE = W'(1) << quadrille_pkg::FRAC;
   logic ordinary;
   logic [T-1:0] low_x, high_x, low_y, high_y;
+  logic empty_x, empty_y;
 
   always_comb begin
     low_x = x_i[0+:T];
@@ -33,7 +34,21 @@ module replay_setup (
       if ($signed(y_i[i*T+:T]) > $signed(high_y)) high_y = y_i[i*T+:T];
       if (w_i[i*W+:W] != ONE) ordinary = 1'b0;
     end
+    empty_x = none(ordinary, low_x, high_x, scissor_x0_i, scissor_x1_i);
+    empty_y = none(ordinary, low_y, high_y, scissor_y0_i, scissor_y1_i);
   end
+
+  // No pixel centre between least and greatest coordinate and inside the scissor.
+  function automatic logic none(input logic ordinary_quad, input logic [T-1:0] low, input logic [T-1:0] high, input logic [V:0] begin_px,
+                                input logic [V:0] end_px);
+    localparam int FRAC = quadrille_pkg::FRAC;
+    logic [T-1:0] first_px, last_px;
+
+    first_px = $signed(low + T'((1 << FRAC) - 1)) >>> FRAC;
+    last_px = $signed(high) >>> FRAC;
+    none = begin_px >= end_px || (ordinary_quad && ($signed(first_px) > $signed(last_px) || $signed(first_px) >= $signed(T'(end_px)) ||
+                                                    $signed(last_px) < $signed(T'(begin_px))));
+  endfunction
 
   // The multipliers, for the setup alone.
   localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS;
@@ -46,7 +61,7 @@ module replay_setup (
   logic [PAIRS*quadrille_pkg::RISE_BITS-1:0] apart_x, apart_y;
   logic [PAIRS*quadrille_pkg::DOT_OUT_BITS-1:0] result0, result1;
   logic [PAIRS*T-1:0] xi, yi, xj, yj;
-  logic empty, drop;
+  logic drop;
 
   vertex_products u_products (
       .clk_i,
@@ -99,7 +114,7 @@ module replay_setup (
       .start_i(valid_i && ready_o),
       .ready_o,
       .slot_i(SLOT'(0)),
-      .empty_o(empty),
+      .empty_i(empty_x || empty_y),
       .reject_i(1'b0),
       .cull_i(2'd0),
       .drop_o(drop),
@@ -109,5 +124,5 @@ module replay_setup (
   );
 
   logic unused;
-  assign unused = ^{xi, yi, xj, yj, empty, drop};
+  assign unused = ^{xi, yi, xj, yj, drop};
 endmodule
