@@ -267,23 +267,29 @@ HardwareCost fixed_point(const Widths& w, int integer_bits, int fraction_bits) {
 
 /// Limits as ranks, registers; the beat's ratio of powers of two and its rank against them; what holds for all beats.
 HardwareCost quad_reject(const Widths& w) {
-  const int rank = w.PE + 2 + w.S - 1;
-  HardwareCost cost = fp_normalise(w, w.DB + 1, w.E, false) + fp_normalise(w, w.DB + 2, w.E, false);
-  cost += adder(w.DB + 2) + 2 * (adder(rank) + state(rank)) + state(1);
-  cost += state(6 + rank) + 2 * adder(w.PE + 2) + 3 * adder(rank);
+  const int rank = w.PE + 2 + w.S - 1, wide = std::max(w.DB + 2, w.S);
+  HardwareCost cost = 2 * shift_to_top(wide, w.S, stages_of(wide) - 1, 0) + adder(w.DB + 2) + state(2 * rank + 1);
+  cost += shift_to_top(w.W, 1, stages_of(w.W) - 1, 0) + adder(w.W) + zero_test(w.W);
+  cost += state(5 + 2 * rank) + 2 * (adder(w.S) + 2 * adder(w.PE + 2)) + 3 * adder(rank);
   return cost + state(7) + mux(7, 2) + control(10);
+}
+
+/// Of one axis: a vertex before, behind, on a pixel's centre, in the same pixel as those before it.
+HardwareCost range_empty(const Widths& w) {
+  const int whole = w.T - w.FRAC;
+  return state(4) + 3 * adder(whole) + adder(w.V + 1) + zero_test(w.FRAC) + zero_test(2 * whole);
 }
 
 HardwareCost vertex_assembly(const Widths& w) {
   // The vertices; whether all are ordinary; least and greatest coordinates; W as a significand number beside W.
   const int vertex = 2 * w.T + w.W + (w.PE + w.S) + w.WORD + w.N * w.WORD;
   return state(w.ID + 4 * (vertex + w.WORD) + 3 + 1 + 4 * w.T) + 4 * adder(w.T) + zero_test(w.W) + adder(w.W) +
-         mux(w.W, 2) + fp_normalise(w, w.W, w.PE, false) + quad_reject(w) + control(30);
+         mux(w.W, 2) + fp_normalise(w, w.W, w.PE, false) + quad_reject(w) + 2 * range_empty(w) + control(30);
 }
 
 HardwareCost bounding_range(const Widths& w) {
   const int whole = w.T - w.FRAC;
-  return state(2 * whole + 2) + adder(w.T) + 4 * adder(whole) + 4 * mux(whole, 2) + adder(w.V + 1) + 2 * adder(w.TC);
+  return state(2 * whole) + adder(w.T) + 3 * adder(whole) + 4 * mux(whole, 2) + 2 * adder(w.TC);
 }
 
 HardwareCost quad_setup(const Widths& w, int clocks) {
