@@ -138,7 +138,9 @@ void visit_state(State& s, Code& znear, Code& zfar, const Config& c, F&& f) {
   f(depth_type(c, "znear", "smallest window z"), -1, znear);
   f(depth_type(c, "zfar", "largest window z"), -1, zfar);
   f(plain("attributes", 4, "attributes in use"), -1, s.attributes);
-  f(plain("skip", 8, "what may be skipped; bit 0: tiles that cannot be covered, 1: quads that cannot give a fragment"),
+  f(plain("skip", 8,
+          "what may be skipped; bit 0: tiles that cannot be covered, 1: quads that cannot give a fragment, 2: hidden "
+          "tiles"),
     -1, s.skip);
 }
 

@@ -80,8 +80,8 @@ struct WalkUnit {
   bool at_end() const { return finishing && way.back().push && way.back().entry.end; }
   bool ready() const { return walk.state() == TileWalk::State::idle || at_end(); }
   /// The next quad comes in, once ready(); after clock(), if the walk moves.
-  void take(const SetupResult& setup) {
-    walk.take(setup);
+  void take(const SetupResult& setup, HierarchicalZ* memory, const DepthInterval& depth) {
+    walk.take(setup, memory, depth);
     finishing = false;
   }
 
@@ -247,6 +247,27 @@ struct SetupUnit {
   }
 };
 
+/// The control of hierarchical_z: clocks in which words are wiped and no vertex is taken.
+struct HiddenUnit {
+  static constexpr int section = 16;  ///< places that a clear wipes
+
+  HierarchicalZ memory;
+  int wiping = 0;
+
+  void reset(const Config& config) {
+    memory = HierarchicalZ(config);
+    wiping = config.hierarchical_z_bits != 0 ? 1 << config.hierarchical_z_tiles_log2 : 0;
+  }
+  void clock(bool clear, bool present) {
+    if (wiping > 0) {
+      --wiping;
+    } else if (clear && present) {
+      memory.clear();
+      wiping = section;
+    }
+  }
+};
+
 /// What leaves the pipeline in a clock: the fragments of its lanes.
 struct FragmentBeat {
   std::array<bool, Config::most_pixels_per_clock> drawn{};
@@ -257,6 +278,7 @@ struct FragmentBeat {
 struct Slot {
   QuadData data;
   QuadConstants constants;
+  DepthInterval depth;
   std::size_t quad = 0;  ///< VertexAssembly::number
 };
 
@@ -270,6 +292,7 @@ struct ClockedModel::Impl {
   std::uint32_t alloc = 0;   ///< the slot that the next quad gets, once it is free
   std::uint32_t in_use = 0;  ///< bit i: slot i
   WalkUnit walk;
+  HiddenUnit hidden;
   ContextUnit tile_unit;
   std::vector<TileEntry> ring;
   /// The next entry to write, the first one that coverage must not see yet, the first one in use.
@@ -351,6 +374,7 @@ struct ClockedModel::Impl {
     alloc = in_use = 0;
     walk = {};
     walk.walk = TileWalk(context.config, context.state);
+    hidden.reset(context.config);
     tile_unit = {};
     tile_unit.pairs = context.config.product_pairs();
     ring_write = ring_complete = ring_tail = 0;
@@ -367,7 +391,9 @@ struct ClockedModel::Impl {
     counters = {};
   }
 
-  bool busy() const { return assembly.full || assembly.count != 0 || in_use != 0 || !fragments.empty(); }
+  bool busy() const {
+    return assembly.full || assembly.count != 0 || in_use != 0 || !fragments.empty() || hidden.wiping > 0;
+  }
 
   /// performance_counters: what this clock does, from the state before its edge.
   void count(bool starting, bool taking, bool dropping, bool push_tile, bool walk_moves) {
@@ -514,7 +540,7 @@ struct ClockedModel::Impl {
     const bool taking = take();
     const bool dropping = drop();
     const bool dropping_vertices = assembly.drops();
-    const bool accept = in.vertex_valid && (!assembly.full || starting || dropping_vertices);
+    const bool accept = in.vertex_valid && hidden.wiping == 0 && (!assembly.full || starting || dropping_vertices);
     std::uint32_t free_slots = 0;
     if (stage(last_stage).front().end) free_slots |= 1u << stage(last_stage).front().slot;
     if (dropping) free_slots |= 1u << setup.result.slot;
@@ -549,9 +575,11 @@ struct ClockedModel::Impl {
       ring_write = behind(ring_write);
     }
     if (walk_moves) walk.clock();
+    hidden.clock(in.clear_hidden, context.config.hierarchical_z_bits != 0);
     if (taking) {
       slots[setup.result.slot].constants = QuadConstants(setup.result);
-      walk.take(setup.result);
+      walk.take(setup.result, skips_hidden(context.config, context.state) ? &hidden.memory : nullptr,
+                slots[setup.result.slot].depth);
     }
     // A slot is skipped while it is in use and another is not: quads that setup drops leave theirs before older ones
     // do.
@@ -565,6 +593,7 @@ struct ClockedModel::Impl {
       SetupResult result = quad_setup(assembly.quad, context.config, context.state);
       result.slot = slot;
       slots[slot].quad = assembly.number;
+      slots[slot].depth = depth_interval(assembly.quad, context.config, context.state);
       slots[slot].data = quad_data(assembly.quad, result, context.config, context.state);
       setup.start(result);
       in_use |= 1u << slot;
@@ -592,7 +621,7 @@ ClockedModel& ClockedModel::operator=(ClockedModel&&) noexcept = default;
 ClockedOutputs ClockedModel::comb() const {
   const Impl& m = *impl_;
   ClockedOutputs out;
-  out.vertex_ready = !m.assembly.full || m.start() || m.assembly.drops();
+  out.vertex_ready = m.hidden.wiping == 0 && (!m.assembly.full || m.start() || m.assembly.drops());
   out.fragment_valid = m.fragments.valid();
   for (std::size_t lane = 0; out.fragment_valid && lane < m.lanes; ++lane)
     if (m.fragments.head().drawn[lane]) out.fragment[lane] = &m.fragments.head().fragment[lane];
@@ -614,6 +643,11 @@ ClockedOutputs ClockedModel::comb() const {
     probes.sum = pixel(latency::sum_stage);
   }
   return out;
+}
+
+void ClockedModel::set_state(const DrawState& state) {
+  impl_->context = PipelineContext(Config(impl_->context.config), state);
+  impl_->walk.walk = TileWalk(impl_->context.config, state);
 }
 
 void ClockedModel::clock(const ClockedInputs& inputs) { impl_->clock(inputs); }

@@ -23,6 +23,7 @@ struct ClockedInputs {
   bool reset = false;  ///< rst_ni = 0
   bool vertex_valid = false;
   bool fragment_ready = false;
+  bool clear_hidden = false;    ///< while not busy: the depth buffer is cleared
   std::uint32_t vertex_id = 0;  ///< quad id of the beat
   SnappedVertex vertex;         ///< the beat, when vertex_valid
 };
@@ -81,6 +82,9 @@ class ClockedModel {
   void clock(const ClockedInputs& inputs);
   /// What the clocks since reset counted, whether the configuration has counters in hardware or not.
   const PerformanceCounters& counters() const;
+
+  /// From this clock on another draw state, while not busy; what is hidden stays so.
+  void set_state(const DrawState& state);
 
  private:
   struct Impl;

@@ -54,6 +54,10 @@ constexpr std::array entries{
           &Config::quad_slots_log2},
     Entry{{"tile_slots_log2", 1, 4, 2, "log2", "tile contexts in flight"}, &Config::tile_slots_log2},
     Entry{{"stamp_fifo_log2", 1, 5, 3, "log2", "covered stamps that may wait"}, &Config::stamp_fifo_log2},
+    Entry{{"hierarchical_z_bits", 0, 16, 0, "bits", "fraction bits of a tile's farthest depth; 0: no hidden tiles"},
+          &Config::hierarchical_z_bits},
+    Entry{{"hierarchical_z_tiles_log2", 6, 16, 12, "log2", "tiles whose farthest depth is held"},
+          &Config::hierarchical_z_tiles_log2},
     Entry{{"quad_id_bits", 8, 32, 24, "bits", "width of the quad id"}, &Config::quad_id_bits},
     Entry{{"performance_counters", 0, 1, 0, "", "counters of what the machine did; 0: no hardware for them"},
           &Config::performance_counters},
@@ -157,6 +161,10 @@ void Config::validate() const {
   require(recip_segments() <= significand_bits - 2, "recip_segments_log2 must be at most significand_bits - 2");
   require(dot_units != 3, "dot_units = 3; it must be 2 or 4");
   require(tile_log2 < viewport_bits, "tile_log2 must be below viewport_bits");
+  require(hierarchical_z_bits == 0 || hierarchical_z_bits >= 4,
+          "hierarchical_z_bits = " + std::to_string(hierarchical_z_bits) + "; it must be 0 or at least 4");
+  require(hierarchical_z_bits <= depth_bits, "hierarchical_z_bits = " + std::to_string(hierarchical_z_bits) +
+                                                 " exceeds depth_bits = " + std::to_string(depth_bits));
   require(pixels_per_clock != 3, "pixels_per_clock = 3; it must be 1, 2 or 4");
 }
 

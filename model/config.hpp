@@ -55,6 +55,8 @@ struct Config {
   int quad_slots_log2 = 3;
   int tile_slots_log2 = 2;
   int stamp_fifo_log2 = 3;
+  int hierarchical_z_bits = 0;
+  int hierarchical_z_tiles_log2 = 12;
   int quad_id_bits = 24;
   int performance_counters = 0;
 

@@ -17,18 +17,31 @@ struct Row {
 
 // rtl/README.md section 1, key by key.
 constexpr Row table[] = {
-    {"viewport_bits", 12, 6, 14},       {"guard_bits", 3, 1, 4},
-    {"subpixel_bits", 8, 2, 8},         {"homogeneous_frac_bits", 7, 4, 10},
+    {"viewport_bits", 12, 6, 14},
+    {"guard_bits", 3, 1, 4},
+    {"subpixel_bits", 8, 2, 8},
+    {"homogeneous_frac_bits", 7, 4, 10},
     {"quadratic_frac_bits", -1, 0, 36},  // 2·FRAC at most; the key alone can only be held to the largest of these
-    {"significand_bits", 18, 8, 26},    {"notch_exact", 1, 0, 1},
-    {"sqrt_segments_log2", -1, 3, 14},  {"sqrt_degree", 2, 1, 2},
-    {"recip_segments_log2", -1, 3, 14}, {"recip_degree", 2, 1, 2},
-    {"align_guard_bits", 2, 0, 6},      {"attribute_slots", 4, 1, 8},
-    {"attribute_int_bits", 3, 1, 8},    {"attribute_frac_bits", -1, 8, 30},
-    {"depth_bits", 24, 8, 30},          {"tile_log2", 3, 2, 4},
-    {"pixels_per_clock", 1, 1, 4},      {"dot_units", 2, 2, 4},
-    {"quad_slots_log2", 3, 1, 4},       {"tile_slots_log2", 2, 1, 4},
-    {"stamp_fifo_log2", 3, 1, 5},       {"quad_id_bits", 24, 8, 32},
+    {"significand_bits", 18, 8, 26},
+    {"notch_exact", 1, 0, 1},
+    {"sqrt_segments_log2", -1, 3, 14},
+    {"sqrt_degree", 2, 1, 2},
+    {"recip_segments_log2", -1, 3, 14},
+    {"recip_degree", 2, 1, 2},
+    {"align_guard_bits", 2, 0, 6},
+    {"attribute_slots", 4, 1, 8},
+    {"attribute_int_bits", 3, 1, 8},
+    {"attribute_frac_bits", -1, 8, 30},
+    {"depth_bits", 24, 8, 30},
+    {"tile_log2", 3, 2, 4},
+    {"pixels_per_clock", 1, 1, 4},
+    {"dot_units", 2, 2, 4},
+    {"quad_slots_log2", 3, 1, 4},
+    {"tile_slots_log2", 2, 1, 4},
+    {"stamp_fifo_log2", 3, 1, 5},
+    {"hierarchical_z_bits", 0, 0, 16},
+    {"hierarchical_z_tiles_log2", 12, 6, 16},
+    {"quad_id_bits", 24, 8, 32},
     {"performance_counters", 0, 0, 1},
 };
 
@@ -193,6 +206,9 @@ TEST(Config, ImpossibleCombinationsNameTheirRule) {
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 14}, {"homogeneous_frac_bits", 10}}), "VAL_BITS"));
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 14}, {"guard_bits", 2}}), ""));
   EXPECT_TRUE(contains(refusal_of({{"pixels_per_clock", 3}}), "it must be 1, 2 or 4"));
+  EXPECT_TRUE(contains(refusal_of({{"hierarchical_z_bits", 3}}), "it must be 0 or at least 4"));
+  EXPECT_TRUE(contains(refusal_of({{"hierarchical_z_bits", 12}, {"depth_bits", 10}}), "exceeds depth_bits = 10"));
+  EXPECT_EQ(refusal_of({{"hierarchical_z_bits", 10}, {"depth_bits", 10}}), "");
   EXPECT_TRUE(contains(refusal_of({{"quadratic_frac_bits", 31}}), "quadratic_frac_bits"));
   EXPECT_TRUE(contains(refusal_of({{"dot_units", 3}}), "dot_units = 3"));
   EXPECT_TRUE(contains(refusal_of({{"attribute_frac_bits", 17}}), "attribute_frac_bits"));

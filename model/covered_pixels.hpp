@@ -30,16 +30,19 @@ int for_each_covered_pixel(const TileEntry& tile, const QuadConstants& quad, con
 }
 
 struct WalkCounts {
-  std::uint64_t blocks_tested = 0, tiles_tested = 0;
+  std::uint64_t blocks_tested = 0, tiles_tested = 0, tiles_hidden = 0;
 };
 
 /// Takes an idle walk through a quad and back to idle; calls f(TileEntry) for every tile that may hold covered pixels.
+/// `memory`, `depth`: of hidden tiles (TileWalk::take).
 template <class F>
-WalkCounts walk_tiles(TileWalk& walk, const SetupResult& setup, F&& f) {
+WalkCounts walk_tiles(TileWalk& walk, const SetupResult& setup, F&& f, HierarchicalZ* memory = nullptr,
+                      const DepthInterval& depth = {}) {
   WalkCounts counts;
-  for (walk.take(setup); walk.state() != TileWalk::State::end; walk.advance()) {
+  for (walk.take(setup, memory, depth); walk.state() != TileWalk::State::end; walk.advance()) {
     const bool tile = walk.state() == TileWalk::State::tile;
     ++(tile ? counts.tiles_tested : counts.blocks_tested);
+    counts.tiles_hidden += walk.hidden();
     if (tile && walk.hit()) f(walk.entry());
   }
   walk.advance();

@@ -3,7 +3,6 @@
 #include "model/quad_setup.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -11,17 +10,11 @@
 namespace quadrille {
 namespace {
 
-/// The number's place among all positive numbers of S bits, next ones apart by 1: exp 2^(S-1) + (sig - 2^(S-1)).
-std::int64_t rank(std::int64_t exp, std::uint64_t sig, const Config& config) {
-  const std::int64_t binade = std::int64_t{1} << (config.significand_bits - 1);
-  return exp * binade + static_cast<std::int64_t>(sig) - binade;
-}
-
 /// Of code 2^-depth_bits, truncated to S bits; the code is not 0.
 std::int64_t rank_of_code(std::uint32_t code, const Config& config) {
   const int top = std::bit_width(code) - 1, shift = top - (config.significand_bits - 1);
   const std::uint64_t sig = shift >= 0 ? std::uint64_t{code} >> shift : std::uint64_t{code} << -shift;
-  return rank(top - config.depth_bits, sig, config);
+  return depth_rank(top - config.depth_bits, sig, config);
 }
 
 /// The ranks of |Z / W| from which, or up to which, every code that can come of it is outside.
@@ -31,9 +24,8 @@ struct DepthLimits {
   std::int64_t some;                 ///< from this the code is not 0: outside when negative
 
   DepthLimits(const Config& config, const DrawState& state) {
-    // A step is more than u/2; one step more than the margin for what products of losses add, and where a limit was
-    // truncated one for that.
-    const int steps = 2 * depth_margin(config) + 1;
+    // Where a limit was truncated one step more.
+    const int steps = depth_margin_steps(config);
     const std::uint32_t znear = depth_code(state.znear, config), zfar = depth_code(state.zfar, config);
     if (znear != 0) near = rank_of_code(znear, config) - steps;
     far = rank_of_code(zfar + 1, config) + 1 + steps;
@@ -42,7 +34,7 @@ struct DepthLimits {
 };
 
 bool outside_depth(const SnappedQuad& quad, const Config& config, const DrawState& state) {
-  if (!state.depth || !rejects_by_depth(config)) return false;
+  if (!state.depth || !depth_margin_holds(config)) return false;
   const DepthLimits limits(config, state);
   bool below = true, beyond = true, some = true, all_negative = true, none_negative = true;
   for (const SnappedVertex& v : quad.vertex) {
@@ -50,8 +42,8 @@ bool outside_depth(const SnappedQuad& quad, const Config& config, const DrawStat
     const auto w = static_cast<std::uint32_t>(v.w);  // between two powers of two
     const int floor_w = std::bit_width(w) - 1 - config.frac(), ceil_w = floor_w + (std::has_single_bit(w) ? 0 : 1);
     const bool zero = v.z.sig == 0;
-    const std::int64_t least = rank(v.z.exp - ceil_w, v.z.sig, config),
-                       greatest = rank(v.z.exp - floor_w, v.z.sig, config);
+    const std::int64_t least = depth_rank(v.z.exp - ceil_w, v.z.sig, config),
+                       greatest = depth_rank(v.z.exp - floor_w, v.z.sig, config);
     below &= limits.near && (zero || greatest <= *limits.near);
     beyond &= !zero && least >= limits.far;
     some &= !zero && least >= limits.some;
@@ -62,17 +54,6 @@ bool outside_depth(const SnappedQuad& quad, const Config& config, const DrawStat
 }
 
 }  // namespace
-
-int depth_margin(const Config& config) {
-  constexpr std::array<int, 3> with_guard_bits{6, 4, 3};  // 2 + 3·2^-G, rounded up with room for products of losses
-  return with_guard_bits[static_cast<std::size_t>(std::min(config.align_guard_bits, 2))];
-}
-
-bool rejects_by_depth(const Config& config) {
-  Config automatic = config;
-  automatic.recip_segments_log2 = -1;
-  return config.recip_segments() >= automatic.recip_segments();
-}
 
 QuadReject reject_by_vertices(const SnappedQuad& quad, const Config& config, const DrawState& state) {
   if ((state.skip & skip_quads) == 0) return QuadReject::none;

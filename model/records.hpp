@@ -24,10 +24,14 @@ struct WindowQuad {
 
 enum class Cull : std::uint8_t { none = 0, front = 1, back = 2 };
 
-/// What the machine may leave out without changing a fragment; bits of `DrawState::skip`.
+/// What the machine may leave out, but for skip_hidden without changing a fragment; bits of `DrawState::skip`.
 enum SkipBit : std::uint32_t {
   skip_tiles = 1u << 0,  ///< blocks and tiles that no covered pixel can be in (tile_walk)
   skip_quads = 1u << 1,  ///< quads that cannot give a fragment (quad_reject)
+  /// Tiles of which nothing can be seen (hierarchical_z). Asking for it promises that what comes out is drawn with
+  /// depth test LESS and depth writes, that no fragment is discarded afterwards, and nothing blended: the picture is
+  /// the same, the list of fragments is not.
+  skip_hidden = 1u << 2,
 };
 /// Those that keep the list of fragments: on unless switched off.
 inline constexpr std::uint32_t skip_default = skip_tiles | skip_quads;

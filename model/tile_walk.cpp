@@ -3,8 +3,10 @@
 #include "model/tile_context.hpp"
 
 namespace quadrille {
-bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull) {
-  EdgeSigns e[5];
+namespace {
+
+/// The signs that each edge function takes somewhere in the square.
+void signs_in_square(const WalkState& at, const QuadConstants& quad, int extent, EdgeSigns (&e)[5]) {
   for (std::size_t k = 0; k < 5; ++k) {
     const std::int64_t sx = quad.gx[k] * (extent - 1);
     const std::int64_t sy = quad.gy[k] * (extent - 1);
@@ -12,8 +14,33 @@ bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull 
     const std::int64_t hi = wrap_add(at.linear[k], std::max<std::int64_t>(sx, 0) + std::max<std::int64_t>(sy, 0));
     e[k] = {hi > 0 || (hi == 0 && quad.tie_pos[k]), lo < 0 || (lo == 0 && quad.tie_neg[k])};
   }
+}
+
+}  // namespace
+
+bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull) {
+  EdgeSigns e[5];
+  signs_in_square(at, quad, extent, e);
   const InsidePlaces inside = inside_expression(e, quad.visible, cull);
   return (inside.back | inside.front) != 0;
+}
+
+bool covers(const WalkState& at, const QuadConstants& quad, int extent, Cull cull) {
+  EdgeSigns e[5];
+  signs_in_square(at, quad, extent, e);
+  // An edge has one sign everywhere, or the diagonal both, and then both clauses must hold.
+  const auto everywhere = [&](std::size_t k, bool positive) {
+    return positive ? e[k].positive != 0 && e[k].negative == 0 : e[k].negative != 0 && e[k].positive == 0;
+  };
+  const auto face = [&](bool positive) {
+    const bool e01 = everywhere(0, positive), e12 = everywhere(1, positive), e23 = everywhere(2, positive),
+               e30 = everywhere(3, positive);
+    const bool first = e01 && e12 && (e23 || e30), second = e23 && e30 && (e01 || e12);
+    const bool on_first = positive ? e[4].positive != 0 : e[4].negative != 0;
+    const bool on_second = positive ? e[4].negative != 0 : e[4].positive != 0;
+    return (on_first || on_second) && (first || !on_first) && (second || !on_second);
+  };
+  return (cull != Cull::back && face(true)) || (cull != Cull::front && face(false));
 }
 
 void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy) {
@@ -21,7 +48,9 @@ void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy) {
     at.linear[k] = wrap_add(at.linear[k], wrap_add(quad.gx[k] * dx, quad.gy[k] * dy));
 }
 
-void TileWalk::take(const SetupResult& setup) {
+void TileWalk::take(const SetupResult& setup, HierarchicalZ* memory, const DepthInterval& depth) {
+  memory_ = memory;
+  depth_ = depth;
   slot_ = setup.slot;
   quad_ = QuadConstants(setup);
   for (std::size_t k = 0; k < linear_count; ++k) block_.linear[k] = setup.linear[k].value;
@@ -30,11 +59,17 @@ void TileWalk::take(const SetupResult& setup) {
   state_ = quad_.tiles_x == 0 || quad_.tiles_y == 0 ? State::end : State::block;
 }
 
-bool TileWalk::hit() const {
+bool TileWalk::tested() const {
   if (state_ == State::block) return !reject_ || may_cover(block_, quad_, tile_ * Config::block_tiles, cull_);
   if (state_ == State::tile) return !reject_ || may_cover(at_, quad_, tile_, cull_);
   return false;
 }
+
+bool TileWalk::hidden() const {
+  return memory_ != nullptr && state_ == State::tile && memory_->hidden(tile_x(), tile_y(), depth_) && tested();
+}
+
+bool TileWalk::hit() const { return tested() && !hidden(); }
 
 TileEntry TileWalk::entry() const {
   TileEntry e;
@@ -44,8 +79,8 @@ TileEntry TileWalk::entry() const {
     return e;
   }
   const int column = bx_ * Config::block_tiles + tx_, row = by_ * Config::block_tiles + ty_;
-  e.tile_x = quad_.tile_x0 + column;
-  e.tile_y = quad_.tile_y0 + row;
+  e.tile_x = tile_x();
+  e.tile_y = tile_y();
   e.last_row = row == quad_.tiles_y - 1 ? quad_.last_row : tile_ - 1;
   e.linear = at_.linear;
   e.quadratic = tile_context(quad_, column * tile_, row * tile_, drop_);
@@ -70,6 +105,8 @@ void TileWalk::advance() {
       }
       break;
     case State::tile: {
+      if (memory_ != nullptr && whole_.hold(tile_x(), tile_y()) && covers(at_, quad_, tile_, cull_))
+        memory_->lower(tile_x(), tile_y(), depth_);
       const int nx = tiles_in_block(quad_.tiles_x, bx_);
       const int ny = tiles_in_block(quad_.tiles_y, by_);
       if (tile_right_ ? tx_ + 1 < nx : tx_ > 0) {

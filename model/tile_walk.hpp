@@ -6,6 +6,7 @@
 // kept.
 #pragma once
 
+#include "model/hierarchical_z.hpp"
 #include "model/inside_expression.hpp"
 #include "model/stages.hpp"
 
@@ -63,6 +64,10 @@ struct WalkState {
 /// False only when no pixel of the extent×extent square at the state's origin can be drawn.
 bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull);
 
+/// True only when every pixel of that square is drawn but for its depth: of an ordinary quad, whose clauses are all
+/// visible.
+bool covers(const WalkState& at, const QuadConstants& quad, int extent, Cull cull);
+
 /// Moves the origin by (dx, dy) pixels; exact.
 void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy);
 
@@ -73,15 +78,22 @@ class TileWalk {
 
   TileWalk() = default;
   TileWalk(const Config& config, const DrawState& state)
-      : tile_(config.tile()), drop_(config.qdrop()), cull_(state.cull), reject_(state.skip & skip_tiles) {}
+      : tile_(config.tile()),
+        drop_(config.qdrop()),
+        cull_(state.cull),
+        reject_(state.skip & skip_tiles),
+        whole_(config, state) {}
 
   State state() const { return state_; }
   const QuadConstants& constants() const { return quad_; }
 
-  /// Loads a quad, when the one before has no tile left.
-  void take(const SetupResult& setup);
+  /// Loads a quad, when the one before has no tile left. With `memory` hidden tiles are left out, and it learns what
+  /// the quad hides.
+  void take(const SetupResult& setup, HierarchicalZ* memory = nullptr, const DepthInterval& depth = {});
   /// The square under test may be drawn: a BLOCK is entered, a TILE is pushed.
   bool hit() const;
+  /// The tile under test is left out because nothing of it can be seen.
+  bool hidden() const;
   /// Ring entry of the current tile, or the end entry in state END.
   TileEntry entry() const;
   /// One clock's work, once the entry (if any) has been accepted. Never call it for a hit tile or END while the ring is
@@ -90,6 +102,9 @@ class TileWalk {
 
  private:
   void step_block();
+  bool tested() const;
+  int tile_x() const { return quad_.tile_x0 + bx_ * Config::block_tiles + tx_; }
+  int tile_y() const { return quad_.tile_y0 + by_ * Config::block_tiles + ty_; }
   static int tiles_in_block(int tiles, int block) {
     return std::min(Config::block_tiles, tiles - block * Config::block_tiles);
   }
@@ -98,6 +113,9 @@ class TileWalk {
   int drop_ = 0;
   Cull cull_ = Cull::none;
   bool reject_ = true;
+  WholeTiles whole_;
+  HierarchicalZ* memory_ = nullptr;
+  DepthInterval depth_;
   State state_ = State::idle;
   std::uint32_t slot_ = 0;
   QuadConstants quad_;

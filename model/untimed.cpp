@@ -19,6 +19,7 @@ DrawStats& DrawStats::operator+=(const DrawStats& o) {
   blocks_tested += o.blocks_tested;
   tiles_tested += o.tiles_tested;
   tiles_entered += o.tiles_entered;
+  tiles_hidden += o.tiles_hidden;
   stamps_covered += o.stamps_covered;
   pixels += o.pixels;
   fragments += o.fragments;
@@ -37,6 +38,7 @@ struct UntimedModel::Impl {
   LaneTables tables;
   bool plain;
   TileWalk walk;
+  HierarchicalZ memory;
   DrawStats stats;
   std::vector<Fragment> batch;
 
@@ -45,7 +47,11 @@ struct UntimedModel::Impl {
   std::array<CoveredPixel, 256> pixel{};
 
   Impl(const Config& config, const DrawState& state, PixelEngine engine)
-      : context(config, state), tables(context), plain(engine == PixelEngine::plain), walk(config, state) {}
+      : context(config, state),
+        tables(context),
+        plain(engine == PixelEngine::plain),
+        walk(config, state),
+        memory(config) {}
 
   void deliver(const Fragment& fragment, bool drawn) {
     ++stats.pixels;
@@ -127,6 +133,15 @@ UntimedModel& UntimedModel::operator=(UntimedModel&&) noexcept = default;
 
 const DrawStats& UntimedModel::stats() const { return impl_->stats; }
 
+void UntimedModel::set_state(const DrawState& state) {
+  const Config config = impl_->context.config;
+  impl_->context = PipelineContext(config, state);
+  impl_->tables = LaneTables(impl_->context);
+  impl_->walk = TileWalk(config, state);
+}
+
+void UntimedModel::clear_hidden() { impl_->memory.clear(); }
+
 void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::span<const Fragment>)>& sink) {
   Impl& m = *impl_;
   ++m.stats.quads;
@@ -142,11 +157,16 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
   const QuadLanes values(data, m.context);
   m.stats.homogeneous_quads += setup.homogeneous;
   m.stats.hull_quads += setup.hull;
-  const WalkCounts counts = walk_tiles(m.walk, setup, [&](const TileEntry& tile) {
-    m.draw_tile(tile, data, values);
-    if (!m.batch.empty()) sink(m.batch);
-    m.batch.clear();
-  });
+  const bool hidden = skips_hidden(m.context.config, m.context.state);
+  const WalkCounts counts = walk_tiles(
+      m.walk, setup,
+      [&](const TileEntry& tile) {
+        m.draw_tile(tile, data, values);
+        if (!m.batch.empty()) sink(m.batch);
+        m.batch.clear();
+      },
+      hidden ? &m.memory : nullptr, hidden ? depth_interval(quad, m.context.config, m.context.state) : DepthInterval{});
+  m.stats.tiles_hidden += counts.tiles_hidden;
   m.stats.blocks_tested += counts.blocks_tested;
   m.stats.tiles_tested += counts.tiles_tested;
 }

@@ -18,8 +18,9 @@ struct DrawStats {
   std::array<std::uint64_t, quad_reject_count> rejected{};  ///< of these, by reason; [0] those that are none of them
   std::uint64_t homogeneous_quads = 0, hull_quads = 0;      ///< of those that were not rejected
   std::uint64_t blocks_tested = 0, tiles_tested = 0, tiles_entered = 0, stamps_covered = 0;
-  std::uint64_t pixels = 0;     ///< covered pixels that entered the pipeline
-  std::uint64_t fragments = 0;  ///< of these, not discarded
+  std::uint64_t tiles_hidden = 0;  ///< of those tested, left out by hierarchical_z
+  std::uint64_t pixels = 0;        ///< covered pixels that entered the pipeline
+  std::uint64_t fragments = 0;     ///< of these, not discarded
   std::uint64_t on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0, notch = 0, saturated = 0;
 
   DrawStats& operator+=(const DrawStats& other);
@@ -39,6 +40,11 @@ class UntimedModel {
   /// Draws one quad; `sink` gets its fragments in traversal order, in batches.
   void draw(const SnappedQuad& quad, const std::function<void(std::span<const Fragment>)>& sink);
   const DrawStats& stats() const;
+
+  /// From here on another draw state: what is hidden stays so.
+  void set_state(const DrawState& state);
+  /// Forgets what is hidden, with a clear of the depth buffer.
+  void clear_hidden();
 
  private:
   struct Impl;

@@ -1,7 +1,7 @@
 // Judges a quad by its vertices while they come in: wholly behind the eye, or no depth code inside [znear, zfar] possible. The judgement is
 // there in the clock after the fourth beat and stays until the next quad's first.
 //
-// Depth: every code lies between the corners' |Z / W| but for a relative margin (model/quad_reject.hpp derives it). Compared as ranks,
+// Depth: every code lies between the corners' |Z / W| but for a relative margin (model/depth_rank.hpp derives it). Compared as ranks,
 // {exponent, significand without its highest bit}, next numbers apart by 1, with W taken for the powers of two around it, so that nothing
 // is divided: exact where W = 1. Conservative: a quad of which a pixel is inside is never rejected. The draw state is looked at in the clock
 // of the first beat and later.
@@ -28,13 +28,9 @@ module quad_reject #(
     output logic depth_o
 );
   localparam int RANK = PE + 2 + S - 1;
-  // The margin in units of 2^-(S-1), 2 + 3/2^ALIGN_GUARD_BITS rounded up; a rank is more than half of one, and one more for products of losses.
-  localparam int MARGIN = (quadrille_pkg::ALIGN_GUARD_BITS == 0) ? 6 : (quadrille_pkg::ALIGN_GUARD_BITS == 1) ? 4 : 3;
   // Added to a vertex's rank, or taken off, for the limits come late: the draw state may change in the clock before.
-  localparam logic [RANK-1:0] STEPS = RANK'(2 * MARGIN + 1);
+  localparam logic [RANK-1:0] STEPS = RANK'(quadrille_pkg::DEPTH_MARGIN_STEPS);
   localparam logic [RANK-1:0] STEPS_FAR = STEPS + RANK'(1);  // one more where the far limit's significand was truncated
-  // It holds for a table of reciprocals that has its automatic number of segments, or more.
-  localparam bit BY_DEPTH = quadrille_pkg::RECIP_SEGMENTS_LOG2 >= quadrille_pkg::RECIP_AUTO;
 
   // ---- Limits: the place of the highest one as the distance from the top, which its exponent falls with ------------------------
   localparam int WIDE = (DB + 2 > S) ? DB + 2 : S;  // zfar + 1 has DB + 2 bits
@@ -133,6 +129,6 @@ module quad_reject #(
 
   assign {all_below, all_beyond, all_some, all_negative, none_negative, all_positive_w, no_positive_w} = so_far;
   assign behind_o = no_positive_w;
-  assign depth_o = BY_DEPTH && depth_on_i && all_positive_w &&
+  assign depth_o = quadrille_pkg::DEPTH_MARGIN_HOLDS && depth_on_i && all_positive_w &&
       (all_below || (none_negative && all_beyond) || (all_negative && all_some));
 endmodule

@@ -4,8 +4,10 @@ quadrille_pkg.sv
 default_tables/quadrille_tables_pkg.sv
 bounding_range.sv
 config_check.sv
+covered_square.sv
 delay_line.sv
 denominator_operands.sv
+depth_interval.sv
 dot_unit.sv
 edge_reach.sv
 factor_products.sv
@@ -21,6 +23,7 @@ fp_sum.sv
 fp_term.sv
 fragment_fifo.sv
 fragment_output.sv
+hierarchical_z.sv
 inside_expression.sv
 interpolate.sv
 law_of_cosines.sv

@@ -5,11 +5,12 @@
 //
 // Number formats, ports and clocks: README.md. Both streams are valid/ready: valid never depends on ready, payload is stable while
 // valid and not ready. state_i is static while busy_o. The pixel pipeline never waits: pixel_emit counts the
-// places of the fragment FIFO.
+// places of the fragment FIFO. clear_hidden_i, while not busy, goes with a clear of the depth buffer (hierarchical_z).
 module quadrille (
     input logic clk_i,
     input logic rst_ni,
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
+    input logic clear_hidden_i,
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
@@ -45,6 +46,7 @@ module quadrille (
   localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int TILE = quadrille_pkg::TILE;
   localparam int SETS = 3 + N;
+  localparam int H = quadrille_pkg::DEPTH_CODE_BITS;
 
   config_check u_config_check ();
 
@@ -68,7 +70,7 @@ module quadrille (
 
   assign state = state_i;
   assign depth_on = state.depth;
-  assign unused_skip = ^state.skip[7:2];
+  assign unused_skip = ^state.skip[7:3];
 
   // ---- For performance_counters: 0 without them -----------------------------------------------------------------------------
   logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_walk;
@@ -91,12 +93,18 @@ module quadrille (
   logic [3:0] quad_z_neg;
   logic [4*N*AP-1:0] quad_attr;
 
+  logic assembly_ready, depths_ready;  // hierarchical_z is not wiping
+  logic [H-1:0] quad_near, quad_far;
+  logic quad_lowers;
+
+  assign vertex_ready_o = assembly_ready && depths_ready;
+
   vertex_assembly u_assembly (
       .clk_i,
       .rst_ni,
       .vertex_i,
-      .vertex_valid_i,
-      .vertex_ready_o,
+      .vertex_valid_i(vertex_valid_i && depths_ready),
+      .vertex_ready_o(assembly_ready),
       .start_i(start),
       .drop_i(drop_vertices),
       .depth_on_i(depth_on),
@@ -109,6 +117,9 @@ module quadrille (
       .empty_o(empty),
       .behind_o(behind),
       .depth_o(outside_depth),
+      .near_o(quad_near),
+      .far_o(quad_far),
+      .lowers_o(quad_lowers),
       .full_o(full),
       .busy_o(assembly_busy),
       .id_o(quad_id),
@@ -162,7 +173,7 @@ module quadrille (
 
   assign drop_vertices = full && state.skip[1] && (empty || behind || outside_depth);
   assign start = full && setup_ready && slot_available;
-  assign busy_o = assembly_busy || slots_busy || fragments_busy;
+  assign busy_o = assembly_busy || slots_busy || fragments_busy || !depths_ready;
 
   quad_setup u_setup (
       .clk_i,
@@ -340,6 +351,8 @@ module quadrille (
   logic [TC-1:0] tile_x, tile_y, tile_column, tile_row;
   logic [TILE_LOG2-1:0] tile_last_row;
   logic [6*VAL-1:0] tile_lin_value;
+  logic walk_go, tile_tested, tile_covered, tile_hidden;
+  logic [TC-1:0] test_column, test_row;
 
   tile_walk u_walk (
       .clk_i,
@@ -375,8 +388,50 @@ module quadrille (
       .column_o(tile_column),
       .row_o(tile_row),
       .last_row_o(tile_last_row),
-      .lin_value_o(tile_lin_value)
+      .lin_value_o(tile_lin_value),
+      .go_o(walk_go),
+      .test_column_o(test_column),
+      .test_row_o(test_row),
+      .tested_o(tile_tested),
+      .covered_o(tile_covered),
+      .hidden_i(tile_hidden)
   );
+
+  // ---- Hidden tiles -------------------------------------------------------------------------------------------------------
+  if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_hidden
+    hierarchical_z u_hidden (
+        .clk_i,
+        .rst_ni,
+        .clear_i(clear_hidden_i),
+        .ready_o(depths_ready),
+        .on_i(depth_on && state.skip[2]),
+        .scissor_x0_i(state.scissor_x0),
+        .scissor_y0_i(state.scissor_y0),
+        .scissor_x1_i(state.scissor_x1),
+        .scissor_y1_i(state.scissor_y1),
+        .start_i(start),
+        .start_slot_i(alloc_slot),
+        .near_i(quad_near),
+        .far_i(quad_far),
+        .lowers_i(quad_lowers),
+        .take_i(take),
+        .take_slot_i(setup_slot),
+        .tile_x0_i(tile_x0),
+        .tile_y0_i(tile_y0),
+        .go_i(walk_go),
+        .column_i(test_column),
+        .row_i(test_row),
+        .tested_i(tile_tested),
+        .covered_i(tile_covered),
+        .hidden_o(tile_hidden)
+    );
+  end else begin : gen_nothing_hidden
+    logic unused_hidden;
+    assign unused_hidden = ^{clear_hidden_i, state.skip[2], quad_near, quad_far, quad_lowers, walk_go, test_column, test_row, tile_tested,
+        tile_covered};
+    assign depths_ready = 1'b1;
+    assign tile_hidden = 1'b0;
+  end
 
   // ---- Quadratic functions of a tile --------------------------------------------------------------------------------------
   logic [RING-1:0] tile_entry, value_entry, gradient_entry, q_entry;

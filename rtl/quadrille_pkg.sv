@@ -78,6 +78,12 @@
 `ifndef QUADRILLE_PERFORMANCE_COUNTERS
 `define QUADRILLE_PERFORMANCE_COUNTERS 0
 `endif
+`ifndef QUADRILLE_HIERARCHICAL_Z_BITS
+`define QUADRILLE_HIERARCHICAL_Z_BITS 0
+`endif
+`ifndef QUADRILLE_HIERARCHICAL_Z_TILES_LOG2
+`define QUADRILLE_HIERARCHICAL_Z_TILES_LOG2 12
+`endif
 `ifndef QUADRILLE_QUAD_ID_BITS
 `define QUADRILLE_QUAD_ID_BITS 24
 `endif
@@ -103,6 +109,8 @@ package quadrille_pkg;
   localparam int QUAD_SLOTS_LOG2 /*verilator public*/ = `QUADRILLE_QUAD_SLOTS_LOG2;
   localparam int TILE_SLOTS_LOG2 /*verilator public*/ = `QUADRILLE_TILE_SLOTS_LOG2;
   localparam int STAMP_FIFO_LOG2 /*verilator public*/ = `QUADRILLE_STAMP_FIFO_LOG2;
+  localparam int HIERARCHICAL_Z_BITS /*verilator public*/ = `QUADRILLE_HIERARCHICAL_Z_BITS;
+  localparam int HIERARCHICAL_Z_TILES_LOG2 /*verilator public*/ = `QUADRILLE_HIERARCHICAL_Z_TILES_LOG2;
   localparam int QUAD_ID_BITS /*verilator public*/ = `QUADRILLE_QUAD_ID_BITS;
 
   localparam int PERFORMANCE_COUNTERS /*verilator public*/ = `QUADRILLE_PERFORMANCE_COUNTERS;
@@ -186,6 +194,17 @@ package quadrille_pkg;
   // places of the stamp FIFO: four more than stamps may wait, for the rows on their way, which have a place each until it is known
   // whether they are covered
   localparam int STAMP_PLACES /*verilator public*/ = (1 << STAMP_FIFO_LOG2) + 4;
+
+  // bits of a tile's farthest depth; without hidden tiles what their units, which then are nowhere, are looked at with
+  localparam int DEPTH_CODE_BITS = (HIERARCHICAL_Z_BITS == 0) ? 12 : HIERARCHICAL_Z_BITS;
+
+  // ---- Depths beside the corners' ------------------------------------------------------------------------------------------
+  // What a depth code can be beside the corners' Z / W, in ranks (model/depth_rank.hpp derives it): in units of 2^-(S-1)
+  // 2 + 3/2^ALIGN_GUARD_BITS rounded up; a rank is more than half of one, and one more for products of losses.
+  localparam int DEPTH_MARGIN = (ALIGN_GUARD_BITS == 0) ? 6 : (ALIGN_GUARD_BITS == 1) ? 4 : 3;
+  localparam int DEPTH_MARGIN_STEPS = 2 * DEPTH_MARGIN + 1;
+  // It holds for a table of reciprocals that has its automatic number of segments, or more.
+  localparam bit DEPTH_MARGIN_HOLDS = RECIP_SEGMENTS_LOG2 >= RECIP_AUTO;
 
   // ---- performance_counters --------------------------------------------------------------------------------------------------
   // wraps around after 14 s at 300 MHz: whoever counts for longer reads them more often than that

@@ -53,7 +53,14 @@ module tile_walk #(
     output logic [TC-1:0] column_o,  // from the quad's first tile
     output logic [TC-1:0] row_o,
     output logic [TILE_LOG2-1:0] last_row_o,  // the tile has no covered pixel below
-    output logic [6*VAL-1:0] lin_value_o
+    output logic [6*VAL-1:0] lin_value_o,
+    // Hidden tiles (hierarchical_z): the position under test; a clock later whether it was a tile, which the quad covers, and is hidden
+    output logic go_o,
+    output logic [TC-1:0] test_column_o,
+    output logic [TC-1:0] test_row_o,
+    output logic tested_o,
+    output logic covered_o,
+    input logic hidden_i
 );
   localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2;
   localparam int TL = TILE_LOG2;  // log2 of a tile step in pixels
@@ -173,8 +180,8 @@ module tile_walk #(
       block_y_q1 <= block_y_q;
       tile_last_x_q1 <= last_column ? last_x_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
       tile_last_y_q1 <= last_row ? last_y_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
-      column_q1 <= (walk_x_q << BLOCK_LOG2) | TC'(tile_x_q);
-      row_q1 <= (walk_y_q << BLOCK_LOG2) | TC'(tile_y_q);
+      column_q1 <= test_column_o;
+      row_q1 <= test_row_o;
       if (enter_walk) begin
         walk_x_q <= block_x_q1;
         walk_y_q <= block_y_q1;
@@ -298,7 +305,7 @@ module tile_walk #(
   // ---- Push ---------------------------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
     if (!rst_ni) {push_q2, end_q2} <= '0;
-    else if (go) {push_q2, end_q2} <= {(tile_q1 && hit) || end_q1, end_q1};
+    else if (go) {push_q2, end_q2} <= {(tile_q1 && hit && !hidden_i) || end_q1, end_q1};
   end
 
   always_ff @(posedge clk_i) begin
@@ -318,6 +325,22 @@ module tile_walk #(
     assign count_busy_o = state_q != IDLE;
   end else begin : gen_no_count
     assign {count_block_o, count_enter_o, count_tile_o, count_busy_o} = '0;
+  end
+
+  assign go_o = go;
+  assign test_column_o = (walk_x_q << BLOCK_LOG2) | TC'(tile_x_q);
+  assign test_row_o = (walk_y_q << BLOCK_LOG2) | TC'(tile_y_q);
+  assign tested_o = tile_q1;
+
+  if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_covered
+    covered_square u_covered (
+        .cull_i,
+        .some_pos_i(some_pos_q1),
+        .some_neg_i(some_neg_q1),
+        .covered_o
+    );
+  end else begin : gen_not_covered
+    assign covered_o = 1'b0;
   end
 
   assign go = !push_q2 || ready_i;

@@ -3,13 +3,14 @@
 //
 // vertex_ready_o depends on registers alone, not on valid. The quad's id is that of v0.
 // Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X and Y, kept up with each beat; and
-// quad_reject's and range_empty's judgements of its vertices. Vertex i's field is at [i*width +: width] of each flat output.
+// the judgements of its vertices by quad_reject, range_empty and depth_interval. Vertex i's field is at [i*width +: width] of each flat output.
 module vertex_assembly #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
     localparam int T = quadrille_pkg::T_BITS,
     localparam int W = quadrille_pkg::W_BITS,
     localparam int DB = quadrille_pkg::DEPTH_BITS,
+    localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
     localparam int ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
 ) (
@@ -30,6 +31,9 @@ module vertex_assembly #(
     output logic empty_o,  // no pixel centre inside scissor and bounding box
     output logic behind_o,
     output logic depth_o,
+    output logic [H-1:0] near_o,
+    output logic [H-1:0] far_o,
+    output logic lowers_o,
     output logic full_o,
     output logic busy_o,
     output logic [quadrille_pkg::QUAD_ID_BITS-1:0] id_o,
@@ -186,6 +190,27 @@ module vertex_assembly #(
       .behind_o,
       .depth_o
   );
+
+  if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_interval
+    depth_interval u_interval (
+        .clk_i,
+        .znear_i,
+        .zfar_i,
+        .accept_i(accept),
+        .first_i(first),
+        .z_neg_i(z_neg),
+        .z_exp_i(z_exp),
+        .z_sig_i(z_sig),
+        .ordinary_i(ordinary_o),
+        .near_o,
+        .far_o,
+        .lowers_o
+    );
+  end else begin : gen_no_interval
+    assign near_o = '0;
+    assign far_o = '0;
+    assign lowers_o = 1'b0;
+  end
 
   for (genvar g = 0; g < 4; g++) begin : gen_vertex
     logic [T-1:0] x_q, y_q;

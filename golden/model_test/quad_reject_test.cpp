@@ -214,7 +214,7 @@ TEST(QuadReject, DepthIsUsedFully) {
     }
     return q;
   };
-  const auto steps = static_cast<std::uint32_t>(2 * depth_margin(c) + 1);
+  const auto steps = static_cast<std::uint32_t>(depth_margin_steps(c));
   const auto reject = [&](const SnappedQuad& q) { return reject_by_vertices(q, c, state); };
   // zfar: the code after it is 0.5 + 2^-24, truncated 0.5, and the next number is beyond it.
   EXPECT_EQ(reject(quad_at(-1, low + steps, false)), QuadReject::none);
@@ -246,7 +246,7 @@ TEST(QuadReject, MarginCoversTheReciprocal) {
       } catch (const ConfigError&) {
         continue;
       }
-      ASSERT_TRUE(rejects_by_depth(c));
+      ASSERT_TRUE(depth_margin_holds(c));
       const double u = std::ldexp(1.0, 1 - s);
       const TableError table = reciprocal_error(c);
       for (int g = 0; g <= 6; ++g) {
@@ -260,7 +260,7 @@ TEST(QuadReject, MarginCoversTheReciprocal) {
       const int automatic = c.recip_segments();
       if (automatic > 3) {
         c.recip_segments_log2 = automatic - 1;
-        EXPECT_FALSE(rejects_by_depth(c));
+        EXPECT_FALSE(depth_margin_holds(c));
       }
     }
 }

@@ -62,6 +62,7 @@ module quadrille_axi4_stream #(
       .clk_i(aclk),
       .rst_ni(aresetn),
       .state_i(state_q),
+      .clear_hidden_i(1'b0),
       .vertex_i(s_axis_vertex_tdata[quadrille_pkg::VERTEX_BITS-1:0]),
       .vertex_valid_i(s_axis_vertex_tvalid && step_q == VERTICES),
       .vertex_ready_o(vertex_ready),

@@ -1,9 +1,11 @@
 // Throughput and latency of the clocked model without stalls or gaps: covered pixels per clock, clocks of the setup,
 // and that setup hides behind drawing.
+#include "golden/scenes/scenes.hpp"
 #include "model/drive.hpp"
 #include "model/latency.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
+#include "model/untimed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 namespace quadrille::campaign {
 namespace {
@@ -379,6 +382,76 @@ TEST(Throughput, SetupHidesBehindDrawing) {
               alone - setup - quads.size() * static_cast<std::uint64_t>(latency::emission + latency::pipeline - 4));
     // What is left over the pixels is the walk over empty tiles.
     EXPECT_GE(pixels_per_clock(r), homogeneous ? small_homogeneous_per_clock : small_per_clock);
+  }
+}
+
+/// Fragments of the tiles of each quad of which something is seen: what is left when every tile known to be hidden is
+/// skipped.
+std::uint64_t fragments_of_seen_tiles(const std::vector<SnappedQuad>& quads, const Config& config, DrawState state) {
+  state.skip &= ~std::uint32_t{skip_hidden};
+  UntimedModel model(config, state);
+  std::vector<std::uint32_t> depth(static_cast<std::size_t>(state.width * state.height), 1u << config.depth_bits);
+  std::uint64_t left = 0;
+  for (const SnappedQuad& quad : quads) {
+    std::map<std::pair<int, int>, std::pair<std::uint64_t, bool>> tiles;  // fragments, one is seen
+    model.draw(quad, [&](std::span<const Fragment> fragments) {
+      for (const Fragment& f : fragments) {
+        std::uint32_t& nearest = depth[static_cast<std::size_t>(f.y * state.width + f.x)];
+        auto& [count, seen] = tiles[{f.x >> config.tile_log2, f.y >> config.tile_log2}];
+        ++count;
+        seen |= f.depth < nearest;
+        nearest = std::min(nearest, f.depth);
+      }
+    });
+    for (const auto& [place, tile] : tiles) left += tile.second ? tile.first : 0;
+  }
+  return left;
+}
+
+TEST(Throughput, HiddenLayers) {
+  Config config;
+  config.set("hierarchical_z_bits", 12);
+  const std::uint64_t wiping = 1u << config.hierarchical_z_tiles_log2;  // after reset, before the first beat
+  struct Load {
+    const char* scene;
+    std::size_t front;  ///< quads of the front layer; 0: they are not the first ones
+    double most;        ///< clocks beside those of the front layer alone; 0: stated only
+  };
+  for (const Load& load : {Load{"layers_large", 1, 1.3}, Load{"layers_small", 14 * 14, 0},
+                           Load{"layers_small_back", 0, 0}, Load{"layers_small_random", 0, 0}}) {
+    DrawState state;
+    state.attributes = 0;
+    state.skip |= skip_hidden;
+    std::vector<SnappedQuad> quads;
+    for (const WindowQuad& quad :
+         golden::scene_quads(golden::make_scene(load.scene), 512, 512, golden::AttributeSet::none)) {
+      quads.push_back(snap_quad(quad, config, state));
+      quads.back().id = static_cast<std::uint32_t>(quads.size() - 1);
+    }
+    const Session all = run(quads, config, state);
+    DrawState everything = state;
+    everything.skip &= ~std::uint32_t{skip_hidden};
+    const Session without = run(quads, config, everything);
+    const std::uint64_t possible = fragments_of_seen_tiles(quads, config, state);
+    const double clocks = static_cast<double>(all.clocks - wiping);
+    std::printf(
+        "%s: %.0f clocks, %.3f of those without the skip; %llu fragments, %.3f of the %llu without it, %llu possible",
+        load.scene, clocks, clocks / static_cast<double>(without.clocks - wiping),
+        static_cast<unsigned long long>(all.fragments),
+        static_cast<double>(all.fragments) / static_cast<double>(without.fragments),
+        static_cast<unsigned long long>(without.fragments), static_cast<unsigned long long>(possible));
+    EXPECT_LE(possible, all.fragments);
+    EXPECT_LE(all.clocks, without.clocks);
+    if (load.front != 0) {
+      const Session front =
+          run({quads.begin(), quads.begin() + static_cast<std::ptrdiff_t>(load.front)}, config, state);
+      const double part = clocks / static_cast<double>(front.clocks - wiping);
+      std::printf("; %.3f of the front layer's clocks", part);
+      if (load.most != 0) {
+        EXPECT_LE(part, load.most) << load.scene;
+      }
+    }
+    std::printf("\n");
   }
 }
 

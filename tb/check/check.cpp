@@ -1,5 +1,6 @@
 #include "tb/check/check.hpp"
 
+#include "model/hierarchical_z.hpp"
 #include "tb/check/judged_quad.hpp"
 
 #include <algorithm>
@@ -157,6 +158,8 @@ FragmentChecker::FragmentChecker(const Settings& settings, std::span<const Windo
                                  std::span<const SnappedQuad> snapped, WorkQueue& queue)
     : settings_(settings), given_(given), snapped_(snapped), queue_(queue), bound_(weight_bound(settings.config)) {
   covered_.emplace_back();
+  if (settings.first_pass && skips_hidden(settings.config, settings.state))
+    hidden_ = std::make_unique<HiddenCheck>(settings.config, settings.state);
 }
 
 void FragmentChecker::add(const CheckResult& part) {
@@ -177,6 +180,7 @@ void FragmentChecker::fragment(const Fragment& fragment) {
     if (fragment.quad != current_) quads_done(fragment.quad);
     covered_.back().push_back(static_cast<std::uint32_t>(fragment.y) << 16 | fragment.x);
     ++covered_pixels_;
+    if (hidden_) hidden_->fragment(fragment);
   }
   batch_.push_back(fragment);
   if (batch_.size() >= fragments_per_job) flush_fragments();
@@ -191,19 +195,38 @@ void FragmentChecker::flush_fragments() {
 /// The quads before `end` are complete.
 void FragmentChecker::quads_done(std::size_t end) {
   while (current_ < end) {
+    if (hidden_) judge_hidden();
     ++current_;
-    if (current_ - covered_first_ >= quads_per_job || covered_pixels_ >= pixels_per_job) flush_coverage();
+    if (hidden_ || current_ - covered_first_ >= quads_per_job || covered_pixels_ >= pixels_per_job) flush_coverage();
     covered_.emplace_back();
   }
+}
+
+/// The quad current_ is complete: what of it is missing, against the depth buffer of the quads before.
+void FragmentChecker::judge_hidden() {
+  const auto fault = hidden_->quad_done(snapped_[current_]);
+  if (!fault) return;
+  CheckResult part;
+  part.mismatches = 1;
+  part.first = {true, {static_cast<std::uint32_t>(current_), given_[current_].id, fault->x, fault->y}, ""};
+  part.first.text = text_of(part.first.place, fault->text);
+  add(part);
 }
 
 /// Hands the complete quads covered_first_ … current_-1 over.
 void FragmentChecker::flush_coverage() {
   if (current_ == covered_first_) return;
   const auto pixels = std::make_shared<const std::vector<std::vector<std::uint32_t>>>(std::move(covered_));
+  if (hidden_) {  // in this thread: the depth buffer goes on with the next quad
+    cover(covered_first_, *pixels, 0, settings_.state.height);
+    covered_.clear();
+    covered_first_ = current_;
+    covered_pixels_ = 0;
+    return;
+  }
   // One quad over much of the viewport is worth several jobs.
   const int height = settings_.state.height;
-  const int rows = current_ - covered_first_ == 1 ? std::max(1, height / 8) : height;
+  const int rows = current_ - covered_first_ == 1 ? std::max(1, settings_.state.height / 8) : height;
   for (int y = 0; y < height; y += rows)
     queue_.push(
         [this, first = covered_first_, pixels, y, end = std::min(height, y + rows)] { cover(first, *pixels, y, end); });
@@ -506,6 +529,14 @@ void FragmentChecker::cover(std::size_t first, const std::vector<std::vector<std
             ++part.tolerated_depth;
             continue;
           }
+        }
+        if (hidden_) {
+          if (hidden_->may_refuse(x, y, truth.z, reference.depth_tolerance(x, y, bound_))) {
+            ++part.hidden;
+            continue;
+          }
+          differs(x, y, "left out, but the truth is in front of what the depth buffer holds");
+          continue;
         }
         differs(x, y, "the truth covers it, but it was not drawn");
       }

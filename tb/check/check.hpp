@@ -3,6 +3,7 @@
 
 #include "model/config.hpp"
 #include "model/records.hpp"
+#include "tb/check/hidden_check.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/support/error_stats.hpp"
 #include "tb/support/work_queue.hpp"
@@ -71,6 +72,7 @@ struct CheckResult {
   std::uint64_t coverage_flips = 0;     ///< drawn pixels that the given, unsnapped quad does not cover
   std::uint64_t tolerated_visible = 0;  ///< eye in the hull and |sum(M w)| below the bound: either answer is right
   std::uint64_t tolerated_depth = 0;    ///< window z within the bound of znear or zfar
+  std::uint64_t hidden = 0;             ///< covered pixels rightly left out: the depth buffer refuses them
   std::uint64_t discarded = 0;          ///< covered pixels rightly discarded by window z
   std::uint64_t bound_exempt =
       0;  ///< fragments with a value that no bound speaks of: sum(M W) cancels to what the weights' errors leave of it
@@ -125,6 +127,7 @@ inline constexpr Counter<CheckResult> check_counters[]{{"reference_mismatches", 
                                                        {"tiny", &CheckResult::tiny},
                                                        {"notch", &CheckResult::notch},
                                                        {"saturated", &CheckResult::saturated},
+                                                       {"hidden", &CheckResult::hidden},
                                                        {"discarded", &CheckResult::discarded},
                                                        {"coverage_flips", &CheckResult::coverage_flips},
                                                        {"tolerated_visible", &CheckResult::tolerated_visible},
@@ -132,7 +135,7 @@ inline constexpr Counter<CheckResult> check_counters[]{{"reference_mismatches", 
 
                                                        {"compared", &CheckResult::compared},
                                                        {"exempt_fragments", &CheckResult::bound_exempt}};
-inline constexpr std::span fault_counters(check_counters, 4), fragment_counters(check_counters + 4, 16);
+inline constexpr std::span fault_counters(check_counters, 4), fragment_counters(check_counters + 4, 17);
 
 template <class Owner>
 void add_counters(Owner& sum, const Owner& part, std::span<const Counter<std::type_identity_t<Owner>>> counters) {
@@ -149,6 +152,8 @@ bool is_tiny(const SnappedQuad& quad, const Config& config);
 
 /// Takes the fragments of one pass of the machine in order, quads in order, and compares them on the queue's threads.
 /// A configuration that drops bits of D and R² has no bound and approximate singular classes: the rest is compared.
+/// Where hidden tiles are left out each missing fragment is held against a depth buffer, twice: by what the machine
+/// draws with nothing hidden, exactly, and by the truth, within the tolerance of a depth.
 class FragmentChecker {
  public:
   struct Settings {
@@ -175,6 +180,7 @@ class FragmentChecker {
 
   void flush_fragments();
   void quads_done(std::size_t end);
+  void judge_hidden();
   void flush_coverage();
   void compare(const std::vector<Fragment>& fragments);
   void cover(std::size_t first, const std::vector<std::vector<std::uint32_t>>& pixels, int y0, int y1);
@@ -186,6 +192,7 @@ class FragmentChecker {
   WorkQueue& queue_;
   double bound_;
 
+  std::unique_ptr<HiddenCheck> hidden_;  ///< where the draw leaves hidden tiles out
   std::vector<Fragment> batch_;
   std::size_t current_ = 0;        ///< quad whose fragments are coming
   std::size_t covered_first_ = 0;  ///< first quad of covered_

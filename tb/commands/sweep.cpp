@@ -135,6 +135,7 @@ class SweepRun {
                                              : sweep::ErrorColumn{};
 
     input_.state = options_.state.state(options_.common, base_);
+    input_.state.skip &= ~std::uint32_t{skip_hidden};  // every fragment is measured
     InputOptions source = options_.input;
     if (inputs_given(source) == 0) source.scene = standard_scene;
     draw_ = load_input(source, options_.shade, input_.state, base_, options_.common.seed);

@@ -51,6 +51,9 @@ class Device {
   /// The packed vertex_t of the beat that is offered. It must stay as it is until the beat was taken.
   virtual void set_vertex(std::span<const std::uint32_t> words) = 0;
 
+  /// clear_hidden_i, at first not active. Only while the machine is not busy.
+  virtual void set_clear_hidden(bool active) = 0;
+
   /// vertex_valid_i and fragment_ready_i.
   virtual void set_handshake(bool vertex_valid, bool fragment_ready) = 0;
 

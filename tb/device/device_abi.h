@@ -51,6 +51,7 @@ typedef struct {
   void (*set_reset)(quadrille_device*, int active);
   void (*set_state)(quadrille_device*, const uint32_t* words);
   void (*set_vertex)(quadrille_device*, const uint32_t* words);
+  void (*set_clear_hidden)(quadrille_device*, int active);
   void (*set_handshake)(quadrille_device*, int vertex_valid, int fragment_ready);
 
   /* Evaluates with the clock low; outputs then belong to the present inputs. */

@@ -1,3 +1,4 @@
+#include "model/hierarchical_z.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
@@ -21,7 +22,9 @@ class ModelEngine final : public Engine {
     const std::vector<Pass> passes = plan_passes(attributes, weights, settings_.config);
     std::vector<Models> idle;
     std::mutex mutex;
-    ordered_parallel((quads.size() + quads_per_unit - 1) / quads_per_unit, settings_.threads,
+    // What is hidden depends on all quads before: those units are drawn one after the other by one set of models.
+    const unsigned threads = skips_hidden(settings_.config, settings_.state) ? 1 : settings_.threads;
+    ordered_parallel((quads.size() + quads_per_unit - 1) / quads_per_unit, threads,
                      [&](std::size_t unit) {
                        Models models;
                        {

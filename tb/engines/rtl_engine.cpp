@@ -1,3 +1,4 @@
+#include "model/hierarchical_z.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/engines/machine_engine.hpp"
@@ -22,10 +23,13 @@ class RtlEngine final : public Engine {
   void draw(std::span<const WindowQuad> quads, int attributes, bool weights, const SampleSink& sink) override {
     check_quad_count(quads.size(), settings_.config);
     const std::vector<Pass> passes = plan_passes(attributes, weights, settings_.config);
-    ordered_parallel((quads.size() + quads_per_run - 1) / quads_per_run, settings_.threads,
+    // What is hidden depends on all quads before: they are drawn in one run.
+    const std::size_t per_run =
+        skips_hidden(settings_.config, settings_.state) ? std::max<std::size_t>(quads.size(), 1) : quads_per_run;
+    ordered_parallel((quads.size() + per_run - 1) / per_run, settings_.threads,
                      [&](std::size_t unit) {
-                       const std::size_t first = unit * quads_per_run;
-                       return run(quads, first, std::min(quads.size(), first + quads_per_run), passes);
+                       const std::size_t first = unit * per_run;
+                       return run(quads, first, std::min(quads.size(), first + per_run), passes);
                      },
                      [&](std::size_t, std::vector<EngineSample>&& samples) {
                        if (!samples.empty()) sink(samples);

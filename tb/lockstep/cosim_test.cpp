@@ -63,6 +63,8 @@ const Named odd{"odd",
                  {"quad_slots_log2", 1},
                  {"tile_slots_log2", 1},
                  {"stamp_fifo_log2", 1},
+                 {"hierarchical_z_bits", 9},
+                 {"hierarchical_z_tiles_log2", 7},
                  {"quad_id_bits", 13},
                  {"performance_counters", 1}}};
 
@@ -276,7 +278,7 @@ TEST_P(Configuration, LockstepAcrossQuadsLeftOut) {
   UntimedModel model(options.config, options.state);
   for (const SnappedQuad& quad : quads) model.draw(quad, [](std::span<const Fragment>) {});
   for (std::size_t reason = 0; reason < quad_reject_count; ++reason) {
-    const bool never = reason == static_cast<std::size_t>(QuadReject::depth) && !rejects_by_depth(options.config);
+    const bool never = reason == static_cast<std::size_t>(QuadReject::depth) && !depth_margin_holds(options.config);
     if (never)
       EXPECT_EQ(model.stats().rejected[reason], 0u);
     else

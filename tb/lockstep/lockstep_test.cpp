@@ -52,6 +52,7 @@ class ModelDevice : public Device {
                                                   static_cast<std::uint32_t>(get("attr_sig", j))};
     }
   }
+  void set_clear_hidden(bool) override {}
   void set_handshake(bool vertex_valid, bool fragment_ready) override {
     inputs_.vertex_valid = vertex_valid;
     inputs_.fragment_ready = fragment_ready;

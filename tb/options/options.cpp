@@ -50,19 +50,24 @@ std::string larger_viewport(const Config& config, int pixels) {
   return "";
 }
 
-const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
-const std::array<std::string, 2> skip_names{"tiles", "quads"};         // in the order of SkipBit's bits
-constexpr std::uint32_t skip_all = (1u << skip_names.size()) - 1;
+const std::array<std::string, 3> cull_names{"none", "front", "back"};     // in the order of Cull
+const std::array<std::string, 3> skip_names{"tiles", "quads", "hidden"};  // in the order of SkipBit's bits
 
-/// all, none, or names with commas between.
-std::uint32_t parse_skips(std::string_view list) {
-  if (list == "all") return skip_all;
+/// all, none, or names with commas between. `hidden` is among all where the machine can and there is a depth test: the
+/// pictures of this program are drawn as that skip asks for.
+std::uint32_t parse_skips(std::string_view list, const Config& config, bool depth) {
+  const bool can_hide = config.hierarchical_z_bits != 0;
+  if (list == "all") return skip_default | (can_hide && depth ? skip_hidden : 0u);
   if (list == "none") return 0;
   std::uint32_t skips = 0;
   while (true) {
     const std::size_t comma = std::min(list.find(','), list.size());
     skips |= 1u << choose("--skip value (all, none, or names with commas between)", list.substr(0, comma),
                           {skip_names.begin(), skip_names.end()});
+    if ((skips & skip_hidden) != 0 && !can_hide)
+      throw UsageError(
+          "--skip hidden: this configuration holds no depths of tiles; --set hierarchical_z_bits=12 for example");
+    if ((skips & skip_hidden) != 0 && !depth) throw UsageError("--skip hidden: there is no depth test with --no-depth");
     if (comma == list.size()) return skips;
     list.remove_prefix(comma + 1);
   }
@@ -192,7 +197,8 @@ void StateOptions::add_to(CLI::App& app) {
   app.add_option(
          "--skip", skip,
          "What the machine may leave out: all, none, or a list of tiles (blocks and tiles that no covered pixel "
-         "can be in) and quads (those that cannot give a fragment); the fragments are the same")
+         "can be in), quads (those that cannot give a fragment) and hidden (tiles behind what was drawn, with "
+         "hierarchical_z_bits); without hidden the fragments are the same, with it the picture is")
       ->type_name("LIST")
       ->capture_default_str()
       ->group(group);
@@ -225,7 +231,7 @@ DrawState StateOptions::state(const CommonOptions& common, const Config& config)
     throw UsageError("--znear, --zfar: 0 <= znear <= zfar <= 1 is required");
   state.znear = znear;
   state.zfar = zfar;
-  state.skip = parse_skips(skip);
+  state.skip = parse_skips(skip, config, state.depth);
   return state;
 }
 

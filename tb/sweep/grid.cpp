@@ -181,6 +181,8 @@ std::vector<Axis> default_axes() {
                      "quad_slots_log2=1:4",
                      "tile_slots_log2=1:4",
                      "stamp_fifo_log2=1:5",
+                     "hierarchical_z_bits=0,8,12,16",
+                     "hierarchical_z_tiles_log2=8:14:2",
                      "quad_id_bits=16,24,32",
                      "performance_counters=0,1"});
 }

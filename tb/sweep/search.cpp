@@ -48,6 +48,8 @@ constexpr std::array key_effects{
     KeyEffect{"quad_slots_log2", Effect::none},
     KeyEffect{"tile_slots_log2", Effect::none},
     KeyEffect{"stamp_fifo_log2", Effect::none},
+    KeyEffect{"hierarchical_z_bits", Effect::none},  // the sweep draws every tile
+    KeyEffect{"hierarchical_z_tiles_log2", Effect::none},
     KeyEffect{"quad_id_bits", Effect::larger_is_better},  // ids that are refused
     KeyEffect{"performance_counters", Effect::none},
 };

@@ -55,6 +55,8 @@ constexpr Known known[] = {
     {"quad_slots_log2", false, 0},  // time only
     {"tile_slots_log2", false, 0},
     {"stamp_fifo_log2", false, 0},
+    {"hierarchical_z_bits", false, 0},  // every tile is drawn
+    {"hierarchical_z_tiles_log2", false, 0},
     {"quad_id_bits", true, 1},  // fewer refused
     {"performance_counters", false, 0},
 };
