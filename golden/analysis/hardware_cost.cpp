@@ -268,7 +268,8 @@ HardwareCost fixed_point(const Widths& w, int integer_bits, int fraction_bits) {
 /// Limits as ranks, registers; the beat's ratio of powers of two and its rank against them; what holds for all beats.
 HardwareCost quad_reject(const Widths& w) {
   const int rank = w.PE + 2 + w.S - 1, wide = std::max(w.DB + 2, w.S);
-  HardwareCost cost = 2 * shift_to_top(wide, w.S, stages_of(wide) - 1, 0) + adder(w.DB + 2) + state(2 * rank + 1);
+  HardwareCost cost = 2 * shift_to_top(wide, w.S, stages_of(wide) - 1, 0) + adder(w.DB + 2) +
+                      state(2 * (w.S - 1 + stages_of(wide)) + 1);  // exponents as counts of zeros
   cost += shift_to_top(w.W, 1, stages_of(w.W) - 1, 0) + adder(w.W) + zero_test(w.W);
   cost += state(5 + 2 * rank) + 2 * (adder(w.S) + 2 * adder(w.PE + 2)) + 3 * adder(rank);
   return cost + state(7) + mux(7, 2) + control(10);
@@ -283,7 +284,9 @@ HardwareCost range_empty(const Widths& w) {
 HardwareCost vertex_assembly(const Widths& w) {
   // The vertices; whether all are ordinary; least and greatest coordinates; W as a significand number beside W.
   const int vertex = 2 * w.T + w.W + (w.PE + w.S) + w.WORD + w.N * w.WORD;
-  return state(w.ID + 4 * (vertex + w.WORD) + 3 + 1 + 4 * w.T) + 4 * adder(w.T) + zero_test(w.W) + adder(w.W) +
+  // Of W's exponent, -FRAC to 0, and its significand the bits that may differ from another.
+  const int w_number = 1 + stages_of(w.FRAC + 1) + 1 + std::min(w.S, w.W - 1);
+  return state(w.ID + 4 * (vertex + w_number) + 3 + 1 + 4 * w.T) + 4 * adder(w.T) + zero_test(w.W) + adder(w.W) +
          mux(w.W, 2) + fp_normalise(w, w.W, w.PE, false) + quad_reject(w) + 2 * range_empty(w) + control(30);
 }
 
@@ -409,7 +412,7 @@ int fragment_places() { return stages_of(latency::pipeline + 7); }
 HardwareCost pixel_emit(const Widths& w) {
   // Free places, part; each lane has the lowest pixel that those below it leave, its column, front and tie.
   const int spare = fragment_places() + 2;
-  const int digits = 2 * (w.TL / 2 + 1);  // of the row, in radix 4
+  const int digits = 2 * (w.TL / 2 + 1) - 2;  // of the row, in radix 4; the lowest is its two bits
   const HardwareCost lane = state(w.TL + 3) + adder(w.TILE) + (w.TL + 2) * zero_test(w.TILE) + mux(w.TILE, 2);
   return state(spare + w.TILE + 5 + w.RING + 1 + w.TL + digits) + adder(spare) + adder(digits) + mux(w.TILE, 2) +
          w.P * lane + state(2 * (3 + w.TL + digits + w.P * (w.TL + 3)));

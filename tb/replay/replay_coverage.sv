@@ -34,6 +34,8 @@ module replay_coverage (
   logic fetched_q;
   logic [TILE_LOG2+1:0] count_q;  // clocks since the fetch
 
+  logic count_row, count_busy, count_behind;  // of performance_counters
+
   stamp_coverage u_coverage (
       .present_i(valid_i && !fetched_q),
       .fetch_o(fetch),
@@ -53,6 +55,9 @@ module replay_coverage (
       .mask_o(mask),
       .front_o(front),
       .tie_o(tie),
+      .count_row_o(count_row),
+      .count_busy_o(count_busy),
+      .count_behind_o(count_behind),
       .*
   );
 
@@ -87,5 +92,5 @@ module replay_coverage (
   end
 
   logic unused;
-  assign unused = ^{fetch_ptr, load, load_ptr, stamp_ptr, push_end, push_homogeneous};
+  assign unused = ^{fetch_ptr, load, load_ptr, stamp_ptr, push_end, push_homogeneous, count_row, count_busy, count_behind};
 endmodule

@@ -62,6 +62,7 @@ module replay_setup (
   logic [PAIRS*quadrille_pkg::DOT_OUT_BITS-1:0] result0, result1;
   logic [PAIRS*T-1:0] xi, yi, xj, yj;
   logic drop;
+  logic count_line, count_job, count_busy;  // of performance_counters
 
   vertex_products u_products (
       .clk_i,
@@ -118,11 +119,14 @@ module replay_setup (
       .reject_i(1'b0),
       .cull_i(2'd0),
       .drop_o(drop),
+      .count_line_o(count_line),
+      .count_job_o(count_job),
+      .count_busy_o(count_busy),
       .take_i(valid_o),
       .done_o(valid_o),
       .*
   );
 
   logic unused;
-  assign unused = ^{xi, yi, xj, yj, drop};
+  assign unused = ^{xi, yi, xj, yj, drop, count_line, count_job, count_busy};
 endmodule
