@@ -290,9 +290,8 @@ TEST(HardwareCost, TablesAreCountedPerCopy) {
                                    config.attribute_slots * config.attr_out_bits() + 35) /
         36;
     // Of a slot the terms of W, Z and the attributes at four vertices, and six squared lengths.
-    const std::uint64_t slots =
-        static_cast<std::uint64_t>((4 * (2 + config.attribute_slots) * config.attr_port_bits() + 35) / 36 +
-                                   (6 * config.length2_bits() + 35) / 36);
+    const std::uint64_t slots = static_cast<std::uint64_t>(
+        (4 * (2 + config.attribute_slots) * config.attr_port_bits() + 35) / 36 + (6 * config.length2_bits() + 35) / 36);
     EXPECT_EQ(hardware_cost(config).table_bits, 0) << s;
     EXPECT_EQ(hardware_cost(config).block_rams,
               7 * blocks(make_sqrt_table(config)) + 2 * blocks(make_recip_table(config)) + fifo + slots)
