@@ -48,7 +48,7 @@ std::string misfits(const RangeProof& proof) {
 TEST(RangeProof, HoldsForRandomConfigurations) {
   golden::Prng rng(7);
   int accepted = 0, reduced = 0, refused_tables = 0;
-  for (int n = 0; n < 4'000; ++n) {
+  for (int n = 0; n < 5'000; ++n) {
     Config c;
     for (const ConfigKey& key : Config::keys()) {
       const bool automatic = key.standard == -1 && rng.chance(key.name == "quadratic_frac_bits" ? 0.4 : 0.9);
