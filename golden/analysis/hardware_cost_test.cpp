@@ -101,7 +101,7 @@ TEST(HardwareCost, HasWhatSynthesisGave) {
 }
 
 TEST(HardwareCost, CountsTheRegisters) {
-  // 0.6 to 1.1 % too many are counted: Yosys merges registers that hold the same bit (of exponents, say).
+  // 0.6 to 1.2 % too many are counted: Yosys merges registers that hold the same bit (of exponents, say).
   int rows = 0;
   for (const Synthesised& row : synthesised()) {
     if (!row.flip_flops) continue;
