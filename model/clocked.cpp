@@ -195,6 +195,7 @@ struct VertexAssembly {
 struct SetupUnit {
   int pairs = 1;       ///< of dot units
   int box = 0;         ///< clocks of the bounding box, of the quad in vertex_assembly: 2 when it is there
+  int all_steps = 0;   ///< of the quad that does them
   int steps = 0;       ///< left to do
   bool front = false;  ///< `next` has not moved on
   bool sum = false;    ///< `summed` has not
@@ -206,8 +207,8 @@ struct SetupUnit {
   bool busy() const { return front || sum || done; }
   /// The step of this clock has jobs for the dot units, should they be free.
   bool has_jobs() const {
-    const int step = quad_setup_steps(next.homogeneous, pairs) - steps;
-    return steps > 0 && !(pairs == 2 && next.homogeneous && step == 6);
+    const int step = all_steps - steps;
+    return steps > 0 && !(pairs == 2 && next.homogeneous && (step == 6 || (step >= 15 && step <= 17)));
   }
   /// The last step is done in this clock; the steps wait while the dot units work for a tile.
   bool ends_run(bool units_taken) const { return steps == 1 && !units_taken; }
@@ -239,10 +240,10 @@ struct SetupUnit {
     if (box != 0 || held) box = std::min(box + 1, 2);
   }
 
-  void start(const SetupResult& quad) {
+  void start(const SetupResult& quad, const DrawState& state) {
     next = quad;
     front = true;
-    steps = quad_setup_steps(quad.homogeneous, pairs);
+    steps = all_steps = quad_setup_steps(quad.homogeneous, pairs, state);
     box = 0;
   }
 };
@@ -595,7 +596,7 @@ struct ClockedModel::Impl {
       slots[slot].quad = assembly.number;
       slots[slot].depth = depth_interval(assembly.quad, context.config, context.state);
       slots[slot].data = quad_data(assembly.quad, result, context.config, context.state);
-      setup.start(result);
+      setup.start(result, context.state);
       in_use |= 1u << slot;
       assembly.full = false;
     }

@@ -11,7 +11,7 @@ const std::array<CounterInfo, counter_count> counter_info{{
     {"quads_behind", "left out: no w > 0"},
     {"quads_depth", "left out: outside [znear, zfar]"},
     {"quads_line", "left out by setup: both triangles without area"},
-    {"quads_culled", "left out by setup: no wanted face possible"},
+    {"quads_culled", "left out by setup: no wanted face possible, or none that meets the scissor"},
     {"quads_ordinary", "taken by the walk, all W = ONE"},
     {"quads_homogeneous", "taken by the walk, others"},
     {"blocks_tested", "tests of blocks that counted"},

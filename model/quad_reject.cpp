@@ -63,13 +63,14 @@ QuadReject reject_by_vertices(const SnappedQuad& quad, const Config& config, con
 }
 
 QuadReject reject_by_areas(const SetupResult& setup, const DrawState& state) {
-  if ((state.skip & skip_quads) == 0) return QuadReject::none;
-  if (setup.clauses == 0) return QuadReject::line;
   constexpr unsigned back_clauses = 0b0011, front_clauses = 0b1100;
   unsigned wanted = setup.clauses;
   if (state.cull == Cull::back) wanted &= front_clauses;
   if (state.cull == Cull::front) wanted &= back_clauses;
-  return wanted == 0 ? QuadReject::culled : QuadReject::none;
+  const bool turned = wanted != 0;
+  if ((state.skip & skip_quads) != 0 && !turned) return setup.clauses == 0 ? QuadReject::line : QuadReject::culled;
+  const unsigned missing = setup.separated * 0b101u;  // the clauses of either sign
+  return turned && (wanted & ~missing) == 0 ? QuadReject::outside : QuadReject::none;
 }
 
 QuadReject quad_reject(const SnappedQuad& quad, const Config& config, const DrawState& state) {

@@ -10,7 +10,7 @@ namespace quadrille {
 
 /// The reasons that need no product: empty, behind, depth. None when DrawState::skip says so.
 QuadReject reject_by_vertices(const SnappedQuad& quad, const Config& config, const DrawState& state);
-/// Those that need the triangles' areas: line, culled.
+/// Those that need the triangles' areas, and of a homogeneous quad where they lie: line, culled, outside.
 QuadReject reject_by_areas(const SetupResult& setup, const DrawState& state);
 /// All of them, in this order.
 QuadReject quad_reject(const SnappedQuad& quad, const Config& config, const DrawState& state);

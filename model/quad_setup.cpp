@@ -1,5 +1,6 @@
 #include "model/quad_setup.hpp"
 
+#include "model/scissor_separation.hpp"
 #include "model/snap.hpp"
 
 #include <algorithm>
@@ -100,7 +101,11 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
     const Wide d013 = determinant(r.linear[3], v[1]);
     r.hull = eye_in_hull(d012, d023, d123, d013);
     r.clauses = r.hull ? 0xf : clauses_of(d012, d023);
-    if (!r.hull) r.visible = r.clauses;
+    if (!r.hull) {
+      r.visible = r.clauses;
+      if ((state.skip & skip_walk) != 0)
+        r.separated = static_cast<std::uint8_t>(scissor_separation(r, quad.vertex, state));
+    }
   } else {  // E01 + E12 + E20 is twice the area of the triangle 012, anywhere
     const Wide d012 = Wide{r.linear[0].value} + r.linear[1].value + r.linear[4].value;
     const Wide d023 = Wide{r.linear[2].value} + r.linear[3].value - r.linear[4].value;
@@ -109,9 +114,10 @@ SetupResult quad_setup(const SnappedQuad& quad, const Config& config, const Draw
   return r;
 }
 
-int quad_setup_steps(bool homogeneous, int pairs) {
-  if (pairs == 2) return homogeneous ? 11 : 3;
-  return homogeneous ? 20 : 6;
+int quad_setup_steps(bool homogeneous, int pairs, const DrawState& state) {
+  const bool separates = (state.skip & skip_walk) != 0;
+  if (pairs == 2) return !homogeneous ? 3 : separates ? 24 : 11;
+  return !homogeneous ? 6 : separates ? 40 : 20;
 }
 
 }  // namespace quadrille

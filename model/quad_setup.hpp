@@ -21,7 +21,7 @@ TileRange bounding_tiles(const SnappedQuad& quad, const Config& config, const Dr
 
 // Clocks: rtl/README.md section 4. `pairs` of dot units.
 /// Steps of a quad, one a clock.
-int quad_setup_steps(bool homogeneous, int pairs);
+int quad_setup_steps(bool homogeneous, int pairs, const DrawState& state);
 /// From the last step until all results are there; with two pairs the reach of the last edge is a clock behind.
 constexpr int quad_setup_result_clocks(int pairs) { return 5 + pairs; }
 

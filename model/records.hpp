@@ -32,20 +32,22 @@ enum SkipBit : std::uint32_t {
   /// depth test LESS and depth writes, that no fragment is discarded afterwards, and nothing blended: the picture is
   /// the same, the list of fragments is not.
   skip_hidden = 1u << 2,
+  skip_walk = 1u << 3,   ///< homogeneous quads: what misses the scissor (scissor_separation)
 };
 /// Those that keep the list of fragments: on unless switched off.
-inline constexpr std::uint32_t skip_default = skip_tiles | skip_quads;
+inline constexpr std::uint32_t skip_default = skip_tiles | skip_quads | skip_walk;
 
-/// Why quad_reject leaves a quad out, the first reason that holds.
+/// Why a quad is left out, the first reason that holds.
 enum class QuadReject : std::uint8_t {
   none,
-  empty,   ///< no pixel centre of the scissor in the bounding box
-  behind,  ///< no w > 0
-  depth,   ///< every pixel's depth code is outside [znear, zfar]
-  line,    ///< both triangles of expression (12) are degenerate
-  culled,  ///< no pixel can have a face that is wanted
+  empty,    ///< no pixel centre of the scissor in the bounding box
+  behind,   ///< no w > 0
+  depth,    ///< every pixel's depth code is outside [znear, zfar]
+  line,     ///< both triangles of expression (12) are degenerate
+  culled,   ///< no pixel can have a face that is wanted
+  outside,  ///< homogeneous: no triangle that is wanted meets the scissor
 };
-inline constexpr std::size_t quad_reject_count = 6;
+inline constexpr std::size_t quad_reject_count = 7;
 
 /// Constant over a draw, given to model and RTL alike.
 struct DrawState {

@@ -50,6 +50,7 @@ struct SetupResult {
   bool hull = false;         ///< the eye is inside the hull: visibility per pixel
   std::uint8_t visible = 0;  ///< bit 0: clause 1 +, 1: clause 2 +, 2: clause 1 −, 3: clause 2 −
   std::uint8_t clauses = 0;  ///< those that some pixel can meet: the triangle 012 or 023 turns that way; all with hull
+  std::uint8_t separated = 0;  ///< triangles that miss the scissor (scissor_separation), with skip_walk
   std::array<LinearForm, linear_count> linear{};
   std::array<std::uint64_t, linear_count> length2{};  ///< |V_i − V_j|² of the pairs, units 2^-quadratic_frac
   std::array<RelativeVertex, 4> vertex{};             ///< relative to the first tile's origin pixel

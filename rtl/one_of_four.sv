@@ -1,6 +1,7 @@
 // One of four words by its index. Combinational.
 //
-// A case, not words_i[index*WIDTH +: WIDTH]: synthesis takes the product in the latter for a multiplier.
+// Not words_i[index*WIDTH +: WIDTH]: synthesis takes the product in that for a multiplier. Two LUTs of four inputs a bit: one gives word 0 or
+// 1, or of the upper two which it is, the other chooses by that; from a case synthesis mostly makes three.
 module one_of_four #(
     parameter int WIDTH = 8
 ) (
@@ -8,12 +9,8 @@ module one_of_four #(
     input logic [1:0] index_i,
     output logic [WIDTH-1:0] word_o
 );
-  always_comb begin
-    case (index_i)
-      2'd0: word_o = words_i[0+:WIDTH];
-      2'd1: word_o = words_i[WIDTH+:WIDTH];
-      2'd2: word_o = words_i[2*WIDTH+:WIDTH];
-      default: word_o = words_i[3*WIDTH+:WIDTH];
-    endcase
-  end
+  logic [WIDTH-1:0] lower;
+
+  assign lower = index_i[1] ? {WIDTH{index_i[0]}} : index_i[0] ? words_i[WIDTH+:WIDTH] : words_i[0+:WIDTH];
+  assign word_o = !index_i[1] ? lower : (lower & words_i[3*WIDTH+:WIDTH]) | (~lower & words_i[2*WIDTH+:WIDTH]);
 endmodule

@@ -1,14 +1,15 @@
 // Setup of one quad: origin tile, 6 linear functions (value at the origin, first differences), squared lengths of its sides and
 // diagonals, visibility of the clauses. README.md section 4 has the clocks: two for the bounding box, while vertex_assembly holds the
-// quad; start; then a step a clock, in which every pair of dot units has a job: 6 steps or, of a homogeneous quad, 20; with two pairs 3 or 11.
+// quad; start; then a step a clock, in which every pair of dot units has a job: 6 steps or, of a homogeneous quad, 40; with two pairs 3 or 24.
+// Half of a homogeneous quad's ask whether it misses the scissor (separate_i; else 20 or 11 steps).
 //
 // Three quads may be here, one behind the other: one does its steps (front_*), of one the results come, six clocks after their jobs
 // (sum_*), one waits complete for take_i (the outputs). So the steps go on while results are on their way and while the walk is busy. A
 // quad starts only when those before it will surely have moved on by the time its first result comes.
 //
 // Linear function f: f*VAL_BITS, exact, two's complement. Squared lengths: unsigned, without their QDROP lowest bits.
-// A quad that cannot give a fragment by its triangles' areas is dropped when it is complete (reject_i). An empty bounding box
-// gives zero tiles.
+// A quad that cannot give a fragment by its triangles' areas (reject_i), or misses the scissor, is dropped when it is complete. An empty
+// bounding box gives zero tiles.
 module quad_setup #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int W = quadrille_pkg::W_BITS,
@@ -51,6 +52,8 @@ module quad_setup #(
     output logic [4*T-1:0] x_o,
     output logic [4*T-1:0] y_o,
     output logic [4*W-1:0] w_o,
+    output logic [V:0] offset_x_o,  // of a MOVE, a clock after the job
+    output logic [V:0] offset_y_o,
     output logic [PAIRS*VAL-1:0] edge_value_o,
     output logic [PAIRS*GRAD-1:0] edge_gx_o,
     output logic [PAIRS*GRAD-1:0] edge_gy_o,
@@ -60,6 +63,7 @@ module quad_setup #(
     input logic [PAIRS*OUT-1:0] result1_i,
     // Functions out
     input logic reject_i,  // draw state: leave out what cannot give a fragment
+    input logic separate_i,  // of homogeneous quads what misses the scissor
     input logic [1:0] cull_i,
     input logic take_i,
     output logic done_o,
@@ -149,7 +153,7 @@ module quad_setup #(
 
   // ---- The three quads ----------------------------------------------------------------------------------------------------
   logic run_q;  // steps are left
-  logic [4:0] step_q;
+  logic [5:0] step_q;
   logic front_q;  // what goes with the quad of the steps has not moved on yet
   logic sum_q;  // results are of a quad that is not among the outputs yet
   logic complete_q;  // all are there
@@ -179,14 +183,10 @@ module quad_setup #(
     end
   end
 
-  always_ff @(posedge clk_i) begin
-    if (start_i) step_q <= '0;
-    else step_q <= step_q + 5'(!wait_i);
-  end
-
   // ---- What goes with a quad: slot, tiles, vertices relative to the origin pixel (a shift: W = ONE or the origin is 0) --------
   localparam int PLACE = SLOT + 4 * TC + TL + 1 + 4 * (2 * T + W);
   logic [T-1:0] origin_x, origin_y;
+  logic [4*T-1:0] from_origin_x, from_origin_y;
   logic front_ordinary_q, sum_ordinary;
   logic [SLOT-1:0] front_slot_q;
   logic [4*TC-1:0] front_tiles_q;
@@ -205,7 +205,6 @@ module quad_setup #(
       front_slot_q <= slot_i;
       front_tiles_q <= {box_x0_q, box_y0_q, box_x_q, box_y_q};
       front_row_q <= box_row_q;
-      w_q <= w_i;
     end
     if (advance) sum_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, tx_q, ty_q, w_q};
     if (hand_over) begin
@@ -214,51 +213,132 @@ module quad_setup #(
     end
   end
 
-  for (genvar g = 0; g < 4; g++) begin : gen_vertex
-    always_ff @(posedge clk_i) begin
-      if (start_i) begin
-        tx_q[g*T+:T] <= x_i[g*T+:T] - origin_x;
-        ty_q[g*T+:T] <= y_i[g*T+:T] - origin_y;
-      end
-    end
-  end
-
   // ---- Steps --------------------------------------------------------------------------------------------------------------
   // Of an ordinary quad the edge functions and with each its pair's squared length; its gradients need no product. Of a homogeneous quad
   // each edge function's gradient, then its value; then the determinants, vector times vector, in two steps, gradient and value. By then
   // its edge function has both: with two pairs of units a step without a job is needed. In a step pair p of the units has function
   // PAIRS group + p, or the determinant (4 / PAIRS) p + group.
-  localparam logic [4:0] LAST_ORDINARY = 5'(6 / PAIRS - 1);
-  localparam logic [4:0] FUNCTIONS_END = 5'(12 / PAIRS);
-  localparam logic [4:0] DETERMINANTS = (PAIRS == 1) ? 5'd12 : 5'd7;
-  localparam logic [4:0] LAST_HOMOGENEOUS = DETERMINANTS + 5'(8 / PAIRS - 1);
+  // Then for scissor_separation: the vertices from two corners of the scissor (sides), and like a determinant each edge of either
+  // triangle at one of its corners, value and gradient. The corner takes the place of a vertex that is not needed any more.
+  // With one pair of units E30 comes late: until E20 has been at both corners its register holds E20 too, which else no product reaches.
+  localparam logic [5:0] LAST_ORDINARY = 6'(6 / PAIRS - 1);
+  localparam logic [5:0] FUNCTIONS_END = (PAIRS == 1) ? 6'd10 : 6'd6;
+  localparam logic [5:0] DETERMINANTS = (PAIRS == 1) ? 6'd10 : 6'd7;
+  localparam logic [5:0] SIDES = DETERMINANTS + 6'(8 / PAIRS);
+  localparam logic [5:0] LATE = (PAIRS == 1) ? 6'd30 : 6'd15;  // of E30; with two pairs nothing, the determinants' signs are to come
+  localparam logic [5:0] CORNERS = (PAIRS == 1) ? 6'd26 : 6'd18;
+  localparam logic [5:0] LAST_TOGETHER = (PAIRS == 1) ? LATE + 6'd1 : SIDES - 6'd1;  // without separate_i
+  localparam logic [5:0] LAST_SEPARATE = (PAIRS == 1) ? 6'd39 : 6'd23;
 
-  logic is_edge, is_gradient, is_det;
-  logic [4:0] det_step;  // 2 group + half
+  logic to_late;  // the next step is LATE
+  logic is_function, is_late, is_edge, is_gradient, is_det, is_side, is_corner;
+  logic det_second;  // of a determinant, or of an edge at a corner
+  logic [5:0] det_step, side_step;  // 2 group + half
+  logic side_far;  // from the corner (x1, y1)
+  logic [1:0] side_vertex;
+  logic [PAIRS-1:0] corner_triangle, corner_negated;
   logic [2:0] group;
 
-  assign last = step_q == (front_ordinary_q ? LAST_ORDINARY : LAST_HOMOGENEOUS);
-  assign is_edge = front_ordinary_q || (step_q < FUNCTIONS_END && step_q[0]);
-  assign is_gradient = !front_ordinary_q && step_q < FUNCTIONS_END && !step_q[0];
-  assign is_det = !front_ordinary_q && step_q >= DETERMINANTS;
+  assign last = step_q == (front_ordinary_q ? LAST_ORDINARY : separate_i ? LAST_SEPARATE : LAST_TOGETHER);
+  assign to_late = PAIRS == 1 && !separate_i && step_q == SIDES - 6'd1;
+  assign is_late = PAIRS == 1 && step_q[5:1] == LATE[5:1];
+  assign is_function = step_q < FUNCTIONS_END || is_late;
+  assign is_edge = front_ordinary_q || (is_function && step_q[0]);
+  assign is_gradient = !front_ordinary_q && is_function && !step_q[0];
+  assign is_det = !front_ordinary_q && step_q >= DETERMINANTS && step_q < SIDES;
+  assign is_side = !front_ordinary_q && step_q >= SIDES && step_q < SIDES + 6'(8 / PAIRS);
+  assign is_corner = !front_ordinary_q && step_q >= CORNERS && !is_late;
   assign det_step = step_q - DETERMINANTS;
-  assign group = front_ordinary_q ? step_q[2:0] : step_q[3:1];
+  assign det_second = is_corner ? step_q[0] : det_step[0];
+  assign side_step = step_q - SIDES;
+  assign side_far = (PAIRS == 1) ? side_step[2] : side_step[1];
+  assign side_vertex = (PAIRS == 1) ? side_step[1:0] : {side_step[0], 1'b0};
+
+  always_comb begin
+    group = step_q[3:1];
+    if (front_ordinary_q) group = step_q[2:0];
+    else if (is_late) group = 3'd3;
+    else if (PAIRS == 1 && step_q[3:1] >= 3'd3) group = step_q[3:1] + 3'd1;
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (start_i) step_q <= '0;
+    else step_q <= wait_i ? step_q : to_late ? LATE : step_q + 6'd1;
+  end
+
+  // ---- Corners of the scissor in a vertex's place, in pixels: chosen while the edge function's value is multiplied -------------
+  localparam int EDGE_WIDTH = VAL + 2 * GRAD;
+  logic [6*VAL-1:0] lin_value_q;
+  logic [6*GRAD-1:0] lin_gx_q, lin_gy_q;
+  logic [PAIRS*EDGE_WIDTH-1:0] edge_words;  // value, gx, gy
+  logic [3:0] negative, zero, positive;  // of d_012, d_023, d_123, d_013
+  logic [PAIRS*(V+1)-1:0] corner_x, corner_y;
+  logic side_far_q;
+
+  always_ff @(posedge clk_i) side_far_q <= side_far;
+
+  for (genvar p = 0; p < PAIRS; p++) begin : gen_corner
+    logic far_x, far_y, is_diagonal;  // E20, whose sense is reversed in the triangle 023
+
+    // With one pair of units E20 of either triangle in steps 26 to 29, from 32 on E01, E12, E23, E30; with two E20 in 18, 19.
+    assign is_diagonal = (PAIRS == 1) ? !step_q[5] : step_q[2:1] == 2'd1;
+    assign corner_triangle[p] = (PAIRS == 2) ? 1'(p) : step_q[2];
+    assign corner_negated[p] = corner_triangle[p] ? negative[1] ^ is_diagonal : negative[0];
+    assign far_x = edge_words[p*EDGE_WIDTH+2*GRAD-1] == corner_negated[p];
+    assign far_y = edge_words[p*EDGE_WIDTH+GRAD-1] == corner_negated[p];
+    assign corner_x[p*(V+1)+:V+1] = far_x ? scissor_x1_i : scissor_x0_i;
+    assign corner_y[p*(V+1)+:V+1] = far_y ? scissor_y1_i : scissor_y0_i;
+  end
+
+  assign offset_x_o = side_far_q ? scissor_x1_i : scissor_x0_i;
+  assign offset_y_o = side_far_q ? scissor_y1_i : scissor_y0_i;
+
+  for (genvar g = 0; g < 4; g++) begin : gen_vertex
+    localparam int P = (g == 2 && PAIRS == 2) ? 1 : 0;
+    localparam bit IS_CORNER = g >= 1 && g <= PAIRS;
+    logic to_corner, to_one;
+
+    assign from_origin_x[g*T+:T] = x_i[g*T+:T] - origin_x;
+    assign from_origin_y[g*T+:T] = y_i[g*T+:T] - origin_y;
+
+    // All but the low bits of a corner are a synchronous reset.
+    assign to_corner = IS_CORNER && run_q && is_corner && !step_q[0];
+    assign to_one = IS_CORNER && run_q && !front_ordinary_q && separate_i && step_q == CORNERS - 6'd1;
+
+    always_ff @(posedge clk_i) begin
+      if (to_corner) begin
+        tx_q[g*T+V+1+:T-V-1] <= '0;
+        ty_q[g*T+V+1+:T-V-1] <= '0;
+      end else if (start_i) begin
+        tx_q[g*T+V+1+:T-V-1] <= from_origin_x[g*T+V+1+:T-V-1];
+        ty_q[g*T+V+1+:T-V-1] <= from_origin_y[g*T+V+1+:T-V-1];
+      end
+      if (to_corner || start_i) begin
+        tx_q[g*T+:V+1] <= to_corner ? corner_x[P*(V+1)+:V+1] : from_origin_x[g*T+:V+1];
+        ty_q[g*T+:V+1] <= to_corner ? corner_y[P*(V+1)+:V+1] : from_origin_y[g*T+:V+1];
+      end
+      if (to_one) w_q[g*W+:W] <= W'(1);
+      else if (start_i) w_q[g*W+:W] <= w_i[g*W+:W];
+    end
+  end
 
   assign x_o = tx_q;
   assign y_o = ty_q;
   assign w_o = w_q;
 
-  localparam int EDGE_WIDTH = VAL + 2 * GRAD;
-  logic [6*VAL-1:0] lin_value_q;
-  logic [6*GRAD-1:0] lin_gx_q, lin_gy_q;
-  logic [4*EDGE_WIDTH-1:0] edges;
-
-  for (genvar g = 0; g < 4; g++) begin : gen_edge
-    assign edges[g*EDGE_WIDTH+:EDGE_WIDTH] = {lin_value_q[g*VAL+:VAL], lin_gx_q[g*GRAD+:GRAD], lin_gy_q[g*GRAD+:GRAD]};
-  end
-
   for (genvar p = 0; p < PAIRS; p++) begin : gen_job
-    logic [1:0] determinant, det_edge, det_vertex;  // d_012 = E01 . V2, d_023 = E23 . V0, d_123 = E12 . V3, d_013 = E30 . V1
+    // d_012 = E01 . V2, d_023 = E23 . V0, d_123 = E12 . V3, d_013 = E01 . V3, or E30 . V1 where the second pair of units has it.
+    // With two pairs E20 is in the place of the edge that the pair has no use for.
+    logic [1:0] determinant, det_edge, det_vertex, corner_edge, edge_index;
+    logic [2:0] kind;
+    logic [3:0] job_function;
+    logic [4*EDGE_WIDTH-1:0] words;
+
+    for (genvar g = 0; g < 4; g++) begin : gen_word
+      localparam int F = (PAIRS == 2 && g == 3 * (1 - p)) ? 4 : g;
+
+      assign words[g*EDGE_WIDTH+:EDGE_WIDTH] = {lin_value_q[F*VAL+:VAL], lin_gx_q[F*GRAD+:GRAD], lin_gy_q[F*GRAD+:GRAD]};
+    end
 
     assign determinant = (PAIRS == 1) ? det_step[2:1] : {1'(p), det_step[1]};
 
@@ -267,19 +347,32 @@ module quad_setup #(
         2'd0: {det_edge, det_vertex} = {2'd0, 2'd2};
         2'd1: {det_edge, det_vertex} = {2'd2, 2'd0};
         2'd2: {det_edge, det_vertex} = {2'd1, 2'd3};
-        default: {det_edge, det_vertex} = {2'd3, 2'd1};
+        default: {det_edge, det_vertex} = (PAIRS == 1) ? {2'd0, 2'd3} : {2'd3, 2'd1};
       endcase
+      // The pair of a vertex with itself is a function from 6 on.
+      if (is_side) begin
+        kind = quadrille_pkg::MOVE;
+        job_function = 4'd6 + 4'(side_vertex) + 4'(p);
+      end else if (is_det || is_corner) begin
+        kind = (det_second ^ is_corner) ? quadrille_pkg::DET_VALUE : quadrille_pkg::DET_GRADIENT;
+        job_function = is_det ? 4'd6 + 4'(det_vertex) : 4'd7 + 4'(p);
+      end else begin
+        kind = is_edge ? quadrille_pkg::EDGE : quadrille_pkg::EDGE_GRADIENT;
+        job_function = 4'(PAIRS) * 4'(group) + 4'(p);
+      end
     end
 
-    assign kind_o[p*3+:3] = is_det ? (det_step[0] ? quadrille_pkg::DET_VALUE : quadrille_pkg::DET_GRADIENT) :
-        is_edge ? quadrille_pkg::EDGE : quadrille_pkg::EDGE_GRADIENT;
-    // of a determinant the pair of the vertex with itself
-    assign function_o[p*4+:4] = is_det ? 4'd6 + 4'(det_vertex) : 4'(PAIRS) * 4'(group) + 4'(p);
+    assign kind_o[p*3+:3] = kind;
+    assign function_o[p*4+:4] = job_function;
+    assign corner_edge = (PAIRS == 1) ? (step_q[5] ? step_q[2:1] : 2'd3) :
+        (p == 0) ? step_q[2:1] - 2'd2 : (step_q[2:1] == 2'd1) ? 2'd0 : step_q[2:1];
+    assign edge_index = is_corner ? corner_edge : det_edge;
+    assign {edge_value_o[p*VAL+:VAL], edge_gx_o[p*GRAD+:GRAD], edge_gy_o[p*GRAD+:GRAD]} = edge_words[p*EDGE_WIDTH+:EDGE_WIDTH];
 
     one_of_four #(.WIDTH(EDGE_WIDTH)) u_edge (
-        .words_i(edges),
-        .index_i(det_edge),
-        .word_o({edge_value_o[p*VAL+:VAL], edge_gx_o[p*GRAD+:GRAD], edge_gy_o[p*GRAD+:GRAD]})
+        .words_i(words),
+        .index_i(edge_index),
+        .word_o(edge_words[p*EDGE_WIDTH+:EDGE_WIDTH])
     );
   end
 
@@ -294,16 +387,25 @@ module quad_setup #(
   );
 
   // ---- What the jobs are whose results are there ----------------------------------------------------------------------------
-  localparam int JOB = 3 + 3 + 1 + 1;
+  localparam int JOB = 5 + 3 + 2 * PAIRS + 1 + 1;
   logic step_done;
-  logic edge_job, gradient_job, det_job, det_second, ordinary_job;
-  logic [2:0] job_group;
+  logic edge_job, gradient_job, det_job, side_job, corner_job, second_job, ordinary_job;
+  logic [2:0] job_group;  // of sides: which corner, vertex
+  logic [PAIRS-1:0] job_triangle, job_negated;
   logic [JOB-1:0] job;
   logic [CLOCKS*JOB-1:0] job_q;
 
   assign step_done = run_q && !wait_i;
-  assign job = {{3{step_done}} & {is_edge, is_gradient, is_det}, group, det_step[0], front_ordinary_q};
-  assign {edge_job, gradient_job, det_job, job_group, det_second, ordinary_job} = job_q[CLOCKS*JOB-1-:JOB];
+  assign job = {
+    {5{step_done}} & {is_edge, is_gradient, is_det, is_side, is_corner},
+    is_side ? {side_far, side_vertex} : group,
+    corner_triangle,
+    corner_negated,
+    det_second,
+    front_ordinary_q
+  };
+  assign {edge_job, gradient_job, det_job, side_job, corner_job, job_group, job_triangle, job_negated, second_job, ordinary_job} =
+      job_q[CLOCKS*JOB-1-:JOB];
 
   // From a quad's last step until all is there: its result, with two pairs of units also the reach of its last edge.
   localparam int END_CLOCKS = CLOCKS + PAIRS - 1;
@@ -372,13 +474,16 @@ module quad_setup #(
   for (genvar g = 0; g < 6; g++) begin : gen_function
     localparam int P = g % PAIRS;
     localparam logic [2:0] GROUP = 3'(g / PAIRS);
+    logic mine;
+
+    assign mine = job_group == GROUP || (PAIRS == 1 && g == 3 && job_group == 3'd4 && !ordinary_job);
 
     always_ff @(posedge clk_i) begin
-      if (edge_job && job_group == GROUP) begin
+      if (edge_job && mine) begin
         lin_value_q[g*VAL+:VAL] <= gen_result[P].value;
         length2_q[g*LENGTH2+:LENGTH2] <= gen_result[P].length2;
       end
-      if (load_gradient && job_group == GROUP) begin
+      if (load_gradient && mine) begin
         lin_gx_q[g*GRAD+:GRAD] <= gen_result[P].gx;
         lin_gy_q[g*GRAD+:GRAD] <= gen_result[P].gy;
       end
@@ -419,29 +524,42 @@ module quad_setup #(
   end
 
   // ---- Determinants d_012, d_023, d_123, d_013, a pair of units' own one after the other in one accumulator ------------------
+  // The edges at the scissor's corners come to it behind them: then the last determinant's sign is kept (kept_*).
   localparam int DETS = 4 / PAIRS;
-  logic [3:0] negative, zero, positive;
+  logic cornered_q;
+  logic [PAIRS-1:0] corner_neg, corner_zero;
+  logic judge_q;
+  logic [PAIRS-1:0] judge_triangle_q, judge_negated_q;
+
+  always_ff @(posedge clk_i) begin
+    cornered_q <= corner_job || (cornered_q && !det_job);
+    judge_q <= corner_job && second_job;
+    {judge_triangle_q, judge_negated_q} <= {job_triangle, job_negated};
+  end
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_determinant
     logic [DET-1:0] det_q;
     logic [DETS-2:0] det_neg_q, det_zero_q;  // of those before the last, the latest at bit 0
-    logic det_neg, det_zero;
+    logic det_neg, det_zero, kept_neg_q, kept_zero_q;
 
     assign det_neg = det_q[DET-1];
     assign det_zero = det_q == '0;
+    assign corner_neg[p] = det_neg;
+    assign corner_zero[p] = det_zero;
 
     always_ff @(posedge clk_i) begin
-      if (det_job) begin
-        det_q <= (det_second ? det_q : '0) + DET'($signed(result0_i[p*OUT+:OUT])) + (DET'($signed(result1_i[p*OUT+:OUT])) << 32);
-        if (!det_second) begin
+      if (!cornered_q) {kept_neg_q, kept_zero_q} <= {det_neg, det_zero};
+      if (det_job || corner_job) begin
+        det_q <= (second_job ? det_q : '0) + DET'($signed(result0_i[p*OUT+:OUT])) + (DET'($signed(result1_i[p*OUT+:OUT])) << 32);
+        if (det_job && !second_job) begin
           det_neg_q <= (DETS - 1)'({det_neg_q, det_neg});
           det_zero_q <= (DETS - 1)'({det_zero_q, det_zero});
         end
       end
     end
 
-    assign negative[p*DETS+DETS-1] = det_neg;
-    assign zero[p*DETS+DETS-1] = det_zero;
+    assign negative[p*DETS+DETS-1] = cornered_q ? kept_neg_q : det_neg;
+    assign zero[p*DETS+DETS-1] = cornered_q ? kept_zero_q : det_zero;
 
     for (genvar k = 0; k < DETS - 1; k++) begin : gen_before
       assign negative[p*DETS+k] = det_neg_q[DETS-2-k];
@@ -457,19 +575,59 @@ module quad_setup #(
   assign some_neg = negative[2] || positive[1] || negative[3] || positive[0];
   assign hull = !sum_ordinary && !(some_pos && some_neg);
 
-  logic [3:0] visible;
+  // ---- Triangles that miss the scissor --------------------------------------------------------------------------------------
+  logic [PAIRS-1:0] side_x_neg, side_y_neg;
+  logic [3:0] sum_w_neg;
+  logic [4:0] gx_neg, gy_neg;
+  logic [1:0] separated;
+
+  for (genvar p = 0; p < PAIRS; p++) begin : gen_side
+    assign side_x_neg[p] = result0_i[p*OUT+OUT-1];
+    assign side_y_neg[p] = result1_i[p*OUT+OUT-1];
+  end
+
+  for (genvar g = 0; g < 4; g++) begin : gen_w_sign
+    assign sum_w_neg[g] = sum_place_q[g*W+W-1];
+  end
+
+  for (genvar g = 0; g < 5; g++) begin : gen_gradient_sign
+    assign gx_neg[g] = lin_gx_q[g*GRAD+GRAD-1];
+    assign gy_neg[g] = lin_gy_q[g*GRAD+GRAD-1];
+  end
+
+  scissor_separation u_separation (
+      .clk_i,
+      .clear_i(det_job),
+      .side_i(side_job),
+      .far_i(job_group[2]),
+      .vertex_i(job_group[1:0]),
+      .x_neg_i(side_x_neg),
+      .y_neg_i(side_y_neg),
+      .w_neg_i(sum_w_neg),
+      .gx_neg_i(gx_neg),
+      .gy_neg_i(gy_neg),
+      .edge_i({PAIRS{judge_q}}),
+      .triangle_i(judge_triangle_q),
+      .negated_i(judge_negated_q),
+      .value_neg_i(corner_neg),
+      .value_zero_i(corner_zero),
+      .separated_o(separated)
+  );
+
+  logic [3:0] visible, missing;
 
   assign visible = (sum_ordinary || hull) ? 4'b1111 : {negative[1:0], positive[1:0]};
+  assign missing = {4{cornered_q && !sum_ordinary && !hull}} & {separated, separated};
 
   always_ff @(posedge clk_i) if (hand_over) {hull_o, visible_o} <= {hull, visible};
 
   // ---- Left out: both triangles of expression (12) without area, or turned away -------------------------------------------------
   // An ordinary quad's triangles have the areas of E01 + E12 + E20 and E23 + E30 - E20, anywhere; these five are there a clock before all
-  // is. A homogeneous quad's clauses are those of its determinants.
+  // is. A homogeneous quad's clauses are those of its determinants, but for triangles that miss the scissor.
   localparam int AREA = VAL + 2;
   logic [5*AREA-1:0] values;
   logic [AREA-1:0] area_012, area_023;
-  logic [3:0] area_signs_q, wanted;  // as the clauses of visible_o
+  logic [3:0] area_signs_q, wanted, turned;  // as the clauses of visible_o
 
   for (genvar g = 0; g < 5; g++) begin : gen_value
     assign values[g*AREA+:AREA] = AREA'($signed(lin_value_q[g*VAL+:VAL]));
@@ -478,6 +636,7 @@ module quad_setup #(
   assign area_012 = values[0+:AREA] + values[AREA+:AREA] + values[4*AREA+:AREA];
   assign area_023 = values[2*AREA+:AREA] + values[3*AREA+:AREA] - values[4*AREA+:AREA];
   assign wanted = {{2{cull_i != 2'd1}}, {2{cull_i != 2'd2}}};
+  assign turned = (sum_ordinary ? area_signs_q : visible) & wanted;
 
   always_ff @(posedge clk_i) begin
     area_signs_q <= {
@@ -486,7 +645,9 @@ module quad_setup #(
       !area_023[AREA-1] && area_023 != '0,
       !area_012[AREA-1] && area_012 != '0
     };
-    if (hand_over) left_out_q <= reject_i && ((sum_ordinary ? area_signs_q : visible) & wanted) == '0;
+    if (hand_over) begin
+      left_out_q <= (reject_i && turned == '0) || (turned != '0 && (turned & ~missing) == '0);
+    end
   end
 
   if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
@@ -495,7 +656,7 @@ module quad_setup #(
     always_ff @(posedge clk_i) if (hand_over) line_q <= (sum_ordinary ? area_signs_q : visible) == '0;
 
     assign count_line_o = line_q;
-    assign count_job_o = run_q && !wait_i && (is_edge || is_gradient || is_det);
+    assign count_job_o = run_q && !wait_i && (is_edge || is_gradient || is_det || is_side || is_corner);
     assign count_busy_o = front_q || sum_q || done_q;
   end else begin : gen_no_count
     assign {count_line_o, count_job_o, count_busy_o} = '0;
@@ -505,15 +666,16 @@ module quad_setup #(
   assign done_o = done_q && !left_out_q;
 
   logic unused;
-  assign unused = ^{last_column, det_step[4:3]};
+  assign unused = ^{last_column, det_step[5:3], side_step[5:3]};
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       assert (!start_i || (held_i && ready_o));
       assert (!take_i || done_o);
-      assert (!(edge_job || gradient_job || det_job) || sum_q || advance);  // results have a quad
+      assert (!(edge_job || gradient_job || det_job || side_job || corner_job) || sum_q || advance);  // results have a quad
       assert (!(edge_job || gradient_job || det_job) || !complete_q || hand_over);  // and do not overwrite one that waits
+      assert (!run_q || front_ordinary_q || step_q < CORNERS - 6'd1 || !front_q);  // a corner takes no vertex that is to move on
     end
   end
 `endif

@@ -46,6 +46,7 @@ ratio_products.sv
 reciprocal.sv
 root_ratio.sv
 row_functions.sv
+scissor_separation.sv
 setup_pair.sv
 shift_to_top.sv
 singular_class.sv

@@ -70,7 +70,7 @@ module quadrille (
 
   assign state = state_i;
   assign depth_on = state.depth;
-  assign unused_skip = ^state.skip[7:3];
+  assign unused_skip = ^state.skip[7:4];
 
   // ---- For performance_counters: 0 without them -----------------------------------------------------------------------------
   logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_walk;
@@ -150,7 +150,7 @@ module quadrille (
   logic [PAIRS*4-1:0] setup_function, context_function;
   logic [4*T-1:0] setup_job_x, setup_job_y, context_x, context_y;
   logic [4*W-1:0] setup_job_w, context_w;
-  logic [V:0] offset_x, offset_y;
+  logic [V:0] offset_x, offset_y, setup_offset_x, setup_offset_y;
   logic [PAIRS*VAL-1:0] edge_value;
   logic [PAIRS*GRAD-1:0] edge_gx, edge_gy;
   logic [PAIRS*T-1:0] xi, yi, xj, yj;
@@ -201,6 +201,8 @@ module quadrille (
       .x_o(setup_job_x),
       .y_o(setup_job_y),
       .w_o(setup_job_w),
+      .offset_x_o(setup_offset_x),
+      .offset_y_o(setup_offset_y),
       .edge_value_o(edge_value),
       .edge_gx_o(edge_gx),
       .edge_gy_o(edge_gy),
@@ -209,6 +211,7 @@ module quadrille (
       .result0_i(result0),
       .result1_i(result1),
       .reject_i(state.skip[1]),
+      .separate_i(state.skip[3]),
       .cull_i(state.cull),
       .take_i(take),
       .done_o(setup_done),
@@ -255,6 +258,8 @@ module quadrille (
       .setup_x_i(setup_job_x),
       .setup_y_i(setup_job_y),
       .setup_w_i(setup_job_w),
+      .setup_offset_x_i(setup_offset_x),
+      .setup_offset_y_i(setup_offset_y),
       .edge_value_i(edge_value),
       .edge_gx_i(edge_gx),
       .edge_gy_i(edge_gy),

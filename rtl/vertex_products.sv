@@ -41,6 +41,8 @@ module vertex_products #(
     input logic [4*T-1:0] setup_x_i,
     input logic [4*T-1:0] setup_y_i,
     input logic [4*W-1:0] setup_w_i,
+    input logic [V:0] setup_offset_x_i,  // pixels; a clock after the job
+    input logic [V:0] setup_offset_y_i,
     input logic [PAIRS*VAL-1:0] edge_value_i,
     input logic [PAIRS*GRAD-1:0] edge_gx_i,
     input logic [PAIRS*GRAD-1:0] edge_gy_i,
@@ -59,10 +61,16 @@ module vertex_products #(
 
   logic [4*T-1:0] x, y;
   logic [4*W-1:0] w;
+  logic tile_q;
+  logic [V:0] offset_x, offset_y;
 
   assign x = tile_valid_i ? tile_x_i : setup_x_i;
   assign y = tile_valid_i ? tile_y_i : setup_y_i;
   assign w = tile_valid_i ? tile_w_i : setup_w_i;
+  assign offset_x = tile_q ? offset_x_i : setup_offset_x_i;
+  assign offset_y = tile_q ? offset_y_i : setup_offset_y_i;
+
+  always_ff @(posedge clk_i) tile_q <= tile_valid_i;
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_pair
     // ---- Pair -------------------------------------------------------------------------------------------------------------
@@ -142,8 +150,8 @@ module vertex_products #(
           {a1, b1, c1, d1} = {x_j, x_j, y_j, y_j};
         end
         quadrille_pkg::MOVE: begin
-          {a0, b0, c0, d0} = {x_i, DOT'(1), w_i, DOT'(offset_x_i)};
-          {a1, b1, c1, d1} = {y_i, DOT'(1), w_i, DOT'(offset_y_i)};
+          {a0, b0, c0, d0} = {x_i, DOT'(1), w_i, DOT'(offset_x)};
+          {a1, b1, c1, d1} = {y_i, DOT'(1), w_i, DOT'(offset_y)};
         end
         quadrille_pkg::DET_VALUE: begin
           {a0, b0, c0, d0} = {w_i, DOT'(edge_value[31:0]), y_i, DOT'(0)};

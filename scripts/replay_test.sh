@@ -278,7 +278,7 @@ fault tile_context tile_context.sv "T'(offset_x_o) << FRAC" "T'(offset_x_o[TILE_
 fault tile_context tile_context.sv "GRAD'(\$signed(early_x)) << (FRAC + 1)" "GRAD'(\$signed(early_x)) << FRAC"
 fault tile_context tile_context.sv "4'd2, 4'd8: late_lanes" "4'd2, 4'd9: late_lanes"
 fault tile_context tile_context.sv "PRODUCT = 6'd3 + 6'(CLOCKS)" "PRODUCT = 6'd2 + 6'(CLOCKS)" # before the first vertices have moved
-fault tile_context vertex_products.sv "DOT'(offset_y_i)" "DOT'(offset_x_i)"
+fault tile_context vertex_products.sv "DOT'(offset_y)" "DOT'(offset_x)"
 fault tile_context vertex_products.sv "{a0, b0, c0, d0} = {x_i, w_j, w_i, x_j};" "{a0, b0, c0, d0} = {x_i, w_j, w_j, x_i};"
 # Bits that are dropped, each coefficient by itself.
 dropped=$work/dropped

@@ -1,10 +1,9 @@
 // Quads left out before their tiles are walked: the same fragments with and without, every quad of small grids and many
 // drawn around each rule's limit; and that what can be left out is.
-#include "model/quad_reject.hpp"
 #include "model/snap.hpp"
-#include "model/untimed.hpp"
 
 #include "golden/analysis/error_bound.hpp"
+#include "golden/model_test/both_ways.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "golden/scenes/stress.hpp"
 #include "model/support/prng.hpp"
@@ -22,96 +21,22 @@ namespace {
 
 using golden::Prng;
 
-using Counts = std::array<std::uint64_t, quad_reject_count>;
-constexpr std::array reasons{"none", "empty", "behind", "depth", "line", "culled"};
-
-/// Draws with and without the skip and compares.
-class BothWays {
- public:
-  BothWays(const Config& config, const DrawState& state)
-      : config_(config),
-        state_(skipping(state, state.skip | skip_quads)),
-        with_(config, skipping(state, state.skip | skip_quads), PixelEngine::plain),
-        without_(config, skipping(state, state.skip & ~std::uint32_t{skip_quads}), PixelEngine::plain) {}
-
-  /// Fragments of the quad; differences are failures.
-  std::size_t draw(const SnappedQuad& quad) {
-    std::vector<Fragment> kept, all;
-    with_.draw(quad, [&](std::span<const Fragment> f) { kept.insert(kept.end(), f.begin(), f.end()); });
-    without_.draw(quad, [&](std::span<const Fragment> f) { all.insert(all.end(), f.begin(), f.end()); });
-    EXPECT_TRUE(kept == all) << kept.size() << " fragments of " << all.size() << ", " << reason(quad);
-    return all.size();
-  }
-  Counts rejected() const { return with_.stats().rejected; }
-
- private:
-  std::string reason(const SnappedQuad& quad) const {
-    std::string text = reasons[static_cast<std::size_t>(quad_reject(quad, config_, state_))];
-    for (const SnappedVertex& v : quad.vertex)
-      text += " (" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.w) + ")";
-    return text;
-  }
-  static DrawState skipping(DrawState state, std::uint32_t skip) {
-    state.skip = skip;
-    return state;
-  }
-
-  Config config_;
-  DrawState state_;
-  UntimedModel with_, without_;
-};
-
-void add(Counts& to, const Counts& of) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] += of[i];
-}
-
-void print(const char* what, const Counts& counts) {
-  std::printf("%s:", what);
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    std::printf(" %s %llu", reasons[i], static_cast<unsigned long long>(counts[i]));
-  std::printf("\n");
-}
-
-Config tiny() {
-  Config c;
-  for (const auto& [key, value] : std::initializer_list<std::pair<const char*, int>>{
-           {"viewport_bits", 6}, {"subpixel_bits", 2}, {"homogeneous_frac_bits", 4}, {"significand_bits", 8}})
-    c.set(key, value);
-  c.validate();
-  return c;
-}
-
 /// Every quad of a 3 by 3 grid with w of -1, 0 and 1, but one in `stride`; rejected ones are a third and more of them.
 void grid(std::uint64_t stride) {
   const Config c = tiny();
-  std::vector<SnappedVertex> vertices;
-  const int one = 1 << c.frac();
-  for (const int w : {-1, 0, 1})
-    for (const int x : {0, 2, 4})
-      for (const int y : {0, 2, 4}) {
-        if (w == 0 && x == 2 && y == 2) continue;  // (0, 0, 0) relative to the grid's middle is no vertex
-        SnappedVertex v;
-        v.x = (w == 0 ? x - 2 : x * w) * one;
-        v.y = (w == 0 ? y - 2 : y * w) * one;
-        v.w = w * one;
-        v.k = {false, 0, 1u << (c.significand_bits - 1)};
-        v.z = {false, -1, 1u << (c.significand_bits - 1)};  // Z = 1/2
-        vertices.push_back(v);
-      }
+  const std::vector<SnappedVertex> vertices = grid_vertices(c);
   DrawState state;
   state.width = state.height = state.scissor_x1 = state.scissor_y1 = 5;
   state.attributes = 0;
-  Counts total{};
+  RejectCounts total{};
   std::uint64_t drawn = 0;
   for (const Cull cull : {Cull::none, Cull::front, Cull::back}) {
     state.cull = cull;
-    BothWays both(c, state);
+    BothWays both(c, state, skip_quads);
     const std::uint64_t n = vertices.size();
     for (std::uint64_t i = static_cast<std::uint64_t>(cull); i < n * n * n * n && !testing::Test::HasFailure();
          i += stride) {
-      SnappedQuad q;
-      q.vertex = {vertices[i % n], vertices[i / n % n], vertices[i / n / n % n], vertices[i / n / n / n]};
-      drawn += both.draw(q) != 0;
+      drawn += both.draw(grid_quad(vertices, i)) != 0;
       if (testing::Test::HasFailure()) std::printf("quad %llu\n", static_cast<unsigned long long>(i));
     }
     add(total, both.rejected());
@@ -119,7 +44,7 @@ void grid(std::uint64_t stride) {
   print("grid", total);
   std::printf("%llu quads have fragments\n", static_cast<unsigned long long>(drawn));
   for (const QuadReject r : {QuadReject::behind, QuadReject::line, QuadReject::culled})
-    EXPECT_GT(total[static_cast<std::size_t>(r)], 100u) << reasons[static_cast<std::size_t>(r)];
+    EXPECT_GT(total[static_cast<std::size_t>(r)], 100u) << reject_reasons[static_cast<std::size_t>(r)];
   EXPECT_GE(total[0], drawn);
   EXPECT_GT(drawn, 1000u);
 }
@@ -129,7 +54,7 @@ TEST(QuadReject, AllOfASmallGrid) { grid(1); }
 
 /// Families in draw states at random: scissors, culling, depth limits at corners' depths.
 TEST(QuadReject, FamiliesKeepTheirFragments) {
-  Counts total{};
+  RejectCounts total{};
   std::uint64_t fragments = 0;
   for (const golden::StressFamilyInfo& info : golden::stress_families())
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -139,7 +64,7 @@ TEST(QuadReject, FamiliesKeepTheirFragments) {
       const int size = 64;
       const std::vector<WindowQuad> quads = golden::make_stress(info.family, 60, seed, 1.0, size, size, 4);
       const DrawState state = golden::random_draw_state(c, size, size, quads, seed);
-      BothWays both(c, state);
+      BothWays both(c, state, skip_quads);
       for (const WindowQuad& q : quads) fragments += both.draw(snap_quad(q, c, state));
       add(total, both.rejected());
     }
@@ -147,14 +72,14 @@ TEST(QuadReject, FamiliesKeepTheirFragments) {
   EXPECT_GT(fragments, 100'000u);
   for (std::size_t i = 0; i < total.size(); ++i)
     if (i != static_cast<std::size_t>(QuadReject::depth)) {
-      EXPECT_GT(total[i], 10u) << reasons[i];
+      EXPECT_GT(total[i], 10u) << reject_reasons[i];
     }
 }
 
 /// Corners within some units of the last place of a limit, on either side, at every width and number of guard bits.
 TEST(QuadReject, DepthAtItsLimits) {
   Prng rng(5);
-  Counts total{};
+  RejectCounts total{};
   std::uint64_t kept_without_fragment = 0;
   for (int n = 0; n < 4000 && !HasFailure(); ++n) {
     Config c = tiny();
@@ -186,7 +111,7 @@ TEST(QuadReject, DepthAtItsLimits) {
       const double fraction = std::frexp(z, &exponent);
       v.z = {false, exponent - 1, static_cast<std::uint32_t>(std::ldexp(fraction, c.significand_bits))};
     }
-    BothWays both(c, state);
+    BothWays both(c, state, skip_quads);
     const std::size_t fragments = both.draw(q);
     add(total, both.rejected());
     kept_without_fragment += fragments == 0 && both.rejected()[0] != 0;

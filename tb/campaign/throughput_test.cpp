@@ -21,10 +21,13 @@ namespace {
 using golden::Prng;
 
 /// From quad to quad: beats and bounding box, or the steps. The pipeline of the dot units is not in it.
-constexpr double setup_clocks = 7, setup_clocks_homogeneous = 20;
-constexpr double setup_clocks_four_units = 6, setup_clocks_homogeneous_four_units = 12;
+/// A homogeneous quad's depend on skip_walk, whether it is asked whether it misses the scissor.
+constexpr double setup_clocks = 7, setup_clocks_homogeneous = 20, setup_clocks_homogeneous_walk = 40;
+constexpr double setup_clocks_four_units = 6, setup_clocks_homogeneous_four_units = 12,
+                 setup_clocks_homogeneous_walk_four_units = 25;
 constexpr std::uint64_t most_small_quad_clocks = 8;
-constexpr std::uint64_t most_setup_latency = 17, most_setup_latency_homogeneous = 31;
+constexpr std::uint64_t most_setup_latency = 17, most_setup_latency_homogeneous = 31,
+                        most_setup_latency_homogeneous_walk = 51;
 /// What the README claims, 0.999 and 0.977, to its last digit: clocks are exact, so any loss is one of the machine.
 constexpr double turned_squares_per_clock = 0.9985, concave_per_clock = 0.9765;
 /// Quads of 6x6 pixels; homogeneous ones of 12x12, whose pixels take three clocks each, with two tiles in flight.
@@ -197,8 +200,10 @@ TEST(Throughput, PixelsPerClock) {
 }
 
 /// One quad in an idle machine: clocks from the accepted fourth beat to the setup probe.
-std::uint64_t setup_latency(const SnappedQuad& quad, const Config& config) {
-  const Session r = run({quad}, config, draw_state());
+std::uint64_t setup_latency(const SnappedQuad& quad, const Config& config, std::uint32_t skip = skip_default) {
+  DrawState state = draw_state();
+  state.skip = skip;
+  const Session r = run({quad}, config, state);
   EXPECT_EQ(r.taken.size(), 1u);
   EXPECT_EQ(r.accepted.size(), 1u);
   return r.taken.empty() || r.accepted.empty() ? 0 : r.taken[0] - r.accepted[0];
@@ -206,16 +211,21 @@ std::uint64_t setup_latency(const SnappedQuad& quad, const Config& config) {
 
 TEST(Throughput, SetupLatency) {
   const Config config;
-  std::uint64_t ordinary = 0, homogeneous = 0;
+  std::uint64_t ordinary = 0, homogeneous = 0, homogeneous_walk = 0;
   for (const SnappedQuad& q : turned_squares(20, config, 3)) ordinary = std::max(ordinary, setup_latency(q, config));
-  for (const SnappedQuad& q : homogeneous_quads(20, 8, config, 3))
-    homogeneous = std::max(homogeneous, setup_latency(q, config));
-  std::printf("fourth beat to taken: %llu clocks ordinary, %llu homogeneous\n",
-              static_cast<unsigned long long>(ordinary), static_cast<unsigned long long>(homogeneous));
+  for (const SnappedQuad& q : homogeneous_quads(20, 8, config, 3)) {
+    homogeneous = std::max(homogeneous, setup_latency(q, config, skip_default & ~std::uint32_t{skip_walk}));
+    homogeneous_walk = std::max(homogeneous_walk, setup_latency(q, config));
+  }
+  std::printf("fourth beat to taken: %llu clocks ordinary, %llu homogeneous, with the scissor's test %llu\n",
+              static_cast<unsigned long long>(ordinary), static_cast<unsigned long long>(homogeneous),
+              static_cast<unsigned long long>(homogeneous_walk));
   EXPECT_GT(ordinary, 0u);
   EXPECT_LE(ordinary, most_setup_latency);
   EXPECT_GT(homogeneous, ordinary);
   EXPECT_LE(homogeneous, most_setup_latency_homogeneous);
+  EXPECT_GT(homogeneous_walk, homogeneous);
+  EXPECT_LE(homogeneous_walk, most_setup_latency_homogeneous_walk);
 }
 
 /// Quads without a pixel, back to back, with quads enough in flight: the interval between two of them is the setup's
@@ -229,7 +239,7 @@ TEST(Throughput, SetupInitiationInterval) {
       auto quads = homogeneous ? homogeneous_quads(200, 8, config, 4) : turned_squares(200, config, 4);
       DrawState state = draw_state();
       state.scissor_x1 = state.scissor_x0 = 100;  // empty
-      state.skip &= ~std::uint32_t{skip_quads};
+      state.skip = skip_tiles;
       const Session r = run(quads, config, state);
       ASSERT_EQ(r.taken.size(), quads.size());
       const double interval = static_cast<double>(r.taken[199] - r.taken[9]) / 190;  // the first ones find it empty
@@ -240,6 +250,14 @@ TEST(Throughput, SetupInitiationInterval) {
       else
         EXPECT_LE(interval, homogeneous ? setup_clocks_homogeneous_four_units : setup_clocks_four_units);
       EXPECT_EQ(r.fragments, 0u);
+      if (!homogeneous) continue;
+      state.skip = skip_tiles | skip_walk;
+      const Session left_out = run(quads, config, state);
+      EXPECT_TRUE(left_out.taken.empty()) << "they miss the scissor";
+      const double left_out_interval = static_cast<double>(left_out.accepted[199] - left_out.accepted[9]) / 190;
+      std::printf("that miss the scissor, %d dot units: %.2f clocks\n", units, left_out_interval);
+      EXPECT_LE(left_out_interval,
+                units == 2 ? setup_clocks_homogeneous_walk : setup_clocks_homogeneous_walk_four_units);
     }
   }
 }

@@ -56,7 +56,7 @@ struct InputResult {
   std::uint64_t pass_cycles = 0;     ///< of all passes
   std::uint64_t at_depth_limit = 0;  ///< fragments whose depth is exactly znear or zfar (where not 0 and 1)
   std::uint64_t left_out = 0, left_out_empty = 0, left_out_behind = 0, left_out_depth = 0, left_out_line = 0,
-                left_out_culled = 0;  ///< quads, by QuadReject
+                left_out_culled = 0, left_out_outside = 0;  ///< quads, by QuadReject
   PerformanceCounters counters;
   std::uint64_t alone_cycles = 0;
   double alone_seconds = 0, seconds = 0, loop_seconds = 0;
@@ -92,7 +92,7 @@ constexpr Metric count_metrics[]{
     {"at_depth_limit", &InputResult::at_depth_limit},         {"left_out", &InputResult::left_out},
     {"left_out_empty", &InputResult::left_out_empty},         {"left_out_behind", &InputResult::left_out_behind},
     {"left_out_depth", &InputResult::left_out_depth},         {"left_out_line", &InputResult::left_out_line},
-    {"left_out_culled", &InputResult::left_out_culled}};
+    {"left_out_culled", &InputResult::left_out_culled},       {"left_out_outside", &InputResult::left_out_outside}};
 
 template <class Owner>
 void put_counters(nlohmann::ordered_json& json, const Owner& owner,
@@ -392,6 +392,7 @@ class CosimRun {
       result.left_out_depth += reject == QuadReject::depth;
       result.left_out_line += reject == QuadReject::line;
       result.left_out_culled += reject == QuadReject::culled;
+      result.left_out_outside += reject == QuadReject::outside;
     }
     if (!options_.no_alone && report.agreed()) time_alone(snapped, lockstep, report, result);
   }
@@ -553,7 +554,8 @@ class CosimRun {
       print(
           "                 {left_out} quads left out: {left_out_empty} without a pixel centre, {left_out_behind} "
           "behind "
-          "the eye, {left_out_depth} outside znear and zfar, {left_out_line} on a line, {left_out_culled} culled\n",
+          "the eye, {left_out_depth} outside znear and zfar, {left_out_line} on a line, {left_out_culled} culled, "
+          "{left_out_outside} homogeneous ones that miss the scissor\n",
           json.at("counts"));
     if (r.fanned_faces)
       print("                 {fanned_faces} faces with more than four corners cut into {fan_primitives} primitives\n",

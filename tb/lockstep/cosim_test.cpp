@@ -158,7 +158,11 @@ TEST_P(Configuration, LockstepInEveryDrawState) {
     state.perspective = i % 2 == 0;
     state.depth = i % 4 != 1;
     state.attributes = i % (options.config.attribute_slots + 1);
-    state.skip = i % 5 == 0 ? 0u : i % 5 == 1 ? skip_tiles : i % 5 == 2 ? skip_quads : skip_default;
+    state.skip = i % 5 == 0   ? 0u
+                 : i % 5 == 1 ? skip_tiles
+                 : i % 5 == 2 ? skip_quads
+                 : i % 5 == 3 ? skip_walk
+                              : skip_default;
     state.znear = i % 3 == 0 ? 0.25 : 0;
     state.zfar = i % 3 == 1 ? 0.75 : 1;
     if (i >= 6) {
@@ -247,7 +251,7 @@ TEST_P(Configuration, LockstepAcrossQuadsLeftOut) {
     q.id = id;
     const double x = rng.uniform(0, 40), y = rng.uniform(0, 40), dx = rng.uniform(1, 6), dy = rng.uniform(1, 6);
     q.vertex = {{{x, y, 0.5, 1}, {x + dx, y, 0.5, 1}, {x + dx, y + dy, 0.5, 1}, {x, y + dy, 0.5, 1}}};
-    switch (rng.below(9)) {
+    switch (rng.below(10)) {
       case 0:  // beside the screen
         for (WindowVertex& v : q.vertex) v.x += 60;
         break;
@@ -269,6 +273,11 @@ TEST_P(Configuration, LockstepAcrossQuadsLeftOut) {
       case 6:  // turned away, seen from behind the eye: homogeneous
         std::swap(q.vertex[1], q.vertex[3]);
         q.vertex[0] = {-x, -y, -0.5, -1};
+        break;
+      case 7:  // from the right of the screen to infinity on the right
+        for (WindowVertex& v : q.vertex) v.x += 60;
+        q.vertex[0] = {500, -y, -0.5, -1};
+        if (id % 2 == 0) std::swap(q.vertex[1], q.vertex[3]);
         break;
       default:
         break;

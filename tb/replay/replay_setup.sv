@@ -63,6 +63,7 @@ module replay_setup (
   logic [PAIRS*T-1:0] xi, yi, xj, yj;
   logic drop;
   logic count_line, count_job, count_busy;  // of performance_counters
+  logic [V:0] offset_x, offset_y;
 
   vertex_products u_products (
       .clk_i,
@@ -74,6 +75,8 @@ module replay_setup (
       .tile_w_i((4 * W)'(0)),
       .offset_x_i((V + 1)'(0)),
       .offset_y_i((V + 1)'(0)),
+      .setup_offset_x_i(offset_x),
+      .setup_offset_y_i(offset_y),
       .setup_kind_i(job_kind),
       .setup_function_i(job_function),
       .setup_x_i(job_x),
@@ -99,6 +102,8 @@ module replay_setup (
       .x_o(job_x),
       .y_o(job_y),
       .w_o(job_w),
+      .offset_x_o(offset_x),
+      .offset_y_o(offset_y),
       .edge_value_o(edge_value),
       .edge_gx_o(edge_gx),
       .edge_gy_o(edge_gy),
@@ -117,6 +122,7 @@ module replay_setup (
       .slot_i(SLOT'(0)),
       .empty_i(empty_x || empty_y),
       .reject_i(1'b0),
+      .separate_i(1'b0),
       .cull_i(2'd0),
       .drop_o(drop),
       .count_line_o(count_line),

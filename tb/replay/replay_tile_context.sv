@@ -68,6 +68,8 @@ module replay_tile_context (
       .setup_x_i((4 * T)'(0)),
       .setup_y_i((4 * T)'(0)),
       .setup_w_i((4 * W)'(0)),
+      .setup_offset_x_i((V + 1)'(0)),
+      .setup_offset_y_i((V + 1)'(0)),
       .edge_value_i((PAIRS * quadrille_pkg::VAL_BITS)'(0)),
       .edge_gx_i((PAIRS * quadrille_pkg::GRAD_BITS)'(0)),
       .edge_gy_i((PAIRS * quadrille_pkg::GRAD_BITS)'(0)),
