@@ -310,6 +310,22 @@ double to_double(const PipelineFloat& v, int s) {
   return std::ldexp(v.neg ? -static_cast<double>(v.sig) : static_cast<double>(v.sig), v.exp - (s - 1));
 }
 
+namespace {
+
+/// The factor ±2^n or 0 by which `of` gives `values`, if there is one.
+QuadLanes::Factor power_of_two_factor(const std::array<double, 4>& values, const std::array<double, 4>& of) {
+  double factor = 0;
+  for (std::size_t i = 0; i < 4 && factor == 0; ++i)
+    if (of[i] != 0) factor = values[i] / of[i];
+  int exponent = 0;
+  if (factor != 0 && std::fabs(std::frexp(factor, &exponent)) != 0.5) return std::nullopt;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (values[i] != of[i] * factor) return std::nullopt;
+  return factor;
+}
+
+}  // namespace
+
 QuadLanes::QuadLanes(const QuadData& quad, const PipelineContext& c) {
   const int s = c.format.s;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -318,6 +334,14 @@ QuadLanes::QuadLanes(const QuadData& quad, const PipelineContext& c) {
     z[i] = to_double(quad.z[i], s);
     for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) b[j][i] = to_double(quad.b[i][j], s);
   }
+  if ((c.state.skip & skip_operands) == 0) return;
+  sum_k = quad.sum_k;
+  sum_w = c.state.depth || quad.hull;
+  if (sum_k && sum_w)
+    if (const Factor factor = power_of_two_factor(w, k); factor && *factor != 0) w_of_k = factor;
+  if (c.state.depth) z_of_w = power_of_two_factor(z, w);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j)
+    b_of_k[j] = power_of_two_factor(b[j], k);
 }
 
 LaneTable::LaneTable(const Table& table) : segments_log2(table.segments_log2), rest_bits(table.rest_bits) {
@@ -349,13 +373,21 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);
 
     // Sums, reciprocals, fixed point.
-    const V den_k = arithmetic.sum4(weights.m, exponent_m, values.k.data());
-    const V den_w = arithmetic.sum4(weights.m, exponent_m, values.w.data());
-    const V rec_k = recip_lanes(den_k, tables.recip, s);
+    const auto sum = [&](const std::array<double, 4>& v)
+                         LANE_LAMBDA { return arithmetic.sum4(weights.m, exponent_m, v.data()); };
+    V den_k{}, rec_k{}, den_w{};
+    if (values.sum_k) {
+      den_k = sum(values.k);
+      rec_k = recip_lanes(den_k, tables.recip, s);
+    }
+    if (values.w_of_k)
+      den_w = den_k * *values.w_of_k;
+    else if (values.sum_w)
+      den_w = sum(values.w);
     I saturated{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) {
-      const FixedLanes f = attribute_stage(arithmetic.sum4(weights.m, exponent_m, values.b[j].data()), rec_k,
-                                           c.config.attribute_int_bits, c.attribute_frac);
+      const V num = values.b_of_k[j] ? den_k * *values.b_of_k[j] : sum(values.b[j]);
+      const FixedLanes f = attribute_stage(num, rec_k, c.config.attribute_int_bits, c.attribute_frac);
       saturated |= f.over;
       const I fixed = (to_integer(f.q) ^ f.sign) - f.sign;
       for (int l = 0; l < lane_count; ++l) out.attribute[j][static_cast<std::size_t>(l)] = fixed[l];
@@ -364,8 +396,9 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     I discard{};
     if (quad.hull) discard = ~(den_w > 0);
     if (c.state.depth) {
-      const DepthLanes z = depth_stage(arithmetic.sum4(weights.m, exponent_m, values.z.data()), den_w,
-                                       recip_lanes(den_w, tables.recip, s), c.config.depth_bits, c.znear, c.zfar);
+      const V num_z = values.z_of_w ? den_w * *values.z_of_w : sum(values.z);
+      const V rec_w = values.w_of_k ? rec_k * (1 / *values.w_of_k) : recip_lanes(den_w, tables.recip, s);
+      const DepthLanes z = depth_stage(num_z, den_w, rec_w, c.config.depth_bits, c.znear, c.zfar);
       discard |= z.discard;
       for (int l = 0; l < lane_count; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.q[l]);
     } else {

@@ -8,14 +8,26 @@
 
 #include "model/pixel_pipeline.hpp"
 
+#include <optional>
+
 namespace quadrille {
 
 inline constexpr int lane_count = 8;
 
 /// A quad's data as doubles; see QuadData.
+///
+/// Numbers of the four vertices that are those of k times one factor ±2^n, or all 0, have the sum of k times it, bit
+/// for bit: alignment is relative to the largest exponent and truncation toward zero, so that neither sees the factor.
+/// With skip_operands their sums are not formed, and W's reciprocal is k's. (No other constant attribute may be left
+/// out: what its sum's and k's truncation leave differs from pixel to pixel.)
 struct QuadLanes {
+  using Factor = std::optional<double>;  ///< nothing: the sum is formed
+
   std::array<double, 4> k{}, w{}, z{};
   std::array<std::array<double, 4>, max_attribute_slots> b{};  ///< [attribute][vertex]
+  bool sum_k = true, sum_w = true;                             ///< wanted at all
+  Factor w_of_k, z_of_w;
+  std::array<Factor, max_attribute_slots> b_of_k{};
 
   QuadLanes() = default;
   QuadLanes(const QuadData& quad, const PipelineContext& c);

@@ -1,5 +1,7 @@
 #include "model/pixel_pipeline.hpp"
 
+#include <algorithm>
+
 namespace quadrille {
 namespace {
 
@@ -31,6 +33,12 @@ QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Conf
     d.z[i] = from_port(v.z);
     for (std::size_t j = 0; j < max_attribute_slots; ++j) d.b[i][j] = from_port(v.attribute[j]);
   }
+  if ((state.skip & skip_operands) != 0) {
+    d.sum_k = state.attributes > 0;
+    if (!state.depth && !setup.hull) d.w = {};
+    if (!state.depth) d.z = {};
+    for (auto& b : d.b) std::fill(b.begin() + state.attributes, b.end(), PipelineFloat{});
+  }
   return d;
 }
 
@@ -45,10 +53,16 @@ void pixel_lane(PixelTrace& p, const TileRow& row, const QuadConstants& constant
   p.hull = quad.hull;
   forward_difference_column(p, row, constants, dx);
   normalise(p, c);
-  sqrt_stage(p, c);
-  mean_value_ratios(p, c);
+  if ((c.state.skip & skip_operands) != 0 && (p.two_corner || p.on_vertex)) {
+    p.a_fp = p.d_fp = p.u = p.v = {};
+    p.r2_fp = p.root = {};
+  } else {
+    sqrt_stage(p, c);
+    mean_value_ratios(p, c);
+  }
   mean_value_weights(p, quad, c);
   interpolate(p, quad, c);
+  if (!quad.sum_k) p.den_k = {};
   fragment_output(p, quad, c);
 }
 

@@ -15,12 +15,15 @@ namespace quadrille {
 struct QuadData {
   std::uint32_t id = 0;
   bool homogeneous = false, hull = false;
+  bool sum_k = true;                 ///< the sum of M k is formed, not left 0
   std::array<PipelineFloat, 4> k{};  ///< k_eff: k, or W when perspective is off
   std::array<PipelineFloat, 4> w{};  ///< W truncated to S bits
   std::array<PipelineFloat, 4> z{};  ///< Z
   std::array<std::array<PipelineFloat, max_attribute_slots>, 4> b{};
 };
 
+/// With skip_operands what no sum needs is zero: W without depth and hull, Z without depth, attributes not in use; of
+/// k, which the weights need too, sum_k says so.
 QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Config& config, const DrawState& state);
 
 /// Everything constant over a draw that the stages look up.
@@ -65,7 +68,8 @@ void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 /// Two reciprocals, fixed point, flags, discard.
 void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 
-/// All that a pixel has of its own, from its row on.
+/// All that a pixel has of its own, from its row on. With skip_operands a pixel on a corner has no significand numbers,
+/// roots and ratios: its weights are the corner's.
 void pixel_lane(PixelTrace& p, const TileRow& row, const QuadConstants& constants, const QuadData& quad, int dx,
                 const PipelineContext& c);
 

@@ -32,10 +32,12 @@ enum SkipBit : std::uint32_t {
   /// depth test LESS and depth writes, that no fragment is discarded afterwards, and nothing blended: the picture is
   /// the same, the list of fragments is not.
   skip_hidden = 1u << 2,
-  skip_walk = 1u << 3,   ///< homogeneous quads: what misses the scissor (scissor_separation)
+  skip_walk = 1u << 3,  ///< homogeneous quads: what misses the scissor (scissor_separation)
+  /// Work inside a pixel that its fragment does not depend on: its operands do not switch, in software it is left out.
+  skip_operands = 1u << 4,
 };
 /// Those that keep the list of fragments: on unless switched off.
-inline constexpr std::uint32_t skip_default = skip_tiles | skip_quads | skip_walk;
+inline constexpr std::uint32_t skip_default = skip_tiles | skip_quads | skip_walk | skip_operands;
 
 /// Why a quad is left out, the first reason that holds.
 enum class QuadReject : std::uint8_t {

@@ -1,6 +1,8 @@
 // fp_from_magnitude of README.md section 2: an unsigned integer becomes a significand number. Latency FP_NORMALISE_STAGES (2): the long
 // shifts, then the short ones; one per clock. Combinational with REGISTERED = 0.
 //
+// The last register is written in clocks with active_i, else it holds: what stands behind it does not switch.
+//
 // value = magnitude * 2^(bias) read as integer: p = index of the highest one, sig has it at bit S-1 (lower bits dropped,
 // truncation), exp = p + bias. Magnitude 0 gives exp = 0, sig = 0.
 module fp_normalise #(
@@ -10,6 +12,7 @@ module fp_normalise #(
     localparam int E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
+    input logic active_i,
     input logic [WIDTH-1:0] magnitude_i,
     input logic [E-1:0] bias_i,
     output logic [E-1:0] exp_o,
@@ -63,9 +66,11 @@ module fp_normalise #(
   assign sig = S'(fine >> (KEPT - S));
   assign exp = !fine[KEPT-1] ? '0 : top_exp_q - E'({high_count_q, low_count});
 
-  delay_line #(.WIDTH(E + S), .DEPTH(32'(REGISTERED))) u_fine_q (
-      .clk_i,
-      .data_i({exp, sig}),
-      .data_o({exp_o, sig_o})
-  );
+  if (REGISTERED) begin : gen_register
+    always_ff @(posedge clk_i) if (active_i) {exp_o, sig_o} <= {exp, sig};
+  end else begin : gen_wire
+    logic unused;
+    assign unused = active_i;
+    assign {exp_o, sig_o} = {exp, sig};
+  end
 endmodule

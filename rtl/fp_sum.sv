@@ -121,6 +121,7 @@ module fp_sum #(
 
   fp_normalise #(.WIDTH(MAG)) u_normalise (
       .clk_i,
+      .active_i(1'b1),
       .magnitude_i(magnitude_q),
       .bias_i(magnitude_exp_q - E'(PREC)),
       .exp_o,

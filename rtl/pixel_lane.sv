@@ -26,6 +26,7 @@ module pixel_lane #(
     input logic clk_i,
     input logic rst_ni,
     // Draw state
+    input logic hold_i,  // skip bit 4
     input logic depth_on_i,
     input logic [DB:0] znear_i,
     input logic [DB:0] zfar_i,
@@ -190,6 +191,17 @@ module pixel_lane #(
   );
 
   // ---- Significand numbers and class -------------------------------------------------------------------------------------
+  // Of a pixel on a corner the weights are the corner's: nothing between here and weight_factors is looked at. Its numbers, and all of
+  // what is no pixel, as the first parts of a homogeneous one, are not taken on, so that the operands of everything up to the weights
+  // stay as they are.
+  logic corner;
+  logic norm_active_q, class_active_q;
+
+  always_ff @(posedge clk_i) begin
+    norm_active_q <= !hold_i || (valid_q[NORM-2] && !corner);
+    class_active_q <= !hold_i || valid_q[NORM-2];
+  end
+
   logic [5:0] norm_a_neg;
   logic [6*E-1:0] norm_a_exp, norm_d_exp;
   logic [6*S-1:0] norm_a_sig, norm_d_sig;
@@ -203,6 +215,7 @@ module pixel_lane #(
         .BIAS(-quadrille_pkg::QDROP)
     ) u_a (
         .clk_i,
+        .active_i(norm_active_q),
         .value_i(diff_a[g*VAL+:VAL]),
         .neg_o(norm_a_neg[g]),
         .exp_o(norm_a_exp[g*E+:E]),
@@ -211,6 +224,7 @@ module pixel_lane #(
 
     normalise #(.WIDTH(QVAL)) u_d (
         .clk_i,
+        .active_i(norm_active_q),
         .value_i(diff_d[g*QVAL+:QVAL]),
         .neg_o(norm_d_neg[g]),
         .exp_o(norm_d_exp[g*E+:E]),
@@ -224,6 +238,7 @@ module pixel_lane #(
         .CLAMP(1'b1)
     ) u_r2 (
         .clk_i,
+        .active_i(norm_active_q),
         .value_i(diff_r2[g*QVAL+:QVAL]),
         .neg_o(norm_r2_neg[g]),
         .exp_o(norm_r2_exp[g*E+:E]),
@@ -233,9 +248,11 @@ module pixel_lane #(
 
   singular_class u_class (
       .clk_i,
+      .active_i(class_active_q),
       .a_i(diff_a[0+:4*VAL]),
       .d_i(diff_d[0+:4*QVAL]),
       .r2_i(diff_r2),
+      .corner_o(corner),
       .class_o(norm_class)
   );
 

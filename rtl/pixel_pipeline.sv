@@ -27,6 +27,7 @@ module pixel_pipeline #(
     input logic clk_i,
     input logic rst_ni,
     // Draw state
+    input logic hold_i,  // operands that nothing depends on do not switch (skip bit 4)
     input logic depth_on_i,
     input logic [DB:0] znear_i,
     input logic [DB:0] zfar_i,
@@ -64,6 +65,7 @@ module pixel_pipeline #(
     input logic [SETS*4-1:0] blend_neg_i,
     input logic [SETS*4*PE-1:0] blend_exp_i,
     input logic [SETS*4*S-1:0] blend_sig_i,
+    input logic blend_hull_i,
     output logic [SLOT-1:0] output_slot_o,
     input logic [ID-1:0] output_id_i,
     input logic output_hull_i,
@@ -136,13 +138,35 @@ module pixel_pipeline #(
     product_k_sig <= product_k_sig_i;
     override_k_exp <= override_k_exp_i;
     override_k_sig <= override_k_sig_i;
-    blend_neg <= blend_neg_i;
-    blend_exp <= blend_exp_i;
-    blend_sig <= blend_sig_i;
     output_id <= output_id_i;
     output_hull <= output_hull_i;
     output_homogeneous <= output_homogeneous_i;
     fragment_tag <= output_tag;
+  end
+
+  // Sums that the fragment does not depend on are those of zeros, by the registers' reset: neither their products nor what follows
+  // from them switches. k_eff divides the attributes; W divides Z and says, of a quad whose hull holds the eye, what is behind it.
+  logic [SETS-1:0] sum_active;
+
+  assign sum_active[0] = !hold_i || attributes_i != '0;
+  assign sum_active[1] = !hold_i || depth_on_i || blend_hull_i;
+  assign sum_active[2] = !hold_i || depth_on_i;
+
+  for (genvar g = 0; g < SETS; g++) begin : gen_term
+    if (g >= 3) begin : gen_attribute
+      assign sum_active[g] = !hold_i || attributes_i > 4'(g - 3);
+    end
+
+    always_ff @(posedge clk_i) begin
+      blend_neg[g*4+:4] <= blend_neg_i[g*4+:4];
+      blend_exp[g*4*PE+:4*PE] <= blend_exp_i[g*4*PE+:4*PE];
+      blend_sig[g*4*S+:4*S] <= blend_sig_i[g*4*S+:4*S];
+      if (!sum_active[g]) begin
+        blend_neg[g*4+:4] <= '0;
+        blend_exp[g*4*PE+:4*PE] <= '0;
+        blend_sig[g*4*S+:4*S] <= '0;
+      end
+    end
   end
 
   // ---- The row: value + r gy of all functions ---------------------------------------------------------------------------------
@@ -201,6 +225,7 @@ module pixel_pipeline #(
     pixel_lane u_lane (
         .clk_i,
         .rst_ni,
+        .hold_i,
         .depth_on_i,
         .znear_i,
         .zfar_i,

@@ -75,6 +75,7 @@ module quad_slots #(
     output logic [(3+N)*4-1:0] blend_neg_o,
     output logic [(3+N)*4*PE-1:0] blend_exp_o,
     output logic [(3+N)*4*S-1:0] blend_sig_o,
+    output logic blend_hull_o,
     // Read for the output
     input logic [SLOT-1:0] output_slot_i,
     output logic [ID-1:0] output_id_o,
@@ -212,6 +213,7 @@ module quad_slots #(
       stamp_q[take_slot_i] <= {tie_pos_i, tie_neg_i, visible_i};
       class_q[take_slot_i] <= {hull_i, homogeneous_i};
     end
+    blend_hull_o <= class_q[blend_slot_i][1];
     if (stamp_load_i) {stamp_tie_pos_o, stamp_tie_neg_o, stamp_visible_o} <= stamp_q[stamp_slot_i];
   end
 

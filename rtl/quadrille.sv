@@ -70,7 +70,7 @@ module quadrille (
 
   assign state = state_i;
   assign depth_on = state.depth;
-  assign unused_skip = ^state.skip[7:4];
+  assign unused_skip = ^state.skip[7:5];
 
   // ---- For performance_counters: 0 without them -----------------------------------------------------------------------------
   logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_walk;
@@ -287,6 +287,7 @@ module quadrille (
   logic [SETS*4-1:0] blend_neg;
   logic [SETS*4*PE-1:0] blend_exp;
   logic [SETS*4*S-1:0] blend_sig;
+  logic blend_hull;
   logic [ID-1:0] output_id;
   logic output_hull, output_homogeneous;
 
@@ -344,6 +345,7 @@ module quadrille (
       .blend_neg_o(blend_neg),
       .blend_exp_o(blend_exp),
       .blend_sig_o(blend_sig),
+      .blend_hull_o(blend_hull),
       .output_slot_i(output_slot),
       .output_id_o(output_id),
       .output_hull_o(output_hull),
@@ -699,6 +701,7 @@ module quadrille (
   pixel_pipeline u_pipeline (
       .clk_i,
       .rst_ni,
+      .hold_i(state.skip[4]),
       .depth_on_i(depth_on),
       .znear_i(state.znear),
       .zfar_i(state.zfar),
@@ -733,6 +736,7 @@ module quadrille (
       .blend_neg_i(blend_neg),
       .blend_exp_i(blend_exp),
       .blend_sig_i(blend_sig),
+      .blend_hull_i(blend_hull),
       .output_slot_o(output_slot),
       .output_id_i(output_id),
       .output_hull_i(output_hull),

@@ -1,6 +1,9 @@
 // Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, whether an edge turns
 // backward. Latency NORMALISE_STAGES, one pixel per clock.
 //
+// The result's register is written in clocks with active_i, else it holds. corner_o, one clock after the integers: the pixel is on a
+// corner or more.
+//
 // class_o: quadrille_pkg::CLASS_* names its bits. notch: two neighbouring A have strictly opposite signs, and no override applies; it
 // is for the fragment's flag alone.
 module singular_class #(
@@ -9,9 +12,11 @@ module singular_class #(
     localparam int CLASS = quadrille_pkg::CLASS_BITS
 ) (
     input logic clk_i,
+    input logic active_i,
     input logic [4*VAL-1:0] a_i,
     input logic [4*QVAL-1:0] d_i,
     input logic [4*QVAL-1:0] r2_i,
+    output logic corner_o,
     output logic [CLASS-1:0] class_o
 );
   // Stage 1: signs.
@@ -47,6 +52,7 @@ module singular_class #(
   assign many_corners = (corner_q & (corner_q - 4'd1)) != 4'd0;
   assign any_edge = edge_q != 4'd0;
   assign many_edges = (edge_q & (edge_q - 4'd1)) != 4'd0;
+  assign corner_o = any_corner;
   assign two_corner = many_corners;
   assign on_vertex = any_corner && !many_corners;
   assign two_edge = !any_corner && many_edges;
@@ -58,7 +64,7 @@ module singular_class #(
   assign first = concerned[0] ? 2'd0 : concerned[1] ? 2'd1 : concerned[2] ? 2'd2 : 2'd3;
   assign second = others[1] ? 2'd1 : others[2] ? 2'd2 : 2'd3;
 
-  logic [CLASS-1:0] word;
+  logic [CLASS-1:0] word, late_word;
 
   assign word[quadrille_pkg::CLASS_TWO_CORNER] = two_corner;
   assign word[quadrille_pkg::CLASS_ON_VERTEX] = on_vertex;
@@ -68,9 +74,11 @@ module singular_class #(
   assign word[quadrille_pkg::CLASS_FIRST+:2] = first;
   assign word[quadrille_pkg::CLASS_SECOND+:2] = second;
 
-  delay_line #(.WIDTH(CLASS), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 1)) u_delay (
+  delay_line #(.WIDTH(CLASS), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 2)) u_delay (
       .clk_i,
       .data_i(word),
-      .data_o(class_o)
+      .data_o(late_word)
   );
+
+  always_ff @(posedge clk_i) if (active_i) class_o <= late_word;
 endmodule

@@ -167,6 +167,7 @@ module vertex_assembly #(
       .REGISTERED(1'b0)
   ) u_w (
       .clk_i,
+      .active_i(1'b1),
       .magnitude_i(w_magnitude),
       .bias_i(E'(0) - E'(quadrille_pkg::FRAC)),
       .exp_o(w_exp),

@@ -39,7 +39,7 @@ KINDS = {"eye_crossing": 10_000, "near_edge": 10_000, "near_vertex": 10_000, "ti
 FRAGMENTS = (2_000_000, 200_000)
 # Fragments that must have been compared in draws of each kind, in the whole campaign and in its short form.
 DRAWN_KINDS = {
-    **dict.fromkeys(["scissor", "cull", "no_perspective", "no_depth", "znear", "zfar", "fewer_attributes", "no_tile_skip", "no_quad_skip", "no_walk_skip",
+    **dict.fromkeys(["scissor", "cull", "no_perspective", "no_depth", "znear", "zfar", "fewer_attributes", "no_tile_skip", "no_quad_skip", "no_walk_skip", "no_operand_skip",
                      "dropped_bits", "over_256_px"], (50_000, 4_000)), "at_depth_limit": (1_000, 2), "stall_0.95": (10_000, 2_000),
 }
 DRAWN_RUNS = (3, 2)  # of each input
@@ -201,11 +201,11 @@ class Campaign:
                 state = report["draw_state"]
                 fragments = report["fragments"]
                 words = state.split()
-                skips = words[words.index("--skip") + 1].split(",") if "--skip" in words else ["tiles", "quads", "walk"]
+                skips = words[words.index("--skip") + 1].split(",") if "--skip" in words else ["tiles", "quads", "walk", "operands"]
                 held = {"scissor": "--scissor" in state, "cull": "--cull" in state, "no_perspective": "--no-perspective" in state,
                         "no_depth": "--no-depth" in state, "znear": "--znear" in state and "--no-depth" not in state,
                         "zfar": "--zfar" in state and "--no-depth" not in state, "fewer_attributes": "--attributes" in state,
-                        "no_tile_skip": "tiles" not in skips, "no_quad_skip": "quads" not in skips, "no_walk_skip": "walk" not in skips, "dropped_bits": not report["bound"]["applies"],
+                        "no_tile_skip": "tiles" not in skips, "no_quad_skip": "quads" not in skips, "no_walk_skip": "walk" not in skips, "no_operand_skip": "operands" not in skips, "dropped_bits": not report["bound"]["applies"],
                         "over_256_px": max(width, height) > 256, "stall_0.95": stall == 0.95}
                 for kind, holds in held.items():
                     kinds[kind] += fragments if holds else 0

@@ -326,6 +326,71 @@ TEST(Clocked, QuadsWithoutFragmentsComeAndGo) {
   EXPECT_TRUE(clocked_stream({}, c, s, 1, 0, 0).empty());
 }
 
+/// Makes something of the quad constant, by the generator: attributes that are k times 0 or a power of two, one that is
+/// constant otherwise, a flat depth, k = W, equal k.
+void make_constant(SnappedQuad& quad, Prng& rng, const Config& c) {
+  const int fill = c.significand_bits - 1;
+  const bool k_is_w = rng.chance(0.4), equal_k = rng.chance(0.3), flat = rng.chance(0.5);
+  const int z_exp = -static_cast<int>(rng.integer(1, 4));
+  std::vector<int> kind, exp;
+  for (std::size_t j = 0; j < max_attribute_slots; ++j) {
+    kind.push_back(static_cast<int>(rng.below(5)));
+    exp.push_back(-static_cast<int>(rng.below(4)));
+  }
+  const PortNumber k0 = quad.vertex[0].k;
+  for (SnappedVertex& v : quad.vertex) {
+    const PipelineFloat w = fp_from_signed(v.w, -c.frac(), {c.significand_bits, c.align_guard_bits});
+    if (equal_k) v.k = k0;
+    if (k_is_w && v.w > 0) v.k = {false, w.exp, w.sig};
+    if (flat) v.z = {w.neg, w.exp + z_exp, w.sig};
+    for (std::size_t j = 0; j < max_attribute_slots; ++j) {
+      if (kind[j] == 0) v.attribute[j] = {};
+      if (kind[j] == 1) v.attribute[j] = {exp[j] % 2 != 0, v.k.exp + exp[j], v.k.sig};
+      if (kind[j] == 2) v.attribute[j] = {false, exp[j], (1u << fill) + 3};
+    }
+  }
+}
+
+/// The same fragments with skip_operands in either engine as without in the plain one.
+TEST(PixelPipeline, LeavesNothingOutThatAFragmentNeeds) {
+  Prng rng(900);
+  std::uint64_t fragments = 0, corners = 0, nothing = 0, shared = 0;
+  for (const auto& info : golden::stress_families())
+    for (int n = 0; n < 24; ++n) {
+      const Config c = random_config(rng);
+      DrawState s = square(40);
+      s.perspective = rng.chance(0.6);
+      s.depth = rng.chance(0.6);
+      s.attributes = static_cast<int>(rng.integer(0, c.attribute_slots));
+      if (rng.chance(0.3)) s.znear = rng.uniform(0, 0.6), s.zfar = rng.uniform(0.4, 1);
+      auto quads = snapped_stress(info.family, 5, rng.next(), 40, std::max(4, c.attribute_slots), c, s);
+      for (SnappedQuad& quad : quads)
+        if (rng.chance(0.6)) make_constant(quad, rng, c);
+      DrawState all = s;
+      all.skip &= ~std::uint32_t{skip_operands};
+      const Result expected = draw_all(quads, c, all, PixelEngine::plain);
+      SCOPED_TRACE(std::string(info.name) + ", round " + std::to_string(n));
+      for (const PixelEngine engine : {PixelEngine::plain, PixelEngine::lanes}) {
+        const Result left_out = draw_all(quads, c, s, engine);
+        expect_same(expected.fragments, left_out.fragments);
+        expect_same_stats(expected.stats, left_out.stats);
+        if (HasFailure()) return;
+      }
+      fragments += expected.fragments.size();
+      corners += expected.stats.on_vertex + expected.stats.two_corner;
+      nothing += s.attributes == 0 && !s.depth;
+      const PipelineContext context(c, s);
+      for (const SnappedQuad& quad : quads) {
+        const QuadLanes values(quad_data(quad, quad_setup(quad, c, s), c, s), context);
+        shared += values.w_of_k.has_value() + values.b_of_k[0].has_value() + values.z_of_w.has_value();
+      }
+    }
+  EXPECT_GT(fragments, 20'000u);
+  EXPECT_GT(corners, 100u);
+  EXPECT_GT(nothing, 0u);
+  EXPECT_GT(shared, 100u);
+}
+
 Wide cross(const SnappedQuad& q, std::size_t i, std::size_t j, int x, int y) {
   const auto sx = [&](std::size_t k) { return q.vertex[k].x - static_cast<Wide>(q.vertex[k].w) * x; };
   const auto sy = [&](std::size_t k) { return q.vertex[k].y - static_cast<Wide>(q.vertex[k].w) * y; };
@@ -348,6 +413,7 @@ TEST(PixelPipeline, EndsFollowTheirDefinitions) {
       Config c = random_config(rng);
       if (n % 3 != 0) c.quadratic_frac_bits = -1;
       DrawState s = square(40);
+      s.skip = 0;  // every stage of every pixel
       s.attributes = static_cast<int>(rng.integer(0, c.attribute_slots));
       s.depth = rng.chance(0.8);
       s.perspective = rng.chance(0.7);

@@ -76,6 +76,7 @@ DrawState random_draw_state(const Config& config, int width, int height, std::sp
   if (rng.chance(0.25)) state.skip &= ~std::uint32_t{skip_quads};
   if (config.hierarchical_z_bits != 0 && rng.chance(0.5) && state.depth) state.skip |= skip_hidden;
   if (rng.chance(0.25)) state.skip &= ~std::uint32_t{skip_walk};
+  if (rng.chance(0.25)) state.skip &= ~std::uint32_t{skip_operands};
   return state;
 }
 

@@ -37,6 +37,7 @@ TEST(RandomState, IsAValidStateAndEveryKindOccurs) {
     kinds["no tile skip"] += (s.skip & skip_tiles) == 0;
     kinds["no quad skip"] += (s.skip & skip_quads) == 0;
     kinds["no walk skip"] += (s.skip & skip_walk) == 0;
+    kinds["no operand skip"] += (s.skip & skip_operands) == 0;
   }
   for (const auto& [kind, count] : kinds) {
     EXPECT_GT(count, seeds / 8) << kind;

@@ -43,6 +43,7 @@ struct Place {
 
 DrawState unit_state(std::size_t round, const Config& config) {
   DrawState state;
+  state.skip &= ~std::uint32_t{skip_operands};  // a stage's vectors have what a pixel could do without
   // Every other round larger, so that tiles far from the origin and whole blocks occur.
   state.width = state.height = round % 2 == 0 ? 64 : std::min(160, 1 << config.viewport_bits);
   state.scissor_x1 = state.width;

@@ -134,6 +134,25 @@ module quadrille_probed (
     logic [SETS*E-1:0] sum_exp;
     logic [SETS*S-1:0] sum_sig;
 
+    // Numbers that the lane does not take on, and what comes of them, are shown as zeros.
+    logic norm_active, root_active, ratio_active;
+
+    delay_line u_norm_active (
+        .clk_i,
+        .data_i(u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_active_q),
+        .data_o(norm_active)
+    );
+    delay_line #(.DEPTH(quadrille_pkg::ROOT_STAGE - quadrille_pkg::NORM_STAGE)) u_root_active (
+        .clk_i,
+        .data_i(norm_active),
+        .data_o(root_active)
+    );
+    delay_line #(.DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE)) u_ratio_active (
+        .clk_i,
+        .data_i(root_active),
+        .data_o(ratio_active)
+    );
+
     assign probe_diff_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::DIFF_STAGE];
     assign probe_diff_o[g] = {
       u_quadrille.u_pipeline.diff_tag.slot,
@@ -149,23 +168,25 @@ module quadrille_probed (
     assign probe_norm_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::NORM_STAGE];
     assign probe_norm_o[g] = {
       u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS],
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_neg,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_exp,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_sig,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_neg,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_exp,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_sig,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_r2_exp,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_r2_sig
+      {12 + 16 * (E + S) {norm_active}} & {
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_neg,
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_exp,
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_sig,
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_neg,
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_exp,
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_sig,
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_r2_exp,
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_r2_sig
+      }
     };
 
     assign probe_sqrt_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::ROOT_STAGE];
-    assign probe_sqrt_o[g] = {
+    assign probe_sqrt_o[g] = {4 * (E + S) {root_active}} & {
       u_quadrille.u_pipeline.gen_lane[g].u_lane.root_exp, u_quadrille.u_pipeline.gen_lane[g].u_lane.root_sig
     };
 
     assign probe_ratio_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::RATIO_STAGE];
-    assign probe_ratio_o[g] = {
+    assign probe_ratio_o[g] = {12 * (E + S) {ratio_active}} & {
       u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_u_exp,
       u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_u_sig,
       u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_v_exp,

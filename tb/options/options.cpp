@@ -50,8 +50,9 @@ std::string larger_viewport(const Config& config, int pixels) {
   return "";
 }
 
-const std::array<std::string, 3> cull_names{"none", "front", "back"};             // in the order of Cull
-const std::array<std::string, 4> skip_names{"tiles", "quads", "hidden", "walk"};  // in the order of SkipBit's bits
+const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
+const std::array<std::string, 5> skip_names{"tiles", "quads", "hidden", "walk",
+                                            "operands"};  // in the order of SkipBit's bits
 
 /// all, none, or names with commas between. `hidden` is among all where the machine can and there is a depth test: the
 /// pictures of this program are drawn as that skip asks for.
@@ -197,9 +198,9 @@ void StateOptions::add_to(CLI::App& app) {
   app.add_option(
          "--skip", skip,
          "What the machine may leave out: all, none, or a list of tiles (blocks and tiles that no covered pixel "
-         "can be in), quads (those that cannot give a fragment), walk (of homogeneous quads what misses the scissor) "
-         "and hidden (tiles behind what was drawn, with hierarchical_z_bits); without hidden the fragments are the "
-         "same, with it the picture is")
+         "can be in), quads (those that cannot give a fragment), walk (of homogeneous quads what misses the scissor), "
+         "operands (work inside a pixel that its fragment does not depend on) and hidden (tiles behind what was drawn, "
+         "with hierarchical_z_bits); without hidden the fragments are the same, with it the picture is")
       ->type_name("LIST")
       ->capture_default_str()
       ->group(group);

@@ -57,7 +57,7 @@ struct StateOptions {
   bool no_perspective = false, no_depth = false;
   double znear = 0, zfar = 1;
   std::string scissor;
-  std::string skip = "tiles,quads,walk";  ///< those of skip_default
+  std::string skip = "tiles,quads,walk,operands";  ///< those of skip_default
 
   void add_to(CLI::App& app);
   DrawState state(const CommonOptions& common, const Config& config) const;

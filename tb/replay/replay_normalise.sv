@@ -10,9 +10,9 @@ module replay_normalise (
 
   logic [3:0] r2_neg;
   logic [quadrille_pkg::CLASS_ON_EDGE-1:0] class_rest;
-  logic unused;
+  logic corner, unused;
 
-  assign unused = ^{r2_neg, class_rest};
+  assign unused = ^{r2_neg, corner, class_rest};
 
   for (genvar g = 0; g < 6; g++) begin : gen_norm
     normalise #(
@@ -20,6 +20,7 @@ module replay_normalise (
         .BIAS(-quadrille_pkg::QDROP)
     ) u_a (
         .clk_i,
+        .active_i(1'b1),
         .value_i(a_i[g*VAL+:VAL]),
         .neg_o(a_neg_o[g]),
         .exp_o(a_exp_o[g*E+:E]),
@@ -28,6 +29,7 @@ module replay_normalise (
 
     normalise #(.WIDTH(QVAL)) u_d (
         .clk_i,
+        .active_i(1'b1),
         .value_i(d_i[g*QVAL+:QVAL]),
         .neg_o(d_neg_o[g]),
         .exp_o(d_exp_o[g*E+:E]),
@@ -41,6 +43,7 @@ module replay_normalise (
         .CLAMP(1'b1)
     ) u_r2 (
         .clk_i,
+        .active_i(1'b1),
         .value_i(r2_i[g*QVAL+:QVAL]),
         .neg_o(r2_neg[g]),
         .exp_o(r2_exp_o[g*E+:E]),
@@ -49,6 +52,8 @@ module replay_normalise (
   end
 
   singular_class u_class (
+      .active_i(1'b1),
+      .corner_o(corner),
       .a_i(a_i[0+:4*VAL]),
       .d_i(d_i[0+:4*QVAL]),
       .class_o({two_corner_o, on_vertex_o, two_edge_o, on_edge_o, class_rest}),

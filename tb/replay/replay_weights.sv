@@ -16,6 +16,7 @@ module replay_weights (
   logic [4*VAL-1:0] a;
   logic [4*QVAL-1:0] d, r2;
   logic [CLASS-1:0] early_class, ratio_class;
+  logic unused_corner;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sign
     assign a[g*VAL+:VAL] = {{(VAL - 1) {a_sign_i[2*g+1]}}, a_sign_i[2*g]};
@@ -25,9 +26,11 @@ module replay_weights (
 
   singular_class u_class (
       .clk_i,
+      .active_i(1'b1),
       .a_i(a),
       .d_i(d),
       .r2_i(r2),
+      .corner_o(unused_corner),
       .class_o(early_class)
   );
 
