@@ -92,6 +92,7 @@ std::string number(double value) {
 }  // namespace
 
 std::span<const std::string> known_skips() { return skip_names; }
+std::span<const std::uint32_t> known_skip_bits() { return skip_bits; }
 
 CLI::Validator whole_number(std::uint64_t most) {
   return CLI::Validator(
