@@ -428,13 +428,26 @@ struct ClockedModel::Impl {
         std::ranges::count_if(stage(last_stage), [](const PixelTrace& p) { return p.drawn; }));
 
     if (tile_unit.issues() || setup.has_jobs()) add(products_vertex_products, products.vertex_products);
-    add(products_sqrt, pixels_in(latency::norm_stage) * products.sqrt);
-    add(products_mean_value_ratios, pixels_in(latency::root_stage) * products.mean_value_ratios);
-    add(products_mean_value_weights, pixels_in(latency::ratio_stage) * products.mean_value_weights);
-    add(products_interpolate, pixels_in(latency::weight_stage) * products.interpolate);
-    add(products_reciprocal, pixels_in(latency::sum_stage) * products.reciprocal);
+    // Operands that are held make no product.
+    const bool held = (context.state.skip & skip_operands) != 0;
+    const auto off_corners_in = [this, held](int n) {
+      return std::ranges::count_if(
+          stage(n), [held](const PixelTrace& p) { return p.valid && !(held && (p.two_corner || p.on_vertex)); });
+    };
+    const auto wanted_in = [this](int n, int WantedSums::*what) {
+      int total = 0;
+      for (const PixelTrace& p : stage(n))
+        if (p.valid) total += WantedSums(context.config, context.state, p.hull).*what;
+      return total;
+    };
+    add(products_sqrt, off_corners_in(latency::norm_stage) * products.sqrt);
+    add(products_mean_value_ratios, off_corners_in(latency::root_stage) * products.mean_value_ratios);
+    add(products_mean_value_weights, off_corners_in(latency::ratio_stage) * products.weight_ratios +
+                                         pixels_in(latency::ratio_stage) * products.weight_factors);
+    add(products_interpolate, wanted_in(latency::weight_stage, &WantedSums::sums) * products.sum);
+    add(products_reciprocal, wanted_in(latency::sum_stage, &WantedSums::denominators) * products.reciprocal);
     add(products_fragment_output,
-        pixels_in(latency::fragment_stage - latency::fragment_output_stages) * products.fragment_output);
+        wanted_in(latency::fragment_stage - latency::fragment_output_stages, &WantedSums::quotients));
 
     BoundInputs bound;
     bound.head = this->stamps.valid();

@@ -63,14 +63,22 @@ std::uint64_t PerformanceCounters::quads_left_out() const {
 }
 
 UnitProducts::UnitProducts(const Config& c)
-    : vertex_products(4 * c.product_pairs()),         // two dot units of two products each
-      sqrt(4 * c.sqrt_degree),                        // four roots
-      mean_value_ratios(6),                           // r·r' of the pairs
-      mean_value_weights(3 * (2 + c.sqrt_degree + 1)  // z, w', root and v·s of three ratios
-                         + 4 * 2),                    // x·y·z of four weights
-      interpolate(4 * (3 + c.attribute_slots)),       // M·k, M·W, M·Z, M·b
-      reciprocal(2 * c.recip_degree),                 // of two denominators
-      fragment_output(c.attribute_slots + 1) {}       // attributes and z
+    : vertex_products(4 * c.product_pairs()),      // two dot units of two products each
+      sqrt(4 * c.sqrt_degree),                     // four roots
+      mean_value_ratios(6),                        // r·r' of the pairs
+      weight_ratios(3 * (2 + c.sqrt_degree + 1)),  // z, w', root and v·s of three ratios
+      weight_factors(4 * 2),                       // x·y·z of four weights
+      sum(4),                                      // M·c of four vertices
+      reciprocal(c.recip_degree) {}
+
+WantedSums::WantedSums(const Config& c, const DrawState& state, bool hull) {
+  const bool held = (state.skip & skip_operands) != 0;
+  const int attributes = held ? state.attributes : c.attribute_slots;
+  const int k = !held || attributes > 0, w = !held || state.depth || hull, z = !held || state.depth;
+  sums = k + w + z + attributes;
+  denominators = k + w;
+  quotients = attributes + z;
+}
 
 PerformanceCounter bound_of(const BoundInputs& in) {
   if (in.head) return in.head_waits ? PerformanceCounter::bound_output : PerformanceCounter::bound_pixels;

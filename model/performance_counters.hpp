@@ -3,6 +3,7 @@
 #pragma once
 
 #include "model/config.hpp"
+#include "model/records.hpp"
 
 #include <array>
 #include <cstddef>
@@ -87,12 +88,25 @@ struct PerformanceCounters {
   friend bool operator==(const PerformanceCounters&, const PerformanceCounters&) = default;
 };
 
-/// Products that a unit makes of one pixel; of vertex_products of one step of setup or tile context, all pairs of dot
-/// units together.
+/// Products of the units: of vertex_products in one step of setup or tile context, all pairs of dot units together; of
+/// the others of one pixel, those of interpolate of one sum, of reciprocal of one denominator.
 struct UnitProducts {
-  int vertex_products, sqrt, mean_value_ratios, mean_value_weights, interpolate, reciprocal, fragment_output;
+  int vertex_products, sqrt, mean_value_ratios;
+  int weight_ratios, weight_factors;  ///< mean_value_weights: up to the ratios of roots, and the weights made of them
+  int sum, reciprocal;
 
   explicit UnitProducts(const Config& config);
+};
+
+/// Sums and quotients of a pixel whose operands switch: all that the machine has, or with skip_operands those that a
+/// fragment depends on.
+struct WantedSums {
+  int sums;          ///< k, W, Z and the attributes
+  int denominators;  ///< k and W
+  int quotients;     ///< attributes and z
+
+  /// `hull`: the eye is in the quad's hull, so that the sign of ΣM·W counts.
+  WantedSums(const Config& config, const DrawState& state, bool hull);
 };
 
 /// What bounds a clock, from what the units hold in it.

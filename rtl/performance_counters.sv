@@ -1,12 +1,14 @@
 // What the machine did since reset: quads by what became of them, blocks and tiles, rows and stamps, pixels and fragments, products by unit,
 // and clocks by what bound them. README.md section 9 says which clock counts what. Read by index; a counter wraps around at 2^COUNTER_BITS.
 //
-// All inputs are of this clock; what they say is counted at its end. No input is delayed here, and nothing of the machine depends on value_o.
+// All inputs are of this clock; what they say is counted at its end, but for norm_active_i and sum_active_i, which are of operands on their way
+// to the units that make products of them. Nothing of the machine depends on value_o.
 module performance_counters #(
     localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
     localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
     localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
     localparam int LATENCY = quadrille_pkg::LATENCY,
+    localparam int SETS = 3 + N,
     localparam int INDEX = quadrille_pkg::COUNTER_INDEX_BITS,
     localparam int WIDTH = quadrille_pkg::COUNTER_BITS
 ) (
@@ -33,6 +35,8 @@ module performance_counters #(
     // Pixels
     input logic [P*LATENCY-1:0] lane_valid_i,  // the pipeline's registers, those of a lane side by side
     input logic [P-1:0] drawn_i,  // fragments in the last one
+    input logic [P-1:0] norm_active_i,  // a clock before NORM_STAGE: the lane takes the numbers on
+    input logic [SETS-1:0] sum_active_i,  // a clock before WEIGHT_STAGE: the terms of k, W, Z and the attributes are not held at 0
     // Dot units
     input logic context_job_i,  // of all pairs
     input logic setup_job_i,
@@ -55,27 +59,94 @@ module performance_counters #(
   localparam int WEIGHTS = 4;
   localparam int PER_SQRT = ROOTS * quadrille_pkg::SQRT_DEGREE;
   localparam int PER_RATIO = PAIRS_OF_VERTICES;
-  localparam int PER_WEIGHT = RATIOS * (2 + quadrille_pkg::SQRT_DEGREE + 1) + 2 * WEIGHTS;
-  localparam int PER_SUM = WEIGHTS * (3 + N);
-  localparam int PER_RECIPROCAL = 2 * quadrille_pkg::RECIP_DEGREE;
-  localparam int PER_OUTPUT = N + 1;
+  localparam int PER_WEIGHT_RATIO = RATIOS * (2 + quadrille_pkg::SQRT_DEGREE + 1);  // of mean_value_weights, up to the ratios of roots
+  localparam int PER_WEIGHT_FACTOR = 2 * WEIGHTS;  // and behind them
+  localparam int PER_SUM = WEIGHTS;
+  localparam int PER_RECIPROCAL = quadrille_pkg::RECIP_DEGREE;
   localparam int PER_JOB = 4;  // a pair: two dot units of two products each
 
   localparam int BEFORE_OUTPUT = quadrille_pkg::FRAGMENT_STAGE - quadrille_pkg::FRAGMENT_OUTPUT_STAGES;
   localparam int COUNT = $clog2(P + 1);
-  logic [COUNT-1:0] at_sqrt, at_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn;
+  localparam int SUMS = $clog2(SETS + 1);
+
+  // Lanes whose numbers are not those of a pixel before, at the units between normalise and the ratios of roots.
+  logic [P-1:0] norm_active, root_active, ratio_active;
+
+  delay_line #(
+      .WIDTH(P),
+      .DEPTH(1)
+  ) u_norm_active (
+      .clk_i,
+      .data_i(norm_active_i),
+      .data_o(norm_active)
+  );
+  delay_line #(
+      .WIDTH(P),
+      .DEPTH(quadrille_pkg::ROOT_STAGE - quadrille_pkg::NORM_STAGE)
+  ) u_root_active (
+      .clk_i,
+      .data_i(norm_active),
+      .data_o(root_active)
+  );
+  delay_line #(
+      .WIDTH(P),
+      .DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE)
+  ) u_ratio_active (
+      .clk_i,
+      .data_i(root_active),
+      .data_o(ratio_active)
+  );
+
+  // Sums that are not of zeros: k, W, Z, attributes. The pixels of a clock are of one quad.
+  logic [SETS-1:0] sum_active, quotient_active, output_active;
+
+  delay_line #(
+      .WIDTH(SETS),
+      .DEPTH(1)
+  ) u_sum_active (
+      .clk_i,
+      .data_i(sum_active_i),
+      .data_o(sum_active)
+  );
+  delay_line #(
+      .WIDTH(SETS),
+      .DEPTH(quadrille_pkg::SUM_STAGE - quadrille_pkg::WEIGHT_STAGE)
+  ) u_quotient_active (
+      .clk_i,
+      .data_i(sum_active),
+      .data_o(quotient_active)
+  );
+  delay_line #(
+      .WIDTH(SETS),
+      .DEPTH(BEFORE_OUTPUT - quadrille_pkg::SUM_STAGE)
+  ) u_output_active (
+      .clk_i,
+      .data_i(quotient_active),
+      .data_o(output_active)
+  );
+
+  logic [COUNT-1:0] at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn;
+  logic [SUMS-1:0] sums, denominators, quotients;
 
   always_comb begin
-    {at_sqrt, at_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn} = '0;
+    {at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn} = '0;
     for (int g = 0; g < P; g++) begin
-      at_sqrt = at_sqrt + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::NORM_STAGE]);
-      at_ratio = at_ratio + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::ROOT_STAGE]);
+      at_sqrt = at_sqrt + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::NORM_STAGE] && norm_active[g]);
+      at_ratio = at_ratio + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::ROOT_STAGE] && root_active[g]);
+      at_weight_ratio = at_weight_ratio + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::RATIO_STAGE] && ratio_active[g]);
       at_weight = at_weight + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::RATIO_STAGE]);
       at_sum = at_sum + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::WEIGHT_STAGE]);
       at_reciprocal = at_reciprocal + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::SUM_STAGE]);
       at_output = at_output + COUNT'(lane_valid_i[g*LATENCY+BEFORE_OUTPUT]);
       drawn = drawn + COUNT'(drawn_i[g]);
     end
+    sums = '0;
+    quotients = '0;
+    for (int g = 0; g < SETS; g++) begin
+      sums = sums + SUMS'(sum_active[g]);
+      if (g >= 2) quotients = quotients + SUMS'(output_active[g]);  // z and the attributes
+    end
+    denominators = SUMS'(quotient_active[0]) + SUMS'(quotient_active[1]);
   end
 
   logic unused;
@@ -99,7 +170,7 @@ module performance_counters #(
   end
 
   // ---- The counters, in the order of their indices --------------------------------------------------------------------------
-  localparam int STEP = 8;  // bits of what a clock adds: at most PER_SUM of eight attributes in four lanes, 176
+  localparam int STEP = 8;  // bits of what a clock adds: at most four products of eleven sums in four lanes, 176
   localparam int LANES = 4;  // indices for the pixels of a lane, used or not
   localparam int COUNTERS = 35;
   logic [COUNTERS*STEP-1:0] step;
@@ -136,10 +207,10 @@ module performance_counters #(
   assign step[20*STEP+:STEP] = (context_job_i || setup_job_i) ? STEP'(PAIRS * PER_JOB) : '0;
   assign step[21*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
   assign step[22*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
-  assign step[23*STEP+:STEP] = STEP'(at_weight) * STEP'(PER_WEIGHT);
-  assign step[24*STEP+:STEP] = STEP'(at_sum) * STEP'(PER_SUM);
-  assign step[25*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(PER_RECIPROCAL);
-  assign step[26*STEP+:STEP] = STEP'(at_output) * STEP'(PER_OUTPUT);
+  assign step[23*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
+  assign step[24*STEP+:STEP] = STEP'(at_sum) * STEP'(sums) * STEP'(PER_SUM);
+  assign step[25*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
+  assign step[26*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);
   for (genvar g = 0; g < BOUNDS; g++) begin : gen_bound
     assign step[(27+g)*STEP+:STEP] = STEP'(bound[g]);
   end

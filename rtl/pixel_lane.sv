@@ -63,6 +63,7 @@ module pixel_lane #(
     input logic [V-1:0] output_y_i,
     // Fragment
     output logic [quadrille_pkg::LATENCY-1:0] valid_o,  // a pixel is in register n, drawn or discarded
+    output logic count_norm_o,  // for performance_counters, else 0: the numbers of this pixel are taken on
     output logic fragment_valid_o,
     output logic [FB-1:0] fragment_o  // zero when there is none
 );
@@ -201,6 +202,8 @@ module pixel_lane #(
     norm_active_q <= !hold_i || (valid_q[NORM-2] && !corner);
     class_active_q <= !hold_i || valid_q[NORM-2];
   end
+
+  assign count_norm_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && norm_active_q;
 
   logic [5:0] norm_a_neg;
   logic [6*E-1:0] norm_a_exp, norm_d_exp;

@@ -74,6 +74,8 @@ module pixel_pipeline #(
     // Fragments
     output logic discard_o,  // pixels of which none is a fragment, in the clock in which they would have been
     output logic [P*quadrille_pkg::LATENCY-1:0] lane_valid_o,  // a pixel is in register n of a lane
+    output logic [P-1:0] count_norm_o,  // for performance_counters, else 0: a lane takes on the numbers of its pixel
+    output logic [SETS-1:0] count_sum_o,  // the sums that are not of zeros
     output logic [P-1:0] fragment_valid_o,
     output logic [P*FB-1:0] fragment_o  // zero in a lane without a fragment
 );
@@ -169,6 +171,8 @@ module pixel_pipeline #(
     end
   end
 
+  assign count_sum_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 ? sum_active : '0;
+
   // ---- The row: value + r gy of all functions ---------------------------------------------------------------------------------
   logic [TILE_LOG2-1:0] row;
   logic [6*VAL-1:0] lin_row;
@@ -257,6 +261,7 @@ module pixel_pipeline #(
         .output_tile_x_i(fragment_tag.tile_x),
         .output_y_i(fragment_tag.y),
         .valid_o(lane_valid_o[g*quadrille_pkg::LATENCY+:quadrille_pkg::LATENCY]),
+        .count_norm_o(count_norm_o[g]),
         .fragment_valid_o(fragment_valid_o[g]),
         .fragment_o(fragment_o[g*FB+:FB])
     );

@@ -76,6 +76,8 @@ module quadrille (
   logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_walk;
   logic count_row, count_rows, count_rows_behind, count_head_waits;
   logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::LATENCY-1:0] lane_valid;
+  logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] count_norm;
+  logic [SETS-1:0] count_sum;
 
   // ---- Vertices -----------------------------------------------------------------------------------------------------------
   logic start, full, assembly_busy;
@@ -744,6 +746,8 @@ module quadrille (
       .release_o(slot_release),
       .discard_o(discard),
       .lane_valid_o(lane_valid),
+      .count_norm_o(count_norm),
+      .count_sum_o(count_sum),
       .fragment_valid_o(drawn),
       .fragment_o(fragment)
   );
@@ -785,6 +789,8 @@ module quadrille (
         .stamp_push_i(stamp_push && !stamp_push_end),
         .lane_valid_i(lane_valid),
         .drawn_i(drawn),
+        .norm_active_i(count_norm),
+        .sum_active_i(count_sum),
         .context_job_i(context_job),
         .setup_job_i(count_setup_job),
         .head_i(head_valid),
@@ -814,6 +820,8 @@ module quadrille (
       count_rows,
       count_rows_behind,
       count_head_waits,
+      count_norm,
+      count_sum,
       lane_valid
     };
   end

@@ -139,6 +139,46 @@ TEST(PerformanceCounters, ProductsOfAPixelAreTheDspBlocksOfItsUnits) {
   EXPECT_EQ(c[products_fragment_output], 64u * 5);
 }
 
+// A pixel on a corner has its weights without roots and ratios, a sum that no fragment needs has no terms.
+TEST(PerformanceCounters, OperandsHeldMakeNoProducts) {
+  const WindowQuad on_centres = square(0.5, 0.5, 8);  // 64 pixels, that at the top left on a corner
+  DrawState state;
+  state.attributes = 1;
+  state.depth = false;
+  const PerformanceCounters held = count({on_centres}, {}, state);
+  EXPECT_EQ(held[fragments], 64u);
+  EXPECT_EQ(held[products_sqrt], 63u * 8);
+  EXPECT_EQ(held[products_mean_value_ratios], 63u * 6);
+  EXPECT_EQ(held[products_mean_value_weights], 63u * 15 + 64 * 8);
+  EXPECT_EQ(held[products_interpolate], 64u * 4 * 2);  // k and the attribute
+  EXPECT_EQ(held[products_reciprocal], 64u * 2);       // of k
+  EXPECT_EQ(held[products_fragment_output], 64u);
+  state.attributes = 0;
+  state.depth = true;
+  const PerformanceCounters depth = count({on_centres}, {}, state);
+  EXPECT_EQ(depth[products_interpolate], 64u * 4 * 2);  // W and Z
+  EXPECT_EQ(depth[products_reciprocal], 64u * 2);       // of W
+  EXPECT_EQ(depth[products_fragment_output], 64u);
+  state.depth = false;
+  // The eye in the hull: the sign of W decides what is behind it.
+  WindowQuad around = square(16, 16, 64);
+  for (const std::size_t i : {0, 2}) {
+    WindowVertex& v = around.vertex[i];
+    v = {-v.x, -v.y, -v.z, -1};
+  }
+  const PerformanceCounters hull = count({around}, {}, state);
+  EXPECT_GT(hull.pixels(), 0u);
+  EXPECT_EQ(hull[products_interpolate], hull.pixels() * 4);
+  EXPECT_EQ(hull[products_reciprocal], hull.pixels() * 2);
+  EXPECT_EQ(hull[products_fragment_output], 0u);
+  state.skip &= ~std::uint32_t{skip_operands};
+  const PerformanceCounters all = count({on_centres}, {}, state);
+  EXPECT_EQ(all[products_sqrt], 64u * 8);
+  EXPECT_EQ(all[products_interpolate], 64u * 28);
+  EXPECT_EQ(all[products_reciprocal], 64u * 4);
+  EXPECT_EQ(all[products_fragment_output], 64u * 5);
+}
+
 TEST(PerformanceCounters, WithoutTheSkipEveryTileOfTheBoxIsEntered) {
   // A diamond, no pixel centre on its edges: its box has 9 × 9 tiles, in two blocks by two.
   const double cx = 100.25, cy = 100.125;

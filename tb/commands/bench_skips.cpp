@@ -47,8 +47,8 @@ std::vector<SkipSet> skip_sets() {
   std::vector<SkipSet> sets{{"none", 0}};
   std::uint32_t all = 0;
   for (std::size_t i = 0; i < known_skips().size(); ++i) {
-    sets.push_back({known_skips()[i], known_skip_bits()[i]});
-    all |= known_skip_bits()[i];
+    sets.push_back({known_skips()[i], 1u << i});
+    all |= 1u << i;
   }
   sets.push_back({"all", all});
   return sets;

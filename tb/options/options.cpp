@@ -51,8 +51,8 @@ std::string larger_viewport(const Config& config, int pixels) {
 }
 
 const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
-const std::array<std::string, 5> skip_names{"tiles", "quads", "hidden", "walk",
-                                            "operands"};  // in the order of SkipBit's bits
+// In the order of SkipBit's bits.
+const std::array<std::string, 5> skip_names{"tiles", "quads", "hidden", "walk", "operands"};
 
 /// all, none, or names with commas between. `hidden` is among all where the machine can and there is a depth test: the
 /// pictures of this program are drawn as that skip asks for.
@@ -92,7 +92,6 @@ std::string number(double value) {
 }  // namespace
 
 std::span<const std::string> known_skips() { return skip_names; }
-std::span<const std::uint32_t> known_skip_bits() { return skip_bits; }
 
 CLI::Validator whole_number(std::uint64_t most) {
   return CLI::Validator(

@@ -48,9 +48,8 @@ struct CommonOptions {
   std::FILE* text() const;
 };
 
-/// Names of the skips, and the SkipBit of each.
+/// Names of the skips, in the order of SkipBit's bits.
 std::span<const std::string> known_skips();
-std::span<const std::uint32_t> known_skip_bits();
 
 /// --cull --no-perspective --no-depth --znear --zfar --scissor --skip
 struct StateOptions {
