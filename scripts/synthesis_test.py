@@ -110,7 +110,7 @@ class UnitTable(unittest.TestCase):
 
     def test_counts_the_bits_of_ports(self):
         self.assertEqual(self.package.ports("law_of_cosines", {}), (3 * 63 + 64 + 1, 63))
-        self.assertEqual(self.package.ports("normalise", {"WIDTH": 40}), (40, 1 + 12 + 18))
+        self.assertEqual(self.package.ports("normalise", {"WIDTH": 40}), (1 + 40, 1 + 12 + 18))
 
     def test_sees_what_does_not_agree(self):
         self.assertEqual(unit_table.faults_of(self.units, self.package), [])

@@ -381,7 +381,8 @@ class StageCheck {
   const int s_;
 };
 
-/// What the slots hold of a quad: the port's numbers, and W truncated to S bits, which is k too without perspective.
+/// What the slots hold of a quad: the port's numbers, and W truncated to S bits, which is k too without perspective;
+/// zeros for what skip_operands holds.
 void check_quad_data(const Config& config, Prng& rng, FunctionTally& tally) {
   const int s = config.significand_bits;
   const auto number = [&] {
@@ -405,15 +406,23 @@ void check_quad_data(const Config& config, Prng& rng, FunctionTally& tally) {
     }
     DrawState state;
     state.perspective = rng.chance(0.5);
+    state.depth = rng.chance(0.5);
+    state.attributes = static_cast<int>(rng.integer(0, config.attribute_slots));
+    state.skip = rng.chance(0.5) ? std::uint32_t{skip_operands} : 0u;
+    // Numbers that no fragment depends on are held at zero: W says, where the hull holds the eye, what is behind it.
+    const bool held = (state.skip & skip_operands) != 0;
+    const bool needs_z = !held || state.depth, needs_w = needs_z || setup.hull;
+    const auto needs_b = [&](std::size_t j) { return !held || j < static_cast<std::size_t>(state.attributes); };
     const QuadData d = quad_data(quad, setup, config, state);
     bool right = d.id == quad.id && d.homogeneous == setup.homogeneous && d.hull == setup.hull;
     for (std::size_t i = 0; i < 4; ++i) {
       const SnappedVertex& v = quad.vertex[i];
       const Number w = exact::cut({v.w, -config.frac()}, s);
-      right = right && exact::is(d.w[i], w, s) && exact::is(d.k[i], state.perspective ? value_of(v.k, s) : w, s) &&
-              exact::is(d.z[i], value_of(v.z, s), s);
+      right = right && exact::is(d.w[i], needs_w ? w : Number{}, s) &&
+              exact::is(d.k[i], state.perspective ? value_of(v.k, s) : w, s) &&
+              exact::is(d.z[i], needs_z ? value_of(v.z, s) : Number{}, s);
       for (std::size_t j = 0; j < static_cast<std::size_t>(config.attribute_slots); ++j)
-        right = right && exact::is(d.b[i][j], value_of(v.attribute[j], s), s);
+        right = right && exact::is(d.b[i][j], needs_b(j) ? value_of(v.attribute[j], s) : Number{}, s);
     }
     tally.expect(right, [&] { return "of quad " + std::to_string(n) + " differs from what was sent"; });
   }
