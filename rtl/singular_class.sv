@@ -52,7 +52,7 @@ module singular_class #(
   assign many_corners = (corner_q & (corner_q - 4'd1)) != 4'd0;
   assign any_edge = edge_q != 4'd0;
   assign many_edges = (edge_q & (edge_q - 4'd1)) != 4'd0;
-  assign corner_o = any_corner;
+  assign corner_o = two_corner || on_vertex;
   assign two_corner = many_corners;
   assign on_vertex = any_corner && !many_corners;
   assign two_edge = !any_corner && many_edges;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -32,6 +33,51 @@ bool any_pixel(const SnappedQuad& quad, const DrawState& state) {
       if (at.covered && at.visible) return true;
     }
   return false;
+}
+
+/// The same points with W = ONE/2 at two of them: as a quad comes whose others are out of the guard band.
+void make_homogeneous(SnappedQuad& quad) {
+  for (const std::size_t i : {1, 3}) {
+    SnappedVertex& v = quad.vertex[i];
+    v.x /= 2;
+    v.y /= 2;
+    v.w /= 2;
+    v.z.exp -= 1;
+  }
+}
+
+/// Rectangles beside the scissor that reach over each of its borders by quarters of a pixel, or not: those that reach a
+/// pixel's centre are drawn.
+TEST(ScissorSeparation, ReachesTheFirstAndTheLastPixel) {
+  const Config c;
+  DrawState state;
+  state.width = state.height = 64;
+  state.scissor_x0 = 9;
+  state.scissor_x1 = 41;
+  state.scissor_y0 = 6;
+  state.scissor_y1 = 38;
+  state.attributes = 0;
+  BothWays both(c, state, skip_walk);
+  for (const bool along_y : {false, true})
+    for (const bool far : {false, true})
+      for (int quarters = -6; quarters <= 6; ++quarters) {
+        // From the centre of the first or last pixel, outward where negative.
+        const double low = along_y ? state.scissor_y0 : state.scissor_x0, high = low + 32, reach = quarters * 0.25;
+        const double from = far ? high - 0.5 - reach : low - 20, to = far ? high + 20 : low + 0.5 + reach;
+        WindowQuad quad;
+        for (std::size_t i = 0; i < 4; ++i) {
+          WindowVertex& v = quad.vertex[i];
+          v = {i == 1 || i == 2 ? to : from, i >= 2 ? 60.0 : 1.0, 0.5, 1};
+          if (along_y) std::swap(v.x, v.y);
+        }
+        SnappedQuad snapped = snap_quad(quad, c, state);
+        make_homogeneous(snapped);
+        const std::size_t fragments = both.draw(snapped);
+        const double pixels = far ? std::floor(reach) + 1 : std::ceil(reach);  // left and top edges belong to a quad
+        EXPECT_EQ(fragments, static_cast<std::size_t>(32 * std::max(0.0, pixels)))
+            << (along_y ? "y" : "x") << (far ? ", far, " : ", near, ") << reach;
+      }
+  EXPECT_EQ(both.rejected()[outside], 2u * (6 + 3));  // beyond the far border a pixel more counts as inside
 }
 
 /// One in `stride` of the quads of a small grid, with scissors whose borders lie on the grid's points and between them.

@@ -196,13 +196,47 @@ Scenario depth_off() {
   return {"depth off", o, random_quads(o.config, o.state, 34, 60)};
 }
 
-/// Neither depth nor all attributes in use, the eye in the hull of some: with these a pixel leaves out most.
-Scenario held() {
+/// Homogeneous quads that reach over a border of the scissor by quarters of a pixel, or not, some of them turned a
+/// little.
+Scenario beside_scissor() {
   LockstepOptions o = options(exact(), 64);
+  o.state.scissor_x0 = 9;
+  o.state.scissor_x1 = 53;
+  o.state.scissor_y0 = 7;
+  o.state.scissor_y1 = 50;
+  Scenario result{"beside the scissor", o, drawn(o, 8, 150, [&](golden::Prng& random) {
+                    const bool along_y = random.chance(0.5), far = random.chance(0.5);
+                    const double low = along_y ? o.state.scissor_y0 : o.state.scissor_x0,
+                                 high = along_y ? o.state.scissor_y1 : o.state.scissor_x1;
+                    const double reach = static_cast<double>(random.below(13)) * 0.25 - 1.5;
+                    const double inner = far ? high - 0.5 - reach : low + 0.5 + reach, outer = far ? high + 9 : low - 9;
+                    const double turned = random.chance(0.5) ? (far ? 0.5 : -0.5) : 0;
+                    const double across[4] = {inner, inner + turned, outer, outer}, along[4] = {1, 62, 62, 1};
+                    WindowQuad quad;
+                    for (std::size_t i = 0; i < 4; ++i) {
+                      quad.vertex[i] = {across[i], along[i], random.uniform(0.05, 0.95), 1};
+                      if (along_y) std::swap(quad.vertex[i].x, quad.vertex[i].y);
+                    }
+                    return quad;
+                  })};
+  for (SnappedQuad& quad : result.quads)
+    for (const std::size_t i : {1, 3}) {  // W = ONE/2 there: no bounding box
+      SnappedVertex& v = quad.vertex[i];
+      v.x /= 2;
+      v.y /= 2;
+      v.w /= 2;
+      v.z.exp -= 1;
+    }
+  return result;
+}
+
+/// Neither depth nor all attributes in use, the eye in the hull of some: with these a pixel leaves out most.
+Scenario held(const std::string& name, const Config& config, int attributes) {
+  LockstepOptions o = options(config, 64);
   o.state.depth = false;
-  o.state.attributes = 2;
+  o.state.attributes = attributes;
   o.stall = 0.2;
-  return {"held", o, random_quads(o.config, o.state, 36, 150)};
+  return {name, o, random_quads(o.config, o.state, 36, 150)};
 }
 
 Scenario dropped_bits() {
@@ -233,9 +267,9 @@ Scenario lanes() {
 
 std::span<const Scenario> scenarios() {
   static const std::vector<Scenario> list = [] {
-    std::vector<Scenario> all{mixture(),      flat(), grid(),      signed_grid(),  flat_signed_grid(),
-                              depth_limits(), wide(), depth_off(), dropped_bits(), dropped_bits_signed(),
-                              lanes()};
+    std::vector<Scenario> all{mixture(),      flat(),          grid(),      signed_grid(),  flat_signed_grid(),
+                              depth_limits(), wide(),          depth_off(), dropped_bits(), dropped_bits_signed(),
+                              lanes(),        beside_scissor()};
     const auto add = [&](const Config& config, const std::string& before, golden::CornerDraw draw) {
       for (std::size_t i = 0; i < draw.quads.size(); ++i) draw.quads[i].id = static_cast<std::uint32_t>(i);
       LockstepOptions o = options(config, draw.state.width);
@@ -251,7 +285,8 @@ std::span<const Scenario> scenarios() {
     for (golden::CornerDraw& draw : golden::corner_draws(reduced(), 11)) add(reduced(), "reduced, ", std::move(draw));
     // What a pixel leaves out hides faults of it: in one of them, with faults of their own.
     for (Scenario& s : all) s.options.state.skip &= ~std::uint32_t{skip_operands};
-    all.push_back(held());
+    all.push_back(held("held", exact(), 2));
+    all.push_back(held("held, four lanes", four_lanes(), 1));  // counted
     return all;
   }();
   return list;
