@@ -614,7 +614,7 @@ class ForwardDifference : public StageOf<ForwardLists> {
 
   void corners(const Sink& sink) const override {
     // D of an ordinary quad at its ends, and the floor of every kind of odd sum.
-    const std::int64_t most = (std::int64_t{1} << (config().qval_bits() - 1)) - 1;
+    const auto most = static_cast<std::int64_t>((std::uint64_t{1} << (config().qval_bits() - 1)) - 1);
     const std::uint64_t longest = std::uint64_t{1} << (config().length2_bits() - 1);
     StageData d;
     for (std::size_t k = 0; k < linear_count; ++k)
