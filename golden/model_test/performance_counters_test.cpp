@@ -179,6 +179,26 @@ TEST(PerformanceCounters, OperandsHeldMakeNoProducts) {
   EXPECT_EQ(all[products_fragment_output], 64u * 5);
 }
 
+// With all in use and no pixel on a corner nothing is held; of coverage alone all from the sums on.
+TEST(PerformanceCounters, OperandsAreHeldWhereNothingDependsOnThem) {
+  const WindowQuad off_centres = square(0, 0, 8);
+  DrawState state;
+  const PerformanceCounters held = count({off_centres}, {}, state);
+  state.skip &= ~std::uint32_t{skip_operands};
+  EXPECT_TRUE(held == count({off_centres}, {}, state));
+  state.depth = false;
+  state.attributes = 0;
+  const PerformanceCounters all = count({off_centres}, {}, state);
+  EXPECT_EQ(all.products(), held.products());
+  state.skip = skip_default;
+  const PerformanceCounters coverage = count({off_centres}, {}, state);
+  EXPECT_EQ(coverage[clocks], all[clocks]);
+  EXPECT_EQ(coverage[products_mean_value_weights], 64u * 23);
+  EXPECT_EQ(coverage[products_interpolate], 0u);
+  EXPECT_EQ(coverage[products_reciprocal], 0u);
+  EXPECT_EQ(coverage[products_fragment_output], 0u);
+}
+
 TEST(PerformanceCounters, WithoutTheSkipEveryTileOfTheBoxIsEntered) {
   // A diamond, no pixel centre on its edges: its box has 9 × 9 tiles, in two blocks by two.
   const double cx = 100.25, cy = 100.125;
