@@ -2,6 +2,7 @@
 // forward_difference_row gives. Latency FORWARD_DIFFERENCE_COLUMN_STAGES, one pixel a clock: the column, and beside it the bend
 // q (r^2 + dx^2); their sum.
 //
+// The digits of dx come a clock before the row; their register is here, since one that ten functions shared would cost the time to drive them.
 // Two's complement throughout; dx and r^2 + dx^2 come as offset_digits. A linear function (QUADRATIC = 0) has no bend: it reads neither
 // q_i nor norm_digits_i.
 module forward_difference_column #(
@@ -28,13 +29,16 @@ module forward_difference_column #(
   logic [GRAD_BITS+TILE_LOG2-1:0] rise;
   logic carry;
   logic [VALUE_BITS-1:0] column_d, column_q;
+  logic [2*OFFSET_DIGITS-1:0] dx_digits_q;
+
+  always_ff @(posedge clk_i) dx_digits_q <= dx_digits_i;
 
   small_multiply #(
       .FACTOR_BITS(GRAD_BITS),
       .NUMBER_BITS(TILE_LOG2)
   ) u_rise (
       .factor_i(gx_i),
-      .digits_i(dx_digits_i),
+      .digits_i(dx_digits_q),
       .product_o(rise),
       .carry_o(carry)
   );

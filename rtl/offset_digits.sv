@@ -1,5 +1,5 @@
 // What the forward differences need of a pixel's place in its tile, row r and column dx: the digits of dx and r^2 + dx^2 in radix 4,
-// shared by all of them. Both in registers, a clock later.
+// shared by all of them. Those of dx at once, for a register in each forward_difference_column; of r^2 + dx^2 in a register, a clock later.
 module offset_digits #(
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int NORM_BITS = 2 * TILE_LOG2 + 1,
@@ -13,7 +13,6 @@ module offset_digits #(
     output logic [2*NORM_DIGITS-1:0] norm_digits_o
 );
   logic [NORM_BITS-1:0] row_square, dx_square;
-  logic [2*OFFSET_DIGITS-1:0] dx_digits;
   logic [2*NORM_DIGITS-1:0] norm_digits;
 
   always_comb begin  // a table: `*` would ask for a multiplier
@@ -27,7 +26,7 @@ module offset_digits #(
 
   radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_dx (
       .number_i(dx_i),
-      .digits_o(dx_digits)
+      .digits_o(dx_digits_o)
   );
 
   radix4_digits #(.NUMBER_BITS(NORM_BITS)) u_norm (
@@ -35,8 +34,5 @@ module offset_digits #(
       .digits_o(norm_digits)
   );
 
-  always_ff @(posedge clk_i) begin
-    dx_digits_o <= dx_digits;
-    norm_digits_o <= norm_digits;
-  end
+  always_ff @(posedge clk_i) norm_digits_o <= norm_digits;
 endmodule
