@@ -16,7 +16,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 namespace quadrille {
@@ -147,8 +150,73 @@ TEST(ScissorSeparation, FamiliesKeepTheirFragments) {
   EXPECT_GT(total[outside], 100u);
 }
 
-// ---- How much is left out
-// -----------------------------------------------------------------------------------------------
+/// Scissors of which the quad's pixels, found by the second opinion, are in the first or last column or row alone; and
+/// beside each one that has none of them, a pixel further or, since x1 and y1 count as inside, two.
+TEST(ScissorSeparation, PixelsInTheOutermostColumnOrRowAlone) {
+  constexpr int size = 16;
+  constexpr std::array<const char*, 4> sides{"first column", "last column", "first row", "last row"};
+  const Config c = tiny();
+  const int one = 1 << c.frac();
+  DrawState screen;
+  screen.width = screen.height = screen.scissor_x1 = screen.scissor_y1 = size;
+  screen.attributes = 0;
+  screen.depth = false;  // so that no pixel is discarded
+  screen.skip = skip_tiles;
+  Prng rng(3);
+  std::array<int, 4> touching{}, left_out_beyond{};
+  for (int n = 0; n < 400 && !HasFailure(); ++n) {
+    SnappedQuad q;
+    for (SnappedVertex& v : q.vertex) {
+      const double w = rng.uniform(0.5, 2) * (rng.chance(0.25) ? -1 : 1);
+      v.x = static_cast<std::int32_t>(rng.uniform(-4, size + 4) * w * one);
+      v.y = static_cast<std::int32_t>(rng.uniform(-4, size + 4) * w * one);
+      v.w = static_cast<std::int32_t>(w * one);
+      v.k = {false, 0, 1u << (c.significand_bits - 1)};
+      v.z = {false, -1, 1u << (c.significand_bits - 1)};  // Z = 1/2
+    }
+    if (is_ordinary(q, c) || quad_setup(q, c, screen).hull) continue;
+    int x0 = size, x1 = 0, y0 = size, y1 = 0;  // half-open
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        const golden::ExactCoverage at = golden::exact_coverage(q, x, y);
+        if (!at.covered || !at.visible) continue;
+        x0 = std::min(x0, x), x1 = std::max(x1, x + 1), y0 = std::min(y0, y), y1 = std::max(y1, y + 1);
+      }
+    if (x0 >= x1) continue;
+    const auto draw = [&](std::size_t side, int border) {
+      DrawState state = screen;
+      (side == 0   ? state.scissor_x0
+       : side == 1 ? state.scissor_x1
+       : side == 2 ? state.scissor_y0
+                   : state.scissor_y1) = border;
+      BothWays both(c, state, skip_walk);
+      const std::size_t fragments = both.draw(q);
+      state.skip |= skip_walk;
+      return std::pair(fragments, quad_reject(q, c, state) == QuadReject::outside);
+    };
+    const std::array<int, 4> border{x1 - 1, x0 + 1, y1 - 1, y0 + 1};
+    for (std::size_t side = 0; side < 4; ++side) {
+      const bool low = side % 2 == 0;
+      const int beyond = border[side] + (low ? 1 : -2);
+      if (beyond == (low ? size : -1)) continue;  // the screen's last: the quad may go on behind it
+      const auto [fragments, left_out] = draw(side, border[side]);
+      EXPECT_GT(fragments, 0u) << sides[side] << " of quad " << n;
+      EXPECT_FALSE(left_out) << sides[side] << " of quad " << n;
+      ++touching[side];
+      const auto [fragments_beyond, left_out_of_it] = draw(side, beyond);
+      EXPECT_EQ(fragments_beyond, 0u) << "beyond the " << sides[side] << " of quad " << n;
+      left_out_beyond[side] += left_out_of_it;
+    }
+  }
+  for (std::size_t side = 0; side < 4; ++side) {
+    std::printf("%s: %d quads drawn; further on %d of them left out\n", sides[side], touching[side],
+                left_out_beyond[side]);
+    EXPECT_GT(touching[side], 100) << sides[side];
+    EXPECT_GT(left_out_beyond[side], 50) << sides[side];
+  }
+}
+
+// ---- How much is left out ----------------------------------------------------------------------------------------
 
 struct Point {
   double x, y, w;
