@@ -67,7 +67,7 @@ struct WalkUnit {
 
   /// Tests whose result is known in this clock.
   struct Tests {
-    bool block = false, enter = false, tile = false;
+    bool block = false, enter = false, tile = false, hidden = false;
   };
 
   TileWalk walk;
@@ -115,6 +115,7 @@ struct WalkUnit {
       case TileWalk::State::tile:
         step.push = walk.hit();
         tests.tile = true;
+        tests.hidden = walk.hidden();
         if (step.push) step.entry = walk.entry();
         walk.advance();
         break;
@@ -416,6 +417,7 @@ struct ClockedModel::Impl {
     add(blocks_entered, walk_moves && walk.tests.enter);
     add(tiles_tested, walk_moves && walk.tests.tile);
     add(tiles_entered, push_tile && !walk.way.back().entry.end);
+    add(tiles_hidden, walk_moves && walk.tests.hidden);
     add(rows_tested, coverage.rows_valid && coverage.room != 0 && !ring_at(coverage.rows).end);
     add(stamps, coverage.way.back().push() && !coverage.way.back().stamp.end);
 
@@ -459,6 +461,7 @@ struct ClockedModel::Impl {
     bound.setup = setup.busy();
     bound.setup_behind = assembly.full && !starting && !assembly.drops();
     bound.assembly = assembly.full || assembly.count != 0;
+    bound.wipe = hidden.wiping > 0;
     bound.busy = busy();
     add(bound_of(bound), 1);
   }

@@ -52,6 +52,10 @@ class DrivenModel {
     return model_.comb();
   }
   void clock() { model_.clock(inputs_); }
+  /// Clocks until the places of hidden tiles are wiped: at once without them.
+  void wait_idle() {
+    while (model_.comb().busy) model_.clock(inputs_);
+  }
   const PerformanceCounters& counters() const { return model_.counters(); }
 
  private:

@@ -82,11 +82,10 @@ bool HierarchicalZ::hidden(int tile_x, int tile_y, const DepthInterval& depth) c
   return entry.tile == name(tile_x, tile_y) && depth.near >= entry.far;
 }
 
-bool HierarchicalZ::lower(int tile_x, int tile_y, const DepthInterval& depth) {
+void HierarchicalZ::lower(int tile_x, int tile_y, const DepthInterval& depth) {
   Entry& entry = entries_[place(tile_x, tile_y)];
-  if (!depth.lowers || (entry.tile == name(tile_x, tile_y) && entry.far <= depth.far)) return false;
+  if (!depth.lowers || (entry.tile == name(tile_x, tile_y) && entry.far <= depth.far)) return;
   entry = {name(tile_x, tile_y), depth.far};
-  return true;
 }
 
 WholeTiles::WholeTiles(const Config& config, const DrawState& state)

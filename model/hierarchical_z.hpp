@@ -47,8 +47,8 @@ class HierarchicalZ {
   void clear();
   /// Nothing of the tile can be seen.
   bool hidden(int tile_x, int tile_y, const DepthInterval& depth) const;
-  /// The quad covers every pixel of the tile; lowers the entry where that is nearer. Returns whether it did.
-  bool lower(int tile_x, int tile_y, const DepthInterval& depth);
+  /// The quad covers every pixel of the tile; lowers the entry where that is nearer.
+  void lower(int tile_x, int tile_y, const DepthInterval& depth);
 
  private:
   struct Entry {

@@ -18,6 +18,7 @@ const std::array<CounterInfo, counter_count> counter_info{{
     {"blocks_entered", "of these, those that were hit"},
     {"tiles_tested", "tests of tiles"},
     {"tiles_entered", "of these, those that were hit and pushed"},
+    {"tiles_hidden", "of the tiles that were hit, those of which nothing can be seen: not pushed"},
     {"rows_tested", "rows of tiles that coverage tested"},
     {"stamps", "of these, those with a covered pixel"},
     {"pixels_lane0", "covered pixels of lane 0"},
@@ -38,6 +39,7 @@ const std::array<CounterInfo, counter_count> counter_info{{
     {"bound_walk", "by walk and tile contexts"},
     {"bound_setup", "by setup, or by quad slots"},
     {"bound_vertices", "by vertices that are not here yet"},
+    {"bound_wipe", "by the wiping of what is hidden, behind reset and clears"},
     {"bound_drain", "in which only the pipeline and what is between units held anything"},
     {"bound_idle", "in which the machine was not busy"},
 }};
@@ -89,6 +91,7 @@ PerformanceCounter bound_of(const BoundInputs& in) {
   if (in.walk) return PerformanceCounter::bound_walk;
   if (in.setup) return PerformanceCounter::bound_setup;
   if (in.assembly) return PerformanceCounter::bound_vertices;
+  if (in.wipe) return PerformanceCounter::bound_wipe;
   return in.busy ? PerformanceCounter::bound_drain : PerformanceCounter::bound_idle;
 }
 

@@ -29,6 +29,7 @@ enum class PerformanceCounter : std::uint8_t {
   blocks_entered,
   tiles_tested,
   tiles_entered,
+  tiles_hidden,
   rows_tested,
   stamps,
   // Pixels by lane of the port, fragments of them
@@ -52,6 +53,7 @@ enum class PerformanceCounter : std::uint8_t {
   bound_walk,
   bound_setup,
   bound_vertices,
+  bound_wipe,
   bound_drain,
   bound_idle,
 };
@@ -61,7 +63,7 @@ struct CounterInfo {
   std::string_view meaning;  ///< what it counts
 };
 
-inline constexpr std::size_t counter_count = 35;
+inline constexpr std::size_t counter_count = 37;
 /// By index.
 extern const std::array<CounterInfo, counter_count> counter_info;
 
@@ -120,6 +122,7 @@ struct BoundInputs {
   bool setup = false;         ///< setup has a quad
   bool setup_behind = false;  ///< a quad in vertex_assembly waits for setup or a slot
   bool assembly = false;      ///< vertex_assembly holds vertices
+  bool wipe = false;          ///< hierarchical_z wipes places: after reset, or a clear
   bool busy = false;
 };
 /// bound_pixels to bound_idle.

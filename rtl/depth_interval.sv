@@ -1,5 +1,6 @@
 // Where the depths of a quad's fragments lie, by its vertices while they come in: codes with H = HIERARCHICAL_Z_BITS fraction bits, the
-// nearest one rounded down, the farthest one up. There from the third clock after the fourth beat's until the next quad's first beat.
+// nearest one rounded down, the farthest one up. There from the fourth clock after the fourth beat's until the second after the next
+// quad's first beat's: sums with the margin and shifts have a clock each.
 //
 // W of an ordinary quad is 1, so every depth lies between its corners' Z but for the margin of quadrille_pkg. Of all others near_o is 0
 // and far_o all ones: no statement. lowers_o: a pixel that the quad covers surely is a fragment with such a depth; for that the interval
@@ -52,31 +53,34 @@ module depth_interval #(
   end
 
   // ---- Codes ----------------------------------------------------------------------------------------------------------------
-  logic [RANK-1:0] nearest, farthest;
+  logic [RANK-1:0] nearest_q, farthest_q;
   logic [PE:0] near_shift, far_shift;  // below 1 the places behind the point's, else negative
   logic [H-1:0] near_bits, far_bits, near, far;
-  logic known;
+  logic known_q;
 
-  assign nearest = least_q - STEPS;
-  assign farthest = greatest_q + STEPS;
-  assign near_shift = ~nearest[RANK-1:S-1];
-  assign far_shift = ~farthest[RANK-1:S-1];
+  always_ff @(posedge clk_i) begin
+    nearest_q <= least_q - STEPS;
+    farthest_q <= greatest_q + STEPS;
+    known_q <= quadrille_pkg::DEPTH_MARGIN_HOLDS && ordinary_i && !some_neg_q;
+  end
+
+  assign near_shift = ~nearest_q[RANK-1:S-1];
+  assign far_shift = ~farthest_q[RANK-1:S-1];
 
   // The highest H bits of {1, significand}, as many zeros behind it as may be missing
   logic [S+H-1:0] near_window, far_window;
-  assign near_window = {1'b1, nearest[S-2:0], H'(0)};
-  assign far_window = {1'b1, farthest[S-2:0], H'(0)};
+  assign near_window = {1'b1, nearest_q[S-2:0], H'(0)};
+  assign far_window = {1'b1, farthest_q[S-2:0], H'(0)};
   assign near_bits = near_window[S+H-1-:H] >> near_shift;
   assign far_bits = far_window[S+H-1-:H] >> far_shift;
 
-  assign known = quadrille_pkg::DEPTH_MARGIN_HOLDS && ordinary_i && !some_neg_q;
   assign near = (near_shift[PE] || near_bits == UNKNOWN) ? UNKNOWN - H'(1) : near_bits;
   assign far = (far_shift[PE] || far_bits == UNKNOWN) ? UNKNOWN : far_bits + H'(1);
 
   always_ff @(posedge clk_i) begin
-    near_o <= known ? near : '0;
-    far_o <= known ? far : UNKNOWN;
-    lowers_o <= EXACT && known && far != UNKNOWN && (znear_i == '0 || {1'b0, near} > znear_i[DB-:H+1]) && {1'b0, far} <= zfar_i[DB-:H+1];
+    near_o <= known_q ? near : '0;
+    far_o <= known_q ? far : UNKNOWN;
+    lowers_o <= EXACT && known_q && far != UNKNOWN && (znear_i == '0 || {1'b0, near} > znear_i[DB-:H+1]) && {1'b0, far} <= zfar_i[DB-:H+1];
   end
 
   logic unused;

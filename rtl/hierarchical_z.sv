@@ -26,7 +26,7 @@ module hierarchical_z #(
     input logic [V:0] scissor_y0_i,
     input logic [V:0] scissor_x1_i,
     input logic [V:0] scissor_y1_i,
-    // Quad: depth_interval's judgement at start, read at take
+    // Quad: depth_interval's judgement the clock after start, read at take
     input logic start_i,
     input logic [SLOT-1:0] start_slot_i,
     input logic [H-1:0] near_i,
@@ -58,12 +58,15 @@ module hierarchical_z #(
 
   // ---- The quad -------------------------------------------------------------------------------------------------------------
   logic [2*H:0] interval_q[0:(1<<SLOT)-1];  // {lowers, near, far}
-  logic lowers_q;
+  logic start_q1, lowers_q;
+  logic [SLOT-1:0] start_slot_q1;
   logic [H-1:0] near_q, far_q;
   logic [TC-1:0] tile_x0_q, tile_y0_q;
 
   always_ff @(posedge clk_i) begin
-    if (start_i) interval_q[start_slot_i] <= {lowers_i && on_i, on_i ? near_i : H'(0), far_i};
+    start_q1 <= start_i;
+    start_slot_q1 <= start_slot_i;
+    if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, on_i ? near_i : H'(0), far_i};
     if (take_i) begin
       {lowers_q, near_q, far_q} <= interval_q[take_slot_i];
       tile_x0_q <= tile_x0_i;

@@ -30,6 +30,7 @@ module performance_counters #(
     input logic block_enter_i,
     input logic tile_test_i,
     input logic tile_push_i,
+    input logic tile_hidden_i,
     input logic row_i,  // coverage tests a row
     input logic stamp_push_i,
     // Pixels
@@ -50,6 +51,7 @@ module performance_counters #(
     input logic setup_i,  // setup has a quad
     input logic setup_behind_i,  // a quad waits for it, or for a slot
     input logic assembly_i,  // vertex_assembly holds vertices
+    input logic wipe_i,  // hierarchical_z wipes places
     input logic busy_i
 );
   // ---- Pixels in front of a unit with multipliers, and its products a pixel -------------------------------------------------
@@ -153,26 +155,27 @@ module performance_counters #(
   assign unused = ^lane_valid_i;
 
   // ---- What bounds this clock: the first that holds -------------------------------------------------------------------------
-  localparam int BOUNDS = 8;
-  logic [BOUNDS-1:0] bound;  // from the first bit: pixels, output, stamps, walk, setup, vertices, drain, idle
+  localparam int BOUNDS = 9;
+  logic [BOUNDS-1:0] bound;  // from the first bit: pixels, output, stamps, walk, setup, vertices, wipe, drain, idle
 
   always_comb begin
-    if (head_i) bound = head_waits_i ? 8'd2 : 8'd1;
-    else if (rows_i && rows_behind_i) bound = 8'd4;
-    else if (walk_behind_i) bound = 8'd8;
-    else if (setup_behind_i) bound = 8'd16;
-    else if (rows_i) bound = 8'd4;
-    else if (walk_i) bound = 8'd8;
-    else if (setup_i) bound = 8'd16;
-    else if (assembly_i) bound = 8'd32;
-    else if (busy_i) bound = 8'd64;
-    else bound = 8'd128;
+    if (head_i) bound = head_waits_i ? 9'd2 : 9'd1;
+    else if (rows_i && rows_behind_i) bound = 9'd4;
+    else if (walk_behind_i) bound = 9'd8;
+    else if (setup_behind_i) bound = 9'd16;
+    else if (rows_i) bound = 9'd4;
+    else if (walk_i) bound = 9'd8;
+    else if (setup_i) bound = 9'd16;
+    else if (assembly_i) bound = 9'd32;
+    else if (wipe_i) bound = 9'd64;
+    else if (busy_i) bound = 9'd128;
+    else bound = 9'd256;
   end
 
   // ---- The counters, in the order of their indices --------------------------------------------------------------------------
   localparam int STEP = 8;  // bits of what a clock adds: at most four products of eleven sums in four lanes, 176
   localparam int LANES = 4;  // indices for the pixels of a lane, used or not
-  localparam int COUNTERS = 35;
+  localparam int COUNTERS = 37;
   logic [COUNTERS*STEP-1:0] step;
   logic [COUNTERS*WIDTH-1:0] value_q;
   logic [LANES-1:0] entered;
@@ -198,21 +201,22 @@ module performance_counters #(
   assign step[10*STEP+:STEP] = STEP'(block_enter_i);
   assign step[11*STEP+:STEP] = STEP'(tile_test_i);
   assign step[12*STEP+:STEP] = STEP'(tile_push_i);
-  assign step[13*STEP+:STEP] = STEP'(row_i);
-  assign step[14*STEP+:STEP] = STEP'(stamp_push_i);
+  assign step[13*STEP+:STEP] = STEP'(tile_hidden_i);
+  assign step[14*STEP+:STEP] = STEP'(row_i);
+  assign step[15*STEP+:STEP] = STEP'(stamp_push_i);
   for (genvar g = 0; g < LANES; g++) begin : gen_pixels
-    assign step[(15+g)*STEP+:STEP] = STEP'(entered[g]);
+    assign step[(16+g)*STEP+:STEP] = STEP'(entered[g]);
   end
-  assign step[19*STEP+:STEP] = STEP'(drawn);
-  assign step[20*STEP+:STEP] = (context_job_i || setup_job_i) ? STEP'(PAIRS * PER_JOB) : '0;
-  assign step[21*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
-  assign step[22*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
-  assign step[23*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
-  assign step[24*STEP+:STEP] = STEP'(at_sum) * STEP'(sums) * STEP'(PER_SUM);
-  assign step[25*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
-  assign step[26*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);
+  assign step[20*STEP+:STEP] = STEP'(drawn);
+  assign step[21*STEP+:STEP] = (context_job_i || setup_job_i) ? STEP'(PAIRS * PER_JOB) : '0;
+  assign step[22*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
+  assign step[23*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
+  assign step[24*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
+  assign step[25*STEP+:STEP] = STEP'(at_sum) * STEP'(sums) * STEP'(PER_SUM);
+  assign step[26*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
+  assign step[27*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);
   for (genvar g = 0; g < BOUNDS; g++) begin : gen_bound
-    assign step[(27+g)*STEP+:STEP] = STEP'(bound[g]);
+    assign step[(28+g)*STEP+:STEP] = STEP'(bound[g]);
   end
 
   for (genvar g = 0; g < COUNTERS; g++) begin : gen_counter

@@ -73,7 +73,7 @@ module quadrille (
   assign unused_skip = ^state.skip[7:5];
 
   // ---- For performance_counters: 0 without them -----------------------------------------------------------------------------
-  logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_walk;
+  logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_hidden, count_walk;
   logic count_row, count_rows, count_rows_behind, count_head_waits;
   logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::LATENCY-1:0] lane_valid;
   logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] count_norm;
@@ -389,6 +389,7 @@ module quadrille (
       .count_block_o(count_block),
       .count_enter_o(count_enter),
       .count_tile_o(count_tile),
+      .count_hidden_o(count_hidden),
       .count_busy_o(count_walk),
       .end_o(tile_end),
       .slot_o(tile_slot),
@@ -407,6 +408,12 @@ module quadrille (
   );
 
   // ---- Hidden tiles -------------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) assert (!clear_hidden_i || !busy_o);
+  end
+`endif
+
   if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_hidden
     hierarchical_z u_hidden (
         .clk_i,
@@ -785,6 +792,7 @@ module quadrille (
         .block_enter_i(count_enter),
         .tile_test_i(count_tile),
         .tile_push_i(tile_push && !tile_end),
+        .tile_hidden_i(count_hidden),
         .row_i(count_row),
         .stamp_push_i(stamp_push && !stamp_push_end),
         .lane_valid_i(lane_valid),
@@ -802,6 +810,7 @@ module quadrille (
         .setup_i(count_setup),
         .setup_behind_i(full && !start && !drop_vertices),
         .assembly_i(assembly_busy),
+        .wipe_i(!depths_ready),
         .busy_i(busy_o)
     );
   end else begin : gen_no_counters
@@ -815,6 +824,7 @@ module quadrille (
       count_block,
       count_enter,
       count_tile,
+      count_hidden,
       count_walk,
       count_row,
       count_rows,

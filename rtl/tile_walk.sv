@@ -45,6 +45,7 @@ module tile_walk #(
     output logic count_block_o,  // for performance_counters, else 0: a block was tested
     output logic count_enter_o,  // and may be covered
     output logic count_tile_o,  // a tile was tested
+    output logic count_hidden_o,  // hit, and hidden
     output logic count_busy_o,  // a quad is here
     output logic end_o,
     output logic [SLOT-1:0] slot_o,
@@ -322,9 +323,10 @@ module tile_walk #(
     assign count_block_o = block_q1 && go;
     assign count_enter_o = enter_walk && go;
     assign count_tile_o = tile_q1 && go;
+    assign count_hidden_o = tile_q1 && go && hit && hidden_i;
     assign count_busy_o = state_q != IDLE;
   end else begin : gen_no_count
-    assign {count_block_o, count_enter_o, count_tile_o, count_busy_o} = '0;
+    assign {count_block_o, count_enter_o, count_tile_o, count_hidden_o, count_busy_o} = '0;
   end
 
   assign go_o = go;

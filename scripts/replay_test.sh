@@ -125,6 +125,11 @@ $sample || expect 0 "" "the machine among them" grep -E "^$machine: [1-9][0-9]* 
 expect 0 "" "sqrt as gates" grep -E "^sqrt \(netlist\): [1-9][0-9]* vectors, 0 mismatches" "$work/icarus"
 expect 0 "^$machine: [0-9]+ vectors, 0 mismatches" "all suites under Verilator" $replay "$set" verilator
 
+# ---- Hidden tiles: wiped behind reset, cleared between draws ----
+"$QUADRILLE" golden generate --level 1 --limit 300 --out "$work/hidden" --quiet --suite machine --set significand_bits=10 --set attribute_slots=1 \
+  --set hierarchical_z_bits=10 --set hierarchical_z_tiles_log2=6
+expect 0 "^machine: [1-9][0-9]* vectors, 0 mismatches" "hidden tiles under Icarus" $replay "$work/hidden" icarus
+
 # ---- Damaged vectors ----
 for simulator in icarus verilator; do
   damage sqrt 'flip("response.hex", -1, 0)'

@@ -272,7 +272,6 @@ TEST(HierarchicalZ, OnlyWhatIsDrawnHides) {
     Case c{"culled", plain, whole};
     if (swap) std::swap(c.front.vertex[1], c.front.vertex[3]);
     c.state.cull = swap ? Cull::back : Cull::front;
-    c.state.skip = skip_tiles;  // or the quad is not walked at all
     cases.push_back(c);
   }
   {
@@ -319,8 +318,11 @@ TEST(HierarchicalZ, OnlyWhatIsDrawnHides) {
     cases.push_back(c);
   }
   for (const Case& c : cases) {
-    BothWays both(config, c.state);
-    both.draw(snap_quad(c.front, config, c.state));
+    // Walked whatever it is: nothing but the rule keeps it from hiding.
+    DrawState walked = c.state;
+    walked.skip = skip_tiles;
+    BothWays both(config, walked);
+    both.draw(snap_quad(c.front, config, walked));
     // The draw behind has no limits of its own.
     DrawState open = plain;
     if (c.state.scissor_x1 == 8) open = c.state;  // the hole alone
@@ -334,8 +336,8 @@ TEST(HierarchicalZ, OnlyWhatIsDrawnHides) {
   }
 }
 
-TEST(HierarchicalZ, EqualDepthsAreHidden) {
-  // The earlier quad wins a tie: of one depth each, where nothing is lost but the margin, a step behind is hidden.
+TEST(HierarchicalZ, TwoCodesBehindIsHiddenAndEqualDepthsAreNot) {
+  // Nothing is lost but the margin and what is rounded: of one depth each, two codes behind is hidden.
   const Config config = configured();
   const DrawState state = viewport(32, 32);
   BothWays both(config, state);

@@ -228,6 +228,28 @@ TEST(PerformanceCounters, WithoutTheSkipEveryTileOfTheBoxIsEntered) {
   }
 }
 
+TEST(PerformanceCounters, HiddenTiles) {
+  Config config;
+  config.set("hierarchical_z_bits", 12);
+  config.set("hierarchical_z_tiles_log2", 8);
+  DrawState state;
+  // 8 × 8 tiles before 16 × 16, all of those a tile of the larger one; another one in front is not hidden.
+  const auto at = [](double x, double y, double edge, double z) {
+    return quad_of({{{x, y + edge}, {x + edge, y + edge}, {x + edge, y}, {x, y}}}, z);
+  };
+  const std::vector<WindowQuad> quads{at(64, 64, 64, 0.25), at(0, 0, 128, 0.5), at(64, 64, 64, 0.125)};
+  const PerformanceCounters all = count(quads, config, state);
+  EXPECT_EQ(all[tiles_hidden], 0u);
+  EXPECT_EQ(all[tiles_entered], 64u + 256 + 64);
+  EXPECT_EQ(all[bound_wipe], 256u);
+  state.skip |= skip_hidden;
+  const PerformanceCounters c = count(quads, config, state);
+  EXPECT_EQ(c[tiles_hidden], 64u);
+  EXPECT_EQ(c[tiles_entered], 64u + 192 + 64);
+  EXPECT_EQ(c[tiles_tested], all[tiles_tested]);
+  EXPECT_EQ(c.pixels(), 4096u * 5);
+}
+
 TEST(PerformanceCounters, PixelsByLane) {
   Config config;
   config.pixels_per_clock = 4;
@@ -294,8 +316,9 @@ TEST(PerformanceCounters, OrderOfTheBounds) {
   BoundInputs in;
   EXPECT_EQ(bound_of(in), bound_idle);
   // Each of these is charged in place of those before it.
-  const std::array<std::pair<bool BoundInputs::*, PerformanceCounter>, 5> holds{
+  const std::array<std::pair<bool BoundInputs::*, PerformanceCounter>, 6> holds{
       {{&BoundInputs::busy, bound_drain},
+       {&BoundInputs::wipe, bound_wipe},
        {&BoundInputs::assembly, bound_vertices},
        {&BoundInputs::setup, bound_setup},
        {&BoundInputs::walk, bound_walk},

@@ -55,6 +55,7 @@ class PatternBeats : public SteadyBeats {
 MachineRun run_machine(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
                        std::span<const StallClock> stalls) {
   DrivenModel model(config, state);
+  model.wait_idle();
   PatternBeats beats(quads, stalls);
   MachineRun run;
   drive(model, beats, [&](std::uint64_t cycle, const ClockedOutputs& out, bool taken) {

@@ -152,6 +152,19 @@ DrawState picture_state(const Config& config) {
   return state;
 }
 
+/// Two rectangles of 16 × 8 pixels on corners of tiles, one behind the other.
+std::vector<SnappedQuad> two_layers(const Config& config, const DrawState& state) {
+  std::vector<SnappedQuad> quads;
+  for (const double z : {0.05, 0.95}) {
+    WindowQuad quad;
+    quad.id = static_cast<std::uint32_t>(quads.size());
+    quad.vertex = {{{16, 16, z, 1}, {16, 24, z, 1}, {32, 24, z, 1}, {32, 16, z, 1}}};
+    for (auto& attribute : quad.attribute) attribute.assign(static_cast<std::size_t>(state.attributes), 0.5);
+    quads.push_back(snap_quad(quad, config, state));
+  }
+  return quads;
+}
+
 /// The same random quads under every draw state.
 std::vector<MachineDraw> every_state(const GenerateOptions& options) {
   const DrawState normal = picture_state(options.config);
@@ -170,10 +183,14 @@ std::vector<MachineDraw> every_state(const GenerateOptions& options) {
   add([](DrawState& s) { s.attributes = 0; });
   add([](DrawState& s) { s.attributes = 1; });
   add([](DrawState& s) { s.skip = 0; });
+  if (options.config.hierarchical_z_bits != 0) add([](DrawState& s) { s.skip |= skip_hidden; });
   std::vector<MachineDraw> draws;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto count = static_cast<int>(std::min<std::size_t>(2000, most_quads(options.config)));
     draws.push_back({states[i], tb::random_quads(options.config, states[i], options.seed + i, count)});
+    // Something to hide before the limit is reached
+    if ((states[i].skip & skip_hidden) != 0)
+      std::ranges::copy(two_layers(options.config, states[i]), draws.back().quads.begin());
     // The other states may draw nothing, such as that with an empty scissor rectangle.
     const std::uint64_t fragments =
         limit_draw(draws.back(), options.config, fragment_limit(options) / states.size() + 1, i == 0);

@@ -121,6 +121,22 @@ TEST_F(MachineSet, NoMoreQuadsThanIds) {
   }
 }
 
+// With the depths of tiles a draw more; every draw begins when their places are wiped, with nothing hidden.
+TEST_F(MachineSet, HiddenTiles) {
+  GenerateOptions options;
+  options.config.set("hierarchical_z_bits", 12);
+  options.config.set("hierarchical_z_tiles_log2", 6);
+  const SuiteReader reader = generate("machine", options);
+  EXPECT_TRUE(find_suite("machine").verify(reader, 2).ok());
+  const std::vector<MachineDraw> draws = read_draws(reader);
+  ASSERT_EQ(draws.size(), 12u);
+  EXPECT_EQ(draws.back().state.skip, skip_default | skip_hidden);
+  UntimedModel model(options.config, draws.back().state);
+  for (const SnappedQuad& quad : draws.back().quads) model.draw(quad, [](std::span<const Fragment>) {});
+  EXPECT_GT(model.stats().tiles_hidden, 0u);
+  EXPECT_EQ(run_machine(draws.back().quads, options.config, draws.back().state, {}).taken.front(), 0u);
+}
+
 TEST_F(MachineSet, EvenTheSmallestHasAFragment) {
   GenerateOptions options;
   options.limit = 1;

@@ -71,6 +71,7 @@ module axi4_stream_bench;
       .aclk(clk),
       .aresetn(rst_n),
       .s_axis_state_tdata(state_tvalid ? {{(STATE_TDATA - STATE) {1'b1}}, states[state]} : {STATE_TDATA{1'b1}}),
+      .s_axis_state_tuser(1'b1),  // every draw of a set begins with nothing hidden
       .s_axis_state_tvalid(state_tvalid),
       .s_axis_state_tready(state_tready),
       .s_axis_vertex_tdata(vertex_tvalid ? {{(VERTEX_TDATA - VERTEX) {1'b1}}, stimulus[VERTEX-1:0]} : {VERTEX_TDATA{1'b1}}),

@@ -1,6 +1,6 @@
 // The machine between AXI4-Stream interfaces: a draw is a beat of state, a packet of vertices, and a packet of fragments.
 //
-//     s_axis_state     one beat a draw: state_i of `quadrille`
+//     s_axis_state     one beat a draw: state_i of `quadrille`; TUSER: the depth buffer was cleared, nothing is hidden when the draw begins
 //     s_axis_vertex    vertex_i, four beats a quad; TLAST with the draw's last beat
 //     m_axis_fragment  fragment_o, TKEEP ones in the bytes of the lanes that have a fragment, at least one; then one null beat (TKEEP and
 //                      TDATA 0) with TLAST, which ends the draw
@@ -18,6 +18,7 @@ module quadrille_axi4_stream #(
     input logic aclk,
     input logic aresetn,
     input logic [8*STATE_BYTES-1:0] s_axis_state_tdata,
+    input logic s_axis_state_tuser,
     input logic s_axis_state_tvalid,
     output logic s_axis_state_tready,
     input logic [8*VERTEX_BYTES-1:0] s_axis_vertex_tdata,
@@ -36,10 +37,12 @@ module quadrille_axi4_stream #(
   logic [quadrille_pkg::STATE_BITS-1:0] state_q;
   logic [LANES*quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
   logic [LANES-1:0] mask;
-  logic vertex_ready, fragment_valid, busy;
+  logic clear_q;  // asked for, and not yet done: reset wipes as well
+  logic vertex_ready, vertex_open, fragment_valid, busy;
 
   assign s_axis_state_tready = step_q == STATE;
-  assign s_axis_vertex_tready = step_q == VERTICES && vertex_ready;
+  assign vertex_open = step_q == VERTICES && !clear_q;
+  assign s_axis_vertex_tready = vertex_open && vertex_ready;
 
   always_ff @(posedge aclk) begin
     if (!aresetn) begin
@@ -47,11 +50,17 @@ module quadrille_axi4_stream #(
     end else begin
       case (step_q)
         STATE: if (s_axis_state_tvalid) step_q <= VERTICES;
-        VERTICES: if (s_axis_vertex_tvalid && vertex_ready && s_axis_vertex_tlast) step_q <= DRAIN;
+        VERTICES: if (s_axis_vertex_tvalid && s_axis_vertex_tready && s_axis_vertex_tlast) step_q <= DRAIN;
         DRAIN: if (!busy && !fragment_valid) step_q <= LAST;
         LAST: if (m_axis_fragment_tready) step_q <= STATE;
       endcase
     end
+  end
+
+  always_ff @(posedge aclk) begin
+    if (!aresetn) clear_q <= 1'b0;
+    else if (s_axis_state_tready) clear_q <= s_axis_state_tvalid && s_axis_state_tuser;
+    else if (!busy) clear_q <= 1'b0;
   end
 
   always_ff @(posedge aclk) if (s_axis_state_tready) state_q <= s_axis_state_tdata[quadrille_pkg::STATE_BITS-1:0];
@@ -62,9 +71,9 @@ module quadrille_axi4_stream #(
       .clk_i(aclk),
       .rst_ni(aresetn),
       .state_i(state_q),
-      .clear_hidden_i(1'b0),
+      .clear_hidden_i(clear_q && !busy && step_q == VERTICES),
       .vertex_i(s_axis_vertex_tdata[quadrille_pkg::VERTEX_BITS-1:0]),
-      .vertex_valid_i(s_axis_vertex_tvalid && step_q == VERTICES),
+      .vertex_valid_i(s_axis_vertex_tvalid && vertex_open),
       .vertex_ready_o(vertex_ready),
       .fragment_o(fragment),
       .fragment_mask_o(mask),

@@ -79,7 +79,7 @@ TEST_F(Hidden, FindsWhatIsLeftOutBesideTheOther) {
   EXPECT_EQ(result.hidden, 23u * 24);
 }
 
-TEST_F(Hidden, FindsADepthOneCodeInFront) {
+TEST_F(Hidden, MayRefuseWhatIsNotInFront) {
   HiddenCheck exact(config_, state_);
   Fragment front = all_.front();
   EXPECT_TRUE(exact.quad_done(snapped_[0]).has_value()) << "the buffer is clear: nothing may be left out";

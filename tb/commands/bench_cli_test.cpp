@@ -46,7 +46,8 @@ TEST_F(Cli, BenchSkipsRefuses) {
   refuses(2, "bench --skips --scene room --json nowhere/s.json", {"nowhere"});
 }
 
-/// Eight quads over the whole picture, of which nothing can be skipped: every number follows from that.
+/// Eight quads over the whole picture, of which nothing can be skipped but what the first one hides: every number
+/// follows from that.
 TEST_F(Cli, BenchSkipsReports) {
   const auto skips = [&](const std::string& arguments) {
     const Outcome outcome = run("bench --skips --scene layers_large --size 64x64 --repeat 1 --json - " + arguments);
@@ -60,19 +61,26 @@ TEST_F(Cli, BenchSkipsReports) {
   std::vector<std::string> columns;
   for (const json& entry : report["skips"]) {
     columns.push_back(entry["skip"]);
-    EXPECT_EQ(entry["pixels"], 8 * 64 * 64);
+    const bool hides = columns.back() == "hidden" || columns.back() == "all";
+    const int drawn = hides ? 1 : 8;
+    EXPECT_EQ(entry["hierarchical_z_bits"], hides ? 12 : 0);
+    EXPECT_EQ(entry["pixels"], drawn * 64 * 64);
+    EXPECT_EQ(entry["tiles_hidden"], (8 - drawn) * 64);
     EXPECT_EQ(entry["counters"]["quads_ordinary"], 8);
-    EXPECT_EQ(entry["counters"]["tiles_entered"], 8 * 64);
-    EXPECT_EQ(entry["counters"]["stamps"], 8 * 64 * 8);
-    EXPECT_EQ(entry["counters"]["bound_pixels"], 8 * (64 * 64 + 1));
-    EXPECT_LT(entry["cycles"], 1.01 * 8 * 64 * 64);
+    EXPECT_EQ(entry["counters"]["tiles_entered"], drawn * 64);
+    EXPECT_EQ(entry["counters"]["stamps"], drawn * 64 * 8);
+    EXPECT_EQ(entry["counters"]["bound_pixels"], drawn * 64 * 64 + 8);
+    EXPECT_EQ(entry["counters"]["bound_wipe"], hides ? 4096 : 0);
+    EXPECT_LT(entry["cycles"], hides ? 1.2 * 64 * 64 : 1.01 * 8 * 64 * 64);
   }
   ASSERT_GE(columns.size(), 4u);
   EXPECT_EQ(columns.front(), "none");
   EXPECT_EQ(columns[1], "tiles");
   EXPECT_EQ(columns[2], "quads");
+  EXPECT_EQ(columns[3], "hidden");
   EXPECT_EQ(columns.back(), "all");
-  EXPECT_EQ(report["tiles"]["layers_large"]["entered"], 8 * 64);
+  EXPECT_EQ(report["tiles"]["layers_large"]["entered"], 64);
+  EXPECT_EQ(report["tiles"]["layers_large"]["hidden"], 7 * 64);
   EXPECT_EQ(report["tiles"]["layers_large"]["block"], 0);
   const std::string png = read(file("pictures/layers_large.png")), exr = read(file("pictures/layers_large.exr"));
   EXPECT_GT(png.size(), 50u);

@@ -25,7 +25,9 @@ namespace {
 /// One scene with one set of skips.
 struct Run {
   PerformanceCounters counters;
-  std::uint64_t cycles = 0, hash = 0;
+  std::uint64_t cycles = 0;   ///< without those that wipe the places of hidden tiles behind reset
+  std::uint64_t hash = 0;     ///< of the list of fragments
+  std::uint64_t picture = 0;  ///< of what a depth test LESS leaves of it
   double model_seconds = 0;
 };
 
@@ -40,24 +42,69 @@ struct SkipScene {
 struct SkipSet {
   std::string name;  ///< as --skip takes it, but for all and none
   std::uint32_t skips;
+  Config config;
 };
 
-/// None, each that the program knows, and all together.
-std::vector<SkipSet> skip_sets() {
-  std::vector<SkipSet> sets{{"none", 0}};
+/// A frame buffer with depth test LESS.
+class NearestFragments {
+ public:
+  NearestFragments(const Config& config, const DrawState& state)
+      : width_(state.width), beyond_(1u << config.depth_bits), depth_(state.depth) {
+    place_.assign(static_cast<std::size_t>(state.width) * static_cast<std::size_t>(state.height), {.depth = beyond_});
+  }
+
+  void draw(const Fragment& fragment) {
+    Fragment& place = place_[static_cast<std::size_t>(fragment.y * width_ + fragment.x)];
+    if (!depth_ || fragment.depth < place.depth) place = fragment;
+  }
+
+  /// Of every bit of the picture.
+  std::uint64_t hash() const {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    const auto add = [&hash](std::uint64_t value) { hash = (hash ^ value) * 0x9e3779b97f4a7c15u ^ hash >> 29; };
+    for (const Fragment& f : place_) {
+      if (f.depth == beyond_) {
+        add(0);
+        continue;
+      }
+      add(std::uint64_t{f.quad} << 32 | f.depth);
+      add(std::uint64_t{f.flags} << 1 | (f.front ? 1 : 0));
+      for (const std::int64_t attribute : f.attribute) add(static_cast<std::uint64_t>(attribute));
+    }
+    return hash;
+  }
+
+ private:
+  int width_;
+  std::uint32_t beyond_;  ///< no depth
+  bool depth_;
+  std::vector<Fragment> place_;
+};
+
+constexpr int depth_bits_of_tiles = 12;
+
+/// None, each that the program knows, and all together. Those that hide tiles have the memory for it, whether the
+/// configuration does or not.
+std::vector<SkipSet> skip_sets(const Config& config) {
+  Config hides = config;
+  if (config.hierarchical_z_bits == 0) {
+    hides.set("hierarchical_z_bits", std::min(depth_bits_of_tiles, config.depth_bits));
+    hides.validate();
+  }
+  std::vector<SkipSet> sets{{"none", 0, config}};
   std::uint32_t all = 0;
   for (std::size_t i = 0; i < known_skips().size(); ++i) {
-    sets.push_back({known_skips()[i], 1u << i});
+    sets.push_back({known_skips()[i], 1u << i, 1u << i == skip_hidden ? hides : config});
     all |= 1u << i;
   }
-  sets.push_back({"all", all});
+  sets.push_back({"all", all, hides});
   return sets;
 }
 
 class SkipBench {
  public:
   SkipBench(const SkipBenchOptions& options, const std::vector<std::string>& arguments)
-      : options_(options), arguments_(arguments), config_(options.common.config()), sets_(skip_sets()) {}
+      : options_(options), arguments_(arguments), config_(options.common.config()), sets_(skip_sets(config_)) {}
 
   int run() {
     std::vector<std::string> read = options_.input.files();
@@ -133,15 +180,16 @@ class SkipBench {
         [&](std::size_t i) {
           const SkipScene& scene = scenes_[i / sets_.size()];
           tb::LockstepOptions lockstep;
-          lockstep.config = config_;
+          lockstep.config = sets_[i % sets_.size()].config;
           lockstep.state = state_of(scene, i % sets_.size());
-          return tb::run_clocked_model_alone(scene.quads, lockstep);
+          NearestFragments nearest(lockstep.config, lockstep.state);
+          const tb::AloneRun alone =
+              tb::run_clocked_model_alone(scene.quads, lockstep, [&](const Fragment& f) { nearest.draw(f); });
+          return Run{alone.counters, alone.cycles - alone.counters[PerformanceCounter::bound_wipe], alone.fragment_hash,
+                     nearest.hash(), 0};
         },
-        [&](std::size_t i, const tb::AloneRun& alone) {
-          Run& run = scenes_[i / sets_.size()].runs[i % sets_.size()];
-          run.counters = alone.counters;
-          run.cycles = alone.cycles;
-          run.hash = alone.fragment_hash;
+        [&](std::size_t i, const Run& run) {
+          scenes_[i / sets_.size()].runs[i % sets_.size()] = run;
           progress.set(++done, scenes_[i / sets_.size()].input.name);
         });
     for (SkipScene& scene : scenes_) {
@@ -154,33 +202,43 @@ class SkipBench {
   }
 
   double time(const SkipScene& scene, std::size_t set) const {
-    UntimedModel model(config_, state_of(scene, set));
+    UntimedModel model(sets_[set].config, state_of(scene, set));
     const Stopwatch stopwatch;
     for (const SnappedQuad& quad : scene.quads) model.draw(quad, [](std::span<const Fragment>) {});
     return stopwatch.seconds();
   }
 
-  /// What a skip that must keep the list of fragments did to it; empty: nothing.
+  /// What a skip that must keep the list of fragments, or the picture, did to it; empty: nothing.
   std::string fault_of(const SkipScene& scene) const {
     for (std::size_t set = 1; set < sets_.size(); ++set) {
       const bool keeps = (sets_[set].skips & ~skip_default) == 0;
       if (keeps && scene.runs[set].hash != scene.runs[0].hash)
         return "--skip " + sets_[set].name + " draws other fragments than --skip none";
+      if (scene.runs[set].picture != scene.runs[0].picture)
+        return "--skip " + sets_[set].name + " draws another depth-tested picture than --skip none";
     }
     return "";
   }
 
+  /// With all skips.
+  TileFates fates_of(const SkipScene& scene) const {
+    return tile_fates(scene.quads, sets_.back().config, state_of(scene, sets_.size() - 1));
+  }
+
   void save_picture(const SkipScene& scene, const StagedDirectory& folder) const {
-    const TileFates fates = tile_fates(scene.quads, config_, state_of(scene, sets_.size() - 1));
+    const TileFates fates = fates_of(scene);
     const golden::FrameImage image = skip_picture(fates, config_, scene.state);
     save_frame_png(folder.path(scene.input.name + ".png"), image);
     golden::save_exr(folder.path(scene.input.name + ".exr"), image);
   }
 
   void print(std::FILE* text) const {
-    std::fprintf(text, "%s\n%zu scene%s, %s; configuration %s; model times of one core, median of %d runs\n\n",
+    std::fprintf(text,
+                 "%s\n%zu scene%s, %s; configuration %s; model times of one core, median of %d runs;\nhidden and all "
+                 "with hierarchical_z_bits=%d; clocks without those that wipe its places behind reset\n\n",
                  golden::command_line(arguments_).c_str(), scenes_.size(), scenes_.size() == 1 ? "" : "s",
-                 options_.common.size.c_str(), summary(config_).c_str(), options_.repeat);
+                 options_.common.size.c_str(), summary(config_).c_str(), options_.repeat,
+                 sets_.back().config.hierarchical_z_bits);
     std::fprintf(text, "%-22s %-9s", "", "--skip");
     for (const SkipSet& set : sets_) std::fprintf(text, " %12s", set.name.c_str());
     std::fputs("\n", text);
@@ -194,6 +252,7 @@ class SkipBench {
       };
       row("clocks", [](const Run& run) { return std::to_string(run.cycles); });
       row("pixels", [](const Run& run) { return std::to_string(run.counters.pixels()); });
+      row("hidden", [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::tiles_hidden]); });
       row("products", [](const Run& run) { return std::to_string(run.counters.products()); });
       row("bound by", [](const Run& run) { return bound_name(run.counters); });
       row("model ms", [](const Run& run) {
@@ -204,12 +263,13 @@ class SkipBench {
     }
   }
 
-  /// What most clocks are charged to, idle ones apart.
+  /// What most clocks are charged to, idle ones and those that wipe apart.
   static std::string bound_name(const PerformanceCounters& counters) {
     const auto first = static_cast<std::size_t>(PerformanceCounter::bound_pixels);
     std::size_t most = first;
     for (std::size_t i = first; i < static_cast<std::size_t>(PerformanceCounter::bound_idle); ++i)
-      if (counters.value[i] > counters.value[most]) most = i;
+      if (i != static_cast<std::size_t>(PerformanceCounter::bound_wipe) && counters.value[i] > counters.value[most])
+        most = i;
     return std::string(counter_info[most].name.substr(sizeof "bound_" - 1));
   }
 
@@ -220,14 +280,16 @@ class SkipBench {
     json["skips"] = nlohmann::ordered_json::array();
     bool ok = true;
     for (const SkipScene& scene : scenes_) {
-      const TileFates fates = tile_fates(scene.quads, config_, state_of(scene, sets_.size() - 1));
+      const TileFates fates = fates_of(scene);
       for (std::size_t set = 0; set < sets_.size(); ++set) {
         const Run& run = scene.runs[set];
         nlohmann::ordered_json entry;
         entry["input"] = scene.input.name;
         entry["skip"] = sets_[set].name;
+        entry["hierarchical_z_bits"] = sets_[set].config.hierarchical_z_bits;
         entry["cycles"] = run.cycles;
         entry["pixels"] = run.counters.pixels();
+        entry["tiles_hidden"] = run.counters[PerformanceCounter::tiles_hidden];
         entry["products"] = run.counters.products();
         entry["model_seconds"] = run.model_seconds;
         entry["counters"] = counters_json(run.counters);

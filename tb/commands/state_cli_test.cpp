@@ -20,6 +20,13 @@ TEST_F(Cli, DrawStatesAtRandomSayWhatIsWrong) {
   refuses(2, "cosim --scene bowtie --attributes 0", {"--attributes"});
 }
 
+TEST_F(Cli, HiddenTilesAskForDepthsAndADepthTest) {
+  refuses(2, "fragments --scene bowtie --out a.csv --skip tiles,hidden",
+          {"--skip hidden", "holds no depths of tiles", "--set hierarchical_z_bits=12"});
+  refuses(2, "fragments --scene bowtie --out a.csv --set hierarchical_z_bits=12 --no-depth --skip hidden",
+          {"--skip hidden", "--no-depth"});
+}
+
 TEST_F(Cli, CornerGroupsAreListedAndDrawn) {
   refuses(2, "fragments --corner z_limit --out a.csv", {"unknown corner group", "did you mean \"z_limits\""});
   refuses(2, "fragments --corner tall --stress tiny --out a.csv", {"one input is needed", "--corner GROUP"});

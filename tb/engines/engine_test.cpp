@@ -94,5 +94,34 @@ TEST(Passes, TheModelMergesThemIntoTheSameSamples) {
   }
 }
 
+/// Layers from front to back in several units of work: what is hidden is the same with any number of threads.
+TEST(Passes, ThreadsHideTheSame) {
+  std::vector<WindowQuad> quads;
+  for (std::uint32_t i = 0; i < 120; ++i) {
+    const double x = i * 7 % 40, y = i * 11 % 40, z = 0.1 + 0.005 * i;
+    WindowQuad quad;
+    quad.id = i;
+    quad.vertex = {{{x, y, z, 1}, {x, y + 24, z, 1}, {x + 24, y + 24, z, 1}, {x + 24, y, z, 1}}};
+    for (auto& attribute : quad.attribute) attribute = {0.5};
+    quads.push_back(quad);
+  }
+  const auto draw = [&](unsigned threads, std::uint32_t skip) {
+    EngineSettings settings;
+    settings.config.set("hierarchical_z_bits", 12);
+    settings.state.width = settings.state.height = settings.state.scissor_x1 = settings.state.scissor_y1 = 64;
+    settings.state.skip = skip;
+    settings.threads = threads;
+    std::vector<std::array<std::uint32_t, 3>> all;
+    make_engine(settings)->draw(quads, 1, false, [&](std::span<const EngineSample> samples) {
+      for (const EngineSample& s : samples)
+        all.push_back({s.index, static_cast<std::uint32_t>(s.x), static_cast<std::uint32_t>(s.y)});
+    });
+    return all;
+  };
+  const auto once = draw(1, skip_default | skip_hidden);
+  EXPECT_LT(once.size(), draw(1, skip_default).size() / 2);
+  EXPECT_EQ(draw(4, skip_default | skip_hidden), once);
+}
+
 }  // namespace
 }  // namespace quadrille::cli

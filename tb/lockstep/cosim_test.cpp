@@ -50,7 +50,7 @@ const Named odd{"odd",
                  {"notch_exact", 0},
                  {"sqrt_segments_log2", 8},
                  {"sqrt_degree", 1},
-                 {"recip_segments_log2", 7},
+                 {"recip_segments_log2", 9},
                  {"recip_degree", 1},
                  {"align_guard_bits", 1},
                  {"attribute_slots", 3},
@@ -145,6 +145,36 @@ TEST_P(Configuration, LockstepUnderEveryStallPattern) {
       << "a flag that never occurs is not tested";
   RecordProperty("fragments", std::to_string(total));
   std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
+}
+
+// Layers in front of much: tiles are hidden, and the counters say how many.
+TEST(Cosim, HiddenTilesAndTheirCounters) {
+  LockstepOptions options;
+  options.config = odd.config();
+  options.state = small_state(options.config);
+  options.state.skip |= skip_hidden;
+  std::vector<SnappedQuad> quads = random_quads(options.config, options.state, 2025, 300);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double left = 3.0 * static_cast<double>(i) - 9, z = 0.4 - 0.05 * static_cast<double>(i);
+    WindowQuad layer;
+    layer.id = static_cast<std::uint32_t>(1000 + i);
+    layer.vertex = {{{left, -4, z, 1}, {left, 70, z, 1}, {left + 50, 70, z, 1}, {left + 50, -4, z, 1}}};
+    for (auto& attribute : layer.attribute) attribute.assign(static_cast<std::size_t>(options.state.attributes), 0.5);
+    quads.insert(quads.begin() + static_cast<std::ptrdiff_t>(40 * i), snap_quad(layer, options.config, options.state));
+  }
+  UntimedModel model(options.config, options.state);
+  for (const SnappedQuad& quad : quads) model.draw(quad, [](std::span<const Fragment>) {});
+  VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
+  for (const double stall : {0.0, 0.6}) {
+    options.stall = stall;
+    const LockstepReport report = run_lockstep(device, quads, options);
+    ASSERT_TRUE(report.agreed() && report.complete) << report.first_divergence.value_or("");
+    EXPECT_EQ(report.fragments, model.stats().fragments);
+    EXPECT_EQ(report.counters[PerformanceCounter::tiles_hidden], model.stats().tiles_hidden);
+    EXPECT_EQ(report.counters[PerformanceCounter::tiles_entered], model.stats().tiles_entered);
+    EXPECT_EQ(report.counters[PerformanceCounter::bound_wipe], 128u) << "behind reset: every place, once";
+  }
+  EXPECT_GT(model.stats().tiles_hidden, 200u);
 }
 
 TEST_P(Configuration, LockstepInEveryDrawState) {

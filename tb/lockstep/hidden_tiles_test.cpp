@@ -42,6 +42,7 @@ const Named few_places{"few_places",
                         {"attribute_slots", 1},
                         {"tile_log2", 2},
                         {"hierarchical_z_bits", 10},
+                        {"performance_counters", 1},
                         {"hierarchical_z_tiles_log2", 6}}};
 /// More places than tiles, codes wider than significands.
 const Named many_places{"many_places",
@@ -51,6 +52,7 @@ const Named many_places{"many_places",
                          {"pixels_per_clock", 4},
                          {"dot_units", 4},
                          {"hierarchical_z_bits", 14},
+                         {"performance_counters", 1},
                          {"hierarchical_z_tiles_log2", 9}}};
 
 struct Draw {
@@ -110,7 +112,7 @@ std::vector<Fragment> untimed(const Config& config, const std::vector<Draw>& dra
 
 /// One machine through all draws; both sides compared in every clock. Returns the model's fragments.
 std::vector<Fragment> lockstep(Device& device, const Config& config, const std::vector<Draw>& draws, double stall,
-                               double gap) {
+                               double gap, std::uint64_t hidden) {
   constexpr std::uint64_t seed = 5;
   ClockedModel model(config, draws.front().state);
   std::vector<Fragment> all;
@@ -165,6 +167,9 @@ std::vector<Fragment> lockstep(Device& device, const Config& config, const std::
       stalls.advance();
     }
   }
+  for (std::size_t i = 0; i < counter_count; ++i)
+    EXPECT_EQ(device.counter(i), static_cast<std::uint32_t>(model.counters().value[i])) << counter_info[i].name;
+  EXPECT_EQ(model.counters()[PerformanceCounter::tiles_hidden], hidden);
   return all;
 }
 
@@ -182,7 +187,7 @@ TEST_P(HiddenTiles, LockstepThroughDrawsAndClears) {
   EXPECT_GT(hidden, 500u);
   VerilatedDevice device(config, VerilateOptions{}, 3);
   for (const auto& [stall, gap] : {std::pair{0.0, 0.0}, {0.5, 0.1}, {0.0, 0.7}, {0.9, 0.0}}) {
-    const std::vector<Fragment> drawn = lockstep(device, config, draws, stall, gap);
+    const std::vector<Fragment> drawn = lockstep(device, config, draws, stall, gap, hidden);
     ASSERT_TRUE(drawn == expected) << drawn.size() << " fragments of " << expected.size() << ", stall " << stall;
   }
   std::printf("%zu fragments, %llu tiles hidden\n", expected.size(), static_cast<unsigned long long>(hidden));

@@ -1,5 +1,6 @@
 #include "tb/render/skip_picture.hpp"
 
+#include "model/hierarchical_z.hpp"
 #include "model/quad_reject.hpp"
 #include "model/quad_setup.hpp"
 #include "model/tile_walk.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 /// Of the fates, in their order: grey where work was done, a hue of its own for each reason.
 constexpr std::array<std::array<double, 3>, tile_fate_count> colours{{{0.75, 0.75, 0.75},
+                                                                      {0.60, 0.25, 0.80},
                                                                       {0.20, 0.75, 0.30},
                                                                       {0.15, 0.35, 0.90},
                                                                       {0.95, 0.55, 0.10},
@@ -53,6 +55,8 @@ TileFates tile_fates(std::span<const SnappedQuad> quads, const Config& config, c
   for (std::vector<std::uint32_t>& counts : fates.count) counts.assign(tiles, 0);
   std::vector<bool> tested(tiles);
   TileWalk walk(config, state);
+  HierarchicalZ memory(config);
+  HierarchicalZ* const hiding = skips_hidden(config, state) ? &memory : nullptr;
   for (const SnappedQuad& quad : quads) {
     const QuadReject reject = quad_reject(quad, config, state);
     const SetupResult setup = quad_setup(quad, config, state);
@@ -63,12 +67,17 @@ TileFates tile_fates(std::span<const SnappedQuad> quads, const Config& config, c
       continue;
     }
     std::fill(tested.begin(), tested.end(), false);
-    for (walk.take(setup); walk.state() != TileWalk::State::end; walk.advance()) {
+    for (walk.take(setup, hiding, hiding != nullptr ? depth_interval(quad, config, state) : DepthInterval{});
+         walk.state() != TileWalk::State::end; walk.advance()) {
       if (walk.state() != TileWalk::State::tile) continue;
       const TileEntry tile = walk.entry();
       if (tile.tile_x >= fates.columns || tile.tile_y >= fates.rows) continue;
       tested[static_cast<std::size_t>(tile.tile_y * fates.columns + tile.tile_x)] = true;
-      ++at(fates, walk.hit() ? TileFate::entered : TileFate::tile, tile.tile_x, tile.tile_y);
+      ++at(fates,
+           walk.hit()      ? TileFate::entered
+           : walk.hidden() ? TileFate::hidden
+                           : TileFate::tile,
+           tile.tile_x, tile.tile_y);
     }
     walk.advance();
     for_each_tile(fates, setup.tile_x0, setup.tile_y0, setup.tiles_x, setup.tiles_y, [&](int x, int y) {

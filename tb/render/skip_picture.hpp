@@ -16,15 +16,16 @@ namespace quadrille::cli {
 /// What became of a tile of a quad's bounding box.
 enum class TileFate : std::uint8_t {
   entered,  ///< pushed: its rows were tested
+  hidden,   ///< hit, but nothing of it can be seen
   tile,     ///< its own test was not hit
   block,    ///< it was not tested: something larger that holds it was not hit
   depth,    ///< its quad was left out: outside [znear, zfar]
   line,     ///< on a line
   culled,   ///< no wanted face possible
 };
-inline constexpr std::size_t tile_fate_count = 6;
-inline constexpr std::array<std::string_view, tile_fate_count> tile_fate_names{"entered", "tile", "block",
-                                                                               "depth",   "line", "culled"};
+inline constexpr std::size_t tile_fate_count = 7;
+inline constexpr std::array<std::string_view, tile_fate_count> tile_fate_names{"entered", "hidden", "tile",  "block",
+                                                                               "depth",   "line",   "culled"};
 
 /// How many quads gave a tile each fate; tiles in rows from the top. The box of a quad with some w that is not 1 is all
 /// that the walk has to look at; left out, it has none, nor has one behind the eye or without a pixel centre.
@@ -34,6 +35,7 @@ struct TileFates {
 
   std::uint64_t total(TileFate fate) const;
 };
+/// In the order of the quads: what is hidden depends on those before, and nothing is at the first.
 TileFates tile_fates(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state);
 
 /// Each tile in the mean of its fates' colours, weighted by how many quads had them, the darker the fewer; layers

@@ -55,5 +55,26 @@ TEST(SkipPicture, EveryTileOfABoxHasAFate) {
   EXPECT_EQ(image.r[image.index(255, 0)], 0);                                 // no quad there
 }
 
+TEST(SkipPicture, HiddenTiles) {
+  Config config;
+  config.set("hierarchical_z_bits", 12);
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = 128;
+  state.skip |= skip_hidden;
+  std::vector<SnappedQuad> quads;
+  for (const double z : {0.25, 0.5}) {  // 4 × 4 tiles before 8 × 8
+    WindowQuad q;
+    const double edge = z == 0.25 ? 32 : 64;
+    q.vertex = {{{0, 0, z, 1}, {0, edge, z, 1}, {edge, edge, z, 1}, {edge, 0, z, 1}}};
+    for (auto& attribute : q.attribute) attribute.assign(4, 0);
+    quads.push_back(snap_quad(q, config, state));
+  }
+  const TileFates fates = tile_fates(quads, config, state);
+  EXPECT_EQ(fates.total(TileFate::hidden), 16u);
+  EXPECT_EQ(fates.total(TileFate::entered), 16u + 48);
+  EXPECT_EQ(fates.count[static_cast<std::size_t>(TileFate::hidden)][3 * 16 + 3], 1u);
+  EXPECT_EQ(fates.count[static_cast<std::size_t>(TileFate::hidden)][3 * 16 + 4], 0u);
+}
+
 }  // namespace
 }  // namespace quadrille::cli

@@ -5,13 +5,14 @@
 // Macros: REPLAY_STATE_BITS, REPLAY_VERTEX_BITS, REPLAY_FRAGMENT_BITS (of a lane), REPLAY_LANES of the fragment port, and the most lines of each file REPLAY_DRAWS, REPLAY_BEATS,
 // REPLAY_FRAGMENTS, REPLAY_STALLS. Plusargs: +suite=NAME, +states= +stimulus= +taken= +response= +stalls=FILE, +draws= +beats= +fragments=
 // +pattern=N (lines of these files). A draw begins when the machine is not busy; clock 0 is the first clock in which its first beat
-// may be offered. Prints the first difference and "NAME: N vectors, M mismatches"; ends with $fatal unless M = 0.
+// may be offered. Every draw begins with nothing hidden: where the machine hides tiles, they are cleared between two draws. Prints the first difference and "NAME: N vectors, M mismatches"; ends with $fatal unless M = 0.
 `timescale 1ns / 1ns
 module replay_machine;
   localparam int STATE = `REPLAY_STATE_BITS;
   localparam int VERTEX = `REPLAY_VERTEX_BITS;
   localparam int FRAGMENT = `REPLAY_FRAGMENT_BITS;
   localparam int LANES = `REPLAY_LANES;
+  localparam logic HIDES = quadrille_pkg::HIERARCHICAL_Z_BITS != 0;
   localparam int SILENCE = 2000000;  // clocks in which nothing moves before the run is given up: more than the longest walk
 
   string suite, states_file, stimulus_file, response_file, stalls_file, taken_file;
@@ -52,7 +53,8 @@ module replay_machine;
 
   // ---- Drivers -------------------------------------------------------------------------------------------------------------
   logic stalled = 1'b0;  // the second pass
-  logic running = 1'b0;  // a draw; otherwise its state is being set
+  logic running = 1'b0;  // a draw; otherwise its state is being set, and what is hidden wiped
+  logic clear = 1'b0;
   int draw = 0;
   int beat = 0;
   int number = 0;  // fragment
@@ -80,7 +82,7 @@ module replay_machine;
       .clk_i(clk),
       .rst_ni(rst_n),
       .state_i(state),
-      .clear_hidden_i(1'b0),
+      .clear_hidden_i(clear),
       .vertex_i(vertex),
       .vertex_valid_i(vertex_valid),
       .vertex_ready_o(vertex_ready),
@@ -118,11 +120,15 @@ module replay_machine;
 
   always @(posedge clk) begin
     if (rst_n && !running) begin
-      if (busy !== 1'b0) $fatal(1, "%s: busy before draw %0d", suite, draw);
-      running <= 1'b1;
-      cycle <= 0;
-      phase <= 0;
-      silence <= 0;
+      clear <= 1'b0;
+      silence <= silence + 1;
+      if (busy !== 1'b0 && (!HIDES || busy !== 1'b1 || silence > SILENCE)) $fatal(1, "%s: busy before draw %0d", suite, draw);
+      if (busy === 1'b0 && !clear) begin
+        running <= 1'b1;
+        cycle <= 0;
+        phase <= 0;
+        silence <= 0;
+      end
     end else if (rst_n) begin
       next = number;
       cycle <= cycle + 1;
@@ -168,6 +174,8 @@ module replay_machine;
         if (expected_here) $fatal(1, "%s: idle after draw %0d without the fragment of line %0d", suite, draw, number + 1);
         if (vertex_ready !== 1'b1) mismatch("idle, but no beat is taken");
         running <= 1'b0;
+        clear <= HIDES;
+        silence <= 0;
         if (draw < draws - 1) begin
           draw <= draw + 1;
         end else begin
