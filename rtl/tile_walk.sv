@@ -323,7 +323,7 @@ module tile_walk #(
     assign count_block_o = block_q1 && go;
     assign count_enter_o = enter_walk && go;
     assign count_tile_o = tile_q1 && go;
-    assign count_hidden_o = tile_q1 && go && hit && hidden_i;
+    assign count_hidden_o = go && tile_q1 && hit && hidden_i;
     assign count_busy_o = state_q != IDLE;
   end else begin : gen_no_count
     assign {count_block_o, count_enter_o, count_tile_o, count_hidden_o, count_busy_o} = '0;

@@ -7,6 +7,7 @@
 #include "tb/check/directed.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace quadrille::tb {
@@ -36,12 +37,14 @@ Config reduced() {
   return config;
 }
 
-/// Four pixels a clock; few slots, for a machine that is quick to build.
+/// Four pixels a clock, hidden tiles; few slots, for a machine that is quick to build.
 Config four_lanes() {
   Config config;
   config.set("significand_bits", 12);
   config.set("attribute_slots", 1);
   config.set("pixels_per_clock", 4);
+  config.set("hierarchical_z_bits", 16);
+  config.set("hierarchical_z_tiles_log2", 6);
   config.set("performance_counters", 1);
   return config;
 }
@@ -263,13 +266,43 @@ Scenario lanes() {
   return {"four lanes", o, random_quads(o.config, o.state, 35, 150)};
 }
 
+/// Layers over the whole viewport, some of them at an angle, a few codes apart: hidden or just not; some hide nothing,
+/// being partly outside znear and zfar, culled or not all over a tile.
+Scenario layers() {
+  LockstepOptions o = options(four_lanes(), 72);  // more tiles than places
+  o.state.attributes = 1;
+  o.state.skip = skip_hidden;  // quads turned away are walked
+  o.state.znear = 0.2;
+  o.state.zfar = 0.75;
+  o.state.cull = Cull::front;
+  o.state.scissor_x0 = 3;
+  o.state.scissor_y1 = 70;
+  o.stall = 0.2;
+  return {"layers", o, drawn(o, 8, 90, [](golden::Prng& random) {
+            WindowQuad quad;
+            const double step = std::ldexp(1, -13), z = random.chance(0.7)
+                                                            ? 0.4 + step * std::floor(40 * random.uniform())
+                                                            : random.uniform(0.1, 0.9);
+            const double left = random.uniform(-20, 30), top = random.uniform(-20, 30), width = random.uniform(30, 90),
+                         height = random.uniform(30, 90), lean = random.uniform(-9, 9);
+            quad.vertex = {{{left, top + lean, z, 1},
+                            {left + lean, top + height, z + step, 1},
+                            {left + width, top + height + lean, z + step * random.uniform(), 1},
+                            {left + width, top, z, 1}}};
+            if (random.chance(0.2)) quad.vertex[2].z += random.uniform(-0.3, 0.3);
+            if (random.chance(0.15)) std::swap(quad.vertex[1], quad.vertex[3]);
+            if (random.chance(0.1)) std::swap(quad.vertex[0], quad.vertex[1]);
+            return quad;
+          })};
+}
+
 }  // namespace
 
 std::span<const Scenario> scenarios() {
   static const std::vector<Scenario> list = [] {
-    std::vector<Scenario> all{mixture(),      flat(),          grid(),      signed_grid(),  flat_signed_grid(),
-                              depth_limits(), wide(),          depth_off(), dropped_bits(), dropped_bits_signed(),
-                              lanes(),        beside_scissor()};
+    std::vector<Scenario> all{mixture(),      flat(),           grid(),      signed_grid(),  flat_signed_grid(),
+                              depth_limits(), wide(),           depth_off(), dropped_bits(), dropped_bits_signed(),
+                              lanes(),        beside_scissor(), layers()};
     const auto add = [&](const Config& config, const std::string& before, golden::CornerDraw draw) {
       for (std::size_t i = 0; i < draw.quads.size(); ++i) draw.quads[i].id = static_cast<std::uint32_t>(i);
       LockstepOptions o = options(config, draw.state.width);
