@@ -140,7 +140,8 @@ void visit_state(State& s, Code& znear, Code& zfar, const Config& c, F&& f) {
   f(plain("attributes", 4, "attributes in use"), -1, s.attributes);
   f(plain("skip", 8,
           "what may be skipped; bit 0: tiles that cannot be covered, 1: quads that cannot give a fragment, 2: hidden "
-          "tiles, 3: of homogeneous quads what misses the scissor, 4: operands that a fragment does not depend on"),
+          "tiles, 3: of homogeneous quads what misses the scissor, 4: operands that a fragment does not depend on, "
+          "5: mean value weights of plane quads"),
     -1, s.skip);
 }
 

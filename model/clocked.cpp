@@ -1,7 +1,11 @@
 #include "model/clocked.hpp"
 
 #include "model/latency.hpp"
+#include "model/masked_depth.hpp"
+#include "model/pixel_lanes.hpp"
 #include "model/pixel_pipeline.hpp"
+#include "model/plane_quad.hpp"
+#include "model/plane_tolerance.hpp"
 #include "model/quad_reject.hpp"
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
@@ -17,33 +21,30 @@ namespace {
 
 constexpr int last_stage = latency::fragment_stage;
 constexpr int emit_stages = latency::emission;
-constexpr std::size_t pipeline_stages = emit_stages + last_stage + 1;
+/// Registers of the delay line of pixels, at least one for each stage.
+constexpr std::size_t pipeline_registers = std::bit_ceil(static_cast<std::size_t>(emit_stages + last_stage + 1));
 /// quadrille_pkg::FRAGMENT_FIFO_LOG2: at full rate a place is free again so many clocks after its pixel was sent.
 constexpr std::size_t fragment_places = std::bit_ceil(
     static_cast<std::size_t>(latency::emission + latency::pipeline + latency::fragment_fifo + latency::place_back));
 
 /// First-in first-out memory with its head in a register, as the RTL's: a word becomes the head two edges after its
-/// push. Who pushes knows that there is room.
+/// push. Who pushes knows that there is room. (Here the head stays where it is in the memory, which has a place more.)
 template <class T>
 class Fifo {
  public:
-  explicit Fifo(std::size_t capacity) : slots_(capacity) {}
+  explicit Fifo(std::size_t capacity) : slots_(capacity + 1) {}
   bool valid() const { return valid_; }
   bool empty() const { return count_ == 0 && !valid_; }
-  const T& head() const { return head_; }
-  /// The edge: the head leaves, a word (or nullptr) comes in.
-  void clock(bool pop, const T* push) {
+  const T& head() const { return slots_[first_]; }
+  /// Where the next word is written before it is pushed.
+  T& next() { return slots_[wrapped(first_ + count_ + (valid_ ? 1 : 0))]; }
+  /// The edge: the head leaves, the word in next() comes in.
+  void clock(bool pop, bool push) {
     const bool load = count_ != 0 && (!valid_ || pop);
+    if (valid_ && pop) first_ = wrapped(first_ + 1);
     valid_ = load || (valid_ && !pop);
-    if (load) {
-      head_ = slots_[first_];
-      first_ = (first_ + 1) % slots_.size();
-      --count_;
-    }
-    if (push != nullptr) {
-      slots_[(first_ + count_) % slots_.size()] = *push;
-      ++count_;
-    }
+    if (load) --count_;
+    if (push) ++count_;
   }
   void clear() {
     first_ = count_ = 0;
@@ -51,10 +52,11 @@ class Fifo {
   }
 
  private:
+  std::size_t wrapped(std::size_t place) const { return place < slots_.size() ? place : place - slots_.size(); }
+
   std::vector<T> slots_;
-  std::size_t first_ = 0, count_ = 0;
+  std::size_t first_ = 0, count_ = 0;  ///< the head or the word that will be; the words behind the head
   bool valid_ = false;
-  T head_{};
 };
 
 /// The clocks of tile_walk: what is tested goes through two registers to the ring, and a block's test is known a clock
@@ -174,9 +176,11 @@ struct CoverageUnit {
   std::uint32_t fetch = 0, load = 0, rows = 0;  ///< next entry of each register; the rows' own while rows_valid
   bool tag_valid = false, context_valid = false, rows_valid = false;
   int row = 0;
-  std::array<Row, 3> way{};  ///< rows on their way to the FIFO, the last one pushes
-  int room = 0;              ///< places of the FIFO that neither a stamp has nor a row on its way
-  bool freed = false;        ///< a stamp left the FIFO in the clock before
+  bool hidden = false;                 ///< nothing of the tile whose row was issued last can be seen
+  static constexpr int wait_bits = 3;  ///< of a tile's x and y: those that are looked at to wait for one before it
+  std::array<Row, 3> way{};            ///< rows on their way to the FIFO, the last one pushes
+  int room = 0;                        ///< places of the FIFO that neither a stamp has nor a row on its way
+  bool freed = false;                  ///< a stamp left the FIFO in the clock before
 };
 
 /// vertex_assembly: four beats make a quad.
@@ -191,50 +195,81 @@ struct VertexAssembly {
   bool drops() const { return full && reject != QuadReject::none; }
 };
 
-/// The control half of quad_setup; the bits come from the function of that name at start. Three quads may be there: one
-/// does its steps (front), of one the results come (sum), one waits complete for the walk (done).
+/// The control half of quad_setup; the bits come from the function of that name at start. Four quads may be there: one
+/// does its steps (front), one whose results are still to come waits (middle), of one they come (sum), one waits
+/// complete for the walk (done).
 struct SetupUnit {
-  int pairs = 1;       ///< of dot units
-  int box = 0;         ///< clocks of the bounding box, of the quad in vertex_assembly: 2 when it is there
-  int all_steps = 0;   ///< of the quad that does them
-  int steps = 0;       ///< left to do
-  bool front = false;  ///< `next` has not moved on
-  bool sum = false;    ///< `summed` has not
+  struct Quad {
+    SetupResult setup;
+    bool left_out = false;  ///< by its areas
+  };
+
+  int pairs = 1;        ///< of dot units
+  int box = 0;          ///< clocks of the bounding box, of the quad in vertex_assembly: 2 when it is there
+  int all_steps = 0;    ///< of the quad that does them
+  int steps = 0;        ///< left to do
+  bool front = false;   ///< `next` has started; then it goes to the middle, which is free
+  bool middle = false;  ///< `waiting` has not moved on
+  bool sum = false;     ///< `summed` has not
   std::array<bool, quad_setup_result_clocks(2)> ends{};  ///< last steps whose results are on their way
   bool complete = false;                                 ///< all of `summed` is there
   bool done = false;                                     ///< `result` is there, neither taken nor dropped yet
-  SetupResult next, summed, result;
+  Quad next, waiting, summed, result;
 
-  bool busy() const { return front || sum || done; }
+  bool busy() const { return front || middle || sum || done; }
   /// The step of this clock has jobs for the dot units, should they be free.
   bool has_jobs() const {
     const int step = all_steps - steps;
-    return steps > 0 && !(pairs == 2 && next.homogeneous && (step == 6 || (step >= 15 && step <= 17)));
+    return steps > 0 && !(pairs == 2 && next.setup.homogeneous && (step == 6 || (step >= 15 && step <= 17)));
   }
   /// The last step is done in this clock; the steps wait while the dot units work for a tile.
   bool ends_run(bool units_taken) const { return steps == 1 && !units_taken; }
-  /// A quad may start: those before it will have moved on when its first result comes.
-  bool ready(bool gone, bool units_taken) const {
+
+  bool drops_result() const { return done && result.left_out; }
+  /// An ordinary quad's areas are known a clock before all of it; then it goes no further.
+  bool drops_summed() const {
+    const bool areas_known = complete || ends[static_cast<std::size_t>(quad_setup_result_clocks(pairs) - 1)];
+    return sum && areas_known && !summed.setup.homogeneous && summed.left_out && !drops_result();
+  }
+  bool drops() const { return drops_result() || drops_summed(); }
+  /// The quad that is left out in this clock, where drops().
+  const SetupResult& dropped() const { return drops_result() ? result.setup : summed.setup; }
+  /// `result` waits for the walk.
+  bool ready_for_walk() const { return done && !result.left_out; }
+
+  /// A quad may start: those before it will have moved on when its first result comes. `taken`: the walk takes
+  /// `result`.
+  bool ready(bool taken, bool units_taken) const {
     const bool run_over = steps == 0 || (pairs == 1 && ends_run(units_taken));
-    return box == 2 && run_over && !front && (!sum || !done || gone);
+    const bool gone = taken || drops_result();
+    const bool alone = !(sum && middle) || drops_summed();
+    return box == 2 && run_over && alone && (!(sum || middle) || !done || gone);
   }
 
-  /// The edge; start() comes after it. `held`: vertex_assembly has a quad. `gone`: `result` is taken or dropped.
-  void clock(bool held, bool gone, bool units_taken) {
-    const bool hand_over = complete && (!done || gone);
-    const bool advance = front && (!sum || hand_over);
+  /// The edge; start() comes after it. `held`: vertex_assembly has a quad.
+  void clock(bool held, bool taken, bool units_taken) {
+    const bool left_out = drops_summed();
+    const bool gone = taken || drops_result();
+    const bool hand_over = complete && !left_out && (!done || gone);
+    const bool advance = middle && (!sum || hand_over || left_out);
     if (gone) done = false;
     if (hand_over) {
       result = summed;
       done = true;
-      sum = false;
     }
+    if (hand_over || left_out) sum = false;
     if (advance) {
-      summed = next;
-      front = false;
+      summed = waiting;
+      middle = false;
       sum = true;
     }
-    complete = ends[static_cast<std::size_t>(quad_setup_result_clocks(pairs) - 1)] || (complete && !hand_over);
+    if (front) {
+      waiting = next;
+      front = false;
+      middle = true;
+    }
+    complete =
+        (ends[static_cast<std::size_t>(quad_setup_result_clocks(pairs) - 1)] || (complete && !hand_over)) && !left_out;
     for (std::size_t n = ends.size() - 1; n > 0; --n) ends[n] = ends[n - 1];
     ends[0] = ends_run(units_taken);
     if (steps > 0 && !units_taken) --steps;
@@ -242,10 +277,25 @@ struct SetupUnit {
   }
 
   void start(const SetupResult& quad, const DrawState& state) {
-    next = quad;
+    next = {quad, reject_by_areas(quad, state) != QuadReject::none};
     front = true;
     steps = all_steps = quad_setup_steps(quad.homogeneous, pairs, state);
     box = 0;
+  }
+};
+
+/// The control of plane_tolerance: when a quad that setup has complete is accepted, which it must be before the walk
+/// takes it. What it says of the quad is known long before the quad's first pixel needs it.
+struct ToleranceUnit {
+  int interval = 0;       ///< clocks from one quad to the next
+  bool accepted = false;  ///< the complete quad
+  int wait = 0;           ///< clocks until the next may be
+
+  bool ready(bool tests) const { return !tests || accepted || wait == 0; }
+  bool accepts(bool complete, bool tests) const { return complete && tests && !accepted && wait == 0; }
+  void clock(bool accept, bool taken) {
+    accepted = (accept || accepted) && !taken;
+    wait = accept ? interval - 1 : std::max(wait - 1, 0);
   }
 };
 
@@ -254,10 +304,12 @@ struct HiddenUnit {
   static constexpr int section = 16;  ///< places that a clear wipes
 
   HierarchicalZ memory;
+  MaskedDepth masked;
   int wiping = 0;
 
   void reset(const Config& config) {
     memory = HierarchicalZ(config);
+    masked = MaskedDepth(config);
     wiping = config.hierarchical_z_bits != 0 ? 1 << config.hierarchical_z_tiles_log2 : 0;
   }
   void clock(bool clear, bool present) {
@@ -265,23 +317,38 @@ struct HiddenUnit {
       --wiping;
     } else if (clear && present) {
       memory.clear();
+      masked.clear();
       wiping = section;
     }
   }
 };
 
-/// What leaves the pipeline in a clock: the fragments of its lanes.
+/// What leaves the pipeline in a clock: the fragments of its lanes, those that are drawn.
 struct FragmentBeat {
-  std::array<bool, Config::most_pixels_per_clock> drawn{};
-  std::array<Fragment, Config::most_pixels_per_clock> fragment{};
+  std::uint32_t drawn = 0;
+  std::array<Fragment, Config::most_pixels_per_clock> fragment;
+};
+
+/// A pixel on its way: what the control, the counters and the port need of it.
+struct Pixel {
+  bool valid = false, end = false;
+  bool drawn = false;   ///< not discarded
+  bool plane = false;   ///< of a plane_quad
+  bool corner = false;  ///< its weights are a corner's
+  bool hull = false;
+  std::uint32_t slot = 0;
+  Fragment fragment;
 };
 
 /// What a slot of the bank holds: the back half's data and the front half's constants.
 struct Slot {
   QuadData data;
+  QuadLanes lanes;  ///< of the data, without probes of pixels
   QuadConstants constants;
   DepthInterval depth;
-  std::size_t quad = 0;  ///< VertexAssembly::number
+  bool tests = false;       ///< plane_tolerance looks at it
+  bool multiplies = false;  ///< and at its values
+  std::size_t quad = 0;     ///< VertexAssembly::number
 };
 
 }  // namespace
@@ -294,6 +361,7 @@ struct ClockedModel::Impl {
   std::uint32_t alloc = 0;   ///< the slot that the next quad gets, once it is free
   std::uint32_t in_use = 0;  ///< bit i: slot i
   WalkUnit walk;
+  ToleranceUnit tolerance;
   HiddenUnit hidden;
   ContextUnit tile_unit;
   std::vector<TileEntry> ring;
@@ -308,39 +376,48 @@ struct ClockedModel::Impl {
   int part = 0;                  ///< parts of the pixels that were sent, of a homogeneous quad
   int places = fragment_places;  ///< of the fragment FIFO that neither fragments have nor pixels on their way
   bool handed_over = false;      ///< fragments left in the clock before
-  /// A delay line from emission to the last register, `lanes` pixels for each: those of stage n begin at
-  /// pipeline[(head + emit_stages + n) % pipeline_stages * lanes].
+  /// The pixels of the head's row, by column, as pixel_lanes gave them; valid when !first.
+  std::array<Pixel, Config::widest_tile> row_pixels{};
+  /// A delay line from emission to the last register, `lanes` pixels for each: those of stage n begin at place(n).
   std::size_t lanes;
-  std::vector<PixelTrace> pipeline;
+  std::vector<Pixel> pipeline;
+  std::vector<PixelTrace> traces;  ///< beside the pixels, with probes of them
   std::size_t head = 0;
+  LaneTables tables;
+  std::array<WantedSums, 2> wanted;  ///< of pixels of a quad without and with the eye in its hull
   Fifo<FragmentBeat> fragments;
   PerformanceCounters counters;
   UnitProducts products;
 
-  Impl(const Config& config, const DrawState& state)
+  Impl(const Config& config, const DrawState& state, Probes probes)
       : context(config, state),
         slots(static_cast<std::size_t>(config.quad_slots())),
         ring(static_cast<std::size_t>(ring_entries(config))),
         ring_mask(static_cast<std::uint32_t>(2 * ring_entries(config) - 1)),
         stamps(static_cast<std::size_t>(stamp_places(config))),
         lanes(static_cast<std::size_t>(config.pixels_per_clock)),
-        pipeline(pipeline_stages * lanes),
+        pipeline(pipeline_registers * lanes),
+        traces(probes == Probes::all ? pipeline.size() : 0),
+        tables(context),
+        wanted{WantedSums(config, state, false), WantedSums(config, state, true)},
         fragments(fragment_places),
         products(config) {
     reset();
   }
 
-  std::span<const PixelTrace> stage(int n) const {
-    return {&pipeline[(head + static_cast<std::size_t>(emit_stages + n)) % pipeline_stages * lanes], lanes};
+  std::size_t place(int n) const {
+    return (head + static_cast<std::size_t>(emit_stages + n)) % pipeline_registers * lanes;
   }
+  std::span<const Pixel> stage(int n) const { return {&pipeline[place(n)], lanes}; }
 
   // Conditions of this clock, from registered state.
   bool start() const {
-    return assembly.full && !assembly.drops() && setup.ready(take() || drop(), tile_unit.issues()) &&
-           (in_use >> alloc & 1) == 0;
+    return assembly.full && !assembly.drops() && setup.ready(take(), tile_unit.issues()) && (in_use >> alloc & 1) == 0;
   }
-  bool drop() const { return setup.done && reject_by_areas(setup.result, context.state) != QuadReject::none; }
-  bool take() const { return setup.done && walk.ready() && !drop(); }
+  bool take() const { return setup.ready_for_walk() && walk.ready() && tolerance.ready(complete_slot().tests); }
+  bool accept_tolerance() const { return tolerance.accepts(setup.ready_for_walk(), complete_slot().tests); }
+  /// Of the quad that setup has complete, if it has one.
+  const Slot& complete_slot() const { return slots[setup.result.setup.slot]; }
   bool ring_full(std::uint32_t entries) const { return ((ring_write - ring_tail) & ring_mask) + entries > ring.size(); }
   const TileEntry& ring_at(std::uint32_t pointer) const { return ring[pointer & (ring.size() - 1)]; }
 
@@ -350,21 +427,46 @@ struct ClockedModel::Impl {
   }
 
   /// The row that stamp_coverage is at.
-  StampEntry stamp_work() const {
+  StampEntry stamp_work() {
     const TileEntry& tile = ring_at(coverage.rows);
     StampEntry s;
     s.tile_ptr = coverage.rows;
+    coverage.hidden = false;
     if (tile.end) {
       s.end = true;
       return s;
     }
+    s.row = coverage.row;
+    // The RTL writes what is held of the tile some clocks later; no tile reads it before that (tile_waits).
+    const bool hides = skips_hidden(context.config, context.state);
+    if (hides && coverage.row == 0) hidden.masked.begin(tile.tile_x, tile.tile_y, slots[tile.slot].depth);
+    coverage.hidden = hides && hidden.masked.hidden();
+    if (coverage.hidden) return s;
     const StampMasks masks =
         stamp_coverage(tile, slots[tile.slot].constants, coverage.row, context.config, context.state);
-    s.row = coverage.row;
-    s.mask = masks.mask;
-    s.front = masks.front;
-    s.tie = masks.tie;
+    s.mask = hides ? hidden.masked.row(coverage.row, masks.mask) : masks.mask;
+    s.front = masks.front & s.mask;
+    s.tie = masks.tie & s.mask;
+    if (hides && coverage.row == tile.last_row) hidden.masked.end();
     return s;
+  }
+
+  /// The tile in coverage's tag register stays there: one before it that may lower what is held of the same place, or
+  /// of one that has the same low bits, has not written yet.
+  bool tile_waits() const {
+    const CoverageUnit& c = coverage;
+    if (!skips_hidden(context.config, context.state)) return false;
+    const TileEntry& tile = ring_at(c.load);
+    if (tile.end) return false;
+    constexpr int low = (1 << CoverageUnit::wait_bits) - 1;
+    const auto holds_up = [&](std::uint32_t pointer) {
+      const TileEntry& before = ring_at(pointer);
+      return !before.end && slots[before.slot].depth.lowers && ((before.tile_x ^ tile.tile_x) & low) == 0 &&
+             ((before.tile_y ^ tile.tile_y) & low) == 0;
+    };
+    if (c.context_valid && holds_up(c.rows_valid ? behind(c.rows) : c.rows)) return true;
+    if (c.rows_valid && holds_up(c.rows)) return true;
+    return std::ranges::any_of(c.way, [&](const CoverageUnit::Row& row) { return row.valid && holds_up(row.pointer); });
   }
 
   void reset() {
@@ -376,6 +478,8 @@ struct ClockedModel::Impl {
     alloc = in_use = 0;
     walk = {};
     walk.walk = TileWalk(context.config, context.state);
+    tolerance = {};
+    tolerance.interval = std::max(6, 2 + context.config.attribute_slots);
     hidden.reset(context.config);
     tile_unit = {};
     tile_unit.pairs = context.config.product_pairs();
@@ -388,7 +492,7 @@ struct ClockedModel::Impl {
     part = 0;
     places = fragment_places;
     handed_over = false;
-    for (PixelTrace& p : pipeline) p = {};
+    for (Pixel& p : pipeline) p = {};
     fragments.clear();
     counters = {};
   }
@@ -410,36 +514,45 @@ struct ClockedModel::Impl {
           : assembly.reject == QuadReject::behind ? quads_behind
                                                   : quads_depth,
           1);
-    if (dropping) add(reject_by_areas(setup.result, context.state) == QuadReject::line ? quads_line : quads_culled, 1);
-    if (taking) add(setup.result.homogeneous ? quads_homogeneous : quads_ordinary, 1);
+    if (dropping)
+      add(reject_by_areas(setup.dropped(), context.state) == QuadReject::line ? quads_line : quads_culled, 1);
+    if (taking) add(setup.result.setup.homogeneous ? quads_homogeneous : quads_ordinary, 1);
+    add(quads_plane, starting && plane_quad(assembly.quad, context.config, context.state));
+    if (accept_tolerance()) {
+      const Slot& slot = complete_slot();
+      add(quads_plane, slot.data.plane);
+      const int values = context.state.perspective + context.state.depth + context.state.attributes;
+      if (slot.multiplies) add(products_plane_tolerance, values * products.value);
+    }
 
     add(blocks_tested, walk_moves && walk.tests.block);
     add(blocks_entered, walk_moves && walk.tests.enter);
     add(tiles_tested, walk_moves && walk.tests.tile);
     add(tiles_entered, push_tile && !walk.way.back().entry.end);
     add(tiles_hidden, walk_moves && walk.tests.hidden);
-    add(rows_tested, coverage.rows_valid && coverage.room != 0 && !ring_at(coverage.rows).end);
     add(stamps, coverage.way.back().push() && !coverage.way.back().stamp.end);
 
     const auto pixels_in = [this](int n) {
-      return std::ranges::count_if(stage(n), [](const PixelTrace& p) { return p.valid; });
+      return std::ranges::count_if(stage(n), [](const Pixel& p) { return p.valid; });
     };
     for (std::size_t lane = 0; lane < lanes; ++lane)
       add(static_cast<PerformanceCounter>(static_cast<std::size_t>(pixels_lane0) + lane), stage(0)[lane].valid);
+    add(pixels_plane,
+        std::ranges::count_if(stage(latency::norm_stage), [](const Pixel& p) { return p.valid && p.plane; }));
     add(PerformanceCounter::fragments,
-        std::ranges::count_if(stage(last_stage), [](const PixelTrace& p) { return p.drawn; }));
+        std::ranges::count_if(stage(last_stage), [](const Pixel& p) { return p.drawn; }));
 
     if (tile_unit.issues() || setup.has_jobs()) add(products_vertex_products, products.vertex_products);
     // Operands that are held make no product.
     const bool held = (context.state.skip & skip_operands) != 0;
     const auto off_corners_in = [this, held](int n) {
-      return std::ranges::count_if(
-          stage(n), [held](const PixelTrace& p) { return p.valid && !(held && (p.two_corner || p.on_vertex)); });
+      return std::ranges::count_if(stage(n),
+                                   [held](const Pixel& p) { return p.valid && !p.plane && !(held && p.corner); });
     };
     const auto wanted_in = [this](int n, int WantedSums::*what) {
       int total = 0;
-      for (const PixelTrace& p : stage(n))
-        if (p.valid) total += WantedSums(context.config, context.state, p.hull).*what;
+      for (const Pixel& p : stage(n))
+        if (p.valid) total += wanted[p.hull ? 1 : 0].*what;
       return total;
     };
     add(products_sqrt, off_corners_in(latency::norm_stage) * products.sqrt);
@@ -457,7 +570,7 @@ struct ClockedModel::Impl {
     bound.rows = coverage.rows_valid;
     bound.rows_behind = coverage.context_valid;
     bound.walk = walk.walk.state() != TileWalk::State::idle;
-    bound.walk_behind = setup.done && !taking && !dropping;
+    bound.walk_behind = setup.ready_for_walk() && !taking;
     bound.setup = setup.busy();
     bound.setup_behind = assembly.full && !starting && !assembly.drops();
     bound.assembly = assembly.full || assembly.count != 0;
@@ -476,15 +589,18 @@ struct ClockedModel::Impl {
   void clock_stamps(bool pop) {
     CoverageUnit& c = coverage;
     const CoverageUnit::Row leaving = c.way.back();
+    const bool waits = c.tag_valid && tile_waits();
     const bool issue = c.rows_valid && c.room != 0;
     for (std::size_t n = c.way.size() - 1; n > 0; --n) c.way[n] = c.way[n - 1];
     c.way[0].valid = issue;
     c.way[0].pointer = c.rows;
     if (issue) c.way[0].stamp = stamp_work();
+    if (issue && !c.way[0].stamp.end)
+      ++counters[c.hidden ? PerformanceCounter::tiles_masked : PerformanceCounter::rows_tested];
 
-    const bool rows_done = issue && (c.way[0].stamp.end || c.row == ring_at(c.rows).last_row);
+    const bool rows_done = issue && (c.way[0].stamp.end || c.hidden || c.row == ring_at(c.rows).last_row);
     const bool rows_load = c.context_valid && (!c.rows_valid || rows_done);
-    const bool load = c.tag_valid && (!c.context_valid || rows_load);
+    const bool load = c.tag_valid && (!c.context_valid || rows_load) && !waits;
     const bool fetch = c.fetch != ring_complete && (!c.tag_valid || load);
     if (rows_done) c.rows = behind(c.rows);
     if (load) c.load = behind(c.load);
@@ -500,20 +616,68 @@ struct ClockedModel::Impl {
       ring_tail = stamps.head().tile_ptr;
     else if (stamps.empty())
       ring_tail = leaving.pointer;
-    stamps.clock(pop, leaving.push() ? &leaving.stamp : nullptr);
+    if (leaving.push()) stamps.next() = leaving.stamp;
+    stamps.clock(pop, leaving.push());
+  }
+
+  /// A pixel of the head's row by the plain pipeline.
+  static Pixel pixel_of(const PixelTrace& p) {
+    return {true, false, p.drawn, p.plane, p.two_corner || p.on_vertex, p.hull, 0, p.fragment};
+  }
+  void plain_pixel(PixelTrace& p, const TileRow& row, const Slot& slot, const CoveredPixel& at) const {
+    p.front = at.front;
+    p.tie = at.tie;
+    pixel_lane(p, row, slot.constants, slot.data, at.dx, context);
+  }
+
+  /// row_pixels of a row that emission begins with.
+  void compute_row(const StampEntry& s, const TileEntry& tile, const Slot& slot) {
+    std::uint32_t mask = s.mask;
+    while (mask != 0) {
+      std::array<CoveredPixel, lane_count> at;
+      int dx[lane_count], row[lane_count], count = 0;
+      for (; count < lane_count && mask != 0; ++count, mask &= mask - 1) {
+        const int column = std::countr_zero(mask);
+        at[static_cast<std::size_t>(count)] = {column, s.row, (s.front >> column & 1) != 0, (s.tie >> column & 1) != 0};
+      }
+      for (int l = 0; l < lane_count; ++l) {
+        dx[l] = at[static_cast<std::size_t>(std::min(l, count - 1))].dx;
+        row[l] = s.row;
+      }
+      LaneResult r;
+      pixel_lanes(tile, slot.constants, slot.data, slot.lanes, context, tables, dx, row, r);
+      for (int l = 0; l < count; ++l) {
+        const CoveredPixel& pixel = at[static_cast<std::size_t>(l)];
+        Pixel& p = row_pixels[static_cast<std::size_t>(pixel.dx)];
+        if ((r.singular >> l & 1) != 0) {
+          PixelTrace trace;
+          plain_pixel(trace, forward_difference_row(tile, slot.constants, s.row), slot, pixel);
+          p = pixel_of(trace);
+        } else {
+          p = {true,
+               false,
+               (r.drawn >> l & 1) != 0,
+               slot.data.plane,
+               false,
+               slot.data.hull,
+               0,
+               lane_fragment(r, l, tile, pixel, slot.data, context)};
+        }
+      }
+    }
   }
 
   /// pixel_emit and the pixel pipeline. Returns whether the stamp FIFO's head leaves.
   bool clock_pixels() {
     bool pixel = false, drawn = false;
-    for (const PixelTrace& last : stage(last_stage)) {
+    for (const Pixel& last : stage(last_stage)) {
       pixel |= last.valid;
       drawn |= last.drawn;
     }
     int places_back = (handed_over ? 1 : 0) + (pixel && !drawn ? 1 : 0);
-    const std::size_t next_head = (head + pipeline_stages - 1) % pipeline_stages;
-    const std::span<PixelTrace> entering{&pipeline[next_head * lanes], lanes};
-    for (PixelTrace& p : entering) p.valid = p.end = p.drawn = false;
+    const std::size_t next_head = (head + pipeline_registers - 1) % pipeline_registers;
+    const std::span<Pixel> entering{&pipeline[next_head * lanes], lanes};
+    for (Pixel& p : entering) p.valid = p.end = p.drawn = false;
     bool pop = false;
     if (stamps.valid()) {
       const StampEntry& s = stamps.head();
@@ -527,14 +691,19 @@ struct ClockedModel::Impl {
       } else if (places > 0) {
         part = 0;
         const Slot& slot = slots[tile.slot];
-        const TileRow row = forward_difference_row(tile, slot.constants, s.row);
         std::uint32_t mask = first ? s.mask : rest;
-        for (std::size_t lane = 0; lane < lanes && mask != 0; ++lane, mask &= mask - 1) {
-          const int dx = std::countr_zero(mask);
-          PixelTrace& p = entering[lane];
-          p.front = s.front >> dx & 1;
-          p.tie = s.tie >> dx & 1;
-          pixel_lane(p, row, slot.constants, slot.data, dx, context);
+        if (traces.empty()) {
+          if (first) compute_row(s, tile, slot);
+          for (std::size_t lane = 0; lane < lanes && mask != 0; ++lane, mask &= mask - 1)
+            entering[lane] = row_pixels[static_cast<std::size_t>(std::countr_zero(mask))];
+        } else {
+          const TileRow row = forward_difference_row(tile, slot.constants, s.row);
+          for (std::size_t lane = 0; lane < lanes && mask != 0; ++lane, mask &= mask - 1) {
+            const int dx = std::countr_zero(mask);
+            PixelTrace& trace = traces[next_head * lanes + lane];
+            plain_pixel(trace, row, slot, {dx, s.row, (s.front >> dx & 1) != 0, (s.tie >> dx & 1) != 0});
+            entering[lane] = pixel_of(trace);
+          }
         }
         rest = mask;
         pop = rest == 0;
@@ -555,27 +724,28 @@ struct ClockedModel::Impl {
     // All conditions first: every unit sees the state before the edge.
     const bool starting = start();
     const bool taking = take();
-    const bool dropping = drop();
+    const bool accepting = accept_tolerance();
+    const bool dropping = setup.drops();
     const bool dropping_vertices = assembly.drops();
     const bool accept = in.vertex_valid && hidden.wiping == 0 && (!assembly.full || starting || dropping_vertices);
     std::uint32_t free_slots = 0;
     if (stage(last_stage).front().end) free_slots |= 1u << stage(last_stage).front().slot;
-    if (dropping) free_slots |= 1u << setup.result.slot;
+    if (dropping) free_slots |= 1u << setup.dropped().slot;
     const bool push_tile = walk_push();
     const bool walk_moves = push_tile || !walk.way.back().push;
     count(starting, taking, dropping, push_tile, walk_moves);
 
     // The last register's fragments enter the FIFO in the clock in which the pipeline moves on.
     const bool handing_over = fragments.valid() && in.fragment_ready;
-    const std::span<const PixelTrace> last = stage(last_stage);
-    FragmentBeat beat;
-    bool some = false;
+    const std::span<const Pixel> last = stage(last_stage);
+    FragmentBeat& beat = fragments.next();
+    beat.drawn = 0;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!last[lane].drawn) continue;
-      some = beat.drawn[lane] = true;
+      beat.drawn |= 1u << lane;
       beat.fragment[lane] = last[lane].fragment;
     }
-    fragments.clock(handing_over, some ? &beat : nullptr);
+    fragments.clock(handing_over, beat.drawn != 0);
     const bool pop = clock_pixels();
     handed_over = handing_over;
     clock_stamps(pop);
@@ -594,9 +764,9 @@ struct ClockedModel::Impl {
     if (walk_moves) walk.clock();
     hidden.clock(in.clear_hidden, context.config.hierarchical_z_bits != 0);
     if (taking) {
-      slots[setup.result.slot].constants = QuadConstants(setup.result);
-      walk.take(setup.result, skips_hidden(context.config, context.state) ? &hidden.memory : nullptr,
-                slots[setup.result.slot].depth);
+      const SetupResult& quad = setup.result.setup;
+      slots[quad.slot].constants = QuadConstants(quad);
+      walk.take(quad, skips_hidden(context.config, context.state) ? &hidden.memory : nullptr, slots[quad.slot].depth);
     }
     // A slot is skipped while it is in use and another is not: quads that setup drops leave theirs before older ones
     // do.
@@ -604,14 +774,18 @@ struct ClockedModel::Impl {
     const std::uint32_t slot = alloc;
     if (next_slot) alloc = (alloc + 1) % static_cast<std::uint32_t>(slots.size());
     in_use &= ~free_slots;
-    setup.clock(assembly.full && !dropping_vertices, taking || dropping, units_taken);
+    tolerance.clock(accepting, taking);
+    setup.clock(assembly.full && !dropping_vertices, taking, units_taken);
     if (dropping_vertices) assembly.full = false;
     if (starting) {
       SetupResult result = quad_setup(assembly.quad, context.config, context.state);
       result.slot = slot;
       slots[slot].quad = assembly.number;
       slots[slot].depth = depth_interval(assembly.quad, context.config, context.state);
+      slots[slot].tests = plane_tolerance_tests(assembly.quad, context.config, context.state);
+      slots[slot].multiplies = slots[slot].tests && strictly_convex(assembly.quad);
       slots[slot].data = quad_data(assembly.quad, result, context.config, context.state);
+      if (traces.empty()) slots[slot].lanes = QuadLanes(slots[slot].data, context);
       setup.start(result, context.state);
       in_use |= 1u << slot;
       assembly.full = false;
@@ -627,9 +801,9 @@ struct ClockedModel::Impl {
   }
 };
 
-ClockedModel::ClockedModel(const Config& config, const DrawState& state) {
+ClockedModel::ClockedModel(const Config& config, const DrawState& state, Probes probes) {
   config.validate();
-  impl_ = std::make_unique<Impl>(config, state);
+  impl_ = std::make_unique<Impl>(config, state, probes);
 }
 ClockedModel::~ClockedModel() = default;
 ClockedModel::ClockedModel(ClockedModel&&) noexcept = default;
@@ -641,16 +815,21 @@ ClockedOutputs ClockedModel::comb() const {
   out.vertex_ready = m.hidden.wiping == 0 && (!m.assembly.full || m.start() || m.assembly.drops());
   out.fragment_valid = m.fragments.valid();
   for (std::size_t lane = 0; out.fragment_valid && lane < m.lanes; ++lane)
-    if (m.fragments.head().drawn[lane]) out.fragment[lane] = &m.fragments.head().fragment[lane];
+    if ((m.fragments.head().drawn >> lane & 1) != 0) out.fragment[lane] = &m.fragments.head().fragment[lane];
   out.busy = m.busy();
   if (m.take()) {
-    out.probes.setup = &m.setup.result;
-    out.probes.setup_quad = m.slots[m.setup.result.slot].quad;
+    out.probes.setup = &m.setup.result.setup;
+    out.probes.setup_quad = m.slots[m.setup.result.setup.slot].quad;
   }
   if (m.completed) out.probes.tile = &m.ring_at(m.last_completed);
   if (m.coverage.way.back().push()) out.probes.stamp = &m.coverage.way.back().stamp;
+  for (const Pixel& p : m.stage(latency::diff_stage)) out.probes.pixels += p.valid ? 1 : 0;
+  if (m.traces.empty()) return out;
   for (std::size_t lane = 0; lane < m.lanes; ++lane) {
-    const auto pixel = [&](int n) { return m.stage(n)[lane].valid ? &m.stage(n)[lane] : nullptr; };
+    const auto pixel = [&](int n) {
+      const std::size_t place = m.place(n) + lane;
+      return m.pipeline[place].valid ? &m.traces[place] : nullptr;
+    };
     LaneProbes& probes = out.probes.lane[lane];
     probes.diff = pixel(latency::diff_stage);
     probes.norm = pixel(latency::norm_stage);
@@ -664,6 +843,7 @@ ClockedOutputs ClockedModel::comb() const {
 
 void ClockedModel::set_state(const DrawState& state) {
   impl_->context = PipelineContext(Config(impl_->context.config), state);
+  for (const bool hull : {false, true}) impl_->wanted[hull ? 1 : 0] = WantedSums(impl_->context.config, state, hull);
   impl_->walk.walk = TileWalk(impl_->context.config, state);
 }
 

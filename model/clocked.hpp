@@ -28,7 +28,7 @@ struct ClockedInputs {
   SnappedVertex vertex;         ///< the beat, when vertex_valid
 };
 
-/// Boundaries of one lane that carry a pixel in this clock, or nullptr.
+/// Boundaries of one lane that carry a pixel in this clock, or nullptr; Probes::pixels wanted.
 struct LaneProbes {
   const PixelTrace* diff = nullptr;    ///< in register diff_stage (latency.hpp)
   const PixelTrace* norm = nullptr;    ///< in norm_stage
@@ -44,6 +44,7 @@ struct ClockedProbes {
   std::size_t setup_quad = 0;          ///< its quad: how many were accepted before it since the reset
   const TileEntry* tile = nullptr;     ///< complete in the ring since the last edge
   const StampEntry* stamp = nullptr;   ///< pushed in this clock
+  int pixels = 0;                      ///< lanes with a pixel in register diff_stage
   std::array<LaneProbes, Config::most_pixels_per_clock> lane;
 };
 
@@ -69,9 +70,13 @@ struct ClockedOutputs {
   }
 };
 
+/// Which probes a clocked model shows. Those of pixels need every number of the plain integer pipeline; without them a
+/// row's pixels are computed at once by pixel_lanes, the same fragments several times as fast.
+enum class Probes { without_pixels, all };
+
 class ClockedModel {
  public:
-  ClockedModel(const Config& config, const DrawState& state);
+  ClockedModel(const Config& config, const DrawState& state, Probes probes = Probes::without_pixels);
   ~ClockedModel();
   ClockedModel(ClockedModel&&) noexcept;
   ClockedModel& operator=(ClockedModel&&) noexcept;

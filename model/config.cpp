@@ -58,6 +58,9 @@ constexpr std::array entries{
           &Config::hierarchical_z_bits},
     Entry{{"hierarchical_z_tiles_log2", 6, 16, 12, "log2", "tiles whose farthest depth is held"},
           &Config::hierarchical_z_tiles_log2},
+    Entry{{"plane_tolerance_bits", 0, 31, 0, "bits",
+           "quads without mean values: 0: none; 1 to 16: plane within 2^-bits of a value's range; 31: exactly"},
+          &Config::plane_tolerance_bits},
     Entry{{"quad_id_bits", 8, 32, 24, "bits", "width of the quad id"}, &Config::quad_id_bits},
     Entry{{"performance_counters", 0, 1, 0, "", "counters of what the machine did; 0: no hardware for them"},
           &Config::performance_counters},
@@ -165,6 +168,9 @@ void Config::validate() const {
           "hierarchical_z_bits = " + std::to_string(hierarchical_z_bits) + "; it must be 0 or at least 4");
   require(hierarchical_z_bits <= depth_bits, "hierarchical_z_bits = " + std::to_string(hierarchical_z_bits) +
                                                  " exceeds depth_bits = " + std::to_string(depth_bits));
+  require(plane_tolerance_bits <= 16 || plane_tolerance_bits == 31,
+          "plane_tolerance_bits = " + std::to_string(plane_tolerance_bits) +
+              "; it must be 0 (off), 1 to 16, or 31 (exactly plane)");
   require(pixels_per_clock != 3, "pixels_per_clock = 3; it must be 1, 2 or 4");
 }
 

@@ -57,6 +57,7 @@ struct Config {
   int stamp_fifo_log2 = 3;
   int hierarchical_z_bits = 0;
   int hierarchical_z_tiles_log2 = 12;
+  int plane_tolerance_bits = 0;
   int quad_id_bits = 24;
   int performance_counters = 0;
 
@@ -107,6 +108,7 @@ struct Config {
   int stamp_fifo() const { return 1 << stamp_fifo_log2; }
 
   static constexpr int most_pixels_per_clock = 4;
+  static constexpr int widest_tile = 16;  ///< tile() of the largest tile_log2
   static constexpr int exp_bits = 12;
   static constexpr int port_exp_bits = 9;
   static constexpr int table_guard = 3;

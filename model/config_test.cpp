@@ -41,6 +41,7 @@ constexpr Row table[] = {
     {"stamp_fifo_log2", 3, 1, 5},
     {"hierarchical_z_bits", 0, 0, 16},
     {"hierarchical_z_tiles_log2", 12, 6, 16},
+    {"plane_tolerance_bits", 0, 0, 31},
     {"quad_id_bits", 24, 8, 32},
     {"performance_counters", 0, 0, 1},
 };
@@ -209,6 +210,8 @@ TEST(Config, ImpossibleCombinationsNameTheirRule) {
   EXPECT_TRUE(contains(refusal_of({{"hierarchical_z_bits", 3}}), "it must be 0 or at least 4"));
   EXPECT_TRUE(contains(refusal_of({{"hierarchical_z_bits", 12}, {"depth_bits", 10}}), "exceeds depth_bits = 10"));
   EXPECT_EQ(refusal_of({{"hierarchical_z_bits", 10}, {"depth_bits", 10}}), "");
+  EXPECT_TRUE(contains(refusal_of({{"plane_tolerance_bits", 17}}), "it must be 0 (off), 1 to 16, or 31"));
+  EXPECT_EQ(refusal_of({{"plane_tolerance_bits", 16}}), "");
   EXPECT_TRUE(contains(refusal_of({{"quadratic_frac_bits", 31}}), "quadratic_frac_bits"));
   EXPECT_TRUE(contains(refusal_of({{"dot_units", 3}}), "dot_units = 3"));
   EXPECT_TRUE(contains(refusal_of({{"attribute_frac_bits", 17}}), "attribute_frac_bits"));

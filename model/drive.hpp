@@ -35,7 +35,8 @@ std::uint64_t drive(Machine& machine, Stimulus& stimulus, Look&& look) {
 /// changed() of the beat on offer, its id() and vertex().
 class DrivenModel {
  public:
-  DrivenModel(const Config& config, const DrawState& state) : model_(config, state) {
+  DrivenModel(const Config& config, const DrawState& state, Probes probes = Probes::without_pixels)
+      : model_(config, state, probes) {
     inputs_.reset = true;
     model_.clock(inputs_);
     inputs_.reset = false;

@@ -65,27 +65,21 @@ DepthInterval depth_interval(const SnappedQuad& quad, const Config& config, cons
   return depth;
 }
 
-HierarchicalZ::HierarchicalZ(const Config& config)
-    : column_bits_((config.hierarchical_z_tiles_log2 + 1) / 2), row_bits_(config.hierarchical_z_tiles_log2 / 2) {
-  if (config.hierarchical_z_bits != 0) entries_.resize(std::size_t{1} << config.hierarchical_z_tiles_log2);
+HierarchicalZ::HierarchicalZ(const Config& config) : places_(config) {
+  if (config.hierarchical_z_bits != 0) entries_.resize(places_.count());
 }
 
 void HierarchicalZ::clear() { std::ranges::fill(entries_, Entry{}); }
 
-std::size_t HierarchicalZ::place(int tile_x, int tile_y) const {
-  const int column = tile_x & ((1 << column_bits_) - 1), row = tile_y & ((1 << row_bits_) - 1);
-  return static_cast<std::size_t>(row << column_bits_ | column);
-}
-
 bool HierarchicalZ::hidden(int tile_x, int tile_y, const DepthInterval& depth) const {
-  const Entry& entry = entries_[place(tile_x, tile_y)];
-  return entry.tile == name(tile_x, tile_y) && depth.near >= entry.far;
+  const Entry& entry = entries_[places_.place(tile_x, tile_y)];
+  return entry.tile == TilePlaces::name(tile_x, tile_y) && depth.near >= entry.far;
 }
 
 void HierarchicalZ::lower(int tile_x, int tile_y, const DepthInterval& depth) {
-  Entry& entry = entries_[place(tile_x, tile_y)];
-  if (!depth.lowers || (entry.tile == name(tile_x, tile_y) && entry.far <= depth.far)) return;
-  entry = {name(tile_x, tile_y), depth.far};
+  Entry& entry = entries_[places_.place(tile_x, tile_y)];
+  if (!depth.lowers || (entry.tile == TilePlaces::name(tile_x, tile_y) && entry.far <= depth.far)) return;
+  entry = {TilePlaces::name(tile_x, tile_y), depth.far};
 }
 
 WholeTiles::WholeTiles(const Config& config, const DrawState& state)

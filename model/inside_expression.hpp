@@ -9,24 +9,29 @@ namespace quadrille {
 
 /// Bit p of each word: the sign that an edge function can take at place p, a pixel or a square of them, in which it may
 /// have both.
-struct EdgeSigns {
-  std::uint32_t positive = 0, negative = 0;
+template <class Word>
+struct SignWords {
+  Word positive = 0, negative = 0;
 };
+using EdgeSigns = SignWords<std::uint32_t>;
 
 /// Places that are inside, not culled: `back` by the positive form (clockwise on a y-down screen), `front` by the
 /// negated one.
-struct InsidePlaces {
-  std::uint32_t back = 0, front = 0;
+template <class Word>
+struct PlaceWords {
+  Word back = 0, front = 0;
 };
+using InsidePlaces = PlaceWords<std::uint32_t>;
 
 /// e: edges 01 12 23 30 and the diagonal 20. `visible` masks the clauses (SetupResult::visible).
-inline InsidePlaces inside_expression(const EdgeSigns (&e)[5], unsigned visible, Cull cull) {
-  const auto clause = [&](int bit, std::uint32_t places) { return (visible >> bit & 1) != 0 ? places : 0; };
-  const std::uint32_t back1 = e[4].positive & e[0].positive & e[1].positive & (e[2].positive | e[3].positive);
-  const std::uint32_t back2 = e[4].negative & e[2].positive & e[3].positive & (e[0].positive | e[1].positive);
-  const std::uint32_t front1 = e[4].negative & e[0].negative & e[1].negative & (e[2].negative | e[3].negative);
-  const std::uint32_t front2 = e[4].positive & e[2].negative & e[3].negative & (e[0].negative | e[1].negative);
-  InsidePlaces inside;
+template <class Word>
+PlaceWords<Word> inside_expression(const SignWords<Word> (&e)[5], unsigned visible, Cull cull) {
+  const auto clause = [&](int bit, Word places) { return (visible >> bit & 1) != 0 ? places : 0; };
+  const Word back1 = e[4].positive & e[0].positive & e[1].positive & (e[2].positive | e[3].positive);
+  const Word back2 = e[4].negative & e[2].positive & e[3].positive & (e[0].positive | e[1].positive);
+  const Word front1 = e[4].negative & e[0].negative & e[1].negative & (e[2].negative | e[3].negative);
+  const Word front2 = e[4].positive & e[2].negative & e[3].negative & (e[0].negative | e[1].negative);
+  PlaceWords<Word> inside;
   if (cull != Cull::back) inside.back = clause(0, back1) | clause(1, back2);
   if (cull != Cull::front) inside.front = clause(2, front1) | clause(3, front2);
   return inside;

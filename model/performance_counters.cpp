@@ -14,17 +14,20 @@ const std::array<CounterInfo, counter_count> counter_info{{
     {"quads_culled", "left out by setup: no wanted face possible, or none that meets the scissor"},
     {"quads_ordinary", "taken by the walk, all W = ONE"},
     {"quads_homogeneous", "taken by the walk, others"},
+    {"quads_plane", "of the quads that setup took, those that take areas for weights"},
     {"blocks_tested", "tests of blocks that counted"},
     {"blocks_entered", "of these, those that were hit"},
     {"tiles_tested", "tests of tiles"},
     {"tiles_entered", "of these, those that were hit and pushed"},
     {"tiles_hidden", "of the tiles that were hit, those of which nothing can be seen: not pushed"},
+    {"tiles_masked", "of the tiles that were pushed, those whose rows coverage left out: nothing of them can be seen"},
     {"rows_tested", "rows of tiles that coverage tested"},
     {"stamps", "of these, those with a covered pixel"},
     {"pixels_lane0", "covered pixels of lane 0"},
     {"pixels_lane1", "of lane 1"},
     {"pixels_lane2", "of lane 2"},
     {"pixels_lane3", "of lane 3"},
+    {"pixels_plane", "of all lanes, those of such quads"},
     {"fragments", "pixels that were not discarded"},
     {"products_vertex_products", "multiplications of setup and tile contexts"},
     {"products_sqrt", "of the roots"},
@@ -33,6 +36,7 @@ const std::array<CounterInfo, counter_count> counter_info{{
     {"products_interpolate", "of the sums"},
     {"products_reciprocal", "of the reciprocals"},
     {"products_fragment_output", "of the quotients"},
+    {"products_plane_tolerance", "of quads' values, whether they are nearly plane"},
     {"bound_pixels", "clocks in which emission took from the head stamp, or an end entry"},
     {"bound_output", "in which the head stamp waited for places of the fragment FIFO"},
     {"bound_stamps", "bound by coverage"},
@@ -58,7 +62,7 @@ std::uint64_t PerformanceCounters::pixels() const {
   return sum(*this, PerformanceCounter::pixels_lane0, PerformanceCounter::pixels_lane3);
 }
 std::uint64_t PerformanceCounters::products() const {
-  return sum(*this, PerformanceCounter::products_vertex_products, PerformanceCounter::products_fragment_output);
+  return sum(*this, PerformanceCounter::products_vertex_products, PerformanceCounter::products_plane_tolerance);
 }
 std::uint64_t PerformanceCounters::quads_left_out() const {
   return sum(*this, PerformanceCounter::quads_empty, PerformanceCounter::quads_culled);
@@ -71,7 +75,8 @@ UnitProducts::UnitProducts(const Config& c)
       weight_ratios(3 * (2 + c.sqrt_degree + 1)),  // z, w', root and v·s of three ratios
       weight_factors(4 * 2),                       // x·y·z of four weights
       sum(4),                                      // M·c of four vertices
-      reciprocal(c.recip_degree) {}
+      reciprocal(c.recip_degree),
+      value(4) {}  // c·f of four corners
 
 WantedSums::WantedSums(const Config& c, const DrawState& state, bool hull) {
   const bool held = (state.skip & skip_operands) != 0;

@@ -24,19 +24,22 @@ enum class PerformanceCounter : std::uint8_t {
   quads_culled,
   quads_ordinary,
   quads_homogeneous,
+  quads_plane,
   // Walk and coverage
   blocks_tested,
   blocks_entered,
   tiles_tested,
   tiles_entered,
   tiles_hidden,
+  tiles_masked,
   rows_tested,
   stamps,
-  // Pixels by lane of the port, fragments of them
+  // Pixels by lane of the port and by kind of weights, fragments of them
   pixels_lane0,
   pixels_lane1,
   pixels_lane2,
   pixels_lane3,
+  pixels_plane,
   fragments,
   // Products by unit
   products_vertex_products,
@@ -46,6 +49,7 @@ enum class PerformanceCounter : std::uint8_t {
   products_interpolate,
   products_reciprocal,
   products_fragment_output,
+  products_plane_tolerance,
   // Clocks by what bound them
   bound_pixels,
   bound_output,
@@ -63,7 +67,7 @@ struct CounterInfo {
   std::string_view meaning;  ///< what it counts
 };
 
-inline constexpr std::size_t counter_count = 37;
+inline constexpr std::size_t counter_count = 41;
 /// By index.
 extern const std::array<CounterInfo, counter_count> counter_info;
 
@@ -96,6 +100,7 @@ struct UnitProducts {
   int vertex_products, sqrt, mean_value_ratios;
   int weight_ratios, weight_factors;  ///< mean_value_weights: up to the ratios of roots, and the weights made of them
   int sum, reciprocal;
+  int value;  ///< of plane_tolerance: a value of a quad
 
   explicit UnitProducts(const Config& config);
 };

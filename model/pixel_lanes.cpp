@@ -275,6 +275,17 @@ LANE_INLINE void weight_stage(const DifferenceLanes& signs, const RatioLanes& p,
   out.m[3] = arithmetic.multiply(arithmetic.multiply(a.den, b.num), d.den);
 }
 
+/// Areas in the place of mean value weights (weight_factors.cpp).
+LANE_INLINE void area_stage(const DifferenceLanes& signs, const NormalisedLanes& p, WeightLanes& out) {
+  const I* a = signs.a;
+  const I negative = (a[0] < 0) | (a[1] < 0) | (a[2] < 0) | (a[3] < 0);
+  const I behind_diagonal = I(a[4] < 0) ^ negative;
+  out.m[0] = select(behind_diagonal, p.a[2], p.a[1]);
+  out.m[1] = select(behind_diagonal, V{}, p.a[4]);
+  out.m[2] = select(behind_diagonal, p.a[3], p.a[0]);
+  out.m[3] = select(behind_diagonal, p.a[4], V{});
+}
+
 /// |num·rec| in units of the last fraction bit, an integer below 2^51, clamped.
 struct FixedLanes {
   V q;
@@ -307,7 +318,9 @@ LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, int depth_bits, st
 }  // namespace
 
 double to_double(const PipelineFloat& v, int s) {
-  return std::ldexp(v.neg ? -static_cast<double>(v.sig) : static_cast<double>(v.sig), v.exp - (s - 1));
+  const double size = v.neg ? -static_cast<double>(v.sig) : static_cast<double>(v.sig);
+  const int exponent = v.exp - (s - 1);
+  return std::abs(exponent) < 1000 ? size * power_of_two(exponent) : std::ldexp(size, exponent);
 }
 
 namespace {
@@ -317,8 +330,8 @@ QuadLanes::Factor power_of_two_factor(const std::array<double, 4>& values, const
   double factor = 0;
   for (std::size_t i = 0; i < 4 && factor == 0; ++i)
     if (of[i] != 0) factor = values[i] / of[i];
-  int exponent = 0;
-  if (factor != 0 && std::fabs(std::frexp(factor, &exponent)) != 0.5) return std::nullopt;
+  constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
+  if ((std::bit_cast<std::uint64_t>(factor) & fraction) != 0) return std::nullopt;
   for (std::size_t i = 0; i < 4; ++i)
     if (values[i] != of[i] * factor) return std::nullopt;
   return factor;
@@ -362,12 +375,16 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     out.on_edge = to_mask(masks.on_edge);
     NormalisedLanes normalised;
     normalise_stage(difference, arithmetic, power_of_two(c.quadratic_bias), normalised);
-    SqrtLanes sqrt;
-    sqrt_stage(normalised, tables.sqrt, s, sqrt);
-    RatioLanes ratios;
-    ratio_stage(normalised, sqrt, arithmetic, ratios);
     WeightLanes weights;
-    weight_stage(difference, ratios, arithmetic, tables.sqrt, s, weights);
+    if (quad.plane) {
+      area_stage(difference, normalised, weights);
+    } else {
+      SqrtLanes sqrt;
+      sqrt_stage(normalised, tables.sqrt, s, sqrt);
+      RatioLanes ratios;
+      ratio_stage(normalised, sqrt, arithmetic, ratios);
+      weight_stage(difference, ratios, arithmetic, tables.sqrt, s, weights);
+    }
     out.notch = c.config.notch_exact ? to_mask(notch_lanes(difference)) & ~out.singular : 0;
     I exponent_m[4];
     for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);

@@ -6,6 +6,7 @@
 // exponents stay far inside a double's range. Nothing here ever rounds. lane_stages.hpp has the same stages one by one.
 #pragma once
 
+#include "model/covered_pixels.hpp"
 #include "model/pixel_pipeline.hpp"
 
 #include <optional>
@@ -62,5 +63,23 @@ struct LaneResult {
 /// Pixels (dx[l], row[l]) of `tile`; every lane must hold a covered pixel (repeat one to fill).
 void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, const QuadLanes& values,
                  const PipelineContext& c, const LaneTables& tables, const int* dx, const int* row, LaneResult& out);
+
+/// The fragment of lane l, which is not singular: pixel `at` of `tile`.
+inline Fragment lane_fragment(const LaneResult& r, int l, const TileEntry& tile, const CoveredPixel& at,
+                              const QuadData& quad, const PipelineContext& c) {
+  const auto bit = [&](unsigned mask, int flag) { return (mask >> l & 1) != 0 ? flag : 0; };
+  Fragment f;
+  f.quad = quad.id;
+  f.x = static_cast<std::uint16_t>((tile.tile_x << c.config.tile_log2) + at.dx);
+  f.y = static_cast<std::uint16_t>((tile.tile_y << c.config.tile_log2) + at.row);
+  f.front = at.front;
+  f.flags = static_cast<std::uint8_t>(bit(r.on_edge, flag_on_edge) | bit(r.notch, flag_notch) |
+                                      bit(r.saturated, flag_saturated) | (at.tie ? flag_tie : 0) |
+                                      (quad.homogeneous ? flag_homogeneous : 0));
+  f.depth = r.depth[static_cast<std::size_t>(l)];
+  for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j)
+    f.attribute[j] = r.attribute[j][static_cast<std::size_t>(l)];
+  return f;
+}
 
 }  // namespace quadrille

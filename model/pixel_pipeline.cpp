@@ -1,6 +1,6 @@
 #include "model/pixel_pipeline.hpp"
 
-#include <algorithm>
+#include "model/plane_tolerance.hpp"
 
 namespace quadrille {
 namespace {
@@ -26,18 +26,20 @@ QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Conf
   d.id = quad.id;
   d.homogeneous = setup.homogeneous;
   d.hull = setup.hull;
+  d.plane = takes_areas(quad, config, state);
+  const bool skips = (state.skip & skip_operands) != 0;
+  const auto attributes = skips ? static_cast<std::size_t>(state.attributes) : max_attribute_slots;
   for (std::size_t i = 0; i < 4; ++i) {
     const SnappedVertex& v = quad.vertex[i];
     d.w[i] = fp_from_signed(v.w, -config.frac(), f);
     d.k[i] = state.perspective ? from_port(v.k) : d.w[i];
     d.z[i] = from_port(v.z);
-    for (std::size_t j = 0; j < max_attribute_slots; ++j) d.b[i][j] = from_port(v.attribute[j]);
+    for (std::size_t j = 0; j < attributes; ++j) d.b[i][j] = from_port(v.attribute[j]);
   }
-  if ((state.skip & skip_operands) != 0) {
+  if (skips) {
     d.sum_k = state.attributes > 0;
     if (!state.depth && !setup.hull) d.w = {};
     if (!state.depth) d.z = {};
-    for (auto& b : d.b) std::fill(b.begin() + state.attributes, b.end(), PipelineFloat{});
   }
   return d;
 }
@@ -51,11 +53,17 @@ void pixel_lane(PixelTrace& p, const TileRow& row, const QuadConstants& constant
   p.y = (row.tile.tile_y << c.config.tile_log2) + row.row;
   p.homogeneous = quad.homogeneous;
   p.hull = quad.hull;
+  p.plane = quad.plane;
   forward_difference_column(p, row, constants, dx);
   normalise(p, c);
   if ((c.state.skip & skip_operands) != 0 && (p.two_corner || p.on_vertex)) {
     p.a_fp = p.d_fp = p.u = p.v = {};
     p.r2_fp = p.root = {};
+  } else if (quad.plane) {
+    p.d_fp = p.u = {};
+    p.r2_fp = p.root = {};
+    p.v = p.a_fp;
+    for (PipelineFloat& v : p.v) v.neg = false;
   } else {
     sqrt_stage(p, c);
     mean_value_ratios(p, c);

@@ -16,6 +16,7 @@ struct QuadData {
   std::uint32_t id = 0;
   bool homogeneous = false, hull = false;
   bool sum_k = true;                 ///< the sum of M k is formed, not left 0
+  bool plane = false;                ///< takes_areas: areas in the place of mean value weights
   std::array<PipelineFloat, 4> k{};  ///< k_eff: k, or W when perspective is off
   std::array<PipelineFloat, 4> w{};  ///< W truncated to S bits
   std::array<PipelineFloat, 4> z{};  ///< Z
@@ -69,7 +70,7 @@ void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 
 /// All that a pixel has of its own, from its row on. With skip_operands a pixel on a corner has no significand numbers,
-/// roots and ratios: its weights are the corner's.
+/// roots and ratios: its weights are the corner's. One of a plane_quad has of these what comes of A.
 void pixel_lane(PixelTrace& p, const TileRow& row, const QuadConstants& constants, const QuadData& quad, int dx,
                 const PipelineContext& c);
 

@@ -24,7 +24,8 @@ struct WindowQuad {
 
 enum class Cull : std::uint8_t { none = 0, front = 1, back = 2 };
 
-/// What the machine may leave out, but for skip_hidden without changing a fragment; bits of `DrawState::skip`.
+/// What the machine may leave out, but for skip_hidden and skip_plane without changing a fragment; bits of
+/// `DrawState::skip`.
 enum SkipBit : std::uint32_t {
   skip_tiles = 1u << 0,  ///< blocks and tiles that no covered pixel can be in (tile_walk)
   skip_quads = 1u << 1,  ///< quads that cannot give a fragment (quad_reject)
@@ -35,6 +36,9 @@ enum SkipBit : std::uint32_t {
   skip_walk = 1u << 3,  ///< homogeneous quads: what misses the scissor (scissor_separation)
   /// Work inside a pixel that its fragment does not depend on: its operands do not switch, in software it is left out.
   skip_operands = 1u << 4,
+  /// Mean value weights of quads whose values are plane (plane_quad): the same pixels and flags, attributes and depth
+  /// within the same bound of the exact ones, in other bits.
+  skip_plane = 1u << 5,
 };
 /// Those that keep the list of fragments: on unless switched off.
 inline constexpr std::uint32_t skip_default = skip_tiles | skip_quads | skip_walk | skip_operands;

@@ -82,6 +82,7 @@ struct PixelTrace {
   std::uint32_t slot = 0, quad = 0;
   int x = 0, y = 0;
   bool front = false, tie = false, homogeneous = false, hull = false;
+  bool plane = false;  ///< of a plane_quad
   // diff
   std::array<std::int64_t, 6> a{}, d{};
   std::array<std::int64_t, 4> r2{};

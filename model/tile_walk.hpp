@@ -71,6 +71,12 @@ bool covers(const WalkState& at, const QuadConstants& quad, int extent, Cull cul
 /// Moves the origin by (dx, dy) pixels; exact.
 void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy);
 
+/// A tile, and the linear functions at its origin pixel.
+struct TileCorner {
+  int tile_x = 0, tile_y = 0;
+  std::array<std::int64_t, linear_count> linear{};
+};
+
 /// The state machine.
 class TileWalk {
  public:
@@ -96,6 +102,8 @@ class TileWalk {
   bool hidden() const;
   /// Ring entry of the current tile, or the end entry in state END.
   TileEntry entry() const;
+  /// The current tile's, without the quadratic functions.
+  TileCorner corner() const { return {tile_x(), tile_y(), at_.linear}; }
   /// One clock's work, once the entry (if any) has been accepted. Never call it for a hit tile or END while the ring is
   /// full.
   void advance();

@@ -1,9 +1,12 @@
 #include "model/untimed.hpp"
 
 #include "model/covered_pixels.hpp"
+#include "model/float_lanes.hpp"
+#include "model/masked_depth.hpp"
 #include "model/pixel_lanes.hpp"
 #include "model/quad_reject.hpp"
 #include "model/quad_setup.hpp"
+#include "model/tile_context.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +23,7 @@ DrawStats& DrawStats::operator+=(const DrawStats& o) {
   tiles_tested += o.tiles_tested;
   tiles_entered += o.tiles_entered;
   tiles_hidden += o.tiles_hidden;
+  tiles_masked += o.tiles_masked;
   stamps_covered += o.stamps_covered;
   pixels += o.pixels;
   fragments += o.fragments;
@@ -36,9 +40,11 @@ DrawStats& DrawStats::operator+=(const DrawStats& o) {
 struct UntimedModel::Impl {
   PipelineContext context;
   LaneTables tables;
+  FloatLanes floats;
   bool plain;
   TileWalk walk;
   HierarchicalZ memory;
+  MaskedDepth masked;
   DrawStats stats;
   std::vector<Fragment> batch;
 
@@ -46,24 +52,35 @@ struct UntimedModel::Impl {
   int pixels = 0;
   std::array<CoveredPixel, 256> pixel{};
 
+  // Of a quad by FloatLanes.
+  FloatQuad float_quad;
+  PixelList list;
+  FloatResults results;
+
   Impl(const Config& config, const DrawState& state, PixelEngine engine)
       : context(config, state),
         tables(context),
+        floats(context),
         plain(engine == PixelEngine::plain),
         walk(config, state),
-        memory(config) {}
+        memory(config),
+        masked(config) {}
 
-  void deliver(const Fragment& fragment, bool drawn) {
-    ++stats.pixels;
-    stats.fragments += drawn;
-    const unsigned flags = fragment.flags;
+  /// Every flag but tie, which coverage gives.
+  void tally(unsigned flags) {
     stats.on_edge += (flags & flag_on_edge) != 0;
     stats.on_vertex += (flags & flag_on_vertex) != 0;
     stats.two_corner += (flags & flag_two_corner) != 0;
     stats.two_edge += (flags & flag_two_edge) != 0;
-    stats.tie += (flags & flag_tie) != 0;
     stats.notch += (flags & flag_notch) != 0;
     stats.saturated += (flags & flag_saturated) != 0;
+  }
+
+  void deliver(const Fragment& fragment, bool drawn) {
+    ++stats.pixels;
+    stats.fragments += drawn;
+    tally(fragment.flags);
+    stats.tie += (fragment.flags & flag_tie) != 0;
     if (drawn) batch.push_back(fragment);
   }
 
@@ -92,29 +109,75 @@ struct UntimedModel::Impl {
         draw_plain(tile, data, i);
         continue;
       }
-      const CoveredPixel& at = pixel[static_cast<std::size_t>(i)];
-      const auto bit = [&](unsigned mask, int flag) { return (mask >> l & 1) != 0 ? flag : 0; };
-      Fragment g;
-      g.quad = data.id;
-      g.x = static_cast<std::uint16_t>((tile.tile_x << context.config.tile_log2) + lane_dx[l]);
-      g.y = static_cast<std::uint16_t>((tile.tile_y << context.config.tile_log2) + lane_row[l]);
-      g.front = at.front;
-      g.flags = static_cast<std::uint8_t>(bit(r.on_edge, flag_on_edge) | bit(r.notch, flag_notch) |
-                                          bit(r.saturated, flag_saturated) | (at.tie ? flag_tie : 0) |
-                                          (data.homogeneous ? flag_homogeneous : 0));
-      g.depth = r.depth[static_cast<std::size_t>(l)];
-      for (std::size_t j = 0; j < static_cast<std::size_t>(context.state.attributes); ++j)
-        g.attribute[j] = r.attribute[j][static_cast<std::size_t>(l)];
-      deliver(g, r.drawn >> l & 1);
+      deliver(lane_fragment(r, l, tile, pixel[static_cast<std::size_t>(i)], data, context), r.drawn >> l & 1);
     }
   }
 
-  void draw_tile(const TileEntry& tile, const QuadData& data, const QuadLanes& values) {
+  using Sink = std::function<void(std::span<const Fragment>)>;
+
+  /// Draws the list's whole blocks, with `all` its rest too.
+  void draw_floats(const SetupResult& setup, const QuadData& data, bool all, const Sink& sink) {
+    const int count = all ? list.count : list.count / lane_count * lane_count;
+    if (count == 0) return;
+    floats.draw(float_quad, list, count, results);
+    stats.on_edge += results.on_edge;
+    stats.notch += results.notch;
+    stats.saturated += results.saturated;
+    auto drawn = static_cast<std::size_t>(count);
+    if (results.any_plain || !results.all_drawn) drawn = settle_floats(setup, data, count);
+    stats.fragments += drawn;
+    if (drawn != 0) sink(std::span(results.fragment).first(drawn));
+    list.drop(count);
+  }
+
+  /// Draws what is left to the plain pipeline, and closes the gaps of what is not drawn. Returns what is.
+  std::size_t settle_floats(const SetupResult& setup, const QuadData& data, int count) {
+    std::size_t drawn = 0;
+    for (int i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(i), block = at / lane_count;
+      bool draws = results.drawn[block] >> i % lane_count & 1;
+      if (results.plain[block] >> i % lane_count & 1) {
+        const int tile = context.config.tile(), column = list.x[at] / tile, row = list.y[at] / tile;
+        TileEntry entry;
+        entry.tile_x = setup.tile_x0 + column;
+        entry.tile_y = setup.tile_y0 + row;
+        WalkState linear;
+        for (std::size_t k = 0; k < linear_count; ++k) linear.linear[k] = setup.linear[k].value;
+        walk_step(linear, walk.constants(), column * tile, row * tile);
+        entry.linear = linear.linear;
+        entry.quadratic = tile_context(walk.constants(), column * tile, row * tile, context.config.qdrop());
+        PixelTrace p;
+        p.front = results.fragment[at].front;
+        p.tie = (results.fragment[at].flags & flag_tie) != 0;
+        pixel_pipeline(p, entry, walk.constants(), data, list.x[at] % tile, list.y[at] % tile, context);
+        results.fragment[at] = p.fragment;
+        draws = p.drawn;
+        tally(p.fragment.flags);
+      }
+      if (draws) results.fragment[drawn++] = results.fragment[at];
+    }
+    return drawn;
+  }
+
+  /// `depth`: of the quad, or nullptr where nothing is hidden.
+  void draw_tile(const TileEntry& tile, const QuadData& data, const QuadLanes& values, const DepthInterval* depth) {
     ++stats.tiles_entered;
     pixels = 0;
-    stats.stamps_covered += static_cast<std::uint64_t>(
-        for_each_covered_pixel(tile, walk.constants(), context.config, context.state,
-                               [&](const CoveredPixel& at) { pixel[static_cast<std::size_t>(pixels++)] = at; }));
+    const auto add = [&](const CoveredPixel& at) { pixel[static_cast<std::size_t>(pixels++)] = at; };
+    int stamps = 0;
+    if (depth == nullptr) {
+      stamps = for_each_covered_pixel(tile, walk.constants(), context.config, context.state, add);
+    } else {
+      masked.begin(tile.tile_x, tile.tile_y, *depth);
+      if (masked.hidden()) {
+        ++stats.tiles_masked;
+      } else {
+        stamps = for_each_covered_pixel(tile, walk.constants(), context.config, context.state, add,
+                                        [this](int row, std::uint32_t mask) { return masked.row(row, mask); });
+        masked.end();
+      }
+    }
+    stats.stamps_covered += static_cast<std::uint64_t>(stamps);
     if (plain) {
       for (int i = 0; i < pixels; ++i) draw_plain(tile, data, i);
     } else {
@@ -137,10 +200,15 @@ void UntimedModel::set_state(const DrawState& state) {
   const Config config = impl_->context.config;
   impl_->context = PipelineContext(config, state);
   impl_->tables = LaneTables(impl_->context);
+  impl_->floats = FloatLanes(impl_->context);
+  impl_->results = {};
   impl_->walk = TileWalk(config, state);
 }
 
-void UntimedModel::clear_hidden() { impl_->memory.clear(); }
+void UntimedModel::clear_hidden() {
+  impl_->memory.clear();
+  impl_->masked.clear();
+}
 
 void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::span<const Fragment>)>& sink) {
   Impl& m = *impl_;
@@ -158,14 +226,28 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
   m.stats.homogeneous_quads += setup.homogeneous;
   m.stats.hull_quads += setup.hull;
   const bool hidden = skips_hidden(m.context.config, m.context.state);
-  const WalkCounts counts = walk_tiles(
+  const DepthInterval depth = hidden ? depth_interval(quad, m.context.config, m.context.state) : DepthInterval{};
+  // Their coverage knows nothing of masks.
+  const bool by_floats = !m.plain && !hidden && m.floats.usable() && m.floats.take(setup, data, values, m.float_quad);
+  m.list.count = 0;  // a sink that threw left some
+  const WalkCounts counts = walk_quad(
       m.walk, setup,
-      [&](const TileEntry& tile) {
-        m.draw_tile(tile, data, values);
+      [&] {
+        if (by_floats) {
+          ++m.stats.tiles_entered;
+          const FloatLanes::TileCounts tile = m.floats.cover(m.float_quad, m.walk.corner(), m.walk.constants(), m.list);
+          m.stats.stamps_covered += static_cast<std::uint64_t>(tile.stamps);
+          m.stats.pixels += static_cast<std::uint64_t>(tile.pixels);
+          m.stats.tie += static_cast<std::uint64_t>(tile.ties);
+          if (m.list.count > PixelList::capacity - PixelList::widest) m.draw_floats(setup, data, false, sink);
+          return;
+        }
+        m.draw_tile(m.walk.entry(), data, values, hidden ? &depth : nullptr);
         if (!m.batch.empty()) sink(m.batch);
         m.batch.clear();
       },
-      hidden ? &m.memory : nullptr, hidden ? depth_interval(quad, m.context.config, m.context.state) : DepthInterval{});
+      hidden ? &m.memory : nullptr, depth);
+  if (by_floats) m.draw_floats(setup, data, true, sink);
   m.stats.tiles_hidden += counts.tiles_hidden;
   m.stats.blocks_tested += counts.blocks_tested;
   m.stats.tiles_tested += counts.tiles_tested;

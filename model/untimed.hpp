@@ -19,6 +19,7 @@ struct DrawStats {
   std::uint64_t homogeneous_quads = 0, hull_quads = 0;      ///< of those that were not rejected
   std::uint64_t blocks_tested = 0, tiles_tested = 0, tiles_entered = 0, stamps_covered = 0;
   std::uint64_t tiles_hidden = 0;  ///< of those tested, left out by hierarchical_z
+  std::uint64_t tiles_masked = 0;  ///< of those entered, left out by masked_depth before their rows
   std::uint64_t pixels = 0;        ///< covered pixels that entered the pipeline
   std::uint64_t fragments = 0;     ///< of these, not discarded
   std::uint64_t on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0, notch = 0, saturated = 0;
@@ -27,7 +28,7 @@ struct DrawStats {
 };
 
 /// Two forms of the pixel pipeline with the same bits: plain integers, one pixel at a time (the oracle), or eight
-/// pixels at once in masked double precision.
+/// pixels at once, in single precision where that is enough (float_lanes.hpp), else in double (pixel_lanes.hpp).
 enum class PixelEngine { plain, lanes };
 
 class UntimedModel {

@@ -2,6 +2,8 @@
 
 #include "model/root_ratio.hpp"
 
+#include <algorithm>
+
 namespace quadrille {
 namespace {
 
@@ -38,10 +40,24 @@ std::array<WeightFactors, 4> on_vertex(const PixelTrace& p, const PipelineContex
   return m;
 }
 
+/// Opposite each corner, of the triangle 012 or 023 that the pixel is in. Inside a convex quad the edge functions have
+/// one sign, and E20 has it too on the side of corner 1.
+std::array<WeightFactors, 4> areas(const PixelTrace& p, const PipelineContext& c) {
+  const bool negative = std::any_of(p.a.begin(), p.a.begin() + 4, [](std::int64_t a) { return a < 0; });
+  const bool behind_diagonal = (p.a[4] < 0) != negative;
+  const PipelineFloat one = c.format.one();
+  const auto area = [&](std::size_t k) { return WeightFactors{p.v[k], one, one}; };
+  const WeightFactors none{{}, one, one};
+  if (behind_diagonal) return {area(2), none, area(3), area(4)};
+  return {area(1), area(4), area(0), none};
+}
+
 }  // namespace
 
 std::array<WeightFactors, 4> weight_factors(const PixelTrace& p, const QuadData& quad, const PipelineContext& c) {
-  return p.two_corner ? two_corner(p, quad, c) : p.on_vertex ? on_vertex(p, c) : regular(p, c);
+  if (p.two_corner) return two_corner(p, quad, c);
+  if (p.on_vertex) return on_vertex(p, c);
+  return quad.plane ? areas(p, c) : regular(p, c);
 }
 
 PipelineFloat edge_denominator(const PixelTrace& p, std::size_t e, const QuadData& quad, const PipelineContext& c) {

@@ -31,7 +31,7 @@ module depth_interval #(
   localparam int RANK = PE + 1 + S - 1;  // {exponent, significand without its highest bit}, a bit to spare for the margin
   localparam logic [RANK-1:0] STEPS = RANK'(quadrille_pkg::DEPTH_MARGIN_STEPS);
   localparam logic [RANK-1:0] ZERO = {2'b11, (RANK - 2)'(0)};  // below every number
-  localparam logic [H-1:0] UNKNOWN = '1;
+  localparam logic [H-1:0] UNKNOWN = {H{1'b1}};  // not '1, of which Yosys 0.23 makes 1 in a parameter
   localparam bit EXACT = quadrille_pkg::QUADRATIC_FRAC_BITS >= 2 * quadrille_pkg::SUBPIXEL_BITS;
 
   // ---- The beats so far -----------------------------------------------------------------------------------------------------

@@ -14,12 +14,16 @@ module hierarchical_z #(
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int TL = quadrille_pkg::TILE_LOG2,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS
+    localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
+    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
+    localparam int EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,
     input logic clear_i,  // while the machine is not busy
     output logic ready_o,
+    output logic [PLACE-1:0] wipe_place_o,  // wiped in this clock, where not ready
+    output logic [EPOCH-1:0] epoch_o,
     // Draw state
     input logic on_i,
     input logic [V:0] scissor_x0_i,
@@ -44,15 +48,13 @@ module hierarchical_z #(
     input logic covered_i,
     output logic hidden_o
 );
-  localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2;
   localparam int ROW = PLACE / 2;
   localparam int COLUMN = PLACE - ROW;
   // Coordinates of a tile have TC - 1 bits. A tag has one at least, which then is 0.
   localparam int TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1;
   localparam int TAG_Y = (TC - 1 > ROW) ? TC - 1 - ROW : 1;
   localparam int TAG = TAG_X + TAG_Y;
-  localparam int SECTION_LOG2 = 4;
-  localparam int EPOCH = PLACE - SECTION_LOG2;
+  localparam int SECTION_LOG2 = quadrille_pkg::HIDDEN_SECTION_LOG2;
   localparam int WORD = TAG + EPOCH + H;
   localparam int WIDE = TC + PLACE;  // so that the slices below exist
 
@@ -110,6 +112,8 @@ module hierarchical_z #(
   logic wiping_q, wipe_all_q, known, lower;
 
   assign ready_o = !wiping_q;
+  assign wipe_place_o = wipe_q;
+  assign epoch_o = epoch_q;
   assign {word_tag, word_epoch, word_far} = word_q1;
   assign known = word_tag == tag_q1 && word_epoch == epoch_q;
   assign hidden_o = known && near_q >= word_far;

@@ -8,6 +8,9 @@
 //     RATIO_STAGE  ratio_products (denominator_operands)  root_ratio      OVERRIDE_STAGE                         WEIGHT_STAGE
 //                                                         fp_sum: N       weight_factors      factor_products
 //
+// A plane_quad's weights are areas instead: of the triangle 012 or, behind the diagonal, 023, the one opposite each corner, |A| as it comes. They
+// take the place of r on its way to weight_factors; singular pixels are as ever.
+//
 // class_i is singular_class's word; k_* are k_eff. Inputs enter at ROOT_STAGE (root), RATIO_STAGE, and one register before
 // OVERRIDE_STAGE (override_*); M leaves at WEIGHT_STAGE (quadrille_pkg).
 module mean_value_weights #(
@@ -27,6 +30,8 @@ module mean_value_weights #(
     input logic [6*S-1:0] v_sig_i,
     input logic [5:0] d_neg_i,
     input logic [CLASS-1:0] class_i,
+    input logic plane_i,  // the quad's: weights are areas
+    input logic behind_diagonal_i,
     input logic [3:0] k_neg_i,
     input logic [4*PE-1:0] k_exp_i,
     input logic [4*S-1:0] k_sig_i,
@@ -55,9 +60,48 @@ module mean_value_weights #(
     );
   end
 
+  logic area;  // the factors are areas
+  logic late_area;
+  logic [4*F-1:0] root_or_area;
+  logic [6*E-1:0] product_v_exp;  // v where it is multiplied
+  logic [6*S-1:0] product_v_sig;
+
+  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+    logic [5*F-1:0] v;  // of the edges and E20
+
+    for (genvar g = 0; g < 5; g++) begin : gen_v
+      assign v[g*F+:F] = {v_exp_i[g*E+:E], v_sig_i[g*S+:S]};
+    end
+
+    assign area = plane_i && !(class_i[quadrille_pkg::CLASS_TWO_CORNER] || class_i[quadrille_pkg::CLASS_ON_VERTEX] ||
+        class_i[quadrille_pkg::CLASS_TWO_EDGE]);
+    assign root_or_area[0+:F] = !area ? root[0+:F] : behind_diagonal_i ? v[2*F+:F] : v[F+:F];
+    assign root_or_area[F+:F] = !area ? root[F+:F] : behind_diagonal_i ? '0 : v[4*F+:F];
+    assign root_or_area[2*F+:F] = !area ? root[2*F+:F] : behind_diagonal_i ? v[3*F+:F] : v[0+:F];
+    assign root_or_area[3*F+:F] = !area ? root[3*F+:F] : behind_diagonal_i ? v[4*F+:F] : '0;
+
+    // The ratios' operands do not switch: u is held where it comes from.
+    assign product_v_exp = plane_i ? '0 : v_exp_i;
+    assign product_v_sig = plane_i ? '0 : v_sig_i;
+
+    delay_line #(.WIDTH(1), .DEPTH(TO_N)) u_delay_area (
+        .clk_i,
+        .data_i(area),
+        .data_o(late_area)
+    );
+  end else begin : gen_no_plane
+    logic unused_plane;
+    assign unused_plane = ^{plane_i, behind_diagonal_i, area};
+    assign area = 1'b0;
+    assign late_area = 1'b0;
+    assign root_or_area = root;
+    assign product_v_exp = v_exp_i;
+    assign product_v_sig = v_sig_i;
+  end
+
   delay_line #(.WIDTH(4 * F), .DEPTH(TO_N)) u_delay_late_root (
       .clk_i,
-      .data_i(root),
+      .data_i(root_or_area),
       .data_o(late_root)
   );
 
@@ -97,8 +141,8 @@ module mean_value_weights #(
       .clk_i,
       .u_exp_i,
       .u_sig_i,
-      .v_exp_i,
-      .v_sig_i,
+      .v_exp_i(product_v_exp),
+      .v_sig_i(product_v_sig),
       .d_neg_i,
       .two_edge_i(class_i[quadrille_pkg::CLASS_TWO_EDGE]),
       .edge_root_i(edge_root),
@@ -154,6 +198,7 @@ module mean_value_weights #(
   weight_factors u_factors (
       .clk_i,
       .class_i(late_class),
+      .area_i(late_area),
       .num_i(num),
       .den_i(den),
       .root_i(late_root),

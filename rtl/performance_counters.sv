@@ -1,8 +1,8 @@
 // What the machine did since reset: quads by what became of them, blocks and tiles, rows and stamps, pixels and fragments, products by unit,
 // and clocks by what bound them. README.md section 9 says which clock counts what. Read by index; a counter wraps around at 2^COUNTER_BITS.
 //
-// All inputs are of this clock; what they say is counted at its end, but for norm_active_i and sum_active_i, which are of operands on their way
-// to the units that make products of them. Nothing of the machine depends on value_o.
+// All inputs are of this clock; what they say is counted at its end, but for norm_active_i, norm_plane_i and sum_active_i, which are of operands
+// on their way to the units that make products of them. Nothing of the machine depends on value_o.
 module performance_counters #(
     localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
     localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
@@ -18,6 +18,8 @@ module performance_counters #(
     output logic [WIDTH-1:0] value_o,  // 0 beyond the last counter
     // Quads
     input logic start_i,  // setup takes the quad of vertex_assembly
+    input logic plane_i,  // which is a plane_quad
+    input logic nearly_plane_i,  // plane_tolerance takes a quad
     input logic drop_vertices_i,  // or it is left out, for the first of these that holds, else by its depth
     input logic empty_i,
     input logic behind_i,
@@ -31,16 +33,19 @@ module performance_counters #(
     input logic tile_test_i,
     input logic tile_push_i,
     input logic tile_hidden_i,
-    input logic row_i,  // coverage tests a row
+    input logic tile_masked_i,  // coverage leaves a tile's rows out
+    input logic row_i,  // and tests a row
     input logic stamp_push_i,
     // Pixels
     input logic [P*LATENCY-1:0] lane_valid_i,  // the pipeline's registers, those of a lane side by side
     input logic [P-1:0] drawn_i,  // fragments in the last one
     input logic [P-1:0] norm_active_i,  // a clock before NORM_STAGE: the lane takes the numbers on
+    input logic norm_plane_i,  // three clocks before NORM_STAGE: the pixels are of a plane_quad
     input logic [SETS-1:0] sum_active_i,  // a clock before WEIGHT_STAGE: the terms of k, W, Z and the attributes are not held at 0
     // Dot units
     input logic context_job_i,  // of all pairs
     input logic setup_job_i,
+    input logic tolerance_i,  // plane_tolerance multiplies a value in use
     // What bounds the clock
     input logic head_i,  // emission has a stamp or an end entry
     input logic head_waits_i,  // and no place for its fragments
@@ -65,6 +70,7 @@ module performance_counters #(
   localparam int PER_WEIGHT_FACTOR = 2 * WEIGHTS;  // and behind them
   localparam int PER_SUM = WEIGHTS;
   localparam int PER_RECIPROCAL = quadrille_pkg::RECIP_DEGREE;
+  localparam int PER_VALUE = 4;  // of plane_tolerance: its corners
   localparam int PER_JOB = 4;  // a pair: two dot units of two products each
 
   localparam int BEFORE_OUTPUT = quadrille_pkg::FRAGMENT_STAGE - quadrille_pkg::FRAGMENT_OUTPUT_STAGES;
@@ -99,6 +105,17 @@ module performance_counters #(
       .data_o(ratio_active)
   );
 
+  logic norm_plane;  // of the pixels in NORM_STAGE
+
+  delay_line #(
+      .WIDTH(1),
+      .DEPTH(3)
+  ) u_norm_plane (
+      .clk_i,
+      .data_i(norm_plane_i),
+      .data_o(norm_plane)
+  );
+
   // Sums that are not of zeros: k, W, Z, attributes. The pixels of a clock are of one quad.
   logic [SETS-1:0] sum_active, quotient_active, output_active;
 
@@ -127,12 +144,13 @@ module performance_counters #(
       .data_o(output_active)
   );
 
-  logic [COUNT-1:0] at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn;
+  logic [COUNT-1:0] at_norm, at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn;
   logic [SUMS-1:0] sums, denominators, quotients;
 
   always_comb begin
-    {at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn} = '0;
+    {at_norm, at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn} = '0;
     for (int g = 0; g < P; g++) begin
+      at_norm = at_norm + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::NORM_STAGE]);
       at_sqrt = at_sqrt + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::NORM_STAGE] && norm_active[g]);
       at_ratio = at_ratio + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::ROOT_STAGE] && root_active[g]);
       at_weight_ratio = at_weight_ratio + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::RATIO_STAGE] && ratio_active[g]);
@@ -175,7 +193,7 @@ module performance_counters #(
   // ---- The counters, in the order of their indices --------------------------------------------------------------------------
   localparam int STEP = 8;  // bits of what a clock adds: at most four products of eleven sums in four lanes, 176
   localparam int LANES = 4;  // indices for the pixels of a lane, used or not
-  localparam int COUNTERS = 37;
+  localparam int COUNTERS = 41;
   logic [COUNTERS*STEP-1:0] step;
   logic [COUNTERS*WIDTH-1:0] value_q;
   logic [LANES-1:0] entered;
@@ -197,26 +215,30 @@ module performance_counters #(
   assign step[6*STEP+:STEP] = STEP'(drop_i && !drop_line_i);
   assign step[7*STEP+:STEP] = STEP'(take_i && !homogeneous_i);
   assign step[8*STEP+:STEP] = STEP'(take_i && homogeneous_i);
-  assign step[9*STEP+:STEP] = STEP'(block_test_i);
-  assign step[10*STEP+:STEP] = STEP'(block_enter_i);
-  assign step[11*STEP+:STEP] = STEP'(tile_test_i);
-  assign step[12*STEP+:STEP] = STEP'(tile_push_i);
-  assign step[13*STEP+:STEP] = STEP'(tile_hidden_i);
-  assign step[14*STEP+:STEP] = STEP'(row_i);
-  assign step[15*STEP+:STEP] = STEP'(stamp_push_i);
+  assign step[9*STEP+:STEP] = STEP'(start_i && plane_i) + STEP'(nearly_plane_i);
+  assign step[10*STEP+:STEP] = STEP'(block_test_i);
+  assign step[11*STEP+:STEP] = STEP'(block_enter_i);
+  assign step[12*STEP+:STEP] = STEP'(tile_test_i);
+  assign step[13*STEP+:STEP] = STEP'(tile_push_i);
+  assign step[14*STEP+:STEP] = STEP'(tile_hidden_i);
+  assign step[15*STEP+:STEP] = STEP'(tile_masked_i);
+  assign step[16*STEP+:STEP] = STEP'(row_i);
+  assign step[17*STEP+:STEP] = STEP'(stamp_push_i);
   for (genvar g = 0; g < LANES; g++) begin : gen_pixels
-    assign step[(16+g)*STEP+:STEP] = STEP'(entered[g]);
+    assign step[(18+g)*STEP+:STEP] = STEP'(entered[g]);
   end
-  assign step[20*STEP+:STEP] = STEP'(drawn);
-  assign step[21*STEP+:STEP] = (context_job_i || setup_job_i) ? STEP'(PAIRS * PER_JOB) : '0;
-  assign step[22*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
-  assign step[23*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
-  assign step[24*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
-  assign step[25*STEP+:STEP] = STEP'(at_sum) * STEP'(sums) * STEP'(PER_SUM);
-  assign step[26*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
-  assign step[27*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);
+  assign step[22*STEP+:STEP] = norm_plane ? STEP'(at_norm) : '0;
+  assign step[23*STEP+:STEP] = STEP'(drawn);
+  assign step[24*STEP+:STEP] = (context_job_i || setup_job_i) ? STEP'(PAIRS * PER_JOB) : '0;
+  assign step[25*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
+  assign step[26*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
+  assign step[27*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
+  assign step[28*STEP+:STEP] = STEP'(at_sum) * STEP'(sums) * STEP'(PER_SUM);
+  assign step[29*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
+  assign step[30*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);
+  assign step[31*STEP+:STEP] = tolerance_i ? STEP'(PER_VALUE) : '0;
   for (genvar g = 0; g < BOUNDS; g++) begin : gen_bound
-    assign step[(28+g)*STEP+:STEP] = STEP'(bound[g]);
+    assign step[(32+g)*STEP+:STEP] = STEP'(bound[g]);
   end
 
   for (genvar g = 0; g < COUNTERS; g++) begin : gen_counter

@@ -48,6 +48,7 @@ module pixel_lane #(
     input logic squares_i,
     input logic [6*LENGTH2-1:0] length2_i,
     // Of its quad, each where it is used
+    input logic norm_plane_i,  // two registers before NORM_STAGE: a plane_quad
     input logic [3:0] product_k_neg_i,
     input logic [4*PE-1:0] product_k_exp_i,
     input logic [4*S-1:0] product_k_sig_i,
@@ -94,6 +95,8 @@ module pixel_lane #(
   } meta_t;
   logic [TAG-1:0] diff_tag, norm_tag;
   logic [CLASS-1:0] norm_class, ratio_class;
+  logic ratio_plane;  // of a plane_quad
+  logic norm_behind_diagonal, ratio_behind_diagonal;  // in its triangle 023
   logic [5:0] norm_d_neg, ratio_d_neg;  // signs of D
   meta_t output_meta;
 
@@ -113,6 +116,22 @@ module pixel_lane #(
       .data_i({norm_class, norm_d_neg}),
       .data_o({ratio_class, ratio_d_neg})
   );
+
+  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+    delay_line #(.WIDTH(1), .DEPTH(RATIO - NORM)) u_behind_diagonal (
+        .clk_i,
+        .data_i(norm_behind_diagonal),
+        .data_o(ratio_behind_diagonal)
+    );
+    delay_line #(.WIDTH(1), .DEPTH(RATIO - NORM + 2)) u_plane (
+        .clk_i,
+        .data_i(norm_plane_i),
+        .data_o(ratio_plane)
+    );
+  end else begin : gen_no_plane
+    assign ratio_plane = 1'b0;
+    assign ratio_behind_diagonal = 1'b0;
+  end
 
   // ---- Exact functions at the pixel --------------------------------------------------------------------------------------
   logic [6*VAL-1:0] a, diff_a;
@@ -194,16 +213,19 @@ module pixel_lane #(
   // ---- Significand numbers and class -------------------------------------------------------------------------------------
   // Of a pixel on a corner the weights are the corner's: nothing between here and weight_factors is looked at. Its numbers, and all of
   // what is no pixel, as the first parts of a homogeneous one, are not taken on, so that the operands of everything up to the weights
-  // stay as they are.
-  logic corner;
-  logic norm_active_q, class_active_q;
+  // stay as they are. Of a plane_quad the weights are areas: A alone is taken on.
+  logic corner, taken_on;
+  logic norm_active_q, distance_active_q, class_active_q;
+
+  assign taken_on = !hold_i || (valid_q[NORM-2] && !corner);
 
   always_ff @(posedge clk_i) begin
-    norm_active_q <= !hold_i || (valid_q[NORM-2] && !corner);
+    norm_active_q <= taken_on;
+    distance_active_q <= taken_on && !norm_plane_i;
     class_active_q <= !hold_i || valid_q[NORM-2];
   end
 
-  assign count_norm_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && norm_active_q;
+  assign count_norm_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && distance_active_q;
 
   logic [5:0] norm_a_neg;
   logic [6*E-1:0] norm_a_exp, norm_d_exp;
@@ -227,7 +249,7 @@ module pixel_lane #(
 
     normalise #(.WIDTH(QVAL)) u_d (
         .clk_i,
-        .active_i(norm_active_q),
+        .active_i(distance_active_q),
         .value_i(diff_d[g*QVAL+:QVAL]),
         .neg_o(norm_d_neg[g]),
         .exp_o(norm_d_exp[g*E+:E]),
@@ -241,7 +263,7 @@ module pixel_lane #(
         .CLAMP(1'b1)
     ) u_r2 (
         .clk_i,
-        .active_i(norm_active_q),
+        .active_i(distance_active_q),
         .value_i(diff_r2[g*QVAL+:QVAL]),
         .neg_o(norm_r2_neg[g]),
         .exp_o(norm_r2_exp[g*E+:E]),
@@ -258,6 +280,9 @@ module pixel_lane #(
       .corner_o(corner),
       .class_o(norm_class)
   );
+
+  // Inside a convex quad the edge functions have one sign, and E20 has it too on the side of corner 1.
+  assign norm_behind_diagonal = norm_a_neg[4] != (norm_a_neg[3:0] != '0);
 
   // ---- r_i, the corners' distances ------------------------------------------------------------------------------------------------------
   logic [4*E-1:0] root_exp;
@@ -303,6 +328,8 @@ module pixel_lane #(
       .v_sig_i(ratio_v_sig),
       .d_neg_i(ratio_d_neg),
       .class_i(ratio_class),
+      .plane_i(ratio_plane),
+      .behind_diagonal_i(ratio_behind_diagonal),
       .k_neg_i(product_k_neg_i),
       .k_exp_i(product_k_exp_i),
       .k_sig_i(product_k_sig_i),
@@ -400,7 +427,7 @@ module pixel_lane #(
   );
 
   logic unused;
-  assign unused = ^{norm_r2_neg, norm_a_neg};
+  assign unused = ^{norm_r2_neg, norm_a_neg[5], norm_behind_diagonal};
 
 `ifndef SYNTHESIS
   // A regular pixel's weights are near 1.

@@ -54,6 +54,8 @@ module pixel_pipeline #(
     // Slot bank
     output logic [SLOT-1:0] length2_slot_o,
     input logic [6*LENGTH2-1:0] length2_i,
+    output logic [SLOT-1:0] norm_slot_o,
+    input logic norm_plane_i,
     output logic [SLOT-1:0] product_slot_o,
     input logic [3:0] product_k_neg_i,
     input logic [4*PE-1:0] product_k_exp_i,
@@ -119,6 +121,7 @@ module pixel_pipeline #(
   delay_line #(.WIDTH(TAG), .DEPTH(LAST - WEIGHT)) u_output_tag (.clk_i, .data_i(blend_tag), .data_o(output_tag));
 
   // ---- Reads of the slot bank -----------------------------------------------------------------------------------------------
+  logic norm_plane;
   logic [3:0] product_k_neg;
   logic [4*PE-1:0] product_k_exp, override_k_exp;
   logic [4*S-1:0] product_k_sig, override_k_sig;
@@ -129,12 +132,14 @@ module pixel_pipeline #(
   logic output_hull, output_homogeneous;
   tag_t fragment_tag;  // output_tag in step with what was read
 
+  assign norm_slot_o = diff_tag.slot;
   assign product_slot_o = product_tag.slot;
   assign override_slot_o = override_tag.slot;
   assign blend_slot_o = blend_tag.slot;
   assign output_slot_o = output_tag.slot;
 
   always_ff @(posedge clk_i) begin
+    norm_plane <= norm_plane_i;
     product_k_neg <= product_k_neg_i;
     product_k_exp <= product_k_exp_i;
     product_k_sig <= product_k_sig_i;
@@ -247,6 +252,7 @@ module pixel_pipeline #(
         .part_i(part),
         .squares_i(squares_q),
         .length2_i(length2_q),
+        .norm_plane_i(norm_plane),
         .product_k_neg_i(product_k_neg),
         .product_k_exp_i(product_k_exp),
         .product_k_sig_i(product_k_sig),

@@ -3,13 +3,13 @@
 // quad; start; then a step a clock, in which every pair of dot units has a job: 6 steps or, of a homogeneous quad, 40; with two pairs 3 or 24.
 // Half of a homogeneous quad's ask whether it misses the scissor (separate_i; else 20 or 11 steps).
 //
-// Three quads may be here, one behind the other: one does its steps (front_*), of one the results come, six clocks after their jobs
-// (sum_*), one waits complete for take_i (the outputs). So the steps go on while results are on their way and while the walk is busy. A
-// quad starts only when those before it will surely have moved on by the time its first result comes.
+// Four quads may be here, one behind the other: one does its steps (front_*), one whose results are still to come waits (middle_*), of one
+// they come, six clocks after their jobs (sum_*), one waits complete for take_i (the outputs). So the steps go on while results are on their way and while
+// the walk is busy. A quad starts only when those before it will surely have moved on by the time its first result comes.
 //
 // Linear function f: f*VAL_BITS, exact, two's complement. Squared lengths: unsigned, without their QDROP lowest bits.
-// A quad that cannot give a fragment by its triangles' areas (reject_i), or misses the scissor, is dropped when it is complete. An empty
-// bounding box gives zero tiles.
+// A quad that cannot give a fragment by its triangles' areas (reject_i), or misses the scissor, is dropped: an ordinary one while its last
+// result comes, else when it is complete. An empty bounding box gives zero tiles.
 module quad_setup #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int W = quadrille_pkg::W_BITS,
@@ -67,7 +67,8 @@ module quad_setup #(
     input logic [1:0] cull_i,
     input logic take_i,
     output logic done_o,
-    output logic drop_o,  // the quad among the outputs, of this slot, is left out
+    output logic drop_o,  // a quad is left out, of this slot
+    output logic [SLOT-1:0] drop_slot_o,
     output logic count_line_o,  // for performance_counters, else 0: because it is on a line
     output logic count_job_o,  // the dot units get a job of each pair
     output logic count_busy_o,  // a quad is here
@@ -151,34 +152,40 @@ module quad_setup #(
     end
   end
 
-  // ---- The three quads ----------------------------------------------------------------------------------------------------
+  // ---- The four quads -----------------------------------------------------------------------------------------------------
   logic run_q;  // steps are left
   logic [5:0] step_q;
-  logic front_q;  // what goes with the quad of the steps has not moved on yet
+  logic front_q;  // a quad has started; in the next clock it is in the middle too, which is free then
+  logic middle_q;  // a quad waits for results to come
   logic sum_q;  // results are of a quad that is not among the outputs yet
   logic complete_q;  // all are there
   logic done_q;  // a quad is among the outputs
   logic left_out_q;  // one that cannot give a fragment
   logic last, run_end, advance, hand_over, gone;
+  logic drop_result, drop_summed;
+  logic alone;  // one quad at most, but for one that goes and for the outputs, is before the next one
 
   // The step is the last one, and done. With one pair of units the next quad's first result then comes in the very clock after the last of
   // this one; with two pairs a function's reach is a clock behind, so that the steps pause for one.
   assign run_end = run_q && last && !wait_i;
-  assign advance = front_q && (!sum_q || hand_over);
-  assign hand_over = complete_q && (!done_q || gone);
-  assign gone = take_i || drop_o;
-  assign ready_o = box_state_q == BOXED && (!run_q || (PAIRS == 1 && run_end)) && !front_q && (!sum_q || !done_q || gone);
+  assign advance = middle_q && (!sum_q || hand_over || drop_summed);
+  assign hand_over = complete_q && !drop_summed && (!done_q || gone);
+  assign gone = take_i || drop_result;
+  assign alone = !(sum_q && middle_q) || drop_summed;
+  assign ready_o = box_state_q == BOXED && (!run_q || (PAIRS == 1 && run_end)) && alone && (!(sum_q || middle_q) || !done_q || gone);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       run_q <= 1'b0;
       front_q <= 1'b0;
+      middle_q <= 1'b0;
       sum_q <= 1'b0;
       done_q <= 1'b0;
     end else begin
       run_q <= start_i || (run_q && !run_end);
-      front_q <= start_i || (front_q && !advance);
-      sum_q <= advance || (sum_q && !hand_over);
+      front_q <= start_i;
+      middle_q <= front_q || (middle_q && !advance);
+      sum_q <= advance || (sum_q && !hand_over && !drop_summed);
       done_q <= hand_over || (done_q && !gone);
     end
   end
@@ -193,7 +200,7 @@ module quad_setup #(
   logic [TL-1:0] front_row_q;
   logic [4*T-1:0] tx_q, ty_q;
   logic [4*W-1:0] w_q;
-  logic [PLACE-1:0] sum_place_q;
+  logic [PLACE-1:0] middle_place_q, sum_place_q;
 
   assign origin_x = T'(box_x0_q) << (TL + FRAC);
   assign origin_y = T'(box_y0_q) << (TL + FRAC);
@@ -206,7 +213,8 @@ module quad_setup #(
       front_tiles_q <= {box_x0_q, box_y0_q, box_x_q, box_y_q};
       front_row_q <= box_row_q;
     end
-    if (advance) sum_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, tx_q, ty_q, w_q};
+    if (front_q) middle_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, tx_q, ty_q, w_q};
+    if (advance) sum_place_q <= middle_place_q;
     if (hand_over) begin
       {slot_o, tile_x0_o, tile_y0_o, tiles_x_o, tiles_y_o, last_row_o, vertex_x_o, vertex_y_o, vertex_w_o} <= sum_place_q[PLACE-2:0];
       homogeneous_o <= !sum_ordinary;
@@ -419,7 +427,7 @@ module quad_setup #(
     end else begin
       job_q <= {job_q[(CLOCKS-1)*JOB-1:0], job};
       end_q <= {end_q[END_CLOCKS-2:0], run_end};
-      complete_q <= end_q[END_CLOCKS-1] || (complete_q && !hand_over);
+      complete_q <= (end_q[END_CLOCKS-1] || (complete_q && !hand_over)) && !drop_summed;
     end
   end
 
@@ -622,47 +630,62 @@ module quad_setup #(
   always_ff @(posedge clk_i) if (hand_over) {hull_o, visible_o} <= {hull, visible};
 
   // ---- Left out: both triangles of expression (12) without area, or turned away -------------------------------------------------
-  // An ordinary quad's triangles have the areas of E01 + E12 + E20 and E23 + E30 - E20, anywhere; these five are there a clock before all
-  // is. A homogeneous quad's clauses are those of its determinants, but for triangles that miss the scissor.
+  // An ordinary quad's triangles have the areas of E01 + E12 + E20 and E23 + E30 - E20, anywhere: added up as the values come, and known a
+  // clock before all is. A homogeneous quad's clauses are those of its determinants, but for triangles that miss the scissor.
   localparam int AREA = VAL + 2;
-  logic [5*AREA-1:0] values;
-  logic [AREA-1:0] area_012, area_023;
+  logic [AREA-1:0] area_012_q, area_023_q;
   logic [3:0] area_signs_q, wanted, turned;  // as the clauses of visible_o
 
-  for (genvar g = 0; g < 5; g++) begin : gen_value
-    assign values[g*AREA+:AREA] = AREA'($signed(lin_value_q[g*VAL+:VAL]));
-  end
+  // By their group: with one pair of units 01, 12, 23, 30, 20; with two 01 and 12, 23 and 30, 20 (and 13, which is in neither).
+  logic [AREA-1:0] area_value, area_value2;  // of the first pair of units, of the second
+  logic [AREA-1:0] area_012_next, area_023_next;
+  logic in_012, in_023, diagonal;
 
-  assign area_012 = values[0+:AREA] + values[AREA+:AREA] + values[4*AREA+:AREA];
-  assign area_023 = values[2*AREA+:AREA] + values[3*AREA+:AREA] - values[4*AREA+:AREA];
-  assign wanted = {{2{cull_i != 2'd1}}, {2{cull_i != 2'd2}}};
-  assign turned = (sum_ordinary ? area_signs_q : visible) & wanted;
+  assign area_value = AREA'($signed(gen_result[0].value));
+  assign area_value2 = (PAIRS == 1) ? '0 : AREA'($signed(gen_result[PAIRS-1].value));
+  assign diagonal = job_group == ((PAIRS == 1) ? 3'd4 : 3'd2);
+  assign in_012 = job_group < ((PAIRS == 1) ? 3'd2 : 3'd1);
+  assign in_023 = (PAIRS == 1) ? job_group[2:1] == 2'd1 : job_group == 3'd1;
+  assign area_012_next = (job_group == 3'd0 ? '0 : area_012_q) + (in_012 || diagonal ? area_value : '0) + (in_012 ? area_value2 : '0);
+  assign area_023_next = (job_group == 3'd0 ? '0 : area_023_q) + (in_023 ? area_value : diagonal ? ~area_value : '0) +
+      (in_023 ? area_value2 : '0) + AREA'(diagonal);
 
   always_ff @(posedge clk_i) begin
-    area_signs_q <= {
-      area_023[AREA-1],
-      area_012[AREA-1],
-      !area_023[AREA-1] && area_023 != '0,
-      !area_012[AREA-1] && area_012 != '0
-    };
-    if (hand_over) begin
-      left_out_q <= (reject_i && turned == '0) || (turned != '0 && (turned & ~missing) == '0);
+    if (edge_job) begin
+      area_012_q <= area_012_next;
+      area_023_q <= area_023_next;
+      area_signs_q <= {
+        area_023_next[AREA-1],
+        area_012_next[AREA-1],
+        !area_023_next[AREA-1] && area_023_next != '0,
+        !area_012_next[AREA-1] && area_012_next != '0
+      };
     end
+  end
+
+  assign wanted = {{2{cull_i != 2'd1}}, {2{cull_i != 2'd2}}};
+  assign turned = (sum_ordinary ? area_signs_q : visible) & wanted;
+  assign drop_summed = sum_q && (end_q[END_CLOCKS-1] || complete_q) && sum_ordinary && reject_i && (area_signs_q & wanted) == '0 && !drop_result;
+
+  always_ff @(posedge clk_i) begin
+    if (hand_over) left_out_q <= !sum_ordinary && ((reject_i && turned == '0) || (turned != '0 && (turned & ~missing) == '0));
   end
 
   if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
     logic line_q;
 
-    always_ff @(posedge clk_i) if (hand_over) line_q <= (sum_ordinary ? area_signs_q : visible) == '0;
+    always_ff @(posedge clk_i) if (hand_over) line_q <= visible == '0;
 
-    assign count_line_o = line_q;
+    assign count_line_o = drop_result ? line_q : area_signs_q == '0;
     assign count_job_o = run_q && !wait_i && (is_edge || is_gradient || is_det || is_side || is_corner);
-    assign count_busy_o = front_q || sum_q || done_q;
+    assign count_busy_o = front_q || middle_q || sum_q || done_q;
   end else begin : gen_no_count
     assign {count_line_o, count_job_o, count_busy_o} = '0;
   end
 
-  assign drop_o = done_q && left_out_q;
+  assign drop_result = done_q && left_out_q;
+  assign drop_o = drop_result || drop_summed;
+  assign drop_slot_o = drop_result ? slot_o : sum_place_q[PLACE-2-:SLOT];
   assign done_o = done_q && !left_out_q;
 
   logic unused;
@@ -673,8 +696,9 @@ module quad_setup #(
     if (rst_ni) begin
       assert (!start_i || (held_i && ready_o));
       assert (!take_i || done_o);
+      assert (!front_q || !middle_q);
       assert (!(edge_job || gradient_job || det_job || side_job || corner_job) || sum_q || advance);  // results have a quad
-      assert (!(edge_job || gradient_job || det_job) || !complete_q || hand_over);  // and do not overwrite one that waits
+      assert (!(edge_job || gradient_job || det_job) || !complete_q || hand_over || drop_summed);  // and do not overwrite one that waits
       assert (!run_q || front_ordinary_q || step_q < CORNERS - 6'd1 || !front_q);  // a corner takes no vertex that is to move on
     end
   end

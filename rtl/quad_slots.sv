@@ -26,6 +26,10 @@ module quad_slots #(
     output logic busy_o,
     // Vertex bank, written at start
     input logic perspective_i,
+    input logic plane_i,
+    // Of a quad in a slot, later: its weights are areas too
+    input logic nearly_plane_i,
+    input logic [SLOT-1:0] nearly_plane_slot_i,
     input logic [ID-1:0] id_i,
     input logic [3:0] w_neg_i,
     input logic [4*PE-1:0] w_exp_i,
@@ -62,6 +66,9 @@ module quad_slots #(
     // Read for the dot products of an ordinary quad: there a clock after the slot
     input logic [SLOT-1:0] length2_slot_i,
     output logic [6*LENGTH2-1:0] length2_o,
+    // Read for the significand numbers: whether the quad's weights are areas
+    input logic [SLOT-1:0] norm_slot_i,
+    output logic norm_plane_o,
     // Read of k_eff for the weights' products and for the overrides
     input logic [SLOT-1:0] product_slot_i,
     output logic [3:0] product_k_neg_o,
@@ -173,6 +180,21 @@ module quad_slots #(
   always_ff @(posedge clk_i) if (start_i) id_q[alloc_q] <= id_i;
 
   assign output_id_o = id_q[output_slot_i];
+
+  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+    logic [SLOTS-1:0] plane_q;
+
+    always_ff @(posedge clk_i) begin
+      if (start_i) plane_q[alloc_q] <= plane_i;
+      if (nearly_plane_i) plane_q[nearly_plane_slot_i] <= 1'b1;
+    end
+
+    assign norm_plane_o = plane_q[norm_slot_i];
+  end else begin : gen_no_plane
+    logic unused_plane;
+    assign unused_plane = ^{plane_i, nearly_plane_i, nearly_plane_slot_i, norm_slot_i};
+    assign norm_plane_o = 1'b0;
+  end
 
   // ---- Function bank ------------------------------------------------------------------------------------------------------
   for (genvar g = 0; g < 6; g++) begin : gen_linear

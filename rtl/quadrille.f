@@ -27,6 +27,7 @@ hierarchical_z.sv
 inside_expression.sv
 interpolate.sv
 law_of_cosines.sv
+masked_depth.sv
 mean_value_ratios.sv
 mean_value_weights.sv
 normalise.sv
@@ -36,6 +37,8 @@ performance_counters.sv
 pixel_emit.sv
 pixel_lane.sv
 pixel_pipeline.sv
+plane_quad.sv
+plane_tolerance.sv
 quad_reject.sv
 quad_setup.sv
 quad_slots.sv

@@ -70,11 +70,11 @@ module quadrille (
 
   assign state = state_i;
   assign depth_on = state.depth;
-  assign unused_skip = ^state.skip[7:5];
+  assign unused_skip = ^state.skip[7:6];
 
   // ---- For performance_counters: 0 without them -----------------------------------------------------------------------------
   logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_hidden, count_walk;
-  logic count_row, count_rows, count_rows_behind, count_head_waits;
+  logic count_masked, count_row, count_rows, count_rows_behind, count_head_waits;
   logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::LATENCY-1:0] lane_valid;
   logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] count_norm;
   logic [SETS-1:0] count_sum;
@@ -160,7 +160,7 @@ module quadrille (
   logic [PAIRS*OUT-1:0] result0, result1;
   logic setup_ready, setup_done, take, drop;
   logic slot_available, slots_busy, fragments_busy, slot_release, stamp_load;
-  logic [SLOT-1:0] alloc_slot, setup_slot;
+  logic [SLOT-1:0] alloc_slot, setup_slot, drop_slot;
   logic [TC-1:0] tile_x0, tile_y0, tiles_x, tiles_y;
   logic [TILE_LOG2-1:0] setup_last_row;
   logic homogeneous, hull;
@@ -218,6 +218,7 @@ module quadrille (
       .take_i(take),
       .done_o(setup_done),
       .drop_o(drop),
+      .drop_slot_o(drop_slot),
       .count_line_o(count_line),
       .count_job_o(count_setup_job),
       .count_busy_o(count_setup),
@@ -283,6 +284,10 @@ module quadrille (
   logic [6*GRAD-1:0] emit_gx, emit_gy;
   logic [SLOT-1:0] length2_slot;
   logic [6*LENGTH2-1:0] length2;
+  logic quad_plane, norm_plane;
+  logic nearly_plane, tolerance_ready, count_tolerance;
+  logic [SLOT-1:0] nearly_plane_slot;
+  logic [SLOT-1:0] norm_slot;
   logic [3:0] product_k_neg;
   logic [4*PE-1:0] product_k_exp, override_k_exp;
   logic [4*S-1:0] product_k_sig, override_k_sig;
@@ -293,17 +298,78 @@ module quadrille (
   logic [ID-1:0] output_id;
   logic output_hull, output_homogeneous;
 
+  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+    plane_quad u_plane (
+        .clk_i,
+        .on_i(state.skip[5]),
+        .perspective_i(state.perspective),
+        .depth_on_i(depth_on),
+        .attributes_i(state.attributes),
+        .ordinary_i(quad_ordinary),
+        .x_i(quad_x),
+        .y_i(quad_y),
+        .k_exp_i(quad_k_exp),
+        .k_sig_i(quad_k_sig),
+        .z_neg_i(quad_z_neg),
+        .z_exp_i(quad_z_exp),
+        .z_sig_i(quad_z_sig),
+        .attr_i(quad_attr),
+        .plane_o(quad_plane)
+    );
+  end else begin : gen_no_plane
+    logic unused_plane;
+    assign unused_plane = state.skip[5];
+    assign quad_plane = 1'b0;
+  end
+
+  if (quadrille_pkg::PLANE_TOLERANCE) begin : gen_tolerance
+    plane_tolerance u_tolerance (
+        .clk_i,
+        .rst_ni,
+        .on_i(state.skip[5]),
+        .perspective_i(state.perspective),
+        .depth_on_i(depth_on),
+        .attributes_i(state.attributes),
+        .start_i(start),
+        .start_slot_i(alloc_slot),
+        .plane_i(quad_plane),
+        .k_exp_i(quad_k_exp),
+        .k_sig_i(quad_k_sig),
+        .z_neg_i(quad_z_neg),
+        .z_exp_i(quad_z_exp),
+        .z_sig_i(quad_z_sig),
+        .attr_i(quad_attr),
+        .done_i(setup_done),
+        .take_i(take),
+        .slot_i(setup_slot),
+        .homogeneous_i(homogeneous),
+        .lin_value_i(setup_lin_value),
+        .ready_o(tolerance_ready),
+        .taken_o(nearly_plane),
+        .taken_slot_o(nearly_plane_slot),
+        .count_value_o(count_tolerance)
+    );
+  end else begin : gen_no_tolerance
+    assign tolerance_ready = 1'b1;
+    assign nearly_plane = 1'b0;
+    assign nearly_plane_slot = '0;
+    assign count_tolerance = 1'b0;
+  end
+
   quad_slots u_slots (
       .clk_i,
       .rst_ni,
       .start_i(start),
       .release_i(slot_release),
       .drop_i(drop),
-      .drop_slot_i(setup_slot),
+      .drop_slot_i(drop_slot),
       .alloc_o(alloc_slot),
       .available_o(slot_available),
       .busy_o(slots_busy),
       .perspective_i(state.perspective),
+      .plane_i(quad_plane),
+      .nearly_plane_i(nearly_plane),
+      .nearly_plane_slot_i(nearly_plane_slot),
       .id_i(quad_id),
       .w_neg_i(quad_w_neg),
       .w_exp_i(quad_w_exp),
@@ -336,6 +402,8 @@ module quadrille (
       .emit_gy_o(emit_gy),
       .length2_slot_i(length2_slot),
       .length2_o(length2),
+      .norm_slot_i(norm_slot),
+      .norm_plane_o(norm_plane),
       .product_slot_i(product_slot),
       .product_k_neg_o(product_k_neg),
       .product_k_exp_o(product_k_exp),
@@ -368,7 +436,7 @@ module quadrille (
       .rst_ni,
       .cull_i(state.cull),
       .reject_tiles_i(state.skip[0]),
-      .setup_done_i(setup_done),
+      .setup_done_i(setup_done && tolerance_ready),
       .take_o(take),
       .slot_i(setup_slot),
       .tile_x0_i(tile_x0),
@@ -414,12 +482,17 @@ module quadrille (
   end
 `endif
 
+  logic [quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2-1:0] wipe_place;
+  logic [quadrille_pkg::HIDDEN_EPOCH_BITS-1:0] epoch;
+
   if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_hidden
     hierarchical_z u_hidden (
         .clk_i,
         .rst_ni,
         .clear_i(clear_hidden_i),
         .ready_o(depths_ready),
+        .wipe_place_o(wipe_place),
+        .epoch_o(epoch),
         .on_i(depth_on && state.skip[2]),
         .scissor_x0_i(state.scissor_x0),
         .scissor_y0_i(state.scissor_y0),
@@ -443,7 +516,8 @@ module quadrille (
     );
   end else begin : gen_nothing_hidden
     logic unused_hidden;
-    assign unused_hidden = ^{clear_hidden_i, state.skip[2], quad_near, quad_far, quad_lowers, walk_go, test_column, test_row, tile_tested,
+    assign {wipe_place, epoch} = '0;
+    assign unused_hidden = ^{wipe_place, epoch, clear_hidden_i, state.skip[2], quad_near, quad_far, quad_lowers, walk_go, test_column, test_row, tile_tested,
         tile_covered};
     assign depths_ready = 1'b1;
     assign tile_hidden = 1'b0;
@@ -577,6 +651,9 @@ module quadrille (
   logic [TILE-1:0] head_mask, head_front, head_tie;
   logic head_end, stamp_push_homogeneous, head_homogeneous;
   logic [STAMP-1:0] stamp;
+  logic coverage_wait, tile_masked, rows_load, row_issue, rows_done;
+  logic [TILE_LOG2-1:0] issue_row;
+  logic [TILE-1:0] row_covered, row_seen;
 
   stamp_coverage u_coverage (
       .clk_i,
@@ -603,8 +680,17 @@ module quadrille (
       .tie_pos_i(stamp_tie_pos),
       .tie_neg_i(stamp_tie_neg),
       .visible_i(stamp_visible),
+      .wait_i(coverage_wait),
+      .hidden_i(tile_masked),
+      .rows_load_o(rows_load),
+      .issue_o(row_issue),
+      .rows_done_o(rows_done),
+      .issue_row_o(issue_row),
+      .covered_o(row_covered),
+      .seen_i(row_seen),
       .freed_i(pop),
       .push_o(stamp_push),
+      .count_masked_o(count_masked),
       .count_row_o(count_row),
       .count_busy_o(count_rows),
       .count_behind_o(count_rows_behind),
@@ -616,6 +702,41 @@ module quadrille (
       .front_o(stamp_front),
       .tie_o(stamp_tie)
   );
+
+  if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_masked
+    masked_depth u_masked (
+        .clk_i,
+        .rst_ni,
+        .wipe_i(!depths_ready),
+        .wipe_place_i(wipe_place),
+        .epoch_i(epoch),
+        .on_i(depth_on && state.skip[2]),
+        .start_i(start),
+        .start_slot_i(alloc_slot),
+        .near_i(quad_near),
+        .far_i(quad_far),
+        .lowers_i(quad_lowers),
+        .end_i(stamp_end),
+        .slot_i(stamp_slot),
+        .tile_x_i(stamp_tile_x),
+        .tile_y_i(stamp_tile_y),
+        .last_row_i(stamp_last_row),
+        .wait_o(coverage_wait),
+        .load_i(stamp_load),
+        .rows_load_i(rows_load),
+        .hidden_o(tile_masked),
+        .issue_i(row_issue),
+        .done_i(rows_done),
+        .row_i(issue_row),
+        .covered_i(row_covered),
+        .seen_o(row_seen)
+    );
+  end else begin : gen_nothing_masked
+    logic unused_masked;
+    assign unused_masked = ^{rows_load, row_issue, rows_done, issue_row, row_covered};
+    assign {coverage_wait, tile_masked} = '0;
+    assign row_seen = '1;
+  end
 
   assign stamp = {stamp_push_end, stamp_ptr, stamp_row, stamp_mask, stamp_front, stamp_tie};
 
@@ -734,6 +855,8 @@ module quadrille (
       .tie_i(pixel_tie),
       .length2_slot_o(length2_slot),
       .length2_i(length2),
+      .norm_slot_o(norm_slot),
+      .norm_plane_i(norm_plane),
       .product_slot_o(product_slot),
       .product_k_neg_i(product_k_neg),
       .product_k_exp_i(product_k_exp),
@@ -781,6 +904,8 @@ module quadrille (
         .index_i(counter_index_i),
         .value_o(counter_o),
         .start_i(start),
+        .plane_i(quad_plane),
+        .nearly_plane_i(nearly_plane),
         .drop_vertices_i(drop_vertices),
         .empty_i(empty),
         .behind_i(behind),
@@ -793,14 +918,17 @@ module quadrille (
         .tile_test_i(count_tile),
         .tile_push_i(tile_push && !tile_end),
         .tile_hidden_i(count_hidden),
+        .tile_masked_i(count_masked),
         .row_i(count_row),
         .stamp_push_i(stamp_push && !stamp_push_end),
         .lane_valid_i(lane_valid),
         .drawn_i(drawn),
         .norm_active_i(count_norm),
+        .norm_plane_i(norm_plane),
         .sum_active_i(count_sum),
         .context_job_i(context_job),
         .setup_job_i(count_setup_job),
+        .tolerance_i(count_tolerance),
         .head_i(head_valid),
         .head_waits_i(count_head_waits),
         .rows_i(count_rows),
@@ -821,11 +949,13 @@ module quadrille (
       count_line,
       count_setup_job,
       count_setup,
+      count_tolerance,
       count_block,
       count_enter,
       count_tile,
       count_hidden,
       count_walk,
+      count_masked,
       count_row,
       count_rows,
       count_rows_behind,

@@ -42,10 +42,20 @@ module stamp_coverage #(
     input logic [4:0] tie_pos_i,
     input logic [4:0] tie_neg_i,
     input logic [3:0] visible_i,
+    // Masked depth: what goes with the registers; a tile that waits stays in the tag register
+    input logic wait_i,
+    input logic hidden_i,  // of the tile in the rows register nothing can be seen: one row is issued
+    output logic rows_load_o,
+    output logic issue_o,
+    output logic rows_done_o,  // with the last row
+    output logic [TILE_LOG2-1:0] issue_row_o,
+    output logic [TILE-1:0] covered_o,  // of the row issued two clocks before
+    input logic [TILE-1:0] seen_i,  // of these, those that may be seen
     // Stamp FIFO: freed_i when a stamp has left it
     input logic freed_i,
     output logic push_o,
-    output logic count_row_o,  // for performance_counters, else 0: a row is tested
+    output logic count_masked_o,  // for performance_counters, else 0: a tile's rows are left out
+    output logic count_row_o,  // a row is tested
     output logic count_busy_o,  // a tile, or an end entry, is in the rows register
     output logic count_behind_o,  // another one is behind it
     output logic end_o,
@@ -68,20 +78,25 @@ module stamp_coverage #(
   logic freed_q, drop;
 
   if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
-    assign count_row_o = issue && !rows_end_q;
+    assign count_masked_o = issue && !rows_end_q && hidden_i;
+    assign count_row_o = issue && !rows_end_q && !hidden_i;
     assign count_busy_o = rows_valid_q;
     assign count_behind_o = context_valid_q;
   end else begin : gen_no_count
-    assign {count_row_o, count_busy_o, count_behind_o} = '0;
+    assign {count_masked_o, count_row_o, count_busy_o, count_behind_o} = '0;
   end
 
   assign issue = rows_valid_q && room_q != '0;
-  assign rows_done = issue && (rows_end_q || row_q == last_row_q);
+  assign rows_done = issue && (rows_end_q || hidden_i || row_q == last_row_q);
   assign rows_load = context_valid_q && (!rows_valid_q || rows_done);
-  assign load_o = tag_valid_q && (!context_valid_q || rows_load);
+  assign load_o = tag_valid_q && (!context_valid_q || rows_load) && !wait_i;
   assign fetch_o = present_i && (!tag_valid_q || load_o);
   assign fetch_ptr_o = fetch_q;
   assign load_ptr_o = load_q;
+  assign rows_load_o = rows_load;
+  assign issue_o = issue;
+  assign rows_done_o = rows_done;
+  assign issue_row_o = row_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -273,7 +288,8 @@ module stamp_coverage #(
       .front_o(front)
   );
 
-  assign mask = end_q2 ? '0 : (back | front) & in_scissor_q2;
+  assign covered_o = end_q2 ? '0 : (back | front) & in_scissor_q2;
+  assign mask = covered_o & seen_i;
 
   always_ff @(posedge clk_i) begin
     mask_q3 <= mask;

@@ -4,6 +4,7 @@
 // regular      M_0 : M_1 : M_2 : M_3 = abc : a : c : b, each times the three denominators
 // two corners  |k| of the other one, the rest 0
 // on a vertex  1, the rest 0
+// plane_quad   the area opposite the corner, which comes in the place of r (area_i)
 // two edges    r of an edge's other end, and the other edge's denominator N; see gen_corner for the corner that is on both
 //
 // Numbers are {exp, sig}, magnitudes all.
@@ -16,6 +17,7 @@ module weight_factors #(
 ) (
     input logic clk_i,
     input logic [CLASS-1:0] class_i,
+    input logic area_i,
     input logic [3*F-1:0] num_i,
     input logic [3*F-1:0] den_i,
     input logic [4*F-1:0] root_i,
@@ -79,8 +81,9 @@ module weight_factors #(
       if (on_vertex) x_d = is_first ? ONE : '0;
       if (two_edge) x_d = (own_edge && !edge_before) ? root_i[Q*F+:F] : root_i[P*F+:F];
       if (two_edge) y_d = n_of_first ? edge_n_i[0+:F] : edge_n_i[F+:F];
-      if (two_corner || on_vertex) y_d = ONE;
-      if (two_corner || on_vertex || two_edge) z_d = ONE;
+      if (area_i) x_d = root_i[g*F+:F];
+      if (two_corner || on_vertex || area_i) y_d = ONE;
+      if (two_corner || on_vertex || two_edge || area_i) z_d = ONE;
     end
 
     always_ff @(posedge clk_i) begin

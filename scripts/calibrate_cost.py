@@ -137,10 +137,9 @@ def read(name):
     for number, row in enumerate(rows, 1):
         if list(row) != COLUMNS or None in row.values():
             raise InputError(f"{name}: row {number}: columns are {','.join(COLUMNS)}")
-        counted = [column for column in COUNTS if column != "flip_flops" or row[column]]
-        if row["target"] not in FITTED or row["use"] not in USES or not all(row[column].isdigit() for column in counted):
+        if row["target"] not in FITTED or row["use"] not in USES or not all(row[column].isdigit() for column in COUNTS):
             raise InputError(f"{name}: row {number}: a target of {', '.join(FITTED)}, a use of fit, check and four counts are expected")
-        row |= {column: int(row[column]) for column in counted}
+        row |= {column: int(row[column]) for column in COUNTS}
     return rows
 
 

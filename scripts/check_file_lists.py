@@ -5,6 +5,7 @@ same files in the same order; the kept default tables are those that the program
   scripts/check_file_lists.py PATH_TO_QUADRILLE
 
 FuseSoC and Bender are no Debian packages: their files are parsed and compared, not run."""
+import argparse
 import os
 import subprocess
 import sys
@@ -16,7 +17,9 @@ TABLES = "default_tables/quadrille_tables_pkg.sv"
 
 
 def main():
-    program = os.path.abspath(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", metavar="PATH_TO_QUADRILLE")
+    program = os.path.abspath(parser.parse_args().program)
     failures = []
 
     def require(holds, text):

@@ -12,7 +12,7 @@ import re
 import sys
 
 LAYERS = ("model", "golden", "tb")
-SUFFIXES = {".cpp", ".hpp", ".h"}
+SUFFIXES = {".c", ".cpp", ".hpp", ".h"}
 INCLUDE = re.compile(r'\s*#\s*include\s*"([^"]+)"')
 
 

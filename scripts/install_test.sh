@@ -10,7 +10,7 @@ fail() { echo "install_test: $1" >&2; exit 1; }
 
 # Only the program: the scripts of the installation, looking for what was built in a directory that has nothing else.
 mkdir -p "$work/partial"
-(cd "$build" && find . -name cmake_install.cmake -print0 | tar -c --null -T -) | tar -x -C "$work/partial"
+(cd "$build" && find . \( -name cmake_install.cmake -o -name 'Quadrille*.cmake' -o -path "./include/quadrille/*.h" \) -print0 | tar -c --null -T -) | tar -x -C "$work/partial"
 find "$work/partial" -name cmake_install.cmake -exec sed -i "s|$build|$work/partial|g" {} +
 cp "$build/quadrille" "$work/partial/"
 

@@ -7,11 +7,14 @@ cd "$root"
 packages=(
   g++ make cmake ninja-build   # the build, and simulators on demand; make builds those of the replay benches
   verilator yosys iverilog     # RTL simulation, synthesis and round trip, replay of golden vectors
+  z3                           # scripts/prove.py
   opensta qflow-tech-osu018    # scripts/timing.py: static timing, and the standard cells that it times
-  libgtest-dev libopenexr-dev libpng-dev zlib1g-dev libssl-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
+  libgtest-dev librapidcheck-dev libopenexr-dev libpng-dev zlib1g-dev libssl-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   pkg-config libcairo2-dev fonts-dejavu-core   # contact sheets of quadrille compare
+  libegl1-mesa-dev libgl1-mesa-dri libepoxy-dev   # the engine shader: OpenGL without a window, in software
   clang-format                 # the format test
   python3 python3-matplotlib python3-plotly python3-yaml   # scripts/*.py; plots of scripts/sweep_report.py; lists of the RTL's files
+  python3-numpy                # the example of the library in Python
 )
 
 install_packages() {

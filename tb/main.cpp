@@ -87,6 +87,7 @@ int run(int argc, char** argv) {
   add_sweep_command(app, invocation);
   add_golden_command(app, invocation);
   add_compare_command(app, invocation);
+  add_stress_command(app, invocation);
   add_cache_command(app, invocation);
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands({})) {

@@ -296,10 +296,10 @@ HardwareCost bounding_range(const Widths& w) {
 }
 
 HardwareCost quad_setup(const Widths& w, int clocks) {
-  // Bounding box, control; of the quads that do their steps, that wait for results and that wait to be taken the slot,
-  // tile rectangle and vertices relative to the origin.
+  // Bounding box, control; of the quads that do their steps, that wait for results to come, whose results come and that
+  // wait to be taken the slot, tile rectangle and vertices relative to the origin.
   const int place = w.SLOT + 4 * w.TC + w.TL + 1 + 4 * (2 * w.T + w.W);
-  HardwareCost cost = 2 * bounding_range(w) + state(2 + 4 * w.TC + w.TL + 5 + 5 + 3 * place) + 8 * adder(w.T);
+  HardwareCost cost = 2 * bounding_range(w) + state(2 + 4 * w.TC + w.TL + 5 + 6 + 4 * place) + 8 * adder(w.T);
   // Jobs under way, and a quad's end.
   cost += state(clocks * 8 + clocks + w.PAIRS - 1 + 4);
   // Of a determinant one of four edge functions; differences of coordinates wait for an ordinary quad's gradients;
@@ -308,9 +308,9 @@ HardwareCost quad_setup(const Widths& w, int clocks) {
   pair += state(2 * w.GRAD) + 4 * mux(w.GRAD, 2) + 2 * adder(w.GRAD + 1) + 4 * adder(w.REACH) + 2 * zero_test(w.GRAD);
   // The determinants accumulate both results one after the other; signs of those before are kept.
   pair += state(w.DET + 2 * (4 / w.PAIRS - 1)) + 2 * adder(w.DET) + mux(w.DET, 2) + zero_test(w.DET);
-  // Left out by its triangles' areas, or the determinants' signs.
+  // Left out by its triangles' areas, which add up as values come, or by the determinants' signs.
   const int area = w.VAL + 2;
-  cost += 4 * adder(area) + 2 * zero_test(area) + state(4 + 1) + control(12);
+  cost += 4 * adder(area) + 2 * zero_test(area) + state(2 * area + 4 + 1) + control(200);
   // The functions as they come, and of the quad that waits to be taken; steps.
   return cost + w.PAIRS * pair + 2 * (6 * state(w.VAL + w.LENGTH2 + 2 * w.GRAD) + 5 * state(4 * w.REACH + 2)) +
          state(5) + control(130);
@@ -381,7 +381,7 @@ HardwareCost quad_slots(const Widths& w) {
   cost += block_memory(6 * w.LENGTH2, words) + memory(14, words, 1) + state(14) + memory(2, words, 1) +
           memory(w.ID, words, 1);
   // The next slot, those of end beats on their way; a bit for each slot that is in use, set and cleared by its number.
-  return cost + state(3 * w.SLOT) + adder(w.SLOT) + state(words) + mux(words, 4) + zero_test(2 * words);
+  return cost + state(3 * w.SLOT) + adder(w.SLOT) + state(words) + mux(words, 4) + zero_test(2 * words) + control(150);
 }
 
 HardwareCost stamp_coverage(const Widths& w) {
@@ -518,8 +518,8 @@ HardwareCost mean_value_weights(const Widths& w, const Config& c) {
   cost += 2 * one_of_four(w.PE + w.S);
   cost += 4 * (mux(w.NUMBER, 5) + mux(w.NUMBER, 3) + mux(w.NUMBER, 2) + adder(10) + state(3 * w.NUMBER));
   cost += 4 * (2 * fp_multiply(w) + state(w.NUMBER) + state((fp_add_stages - product_stages) * w.NUMBER));
-  // The corner on both edges.
-  return cost + 2 * one_of_four(w.NUMBER) + fp_add(w) + 4 * (mux(w.NUMBER, 2) + state(w.NUMBER));
+  // The corner on both edges; which class and which operands hold.
+  return cost + 2 * one_of_four(w.NUMBER) + fp_add(w) + 4 * (mux(w.NUMBER, 2) + state(w.NUMBER)) + control(125);
 }
 
 HardwareCost interpolate(const Widths& w) { return (3 + w.N) * (4 * fp_term(w) + state(4) + fp_sum(w, 4, true)); }

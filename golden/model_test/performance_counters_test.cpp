@@ -246,8 +246,65 @@ TEST(PerformanceCounters, HiddenTiles) {
   const PerformanceCounters c = count(quads, config, state);
   EXPECT_EQ(c[tiles_hidden], 64u);
   EXPECT_EQ(c[tiles_entered], 64u + 192 + 64);
+  EXPECT_EQ(c[tiles_masked], 0u);
   EXPECT_EQ(c[tiles_tested], all[tiles_tested]);
   EXPECT_EQ(c.pixels(), 4096u * 5);
+  EXPECT_EQ(c[rows_tested], (64u + 192 + 64) * 8);
+
+  // Two halves of a tile, then something behind both: it is pushed, and one row goes through coverage that is no test.
+  const auto half = [](double x, double z) { return quad_of({{{x, 8}, {x + 4, 8}, {x + 4, 0}, {x, 0}}}, z); };
+  const PerformanceCounters halves = count({half(0, 0.25), half(4, 0.25), at(0, 0, 8, 0.5)}, config, state);
+  EXPECT_EQ(halves[tiles_hidden], 0u);
+  EXPECT_EQ(halves[tiles_entered], 3u);
+  EXPECT_EQ(halves[tiles_masked], 1u);
+  EXPECT_EQ(halves[rows_tested], 16u);
+  EXPECT_EQ(halves.pixels(), 64u);
+}
+
+TEST(PerformanceCounters, PlaneQuads) {
+  Config config;
+  config.set("plane_tolerance_bits", 31);
+  DrawState state;
+  WindowQuad bent = square(64, 0, 8);
+  bent.attribute[2][1] = 0.5;
+  const std::vector<WindowQuad> quads{square(0, 0, 8), bent, square(600, 0, 8), square(32, 0, 16)};
+  const PerformanceCounters mean_values = count(quads, config, state);
+  EXPECT_EQ(mean_values[quads_plane], 0u);
+  EXPECT_EQ(mean_values[pixels_plane], 0u);
+  state.skip |= skip_plane;
+  const PerformanceCounters c = count(quads, config, state);
+  EXPECT_EQ(c[quads_plane], 2u);
+  EXPECT_EQ(c[pixels_plane], 64u + 256);
+  EXPECT_EQ(c.pixels(), 64u + 64 + 256);
+  EXPECT_EQ(c[clocks], mean_values[clocks]);
+  EXPECT_EQ(c[products_sqrt], 64u * 8);
+  EXPECT_EQ(c[products_mean_value_ratios], 64u * 6);
+  EXPECT_EQ(c[products_mean_value_weights], 64u * 15 + (64 + 64 + 256) * 8);
+}
+
+// Squares of which one is bent a little, one too much, and one concave: the unit multiplies what is not exactly plane,
+// of convex quads alone.
+TEST(PerformanceCounters, NearlyPlaneQuads) {
+  Config config;
+  config.set("plane_tolerance_bits", 4);
+  DrawState state;
+  state.skip |= skip_plane;
+  state.attributes = 2;
+  WindowQuad little = square(64, 0, 8), much = little, concave = square(64, 0, 16);
+  for (std::size_t i = 0; i < 4; ++i) little.attribute[i][1] = 0.5 + (i == 2 ? 1.0 / 256 : 0);
+  much.attribute[2][1] = 0.5;
+  concave.vertex[2].x -= 12;
+  concave.vertex[2].y += 12;
+  const std::vector<WindowQuad> quads{square(0, 0, 8), little, much, concave};
+  const PerformanceCounters c = count(quads, config, state);
+  EXPECT_EQ(c[quads_plane], 2u);
+  EXPECT_EQ(c[pixels_plane], 64u + 64);
+  EXPECT_EQ(c[products_plane_tolerance], 2u * 4 * (2 + 2)) << "k, Z and the attributes in use";
+  state.perspective = state.depth = false;
+  EXPECT_EQ(count(quads, config, state)[products_plane_tolerance], 2u * 4 * 2);
+  config.set("plane_tolerance_bits", 31);
+  EXPECT_EQ(count(quads, config, state)[products_plane_tolerance], 0u);
+  EXPECT_EQ(count(quads, config, state)[quads_plane], 1u);
 }
 
 TEST(PerformanceCounters, PixelsByLane) {

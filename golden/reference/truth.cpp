@@ -4,6 +4,7 @@
 #include "golden/reference/port_number.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -24,17 +25,32 @@ int sign_of(const Number& value) {
   return (value > 0) - (value < 0);
 }
 
-// Both are bit operations in line; comparisons of __float128 are library calls.
+// All are bit operations in line; comparisons of __float128 are library calls.
+int sign_of(__float128 value) {
+  const auto bits = std::bit_cast<unsigned __int128>(value);
+  if (bits << 1 == 0) return 0;
+  return bits >> 127 == 0 ? 1 : -1;
+}
 __float128 magnitude(__float128 value) { return __builtin_fabsq(value); }
+long double magnitude(long double value) { return std::abs(value); }
 bool negative(__float128 value) { return __builtin_signbit(value) != 0; }
+bool negative(long double value) { return std::signbit(value); }
+
+using golden::rsqrt;
+/// 1 / sqrt(a), within two roundings.
+long double rsqrt(long double a) { return 1.0L / std::sqrt(a); }
 
 /// sum(a_i b_i)
-__float128 inner(const std::array<__float128, 4>& a, const std::array<__float128, 4>& b) {
+template <class Number>
+Number inner(const std::array<Number, 4>& a, const std::array<Number, 4>& b) {
   return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
 }
 
 /// sum(a_i)
-__float128 total(const std::array<__float128, 4>& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+template <class Number>
+Number total(const std::array<Number, 4>& a) {
+  return (a[0] + a[1]) + (a[2] + a[3]);
+}
 
 /// S_i = V_i - w_i p and the five edge functions at one pixel, with their signs after the tie rule.
 template <class Coord, class Product>
@@ -60,7 +76,7 @@ struct PixelEdges {
     }
   }
 
-  bool at_corner(int i) const { return sx[i] == 0 && sy[i] == 0; }
+  bool at_corner(int i) const { return sign_of(sx[i]) == 0 && sign_of(sy[i]) == 0; }
   Product dot(int i) const {
     const int n = (i + 1) & 3;
     return static_cast<Product>(sx[i]) * sx[n] + static_cast<Product>(sy[i]) * sy[n];
@@ -78,18 +94,50 @@ int clause_of_12(const std::array<int, 5>& sign, int orientation) {
 }
 
 /// M_i up to a common factor; spread_i = (|t_{i-1}| + |t_i|) / R_i in the same scale.
+template <class Number>
 struct Weights {
-  std::array<__float128, 4> m{}, spread{};
+  std::array<Number, 4> m{}, spread{};
   Singular singular = Singular::none;
   bool cancels = false;   ///< some spread_i is not |M_i|
   bool collinear = true;  ///< every A_i is 0: the pixel's ray lies in the plane of all edges
   bool opposed = false;   ///< two corners or edges are met on both sides of the eye, with M that make sum(M k) 0
 };
 
-template <class Coord, class Product>
-Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float128, 4>& k) {
-  Weights out;
-  for (int i = 0; i < 4; ++i) out.collinear = out.collinear && p.e[i] == 0;
+/// Dot products and squares of S at a pixel. In long double from S rounded to it, which is quicker: in units of 2^-64 S
+/// is within 1 and a product within 3, so that a square, where nothing cancels, is within 4, and a dot product within 3
+/// of the product of both lengths (Cauchy and Schwarz) and 1 of itself.
+template <class Number, class Coord, class Product>
+struct PixelLengths {
+  std::array<Number, 4> dot, square;
+
+  explicit PixelLengths(const PixelEdges<Coord, Product>& p) {
+    if constexpr (std::is_same_v<Number, long double>) {
+      std::array<Number, 4> x, y;
+      for (int i = 0; i < 4; ++i) {
+        x[i] = static_cast<Number>(p.sx[i]);
+        y[i] = static_cast<Number>(p.sy[i]);
+      }
+      for (int i = 0; i < 4; ++i) {
+        const int n = (i + 1) & 3;
+        dot[i] = x[i] * x[n] + y[i] * y[n];
+        square[i] = x[i] * x[i] + y[i] * y[i];
+      }
+    } else {
+      for (int i = 0; i < 4; ++i) {
+        dot[i] = static_cast<Number>(p.dot(i));
+        square[i] = static_cast<Number>(p.square(i));
+      }
+    }
+  }
+};
+
+/// Number: __float128, or long double, whose m_i are within 69 spread_i 2^-64. (In units of 2^-64, a square's 4 halved
+/// by its root: rho 4 and a length 5; the product of two lengths 11, n and d 15, for nothing in them cancels; with the
+/// product of two d, 31, the products t_i are within 63; rho and the last two operations make 69.)
+template <class Number, class Coord, class Product>
+Weights<Number> weights_at(const PixelEdges<Coord, Product>& p, const std::array<Number, 4>& k) {
+  Weights<Number> out;
+  for (int i = 0; i < 4; ++i) out.collinear = out.collinear && sign_of(p.e[i]) == 0;
 
   int corners = 0;
   std::array<int, 2> corner{};
@@ -113,21 +161,20 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
     return out;
   }
 
-  std::array<Product, 4> dot;
   int edges = 0;
   std::array<int, 2> edge{};
   for (int i = 0; i < 4; ++i) {
-    dot[i] = p.dot(i);
-    if (p.e[i] != 0 || !(dot[i] < 0)) continue;
+    if (sign_of(p.e[i]) != 0 || sign_of(p.dot(i)) >= 0) continue;
     if (edges < 2) edge[edges] = i;
     ++edges;
   }
 
-  std::array<__float128, 4> rho, length;
+  const PixelLengths<Number, Coord, Product> lengths(p);
+  const std::array<Number, 4>& dot = lengths.dot;
+  std::array<Number, 4> rho, length;
   for (int i = 0; i < 4; ++i) {
-    const auto square = static_cast<__float128>(p.square(i));
-    rho[i] = rsqrt(square);
-    length[i] = square * rho[i];
+    rho[i] = rsqrt(lengths.square[i]);
+    length[i] = lengths.square[i] * rho[i];
   }
 
   if (edges >= 2) {
@@ -138,7 +185,7 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
     const auto sum_on = [&](int i) { return rho[i] * k[i] + rho[(i + 1) & 3] * k[(i + 1) & 3]; };
     out.opposed = sign_of(sum_on(edge[0])) * sign_of(sum_on(edge[1])) < 0;
     for (int side = 0; side < 2; ++side) {
-      const __float128 other = magnitude(sum_on(edge[1 - side]));
+      const Number other = magnitude(sum_on(edge[1 - side]));
       for (const int i : {edge[side], (edge[side] + 1) & 3}) out.m[i] += rho[i] * other;
     }
     return out;
@@ -146,24 +193,24 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
   if (edges == 1) out.singular = Singular::one_edge;
 
   // t_i = n_i / d_i by whichever of the two equal forms has no cancellation.
-  std::array<__float128, 4> n, d;
+  std::array<Number, 4> n, d;
   for (int i = 0; i < 4; ++i) {
-    const auto area = static_cast<__float128>(p.e[i]);
-    const __float128 both = length[i] * length[(i + 1) & 3];
+    const auto area = static_cast<Number>(p.e[i]);
+    const Number both = length[i] * length[(i + 1) & 3];
     if (dot[i] < 0) {
-      n[i] = both - static_cast<__float128>(dot[i]);
+      n[i] = both - dot[i];
       d[i] = area;
     } else {
       n[i] = area;
-      d[i] = both + static_cast<__float128>(dot[i]);
+      d[i] = both + dot[i];
     }
   }
   // T_i = t_i d_0 d_1 d_2 d_3, M_i = (T_{i-1} + T_i) rho_i: no division, and exact on an edge through the pixel, where
   // d_i = 0.
-  const __float128 d01 = d[0] * d[1], d23 = d[2] * d[3];
-  const std::array<__float128, 4> t{n[0] * d[1] * d23, n[1] * d[0] * d23, n[2] * d[3] * d01, n[3] * d[2] * d01};
+  const Number d01 = d[0] * d[1], d23 = d[2] * d[3];
+  const std::array<Number, 4> t{n[0] * d[1] * d23, n[1] * d[0] * d23, n[2] * d[3] * d01, n[3] * d[2] * d01};
   for (int i = 0; i < 4; ++i) {
-    const __float128 left = t[(i + 3) & 3], right = t[i];
+    const Number left = t[(i + 3) & 3], right = t[i];
     out.m[i] = (left + right) * rho[i];
     // Where a term is 0 either branch gives the same.
     const bool cancels = negative(left) != negative(right);
@@ -176,13 +223,13 @@ Weights weights_at(const PixelEdges<Coord, Product>& p, const std::array<__float
 /// sum(M w) is 0 as an identity, not merely small: sum(M_i V_i) is a multiple of the pixel's ray and lies in the plane
 /// of the vertices, so if that plane holds the eye but not the ray the multiple is 0. So it is where `opposed`, which
 /// is without perspective, where k = w.
-template <class Coord, class Product>
-bool w_sum_vanishes(const detail::TruthGeometry<Coord, Product>& g, const Weights& weights) {
+template <class Number, class Coord, class Product>
+bool w_sum_vanishes(const detail::TruthGeometry<Coord, Product>& g, const Weights<Number>& weights) {
   return weights.opposed || (g.flat && !weights.collinear);
 }
 
 template <class Coord, class Product>
-bool in_front(const detail::TruthGeometry<Coord, Product>& g, const Weights& weights,
+bool in_front(const detail::TruthGeometry<Coord, Product>& g, const Weights<__float128>& weights,
               const std::array<__float128, 4>& k, const std::array<__float128, 4>& w) {
   if (w_sum_vanishes(g, weights)) return false;
   return sign_of(inner(weights.m, k)) * sign_of(inner(weights.m, w)) > 0;
@@ -286,14 +333,14 @@ TruthQuad::TruthQuad(const SnappedQuad& quad, const Config& config, const DrawSt
     low_y = std::min(low_y, g.y[i]);
     high_x = std::max(high_x, g.x[i]);
     high_y = std::max(high_y, g.y[i]);
-    w_[i] = std::ldexp(static_cast<double>(v.w), -frac);
-    k_[i] = port_value(v.k, config.significand_bits);
-    crossing_[i] = perspective_ ? k_[i] : w_[i];
-    z_[i] = port_value(v.z, config.significand_bits);
-    for (int a = 0; a < attributes_; ++a) b_[a][i] = port_value(v.attribute[a], config.significand_bits);
+    exact_.w[i] = std::ldexp(static_cast<double>(v.w), -frac);
+    exact_.k[i] = port_value(v.k, config.significand_bits);
+    exact_.z[i] = port_value(v.z, config.significand_bits);
+    for (int a = 0; a < attributes_; ++a) exact_.b[a][i] = port_value(v.attribute[a], config.significand_bits);
   }
   g.finish();
   geometry_ = g;
+  quick_ = detail::VertexValues<long double>(exact_);
   unit_w_ = !homogeneous_;
   bounds_ = meet(scissor_of(draw), scissor_of(draw));
   if (!homogeneous_) {
@@ -320,13 +367,12 @@ TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
     g.w[i] = w;
     homogeneous_ = homogeneous_ || !(v.w > 0);
     unit_w_ = unit_w_ && v.w == 1;
-    w_[i] = w;
-    k_[i] = 1;
-    crossing_[i] = perspective_ ? k_[i] : w_[i];
-    z_[i] = v.z;
+    exact_.w[i] = w;
+    exact_.k[i] = 1;
+    exact_.z[i] = v.z;
     for (int a = 0; a < attributes_; ++a) {
       const double value = a < static_cast<int>(quad.attribute[i].size()) ? quad.attribute[i][a] : 0.0;
-      b_[a][i] = perspective_ ? static_cast<__float128>(value) : w * value;
+      exact_.b[a][i] = perspective_ ? static_cast<__float128>(value) : w * value;
     }
     if (v.w > 0) {
       low_x = std::min(low_x, v.x / v.w - 0.5);
@@ -337,6 +383,7 @@ TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
   }
   g.finish();
   geometry_ = g;
+  quick_ = detail::VertexValues<long double>(exact_);
   bounds_ = meet(scissor_of(draw), scissor_of(draw));
   if (!homogeneous_) bounds_ = meet(bounds_, around(low_x, low_y, high_x, high_y));
 }
@@ -347,91 +394,138 @@ Coverage TruthQuad::cover(int px, int py) const {
         const PixelEdges p(g, px, py);
         int clause = 0;
         Coverage out = cover_pixel(g, p, homogeneous_, clause);
-        if (out.covered && out.eye_in_hull) out.visible = in_front(g, weights_at(p, crossing_), k_, w_);
+        if (out.covered && out.eye_in_hull) out.visible = in_front(g, weights_at(p, crossing()), exact_.k, exact_.w);
         return out;
       },
       geometry_);
 }
 
 std::array<__float128, 4> TruthQuad::homogeneous_weights(int px, int py) const {
-  return std::visit([&](const auto& g) { return weights_at(PixelEdges(g, px, py), crossing_).m; }, geometry_);
+  return std::visit([&](const auto& g) { return weights_at(PixelEdges(g, px, py), crossing()).m; }, geometry_);
 }
 
-ReferenceSample TruthQuad::sample(int px, int py) const {
+namespace {
+
+/// Everything of a covered pixel that needs weights. Of long double it says only what is certain: false where some sum
+/// is small beside its terms, or the pixel is singular at a point; `out` is then of no use.
+///
+/// Certain: the terms of a sum are within 72 spread_i 2^-64. With |sum(M k)| >= sum(spread |k|) / 56 that is 2^-52 of
+/// the sum, so the weights are as good as doubles. sum(M w) may cancel more, by 900, where it is within 2^-48 of
+/// itself: a machine's own error there grows by the same factor. No sign is in doubt.
+template <class Number, class Coord, class Product>
+bool weigh(const detail::TruthGeometry<Coord, Product>& g, const PixelEdges<Coord, Product>& p,
+           const detail::VertexValues<Number>& v, bool perspective, bool unit_w, int attributes, ReferenceSample& out) {
+  constexpr bool certain = std::is_same_v<Number, __float128>;
+  constexpr int most_cancelled_k = 56, most_cancelled_w = 900;
+  const Weights<Number> weights = weights_at(p, perspective ? v.k : v.w);
+  switch (weights.singular) {
+    case Singular::none:
+      break;
+    case Singular::one_edge:
+      out.flags |= flag_on_edge;
+      break;
+    case Singular::two_edge:
+      out.flags |= flag_two_edge;
+      break;
+    case Singular::one_corner:
+      out.flags |= flag_on_vertex;
+      break;
+    case Singular::two_corner:
+      out.flags |= flag_two_corner;
+      break;
+  }
+  const bool regular = weights.singular == Singular::none || weights.singular == Singular::one_edge;
+  if (!certain && !regular) return false;
+  if (regular)
+    for (int i = 0; i < 4; ++i) out.notch = out.notch || sign_of(p.e[(i + 3) & 3]) * sign_of(p.e[i]) < 0;
+
+  const std::array<Number, 4>& m = weights.m;
+  std::array<Number, 4> mk, mw = m, size;
+  for (int i = 0; i < 4; ++i) {
+    mk[i] = m[i] * v.k[i];
+    if (!unit_w) mw[i] = m[i] * v.w[i];
+    size[i] = magnitude(mw[i]);
+  }
+  const Number sum_k = total(mk), sum_z = inner(m, v.z), size_w = total(size);
+  Number sum_w = total(mw);
+  const bool vanishes = w_sum_vanishes(g, weights);
+  if (vanishes) sum_w = 0;
+  if constexpr (!certain) {
+    Number spread_k = 0, spread_w = 0;
+    for (int i = 0; i < 4; ++i) {
+      spread_k += weights.spread[i] * magnitude(v.k[i]);
+      spread_w += weights.spread[i] * magnitude(v.w[i]);
+    }
+    // A sum that is no number, or infinite, is not certain either.
+    if (!(magnitude(sum_k) * most_cancelled_k >= spread_k) || !(spread_k < std::numeric_limits<Number>::max()))
+      return false;
+    if (!vanishes && !(magnitude(sum_w) * most_cancelled_w >= spread_w)) return false;
+  }
+
+  // Sums that may cancel are finished above in 113 bits; 64 bits suffice for the quotients that become doubles.
+  const auto narrow = [](Number value) { return static_cast<long double>(value); };
+  const int facing = sign_of(sum_k);
+  if (out.eye_in_hull) out.visible = facing * sign_of(sum_w) > 0;
+  if (size_w > 0) {
+    out.visible_margin = static_cast<double>(facing * (narrow(sum_w) / narrow(size_w)));
+  }
+  if (sum_w != 0) {
+    const long double per_w = 1.0L / narrow(sum_w);
+    out.z = static_cast<double>(narrow(sum_z) * per_w);
+    out.z_condition = static_cast<double>(std::abs(narrow(size_w) * per_w));
+  } else {
+    out.z_condition = std::numeric_limits<double>::infinity();
+  }
+  // Inside, the M_i have one sign: where nothing cancels the quotient is 1.
+  if (weights.singular == Singular::none && weights.cancels) {
+    long double spread = 0;
+    for (int i = 0; i < 4; ++i) spread += narrow(weights.spread[i]) * narrow(v.k[i]);
+    out.condition = static_cast<double>(spread / std::abs(narrow(sum_k)));
+  }
+  const auto& part = perspective ? mk : mw;
+  const Number whole = perspective ? sum_k : sum_w;
+  if (whole == 0) return true;  // without perspective and nothing in front of the eye: no weights
+  const long double per_whole = 1.0L / narrow(whole);
+  for (int i = 0; i < 4; ++i) out.lambda[i] = static_cast<double>(narrow(part[i]) * per_whole);
+  for (int a = 0; a < attributes; ++a) {
+    out.attribute[a] = static_cast<double>(narrow(inner(m, v.b[a])) * per_whole);
+  }
+  return true;
+}
+
+}  // namespace
+
+ReferenceSample TruthQuad::sample(int px, int py, Effort effort) const {
   return std::visit(
       [&](const auto& g) {
-        ReferenceSample out;
+        ReferenceSample covered;
         const PixelEdges p(g, px, py);
         int clause = 0;
         const Coverage coverage = cover_pixel(g, p, homogeneous_, clause);
-        out.covered = coverage.covered;
-        out.front = coverage.front;
-        out.visible = coverage.visible;
-        out.eye_in_hull = coverage.eye_in_hull;
-        out.flags = coverage.flags;
-        if (!out.covered) return out;
+        covered.covered = coverage.covered;
+        covered.front = coverage.front;
+        covered.visible = coverage.visible;
+        covered.eye_in_hull = coverage.eye_in_hull;
+        covered.flags = coverage.flags;
+        if (!covered.covered) return covered;
 
-        const Weights weights = weights_at(p, crossing_);
-        switch (weights.singular) {
-          case Singular::none:
-            break;
-          case Singular::one_edge:
-            out.flags |= flag_on_edge;
-            break;
-          case Singular::two_edge:
-            out.flags |= flag_two_edge;
-            break;
-          case Singular::one_corner:
-            out.flags |= flag_on_vertex;
-            break;
-          case Singular::two_corner:
-            out.flags |= flag_two_corner;
-            break;
-        }
-
-        if (weights.singular == Singular::none || weights.singular == Singular::one_edge)
-          for (int i = 0; i < 4; ++i) out.notch = out.notch || sign_of(p.e[(i + 3) & 3]) * sign_of(p.e[i]) < 0;
-
-        const std::array<__float128, 4>& m = weights.m;
-        std::array<__float128, 4> mk, mw = m, size;
-        for (int i = 0; i < 4; ++i) {
-          mk[i] = m[i] * k_[i];
-          if (!unit_w_) mw[i] = m[i] * w_[i];
-          size[i] = magnitude(mw[i]);
-        }
-        const __float128 sum_k = total(mk), sum_z = inner(m, z_), size_w = total(size);
-        __float128 sum_w = total(mw);
-        if (w_sum_vanishes(g, weights)) sum_w = 0;
-
-        // Sums that may cancel are finished above in 113 bits; 64 bits suffice for the quotients that become doubles.
-        const auto narrow = [](__float128 v) { return static_cast<long double>(v); };
-        const int facing = sign_of(sum_k);
-        if (out.eye_in_hull) out.visible = facing * sign_of(sum_w) > 0;
-        if (size_w > 0) {
-          out.visible_margin = static_cast<double>(facing * (narrow(sum_w) / narrow(size_w)));
-        }
-        if (sum_w != 0) {
-          const long double per_w = 1.0L / narrow(sum_w);
-          out.z = static_cast<double>(narrow(sum_z) * per_w);
-          out.z_condition = static_cast<double>(std::abs(narrow(size_w) * per_w));
-        } else {
-          out.z_condition = std::numeric_limits<double>::infinity();
-        }
-        // Inside, the M_i have one sign: where nothing cancels the quotient is 1.
-        if (weights.singular == Singular::none && weights.cancels) {
-          long double spread = 0;
-          for (int i = 0; i < 4; ++i) spread += narrow(weights.spread[i]) * narrow(k_[i]);
-          out.condition = static_cast<double>(spread / std::abs(narrow(sum_k)));
-        }
-        const auto& part = perspective_ ? mk : mw;
-        const __float128 whole = perspective_ ? sum_k : sum_w;
-        if (whole == 0) return out;  // without perspective and nothing in front of the eye: no weights
-        const long double per_whole = 1.0L / narrow(whole);
-        for (int i = 0; i < 4; ++i) out.lambda[i] = static_cast<double>(narrow(part[i]) * per_whole);
-        for (int a = 0; a < attributes_; ++a) {
-          out.attribute[a] = static_cast<double>(narrow(inner(m, b_[a])) * per_whole);
-        }
+        ReferenceSample out = covered;
+        if (effort == Effort::filter && weigh(g, p, quick_, perspective_, unit_w_, attributes_, out)) return out;
+        out = covered;
+        weigh(g, p, exact_, perspective_, unit_w_, attributes_, out);
         return out;
+      },
+      geometry_);
+}
+
+bool TruthQuad::needs_113_bits(int px, int py) const {
+  return std::visit(
+      [&](const auto& g) {
+        const PixelEdges p(g, px, py);
+        int clause = 0;
+        ReferenceSample out;
+        return cover_pixel(g, p, homogeneous_, clause).covered &&
+               !weigh(g, p, quick_, perspective_, unit_w_, attributes_, out);
       },
       geometry_);
 }

@@ -47,6 +47,25 @@ struct TruthGeometry {
   void finish();
 };
 
+/// Values of the vertices, w in units of 1. Those of the port are exact in either Number; others are within 2^-64.
+template <class Number>
+struct VertexValues {
+  std::array<Number, 4> k{}, z{}, w{};
+  std::array<std::array<Number, 4>, max_attribute_slots> b{};
+
+  VertexValues() = default;
+  template <class Other>
+  explicit VertexValues(const VertexValues<Other>& from) {
+    const auto copy = [](const auto& a, auto& to) {
+      for (std::size_t i = 0; i < 4; ++i) to[i] = static_cast<Number>(a[i]);
+    };
+    copy(from.k, k);
+    copy(from.z, z);
+    copy(from.w, w);
+    for (std::size_t a = 0; a < b.size(); ++a) copy(from.b[a], b[a]);
+  }
+};
+
 }  // namespace detail
 
 /// One quad, ready to be asked about any pixel. Two ways in:
@@ -81,7 +100,15 @@ class TruthQuad {
   /// visible_margin is signed so that it is positive in front of the eye, and exactly 0 where sum(M w) vanishes
   /// identically (eye and vertices in a plane without the pixel's ray). Where sum(M W) = 0, z is 0
   /// and z_condition infinite.
-  ReferenceSample sample(int px, int py) const;
+  ///
+  /// A filter in long double decides the pixels where no sum cancels, which it knows from bounds evaluated with the
+  /// sums (as in Shewchuk's predicates, "Adaptive Precision Floating-Point Arithmetic", 1997): flags and signs are the
+  /// same, values differ by at most 2^-53 of the largest term. Effort::all_bits leaves it out.
+  enum class Effort { filter, all_bits };
+  ReferenceSample sample(int px, int py, Effort effort = Effort::filter) const;
+
+  /// The filter cannot decide the pixel.
+  bool needs_113_bits(int px, int py) const;
 
   /// The coverage part of sample() alone, without any weight (unless eye_in_hull).
   Coverage cover(int px, int py) const;
@@ -99,14 +126,16 @@ class TruthQuad {
   using Rounded = detail::TruthGeometry<__float128, __float128>;
 
   std::variant<Exact, Rounded> geometry_;
-  std::array<__float128, 4> k_{}, z_{}, w_{};  ///< real values, w_ in units of 1
-  std::array<__float128, 4> crossing_{};       ///< what singular pixels cross: k, or w without perspective
-  std::array<std::array<__float128, 4>, max_attribute_slots> b_{};
+  detail::VertexValues<__float128> exact_;
+  detail::VertexValues<long double> quick_;  ///< the same for the filter
   int attributes_ = 0;
   bool perspective_ = true;
   bool homogeneous_ = false;
   bool unit_w_ = false;  ///< every w is exactly 1
   PixelRect bounds_;
+
+  /// What singular pixels cross.
+  const std::array<__float128, 4>& crossing() const { return perspective_ ? exact_.k : exact_.w; }
 };
 
 }  // namespace quadrille::golden

@@ -1,6 +1,7 @@
 #include "golden/scenes/stress.hpp"
 
 #include "golden/scenes/simple_engine.hpp"
+#include "golden/scenes/window_point.hpp"
 #include "model/support/prng.hpp"
 
 #include <algorithm>
@@ -12,14 +13,7 @@
 namespace quadrille::golden {
 namespace {
 
-struct Point {
-  double x = 0, y = 0;
-};
-
-Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
-Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-Point operator*(double s, Point p) { return {s * p.x, s * p.y}; }
-
+using Point = WindowPoint;
 using Points = std::array<Point, 4>;
 using Weights = std::array<double, 4>;
 using Vertices = std::array<WindowVertex, 4>;
@@ -41,9 +35,6 @@ struct Batch {
   bool full() const { return quads.size() >= count; }
   double extent() const { return std::min(width, height); }
 };
-
-double snap256(double x) { return std::floor(x * 256 + 0.5) / 256; }
-Point snap256(Point p) { return {snap256(p.x), snap256(p.y)}; }
 
 Point random_point(Prng& rng, double x0, double y0, double x1, double y1) {
   const double x = rng.uniform(x0, x1);
@@ -722,9 +713,9 @@ std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std:
 }
 
 std::vector<WindowQuad> make_stress_without_weights(StressFamily family, std::size_t count, std::uint64_t seed,
-                                                    int width, int height, int attributes) {
+                                                    int width, int height, int attributes, double knob) {
   constexpr int weights = 4;
-  std::vector<WindowQuad> quads = make_stress(family, count, seed, 1.0, width, height, weights + attributes);
+  std::vector<WindowQuad> quads = make_stress(family, count, seed, knob, width, height, weights + attributes);
   for (WindowQuad& quad : quads)
     for (std::vector<double>& attribute : quad.attribute)
       attribute.erase(attribute.begin(), attribute.begin() + weights);

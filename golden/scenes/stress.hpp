@@ -61,9 +61,8 @@ StressFamily parse_stress_family(std::string_view name);
 std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std::uint64_t seed, double knob = 1.0,
                                     int width = 512, int height = 512, int attributes = 4);
 
-/// The same quads at knob 1 with `attributes` random attributes alone: without the weights, which a draw may measure by
-/// itself.
+/// The same quads with `attributes` random attributes alone: without the weights, which a draw may measure by itself.
 std::vector<WindowQuad> make_stress_without_weights(StressFamily family, std::size_t count, std::uint64_t seed,
-                                                    int width, int height, int attributes);
+                                                    int width, int height, int attributes, double knob = 1.0);
 
 }  // namespace quadrille::golden

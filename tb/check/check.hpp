@@ -150,6 +150,10 @@ bool has_antipodal_edge(const SnappedQuad& quad);
 /// All vertices ordinary and less than 4 pixels wide and high.
 bool is_tiny(const SnappedQuad& quad, const Config& config);
 
+/// Threads of a queue for judging beside a lockstep of `threads`: with two, one is the RTL's and the other compares and
+/// judges.
+constexpr unsigned judging_threads(unsigned threads) { return threads > 2 ? threads - 2 : 0; }
+
 /// Takes the fragments of one pass of the machine in order, quads in order, and compares them on the queue's threads.
 /// A configuration that drops bits of D and R² has no bound and approximate singular classes: the rest is compared.
 /// Where hidden tiles are left out each missing fragment is held against a depth buffer, twice: by what the machine

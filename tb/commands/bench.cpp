@@ -5,9 +5,11 @@
 #include "model/support/parallel.hpp"
 #include "tb/check/check.hpp"
 #include "tb/commands/bench_error.hpp"
+#include "tb/commands/bench_peers.hpp"
 #include "tb/commands/bench_skips.hpp"
 #include "tb/commands/bench_speed.hpp"
 #include "tb/commands/commands.hpp"
+#include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/support/errors.hpp"
@@ -27,12 +29,12 @@ struct BenchOptions {
   std::optional<int> repeat;
   std::uint64_t limit_fragments = 16'000;
   std::string pictures;
-  bool error = false, skips = false;
+  bool error = false, skips = false, peers = false;
 };
 
 constexpr int speed_repeat = 5, error_repeat = 3;
-constexpr int skips_repeat = 3;
-constexpr const char *error_size = "128x128", *skips_size = "256x256";
+constexpr int skips_repeat = 3, peers_repeat = 9;
+constexpr const char *error_size = "128x128", *skips_size = "256x256", *peers_size = "1920x1080";
 
 /// A magnitude as a power of two.
 std::string power(double value) {
@@ -211,6 +213,10 @@ class ErrorCommand {
                    error.max() == 0 ? "" : (std::string(worst->kind) + " " + worst->name).c_str(), count(undefined),
                    count(missing));
     }
+    PerformanceCounters counters;
+    for (const Input& input : inputs_) counters += input.result(Body::model_clocked).counters;
+    std::fputc('\n', text);
+    print_counters(text, counters, "of the clocked model, over all inputs");
   }
 
   /// Of all inputs, each with its fragments.
@@ -247,6 +253,7 @@ class ErrorCommand {
         entry["depth_max"] = or_null(r.depth, r.depth.max());
         entry["undefined"] = r.undefined;
         entry["missing"] = r.missing;
+        if (body == Body::model_clocked) entry["counters"] = counters_json(r.counters);
         json["error"].push_back(std::move(entry));
       }
     }
@@ -272,6 +279,12 @@ class ErrorCommand {
 };
 
 int bench(BenchOptions& options, bool size_given, const std::vector<std::string>& arguments) {
+  if (options.peers) {
+    if (!size_given) options.speed.common.size = peers_size;
+    return run_peer_bench(
+        {options.speed.common, options.repeat.value_or(peers_repeat), options.speed.fragments, options.speed.no_rtl},
+        arguments);
+  }
   if (options.skips) {
     if (!size_given) options.speed.common.size = skips_size;
     return run_skip_bench(
@@ -304,15 +317,21 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       "coverage.\n"
       "Errors are the same in every run. Exit status 1: a machine is beyond its bound, or two machines differ.\n\n"
       "With --skips: the clocked model's clocks and counters, the untimed model's time with lanes on one core. In the\n"
-      "pictures grey tiles were entered, green ones were not hit, blue ones lie in a block that was not, and those of\n"
-      "quads left out are orange (depth), yellow (on a line), red (culled); a mixture where quads differ. Exit status "
-      "1:\n"
+      "pictures grey tiles were entered, violet ones were hidden, green ones were not hit, blue ones lie in a block "
+      "that\n"
+      "was not, and those of quads left out are orange (depth), yellow (on a line), red (culled); a mixture where "
+      "quads\n"
+      "differ, beside them each alone and a legend; the EXR has the numbers of each in a layer (skip.hidden, say). "
+      "Exit\n"
+      "status 1:\n"
       "a skip that must keep the list of fragments changed it.\n\n"
+      "With --peers: CPU time, one thread each, model and shader in turn; scripts/peers_plot.py draws the JSON.\n\n"
       "Examples:\n"
       "  quadrille bench\n"
       "  quadrille bench --no-rtl --set significand_bits=24 --json bench.json\n"
       "  quadrille bench --error --no-rtl --json error.json\n"
       "  quadrille bench --skips --json skips.json --pictures skips\n"
+      "  quadrille bench --peers --json peers.json\n"
       "  quadrille bench --skips --mesh pawn.obj --size 512x512\n"
       "  quadrille bench --error --stress sliver --count 200 --verbose");
   const auto options = std::make_shared<BenchOptions>();
@@ -328,6 +347,13 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
               "What each skip saves: clocks, pixels, products and model time with none, each alone and all; without an "
               "input on all loads (`quadrille scenes`). --size is 256x256 unless it is given")
           ->excludes(error);
+  CLI::Option* peers =
+      command
+          ->add_flag("--peers", options->peers,
+                     "The model beside the papers' fp32 shader on OpenGL: pictures, cost over the size and the number "
+                     "of quads, error against time. --size is 1920x1080 unless it is given")
+          ->excludes(error)
+          ->excludes(skips);
   command
       ->add_option("--pictures", options->pictures,
                    "With --skips: folder for a PNG and an EXR of each scene, its tiles coloured by what became of them")
@@ -335,7 +361,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       ->needs(skips);
   options->input.add_to(*command);
   speed.common.add_to(*command);
-  command->add_option("--repeat", options->repeat, "Runs of each; default 5, with --error or --skips 3")
+  command->add_option("--repeat", options->repeat, "Runs of each; default 5, with --error or --skips 3, with --peers 9")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   command->add_option("--quad-size", speed.quad_size, "Size of the mesh's quads in pixels")
@@ -343,9 +369,11 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       ->check(CLI::Range(2, 4096))
       ->capture_default_str()
       ->excludes(error)
-      ->excludes(skips);
+      ->excludes(skips)
+      ->excludes(peers);
   command
-      ->add_option("--fragments", speed.fragments, "Fragments of the model per run; slower bodies get a part of that")
+      ->add_option("--fragments", speed.fragments,
+                   "Fragments of the model per run, with --peers of a point; slower bodies get a part of that")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40))
       ->capture_default_str()

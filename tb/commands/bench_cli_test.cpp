@@ -67,6 +67,11 @@ TEST_F(Cli, BenchSkipsReports) {
     EXPECT_EQ(entry["pixels"], drawn * 64 * 64);
     EXPECT_EQ(entry["tiles_hidden"], (8 - drawn) * 64);
     EXPECT_EQ(entry["counters"]["quads_ordinary"], 8);
+    const bool plane = columns.back() == "plane" || columns.back() == "all";  // rectangles, parallel to the screen
+    EXPECT_EQ(entry["plane_tolerance_bits"], plane ? 31 : 0);
+    EXPECT_EQ(entry["counters"]["quads_plane"], plane ? 8 : 0);
+    EXPECT_EQ(entry["pixels_plane"], plane ? entry["pixels"] : json(0));
+    EXPECT_EQ(entry["counters"]["products_sqrt"] == 0, plane);
     EXPECT_EQ(entry["counters"]["tiles_entered"], drawn * 64);
     EXPECT_EQ(entry["counters"]["stamps"], drawn * 64 * 8);
     EXPECT_EQ(entry["counters"]["bound_pixels"], drawn * 64 * 64 + 8);
@@ -88,6 +93,72 @@ TEST_F(Cli, BenchSkipsReports) {
   EXPECT_EQ(skips("--threads 2")["skips"], report["skips"]);
 }
 
+TEST_F(Cli, BenchPeersRefuses) {
+  refuses(2, "bench --peers --error", {"--peers", "--error"});
+  refuses(2, "bench --peers --skips", {"--peers", "--skips"});
+  refuses(2, "bench --peers --quad-size 8", {"--quad-size", "--peers"});
+  refuses(2, "bench --peers --scene sphere", {"--scene", "--error"});
+  const Outcome without = run("bench --peers --json peers.json", "__EGL_VENDOR_LIBRARY_DIRS=/nonexistent");
+  EXPECT_EQ(without.status, 3);
+  EXPECT_NE(without.err.find("the engine shader"), std::string::npos) << without.err;
+  EXPECT_FALSE(fs::exists(file("peers.json")));
+}
+
+TEST_F(Cli, BenchPeersReports) {
+  if (!QUADRILLE_OPENGL_FOUND) GTEST_SKIP() << "no OpenGL in this build; BenchPeersRefuses has what it says then";
+  const Outcome outcome = run("bench --peers --size 96x64 --fragments 1000 --repeat 3 --no-rtl --json -");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  ASSERT_EQ(report["pictures"].size(), 3u);
+  EXPECT_EQ(report["pictures"][0]["quads"], 1);
+  EXPECT_EQ(report["pictures"][1]["quads"], 100 * 100);
+  EXPECT_EQ(report["pictures"][2]["quads"], 300 * 300);
+  for (const json& picture : report["pictures"]) {
+    // The same input: what rounds pixels differently lies on edges.
+    const double model = picture["model_fragments"], shader = picture["shader_fragments"];
+    EXPECT_GT(model, 2000);
+    EXPECT_NEAR(shader / model, 1, 0.05) << picture["name"];
+    for (const char* runs : {"model_cpu_seconds", "shader_cpu_seconds", "readback_cpu_seconds"})
+      EXPECT_EQ(picture[runs].size(), 3u);
+    EXPECT_GT(picture["model_over_shader"], 0);
+  }
+  // A viewport of 128 x 128: sides 1 to 64; 500 quads of 64 pixels are 32 x 1000 fragments.
+  ASSERT_EQ(report["sizes"].size(), 7u);
+  for (const json& point : report["sizes"]) {
+    const double pixels = point["pixels"], quads = point["quads"], fragments = point["fragments"];
+    if (pixels * quads > 500) {
+      EXPECT_NEAR(fragments / (pixels * quads), 1, 0.3) << point;
+    }
+    EXPECT_GE(point["clocks"], point["clocked_fragments"]) << point;
+    // What is timed is drawn: OpenGL moves edges by a part of a pixel, small quads are all edge.
+    const double counted = point["counted_fragments"], shader = point["shader_fragments"];
+    EXPECT_NEAR(shader / counted, 1, 0.05) << point;
+  }
+  ASSERT_EQ(report["numbers"].size(), 2u);
+  EXPECT_EQ(report["numbers"][1]["quads"], 100);
+
+  std::set<std::string> engines;
+  std::set<int> bits;
+  for (const json& entry : report["errors"]) {
+    engines.insert(entry["engine"]);
+    if (entry["engine"] == "model") bits.insert(entry["significand_bits"].get<int>());
+    EXPECT_GT(entry["fragments"], 0) << entry;
+    EXPECT_GT(entry["seconds_per_fragment"], 0) << entry;
+    if (entry["engine"] == "truth") {
+      EXPECT_EQ(entry["lambda_max"], 0);
+    }
+    // fp32 where the formulas are well conditioned: between a unit of rounding and a thousand.
+    if (entry["engine"] == "shader" && entry["input"] == "fig10_concave") {
+      EXPECT_GT(entry["lambda_max"], 0x1p-25);
+      EXPECT_LT(entry["lambda_max"], 0x1p-14);
+    }
+  }
+  EXPECT_EQ(engines, (std::set<std::string>{"float", "model", "shader", "truth"}));
+  EXPECT_EQ(bits.size(), 15u);
+  EXPECT_EQ(*bits.begin(), 12);
+  EXPECT_EQ(*bits.rbegin(), 26);
+}
+
 TEST_F(Cli, BenchErrorReports) {
   const auto errors = [&](const std::string& arguments) {
     const Outcome outcome = run("bench --error --no-rtl --repeat 1 --json - " + arguments);
@@ -101,6 +172,10 @@ TEST_F(Cli, BenchErrorReports) {
     return report["error"];
   };
   const json entries = errors("--stress general --count 30 --threads 1");
+  for (const json& entry : entries) {
+    EXPECT_EQ(entry.contains("counters"), entry["engine"] == "model-clocked");
+    EXPECT_EQ(entry.value("/counters/quads"_json_pointer, 30), 30);
+  }
   std::set<std::string> engines;
   for (const json& entry : entries) {
     engines.insert(entry["engine"]);

@@ -267,6 +267,7 @@ void ErrorBench::time(int repeat) {
         const Run run = run_once(static_cast<Body>(b));
         sum.fragments += run.fragments;
         sum.seconds += run.seconds;
+        results_[b].counters = run.counters;
       }
       seconds[b].push_back(sum.seconds / static_cast<double>(sum.fragments));
     }
@@ -295,11 +296,11 @@ ErrorBench::Run ErrorBench::run_machine(Body body) const {
   if (body == Body::model_clocked || body == Body::rtl) {
     const tb::AloneRun run = body == Body::rtl ? tb::run_rtl_alone(timed_, alone(settings_.config, state))
                                                : tb::run_clocked_model_alone(timed_, alone(settings_.config, state));
-    return {run.fragments, run.seconds};
+    return {run.fragments, run.seconds, run.counters};
   }
   UntimedModel model(settings_.config, state, pixel_engine(body));
   Run run;
-  const tb::Stopwatch stopwatch;
+  const tb::CpuStopwatch stopwatch;
   for (const SnappedQuad& quad : timed_)
     model.draw(quad, [&](std::span<const Fragment> fragments) { run.fragments += fragments.size(); });
   run.seconds = stopwatch.seconds();
@@ -313,7 +314,7 @@ ErrorBench::Run ErrorBench::run_reference(std::size_t stride, Visit&& visit) con
   Run run;
   std::optional<Quad> quad;
   std::uint32_t current = 0;
-  const tb::Stopwatch stopwatch;
+  const tb::CpuStopwatch stopwatch;
   for (std::size_t i = 0; i < timed_pixels_; ++i) {
     if (i / truth_stretch % stride != 0) continue;
     const Pixel& pixel = pixels_[i];

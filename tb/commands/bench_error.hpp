@@ -3,6 +3,7 @@
 #pragma once
 
 #include "model/config.hpp"
+#include "model/performance_counters.hpp"
 #include "model/records.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/support/error_stats.hpp"
@@ -38,6 +39,7 @@ struct BodyResult {
   /// several draws, each of which counts.
   tb::ErrorStats lambda, attribute, depth;
   double seconds_per_fragment = 0;
+  PerformanceCounters counters;  ///< of the clocked model, over the quads that are timed
 };
 
 /// The fragments of one draw of a machine, in its order.
@@ -68,11 +70,11 @@ class ErrorBench {
   /// Fills everything but the times. The same for every call and on every machine with the same C library.
   void compare();
 
-  /// Fills the times: median of `repeat` runs, the bodies one after the other in each round. On one core; quads until
-  /// limit_fragments are drawn, of the truth about 2000 fragments, spread over them. Seconds per fragment of set-up,
-  /// weights, attributes (as many as the first weight pass has slots) and depth; the machine's bodies also walk and
-  /// find the covered pixels, the truth's coverage is a part of its sample, the paper's formulas are asked for covered
-  /// pixels only.
+  /// Fills the times and the counters: median of `repeat` runs, the bodies one after the other in each round. On one
+  /// core; quads until limit_fragments are drawn, of the truth about 2000 fragments, spread over them. Seconds per
+  /// fragment (of CPU time, of the RTL and the clocked model of wall time) of set-up, weights, attributes (as many as
+  /// the first weight pass has slots) and depth; the machine's bodies also walk and find the covered pixels, the
+  /// truth's coverage is a part of its sample, the paper's formulas are asked for covered pixels only.
   void time(int repeat);
 
   std::size_t quads() const { return quads_.size(); }
@@ -89,6 +91,7 @@ class ErrorBench {
   struct Run {
     std::uint64_t fragments = 0;
     double seconds = 0;
+    PerformanceCounters counters{};  ///< of the clocked model
   };
 
   BodyResult& filled(Body body) { return results_[static_cast<std::size_t>(body)]; }

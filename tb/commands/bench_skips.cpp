@@ -27,7 +27,8 @@ struct Run {
   PerformanceCounters counters;
   std::uint64_t cycles = 0;   ///< without those that wipe the places of hidden tiles behind reset
   std::uint64_t hash = 0;     ///< of the list of fragments
-  std::uint64_t picture = 0;  ///< of what a depth test LESS leaves of it
+  std::uint64_t places = 0;   ///< of which pixels are drawn in which order, with facing and flags
+  std::uint64_t picture = 0;  ///< of what a depth test LESS leaves of the list
   double model_seconds = 0;
 };
 
@@ -45,6 +46,10 @@ struct SkipSet {
   Config config;
 };
 
+/// Adds a word to a hash.
+void add_word(std::uint64_t& hash, std::uint64_t word) { hash = (hash ^ word) * 0x9e3779b97f4a7c15u ^ hash >> 29; }
+constexpr std::uint64_t hash_of_nothing = 0xcbf29ce484222325u;
+
 /// A frame buffer with depth test LESS.
 class NearestFragments {
  public:
@@ -60,8 +65,8 @@ class NearestFragments {
 
   /// Of every bit of the picture.
   std::uint64_t hash() const {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    const auto add = [&hash](std::uint64_t value) { hash = (hash ^ value) * 0x9e3779b97f4a7c15u ^ hash >> 29; };
+    std::uint64_t hash = hash_of_nothing;
+    const auto add = [&hash](std::uint64_t value) { add_word(hash, value); };
     for (const Fragment& f : place_) {
       if (f.depth == beyond_) {
         add(0);
@@ -82,22 +87,29 @@ class NearestFragments {
 };
 
 constexpr int depth_bits_of_tiles = 12;
+constexpr int exactly_plane = 31;
 
-/// None, each that the program knows, and all together. Those that hide tiles have the memory for it, whether the
-/// configuration does or not.
+/// The configuration with what a skip needs, where it has nothing of that.
+Config able(Config config, std::uint32_t skip) {
+  if (skip == skip_hidden && config.hierarchical_z_bits == 0)
+    config.set("hierarchical_z_bits", std::min(depth_bits_of_tiles, config.depth_bits));
+  if (skip == skip_plane && config.plane_tolerance_bits == 0) config.set("plane_tolerance_bits", exactly_plane);
+  config.validate();
+  return config;
+}
+
+/// None, each that the program knows, and all together, each on a machine that can.
 std::vector<SkipSet> skip_sets(const Config& config) {
-  Config hides = config;
-  if (config.hierarchical_z_bits == 0) {
-    hides.set("hierarchical_z_bits", std::min(depth_bits_of_tiles, config.depth_bits));
-    hides.validate();
-  }
   std::vector<SkipSet> sets{{"none", 0, config}};
+  Config machine = config;
   std::uint32_t all = 0;
   for (std::size_t i = 0; i < known_skips().size(); ++i) {
-    sets.push_back({known_skips()[i], 1u << i, 1u << i == skip_hidden ? hides : config});
-    all |= 1u << i;
+    const std::uint32_t skip = 1u << i;
+    sets.push_back({known_skips()[i], skip, able(config, skip)});
+    machine = able(machine, skip);
+    all |= skip;
   }
-  sets.push_back({"all", all, hides});
+  sets.push_back({"all", all, machine});
   return sets;
 }
 
@@ -183,10 +195,16 @@ class SkipBench {
           lockstep.config = sets_[i % sets_.size()].config;
           lockstep.state = state_of(scene, i % sets_.size());
           NearestFragments nearest(lockstep.config, lockstep.state);
-          const tb::AloneRun alone =
-              tb::run_clocked_model_alone(scene.quads, lockstep, [&](const Fragment& f) { nearest.draw(f); });
-          return Run{alone.counters, alone.cycles - alone.counters[PerformanceCounter::bound_wipe], alone.fragment_hash,
-                     nearest.hash(), 0};
+          std::uint64_t places = hash_of_nothing;
+          const tb::AloneRun alone = tb::run_clocked_model_alone(scene.quads, lockstep, [&](const Fragment& f) {
+            nearest.draw(f);
+            add_word(places, std::uint64_t{f.quad} << 32 | static_cast<std::uint64_t>(f.y) << 16 |
+                                 static_cast<std::uint64_t>(f.x));
+            add_word(places, std::uint64_t{f.flags} << 1 | (f.front ? 1 : 0));
+          });
+          return Run{alone.counters,      alone.cycles - alone.counters[PerformanceCounter::bound_wipe],
+                     alone.fragment_hash, places,
+                     nearest.hash(),      0};
         },
         [&](std::size_t i, const Run& run) {
           scenes_[i / sets_.size()].runs[i % sets_.size()] = run;
@@ -208,14 +226,22 @@ class SkipBench {
     return stopwatch.seconds();
   }
 
-  /// What a skip that must keep the list of fragments, or the picture, did to it; empty: nothing.
+  /// What a skip that must keep the list of fragments, or the picture, did to it; empty: nothing. Plane quads keep the
+  /// list but for the last bits of values: with them hidden tiles are judged by the picture that they alone draw.
   std::string fault_of(const SkipScene& scene) const {
+    std::size_t plane = 0;
+    while (sets_[plane].skips != skip_plane) ++plane;
+    const bool depth_decides = scene.state.depth && (scene.state.znear > 0 || scene.state.zfar < 1);
     for (std::size_t set = 1; set < sets_.size(); ++set) {
-      const bool keeps = (sets_[set].skips & ~skip_default) == 0;
-      if (keeps && scene.runs[set].hash != scene.runs[0].hash)
+      const std::uint32_t skips = sets_[set].skips;
+      const std::size_t with = (skips & skip_plane) != 0 ? plane : 0;
+      const Run &run = scene.runs[set], &beside = scene.runs[with];
+      if ((skips & ~skip_default) == 0 && run.hash != beside.hash)
         return "--skip " + sets_[set].name + " draws other fragments than --skip none";
-      if (scene.runs[set].picture != scene.runs[0].picture)
-        return "--skip " + sets_[set].name + " draws another depth-tested picture than --skip none";
+      if (set == plane && !depth_decides && run.places != scene.runs[0].places)
+        return "--skip plane draws other pixels than --skip none, or with other flags";
+      if (run.picture != beside.picture)
+        return "--skip " + sets_[set].name + " draws another depth-tested picture than --skip " + sets_[with].name;
     }
     return "";
   }
@@ -228,17 +254,20 @@ class SkipBench {
   void save_picture(const SkipScene& scene, const StagedDirectory& folder) const {
     const TileFates fates = fates_of(scene);
     const golden::FrameImage image = skip_picture(fates, config_, scene.state);
-    save_frame_png(folder.path(scene.input.name + ".png"), image);
+    golden::save_png(folder.path(scene.input.name + ".png"), skip_sheet(fates, config_, scene.state, scene.input.name),
+                     golden::PngFormat::rgb8);
     golden::save_exr(folder.path(scene.input.name + ".exr"), image);
   }
 
   void print(std::FILE* text) const {
-    std::fprintf(text,
-                 "%s\n%zu scene%s, %s; configuration %s; model times of one core, median of %d runs;\nhidden and all "
-                 "with hierarchical_z_bits=%d; clocks without those that wipe its places behind reset\n\n",
-                 golden::command_line(arguments_).c_str(), scenes_.size(), scenes_.size() == 1 ? "" : "s",
-                 options_.common.size.c_str(), summary(config_).c_str(), options_.repeat,
-                 sets_.back().config.hierarchical_z_bits);
+    std::fprintf(
+        text,
+        "%s\n%zu scene%s, %s; configuration %s; model times of one core, median of %d runs;\nhidden and all "
+        "with hierarchical_z_bits=%d, plane and all with plane_tolerance_bits=%d; clocks without those that wipe "
+        "behind reset\n\n",
+        golden::command_line(arguments_).c_str(), scenes_.size(), scenes_.size() == 1 ? "" : "s",
+        options_.common.size.c_str(), summary(config_).c_str(), options_.repeat,
+        sets_.back().config.hierarchical_z_bits, sets_.back().config.plane_tolerance_bits);
     std::fprintf(text, "%-22s %-9s", "", "--skip");
     for (const SkipSet& set : sets_) std::fprintf(text, " %12s", set.name.c_str());
     std::fputs("\n", text);
@@ -253,6 +282,7 @@ class SkipBench {
       row("clocks", [](const Run& run) { return std::to_string(run.cycles); });
       row("pixels", [](const Run& run) { return std::to_string(run.counters.pixels()); });
       row("hidden", [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::tiles_hidden]); });
+      row("plane", [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::pixels_plane]); });
       row("products", [](const Run& run) { return std::to_string(run.counters.products()); });
       row("bound by", [](const Run& run) { return bound_name(run.counters); });
       row("model ms", [](const Run& run) {
@@ -287,9 +317,11 @@ class SkipBench {
         entry["input"] = scene.input.name;
         entry["skip"] = sets_[set].name;
         entry["hierarchical_z_bits"] = sets_[set].config.hierarchical_z_bits;
+        entry["plane_tolerance_bits"] = sets_[set].config.plane_tolerance_bits;
         entry["cycles"] = run.cycles;
         entry["pixels"] = run.counters.pixels();
         entry["tiles_hidden"] = run.counters[PerformanceCounter::tiles_hidden];
+        entry["pixels_plane"] = run.counters[PerformanceCounter::pixels_plane];
         entry["products"] = run.counters.products();
         entry["model_seconds"] = run.model_seconds;
         entry["counters"] = counters_json(run.counters);

@@ -10,6 +10,7 @@
 #include "model/untimed.hpp"
 #include "tb/check/check.hpp"
 #include "tb/commands/bench_timing.hpp"
+#include "tb/commands/counters_report.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/progress.hpp"
@@ -53,15 +54,18 @@ class SpeedBench {
   }
 
   int run(const std::vector<std::string>& arguments) {
-    std::vector<Subject> subjects{
-        {"model", "untimed model, one core", [this] { return model(1); }},
-        {"model-threads", "untimed model, " + std::to_string(threads_) + " threads",
-         [this] { return model(threads_); }},
-        {"truth", "truth (113-bit), one core",
-         [this] { return reference<golden::TruthQuad>(options_.fragments / 100); }},
-        {"float", "the paper's formulas in double, one core",
-         [this] { return reference<golden::PaperFp64Quad>(options_.fragments / 4); }},
-        {"clocked", "clocked model alone", [this] { return from(tb::run_clocked_model_alone(snapped_, lockstep())); }}};
+    std::vector<Subject> subjects{{"model", "untimed model, one core", [this] { return model(1); }},
+                                  {"model-threads", "untimed model, " + std::to_string(threads_) + " threads",
+                                   [this] { return model(threads_); }},
+                                  {"truth", "truth (113-bit), one core",
+                                   [this] { return reference<golden::TruthQuad>(options_.fragments / 100); }},
+                                  {"float", "the paper's formulas in double, one core",
+                                   [this] { return reference<golden::PaperFp64Quad>(options_.fragments / 4); }},
+                                  {"clocked", "clocked model alone", [this] {
+                                     const tb::AloneRun run = tb::run_clocked_model_alone(snapped_, lockstep());
+                                     counters_ = run.counters;
+                                     return from(run);
+                                   }}};
     if (!options_.no_rtl) {
       subjects.push_back({"rtl", "RTL alone (Verilator, without probes)",
                           [this] { return from(tb::run_rtl_alone(snapped_, lockstep())); }});
@@ -101,6 +105,7 @@ class SpeedBench {
     options.config = config_;
     options.state = state_;
     options.seed = options_.common.seed;
+    options.threads = threads_;
     options.limit_fragments = std::max<std::uint64_t>(1000, options_.fragments / 20);
     return options;
   }
@@ -159,7 +164,7 @@ class SpeedBench {
   }
 
   Measure cosim() const {
-    WorkQueue queue(threads_ - 1, std::size_t{16} * threads_);
+    WorkQueue queue(judging_threads(threads_), std::size_t{16} * threads_);
     FragmentChecker::Settings settings;
     settings.config = config_;
     settings.state = state_;
@@ -200,6 +205,8 @@ class SpeedBench {
       std::fprintf(text, "\nRTL alone over lockstep: %.2f; RTL alone over lockstep with the truth: %.2f\n",
                    median(subjects[5].cycles_per_second) / median(subjects[6].cycles_per_second),
                    median(subjects[5].cycles_per_second) / median(subjects[7].cycles_per_second));
+    std::fputc('\n', text);
+    print_counters(text, counters_, "of the clocked model");
   }
 
   nlohmann::ordered_json report(const std::vector<Subject>& subjects, const std::vector<std::string>& arguments) const {
@@ -219,6 +226,7 @@ class SpeedBench {
       entry["runs"] = subject.fragments_per_second;
       json["speed"][subject.name] = entry;
     }
+    json["counters"] = counters_json(counters_);
     return json;
   }
 
@@ -228,6 +236,7 @@ class SpeedBench {
   DrawState state_;
   std::vector<WindowQuad> quads_;
   std::vector<SnappedQuad> snapped_;
+  PerformanceCounters counters_;  ///< of one run of the clocked model, the same in each
 };
 
 }  // namespace

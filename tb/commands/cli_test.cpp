@@ -28,6 +28,19 @@ TEST_F(Cli, HelpAndVersion) {
   }
 }
 
+/// Of EGL nothing but the dispatcher: as on a machine without a driver.
+TEST_F(Cli, TheShaderNeedsOpenGl) {
+  for (const char* command : {"render --engine shader --scene bowtie --size 32x32 --png a.png",
+                              "fragments --engine shader --scene bowtie --size 32x32 --out a.csv"}) {
+    const Outcome outcome = run(command, "__EGL_VENDOR_LIBRARY_DIRS=/nonexistent");
+    EXPECT_EQ(outcome.status, 3) << command;
+    EXPECT_EQ(outcome.err.rfind("quadrille: ", 0), 0u) << outcome.err;
+    EXPECT_NE(outcome.err.find("the engine shader"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("apt-get install"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(file("a.png")) || fs::exists(file("a.csv")));
+  }
+}
+
 TEST_F(Cli, UsageErrors) {
   refuses(2, "", {"subcommand"});
   refuses(2, "rendre", {"unknown command", "did you mean \"render\"", "cosim"});
@@ -38,7 +51,7 @@ TEST_F(Cli, UsageErrors) {
   refuses(2, "render --engine modle --scene sphere --png a.png", {"unknown engine", "did you mean \"model\"", "truth"});
   refuses(2, "render --shade textur --scene sphere --png a.png", {"unknown shading", "did you mean \"texture\""});
   refuses(2, "render --sceen sphere --png a.png", {"--sceen", "did you mean --scene"});
-  refuses(2, "render --snap off --scene sphere --png a.png", {"float and truth"});
+  refuses(2, "render --snap off --scene sphere --png a.png", {"float, shader and truth"});
   refuses(2, "render --snap maybe --engine truth --scene sphere --png a.png", {"choices: on off"});
   refuses(2, "render --camera c.json --scene sphere --png a.png", {"--camera goes with --mesh"});
   refuses(2, "render --cull bak --scene sphere --png a.png", {"did you mean \"back\""});
@@ -261,6 +274,45 @@ TEST_F(Cli, Reports) {
   EXPECT_GE(scenes.size(), 8u);
   for (const json& scene : scenes)
     for (const char* name : {"name", "title", "paper", "quads"}) EXPECT_TRUE(scene.contains(name)) << name;
+}
+
+/// A square of 10 x 10 pixels, and one that a skip leaves out: the counters follow from that, whatever the command.
+TEST_F(Cli, CountersOfAMachine) {
+  write("a.quads",
+        "10 10 0.5 1  20 10 0.5 1  20 20 0.5 1  10 20 0.5 1\n30 10 0.5 1  40 20 0.5 1  50 30 0.5 1  35 15 0.5 1\n");
+  const std::string input = " --size 64x64 --quads a.quads --json a.json";
+  for (const std::string& command : {"fragments --out a.csv" + input, "render --png a.png" + input}) {
+    SCOPED_TRACE(command);
+    const Outcome outcome = run(command);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json counters = json::parse(read(file("a.json"))).at("counters");
+    EXPECT_EQ(counters.at("quads"), 2);
+    EXPECT_EQ(counters.at("quads_ordinary"), 1);
+    EXPECT_EQ(counters.at("quads_line"), 1);
+    EXPECT_EQ(counters.at("fragments"), 100);
+    EXPECT_EQ(counters.at("pixels_lane0"), 100);
+    EXPECT_EQ(counters.at("stamps"), 10 + 10);  // rows of ten pixels in two tiles of eight
+    EXPECT_NE(outcome.out.find("tiles 4 of 4"), std::string::npos) << outcome.out;
+    // What is asked of the machine counts: with the skip off both quads are set up.
+    ASSERT_EQ(run(command + " --skip none").status, 0);
+    EXPECT_EQ(json::parse(read(file("a.json"))).at("counters").at("quads_ordinary"), 2);
+    // No machine, no counters.
+    for (const char* engine : {"float", "truth"}) {
+      ASSERT_EQ(run(command + " --engine " + engine).status, 0);
+      EXPECT_FALSE(json::parse(read(file("a.json"))).contains("counters")) << engine;
+    }
+  }
+  ASSERT_EQ(run("render --png a.png --method mvc" + input).status, 0);
+  EXPECT_FALSE(json::parse(read(file("a.json"))).contains("counters"));
+  EXPECT_EQ(run("render --size 64x64 --quads a.quads --png a.png").out.find("counters"), std::string::npos);
+  EXPECT_NE(run("render --size 64x64 --quads a.quads --png a.png --verbose").out.find("counters"), std::string::npos);
+
+  const Outcome bench = run("bench --no-rtl --repeat 1 --fragments 1000 --size 64x64 --quad-size 16 --json b.json");
+  ASSERT_EQ(bench.status, 0) << bench.err;
+  EXPECT_GE(json::parse(read(file("b.json"))).at("counters").at("fragments"), 1000);
+  EXPECT_NE(bench.out.find("clocks bound by pixels"), std::string::npos) << bench.out;
+  const Outcome error = run("bench --error --no-rtl --repeat 1 --quads a.quads");
+  EXPECT_NE(error.out.find("tiles 4 of 4"), std::string::npos) << error.out;
 }
 
 TEST_F(Cli, TablesGoToAFile) {

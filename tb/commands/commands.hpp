@@ -14,6 +14,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation);
 void add_sweep_command(CLI::App& app, Invocation& invocation);
 void add_compare_command(CLI::App& app, Invocation& invocation);
 void add_golden_command(CLI::App& app, Invocation& invocation);
+void add_stress_command(CLI::App& app, Invocation& invocation);
 void add_cache_command(CLI::App& app, Invocation& invocation);
 void add_golden_diff_command(CLI::App& golden, Invocation& invocation);  ///< below the command golden
 

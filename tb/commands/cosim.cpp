@@ -5,12 +5,14 @@
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
+#include "golden/io/quads_file.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "model/quad_reject.hpp"
 #include "model/snap.hpp"
 #include "tb/check/check.hpp"
 #include "tb/check/error_limits.hpp"
 #include "tb/check/model_check.hpp"
+#include "tb/check/shrink.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/input.hpp"
@@ -38,7 +40,7 @@ struct CosimOptions {
   double stall = 0, gap = 0;
   std::uint64_t limit_fragments = 0;
   int attributes = 0;  ///< in use per pass; 0: all slots
-  std::string draw_state, trace, out, png, texture, shade, rtl;
+  std::string draw_state, trace, shrink, out, png, texture, shade, rtl;
   bool no_snapping = false, no_alone = false;
 };
 
@@ -67,7 +69,8 @@ struct InputResult {
   std::uint64_t limits_checked = 0;        ///< inputs that have regression limits
   std::vector<std::string> beyond_limits;  ///< what is beyond them, in words
 
-  bool ok() const { return mismatches == 0 && cycle_mismatches == 0 && check.ok() && beyond_limits.empty(); }
+  bool lockstep_ok() const { return mismatches == 0 && cycle_mismatches == 0; }
+  bool ok() const { return lockstep_ok() && check.ok() && beyond_limits.empty(); }
 };
 
 using Metric = Counter<InputResult>;
@@ -187,13 +190,16 @@ class CosimRun {
     }
     std::vector<std::string> read = options_.input.files();
     read.insert(read.end(), {options_.common.config_file, options_.texture});
-    check_outputs({options_.trace, options_.out, options_.png, options_.input.save_camera, options_.common.json}, read);
+    check_outputs(
+        {options_.trace, options_.shrink, options_.out, options_.png, options_.input.save_camera, options_.common.json},
+        read);
     if (!options_.rtl.empty() && !std::filesystem::exists(options_.rtl))
       throw UsageError("--rtl " + options_.rtl + ": no such file or directory");
     if (std::filesystem::is_directory(options_.rtl) && !holds_verilog(options_.rtl))
       throw UsageError("--rtl " + options_.rtl + ": no SystemVerilog file (*.sv) is in this directory");
-    if (all_scenes() && (!options_.out.empty() || !options_.png.empty() || !options_.trace.empty()))
-      throw UsageError("--out, --png and --trace are for one input, not for all scenes");
+    if (all_scenes() &&
+        (!options_.out.empty() || !options_.png.empty() || !options_.trace.empty() || !options_.shrink.empty()))
+      throw UsageError("--out, --png, --trace and --shrink are for one input, not for all scenes");
   }
 
   static bool holds_verilog(const std::string& directory) {
@@ -274,7 +280,10 @@ class CosimRun {
     std::vector<EngineSample> samples;
     for (std::size_t p = 0; p < passes.size(); ++p) {
       run_pass(input, state, passes[p], p, weight_passes, frame.get(), samples, result);
-      if (result.mismatches != 0 || result.cycle_mismatches != 0) break;  // more of the same is of no use
+      if (!options_.shrink.empty() && !(result.lockstep_ok() && result.check.ok()))
+        shrink_failure(input, state, slots, passes[p], p, result.lockstep_ok());
+      if (!result.lockstep_ok()) break;  // more of the same is of no use
+      if (!options_.shrink.empty() && !result.check.ok()) break;
     }
     result.passes = passes.size();
     if (!input_options.stress.empty() && result.complete) compare_with_limits(input_options.stress, state, result);
@@ -289,6 +298,91 @@ class CosimRun {
     }
     result.seconds = start.seconds();
     return result;
+  }
+
+  tb::LockstepOptions lockstep_options(const DrawState& state) const {
+    tb::LockstepOptions lockstep;
+    lockstep.config = config_;
+    lockstep.state = state;
+    lockstep.seed = options_.common.seed;
+    lockstep.stall = options_.stall;
+    lockstep.gap = options_.gap;
+    lockstep.limit_fragments = options_.limit_fragments;
+    lockstep.source = options_.rtl;
+    lockstep.probes = !std::filesystem::is_regular_file(options_.rtl);  // one file has none: ports alone are compared
+    lockstep.threads = options_.common.thread_count();
+    return lockstep;
+  }
+
+  FragmentChecker::Settings checker_settings(const DrawState& state, const Pass& pass, bool first) const {
+    FragmentChecker::Settings settings;
+    settings.config = config_;
+    settings.state = state;
+    settings.pass = pass;
+    settings.first_pass = first;
+    settings.snapping = !options_.no_snapping;
+    return settings;
+  }
+
+  /// The fewest quads, pixels and stalls of a pass that still fail, in lockstep or, if they agree, before the truth:
+  /// written to --shrink, with a waveform of the last clocks beside it and the command that repeats it.
+  void shrink_failure(const DrawInput& input, const DrawState& draw_state, int slots, const Pass& pass,
+                      std::size_t number, bool lockstep_ok) const {
+    constexpr std::uint64_t clocks_shown = 200;
+    std::uint64_t runs = 0;
+    tb::LockstepReport report;
+    Progress progress(input.name + ", shrinking", 1000, options_.common.show_progress());
+    const auto run = [&](const FailingDraw& draw, const std::string& trace, std::uint64_t trace_from) {
+      progress.set(++runs);
+      tb::LockstepOptions lockstep = lockstep_options(draw.state);
+      lockstep.state.attributes = static_cast<int>(pass.columns.size());
+      lockstep.stall = draw.stall;
+      lockstep.gap = draw.gap;
+      if (!trace.empty()) lockstep.trace = trace;
+      lockstep.trace_from = trace_from;
+      std::vector<SnappedQuad> snapped;
+      for (std::size_t i = 0; i < draw.quads.size(); ++i)
+        snapped.push_back(
+            snap_as(pass_quad(draw.quads[i], pass), static_cast<std::uint32_t>(i), config_, lockstep.state));
+      FragmentChecker::Settings settings = checker_settings(lockstep.state, pass, number == 0);
+      settings.snapping = false;
+      const CheckResult check = check_here(settings, draw.quads, snapped, [&](const auto& sink) {
+        report = tb::run_lockstep(snapped, lockstep, sink);
+        return report.complete;
+      });
+      return lockstep_ok ? report.agreed() && (check.mismatches != 0 || check.beyond_bound != 0 ||
+                                               check.beyond_attribute != 0 || check.beyond_depth != 0)
+                         : !report.agreed();
+    };
+    const FailingDraw whole{input.quads, draw_state, options_.stall, options_.gap};
+    const FailingDraw least = shrink(whole, [&](const FailingDraw& draw) { return run(draw, "", 0); });
+
+    golden::save_quads(options_.shrink, least.quads);
+    const FailingDraw kept{golden::load_quads(options_.shrink), least.state, least.stall, least.gap};
+    if (!run(kept, "", 0)) throw std::runtime_error("--shrink: the fault depends on more than the draw");
+    const std::uint64_t clocks = report.cycles_rtl;
+    const std::string waveform = std::filesystem::path(options_.shrink).replace_extension(".fst").string();
+    PartialFile trace(waveform);
+    run(kept, trace.path(), clocks > clocks_shown ? clocks - clocks_shown : 0);
+    trace.commit();
+    progress.finish();
+
+    std::string command = "quadrille cosim --quads " + one(options_.shrink);
+    if (!options_.common.config_file.empty()) command += " --config " + one(options_.common.config_file);
+    for (const std::string& setting : options_.common.settings) command += " --set " + one(setting);
+    command += " --size " + std::to_string(kept.state.width) + "x" + std::to_string(kept.state.height) + " --seed " +
+               std::to_string(options_.common.seed) + StateOptions::of(kept.state).spelled();
+    if (slots < config_.attribute_slots) command += " --attributes " + std::to_string(slots);
+    if (kept.stall > 0) command += " --stall " + nlohmann::json(kept.stall).dump();
+    if (kept.gap > 0) command += " --gap " + nlohmann::json(kept.gap).dump();
+    if (!options_.rtl.empty()) command += " --rtl " + one(options_.rtl);
+    std::fprintf(stderr,
+                 "quadrille: %s fails with %zu of %zu quads, in %dx%d pixels, %llu clocks (found in %llu runs):\n"
+                 "  %s\n  the last %llu clocks of it: %s\n",
+                 input.name.c_str(), kept.quads.size(), input.quads.size(),
+                 kept.state.scissor_x1 - kept.state.scissor_x0, kept.state.scissor_y1 - kept.state.scissor_y0,
+                 static_cast<unsigned long long>(clocks), static_cast<unsigned long long>(runs), command.c_str(),
+                 static_cast<unsigned long long>(std::min(clocks, clocks_shown)), waveform.c_str());
   }
 
   /// Regression limits, where some are recorded for such a draw.
@@ -316,28 +410,15 @@ class CosimRun {
       throw UsageError(describe(error, input));
     }
 
-    tb::LockstepOptions lockstep;
-    lockstep.config = config_;
-    lockstep.state = state;
-    lockstep.seed = options_.common.seed;
-    lockstep.stall = options_.stall;
-    lockstep.gap = options_.gap;
-    lockstep.limit_fragments = options_.limit_fragments;
-    lockstep.source = options_.rtl;
-    lockstep.probes = !std::filesystem::is_regular_file(options_.rtl);  // one file has none: ports alone are compared
+    tb::LockstepOptions lockstep = lockstep_options(state);
     PartialFile trace(first ? options_.trace : std::string{});
     if (trace.active()) lockstep.trace = trace.path();
     Progress progress(input.name + (first ? "" : ", attributes"), 1000, options_.common.show_progress());
     lockstep.progress = [&](double part) { progress.set(static_cast<std::uint64_t>(part * 1000)); };
 
     const unsigned threads = options_.common.thread_count();
-    WorkQueue queue(threads - 1, std::size_t{16} * threads);
-    FragmentChecker::Settings check_settings;
-    check_settings.config = config_;
-    check_settings.state = state;
-    check_settings.pass = pass;
-    check_settings.first_pass = first;
-    check_settings.snapping = !options_.no_snapping;
+    WorkQueue queue(judging_threads(threads), std::size_t{16} * threads);
+    const FragmentChecker::Settings check_settings = checker_settings(state, pass, first);
     FragmentChecker checker(check_settings, input.quads, snapped, queue);
 
     std::size_t position = 0;
@@ -573,7 +654,9 @@ class CosimRun {
                  static_cast<unsigned long long>(model.directed.faults()));
     std::fprintf(out, "  throughput     %.3f covered pixels per clock\n",
                  ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl)));
-    print_counters(out, r.counters, config_.performance_counters != 0);
+    print_counters(
+        out, r.counters,
+        config_.performance_counters != 0 ? "the RTL's are the same" : "of the model (performance_counters=0)");
     std::fprintf(out, "\n  error                   max        p99.9      rms        attribute  depth\n");
     const auto row = [&](const char* name, const QuantityErrors& e) {
       std::fprintf(out, "    %-18s %9.2e  %9.2e  %9.2e  %9.2e  %9.2e\n", name, e.lambda.max(), e.lambda.p999(),
@@ -647,7 +730,8 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       "  quadrille cosim --stress eye_crossing --count 200 --set significand_bits=24\n"
       "  quadrille cosim --corner z_limits --znear 0.25 --zfar 0.75 --size 64x64\n"
       "  quadrille cosim --stress general --draw-state random:7\n"
-      "  quadrille cosim --scene sphere --limit-fragments 2000 --trace sphere.fst");
+      "  quadrille cosim --scene sphere --limit-fragments 2000 --trace sphere.fst\n"
+      "  quadrille cosim --scene sphere --rtl changed_rtl --shrink fails.quads");
   const auto options = std::make_shared<CosimOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
@@ -673,6 +757,11 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->check(whole_number())
       ->type_name("N");
   command->add_option("--trace", options->trace, "Waveform of the RTL")->type_name("F.fst");
+  command
+      ->add_option("--shrink", options->shrink,
+                   "If the input fails: the fewest quads, pixels and stalls that still do, as quads, beside them a "
+                   "waveform (F.fst) of the last 200 clocks, and the command that repeats it")
+      ->type_name("F.quads");
   command->add_option("--out", options->out, "Picture of the RTL's fragments, with weights and errors")
       ->type_name("F.exr");
   command->add_option("--png", options->png, "The same to look at")->type_name("F.png");

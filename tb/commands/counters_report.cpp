@@ -1,5 +1,7 @@
 #include "tb/commands/counters_report.hpp"
 
+#include "tb/lockstep/lockstep.hpp"
+
 #include <string>
 
 namespace quadrille::cli {
@@ -10,15 +12,16 @@ nlohmann::ordered_json counters_json(const PerformanceCounters& counters) {
   return json;
 }
 
-void print_counters(std::FILE* out, const PerformanceCounters& counters, bool compared) {
+void print_counters(std::FILE* out, const PerformanceCounters& counters, std::string_view whose) {
   using enum PerformanceCounter;
   const auto number = [&](PerformanceCounter counter) { return static_cast<unsigned long long>(counters[counter]); };
-  std::fprintf(
-      out,
-      "  counters       blocks %llu of %llu, tiles %llu of %llu (%llu hidden), rows %llu of %llu, pixels %llu; %s\n",
-      number(blocks_entered), number(blocks_tested), number(tiles_entered), number(tiles_tested), number(tiles_hidden),
-      number(stamps), number(rows_tested), static_cast<unsigned long long>(counters.pixels()),
-      compared ? "the RTL's are the same" : "of the model (performance_counters=0)");
+  std::fprintf(out,
+               "  counters       blocks %llu of %llu, tiles %llu of %llu (%llu hidden, %llu masked), rows %llu of "
+               "%llu, pixels %llu "
+               "(%llu of plane quads); %s\n",
+               number(blocks_entered), number(blocks_tested), number(tiles_entered), number(tiles_tested),
+               number(tiles_hidden), number(tiles_masked), number(stamps), number(rows_tested),
+               static_cast<unsigned long long>(counters.pixels()), number(pixels_plane), std::string(whose).c_str());
   const auto all = static_cast<double>(counters[clocks]);
   std::fputs("                 clocks bound by", out);
   for (auto i = static_cast<std::size_t>(bound_pixels); i < counter_count; ++i)
@@ -26,6 +29,23 @@ void print_counters(std::FILE* out, const PerformanceCounters& counters, bool co
                  std::string(counter_info[i].name.substr(6)).c_str(),
                  all > 0 ? 100 * static_cast<double>(counters.value[i]) / all : 0);
   std::fprintf(out, "\n                 %llu products\n", static_cast<unsigned long long>(counters.products()));
+}
+
+std::optional<PerformanceCounters> count_draw(const EngineSettings& settings, std::span<const WindowQuad> quads,
+                                              int attributes) {
+  if (settings.kind != EngineKind::model && settings.kind != EngineKind::rtl) return std::nullopt;
+  const Pass pass = plan_passes(attributes, true, settings.config).front();
+  tb::LockstepOptions options;
+  options.config = settings.config;
+  options.state = settings.state;
+  options.state.attributes = static_cast<int>(pass.columns.size());
+  options.seed = settings.seed;
+  options.stall = settings.stall;
+  options.gap = settings.gap;
+  std::vector<SnappedQuad> snapped;
+  for (std::size_t i = 0; i < quads.size(); ++i)
+    snapped.push_back(snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), options.config, options.state));
+  return tb::run_clocked_model_alone(snapped, options).counters;
 }
 
 }  // namespace quadrille::cli

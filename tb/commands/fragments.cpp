@@ -1,5 +1,6 @@
 // quadrille fragments: every fragment of every quad as a table, without depth test.
 #include "tb/commands/commands.hpp"
+#include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"
 
 #include "golden/io/fragment_csv.hpp"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <optional>
 
 namespace quadrille::cli {
 namespace {
@@ -80,6 +82,8 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
 
   const double seconds = start.seconds();
+  std::optional<PerformanceCounters> counters;
+  if (reports_counters(options.common)) counters = count_draw(settings, input.quads, input.attributes);
   if (!options.common.json.empty()) {
     nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
     json["input"] = input.name;
@@ -89,6 +93,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
     json["fragments"] = rows.size();
     json["undefined"] = undefined;
     json["wall_seconds"] = seconds;
+    if (counters) json["counters"] = counters_json(*counters);
     golden::save_json(options.common.json, json);
   }
   if (std::FILE* text = options.common.text(); text && options.out != "-") {
@@ -96,6 +101,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
                  input.quads.size(), rows.size());
     if (undefined) std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(undefined));
     std::fprintf(text, ", %.2f s\n", seconds);
+    if (counters) print_counters(text, *counters, "of the clocked model");
   }
   return exit_ok;
 }
@@ -107,9 +113,11 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
   command->footer(
       "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,a0,...; sorted by quad, y, x; 17 significant digits. Flags: 1 on an "
       "edge,\n"
-      "2 on a vertex, 4 two corners, 8 two edges, 16 tie, 32 homogeneous, 64 notch cure, 128 saturated; float engine: "
-      "256\n"
-      "undefined (its numbers are not to be used).\n\n"
+      "2 on a vertex, 4 two corners, 8 two edges, 16 tie, 32 homogeneous, 64 notch cure, 128 saturated; float and "
+      "shader:\n"
+      "256 undefined (its numbers are not to be used). With --json or --verbose the clocked model draws once more, for "
+      "the\n"
+      "counters of a machine (engines model and rtl).\n\n"
       "Examples:\n"
       "  quadrille fragments --quads some.quads --out some.csv\n"
       "  quadrille fragments --engine truth --snap off --scene bowtie --size 64x64 --out -\n"

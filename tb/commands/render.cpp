@@ -1,5 +1,6 @@
 // quadrille render: a depth-tested picture by any engine.
 #include "tb/commands/commands.hpp"
+#include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"
 
 #include "golden/io/exr.hpp"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 namespace quadrille::cli {
 namespace {
@@ -77,6 +79,9 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   if (!options.png.empty()) save_frame_png(options.png, image);
 
   const double seconds = start.seconds();
+  std::optional<PerformanceCounters> counters;
+  if (options.method.empty() && reports_counters(options.common))
+    counters = count_draw(settings, input.quads, input.attributes);
   double error_max = 0;
   for (const auto& [name, layer] : image.error)
     for (const float error : layer) error_max = std::max(error_max, std::fabs(static_cast<double>(error)));
@@ -97,6 +102,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
     json["pixels_drawn"] = frame.pixels_drawn();
     if (!image.error.empty()) json["error_max"] = error_max;
     json["wall_seconds"] = seconds;
+    if (counters) json["counters"] = counters_json(*counters);
     golden::save_json(options.common.json, json);
   }
   if (std::FILE* text = options.common.text()) {
@@ -106,6 +112,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
     if (frame.undefined()) std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(frame.undefined()));
     if (!image.error.empty()) std::fprintf(text, ", largest weight error %.2e", error_max);
     std::fprintf(text, ", %.2f s\n", seconds);
+    if (counters) print_counters(text, *counters, "of the clocked model");
     if (input.fanned_faces)
       std::fprintf(text, "%zu faces with more than four corners were cut into %zu primitives\n", input.fanned_faces,
                    input.fan_primitives);
@@ -124,7 +131,9 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
   command->footer(
       "The EXR holds R G B A, Z, the weights L0-L3, the quad id and error.L0-L3 (weights minus the truth's). The bytes "
       "do\n"
-      "not depend on --threads.\n\n"
+      "not depend on --threads. With --json or --verbose the clocked model draws once more, for the counters of a "
+      "machine\n"
+      "(engines model and rtl).\n\n"
       "Examples:\n"
       "  quadrille render --scene sphere --png sphere.png\n"
       "  quadrille render --engine rtl --mesh spot.obj --texture spot.png --shade texture --out spot.exr --png "

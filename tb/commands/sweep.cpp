@@ -1,5 +1,6 @@
 // quadrille sweep: error against hardware cost over a grid of configurations.
 #include "tb/commands/commands.hpp"
+#include "tb/commands/counters_report.hpp"
 
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/config_file.hpp"
@@ -135,7 +136,7 @@ class SweepRun {
                                              : sweep::ErrorColumn{};
 
     input_.state = options_.state.state(options_.common, base_);
-    input_.state.skip &= ~std::uint32_t{skip_hidden};  // every fragment is measured
+    input_.state.skip &= ~std::uint32_t{skip_hidden | skip_plane};  // every fragment is measured
     InputOptions source = options_.input;
     if (inputs_given(source) == 0) source.scene = standard_scene;
     draw_ = load_input(source, options_.shade, input_.state, base_, options_.common.seed);
@@ -375,6 +376,7 @@ class SweepRun {
     for (std::size_t s = 0; s < sweep::stage_count; ++s)
       json["counters"][std::string(sweep::stage_names[s])] = {{"settings", store.counters().settings[s]},
                                                               {"fragments", store.counters().fragments[s]}};
+    if (performance_) json["performance_counters"] = counters_json(*performance_);
     json["error_map_row"] = map_row < grid_.size() ? Json(map_row) : Json(nullptr);
     if (target_) json["search"] = to_json(*target_, targets_);
     json["synthesis"] = {{"points", synthesis_.size()},
@@ -405,6 +407,9 @@ class SweepRun {
       text += t.what + "," + std::to_string(t.points) + "," + sweep::csv_number(t.seconds) + "\n";
     golden::write_file(store.file("timing.csv"), text, refused);
 
+    if (!options_.no_cycles && evaluator.refusal(base_).empty())
+      performance_ = count_draw({.config = base_, .state = input_.state, .seed = options_.common.seed}, input_.quads,
+                                input_.attributes);
     const std::vector<float> map = evaluator.error_map(base_);
     golden::save_npy(store.file("error_map.npy"), map, input_.state.width, input_.state.height);
     const Json json = manifest(store, sweep::base_row(grid_));
@@ -466,6 +471,10 @@ class SweepRun {
         std::fprintf(out, "needs two different ones\n");
       else
         std::fprintf(out, "%.3f\n", correlation_);
+    }
+    if (performance_) {
+      std::fputc('\n', out);
+      print_counters(out, *performance_, "of the base, by the clocked model");
     }
     if (target_) print_target(out);
     std::error_code far;  // from the working directory where that is possible
@@ -551,6 +560,7 @@ class SweepRun {
   std::vector<sweep::SynthesisRow> synthesis_;
   double correlation_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<TargetResult> target_;
+  std::optional<PerformanceCounters> performance_;  ///< of the base configuration
   sweep::OrdinaryInput ordinary_{input_};
 };
 

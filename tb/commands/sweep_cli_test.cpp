@@ -77,6 +77,11 @@ TEST_F(SweepCli, FullGridInOrder) {
   EXPECT_EQ(m.at("counters").at("normalise").at("settings"), 3);
   EXPECT_EQ(m.at("counters").at("ratios").at("settings"), 6);
   EXPECT_EQ(m.at("error_map_row"), 5);
+  // The base is the last point: its counters are of the draw that its row is of.
+  EXPECT_EQ(m.at("performance_counters").at("fragments").get<int>(), std::stoi(rows[5].at("fragments")));
+  EXPECT_EQ(m.at("performance_counters").at("clocks").get<int>(), std::stoi(rows[5].at("cycles")));
+  ASSERT_EQ(run("sweep" + std::string(small) + "--axis significand_bits=10 --no-cycles --out n").status, 0);
+  EXPECT_FALSE(manifest("n").contains("performance_counters"));
   // 128 bytes of header, 48 x 48 floats.
   EXPECT_EQ(fs::file_size(file("a") / "error_map.npy"), 128u + 48 * 48 * 4);
 }

@@ -135,16 +135,27 @@ module quadrille_probed (
     logic [SETS*S-1:0] sum_sig;
 
     // Numbers that the lane does not take on, and what comes of them, are shown as zeros.
-    logic norm_active, root_active, ratio_active;
+    logic norm_active, distance_active, root_active, ratio_active;
+    logic ratio_v_active;  // of A alone
 
     delay_line u_norm_active (
         .clk_i,
         .data_i(u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_active_q),
         .data_o(norm_active)
     );
-    delay_line #(.DEPTH(quadrille_pkg::ROOT_STAGE - quadrille_pkg::NORM_STAGE)) u_root_active (
+    delay_line u_distance_active (
+        .clk_i,
+        .data_i(u_quadrille.u_pipeline.gen_lane[g].u_lane.distance_active_q),
+        .data_o(distance_active)
+    );
+    delay_line #(.DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::NORM_STAGE)) u_ratio_v_active (
         .clk_i,
         .data_i(norm_active),
+        .data_o(ratio_v_active)
+    );
+    delay_line #(.DEPTH(quadrille_pkg::ROOT_STAGE - quadrille_pkg::NORM_STAGE)) u_root_active (
+        .clk_i,
+        .data_i(distance_active),
         .data_o(root_active)
     );
     delay_line #(.DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE)) u_ratio_active (
@@ -168,10 +179,12 @@ module quadrille_probed (
     assign probe_norm_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::NORM_STAGE];
     assign probe_norm_o[g] = {
       u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS],
-      {12 + 16 * (E + S) {norm_active}} & {
+      {6 + 6 * (E + S) {norm_active}} & {
         u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_neg,
         u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_exp,
-        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_sig,
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_a_sig
+      },
+      {6 + 10 * (E + S) {distance_active}} & {
         u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_neg,
         u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_exp,
         u_quadrille.u_pipeline.gen_lane[g].u_lane.norm_d_sig,
@@ -186,11 +199,13 @@ module quadrille_probed (
     };
 
     assign probe_ratio_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::RATIO_STAGE];
-    assign probe_ratio_o[g] = {12 * (E + S) {ratio_active}} & {
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_u_exp,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_u_sig,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_v_exp,
-      u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_v_sig
+    assign probe_ratio_o[g] = {
+      {6 * (E + S) {ratio_active}} & {
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_u_exp, u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_u_sig
+      },
+      {6 * (E + S) {ratio_v_active}} & {
+        u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_v_exp, u_quadrille.u_pipeline.gen_lane[g].u_lane.ratio_v_sig
+      }
     };
 
     assign probe_weight_valid_o[g] = u_quadrille.u_pipeline.gen_lane[g].u_lane.valid_q[quadrille_pkg::WEIGHT_STAGE];

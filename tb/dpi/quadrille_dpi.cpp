@@ -5,9 +5,9 @@
 // word, least significant word first.
 #include "golden/suites/stage_suite.hpp"
 #include "golden/suites/suite.hpp"
+#include "model/config_text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -72,30 +72,6 @@ int guarded(F&& body) {
   }
 }
 
-/// "key=value key=value" over the defaults.
-Config parse_settings(std::string_view text) {
-  constexpr std::string_view blanks = " \t\n,";
-  Config config;
-  while (true) {
-    const std::size_t begin = text.find_first_not_of(blanks);
-    if (begin == std::string_view::npos) break;
-    text.remove_prefix(begin);
-    const std::string_view setting = text.substr(0, text.find_first_of(blanks));
-    text.remove_prefix(setting.size());
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string_view::npos)
-      throw ConfigError("setting \"" + std::string(setting) + "\": expected key=value, such as significand_bits=24");
-    const std::string_view value = setting.substr(equals + 1);
-    int number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc{} || end != value.data() + value.size())
-      throw ConfigError("setting \"" + std::string(setting) + "\": the value is not an integer");
-    config.set(setting.substr(0, equals), number);
-  }
-  config.validate();
-  return config;
-}
-
 std::string_view view(const char* text) { return text == nullptr ? std::string_view() : std::string_view(text); }
 
 std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
@@ -126,10 +102,7 @@ void find_field(const RecordLayout& layout, std::string_view suite, std::string_
 }
 
 int value_of(const Config& config, std::string_view name) {
-  for (const ConfigKey& key : Config::keys())
-    if (key.name == name) return config.resolved(name);
-  for (const DerivedWidth& derived : config.derived())
-    if (derived.name == name) return derived.value;
+  if (const std::optional<int> value = config_number(config, name)) return *value;
   throw Failure{bad_name, "no key and no derived width " + quoted(name) + "; `quadrille config` lists them"};
 }
 
@@ -178,7 +151,11 @@ namespace vectors = quadrille::vectors;
 
 QUADRILLE_EXPORT int quadrille_open(const char* settings, void** model) {
   *model = nullptr;
-  return vectors::guarded([&] { *model = new vectors::Model(vectors::parse_settings(vectors::view(settings))); });
+  return vectors::guarded([&] {
+    quadrille::Config config;
+    quadrille::apply_config_text(vectors::view(settings), config);
+    *model = new vectors::Model(config);
+  });
 }
 
 QUADRILLE_EXPORT void quadrille_close(void* model) { delete static_cast<vectors::Model*>(model); }

@@ -3,6 +3,7 @@
 #include "model/snap.hpp"
 #include "tb/engines/machine_engine.hpp"
 #include "tb/engines/reference_engine.hpp"
+#include "tb/engines/shader_engine.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 
@@ -13,12 +14,12 @@
 namespace quadrille::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> names{"rtl", "model", "float", "truth"};
+constexpr std::array<std::string_view, 5> names{"rtl", "model", "float", "shader", "truth"};
 
 }  // namespace
 
 EngineKind engine_kind(std::string_view name) {
-  return static_cast<EngineKind>(choose("engine", name, {names[0], names[1], names[2], names[3]}));
+  return static_cast<EngineKind>(choose("engine", name, {names[0], names[1], names[2], names[3], names[4]}));
 }
 
 std::string_view engine_name(EngineKind kind) { return names[static_cast<std::size_t>(kind)]; }
@@ -29,6 +30,8 @@ std::unique_ptr<Engine> make_engine(const EngineSettings& settings) {
       return make_rtl_engine(settings);
     case EngineKind::model:
       return make_model_engine(settings);
+    case EngineKind::shader:
+      return make_shader_engine(settings);
     case EngineKind::paper_float:
     case EngineKind::truth:
       return make_reference_engine(settings);

@@ -1,4 +1,4 @@
-// The four engines behind one interface: quads as given in, fragments as numbers out.
+// The engines behind one interface: quads as given in, fragments as numbers out.
 #pragma once
 
 #include "model/config.hpp"
@@ -15,13 +15,13 @@
 
 namespace quadrille::cli {
 
-enum class EngineKind { rtl, model, paper_float, truth };
+enum class EngineKind { rtl, model, paper_float, shader, truth };
 
-/// "rtl", "model", "float", "truth"; throws UsageError with the choices for any other name.
+/// "rtl", "model", "float", "shader", "truth"; throws UsageError with the choices for any other name.
 EngineKind engine_kind(std::string_view name);
 std::string_view engine_name(EngineKind kind);
 
-/// Bit of a written flags column beyond FragmentFlag: the numbers are not to be used (float engine).
+/// Bit of a written flags column beyond FragmentFlag: the numbers are not to be used (float and shader).
 inline constexpr std::uint32_t flag_undefined = 256;
 
 /// One fragment in numbers.
@@ -30,7 +30,7 @@ struct EngineSample {
   std::uint32_t quad = 0;   ///< its id
   std::uint16_t x = 0, y = 0;
   bool front = false;
-  bool undefined = false;  ///< float only: the formulas divide by zero here; numbers are not to be used
+  bool undefined = false;  ///< float, shader: the formulas divide by zero here; numbers are not to be used
   std::uint8_t flags = 0;  ///< FragmentFlag
   double z = 0;
   std::array<double, 4> lambda{};
@@ -44,7 +44,7 @@ struct EngineSettings {
   EngineKind kind = EngineKind::model;
   Config config;
   DrawState state;   ///< state.attributes is set by draw()
-  bool snap = true;  ///< float and truth: on the snapped quads; rtl and model always are
+  bool snap = true;  ///< float, shader, truth: on the snapped quads; rtl and model always are
   unsigned threads = 1;
   double stall = 0, gap = 0;  ///< rtl
   std::uint64_t seed = 1;     ///< rtl

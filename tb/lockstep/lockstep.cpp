@@ -3,7 +3,8 @@
 #include "model/bit_vector.hpp"
 #include "model/drive.hpp"
 #include "tb/device/verilated_device.hpp"
-#include "tb/lockstep/driver.hpp"
+#include "tb/lockstep/device_ahead.hpp"
+#include "tb/lockstep/driven_device.hpp"
 #include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 namespace quadrille::tb {
 
 namespace {
-
-constexpr int reset_clocks = 4;
 
 int fragment_width(const Config& config) { return boundary_layout(Boundary::fragment, config).bits(); }
 
@@ -44,59 +43,13 @@ class Watchdog {
   std::uint64_t limit_, silent_ = 0;
 };
 
-/// What drives both input ports.
-struct Stimulus {
-  VertexDriver vertices;
-  ReadyDriver stalls;
-
-  Stimulus(std::span<const SnappedQuad> quads, const LockstepOptions& o)
-      : vertices(quads, o.config, o.state.attributes, o.seed, o.gap), stalls(o.seed, o.stall) {}
-
-  bool done() const { return vertices.done(); }
-  bool valid() const { return vertices.valid(); }
-  bool ready() const { return stalls.ready(); }
-  bool changed() const { return vertices.changed(); }
-  std::uint32_t id() const { return vertices.id(); }
-  const SnappedVertex& vertex() const { return vertices.vertex(); }
-  void advance(bool taken) {
-    vertices.advance(taken);
-    stalls.advance();
-  }
-};
-
-/// The device as a machine for drive(), after reset.
-class DrivenDevice {
- public:
-  DrivenDevice(Device& device, const LockstepOptions& o) : device_(device) {
-    const std::vector<std::uint32_t> state = pack_state(o.state, o.config);
-    device_.set_state(state);
-    device_.set_handshake(false, false);
-    device_.set_reset(true);
-    for (int i = 0; i < reset_clocks; ++i) {
-      device_.settle();
-      device_.clock();
-    }
-    device_.set_reset(false);
-  }
-
-  const DeviceSample& settle(const Stimulus& stimulus) {
-    if (stimulus.changed()) device_.set_vertex(stimulus.vertices.words());
-    device_.set_handshake(stimulus.valid(), stimulus.ready());
-    device_.settle();
-    return device_.sample();
-  }
-  void clock() { device_.clock(); }
-
- private:
-  Device& device_;
-};
-
-/// Both side by side. The model leads: it takes the beats.
+/// Both side by side. The device leads: it takes the beats, so that its side can be ahead of the model's.
+template <class DeviceSide>
 class DrivenPair {
  public:
   /// `cycle` counts the clocks, for whoever catches what the device throws.
-  DrivenPair(Device& device, const LockstepOptions& o, std::uint64_t& cycle)
-      : device_(device, o), model_(o.config, o.state), cycle_(cycle) {}
+  DrivenPair(DeviceSide& device, const LockstepOptions& o, std::uint64_t& cycle)
+      : device_(device), model_(o.config, o.state, o.probes ? Probes::all : Probes::without_pixels), cycle_(cycle) {}
 
   struct Outputs {
     const DeviceSample& actual;
@@ -105,9 +58,7 @@ class DrivenPair {
   };
   Outputs settle(const Stimulus& stimulus) {
     const DeviceSample& actual = device_.settle(stimulus);
-    Outputs outputs{actual, model_.settle(stimulus), false};
-    outputs.vertex_ready = outputs.expected.vertex_ready;
-    return outputs;
+    return {actual, model_.settle(stimulus), actual.vertex_ready};
   }
   void clock() {
     device_.clock();
@@ -117,7 +68,7 @@ class DrivenPair {
   const PerformanceCounters& counters() const { return model_.counters(); }
 
  private:
-  DrivenDevice device_;
+  DeviceSide& device_;
   DrivenModel model_;
   std::uint64_t& cycle_;
 };
@@ -176,6 +127,43 @@ AloneRun run_alone(Machine& machine, std::span<const SnappedQuad> quads, const L
   return result;
 }
 
+/// A device whose waveform begins with a clock of the run.
+class TracedLater : public Device {
+ public:
+  TracedLater(VerilatedDevice& device, const std::string& file, std::uint64_t from)
+      : device_(device), file_(file), from_(from) {}
+
+  void set_reset(bool active) override {
+    if (!active) clocks_ = 0;  // counted from the end of reset
+    device_.set_reset(active);
+  }
+  void set_state(std::span<const std::uint32_t> words) override { device_.set_state(words); }
+  void set_vertex(std::span<const std::uint32_t> words) override { device_.set_vertex(words); }
+  void set_clear_hidden(bool active) override { device_.set_clear_hidden(active); }
+  void set_handshake(bool vertex_valid, bool fragment_ready) override {
+    device_.set_handshake(vertex_valid, fragment_ready);
+  }
+  void settle() override {
+    if (!open_ && clocks_ == from_) {
+      device_.open_trace(file_);
+      open_ = true;
+    }
+    device_.settle();
+  }
+  const DeviceSample& sample() override { return device_.sample(); }
+  std::uint32_t counter(std::size_t index) override { return device_.counter(index); }
+  void clock() override {
+    device_.clock();
+    ++clocks_;
+  }
+
+ private:
+  VerilatedDevice& device_;
+  const std::string& file_;
+  std::uint64_t from_, clocks_ = ~std::uint64_t{0} / 2;  ///< before the end of reset beyond every clock
+  bool open_ = false;
+};
+
 VerilateOptions build_options(const LockstepOptions& o, bool probes) {
   VerilateOptions build;
   build.probes = probes;
@@ -193,7 +181,7 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
   Scoreboard scoreboard(o.config, quads, o.probes, o.seed);
   LockstepReport report;
   std::uint64_t clocks = 0, differing_clocks = 0;
-  const auto look = [&](std::uint64_t cycle, const DrivenPair::Outputs& out, bool taken) {
+  const auto look = [&](std::uint64_t cycle, const auto& out, bool taken) {
     const ClockedOutputs& expected = out.expected;
     const DeviceSample& actual = out.actual;
 
@@ -204,7 +192,7 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
       for_each_lane(actual, [&](std::size_t lane, const std::uint32_t* words) {
         run.monitor.handed_over(words, verdict.fragment ? expected.fragment[lane] : nullptr);
       });
-    for (const LaneProbes& lane : expected.probes.lane) report.pixels += lane.diff != nullptr ? 1 : 0;
+    report.pixels += static_cast<std::uint64_t>(expected.probes.pixels);
 
     // 2. Whether and how the run ends. The model says when all is drawn.
     const bool model_idle = run.stimulus.done() && !expected.busy, rtl_idle = run.stimulus.done() && !actual.busy;
@@ -225,10 +213,21 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
     return true;
   };
   try {
-    DrivenPair pair(device, o, clocks);
-    const std::uint64_t end = drive(pair, run.stimulus, look);
-    report.counters = pair.counters();
-    if (o.config.performance_counters != 0) scoreboard.compare_counters(end, report.counters, device);
+    const auto run_pair = [&](auto& side) {
+      DrivenPair pair(side, o, clocks);
+      const std::uint64_t end = drive(pair, run.stimulus, look);
+      report.counters = pair.counters();
+      return end;
+    };
+    // A waveform and the counters of the RTL end where the run does.
+    if (o.threads > 1 && !o.trace && o.config.performance_counters == 0) {
+      DeviceAhead side(device, quads, o);
+      run_pair(side);
+    } else {
+      DrivenDevice side(device, o);
+      const std::uint64_t end = run_pair(side);
+      if (o.config.performance_counters != 0) scoreboard.compare_counters(end, report.counters, device);
+    }
   } catch (const DeviceError& stop) {
     scoreboard.device_stopped(clocks, stop.what());
   }
@@ -247,8 +246,14 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
 
 LockstepReport run_lockstep(std::span<const SnappedQuad> quads, const LockstepOptions& o, const FragmentSink& sink) {
   VerilatedDevice device(o.config, build_options(o, o.probes), o.seed);
-  if (o.trace) device.open_trace(*o.trace);
-  LockstepReport report = run_lockstep(device, quads, o, sink);
+  LockstepReport report;
+  if (o.trace && o.trace_from > 0) {
+    TracedLater later(device, *o.trace, o.trace_from);
+    report = run_lockstep(later, quads, o, sink);
+  } else {
+    if (o.trace) device.open_trace(*o.trace);
+    report = run_lockstep(device, quads, o, sink);
+  }
   device.close_trace();
   return report;
 }

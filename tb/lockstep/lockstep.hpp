@@ -1,6 +1,7 @@
 // Lockstep: the Verilated RTL and the clocked model get the same inputs in every clock and must give the same outputs.
 //
-// In each clock: drive the inputs, settle both sides with the clock low, compare everything, then clock both.
+// In each clock: drive the inputs, settle both sides with the clock low, compare everything, then clock both. With two
+// threads the RTL does its part of that some clocks ahead (device_ahead.hpp).
 #pragma once
 
 #include "model/config.hpp"
@@ -28,6 +29,7 @@ struct LockstepOptions {
   double stall = 0;                        ///< probability per clock that fragment_ready is low; in [0, 1)
   double gap = 0;                          ///< probability per clock that vertex_valid is low before a beat; in [0, 1)
   std::optional<std::string> trace;        ///< FST waveform file
+  std::uint64_t trace_from = 0;            ///< of run_lockstep(): the clock in which it begins
   std::uint64_t limit_fragments = 0;       ///< end after so many fragments; 0: no limit
   bool stop_at_first = true;               ///< end at the first difference
   std::uint64_t limit_differences = 1000;  ///< else end after so many clocks with a difference; 0: no limit
@@ -36,6 +38,7 @@ struct LockstepOptions {
   std::function<void(double)> progress;  ///< called now and then with the part done, 0 to 1
   std::filesystem::path source;          ///< RTL instead of the project's: directory, or one Verilog file
   int optimise = 2;                      ///< see VerilateOptions
+  unsigned threads = 1;                  ///< 2 and more: the device has one of its own; the report is the same
 };
 
 /// Neither side did anything for so long that the run was given up.

@@ -27,7 +27,7 @@ class ModelDevice : public Device {
   using Fault = std::function<void(std::uint64_t cycle, Outputs&)>;
 
   ModelDevice(const Config& config, const DrawState& state, Fault fault = {})
-      : config_(config), model_(config, state), vertex_(vertex_layout(config)), fault_(std::move(fault)) {
+      : config_(config), model_(config, state, Probes::all), vertex_(vertex_layout(config)), fault_(std::move(fault)) {
     for (std::size_t i = 0; i <= probe_count; ++i)
       layouts_.push_back(boundary_layout(static_cast<Boundary>(i), config));
   }
@@ -103,6 +103,7 @@ class ModelDevice : public Device {
   }
   const DeviceSample& sample() override { return out_.sample; }
   void clock() override {
+    if (!inputs_.reset && cycle_ == stops_at_edge) throw DeviceError("at its edge");
     model_.clock(inputs_);
     if (!inputs_.reset) ++cycle_;
   }
@@ -110,6 +111,7 @@ class ModelDevice : public Device {
     return static_cast<std::uint32_t>(model_.counters().value[index]) + (index == wrong_counter ? 1 : 0);
   }
   std::size_t wrong_counter = counter_count;  ///< one too many
+  std::uint64_t stops_at_edge = ~std::uint64_t{0};
 
  private:
   Config config_;
@@ -122,13 +124,15 @@ class ModelDevice : public Device {
   std::uint64_t cycle_ = 0;
 };
 
-class Lockstep : public testing::Test {
+/// With the device in the loop's thread and in one of its own: the same reports.
+class Lockstep : public testing::TestWithParam<unsigned> {
  protected:
   Lockstep() {
     options.config.set("significand_bits", 12);
     options.state = small_state(options.config);
     options.stall = 0.2;
     options.gap = 0.2;
+    options.threads = GetParam();
     quads = random_quads(options.config, options.state, 5, 40);
   }
   LockstepReport run(ModelDevice::Fault fault) {
@@ -139,7 +143,10 @@ class Lockstep : public testing::Test {
   std::vector<SnappedQuad> quads;
 };
 
-TEST_F(Lockstep, AgreesWithItself) {
+INSTANTIATE_TEST_SUITE_P(Threads, Lockstep, testing::Values(1u, 2u),
+                         [](const auto& threads) { return threads.param == 1 ? "one" : "two"; });
+
+TEST_P(Lockstep, AgreesWithItself) {
   std::uint64_t seen = 0;
   ModelDevice device(options.config, options.state);
   const LockstepReport report = run_lockstep(device, quads, options, [&](const Fragment&) { ++seen; });
@@ -164,7 +171,7 @@ TEST_F(Lockstep, AgreesWithItself) {
 }
 
 /// The lanes of the port change when fragments leave, not which, nor their order.
-TEST_F(Lockstep, TheSameFragmentsInEveryNumberOfLanes) {
+TEST_P(Lockstep, TheSameFragmentsInEveryNumberOfLanes) {
   const LockstepReport one = run({});
   for (const int lanes : {2, 4}) {
     options.config.set("pixels_per_clock", lanes);
@@ -179,7 +186,7 @@ TEST_F(Lockstep, TheSameFragmentsInEveryNumberOfLanes) {
 }
 
 /// Every bit of every lane counts: of its valid, of its payload, of its fragment.
-TEST_F(Lockstep, SeesEveryLane) {
+TEST_P(Lockstep, SeesEveryLane) {
   options.config.set("pixels_per_clock", 4);
   const auto expect = [&](const std::string& text, ModelDevice::Fault fault) {
     const LockstepReport report = run(std::move(fault));
@@ -208,7 +215,7 @@ TEST_F(Lockstep, SeesEveryLane) {
   }
 }
 
-TEST_F(Lockstep, NamesTheFieldThatDiffers) {
+TEST_P(Lockstep, NamesTheFieldThatDiffers) {
   // Bit 2 of root[1]'s significand in the stage register, from cycle 300 on.
   std::uint64_t at = 0;
   PixelTrace pixel;
@@ -234,7 +241,7 @@ TEST_F(Lockstep, NamesTheFieldThatDiffers) {
                                           " (model), actual " + hex(sig ^ 4u, 12) + " (RTL); seed 1");
 }
 
-TEST_F(Lockstep, EveryPerformanceCounterIsCompared) {
+TEST_P(Lockstep, EveryPerformanceCounterIsCompared) {
   for (std::size_t i = 0; i <= counter_count; ++i) {
     for (const int there : {0, 1}) {
       options.config.set("performance_counters", there);
@@ -251,7 +258,7 @@ TEST_F(Lockstep, EveryPerformanceCounterIsCompared) {
   }
 }
 
-TEST_F(Lockstep, CountsOnWhenAsked) {
+TEST_P(Lockstep, CountsOnWhenAsked) {
   options.stop_at_first = false;
   const LockstepReport report = run([&](std::uint64_t cycle, ModelDevice::Outputs& out) {
     if (out.sample.fragment_valid && cycle % 7 == 0) out.words[probe_count][0][0] ^= 1u;
@@ -264,7 +271,7 @@ TEST_F(Lockstep, CountsOnWhenAsked) {
             3u);
 }
 
-TEST_F(Lockstep, SeesTimingOfEverySignal) {
+TEST_P(Lockstep, SeesTimingOfEverySignal) {
   const auto expect_timing = [&](const char* name, ModelDevice::Fault fault) {
     const LockstepReport report = run(std::move(fault));
     EXPECT_EQ(report.cycle_mismatches, 1u) << name;
@@ -291,7 +298,7 @@ TEST_F(Lockstep, SeesTimingOfEverySignal) {
   }
 }
 
-TEST_F(Lockstep, FragmentBitsCountWhenNotValidToo) {
+TEST_P(Lockstep, FragmentBitsCountWhenNotValidToo) {
   const LockstepReport report = run([&](std::uint64_t, ModelDevice::Outputs& out) {
     if (!out.sample.fragment_valid) out.words[probe_count][0][1] ^= 0x10u;
   });
@@ -299,7 +306,7 @@ TEST_F(Lockstep, FragmentBitsCountWhenNotValidToo) {
   EXPECT_EQ(report.cycle_mismatches, 0u);
 }
 
-TEST_F(Lockstep, StoppedDeviceIsAMismatch) {
+TEST_P(Lockstep, StoppedDeviceIsAMismatch) {
   const LockstepReport report = run([](std::uint64_t cycle, ModelDevice::Outputs&) {
     if (cycle == 77) throw DeviceError("assertion at x.sv:1");
   });
@@ -308,7 +315,34 @@ TEST_F(Lockstep, StoppedDeviceIsAMismatch) {
   EXPECT_EQ(*report.first_divergence, "cycle 77, the RTL stopped: assertion at x.sv:1; seed 1");
 }
 
-TEST_F(Lockstep, DeviceThatNeverEndsIsGivenUp) {
+/// What the edge of a clock throws belongs to that clock: at the ends of DeviceAhead's batches of 256 too, and in the
+/// first clock, whose reset it may be.
+TEST_P(Lockstep, DeviceStoppedByAnEdge) {
+  for (const std::uint64_t at : {0u, 1u, 254u, 255u, 256u, 511u, 512u}) {
+    ModelDevice device(options.config, options.state);
+    device.stops_at_edge = at;
+    const LockstepReport report = run_lockstep(device, quads, options);
+    EXPECT_EQ(report.mismatches, 1u);
+    ASSERT_TRUE(report.first_divergence);
+    EXPECT_EQ(*report.first_divergence, "cycle " + std::to_string(at) + ", the RTL stopped: at its edge; seed 1");
+  }
+}
+
+/// A difference long after the first batches, with more clocks of the device behind it than are kept.
+TEST_P(Lockstep, LateDifference) {
+  const LockstepReport whole = run({});
+  ASSERT_GT(whole.cycles_rtl, 3000u);
+  const std::uint64_t at = whole.cycles_rtl - 1;
+  const LockstepReport report = run([at](std::uint64_t cycle, ModelDevice::Outputs& out) {
+    if (cycle >= at) out.sample.busy = !out.sample.busy;
+  });
+  EXPECT_EQ(report.cycle_mismatches, 1u);
+  ASSERT_TRUE(report.first_divergence);
+  EXPECT_EQ(report.first_divergence->find("cycle " + std::to_string(at) + ", busy"), 0u) << *report.first_divergence;
+  EXPECT_EQ(report.fragment_hash, whole.fragment_hash);
+}
+
+TEST_P(Lockstep, DeviceThatNeverEndsIsGivenUp) {
   options.stop_at_first = false;
   options.limit_differences = 0;
   options.watchdog = 2000;
@@ -317,14 +351,14 @@ TEST_F(Lockstep, DeviceThatNeverEndsIsGivenUp) {
   EXPECT_GT(report.cycle_mismatches, 0u);
 }
 
-TEST_F(Lockstep, WatchdogEndsARunWithoutProgress) {
+TEST_P(Lockstep, WatchdogEndsARunWithoutProgress) {
   options.stall = 0.999;
   options.watchdog = 200;
   EXPECT_THROW(run({}), WatchdogError);
   EXPECT_THROW(run_clocked_model_alone(quads, options), WatchdogError);
 }
 
-TEST_F(Lockstep, LimitOfFragments) {
+TEST_P(Lockstep, LimitOfFragments) {
   options.limit_fragments = 100;
   const LockstepReport report = run({});
   EXPECT_EQ(report.fragments, 100u);
@@ -332,7 +366,7 @@ TEST_F(Lockstep, LimitOfFragments) {
   EXPECT_TRUE(report.agreed());
 }
 
-TEST_F(Lockstep, NoQuadsNoFragments) {
+TEST_P(Lockstep, NoQuadsNoFragments) {
   quads.clear();
   const LockstepReport report = run({});
   EXPECT_EQ(report.fragments, 0u);

@@ -93,7 +93,7 @@ TEST(MutantList, ASampleIsDrawnBySeed) {
   EXPECT_EQ(names(2, 1), names(2, 1));
   EXPECT_EQ(names(100000, 1).size(), read_mutants().size());
   std::set<std::string> drawn;
-  for (std::uint64_t seed = 1; seed <= 2000; ++seed) drawn.insert(names(1, seed).at(0));
+  for (std::uint64_t seed = 1; seed <= 4000; ++seed) drawn.insert(names(1, seed).at(0));
   EXPECT_EQ(drawn.size(), read_mutants().size()) << "a mutant that no sample ever holds";
 }
 

@@ -52,13 +52,14 @@ std::string larger_viewport(const Config& config, int pixels) {
 
 const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
 // In the order of SkipBit's bits.
-const std::array<std::string, 5> skip_names{"tiles", "quads", "hidden", "walk", "operands"};
+const std::array<std::string, 6> skip_names{"tiles", "quads", "hidden", "walk", "operands", "plane"};
 
 /// all, none, or names with commas between. `hidden` is among all where the machine can and there is a depth test: the
-/// pictures of this program are drawn as that skip asks for.
+/// pictures of this program are drawn as that skip asks for. `plane`, where the machine can.
 std::uint32_t parse_skips(std::string_view list, const Config& config, bool depth) {
   const bool can_hide = config.hierarchical_z_bits != 0;
-  if (list == "all") return skip_default | (can_hide && depth ? skip_hidden : 0u);
+  const bool can_plane = config.plane_tolerance_bits != 0;
+  if (list == "all") return skip_default | (can_hide && depth ? skip_hidden : 0u) | (can_plane ? skip_plane : 0u);
   if (list == "none") return 0;
   std::uint32_t skips = 0;
   while (true) {
@@ -69,6 +70,10 @@ std::uint32_t parse_skips(std::string_view list, const Config& config, bool dept
       throw UsageError(
           "--skip hidden: this configuration holds no depths of tiles; --set hierarchical_z_bits=12 for example");
     if ((skips & skip_hidden) != 0 && !depth) throw UsageError("--skip hidden: there is no depth test with --no-depth");
+    if ((skips & skip_plane) != 0 && !can_plane)
+      throw UsageError(
+          "--skip plane: this configuration has mean value weights alone; --set plane_tolerance_bits=31 for quads that "
+          "are exactly plane, 1 to 16 for those that nearly are");
     if (comma == list.size()) return skips;
     list.remove_prefix(comma + 1);
   }
@@ -200,7 +205,8 @@ void StateOptions::add_to(CLI::App& app) {
          "What the machine may leave out: all, none, or a list of tiles (blocks and tiles that no covered pixel "
          "can be in), quads (those that cannot give a fragment), walk (of homogeneous quads what misses the scissor), "
          "operands (work inside a pixel that its fragment does not depend on) and hidden (tiles behind what was drawn, "
-         "with hierarchical_z_bits); without hidden the fragments are the same, with it the picture is")
+         "with hierarchical_z_bits) and plane (mean value weights of quads whose values are plane, with "
+         "plane_tolerance_bits); without hidden and plane the fragments are the same, with it the picture is")
       ->type_name("LIST")
       ->capture_default_str()
       ->group(group);
@@ -315,10 +321,12 @@ void InputOptions::add_light_to(CLI::App& app) {
 }
 
 void EngineOptions::add_to(CLI::App& app) {
-  app.add_option("--engine", engine, "rtl, model, float (the paper's formulas in double) or truth")
+  app.add_option("--engine", engine,
+                 "rtl, model, float (the paper's formulas in double), shader (the paper's shader in fp32 on OpenGL) or "
+                 "truth")
       ->type_name("ENGINE")
       ->capture_default_str();
-  app.add_option("--snap", snap, "on or off: float and truth draw the snapped or the given quads")
+  app.add_option("--snap", snap, "on or off: float, shader and truth draw the snapped or the given quads")
       ->type_name("on|off")
       ->capture_default_str();
   app.add_option("--stall", stall, "rtl: probability per clock that the output is not ready")->type_name("P");
@@ -339,7 +347,7 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
     throw UsageError("--stall and --gap are for --engine rtl; " + engine + " has no clock");
   const bool machine = s.kind == EngineKind::rtl || s.kind == EngineKind::model;
   if (machine && !s.snap)
-    throw UsageError("--snap off is for the engines float and truth; the machine takes snapped quads only");
+    throw UsageError("--snap off is for the engines float, shader and truth; the machine takes snapped quads only");
   return s;
 }
 

@@ -4,6 +4,8 @@
 #include "model/quad_reject.hpp"
 #include "model/quad_setup.hpp"
 #include "model/tile_walk.hpp"
+#include "tb/compare/sheet.hpp"
+#include "tb/render/frame.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +28,10 @@ std::uint32_t& at(TileFates& fates, TileFate fate, int x, int y) {
   return fates.count[static_cast<std::size_t>(
       fate)][static_cast<std::size_t>(y) * static_cast<std::size_t>(fates.columns) + static_cast<std::size_t>(x)];
 }
+
+/// As a legend has them.
+constexpr std::array<std::string_view, tile_fate_count> fate_texts{
+    "entered", "hidden", "not hit", "in a block not hit", "outside znear, zfar", "on a line", "culled"};
 
 /// All tiles of a box, those beyond the viewport apart.
 template <class F>
@@ -115,6 +121,33 @@ golden::FrameImage skip_picture(const TileFates& fates, const Config& config, co
     }
   }
   return image;
+}
+
+golden::Image8 skip_sheet(const TileFates& fates, const Config& config, const DrawState& state,
+                          const std::string& title) {
+  compare::Sheet sheet;
+  sheet.title = title;
+  sheet.subtitle = "Tiles by what became of them, over all quads whose box they are in";
+  compare::SheetRow row;
+  const auto add = [&](const std::string& name, const TileFates& shown) {
+    sheet.columns.push_back(name);
+    row.cells.push_back(compare::SheetCell{frame_picture(skip_picture(shown, config, state)), {}});
+  };
+  add("all", fates);
+  for (std::size_t fate = 0; fate < tile_fate_count; ++fate) {
+    const std::string text(fate_texts[fate]);
+    const std::uint64_t total = fates.total(static_cast<TileFate>(fate));
+    compare::SheetKey key{{}, text + ": " + std::to_string(total)};
+    for (std::size_t c = 0; c < 3; ++c) key.colour[c] = static_cast<std::uint8_t>(std::lround(255 * colours[fate][c]));
+    sheet.keys.push_back(std::move(key));
+    if (total == 0) continue;
+    TileFates alone = fates;
+    for (std::size_t other = 0; other < tile_fate_count; ++other)
+      if (other != fate) std::fill(alone.count[other].begin(), alone.count[other].end(), 0);
+    add(text, alone);
+  }
+  sheet.rows.push_back(std::move(row));
+  return compare::draw_sheet(sheet, std::clamp(state.width, 192, 384));
 }
 
 }  // namespace quadrille::cli

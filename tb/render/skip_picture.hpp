@@ -2,12 +2,14 @@
 #pragma once
 
 #include "golden/io/frame_image.hpp"
+#include "golden/io/png.hpp"
 #include "model/config.hpp"
 #include "model/records.hpp"
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -41,5 +43,10 @@ TileFates tile_fates(std::span<const SnappedQuad> quads, const Config& config, c
 /// Each tile in the mean of its fates' colours, weighted by how many quads had them, the darker the fewer; layers
 /// `skip.<fate>` with the numbers. Pixels of the viewport, a tile's alike.
 golden::FrameImage skip_picture(const TileFates& fates, const Config& config, const DrawState& state);
+
+/// That picture and beside it each fate that some tile had, alone in its colour, the darker the fewer; a legend with
+/// the totals.
+golden::Image8 skip_sheet(const TileFates& fates, const Config& config, const DrawState& state,
+                          const std::string& title);
 
 }  // namespace quadrille::cli

@@ -53,6 +53,19 @@ TEST(SkipPicture, EveryTileOfABoxHasAFate) {
   EXPECT_EQ(image.layer.at("skip.entered")[image.index(127, 127)], 1);
   EXPECT_GT(image.b[image.index(100, 140)], image.g[image.index(100, 140)]);  // a block beside the strip is blue
   EXPECT_EQ(image.r[image.index(255, 0)], 0);                                 // no quad there
+
+  // A picture of all and one of each fate that there is; a legend of all.
+  const golden::Image8 sheet = skip_sheet(fates, Config{}, state, "five"),
+                       bare = skip_sheet(nothing, Config{}, all, "");
+  EXPECT_GE(sheet.width, 6 * 256);  // all, entered, tile, block, line, culled
+  EXPECT_LT(bare.width, 3 * 256 + 256);
+  const std::array<std::array<int, 3>, 2> legend{{{153, 64, 204}, {217, 38, 51}}};  // hidden, culled
+  for (const auto& colour : legend) {
+    int found = 0;
+    for (std::size_t i = 0; i < sheet.rgba.size(); i += 4)
+      found += sheet.rgba[i] == colour[0] && sheet.rgba[i + 1] == colour[1] && sheet.rgba[i + 2] == colour[2] ? 1 : 0;
+    EXPECT_GE(found, 50);
+  }
 }
 
 TEST(SkipPicture, HiddenTiles) {

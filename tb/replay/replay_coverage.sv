@@ -34,9 +34,22 @@ module replay_coverage (
   logic fetched_q;
   logic [TILE_LOG2+1:0] count_q;  // clocks since the fetch
 
-  logic count_row, count_busy, count_behind;  // of performance_counters
+  logic count_masked, count_row, count_busy, count_behind;  // of performance_counters
+
+  // Of masked_depth, which hides nothing here.
+  logic rows_load, issue, rows_done;
+  logic [TILE_LOG2-1:0] issue_row;
+  logic [TILE-1:0] covered;
 
   stamp_coverage u_coverage (
+      .wait_i(1'b0),
+      .hidden_i(1'b0),
+      .rows_load_o(rows_load),
+      .issue_o(issue),
+      .rows_done_o(rows_done),
+      .issue_row_o(issue_row),
+      .covered_o(covered),
+      .seen_i({TILE{1'b1}}),
       .present_i(valid_i && !fetched_q),
       .fetch_o(fetch),
       .fetch_ptr_o(fetch_ptr),
@@ -55,6 +68,7 @@ module replay_coverage (
       .mask_o(mask),
       .front_o(front),
       .tie_o(tie),
+      .count_masked_o(count_masked),
       .count_row_o(count_row),
       .count_busy_o(count_busy),
       .count_behind_o(count_behind),
@@ -92,5 +106,6 @@ module replay_coverage (
   end
 
   logic unused;
-  assign unused = ^{fetch_ptr, load, load_ptr, stamp_ptr, push_end, push_homogeneous, count_row, count_busy, count_behind};
+  assign unused = ^{fetch_ptr, load, load_ptr, stamp_ptr, push_end, push_homogeneous, count_masked, count_row, count_busy, count_behind,
+      rows_load, issue, rows_done, issue_row, covered};
 endmodule

@@ -62,6 +62,7 @@ module replay_setup (
   logic [PAIRS*quadrille_pkg::DOT_OUT_BITS-1:0] result0, result1;
   logic [PAIRS*T-1:0] xi, yi, xj, yj;
   logic drop;
+  logic [SLOT-1:0] drop_slot;
   logic count_line, count_job, count_busy;  // of performance_counters
   logic [V:0] offset_x, offset_y;
 
@@ -125,6 +126,7 @@ module replay_setup (
       .separate_i(1'b0),
       .cull_i(2'd0),
       .drop_o(drop),
+      .drop_slot_o(drop_slot),
       .count_line_o(count_line),
       .count_job_o(count_job),
       .count_busy_o(count_busy),
@@ -134,5 +136,5 @@ module replay_setup (
   );
 
   logic unused;
-  assign unused = ^{xi, yi, xj, yj, drop, count_line, count_job, count_busy};
+  assign unused = ^{xi, yi, xj, yj, drop, drop_slot, count_line, count_job, count_busy};
 endmodule

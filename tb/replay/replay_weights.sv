@@ -68,6 +68,8 @@ module replay_weights (
       .v_sig_i(v_sig),
       .d_neg_i(d_neg),
       .class_i(ratio_class),
+      .plane_i(1'b0),
+      .behind_diagonal_i(1'b0),
       .k_neg_i(k_neg),
       .k_exp_i(k_exp),
       .k_sig_i(k_sig),

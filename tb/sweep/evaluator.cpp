@@ -383,6 +383,8 @@ PointResult Evaluator::evaluate(const Config& point) {
   return result;
 }
 
+std::string Evaluator::refusal(const Config& point) { return impl_->refusal(point); }
+
 std::vector<float> Evaluator::error_map(const Config& point) {
   Impl& m = *impl_;
   const DrawState& state = m.input.state;

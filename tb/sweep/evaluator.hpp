@@ -17,6 +17,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -109,6 +110,9 @@ class Evaluator {
   /// Largest arithmetic |Δλ'| of any fragment at each pixel, row-major width × height; −1 where nothing is drawn (a
   /// refused point draws nothing), 0 where only what is not measured is. Counts as an evaluate() call.
   std::vector<float> error_map(const Config& point);
+
+  /// Why a configuration cannot draw the input; empty if it can.
+  std::string refusal(const Config& point);
 
  private:
   struct Impl;

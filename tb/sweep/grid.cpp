@@ -183,6 +183,7 @@ std::vector<Axis> default_axes() {
                      "stamp_fifo_log2=1:5",
                      "hierarchical_z_bits=0,8,12,16",
                      "hierarchical_z_tiles_log2=8:14:2",
+                     "plane_tolerance_bits=0,31",
                      "quad_id_bits=16,24,32",
                      "performance_counters=0,1"});
 }

@@ -34,10 +34,10 @@ std::string error_name(std::size_t kind, std::size_t quantity, std::size_t stati
 
 /// Keys without a signal or a rounding of their own.
 bool is_idle_in_proofs(std::string_view key) {
-  constexpr std::array<std::string_view, 9> idle{
-      "pixels_per_clock",     "dot_units",           "quad_slots_log2",
-      "tile_slots_log2",      "stamp_fifo_log2",     "quad_id_bits",
-      "performance_counters", "hierarchical_z_bits", "hierarchical_z_tiles_log2"};
+  constexpr std::array<std::string_view, 10> idle{
+      "pixels_per_clock",          "dot_units",           "quad_slots_log2",      "tile_slots_log2",
+      "stamp_fifo_log2",           "quad_id_bits",        "performance_counters", "hierarchical_z_bits",
+      "hierarchical_z_tiles_log2", "plane_tolerance_bits"};
   return std::ranges::find(idle, key) != idle.end();
 }
 

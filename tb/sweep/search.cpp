@@ -50,6 +50,7 @@ constexpr std::array key_effects{
     KeyEffect{"stamp_fifo_log2", Effect::none},
     KeyEffect{"hierarchical_z_bits", Effect::none},  // the sweep draws every tile
     KeyEffect{"hierarchical_z_tiles_log2", Effect::none},
+    KeyEffect{"plane_tolerance_bits", Effect::none},      // the sweep draws with mean value weights
     KeyEffect{"quad_id_bits", Effect::larger_is_better},  // ids that are refused
     KeyEffect{"performance_counters", Effect::none},
 };

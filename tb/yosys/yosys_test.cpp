@@ -20,6 +20,9 @@ std::filesystem::path work_directory(const char* name) {
 TEST(Yosys, ItsVerilogPassesCosimulation) {
   LockstepOptions options;
   options.config.set("significand_bits", 12);
+  options.config.set("hierarchical_z_bits", 12);
+  options.config.set("hierarchical_z_tiles_log2", 6);
+  options.config.set("performance_counters", 1);
   options.state = small_state(options.config);
   options.stall = options.gap = 0.1;
   options.optimise = 1;
@@ -32,6 +35,7 @@ TEST(Yosys, ItsVerilogPassesCosimulation) {
     EXPECT_TRUE(report.complete);
     EXPECT_GT(report.fragments, 1000u);
     std::printf("matched %llu fragments\n", static_cast<unsigned long long>(report.fragments));
+    return report;
   };
   // A built-in scene, then every corner of the machine.
   options.state = small_state(options.config, 128);
@@ -42,6 +46,14 @@ TEST(Yosys, ItsVerilogPassesCosimulation) {
   agrees(scene);
   options.state = small_state(options.config);
   agrees(random_quads(options.config, options.state, 77, 200));
+  // What is hidden by a quad over everything, and the counter of it.
+  options.state.skip |= skip_hidden;
+  std::vector<SnappedQuad> quads = random_quads(options.config, options.state, 78, 200);
+  WindowQuad front;
+  front.vertex = {{{-4, -4, 0.3, 1}, {-4, 70, 0.3, 1}, {70, 70, 0.3, 1}, {70, -4, 0.3, 1}}};
+  for (auto& attribute : front.attribute) attribute.assign(static_cast<std::size_t>(options.state.attributes), 0.5);
+  quads.insert(quads.begin(), snap_quad(front, options.config, options.state));
+  EXPECT_GT(agrees(quads).counters[PerformanceCounter::tiles_hidden], 100u);
   std::filesystem::remove_all(directory);
 }
 

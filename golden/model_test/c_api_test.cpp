@@ -1,0 +1,435 @@
+// The C interface against the C++ one, bit for bit and clock for clock, and its errors.
+#include "golden/scenes/scenes.hpp"
+#include "golden/scenes/stress.hpp"
+#include "model/bit_vector.hpp"
+#include "model/boundaries.hpp"
+#include "model/c_api/quadrille.h"
+#include "model/clocked.hpp"
+#include "model/config_text.hpp"
+#include "model/snap.hpp"
+#include "model/support/prng.hpp"
+#include "model/untimed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace quadrille {
+namespace {
+
+constexpr int side = 64;
+
+struct Setting {
+  const char* config;
+  std::uint32_t skip;
+  int attributes;
+  bool perspective, depth;
+};
+
+constexpr std::array settings{
+    Setting{"", skip_default, 4, true, true},
+    Setting{"significand_bits = 12\nattribute_slots = 2\npixels_per_clock = 4", 0, 2, false, true},
+    Setting{"pixels_per_clock=2 attribute_slots=8 dot_units=4", skip_default, 3, true, false},
+    Setting{"hierarchical_z_bits=12 plane_tolerance_bits=31", skip_default | skip_hidden | skip_plane, 4, true, true},
+};
+
+Config config_of(const Setting& setting) {
+  Config config;
+  apply_config_text(setting.config, config);
+  return config;
+}
+
+DrawState state_of(const Setting& setting) {
+  DrawState state;
+  state.width = state.height = side;
+  state.scissor_x0 = 3;
+  state.scissor_y1 = state.scissor_x1 = side - 1;
+  state.attributes = setting.attributes;
+  state.perspective = setting.perspective;
+  state.depth = setting.depth;
+  state.zfar = 0.9375;
+  state.skip = setting.skip;
+  return state;
+}
+
+quadrille_draw_state c_state_of(const Setting& setting) {
+  quadrille_draw_state state;
+  EXPECT_EQ(quadrille_draw_state_init(&state, sizeof state, side, side), QUADRILLE_OK);
+  state.scissor_x0 = 3;
+  state.scissor_y1 = state.scissor_x1 = side - 1;
+  state.attributes = setting.attributes;
+  state.perspective = setting.perspective;
+  state.depth = setting.depth;
+  state.zfar = 0.9375;
+  state.skip = setting.skip;
+  return state;
+}
+
+/// A figure with a vertex behind the eye, and some quads of every stress family.
+std::vector<WindowQuad> quads_of(int attributes) {
+  auto quads = golden::scene_quads(golden::make_scene("fig8_behind"), side, side);
+  for (const auto& info : golden::stress_families())
+    for (const WindowQuad& quad : golden::make_stress(info.family, 2, 7, 1.0, side, side, attributes))
+      quads.push_back(quad);
+  for (std::size_t i = 0; i < quads.size(); ++i) {
+    quads[i].id = static_cast<std::uint32_t>(100 + i);
+    for (auto& values : quads[i].attribute) values.resize(static_cast<std::size_t>(attributes));
+  }
+  return quads;
+}
+
+std::vector<quadrille_vertex> c_vertices(const std::vector<WindowQuad>& quads) {
+  std::vector<quadrille_vertex> vertices;
+  for (const WindowQuad& quad : quads)
+    for (std::size_t i = 0; i < 4; ++i) {
+      quadrille_vertex v{quad.vertex[i].x, quad.vertex[i].y, quad.vertex[i].z, quad.vertex[i].w, {}};
+      // What the draw state does not use must not matter.
+      std::fill(std::begin(v.attribute), std::end(v.attribute), std::numeric_limits<double>::quiet_NaN());
+      std::copy(quad.attribute[i].begin(), quad.attribute[i].end(), v.attribute);
+      vertices.push_back(v);
+    }
+  return vertices;
+}
+
+::testing::AssertionResult same(const quadrille_fragment& c, const Fragment& f) {
+  Fragment copy;
+  copy.quad = c.quad;
+  copy.x = c.x;
+  copy.y = c.y;
+  copy.front = c.front != 0;
+  copy.flags = c.flags;
+  copy.depth = c.depth;
+  std::copy(std::begin(c.attribute), std::end(c.attribute), copy.attribute.begin());
+  if (copy == f && c.reserved == 0) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "quad " << c.quad << " (" << c.x << ", " << c.y << "), expected quad "
+                                       << f.quad << " (" << f.x << ", " << f.y << ")";
+}
+
+void expect_same(const std::vector<quadrille_fragment>& actual, const std::vector<Fragment>& expected) {
+  ASSERT_EQ(actual.size(), expected.size());
+  for (std::size_t i = 0; i < actual.size(); ++i) ASSERT_TRUE(same(actual[i], expected[i])) << i;
+}
+
+std::string error() { return quadrille_last_error(); }
+
+/// Takes what waits, a few at a time.
+template <class Machine, class Pending, class Take>
+std::vector<quadrille_fragment> take_all(Machine* machine, Pending pending, Take take) {
+  std::size_t count = 0;
+  EXPECT_EQ(pending(machine, &count), QUADRILLE_OK);
+  std::vector<quadrille_fragment> all(count + 1);
+  std::size_t taken = 0;
+  for (std::size_t at = 0; at < count; at += taken) {
+    EXPECT_EQ(take(machine, all.data() + at, 100, &taken), QUADRILLE_OK);
+    if (taken == 0) break;
+    all.resize(std::max(all.size(), at + taken + 101));
+  }
+  EXPECT_EQ(take(machine, all.data(), 1, &taken), QUADRILLE_OK);
+  EXPECT_EQ(taken, 0u);
+  all.resize(count);
+  return all;
+}
+
+class CApi : public testing::TestWithParam<Setting> {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(quadrille_untimed_create(GetParam().config, &untimed_), QUADRILLE_OK) << error();
+    ASSERT_EQ(quadrille_clocked_create(GetParam().config, &clocked_), QUADRILLE_OK) << error();
+    const quadrille_draw_state state = c_state_of(GetParam());
+    ASSERT_EQ(quadrille_untimed_set_state(untimed_, &state), QUADRILLE_OK) << error();
+    ASSERT_EQ(quadrille_clocked_set_state(clocked_, &state), QUADRILLE_OK) << error();
+    for (const WindowQuad& quad : given_) snapped_.push_back(snap_quad(quad, config_, state_));
+  }
+  void TearDown() override {
+    quadrille_untimed_destroy(untimed_);
+    quadrille_clocked_destroy(clocked_);
+  }
+
+  Config config_ = config_of(GetParam());
+  DrawState state_ = state_of(GetParam());
+  std::vector<WindowQuad> given_ = quads_of(GetParam().attributes);
+  std::vector<quadrille_vertex> vertices_ = c_vertices(given_);
+  std::vector<SnappedQuad> snapped_;
+  quadrille_untimed* untimed_ = nullptr;
+  quadrille_clocked* clocked_ = nullptr;
+};
+
+TEST_P(CApi, UntimedIsTheUntimedModel) {
+  std::vector<Fragment> expected;
+  UntimedModel model(config_, state_);
+  for (const SnappedQuad& quad : snapped_)
+    model.draw(quad, [&](auto fragments) { expected.insert(expected.end(), fragments.begin(), fragments.end()); });
+  ASSERT_GT(expected.size(), 1000u);
+  ASSERT_EQ(quadrille_untimed_draw(untimed_, 100, vertices_.data(), given_.size()), QUADRILLE_OK) << error();
+  expect_same(take_all(untimed_, quadrille_untimed_pending, quadrille_untimed_take), expected);
+  std::uint64_t value = 0;
+  ASSERT_EQ(quadrille_untimed_counter(untimed_, "fragments", &value), QUADRILLE_OK);
+  EXPECT_EQ(value, expected.size());
+  ASSERT_EQ(quadrille_untimed_counter(untimed_, "quads_empty", &value), QUADRILLE_OK);
+  EXPECT_EQ(value, model.stats().rejected[static_cast<std::size_t>(QuadReject::empty)]);
+  ASSERT_EQ(quadrille_untimed_counter(untimed_, "tiles_hidden", &value), QUADRILLE_OK);
+  EXPECT_EQ(value, model.stats().tiles_hidden);
+}
+
+/// Clock by clock beside the C++ model, with gaps and stalls; the ports as words too.
+TEST_P(CApi, ClockedIsTheClockedModelInEveryClock) {
+  ClockedModel model(config_, state_);
+  ClockedInputs inputs;
+  inputs.reset = true;
+  model.clock(inputs);
+  inputs.reset = false;
+  while (model.comb().busy) model.clock(inputs);
+  quadrille_clocked* by_ports = nullptr;
+  ASSERT_EQ(quadrille_clocked_create(GetParam().config, &by_ports), QUADRILLE_OK);
+  std::vector<std::uint32_t> words = tb::pack_state(state_, config_);
+  words.resize(QUADRILLE_STATE_WORDS);
+  ASSERT_EQ(quadrille_clocked_state_port(by_ports, words.data()), QUADRILLE_OK) << error();
+  const int bits = boundary_layout(Boundary::fragment, config_).bits();
+
+  ASSERT_EQ(quadrille_clocked_push(clocked_, 100, vertices_.data(), given_.size()), QUADRILLE_OK) << error();
+  golden::Prng random(11);
+  std::vector<Fragment> expected;
+  std::size_t beat = 0, stalled = 0;
+  std::uint64_t cycle = 0;
+  for (;; ++cycle) {
+    ASSERT_LT(cycle, 2'000'000u);
+    const ClockedOutputs now = model.comb();
+    if (beat == 4 * snapped_.size() && !now.busy) break;
+
+    quadrille_outputs outputs;
+    ASSERT_EQ(quadrille_clocked_outputs(clocked_, &outputs), QUADRILLE_OK);
+    std::array<std::int32_t, 4> port{};
+    std::array<std::uint32_t, QUADRILLE_FRAGMENT_WORDS> fragments;
+    ASSERT_EQ(quadrille_clocked_output_ports(by_ports, &port[0], &port[1], &port[2], &port[3], fragments.data()),
+              QUADRILLE_OK);
+    ASSERT_EQ((std::array<std::uint32_t, 4>{outputs.vertex_ready, outputs.fragment_valid, outputs.busy,
+                                            outputs.fragment_mask}),
+              (std::array<std::uint32_t, 4>{now.vertex_ready, now.fragment_valid, now.busy, now.fragment_mask()}))
+        << cycle;
+    ASSERT_EQ((std::array<std::int32_t, 4>{now.vertex_ready, now.fragment_valid, now.busy,
+                                           static_cast<std::int32_t>(now.fragment_mask())}),
+              port)
+        << cycle;
+    const Record lanes = Record::from_words(fragments.data(), 32 * QUADRILLE_FRAGMENT_WORDS);
+    for (std::size_t lane = 0; lane < now.fragment.size(); ++lane) {
+      if (now.fragment[lane] == nullptr) continue;
+      ASSERT_TRUE(same(outputs.fragment[lane], *now.fragment[lane])) << cycle;
+      std::vector<std::uint32_t> one;
+      for (int at = 0; at < bits; at += 32)
+        one.push_back(
+            static_cast<std::uint32_t>(lanes.get(static_cast<int>(lane) * bits + at, std::min(32, bits - at))));
+      ASSERT_EQ(tb::unpack_fragment(one.data(), bits, config_), *now.fragment[lane]) << cycle;
+    }
+
+    inputs.vertex_valid = beat < 4 * snapped_.size() && random.below(4) != 0;
+    inputs.fragment_ready = random.below(3) != 0;
+    std::array<std::uint32_t, QUADRILLE_VERTEX_WORDS> vertex{};
+    if (inputs.vertex_valid) {
+      inputs.vertex_id = snapped_[beat / 4].id;
+      inputs.vertex = snapped_[beat / 4].vertex[beat % 4];
+      const quadrille_vertex& v = vertices_[beat];
+      ASSERT_EQ(quadrille_vertex_port(by_ports, inputs.vertex_id, &v.x, v.attribute, vertex.data()), QUADRILLE_OK)
+          << error();
+    }
+    if (now.fragment_valid && inputs.fragment_ready)
+      now.for_each_fragment([&](const Fragment& f) { expected.push_back(f); });
+    stalled += now.fragment_valid && !inputs.fragment_ready;
+    beat += inputs.vertex_valid && now.vertex_ready;
+    ASSERT_EQ(quadrille_clocked_clock(clocked_, 0u | (inputs.vertex_valid ? +QUADRILLE_VERTEX_VALID : 0) |
+                                                    (inputs.fragment_ready ? +QUADRILLE_FRAGMENT_READY : 0)),
+              QUADRILLE_OK);
+    ASSERT_EQ(quadrille_clocked_clock_ports(by_ports, 0, 0, inputs.vertex_valid, vertex.data(), inputs.fragment_ready),
+              QUADRILLE_OK)
+        << error();
+    model.clock(inputs);
+  }
+  EXPECT_GT(stalled, 100u);
+  ASSERT_GT(expected.size(), 1000u);
+  expect_same(take_all(clocked_, quadrille_clocked_pending, quadrille_clocked_take), expected);
+  std::size_t waiting = 1;
+  EXPECT_EQ(quadrille_clocked_pending(by_ports, &waiting), QUADRILLE_OK);
+  EXPECT_EQ(waiting, 0u);
+  std::uint32_t index = 0;
+  for (; const char* name = quadrille_clocked_counter_name(index); ++index) {
+    std::array<std::uint64_t, 2> value{};
+    ASSERT_EQ(quadrille_clocked_counter(clocked_, name, &value[0]), QUADRILLE_OK);
+    ASSERT_EQ(quadrille_clocked_counter(by_ports, name, &value[1]), QUADRILLE_OK);
+    EXPECT_EQ(value[0], model.counters().value[index]) << name;
+    EXPECT_EQ(value[1], model.counters().value[index]) << name;
+  }
+  EXPECT_EQ(index, counter_count);
+  quadrille_clocked_destroy(by_ports);
+}
+
+TEST_P(CApi, ARunGivesWhatTheUntimedModelDraws) {
+  ASSERT_EQ(quadrille_untimed_draw(untimed_, 100, vertices_.data(), given_.size()), QUADRILLE_OK) << error();
+  ASSERT_EQ(quadrille_clocked_push(clocked_, 100, vertices_.data(), given_.size()), QUADRILLE_OK) << error();
+  std::uint64_t first = 0, rest = 0, before = 0, counted = 0;
+  ASSERT_EQ(quadrille_clocked_counter(clocked_, "clocks", &before), QUADRILLE_OK);
+  ASSERT_EQ(quadrille_clocked_run(clocked_, 500, &first), QUADRILLE_OK);
+  EXPECT_EQ(first, 500u);
+  ASSERT_EQ(quadrille_clocked_run(clocked_, std::uint64_t{1} << 40, &rest), QUADRILLE_OK);
+  ASSERT_EQ(quadrille_clocked_counter(clocked_, "clocks", &counted), QUADRILLE_OK);
+  EXPECT_EQ(counted - before, first + rest);
+  const auto clocked = take_all(clocked_, quadrille_clocked_pending, quadrille_clocked_take);
+  const auto untimed = take_all(untimed_, quadrille_untimed_pending, quadrille_untimed_take);
+  ASSERT_GT(untimed.size(), 1000u);
+  if ((GetParam().skip & skip_hidden) != 0) return;  // what is hidden depends on when a tile's depth is known
+  ASSERT_EQ(clocked.size(), untimed.size());
+  for (std::size_t i = 0; i < clocked.size(); ++i)
+    ASSERT_EQ(std::memcmp(&clocked[i], &untimed[i], sizeof clocked[i]), 0) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Settings, CApi, testing::ValuesIn(settings));
+
+// ---- Errors ----
+
+class CApiErrors : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(quadrille_untimed_create(nullptr, &untimed_), QUADRILLE_OK);
+    ASSERT_EQ(quadrille_clocked_create("", &clocked_), QUADRILLE_OK);
+    ASSERT_EQ(quadrille_draw_state_init(&state_, sizeof state_, side, side), QUADRILLE_OK);
+    vertices_ = {{{8, 8, 0.5, 1, {}}, {8, 40, 0.5, 1, {}}, {40, 40, 0.5, 1, {}}, {40, 8, 0.5, 1, {}}}};
+  }
+  void TearDown() override {
+    quadrille_untimed_destroy(untimed_);
+    quadrille_clocked_destroy(clocked_);
+  }
+  static void expect_error(quadrille_status actual, quadrille_status expected, const char* words) {
+    EXPECT_EQ(actual, expected) << words;
+    EXPECT_NE(error().find(words), std::string::npos) << error();
+  }
+
+  quadrille_untimed* untimed_ = nullptr;
+  quadrille_clocked* clocked_ = nullptr;
+  quadrille_draw_state state_{};
+  std::array<quadrille_vertex, 4> vertices_{};
+};
+
+TEST_F(CApiErrors, Configurations) {
+  quadrille_untimed* untimed = untimed_;
+  expect_error(quadrille_untimed_create("significand_bits = 18\nsignificant_bits = 3", &untimed), QUADRILLE_BAD_CONFIG,
+               "line 2");
+  EXPECT_EQ(untimed, nullptr);
+  quadrille_clocked* clocked = nullptr;
+  expect_error(quadrille_clocked_create("viewport_bits=14 guard_bits=4", &clocked), QUADRILLE_BAD_CONFIG, "VAL_BITS");
+  expect_error(quadrille_clocked_create("", nullptr), QUADRILLE_BAD_ARGUMENT, "NULL");
+  std::int32_t value = 0;
+  EXPECT_EQ(quadrille_config_value("significand_bits=12", "attribute_frac_bits", &value), QUADRILLE_OK);
+  EXPECT_EQ(value, 14);
+  EXPECT_EQ(quadrille_config_value(nullptr, "VAL_BITS", &value), QUADRILLE_OK);
+  EXPECT_EQ(value, 63);
+  expect_error(quadrille_config_value(nullptr, "VAL", &value), QUADRILLE_BAD_ARGUMENT, "\"VAL\"");
+}
+
+TEST_F(CApiErrors, DrawStates) {
+  const quadrille_draw_state good = state_;
+  const auto refused = [&](quadrille_status status, const char* words) {
+    expect_error(quadrille_untimed_set_state(untimed_, &state_), status, words);
+    expect_error(quadrille_clocked_set_state(clocked_, &state_), status, words);
+    state_ = good;
+  };
+  state_.size = 8;
+  refused(QUADRILLE_BAD_ARGUMENT, "sizeof");
+  state_.width = 5000;
+  refused(QUADRILLE_BAD_STATE, "viewport");
+  state_.scissor_x1 = side + 1;
+  refused(QUADRILLE_BAD_STATE, "scissor");
+  state_.scissor_y0 = -1;
+  refused(QUADRILLE_BAD_STATE, "scissor");
+  state_.cull = 3;
+  refused(QUADRILLE_BAD_STATE, "cull");
+  state_.cull = 258;
+  refused(QUADRILLE_BAD_STATE, "cull");
+  state_.zfar = 1.5;
+  refused(QUADRILLE_BAD_STATE, "zfar");
+  state_.znear = std::numeric_limits<double>::quiet_NaN();
+  refused(QUADRILLE_BAD_STATE, "znear");
+  state_.attributes = 5;
+  refused(QUADRILLE_BAD_STATE, "attribute_slots");
+  state_.attributes = -1;
+  refused(QUADRILLE_BAD_STATE, "attributes");
+  state_.skip = 64;
+  refused(QUADRILLE_BAD_STATE, "skip");
+  state_.skip |= QUADRILLE_SKIP_HIDDEN;
+  refused(QUADRILLE_BAD_STATE, "hierarchical_z_bits");
+  state_.skip |= QUADRILLE_SKIP_PLANE;
+  refused(QUADRILLE_BAD_STATE, "plane_tolerance_bits");
+  expect_error(quadrille_draw_state_init(&state_, sizeof state_ - 8, 1, 1), QUADRILLE_BAD_ARGUMENT, "sizeof");
+}
+
+TEST_F(CApiErrors, VerticesDrawNothingOfTheirCall) {
+  std::array<quadrille_vertex, 8> two{};
+  std::copy(vertices_.begin(), vertices_.end(), two.begin());
+  std::copy(vertices_.begin(), vertices_.end(), two.begin() + 4);
+  two[6].x = std::numeric_limits<double>::infinity();
+  expect_error(quadrille_untimed_draw(untimed_, 30, two.data(), 2), QUADRILLE_BAD_VERTEX, "quad 31");
+  expect_error(quadrille_clocked_push(clocked_, 30, two.data(), 2), QUADRILLE_BAD_VERTEX, "vertex 2");
+  std::size_t pending = 1;
+  EXPECT_EQ(quadrille_untimed_pending(untimed_, &pending), QUADRILLE_OK);
+  EXPECT_EQ(pending, 0u);
+  std::uint64_t clocks = 1;
+  EXPECT_EQ(quadrille_clocked_run(clocked_, 1000, &clocks), QUADRILLE_OK);
+  EXPECT_EQ(clocks, 0u) << "nothing was queued";
+  expect_error(quadrille_untimed_draw(untimed_, 1u << 24, vertices_.data(), 1), QUADRILLE_BAD_VERTEX, "quad_id_bits");
+  expect_error(quadrille_untimed_draw(untimed_, 0xffffffffu, two.data(), 2), QUADRILLE_BAD_ARGUMENT, "ids");
+  expect_error(quadrille_untimed_draw(untimed_, 0, nullptr, 1), QUADRILLE_BAD_ARGUMENT, "NULL");
+  EXPECT_EQ(quadrille_untimed_draw(untimed_, 0, nullptr, 0), QUADRILLE_OK);
+}
+
+TEST_F(CApiErrors, StatesChangeWhileIdleAlone) {
+  ASSERT_EQ(quadrille_clocked_push(clocked_, 0, vertices_.data(), 1), QUADRILLE_OK);
+  expect_error(quadrille_clocked_set_state(clocked_, &state_), QUADRILLE_BUSY, "queued");
+  ASSERT_EQ(quadrille_clocked_run(clocked_, 20, nullptr), QUADRILLE_OK);
+  expect_error(quadrille_clocked_set_state(clocked_, &state_), QUADRILLE_BUSY, "busy");
+  expect_error(quadrille_clocked_clock(clocked_, QUADRILLE_CLEAR_HIDDEN), QUADRILLE_BUSY, "hidden");
+  expect_error(quadrille_clocked_clock(clocked_, 16), QUADRILLE_BAD_ARGUMENT, "inputs");
+  ASSERT_EQ(quadrille_clocked_run(clocked_, 1u << 20, nullptr), QUADRILLE_OK);
+  ASSERT_EQ(quadrille_clocked_set_state(clocked_, &state_), QUADRILLE_OK) << error();
+  ASSERT_EQ(quadrille_clocked_clock(clocked_, QUADRILLE_CLEAR_HIDDEN), QUADRILLE_OK) << error();
+  // Reset: what is queued and on its way is gone.
+  ASSERT_EQ(quadrille_clocked_push(clocked_, 0, vertices_.data(), 1), QUADRILLE_OK);
+  ASSERT_EQ(quadrille_clocked_run(clocked_, 20, nullptr), QUADRILLE_OK);
+  ASSERT_EQ(quadrille_clocked_clock(clocked_, QUADRILLE_RESET), QUADRILLE_OK);
+  EXPECT_EQ(quadrille_clocked_set_state(clocked_, &state_), QUADRILLE_OK) << error();
+}
+
+TEST_F(CApiErrors, PortsThatNoMachineMayBeGiven) {
+  std::array<std::uint32_t, QUADRILLE_VERTEX_WORDS> vertex;
+  vertex.fill(0);
+  expect_error(quadrille_clocked_clock_ports(clocked_, 0, 0, 1, vertex.data(), 1), QUADRILLE_BAD_VERTEX,
+               "k is not normalised");
+  ASSERT_EQ(quadrille_vertex_port(clocked_, 5, &vertices_[0].x, vertices_[0].attribute, vertex.data()), QUADRILLE_OK);
+  const RecordLayout layout = vertex_layout(Config());
+  const auto with = [&](const char* field, std::uint64_t value) {
+    Record record = Record::from_words(vertex.data(), layout.bits());
+    record.set(layout.field(field, std::string(field) == "attr_sig" ? 2 : -1), value);
+    std::array<std::uint32_t, QUADRILLE_VERTEX_WORDS> words{};
+    for (int at = 0; at < layout.bits(); at += 32)
+      words[static_cast<std::size_t>(at / 32)] =
+          static_cast<std::uint32_t>(record.get(at, std::min(32, layout.bits() - at)));
+    return quadrille_clocked_clock_ports(clocked_, 0, 0, 1, words.data(), 1);
+  };
+  expect_error(with("x", (1u << 30) + 1), QUADRILLE_BAD_VERTEX, "guard band");
+  expect_error(with("w", (1u << 15) + 1), QUADRILLE_BAD_VERTEX, "w is larger");
+  expect_error(with("z_sig", 1), QUADRILLE_BAD_VERTEX, "z is not");
+  expect_error(with("attr_sig", 1), QUADRILLE_BAD_VERTEX, "attribute");
+  EXPECT_EQ(with("x", 1u << 30), QUADRILLE_OK) << error();
+  EXPECT_EQ(quadrille_clocked_clock_ports(clocked_, 0, 0, 0, vertex.data(), 1), QUADRILLE_OK)
+      << "not valid: not looked at";
+  std::array<std::uint32_t, QUADRILLE_STATE_WORDS> state;
+  state.fill(0xffffffffu);
+  expect_error(quadrille_clocked_state_port(clocked_, state.data()), QUADRILLE_BAD_STATE, "draw state");
+  std::uint64_t value = 0;
+  expect_error(quadrille_clocked_counter(clocked_, "nothing", &value), QUADRILLE_BAD_ARGUMENT, "\"nothing\"");
+  expect_error(quadrille_untimed_counter(untimed_, nullptr, &value), QUADRILLE_BAD_ARGUMENT, "NULL");
+}
+
+}  // namespace
+}  // namespace quadrille

@@ -1,0 +1,612 @@
+// quadrille.h over the C++ models: checks, copies and errors; no arithmetic of its own.
+#include "model/c_api/quadrille.h"
+
+#include "model/bit_vector.hpp"
+#include "model/boundaries.hpp"
+#include "model/clocked.hpp"
+#include "model/config_text.hpp"
+#include "model/snap.hpp"
+#include "model/untimed.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <exception>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quadrille::c_api {
+namespace {
+
+static_assert(sizeof(quadrille_vertex) == 96 && sizeof(quadrille_fragment) == 80 &&
+                  sizeof(quadrille_draw_state) == 64 && sizeof(quadrille_outputs) == 328,
+              "structs changed: raise QUADRILLE_ABI");
+static_assert(QUADRILLE_MAX_ATTRIBUTES == max_attribute_slots && QUADRILLE_MAX_LANES == Config::most_pixels_per_clock);
+static_assert(+QUADRILLE_SKIP_TILES == +skip_tiles && +QUADRILLE_SKIP_QUADS == +skip_quads &&
+              +QUADRILLE_SKIP_HIDDEN == +skip_hidden && +QUADRILLE_SKIP_WALK == +skip_walk &&
+              +QUADRILLE_SKIP_OPERANDS == +skip_operands && +QUADRILLE_SKIP_PLANE == +skip_plane);
+
+constexpr std::uint32_t every_skip = skip_default | skip_hidden | skip_plane;
+
+struct Failure {
+  quadrille_status status;
+  std::string text;
+};
+
+/// Held without allocation: an error of memory has its words too.
+thread_local std::array<char, 1024> last_error{};
+
+quadrille_status failed(quadrille_status status, const char* text) noexcept {
+  std::snprintf(last_error.data(), last_error.size(), "%s", text);
+  return status;
+}
+
+/// Runs `body` with every exception turned into a status and a text.
+template <class F>
+quadrille_status guarded(F&& body) noexcept {
+  try {
+    body();
+    return QUADRILLE_OK;
+  } catch (const Failure& f) {
+    return failed(f.status, f.text.c_str());
+  } catch (const ConfigError& e) {
+    return failed(QUADRILLE_BAD_CONFIG, e.what());
+  } catch (const SnapError& e) {
+    return failed(QUADRILLE_BAD_VERTEX, e.what());
+  } catch (const std::exception& e) {
+    return failed(QUADRILLE_FAILED, e.what());
+  } catch (...) {
+    return failed(QUADRILLE_FAILED, "unknown error");
+  }
+}
+
+void require(bool ok, quadrille_status status, const char* text) {
+  if (!ok) throw Failure{status, text};
+}
+
+/// Throws for a null pointer.
+template <class... Pointers>
+void require_pointers(const char* names, Pointers... pointers) {
+  if (((pointers == nullptr) || ...)) throw Failure{QUADRILLE_BAD_ARGUMENT, std::string("NULL among ") + names};
+}
+
+std::string_view view(const char* text) { return text == nullptr ? std::string_view() : std::string_view(text); }
+
+Config config_of(const char* text) {
+  Config config;
+  apply_config_text(view(text), config);
+  return config;
+}
+
+// ---- Draw states ----
+
+void check_state(const DrawState& s, const Config& c) {
+  const auto refuse = [](const std::string& text) { throw Failure{QUADRILLE_BAD_STATE, "draw state: " + text}; };
+  const int side = 1 << c.viewport_bits;
+  if (s.width < 1 || s.height < 1 || s.width > side || s.height > side)
+    refuse("the viewport " + std::to_string(s.width) + "x" + std::to_string(s.height) + " is not from 1x1 to " +
+           std::to_string(side) + "x" + std::to_string(side) + " (viewport_bits)");
+  if (s.scissor_x0 < 0 || s.scissor_y0 < 0 || s.scissor_x0 > s.scissor_x1 || s.scissor_y0 > s.scissor_y1 ||
+      s.scissor_x1 > s.width || s.scissor_y1 > s.height)
+    refuse("the scissor must lie inside the viewport, x0 <= x1 and y0 <= y1");
+  if (s.cull > Cull::back) refuse("cull must be 0, 1 or 2");
+  if (!(s.znear >= 0 && s.znear <= s.zfar && s.zfar <= 1)) refuse("0 <= znear <= zfar <= 1 is required");
+  if (s.attributes < 0 || s.attributes > c.attribute_slots)
+    refuse(std::to_string(s.attributes) + " attributes; the configuration has " + std::to_string(c.attribute_slots) +
+           " (attribute_slots)");
+  if ((s.skip & ~every_skip) != 0) refuse("unknown bits of skip");
+  if ((s.skip & skip_hidden) != 0 && (c.hierarchical_z_bits == 0 || !s.depth))
+    refuse("QUADRILLE_SKIP_HIDDEN needs depth, and hierarchical_z_bits in the configuration");
+  if ((s.skip & skip_plane) != 0 && c.plane_tolerance_bits == 0)
+    refuse("QUADRILLE_SKIP_PLANE needs plane_tolerance_bits in the configuration");
+}
+
+DrawState default_state(const Config& config) {
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = std::min(512, 1 << config.viewport_bits);
+  state.attributes = std::min(4, config.attribute_slots);
+  return state;
+}
+
+DrawState checked_state(const quadrille_draw_state& given, const Config& config) {
+  require(given.size >= sizeof(quadrille_draw_state), QUADRILLE_BAD_ARGUMENT,
+          "draw state: size is not sizeof(quadrille_draw_state); quadrille_draw_state_init() sets it");
+  require(given.cull >= 0 && given.cull <= 2, QUADRILLE_BAD_STATE, "draw state: cull must be 0, 1 or 2");
+  DrawState state;
+  state.width = given.width;
+  state.height = given.height;
+  state.scissor_x0 = given.scissor_x0;
+  state.scissor_y0 = given.scissor_y0;
+  state.scissor_x1 = given.scissor_x1;
+  state.scissor_y1 = given.scissor_y1;
+  state.cull = static_cast<Cull>(given.cull);
+  state.perspective = given.perspective != 0;
+  state.depth = given.depth != 0;
+  state.znear = given.znear;
+  state.zfar = given.zfar;
+  state.attributes = given.attributes;
+  state.skip = given.skip;
+  check_state(state, config);
+  return state;
+}
+
+// ---- Vertices and fragments ----
+
+std::vector<SnappedQuad> snapped(std::uint32_t first_id, const quadrille_vertex* vertices, std::size_t quads,
+                                 const Config& config, const DrawState& state) {
+  require(quads == 0 || quads - 1 <= std::numeric_limits<std::uint32_t>::max() - first_id, QUADRILLE_BAD_ARGUMENT,
+          "quads: their ids pass 2^32 - 1");
+  std::vector<SnappedQuad> result;
+  result.reserve(quads);
+  WindowQuad quad;
+  for (std::size_t q = 0; q < quads; ++q) {
+    quad.id = first_id + static_cast<std::uint32_t>(q);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const quadrille_vertex& v = vertices[4 * q + i];
+      quad.vertex[i] = {v.x, v.y, v.z, v.w};
+      quad.attribute[i].assign(v.attribute, v.attribute + state.attributes);
+    }
+    result.push_back(snap_quad(quad, config, state));
+  }
+  return result;
+}
+
+quadrille_fragment fragment_of(const Fragment& f) {
+  quadrille_fragment result{};
+  result.quad = f.quad;
+  result.x = f.x;
+  result.y = f.y;
+  result.front = f.front;
+  result.flags = f.flags;
+  result.depth = f.depth;
+  std::copy(f.attribute.begin(), f.attribute.end(), result.attribute);
+  return result;
+}
+
+/// Fragments that wait to be taken.
+class Waiting {
+ public:
+  void add(const Fragment& fragment) { fragments_.push_back(fragment_of(fragment)); }
+  std::size_t size() const { return fragments_.size(); }
+  std::size_t take(quadrille_fragment* out, std::size_t capacity) {
+    const std::size_t count = std::min(capacity, fragments_.size());
+    const auto end = fragments_.begin() + static_cast<std::ptrdiff_t>(count);
+    std::copy(fragments_.begin(), end, out);
+    fragments_.erase(fragments_.begin(), end);
+    return count;
+  }
+
+ private:
+  std::deque<quadrille_fragment> fragments_;
+};
+
+// ---- Counters ----
+
+struct DrawCounter {
+  const char* name;
+  std::uint64_t (*value)(const DrawStats&);
+};
+
+template <QuadReject reason>
+std::uint64_t rejected(const DrawStats& s) {
+  return s.rejected[static_cast<std::size_t>(reason)];
+}
+template <std::uint64_t DrawStats::*member>
+std::uint64_t counted(const DrawStats& s) {
+  return s.*member;
+}
+
+constexpr std::array draw_counters{
+    DrawCounter{"quads", counted<&DrawStats::quads>},
+    DrawCounter{"quads_empty", rejected<QuadReject::empty>},
+    DrawCounter{"quads_behind", rejected<QuadReject::behind>},
+    DrawCounter{"quads_depth", rejected<QuadReject::depth>},
+    DrawCounter{"quads_line", rejected<QuadReject::line>},
+    DrawCounter{"quads_culled", rejected<QuadReject::culled>},
+    DrawCounter{"quads_outside", rejected<QuadReject::outside>},
+    DrawCounter{"quads_homogeneous", counted<&DrawStats::homogeneous_quads>},
+    DrawCounter{"blocks_tested", counted<&DrawStats::blocks_tested>},
+    DrawCounter{"tiles_tested", counted<&DrawStats::tiles_tested>},
+    DrawCounter{"tiles_entered", counted<&DrawStats::tiles_entered>},
+    DrawCounter{"tiles_hidden", counted<&DrawStats::tiles_hidden>},
+    DrawCounter{"tiles_masked", counted<&DrawStats::tiles_masked>},
+    DrawCounter{"stamps", counted<&DrawStats::stamps_covered>},
+    DrawCounter{"pixels", counted<&DrawStats::pixels>},
+    DrawCounter{"fragments", counted<&DrawStats::fragments>},
+};
+
+Failure unknown_counter(const char* name) {
+  return {QUADRILLE_BAD_ARGUMENT, "no counter \"" + std::string(view(name)) + "\"; counter_name() lists them"};
+}
+
+}  // namespace
+}  // namespace quadrille::c_api
+
+namespace api = quadrille::c_api;
+
+// ---- The machines ----
+
+struct quadrille_untimed {
+  quadrille_untimed(const quadrille::Config& c, const quadrille::DrawState& s) : config(c), state(s), model(c, s) {}
+
+  quadrille::Config config;
+  quadrille::DrawState state;
+  quadrille::UntimedModel model;
+  api::Waiting waiting;
+};
+
+struct quadrille_clocked {
+  quadrille_clocked(const quadrille::Config& c, const quadrille::DrawState& s)
+      : config(c),
+        state(s),
+        vertex_bits(quadrille::vertex_layout(c).bits()),
+        state_bits(quadrille::state_layout(c).bits()),
+        fragment_bits(quadrille::boundary_layout(quadrille::Boundary::fragment, c).bits()),
+        model(c, s) {
+    inputs.reset = true;
+    model.clock(inputs);
+    inputs = {};
+    while (model.comb().busy) model.clock(inputs);
+  }
+
+  bool idle() const { return queue.empty() && !model.comb().busy; }
+
+  void set_state(const quadrille::DrawState& s) {
+    api::require(idle(), QUADRILLE_BUSY, "the draw state cannot change while the machine is busy or quads are queued");
+    model.set_state(s);
+    state = s;
+  }
+
+  void clock(std::uint32_t given) {
+    const quadrille::ClockedOutputs outputs = model.comb();
+    api::require((given & QUADRILLE_CLEAR_HIDDEN) == 0 || !outputs.busy, QUADRILLE_BUSY,
+                 "hidden tiles cannot be cleared while the machine is busy");
+    inputs.reset = (given & QUADRILLE_RESET) != 0;
+    inputs.vertex_valid = (given & QUADRILLE_VERTEX_VALID) != 0 && !queue.empty();
+    inputs.fragment_ready = (given & QUADRILLE_FRAGMENT_READY) != 0;
+    inputs.clear_hidden = (given & QUADRILLE_CLEAR_HIDDEN) != 0;
+    if (inputs.vertex_valid) {
+      inputs.vertex_id = queue.front().id;
+      inputs.vertex = queue.front().vertex[beat];
+    }
+    if (outputs.fragment_valid && inputs.fragment_ready && !inputs.reset)
+      outputs.for_each_fragment([&](const quadrille::Fragment& f) { waiting.add(f); });
+    const bool taken = inputs.vertex_valid && outputs.vertex_ready;
+    model.clock(inputs);
+    if (inputs.reset) {
+      queue.clear();
+      beat = 0;
+    } else if (taken && ++beat == 4) {
+      queue.pop_front();
+      beat = 0;
+    }
+  }
+
+  quadrille::Config config;
+  quadrille::DrawState state;
+  int vertex_bits, state_bits, fragment_bits;
+  quadrille::ClockedModel model;
+  quadrille::ClockedInputs inputs;
+  std::deque<quadrille::SnappedQuad> queue;
+  std::size_t beat = 0;  ///< of the first quad, the next to be taken
+  api::Waiting waiting;
+};
+
+namespace quadrille::c_api {
+namespace {
+
+template <class Machine>
+quadrille_status create(const char* config, Machine** machine) {
+  return guarded([&] {
+    require_pointers("machine", machine);
+    *machine = nullptr;
+    const Config c = config_of(config);
+    *machine = new Machine(c, default_state(c));
+  });
+}
+
+template <class Machine>
+quadrille_status pending(const Machine* machine, std::size_t* fragments) {
+  return guarded([&] {
+    require_pointers("machine, fragments", machine, fragments);
+    *fragments = machine->waiting.size();
+  });
+}
+
+template <class Machine>
+quadrille_status take(Machine* machine, quadrille_fragment* fragments, std::size_t capacity, std::size_t* taken) {
+  return guarded([&] {
+    require_pointers("machine, taken", machine, taken);
+    if (capacity != 0) require_pointers("fragments", fragments);
+    *taken = machine->waiting.take(fragments, capacity);
+  });
+}
+
+/// A beat as the port may have it: what snapping can give.
+void check_vertex(const SnappedVertex& v, const Config& config, int attributes) {
+  const auto refuse = [](const char* text) {
+    throw Failure{QUADRILLE_BAD_VERTEX, std::string("vertex port: ") + text};
+  };
+  const std::int64_t position = std::int64_t{1} << (config.pos_int() + config.frac());
+  const std::int64_t unit = std::int64_t{1} << config.frac();
+  if (std::abs(std::int64_t{v.x}) > position || std::abs(std::int64_t{v.y}) > position)
+    refuse("x or y is outside the guard band");
+  if (std::abs(std::int64_t{v.w}) > unit) refuse("w is larger than 1");
+  const auto legal = [&](const PortNumber& n) {
+    return n.sig >> (config.significand_bits - 1) != 0 || (n.sig == 0 && n.exp == 0 && !n.neg);
+  };
+  if (v.k.sig == 0 || !legal(v.k)) refuse("k is not normalised");
+  if (!legal(v.z)) refuse("z is not normalised");
+  for (int i = 0; i < attributes; ++i)
+    if (!legal(v.attribute[static_cast<std::size_t>(i)])) refuse("an attribute is not normalised");
+}
+
+void write_words(const std::uint64_t* from, int bits, std::uint32_t* to, int words) {
+  for (int i = 0; i < words; ++i) to[i] = 32 * i < bits ? static_cast<std::uint32_t>(from[i / 2] >> 32 * (i % 2)) : 0;
+}
+
+void write_fragments(const quadrille_clocked& m, const ClockedOutputs& outputs, std::uint32_t* words) {
+  Record lanes(m.fragment_bits * m.config.pixels_per_clock);
+  std::vector<std::uint64_t> packed(static_cast<std::size_t>((m.fragment_bits + 63) / 64));
+  for (int lane = 0; lane < m.config.pixels_per_clock; ++lane) {
+    const Fragment* fragment = outputs.fragment[static_cast<std::size_t>(lane)];
+    if (fragment == nullptr) continue;
+    tb::pack_fragment(*fragment, m.config, packed.data(), m.fragment_bits);
+    for (int at = 0; at < m.fragment_bits; at += 64)
+      lanes.set(lane * m.fragment_bits + at, std::min(64, m.fragment_bits - at),
+                packed[static_cast<std::size_t>(at / 64)]);
+  }
+  write_words(lanes.words(), lanes.bits(), words, QUADRILLE_FRAGMENT_WORDS);
+}
+
+}  // namespace
+}  // namespace quadrille::c_api
+
+extern "C" {
+
+// ---- The library ----
+
+const char* quadrille_version(void) { return QUADRILLE_VERSION; }
+uint32_t quadrille_abi(void) { return QUADRILLE_ABI; }
+const char* quadrille_last_error(void) { return api::last_error.data(); }
+
+quadrille_status quadrille_config_value(const char* config, const char* name, int32_t* value) {
+  return api::guarded([&] {
+    api::require_pointers("name, value", name, value);
+    const std::optional<int> found = quadrille::config_number(api::config_of(config), name);
+    if (!found)
+      throw api::Failure{QUADRILLE_BAD_ARGUMENT,
+                         "no key and no derived width \"" + std::string(name) + "\"; `quadrille config` lists them"};
+    *value = *found;
+  });
+}
+
+quadrille_status quadrille_draw_state_init(quadrille_draw_state* state, size_t size, int32_t width, int32_t height) {
+  return api::guarded([&] {
+    api::require_pointers("state", state);
+    api::require(size == sizeof(quadrille_draw_state), QUADRILLE_BAD_ARGUMENT,
+                 "size is not sizeof(quadrille_draw_state) of this library: compile with its header");
+    const quadrille::DrawState s;
+    *state = {static_cast<std::uint32_t>(size),
+              width,
+              height,
+              0,
+              0,
+              width,
+              height,
+              QUADRILLE_CULL_NONE,
+              s.perspective,
+              s.depth,
+              s.attributes,
+              s.skip,
+              s.znear,
+              s.zfar};
+  });
+}
+
+// ---- The untimed model ----
+
+quadrille_status quadrille_untimed_create(const char* config, quadrille_untimed** machine) {
+  return api::create(config, machine);
+}
+void quadrille_untimed_destroy(quadrille_untimed* machine) { delete machine; }
+
+quadrille_status quadrille_untimed_set_state(quadrille_untimed* machine, const quadrille_draw_state* state) {
+  return api::guarded([&] {
+    api::require_pointers("machine, state", machine, state);
+    const quadrille::DrawState s = api::checked_state(*state, machine->config);
+    machine->model.set_state(s);
+    machine->state = s;
+  });
+}
+
+quadrille_status quadrille_untimed_clear_hidden(quadrille_untimed* machine) {
+  return api::guarded([&] {
+    api::require_pointers("machine", machine);
+    machine->model.clear_hidden();
+  });
+}
+
+quadrille_status quadrille_untimed_draw(quadrille_untimed* machine, uint32_t first_id, const quadrille_vertex* vertices,
+                                        size_t quads) {
+  return api::guarded([&] {
+    api::require_pointers("machine", machine);
+    if (quads != 0) api::require_pointers("vertices", vertices);
+    for (const quadrille::SnappedQuad& quad : api::snapped(first_id, vertices, quads, machine->config, machine->state))
+      machine->model.draw(quad, [&](std::span<const quadrille::Fragment> fragments) {
+        for (const quadrille::Fragment& f : fragments) machine->waiting.add(f);
+      });
+  });
+}
+
+quadrille_status quadrille_untimed_pending(const quadrille_untimed* machine, size_t* fragments) {
+  return api::pending(machine, fragments);
+}
+quadrille_status quadrille_untimed_take(quadrille_untimed* machine, quadrille_fragment* fragments, size_t capacity,
+                                        size_t* taken) {
+  return api::take(machine, fragments, capacity, taken);
+}
+
+const char* quadrille_untimed_counter_name(uint32_t index) {
+  return index < api::draw_counters.size() ? api::draw_counters[index].name : nullptr;
+}
+quadrille_status quadrille_untimed_counter(const quadrille_untimed* machine, const char* name, uint64_t* value) {
+  return api::guarded([&] {
+    api::require_pointers("machine, name, value", machine, name, value);
+    for (const api::DrawCounter& counter : api::draw_counters)
+      if (counter.name == std::string_view(name))
+        return static_cast<void>(*value = counter.value(machine->model.stats()));
+    throw api::unknown_counter(name);
+  });
+}
+
+// ---- The clocked model ----
+
+quadrille_status quadrille_clocked_create(const char* config, quadrille_clocked** machine) {
+  return api::create(config, machine);
+}
+void quadrille_clocked_destroy(quadrille_clocked* machine) { delete machine; }
+
+quadrille_status quadrille_clocked_set_state(quadrille_clocked* machine, const quadrille_draw_state* state) {
+  return api::guarded([&] {
+    api::require_pointers("machine, state", machine, state);
+    machine->set_state(api::checked_state(*state, machine->config));
+  });
+}
+
+quadrille_status quadrille_clocked_push(quadrille_clocked* machine, uint32_t first_id, const quadrille_vertex* vertices,
+                                        size_t quads) {
+  return api::guarded([&] {
+    api::require_pointers("machine", machine);
+    if (quads != 0) api::require_pointers("vertices", vertices);
+    const auto new_quads = api::snapped(first_id, vertices, quads, machine->config, machine->state);
+    machine->queue.insert(machine->queue.end(), new_quads.begin(), new_quads.end());
+  });
+}
+
+quadrille_status quadrille_clocked_outputs(const quadrille_clocked* machine, quadrille_outputs* outputs) {
+  return api::guarded([&] {
+    api::require_pointers("machine, outputs", machine, outputs);
+    const quadrille::ClockedOutputs now = machine->model.comb();
+    *outputs = {};
+    outputs->vertex_ready = now.vertex_ready;
+    outputs->fragment_valid = now.fragment_valid;
+    outputs->busy = now.busy;
+    outputs->fragment_mask = now.fragment_mask();
+    for (std::size_t lane = 0; lane < now.fragment.size(); ++lane)
+      if (now.fragment[lane] != nullptr) outputs->fragment[lane] = api::fragment_of(*now.fragment[lane]);
+  });
+}
+
+quadrille_status quadrille_clocked_clock(quadrille_clocked* machine, uint32_t inputs) {
+  return api::guarded([&] {
+    api::require_pointers("machine", machine);
+    api::require((inputs & ~15u) == 0, QUADRILLE_BAD_ARGUMENT, "unknown bits of inputs");
+    machine->clock(inputs);
+  });
+}
+
+quadrille_status quadrille_clocked_run(quadrille_clocked* machine, uint64_t max_clocks, uint64_t* clocks) {
+  return api::guarded([&] {
+    api::require_pointers("machine", machine);
+    std::uint64_t done = 0;
+    for (; done < max_clocks && !machine->idle(); ++done)
+      machine->clock(QUADRILLE_VERTEX_VALID | QUADRILLE_FRAGMENT_READY);
+    if (clocks != nullptr) *clocks = done;
+  });
+}
+
+quadrille_status quadrille_clocked_pending(const quadrille_clocked* machine, size_t* fragments) {
+  return api::pending(machine, fragments);
+}
+quadrille_status quadrille_clocked_take(quadrille_clocked* machine, quadrille_fragment* fragments, size_t capacity,
+                                        size_t* taken) {
+  return api::take(machine, fragments, capacity, taken);
+}
+
+const char* quadrille_clocked_counter_name(uint32_t index) {
+  return index < quadrille::counter_count ? quadrille::counter_info[index].name.data() : nullptr;
+}
+quadrille_status quadrille_clocked_counter(const quadrille_clocked* machine, const char* name, uint64_t* value) {
+  return api::guarded([&] {
+    api::require_pointers("machine, name, value", machine, name, value);
+    for (std::size_t i = 0; i < quadrille::counter_count; ++i)
+      if (quadrille::counter_info[i].name == name)
+        return static_cast<void>(*value = machine->model.counters().value[i]);
+    throw api::unknown_counter(name);
+  });
+}
+
+// ---- The clocked model, port by port ----
+
+quadrille_status quadrille_vertex_port(const quadrille_clocked* machine, uint32_t id, const double* position,
+                                       const double* attributes, uint32_t* vertex) {
+  return api::guarded([&] {
+    api::require_pointers("machine, position, attributes, vertex", machine, position, attributes, vertex);
+    const quadrille::SnappedVertex v =
+        quadrille::snap_vertex({position[0], position[1], position[2], position[3]}, attributes,
+                               machine->state.attributes, machine->config, machine->state);
+    std::array<std::uint64_t, QUADRILLE_VERTEX_WORDS / 2> words{};
+    quadrille::BitPacker packer(words.data(), machine->vertex_bits);
+    quadrille::visit_vertex(id, v, machine->config, packer);
+    packer.finish();
+    api::write_words(words.data(), machine->vertex_bits, vertex, QUADRILLE_VERTEX_WORDS);
+  });
+}
+
+quadrille_status quadrille_clocked_state_port(quadrille_clocked* machine, const uint32_t* state) {
+  return api::guarded([&] {
+    api::require_pointers("machine, state", machine, state);
+    const std::vector<std::uint32_t> now = quadrille::tb::pack_state(machine->state, machine->config);
+    if (std::equal(now.begin(), now.end(), state)) return;
+    const quadrille::Record record = quadrille::Record::from_words(state, machine->state_bits);
+    quadrille::DrawState s;
+    std::uint32_t znear = 0, zfar = 0;
+    quadrille::visit_state(s, znear, zfar, machine->config, quadrille::RecordUnpacker(record));
+    s.width = s.height = 1 << machine->config.viewport_bits;
+    s.znear = std::ldexp(znear, -machine->config.depth_bits);
+    s.zfar = std::ldexp(zfar, -machine->config.depth_bits);
+    api::check_state(s, machine->config);
+    machine->set_state(s);
+  });
+}
+
+quadrille_status quadrille_clocked_output_ports(const quadrille_clocked* machine, int32_t* vertex_ready,
+                                                int32_t* fragment_valid, int32_t* busy, int32_t* fragment_mask,
+                                                uint32_t* fragment) {
+  return api::guarded([&] {
+    api::require_pointers("machine and outputs", machine, vertex_ready, fragment_valid, busy, fragment_mask, fragment);
+    const quadrille::ClockedOutputs now = machine->model.comb();
+    *vertex_ready = now.vertex_ready;
+    *fragment_valid = now.fragment_valid;
+    *busy = now.busy;
+    *fragment_mask = static_cast<std::int32_t>(now.fragment_mask());
+    api::write_fragments(*machine, now, fragment);
+  });
+}
+
+quadrille_status quadrille_clocked_clock_ports(quadrille_clocked* machine, int32_t reset, int32_t clear_hidden,
+                                               int32_t vertex_valid, const uint32_t* vertex, int32_t fragment_ready) {
+  return api::guarded([&] {
+    api::require_pointers("machine, vertex", machine, vertex);
+    api::require(clear_hidden == 0 || !machine->model.comb().busy, QUADRILLE_BUSY,
+                 "hidden tiles cannot be cleared while the machine is busy");
+    quadrille::ClockedInputs inputs;
+    inputs.reset = reset != 0;
+    inputs.clear_hidden = clear_hidden != 0;
+    inputs.vertex_valid = vertex_valid != 0;
+    inputs.fragment_ready = fragment_ready != 0;
+    if (inputs.vertex_valid) {
+      const quadrille::Record record = quadrille::Record::from_words(vertex, machine->vertex_bits);
+      quadrille::visit_vertex(inputs.vertex_id, inputs.vertex, machine->config, quadrille::RecordUnpacker(record));
+      api::check_vertex(inputs.vertex, machine->config, machine->config.attribute_slots);
+    }
+    machine->model.clock(inputs);
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,22 @@
+// A configuration from a text in memory, without any library: for the interfaces to other languages. Files with all of
+// TOML, and with the place of an error in a file, are golden/io/config_file.hpp's.
+#pragma once
+
+#include "model/config.hpp"
+
+#include <optional>
+#include <string_view>
+
+namespace quadrille {
+
+/// Sets the keys that `text` names: `key = value` a line, as in a configuration file, or several a line with blanks or
+/// commas between. A value is an integer, auto or "auto" (-1); of notch_exact also true or false. `#` begins a comment.
+/// A table [cost] is passed over. Throws ConfigError "line N: …" for anything else, an unknown key and a value out of
+/// its range, and without a line for a combination that cannot be built; `config` is then unchanged.
+void apply_config_text(std::string_view text, Config& config);
+
+/// A number of a configuration by name: a key (auto resolved) or, in upper case, a derived width; nothing if there is
+/// no such name.
+std::optional<int> config_number(const Config& config, std::string_view name);
+
+}  // namespace quadrille

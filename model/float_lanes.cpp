@@ -1,0 +1,204 @@
+#include "model/float_lanes.hpp"
+
+#include "model/lane_target.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
+
+namespace quadrille {
+namespace {
+
+/// Exponents of the port's numbers that the lanes take, either sign (float_kernel.hpp, range).
+constexpr int largest_exponent = 30;
+
+#ifdef __x86_64__
+// Each function of the kernel is compiled for the target around it.
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v3")
+namespace v3 {
+#include "model/float_kernel.hpp"
+}
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v4")
+namespace v4 {
+#include "model/float_kernel.hpp"
+}
+#pragma GCC pop_options
+
+/// Rounds toward zero and takes results below the normal numbers for 0, until it is gone.
+class TowardZero {
+ public:
+  TowardZero() : before_(_mm_getcsr()) { _mm_setcsr(_MM_MASK_MASK | _MM_ROUND_TOWARD_ZERO | _MM_FLUSH_ZERO_ON); }
+  ~TowardZero() { _mm_setcsr(before_); }
+  TowardZero(const TowardZero&) = delete;
+  TowardZero& operator=(const TowardZero&) = delete;
+
+ private:
+  unsigned before_;
+};
+#endif
+
+double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
+
+/// Whether the integers of polynomial() stay exact with 2^23 added.
+bool fits(const Table& table) {
+  return std::ranges::all_of(table.entries, [](const TableEntry& e) {
+    return std::max({e.c0, e.c1, e.c2}) < 1u << 23;
+  });
+}
+
+FloatTable::Entry float_entry(const TableEntry& e) {
+  return {static_cast<float>(e.c0 + (1u << 23)), static_cast<float>(e.c1 + (1u << 23)), static_cast<float>(e.c2)};
+}
+
+FloatTable sqrt_floats(const Table& table) {
+  FloatTable out(table, 1);
+  const std::size_t octave = table.entries.size() / 2;
+  for (std::size_t i = 0; i < 2 * octave; ++i) out.entries.push_back(float_entry(table.entries[i ^ octave]));
+  return out;
+}
+
+FloatTable recip_floats(const Table& table) {
+  FloatTable out(table, 0);
+  for (const TableEntry& e : table.entries) out.entries.push_back(float_entry(e));
+  return out;
+}
+
+/// False when an exponent is out of range.
+bool float_column(const std::array<double, 4>& values, int prec, FloatColumn& out) {
+  out = {};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double v = values[i];
+    if (v == 0) continue;
+    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(v) >> 52 & 0x7ff) - 1023;
+    if (std::abs(exponent) > largest_exponent) return false;
+    (v < 0 ? out.negative : out.positive)[i] = static_cast<float>(std::fabs(v));
+    out.align[i] = std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 23 - prec + 127) << 23);
+    out.mixed |= v < 0;
+  }
+  return true;
+}
+
+bool fits(const QuadLanes::Factor& factor) {
+  return !factor || *factor == 0 || std::abs(std::ilogb(*factor)) <= largest_exponent;
+}
+
+}  // namespace
+
+FloatLanes::FloatLanes(const PipelineContext& c) {
+  const Config& config = c.config;
+  format_.s = c.format.s;
+  format_.prec = config.prec_bits();
+  format_.attributes = c.state.attributes;
+  format_.attribute_int_bits = config.attribute_int_bits;
+  format_.attribute_frac = c.attribute_frac;
+  format_.depth_bits = config.depth_bits;
+  format_.tile_log2 = config.tile_log2;
+  format_.depth = c.state.depth;
+  format_.notch = config.notch_exact != 0;
+  format_.znear = static_cast<std::int32_t>(c.znear);
+  format_.zfar = static_cast<std::int32_t>(c.zfar);
+  format_.scissor_x0 = c.state.scissor_x0;
+  format_.scissor_y0 = c.state.scissor_y0;
+  format_.scissor_x1 = c.state.scissor_x1;
+  format_.scissor_y1 = c.state.scissor_y1;
+  format_.cull = c.state.cull;
+  frac_ = config.frac();
+  val_bits_ = config.val_bits();
+  qdrop_ = config.qdrop();
+  // The last condition: exponents are as odd in pixels as in units of the last place.
+  fits_ = c.format.s + c.format.g <= 20 && config.attribute_int_bits + c.attribute_frac <= 31 && fits(c.sqrt_table) &&
+          fits(c.recip_table) && config.quadratic_frac() % 2 == 0;
+  if (!fits_) return;
+  format_.sqrt = sqrt_floats(c.sqrt_table);
+  format_.recip = recip_floats(c.recip_table);
+}
+
+bool FloatLanes::usable() const { return fits_ && lane_target() != LaneTarget::baseline; }
+
+bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const {
+  if (setup.homogeneous || data.plane) return false;
+  // All positions are multiples of 2^low: products of two have 2 low bits of zeros, enough for a double to hold A, D
+  // and r², and for nothing to be dropped of the latter.
+  std::uint64_t positions = 0;
+  std::int64_t left = setup.vertex[0].x, right = left, top = setup.vertex[0].y, bottom = top;
+  for (const RelativeVertex& v : setup.vertex) {
+    positions |= static_cast<std::uint64_t>(v.x) | static_cast<std::uint64_t>(v.y);
+    left = std::min(left, v.x);
+    right = std::max(right, v.x);
+    top = std::min(top, v.y);
+    bottom = std::max(bottom, v.y);
+  }
+  const auto extent = static_cast<std::uint64_t>(std::max(right - left, bottom - top));
+  const int low = std::min(frac_, std::countr_zero(positions));
+  if (val_bits_ - 1 - 2 * low > 53 || 2 * low < qdrop_) return false;
+
+  // Less than 1 wide, and exponents of products as float_kernel.hpp's upper_halves wants them.
+  const int scale = -(1023 - 127) / 2 - static_cast<int>(std::bit_width(extent));
+  const double last_place = power_of_two(scale);
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.x[i] = static_cast<double>(setup.vertex[i].x) * last_place;
+    out.y[i] = static_cast<double>(setup.vertex[i].y) * last_place;
+  }
+  out.unit = power_of_two(scale + frac_);
+  out.id = data.id;
+  out.x0 = setup.tile_x0 << format_.tile_log2;
+  out.y0 = setup.tile_y0 << format_.tile_log2;
+  const auto first = [&](std::int64_t v) { return static_cast<int>(-(-v >> frac_)); };  // ceil
+  const auto last = [&](std::int64_t v) { return static_cast<int>(v >> frac_); };       // floor
+  out.left = std::max(first(left), format_.scissor_x0 - out.x0);
+  out.right = std::min(last(right), format_.scissor_x1 - 1 - out.x0);
+  out.top = std::max(first(top), format_.scissor_y0 - out.y0);
+  out.bottom = std::min(last(bottom), format_.scissor_y1 - 1 - out.y0);
+
+  out.sum_k = values.sum_k;
+  out.sum_w = values.sum_w;
+  out.w_of_k = values.w_of_k;
+  out.z_of_w = values.z_of_w;
+  out.b_of_k = values.b_of_k;
+  bool fit = fits(values.w_of_k) && fits(values.z_of_w);
+  const auto column = [&](bool wanted, const std::array<double, 4>& v, FloatColumn& to) {
+    fit = fit && (!wanted || float_column(v, format_.prec, to));
+  };
+  column(values.sum_k, values.k, out.k);
+  column(values.sum_w && !values.w_of_k, values.w, out.w);
+  column(format_.depth && !values.z_of_w, values.z, out.z);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(format_.attributes); ++j) {
+    fit = fit && fits(values.b_of_k[j]);
+    column(!values.b_of_k[j], values.b[j], out.b[j]);
+  }
+  return fit;
+}
+
+#ifdef __x86_64__
+FloatLanes::TileCounts FloatLanes::cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad,
+                                         PixelList& list) const {
+  return lane_target() == LaneTarget::v4 ? v4::cover(format_, bounds, corner, quad, list)
+                                         : v3::cover(format_, bounds, corner, quad, list);
+}
+
+void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, FloatResults& out) const {
+  out.all_drawn = true;
+  out.any_plain = false;
+  out.on_edge = out.notch = out.saturated = 0;
+  const TowardZero mode;
+  if (lane_target() == LaneTarget::v4)
+    v4::draw(format_, quad, list, count, out);
+  else
+    v3::draw(format_, quad, list, count, out);
+}
+#else
+FloatLanes::TileCounts FloatLanes::cover(const FloatQuad&, const TileCorner&, const QuadConstants&, PixelList&) const {
+  return {};
+}
+void FloatLanes::draw(const FloatQuad&, const PixelList&, int, FloatResults&) const {}
+#endif
+
+}  // namespace quadrille

@@ -1,0 +1,129 @@
+// The pixel pipeline on eight pixels of an ordinary quad at once, in single precision: the quickest twin of
+// pixel_pipeline.hpp, bit for bit, where everything fits. What does not is for pixel_lanes.hpp or the plain pipeline.
+//
+// The unit rounds toward zero here. Cutting a magnitude at 24 bits and then at S < 24 is cutting it at S, so that the
+// machine's truncations cost nothing or an AND; an alignment is an addition of the power of two whose last place is the
+// wanted one. float_kernel.hpp has the reasons operation by operation.
+//
+// Lanes are filled with the pixels of a quad as they come, across rows and tiles.
+#pragma once
+
+#include "model/covered_pixels.hpp"
+#include "model/pixel_lanes.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace quadrille {
+
+/// A table as floats. A place is {C0 + 2^23, C1 + 2^23, C2, 0}; its index is what the argument's bits [23 -
+/// segments_log2 +: index_bits] say: of the root also the lowest bit of the exponent's code, so its octaves lie the
+/// other way round.
+struct FloatTable {
+  struct alignas(16) Entry {
+    float c0, c1, c2, unused = 0;
+  };
+  int segments_log2 = 0;
+  std::uint32_t offset_mask = 0;  ///< of the index times 16, a place's bytes
+  std::vector<Entry> entries;
+
+  FloatTable() = default;
+  /// Without places yet; `octave_bits` of the exponent are in the index.
+  FloatTable(const Table& table, int octave_bits)
+      : segments_log2(table.segments_log2),
+        offset_mask(((1u << (table.segments_log2 + octave_bits)) - 1) * static_cast<std::uint32_t>(sizeof(Entry))) {}
+};
+
+/// A number per vertex for a sum: magnitudes by sign, and the powers of two that align it.
+struct FloatColumn {
+  std::array<float, 4> positive{}, negative{};  ///< |v_i|, 0 where the sign is the other one
+  std::array<float, 4> align{};                 ///< 2^(floor(log2 |v_i|) + 23 - PREC_BITS), 0 of a zero
+  bool mixed = false;                           ///< some v_i is negative
+};
+
+/// A quad as the kernel takes it. Positions are in pixels times `unit`, relative to the first tile's origin pixel.
+struct FloatQuad {
+  using Factor = QuadLanes::Factor;
+
+  std::uint32_t id = 0;
+  int x0 = 0, y0 = 0;  ///< the first tile's origin pixel
+  int left = 0, top = 0, right = 0,
+      bottom = 0;  ///< pixels of the scissor that the corners reach, inclusive, from there
+  double unit = 0;
+  std::array<double, 4> x{}, y{};
+  bool sum_k = true, sum_w = true;
+  FloatColumn k, w, z;
+  std::array<FloatColumn, max_attribute_slots> b;
+  Factor w_of_k, z_of_w;  ///< as in QuadLanes
+  std::array<Factor, max_attribute_slots> b_of_k{};
+};
+
+/// Covered pixels in the machine's order, from the first tile's origin pixel of their quad.
+struct PixelList {
+  static constexpr int widest = Config::widest_tile * Config::widest_tile;
+  static constexpr int capacity = 2 * widest;  ///< a tile more than what may wait
+  static constexpr int margin = 16;            ///< written beyond the last pixel, a vector's worth
+
+  int count = 0;
+  alignas(32) std::array<std::uint16_t, capacity + margin> x{}, y{};
+  /// As in a fragment's bytes: front in bit 0, flags from bit 8 on.
+  alignas(32) std::array<std::uint16_t, capacity + margin> marks{};
+
+  /// The first n of them are done; fewer than a block are left.
+  void drop(int n) {
+    for (auto* column : {&x, &y, &marks}) std::copy_n(column->begin() + n, count - n, column->begin());
+    count -= n;
+  }
+};
+
+/// What came of a list of pixels, in its order.
+struct FloatResults {
+  /// What is beyond the attributes in use stays 0.
+  std::vector<Fragment> fragment{PixelList::capacity + PixelList::margin};
+  std::array<std::uint8_t, PixelList::capacity / lane_count> drawn{}, plain{};  ///< by blocks; bit l is lane l
+  bool all_drawn = true;
+  bool any_plain = false;  ///< pixels for the plain pipeline: on corners or two edges, or out of the floats' range
+  std::uint64_t on_edge = 0, notch = 0, saturated = 0;  ///< counts
+};
+
+/// A tile's masks: bit row * TILE + dx, 64 to a word.
+struct TileMasks {
+  static constexpr int words = PixelList::widest / 64;
+  std::array<std::uint64_t, words> mask, front, tie;
+};
+
+/// Everything constant over a draw, and the work.
+class FloatLanes {
+ public:
+  explicit FloatLanes(const PipelineContext& c);
+
+  /// Whether the configuration fits, and the instruction set in use has the code (v3 on).
+  bool usable() const;
+  /// False: the quad is not ordinary, or a number of it does not fit; what `out` holds then is nobody's.
+  bool take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const;
+
+  /// Appends the covered pixels of a tile to the list.
+  struct TileCounts {
+    int stamps = 0, pixels = 0, ties = 0;
+  };
+  TileCounts cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad, PixelList& list) const;
+
+  /// The first `count` pixels of the list, which has at least one. Leaves the caller's rounding mode as it was.
+  void draw(const FloatQuad& quad, const PixelList& list, int count, FloatResults& out) const;
+
+  struct Format {
+    int s = 0, prec = 0, attributes = 0, attribute_int_bits = 0, attribute_frac = 0, depth_bits = 0, tile_log2 = 0;
+    bool depth = false, notch = false;
+    std::int32_t znear = 0, zfar = 0;
+    int scissor_x0 = 0, scissor_y0 = 0, scissor_x1 = 0, scissor_y1 = 0;
+    Cull cull = Cull::none;
+    FloatTable sqrt, recip;
+  };
+
+ private:
+  Format format_;
+  bool fits_ = false;
+  int frac_ = 0, val_bits_ = 0, qdrop_ = 0, viewport_bits_ = 0;
+};
+
+}  // namespace quadrille

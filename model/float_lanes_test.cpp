@@ -1,0 +1,256 @@
+// The single-precision lanes against the plain pipeline, where they fit and at the edges of where they do.
+#include "model/float_lanes.hpp"
+#include "model/each_lane_target.hpp"
+#include "model/quad_setup.hpp"
+#include "model/snap.hpp"
+#include "model/untimed.hpp"
+
+#include "model/support/prng.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cfenv>
+#include <cmath>
+#include <vector>
+
+namespace quadrille {
+namespace {
+
+using golden::Prng;
+
+constexpr int size = 40;
+
+DrawState square() {
+  DrawState s;
+  s.width = s.height = s.scissor_x1 = s.scissor_y1 = size;
+  return s;
+}
+
+/// S + align_guard_bits at most 20.
+Config fitting_config(Prng& rng) {
+  Config c;
+  c.significand_bits = static_cast<int>(rng.integer(8, 19));
+  c.align_guard_bits = static_cast<int>(rng.integer(0, std::min(6, 20 - c.significand_bits)));
+  if (rng.chance(0.5)) c.align_guard_bits = std::min(6, 20 - c.significand_bits);  // the largest sums
+  c.notch_exact = static_cast<int>(rng.below(2));
+  c.attribute_slots = static_cast<int>(rng.integer(1, 8));
+  c.attribute_int_bits = static_cast<int>(rng.integer(1, 8));
+  c.attribute_frac_bits = static_cast<int>(rng.integer(c.significand_bits, std::min(30, 31 - c.attribute_int_bits)));
+  c.depth_bits = static_cast<int>(rng.integer(8, 30));
+  c.tile_log2 = static_cast<int>(rng.integer(2, 4));
+  if (rng.chance(0.3)) c.sqrt_degree = c.recip_degree = 1;
+  if (rng.chance(0.3)) c.quadratic_frac_bits = 2 * static_cast<int>(rng.integer(8, 15));
+  c.validate();
+  return c;
+}
+
+DrawState random_state(Prng& rng, const Config& c) {
+  DrawState s = square();
+  s.perspective = rng.chance(0.7);
+  s.depth = rng.chance(0.7);
+  s.attributes = static_cast<int>(rng.integer(0, c.attribute_slots));
+  s.cull = static_cast<Cull>(rng.chance(0.7) ? 0 : rng.below(3));
+  if (rng.chance(0.3)) s.znear = rng.uniform(0, 0.5), s.zfar = rng.uniform(0.5, 1);
+  if (rng.chance(0.2)) s.scissor_x0 = 5, s.scissor_y0 = 11, s.scissor_x1 = 33, s.scissor_y1 = 29;
+  if (rng.chance(0.2)) s.skip &= ~skip_operands;
+  return s;
+}
+
+/// Corners on pixel centres, on a coarse grid, or anywhere, some far outside; numbers of the port of either sign with
+/// exponents up to `exponents`, so that sums cancel, saturate, and are 0.
+SnappedQuad random_quad(Prng& rng, const Config& c, int exponents) {
+  const int s = c.significand_bits;
+  const auto number = [&](bool sign) {
+    const std::uint32_t low = 1u << (s - 1), ones = 2 * low - 1;
+    const std::uint32_t sig = rng.chance(0.3)   ? ones
+                              : rng.chance(0.2) ? low
+                                                : static_cast<std::uint32_t>(low + rng.below(low));
+    return PortNumber{sign && rng.chance(0.5), static_cast<int>(rng.integer(-exponents, exponents)), sig};
+  };
+  const double grid = rng.chance(0.3) ? 1 : rng.chance(0.3) ? 4 : 256;
+  const bool far = rng.chance(0.1), same_k = rng.chance(0.2), positive = rng.chance(0.5);
+  const PortNumber k = number(false);
+  SnappedQuad q;
+  q.id = static_cast<std::uint32_t>(rng.below(1u << c.quad_id_bits));
+  for (SnappedVertex& v : q.vertex) {
+    const auto position = [&] {
+      const double at = far ? rng.uniform(-20000, 20000) : rng.uniform(-4, size + 4);
+      return static_cast<std::int32_t>(std::floor(at * grid) * std::ldexp(1 / grid, c.frac()));
+    };
+    v.x = position();
+    v.y = position();
+    v.w = 1 << c.frac();
+    v.k = same_k ? k : number(false);
+    v.z = rng.chance(0.1) ? PortNumber{} : number(!positive);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(c.attribute_slots); ++j)
+      v.attribute[j] = rng.chance(0.2) ? PortNumber{} : number(!positive);
+  }
+  if (rng.chance(0.1)) {  // a bow tie that crosses at a pixel centre
+    const auto x = static_cast<std::int32_t>(rng.below(20)) << c.frac(), edge = std::int32_t{16} << c.frac();
+    for (std::size_t i = 0; i < 4; ++i) {
+      q.vertex[i].x = x + (i == 1 || i == 2 ? edge : 0);
+      q.vertex[i].y = i % 2 == 0 ? 0 : edge;
+    }
+  }
+  return q;
+}
+
+std::vector<Fragment> draw(UntimedModel& model, const SnappedQuad& quad) {
+  std::vector<Fragment> out;
+  model.draw(quad, [&](std::span<const Fragment> some) { out.insert(out.end(), some.begin(), some.end()); });
+  return out;
+}
+
+bool taken(const SnappedQuad& quad, const Config& c, const DrawState& s) {
+  const PipelineContext context(c, s);
+  const FloatLanes lanes(context);
+  const SetupResult setup = quad_setup(quad, c, s);
+  const QuadData data = quad_data(quad, setup, c, s);
+  FloatQuad out;
+  return lanes.usable() && lanes.take(setup, data, QuadLanes(data, context), out);
+}
+
+bool can_run_here() { return lane_target() != LaneTarget::baseline; }
+
+TEST(FloatLanes, PlainAndLanesAreOne) {
+  Prng rng(400);
+  std::uint64_t fragments = 0, quads = 0, on_edge = 0, on_vertex = 0, two_edge = 0, notch = 0, saturated = 0,
+                discarded = 0;
+  for (int n = 0; n < 250; ++n) {
+    const Config c = fitting_config(rng);
+    const DrawState s = random_state(rng, c);
+    std::vector<SnappedQuad> list;
+    // Beyond 30 the quad is not taken; near it sums go below what the lanes keep.
+    constexpr int exponents[] = {0, 3, 8, 20, 30, 40};
+    for (int i = 0; i < 12; ++i) list.push_back(random_quad(rng, c, exponents[rng.below(6)]));
+    for (const SnappedQuad& quad : list) quads += taken(quad, c, s);
+    UntimedModel plain(c, s, PixelEngine::plain);
+    std::vector<std::vector<Fragment>> expected;
+    for (const SnappedQuad& quad : list) expected.push_back(draw(plain, quad));
+    on_each_lane_target([&] {
+      UntimedModel quick(c, s);
+      for (std::size_t i = 0; i < list.size(); ++i) ASSERT_EQ(expected[i], draw(quick, list[i])) << "quad " << i;
+      const DrawStats& a = plain.stats();
+      const DrawStats& b = quick.stats();
+      const auto counts = [](const DrawStats& d) {
+        return std::array{d.blocks_tested, d.tiles_tested, d.tiles_entered, d.stamps_covered, d.pixels,
+                          d.fragments,     d.on_edge,      d.on_vertex,     d.two_corner,     d.two_edge,
+                          d.tie,           d.notch,        d.saturated};
+      };
+      ASSERT_EQ(counts(a), counts(b));
+    });
+    if (HasFatalFailure()) FAIL() << "round " << n << ", S " << c.significand_bits << " + " << c.align_guard_bits;
+    fragments += plain.stats().fragments;
+    on_edge += plain.stats().on_edge;
+    on_vertex += plain.stats().on_vertex;
+    two_edge += plain.stats().two_edge;
+    notch += plain.stats().notch;
+    saturated += plain.stats().saturated;
+    discarded += plain.stats().pixels - plain.stats().fragments;
+  }
+  std::printf("%llu quads taken, %llu fragments\n", static_cast<unsigned long long>(quads),
+              static_cast<unsigned long long>(fragments));
+  EXPECT_GT(fragments, 200'000u);
+  EXPECT_GT(on_edge, 20u);
+  EXPECT_GT(on_vertex, 20u);
+  EXPECT_GT(two_edge, 20u);
+  EXPECT_GT(notch, 20u);
+  EXPECT_GT(saturated, 20u);
+  EXPECT_GT(discarded, 20u);
+  if (can_run_here()) {
+    EXPECT_GT(quads, 1000u);
+  }
+}
+
+/// What they take, and each reason to refuse.
+TEST(FloatLanes, TakeWhatFits) {
+  if (!can_run_here()) GTEST_SKIP() << "no lanes for this processor";
+  Prng rng(401);
+  const Config c;
+  DrawState s = square();
+  const auto quad = [&] {
+    SnappedQuad q;
+    do q = random_quad(rng, c, 8);
+    while (draw(*std::make_unique<UntimedModel>(c, s), q).empty());
+    return q;
+  };
+  const SnappedQuad good = quad();
+  EXPECT_TRUE(taken(good, c, s));
+  SnappedQuad bad = good;
+  bad.vertex[1].k.exp = 30;
+  EXPECT_TRUE(taken(bad, c, s));
+  bad.vertex[1].k.exp = 31;
+  EXPECT_FALSE(taken(bad, c, s)) << "exponents go to 30";
+  bad = good;
+  bad.vertex[2].attribute[0] = {true, -31, 1u << (c.significand_bits - 1)};
+  EXPECT_FALSE(taken(bad, c, s));
+  bad = good;
+  bad.vertex[0].w -= 1;
+  EXPECT_FALSE(taken(bad, c, s)) << "not ordinary";
+  // A, D and r² are 63 bits wide here: with 5 low bits of a position 0 a double holds them.
+  bad = good;
+  bad.vertex[3].x = (bad.vertex[3].x & ~0xff) | 1 << 5;
+  EXPECT_TRUE(taken(bad, c, s));
+  bad.vertex[3].x = (bad.vertex[3].x & ~0xff) | 1 << 4;
+  EXPECT_FALSE(taken(bad, c, s));
+  for (const int guard : {2, 3}) {
+    Config wide = c;
+    wide.align_guard_bits = guard;
+    EXPECT_EQ(taken(good, wide, s), guard == 2) << "S + align_guard_bits = " << 18 + guard;
+  }
+  Config odd = c;
+  odd.quadratic_frac_bits = 15;
+  EXPECT_FALSE(taken(good, odd, s)) << "exponents would be odd where they are even";
+  odd.quadratic_frac_bits = 14;
+  EXPECT_FALSE(taken(good, odd, s)) << "a bit of the products is dropped";
+  odd.quadratic_frac_bits = 16;
+  EXPECT_TRUE(taken(good, odd, s));
+  set_lane_target(LaneTarget::baseline);
+  EXPECT_FALSE(taken(good, c, s));
+  set_lane_target(can_run(LaneTarget::v4) ? LaneTarget::v4 : LaneTarget::v3);
+}
+
+/// How the unit rounds, seen from its results: fegetround() asks another unit.
+std::array<double, 3> rounding() {
+  const volatile double one = 1, minus_one = -1, three = 3, least = 0x1p-1022, half = 0.5;
+  return {one / three, minus_one / three, least * half};
+}
+
+/// The caller's rounding mode neither changes nor is changed.
+TEST(FloatLanes, RoundingModeIsTheCallers) {
+  Prng rng(402);
+  const Config c;
+  const DrawState s = square();
+  UntimedModel plain(c, s, PixelEngine::plain);
+  std::uint64_t fragments = 0;
+  for (int n = 0; n < 100; ++n) {
+    const SnappedQuad quad = random_quad(rng, c, 8);
+    const std::vector<Fragment> expected = draw(plain, quad);
+    for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
+      on_each_lane_target([&] {
+        UntimedModel quick(c, s);
+        std::vector<Fragment> got;
+        std::array<double, 3> in_sink{};
+        std::fesetround(mode);
+        const std::array<double, 3> before = rounding();
+        in_sink = before;
+        std::feclearexcept(FE_ALL_EXCEPT);
+        quick.draw(quad, [&](std::span<const Fragment> some) {
+          in_sink = rounding();
+          got.insert(got.end(), some.begin(), some.end());
+        });
+        const std::array<double, 3> after = rounding();
+        std::fesetround(FE_TONEAREST);
+        EXPECT_EQ(before, in_sink);
+        EXPECT_EQ(before, after);
+        ASSERT_EQ(expected, got);
+      });
+    if (HasFailure()) return;
+    fragments += expected.size();
+  }
+  EXPECT_GT(fragments, 2000u);
+}
+
+}  // namespace
+}  // namespace quadrille

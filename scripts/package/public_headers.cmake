@@ -1,0 +1,22 @@
+# Copies the public headers as users include them: #include "model/config.hpp" becomes "quadrille/model/config.hpp", so that they need
+# one include directory and meet nobody else's model/. A header that is unchanged is not written.
+#   cmake -DSOURCE=DIR -DDESTINATION=DIR/quadrille "-DHEADERS=a;b" -P public_headers.cmake
+cmake_minimum_required(VERSION 3.25)
+foreach(header IN LISTS HEADERS)
+  file(READ "${SOURCE}/${header}" text)
+  string(REGEX MATCHALL "#include \"[^\"]+\"" includes "${text}")
+  foreach(line IN LISTS includes)
+    string(REGEX REPLACE "#include \"(.+)\"" "\\1" included "${line}")
+    if(NOT included IN_LIST HEADERS)
+      message(FATAL_ERROR "${header} is public and includes ${included}, which is not (scripts/package/package.cmake)")
+    endif()
+  endforeach()
+  string(REGEX REPLACE "#include \"([^\"]+)\"" "#include \"quadrille/\\1\"" text "${text}")
+  set(old)
+  if(EXISTS "${DESTINATION}/${header}")
+    file(READ "${DESTINATION}/${header}" old)
+  endif()
+  if(NOT old STREQUAL text)
+    file(WRITE "${DESTINATION}/${header}" "${text}")
+  endif()
+endforeach()

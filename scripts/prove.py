@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""Proves properties of the RTL with Yosys' SMT back end and z3: each proof of tb/formal/proofs.toml, a line of a table for each.
+
+    scripts/prove.py [--only NAME]... [--tier default] [--faults] [--list]
+
+Kinds of proof (tb/formal/README.md):
+  induction  holds always: base case from reset over `depth` clocks, then any state in which it held for `depth` clocks leads to one where it does
+  pipeline   holds always: from any contents of all registers, `depth` clocks on, when what was in them has left
+  bounded    holds for `depth` clocks from reset
+
+--faults: every fault of a proof, put into a copy of the RTL, must give a counterexample that starts from reset (pipeline: from any contents).
+Exit status: 0 all proved (all faults found), 1 not, 2 usage, 3 a tool is missing."""
+import argparse
+import concurrent.futures
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+FORMAL = os.path.join(ROOT, "tb", "formal")
+KINDS = ("induction", "pipeline", "bounded")
+TOOLS = {"yosys": "yosys", "yosys-smtbmc": "yosys", "z3": "z3"}
+
+
+class BadList(Exception):
+    """proofs.toml does not fit the RTL or itself: exit status 2."""
+
+
+class Failed(Exception):
+    """What a proof ended with that is neither a proof nor a counterexample."""
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def load():
+    with open(os.path.join(FORMAL, "proofs.toml"), "rb") as file:
+        proofs = tomllib.load(file)["proof"]
+    for proof in proofs:
+        if proof["kind"] not in KINDS or not proof["faults"]:
+            raise BadList(f"{proof['name']}: kind is one of {', '.join(KINDS)}, and at least one fault")
+        if "inside" not in proof and "harness" not in proof:
+            raise BadList(f"{proof['name']}: has neither harness nor inside")
+    if len({proof["name"] for proof in proofs}) != len(proofs):
+        raise BadList("two proofs have one name")
+    return proofs
+
+
+def run(command, work, limit):
+    """(status, output) of a tool; after `limit` seconds of wall clock it and its children are ended."""
+    with subprocess.Popen(command, cwd=work, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True) as process:
+        try:
+            output, _ = process.communicate(timeout=limit)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+            raise Failed(f"no answer in {limit} s") from None
+        return process.returncode, output
+
+
+def sources(proof, fault, work):
+    """Copies of the files of a proof, fault and checker in them; the checker goes before the end of its module, as a bind would (Yosys has none)."""
+    names = ["quadrille_pkg.sv", *proof.get("rtl", [])]
+    for name in names:
+        text = read(os.path.join(ROOT, "rtl", name))
+        base = os.path.basename(name)
+        if fault and fault["file"] == name:
+            if text.count(fault["search"]) != fault.get("count", 1):
+                raise BadList(f"{proof['name']}: {name} has `{fault['search']}` {text.count(fault['search'])} times")
+            text = text.replace(fault["search"], fault["replace"])
+        if "inside" in proof and base == proof["top"] + ".sv":
+            end = text.rindex("endmodule")
+            text = text[:end] + read(os.path.join(FORMAL, proof["inside"])) + text[end:]
+        with open(os.path.join(work, base), "w", encoding="utf-8") as file:
+            file.write(text)
+    if fault and fault["file"] not in names:
+        raise BadList(f"{proof['name']}: the fault's file {fault['file']} is not among its own")
+    if "harness" in proof:
+        for name in (proof["harness"], *proof.get("includes", [])):
+            shutil.copy(os.path.join(FORMAL, name), work)
+            if name.endswith(".sv"):
+                names.append(name)
+    return [os.path.basename(name) for name in names]
+
+
+def elaborate(proof, fault, work, limit):
+    defines = "".join(f" -DQUADRILLE_{key.upper()}={value}" for key, value in proof.get("settings", {}).items())
+    parameters = "".join(f" -chparam {key} {value}" for key, value in proof.get("parameters", {}).items())
+    own = "" if proof.get("own_assertions", True) else " -DSYNTHESIS"
+    script = (f"read_verilog -sv -formal{own}{defines} {' '.join(sources(proof, fault, work))}\n"
+              f"hierarchy -check -top {proof['top']}{parameters}\n"
+              "prep -flatten\nmemory_map\nopt -fast\nasync2sync\ndffunmap\nopt_clean\nwrite_smt2 -wires machine.smt2\n")
+    with open(os.path.join(work, "elaborate.ys"), "w", encoding="utf-8") as file:
+        file.write(script)
+    status, output = run(["yosys", "-q", "-s", "elaborate.ys"], work, limit)
+    if status != 0:
+        raise Failed("yosys: " + output.strip()[-500:])
+
+
+def solve(options, work, limit):
+    """Whether no assertion fails; and the first that does."""
+    status, output = run(["yosys-smtbmc", "-s", "z3", "--unroll", "--noprogress", *options, "machine.smt2"], work, limit)
+    if "Status: PASSED" in output and status == 0:
+        return True, ""
+    # At the end of the location that Yosys gives stands the assertion.
+    if "Status: FAILED" in output and (found := re.search(r"Assert failed in .*: (\S+?):[\d.]+-(\d+)\.", output)):
+        return False, read(os.path.join(work, found.group(1))).splitlines()[int(found.group(2)) - 1].strip()
+    raise Failed("yosys-smtbmc: " + output.strip()[-500:])
+
+
+def bounded(proof, depth):
+    """Options of a run from the start: every step, or of a pipeline the last alone, in one question that z3 simplifies as a whole."""
+    return ["--noincr", "-t", f"{depth}:{depth + 1}"] if proof["kind"] == "pipeline" else ["-t", str(depth)]
+
+
+def prove(proof, limit):
+    with tempfile.TemporaryDirectory(prefix="prove-") as work:
+        elaborate(proof, None, work, limit)
+        proved, where = solve(bounded(proof, proof["depth"]), work, limit)
+        if proved and proof["kind"] == "induction":
+            proved, where = solve(["-i", "-t", str(proof["depth"])], work, limit)
+            where = where and f"induction step: {where}"
+        return proved, where
+
+
+def find_fault(proof, fault, limit):
+    with tempfile.TemporaryDirectory(prefix="prove-") as work:
+        elaborate(proof, fault, work, limit)
+        proved, where = solve(bounded(proof, fault.get("depth", proof["depth"])), work, limit)
+        return not proved, where or "no counterexample"
+
+
+def attempt(task):
+    """(as expected, what was found, seconds) of a proof or a fault."""
+    start = time.monotonic()
+    try:
+        good, where = task()
+    except Failed as failure:
+        good, where = False, str(failure)
+    return good, where, time.monotonic() - start
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--list", action="store_true", help="what is proved, without proving it")
+    parser.add_argument("--only", action="append", metavar="NAME", help="this proof; may be repeated")
+    parser.add_argument("--tier", choices=("default", "all"), default="all", help="default: the proofs of seconds")
+    parser.add_argument("--faults", action="store_true", help="the faults instead of the proofs")
+    parser.add_argument("--limit", type=int, default=900, metavar="SECONDS", help="of wall clock for a run of a tool (900)")
+    parser.add_argument("-j", "--jobs", type=int, default=1, metavar="N", help="at once (1)")
+    args = parser.parse_args()
+    proofs = [proof for proof in load() if args.tier == "all" or proof.get("tier") == "default"]
+    if args.only:
+        if unknown := set(args.only) - {proof["name"] for proof in proofs}:
+            raise BadList(f"no proof {', '.join(sorted(unknown))}; --list")
+        proofs = [proof for proof in proofs if proof["name"] in args.only]
+    if args.list:
+        for proof in proofs:
+            print(f"{proof['name']} ({proof['kind']}, {proof['depth']}): {proof['what']}\n    assumed: {proof['assumptions']}")
+        return 0
+    for tool, package in TOOLS.items():
+        if not shutil.which(tool):
+            print(f"prove.py: no {tool}; install with: apt-get install {package}", file=sys.stderr)
+            return 3
+    os.nice(10)
+
+    if args.faults:
+        tasks = [(proof, f"{fault['search'].strip()} -> {fault['replace'].strip()}", lambda p=proof, f=fault: find_fault(p, f, args.limit))
+                 for proof in proofs for fault in proof["faults"]]
+        print("| proof | fault | counterexample to | s | |\n|---|---|---|---|---|")
+    else:
+        tasks = [(proof, proof["assumptions"], lambda p=proof: prove(p, args.limit)) for proof in proofs]
+        print("| proof | kind | depth | assumed | s | |\n|---|---|---|---|---|---|")
+    bad = 0
+    with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+        for (proof, text, _), (good, where, seconds) in zip(tasks, pool.map(lambda task: attempt(task[2]), tasks)):
+            bad += not good
+            text = text.replace("|", "\\|").replace("\n", " ")
+            if args.faults:
+                print(f"| {proof['name']} | `{text}` | {where} | {seconds:.1f} | {'found' if good else 'NOT FOUND'} |", flush=True)
+            else:
+                print(f"| {proof['name']} | {proof['kind']} | {proof['depth']} | {text} | {seconds:.1f} | {'proved' if good else 'NOT PROVED: ' + where} |", flush=True)
+    print(f"{len(tasks) - bad} of {len(tasks)} {'faults found' if args.faults else 'proved'}")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except BadList as error:
+        print(f"prove.py: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -1,0 +1,427 @@
+// quadrille stress: errors against a knob, towards every special case.
+#include "golden/scenes/stress.hpp"
+#include "golden/io/atomic_file.hpp"
+#include "golden/io/json_report.hpp"
+#include "golden/io/text_input.hpp"
+#include "golden/scenes/approach.hpp"
+#include "model/support/parallel.hpp"
+#include "tb/check/knob_errors.hpp"
+#include "tb/commands/commands.hpp"
+#include "tb/options/command_line.hpp"
+#include "tb/options/input.hpp"
+#include "tb/support/choices.hpp"
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
+#include "tb/support/progress.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+namespace quadrille::cli {
+namespace {
+
+struct StressOptions {
+  CommonOptions common;
+  std::string families, engines = "model,float,fp32", csv;
+  std::uint64_t count = 12;
+};
+
+constexpr const char* stress_size = "64x64";
+constexpr int drawn_attributes = 2;
+constexpr std::string_view no_knob = "nothing";  ///< of families without one: as many quads in one step
+constexpr int knob_octaves = 6;                  ///< of a family's knob, to either side of 1
+
+/// A name of --families: a stress family or an approach.
+struct KnobSeries {
+  std::string name, kind, special, knob;
+  std::optional<golden::StressFamily> family;
+  const golden::Approach* approach = nullptr;
+  DrawState state;
+};
+
+struct KnobStep {
+  std::size_t series = 0;
+  int knob = 0;  ///< family: log2 of the knob; approach: the knob
+  int side = 1;  ///< approach: 0 is the special case
+};
+
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> names(1);
+  for (const char c : list) {
+    if (c == ',')
+      names.emplace_back();
+    else
+      names.back() += c;
+  }
+  return names;
+}
+
+class StressCommand {
+ public:
+  StressCommand(const StressOptions& options, const std::vector<std::string>& arguments)
+      : options_(options), common_(options.common), arguments_(arguments), config_(common_.config()) {
+    if (config_.qdrop() != 0)
+      throw UsageError("stress: quadratic_frac_bits drops bits of D and R²; no bound is claimed then");
+    choose_bodies();
+    choose_series();
+  }
+
+  int run() {
+    check_outputs({options_.csv, common_.json}, {common_.config_file});
+    measure();
+    for (std::size_t i = 0; i < series_.size(); ++i) judge(i);
+    if (!options_.csv.empty()) golden::write_file(options_.csv, csv(), golden::AtomicFile::Dash::standard_output);
+    if (!common_.json.empty()) golden::save_json(common_.json, report());
+    if (std::FILE* text = common_.text(); text && options_.csv != "-") print(text);
+    for (const std::string& fault : faults_) std::fprintf(stderr, "quadrille: %s\n", fault.c_str());
+    return faults_.empty() ? exit_ok : exit_mismatch;
+  }
+
+ private:
+  static constexpr std::size_t bodies = knob_body_names.size();
+
+  void choose_bodies() {
+    const std::vector<std::string> all(knob_body_names.begin(), knob_body_names.end());
+    for (const std::string& name : names_in(options_.engines)) bodies_ |= 1u << choose("engine", name, all);
+    bodies_ |= 1u << static_cast<unsigned>(KnobBody::model);
+  }
+
+  bool has(std::size_t body) const { return (bodies_ >> body & 1) != 0; }
+
+  void choose_series() {
+    std::vector<std::string> all = stress_names();
+    for (const golden::Approach& approach : golden::approaches()) all.emplace_back(approach.name);
+    const std::vector<std::string> wanted = options_.families.empty() ? all : names_in(options_.families);
+    const auto [width, height] = common_.viewport(config_);
+    for (const std::string& name : wanted) {
+      choose("family", name, all);
+      KnobSeries s;
+      s.name = name;
+      s.approach = golden::find_approach(name);
+      if (s.approach) {
+        s.kind = "approach";
+        s.special = s.approach->special;
+        s.knob = s.approach->knob;
+        s.state.width = s.approach->width;
+        s.state.height = s.approach->height;
+        if (s.state.width > 1 << config_.viewport_bits)
+          throw UsageError(name + " is drawn " + std::to_string(s.state.width) + " pixels wide: viewport_bits = " +
+                           std::to_string(config_.viewport_bits) + " is too few; leave it out with --families");
+      } else {
+        s.family = golden::parse_stress_family(name);
+        const golden::StressFamilyInfo& info = golden::stress_families()[static_cast<std::size_t>(*s.family)];
+        s.kind = "family";
+        s.special = info.stresses;
+        s.knob = info.knob;
+        s.state.width = width;
+        s.state.height = height;
+      }
+      s.state.scissor_x1 = s.state.width;
+      s.state.scissor_y1 = s.state.height;
+      series_.push_back(s);
+      add_steps(series_.size() - 1);
+    }
+  }
+
+  void add_steps(std::size_t index) {
+    const KnobSeries& s = series_[index];
+    if (s.family) {
+      const int reach = s.knob == no_knob ? 0 : knob_octaves;
+      for (int knob = -reach; knob <= reach; ++knob) steps_.push_back({index, knob, 1});
+      return;
+    }
+    for (const int side : {-1, 1})
+      for (int knob = s.approach->first; knob <= s.approach->last; ++knob) {
+        if (side < 0 && !s.approach->both_sides) continue;
+        steps_.push_back({index, knob, side});
+      }
+    if (s.approach->limit) steps_.push_back({index, s.approach->last, 0});
+  }
+
+  std::vector<WindowQuad> quads_of(const KnobStep& step) const {
+    const KnobSeries& s = series_[step.series];
+    if (s.approach)
+      return golden::make_approach(*s.approach, step.knob, step.side, options_.count, common_.seed, drawn_attributes);
+    const bool one_step = s.knob == no_knob;
+    return golden::make_stress_without_weights(*s.family, options_.count * (one_step ? 2 * knob_octaves + 1 : 1),
+                                               common_.seed, s.state.width, s.state.height, drawn_attributes,
+                                               std::ldexp(1.0, step.knob));
+  }
+
+  /// Simulators and OpenGL contexts stay in this thread.
+  unsigned threads() const {
+    const bool alone = has(static_cast<std::size_t>(KnobBody::shader)) || has(static_cast<std::size_t>(KnobBody::rtl));
+    return alone ? 1 : common_.thread_count();
+  }
+
+  void measure() {
+    Progress progress("stress", steps_.size(), common_.show_progress());
+    ordered_parallel(
+        steps_.size(), threads(),
+        [&](std::size_t i) {
+          const KnobStep& step = steps_[i];
+          KnobErrors errors =
+              measure_knob(quads_of(step), drawn_attributes, config_, series_[step.series].state, bodies_);
+          if (!jumps(step)) errors.weights = {};
+          return errors;
+        },
+        [&](std::size_t i, KnobErrors&& errors) {
+          results_.push_back(std::move(errors));
+          progress.set(i + 1, series_[steps_[i].series].name);
+        });
+  }
+
+  /// On the way to a special case, where the error must not jump.
+  bool jumps(const KnobStep& step) const {
+    const golden::Approach* approach = series_[step.series].approach;
+    return approach && approach->limit;
+  }
+
+  struct Summary {
+    std::array<BodyErrors, bodies> body;
+    std::array<std::size_t, bodies> worst{};  ///< the step
+    ErrorJump jump;                           ///< of no pixels where there is no special case, or it draws nothing
+  };
+
+  void judge(std::size_t index) {
+    Summary sum;
+    const KnobSeries& s = series_[index];
+    const auto fault = [&](const std::string& what) { faults_.push_back(s.name + ": " + what); };
+    const KnobErrors* special = nullptr;
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      if (steps_[i].series != index) continue;
+      const KnobErrors& r = results_[i];
+      if (steps_[i].side == 0) special = &r;
+      for (std::size_t b = 0; b < bodies; ++b) {
+        if (r.body[b].weight > sum.body[b].weight) sum.worst[b] = i;
+        sum.body[b].merge(r.body[b]);
+      }
+      if (r.verdict.faults() != 0) {
+        const std::string what = r.verdict.first.any ? r.verdict.first.text : "beyond the bound";
+        fault(place(steps_[i]) + ": " + std::to_string(r.verdict.faults()) + " faults, " + what);
+      }
+      if (!r.difference.empty()) fault(place(steps_[i]) + ": " + r.difference);
+    }
+    if (sum.body[0].fragments == 0) fault("nothing was drawn");
+    if (sum.body[0].weight > 1) fault("a weight is beyond the bound: " + reproduce(sum.worst[0], sum.body[0].worst));
+    if (special) {
+      for (std::size_t i = 0; i < steps_.size(); ++i) {
+        if (steps_[i].series != index || steps_[i].side == 0) continue;
+        const ErrorJump jump = error_jump(special->weights, results_[i].weights);
+        sum.jump.pixels += jump.pixels;
+        sum.jump.largest = std::max(sum.jump.largest, jump.largest);
+      }
+      if (sum.jump.largest > 1) fault("the error jumps by more than the bound at the special case");
+    }
+    summaries_.push_back(sum);
+  }
+
+  std::string place(const KnobStep& step) const {
+    const KnobSeries& s = series_[step.series];
+    if (step.side == 0) return "special case";
+    return (s.approach ? (step.side < 0 ? "side -1, knob " : "knob ") : "knob 2^") + std::to_string(step.knob);
+  }
+
+  /// A command that draws the pixel.
+  std::string reproduce(std::size_t step, const Place& at) const {
+    const KnobSeries& s = series_[steps_[step].series];
+    const WindowQuad quad = quads_of(steps_[step])[at.index];
+    std::string line = "echo '";
+    for (std::size_t i = 0; i < 4; ++i) {
+      const WindowVertex& v = quad.vertex[i];
+      char text[128];
+      std::snprintf(text, sizeof text, "%s%.17g %.17g %.17g %.17g", i ? "  " : "", v.x, v.y, v.z, v.w);
+      line += text;
+    }
+    return line + "' | quadrille fragments --quads /dev/stdin --size " + std::to_string(s.state.width) + "x" +
+           std::to_string(s.state.height) + spelled(config_) + " --pixel " + std::to_string(at.x) + "," +
+           std::to_string(at.y) + " --out -";
+  }
+
+  static bool fails(const BodyErrors& e) { return e.weight > 1 || e.undefined != 0 || e.missing != 0; }
+
+  static std::string units(const BodyErrors& e, double value) {
+    if (e.fragments == 0) return "-";
+    char text[32];
+    std::snprintf(text, sizeof text, value < 1000 ? "%.3f" : "%.1e", value);
+    return text;
+  }
+
+  void print(std::FILE* text) const {
+    std::fprintf(text,
+                 "%s\n%llu quads a step, configuration %s; errors in units of the bound, 2^%.0f of a weight, the "
+                 "largest over all steps\n\n%-18s %9s %7s %9s %7s",
+                 golden::command_line(arguments_).c_str(), static_cast<unsigned long long>(options_.count),
+                 summary(config_).c_str(), std::log2(weight_bound(config_)), "", "fragments", "weight", "attribute",
+                 "depth");
+    for (std::size_t b = 1; b < bodies; ++b)
+      if (has(b)) std::fprintf(text, " %10s %9s", std::string(knob_body_names[b]).c_str(), "lost");
+    std::fprintf(text, " %7s\n", "jump");
+    std::array<std::size_t, bodies> failing{};
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+      const Summary& s = summaries_[i];
+      const BodyErrors& model = s.body[0];
+      std::fprintf(text, "%-18s %9llu %7s %9s %7s", series_[i].name.c_str(),
+                   static_cast<unsigned long long>(model.fragments), units(model, model.weight).c_str(),
+                   units(model, model.attribute).c_str(), units(model, model.depth).c_str());
+      for (std::size_t b = 1; b < bodies; ++b) {
+        if (!has(b)) continue;
+        failing[b] += fails(s.body[b]);
+        std::fprintf(text, " %10s %9llu", units(s.body[b], s.body[b].weight).c_str(),
+                     static_cast<unsigned long long>(s.body[b].undefined + s.body[b].missing));
+      }
+      if (s.jump.pixels != 0) std::fprintf(text, " %7.3f", s.jump.largest);
+      std::fprintf(text, "\n");
+    }
+    std::fprintf(text, "\n");
+    for (std::size_t b = 1; b < bodies; ++b)
+      if (has(b))
+        std::fprintf(text, "%s is beyond the bound, undefined or without a fragment in %zu of %zu\n",
+                     std::string(knob_body_names[b]).c_str(), failing[b], series_.size());
+    std::size_t worst = 0;
+    for (std::size_t i = 1; i < series_.size(); ++i)
+      if (summaries_[i].body[0].weight > summaries_[worst].body[0].weight) worst = i;
+    const Summary& s = summaries_[worst];
+    if (s.body[0].fragments != 0)
+      std::fprintf(text, "worst weight of the model, %.3f of the bound (%s, %s):\n%s\n", s.body[0].weight,
+                   series_[worst].name.c_str(), place(steps_[s.worst[0]]).c_str(),
+                   reproduce(s.worst[0], s.body[0].worst).c_str());
+  }
+
+  std::string csv() const {
+    std::string out = "family,kind,knob,side,engine,fragments,undefined,missing,weight,attribute,depth\n";
+    for (std::size_t i = 0; i < steps_.size(); ++i)
+      for (std::size_t b = 0; b < bodies; ++b) {
+        if (!has(b)) continue;
+        const KnobSeries& s = series_[steps_[i].series];
+        const BodyErrors& e = results_[i].body[b];
+        char text[256];
+        std::snprintf(text, sizeof text, ",%d,%d,%s,%llu,%llu,%llu", steps_[i].knob, steps_[i].side,
+                      std::string(knob_body_names[b]).c_str(), static_cast<unsigned long long>(e.fragments),
+                      static_cast<unsigned long long>(e.undefined), static_cast<unsigned long long>(e.missing));
+        out += s.name + "," + s.kind + text;
+        for (const double value : {e.weight, e.attribute, e.depth}) {
+          std::snprintf(text, sizeof text, ",%.17g", value);
+          out += e.fragments == 0 ? "," : text;
+        }
+        out += "\n";
+      }
+    return out;
+  }
+
+  nlohmann::ordered_json report() const {
+    nlohmann::ordered_json json = golden::begin_report(config_, common_.seed, arguments_);
+    json["weight_bound"] = weight_bound(config_);
+    json["count"] = options_.count;
+    json["families"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+      const Summary& s = summaries_[i];
+      nlohmann::ordered_json entry;
+      entry["family"] = series_[i].name;
+      entry["kind"] = series_[i].kind;
+      entry["special"] = series_[i].special;
+      entry["knob"] = series_[i].knob;
+      entry["jump"] = nullptr;
+      if (s.jump.pixels != 0) entry["jump"] = s.jump.largest;
+      entry["jump_pixels"] = s.jump.pixels;
+      for (std::size_t b = 0; b < bodies; ++b) {
+        if (!has(b) || s.body[b].fragments == 0) continue;
+        nlohmann::ordered_json& worst = entry["worst"][std::string(knob_body_names[b])];
+        worst["weight"] = s.body[b].weight;
+        worst["knob"] = steps_[s.worst[b]].knob;
+        worst["side"] = steps_[s.worst[b]].side;
+        worst["reproduce"] = reproduce(s.worst[b], s.body[b].worst);
+      }
+      json["families"].push_back(std::move(entry));
+    }
+    json["errors"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < steps_.size(); ++i)
+      for (std::size_t b = 0; b < bodies; ++b) {
+        if (!has(b)) continue;
+        const BodyErrors& e = results_[i].body[b];
+        nlohmann::ordered_json entry;
+        entry["family"] = series_[steps_[i].series].name;
+        entry["knob"] = steps_[i].knob;
+        entry["side"] = steps_[i].side;
+        entry["engine"] = knob_body_names[b];
+        entry["fragments"] = e.fragments;
+        entry["undefined"] = e.undefined;
+        entry["missing"] = e.missing;
+        for (const auto& [key, value] :
+             {std::pair{"weight", e.weight}, std::pair{"attribute", e.attribute}, std::pair{"depth", e.depth}}) {
+          entry[key] = nullptr;
+          if (e.fragments != 0) entry[key] = value;
+        }
+        json["errors"].push_back(std::move(entry));
+      }
+    json["ok"] = faults_.empty();
+    json["faults"] = faults_;
+    return json;
+  }
+
+  const StressOptions& options_;
+  const CommonOptions& common_;
+  const std::vector<std::string>& arguments_;
+  const Config config_;
+  unsigned bodies_ = 0;
+  std::vector<KnobSeries> series_;
+  std::vector<KnobStep> steps_;
+  std::vector<KnobErrors> results_;  ///< of the steps
+  std::vector<Summary> summaries_;   ///< of the series
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+void add_stress_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand(
+      "stress", "Errors against a knob, towards every special case, of the model, the paper's formulas and others");
+  command->footer(
+      "Stress families take the knobs 2^-6 to 2^6 (those whose knob scales nothing, 1), quads at random. Approaches "
+      "walk "
+      "one\n"
+      "quad each towards a special case: knob k is a distance of 2^-k from it (long_edge: a length of 2^k), on either "
+      "side,\n"
+      "and the case itself. What each is: golden/scenes/README.md, and in the JSON.\n\n"
+      "Errors are those against exact arithmetic on the same snapped quads, in units of what the bound allows: a "
+      "weight "
+      "2^-(s-3),\n"
+      "attributes and depth what follows from it. Bodies: model; float and fp32, the paper's formulas as printed in "
+      "double and\n"
+      "single precision; shader, on OpenGL; rtl, which must equal the model. Undefined are pixels where a body divides "
+      "by zero,\n"
+      "missing those that it does not draw; both together are \"lost\" in the table. Jump: how far an error of the "
+      "model "
+      "changes\n"
+      "from any step to the special case, at the same pixel. scripts/stress_plot.py draws the JSON.\n\n"
+      "Exit status 1: the model is beyond its bound or draws other pixels, its error jumps by more than the bound, or "
+      "the RTL\n"
+      "differs from it.\n\n"
+      "Examples:\n"
+      "  quadrille stress\n"
+      "  quadrille stress --families edge_distance,eye_plane --set significand_bits=24 --csv stress.csv\n"
+      "  quadrille stress --families reflex --count 8 --engines rtl,shader --json stress.json");
+  const auto options = std::make_shared<StressOptions>();
+  options->common.size = stress_size;
+  options->common.add_to(*command);
+  command
+      ->add_option("--families", options->families,
+                   "Stress families (`quadrille scenes` lists them) and approaches, with commas; default: all")
+      ->type_name("LIST");
+  command->add_option("--engines", options->engines, "Beside the model: float, fp32, shader, rtl")
+      ->type_name("LIST")
+      ->capture_default_str();
+  command->add_option("--count", options->count, "Quads of each step")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}))
+      ->capture_default_str();
+  command->add_option("--csv", options->csv, "A row for each step and body; - is standard output")->type_name("F.csv");
+  command->callback([options, &invocation] {
+    invocation.run = [options, &invocation] { return StressCommand(*options, invocation.arguments).run(); };
+  });
+}
+
+}  // namespace quadrille::cli

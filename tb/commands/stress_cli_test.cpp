@@ -1,0 +1,105 @@
+// `quadrille stress` as a program: bad input, the report and table, reproducers that run, results that do not depend on
+// threads.
+#include "tb/commands/cli_fixture.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+namespace quadrille::cli_test {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(Cli, StressRefuses) {
+  refuses(2, "stress --families slivers", {"unknown family", "did you mean \"sliver\""});
+  refuses(2, "stress --families sliver,,bowtie", {"unknown family"});
+  refuses(2, "stress --engines fp64", {"unknown engine", "fp32"});
+  refuses(2, "stress --count 0", {"--count"});
+  refuses(2, "stress --size 99999x2", {"--size"});
+  refuses(2, "stress --families bowtie --json nowhere/s.json", {"nowhere"});
+  refuses(2, "stress --families bowtie --csv - --json -", {"two outputs"});
+  refuses(2, "stress --families long_edge --set viewport_bits=9", {"long_edge", "viewport_bits"});
+  refuses(2, "stress --families bowtie --set quadratic_frac_bits=10", {"quadratic_frac_bits"});
+  refuses(2, "stress --stress bowtie", {"--stress"});
+}
+
+TEST_F(Cli, StressReports) {
+  const std::string arguments = "stress --families reflex,on_edge,edge_distance --count 3 --json ";
+  const Outcome outcome = run(arguments + "- --csv table.csv --threads 1");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  EXPECT_TRUE(report["ok"]);
+  EXPECT_EQ(report["weight_bound"], std::ldexp(1.0, -15));
+  ASSERT_EQ(report["families"].size(), 3u);
+  std::set<std::string> kinds;
+  for (const json& family : report["families"]) {
+    kinds.insert(family["kind"]);
+    EXPECT_EQ(family["jump"].is_null(), family["kind"] == "family");
+    const json& worst = family["worst"]["model"];
+    EXPECT_GT(worst["weight"], 0);
+    EXPECT_LT(worst["weight"], 1);
+    // The reproducer's pixel: the weights of the model are as far from the truth's as the report says.
+    std::string line = worst["reproduce"];
+    const std::size_t at = line.find("quadrille fragments");
+    ASSERT_NE(at, std::string::npos);
+    const std::string quad = line.substr(6, line.find('\'', 6) - 6);
+    write("worst.quads", quad + "\n");
+    line = line.substr(at + std::string("quadrille ").size());
+    line.replace(line.find("/dev/stdin"), 10, "worst.quads");
+    double largest = 0;
+    const auto weights = [&](const std::string& engine) {
+      const Outcome drawn = run(line + " --engine " + engine);
+      EXPECT_EQ(drawn.status, 0) << drawn.err;
+      std::vector<double> out;
+      const std::string row = drawn.out.substr(drawn.out.find('\n') + 1);
+      std::size_t from = 0;
+      for (int column = 0; column < 9; ++column) {
+        if (column >= 5) out.push_back(std::strtod(row.c_str() + from, nullptr));
+        from = row.find(',', from) + 1;
+      }
+      return out;
+    };
+    const std::vector<double> model = weights("model"), truth = weights("truth");
+    for (std::size_t i = 0; i < 4; ++i) largest = std::max(largest, std::fabs(model[i] - truth[i]));
+    EXPECT_DOUBLE_EQ(largest, worst["weight"].get<double>() * report["weight_bound"].get<double>());
+  }
+  EXPECT_EQ(kinds, (std::set<std::string>{"family", "approach"}));
+
+  // 13 knobs of reflex, one of on_edge; 25 knobs on either side and the edge itself; three bodies.
+  EXPECT_EQ(report["errors"].size(), (13 + 1 + 2 * 25 + 1) * 3u);
+  const std::string table = read(file("table.csv"));
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + (13 + 1 + 2 * 25 + 1) * 3);
+  EXPECT_EQ(table.rfind("family,kind,knob,side,engine,fragments,undefined,missing,weight,attribute,depth\n", 0), 0u);
+  bool single_fails = false;
+  for (const json& entry : report["errors"]) {
+    if (entry["engine"] == "model") {
+      EXPECT_EQ(entry["undefined"], 0);
+      EXPECT_EQ(entry["missing"], 0);
+    }
+    if (entry["family"] == "edge_distance" && entry["engine"] == "fp32")
+      single_fails = single_fails || entry["undefined"] != 0 || (entry["weight"].is_number() && entry["weight"] > 1);
+  }
+  EXPECT_TRUE(single_fails);
+
+  const json again = json::parse(run(arguments + "- --threads 2").out);
+  EXPECT_EQ(again["errors"], report["errors"]);
+  EXPECT_EQ(again["families"], report["families"]);
+  EXPECT_NE(json::parse(run(arguments + "- --seed 2").out)["errors"], report["errors"]);
+}
+
+TEST_F(Cli, StressSummary) {
+  const Outcome outcome = run("stress --families on_vertex,vertex_distance --count 2 --engines fp32");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* piece :
+       {"on_vertex", "vertex_distance", "jump", "fp32 is beyond the bound", "worst weight of the model", "echo '"})
+    EXPECT_NE(outcome.out.find(piece), std::string::npos) << piece << " in: " << outcome.out;
+  EXPECT_EQ(outcome.out.find("float"), outcome.out.npos);
+}
+
+}  // namespace
+}  // namespace quadrille::cli_test

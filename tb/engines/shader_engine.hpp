@@ -1,0 +1,11 @@
+// The papers' fp32 shader on OpenGL as an engine.
+#pragma once
+
+#include "tb/engines/engine.hpp"
+
+namespace quadrille::cli {
+
+/// Throws EnvironmentError where there is no OpenGL.
+std::unique_ptr<Engine> make_shader_engine(const EngineSettings& settings);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,74 @@
+// Exactly once: a convex quad v0 v1 v2 v3 covers the pixel at the origin as often as its triangles v0 v1 v2 and v0 v2 v3 together, and as v0 v1 v3
+// and v1 v2 v3 together: never both of two, ties on the shared edge and at its ends included, with the facing of the quad. Triangles are sent as
+// a, b, c, c. For all vertices of C bits, either orientation. Assumed: the quad is strictly convex.
+// An edge from its other end has all signs exchanged (proof edge_both_sides), so that six edges are evaluated, not twenty-five.
+module shared_edge_proof #(
+    parameter int C = 3
+) (
+    input logic [4*C-1:0] x_i,
+    input logic [4*C-1:0] y_i
+);
+  localparam int BITS = 2 * C + 3;
+  logic [16*BITS-1:0] e;  // of the edge from i to j at 4 i + j
+  logic [15:0] pos, neg;
+
+  for (genvar i = 0; i < 4; i++) begin : gen_from
+    for (genvar j = 0; j < 4; j++) begin : gen_to
+      if (i < j) begin : gen_edge
+        edge_signs #(.C(C)) u_edge (
+            .xi_i(x_i[i*C+:C]),
+            .yi_i(y_i[i*C+:C]),
+            .xj_i(x_i[j*C+:C]),
+            .yj_i(y_i[j*C+:C]),
+            .value_o(e[(4*i+j)*BITS+:BITS]),
+            .pos_o(pos[4*i+j]),
+            .neg_o(neg[4*i+j])
+        );
+      end else if (i == j) begin : gen_none
+        assign e[(4*i+j)*BITS+:BITS] = '0;
+        assign {pos[4*i+j], neg[4*i+j]} = 2'b00;
+      end else begin : gen_back
+        assign e[(4*i+j)*BITS+:BITS] = -e[(4*j+i)*BITS+:BITS];
+        assign pos[4*i+j] = neg[4*j+i];
+        assign neg[4*i+j] = pos[4*j+i];
+      end
+    end
+  end
+
+  logic [3:0] left, right;  // corner k turns left, right: twice the area of the triangle of k and its neighbours
+
+  for (genvar k = 0; k < 4; k++) begin : gen_corner
+    localparam int N = (k + 1) % 4;
+    localparam int M = (k + 2) % 4;
+    logic signed [BITS-1:0] area;
+    assign area = e[(4*k+N)*BITS+:BITS] + e[(4*N+M)*BITS+:BITS] + e[(4*M+k)*BITS+:BITS];
+    assign left[k] = area > 0;
+    assign right[k] = area < 0;
+  end
+
+  logic [4:0] back, front;
+
+  for (genvar t = 0; t < 5; t++) begin : gen_quad  // the quad; 012, 023; 013, 123
+    localparam int V0 = (t == 4) ? 1 : 0;
+    localparam int V1 = (t == 2 || t == 4) ? 2 : 1;
+    localparam int V2 = (t == 0 || t == 1) ? 2 : 3;
+    localparam int V3 = (t == 1) ? 2 : 3;
+    inside_expression u_inside (
+        .cull_i(2'd0),
+        .visible_i(4'b1111),
+        .pos_i({pos[4*V2+V0], pos[4*V3+V0], pos[4*V2+V3], pos[4*V1+V2], pos[4*V0+V1]}),
+        .neg_i({neg[4*V2+V0], neg[4*V3+V0], neg[4*V2+V3], neg[4*V1+V2], neg[4*V0+V1]}),
+        .back_o(back[t]),
+        .front_o(front[t])
+    );
+  end
+
+  always_comb begin
+    assume (left == '1 || right == '1);
+    for (int t = 1; t < 5; t += 2) begin
+      assert (!(back[t] && back[t+1]) && (back[t] || back[t+1]) == back[0]);
+      assert (!(front[t] && front[t+1]) && (front[t] || front[t+1]) == front[0]);
+    end
+    assert (!(back[0] && front[0]));
+  end
+endmodule

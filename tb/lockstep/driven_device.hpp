@@ -1,0 +1,52 @@
+// The device under test as a machine for model/drive.hpp, and what drives its inputs.
+#pragma once
+
+#include "model/drive.hpp"
+#include "tb/device/device.hpp"
+#include "tb/lockstep/driver.hpp"
+#include "tb/lockstep/lockstep.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace quadrille::tb {
+
+/// What drives both input ports: of quads and options alone, so that two of them that saw the same beats taken are
+/// alike.
+struct Stimulus {
+  VertexDriver vertices;
+  ReadyDriver stalls;
+
+  Stimulus(std::span<const SnappedQuad> quads, const LockstepOptions& o)
+      : vertices(quads, o.config, o.state.attributes, o.seed, o.gap), stalls(o.seed, o.stall) {}
+
+  bool done() const { return vertices.done(); }
+  bool valid() const { return vertices.valid(); }
+  bool ready() const { return stalls.ready(); }
+  bool changed() const { return vertices.changed(); }
+  std::uint32_t id() const { return vertices.id(); }
+  const SnappedVertex& vertex() const { return vertices.vertex(); }
+  void advance(bool taken) {
+    vertices.advance(taken);
+    stalls.advance();
+  }
+};
+
+/// The device as a machine for drive(), after reset.
+class DrivenDevice {
+ public:
+  DrivenDevice(Device& device, const LockstepOptions& o);
+
+  const DeviceSample& settle(const Stimulus& stimulus) {
+    if (stimulus.changed()) device_.set_vertex(stimulus.vertices.words());
+    device_.set_handshake(stimulus.valid(), stimulus.ready());
+    device_.settle();
+    return device_.sample();
+  }
+  void clock() { device_.clock(); }
+
+ private:
+  Device& device_;
+};
+
+}  // namespace quadrille::tb
