@@ -15,22 +15,12 @@ import json
 import os
 import random
 import shlex
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+from report.lockstep import CORNERS, FAMILIES, SKIPPING, Totals, fail, random_configuration, run  # noqa: E402
 from report.program import PROGRAM, ROOT  # noqa: E402
 
-FAMILIES = (
-    "general perspective any_w near_edge on_edge near_vertex on_vertex sliver collapsed_edge straight_corner reflex bowtie "
-    "tiny huge eye_crossing eye_in_hull w_zero shared_edge shared_vertex coplanar long_span coincident"
-).split()
-# Corner groups with the draw state that each needs (`quadrille scenes --corner`).
-CORNERS = {
-    "face_plane": [], "flat": ["--no-depth"], "den_w_zero": ["--set", "significand_bits=12"], "negative_r2": ["--set", "quadratic_frac_bits=3"],
-    "z_limits": ["--znear", "0.25", "--zfar", "0.75"], "minus_zero": [], "two_corner": [], "two_edge": ["--no-perspective"],
-    "tall": ["--size", "192x704"], "burst": [], "extreme": [], "far_corner": ["--size", "4096x4096"],
-}
 # Stall and gap; each takes every value.
 PATTERNS = [(0, 0), (0.1, 0.5), (0.5, 0.1), (0.9, 0.9)]
 CORNER_PATTERNS = [(0, 0), (0.95, 0)]
@@ -49,36 +39,6 @@ DRAWN_KINDS = {
 }
 DRAWN_RUNS = (3, 2)  # of each input
 DRAWN_CONFIGURATIONS = (5, 1)  # beside the one given and SKIPPING; each takes a simulator
-# Tiles are hidden where a draw asks for it: every second one with a depth test. (Plane quads are looked for and never found: weights as
-# attributes are not plane. tb/lockstep/cosim_test.cpp draws some.)
-SKIPPING = ["--set", "hierarchical_z_bits=12", "--set", "hierarchical_z_tiles_log2=8", "--set", "plane_tolerance_bits=31", "--set", "performance_counters=1"]
-FAULTS = {"mismatches": "mismatches", "cycle_mismatches": "cycle mismatches", "reference": "coverage differences", "beyond": "values beyond their bound"}
-
-
-class Totals:
-    """What a number of runs compared and found."""
-
-    def __init__(self):
-        self.sum = dict.fromkeys(["runs", "fragments", "cycles", "bits", *FAULTS], 0)
-        self.worst = 0.0
-
-    def add(self, report):
-        exact = report["bound"]["applies"]  # with dropped bits of D and r^2 nothing is claimed about the truth
-        reference = report["reference_mismatches"] if exact else 0
-        beyond = sum(report[key] for key in report if key.startswith("beyond_")) if exact else 0
-        for key, value in (("runs", 1), ("fragments", report["fragments"]), ("cycles", report["cycles_all_passes"]),
-                           ("bits", report["compared_bits"]), ("mismatches", report["mismatches"]),
-                           ("cycle_mismatches", report["cycle_mismatches"]), ("reference", reference), ("beyond", beyond)):
-            self.sum[key] += value
-        if exact:
-            self.worst = max(self.worst, report.get("worst", {}).get("error_over_bound", 0))
-
-    def print(self, what):
-        print(f"{what}: {self.sum['fragments']} fragments, {self.sum['cycles']} cycles, {self.sum['bits']} bits compared")
-        print("  " + ", ".join(f"{self.sum[key]} {name}" for key, name in FAULTS.items()) + f"; worst weight {100 * self.worst:.1f} % of the bound")
-
-    def failures(self, what):
-        return [f"{what}: {self.sum[key]} {name}" for key, name in FAULTS.items() if self.sum[key]]
 
 
 class Campaign:
@@ -193,26 +153,12 @@ class Campaign:
         if hidden < HIDDEN_TILES:
             self.failures.append(f"only {hidden} tiles were hidden, {HIDDEN_TILES} are promised")
 
-    def configuration(self, rng, dropped_bits):
-        """Settings of a configuration at random that can be built."""
-        while True:
-            settings = {"significand_bits": rng.randint(12, 26), "notch_exact": rng.choice([1, 1, 0]), "align_guard_bits": rng.randint(0, 4),
-                        "subpixel_bits": rng.randint(4, 8), "attribute_slots": rng.randint(1, 8), "depth_bits": rng.randint(12, 30),
-                        "tile_log2": rng.randint(2, 4), "quad_slots_log2": rng.randint(1, 4), "tile_slots_log2": rng.randint(1, 4),
-                        "stamp_fifo_log2": rng.randint(1, 5), "pixels_per_clock": rng.choice([1, 2, 4]), "dot_units": rng.choice([2, 4]), "performance_counters": rng.choice([0, 1]),
-                        "hierarchical_z_bits": rng.choice([0, 4, 9, 12]), "hierarchical_z_tiles_log2": rng.randint(6, 9), "plane_tolerance_bits": rng.choice([0, 31, rng.randint(1, 16)])}
-            if dropped_bits:
-                settings["quadratic_frac_bits"] = rng.randint(0, 12)
-            options = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]
-            if run([self.args.quadrille, "config", "--quiet", *options]).returncode == 0:
-                return options
-
     def drawn_runs(self):
         """Every input in draw states, viewports, stalls and configurations at random."""
         configurations = [[], SKIPPING]
         rng = random.Random(f"{self.args.seed}")
         for number in range(DRAWN_CONFIGURATIONS[self.form]):
-            configurations.append(self.configuration(rng, dropped_bits=number % 2 == 0))
+            configurations.append(random_configuration(self.args.quadrille, rng, dropped_bits=number % 2 == 0))
         inputs, _ = self.inputs(40 if self.args.short else 200)
         inputs += [["--corner", group] for group in CORNERS]
         totals = Totals()
@@ -252,15 +198,6 @@ class Campaign:
         for kind, count in kinds.items():
             if count < DRAWN_KINDS[kind][self.form]:
                 self.failures.append(f"only {count} fragments in draws of kind {kind}, {DRAWN_KINDS[kind][self.form]} are promised")
-
-
-def run(command):
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-
-
-def fail(command, result):
-    """Ends the campaign: a command gave no answer."""
-    sys.exit(f"{result.stderr}FAILED: {shlex.join(command)} ended with status {result.returncode}")
 
 
 def main():

@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Sets everything up and runs RTL and model in lockstep for hours; the totals stay in a folder that a later run goes on with.
+#   scripts/soak.sh --hours 8        any options of scripts/soak.py (--help)
+set -euo pipefail
+caller=$PWD
+source "$(dirname "$0")/setup.sh"
+install_packages
+build release quadrille
+cd "$caller"  # file names are the caller's
+exec "$root/scripts/soak.py" --quadrille "$root/build/release/quadrille" "$@"
