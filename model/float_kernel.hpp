@@ -9,102 +9,44 @@
 //    and C is 2^23 of them: with S + align_guard_bits <= 20 (PREC_BITS <= 19) the sum stays below 2 C. Fused, the
 //    product is not even rounded before. Taking C away is exact.
 //  - Terms of either sign have a sum each, for truncation is of magnitudes; the difference of the two is exact.
-//  - Tables: products of integers as floats, floor by adding 2^23; everything else there is an integer below 2^24.
+//  - Tables: products of integers as floats, floor by adding 2^23; everything else there is an integer below 2^24, or
+//    such times a power of two: dx is taken as the integer that the fraction's last bits are.
 //  - Numbers scale: D, A and r² of a quad times one power of 4 give M times a power of two, and quotients that are the
 //    same. So the quad is drawn about one unit large, and root_ratio's `balanced` is left out.
-//  - Range: u, v, r <= 4, M <= 2^12; S_i and their products are far from the smallest double. Products of three can
+//  - A and r² are functions value + gx dx + gy dy (+ dx² + dy²) in doubles, 2 D follows from three of r² and lengths:
+//  every
+//    part is a multiple of the same last place, 53 bits wide at most (FloatLanes::take), so that nothing is rounded. No
+//    sum is -0: of a number and its opposite the unit makes +0, and the first one is of value, which is no -0.
+//  - Range: u, v, r <= 4, M <= 2^12; those functions are far from the smallest double. Products of three can
 //    go below 2^-126 and become 0. Where the sums of M k and of M W are at least 2^-26, their E is at least -30, a term
 //    with such an M is below 2^-126 * 2^6 * 2^30 = 2^-90 (numbers of the port are taken up to 2^30), and a quotient of
 //    2^-30 or more, the last bit that an output can have, is of a sum with E >= -64: the term is below its quantum
 //    2^-83 and is nothing there either. A smaller quotient is 0 in both. Lanes with a smaller sum are for the plain
 //    pipeline.
 
-using F = __m256;
-using I = __m256i;
-
-inline F splat(float v) { return _mm256_set1_ps(v); }
-inline I splat(std::int32_t v) { return _mm256_set1_epi32(v); }
-inline F real(I v) { return _mm256_castsi256_ps(v); }
-inline I bits(F v) { return _mm256_castps_si256(v); }
-inline F select(F by_sign, F a, F b) { return _mm256_blendv_ps(b, a, by_sign); }
-inline unsigned sign_mask(F v) { return static_cast<unsigned>(_mm256_movemask_ps(v)); }
-inline unsigned sign_mask(I v) { return sign_mask(real(v)); }
-
-/// The functions of two vertices at four pixels.
-struct DoubleLanes {
-  __m256d x[4], y[4];  ///< S_i
-
-  DoubleLanes(const FloatQuad& quad, __m128i px, __m128i py) {
-    const __m256d unit = _mm256_set1_pd(quad.unit);
-    const __m256d dx = _mm256_cvtepi32_pd(px), dy = _mm256_cvtepi32_pd(py);
-    for (std::size_t i = 0; i < 4; ++i) {
-      x[i] = _mm256_fnmadd_pd(dx, unit, _mm256_set1_pd(quad.x[i]));
-      y[i] = _mm256_fnmadd_pd(dy, unit, _mm256_set1_pd(quad.y[i]));
-    }
-  }
-  // The first sum with +0 keeps a zero from being -0.
-  __m256d cross(std::size_t i, std::size_t j) const {
-    return _mm256_fnmadd_pd(y[i], x[j], _mm256_fmadd_pd(x[i], y[j], _mm256_setzero_pd()));
-  }
-  __m256d dot(std::size_t i, std::size_t j) const {
-    return _mm256_fmadd_pd(y[i], y[j], _mm256_fmadd_pd(x[i], x[j], _mm256_setzero_pd()));
-  }
-};
-
-/// The upper halves of doubles: sign, exponent, 20 bits of the significand. As drawn the exponent's code is a float's.
-inline I upper_halves(__m256d a, __m256d b) {
-  return bits(_mm256_shuffle_ps(_mm256_castpd_ps(a), _mm256_castpd_ps(b), 0xdd));
-}
-
-/// Places of a table for eight arguments, by columns. `offset` is in bytes.
-struct Coefficients {
-  F c0, c1, c2;
-
-  Coefficients(const FloatTable& table, I offset) {
-    const __m128i low = _mm256_castsi256_si128(offset), high = _mm256_extracti128_si256(offset, 1);
-    const auto* entries = reinterpret_cast<const std::uint8_t*>(table.entries.data());
-    const auto place = [&](std::uint64_t at) {
-      return _mm_load_ps(reinterpret_cast<const float*>(entries + static_cast<std::uint32_t>(at)));
-    };
-    const auto pair = [](__m128 a, __m128 b) { return _mm256_insertf128_ps(_mm256_castps128_ps256(a), b, 1); };
-    // Two offsets at a time out of the vector.
-    const auto at01 = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low));
-    const auto at23 = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
-    const auto at45 = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high));
-    const auto at67 = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
-    const F p0 = pair(place(at01), place(at45)), p1 = pair(place(at01 >> 32), place(at45 >> 32));
-    const F p2 = pair(place(at23), place(at67)), p3 = pair(place(at23 >> 32), place(at67 >> 32));
-    const F low01 = _mm256_unpacklo_ps(p0, p1), low23 = _mm256_unpacklo_ps(p2, p3);
-    c0 = _mm256_shuffle_ps(low01, low23, 0x44);
-    c1 = _mm256_shuffle_ps(low01, low23, 0xee);
-    c2 = _mm256_shuffle_ps(_mm256_unpackhi_ps(p0, p1), _mm256_unpackhi_ps(p2, p3), 0x44);
-  }
-};
-
 struct Arithmetic {
-  F cut_mask, integer = splat(0x1p23f);
+  F cut_mask;
   F lowest, highest;  ///< a table's result with its guard bits
+  I fraction_mask;    ///< of what `cut` leaves of a fraction
 
   explicit Arithmetic(int s)
       : cut_mask(real(splat(static_cast<std::int32_t>(-(1 << (24 - s)))))),
         lowest(splat(static_cast<float>(1 << (s - 1 + Config::table_guard)))),
-        highest(splat(static_cast<float>((1 << (s + Config::table_guard)) - 1))) {}
+        highest(splat(static_cast<float>((1 << (s + Config::table_guard)) - 1))),
+        fraction_mask(splat((1 << 23) - (1 << (24 - s)))) {}
 
-  F cut(F v) const { return _mm256_and_ps(v, cut_mask); }
+  F cut(F v) const { return keep(v, cut_mask); }
   F multiply(F a, F b) const { return cut(a * b); }
   /// 2^floor(log2 v), 0 of 0.
-  static F power(F v) { return _mm256_and_ps(v, real(splat(0x7f800000))); }
+  static F power(F v) { return keep(v, real(splat(0x7f800000))); }
 
-  /// table_polynomial of the argument's fraction, in units of the table's guard bits, cut.
-  F polynomial(F a, const FloatTable& table, bool rising) const {
-    const Coefficients c(table, _mm256_and_si256(_mm256_srl_epi32(bits(a), _mm_cvtsi32_si128(19 - table.segments_log2)),
-                                                 splat(static_cast<std::int32_t>(table.offset_mask))));
-    // dx / 2^rest_bits: the fraction's bits below the segment, as a fraction.
-    const I rest = _mm256_and_si256(_mm256_sll_epi32(bits(a), _mm_cvtsi32_si128(table.segments_log2)), splat(0x7fffff));
-    const F dx = real(_mm256_or_si256(rest, splat(0x3f800000))) - splat(1.0f);
-    const F t1 = c.c1 - _mm256_fmadd_ps(c.c2, dx, integer);
-    const F y = rising ? _mm256_fmadd_ps(t1, dx, c.c0) - integer : c.c0 - _mm256_fmadd_ps(t1, dx, integer);
-    return cut(_mm256_min_ps(_mm256_max_ps(y, lowest), highest));
+  /// table_polynomial of the argument's fraction, cut, with that code of an exponent in the place of its own.
+  F polynomial(F a, const FloatTable& table, bool rising, I exponent) const {
+    const Coefficients c(table, a);
+    const F dx = converted(bits(a) & splat((1 << table.rest_bits) - 1)), last_place = splat(table.last_place);
+    const F t1 = c.c1 - fma(c.c2, dx, last_place), integer = splat(0x1p23f);
+    const F y = rising ? fma(t1, dx, c.c0) - integer : c.c0 - fma(t1, dx, integer);
+    return real((bits(least(greatest(y, lowest), highest)) & fraction_mask) | exponent);
   }
 };
 
@@ -112,39 +54,38 @@ struct Root {
   F root, power;  ///< of the root
 };
 
-inline Root sqrt_lanes(F a, const FloatTable& table, const Arithmetic& arithmetic, int s) {
-  // The code E + 127 of an exponent, halved: floor(E / 2) + 64.
-  const I half = _mm256_and_si256(_mm256_srli_epi32(_mm256_add_epi32(bits(a), splat(1 << 23)), 1), splat(0x7f800000));
-  const F y = arithmetic.polynomial(a, table, true);
-  const int of_y = s - 1 + Config::table_guard;  // exponent of the polynomial's result
-  return {real(_mm256_add_epi32(bits(y), _mm256_add_epi32(half, splat(-(64 + of_y) * (1 << 23))))),
-          real(_mm256_add_epi32(half, splat((127 - 64) << 23)))};
+inline Root sqrt_lanes(F a, const FloatTable& table, const Arithmetic& arithmetic) {
+  // The code E + 127 of an exponent: floor(E / 2) + 127.
+  const I exponent = shift_right<1>(add(bits(a), splat(127 << 23))) & splat(0x7f800000);
+  return {arithmetic.polynomial(a, table, true, exponent), real(exponent)};
 }
 
 /// Of a > 0 below 2^126: -E - 1 is the exponent of the table's result, -E of a power of two.
-inline F recip_lanes(F a, const FloatTable& table, const Arithmetic& arithmetic, int s) {
-  const I exponent = bits(Arithmetic::power(a));
-  const F y = arithmetic.polynomial(a, table, false);
-  const int of_y = s - 1 + Config::table_guard;
-  const I regular = _mm256_add_epi32(bits(y), _mm256_sub_epi32(splat((127 - 1 - of_y) * (1 << 23)), exponent));
-  const I exact = _mm256_sub_epi32(splat(254 << 23), exponent);  // of a power of two
-  return real(_mm256_blendv_epi8(regular, exact, _mm256_cmpeq_epi32(bits(a), exponent)));
+inline F recip_lanes(F a, const FloatTable& table, const Arithmetic& arithmetic) {
+  const I power = bits(Arithmetic::power(a));
+  const F regular = arithmetic.polynomial(a, table, false, subtract(splat(253 << 23), power));
+  return real(select(equal(bits(a), power), subtract(splat(254 << 23), power), bits(regular)));
 }
 
 /// |num * rec| in units of 2^-frac, toward zero: below 2^31. The product's first 24 bits, and what they left, which
 /// counts when they do not reach down to the unit.
 inline I to_fixed(F num, F rec, F p, F scale, bool long_one) {
-  I q = _mm256_cvttps_epi32(p * scale);
-  if (long_one) q = _mm256_add_epi32(q, _mm256_cvttps_epi32(_mm256_fmsub_ps(num, rec, p) * scale));
+  I q = truncated(p * scale);
+  if (long_one) q = add(q, truncated(fms(num, rec, p) * scale));
   return q;
+}
+
+/// Of a function, at all lanes.
+inline Halves at_pixels(const FloatForm& f, Halves dx, Halves dy) {
+  const D value = splat(f.value), gx = splat(f.gx), gy = splat(f.gy);
+  return {fma(dy.a, gy, fma(dx.a, gx, value)), fma(dy.b, gy, fma(dx.b, gx, value))};
 }
 
 /// The whole list; MXCSR is as it must be.
 __attribute__((noinline)) void draw(const FloatLanes::Format& format, const FloatQuad& quad, const PixelList& list,
                                     int count, FloatResults& out) {
-  const int s = format.s;
-  const Arithmetic arithmetic(s);
-  const F zero = _mm256_setzero_ps();
+  const Arithmetic arithmetic(format.s);
+  const F zero = splat(0.0f);
   const F align = splat(static_cast<float>(1 << (23 - format.prec)));
   const F magnitude_mask = real(splat(0x7fffffff));
   const F attribute_scale = splat(static_cast<float>(1 << format.attribute_frac));
@@ -155,68 +96,69 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
   const F depth_scale = splat(static_cast<float>(1 << format.depth_bits));
   const I depth_most = splat(static_cast<std::int32_t>((std::int64_t{2} << format.depth_bits) - 1));
   const I corner_at = splat(quad.x0 | quad.y0 << 16), id = splat(static_cast<std::int32_t>(quad.id));
+  const I nothing = splat(0);
 
-  for (int begin = 0; begin < count; begin += lane_count) {
+  for (int begin = 0; begin < count; begin += width) {
     const auto at = static_cast<std::size_t>(begin);
-    const auto load = [at](const std::uint16_t* column) {
-      return _mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(column + at)));
-    };
-    const I px = load(list.x.data()), py = load(list.y.data());
-
-    // Pixels 0 1 4 5 and 2 3 6 7: taking upper halves puts them in order.
-    const I qx = _mm256_permute4x64_epi64(px, 0xd8), qy = _mm256_permute4x64_epi64(py, 0xd8);
-    const DoubleLanes d0(quad, _mm256_castsi256_si128(qx), _mm256_castsi256_si128(qy));
-    const DoubleLanes d1(quad, _mm256_extracti128_si256(qx, 1), _mm256_extracti128_si256(qy, 1));
-    F sign_a[6], sign_d[6], v[6], d[6], r2[4];
-    const auto magnitude = [&](I h) { return arithmetic.cut(real(_mm256_slli_epi32(h, 3))); };
+    const I place = load(list.place.data() + at);
+    const Halves dx = to_doubles(place & splat(0xffff)), dy = to_doubles(shift_right<16>(place));
+    Mask sign_a[6], sign_d[6];
+    F v[6], d[6], r2[4];
+    // As drawn a double's exponent has the code of a float's.
+    const auto magnitude = [&](I h) { return arithmetic.cut(real(shift_left<3>(h))); };
+    const D unit2 = splat(quad.unit2);
+    const Halves curve = {fma(dy.a, dy.a, dx.a * dx.a) * unit2, fma(dy.b, dy.b, dx.b * dx.b) * unit2};
+    Halves square[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Halves linear = at_pixels(quad.r2[i], dx, dy);
+      square[i] = {linear.a + curve.a, linear.b + curve.b};
+      r2[i] = magnitude(upper_halves(square[i].a, square[i].b));
+    }
     for (std::size_t k = 0; k < 6; ++k) {
       const auto [i, j] = vertex_pair[k];
-      const I a = upper_halves(d0.cross(i, j), d1.cross(i, j)), dot = upper_halves(d0.dot(i, j), d1.dot(i, j));
-      sign_a[k] = real(a);
-      sign_d[k] = real(dot);
-      v[k] = magnitude(a);
-      d[k] = magnitude(dot);
+      const D length2 = splat(quad.length2[k]);
+      const I dot = upper_halves(square[i].a + square[j].a - length2, square[i].b + square[j].b - length2);  // 2 D
+      sign_d[k] = sign(dot);
+      d[k] = half(magnitude(dot));
     }
-    for (std::size_t i = 0; i < 4; ++i) r2[i] = magnitude(upper_halves(d0.dot(i, i), d1.dot(i, i)));
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Halves cross = at_pixels(quad.a[k], dx, dy);
+      const I a = upper_halves(cross.a, cross.b);
+      sign_a[k] = sign(a);
+      v[k] = magnitude(a);
+    }
 
     // Singular pixels and edges are rare: something is 0.
-    F least = _mm256_min_ps(_mm256_min_ps(v[0], v[1]), _mm256_min_ps(v[2], v[3]));
-    least = _mm256_min_ps(least, _mm256_min_ps(_mm256_min_ps(r2[0], r2[1]), _mm256_min_ps(r2[2], r2[3])));
+    const F smallest =
+        least(least(least(v[0], v[1]), least(v[2], v[3])), least(least(r2[0], r2[1]), least(r2[2], r2[3])));
     unsigned singular = 0;
-    I flags = _mm256_setzero_si256();
-    F notch;
-    if (sign_mask(_mm256_cmp_ps(least, zero, _CMP_EQ_OQ)) == 0) [[likely]] {
-      const F any = _mm256_or_ps(_mm256_or_ps(sign_a[0], sign_a[1]), _mm256_or_ps(sign_a[2], sign_a[3]));
-      const F all = _mm256_and_ps(_mm256_and_ps(sign_a[0], sign_a[1]), _mm256_and_ps(sign_a[2], sign_a[3]));
-      notch = _mm256_andnot_ps(all, any);
+    Mask on_edge = no_lane(), notch = no_lane(), saturated = no_lane();
+    if (none(equal(smallest, zero))) [[likely]] {
+      notch = without(sign_a[0] | sign_a[1] | sign_a[2] | sign_a[3], sign_a[0] & sign_a[1] & sign_a[2] & sign_a[3]);
     } else {
-      F corner = zero, one = zero, two = zero;
-      notch = zero;
-      const auto is_zero = [zero](F value) { return _mm256_cmp_ps(value, zero, _CMP_EQ_OQ); };
+      Mask corner = no_lane(), one = no_lane(), two = no_lane();
+      const auto is_zero = [zero](F value) { return equal(value, zero); };
       for (std::size_t k = 0; k < 4; ++k) {
-        corner = _mm256_or_ps(corner, is_zero(r2[k]));
-        const F on = _mm256_and_ps(is_zero(v[k]), sign_d[k]);
-        two = _mm256_or_ps(two, _mm256_and_ps(one, on));
-        one = _mm256_or_ps(one, on);
+        corner = corner | is_zero(r2[k]);
+        const Mask on = is_zero(v[k]) & sign_d[k];
+        two = two | (one & on);
+        one = one | on;
         const std::size_t before = (k + 3) % 4;
-        notch = _mm256_or_ps(notch, _mm256_andnot_ps(_mm256_or_ps(is_zero(v[before]), is_zero(v[k])),
-                                                     _mm256_xor_ps(sign_a[before], sign_a[k])));
+        notch = notch | without(sign_a[before] ^ sign_a[k], is_zero(v[before]) | is_zero(v[k]));
       }
-      singular = sign_mask(corner) | sign_mask(two);
-      const F on_edge = _mm256_andnot_ps(_mm256_or_ps(corner, two), one);
-      notch = _mm256_andnot_ps(_mm256_or_ps(corner, two), notch);
-      flags = _mm256_slli_epi32(_mm256_srli_epi32(bits(on_edge), 31), 8);
+      singular = lanes(corner | two);
+      on_edge = without(one, corner | two);
+      notch = without(notch, corner | two);
     }
-    if (format.notch) flags = _mm256_or_si256(flags, _mm256_slli_epi32(_mm256_srli_epi32(bits(notch), 31), 8 + 6));
 
     // u = r r' + |D|.
     Root r[4];
-    for (std::size_t i = 0; i < 4; ++i) r[i] = sqrt_lanes(r2[i], format.sqrt, arithmetic, s);
+    for (std::size_t i = 0; i < 4; ++i) r[i] = sqrt_lanes(r2[i], format.sqrt, arithmetic);
     F u[6];
     for (std::size_t k = 0; k < 6; ++k) {
       const auto [i, j] = vertex_pair[k];
-      const F c = _mm256_max_ps(r[i].power * r[j].power, Arithmetic::power(d[k])) * align;
-      u[k] = arithmetic.cut(_mm256_fmadd_ps(r[i].root, r[j].root, c) + d[k] - c);
+      const F c = greatest(r[i].power * r[j].power, Arithmetic::power(d[k])) * align;
+      u[k] = arithmetic.cut(fma(r[i].root, r[j].root, c) + d[k] - c);
     }
 
     // root_ratio.hpp; a term of an edge cancels where D < 0, of a diagonal where D >= 0.
@@ -224,11 +166,11 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
       F num, den;
     };
     const auto ratio = [&](std::size_t near, std::size_t far, bool diagonal) {
-      const F near_sign = sign_d[near], far_sign = sign_d[far];
-      const auto choose = [diagonal](F sign, F cancels, F regular) {
+      const Mask near_sign = sign_d[near], far_sign = sign_d[far];
+      const auto choose = [diagonal](Mask sign, F cancels, F regular) {
         return diagonal ? select(sign, regular, cancels) : select(sign, cancels, regular);
       };
-      const F root = sqrt_lanes(arithmetic.multiply(u[near], u[far]), format.sqrt, arithmetic, s).root;
+      const F root = sqrt_lanes(arithmetic.multiply(u[near], u[far]), format.sqrt, arithmetic).root;
       const F crossed = arithmetic.multiply(v[far], u[near]), scaled = arithmetic.multiply(v[near], root);
       return Ratio{choose(near_sign, choose(far_sign, crossed, root), choose(far_sign, v[far], u[far])),
                    choose(near_sign, choose(far_sign, scaled, v[near]), root)};
@@ -242,101 +184,86 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
     for (std::size_t i = 0; i < 4; ++i) power[i] = Arithmetic::power(m[i]);
 
     const auto sum = [&](const FloatColumn& column) {
-      const F c = _mm256_max_ps(_mm256_max_ps(power[0] * splat(column.align[0]), power[1] * splat(column.align[1])),
-                                _mm256_max_ps(power[2] * splat(column.align[2]), power[3] * splat(column.align[3])));
+      const F c = greatest(greatest(power[0] * splat(column.align[0]), power[1] * splat(column.align[1])),
+                           greatest(power[2] * splat(column.align[2]), power[3] * splat(column.align[3])));
       F positive = c;
-      for (std::size_t i = 0; i < 4; ++i) positive = _mm256_fmadd_ps(m[i], splat(column.positive[i]), positive);
+      for (std::size_t i = 0; i < 4; ++i) positive = fma(m[i], splat(column.positive[i]), positive);
       F negative = c;
       if (column.mixed)
-        for (std::size_t i = 0; i < 4; ++i) negative = _mm256_fmadd_ps(m[i], splat(column.negative[i]), negative);
+        for (std::size_t i = 0; i < 4; ++i) negative = fma(m[i], splat(column.negative[i]), negative);
       return arithmetic.cut(positive - negative);
     };
     F den_k = splat(1.0f), den_w = splat(1.0f), rec_k = splat(1.0f), rec_w;
     if (quad.sum_k) {
       den_k = sum(quad.k);
-      rec_k = recip_lanes(den_k, format.recip, arithmetic, s);
+      rec_k = recip_lanes(den_k, format.recip, arithmetic);
     }
     if (quad.w_of_k)
       den_w = den_k * splat(static_cast<float>(*quad.w_of_k));
     else if (quad.sum_w)
       den_w = sum(quad.w);
-    const unsigned small = sign_mask(_mm256_cmp_ps(_mm256_min_ps(den_k, den_w), splat(0x1p-26f), _CMP_NGE_UQ));
+    const unsigned small = lanes(not_at_least(least(den_k, den_w), splat(0x1p-26f)));
 
     I attribute[max_attribute_slots];
     for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) {
       const F num = quad.b_of_k[j] ? den_k * splat(static_cast<float>(*quad.b_of_k[j])) : sum(quad.b[j]);
       const F p = num * rec_k;
       I q = to_fixed(num, rec_k, p, attribute_scale, long_attribute);
-      const F over = _mm256_cmp_ps(_mm256_and_ps(p, magnitude_mask), attribute_limit, _CMP_GE_OQ);
-      if (sign_mask(over) != 0) [[unlikely]] {
-        const I most = _mm256_blendv_epi8(attribute_most, _mm256_sub_epi32(_mm256_setzero_si256(), attribute_most),
-                                          _mm256_srai_epi32(bits(p), 31));
-        q = _mm256_blendv_epi8(q, most, bits(over));
-        flags = _mm256_or_si256(flags, _mm256_slli_epi32(_mm256_srli_epi32(bits(over), 31), 8 + 7));
+      const Mask over = at_least(keep(p, magnitude_mask), attribute_limit);
+      if (!none(over)) [[unlikely]] {
+        q = select(over, select(sign(p), subtract(nothing, attribute_most), attribute_most), q);
+        saturated = saturated | over;
       }
       attribute[j] = q;
     }
 
     unsigned discard = 0;
-    I depth = _mm256_setzero_si256();
+    I depth = nothing;
     if (format.depth) {
       rec_w = quad.w_of_k ? rec_k * splat(static_cast<float>(1 / *quad.w_of_k))
-                          : recip_lanes(den_w, format.recip, arithmetic, s);
+                          : recip_lanes(den_w, format.recip, arithmetic);
       const F num = quad.z_of_w ? den_w * splat(static_cast<float>(*quad.z_of_w)) : sum(quad.z);
-      const F size = _mm256_and_ps(num, magnitude_mask);
+      const F size = keep(num, magnitude_mask);
       const F p = size * rec_w;
-      depth = to_fixed(size, rec_w, p, depth_scale, true);
-      depth = _mm256_blendv_epi8(depth, depth_most, bits(_mm256_cmp_ps(p, splat(2.0f), _CMP_GE_OQ)));
-      const I negative = _mm256_andnot_si256(_mm256_cmpeq_epi32(depth, _mm256_setzero_si256()), bits(num));
-      discard = sign_mask(_mm256_or_si256(negative, _mm256_or_si256(_mm256_cmpgt_epi32(splat(format.znear), depth),
-                                                                    _mm256_cmpgt_epi32(depth, splat(format.zfar)))));
+      depth = select(at_least(p, splat(2.0f)), depth_most, to_fixed(size, rec_w, p, depth_scale, true));
+      discard = lanes(without(sign(num), equal(depth, nothing)) | greater(splat(format.znear), depth) |
+                      greater(depth, splat(format.zfar)));
     }
 
-    const unsigned used = count - begin >= lane_count ? 0xffu : (1u << (count - begin)) - 1;
+    constexpr unsigned every_lane = (1u << width) - 1;
+    const unsigned used = count - begin >= width ? every_lane : (1u << (count - begin)) - 1;
     const unsigned plain = (singular | small) & used, counted = used & ~plain;
-    const std::size_t block = at / lane_count;
-    out.plain[block] = static_cast<std::uint8_t>(plain);
-    out.drawn[block] = static_cast<std::uint8_t>(used & ~discard);
+    for (std::size_t b8 = 0; b8 < width / 8; ++b8) {
+      out.plain[at / 8 + b8] = static_cast<std::uint8_t>(plain >> 8 * b8);
+      out.drawn[at / 8 + b8] = static_cast<std::uint8_t>((used & ~discard) >> 8 * b8);
+    }
     out.any_plain |= plain != 0;
     out.all_drawn &= (discard & used) == 0;
-    const auto tally = [&](int flag) {
-      return static_cast<std::uint64_t>(
-          __builtin_popcount(sign_mask(_mm256_sll_epi32(flags, _mm_cvtsi32_si128(31 - 8 - flag))) & counted));
+    I marks = load(list.marks.data() + at);
+    const auto tally = [&](Mask of, std::uint64_t& counter) {
+      counter += static_cast<std::uint64_t>(__builtin_popcount(lanes(of) & counted));
     };
-    out.on_edge += tally(0);
-    out.notch += tally(6);
-    out.saturated += tally(7);
+    tally(on_edge, out.on_edge);
+    tally(saturated, out.saturated);
+    marks = marks | flag<8>(on_edge) | flag<8 + 7>(saturated);
+    if (format.notch) {
+      tally(notch, out.notch);
+      marks = marks | flag<8 + 6>(notch);
+    }
 
-    // Fragments: four words before the attributes, two attributes at a time behind them.
     static_assert(offsetof(Fragment, quad) == 0 && offsetof(Fragment, x) == 4 && offsetof(Fragment, y) == 6 &&
                   offsetof(Fragment, front) == 8 && offsetof(Fragment, flags) == 9 && offsetof(Fragment, depth) == 12 &&
                   offsetof(Fragment, attribute) == 16 && sizeof(Fragment) == 16 + 8 * max_attribute_slots);
     auto* bytes = reinterpret_cast<std::uint8_t*>(&out.fragment[at]);
-    const auto store = [bytes](I two, int lane, std::size_t offset) {
-      std::uint8_t* to = bytes + static_cast<std::size_t>(lane) * sizeof(Fragment) + offset;
-      _mm_store_si128(reinterpret_cast<__m128i*>(to), _mm256_castsi256_si128(two));
-      _mm_store_si128(reinterpret_cast<__m128i*>(to + 4 * sizeof(Fragment)), _mm256_extracti128_si256(two, 1));
-    };
-    const I place = _mm256_add_epi32(_mm256_or_si256(px, _mm256_slli_epi32(py, 16)), corner_at);
-    const I marks = _mm256_or_si256(load(list.marks.data()), flags);
-    const I head01 = _mm256_unpacklo_epi32(id, place), head23 = _mm256_unpackhi_epi32(id, place);
-    const I tail01 = _mm256_unpacklo_epi32(marks, depth), tail23 = _mm256_unpackhi_epi32(marks, depth);
-    store(_mm256_unpacklo_epi64(head01, tail01), 0, 0);
-    store(_mm256_unpackhi_epi64(head01, tail01), 1, 0);
-    store(_mm256_unpacklo_epi64(head23, tail23), 2, 0);
-    store(_mm256_unpackhi_epi64(head23, tail23), 3, 0);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); j += 2) {
-      const I a0 = attribute[j];
-      const I a1 = j + 1 < static_cast<std::size_t>(format.attributes) ? attribute[j + 1] : _mm256_setzero_si256();
-      const I s0 = _mm256_srai_epi32(a0, 31), s1 = _mm256_srai_epi32(a1, 31);
-      const I low0 = _mm256_unpacklo_epi32(a0, s0), low1 = _mm256_unpacklo_epi32(a1, s1);
-      const I high0 = _mm256_unpackhi_epi32(a0, s0), high1 = _mm256_unpackhi_epi32(a1, s1);
-      const std::size_t offset = offsetof(Fragment, attribute) + 8 * j;
-      store(_mm256_unpacklo_epi64(low0, low1), 0, offset);
-      store(_mm256_unpackhi_epi64(low0, low1), 1, offset);
-      store(_mm256_unpacklo_epi64(high0, high1), 2, offset);
-      store(_mm256_unpackhi_epi64(high0, high1), 3, offset);
-    }
+    const auto attributes = static_cast<std::size_t>(format.attributes);
+    const auto low = [&](std::size_t j) { return j < attributes ? attribute[j] : nothing; };
+    const auto high = [&](std::size_t j) { return shift_signed<31>(low(j)); };
+    if (attributes == 0)
+      store_words(bytes, {id, add(place, corner_at), marks, depth});
+    else
+      store_words(bytes, {id, add(place, corner_at), marks, depth, low(0), high(0), low(1), high(1)});
+    for (std::size_t j = 2; j < attributes; j += 2)
+      store_words(bytes + offsetof(Fragment, attribute) + 8 * j, {low(j), high(j), low(j + 1), high(j + 1)});
   }
 }
 
@@ -440,21 +367,20 @@ FloatLanes::TileCounts cover(const FloatLanes::Format& format, const FloatQuad& 
       if (mask == 0) continue;
       any = true;
       const auto end = static_cast<std::size_t>(list.count);
-      const auto put = [end](std::uint16_t* column, __m128i eight) {
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(column + end), eight);
+      const auto put = [end](std::uint32_t* column, __m256i eight) {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(column + end), eight);
       };
-      const auto bytes = [](std::uint64_t eight) {
-        return _mm_cvtepu8_epi16(_mm_cvtsi64_si128(static_cast<std::int64_t>(eight)));
+      const auto words = [](std::uint64_t eight_bytes) {
+        return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<std::int64_t>(eight_bytes)));
       };
       // The numbers of the mask's bits, one a byte; and a bit for each of those, one a byte.
       const std::uint64_t spread = _pdep_u64(mask, 0x0101010101010101) * 0xff;
       const auto bits_of = [&](unsigned word) { return _pdep_u64(_pext_u32(word, mask), 0x0101010101010101); };
-      put(list.x.data(), _mm_add_epi16(bytes(_pext_u64(0x0706050403020100, spread)),
-                                       _mm_set1_epi16(static_cast<std::int16_t>(x0 + dx))));
-      put(list.y.data(), _mm_set1_epi16(static_cast<std::int16_t>(y0 + row)));
+      put(list.place.data(), _mm256_add_epi32(words(_pext_u64(0x0706050403020100, spread)),
+                                              _mm256_set1_epi32((x0 + dx) | (y0 + row) << 16)));
       const unsigned tie = part(masks.tie);
-      __m128i marks = bytes(bits_of(part(masks.front)));
-      if (tie != 0) marks = _mm_or_si128(marks, _mm_slli_epi16(bytes(bits_of(tie)), 8 + 4));
+      __m256i marks = words(bits_of(part(masks.front)));
+      if (tie != 0) marks = _mm256_or_si256(marks, _mm256_slli_epi32(words(bits_of(tie)), 8 + 4));
       put(list.marks.data(), marks);
       const int pixels = __builtin_popcount(mask);
       list.count += pixels;

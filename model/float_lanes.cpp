@@ -22,14 +22,16 @@ constexpr int largest_exponent = 30;
 #pragma GCC push_options
 #pragma GCC target("arch=x86-64-v3")
 namespace v3 {
+#include "model/float_avx2.hpp"
 #include "model/float_kernel.hpp"
-}
+}  // namespace v3
 #pragma GCC pop_options
 #pragma GCC push_options
 #pragma GCC target("arch=x86-64-v4")
 namespace v4 {
+#include "model/float_avx512.hpp"
 #include "model/float_kernel.hpp"
-}
+}  // namespace v4
 #pragma GCC pop_options
 
 /// Rounds toward zero and takes results below the normal numbers for 0, until it is gone.
@@ -54,23 +56,6 @@ bool fits(const Table& table) {
   });
 }
 
-FloatTable::Entry float_entry(const TableEntry& e) {
-  return {static_cast<float>(e.c0 + (1u << 23)), static_cast<float>(e.c1 + (1u << 23)), static_cast<float>(e.c2)};
-}
-
-FloatTable sqrt_floats(const Table& table) {
-  FloatTable out(table, 1);
-  const std::size_t octave = table.entries.size() / 2;
-  for (std::size_t i = 0; i < 2 * octave; ++i) out.entries.push_back(float_entry(table.entries[i ^ octave]));
-  return out;
-}
-
-FloatTable recip_floats(const Table& table) {
-  FloatTable out(table, 0);
-  for (const TableEntry& e : table.entries) out.entries.push_back(float_entry(e));
-  return out;
-}
-
 /// False when an exponent is out of range.
 bool float_column(const std::array<double, 4>& values, int prec, FloatColumn& out) {
   out = {};
@@ -91,6 +76,27 @@ bool fits(const QuadLanes::Factor& factor) {
 }
 
 }  // namespace
+
+FloatTable::FloatTable(const Table& table, int octave_bits)
+    : rest_bits(23 - table.segments_log2),
+      last_place(static_cast<float>(power_of_two(23 - rest_bits))),
+      offset_mask(((1u << (table.segments_log2 + octave_bits)) - 1) * static_cast<std::uint32_t>(sizeof(Entry))),
+      in_columns(table.entries.size() <= column_size) {
+  const std::size_t size = table.entries.size(), octave = octave_bits == 0 ? 0 : size / 2;
+  const auto scale = static_cast<float>(power_of_two(-rest_bits));
+  for (std::size_t i = 0; i < size; ++i) {
+    const TableEntry& e = table.entries[i ^ octave];
+    entries.push_back({static_cast<float>(e.c0 + (1u << 23)), static_cast<float>(e.c1 + (1u << 23)) * scale,
+                       static_cast<float>(e.c2) * scale * scale});
+  }
+  if (!in_columns) return;
+  for (std::size_t i = 0; i < column_size; ++i) {
+    const Entry& e = entries[i % size];
+    column[0][i] = e.c0;
+    column[1][i] = e.c1;
+    column[2][i] = e.c2;
+  }
+}
 
 FloatLanes::FloatLanes(const PipelineContext& c) {
   const Config& config = c.config;
@@ -117,16 +123,16 @@ FloatLanes::FloatLanes(const PipelineContext& c) {
   fits_ = c.format.s + c.format.g <= 20 && config.attribute_int_bits + c.attribute_frac <= 31 && fits(c.sqrt_table) &&
           fits(c.recip_table) && config.quadratic_frac() % 2 == 0;
   if (!fits_) return;
-  format_.sqrt = sqrt_floats(c.sqrt_table);
-  format_.recip = recip_floats(c.recip_table);
+  format_.sqrt = FloatTable(c.sqrt_table, 1);
+  format_.recip = FloatTable(c.recip_table, 0);
 }
 
 bool FloatLanes::usable() const { return fits_ && lane_target() != LaneTarget::baseline; }
 
 bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const {
   if (setup.homogeneous || data.plane) return false;
-  // All positions are multiples of 2^low: products of two have 2 low bits of zeros, enough for a double to hold A, D
-  // and r², and for nothing to be dropped of the latter.
+  // All positions are multiples of 2^low: products of two have 2 low bits of zeros, enough for a double to hold A, r²
+  // and two of the latter's sum, and for nothing to be dropped of D.
   std::uint64_t positions = 0;
   std::int64_t left = setup.vertex[0].x, right = left, top = setup.vertex[0].y, bottom = top;
   for (const RelativeVertex& v : setup.vertex) {
@@ -138,16 +144,24 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
   }
   const auto extent = static_cast<std::uint64_t>(std::max(right - left, bottom - top));
   const int low = std::min(frac_, std::countr_zero(positions));
-  if (val_bits_ - 1 - 2 * low > 53 || 2 * low < qdrop_) return false;
+  if (val_bits_ - 2 * low > 53 || 2 * low < qdrop_) return false;
 
   // Less than 1 wide, and exponents of products as float_kernel.hpp's upper_halves wants them.
   const int scale = -(1023 - 127) / 2 - static_cast<int>(std::bit_width(extent));
-  const double last_place = power_of_two(scale);
-  for (std::size_t i = 0; i < 4; ++i) {
-    out.x[i] = static_cast<double>(setup.vertex[i].x) * last_place;
-    out.y[i] = static_cast<double>(setup.vertex[i].y) * last_place;
+  const double last_place2 = power_of_two(2 * scale), of_pixel = power_of_two(2 * scale + frac_);
+  const double of_length2 = power_of_two(2 * scale + qdrop_);
+  for (std::size_t k = 0; k < linear_count; ++k) {
+    const LinearForm& e = setup.linear[k];
+    out.a[k] = {static_cast<double>(e.value) * last_place2, static_cast<double>(e.gx) * last_place2,
+                static_cast<double>(e.gy) * last_place2};
+    out.length2[k] = static_cast<double>(setup.length2[k]) * of_length2;
   }
-  out.unit = power_of_two(scale + frac_);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto [x, y, w] = setup.vertex[i];
+    out.r2[i] = {static_cast<double>(x * x + y * y) * last_place2, static_cast<double>(-2 * x) * of_pixel,
+                 static_cast<double>(-2 * y) * of_pixel};
+  }
+  out.unit2 = power_of_two(2 * (scale + frac_));
   out.id = data.id;
   out.x0 = setup.tile_x0 << format_.tile_log2;
   out.y0 = setup.tile_y0 << format_.tile_log2;

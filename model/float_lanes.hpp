@@ -1,4 +1,4 @@
-// The pixel pipeline on eight pixels of an ordinary quad at once, in single precision: the quickest twin of
+// The pixel pipeline on eight or sixteen pixels of an ordinary quad at once, in single precision: the quickest twin of
 // pixel_pipeline.hpp, bit for bit, where everything fits. What does not is for pixel_lanes.hpp or the plain pipeline.
 //
 // The unit rounds toward zero here. Cutting a magnitude at 24 bits and then at S < 24 is cutting it at S, so that the
@@ -16,22 +16,24 @@
 
 namespace quadrille {
 
-/// A table as floats. A place is {C0 + 2^23, C1 + 2^23, C2, 0}; its index is what the argument's bits [23 -
-/// segments_log2 +: index_bits] say: of the root also the lowest bit of the exponent's code, so its octaves lie the
-/// other way round.
+/// A table as floats. A place is {C0 + 2^23, (C1 + 2^23) 2^-rest_bits, C2 4^-rest_bits, 0}; its index is what the
+/// argument's bits [rest_bits +: index_bits] say: of the root also the lowest bit of the exponent's code, so its
+/// octaves lie the other way round.
 struct FloatTable {
   struct alignas(16) Entry {
     float c0, c1, c2, unused = 0;
   };
-  int segments_log2 = 0;
+  static constexpr std::size_t column_size = 64;
+  int rest_bits = 0;              ///< of a float's fraction, below the index
+  float last_place = 0;           ///< 2^(23 - rest_bits): what has its last place at 2^-rest_bits
   std::uint32_t offset_mask = 0;  ///< of the index times 16, a place's bytes
   std::vector<Entry> entries;
+  bool in_columns = false;  ///< at most column_size places: they are in the columns too, over and over until those end
+  alignas(64) std::array<std::array<float, column_size>, 3> column{};
 
   FloatTable() = default;
-  /// Without places yet; `octave_bits` of the exponent are in the index.
-  FloatTable(const Table& table, int octave_bits)
-      : segments_log2(table.segments_log2),
-        offset_mask(((1u << (table.segments_log2 + octave_bits)) - 1) * static_cast<std::uint32_t>(sizeof(Entry))) {}
+  /// `octave_bits` of the exponent are in the index.
+  FloatTable(const Table& table, int octave_bits);
 };
 
 /// A number per vertex for a sum: magnitudes by sign, and the powers of two that align it.
@@ -41,16 +43,24 @@ struct FloatColumn {
   bool mixed = false;                           ///< some v_i is negative
 };
 
-/// A quad as the kernel takes it. Positions are in pixels times `unit`, relative to the first tile's origin pixel.
+/// A function of pixels: value + gx dx + gy dy.
+struct FloatForm {
+  double value = 0, gx = 0, gy = 0;
+};
+
+/// A quad as the kernel takes it. Lengths are in pixels times a power of two, `unit`; pixels (dx, dy) from the first
+/// tile's origin pixel.
 struct FloatQuad {
   using Factor = QuadLanes::Factor;
 
   std::uint32_t id = 0;
   int x0 = 0, y0 = 0;  ///< the first tile's origin pixel
   int left = 0, top = 0, right = 0,
-      bottom = 0;  ///< pixels of the scissor that the corners reach, inclusive, from there
-  double unit = 0;
-  std::array<double, 4> x{}, y{};
+      bottom = 0;                              ///< pixels of the scissor that the corners reach, inclusive, from there
+  double unit2 = 0;                            ///< unit squared
+  std::array<FloatForm, linear_count> a{};     ///< A
+  std::array<FloatForm, 4> r2{};               ///< r² without dx² + dy²
+  std::array<double, linear_count> length2{};  ///< SetupResult::length2
   bool sum_k = true, sum_w = true;
   FloatColumn k, w, z;
   std::array<FloatColumn, max_attribute_slots> b;
@@ -65,13 +75,13 @@ struct PixelList {
   static constexpr int margin = 16;            ///< written beyond the last pixel, a vector's worth
 
   int count = 0;
-  alignas(32) std::array<std::uint16_t, capacity + margin> x{}, y{};
+  alignas(64) std::array<std::uint32_t, capacity + margin> place{};  ///< x | y << 16
   /// As in a fragment's bytes: front in bit 0, flags from bit 8 on.
-  alignas(32) std::array<std::uint16_t, capacity + margin> marks{};
+  alignas(64) std::array<std::uint32_t, capacity + margin> marks{};
 
-  /// The first n of them are done; fewer than a block are left.
+  /// The first n of them are done.
   void drop(int n) {
-    for (auto* column : {&x, &y, &marks}) std::copy_n(column->begin() + n, count - n, column->begin());
+    for (auto* column : {&place, &marks}) std::copy_n(column->begin() + n, count - n, column->begin());
     count -= n;
   }
 };
@@ -80,7 +90,7 @@ struct PixelList {
 struct FloatResults {
   /// What is beyond the attributes in use stays 0.
   std::vector<Fragment> fragment{PixelList::capacity + PixelList::margin};
-  std::array<std::uint8_t, PixelList::capacity / lane_count> drawn{}, plain{};  ///< by blocks; bit l is lane l
+  std::array<std::uint8_t, PixelList::capacity / 8> drawn{}, plain{};  ///< bit by bit, eight to a byte
   bool all_drawn = true;
   bool any_plain = false;  ///< pixels for the plain pipeline: on corners or two edges, or out of the floats' range
   std::uint64_t on_edge = 0, notch = 0, saturated = 0;  ///< counts
@@ -95,6 +105,8 @@ struct TileMasks {
 /// Everything constant over a draw, and the work.
 class FloatLanes {
  public:
+  static constexpr int block = 16;  ///< pixels: the lanes of the widest target
+
   explicit FloatLanes(const PipelineContext& c);
 
   /// Whether the configuration fits, and the instruction set in use has the code (v3 on).

@@ -12,6 +12,8 @@
 #include <bit>
 #include <cfenv>
 #include <cmath>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace quadrille {
@@ -102,6 +104,13 @@ std::vector<Fragment> draw(UntimedModel& model, const SnappedQuad& quad) {
   return out;
 }
 
+/// Beyond what a double holds of it on the finest grid.
+bool has_far_corner(const SnappedQuad& quad, const Config& c) {
+  for (const SnappedVertex& v : quad.vertex)
+    if (std::max(std::abs(v.x), std::abs(v.y)) > 2 * size << c.frac()) return true;
+  return false;
+}
+
 bool taken(const SnappedQuad& quad, const Config& c, const DrawState& s) {
   const PipelineContext context(c, s);
   const FloatLanes lanes(context);
@@ -117,7 +126,7 @@ TEST(FloatLanes, PlainAndLanesAreOne) {
   Prng rng(400);
   std::uint64_t fragments = 0, quads = 0, on_edge = 0, on_vertex = 0, two_edge = 0, notch = 0, saturated = 0,
                 discarded = 0;
-  for (int n = 0; n < 250; ++n) {
+  for (int n = 0; n < 270; ++n) {
     const Config c = fitting_config(rng);
     const DrawState s = random_state(rng, c);
     std::vector<SnappedQuad> list;
@@ -209,6 +218,106 @@ TEST(FloatLanes, TakeWhatFits) {
   set_lane_target(LaneTarget::baseline);
   EXPECT_FALSE(taken(good, c, s));
   set_lane_target(can_run(LaneTarget::v4) ? LaneTarget::v4 : LaneTarget::v3);
+}
+
+/// A configuration, or the numbers of a quad, at a limit of what is taken, or a step beyond it.
+struct Limit {
+  std::string what;
+  bool taken;
+  Config config;
+  std::function<void(SnappedQuad&)> edit = [](SnappedQuad&) {};
+};
+
+std::vector<Limit> limits() {
+  std::vector<Limit> list;
+  const Config standard;
+  const auto with = [&](const std::string& what, bool taken, auto&& change) {
+    Config c = standard;
+    change(c);
+    c.validate();
+    list.push_back({what, taken, c});
+  };
+  for (int s = 14; s <= 21; ++s)
+    for (int g = 0; g <= 6; ++g) {
+      if (s + g != 20 && s + g != 21) continue;
+      // Of S = 20 a place of the reciprocal's table is 2^23.
+      with("S " + std::to_string(s) + " + " + std::to_string(g), s + g == 20 && s < 20, [&](Config& c) {
+        c.significand_bits = s;
+        c.align_guard_bits = g;
+      });
+    }
+  for (const int frac : {23, 24})
+    with("attributes of 8 + " + std::to_string(frac) + " bits", frac == 23, [&](Config& c) {
+      c.attribute_int_bits = 8;
+      c.attribute_frac_bits = frac;
+    });
+  for (const int segments : {4, 6, 7, 9})  // tables that a register or two hold, and longer ones
+    with("2^" + std::to_string(segments) + " segments", true, [&](Config& c) {
+      c.sqrt_segments_log2 = segments - 1;
+      c.recip_segments_log2 = segments;
+    });
+  for (const int exponent : {-31, -30, -29, 29, 30, 31}) {
+    const bool fits = std::abs(exponent) <= 30;
+    const auto number = [&](const std::string& what, auto&& of) {
+      for (std::size_t first = 0; first < 5; ++first)  // one vertex, or all
+        list.push_back({what + " 2^" + std::to_string(exponent) + (first == 4 ? " everywhere" : ""), fits, standard,
+                        [=](SnappedQuad& q) {
+                          for (std::size_t i = 0; i < 4; ++i)
+                            if (first == 4 || first == i) {
+                              PortNumber& n = of(q.vertex[i]);
+                              if (n.sig == 0) n.sig = 1u << 17;
+                              n.exp = exponent;
+                            }
+                        }});
+    };
+    number("k", [](SnappedVertex& v) -> PortNumber& { return v.k; });
+    number("Z", [](SnappedVertex& v) -> PortNumber& { return v.z; });
+    number("an attribute", [](SnappedVertex& v) -> PortNumber& { return v.attribute[1]; });
+  }
+  // The sum of M k is near what the lanes leave to the plain pipeline, on either side of it.
+  for (int exponent = -29; exponent <= -20; ++exponent)
+    list.push_back({"sums about 2^" + std::to_string(exponent), true, standard, [=](SnappedQuad& q) {
+                      for (SnappedVertex& v : q.vertex) {
+                        v.k.exp = exponent;
+                        for (PortNumber& b : v.attribute)
+                          if (b.sig != 0) b.exp = exponent;
+                      }
+                    }});
+  return list;
+}
+
+/// At each limit the lanes draw the plain pipeline's bits; a step beyond it they leave the quad to others, and so does
+/// the model.
+TEST(FloatLanes, LimitsOfTheRange) {
+  if (!can_run_here()) GTEST_SKIP() << "no lanes for this processor";
+  Prng rng(403);
+  DrawState s = square();
+  s.attributes = 2;
+  s.skip &= ~skip_quads;  // one outside of every depth is drawn, too
+  int inside = 0, outside = 0;
+  for (const Limit& limit : limits()) {
+    SCOPED_TRACE(limit.what);
+    UntimedModel plain(limit.config, s, PixelEngine::plain);
+    std::uint64_t fragments = 0;
+    for (int n = 0; n < 12; ++n) {
+      SnappedQuad quad;
+      do quad = random_quad(rng, limit.config, 8);
+      while (has_far_corner(quad, limit.config));
+      limit.edit(quad);
+      ASSERT_EQ(taken(quad, limit.config, s), limit.taken);
+      const std::vector<Fragment> expected = draw(plain, quad);
+      fragments += expected.size();
+      on_each_lane_target([&] {
+        UntimedModel quick(limit.config, s);
+        ASSERT_EQ(expected, draw(quick, quad));
+      });
+      if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(plain.stats().pixels, 100u);
+    (limit.taken ? inside : outside) += fragments != 0;
+  }
+  EXPECT_GE(inside, 60);
+  EXPECT_GE(outside, 20);
 }
 
 /// How the unit rounds, seen from its results: fegetround() asks another unit.

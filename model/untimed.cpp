@@ -117,7 +117,7 @@ struct UntimedModel::Impl {
 
   /// Draws the list's whole blocks, with `all` its rest too.
   void draw_floats(const SetupResult& setup, const QuadData& data, bool all, const Sink& sink) {
-    const int count = all ? list.count : list.count / lane_count * lane_count;
+    const int count = all ? list.count : list.count / FloatLanes::block * FloatLanes::block;
     if (count == 0) return;
     floats.draw(float_quad, list, count, results);
     stats.on_edge += results.on_edge;
@@ -134,10 +134,11 @@ struct UntimedModel::Impl {
   std::size_t settle_floats(const SetupResult& setup, const QuadData& data, int count) {
     std::size_t drawn = 0;
     for (int i = 0; i < count; ++i) {
-      const auto at = static_cast<std::size_t>(i), block = at / lane_count;
-      bool draws = results.drawn[block] >> i % lane_count & 1;
-      if (results.plain[block] >> i % lane_count & 1) {
-        const int tile = context.config.tile(), column = list.x[at] / tile, row = list.y[at] / tile;
+      const auto at = static_cast<std::size_t>(i);
+      bool draws = results.drawn[at / 8] >> at % 8 & 1;
+      if (results.plain[at / 8] >> at % 8 & 1) {
+        const int x = list.place[at] & 0xffff, y = list.place[at] >> 16;
+        const int tile = context.config.tile(), column = x / tile, row = y / tile;
         TileEntry entry;
         entry.tile_x = setup.tile_x0 + column;
         entry.tile_y = setup.tile_y0 + row;
@@ -149,7 +150,7 @@ struct UntimedModel::Impl {
         PixelTrace p;
         p.front = results.fragment[at].front;
         p.tie = (results.fragment[at].flags & flag_tie) != 0;
-        pixel_pipeline(p, entry, walk.constants(), data, list.x[at] % tile, list.y[at] % tile, context);
+        pixel_pipeline(p, entry, walk.constants(), data, x % tile, y % tile, context);
         results.fragment[at] = p.fragment;
         draws = p.drawn;
         tally(p.fragment.flags);

@@ -1,0 +1,126 @@
+// Eight lanes of AVX2 for float_kernel.hpp, inside a namespace of its own: float_avx512.hpp has the same names.
+// Of a mask the sign bit of each lane counts.
+
+constexpr int width = 8;
+using F = __m256;
+using I = __m256i;
+using D = __m256d;  ///< half of the lanes
+
+struct Mask {
+  F sign;
+};
+inline Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.sign, b.sign)}; }
+inline Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.sign, b.sign)}; }
+inline Mask operator^(Mask a, Mask b) { return {_mm256_xor_ps(a.sign, b.sign)}; }
+inline Mask without(Mask a, Mask b) { return {_mm256_andnot_ps(b.sign, a.sign)}; }
+
+inline F splat(float v) { return _mm256_set1_ps(v); }
+inline D splat(double v) { return _mm256_set1_pd(v); }
+inline I splat(std::int32_t v) { return _mm256_set1_epi32(v); }
+inline F real(I v) { return _mm256_castsi256_ps(v); }
+inline I bits(F v) { return _mm256_castps_si256(v); }
+inline I load(const std::uint32_t* aligned) { return _mm256_load_si256(reinterpret_cast<const I*>(aligned)); }
+
+inline F fma(F a, F b, F c) { return _mm256_fmadd_ps(a, b, c); }
+inline D fma(D a, D b, D c) { return _mm256_fmadd_pd(a, b, c); }
+/// a b - c.
+inline F fms(F a, F b, F c) { return _mm256_fmsub_ps(a, b, c); }
+inline F least(F a, F b) { return _mm256_min_ps(a, b); }
+inline F greatest(F a, F b) { return _mm256_max_ps(a, b); }
+inline F keep(F v, F mask) { return _mm256_and_ps(v, mask); }
+inline I add(I a, I b) { return _mm256_add_epi32(a, b); }
+inline I subtract(I a, I b) { return _mm256_sub_epi32(a, b); }
+template <int places>
+I shift_left(I v) {
+  return _mm256_slli_epi32(v, places);
+}
+template <int places>
+I shift_right(I v) {
+  return _mm256_srli_epi32(v, places);
+}
+template <int places>
+I shift_signed(I v) {
+  return _mm256_srai_epi32(v, places);
+}
+inline I shift_left(I v, int places) { return _mm256_sll_epi32(v, _mm_cvtsi32_si128(places)); }
+inline I shift_right(I v, int places) { return _mm256_srl_epi32(v, _mm_cvtsi32_si128(places)); }
+/// Half of a magnitude; 0 of 0.
+inline F half(F v) { return real(_mm256_subs_epu16(bits(v), splat(1 << 23))); }
+inline F converted(I v) { return _mm256_cvtepi32_ps(v); }
+inline I truncated(F v) { return _mm256_cvttps_epi32(v); }
+
+inline Mask sign(F v) { return {v}; }
+inline Mask sign(I v) { return {real(v)}; }
+inline Mask equal(F a, F b) { return {_mm256_cmp_ps(a, b, _CMP_EQ_OQ)}; }
+inline Mask at_least(F a, F b) { return {_mm256_cmp_ps(a, b, _CMP_GE_OQ)}; }
+inline Mask not_at_least(F a, F b) { return {_mm256_cmp_ps(a, b, _CMP_NGE_UQ)}; }
+inline Mask equal(I a, I b) { return {real(_mm256_cmpeq_epi32(a, b))}; }
+inline Mask greater(I a, I b) { return {real(_mm256_cmpgt_epi32(a, b))}; }
+inline Mask no_lane() { return {_mm256_setzero_ps()}; }
+/// Bit l is lane l.
+inline unsigned lanes(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(m.sign)); }
+inline bool none(Mask m) { return lanes(m) == 0; }
+inline F select(Mask m, F a, F b) { return _mm256_blendv_ps(b, a, m.sign); }
+inline I select(Mask m, I a, I b) { return bits(select(m, real(a), real(b))); }
+/// That bit in the lanes of the mask.
+template <int bit>
+I flag(Mask m) {
+  return shift_left<bit>(shift_right<31>(bits(m.sign)));
+}
+
+/// Lanes 0 1 4 5 and 2 3 6 7: upper_halves puts them in order.
+struct Halves {
+  D a, b;
+};
+inline Halves to_doubles(I v) {
+  const I order = _mm256_permute4x64_epi64(v, 0xd8);
+  return {_mm256_cvtepi32_pd(_mm256_castsi256_si128(order)), _mm256_cvtepi32_pd(_mm256_extracti128_si256(order, 1))};
+}
+/// The upper 32 bits of doubles: sign, exponent, 20 bits of the significand.
+inline I upper_halves(D a, D b) { return bits(_mm256_shuffle_ps(_mm256_castpd_ps(a), _mm256_castpd_ps(b), 0xdd)); }
+
+/// Places of a table for each lane, by columns; `a` says which.
+struct Coefficients {
+  F c0, c1, c2;
+
+  Coefficients(const FloatTable& table, F a) {
+    const I offset =
+        shift_right(bits(a), table.rest_bits - 4) & splat(static_cast<std::int32_t>(table.offset_mask));  // in bytes
+    const __m128i low = _mm256_castsi256_si128(offset), high = _mm256_extracti128_si256(offset, 1);
+    const auto* entries = reinterpret_cast<const std::uint8_t*>(table.entries.data());
+    const auto place = [&](std::uint64_t at) {
+      return _mm_load_ps(reinterpret_cast<const float*>(entries + static_cast<std::uint32_t>(at)));
+    };
+    const auto pair = [](__m128 p, __m128 q) { return _mm256_insertf128_ps(_mm256_castps128_ps256(p), q, 1); };
+    // Two offsets at a time out of the vector.
+    const auto at01 = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low));
+    const auto at23 = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
+    const auto at45 = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high));
+    const auto at67 = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
+    const F p0 = pair(place(at01), place(at45)), p1 = pair(place(at01 >> 32), place(at45 >> 32));
+    const F p2 = pair(place(at23), place(at67)), p3 = pair(place(at23 >> 32), place(at67 >> 32));
+    const F low01 = _mm256_unpacklo_ps(p0, p1), low23 = _mm256_unpacklo_ps(p2, p3);
+    c0 = _mm256_shuffle_ps(low01, low23, 0x44);
+    c1 = _mm256_shuffle_ps(low01, low23, 0xee);
+    c2 = _mm256_shuffle_ps(_mm256_unpackhi_ps(p0, p1), _mm256_unpackhi_ps(p2, p3), 0x44);
+  }
+};
+
+/// Words by lanes, into the lanes' fragments.
+inline void store_words(std::uint8_t* to, const I (&word)[4]) {
+  const auto store = [to](I two, std::size_t lane) {
+    std::uint8_t* at = to + lane * sizeof(Fragment);
+    _mm_store_si128(reinterpret_cast<__m128i*>(at), _mm256_castsi256_si128(two));
+    _mm_store_si128(reinterpret_cast<__m128i*>(at + 4 * sizeof(Fragment)), _mm256_extracti128_si256(two, 1));
+  };
+  const I head01 = _mm256_unpacklo_epi32(word[0], word[1]), head23 = _mm256_unpackhi_epi32(word[0], word[1]);
+  const I tail01 = _mm256_unpacklo_epi32(word[2], word[3]), tail23 = _mm256_unpackhi_epi32(word[2], word[3]);
+  store(_mm256_unpacklo_epi64(head01, tail01), 0);
+  store(_mm256_unpackhi_epi64(head01, tail01), 1);
+  store(_mm256_unpacklo_epi64(head23, tail23), 2);
+  store(_mm256_unpackhi_epi64(head23, tail23), 3);
+}
+inline void store_words(std::uint8_t* to, const I (&word)[8]) {
+  store_words(to, {word[0], word[1], word[2], word[3]});
+  store_words(to + 16, {word[4], word[5], word[6], word[7]});
+}

@@ -1,0 +1,148 @@
+// Sixteen lanes of AVX-512 for float_kernel.hpp, inside a namespace of its own: float_avx2.hpp has the same names.
+
+constexpr int width = 16;
+using F = __m512;
+using I = __m512i;
+using D = __m512d;  ///< half of the lanes
+
+struct Mask {
+  __mmask16 lanes;
+};
+inline Mask operator&(Mask a, Mask b) { return {_kand_mask16(a.lanes, b.lanes)}; }
+inline Mask operator|(Mask a, Mask b) { return {_kor_mask16(a.lanes, b.lanes)}; }
+inline Mask operator^(Mask a, Mask b) { return {_kxor_mask16(a.lanes, b.lanes)}; }
+inline Mask without(Mask a, Mask b) { return {_kandn_mask16(b.lanes, a.lanes)}; }
+
+inline F splat(float v) { return _mm512_set1_ps(v); }
+inline D splat(double v) { return _mm512_set1_pd(v); }
+inline I splat(std::int32_t v) { return _mm512_set1_epi32(v); }
+inline F real(I v) { return _mm512_castsi512_ps(v); }
+inline I bits(F v) { return _mm512_castps_si512(v); }
+inline I load(const std::uint32_t* aligned) { return _mm512_load_si512(aligned); }
+
+inline F fma(F a, F b, F c) { return _mm512_fmadd_ps(a, b, c); }
+inline D fma(D a, D b, D c) { return _mm512_fmadd_pd(a, b, c); }
+/// a b - c.
+inline F fms(F a, F b, F c) { return _mm512_fmsub_ps(a, b, c); }
+inline F least(F a, F b) { return _mm512_min_ps(a, b); }
+inline F greatest(F a, F b) { return _mm512_max_ps(a, b); }
+inline F keep(F v, F mask) { return _mm512_and_ps(v, mask); }
+inline I add(I a, I b) { return _mm512_add_epi32(a, b); }
+inline I subtract(I a, I b) { return _mm512_sub_epi32(a, b); }
+template <int places>
+I shift_left(I v) {
+  return _mm512_slli_epi32(v, places);
+}
+template <int places>
+I shift_right(I v) {
+  return _mm512_srli_epi32(v, places);
+}
+template <int places>
+I shift_signed(I v) {
+  return _mm512_srai_epi32(v, places);
+}
+inline I shift_left(I v, int places) { return _mm512_sll_epi32(v, _mm_cvtsi32_si128(places)); }
+inline I shift_right(I v, int places) { return _mm512_srl_epi32(v, _mm_cvtsi32_si128(places)); }
+/// Half of a magnitude; 0 of 0.
+inline F half(F v) { return real(_mm512_subs_epu16(bits(v), splat(1 << 23))); }
+inline F converted(I v) { return _mm512_cvtepi32_ps(v); }
+inline I truncated(F v) { return _mm512_cvttps_epi32(v); }
+
+inline Mask sign(I v) { return {_mm512_movepi32_mask(v)}; }
+inline Mask sign(F v) { return sign(bits(v)); }
+inline Mask equal(F a, F b) { return {_mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ)}; }
+inline Mask at_least(F a, F b) { return {_mm512_cmp_ps_mask(a, b, _CMP_GE_OQ)}; }
+inline Mask not_at_least(F a, F b) { return {_mm512_cmp_ps_mask(a, b, _CMP_NGE_UQ)}; }
+inline Mask equal(I a, I b) { return {_mm512_cmpeq_epi32_mask(a, b)}; }
+inline Mask greater(I a, I b) { return {_mm512_cmpgt_epi32_mask(a, b)}; }
+inline Mask no_lane() { return {0}; }
+/// Bit l is lane l.
+inline unsigned lanes(Mask m) { return m.lanes; }
+inline bool none(Mask m) { return m.lanes == 0; }
+inline F select(Mask m, F a, F b) { return _mm512_mask_blend_ps(m.lanes, b, a); }
+inline I select(Mask m, I a, I b) { return _mm512_mask_blend_epi32(m.lanes, b, a); }
+/// That bit in the lanes of the mask.
+template <int bit>
+I flag(Mask m) {
+  return _mm512_maskz_set1_epi32(m.lanes, 1 << bit);
+}
+
+/// Lanes 0 1 4 5 … and 2 3 6 7 …: upper_halves puts them in order.
+struct Halves {
+  D a, b;
+};
+inline Halves to_doubles(I v) {
+  const I order = _mm512_permutexvar_epi64(_mm512_set_epi64(7, 5, 3, 1, 6, 4, 2, 0), v);
+  return {_mm512_cvtepi32_pd(_mm512_castsi512_si256(order)), _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(order, 1))};
+}
+/// The upper 32 bits of doubles: sign, exponent, 20 bits of the significand.
+inline I upper_halves(D a, D b) { return bits(_mm512_shuffle_ps(_mm512_castpd_ps(a), _mm512_castpd_ps(b), 0xdd)); }
+
+/// Places of a table for each lane, by columns; `a` says which.
+struct Coefficients {
+  F c0, c1, c2;
+
+  Coefficients(const FloatTable& table, F a) {
+    if (table.in_columns) [[likely]] {
+      const I index = shift_right(bits(a), table.rest_bits);  // what is above 6 bits does not count
+      const __mmask16 second = _mm512_test_epi32_mask(index, splat(32));
+      const auto look_up = [&](const std::array<float, FloatTable::column_size>& column) {
+        const auto part = [&](std::size_t n) { return _mm512_load_ps(column.data() + 16 * n); };
+        return _mm512_mask_blend_ps(second, _mm512_permutex2var_ps(part(0), index, part(1)),
+                                    _mm512_permutex2var_ps(part(2), index, part(3)));
+      };
+      c0 = look_up(table.column[0]);
+      c1 = look_up(table.column[1]);
+      c2 = look_up(table.column[2]);
+    } else {
+      const I offset =
+          shift_right(bits(a), table.rest_bits - 4) & splat(static_cast<std::int32_t>(table.offset_mask));  // in bytes
+      const auto look_up = [&](const float& first) { return _mm512_i32gather_ps(offset, &first, 1); };
+      c0 = look_up(table.entries[0].c0);
+      c1 = look_up(table.entries[0].c1);
+      c2 = look_up(table.entries[0].c2);
+    }
+  }
+};
+
+/// The four words of each lane, lanes n, n + 4, n + 8, n + 12 in vector n.
+struct Rows {
+  I row[4];
+
+  explicit Rows(const I* word) {
+    const I head01 = _mm512_unpacklo_epi32(word[0], word[1]), head23 = _mm512_unpackhi_epi32(word[0], word[1]);
+    const I tail01 = _mm512_unpacklo_epi32(word[2], word[3]), tail23 = _mm512_unpackhi_epi32(word[2], word[3]);
+    row[0] = _mm512_unpacklo_epi64(head01, tail01);
+    row[1] = _mm512_unpackhi_epi64(head01, tail01);
+    row[2] = _mm512_unpacklo_epi64(head23, tail23);
+    row[3] = _mm512_unpackhi_epi64(head23, tail23);
+  }
+};
+/// Words by lanes, into the lanes' fragments.
+inline void store_words(std::uint8_t* to, const I (&word)[4]) {
+  const Rows rows(word);
+  for (std::size_t n = 0; n < 4; ++n) {
+    const auto store = [&](std::size_t quarter, __m128i four) {
+      _mm_store_si128(reinterpret_cast<__m128i*>(to + (4 * quarter + n) * sizeof(Fragment)), four);
+    };
+    store(0, _mm512_castsi512_si128(rows.row[n]));
+    store(1, _mm512_extracti32x4_epi32(rows.row[n], 1));
+    store(2, _mm512_extracti32x4_epi32(rows.row[n], 2));
+    store(3, _mm512_extracti32x4_epi32(rows.row[n], 3));
+  }
+}
+inline void store_words(std::uint8_t* to, const I (&word)[8]) {
+  const Rows first(word), second(word + 4);
+  const I low = _mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0), high = _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4);
+  for (std::size_t n = 0; n < 4; ++n) {
+    const auto store = [&](std::size_t quarter, __m256i eight) {
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + (4 * quarter + n) * sizeof(Fragment)), eight);
+    };
+    const I lower = _mm512_permutex2var_epi64(first.row[n], low, second.row[n]);
+    const I upper = _mm512_permutex2var_epi64(first.row[n], high, second.row[n]);
+    store(0, _mm512_castsi512_si256(lower));
+    store(1, _mm512_extracti64x4_epi64(lower, 1));
+    store(2, _mm512_castsi512_si256(upper));
+    store(3, _mm512_extracti64x4_epi64(upper, 1));
+  }
+}
