@@ -1,6 +1,8 @@
 #include "tb/render/skip_picture.hpp"
 
+#include "model/covered_pixels.hpp"
 #include "model/hierarchical_z.hpp"
+#include "model/masked_depth.hpp"
 #include "model/quad_reject.hpp"
 #include "model/quad_setup.hpp"
 #include "model/tile_walk.hpp"
@@ -45,6 +47,18 @@ TileFate fate_of(QuadReject reject) {
   return reject == QuadReject::depth ? TileFate::depth : reject == QuadReject::line ? TileFate::line : TileFate::culled;
 }
 
+/// Of a tile that the walk pushes: coverage leaves its rows out.
+bool hides_rows(MaskedDepth& memory, const TileEntry& tile, const DepthInterval& depth, const QuadConstants& quad,
+                const Config& config, const DrawState& state) {
+  memory.begin(tile.tile_x, tile.tile_y, depth);
+  if (memory.hidden()) return true;
+  for_each_covered_pixel(
+      tile, quad, config, state, [](const CoveredPixel&) {},
+      [&](int row, std::uint32_t mask) { return memory.row(row, mask); });
+  memory.end();
+  return false;
+}
+
 }  // namespace
 
 std::uint64_t TileFates::total(TileFate fate) const {
@@ -62,6 +76,7 @@ TileFates tile_fates(std::span<const SnappedQuad> quads, const Config& config, c
   std::vector<bool> tested(tiles);
   TileWalk walk(config, state);
   HierarchicalZ memory(config);
+  MaskedDepth masked(config);
   HierarchicalZ* const hiding = skips_hidden(config, state) ? &memory : nullptr;
   for (const SnappedQuad& quad : quads) {
     const QuadReject reject = quad_reject(quad, config, state);
@@ -73,16 +88,19 @@ TileFates tile_fates(std::span<const SnappedQuad> quads, const Config& config, c
       continue;
     }
     std::fill(tested.begin(), tested.end(), false);
-    for (walk.take(setup, hiding, hiding != nullptr ? depth_interval(quad, config, state) : DepthInterval{});
-         walk.state() != TileWalk::State::end; walk.advance()) {
+    const DepthInterval depth = hiding != nullptr ? depth_interval(quad, config, state) : DepthInterval{};
+    for (walk.take(setup, hiding, depth); walk.state() != TileWalk::State::end; walk.advance()) {
       if (walk.state() != TileWalk::State::tile) continue;
       const TileEntry tile = walk.entry();
       if (tile.tile_x >= fates.columns || tile.tile_y >= fates.rows) continue;
       tested[static_cast<std::size_t>(tile.tile_y * fates.columns + tile.tile_x)] = true;
+      const bool hidden = walk.hit()
+                              ? hiding != nullptr && hides_rows(masked, tile, depth, walk.constants(), config, state)
+                              : walk.hidden();
       ++at(fates,
-           walk.hit()      ? TileFate::entered
-           : walk.hidden() ? TileFate::hidden
-                           : TileFate::tile,
+           hidden       ? TileFate::hidden
+           : walk.hit() ? TileFate::entered
+                        : TileFate::tile,
            tile.tile_x, tile.tile_y);
     }
     walk.advance();

@@ -89,5 +89,25 @@ TEST(SkipPicture, HiddenTiles) {
   EXPECT_EQ(fates.count[static_cast<std::size_t>(TileFate::hidden)][3 * 16 + 4], 0u);
 }
 
+TEST(SkipPicture, TilesHiddenByTwoHalves) {
+  Config config;
+  config.set("hierarchical_z_bits", 12);
+  DrawState state;
+  state.width = state.height = state.scissor_x1 = state.scissor_y1 = 64;
+  state.skip |= skip_hidden;
+  const auto rectangle = [&](double x0, double x1, double z) {
+    WindowQuad q;
+    q.vertex = {{{x0, 0, z, 1}, {x0, 8, z, 1}, {x1, 8, z, 1}, {x1, 0, z, 1}}};
+    for (auto& attribute : q.attribute) attribute.assign(4, 0);
+    return snap_quad(q, config, state);
+  };
+  // Two tiles, of which the first is covered by two quads, the second by half.
+  const std::vector<SnappedQuad> quads{rectangle(0, 4, 0.25), rectangle(4, 12, 0.25), rectangle(0, 16, 0.5)};
+  const TileFates fates = tile_fates(quads, config, state);
+  EXPECT_EQ(fates.total(TileFate::entered), 1u + 2 + 1);
+  EXPECT_EQ(fates.total(TileFate::hidden), 1u);
+  EXPECT_EQ(fates.count[static_cast<std::size_t>(TileFate::hidden)][0], 1u);
+}
+
 }  // namespace
 }  // namespace quadrille::cli
