@@ -1,6 +1,7 @@
 #include "tb/mutants/scenario.hpp"
 
 #include "golden/scenes/corner_quads.hpp"
+#include "golden/scenes/nearly_plane.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
@@ -37,15 +38,25 @@ Config reduced() {
   return config;
 }
 
-/// Four pixels a clock, hidden tiles; few slots, for a machine that is quick to build.
+/// Four pixels a clock; few slots, for a machine that is quick to build.
 Config four_lanes() {
   Config config;
   config.set("significand_bits", 12);
   config.set("attribute_slots", 1);
   config.set("pixels_per_clock", 4);
-  config.set("hierarchical_z_bits", 16);
-  config.set("hierarchical_z_tiles_log2", 6);
   config.set("performance_counters", 1);
+  return config;
+}
+
+/// Hidden tiles, quads that are nearly plane. Tags of two bits and four epochs: what memory holds before it is wiped is
+/// soon taken for an entry. A tolerance that shows above the errors of few bits.
+Config skipping() {
+  Config config = four_lanes();
+  config.set("viewport_bits", 7);
+  config.set("attribute_slots", 3);
+  config.set("hierarchical_z_bits", 12);
+  config.set("hierarchical_z_tiles_log2", 6);
+  config.set("plane_tolerance_bits", 4);
   return config;
 }
 
@@ -68,7 +79,7 @@ std::vector<SnappedQuad> drawn(const LockstepOptions& o, std::uint64_t seed, int
     WindowQuad quad = draw(random);
     quad.id = static_cast<std::uint32_t>(quads.size());
     for (auto& list : quad.attribute)  // slots that are not in use too
-      for (int j = 0; j < o.config.attribute_slots; ++j) list.push_back(random.uniform(-7.9, 7.9));
+      while (static_cast<int>(list.size()) < o.config.attribute_slots) list.push_back(random.uniform(-7.9, 7.9));
     try {
       quads.push_back(snap_quad(quad, o.config, o.state));
     } catch (const SnapError&) {  // no point of the machine's space: draw another
@@ -266,10 +277,10 @@ Scenario lanes() {
   return {"four lanes", o, random_quads(o.config, o.state, 35, 150)};
 }
 
-/// Layers over the whole viewport, some of them at an angle, a few codes apart: hidden or just not; some hide nothing,
-/// being partly outside znear and zfar, culled or not all over a tile.
+/// Layers over the whole viewport, some of them at an angle, a few codes apart: hidden or just not, by codes of a few
+/// steps of the depths; some hide nothing, being outside znear and zfar or partly so, culled or not all over a tile.
 Scenario layers() {
-  LockstepOptions o = options(four_lanes(), 72);  // more tiles than places
+  LockstepOptions o = options(skipping(), 72);  // more tiles than places
   o.state.attributes = 1;
   o.state.skip = skip_hidden;  // quads turned away are walked
   o.state.znear = 0.2;
@@ -278,13 +289,13 @@ Scenario layers() {
   o.state.scissor_x0 = 3;
   o.state.scissor_y1 = 70;
   o.stall = 0.2;
-  return {"layers", o, drawn(o, 8, 90, [](golden::Prng& random) {
+  return {"layers", o, drawn(o, 8, 140, [](golden::Prng& random) {
             WindowQuad quad;
             const double step = std::ldexp(1, -13), z = random.chance(0.7)
-                                                            ? 0.4 + step * std::floor(40 * random.uniform())
-                                                            : random.uniform(0.1, 0.9);
+                                                            ? 0.4 + step * std::floor(64 * random.uniform())
+                                                            : random.uniform(0.1, random.chance(0.3) ? 0.22 : 0.9);
             const double left = random.uniform(-20, 30), top = random.uniform(-20, 30), width = random.uniform(30, 90),
-                         height = random.uniform(30, 90), lean = random.uniform(-9, 9);
+                         height = random.uniform(30, 90), lean = random.chance(0.3) ? 0 : random.uniform(-9, 9);
             quad.vertex = {{{left, top + lean, z, 1},
                             {left + lean, top + height, z + step, 1},
                             {left + width, top + height + lean, z + step * random.uniform(), 1},
@@ -296,13 +307,46 @@ Scenario layers() {
           })};
 }
 
+/// Quads whose values are nearly plane, by less and by more than the tolerance, in one value or another; most are
+/// small, one soon after the other. Of some a corner lies near the diagonal beside it, to either side; some cross
+/// themselves, with the values of a rectangle.
+Scenario nearly_plane() {
+  LockstepOptions o = options(skipping(), 64);
+  o.state.attributes = 3;
+  o.state.skip |= skip_plane;
+  o.stall = 0.05;
+  return {"nearly plane", o, drawn(o, 9, 300, [](golden::Prng& random) {
+            golden::NearlyPlane kind;
+            if (random.chance(0.6)) kind.half_low = 1, kind.half_high = 3;
+            kind.bend = random.uniform(-0.4, 0.4);
+            if (random.chance(0.3)) kind.tilt = 0.3;
+            WindowQuad quad = golden::nearly_plane_quad(random, 0, kind);
+            if (kind.tilt == 0 && random.chance(0.1)) {
+              std::swap(quad.vertex[0].x, quad.vertex[1].x);
+              std::swap(quad.vertex[0].y, quad.vertex[1].y);
+            } else if (random.chance(0.3)) {
+              // All is linear in 1/w, x/w, y/w, and so on: the corner goes towards the one opposite.
+              const std::size_t i = random.below(4), far = (i + 2) % 4;
+              const double part = random.uniform(0.48, 0.51);
+              WindowVertex& v = quad.vertex[i];
+              const WindowVertex from = quad.vertex[far];
+              const double w = 1 / (part / v.w + (1 - part) / from.w);
+              const auto between = [&](double a, double b) { return (part * a / v.w + (1 - part) * b / from.w) * w; };
+              for (std::size_t j = 0; j < quad.attribute[i].size(); ++j)
+                quad.attribute[i][j] = between(quad.attribute[i][j], quad.attribute[far][j]);
+              v = {between(v.x, from.x), between(v.y, from.y), between(v.z, from.z), w};
+            }
+            return quad;
+          })};
+}
+
 }  // namespace
 
 std::span<const Scenario> scenarios() {
   static const std::vector<Scenario> list = [] {
     std::vector<Scenario> all{mixture(),      flat(),           grid(),      signed_grid(),  flat_signed_grid(),
                               depth_limits(), wide(),           depth_off(), dropped_bits(), dropped_bits_signed(),
-                              lanes(),        beside_scissor(), layers()};
+                              lanes(),        beside_scissor(), layers(),    nearly_plane()};
     const auto add = [&](const Config& config, const std::string& before, golden::CornerDraw draw) {
       for (std::size_t i = 0; i < draw.quads.size(); ++i) draw.quads[i].id = static_cast<std::uint32_t>(i);
       LockstepOptions o = options(config, draw.state.width);
