@@ -124,3 +124,53 @@ inline void store_words(std::uint8_t* to, const I (&word)[8]) {
   store_words(to, {word[0], word[1], word[2], word[3]});
   store_words(to + 16, {word[4], word[5], word[6], word[7]});
 }
+
+/// Signs of value + dx gx + dy gy at the pixels of a tile of 8 by 8, bit 8 row + dx.
+struct TileSigns {
+  std::uint64_t negative, zero;
+};
+inline TileSigns tile_signs(int value, int gx, int gy) {
+  // Packing takes four vectors to one of bytes, signs and zeros unchanged; byte 16 l + 4 q + i is of vector q, there of
+  // place 4 l + i.
+  const I dx = splat(gx), right = splat(4 * gx);
+  const I columns = _mm256_mullo_epi32(dx, _mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3));
+  TileSigns signs{0, 0};
+  for (int rows = 0; rows < 8; rows += 4) {
+    const I start = _mm256_setr_m128i(_mm_set1_epi32(value + rows * gy), _mm_set1_epi32(value + (rows + 2) * gy));
+    const I e0 = add(columns, start), e2 = add(e0, splat(gy));
+    const I bytes = _mm256_packs_epi16(_mm256_packs_epi32(e0, add(e0, right)), _mm256_packs_epi32(e2, add(e2, right)));
+    const auto mask = [rows](I v) {
+      return static_cast<std::uint64_t>(static_cast<std::uint32_t>(_mm256_movemask_epi8(v))) << 8 * rows;
+    };
+    signs.negative |= mask(bytes);
+    signs.zero |= mask(_mm256_cmpeq_epi8(bytes, _mm256_setzero_si256()));
+  }
+  return signs;
+}
+
+/// Writes a word's pixels behind the list's end.
+inline void append(const TileWord& word, int x0, int y0, int tile_log2, PixelList& list) {
+  const int tile = 1 << tile_log2, chunk = std::min(tile, 8);
+  auto end = static_cast<std::size_t>(list.count);
+  for (int bit = 0; bit < 64; bit += chunk) {
+    const auto part = [&](std::uint64_t of) { return static_cast<unsigned>(of >> bit) & ((1u << chunk) - 1); };
+    const unsigned mask = part(word.mask);
+    if (mask == 0) continue;
+    const auto put = [end](std::uint32_t* column, I eight) {
+      _mm256_storeu_si256(reinterpret_cast<I*>(column + end), eight);
+    };
+    const auto words = [](std::uint64_t eight_bytes) {
+      return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<std::int64_t>(eight_bytes)));
+    };
+    // The numbers of the mask's bits, one a byte; and a bit for each of those, one a byte.
+    const std::uint64_t spread = _pdep_u64(mask, 0x0101010101010101) * 0xff;
+    const auto bits_of = [&](unsigned some) { return _pdep_u64(_pext_u32(some, mask), 0x0101010101010101); };
+    const int place = (x0 + (bit & (tile - 1))) | (y0 + (bit >> tile_log2)) << 16;
+    put(list.place.data(), add(words(_pext_u64(0x0706050403020100, spread)), splat(place)));
+    const unsigned tie = part(word.tie);
+    I marks = words(bits_of(part(word.front)));
+    if (tie != 0) marks = marks | shift_left<8 + 4>(words(bits_of(tie)));
+    put(list.marks.data(), marks);
+    end += static_cast<std::size_t>(__builtin_popcount(mask));
+  }
+}

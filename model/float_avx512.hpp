@@ -146,3 +146,34 @@ inline void store_words(std::uint8_t* to, const I (&word)[8]) {
     store(3, _mm512_extracti64x4_epi64(upper, 1));
   }
 }
+
+/// Signs of value + dx gx + dy gy at the pixels of a tile of 8 by 8, bit 8 row + dx.
+struct TileSigns {
+  std::uint64_t negative, zero;
+};
+inline TileSigns tile_signs(int value, int gx, int gy) {
+  // Packing takes four vectors to one of bytes, signs and zeros unchanged; byte 16 l + 4 q + i is of vector q, there of
+  // place 4 l + i.
+  const I columns = _mm512_mullo_epi32(splat(gx), _mm512_broadcast_i32x4(_mm_setr_epi32(0, 1, 2, 3)));
+  const I rows = _mm512_mullo_epi32(splat(gy), _mm512_setr_epi32(0, 0, 0, 0, 2, 2, 2, 2, 4, 4, 4, 4, 6, 6, 6, 6));
+  const I right = splat(4 * gx), e0 = add(add(columns, rows), splat(value)), e2 = add(e0, splat(gy));
+  const I bytes = _mm512_packs_epi16(_mm512_packs_epi32(e0, add(e0, right)), _mm512_packs_epi32(e2, add(e2, right)));
+  return {_mm512_movepi8_mask(bytes), _mm512_testn_epi8_mask(bytes, bytes)};
+}
+
+/// Writes a word's pixels behind the list's end.
+inline void append(const TileWord& word, int x0, int y0, int tile_log2, PixelList& list) {
+  const I lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const I in_row = splat((1 << tile_log2) - 1), corner = splat(x0 | y0 << 16);
+  auto end = static_cast<std::size_t>(list.count);
+  for (int bit = 0; bit < 64; bit += 16) {
+    const auto part = [&](std::uint64_t of) { return static_cast<__mmask16>(of >> bit); };
+    const __mmask16 mask = part(word.mask);
+    const I at = add(lane, splat(bit));
+    const I place = add(corner, (at & in_row) | shift_left<16>(shift_right(at, tile_log2)));
+    const I marks = flag<0>({part(word.front)}) | flag<8 + 4>({part(word.tie)});
+    _mm512_storeu_si512(list.place.data() + end, _mm512_maskz_compress_epi32(mask, place));
+    _mm512_storeu_si512(list.marks.data() + end, _mm512_maskz_compress_epi32(mask, marks));
+    end += static_cast<std::size_t>(__builtin_popcount(mask));
+  }
+}

@@ -75,9 +75,9 @@ inline I to_fixed(F num, F rec, F p, F scale, bool long_one) {
   return q;
 }
 
-/// Of a function, at all lanes.
-inline Halves at_pixels(const FloatForm& f, Halves dx, Halves dy) {
-  const D value = splat(f.value), gx = splat(f.gx), gy = splat(f.gy);
+/// Function k at all lanes.
+inline Halves at_pixels(const FloatForms& f, std::size_t k, Halves dx, Halves dy) {
+  const D value = splat(f.value[k]), gx = splat(f.gx[k]), gy = splat(f.gy[k]);
   return {fma(dy.a, gy, fma(dx.a, gx, value)), fma(dy.b, gy, fma(dx.b, gx, value))};
 }
 
@@ -110,7 +110,7 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
     const Halves curve = {fma(dy.a, dy.a, dx.a * dx.a) * unit2, fma(dy.b, dy.b, dx.b * dx.b) * unit2};
     Halves square[4];
     for (std::size_t i = 0; i < 4; ++i) {
-      const Halves linear = at_pixels(quad.r2[i], dx, dy);
+      const Halves linear = at_pixels(quad.r2, i, dx, dy);
       square[i] = {linear.a + curve.a, linear.b + curve.b};
       r2[i] = magnitude(upper_halves(square[i].a, square[i].b));
     }
@@ -122,7 +122,7 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
       d[k] = half(magnitude(dot));
     }
     for (std::size_t k = 0; k < 6; ++k) {
-      const Halves cross = at_pixels(quad.a[k], dx, dy);
+      const Halves cross = at_pixels(quad.a, k, dx, dy);
       const I a = upper_halves(cross.a, cross.b);
       sign_a[k] = sign(a);
       v[k] = magnitude(a);
@@ -265,129 +265,4 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
     for (std::size_t j = 2; j < attributes; j += 2)
       store_words(bytes + offsetof(Fragment, attribute) + 8 * j, {low(j), high(j), low(j + 1), high(j + 1)});
   }
-}
-
-/// Rows and columns of a tile, from .. to - 1.
-struct Range {
-  int from, to;
-};
-
-/// stamp_coverage of a tile, of the rows and columns that the quad's corners reach.
-inline void tile_masks(const FloatLanes::Format& format, const TileCorner& corner, const QuadConstants& quad,
-                       Range rows, Range columns, TileMasks& out) {
-  const int tile = 1 << format.tile_log2, words = std::max(1, tile * tile / 64);
-  const std::uint64_t whole = tile == 4 ? 0xffffu : ~std::uint64_t{0};
-  const int rows_of_word = 64 / tile, first_four = columns.from & ~3;
-  std::uint64_t positive[5][TileMasks::words], negative[5][TileMasks::words], zeros[TileMasks::words] = {};
-  for (std::size_t k = 0; k < 5; ++k) {
-    const std::int64_t gx = quad.gx[k], gy = quad.gy[k], value = corner.linear[k];
-    const std::int64_t sx = gx * (tile - 1), sy = gy * (tile - 1);
-    const std::int64_t lo = wrap_add(value, std::min<std::int64_t>(sx, 0) + std::min<std::int64_t>(sy, 0));
-    const std::int64_t hi = wrap_add(value, std::max<std::int64_t>(sx, 0) + std::max<std::int64_t>(sy, 0));
-    if (lo > 0 || hi < 0) {  // one sign everywhere
-      for (int w = 0; w < words; ++w) {
-        positive[k][w] = lo > 0 ? whole : 0;
-        negative[k][w] = lo > 0 ? 0 : whole;
-      }
-      continue;
-    }
-    std::uint64_t below[TileMasks::words], zero[TileMasks::words] = {};
-    const std::int64_t start = wrap_add(value, first_four * gx + rows.from * gy);
-    const __m256i first = _mm256_add_epi64(_mm256_set1_epi64x(start), _mm256_set_epi64x(3 * gx, 2 * gx, gx, 0));
-    const __m256i right = _mm256_set1_epi64x(4 * gx), down = _mm256_set1_epi64x(gy);
-    const auto mask = [](__m256i v) { return static_cast<std::uint64_t>(_mm256_movemask_pd(_mm256_castsi256_pd(v))); };
-    const __m256i none = _mm256_setzero_si256();
-    __m256i e = first, any_zero = none;
-    for (int w = 0, row = rows.from; w < words; ++w) {
-      std::uint64_t bits_below = 0;
-      for (; row < std::min(rows.to, (w + 1) * rows_of_word); ++row, e = _mm256_add_epi64(e, down)) {
-        __m256i at = e;
-        for (int dx = first_four; dx < columns.to; dx += 4, at = _mm256_add_epi64(at, right)) {
-          bits_below |= mask(at) << ((row * tile + dx) & 63);
-          any_zero = _mm256_or_si256(any_zero, _mm256_cmpeq_epi64(at, none));
-        }
-      }
-      below[w] = bits_below;
-    }
-    if (_mm256_testz_si256(any_zero, any_zero) == 0) [[unlikely]] {
-      e = first;
-      for (int row = rows.from; row < rows.to; ++row, e = _mm256_add_epi64(e, down)) {
-        __m256i at = e;
-        for (int dx = first_four; dx < columns.to; dx += 4, at = _mm256_add_epi64(at, right))
-          zero[(row * tile) >> 6] |= mask(_mm256_cmpeq_epi64(at, none)) << ((row * tile + dx) & 63);
-      }
-    }
-    const std::uint64_t tie_pos = quad.tie_pos[k] ? whole : 0, tie_neg = quad.tie_neg[k] ? whole : 0;
-    for (int w = 0; w < words; ++w) {
-      positive[k][w] = (whole & ~(below[w] | zero[w])) | (zero[w] & tie_pos);
-      negative[k][w] = below[w] | (zero[w] & tie_neg);
-      zeros[w] |= zero[w] & (tie_pos | tie_neg);  // an all-zero edge decides nothing
-    }
-  }
-
-  // A one in the first place of every row of a word.
-  const std::uint64_t every_row = tile == 4 ? 0x1111u : tile == 8 ? 0x0101010101010101u : 0x0001000100010001u;
-  const std::uint64_t seen_columns =
-      ((std::uint64_t{1} << columns.to) - (std::uint64_t{1} << columns.from)) * every_row;
-  const auto below_bit = [](int bit) {
-    return bit >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << std::max(bit, 0)) - 1;
-  };
-  for (int w = 0; w < words; ++w) {
-    SignWords<std::uint64_t> signs[5];
-    for (std::size_t k = 0; k < 5; ++k) signs[k] = {positive[k][w], negative[k][w]};
-    const PlaceWords<std::uint64_t> inside = inside_expression(signs, quad.visible, format.cull);
-    const std::uint64_t seen =
-        seen_columns & below_bit(rows.to * tile - 64 * w) & ~below_bit(rows.from * tile - 64 * w);
-    const auto word = static_cast<std::size_t>(w);
-    out.mask[word] = (inside.back | inside.front) & seen;
-    out.front[word] = inside.front & seen;
-    out.tie[word] = zeros[w] & out.mask[word];
-  }
-}
-
-FloatLanes::TileCounts cover(const FloatLanes::Format& format, const FloatQuad& bounds, const TileCorner& corner,
-                             const QuadConstants& quad, PixelList& list) {
-  FloatLanes::TileCounts counts;
-  const int tile = 1 << format.tile_log2, chunk = std::min(tile, 8);
-  const int x0 = (corner.tile_x << format.tile_log2) - bounds.x0, y0 = (corner.tile_y << format.tile_log2) - bounds.y0;
-  const Range rows{std::max(bounds.top - y0, 0), std::min(bounds.bottom - y0, tile - 1) + 1};
-  const Range columns{std::max(bounds.left - x0, 0), std::min(bounds.right - x0, tile - 1) + 1};
-  if (rows.from >= rows.to || columns.from >= columns.to) return counts;
-  TileMasks masks;
-  tile_masks(format, corner, quad, rows, columns, masks);
-  const unsigned all = (1u << chunk) - 1;
-  for (int row = rows.from; row < rows.to; ++row) {
-    bool any = false;
-    for (int dx = 0; dx < tile; dx += chunk) {
-      const int bit = row * tile + dx;
-      const auto part = [&](const std::array<std::uint64_t, TileMasks::words>& words) {
-        return static_cast<unsigned>(words[static_cast<std::size_t>(bit >> 6)] >> (bit & 63)) & all;
-      };
-      const unsigned mask = part(masks.mask);
-      if (mask == 0) continue;
-      any = true;
-      const auto end = static_cast<std::size_t>(list.count);
-      const auto put = [end](std::uint32_t* column, __m256i eight) {
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(column + end), eight);
-      };
-      const auto words = [](std::uint64_t eight_bytes) {
-        return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<std::int64_t>(eight_bytes)));
-      };
-      // The numbers of the mask's bits, one a byte; and a bit for each of those, one a byte.
-      const std::uint64_t spread = _pdep_u64(mask, 0x0101010101010101) * 0xff;
-      const auto bits_of = [&](unsigned word) { return _pdep_u64(_pext_u32(word, mask), 0x0101010101010101); };
-      put(list.place.data(), _mm256_add_epi32(words(_pext_u64(0x0706050403020100, spread)),
-                                              _mm256_set1_epi32((x0 + dx) | (y0 + row) << 16)));
-      const unsigned tie = part(masks.tie);
-      __m256i marks = words(bits_of(part(masks.front)));
-      if (tie != 0) marks = _mm256_or_si256(marks, _mm256_slli_epi32(words(bits_of(tie)), 8 + 4));
-      put(list.marks.data(), marks);
-      const int pixels = __builtin_popcount(mask);
-      list.count += pixels;
-      counts.pixels += pixels;
-      counts.ties += __builtin_popcount(tie);
-    }
-    counts.stamps += any;
-  }
-  return counts;
 }

@@ -1,6 +1,7 @@
 #include "model/float_lanes.hpp"
 
 #include "model/lane_target.hpp"
+#include "model/plane_quad.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -17,20 +18,26 @@ namespace {
 /// Exponents of the port's numbers that the lanes take, either sign (float_kernel.hpp, range).
 constexpr int largest_exponent = 30;
 
+double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
+
 #ifdef __x86_64__
 // Each function of the kernel is compiled for the target around it.
 #pragma GCC push_options
 #pragma GCC target("arch=x86-64-v3")
 namespace v3 {
 #include "model/float_avx2.hpp"
+#include "model/float_cover.hpp"
 #include "model/float_kernel.hpp"
+#include "model/float_small_quad.hpp"
 }  // namespace v3
 #pragma GCC pop_options
 #pragma GCC push_options
 #pragma GCC target("arch=x86-64-v4")
 namespace v4 {
 #include "model/float_avx512.hpp"
+#include "model/float_cover.hpp"
 #include "model/float_kernel.hpp"
+#include "model/float_small_quad.hpp"
 }  // namespace v4
 #pragma GCC pop_options
 
@@ -46,8 +53,6 @@ class TowardZero {
   unsigned before_;
 };
 #endif
-
-double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
 
 /// Whether the integers of polynomial() stay exact with 2^23 added.
 bool fits(const Table& table) {
@@ -98,7 +103,7 @@ FloatTable::FloatTable(const Table& table, int octave_bits)
   }
 }
 
-FloatLanes::FloatLanes(const PipelineContext& c) {
+FloatLanes::FloatLanes(const PipelineContext& c) : depth_reject_(c.config, c.state) {
   const Config& config = c.config;
   format_.s = c.format.s;
   format_.prec = config.prec_bits();
@@ -116,13 +121,20 @@ FloatLanes::FloatLanes(const PipelineContext& c) {
   format_.scissor_x1 = c.state.scissor_x1;
   format_.scissor_y1 = c.state.scissor_y1;
   format_.cull = c.state.cull;
-  frac_ = config.frac();
+  format_.perspective = c.state.perspective;
+  format_.frac = frac_ = config.frac();
+  format_.homogeneous_frac_bits = config.homogeneous_frac_bits;
+  format_.subpixel_bits = config.subpixel_bits;
   val_bits_ = config.val_bits();
   qdrop_ = config.qdrop();
   // The last condition: exponents are as odd in pixels as in units of the last place.
   fits_ = c.format.s + c.format.g <= 20 && config.attribute_int_bits + c.attribute_frac <= 31 && fits(c.sqrt_table) &&
           fits(c.recip_table) && config.quadratic_frac() % 2 == 0;
   if (!fits_) return;
+  // Where everything has its place in a double and nothing is dropped of D, whatever the positions on their grid.
+  small_ = val_bits_ - 2 * config.homogeneous_frac_bits <= 53 && qdrop_ <= 2 * config.homogeneous_frac_bits &&
+           config.tile_log2 == SmallQuad::tile_log2 && (c.state.skip & skip_tiles) != 0 &&
+           (c.state.skip & skip_quads) != 0 && !takes_plane_quads(config, c.state);
   format_.sqrt = FloatTable(c.sqrt_table, 1);
   format_.recip = FloatTable(c.recip_table, 0);
 }
@@ -152,14 +164,16 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
   const double of_length2 = power_of_two(2 * scale + qdrop_);
   for (std::size_t k = 0; k < linear_count; ++k) {
     const LinearForm& e = setup.linear[k];
-    out.a[k] = {static_cast<double>(e.value) * last_place2, static_cast<double>(e.gx) * last_place2,
-                static_cast<double>(e.gy) * last_place2};
+    out.a.value[k] = static_cast<double>(e.value) * last_place2;
+    out.a.gx[k] = static_cast<double>(e.gx) * last_place2;
+    out.a.gy[k] = static_cast<double>(e.gy) * last_place2;
     out.length2[k] = static_cast<double>(setup.length2[k]) * of_length2;
   }
   for (std::size_t i = 0; i < 4; ++i) {
     const auto [x, y, w] = setup.vertex[i];
-    out.r2[i] = {static_cast<double>(x * x + y * y) * last_place2, static_cast<double>(-2 * x) * of_pixel,
-                 static_cast<double>(-2 * y) * of_pixel};
+    out.r2.value[i] = static_cast<double>(x * x + y * y) * last_place2;
+    out.r2.gx[i] = static_cast<double>(-2 * x) * of_pixel;
+    out.r2.gy[i] = static_cast<double>(-2 * y) * of_pixel;
   }
   out.unit2 = power_of_two(2 * (scale + frac_));
   out.id = data.id;
@@ -198,6 +212,24 @@ FloatLanes::TileCounts FloatLanes::cover(const FloatQuad& bounds, const TileCorn
                                          : v3::cover(format_, bounds, corner, quad, list);
 }
 
+std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const {
+  return lane_target() == LaneTarget::v4 ? v4::take_small(format_, depth_reject_, quad, out, small)
+                                         : v3::take_small(format_, depth_reject_, quad, out, small);
+}
+
+void FloatLanes::walk_small(const SmallQuad& quad, SmallWalk& out) const {
+  if (lane_target() == LaneTarget::v4)
+    v4::walk_small(format_, quad, out);
+  else
+    v3::walk_small(format_, quad, out);
+}
+
+FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad& bounds, const SmallQuad& quad, SmallWalk::Tile tile,
+                                               PixelList& list) const {
+  return lane_target() == LaneTarget::v4 ? v4::cover_small(format_, bounds, quad, tile.x, tile.y, list)
+                                         : v3::cover_small(format_, bounds, quad, tile.x, tile.y, list);
+}
+
 void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, FloatResults& out) const {
   out.all_drawn = true;
   out.any_plain = false;
@@ -209,6 +241,11 @@ void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, F
     v3::draw(format_, quad, list, count, out);
 }
 #else
+std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad&, FloatQuad&, SmallQuad&) const { return {}; }
+void FloatLanes::walk_small(const SmallQuad&, SmallWalk&) const {}
+FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad&, const SmallQuad&, SmallWalk::Tile, PixelList&) const {
+  return {};
+}
 FloatLanes::TileCounts FloatLanes::cover(const FloatQuad&, const TileCorner&, const QuadConstants&, PixelList&) const {
   return {};
 }

@@ -10,8 +10,10 @@
 
 #include "model/covered_pixels.hpp"
 #include "model/pixel_lanes.hpp"
+#include "model/quad_reject.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace quadrille {
@@ -43,9 +45,9 @@ struct FloatColumn {
   bool mixed = false;                           ///< some v_i is negative
 };
 
-/// A function of pixels: value + gx dx + gy dy.
-struct FloatForm {
-  double value = 0, gx = 0, gy = 0;
+/// Functions of pixels: value + gx dx + gy dy.
+struct FloatForms {
+  std::array<double, linear_count> value{}, gx{}, gy{};
 };
 
 /// A quad as the kernel takes it. Lengths are in pixels times a power of two, `unit`; pixels (dx, dy) from the first
@@ -58,8 +60,8 @@ struct FloatQuad {
   int left = 0, top = 0, right = 0,
       bottom = 0;                              ///< pixels of the scissor that the corners reach, inclusive, from there
   double unit2 = 0;                            ///< unit squared
-  std::array<FloatForm, linear_count> a{};     ///< A
-  std::array<FloatForm, 4> r2{};               ///< r² without dx² + dy²
+  FloatForms a;                                ///< A
+  FloatForms r2;                               ///< the four r² without dx² + dy²
   std::array<double, linear_count> length2{};  ///< SetupResult::length2
   bool sum_k = true, sum_w = true;
   FloatColumn k, w, z;
@@ -96,10 +98,34 @@ struct FloatResults {
   std::uint64_t on_edge = 0, notch = 0, saturated = 0;  ///< counts
 };
 
-/// A tile's masks: bit row * TILE + dx, 64 to a word.
-struct TileMasks {
-  static constexpr int words = PixelList::widest / 64;
-  std::array<std::uint64_t, words> mask, front, tie;
+/// Masks of 64 pixels of a tile: bit row * TILE + dx.
+struct TileWord {
+  std::uint64_t mask = 0, front = 0, tie = 0;
+};
+using TileMasks = std::array<TileWord, PixelList::widest / 64>;
+
+/// The front of an ordinary quad of at most 64 by 64 pixels, within a block of tiles of 8 by 8, in 32 bits. Its
+/// functions are E01 E12 E23 E30 E20, value + dx gx + dy gy from the first tile's origin pixel, in units of the square
+/// of 2^-subpixel_bits.
+///
+/// From a pixel of the block no corner is 136 pixels away, of two corners one is at most 64 from the other, in x and y:
+/// a function is below 2 * 136 * 64 * 2^16 < 2^31 with the 8 subpixel_bits that there are at most.
+struct SmallQuad {
+  static constexpr int largest = 64;  ///< pixels
+  static constexpr int tile_log2 = 3;
+
+  alignas(32) std::array<std::int32_t, 8> value{}, gx{}, gy{};
+  std::array<std::uint64_t, 5> tie_positive{}, tie_negative{};  ///< all ones where a zero counts as that
+  int tiles_x = 0, tiles_y = 0;
+};
+
+/// Tiles of a block in the order of tile_walk.
+struct SmallWalk {
+  struct Tile {
+    std::uint8_t x, y;
+  };
+  int blocks_tested = 0, tiles_tested = 0, hits = 0;
+  std::array<Tile, Config::block_tiles * Config::block_tiles> hit;
 };
 
 /// Everything constant over a draw, and the work.
@@ -120,6 +146,13 @@ class FloatLanes {
   };
   TileCounts cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad, PixelList& list) const;
 
+  /// Small quads, of configurations and draw states that small() says, without SetupResult and the like: what comes is
+  /// the same. Nothing: it is none, or does not fit. Else none, or why it is left out.
+  bool small() const { return small_; }
+  std::optional<QuadReject> take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const;
+  void walk_small(const SmallQuad& quad, SmallWalk& out) const;
+  TileCounts cover_small(const FloatQuad& bounds, const SmallQuad& quad, SmallWalk::Tile tile, PixelList& list) const;
+
   /// The first `count` pixels of the list, which has at least one. Leaves the caller's rounding mode as it was.
   void draw(const FloatQuad& quad, const PixelList& list, int count, FloatResults& out) const;
 
@@ -129,12 +162,15 @@ class FloatLanes {
     std::int32_t znear = 0, zfar = 0;
     int scissor_x0 = 0, scissor_y0 = 0, scissor_x1 = 0, scissor_y1 = 0;
     Cull cull = Cull::none;
+    bool perspective = true;
+    int frac = 0, homogeneous_frac_bits = 0, subpixel_bits = 0;
     FloatTable sqrt, recip;
   };
 
  private:
   Format format_;
-  bool fits_ = false;
+  DepthReject depth_reject_;
+  bool fits_ = false, small_ = false;
   int frac_ = 0, val_bits_ = 0, qdrop_ = 0, viewport_bits_ = 0;
 };
 

@@ -120,6 +120,14 @@ bool taken(const SnappedQuad& quad, const Config& c, const DrawState& s) {
   return lanes.usable() && lanes.take(setup, data, QuadLanes(data, context), out);
 }
 
+std::vector<std::uint64_t> counts(const DrawStats& d) {
+  std::vector<std::uint64_t> all{d.blocks_tested, d.tiles_tested, d.tiles_entered, d.stamps_covered, d.pixels,
+                                 d.fragments,     d.on_edge,      d.on_vertex,     d.two_corner,     d.two_edge,
+                                 d.tie,           d.notch,        d.saturated};
+  all.insert(all.end(), d.rejected.begin(), d.rejected.end());
+  return all;
+}
+
 bool can_run_here() { return lane_target() != LaneTarget::baseline; }
 
 TEST(FloatLanes, PlainAndLanesAreOne) {
@@ -142,11 +150,6 @@ TEST(FloatLanes, PlainAndLanesAreOne) {
       for (std::size_t i = 0; i < list.size(); ++i) ASSERT_EQ(expected[i], draw(quick, list[i])) << "quad " << i;
       const DrawStats& a = plain.stats();
       const DrawStats& b = quick.stats();
-      const auto counts = [](const DrawStats& d) {
-        return std::array{d.blocks_tested, d.tiles_tested, d.tiles_entered, d.stamps_covered, d.pixels,
-                          d.fragments,     d.on_edge,      d.on_vertex,     d.two_corner,     d.two_edge,
-                          d.tie,           d.notch,        d.saturated};
-      };
       ASSERT_EQ(counts(a), counts(b));
     });
     if (HasFatalFailure()) FAIL() << "round " << n << ", S " << c.significand_bits << " + " << c.align_guard_bits;
@@ -318,6 +321,82 @@ TEST(FloatLanes, LimitsOfTheRange) {
   }
   EXPECT_GE(inside, 60);
   EXPECT_GE(outside, 20);
+}
+
+/// As large as a small quad may be, and a unit larger, anywhere to the scissor and to the tiles: the front in 32 bits
+/// is that in 64.
+TEST(FloatLanes, SmallQuadsAtTheirLimit) {
+  if (!can_run_here()) GTEST_SKIP() << "no lanes for this processor";
+  Prng rng(404);
+  const Config c;
+  const int pixel = 1 << c.subpixel_bits, largest = SmallQuad::largest * pixel;
+  std::array<std::uint64_t, quad_reject_count> rejected{};
+  int small = 0, larger = 0, more_tiles = 0;
+  std::uint64_t fragments = 0, ties = 0;
+  for (int n = 0; n < 200; ++n) {
+    DrawState s;
+    s.width = s.height = s.scissor_x1 = s.scissor_y1 = 160;
+    s.attributes = 1;
+    s.cull = static_cast<Cull>(rng.chance(0.7) ? 0 : rng.below(3));
+    if (rng.chance(0.3)) s.zfar = 0.5;
+    if (rng.chance(0.5)) {
+      s.scissor_x0 = static_cast<int>(rng.below(90));
+      s.scissor_x1 = s.scissor_x0 + 1 + static_cast<int>(rng.below(70));
+    }
+    const PipelineContext context(c, s);
+    const FloatLanes lanes(context);
+    EXPECT_TRUE(lanes.small());
+    UntimedModel plain(c, s, PixelEngine::plain);
+    std::vector<SnappedQuad> list;
+    std::vector<std::vector<Fragment>> expected;
+    for (int i = 0; i < 12; ++i) {
+      SnappedQuad q = random_quad(rng, c, 4);
+      const int extent = largest + (rng.chance(0.2) ? 1 : 0);
+      const int grid = rng.chance(0.5) ? pixel : 1;  // on pixel centres, or anywhere
+      const int x0 = static_cast<int>(rng.integer(-40 * pixel, 150 * pixel)) / grid * grid;
+      const int y0 = static_cast<int>(rng.integer(-40 * pixel, 150 * pixel)) / grid * grid;
+      for (std::size_t v = 0; v < 4; ++v) {
+        const auto at = [&](bool far, int from) {
+          const int inside = static_cast<int>(rng.below(static_cast<std::uint64_t>(largest))) / grid * grid;
+          return (from + (rng.chance(0.2) ? inside : far ? extent : 0)) * (1 << c.homogeneous_frac_bits);
+        };
+        q.vertex[v].x = at(v == 1 || v == 2, x0);
+        q.vertex[v].y = at(v >= 2, y0);
+      }
+      if (rng.chance(0.3)) std::swap(q.vertex[1], q.vertex[3]);  // the other face
+      if (rng.chance(0.2)) std::swap(q.vertex[1], q.vertex[2]);  // a bow tie
+      if (rng.chance(0.1)) q.vertex[1] = q.vertex[3] = q.vertex[2];
+      list.push_back(q);
+      expected.push_back(draw(plain, q));
+      FloatQuad out;
+      SmallQuad as_small;
+      const auto [least, most] = std::minmax({q.vertex[0].x, q.vertex[1].x, q.vertex[2].x, q.vertex[3].x});
+      const auto [low, high] = std::minmax({q.vertex[0].y, q.vertex[1].y, q.vertex[2].y, q.vertex[3].y});
+      const bool too_large = std::max(most - least, high - low) > largest << c.homogeneous_frac_bits;
+      if (const auto taken = lanes.take_small(q, out, as_small)) {
+        EXPECT_TRUE(!too_large || *taken == QuadReject::empty);
+        small += *taken == QuadReject::none;
+      } else {
+        (too_large ? larger : more_tiles) += 1;
+      }
+    }
+    on_each_lane_target([&] {
+      UntimedModel quick(c, s);
+      for (std::size_t i = 0; i < list.size(); ++i) ASSERT_EQ(expected[i], draw(quick, list[i])) << "quad " << i;
+      ASSERT_EQ(counts(plain.stats()), counts(quick.stats()));
+    });
+    if (HasFatalFailure()) FAIL() << "round " << n;
+    for (std::size_t i = 0; i < rejected.size(); ++i) rejected[i] += plain.stats().rejected[i];
+    fragments += plain.stats().fragments;
+    ties += plain.stats().tie;
+  }
+  EXPECT_GT(small, 300);
+  EXPECT_GT(larger, 50);
+  EXPECT_GT(more_tiles, 5);
+  EXPECT_GT(fragments, 200'000u);
+  EXPECT_GT(ties, 1000u);
+  for (const QuadReject reason : {QuadReject::none, QuadReject::empty, QuadReject::line, QuadReject::culled})
+    EXPECT_GT(rejected[static_cast<std::size_t>(reason)], 5u) << static_cast<int>(reason);
 }
 
 /// How the unit rounds, seen from its results: fegetround() asks another unit.

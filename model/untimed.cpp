@@ -54,6 +54,8 @@ struct UntimedModel::Impl {
 
   // Of a quad by FloatLanes.
   FloatQuad float_quad;
+  SmallQuad small_quad;
+  SmallWalk small_walk;
   PixelList list;
   FloatResults results;
 
@@ -116,7 +118,7 @@ struct UntimedModel::Impl {
   using Sink = std::function<void(std::span<const Fragment>)>;
 
   /// Draws the list's whole blocks, with `all` its rest too.
-  void draw_floats(const SetupResult& setup, const QuadData& data, bool all, const Sink& sink) {
+  void draw_floats(const SnappedQuad& quad, bool all, const Sink& sink) {
     const int count = all ? list.count : list.count / FloatLanes::block * FloatLanes::block;
     if (count == 0) return;
     floats.draw(float_quad, list, count, results);
@@ -124,14 +126,22 @@ struct UntimedModel::Impl {
     stats.notch += results.notch;
     stats.saturated += results.saturated;
     auto drawn = static_cast<std::size_t>(count);
-    if (results.any_plain || !results.all_drawn) drawn = settle_floats(setup, data, count);
+    if (results.any_plain || !results.all_drawn) drawn = settle_floats(quad, count);
     stats.fragments += drawn;
     if (drawn != 0) sink(std::span(results.fragment).first(drawn));
     list.drop(count);
   }
 
   /// Draws what is left to the plain pipeline, and closes the gaps of what is not drawn. Returns what is.
-  std::size_t settle_floats(const SetupResult& setup, const QuadData& data, int count) {
+  std::size_t settle_floats(const SnappedQuad& quad, int count) {
+    SetupResult setup;
+    QuadConstants constants;
+    QuadData data;
+    if (results.any_plain) {
+      setup = quad_setup(quad, context.config, context.state);
+      constants = QuadConstants(setup);
+      data = quad_data(quad, setup, context.config, context.state);
+    }
     std::size_t drawn = 0;
     for (int i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -144,13 +154,13 @@ struct UntimedModel::Impl {
         entry.tile_y = setup.tile_y0 + row;
         WalkState linear;
         for (std::size_t k = 0; k < linear_count; ++k) linear.linear[k] = setup.linear[k].value;
-        walk_step(linear, walk.constants(), column * tile, row * tile);
+        walk_step(linear, constants, column * tile, row * tile);
         entry.linear = linear.linear;
-        entry.quadratic = tile_context(walk.constants(), column * tile, row * tile, context.config.qdrop());
+        entry.quadratic = tile_context(constants, column * tile, row * tile, context.config.qdrop());
         PixelTrace p;
         p.front = results.fragment[at].front;
         p.tie = (results.fragment[at].flags & flag_tie) != 0;
-        pixel_pipeline(p, entry, walk.constants(), data, x % tile, y % tile, context);
+        pixel_pipeline(p, entry, constants, data, x % tile, y % tile, context);
         results.fragment[at] = p.fragment;
         draws = p.drawn;
         tally(p.fragment.flags);
@@ -158,6 +168,27 @@ struct UntimedModel::Impl {
       if (draws) results.fragment[drawn++] = results.fragment[at];
     }
     return drawn;
+  }
+
+  /// The pixels of a tile are in the list.
+  void count_tile(const SnappedQuad& quad, const FloatLanes::TileCounts& tile, const Sink& sink) {
+    ++stats.tiles_entered;
+    stats.stamps_covered += static_cast<std::uint64_t>(tile.stamps);
+    stats.pixels += static_cast<std::uint64_t>(tile.pixels);
+    stats.tie += static_cast<std::uint64_t>(tile.ties);
+    if (list.count > PixelList::capacity - PixelList::widest) draw_floats(quad, false, sink);
+  }
+
+  /// A quad that FloatLanes::take_small took.
+  void draw_small(const SnappedQuad& quad, const Sink& sink) {
+    floats.walk_small(small_quad, small_walk);
+    stats.blocks_tested += static_cast<std::uint64_t>(small_walk.blocks_tested);
+    stats.tiles_tested += static_cast<std::uint64_t>(small_walk.tiles_tested);
+    list.count = 0;  // a sink that threw left some
+    for (int i = 0; i < small_walk.hits; ++i)
+      count_tile(quad, floats.cover_small(float_quad, small_quad, small_walk.hit[static_cast<std::size_t>(i)], list),
+                 sink);
+    draw_floats(quad, true, sink);
   }
 
   /// `depth`: of the quad, or nullptr where nothing is hidden.
@@ -214,6 +245,13 @@ void UntimedModel::clear_hidden() {
 void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::span<const Fragment>)>& sink) {
   Impl& m = *impl_;
   ++m.stats.quads;
+  const bool hidden = skips_hidden(m.context.config, m.context.state);
+  if (!m.plain && !hidden && m.floats.small() && m.floats.usable())
+    if (const auto taken = m.floats.take_small(quad, m.float_quad, m.small_quad)) {
+      ++m.stats.rejected[static_cast<std::size_t>(*taken)];
+      if (*taken == QuadReject::none) m.draw_small(quad, sink);
+      return;
+    }
   QuadReject reject = reject_by_vertices(quad, m.context.config, m.context.state);
   SetupResult setup;
   if (reject == QuadReject::none) {
@@ -226,7 +264,6 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
   const QuadLanes values(data, m.context);
   m.stats.homogeneous_quads += setup.homogeneous;
   m.stats.hull_quads += setup.hull;
-  const bool hidden = skips_hidden(m.context.config, m.context.state);
   const DepthInterval depth = hidden ? depth_interval(quad, m.context.config, m.context.state) : DepthInterval{};
   // Their coverage knows nothing of masks.
   const bool by_floats = !m.plain && !hidden && m.floats.usable() && m.floats.take(setup, data, values, m.float_quad);
@@ -235,12 +272,7 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
       m.walk, setup,
       [&] {
         if (by_floats) {
-          ++m.stats.tiles_entered;
-          const FloatLanes::TileCounts tile = m.floats.cover(m.float_quad, m.walk.corner(), m.walk.constants(), m.list);
-          m.stats.stamps_covered += static_cast<std::uint64_t>(tile.stamps);
-          m.stats.pixels += static_cast<std::uint64_t>(tile.pixels);
-          m.stats.tie += static_cast<std::uint64_t>(tile.ties);
-          if (m.list.count > PixelList::capacity - PixelList::widest) m.draw_floats(setup, data, false, sink);
+          m.count_tile(quad, m.floats.cover(m.float_quad, m.walk.corner(), m.walk.constants(), m.list), sink);
           return;
         }
         m.draw_tile(m.walk.entry(), data, values, hidden ? &depth : nullptr);
@@ -248,7 +280,7 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
         m.batch.clear();
       },
       hidden ? &m.memory : nullptr, depth);
-  if (by_floats) m.draw_floats(setup, data, true, sink);
+  if (by_floats) m.draw_floats(quad, true, sink);
   m.stats.tiles_hidden += counts.tiles_hidden;
   m.stats.blocks_tested += counts.blocks_tested;
   m.stats.tiles_tested += counts.tiles_tested;
