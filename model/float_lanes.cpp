@@ -20,6 +20,19 @@ constexpr int largest_exponent = 30;
 
 double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
 
+/// Whether a square of pixels may be covered by a face, by the signs that its functions can take there: bits 0 to 4 the
+/// face's own sign of E01 E12 E23 E30 E20, bit 5 the other one of E20.
+const std::array<bool, 64> may_face = [] {
+  std::array<bool, 64> table{};
+  for (std::uint32_t n = 0; n < 64; ++n) {
+    SignWords<std::uint32_t> e[5];
+    for (std::uint32_t k = 0; k < 5; ++k) e[k].positive = n >> k & 1;
+    e[4].negative = n >> 5;
+    table[n] = inside_expression(e, 0xf, Cull::front).back != 0;
+  }
+  return table;
+}();
+
 #ifdef __x86_64__
 // Each function of the kernel is compiled for the target around it.
 #pragma GCC push_options

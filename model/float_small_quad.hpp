@@ -166,19 +166,6 @@ std::optional<QuadReject> take_small(const FloatLanes::Format& format, const Dep
   return QuadReject::none;
 }
 
-/// Whether a square of pixels may be covered by a face, by the signs that its functions can take there: bits 0 to 4 the
-/// face's own sign of E01 E12 E23 E30 E20, bit 5 the other one of E20.
-inline constexpr std::array<bool, 64> may_face = [] {
-  std::array<bool, 64> table{};
-  for (std::uint32_t n = 0; n < 64; ++n) {
-    SignWords<std::uint32_t> e[5];
-    for (std::uint32_t k = 0; k < 5; ++k) e[k].positive = n >> k & 1;
-    e[4].negative = n >> 5;
-    table[n] = inside_expression(e, 0xf, Cull::front).back != 0;
-  }
-  return table;
-}();
-
 /// FloatLanes::walk_small.
 void walk_small(const FloatLanes::Format& format, const SmallQuad& quad, SmallWalk& out) {
   const __m256i zero = _mm256_setzero_si256();
