@@ -79,32 +79,36 @@ inline Halves to_doubles(I v) {
 /// The upper 32 bits of doubles: sign, exponent, 20 bits of the significand.
 inline I upper_halves(D a, D b) { return bits(_mm256_shuffle_ps(_mm256_castpd_ps(a), _mm256_castpd_ps(b), 0xdd)); }
 
-/// Places of a table for each lane, by columns; `a` says which.
+/// Places of a table for each lane.
 struct Coefficients {
   F c0, c1, c2;
-
-  Coefficients(const FloatTable& table, F a) {
-    const I offset =
-        shift_right(bits(a), table.rest_bits - 4) & splat(static_cast<std::int32_t>(table.offset_mask));  // in bytes
-    const __m128i low = _mm256_castsi256_si128(offset), high = _mm256_extracti128_si256(offset, 1);
-    const auto* entries = reinterpret_cast<const std::uint8_t*>(table.entries.data());
-    const auto place = [&](std::uint64_t at) {
-      return _mm_load_ps(reinterpret_cast<const float*>(entries + static_cast<std::uint32_t>(at)));
-    };
-    const auto pair = [](__m128 p, __m128 q) { return _mm256_insertf128_ps(_mm256_castps128_ps256(p), q, 1); };
-    // Two offsets at a time out of the vector.
-    const auto at01 = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low));
-    const auto at23 = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
-    const auto at45 = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high));
-    const auto at67 = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
-    const F p0 = pair(place(at01), place(at45)), p1 = pair(place(at01 >> 32), place(at45 >> 32));
-    const F p2 = pair(place(at23), place(at67)), p3 = pair(place(at23 >> 32), place(at67 >> 32));
-    const F low01 = _mm256_unpacklo_ps(p0, p1), low23 = _mm256_unpacklo_ps(p2, p3);
-    c0 = _mm256_shuffle_ps(low01, low23, 0x44);
-    c1 = _mm256_shuffle_ps(low01, low23, 0xee);
-    c2 = _mm256_shuffle_ps(_mm256_unpackhi_ps(p0, p1), _mm256_unpackhi_ps(p2, p3), 0x44);
-  }
 };
+/// No permutation reaches so far.
+constexpr bool looks_up_columns = false;
+template <std::size_t n>
+void look_up_columns(const FloatTable&, const F (&)[n], Coefficients (&)[n]) {}
+
+/// `a` says which.
+inline Coefficients look_up(const FloatTable& table, F a) {
+  const I offset =
+      shift_right(bits(a), table.rest_bits - 4) & splat(static_cast<std::int32_t>(table.offset_mask));  // in bytes
+  const __m128i low = _mm256_castsi256_si128(offset), high = _mm256_extracti128_si256(offset, 1);
+  const auto* entries = reinterpret_cast<const std::uint8_t*>(table.entries.data());
+  const auto place = [&](std::uint64_t at) {
+    return _mm_load_ps(reinterpret_cast<const float*>(entries + static_cast<std::uint32_t>(at)));
+  };
+  const auto pair = [](__m128 p, __m128 q) { return _mm256_insertf128_ps(_mm256_castps128_ps256(p), q, 1); };
+  // Two offsets at a time out of the vector.
+  const auto at01 = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low));
+  const auto at23 = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
+  const auto at45 = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high));
+  const auto at67 = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
+  const F p0 = pair(place(at01), place(at45)), p1 = pair(place(at01 >> 32), place(at45 >> 32));
+  const F p2 = pair(place(at23), place(at67)), p3 = pair(place(at23 >> 32), place(at67 >> 32));
+  const F low01 = _mm256_unpacklo_ps(p0, p1), low23 = _mm256_unpacklo_ps(p2, p3);
+  return {_mm256_shuffle_ps(low01, low23, 0x44), _mm256_shuffle_ps(low01, low23, 0xee),
+          _mm256_shuffle_ps(_mm256_unpackhi_ps(p0, p1), _mm256_unpackhi_ps(p2, p3), 0x44)};
+}
 
 /// Words by lanes, into the lanes' fragments.
 inline void store_words(std::uint8_t* to, const I (&word)[4]) {

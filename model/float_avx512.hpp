@@ -78,32 +78,40 @@ inline Halves to_doubles(I v) {
 /// The upper 32 bits of doubles: sign, exponent, 20 bits of the significand.
 inline I upper_halves(D a, D b) { return bits(_mm512_shuffle_ps(_mm512_castpd_ps(a), _mm512_castpd_ps(b), 0xdd)); }
 
-/// Places of a table for each lane, by columns; `a` says which.
+/// Places of a table for each lane.
 struct Coefficients {
   F c0, c1, c2;
-
-  Coefficients(const FloatTable& table, F a) {
-    if (table.in_columns) [[likely]] {
-      const I index = shift_right(bits(a), table.rest_bits);  // what is above 6 bits does not count
-      const __mmask16 second = _mm512_test_epi32_mask(index, splat(32));
-      const auto look_up = [&](const std::array<float, FloatTable::column_size>& column) {
-        const auto part = [&](std::size_t n) { return _mm512_load_ps(column.data() + 16 * n); };
-        return _mm512_mask_blend_ps(second, _mm512_permutex2var_ps(part(0), index, part(1)),
-                                    _mm512_permutex2var_ps(part(2), index, part(3)));
-      };
-      c0 = look_up(table.column[0]);
-      c1 = look_up(table.column[1]);
-      c2 = look_up(table.column[2]);
-    } else {
-      const I offset =
-          shift_right(bits(a), table.rest_bits - 4) & splat(static_cast<std::int32_t>(table.offset_mask));  // in bytes
-      const auto look_up = [&](const float& first) { return _mm512_i32gather_ps(offset, &first, 1); };
-      c0 = look_up(table.entries[0].c0);
-      c1 = look_up(table.entries[0].c1);
-      c2 = look_up(table.entries[0].c2);
-    }
-  }
 };
+constexpr bool looks_up_columns = true;
+
+/// `a` says which.
+inline Coefficients look_up(const FloatTable& table, F a) {
+  const I offset =
+      shift_right(bits(a), table.rest_bits - 4) & splat(static_cast<std::int32_t>(table.offset_mask));  // in bytes
+  const auto gather = [&](const float& first) { return _mm512_i32gather_ps(offset, &first, 1); };
+  return {gather(table.entries[0].c0), gather(table.entries[0].c1), gather(table.entries[0].c2)};
+}
+
+/// The same of a table in columns, by permutes, of several at once: a column is loaded once.
+template <std::size_t n>
+void look_up_columns(const FloatTable& table, const F (&a)[n], Coefficients (&out)[n]) {
+  I index[n];
+  __mmask16 second[n];
+  for (std::size_t i = 0; i < n; ++i) {
+    index[i] = shift_right(bits(a[i]), table.rest_bits);  // what is above 6 bits does not count
+    second[i] = _mm512_test_epi32_mask(index[i], splat(32));
+  }
+  const auto column = [&](std::size_t c, F Coefficients::*to) {
+    const auto part = [&](std::size_t p) { return _mm512_load_ps(table.column[c].data() + 16 * p); };
+    const F p0 = part(0), p1 = part(1), p2 = part(2), p3 = part(3);
+    for (std::size_t i = 0; i < n; ++i)
+      out[i].*to = _mm512_mask_blend_ps(second[i], _mm512_permutex2var_ps(p0, index[i], p1),
+                                        _mm512_permutex2var_ps(p2, index[i], p3));
+  };
+  column(0, &Coefficients::c0);
+  column(1, &Coefficients::c1);
+  column(2, &Coefficients::c2);
+}
 
 /// The four words of each lane, lanes n, n + 4, n + 8, n + 12 in vector n.
 struct Rows {

@@ -40,31 +40,42 @@ struct Arithmetic {
   /// 2^floor(log2 v), 0 of 0.
   static F power(F v) { return keep(v, real(splat(0x7f800000))); }
 
-  /// table_polynomial of the argument's fraction, cut, with that code of an exponent in the place of its own.
-  F polynomial(F a, const FloatTable& table, bool rising, I exponent) const {
-    const Coefficients c(table, a);
-    const F dx = converted(bits(a) & splat((1 << table.rest_bits) - 1)), last_place = splat(table.last_place);
-    const F t1 = c.c1 - fma(c.c2, dx, last_place), integer = splat(0x1p23f);
-    const F y = rising ? fma(t1, dx, c.c0) - integer : c.c0 - fma(t1, dx, integer);
-    return real((bits(least(greatest(y, lowest), highest)) & fraction_mask) | exponent);
+  /// table_polynomial of the arguments' fractions, cut, with codes of exponents in the place of their own.
+  template <bool in_columns, std::size_t n>
+  void polynomials(const F (&a)[n], const FloatTable& table, bool rising, const I (&exponent)[n], F (&out)[n]) const {
+    Coefficients c[n];
+    if constexpr (in_columns) look_up_columns(table, a, c);
+    const I rest = splat((1 << table.rest_bits) - 1);
+    const F last_place = splat(table.last_place), integer = splat(0x1p23f);
+    for (std::size_t i = 0; i < n; ++i) {
+      if constexpr (!in_columns) c[i] = look_up(table, a[i]);
+      const F dx = converted(bits(a[i]) & rest);
+      const F t1 = c[i].c1 - fma(c[i].c2, dx, last_place);
+      const F y = rising ? fma(t1, dx, c[i].c0) - integer : c[i].c0 - fma(t1, dx, integer);
+      out[i] = real((bits(least(greatest(y, lowest), highest)) & fraction_mask) | exponent[i]);
+    }
   }
 };
 
-struct Root {
-  F root, power;  ///< of the root
-};
-
-inline Root sqrt_lanes(F a, const FloatTable& table, const Arithmetic& arithmetic) {
+/// Roots, and their powers of two.
+template <bool in_columns, std::size_t n>
+void sqrt_lanes(const F (&a)[n], const FloatTable& table, const Arithmetic& arithmetic, F (&root)[n], F (&power)[n]) {
+  I exponent[n];
   // The code E + 127 of an exponent: floor(E / 2) + 127.
-  const I exponent = shift_right<1>(add(bits(a), splat(127 << 23))) & splat(0x7f800000);
-  return {arithmetic.polynomial(a, table, true, exponent), real(exponent)};
+  for (std::size_t i = 0; i < n; ++i) {
+    exponent[i] = shift_right<1>(add(bits(a[i]), splat(127 << 23))) & splat(0x7f800000);
+    power[i] = real(exponent[i]);
+  }
+  arithmetic.polynomials<in_columns>(a, table, true, exponent, root);
 }
 
 /// Of a > 0 below 2^126: -E - 1 is the exponent of the table's result, -E of a power of two.
-inline F recip_lanes(F a, const FloatTable& table, const Arithmetic& arithmetic) {
+template <bool in_columns>
+F recip_lanes(F a, const FloatTable& table, const Arithmetic& arithmetic) {
   const I power = bits(Arithmetic::power(a));
-  const F regular = arithmetic.polynomial(a, table, false, subtract(splat(253 << 23), power));
-  return real(select(equal(bits(a), power), subtract(splat(254 << 23), power), bits(regular)));
+  F regular[1];
+  arithmetic.polynomials<in_columns>({a}, table, false, {subtract(splat(253 << 23), power)}, regular);
+  return real(select(equal(bits(a), power), subtract(splat(254 << 23), power), bits(regular[0])));
 }
 
 /// |num * rec| in units of 2^-frac, toward zero: below 2^31. The product's first 24 bits, and what they left, which
@@ -81,9 +92,10 @@ inline Halves at_pixels(const FloatForms& f, std::size_t k, Halves dx, Halves dy
   return {fma(dy.a, gy, fma(dx.a, gx, value)), fma(dy.b, gy, fma(dx.b, gx, value))};
 }
 
-/// The whole list; MXCSR is as it must be.
-__attribute__((noinline)) void draw(const FloatLanes::Format& format, const FloatQuad& quad, const PixelList& list,
-                                    int count, FloatResults& out) {
+/// The whole list; MXCSR is as it must be. `in_columns`: of both tables.
+template <bool in_columns>
+__attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const FloatQuad& quad, const PixelList& list,
+                                         int count, FloatResults& out) {
   const Arithmetic arithmetic(format.s);
   const F zero = splat(0.0f);
   const F align = splat(static_cast<float>(1 << (23 - format.prec)));
@@ -152,30 +164,34 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
     }
 
     // u = r r' + |D|.
-    Root r[4];
-    for (std::size_t i = 0; i < 4; ++i) r[i] = sqrt_lanes(r2[i], format.sqrt, arithmetic);
+    F r[4], r_power[4];
+    sqrt_lanes<in_columns>(r2, format.sqrt, arithmetic, r, r_power);
     F u[6];
     for (std::size_t k = 0; k < 6; ++k) {
       const auto [i, j] = vertex_pair[k];
-      const F c = greatest(r[i].power * r[j].power, Arithmetic::power(d[k])) * align;
-      u[k] = arithmetic.cut(fma(r[i].root, r[j].root, c) + d[k] - c);
+      const F c = greatest(r_power[i] * r_power[j], Arithmetic::power(d[k])) * align;
+      u[k] = arithmetic.cut(fma(r[i], r[j], c) + d[k] - c);
     }
 
     // root_ratio.hpp; a term of an edge cancels where D < 0, of a diagonal where D >= 0.
     struct Ratio {
       F num, den;
     };
-    const auto ratio = [&](std::size_t near, std::size_t far, bool diagonal) {
+    constexpr std::size_t near_of[3] = {0, 3, 4}, far_of[3] = {2, 1, 5};
+    F under[3], root[3], no_power[3];
+    for (std::size_t i = 0; i < 3; ++i) under[i] = arithmetic.multiply(u[near_of[i]], u[far_of[i]]);
+    sqrt_lanes<in_columns>(under, format.sqrt, arithmetic, root, no_power);
+    const auto ratio = [&](std::size_t i, bool diagonal) {
+      const std::size_t near = near_of[i], far = far_of[i];
       const Mask near_sign = sign_d[near], far_sign = sign_d[far];
       const auto choose = [diagonal](Mask sign, F cancels, F regular) {
         return diagonal ? select(sign, regular, cancels) : select(sign, cancels, regular);
       };
-      const F root = sqrt_lanes(arithmetic.multiply(u[near], u[far]), format.sqrt, arithmetic).root;
-      const F crossed = arithmetic.multiply(v[far], u[near]), scaled = arithmetic.multiply(v[near], root);
-      return Ratio{choose(near_sign, choose(far_sign, crossed, root), choose(far_sign, v[far], u[far])),
-                   choose(near_sign, choose(far_sign, scaled, v[near]), root)};
+      const F crossed = arithmetic.multiply(v[far], u[near]), scaled = arithmetic.multiply(v[near], root[i]);
+      return Ratio{choose(near_sign, choose(far_sign, crossed, root[i]), choose(far_sign, v[far], u[far])),
+                   choose(near_sign, choose(far_sign, scaled, v[near]), root[i])};
     };
-    const Ratio a = ratio(0, 2, false), b = ratio(3, 1, false), e = ratio(4, 5, true);
+    const Ratio a = ratio(0, false), b = ratio(1, false), e = ratio(2, true);
     const F m[4] = {arithmetic.multiply(arithmetic.multiply(a.num, b.num), e.num),
                     arithmetic.multiply(arithmetic.multiply(a.num, b.den), e.den),
                     arithmetic.multiply(arithmetic.multiply(a.den, b.den), e.num),
@@ -196,7 +212,7 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
     F den_k = splat(1.0f), den_w = splat(1.0f), rec_k = splat(1.0f), rec_w;
     if (quad.sum_k) {
       den_k = sum(quad.k);
-      rec_k = recip_lanes(den_k, format.recip, arithmetic);
+      rec_k = recip_lanes<in_columns>(den_k, format.recip, arithmetic);
     }
     if (quad.w_of_k)
       den_w = den_k * splat(static_cast<float>(*quad.w_of_k));
@@ -221,7 +237,7 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
     I depth = nothing;
     if (format.depth) {
       rec_w = quad.w_of_k ? rec_k * splat(static_cast<float>(1 / *quad.w_of_k))
-                          : recip_lanes(den_w, format.recip, arithmetic);
+                          : recip_lanes<in_columns>(den_w, format.recip, arithmetic);
       const F num = quad.z_of_w ? den_w * splat(static_cast<float>(*quad.z_of_w)) : sum(quad.z);
       const F size = keep(num, magnitude_mask);
       const F p = size * rec_w;
@@ -265,4 +281,12 @@ __attribute__((noinline)) void draw(const FloatLanes::Format& format, const Floa
     for (std::size_t j = 2; j < attributes; j += 2)
       store_words(bytes + offsetof(Fragment, attribute) + 8 * j, {low(j), high(j), low(j + 1), high(j + 1)});
   }
+}
+
+void draw(const FloatLanes::Format& format, const FloatQuad& quad, const PixelList& list, int count,
+          FloatResults& out) {
+  if (looks_up_columns && format.sqrt.in_columns && format.recip.in_columns)
+    draw_list<looks_up_columns>(format, quad, list, count, out);
+  else
+    draw_list<false>(format, quad, list, count, out);
 }
