@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-#ifdef __x86_64__
+#ifdef QUADRILLE_LANE_TARGETS
 #include <immintrin.h>
 #endif
 
@@ -33,7 +33,7 @@ const std::array<bool, 64> may_face = [] {
   return table;
 }();
 
-#ifdef __x86_64__
+#ifdef QUADRILLE_LANE_TARGETS
 // Each function of the kernel is compiled for the target around it.
 #pragma GCC push_options
 #pragma GCC target("arch=x86-64-v3")
@@ -218,7 +218,7 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
   return fit;
 }
 
-#ifdef __x86_64__
+#ifdef QUADRILLE_LANE_TARGETS
 FloatLanes::TileCounts FloatLanes::cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad,
                                          PixelList& list) const {
   return lane_target() == LaneTarget::v4 ? v4::cover(format_, bounds, corner, quad, list)

@@ -8,7 +8,7 @@
 namespace quadrille {
 namespace {
 
-#ifdef __x86_64__
+#ifdef QUADRILLE_LANE_TARGETS
 constexpr std::array compiled{LaneTarget::baseline, LaneTarget::v3, LaneTarget::v4};
 #else
 constexpr std::array compiled{LaneTarget::baseline};
@@ -31,7 +31,7 @@ std::string_view name(LaneTarget target) {
 }
 
 bool can_run(LaneTarget target) {
-#ifdef __x86_64__
+#ifdef QUADRILLE_LANE_TARGETS
   if (target == LaneTarget::v3) return __builtin_cpu_supports("x86-64-v3");
   if (target == LaneTarget::v4) return __builtin_cpu_supports("x86-64-v4");
 #endif

@@ -8,6 +8,12 @@
 
 namespace quadrille {
 
+// Targets beyond the baseline are chosen by GCC's pragmas, function by function; what another compiler builds has the
+// baseline alone.
+#if defined(__x86_64__) && !defined(__clang__)
+#define QUADRILLE_LANE_TARGETS
+#endif
+
 enum class LaneTarget { baseline, v3, v4 };  ///< what the compiler's base ABI has; x86-64-v3: AVX2; x86-64-v4: AVX-512
 
 /// Targets that the code is compiled for, from the plainest on.

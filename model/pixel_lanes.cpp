@@ -64,7 +64,7 @@ LANE_INLINE V leading_magnitude(I v) {
   return high + low;
 }
 
-#ifdef __x86_64__
+#ifdef QUADRILLE_LANE_TARGETS
 template <class Body>
 [[gnu::target("arch=x86-64-v4")]] void run_v4(const Body& body) {
   body();
@@ -78,7 +78,7 @@ template <class Body>
 /// Runs `body`, an always-inlined lambda, as compiled for the target in use.
 template <class Body>
 LANE_INLINE void on_lane_target(const Body& body) {
-#ifdef __x86_64__
+#ifdef QUADRILLE_LANE_TARGETS
   switch (lane_target()) {
     case LaneTarget::v4:
       return run_v4(body);

@@ -31,7 +31,10 @@ int sign_of(__float128 value) {
   if (bits << 1 == 0) return 0;
   return bits >> 127 == 0 ? 1 : -1;
 }
-__float128 magnitude(__float128 value) { return __builtin_fabsq(value); }
+/// By bits: the sign is the highest one.
+__float128 magnitude(__float128 value) {
+  return std::bit_cast<__float128>(std::bit_cast<unsigned __int128>(value) << 1 >> 1);
+}
 long double magnitude(long double value) { return std::abs(value); }
 bool negative(__float128 value) { return __builtin_signbit(value) != 0; }
 bool negative(long double value) { return std::signbit(value); }

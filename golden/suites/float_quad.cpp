@@ -134,7 +134,7 @@ VectorOutcome FloatQuad::check_values(const Fragment& g) const {
   constexpr double epsilon = 0x1p-52;
   std::array<double, 4> ds{}, dt{}, dmu{};
   for (std::size_t i = 0; i < 4; ++i) ds[i] = epsilon * (place_[i] + g.x + g.y);
-  double spread = 0, sum_mu = 0, size_mu = 0, error_mu = 0, sum_k = 0;
+  double sum_mu = 0, size_mu = 0, error_mu = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = (i + 1) % 4;
     const double ri = std::fabs(p.r[i]), rj = std::fabs(p.r[j]), area = std::fabs(p.area[i]);
@@ -149,8 +149,6 @@ VectorOutcome FloatQuad::check_values(const Fragment& g) const {
     sum_mu += p.mu[i];
     size_mu += std::fabs(p.mu[i]);
     error_mu += dmu[i];
-    sum_k += p.mu[i] * k_over_w_[i];
-    spread += (std::fabs(p.t[before]) + std::fabs(p.t[i])) / r * std::fabs(k_over_w_[i]);
   }
   const double bound = std::ldexp(1.0, 3 - config_.significand_bits);
 

@@ -45,8 +45,7 @@ std::vector<std::int64_t> corner_values(const FieldRange& range) {
   if (lo != hi) values.push_back(wrap(lo + 1)), values.push_back(wrap(hi - 1));
   std::erase_if(values, [&](std::int64_t v) { return !range.contains(v); });
   std::ranges::sort(values);
-  const auto same = std::ranges::unique(values);
-  values.erase(same.begin(), same.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 

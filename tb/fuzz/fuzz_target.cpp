@@ -1,0 +1,33 @@
+#include "tb/fuzz/fuzz_target.hpp"
+
+#include "tb/fuzz/run_targets.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace quadrille::fuzz {
+namespace {
+
+constexpr Target list[]{
+    {"any_quad", "any four vertices through both engines, against the truth", draw_any_quad, "tb/fuzz/corpus/any_quad"},
+    {"camera", "camera files", read_camera, "tb/fuzz/corpus/camera"},
+    {"config", "configuration files with costs", read_config, "tb/fuzz/corpus/config"},
+    {"config_text", "configurations of the C interface", read_config_text, "tb/fuzz/corpus/config_text"},
+    {"exr", "OpenEXR pictures", read_exr, "tb/fuzz/corpus/exr"},
+    {"manifest", "manifests of golden vectors", read_manifest, "golden/vectors/kept", "manifest.json"},
+    {"obj", "meshes", read_obj, "tb/fuzz/corpus/obj"},
+    {"png", "PNG pictures", read_png, "tb/fuzz/corpus/png"},
+    {"quads", "files of quads", read_quads, "tb/fuzz/corpus/quads"},
+};
+
+}  // namespace
+
+std::span<const Target> targets() { return list; }
+
+const Target& target_named(std::string_view name) {
+  const auto found = std::ranges::find(list, name, &Target::name);
+  if (found == std::end(list)) throw std::invalid_argument("no target to fuzz is named " + std::string(name));
+  return *found;
+}
+
+}  // namespace quadrille::fuzz

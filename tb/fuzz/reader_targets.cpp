@@ -1,0 +1,137 @@
+#include "golden/io/camera.hpp"
+#include "golden/io/config_file.hpp"
+#include "golden/io/error.hpp"
+#include "golden/io/exr.hpp"
+#include "golden/io/obj.hpp"
+#include "golden/io/png.hpp"
+#include "golden/io/quads_file.hpp"
+#include "golden/io/temporary.hpp"
+#include "golden/suites/manifest.hpp"
+#include "golden/suites/sha256.hpp"
+#include "model/config_text.hpp"
+#include "tb/fuzz/fuzz_target.hpp"
+#include "tb/fuzz/run_targets.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace quadrille::fuzz {
+namespace {
+
+std::string text_of(std::span<const std::uint8_t> input) { return {input.begin(), input.end()}; }
+
+void require(bool holds, const char* what) {
+  if (!holds) throw Fault(what);
+}
+
+/// Accepted unless read() refuses by an InputError, whose message must name the place.
+template <class Read>
+Outcome outcome_of(std::string_view place, Read&& read) {
+  try {
+    read();
+  } catch (const golden::InputError& error) {
+    if (!std::string_view(error.what()).starts_with(place)) throw Fault(std::string("names no place: ") + error.what());
+    return Outcome::refused;
+  }
+  return Outcome::accepted;
+}
+
+void write(const std::filesystem::path& path, std::string_view bytes) {
+  std::ofstream out(path, std::ios::binary);
+  if (!(out << bytes).flush()) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+/// A file with the input, for readers that take a path.
+class InputFile {
+ public:
+  InputFile(std::string_view bytes, const char* name)
+      : folder_(std::filesystem::temp_directory_path(), golden::Temporary::Kind::folder), path_(folder_.path() / name) {
+    write(path_, bytes);
+  }
+  std::string path() const { return path_.string(); }
+  std::string folder() const { return folder_.path().string(); }
+
+ private:
+  golden::Temporary folder_;
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+Outcome read_obj(std::span<const std::uint8_t> input) {
+  return outcome_of("file", [&] { golden::parse_obj(text_of(input), "file"); });
+}
+
+Outcome read_quads(std::span<const std::uint8_t> input) {
+  return outcome_of("file", [&] { require(!golden::parse_quads(text_of(input), "file").empty(), "no quad"); });
+}
+
+Outcome read_camera(std::span<const std::uint8_t> input) {
+  return outcome_of("file", [&] {
+    const golden::Camera camera = golden::parse_camera(text_of(input), "file");
+    const std::string text = golden::camera_text(camera);
+    require(golden::camera_text(golden::parse_camera(text, "file")) == text, "written and read, another camera");
+  });
+}
+
+Outcome read_config(std::span<const std::uint8_t> input) {
+  return outcome_of("file", [&] {
+    Config config;
+    golden::parse_config(text_of(input), "file", config);
+    CostWeights weights;
+    golden::parse_cost_weights(text_of(input), "file", weights);
+    Config again;
+    golden::parse_config(golden::config_text(config, weights), "file", again);
+    require(again == config, "written and read, another configuration");
+  });
+}
+
+Outcome read_config_text(std::span<const std::uint8_t> input) {
+  Config config;
+  try {
+    apply_config_text(text_of(input), config);
+  } catch (const ConfigError&) {
+    require(config == Config{}, "refused, and changed all the same");
+    return Outcome::refused;
+  }
+  return Outcome::accepted;
+}
+
+Outcome read_png(std::span<const std::uint8_t> input) {
+  const InputFile file(text_of(input), "image.png");
+  return outcome_of(file.path(), [&] {
+    const golden::Image8 image = golden::load_png(file.path());
+    require(image.rgba.size() == 4u * static_cast<unsigned>(image.width) * static_cast<unsigned>(image.height),
+            "another size than it says");
+  });
+}
+
+Outcome read_exr(std::span<const std::uint8_t> input) {
+  const InputFile file(text_of(input), "image.exr");
+  return outcome_of(file.path(), [&] { golden::load_exr(file.path()); });
+}
+
+Outcome read_manifest(std::span<const std::uint8_t> input) {
+  // Spelled as a manifest is, where it is JSON, so that the reader gets beyond that.
+  std::string text = text_of(input);
+  const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (!json.is_discarded()) text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  const InputFile file(text, "manifest.json");
+  const std::string name = json.is_object() && json.contains("suite") && json["suite"].is_string()
+                               ? json["suite"].get<std::string>()
+                               : "none";
+  // The records that it names are not there: what comes to them has read the manifest to its end.
+  bool to_its_end = false;
+  const Outcome outcome = outcome_of(file.folder(), [&] {
+    try {
+      vectors::SuiteReader(file.folder(), name, vectors::sha256(text));
+    } catch (const golden::InputError& error) {
+      to_its_end = std::string_view(error.what()).find(".hex") != std::string_view::npos;
+      throw;
+    }
+  });
+  return to_its_end ? Outcome::accepted : outcome;
+}
+
+}  // namespace quadrille::fuzz
