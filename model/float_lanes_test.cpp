@@ -43,6 +43,10 @@ Config fitting_config(Prng& rng) {
   c.tile_log2 = static_cast<int>(rng.integer(2, 4));
   if (rng.chance(0.3)) c.sqrt_degree = c.recip_degree = 1;
   if (rng.chance(0.3)) c.quadratic_frac_bits = 2 * static_cast<int>(rng.integer(8, 15));
+  if (c.quadratic_frac_bits < 0 && rng.chance(0.4)) {
+    c.subpixel_bits = static_cast<int>(rng.integer(2, 8));
+    c.homogeneous_frac_bits = static_cast<int>(rng.integer(4, 7));
+  }
   c.validate();
   return c;
 }
@@ -78,7 +82,9 @@ SnappedQuad random_quad(Prng& rng, const Config& c, int exponents) {
   for (SnappedVertex& v : q.vertex) {
     const auto position = [&] {
       const double at = far ? rng.uniform(-20000, 20000) : rng.uniform(-4, size + 4);
-      return static_cast<std::int32_t>(std::floor(at * grid) * std::ldexp(1 / grid, c.frac()));
+      const double step = std::ldexp(1.0, -c.subpixel_bits);
+      return static_cast<std::int32_t>(std::floor(at / std::max(step, 1 / grid)) *
+                                       std::ldexp(std::max(step, 1 / grid), c.frac()));
     };
     v.x = position();
     v.y = position();
