@@ -42,7 +42,8 @@ struct Arithmetic {
 
   /// table_polynomial of the arguments' fractions, cut, with codes of exponents in the place of their own.
   template <bool in_columns, std::size_t n>
-  void polynomials(const F (&a)[n], const FloatTable& table, bool rising, const I (&exponent)[n], F (&out)[n]) const {
+  [[gnu::always_inline]] inline void polynomials(const F (&a)[n], const FloatTable& table, bool rising,
+                                                 const I (&exponent)[n], F (&out)[n]) const {
     Coefficients c[n];
     if constexpr (in_columns) look_up_columns(table, a, c);
     const I rest = splat((1 << table.rest_bits) - 1);
@@ -59,7 +60,8 @@ struct Arithmetic {
 
 /// Roots, and their powers of two.
 template <bool in_columns, std::size_t n>
-void sqrt_lanes(const F (&a)[n], const FloatTable& table, const Arithmetic& arithmetic, F (&root)[n], F (&power)[n]) {
+[[gnu::always_inline]] inline void sqrt_lanes(const F (&a)[n], const FloatTable& table, const Arithmetic& arithmetic,
+                                              F (&root)[n], F (&power)[n]) {
   I exponent[n];
   // The code E + 127 of an exponent: floor(E / 2) + 127.
   for (std::size_t i = 0; i < n; ++i) {
@@ -70,12 +72,17 @@ void sqrt_lanes(const F (&a)[n], const FloatTable& table, const Arithmetic& arit
 }
 
 /// Of a > 0 below 2^126: -E - 1 is the exponent of the table's result, -E of a power of two.
-template <bool in_columns>
-F recip_lanes(F a, const FloatTable& table, const Arithmetic& arithmetic) {
-  const I power = bits(Arithmetic::power(a));
-  F regular[1];
-  arithmetic.polynomials<in_columns>({a}, table, false, {subtract(splat(253 << 23), power)}, regular);
-  return real(select(equal(bits(a), power), subtract(splat(254 << 23), power), bits(regular[0])));
+template <bool in_columns, std::size_t n>
+[[gnu::always_inline]] inline void recip_lanes(const F (&a)[n], const FloatTable& table, const Arithmetic& arithmetic,
+                                               F (&out)[n]) {
+  I power[n], exponent[n];
+  for (std::size_t i = 0; i < n; ++i) {
+    power[i] = bits(Arithmetic::power(a[i]));
+    exponent[i] = subtract(splat(253 << 23), power[i]);
+  }
+  arithmetic.polynomials<in_columns>(a, table, false, exponent, out);
+  for (std::size_t i = 0; i < n; ++i)
+    out[i] = real(select(equal(bits(a[i]), power[i]), subtract(splat(254 << 23), power[i]), bits(out[i])));
 }
 
 /// |num * rec| in units of 2^-frac, toward zero: below 2^31. The product's first 24 bits, and what they left, which
@@ -209,15 +216,29 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
         for (std::size_t i = 0; i < 4; ++i) negative = fma(m[i], splat(column.negative[i]), negative);
       return arithmetic.cut(positive - negative);
     };
-    F den_k = splat(1.0f), den_w = splat(1.0f), rec_k = splat(1.0f), rec_w;
-    if (quad.sum_k) {
-      den_k = sum(quad.k);
-      rec_k = recip_lanes<in_columns>(den_k, format.recip, arithmetic);
-    }
+    F den_k = splat(1.0f), den_w = splat(1.0f), rec_k = splat(1.0f), rec_w = splat(1.0f);
+    if (quad.sum_k) den_k = sum(quad.k);
     if (quad.w_of_k)
       den_w = den_k * splat(static_cast<float>(*quad.w_of_k));
     else if (quad.sum_w)
       den_w = sum(quad.w);
+    const auto reciprocal = [&](F of, F& to) {
+      F one[1];
+      recip_lanes<in_columns>({of}, format.recip, arithmetic, one);
+      to = one[0];
+    };
+    if (quad.sum_k && format.depth && !quad.w_of_k) {
+      F both[2];
+      recip_lanes<in_columns>({den_k, den_w}, format.recip, arithmetic, both);
+      rec_k = both[0];
+      rec_w = both[1];
+    } else {
+      if (quad.sum_k) reciprocal(den_k, rec_k);
+      if (quad.w_of_k)
+        rec_w = rec_k * splat(static_cast<float>(1 / *quad.w_of_k));
+      else if (format.depth)
+        reciprocal(den_w, rec_w);
+    }
     const unsigned small = lanes(not_at_least(least(den_k, den_w), splat(0x1p-26f)));
 
     I attribute[max_attribute_slots];
@@ -236,8 +257,6 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
     unsigned discard = 0;
     I depth = nothing;
     if (format.depth) {
-      rec_w = quad.w_of_k ? rec_k * splat(static_cast<float>(1 / *quad.w_of_k))
-                          : recip_lanes<in_columns>(den_w, format.recip, arithmetic);
       const F num = quad.z_of_w ? den_w * splat(static_cast<float>(*quad.z_of_w)) : sum(quad.z);
       const F size = keep(num, magnitude_mask);
       const F p = size * rec_w;

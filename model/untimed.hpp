@@ -28,7 +28,8 @@ struct DrawStats {
 };
 
 /// Two forms of the pixel pipeline with the same bits: plain integers, one pixel at a time (the oracle), or eight
-/// pixels at once, in single precision where that is enough (float_lanes.hpp), else in double (pixel_lanes.hpp).
+/// pixels at once, or sixteen, in single precision where that is enough (float_lanes.hpp), else in double
+/// (pixel_lanes.hpp).
 enum class PixelEngine { plain, lanes };
 
 class UntimedModel {
