@@ -334,6 +334,7 @@ struct Pixel {
   bool valid = false, end = false;
   bool drawn = false;   ///< not discarded
   bool plane = false;   ///< of a plane_quad
+  bool areas = false;   ///< which are its weights: no product makes them
   bool corner = false;  ///< its weights are a corner's
   bool hull = false;
   std::uint32_t slot = 0;
@@ -532,9 +533,6 @@ struct ClockedModel::Impl {
     add(tiles_hidden, walk_moves && walk.tests.hidden);
     add(stamps, coverage.way.back().push() && !coverage.way.back().stamp.end);
 
-    const auto pixels_in = [this](int n) {
-      return std::ranges::count_if(stage(n), [](const Pixel& p) { return p.valid; });
-    };
     for (std::size_t lane = 0; lane < lanes; ++lane)
       add(static_cast<PerformanceCounter>(static_cast<std::size_t>(pixels_lane0) + lane), stage(0)[lane].valid);
     add(pixels_plane,
@@ -557,8 +555,10 @@ struct ClockedModel::Impl {
     };
     add(products_sqrt, off_corners_in(latency::norm_stage) * products.sqrt);
     add(products_mean_value_ratios, off_corners_in(latency::root_stage) * products.mean_value_ratios);
-    add(products_mean_value_weights, off_corners_in(latency::ratio_stage) * products.weight_ratios +
-                                         pixels_in(latency::ratio_stage) * products.weight_factors);
+    const auto multiplied =
+        std::ranges::count_if(stage(latency::ratio_stage), [](const Pixel& p) { return p.valid && !p.areas; });
+    add(products_mean_value_weights,
+        off_corners_in(latency::ratio_stage) * products.weight_ratios + multiplied * products.weight_factors);
     add(products_interpolate, wanted_in(latency::weight_stage, &WantedSums::sums) * products.sum);
     add(products_reciprocal, wanted_in(latency::sum_stage, &WantedSums::denominators) * products.reciprocal);
     add(products_fragment_output,
@@ -622,7 +622,8 @@ struct ClockedModel::Impl {
 
   /// A pixel of the head's row by the plain pipeline.
   static Pixel pixel_of(const PixelTrace& p) {
-    return {true, false, p.drawn, p.plane, p.two_corner || p.on_vertex, p.hull, 0, p.fragment};
+    const bool areas = p.plane && !p.two_corner && !p.on_vertex && !p.two_edge;
+    return {true, false, p.drawn, p.plane, areas, p.two_corner || p.on_vertex, p.hull, 0, p.fragment};
   }
   void plain_pixel(PixelTrace& p, const TileRow& row, const Slot& slot, const CoveredPixel& at) const {
     p.front = at.front;
@@ -657,6 +658,7 @@ struct ClockedModel::Impl {
           p = {true,
                false,
                (r.drawn >> l & 1) != 0,
+               slot.data.plane,
                slot.data.plane,
                false,
                slot.data.hull,

@@ -1,6 +1,6 @@
 // M_i = x y z of the four corners; of the corner on both of two neighbouring edges the sum of two products x y instead, its own and
-// that in the place of the corner opposite, which becomes 0 (weight_factors). Latency PRODUCT_STAGES + FP_ADD_STAGES + 1, one pixel per
-// clock. Numbers are {exp, sig}.
+// that in the place of the corner opposite, which becomes 0 (weight_factors). Of a plane_quad's pixel z is M: it goes around the multipliers,
+// whose operands are held. Latency PRODUCT_STAGES + FP_ADD_STAGES + 1, one pixel per clock. Numbers are {exp, sig}.
 module factor_products #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
@@ -9,6 +9,7 @@ module factor_products #(
 ) (
     input logic clk_i,
     input logic [CLASS-1:0] class_i,  // PRODUCT_STAGES after the factors
+    input logic area_i,  // z is M; x and y are those of the clock before
     input logic [4*F-1:0] x_i,
     input logic [4*F-1:0] y_i,
     input logic [4*F-1:0] z_i,
@@ -16,7 +17,7 @@ module factor_products #(
     output logic [4*S-1:0] m_sig_o
 );
   // ---- Products ----------------------------------------------------------------------------------------------------------------
-  logic [4*F-1:0] xy, late_z, xyz, late_xyz;
+  logic [4*F-1:0] xy, late_z, xyz, weight, late_weight;
 
   for (genvar g = 0; g < 4; g++) begin : gen_product
     fp_multiply u_xy (
@@ -39,15 +40,35 @@ module factor_products #(
     );
   end
 
-  delay_line #(.WIDTH(4 * F), .DEPTH(quadrille_pkg::PRODUCT_STAGES)) u_delay_z (
+  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_area
+    // A product takes a clock: z waits for xy, or beside both products.
+    logic [1:0] area_q;
+    logic [4*F-1:0] weight_q1, weight_q2;
+
+    always_ff @(posedge clk_i) begin
+      if (area_i) weight_q1 <= z_i;
+      else late_z <= z_i;
+      weight_q2 <= weight_q1;
+      area_q <= {area_q[0], area_i};
+    end
+
+    assign weight = area_q[1] ? weight_q2 : xyz;
+  end else begin : gen_no_area
+    logic unused_area;
+    assign unused_area = area_i;
+    assign weight = xyz;
+
+    delay_line #(.WIDTH(4 * F), .DEPTH(quadrille_pkg::PRODUCT_STAGES)) u_delay_z (
+        .clk_i,
+        .data_i(z_i),
+        .data_o(late_z)
+    );
+  end
+
+  delay_line #(.WIDTH(4 * F), .DEPTH(quadrille_pkg::FP_ADD_STAGES - quadrille_pkg::PRODUCT_STAGES)) u_delay_weight (
       .clk_i,
-      .data_i(z_i),
-      .data_o(late_z)
-  );
-  delay_line #(.WIDTH(4 * F), .DEPTH(quadrille_pkg::FP_ADD_STAGES - quadrille_pkg::PRODUCT_STAGES)) u_delay_xyz (
-      .clk_i,
-      .data_i(xyz),
-      .data_o(late_xyz)
+      .data_i(weight),
+      .data_o(late_weight)
   );
 
   // ---- The corner on both of two neighbouring edges ------------------------------------------------------------------------------
@@ -93,7 +114,7 @@ module factor_products #(
     logic [F-1:0] m_q;
 
     always_ff @(posedge clk_i) begin
-      m_q <= late_xyz[g*F+:F];
+      m_q <= late_weight[g*F+:F];
       if (late_neighbours && late_corner == 2'(g)) m_q <= both;
       if (late_neighbours && late_corner == 2'((g + 2) % 4)) m_q <= '0;
     end

@@ -38,6 +38,7 @@ module mean_value_weights #(
     // at OVERRIDE_STAGE - 1
     input logic [4*PE-1:0] override_k_exp_i,
     input logic [4*S-1:0] override_k_sig_i,
+    output logic count_area_o,  // for performance_counters, else 0; at RATIO_STAGE: the weights are areas, which are not multiplied
     // at WEIGHT_STAGE
     output logic [4*E-1:0] m_exp_o,
     output logic [4*S-1:0] m_sig_o
@@ -60,8 +61,8 @@ module mean_value_weights #(
     );
   end
 
-  logic area;  // the factors are areas
-  logic late_area;
+  logic area;  // the weights are areas
+  logic late_area, factor_area;
   logic [4*F-1:0] root_or_area;
   logic [6*E-1:0] product_v_exp;  // v where it is multiplied
   logic [6*S-1:0] product_v_sig;
@@ -89,15 +90,23 @@ module mean_value_weights #(
         .data_i(area),
         .data_o(late_area)
     );
+    delay_line #(.WIDTH(1), .DEPTH(1)) u_delay_factor_area (
+        .clk_i,
+        .data_i(late_area),
+        .data_o(factor_area)
+    );
   end else begin : gen_no_plane
     logic unused_plane;
     assign unused_plane = ^{plane_i, behind_diagonal_i, area};
     assign area = 1'b0;
     assign late_area = 1'b0;
+    assign factor_area = 1'b0;
     assign root_or_area = root;
     assign product_v_exp = v_exp_i;
     assign product_v_sig = v_sig_i;
   end
+
+  assign count_area_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && area;
 
   delay_line #(.WIDTH(4 * F), .DEPTH(TO_N)) u_delay_late_root (
       .clk_i,
@@ -213,6 +222,7 @@ module mean_value_weights #(
   factor_products u_weights (
       .clk_i,
       .class_i(product_class),
+      .area_i(factor_area),
       .x_i(x),
       .y_i(y),
       .z_i(z),

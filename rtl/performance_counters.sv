@@ -40,6 +40,7 @@ module performance_counters #(
     input logic [P*LATENCY-1:0] lane_valid_i,  // the pipeline's registers, those of a lane side by side
     input logic [P-1:0] drawn_i,  // fragments in the last one
     input logic [P-1:0] norm_active_i,  // a clock before NORM_STAGE: the lane takes the numbers on
+    input logic [P-1:0] area_i,  // at RATIO_STAGE: the lane's weights are areas, which are not multiplied
     input logic norm_plane_i,  // three clocks before NORM_STAGE: the pixels are of a plane_quad
     input logic [SETS-1:0] sum_active_i,  // a clock before WEIGHT_STAGE: the terms of k, W, Z and the attributes are not held at 0
     // Dot units
@@ -154,7 +155,7 @@ module performance_counters #(
       at_sqrt = at_sqrt + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::NORM_STAGE] && norm_active[g]);
       at_ratio = at_ratio + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::ROOT_STAGE] && root_active[g]);
       at_weight_ratio = at_weight_ratio + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::RATIO_STAGE] && ratio_active[g]);
-      at_weight = at_weight + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::RATIO_STAGE]);
+      at_weight = at_weight + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::RATIO_STAGE] && !area_i[g]);
       at_sum = at_sum + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::WEIGHT_STAGE]);
       at_reciprocal = at_reciprocal + COUNT'(lane_valid_i[g*LATENCY+quadrille_pkg::SUM_STAGE]);
       at_output = at_output + COUNT'(lane_valid_i[g*LATENCY+BEFORE_OUTPUT]);

@@ -64,6 +64,7 @@ module pixel_lane #(
     input logic [V-1:0] output_y_i,
     // Fragment
     output logic [quadrille_pkg::LATENCY-1:0] valid_o,  // a pixel is in register n, drawn or discarded
+    output logic count_area_o,  // at RATIO_STAGE: the weights are areas
     output logic count_norm_o,  // for performance_counters, else 0: the numbers of this pixel are taken on
     output logic fragment_valid_o,
     output logic [FB-1:0] fragment_o  // zero when there is none
@@ -335,6 +336,7 @@ module pixel_lane #(
       .k_sig_i(product_k_sig_i),
       .override_k_exp_i,
       .override_k_sig_i,
+      .count_area_o,
       .m_exp_o(m_exp),
       .m_sig_o(m_sig)
   );

@@ -77,6 +77,7 @@ module pixel_pipeline #(
     output logic discard_o,  // pixels of which none is a fragment, in the clock in which they would have been
     output logic [P*quadrille_pkg::LATENCY-1:0] lane_valid_o,  // a pixel is in register n of a lane
     output logic [P-1:0] count_norm_o,  // for performance_counters, else 0: a lane takes on the numbers of its pixel
+    output logic [P-1:0] count_area_o,  // at RATIO_STAGE: a lane's weights are areas
     output logic [SETS-1:0] count_sum_o,  // the sums that are not of zeros
     output logic [P-1:0] fragment_valid_o,
     output logic [P*FB-1:0] fragment_o  // zero in a lane without a fragment
@@ -268,6 +269,7 @@ module pixel_pipeline #(
         .output_y_i(fragment_tag.y),
         .valid_o(lane_valid_o[g*quadrille_pkg::LATENCY+:quadrille_pkg::LATENCY]),
         .count_norm_o(count_norm_o[g]),
+        .count_area_o(count_area_o[g]),
         .fragment_valid_o(fragment_valid_o[g]),
         .fragment_o(fragment_o[g*FB+:FB])
     );

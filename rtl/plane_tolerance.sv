@@ -11,11 +11,11 @@
 //
 // A quad is accepted when setup has it complete, at latest in the clock in which the walk takes it, every INTERVAL clocks one. Then:
 //
-//     0 areas | 1 magnitudes, convex | 2 count of zeros above them | 3-6 long, 4-7 short shifts, one after the other | 8 c is there
-//     4 first value read | 5 highest exponents of pairs | 6 distances | 7 shifted | 8 products | 9 pairs | 10 D | 11 compared
+//     0 areas | 1 magnitudes, convex | 2 together | 3, 4 zeros above them | 4-7 long, 5-8 short shifts, one after the other | 9 c is there
+//     5 first value read | 6 highest exponents of pairs | 7 distances | 8 shifted | 9 products | 10 pairs | 11 D | 12 compared
 //
-// The last of VALUES values is compared in clock 10 + VALUES, 20 with eight attributes; the first pixel's slot is read for its weights more
-// than 24 clocks after take. taken_o in that clock: the slot's weights are areas. Nothing is said of quads that are not taken.
+// The last of VALUES values is compared in clock 11 + VALUES, 21 with eight attributes, and taken_o in the next: the slot's weights are areas. The
+// first pixel's slot is read for its weights more than 24 clocks after take. Nothing is said of quads that are not taken.
 module plane_tolerance #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
@@ -59,7 +59,7 @@ module plane_tolerance #(
   localparam int VALUES = 2 + N;  // k, Z, attributes
   localparam int INDEX = $clog2(VALUES);
   localparam int WORD = 4 * AP;  // of a value: four corners, {neg, exp, sig} each
-  // Areas are shifted one after the other, four clocks from the third on, and c stays until the last value's products.
+  // Areas are shifted one after the other, four clocks from the fourth on, and c stays until the last value's products.
   localparam int INTERVAL = (VALUES > 6) ? VALUES : 6;
   localparam int WAIT = $clog2(INTERVAL);
 
@@ -120,17 +120,21 @@ module plane_tolerance #(
   localparam int AREA = VAL + 2;
   localparam int MAG = AREA - 1;
   localparam int SPLIT = 3;  // shifts by 2^SPLIT and more in the first clock
+  localparam int NEXT = (1 << SPLIT) - 1;  // bits from which a shorter shift is counted
   localparam int KEPT = P + (1 << SPLIT) - 1;  // bits at the top that a shorter shift can still bring into P
   localparam int WIDE = (MAG > KEPT) ? MAG : KEPT;
   localparam int COUNT = $clog2(WIDE);
-  logic [6:0] step_q;  // clocks since a quad was accepted
+  logic [7:0] step_q;  // clocks since a quad was accepted
   logic [6*AREA-1:0] value;
   logic [4*AREA-1:0] area_d, area_q;
   logic [3:0] area_neg, area_pos;
   logic [4*MAG-1:0] magnitude_d, magnitude_q;
   logic convex_q;
-  logic [WIDE-1:0] all_magnitudes, all_shifted, long_shifted;
-  logic [COUNT-1:0] count_d, count_q;
+  logic [MAG-1:0] together_q;
+  logic [WIDE-1:0] together_shifted, long_shifted;
+  logic [COUNT-1:SPLIT] long_count_d, long_count_q;
+  logic [SPLIT-1:0] short_count_d, short_count_q;
+  logic [NEXT-1:0] next_q, next_shifted;
   logic [KEPT-1:0] long_q;
   logic [P-1:0] short_shifted;
   logic [3*P-1:0] before_q;  // c0, c3, c1
@@ -153,20 +157,26 @@ module plane_tolerance #(
     assign magnitude_d[g*MAG+:MAG] = area_neg[g] ? MAG'(-area_q[g*AREA+:AREA]) : area_q[g*AREA+:MAG];
   end
 
-  assign all_magnitudes = WIDE'(magnitude_q[0+:MAG] | magnitude_q[MAG+:MAG] | magnitude_q[2*MAG+:MAG] | magnitude_q[3*MAG+:MAG]) << (WIDE - MAG);
-
-  shift_to_top #(.WIDTH(WIDE)) u_count (
-      .value_i(all_magnitudes),
-      .count_o(count_d),
-      .value_o(all_shifted)
+  shift_to_top #(
+      .WIDTH(WIDE),
+      .LAST(SPLIT)
+  ) u_long_count (
+      .value_i(WIDE'(together_q) << (WIDE - MAG)),
+      .count_o(long_count_d),
+      .value_o(together_shifted)
+  );
+  shift_to_top #(.WIDTH(NEXT)) u_short_count (
+      .value_i(next_q),
+      .count_o(short_count_d),
+      .value_o(next_shifted)
   );
 
-  assign long_shifted = WIDE'(magnitude_q[0+:MAG]) << (WIDE - MAG) << {count_q[COUNT-1:SPLIT], SPLIT'(0)};
-  assign short_shifted = P'((long_q << count_q[SPLIT-1:0]) >> (KEPT - P));
+  assign long_shifted = WIDE'(magnitude_q[0+:MAG]) << (WIDE - MAG) << {long_count_q, SPLIT'(0)};
+  assign short_shifted = P'((long_q << short_count_q) >> (KEPT - P));
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) step_q <= '0;
-    else step_q <= {step_q[5:0], accept};
+    else step_q <= {step_q[6:0], accept};
   end
 
   always_ff @(posedge clk_i) begin
@@ -177,11 +187,16 @@ module plane_tolerance #(
     if (step_q[0]) begin
       magnitude_q <= magnitude_d;
       convex_q <= area_neg == '1 || area_pos == '1;
-    end else if (step_q[5:2] != '0) magnitude_q <= magnitude_q >> MAG;
-    if (step_q[1]) count_q <= count_d;
-    if (step_q[5:2] != '0) long_q <= KEPT'(long_shifted >> (WIDE - KEPT));
-    if (step_q[6:3] != '0) before_q <= {short_shifted, before_q[3*P-1:P]};
-    if (step_q[6]) begin
+    end else if (step_q[6:3] != '0) magnitude_q <= magnitude_q >> MAG;
+    if (step_q[1]) together_q <= magnitude_q[0+:MAG] | magnitude_q[MAG+:MAG] | magnitude_q[2*MAG+:MAG] | magnitude_q[3*MAG+:MAG];
+    if (step_q[2]) begin
+      long_count_q <= long_count_d;
+      next_q <= together_shifted[WIDE-1-:NEXT];
+    end
+    if (step_q[3]) short_count_q <= short_count_d;
+    if (step_q[6:3] != '0) long_q <= KEPT'(long_shifted >> (WIDE - KEPT));
+    if (step_q[7:4] != '0) before_q <= {short_shifted, before_q[3*P-1:P]};
+    if (step_q[7]) begin
       c_q <= {before_q[P+:P], short_shifted, before_q[0+:P], before_q[2*P+:P]};
       sum_q <= (P + 1)'(before_q[0+:P]) + (P + 1)'(before_q[P+:P]);
     end
@@ -208,9 +223,9 @@ module plane_tolerance #(
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) reading_q <= 1'b0;
-    else reading_q <= (step_q[2] && convex_q) || (reading_q && !last_read);
-    if (step_q[2]) read_slot_q <= slot_q;
-    index_q <= (step_q[2] || !reading_q) ? '0 : index_q + INDEX'(1);
+    else reading_q <= (step_q[3] && convex_q) || (reading_q && !last_read);
+    if (step_q[3]) read_slot_q <= slot_q;
+    index_q <= (step_q[3] || !reading_q) ? '0 : index_q + INDEX'(1);
     if (reading_q) word_q <= read_word;
     word_tag_q <= read_tag;
     pair_tag_q <= word_tag_q;
@@ -335,13 +350,13 @@ module plane_tolerance #(
   assign above = d_limit_q - d_q;
   assign below = d_limit_q + d_q;
   assign far_off = d_judged_q && (above[LIMIT-1] || below[LIMIT-1]);
-  assign taken_o = d_tag_q[TAG-1] && d_tag_q[SLOT] && !far_off && !failed_q;
-  assign taken_slot_o = d_tag_q[SLOT-1:0];
 
   always_ff @(posedge clk_i) begin
+    taken_o <= d_tag_q[TAG-1] && d_tag_q[SLOT] && !far_off && !failed_q;
+    taken_slot_o <= d_tag_q[SLOT-1:0];
     if (d_tag_q[TAG-1]) failed_q <= (failed_q && !d_tag_q[TAG-2]) || far_off;
   end
 
   logic unused;
-  assign unused = ^all_shifted;
+  assign unused = ^{together_shifted[WIDE-NEXT-1:0], next_shifted};
 endmodule

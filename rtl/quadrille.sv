@@ -76,7 +76,7 @@ module quadrille (
   logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_hidden, count_walk;
   logic count_masked, count_row, count_rows, count_rows_behind, count_head_waits;
   logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::LATENCY-1:0] lane_valid;
-  logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] count_norm;
+  logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] count_norm, count_area;
   logic [SETS-1:0] count_sum;
 
   // ---- Vertices -----------------------------------------------------------------------------------------------------------
@@ -349,6 +349,24 @@ module quadrille (
         .taken_slot_o(nearly_plane_slot),
         .count_value_o(count_tolerance)
     );
+
+`ifndef SYNTHESIS
+    // It is said of a slot before the first of its pixels asks.
+    logic [(1<<SLOT)-1:0] asked_q, asks;
+
+    always_comb begin
+      asks = '0;
+      for (int g = 0; g < quadrille_pkg::PIXELS_PER_CLOCK; g++) begin
+        if (lane_valid[g*quadrille_pkg::LATENCY+quadrille_pkg::DIFF_STAGE]) asks[norm_slot] = 1'b1;
+      end
+    end
+
+    always_ff @(posedge clk_i) begin
+      asked_q <= asked_q | asks;
+      if (start) asked_q[alloc_slot] <= 1'b0;
+      if (rst_ni) assert (!nearly_plane || !(asked_q[nearly_plane_slot] || asks[nearly_plane_slot]));
+    end
+`endif
   end else begin : gen_no_tolerance
     assign tolerance_ready = 1'b1;
     assign nearly_plane = 1'b0;
@@ -877,6 +895,7 @@ module quadrille (
       .discard_o(discard),
       .lane_valid_o(lane_valid),
       .count_norm_o(count_norm),
+      .count_area_o(count_area),
       .count_sum_o(count_sum),
       .fragment_valid_o(drawn),
       .fragment_o(fragment)
@@ -924,6 +943,7 @@ module quadrille (
         .lane_valid_i(lane_valid),
         .drawn_i(drawn),
         .norm_active_i(count_norm),
+        .area_i(count_area),
         .norm_plane_i(norm_plane),
         .sum_active_i(count_sum),
         .context_job_i(context_job),
@@ -961,6 +981,7 @@ module quadrille (
       count_rows_behind,
       count_head_waits,
       count_norm,
+      count_area,
       count_sum,
       lane_valid
     };

@@ -4,7 +4,7 @@
 // regular      M_0 : M_1 : M_2 : M_3 = abc : a : c : b, each times the three denominators
 // two corners  |k| of the other one, the rest 0
 // on a vertex  1, the rest 0
-// plane_quad   the area opposite the corner, which comes in the place of r (area_i)
+// plane_quad   z is the weight, the area opposite the corner, which comes in the place of r (area_i); x and y are held
 // two edges    r of an edge's other end, and the other edge's denominator N; see gen_corner for the corner that is on both
 //
 // Numbers are {exp, sig}, magnitudes all.
@@ -81,14 +81,16 @@ module weight_factors #(
       if (on_vertex) x_d = is_first ? ONE : '0;
       if (two_edge) x_d = (own_edge && !edge_before) ? root_i[Q*F+:F] : root_i[P*F+:F];
       if (two_edge) y_d = n_of_first ? edge_n_i[0+:F] : edge_n_i[F+:F];
-      if (area_i) x_d = root_i[g*F+:F];
-      if (two_corner || on_vertex || area_i) y_d = ONE;
-      if (two_corner || on_vertex || two_edge || area_i) z_d = ONE;
+      if (two_corner || on_vertex) y_d = ONE;
+      if (two_corner || on_vertex || two_edge) z_d = ONE;
+      if (area_i) z_d = root_i[g*F+:F];
     end
 
     always_ff @(posedge clk_i) begin
-      x_o[g*F+:F] <= x_d;
-      y_o[g*F+:F] <= y_d;
+      if (!area_i) begin
+        x_o[g*F+:F] <= x_d;
+        y_o[g*F+:F] <= y_d;
+      end
       z_o[g*F+:F] <= z_d;
     end
   end

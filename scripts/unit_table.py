@@ -8,7 +8,8 @@ other configurations. Latencies and widths are evaluated from rtl/quadrille_pkg.
                                                instantiates, and that latencies are those of model/latency.hpp and add up; no tools needed
   scripts/unit_table.py --update               writes the table
   scripts/unit_table.py --measure size         sizes of the default configuration anew (Yosys, minutes)
-  scripts/unit_table.py --measure UNIT ...     clocks anew: place and route with seeds 1 to 3 (nextpnr-ecp5 on PATH); --seed N for others
+  scripts/unit_table.py --measure UNIT ...     clocks anew: place and route with seeds 1 to 3 (nextpnr-ecp5 on PATH); --seed N for others;
+                                               of a unit that the default configuration has not (`keys` in the list) its size too
 
 Exit status: 1 a check or a tool failed, 2 usage or input, 3 a missing tool."""
 import argparse
@@ -158,6 +159,8 @@ def faults_of(units, package):
         clock = measured["clock"].get(unit["name"])
         if clock and clock["parameters"] != {name: str(value) for name, value in unit.get("parameters", {}).items()}:
             faults.append(f"{MEASURED}: {unit['name']}: measured with other parameters than in rtl/units.toml")
+        if clock and clock.get("keys", {}) != unit.get("keys", {}):
+            faults.append(f"{MEASURED}: {unit['name']}: measured with other keys than in rtl/units.toml")
     return faults
 
 
@@ -170,7 +173,8 @@ def table(units, package):
     for unit in units:
         inputs, outputs = package.ports(unit["name"], unit.get("parameters", {}))
         text = {key: re.sub(r"\{(\w+)\}", lambda match: str(package.constants[match.group(1)]), unit[key]) for key in ("what", "format")}
-        size, clock = measured["size"].get(unit["name"]), measured["clock"].get(unit["name"])
+        clock = measured["clock"].get(unit["name"])
+        size = measured["size"].get(unit["name"]) or (clock or {}).get("size")
         lines.append(row(f"`{unit['name']}`", text["what"], f"{inputs:,} → {outputs:,}: {text['format']}", latency(unit["latency"], package),
                          f"{size['instances']}" if size else "1", *(f"{size[key]:,}" if size else "" for key in SIZES), mhz(clock)))
     for name, title in (("the rest", "the rest"), ("all", "the whole")):
@@ -222,9 +226,13 @@ def measure(args, units):
             if unit is None:
                 raise InputError(f"{what}: not in rtl/units.toml; there are {' '.join(unit['name'] for unit in units)}")
             parameters = {name: str(value) for name, value in unit.get("parameters", {}).items()}
-            report = run(["timing.py", what, *(part for name, value in parameters.items() for part in ("-P", f"{name}={value}")), "--target", "ecp5",
+            keys = unit.get("keys", {})
+            report = run(["timing.py", what, *(f"{key}={value}" for key, value in keys.items()), *(part for name, value in parameters.items() for part in ("-P", f"{name}={value}")), "--target", "ecp5",
                           *(part for seed in args.seed or [1, 2, 3] for part in ("--seed", str(seed))), "--quadrille", args.quadrille])
             measured["clock"][what] = {"parameters": parameters, "mhz": report["ecp5"]["mhz_by_seed"]}
+            if keys:
+                size = {"instances": 1} | {key: report["ecp5"][name] for key, name in SIZES.items()}
+                measured["clock"][what] |= {"keys": keys, "size": size}
         write_files(RTL, {"units_measured.json": (json.dumps(measured, indent=1) + "\n").encode()})
     return 0
 

@@ -44,7 +44,7 @@ module replay_weights (
   logic [3:0] k_neg, override_k_neg;
   logic [4*PE-1:0] k_exp, override_k_exp;
   logic [4*S-1:0] k_sig, override_k_sig;
-  logic unused;
+  logic unused, count_area;
 
   delay_line #(.WIDTH(CLASS), .DEPTH(TO_RATIO - quadrille_pkg::NORMALISE_STAGES)) u_class_ratio (
       .clk_i, .data_i(early_class), .data_o(ratio_class));
@@ -56,7 +56,7 @@ module replay_weights (
   delay_line #(.WIDTH(K), .DEPTH(TO_OVERRIDE)) u_override_k (
       .clk_i, .data_i({k_neg, k_exp, k_sig}), .data_o({override_k_neg, override_k_exp, override_k_sig}));
 
-  assign unused = ^override_k_neg;  // overrides take the magnitude
+  assign unused = ^{override_k_neg, count_area};  // overrides take the magnitude
 
   mean_value_weights u_weights (
       .clk_i,
@@ -75,6 +75,7 @@ module replay_weights (
       .k_sig_i(k_sig),
       .override_k_exp_i(override_k_exp),
       .override_k_sig_i(override_k_sig),
+      .count_area_o(count_area),
       .m_exp_o(exp_o),
       .m_sig_o(sig_o)
   );
