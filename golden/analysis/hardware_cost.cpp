@@ -1,9 +1,11 @@
 #include "golden/analysis/hardware_cost.hpp"
 
 #include "model/latency.hpp"
+#include "model/plane_tolerance.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace quadrille {
 
@@ -55,12 +57,16 @@ HardwareCost adder(int width) { return {.adder_bits = u(width)}; }
 HardwareCost mux(int width, int choices) { return {.adder_bits = u(width) * u(choices - 1)}; }
 /// By a number of two bits: two LUTs of four inputs a bit.
 HardwareCost one_of_four(int width) { return mux(width, 3); }
-/// Block RAMs of 18 Kbit for words of `width` bits: the fewer words, the wider, up to 36 bits.
+/// Block RAMs of 18 Kbit for words of `width` bits: of 512 words of 36 bits to 16 K of one, side by side and one behind
+/// the other, those of which the fewest are needed.
 int blocks_of(int width, int words) {
   constexpr int widths[] = {36, 18, 9, 4, 2, 1};
-  int deeper = 0;
-  while (words > (512 << deeper)) ++deeper;
-  return (width + widths[deeper] - 1) / widths[deeper];
+  int fewest = std::numeric_limits<int>::max(), depth = 512;
+  for (const int wide : widths) {
+    fewest = std::min(fewest, (words + depth - 1) / depth * ((width + wide - 1) / wide));
+    depth *= 2;
+  }
+  return fewest;
 }
 /// Words of `width` bits. Up to 32 of them are in small RAMs of 16 words, six LUTs for four bits, with a copy for each
 /// read port, or in registers where those are fewer than the LUTs that hold bits; more words (which have one port) are
@@ -542,12 +548,104 @@ HardwareCost fragment_fifo(const Widths& w) {
   return cost;
 }
 
+// ---- What is there by a key
+// --------------------------------------------------------------------------------------------
+
+/// Codes of depth and where they are kept: hierarchical_z_bits, hierarchical_z_tiles_log2.
+struct HiddenWidths {
+  explicit HiddenWidths(const Config& c)
+      : H(c.hierarchical_z_bits),
+        PLACE(c.hierarchical_z_tiles_log2),
+        EPOCH(PLACE - section_log2),
+        TAG(std::max(c.tc_bits() - 1 - (PLACE - PLACE / 2), 1) + std::max(c.tc_bits() - 1 - PLACE / 2, 1)) {}
+
+  static constexpr int section_log2 = 4;  ///< places that a clear wipes
+  int H, PLACE, EPOCH, TAG;
+};
+
+HardwareCost depth_interval(const Widths& w, const HiddenWidths& h) {
+  // Least and greatest rank, with the margin; of each the shift to a code, its end of the range, the limits.
+  const int rank = w.PE + w.S;
+  return state(5 + 5 * rank + 1 + 2 * h.H + 1) + 4 * adder(rank) + mux(rank, 2) + 2 * (shifter(h.H) + zero_test(w.PE)) +
+         2 * (zero_test(h.H) + mux(h.H, 2) + adder(h.H + 1)) + adder(h.H) + zero_test(w.DB + 1) + control(200);
+}
+
+HardwareCost hierarchical_z(const Widths& w, const HiddenWidths& h) {
+  const int interval = 2 * h.H + 1, word = h.TAG + h.EPOCH + h.H;
+  HardwareCost cost = memory(interval, 1 << w.SLOT, 1) + memory(word, 1 << h.PLACE, 1);
+  cost += state(word + 1 + w.SLOT + interval + 2 * w.TC + h.PLACE + h.TAG + 1 + 2 + h.PLACE + h.EPOCH);
+  // The tile; whether it is inside the scissor; the test; what is written.
+  cost += 2 * adder(w.TC) + 4 * adder(w.V + 1) + zero_test(2 * (h.TAG + h.EPOCH)) + 2 * adder(h.H);
+  return cost + mux(h.PLACE, 2) + mux(h.H, 2) + adder(h.PLACE + 2 * h.EPOCH) + mux(h.PLACE, 2) + control(210);
+}
+
+HardwareCost masked_depth(const Widths& w, const HiddenWidths& h) {
+  constexpr int low = 3;
+  const int interval = 2 * h.H + 1, tagged = h.PLACE + h.TAG + 2 * h.H + w.TL + 3;
+  HardwareCost cost = memory(interval, 1 << w.SLOT, 1) + state(1 + w.SLOT) +
+                      block_memory(h.TAG + h.EPOCH + 2 * h.H, 1 << h.PLACE) +
+                      w.TILE * block_memory(w.TILE, 1 << h.PLACE);
+  // The context register; the rows register; the way of a row; tiles that may still write.
+  cost += state(h.PLACE + h.TAG + w.TL + 2 * h.H);
+  cost += state(h.PLACE + h.TAG + w.TL + 5 + 2 * (h.H + 3) + 3 * h.H + w.TILE * w.TILE);
+  cost += state(3 * tagged + 10 + 3 * w.TILE + 4) + state(5 * 2 * low + 5);
+  // What is known of the tile and what the quad makes of it; its row of the mask, and the rows behind the last one.
+  cost += zero_test(2 * (h.TAG + h.EPOCH)) + 4 * adder(h.H) + 3 * adder(h.H + 3) + mux(h.H, 2);
+  cost += mux(w.TILE, w.TILE) + w.TILE * (zero_test(w.TILE) + adder(1));
+  cost += 3 * adder(w.TILE) + 3 * zero_test(w.TILE) + w.TILE * adder(2) + mux(2 * h.H, 2) + mux(h.PLACE, 2);
+  return cost + 5 * zero_test(4 * low) + control(200);
+}
+
+HardwareCost plane_quad(const Widths& w) {
+  // Two words are the same: five quarters of a LUT a bit, as synthesised.
+  const auto same = [](int width) { return adder(width + width / 4); };
+  const int values = 2 + w.N;
+  return 4 * adder(w.T + 1) + 2 * same(w.T + 1) + values * 4 * same(w.WORD) + state(values + 2);
+}
+
+HardwareCost plane_tolerance(const Widths& w, int p) {
+  constexpr int split = 3;
+  const int values = 2 + w.N, area = w.VAL + 2, magnitude = area - 1, kept = p + (1 << split) - 1;
+  const int wide = std::max(magnitude, kept), count = stages_of(wide), near = stages_of(p), limit = 2 * p + 3;
+  HardwareCost cost = values * memory(4 * w.WORD, 1 << w.SLOT, 1) + mux(4 * w.WORD, values) + state((1 << w.SLOT) + 12);
+  // Areas, their magnitudes one after the other to one scale.
+  // A sum of three takes a row of full adders before the carry chain, one of either sign two chains.
+  cost +=
+      12 * adder(area) + 4 * (adder(area) + mux(area, 2) + zero_test(area)) + 3 * mux(magnitude, 2) + adder(magnitude);
+  cost += shift_to_top(wide, (1 << split) - 1, count - 1, split) + (count - split) * mux(kept, 2) + split * mux(p, 2);
+  cost += state(4 * area + 5 * magnitude + count + (1 << split) - 1 + kept + 7 * p + 1 + w.SLOT + 1);
+  // A value: exponents, distances, shifts; products; D and what it may be.
+  const int rank = w.PE + 1, tag = 5 + w.SLOT;
+  cost += state(7 * tag + 4 * w.WORD + 2 * 4 * (1 + w.S) + 8 * rank + 4 * rank + 1 + 3 * 5 + 1);
+  cost += 4 * adder(rank) + 6 * mux(rank, 2) + zero_test(3 * w.WORD) + adder(rank) + 4 * (adder(rank) + shifter(p));
+  cost +=
+      4 * (zero_test(rank - near) + multiplier(p, p) + state(3 * p + 2)) + 5 * mux(limit - p, 2) + state(3 * limit + 4);
+  cost += 2 * (2 * adder(2 * p + 2) + mux(2 * p + 2, 2) + state(2 * p + 2)) + 2 * adder(limit) + mux(limit, 2);
+  return cost + 2 * adder(limit) + state(limit + 2 + w.SLOT) + control(40);
+}
+
+/// Of a lane: areas in the place of r; around the products of the weights.
+HardwareCost area_weights(const Widths& w, const Config& c) {
+  using namespace latency;
+  if (c.plane_tolerance_bits == 0) return {};
+  return 2 * (mux(w.NUMBER, 3) + mux(w.NUMBER, 2)) + 4 * (2 * state(w.NUMBER) + mux(w.NUMBER, 2)) +
+         state(2 * (ratio_stage - norm_stage) + (n_stage - ratio_stage) + 3);
+}
+
+HardwareCost performance_counters(const Widths& w) {
+  // Of lanes that are not there nothing is counted.
+  const int counters = 37 + w.P;
+  constexpr int bits = 32;
+  return counters * (state(bits) + adder(bits)) + mux(bits, counters) + state(12 * (3 + w.N) + 4 * w.P) +
+         w.P * adder(9) + control(900);
+}
+
 }  // namespace
 
 std::vector<ModuleCost> module_costs(const Config& config) {
   constexpr int product_clocks = 6;  // from a job of vertex_products to its results
   const Widths w(config);
-  return {
+  std::vector<ModuleCost> modules{
       {"vertex_assembly", vertex_assembly(w)},
       {"quad_setup", quad_setup(w, product_clocks)},
       {"vertex_products", vertex_products(w)},
@@ -567,12 +665,24 @@ std::vector<ModuleCost> module_costs(const Config& config) {
       {"singular_class", w.P * singular_class(w)},
       {"sqrt", w.P * (4 * fp_sqrt(w, config))},
       {"mean_value_ratios", w.P * mean_value_ratios(w)},
-      {"mean_value_weights", w.P * mean_value_weights(w, config)},
+      {"mean_value_weights", w.P * (mean_value_weights(w, config) + area_weights(w, config))},
       {"interpolate", w.P * interpolate(w)},
       {"reciprocal", w.P * (2 * reciprocal(w, config))},
       {"fragment_output", w.P * fragment_output(w, config)},
       {"fragment_fifo", fragment_fifo(w)},
   };
+  if (config.hierarchical_z_bits != 0) {
+    const HiddenWidths h(config);
+    modules.push_back({"depth_interval", depth_interval(w, h)});
+    modules.push_back({"hierarchical_z", hierarchical_z(w, h)});
+    modules.push_back({"masked_depth", masked_depth(w, h)});
+  }
+  if (config.plane_tolerance_bits != 0) {
+    modules.push_back({"plane_quad", plane_quad(w)});
+    if (has_plane_tolerance(config)) modules.push_back({"plane_tolerance", plane_tolerance(w, plane_sig_bits(config))});
+  }
+  if (config.performance_counters != 0) modules.push_back({"performance_counters", performance_counters(w)});
+  return modules;
 }
 
 HardwareCost hardware_cost(const Config& config) {

@@ -4,6 +4,7 @@
 #include "model/tables.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -119,6 +120,37 @@ TEST(HardwareCost, CountsTheBlocks) {
     EXPECT_EQ(row.target == "ecp5" ? cost.dsps : 0, row.dsps) << row.keys;
     EXPECT_EQ(cost.block_rams, row.block_rams) << row.keys;
   }
+}
+
+/// What only some configurations have, each alone (scripts/timing.py): not fitted.
+TEST(HardwareCost, EstimatesTheUnitsOfAKey) {
+  std::ifstream file(QUADRILLE_SOURCE_DIR "/rtl/units_measured.json");
+  const nlohmann::json units = nlohmann::json::parse(file).at("clock");
+  int measured = 0;
+  for (const auto& [name, unit] : units.items()) {
+    if (!unit.contains("keys")) continue;
+    Config config;
+    const auto cost_of = [&](std::string_view module) {
+      HardwareCost sum;
+      for (const ModuleCost& m : module_costs(config))
+        if (m.module == module) sum += m.cost;
+      return sum;
+    };
+    EXPECT_EQ(cost_of(name), HardwareCost{}) << name << " costs something where it is not";
+    for (const auto& [key, value] : unit.at("keys").items()) config.set(key, value.get<int>());
+    config.validate();
+    const HardwareCost cost = cost_of(name);
+    const nlohmann::json& size = unit.at("size");
+    const double luts = size.at("lut"), flip_flops = size.at("ff");
+    CostWeights weights;
+    weights.state = 0;
+    EXPECT_NEAR(lut_cost(cost, weights), luts, 0.1 * luts) << name;
+    EXPECT_NEAR(static_cast<double>(cost.state_bits - cost.memory_bits), flip_flops, 0.15 * flip_flops) << name;
+    EXPECT_EQ(cost.dsps, size.at("dsp").get<std::uint64_t>()) << name;
+    EXPECT_EQ(cost.block_rams, size.at("bram").get<std::uint64_t>()) << name;
+    ++measured;
+  }
+  EXPECT_GE(measured, 6);
 }
 
 TEST(HardwareCost, RanksAsSynthesisDoes) {
