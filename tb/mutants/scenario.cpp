@@ -317,6 +317,19 @@ Scenario layers() {
           })};
 }
 
+/// All tiles, far away: hidden by whatever memory happens to hold, which is another with every seed.
+Scenario unwiped(const std::string& name, std::uint64_t seed) {
+  LockstepOptions o = options(hiding(), 64);
+  o.state.attributes = 1;
+  o.state.skip |= skip_hidden;
+  o.seed = seed;
+  return {name, o, drawn(o, 10, 2, [](golden::Prng&) {
+            WindowQuad quad;
+            quad.vertex = {{{0, 0, 0.9, 1}, {0, 64, 0.9, 1}, {64, 64, 0.9, 1}, {64, 0, 0.9, 1}}};
+            return quad;
+          })};
+}
+
 /// Quads whose values are nearly plane, by less and by more than the tolerance, in one value or another; most are
 /// small, one soon after the other. Of some a corner lies near the diagonal beside it, to either side; some have
 /// corners on pixels, some cross themselves, with the values of a rectangle.
@@ -361,9 +374,23 @@ Scenario nearly_plane() {
 
 std::span<const Scenario> scenarios() {
   static const std::vector<Scenario> list = [] {
-    std::vector<Scenario> all{mixture(),      flat(),           grid(),      signed_grid(),  flat_signed_grid(),
-                              depth_limits(), wide(),           depth_off(), dropped_bits(), dropped_bits_signed(),
-                              lanes(),        beside_scissor(), layers(),    nearly_plane()};
+    std::vector<Scenario> all{mixture(),
+                              flat(),
+                              grid(),
+                              signed_grid(),
+                              flat_signed_grid(),
+                              depth_limits(),
+                              wide(),
+                              depth_off(),
+                              dropped_bits(),
+                              dropped_bits_signed(),
+                              lanes(),
+                              beside_scissor(),
+                              layers(),
+                              nearly_plane(),
+                              unwiped("unwiped", 1),
+                              unwiped("unwiped, another seed", 2),
+                              unwiped("unwiped, a third seed", 3)};
     const auto add = [&](const Config& config, const std::string& before, golden::CornerDraw draw) {
       for (std::size_t i = 0; i < draw.quads.size(); ++i) draw.quads[i].id = static_cast<std::uint32_t>(i);
       LockstepOptions o = options(config, draw.state.width);
