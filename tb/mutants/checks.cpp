@@ -93,8 +93,9 @@ Found truth_of_rtl(const Scenario* s) {
 
 Found functions(const Scenario*) {
   std::vector<Config> configs{Config{}};
-  for (const Scenario& s : scenarios())
-    if (std::ranges::find(configs, s.options.config) == configs.end()) configs.push_back(s.options.config);
+  for (const std::span<const Scenario> list : {scenarios(), further_scenarios()})
+    for (const Scenario& s : list)
+      if (std::ranges::find(configs, s.options.config) == configs.end()) configs.push_back(s.options.config);
   for (const Config& config : configs)
     if (const cli::FunctionReport report = cli::check_functions(config); !report.ok())
       return summary(config) + ": " + report.first();

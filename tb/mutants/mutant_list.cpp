@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace quadrille {
@@ -70,6 +71,17 @@ std::vector<Mutant> read_mutants() {
   std::vector<Mutant> list;
   for (const toml::node& node : *file["mutant"].as_array()) list.push_back(read(*node.as_table()));
   return list;
+}
+
+Mutant generated_mutant(const nlohmann::ordered_json& entry) {
+  Mutant m;
+  m.name = entry.at("name");
+  m.fault_class = entry.at("class");
+  m.number = number_of(m.name);
+  m.side = side_of(entry.at("side"), m.name);
+  for (const auto& edit : entry.at("edit"))
+    (edit.at("file").get<std::string>().starts_with("rtl/") ? m.in_rtl : m.in_model) = true;
+  return m;
 }
 
 Selected::Selected(const Mutant& mutant, bool rtl, bool model) {

@@ -1,6 +1,7 @@
 // The faults of mutants.toml and the switch that selects one of them.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -25,6 +26,8 @@ struct Mutant {
 
 /// All entries in the order of the file. Throws std::runtime_error for an entry that is not as README.md says.
 std::vector<Mutant> read_mutants();
+/// An entry of the list that generate_mutants.py writes.
+Mutant generated_mutant(const nlohmann::ordered_json& entry);
 
 /// A fault that is on while this lives, in the RTL made meanwhile, in the model, or in both. One at a time, and no
 /// other thread may use the machine.

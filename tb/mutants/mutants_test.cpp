@@ -4,9 +4,11 @@
 #include "tb/mutants/checks.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -46,6 +48,11 @@ std::string text_of(const std::string& file) {
 }
 
 std::string test_name(const testing::TestParamInfo<Mutant>& info) { return info.param.name; }
+
+std::vector<nlohmann::ordered_json> generated() {
+  std::ifstream in(QUADRILLE_GENERATED_MUTANTS);
+  return nlohmann::ordered_json::parse(in).get<std::vector<nlohmann::ordered_json>>();
+}
 
 class MutantTest : public testing::TestWithParam<Mutant> {};
 INSTANTIATE_TEST_SUITE_P(Mutants, MutantTest, testing::ValuesIn(chosen()), test_name);
@@ -95,6 +102,33 @@ TEST(MutantList, ASampleIsDrawnBySeed) {
   std::set<std::string> drawn;
   for (std::uint64_t seed = 1; seed <= 4000; ++seed) drawn.insert(names(1, seed).at(0));
   EXPECT_EQ(drawn.size(), read_mutants().size()) << "a mutant that no sample ever holds";
+}
+
+/// A unit or a stage that the generator proposes nothing for is one whose checks it says nothing of.
+TEST(GeneratedList, IsOfEveryFileAndClass) {
+  std::set<std::string> files, names, classes[3];
+  for (const nlohmann::ordered_json& entry : generated()) {
+    const Mutant mutant = generated_mutant(entry);
+    EXPECT_TRUE(names.insert(mutant.name).second) << mutant;
+    classes[static_cast<std::size_t>(mutant.side)].insert(mutant.fault_class);
+    for (const auto& edit : entry.at("edit")) {
+      const std::string file = edit.at("file"), replace = edit.at("replace");
+      files.insert(file);
+      const std::string source = text_of(QUADRILLE_SOURCE_DIR "/" + file);
+      const std::size_t start = edit.at("start"), end = edit.at("end");
+      EXPECT_NE(source.substr(start, end - start), replace) << mutant;
+    }
+  }
+  EXPECT_GE(names.size(), 200u);
+  EXPECT_EQ(classes[0].size(), 9u);  // RTL
+  EXPECT_GE(classes[1].size(), 6u);
+  EXPECT_GE(classes[2].size(), 6u);
+  // Constants of elaboration, and a shift register without an operator.
+  const std::set<std::string> constants{"quadrille_pkg.sv", "config_check.sv", "delay_line.sv"};
+  for (const auto& file : std::filesystem::directory_iterator(QUADRILLE_SOURCE_DIR "/rtl")) {
+    const std::string name = file.path().filename();
+    EXPECT_TRUE(!name.ends_with(".sv") || constants.contains(name) || files.contains("rtl/" + name)) << name;
+  }
 }
 
 TEST(MutantList, SomeAreRun) { EXPECT_GT(chosen().size(), 0u); }

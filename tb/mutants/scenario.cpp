@@ -70,6 +70,16 @@ Config tolerating() {
   return config;
 }
 
+/// Areas for weights where values are nearly plane, a pixel a clock.
+Config plane_weights() {
+  Config config;
+  config.set("significand_bits", 12);
+  config.set("attribute_slots", 3);
+  config.set("plane_tolerance_bits", 8);
+  config.set("performance_counters", 1);
+  return config;
+}
+
 LockstepOptions options(const Config& config, int edge) {
   LockstepOptions o;
   o.config = config;
@@ -370,6 +380,274 @@ Scenario nearly_plane() {
           })};
 }
 
+/// Rectangles at any angle whose values are plane, nearly so on both sides of the tolerance, or far from it; among them
+/// quads that are not.
+Scenario plane_among_others(const std::string& name, bool perspective) {
+  LockstepOptions o = options(plane_weights(), 64);
+  o.state.perspective = perspective;
+  o.state.skip |= skip_plane;
+  o.state.attributes = o.config.attribute_slots;
+  const int t = o.config.plane_tolerance_bits;
+  const std::vector<SnappedQuad> others = random_quads(o.config, o.state, 37, 50);
+  golden::Prng random(perspective ? 38 : 39);
+  Scenario scenario{name, o, {}};
+  for (std::uint32_t id = 0; id < 200; ++id) {
+    golden::NearlyPlane kind;
+    kind.half_low = 0.5;
+    kind.half_high = random.chance(0.7) ? 3 : 20;
+    kind.attributes = o.state.attributes;
+    if (random.chance(0.7)) kind.bend = std::ldexp(random.uniform(-1, 1), -t + static_cast<int>(random.integer(-3, 3)));
+    if (perspective && random.chance(0.5)) kind.tilt = 0.1;
+    scenario.quads.push_back(snap_quad(golden::nearly_plane_quad(random, id, kind), o.config, o.state));
+    if (id % 5 == 4) scenario.quads.push_back(others[id / 5]);
+  }
+  for (std::size_t i = 0; i < scenario.quads.size(); ++i) scenario.quads[i].id = static_cast<std::uint32_t>(i);
+  return scenario;
+}
+
+/// Halves of the viewport that meet along a slanted edge, in either order of corners, each pair before the last one or
+/// a code behind it; behind them quads about that edge, whose tiles the two halves hide together or not.
+Scenario joined_layers() {
+  LockstepOptions o = options(hiding(), 72);
+  o.state.attributes = 1;
+  o.state.skip |= skip_hidden;
+  o.stall = 0.2;
+  int n = 0;
+  double z = 0.9, split = 0, lean = 0, stretch = 0;
+  bool upright = false;
+  return {"joined layers", o, drawn(o, 9, 160, [=](golden::Prng& random) mutable {
+            const int place = n++ % 10;
+            if (place == 0) {
+              z -= random.chance(0.7) ? 0.03 : -std::ldexp(1, -11);
+              split = random.uniform(12, 60);
+              lean = random.uniform(-12, 12);
+              stretch = random.uniform(0, 30);
+              upright = random.chance(0.5);
+            }
+            WindowQuad quad;
+            const double step = std::ldexp(1, -12);
+            if (place < 2) {
+              const double outer = place == 0 ? -stretch : 72 + stretch;
+              const double across[4] = {outer, split + lean, split - lean, outer}, along[4] = {-5, -5, 77, 77};
+              for (std::size_t i = 0; i < 4; ++i) quad.vertex[i] = {across[i], along[i], z, 1};
+            } else {
+              const double middle = split + random.uniform(-16, 16), at = random.uniform(0, 72),
+                           a = random.uniform(1, 14), b = random.uniform(1, 14);
+              const double across[4] = {middle - a, middle + b, middle + a, middle - b},
+                           along[4] = {at - b, at - a, at + b, at + a};
+              const double depth =
+                  z + (random.chance(0.3) ? step * std::floor(random.uniform(-2, 4)) : random.uniform(-0.06, 0.06));
+              for (std::size_t i = 0; i < 4; ++i) quad.vertex[i] = {across[i], along[i], depth, 1};
+            }
+            if (upright)
+              for (WindowVertex& v : quad.vertex) std::swap(v.x, v.y);
+            if (random.chance(0.5)) std::swap(quad.vertex[1], quad.vertex[3]);
+            return quad;
+          })};
+}
+
+/// Kites with a sharp corner, each nearer than all before it; behind each a quad over the whole viewport, nearer than
+/// all before both: where tiles are about a sharp corner's edges and diagonal, it shows what the kite has covered of
+/// them.
+Scenario acute_layers() {
+  LockstepOptions o = options(hiding(), 64);
+  o.state.attributes = 1;
+  o.state.skip |= skip_hidden;
+  int n = 0;
+  double z = 0.95;
+  return {
+      "acute layers", o, drawn(o, 12, 120, [=](golden::Prng& random) mutable {
+        WindowQuad quad;
+        const bool behind = n++ % 2 != 0;
+        if (!behind) z -= 0.015;
+        const double x = random.uniform(-8, 72), y = random.uniform(-8, 72), turn = random.uniform(0, 6.3),
+                     half = random.uniform(0.05, 0.5), size = random.uniform(20, 70);
+        const double at[4][2] = {{0, 0}, {size, half * size}, {1.3 * size, 0.2 * half * size}, {size, -half * size}};
+        const std::size_t first = random.below(4);
+        for (std::size_t i = 0; i < 4; ++i) {
+          const auto& [u, v] = at[(first + i) % 4];
+          quad.vertex[i] = {x + std::cos(turn) * u - std::sin(turn) * v, y + std::sin(turn) * u + std::cos(turn) * v, z,
+                            1};
+          if (behind) quad.vertex[i] = {i == 1 || i == 2 ? 70.0 : -6.0, i >= 2 ? 70.0 : -6.0, z + 0.005, 1};
+        }
+        if (random.chance(0.5)) std::swap(quad.vertex[1], quad.vertex[3]);
+        return quad;
+      })};
+}
+
+/// A scissor rectangle far from the origin and quads about its borders: coordinates with many bits.
+Scenario far_scissor() {
+  LockstepOptions o = options(exact(), 1400);
+  o.state.scissor_x0 = 1290;
+  o.state.scissor_x1 = 1347;
+  o.state.scissor_y0 = 771;
+  o.state.scissor_y1 = 830;
+  o.state.attributes = 1;
+  return {"far scissor", o, drawn(o, 13, 80, [](golden::Prng& random) {
+            const double x = random.uniform(1280, 1357), y = random.uniform(761, 840), size = random.uniform(2, 20);
+            WindowQuad quad;
+            for (WindowVertex& v : quad.vertex)
+              v = {x + random.uniform(-size, size), y + random.uniform(-size, size), random.uniform(0.1, 0.9), 1};
+            return quad;
+          })};
+}
+
+/// Layers at depths about 1, the last codes there are.
+Scenario far_end() {
+  LockstepOptions o = options(hiding(), 48);
+  o.state.attributes = 1;
+  o.state.skip |= skip_hidden;
+  return {
+      "far end", o, drawn(o, 16, 120, [](golden::Prng& random) {
+        const double left = random.uniform(-20, 30), top = random.uniform(-20, 30), size = random.uniform(10, 70);
+        const double z = 1 - std::ldexp(std::floor(random.uniform(-1, 12)), -13);
+        WindowQuad quad;
+        quad.vertex = {
+            {{left, top, z, 1}, {left, top + size, z, 1}, {left + size, top + size, z, 1}, {left + size, top, z, 1}}};
+        return quad;
+      })};
+}
+
+/// Exponents at the limits of the port, which snapping never gives.
+Scenario far_exponents() {
+  LockstepOptions o = options(exact(), 32);
+  Scenario scenario{"far exponents", o, random_quads(o.config, o.state, 42, 120)};
+  golden::Prng random(43);
+  constexpr int limit = 1 << (Config::port_exp_bits - 1);
+  const auto at_limit = [&](PortNumber& number) {
+    if (number.sig != 0 && random.chance(0.5)) number.exp = random.chance(0.5) ? limit - 1 : -limit;
+  };
+  for (SnappedQuad& quad : scenario.quads)
+    for (SnappedVertex& v : quad.vertex) {
+      at_limit(v.k);
+      at_limit(v.z);
+      for (PortNumber& number : v.attribute) at_limit(number);
+    }
+  return scenario;
+}
+
+/// Upright rectangles whose values are constant along one pair of sides or the other, some of them but for a bit of one
+/// value or a step of one corner; a slot that is not in use differs everywhere.
+Scenario sprites() {
+  LockstepOptions o = options(plane_weights(), 64);
+  o.state.skip |= skip_plane;
+  o.state.attributes = 2;
+  golden::Prng random(40);
+  Scenario scenario{"sprites", o, {}};
+  for (std::uint32_t id = 0; id < 200; ++id) {
+    WindowQuad quad;
+    quad.id = id;
+    const bool on_centres = random.chance(0.5);
+    const double offset = on_centres ? 0.5 : 0, grid = on_centres ? 1 : 0.0625;
+    const auto up_to = [&](double low, double high) { return std::floor(random.uniform(low, high) / grid) * grid; };
+    const double x = std::floor(random.uniform(0, 60)) + offset, y = std::floor(random.uniform(0, 60)) + offset,
+                 width = up_to(1, 9), height = up_to(1, 9);
+    quad.vertex = {{{x, y, 0, 1}, {x + width, y, 0, 1}, {x + width, y + height, 0, 1}, {x, y + height, 0, 1}}};
+    const auto constant_along = [&](int pair) {  // 0: v0 = v1, v2 = v3; 1: v0 = v3, v1 = v2
+      const double one = random.uniform(0.1, 0.9), other = random.uniform(0.1, 0.9);
+      return pair == 0 ? std::array{one, one, other, other} : std::array{one, other, other, one};
+    };
+    const auto depth = constant_along(static_cast<int>(random.below(2)));
+    for (std::size_t i = 0; i < 4; ++i) quad.vertex[i].z = depth[i];
+    for (int j = 0; j < o.config.attribute_slots; ++j) {
+      const auto value = constant_along(static_cast<int>(random.below(2)));
+      for (std::size_t i = 0; i < 4; ++i)
+        quad.attribute[i].push_back(j < o.state.attributes ? value[i] : random.uniform(-7, 7));
+    }
+    SnappedQuad snapped = snap_quad(quad, o.config, o.state);
+    SnappedVertex& v = snapped.vertex[random.below(4)];
+    const int far = random.chance(0.5) ? 2 << o.config.frac() : 1;
+    switch (random.below(12)) {
+      case 0:
+        v.x += far;
+        break;
+      case 1:
+        v.y -= far;
+        break;
+      case 2:
+        v.z.sig ^= 1;
+        break;
+      case 3:
+        v.attribute[random.below(2)].sig ^= 1;
+        break;
+      case 4:
+        v.attribute[random.below(2)].neg = true;
+        break;
+      case 5:
+        v.attribute[random.below(2)].exp -= 1;
+        break;
+      default:
+        break;
+    }
+    scenario.quads.push_back(snapped);
+  }
+  return scenario;
+}
+
+/// Without perspective, a corner at infinity: a weight of 0. Of half of the quads an edge goes there from far away,
+/// through pixel centres where another edge crosses it.
+Scenario flat_at_infinity() {
+  LockstepOptions o = options(exact(), 16);
+  o.state.perspective = false;
+  static constexpr double w[]{1};
+  Scenario scenario{"flat, at infinity", o, drawn(o, 14, 400, [](golden::Prng& random) {
+                      WindowQuad quad = on_grid(random, 5, w);
+                      while (corners_meet(quad)) quad = on_grid(random, 5, w);
+                      WindowVertex& v = quad.vertex[random.below(4)];
+                      v.x = static_cast<double>(random.integer(-2, 2));
+                      v.y = static_cast<double>(random.integer(0, 1)) * 2 - 1;
+                      v.w = 0;
+                      return quad;
+                    })};
+  golden::Prng random(15);
+  const int frac = o.config.frac(), limit = 1 << (o.config.viewport_bits + o.config.guard_bits + frac);
+  for (std::size_t n = 0; n < scenario.quads.size(); n += 2) {
+    const auto whole = [&](int low, int high) { return static_cast<int>(random.integer(low, high)); };
+    const int x = whole(3, 12), y = whole(3, 12), dx = whole(-1, 1), dy = dx == 0 ? 1 : whole(-1, 1);
+    const int weight = 1 << (frac - whole(3, 9)), away = limit / 2 - (whole(0, 1000) << frac);
+    const std::size_t first = random.below(4);
+    std::array<SnappedVertex, 4>& v = scenario.quads[n].vertex;
+    const auto place = [&](std::size_t i, int at_x, int at_y, int at_w) {
+      SnappedVertex& corner = v[(first + i) % 4];
+      corner.x = at_x;
+      corner.y = at_y;
+      corner.w = at_w;
+    };
+    place(0, weight * x - away * dx, weight * y - away * dy, weight);
+    place(1, limit / 2 * dx, limit / 2 * dy, 0);
+    const int across = whole(1, 9), along = whole(-2, 2);
+    const int ex = -dy * across + dx * along, ey = dx * across + dy * along;
+    place(2, (x + ex) << frac, (y + ey) << frac, 1 << frac);
+    place(3, (x - ex) << frac, (y - ey) << frac, 1 << frac);
+  }
+  return scenario;
+}
+
+/// The first clocks after reset, from registers that held anything.
+Scenario after_reset(std::uint64_t seed) {
+  Scenario scenario = sprites();
+  scenario.name = "after reset, " + std::to_string(seed);
+  scenario.options.seed = seed;
+  scenario.quads.resize(4);
+  return scenario;
+}
+
+/// Crossings, ties and corners on pixels where areas may be weights.
+Scenario plane_grid() {
+  LockstepOptions o = options(plane_weights(), 16);
+  o.state.skip |= skip_plane;
+  static constexpr double w[]{1, 1, 1, 1, 0.5, 2};
+  return {"grid, plane weights", o, drawn(o, 10, 300, [](golden::Prng& random) { return on_grid(random, 5, w); })};
+}
+
+/// One of two bits of the skip mask.
+Scenario one_skip(const std::string& name, std::uint32_t skip) {
+  LockstepOptions o = options(exact(), 64);
+  o.state.skip = skip;
+  o.state.cull = Cull::front;
+  return {name, o, random_quads(o.config, o.state, 41, 80)};
+}
+
 }  // namespace
 
 std::span<const Scenario> scenarios() {
@@ -408,6 +686,27 @@ std::span<const Scenario> scenarios() {
     for (Scenario& s : all) s.options.state.skip &= ~std::uint32_t{skip_operands};
     all.push_back(held("held", exact(), 2));
     all.push_back(held("held, four lanes", four_lanes(), 1));  // counted
+    return all;
+  }();
+  return list;
+}
+
+std::span<const Scenario> further_scenarios() {
+  static const std::vector<Scenario> list = [] {
+    std::vector<Scenario> all;
+    all.push_back(joined_layers());
+    all.push_back(acute_layers());
+    all.push_back(far_end());
+    all.push_back(far_exponents());
+    all.push_back(far_scissor());
+    all.push_back(one_skip("tiles left out", skip_tiles));
+    all.push_back(one_skip("quads left out", skip_quads));
+    all.push_back(sprites());
+    all.push_back(plane_grid());
+    all.push_back(flat_at_infinity());
+    for (std::uint64_t seed = 1; seed <= 24; ++seed) all.push_back(after_reset(seed));
+    all.push_back(plane_among_others("plane among others", false));
+    all.push_back(plane_among_others("plane among others, in perspective", true));
     return all;
   }();
   return list;

@@ -16,7 +16,9 @@ struct Scenario {
   bool invisible = false;          ///< the machine draws nothing of it
 };
 
-/// The same in every process. Two configurations, so that two simulators serve all.
+/// Those that mutants.toml records. The same in every process. Five configurations, so that four simulators serve all.
 std::span<const Scenario> scenarios();
+/// Those that a generated mutant goes through after them, each made for what none of the others showed.
+std::span<const Scenario> further_scenarios();
 
 }  // namespace quadrille::tb

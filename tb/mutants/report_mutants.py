@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Puts generated mutants through the checks and says which check saw which: a table, and the survivors.
+
+    tb/mutants/report_mutants.py BUILD_DIR [--side S] [--file F] [--class C] [--name N] [--sample N] [--seed S] [--jobs J] [--json FILE] [--quiet]
+    tb/mutants/report_mutants.py --from FILE        the same of what --json kept
+
+BUILD_DIR is tb/mutants of a build. A mutant that no check sees must be argued equivalent in equivalent.toml, by its file, its line and the line
+as changed; one that is there must be seen by none, and its line must still exist. An entry with `open` instead says which check is missing.
+Exit status: 0 every mutant is seen or argued equivalent (in a --sample: or open); 1 one is not; 2 usage; 3 the checks did not run."""
+import argparse
+import collections
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+SIDES = {"rtl": "RTL", "model": "model", "common": "both alike"}
+CLASSES = ("operator", "constant", "width", "sign", "index", "enable", "reset", "priority", "comparison")
+# Of lockstep, how a mutant of the RTL showed: `differs` is a bit or a clock.
+CHECKS = ("lockstep", "truth", "lanes", "functions", "kept", "float", "limits")
+
+
+def equivalents():
+    """The list, and what is wrong with it."""
+    entries = tomllib.loads((HERE / "equivalent.toml").read_text()).get("equivalent", [])
+    faults = []
+    for entry in entries:
+        path = ROOT / entry["file"]
+        source = path.read_text() if path.exists() else ""
+        if entry["text"] not in source:
+            faults.append(f"equivalent.toml: {entry['file']} has no more: {entry['text']}")
+        if len(entry.get("why", entry.get("open", ""))) < 20:
+            faults.append(f"equivalent.toml: {entry['file']}: no argument for: {entry['mutated']}")
+    return entries, faults
+
+
+def argument(entries, mutant):
+    for entry in entries:
+        if all(entry[key] == mutant[key] for key in ("file", "text", "mutated")) and mutant["side"] in entry.get("sides", SIDES):
+            return entry
+    return None
+
+
+def run(build, arguments):
+    """The results, one after the other."""
+    command = [str(build / "mutate"), "--jobs", str(arguments.jobs), "--sample", str(arguments.sample), "--seed", str(arguments.seed)]
+    for key in ("side", "file", "name"):
+        if getattr(arguments, key):
+            command += [f"--{key}", getattr(arguments, key)]
+    if arguments.fault_class:
+        command += ["--class", arguments.fault_class]
+    if arguments.only:
+        command += ["--only", arguments.only]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        for line in process.stdout:
+            yield json.loads(line)
+    if process.returncode != 0:
+        sys.exit(process.returncode if process.returncode in (2, 3) else 3)
+
+
+def how_seen(result):
+    if "killed" not in result:
+        return "survives"
+    return f"{result['killed']}, {result['where']}: {result['how']}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows])
+
+
+def counts(mutants):
+    """Cells of a row: generated, by check, not by a difference, equivalent, surviving."""
+    by_check = collections.Counter(m["result"].get("killed") for m in mutants)
+    how = collections.Counter(m["result"].get("how") for m in mutants)
+    equivalent = sum("why" in m for m in mutants)
+    return [len(mutants), *(by_check[c] or "" for c in CHECKS), how["assertion"] or "", how["hang"] or "", (how["crash"] + how["error"]) or "",
+            equivalent or "", (by_check[None] - equivalent) or ""]
+
+
+HEAD = ["mutants", *CHECKS, "of these by an assertion", "hung", "crashed", "equivalent", "**survive**"]
+
+
+def report(mutants, by_file):
+    rows = []
+    for side, name in SIDES.items():
+        for fault_class in CLASSES:
+            chosen = [m for m in mutants if (m["side"], m["class"]) == (side, fault_class)]
+            if chosen:
+                rows.append([name, fault_class, *counts(chosen)])
+    rows.append(["all", "", *counts(mutants)])
+    print(table(["fault in", "class", *HEAD], rows))
+    if by_file:
+        rows = []
+        for file, side in sorted({(m["file"], m["side"]) for m in mutants}):
+            rows.append([file, SIDES[side], *counts([m for m in mutants if (m["file"], m["side"]) == (file, side)])])
+        print("\n" + table(["file", "fault in", *HEAD], rows))
+    twins = [m for m in mutants if m["side"] == "common" and len(m["edit"]) == 2]
+    blind = sum(m["result"].get("twin") is True for m in twins)
+    common = sum(m["side"] == "common" for m in mutants)
+    if common:
+        print(f"\nBoth alike: {common}, in {len(twins)} of them an expression of the RTL changed too; with both changes on lockstep sees nothing of {blind}.")
+    for m in mutants:
+        if "killed" not in m["result"] and "why" not in m:
+            print(f"\nSURVIVES {m['name']}")
+            for edit in m["edit"] if m["side"] != "common" else m["edit"][:1]:
+                print(f"{edit['file']}:{edit['line']}\n-   {edit['text']}\n+   {edit['mutated']}")
+            if "open" in m:
+                print(f"missing: {m['open']}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", nargs="?", type=pathlib.Path)
+    parser.add_argument("--side", default="", choices=("",) + tuple(SIDES))
+    parser.add_argument("--file", default="")
+    parser.add_argument("--class", dest="fault_class", default="", choices=("",) + CLASSES)
+    parser.add_argument("--name", default="")
+    parser.add_argument("--only", default="")
+    parser.add_argument("--sample", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=int(os.environ.get("QUADRILLE_TEST_SEED", "1")))
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--json", type=pathlib.Path)
+    parser.add_argument("--from", dest="kept", type=pathlib.Path)
+    parser.add_argument("--quiet", action="store_true")
+    arguments = parser.parse_args()
+    if not arguments.build and not arguments.kept:
+        parser.error("BUILD_DIR is missing")
+    entries, faults = equivalents()
+    if arguments.kept:
+        mutants = json.loads(arguments.kept.read_text())
+        for m in mutants:
+            m.pop("why", None)
+            m.pop("open", None)
+    else:
+        names = {m["name"]: m for m in json.loads((arguments.build / "generated.json").read_text())}
+        mutants = []
+        for result in run(arguments.build, arguments):
+            mutants.append(names[result["name"]] | {"result": result})
+            if not arguments.quiet:
+                print(f"{result['seconds']:6.1f} s  {result['name']}: {how_seen(result)}", file=sys.stderr, flush=True)
+        if arguments.json:
+            arguments.json.write_text(json.dumps(mutants, indent=1) + "\n")
+    survivors = 0
+    for m in mutants:
+        entry = argument(entries, m)
+        if entry is None:
+            survivors += "killed" not in m["result"]
+        elif "killed" in m["result"]:
+            faults.append(f"equivalent.toml: seen by {how_seen(m['result'])}: {m['file']}: {m['mutated']}")
+        elif "why" in entry:
+            m["why"] = entry["why"]
+        else:
+            m["open"] = entry["open"]
+            survivors += arguments.sample == 0
+    report(mutants, by_file=not arguments.quiet)
+    for fault in faults:
+        print(fault)
+    return 1 if faults or survivors or not mutants else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
