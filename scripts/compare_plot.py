@@ -7,24 +7,17 @@ Times are shown as multiples of the time of `mvc` in the same run. Exit status: 
 is missing.
 Needs Debian's python3-matplotlib.
 """
-import io
 import math
 import os
 import sys
 import textwrap
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
+from report.figure import new_figure, png  # noqa: E402 (first: it says what is missing)
 from report.files import InputError, read_json, reading, write_files  # noqa: E402
 
-try:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
-    from matplotlib.ticker import FixedFormatter, FixedLocator, FuncFormatter, LogLocator, NullFormatter
-except ImportError as missing:
-    print(f"compare_plot.py: {missing}; install with: apt-get install python3-matplotlib "
-          f"(this is {sys.executable}, Debian's is /usr/bin/python3)", file=sys.stderr)
-    sys.exit(3)
+from matplotlib.lines import Line2D  # noqa: E402
+from matplotlib.ticker import FixedFormatter, FixedLocator, FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
 # Okabe and Ito's palette, distinct under the common kinds of colour blindness, extended, and a marker for each method. Methods that often
 # coincide differ in size: the smaller marker is drawn on the larger one.
@@ -240,8 +233,7 @@ def add_legend(figure, plot):
 
 def draw(plot, abscissa, label):
     """Two panels, RMS and largest error, over abscissa(point); returns the PNG."""
-    figure = Figure(figsize=(13, 5.6), dpi=100)
-    FigureCanvasAgg(figure)
+    figure = new_figure(13, 5.6)
     figure.subplots_adjust(left=0.07, right=0.845, top=0.91, bottom=0.11, wspace=0.24)
     for index, (key, name) in enumerate(ERRORS.items()):
         axes = figure.add_subplot(1, 2, index + 1)
@@ -251,9 +243,7 @@ def draw(plot, abscissa, label):
     add_legend(figure, plot)
     # A dollar sign of a file name is no formula.
     figure.suptitle(f"{plot['title']} ({plot['input']}, {plot['size']})".strip(), fontsize=12, parse_math=False)
-    image = io.BytesIO()
-    figure.savefig(image, format="png", metadata={"Software": None})
-    return image.getvalue()
+    return png(figure)
 
 
 def triangles(point):

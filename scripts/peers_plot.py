@@ -7,21 +7,13 @@ peers_error: largest error of a weight against time per fragment. peers_size: co
 cost of a fragment over the number of quads. All axes are logarithmic; numbers beside the lines are slopes. Exit status: 0 done, 2
 usage, input or output error, 3 a Python package is missing. Needs Debian's python3-matplotlib.
 """
-import io
 import math
 import os
 import sys
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report.files import InputError, read_report, reading, write_files  # noqa: E402
-
-try:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-except ImportError as missing:
-    print(f"peers_plot.py: {missing}; install with: apt-get install python3-matplotlib "
-          f"(this is {sys.executable}, Debian's is /usr/bin/python3)", file=sys.stderr)
-    sys.exit(3)
+from report.figure import new_figure, png  # noqa: E402
+from report.files import InputError, number, read_report, reading, write_files  # noqa: E402
 
 # Okabe and Ito's palette, and a marker for each engine.
 STYLE = {"model": ("#0072B2", "o"), "shader": ("#D55E00", "s"), "float": ("#56B4E9", "^"), "truth": ("#000000", "*"), "rtl": ("#CC79A7", "D")}
@@ -31,13 +23,6 @@ SLOPES = {"size_slopes": ("small", "large"), "number_slopes": ("all", "many")}
 FLOOR = 1e-17  # where an error of exactly 0 is drawn
 
 
-def number(entry, key):
-    value = entry[key]
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not value >= 0:
-        raise ValueError(f"{key} is {value!r}")
-    return value
-
-
 def check(report):
     """Throws KeyError, TypeError or ValueError where drawing would stumble."""
     for series in ("sizes", "numbers"):
@@ -45,7 +30,7 @@ def check(report):
             raise ValueError(f"{series} is empty")
         for point in report[series]:
             for key in POINT_NUMBERS:
-                number(point, key)
+                number(point, key, 0)
     for series, parts in SLOPES.items():
         for part in parts:
             for engine in ("model", "shader"):
@@ -54,11 +39,11 @@ def check(report):
     for entry in report["errors"]:
         if entry["engine"] not in STYLE:
             raise ValueError(f"unknown engine {entry['engine']!r}")
-        number(entry, "seconds_per_fragment")
+        number(entry, "seconds_per_fragment", 0)
         if entry["lambda_max"] is not None:
-            number(entry, "lambda_max")
+            number(entry, "lambda_max", 0)
         if entry["engine"] == "model":
-            number(entry, "significand_bits")
+            number(entry, "significand_bits", 0)
     for key in ("renderer", "lanes", "command"):
         if not isinstance(report[key], str):
             raise ValueError(f"{key} is not text")
@@ -71,18 +56,11 @@ def read(path):
         return report
 
 
-def new_figure(report, width, height):
-    figure = Figure(figsize=(width, height), dpi=100)
-    FigureCanvasAgg(figure)
+def signed_figure(report, width, height):
+    figure = new_figure(width, height)
     figure.text(0.01, 0.01, f"shader: {report['renderer']}; model: lanes {report['lanes']}; CPU time, one thread each", fontsize=8,
                 color="#555555", parse_math=False)
     return figure
-
-
-def png(figure):
-    image = io.BytesIO()
-    figure.savefig(image, format="png", metadata={"Software": None})
-    return image.getvalue()
 
 
 def grid(axes):
@@ -95,7 +73,7 @@ def draw_errors(report):
     inputs = list(dict.fromkeys(entry["input"] for entry in report["errors"]))
     columns = min(3, max(1, len(inputs)))
     rows = max(1, math.ceil(len(inputs) / columns))
-    figure = new_figure(report, 4.6 * columns, 3.5 * rows + 0.9)
+    figure = signed_figure(report, 4.6 * columns, 3.5 * rows + 0.9)
     figure.subplots_adjust(left=0.06, right=0.985, top=1 - 0.75 / (3.5 * rows + 0.9), bottom=0.85 / (3.5 * rows + 0.9), wspace=0.2, hspace=0.3)
     drawn = [entry for entry in report["errors"] if entry["lambda_max"] is not None]
     times = [entry["seconds_per_fragment"] * 1e9 for entry in drawn if entry["seconds_per_fragment"] > 0] or [1]
@@ -134,7 +112,7 @@ def draw_errors(report):
 
 def draw_series(report, series, abscissa, label, slopes):
     """Two panels: nanoseconds per fragment of model and shader, clocks per fragment of the RTL."""
-    figure = new_figure(report, 12, 5)
+    figure = signed_figure(report, 12, 5)
     figure.subplots_adjust(left=0.065, right=0.985, top=0.93, bottom=0.16, wspace=0.17)
     points = [point for point in report[series] if point["fragments"] > 0]
     axes = figure.add_subplot(1, 2, 1)

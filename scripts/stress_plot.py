@@ -8,33 +8,18 @@ the solid lines are one side, the dashed ones the other, and the marks at the ri
 where a body is undefined or draws nothing. Exit status: 0 done, 2 usage, input or output error, 3 a Python package is missing. Needs
 Debian's python3-matplotlib.
 """
-import io
 import math
 import os
 import sys
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report.files import InputError, read_report, reading, write_files  # noqa: E402
-
-try:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-except ImportError as missing:
-    print(f"stress_plot.py: {missing}; install with: apt-get install python3-matplotlib "
-          f"(this is {sys.executable}, Debian's is /usr/bin/python3)", file=sys.stderr)
-    sys.exit(3)
+from report.figure import new_figure, png  # noqa: E402
+from report.files import InputError, number, read_report, reading, write_files  # noqa: E402
 
 # Okabe and Ito's palette, and a marker for each engine.
 STYLE = {"model": ("#0072B2", "o"), "float": ("#56B4E9", "^"), "fp32": ("#D55E00", "s"), "shader": ("#E69F00", "v"), "rtl": ("#CC79A7", "D")}
 LOWEST, HIGHEST = 1e-9, 1e9  # of the bound; what is smaller or larger is drawn there
 COLUMNS = 4
-
-
-def number(entry, key, least=-math.inf):
-    value = entry[key]
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not value >= least:
-        raise ValueError(f"{key} is {value!r}")
-    return value
 
 
 def check(report):
@@ -69,12 +54,6 @@ def read(path):
         report = read_report(path)
         check(report)
         return report
-
-
-def png(figure):
-    image = io.BytesIO()
-    figure.savefig(image, format="png", metadata={"Software": None})
-    return image.getvalue()
 
 
 def shown(value):
@@ -117,8 +96,7 @@ def draw(report):
     columns = min(COLUMNS, len(families))
     rows = math.ceil(len(families) / columns)
     height = 2.5 * rows + 1.2
-    figure = Figure(figsize=(4.0 * columns + 0.6, height), dpi=100)
-    FigureCanvasAgg(figure)
+    figure = new_figure(4.0 * columns + 0.6, height)
     figure.subplots_adjust(left=0.75 / (4.0 * columns + 0.6), right=0.985, top=1 - 0.8 / height, bottom=0.75 / height, wspace=0.22, hspace=0.55)
     handles = {}
     for index, family in enumerate(families):

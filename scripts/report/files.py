@@ -56,6 +56,14 @@ def read_columns(path, required):
     return {name: [line[i] for line in lines] for i, name in enumerate(head)}
 
 
+def number(entry, key, least=-math.inf):
+    """A number of a report, not below `least`."""
+    value = entry[key]
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not value >= least:
+        raise ValueError(f"{key} is {value!r}")
+    return value
+
+
 def numbers(name, cells):
     """Doubles; NaN where a cell is empty."""
     values = []
