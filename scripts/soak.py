@@ -8,7 +8,7 @@ draw state at random. A unit that finds a fault is kept with the command that re
   scripts/soak.sh --hours 8                     into build/soak; the same again goes on
   scripts/soak.sh --hours 8 --shard 0/4 --out A every fourth unit; the other shards elsewhere
   scripts/soak.sh --merge A B C D --out WHOLE   byte for byte what one run of the same units gives, times aside
-  scripts/soak.sh --status build/soak           what has been compared, and what 10^9 and 10^12 fragments would take
+  scripts/soak.sh --status build/soak           what has been compared, and what 10^9 and 10^12 fragments would take; several folders: of all shards
 
 Exit status: 0 if fragments were compared and no unit, of this run or an earlier one, found a fault; 1 otherwise; 2 bad input; 3 a missing tool."""
 import argparse
@@ -28,7 +28,7 @@ sys.dont_write_bytecode = True  # the folder may be a source tree or an installa
 from report.files import InputError, write_files  # noqa: E402
 from report.lockstep import CORNERS, FAMILIES, FAULTS, SKIPPING, Totals, random_configuration, run  # noqa: E402
 from report.program import PROGRAM, ROOT  # noqa: E402
-from report.units import Units, merge, shard, text  # noqa: E402
+from report.units import Shards, Units, merge, shard, text  # noqa: E402
 
 KINDS = {"stress": 60, "scene": 25, "mesh": 10, "corner": 5}  # of 100 units
 SIZES = [(64, 64), (160, 160), (320, 240), (512, 512)]
@@ -151,9 +151,10 @@ def summary(units):
 
 
 def report(units):
-    """Prints and keeps the sums. Whether something was compared and nothing was wrong."""
+    """Prints the sums, and keeps them in the folder of a run. Whether something was compared and nothing was wrong."""
     totals = summary(units)
-    write_files(units.directory, {"totals.json": text(totals).encode()})
+    if isinstance(units, Units):
+        write_files(units.directory, {"totals.json": text(totals).encode()})
     total = totals["total"]
     stress = totals["kinds"].get("stress", {"fragments": 0})["fragments"] / max(1, total["fragments"])
     print(f"{total['units']} units of seed {totals['seed']}: {total['fragments']} fragments ({100 * stress:.1f} % of stress families), {total['cycles']} clocks, {total['bits']} bits compared")
@@ -184,7 +185,7 @@ def options():
     parser.add_argument("--limit", type=int, default=LIMIT, help=f"fragments of a unit, at most (default: {LIMIT})")
     parser.add_argument("--meshes", metavar="DIR", help="folder with OBJ files (default: ../shared/meshes when it is there)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="configuration, as for quadrille, after those at random")
-    parser.add_argument("--status", metavar="DIR", help="only report on a run")
+    parser.add_argument("--status", nargs="+", metavar="DIR", help="only report on a run, or on its shards together")
     parser.add_argument("--merge", nargs="+", metavar="DIR", help="put shards together into --out")
     parser.add_argument("--quadrille", default=PROGRAM, help="the program")
     args = parser.parse_args()
@@ -207,7 +208,7 @@ def main():
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # units under way are lost, the others kept
     try:
         if args.status is not None:
-            units = Units(args.status)
+            units = Units(args.status[0]) if len(args.status) == 1 else Shards(args.status)
         elif args.merge is not None:
             units = merge(args.out, args.merge)
         else:

@@ -88,6 +88,9 @@ class WithStub(unittest.TestCase):
             self.soak(f"part{index}", "--units", "31", "--shard", f"{index}/3")
             parts.append(os.path.join(self.folder, f"part{index}"))
             self.assertEqual(units.Units(parts[-1]).done(), list(range(index, 31, 3)))
+        one = self.soak("one", "--status", os.path.join(self.folder, "one")).stdout.splitlines()
+        both = self.soak("one", "--status", *parts).stdout.splitlines()
+        self.assertEqual(one[:-1], both[:-1])  # the last line is of times
         self.soak("whole", "--merge", *parts)
         self.assertEqual(bytes_of(os.path.join(self.folder, "one")), bytes_of(os.path.join(self.folder, "whole")))
 

@@ -130,25 +130,42 @@ def same_plan(path, there, wanted):
             raise InputError(f"{path}: {key} is {there.get(key)}, not {wanted.get(key)}; the run there can go on with its own alone")
 
 
+class Shards:
+    """The units of several folders of one plan, as Units has them. The same unit in two of them must be the same."""
+
+    def __init__(self, sources):
+        parts = [Units(source) for source in sources]
+        self.plan = parts[0].plan
+        self.parts = {}
+        self.times = {}
+        for part in parts:
+            same_plan(os.path.join(part.directory, "plan.json"), part.plan, self.plan)
+            for number in part.done():
+                other = self.parts.setdefault(number, part)
+                if other is not part and part.read(number) != other.read(number):
+                    raise InputError(f"{part.path(number)}: differs from {other.path(number)}, where the same was expected")
+            self.times = part.seconds() | self.times
+
+    def done(self):
+        return sorted(self.parts)
+
+    def read(self, number):
+        return self.parts[number].read(number)
+
+    def seconds(self):
+        return self.times
+
+
 def merge(directory, sources):
-    """A new folder with the units of all. The same unit in two of them must be the same."""
-    parts = [Units(source) for source in sources]
-    for part in parts[1:]:
-        same_plan(os.path.join(part.directory, "plan.json"), part.plan, parts[0].plan)
-    origin = {}
-    for part in parts:
-        for number in part.done():
-            if number not in origin:
-                origin[number] = part
-            elif part.read(number) != origin[number].read(number):
-                raise InputError(f"{part.path(number)}: differs from {origin[number].path(number)}, where the same was expected")
+    """A new folder with the units of all."""
+    shards = Shards(sources)
     if os.path.exists(directory) and os.listdir(directory):
         raise InputError(f"{directory}: is there already; a new folder is expected")
-    whole = Units(directory, parts[0].plan)
+    whole = Units(directory, shards.plan)
     with whole.locked():
-        for number in sorted(origin):
-            whole.write(number, origin[number].read(number))
-        seconds = {number: value for part in reversed(parts) for number, value in part.seconds().items()}
+        for number in shards.done():
+            whole.write(number, shards.read(number))
+        seconds = shards.seconds()
         lines = "".join("\n" + json.dumps({"unit": number, "seconds": seconds[number]}) for number in sorted(seconds))
         write_files(directory, {"times.jsonl": lines.encode()})
     return whole
