@@ -1,4 +1,4 @@
-// The arithmetic bound 2^-(s-3) and the proved one, for every s from 12 to 26 on every stress family.
+// The arithmetic bound 2^-(s-3) and the proved one, for every s from 8 to 26 on every stress family.
 #include "golden/analysis/error_bound.hpp"
 #include "golden/scenes/stress.hpp"
 #include "model/snap.hpp"
@@ -30,7 +30,7 @@ TEST_P(StressBound, HoldsForEverySignificand) {
     counter.draw(snap_quad(quad, Config{}, input.state), [](std::span<const Fragment>) {});
   }
   std::vector<Config> points;
-  for (int s = 12; s <= 26; ++s) {
+  for (int s = 8; s <= 26; ++s) {
     Config& point = points.emplace_back();
     point.significand_bits = s;
   }
