@@ -77,10 +77,16 @@ module depth_interval #(
   assign near = (near_shift[PE] || near_bits == UNKNOWN) ? UNKNOWN - H'(1) : near_bits;
   assign far = (far_shift[PE] || far_bits == UNKNOWN) ? UNKNOWN : far_bits + H'(1);
 
+  // far below UNKNOWN and at most zfar, near above znear, by the bits before the code that is added: the comparisons need not wait for it.
+  // Where near is no such bits, far is UNKNOWN.
+  logic in_limits;
+  assign in_limits = !far_shift[PE] && !(&far_bits[H-1:1]) && {1'b0, far_bits} < zfar_i[DB-:H+1] &&
+                     (znear_i == '0 || {1'b0, near_bits} > znear_i[DB-:H+1]);
+
   always_ff @(posedge clk_i) begin
     near_o <= known_q ? near : '0;
     far_o <= known_q ? far : UNKNOWN;
-    lowers_o <= EXACT && known_q && far != UNKNOWN && (znear_i == '0 || {1'b0, near} > znear_i[DB-:H+1]) && {1'b0, far} <= zfar_i[DB-:H+1];
+    lowers_o <= EXACT && known_q && in_limits;
   end
 
   logic unused;
