@@ -10,16 +10,15 @@ again in draw states, viewports, stalls and configurations that the seed draws; 
   scripts/campaign.py --meshes DIR       OBJ files to add (default: ../shared/meshes when it is there)
 """
 import argparse
-import glob
 import json
-import os
 import random
 import shlex
 import sys
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report.lockstep import CORNERS, FAMILIES, SKIPPING, Totals, fail, random_configuration, run  # noqa: E402
-from report.program import PROGRAM, ROOT  # noqa: E402
+from report.files import InputError  # noqa: E402
+from report.lockstep import CORNERS, FAMILIES, SKIPPING, Totals, fail, mesh_files, random_configuration, run, set_options  # noqa: E402
+from report.program import PROGRAM  # noqa: E402
 
 # Stall and gap; each takes every value.
 PATTERNS = [(0, 0), (0.1, 0.5), (0.5, 0.1), (0.9, 0.9)]
@@ -51,7 +50,7 @@ class Campaign:
         """The report of a run. A failed one is recorded, but where only the truth differs and nothing is claimed about it (dropped bits of D
         and r^2), or where a run that compares nothing is no failure."""
         command = [self.args.quadrille, "cosim", *options, "--no-alone", "--quiet", "--json", "-"]
-        command += [part for setting in self.args.set for part in ("--set", setting)]
+        command += set_options(self.args.set)
         result = run(command)
         if not result.stdout:
             fail(command, result)
@@ -77,9 +76,10 @@ class Campaign:
         inputs = [["--scene", scene["name"]] for scene in scenes]
         # A tiny quad covers one or two pixels, so there are more of them.
         inputs += [["--stress", family, "--count", str(20 * count if family == "tiny" else count)] for family in FAMILIES]
-        meshes = sorted(glob.glob(os.path.join(self.args.meshes or os.path.join(ROOT, "../shared/meshes"), "*.obj")))
-        if self.args.meshes and not meshes:
-            sys.exit(f"--meshes {self.args.meshes}: no OBJ file there")
+        try:
+            meshes = mesh_files(self.args.meshes)
+        except InputError as error:
+            sys.exit(str(error))
         return inputs + [["--mesh", mesh] for mesh in meshes], len(meshes)
 
     def standard_runs(self):

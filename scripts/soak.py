@@ -14,7 +14,6 @@ Exit status: 0 if fragments were compared and no unit, of this run or an earlier
 import argparse
 import collections
 import concurrent.futures
-import glob
 import itertools
 import json
 import os
@@ -26,7 +25,7 @@ import time
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report.files import InputError, write_files  # noqa: E402
-from report.lockstep import CORNERS, FAMILIES, FAULTS, SKIPPING, Totals, random_configuration, run  # noqa: E402
+from report.lockstep import CORNERS, FAMILIES, FAULTS, MESHES, SKIPPING, Totals, mesh_files, random_configuration, run, set_options  # noqa: E402
 from report.program import PROGRAM, ROOT  # noqa: E402
 from report.units import Shards, Units, merge, shard, text  # noqa: E402
 
@@ -41,9 +40,7 @@ def make_plan(args):
     rng = random.Random(f"{args.seed} machines")
     machines = [[], SKIPPING] + [random_configuration(args.quadrille, rng, dropped_bits=False) for _ in range(args.machines)]
     listed = run([args.quadrille, "scenes", "--json"])
-    meshes = sorted(glob.glob(os.path.join(args.meshes or os.path.join(ROOT, "../shared/meshes"), "*.obj")))
-    if args.meshes and not meshes:
-        raise InputError(f"--meshes {args.meshes}: no OBJ file there")
+    meshes = mesh_files(args.meshes)
     return {"seed": args.seed, "machines": machines, "scenes": [scene["name"] for scene in json.loads(listed.stdout)], "meshes": [os.path.basename(mesh) for mesh in meshes],
             "set": args.set, "limit": args.limit}
 
@@ -73,13 +70,13 @@ def unit_options(plan, folder, number):
     if rng.random() < 0.5:
         options += ["--draw-state", f"random:{rng.randint(1, 10**9)}"]
     options += rng.choice(plan["machines"])
-    return kind, name, options + [part for setting in plan["set"] for part in ("--set", setting)]
+    return kind, name, options + set_options(plan["set"])
 
 
 class Soak:
     def __init__(self, args, plan):
         self.args, self.plan = args, plan
-        self.folder = args.meshes or os.path.join(ROOT, "../shared/meshes")
+        self.folder = args.meshes or MESHES
 
     def unit(self, number):
         kind, name, options = unit_options(self.plan, self.folder, number)
@@ -101,8 +98,7 @@ class Soak:
     def build_simulators(self):
         """Those of all machines, before any unit is timed."""
         def build(machine):
-            command = [self.args.quadrille, "cosim", "--scene", "bowtie", "--size", "32x32", "--no-alone", "--quiet", *machine]
-            command += [part for setting in self.plan["set"] for part in ("--set", setting)]
+            command = [self.args.quadrille, "cosim", "--scene", "bowtie", "--size", "32x32", "--no-alone", "--quiet", *machine, *set_options(self.plan["set"])]
             result = run(command)
             if result.returncode not in (0, 1):  # faults are for the units to find
                 raise InputError(f"{result.stderr}{shlex.join(command)}: ended with status {result.returncode}")
@@ -131,13 +127,12 @@ class Soak:
         units.run(self.unit, numbers, self.args.jobs, until, tell)
 
 
-def summary(units):
+def summary(seed, done):
     """Sums of all units done, without times: the same bytes for the same units."""
     zero = {"units": 0, "fragments": 0, "cycles": 0, "bits": 0, "worst": 0.0}
     total, kinds, inputs = dict(zero), collections.defaultdict(lambda: dict(zero)), collections.defaultdict(lambda: dict(zero))
     faulty, worst = {}, {}
-    for number in units.done():
-        unit = units.read(number)
+    for number, unit in done.items():
         if unit["worst"] > total["worst"]:
             worst = {"unit": number, "command": "quadrille cosim " + shlex.join(unit["options"])}
         for sums in (total, kinds[unit["kind"]], inputs[f"{unit['kind']} {unit['input']}"]):
@@ -147,12 +142,13 @@ def summary(units):
             sums["worst"] = max(sums["worst"], unit["worst"])
         if unit["faults"]:
             faulty[str(number)] = {"faults": unit["faults"], "command": "quadrille cosim " + shlex.join(unit["options"])}
-    return {"seed": units.plan["seed"], "total": total, "kinds": kinds, "inputs": inputs, "worst": worst, "faulty": faulty}
+    return {"seed": seed, "total": total, "kinds": kinds, "inputs": inputs, "worst": worst, "faulty": faulty}
 
 
 def report(units):
     """Prints the sums, and keeps them in the folder of a run. Whether something was compared and nothing was wrong."""
-    totals = summary(units)
+    done = {number: units.read(number) for number in units.done()}
+    totals = summary(units.plan["seed"], done)
     if isinstance(units, Units):
         write_files(units.directory, {"totals.json": text(totals).encode()})
     total = totals["total"]
@@ -162,9 +158,9 @@ def report(units):
     for name, sums in sorted(totals["inputs"].items()):
         print(f"  {name:30} {sums['units']:6} units {sums['fragments']:12} fragments  worst {100 * sums['worst']:5.1f} %")
     seconds = units.seconds()
-    timed = [number for number in units.done() if number in seconds]
+    timed = [number for number in done if number in seconds]
     if timed and total["fragments"]:
-        rate = sum(units.read(number)["fragments"] for number in timed) / max(1e-9, sum(seconds[number] for number in timed))
+        rate = sum(done[number]["fragments"] for number in timed) / max(1e-9, sum(seconds[number] for number in timed))
         print(f"  {rate:.0f} fragments/s on a core: 10^9 fragments take {1e9 / rate / 3600:.1f} core hours, 10^12 {1e12 / rate / 3600 / 24:.0f} core days")
     for number, unit in totals["faulty"].items():
         print(f"FAILED: unit {number}: {unit['faults']}: {unit['command']}", file=sys.stderr)

@@ -1,7 +1,12 @@
 """Runs of `quadrille cosim`: inputs to draw, configurations at random, and sums of what the runs compared and found."""
+import glob
+import os
 import shlex
 import subprocess
 import sys
+
+from report.files import InputError
+from report.program import ROOT
 
 FAMILIES = (
     "general perspective any_w near_edge on_edge near_vertex on_vertex sliver collapsed_edge straight_corner reflex bowtie "
@@ -27,6 +32,22 @@ def fail(command, result):
     sys.exit(f"{result.stderr}FAILED: {shlex.join(command)} ended with status {result.returncode}")
 
 
+MESHES = os.path.join(ROOT, "../shared/meshes")  # which need not be there
+
+
+def mesh_files(folder):
+    """The OBJ files of a folder that was asked for, or of MESHES."""
+    files = sorted(glob.glob(os.path.join(folder or MESHES, "*.obj")))
+    if folder and not files:
+        raise InputError(f"--meshes {folder}: no OBJ file there")
+    return files
+
+
+def set_options(settings):
+    """Options of a program for KEY=VALUE…"""
+    return [part for setting in settings for part in ("--set", setting)]
+
+
 def random_configuration(program, rng, dropped_bits):
     """Settings of a configuration at random that can be built."""
     while True:
@@ -37,7 +58,7 @@ def random_configuration(program, rng, dropped_bits):
                     "hierarchical_z_bits": rng.choice([0, 4, 9, 12]), "hierarchical_z_tiles_log2": rng.randint(6, 9), "plane_tolerance_bits": rng.choice([0, 31, rng.randint(1, 16)])}
         if dropped_bits:
             settings["quadratic_frac_bits"] = rng.randint(0, 12)
-        options = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]
+        options = set_options(f"{key}={value}" for key, value in settings.items())
         if run([program, "config", "--quiet", *options]).returncode == 0:
             return options
 
