@@ -107,8 +107,8 @@ def search(sweep):
 
 
 def work(sweep):
-    lines = [[f"<code>{stage}</code>", f"{done['settings']:,}", f"{done['fragments']:,}",
-              f"{len(sweep.ok) / done['settings']:,.1f}" if done["settings"] else "–"] for stage, done in sweep.manifest["counters"].items()]
+    lines = [[f"<code>{escape(stage)}</code>", f"{settings:,.0f}", f"{fragments:,.0f}", f"{len(sweep.ok) / settings:,.1f}" if settings else "–"]
+             for stage, settings, fragments in sweep.stages]
     return ("<p>Configurations that agree up to a stage share its results, so a stage runs once for each of its distinct settings rather than once for "
             f"each of the {len(sweep.ok):,} points.</p>" +
             web.table(["stage", "distinct settings", "fragments (cycles: clocks)", "points per setting"], lines))

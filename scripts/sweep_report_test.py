@@ -368,7 +368,7 @@ class BadInputTest(unittest.TestCase):
             self.assertEqual((os.listdir(self.out), file.read()), (["report.html"], "older"))
 
     def test_missing(self):
-        for name in ("points.csv", "error_map.npy"):
+        for name in ("points.csv", "error_map.npy", "stages.csv"):
             os.remove(os.path.join(self.sweep, name))
             self.refuse(name, "No such file")
             self.restore()
@@ -397,6 +397,8 @@ class BadInputTest(unittest.TestCase):
                 ("points.csv", rb"\n1,ok", b"\n0,ok", "rows do not rise"),
                 ("points.csv", rb",ok,", b",refused,", "no point is drawn"),
                 ("points.csv", rb"\n0,ok,,12,", b"\n0,ok,,many,", "line 2: viewport_bits is 'many', not a number"),
+                ("stages.csv", rb",settings,", b",settings,settings,", "settings is there twice"),
+                ("stages.csv", rb"normalise,\d+", b"normalise,many", "settings is 'many', not a number"),
                 ("error_map.npy", rb".{4}\Z", b"", "reshape"),
                 ("error_map.npy", rb"\A", b"PK", "pickle"),
                 ("error_map.npy", rb"\(64, 96\)", b"(96, 64)", "manifest.json says 96x64"),

@@ -178,13 +178,11 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
   }
   named.level = info.level;
   named.seed = info.seed;
-  info.limit = named.limit;
-  info.input = named.input;
   const std::string spelled = set_command(named);
   if (!command.starts_with(spelled) || config_json(named.config) != config)
     throw input_error(file, 0, "\"command\" does not generate this level, seed and configuration");
   suites = command.substr(spelled.size());
-  return info;
+  return named;
 }
 
 RecordLayout read_layout(const std::string& file, const std::string& role, const Json& record) {
@@ -448,6 +446,16 @@ void SetWriter::add(const SuiteInfo& suite, const std::function<void(SuiteWriter
   write(writer);
   suites_[suite.name] = {{"sha256", writer.finish()}};
   names_.push_back(suite.name);
+}
+
+void SetWriter::copy(const SuiteReader& suite) {
+  const std::string& name = suite.info().name;
+  const std::string text = read_manifest(suite.manifest_file(), "the manifest of a suite");
+  std::error_code error;
+  fs::copy(suite.directory(), temporary_->path() / name, fs::copy_options::recursive, error);
+  if (error) fail(suite.directory(), "cannot be copied", error);
+  suites_[name] = {{"sha256", sha256(text)}};
+  names_.push_back(name);
 }
 
 void SetWriter::commit(bool complete) {

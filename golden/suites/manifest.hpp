@@ -89,6 +89,8 @@ class SuiteWriter {
   nlohmann::ordered_json counts_ = nlohmann::ordered_json::object();
 };
 
+class SuiteReader;
+
 /// Writes a set: everything goes to a temporary directory beside `directory`, which commit() puts in its place: all of
 /// the set appears, or nothing. A symbolic link is followed.
 class SetWriter {
@@ -100,6 +102,9 @@ class SetWriter {
 
   /// `write` fills the suite; its manifest follows.
   void add(const SuiteInfo& suite, const std::function<void(SuiteWriter&)>& write);
+
+  /// A suite of another set, as it is; set_command() of both must be the same.
+  void copy(const SuiteReader& suite);
 
   /// `complete`: the set has every suite there is, so its command needs no --suite. Throws golden::InputError for a set
   /// without suites.

@@ -71,6 +71,9 @@ class Sweep:
                 raise ValueError(f"shape {self.map.shape}, but manifest.json says {self.manifest['size']}")
             if not (self.map >= -1).all():
                 raise ValueError("an error that is NaN or below −1")
+        with reading(path("stages.csv"), writer):
+            cells = read_columns(path("stages.csv"), ("stage", "settings", "fragments"))
+            self.stages = list(zip(cells["stage"], numbers("settings", cells["settings"]), numbers("fragments", cells["fragments"])))
         self.synth, self.cosim = self._read_rows(path("synth.csv"), SYNTH_COLUMNS), self._read_rows(path("cosim.csv"), COSIM_COLUMNS)
         if self.synth and (len(set(self.synth["target"])) > 1 or self.synth["target"][0] not in SYNTH_TARGETS):
             raise InputError(f"{path('synth.csv')}: target is not one of {', '.join(SYNTH_TARGETS)} throughout; `quadrille sweep` writes it")

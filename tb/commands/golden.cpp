@@ -1,4 +1,5 @@
 // quadrille golden: sets of golden vectors, generated and verified (diff is in golden_diff.cpp).
+#include "golden/io/error.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/suites/float_engine.hpp"
 #include "golden/suites/input_suite.hpp"
@@ -8,6 +9,7 @@
 #include "tb/commands/golden_rtl.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/shard.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -19,6 +21,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <utility>
 
 namespace quadrille::cli {
 namespace {
@@ -32,7 +35,7 @@ struct GenerateCommandOptions {
   int level = 1;
   std::uint64_t limit = 0;
   std::vector<std::string> suites;
-  std::string out, size, shade;
+  std::string out, size, shade, shard;
   InputOptions input;
   StateOptions state;
   bool list = false, force = false;
@@ -56,6 +59,18 @@ std::vector<const Suite*> choose_suites(const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < all.size(); ++i)
     if (wanted[i]) chosen.push_back(vectors::suites()[i].get());
   return chosen;
+}
+
+/// Those of a shard, in the same order.
+std::vector<const Suite*> shard_of(const std::vector<const Suite*>& suites, const Shard& shard) {
+  if (shard.count > suites.size())
+    throw UsageError("--shard: " + std::to_string(suites.size()) +
+                     (suites.size() == 1 ? " suite is written; it has no parts"
+                                         : " suites are written; at most so many shards have some each"));
+  std::vector<const Suite*> part;
+  for (std::size_t i = 0; i < suites.size(); ++i)
+    if (shard.holds(i)) part.push_back(suites[i]);
+  return part;
 }
 
 /// The suite of an input of one's own, and the options that name it. Attributes are what the shading needs; where it
@@ -113,7 +128,8 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
   std::unique_ptr<InputSuite> own;
   if (options.own_input()) own = input_suite(options, generation.config, info.input);
   const std::vector<const Suite*> chosen =
-      own != nullptr ? std::vector<const Suite*>{own.get()} : choose_suites(options.suites);
+      shard_of(own != nullptr ? std::vector<const Suite*>{own.get()} : choose_suites(options.suites),
+               Shard::parse(options.shard));
   const tb::Stopwatch start;
   SetWriter writer(options.out, info, options.force);
   Progress progress("golden", chosen.size(), options.common.show_progress());
@@ -145,6 +161,71 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
                  chosen.size() == 1 ? "suite" : "suites", start.seconds());
   if (!options.common.json.empty()) golden::save_json(options.common.json, report);
   return exit_ok;
+}
+
+// ---- merge ----
+
+int merge(const std::vector<std::string>& parts, const std::string& out, bool force, bool quiet) {
+  std::vector<SetReader> sets;
+  for (const std::string& part : parts) {
+    sets.emplace_back(part);
+    const std::string command = set_command(sets.back().info()), first = set_command(sets.front().info());
+    if (command != first)
+      throw golden::input_error(sets.back().manifest_file(), 0,
+                                "is of the set `" + command + "`, " + sets.front().manifest_file() + " of `" + first +
+                                    "`; parts of one set are expected");
+  }
+  std::map<std::string, SuiteReader> suites;
+  for (const SetReader& set : sets)
+    for (const std::string& name : set.suites()) {
+      SuiteReader reader = set.suite(name);
+      require_known(reader);
+      const auto [other, added] = suites.emplace(name, reader);
+      if (!added && other->second.manifest() != reader.manifest())
+        throw golden::input_error(reader.manifest_file(), 0,
+                                  "differs from " + other->second.manifest_file() + "; the same suite was expected");
+    }
+  SetWriter writer(out, sets.front().info(), force);
+  std::size_t known = 0;
+  for (const auto& suite : vectors::suites()) {
+    const auto found = suites.find(suite->info().name);
+    if (found == suites.end()) continue;
+    writer.copy(found->second);
+    ++known;
+  }
+  if (known < suites.size())
+    throw UsageError("golden merge: the set of an input of one's own has one suite and no parts");
+  writer.commit(known == vectors::suites().size());
+  if (!quiet)
+    std::printf("%s: %zu %s of %zu sets\n", out.c_str(), known, known == 1 ? "suite" : "suites", parts.size());
+  return exit_ok;
+}
+
+void add_merge(CLI::App& golden, Invocation& invocation) {
+  CLI::App* command = golden.add_subcommand("merge", "Put the sets of shards together");
+  command->footer(
+      "Every set is checked first, its hashes too; all must be of one level, seed, limit and configuration. The bytes "
+      "are\n"
+      "those of one run.\n\n"
+      "Examples:\n"
+      "  quadrille golden generate --shard 0/2 --out part0\n"
+      "  quadrille golden generate --shard 1/2 --out part1\n"
+      "  quadrille golden merge part0 part1 --out vectors");
+  struct Options {
+    std::vector<std::string> parts;
+    std::string out;
+    bool force = false, quiet = false;
+  };
+  const auto options = std::make_shared<Options>();
+  command->add_option("sets", options->parts, "The sets of the shards")->type_name("DIR ...")->required();
+  command->add_option("--out", options->out, "Directory of the whole set; made if missing")
+      ->type_name("DIR")
+      ->required();
+  command->add_flag("--force", options->force, "Replace the set that DIR holds");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->callback([options, &invocation] {
+    invocation.run = [options] { return merge(options->parts, options->out, options->force, options->quiet); };
+  });
 }
 
 // ---- verify ----
@@ -288,6 +369,10 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
   command->add_option("--suite", options->suites, "Only this suite; may be given several times")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  command
+      ->add_option("--shard", options->shard,
+                   "Only part I of N, 0 <= I < N, of the suites; `golden merge` puts them together")
+      ->type_name("I/N");
   command->add_option("--seed", options->common.seed, "Seed of everything random")
       ->check(whole_number())
       ->type_name("N")
@@ -389,6 +474,7 @@ void add_golden_command(CLI::App& app, Invocation& invocation) {
   command->require_subcommand(1);
   command->footer("Examples:\n  quadrille golden generate --level 1 --out vectors\n  quadrille golden verify vectors");
   add_generate(*command, invocation);
+  add_merge(*command, invocation);
   add_verify(*command, invocation);
   add_seal(*command, invocation);
   add_golden_diff_command(*command, invocation);

@@ -49,6 +49,34 @@ class GoldenCli : public Cli {
   }
 };
 
+TEST_F(GoldenCli, ShardsPutTogetherAreOneRun) {
+  generate("--out whole");
+  for (const std::string shard : {"0", "1", "2"}) generate("--shard " + shard + "/3 --out part" + shard);
+  EXPECT_FALSE(bytes("part0") == bytes("whole"));  // not _EQ: the difference of megabytes takes forever to print
+  const Outcome outcome = run("golden merge part2 part0 part1 --out merged");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(bytes("merged") == bytes("whole"));
+  EXPECT_EQ(run("golden verify merged").status, 0);
+
+  // Some of all suites, a configuration of one's own, and a part given twice.
+  const std::string some = "--suite sqrt --suite weights --suite depth --set significand_bits=14 ";
+  generate(some + "--out some");
+  for (const std::string shard : {"0", "1"}) generate(some + "--shard " + shard + "/2 --out some" + shard);
+  ASSERT_EQ(run("golden merge some1 some0 some1 --out some_merged").status, 0);
+  EXPECT_TRUE(bytes("some_merged") == bytes("some"));
+
+  refuses(2, "golden merge part0 some0 --out mixed", {"some0", "significand_bits=14"});
+  EXPECT_FALSE(fs::exists(file("mixed")));
+  refuses(2, "golden merge part0 part1 --out merged", {"merged", "not empty", "--force"});
+  refuses(2, "golden merge part0 nowhere --out mixed", {"nowhere"});
+  replace("part0/sqrt/response.hex", read(file("part0/sqrt/response.hex")).substr(0, 1), "x");
+  refuses(2, "golden merge part0 part1 --out mixed", {"part0/sqrt/response.hex:1"});
+  for (const char* shard : {"3/3", "-1/3", "1", "0/0", "a/b", "1/2/3"})
+    refuses(2, std::string("golden generate --out x --shard ") + shard, {shard, "0 <= I < N"});
+  refuses(2, "golden generate --suite sqrt --out x --shard 0/2", {"--shard", "no parts"});
+  refuses(2, "golden generate --scene bowtie --out x --shard 0/2", {"--shard", "no parts"});
+}
+
 TEST_F(GoldenCli, ListsSuites) {
   const Outcome outcome = run("golden generate --list-suites");
   ASSERT_EQ(outcome.status, 0) << outcome.err;

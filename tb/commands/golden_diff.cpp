@@ -140,7 +140,7 @@ void compare_sets(const std::string& a, const std::string& b, Findings& findings
     return std::ranges::find(set.suites(), name) != set.suites().end();
   };
   for (const ConfigKey& key : Config::keys()) {
-    const int p = left.info().config.get(key.name), q = right.info().config.get(key.name);
+    const int p = left.info().config.resolved(key.name), q = right.info().config.resolved(key.name);
     if (p != q)
       findings.differs("configuration: " + std::string(key.name) + " = " + std::to_string(p) + " against " +
                        std::to_string(q));

@@ -7,8 +7,10 @@
 #include "model/support/parallel.hpp"
 #include "tb/check/knob_errors.hpp"
 #include "tb/commands/commands.hpp"
+#include "tb/commands/stress_report.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/shard.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -27,6 +29,7 @@ struct StressOptions {
   CommonOptions common;
   std::string families, engines = "model,float,fp32", csv;
   std::uint64_t count = 12;
+  ShardOptions shards;
 };
 
 constexpr const char* stress_size = "64x64";
@@ -59,10 +62,31 @@ std::vector<std::string> names_in(const std::string& list) {
   return names;
 }
 
+/// Files, text, faults and the exit status.
+int write_report(const StressOptions& options, const nlohmann::ordered_json& report) {
+  const CommonOptions& common = options.common;
+  if (!options.csv.empty())
+    golden::write_file(options.csv, stress_csv(report), golden::AtomicFile::Dash::standard_output);
+  if (!common.json.empty()) golden::save_json(common.json, report);
+  if (std::FILE* text = common.text(); text && options.csv != "-") print_stress(text, report);
+  for (const nlohmann::ordered_json& fault : report["faults"])
+    std::fprintf(stderr, "quadrille: %s\n", fault.get<std::string>().c_str());
+  return report["ok"].get<bool>() ? exit_ok : exit_mismatch;
+}
+
+int merge_reports(const StressOptions& options) {
+  check_outputs({options.csv, options.common.json}, options.shards.merge);
+  return write_report(options, merge_stress(options.shards.merge));
+}
+
 class StressCommand {
  public:
   StressCommand(const StressOptions& options, const std::vector<std::string>& arguments)
-      : options_(options), common_(options.common), arguments_(arguments), config_(common_.config()) {
+      : options_(options),
+        common_(options.common),
+        arguments_(without_outputs(arguments)),
+        config_(common_.config()),
+        shard_(Shard::parse(options.shards.shard)) {
     if (config_.qdrop() != 0)
       throw UsageError("stress: quadratic_frac_bits drops bits of D and R²; no bound is claimed then");
     choose_bodies();
@@ -73,11 +97,7 @@ class StressCommand {
     check_outputs({options_.csv, common_.json}, {common_.config_file});
     measure();
     for (std::size_t i = 0; i < series_.size(); ++i) judge(i);
-    if (!options_.csv.empty()) golden::write_file(options_.csv, csv(), golden::AtomicFile::Dash::standard_output);
-    if (!common_.json.empty()) golden::save_json(common_.json, report());
-    if (std::FILE* text = common_.text(); text && options_.csv != "-") print(text);
-    for (const std::string& fault : faults_) std::fprintf(stderr, "quadrille: %s\n", fault.c_str());
-    return faults_.empty() ? exit_ok : exit_mismatch;
+    return write_report(options_, report());
   }
 
  private:
@@ -96,8 +116,13 @@ class StressCommand {
     for (const golden::Approach& approach : golden::approaches()) all.emplace_back(approach.name);
     const std::vector<std::string> wanted = options_.families.empty() ? all : names_in(options_.families);
     const auto [width, height] = common_.viewport(config_);
-    for (const std::string& name : wanted) {
-      choose("family", name, all);
+    for (const std::string& name : wanted) choose("family", name, all);
+    if (shard_.count > wanted.size())
+      throw UsageError("--shard " + options_.shards.shard + ": " + std::to_string(wanted.size()) +
+                       " families are asked for; at most so many shards have some each");
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (!shard_.holds(i)) continue;
+      const std::string& name = wanted[i];
       KnobSeries s;
       s.name = name;
       s.approach = golden::find_approach(name);
@@ -184,12 +209,13 @@ class StressCommand {
     std::array<BodyErrors, bodies> body;
     std::array<std::size_t, bodies> worst{};  ///< the step
     ErrorJump jump;                           ///< of no pixels where there is no special case, or it draws nothing
+    std::vector<std::string> faults;
   };
 
   void judge(std::size_t index) {
     Summary sum;
     const KnobSeries& s = series_[index];
-    const auto fault = [&](const std::string& what) { faults_.push_back(s.name + ": " + what); };
+    const auto fault = [&](const std::string& what) { sum.faults.push_back(s.name + ": " + what); };
     const KnobErrors* special = nullptr;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       if (steps_[i].series != index) continue;
@@ -241,81 +267,12 @@ class StressCommand {
            std::to_string(at.y) + " --out -";
   }
 
-  static bool fails(const BodyErrors& e) { return e.weight > 1 || e.undefined != 0 || e.missing != 0; }
-
-  static std::string units(const BodyErrors& e, double value) {
-    if (e.fragments == 0) return "-";
-    char text[32];
-    std::snprintf(text, sizeof text, value < 1000 ? "%.3f" : "%.1e", value);
-    return text;
-  }
-
-  void print(std::FILE* text) const {
-    std::fprintf(text,
-                 "%s\n%llu quads a step, configuration %s; errors in units of the bound, 2^%.0f of a weight, the "
-                 "largest over all steps\n\n%-18s %9s %7s %9s %7s",
-                 golden::command_line(arguments_).c_str(), static_cast<unsigned long long>(options_.count),
-                 summary(config_).c_str(), std::log2(weight_bound(config_)), "", "fragments", "weight", "attribute",
-                 "depth");
-    for (std::size_t b = 1; b < bodies; ++b)
-      if (has(b)) std::fprintf(text, " %10s %9s", std::string(knob_body_names[b]).c_str(), "lost");
-    std::fprintf(text, " %7s\n", "jump");
-    std::array<std::size_t, bodies> failing{};
-    for (std::size_t i = 0; i < series_.size(); ++i) {
-      const Summary& s = summaries_[i];
-      const BodyErrors& model = s.body[0];
-      std::fprintf(text, "%-18s %9llu %7s %9s %7s", series_[i].name.c_str(),
-                   static_cast<unsigned long long>(model.fragments), units(model, model.weight).c_str(),
-                   units(model, model.attribute).c_str(), units(model, model.depth).c_str());
-      for (std::size_t b = 1; b < bodies; ++b) {
-        if (!has(b)) continue;
-        failing[b] += fails(s.body[b]);
-        std::fprintf(text, " %10s %9llu", units(s.body[b], s.body[b].weight).c_str(),
-                     static_cast<unsigned long long>(s.body[b].undefined + s.body[b].missing));
-      }
-      if (s.jump.pixels != 0) std::fprintf(text, " %7.3f", s.jump.largest);
-      std::fprintf(text, "\n");
-    }
-    std::fprintf(text, "\n");
-    for (std::size_t b = 1; b < bodies; ++b)
-      if (has(b))
-        std::fprintf(text, "%s is beyond the bound, undefined or without a fragment in %zu of %zu\n",
-                     std::string(knob_body_names[b]).c_str(), failing[b], series_.size());
-    std::size_t worst = 0;
-    for (std::size_t i = 1; i < series_.size(); ++i)
-      if (summaries_[i].body[0].weight > summaries_[worst].body[0].weight) worst = i;
-    const Summary& s = summaries_[worst];
-    if (s.body[0].fragments != 0)
-      std::fprintf(text, "worst weight of the model, %.3f of the bound (%s, %s):\n%s\n", s.body[0].weight,
-                   series_[worst].name.c_str(), place(steps_[s.worst[0]]).c_str(),
-                   reproduce(s.worst[0], s.body[0].worst).c_str());
-  }
-
-  std::string csv() const {
-    std::string out = "family,kind,knob,side,engine,fragments,undefined,missing,weight,attribute,depth\n";
-    for (std::size_t i = 0; i < steps_.size(); ++i)
-      for (std::size_t b = 0; b < bodies; ++b) {
-        if (!has(b)) continue;
-        const KnobSeries& s = series_[steps_[i].series];
-        const BodyErrors& e = results_[i].body[b];
-        char text[256];
-        std::snprintf(text, sizeof text, ",%d,%d,%s,%llu,%llu,%llu", steps_[i].knob, steps_[i].side,
-                      std::string(knob_body_names[b]).c_str(), static_cast<unsigned long long>(e.fragments),
-                      static_cast<unsigned long long>(e.undefined), static_cast<unsigned long long>(e.missing));
-        out += s.name + "," + s.kind + text;
-        for (const double value : {e.weight, e.attribute, e.depth}) {
-          std::snprintf(text, sizeof text, ",%.17g", value);
-          out += e.fragments == 0 ? "," : text;
-        }
-        out += "\n";
-      }
-    return out;
-  }
-
   nlohmann::ordered_json report() const {
     nlohmann::ordered_json json = golden::begin_report(config_, common_.seed, arguments_);
     json["weight_bound"] = weight_bound(config_);
     json["count"] = options_.count;
+    if (shard_.is_part()) json["shard"] = options_.shards.shard;
+    std::vector<std::string> faults;
     json["families"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < series_.size(); ++i) {
       const Summary& s = summaries_[i];
@@ -335,6 +292,8 @@ class StressCommand {
         worst["side"] = steps_[s.worst[b]].side;
         worst["reproduce"] = reproduce(s.worst[b], s.body[b].worst);
       }
+      entry["faults"] = s.faults;
+      faults.insert(faults.end(), s.faults.begin(), s.faults.end());
       json["families"].push_back(std::move(entry));
     }
     json["errors"] = nlohmann::ordered_json::array();
@@ -357,21 +316,21 @@ class StressCommand {
         }
         json["errors"].push_back(std::move(entry));
       }
-    json["ok"] = faults_.empty();
-    json["faults"] = faults_;
+    json["ok"] = faults.empty();
+    json["faults"] = faults;
     return json;
   }
 
   const StressOptions& options_;
   const CommonOptions& common_;
-  const std::vector<std::string>& arguments_;
+  const std::vector<std::string> arguments_;
   const Config config_;
+  const Shard shard_;
   unsigned bodies_ = 0;
   std::vector<KnobSeries> series_;
   std::vector<KnobStep> steps_;
   std::vector<KnobErrors> results_;  ///< of the steps
   std::vector<Summary> summaries_;   ///< of the series
-  std::vector<std::string> faults_;
 };
 
 }  // namespace
@@ -403,7 +362,9 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
       "Examples:\n"
       "  quadrille stress\n"
       "  quadrille stress --families edge_distance,eye_plane --set significand_bits=24 --csv stress.csv\n"
-      "  quadrille stress --families reflex --count 8 --engines rtl,shader --json stress.json");
+      "  quadrille stress --families reflex --count 8 --engines rtl,shader --json stress.json\n"
+      "  quadrille stress --shard 0/2 --json part0.json\n"
+      "  quadrille stress --merge part0.json part1.json --json stress.json --csv stress.csv");
   const auto options = std::make_shared<StressOptions>();
   options->common.size = stress_size;
   options->common.add_to(*command);
@@ -418,9 +379,13 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}))
       ->capture_default_str();
+  options->shards.add_to(*command, "the families, in turn", "the --json of each");
   command->add_option("--csv", options->csv, "A row for each step and body; - is standard output")->type_name("F.csv");
   command->callback([options, &invocation] {
-    invocation.run = [options, &invocation] { return StressCommand(*options, invocation.arguments).run(); };
+    invocation.run = [options, &invocation] {
+      if (!options->shards.merge.empty()) return merge_reports(*options);
+      return StressCommand(*options, invocation.arguments).run();
+    };
   });
 }
 

@@ -92,6 +92,41 @@ TEST_F(Cli, StressReports) {
   EXPECT_NE(json::parse(run(arguments + "- --seed 2").out)["errors"], report["errors"]);
 }
 
+TEST_F(Cli, StressShardsPutTogetherAreOneRun) {
+  const std::string arguments = "stress --families reflex,on_edge,edge_distance,sliver,bowtie --count 2 ";
+  const Outcome whole = run(arguments + "--json whole.json --csv whole.csv");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  for (const std::string shard : {"0", "1", "2"})
+    ASSERT_EQ(run(arguments + "--quiet --threads 1 --shard " + shard + "/3 --json part" + shard + ".json").status, 0);
+  EXPECT_EQ(json::parse(read(file("part1.json")))["families"].size(), 2u);
+  const Outcome merged = run("stress --merge part1.json part2.json part0.json --json merged.json --csv merged.csv");
+  ASSERT_EQ(merged.status, 0) << merged.err;
+  EXPECT_EQ(merged.out, whole.out);
+  EXPECT_EQ(read(file("merged.json")), read(file("whole.json")));
+  EXPECT_EQ(read(file("merged.csv")), read(file("whole.csv")));
+
+  refuses(2, "stress --merge part0.json part2.json", {"shard 1/3 is missing"});
+  refuses(2, "stress --merge part0.json part1.json part0.json", {"the same shard"});
+  refuses(2, "stress --merge part0.json whole.json", {"whole.json", "--shard"});
+  refuses(2, "stress --merge part0.json whole.csv", {"whole.csv"});
+  refuses(2, "stress --merge part0.json nowhere.json", {"nowhere.json"});
+  refuses(2, "stress --merge part0.json part1.json part2.json --json part1.json", {"part1.json"});
+  refuses(2, "stress --shard 0/3 --merge part0.json", {"--shard", "--merge"});
+  refuses(2, "stress --families bowtie --shard 0/2", {"--shard 0/2", "1 families"});
+  refuses(2, "stress --shard 2/2", {"0 <= I < N"});
+  ASSERT_EQ(run(arguments + "--seed 2 --shard 1/3 --json other.json").status, 0);
+  refuses(2, "stress --merge part0.json other.json part2.json", {"other.json", "seed"});
+  // A fault of a part is one of the whole.
+  std::string part = read(file("part1.json"));
+  const std::size_t at = part.find("\"faults\": []");
+  ASSERT_NE(at, std::string::npos);
+  write("part1.json", part.replace(at, 12, "\"faults\": [\"a fault\"]"));
+  const Outcome faulty = run("stress --merge part0.json part1.json part2.json --json -");
+  EXPECT_EQ(faulty.status, 1);
+  EXPECT_NE(faulty.err.find("a fault"), std::string::npos);
+  EXPECT_FALSE(json::parse(faulty.out)["ok"].get<bool>());
+}
+
 TEST_F(Cli, StressSummary) {
   const Outcome outcome = run("stress --families on_vertex,vertex_distance --count 2 --engines fp32");
   EXPECT_EQ(outcome.status, 0) << outcome.err;

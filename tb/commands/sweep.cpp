@@ -14,6 +14,7 @@
 #include "tb/engines/engine.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/shard.hpp"
 #include "tb/support/csv.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -49,6 +50,7 @@ struct SweepOptions {
   CommonOptions common;
   StateOptions state;
   InputOptions input;
+  ShardOptions shards;
   std::vector<std::string> axes, targets;
   std::string out, objective, synth = "none", synth_target = "ecp5", cosim, shade;
   std::uint64_t cosim_fragments = 200'000;
@@ -74,8 +76,12 @@ std::string digest(std::span<const WindowQuad> quads) {
 
 class SweepRun {
  public:
-  SweepRun(const SweepOptions& options, std::vector<std::string> arguments)
-      : options_(options), arguments_(std::move(arguments)), base_(options.common.config()), grid_(make_grid()) {}
+  SweepRun(const SweepOptions& options, std::span<const std::string> arguments)
+      : options_(options),
+        arguments_(without_outputs(arguments)),
+        base_(options.common.config()),
+        grid_(make_grid()),
+        shard_(Shard::parse(options.shards.shard)) {}
 
   int run() {
     const tb::Stopwatch start;
@@ -86,6 +92,9 @@ class SweepRun {
     if (std::FILE* text = options_.common.text(); text && !store.results().empty())
       std::fprintf(text, "%s holds %zu of the points already\n", options_.out.c_str(), store.results().size());
 
+    for (const std::string& part : options_.shards.merge) store.merge(part);
+    if (!options_.shards.merge.empty()) require_whole(store);
+
     sweep::Evaluator::Settings settings;
     settings.threads = options_.common.thread_count();
     settings.cycles = !options_.no_cycles;
@@ -95,6 +104,13 @@ class SweepRun {
     else
       search(evaluator, store);
     const double evaluation_seconds = start.seconds();
+    if (shard_.is_part()) {
+      golden::write_file(store.file("stages.csv"), stage_table(store), golden::AtomicFile::Dash::refused);
+      if (std::FILE* text = options_.common.text())
+        std::fprintf(text, "shard %s: %zu of %zu points in %.1f s; --merge puts the shards together\n",
+                     options_.shards.shard.c_str(), store.results().size(), grid_.size(), evaluation_seconds);
+      return exit_ok;
+    }
 
     make_rows(store);
     find_front();
@@ -127,6 +143,11 @@ class SweepRun {
       throw UsageError("the axes span " + std::to_string(grid_.size()) +
                        " points, more than a million; --force if that "
                        "is meant, or --one-at-a-time");
+    if (shard_.is_part() && !options_.targets.empty())
+      throw UsageError("--shard: a search takes each point from the results before; only a grid has parts");
+    if (shard_.count > grid_.size())
+      throw UsageError("--shard " + options_.shards.shard + ": the grid has " + std::to_string(grid_.size()) +
+                       " points; at most so many shards have some each");
     if (options_.exhaustive && options_.targets.empty()) throw UsageError("--exhaustive goes with --target-error");
     weights_ = sweep::weights_of(tb::parse_synthesis_target(options_.synth_target));
     if (!options_.common.config_file.empty()) golden::load_cost_weights(options_.common.config_file, weights_);
@@ -204,10 +225,20 @@ class SweepRun {
 
   // ---- evaluation ----
 
+  /// Shards that are missing are not to be made up for unseen.
+  void require_whole(const sweep::Store& store) const {
+    for (std::size_t row = 0; row < grid_.size(); ++row)
+      if (!store.results().contains(row) && grid_.point(row).refused.empty())
+        throw UsageError("--merge: row " + std::to_string(row) +
+                         " is in none of the shards; those that are there are in " + options_.out +
+                         " now, where the same command without --merge does the rest");
+  }
+
   void evaluate_grid(sweep::Evaluator& evaluator, sweep::Store& store) {
     std::vector<Config> configs;
     std::vector<std::size_t> rows;
-    for (std::size_t row = 0; row < grid_.size(); ++row) {
+    const auto [first, last] = shard_.range(grid_.size());  // neighbours share stages
+    for (std::size_t row = first; row < last; ++row) {
       if (store.results().contains(row)) continue;
       const sweep::GridPoint point = grid_.point(row);
       if (!point.refused.empty()) {
@@ -353,7 +384,16 @@ class SweepRun {
 
   // ---- files ----
 
-  Json manifest(const sweep::Store& store, std::size_t map_row) const {
+  /// What it took: of shards that were put together the sum, so it is no part of the manifest.
+  static std::string stage_table(const sweep::Store& store) {
+    std::string text = "stage,settings,fragments\n";
+    for (std::size_t s = 0; s < sweep::stage_count; ++s)
+      text += std::string(sweep::stage_names[s]) + "," + std::to_string(store.counters().settings[s]) + "," +
+              std::to_string(store.counters().fragments[s]) + "\n";
+    return text;
+  }
+
+  Json manifest(std::size_t map_row) const {
     Json json = golden::begin_report(base_, options_.common.seed, arguments_);
     json["input"] = draw_.name;
     json["input_option"] = draw_.option;
@@ -373,9 +413,6 @@ class SweepRun {
                             {"dsp", weights_.dsp},
                             {"join", weights_.join},
                             {"block_ram", weights_.block_ram}};
-    for (std::size_t s = 0; s < sweep::stage_count; ++s)
-      json["counters"][std::string(sweep::stage_names[s])] = {{"settings", store.counters().settings[s]},
-                                                              {"fragments", store.counters().fragments[s]}};
     if (performance_) json["performance_counters"] = counters_json(*performance_);
     json["error_map_row"] = map_row < grid_.size() ? Json(map_row) : Json(nullptr);
     if (target_) json["search"] = to_json(*target_, targets_);
@@ -406,13 +443,14 @@ class SweepRun {
     for (const sweep::Store::Timing& t : store.timings())
       text += t.what + "," + std::to_string(t.points) + "," + sweep::csv_number(t.seconds) + "\n";
     golden::write_file(store.file("timing.csv"), text, refused);
+    golden::write_file(store.file("stages.csv"), stage_table(store), refused);
 
     if (!options_.no_cycles && evaluator.refusal(base_).empty())
       performance_ = count_draw({.config = base_, .state = input_.state, .seed = options_.common.seed}, input_.quads,
                                 input_.attributes);
     const std::vector<float> map = evaluator.error_map(base_);
     golden::save_npy(store.file("error_map.npy"), map, input_.state.width, input_.state.height);
-    const Json json = manifest(store, sweep::base_row(grid_));
+    const Json json = manifest(sweep::base_row(grid_));
     golden::save_json(store.file("manifest.json"), json);
     if (!options_.common.json.empty()) golden::save_json(options_.common.json, json);
   }
@@ -547,6 +585,7 @@ class SweepRun {
   const std::vector<std::string> arguments_;
   const Config base_;
   const sweep::Grid grid_;
+  const Shard shard_;
   CostWeights weights_;
   std::vector<ErrorTarget> targets_;
   sweep::ErrorColumn objective_;
@@ -581,7 +620,9 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       "  quadrille sweep --axis significand_bits=10:26:2 --axis subpixel_bits=4,6,8 --scene fig7_floor --out floor\n"
       "  quadrille sweep --axis significand_bits=12:24:4 --synth all --cosim none --out synth\n"
       "  quadrille sweep --axis significand_bits=8,12 --synth all --synth-target cells --cosim none --out clocks\n"
-      "  quadrille sweep --target-error colour=0.5/255 --size 1920x1080 --out colour");
+      "  quadrille sweep --target-error colour=0.5/255 --size 1920x1080 --out colour\n"
+      "  quadrille sweep --axis significand_bits=10:26 --shard 0/2 --out part0\n"
+      "  quadrille sweep --axis significand_bits=10:26 --merge part0 part1 --out whole");
   const auto options = std::make_shared<SweepOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
@@ -633,6 +674,7 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       ->type_name("MODE");
   command->add_flag("--no-cycles", options->no_cycles, "Do not count clocks");
   command->add_flag("--force", options->force, "Allow more than a million points");
+  options->shards.add_to(*command, "the grid's points", "the --out of each, and the sweep's other options again");
   command->add_flag("--fresh", options->fresh, "Start over in a directory that holds a sweep");
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return SweepRun(*options, invocation.arguments).run(); };

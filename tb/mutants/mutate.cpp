@@ -160,7 +160,7 @@ Json finish(Run& run, const Mutant& mutant, bool too_long) {
   waitpid(run.pid, &status, 0);
   close(run.from);
   Json result{{"name", mutant.name}};
-  result.update(run.result);
+  if (!run.result.is_null()) result.update(run.result);  // null: the child was over before it had said anything
   const bool whole = result.contains("done") || result.contains("killed");
   if (!whole) {
     result["killed"] = run.last.value("check", "lockstep");

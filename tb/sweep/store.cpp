@@ -200,6 +200,30 @@ void Store::append(const Batch& batch, std::span<const std::size_t> rows) {
   take(Json::parse(content.dump()));
 }
 
+void Store::merge(const fs::path& shard) {
+  if (!fs::exists(shard / "journal.jsonl"))
+    throw golden::InputError(shard.string() +
+                             ": no journal.jsonl there; the --out of `quadrille sweep --shard` is expected");
+  const Store part(shard, identity_, Existing::resume);
+  Ordered content;
+  content["results"] = Ordered::array();
+  for (const auto& [row, result] : part.results_) {
+    const auto mine = results_.find(row);
+    if (mine == results_.end())
+      content["results"].push_back(result_json(row, result));
+    else if (result_json(row, result) != result_json(row, mine->second))
+      throw golden::InputError(part.journal() + ": row " + std::to_string(row) + " has another result than in " +
+                               journal() + ", where the same was expected");
+  }
+  if (content["results"].empty()) return;
+  content["settings"] = part.counters_.settings;
+  content["fragments"] = part.counters_.fragments;
+  content["seconds"] = 0.0;
+  for (const Timing& timing : part.timings_) content["seconds"] = content["seconds"].get<double>() + timing.seconds;
+  write_line(content);
+  take(Json::parse(content.dump()));
+}
+
 void Store::write_line(const Ordered& content) {
   const std::string text = framed(content.dump()) + "\n";
   std::size_t done = 0;

@@ -50,6 +50,10 @@ class Store {
   /// journal is cut back to its last whole line and InputError thrown: what was finished stays.
   void append(const Batch& batch, std::span<const std::size_t> rows);
 
+  /// Takes over the points of another directory of the same identity that this one lacks, and what they took. Throws
+  /// golden::InputError as the constructor does, and where a point is there with another result.
+  void merge(const std::filesystem::path& shard);
+
   /// Path of a file of the sweep.
   std::string file(std::string_view name) const { return (directory_ / name).string(); }
 

@@ -111,6 +111,34 @@ TEST_F(StoreTest, GoesOnWithWhatWasFinished) {
   EXPECT_EQ(store.timings()[0].points, 2u);
 }
 
+TEST_F(StoreTest, MergesWhatItLacksAndRefusesWhatDiffers) {
+  const fs::path first = directory_ / "first", second = directory_ / "second", other = directory_ / "other";
+  const std::array<std::size_t, 2> a{0, 1}, b{1, 7}, swapped{1, 0};
+  Batch again = batch();
+  again.results = {again.results[1], again.results[0]};  // row 1 the same as in the first
+  Store(first, identity, Store::Existing::resume).append(batch(), a);
+  Store(second, identity, Store::Existing::resume).append(again, b);
+  Store(other, identity, Store::Existing::resume).append(batch(), swapped);
+  {
+    Store store(directory_ / "whole", identity, Store::Existing::resume);
+    store.merge(first);
+    store.merge(second);
+    store.merge(first);  // nothing is there twice
+    EXPECT_EQ(store.results().size(), 3u);
+    EXPECT_EQ(store.results().at(7).fragments, 12345678901234567u);
+    EXPECT_EQ(store.counters().settings[2], 2u);
+    ASSERT_EQ(store.timings().size(), 2u);
+    EXPECT_EQ(store.timings()[1].seconds, 0.25);
+    EXPECT_THROW(store.merge(other), golden::InputError);
+    EXPECT_THROW(store.merge(directory_ / "nowhere"), golden::InputError);
+  }
+  EXPECT_EQ(Store(directory_ / "whole", identity, Store::Existing::resume).results().size(), 3u);
+  nlohmann::ordered_json stranger = identity;
+  stranger["seed"] = 2;
+  Store store(directory_ / "stranger", stranger, Store::Existing::resume);
+  EXPECT_THROW(store.merge(first), golden::InputError);
+}
+
 TEST_F(StoreTest, TornLastLineIsDropped) {
   const std::array<std::size_t, 2> rows{0, 1}, more{2, 3};
   {
