@@ -8,17 +8,25 @@ again in draw states, viewports, stalls and configurations that the seed draws; 
   scripts/campaign.py                    the whole campaign (at least 2 million fragments; about 8 minutes)
   scripts/campaign.py --short            the form for continuous integration (at least 200,000 fragments)
   scripts/campaign.py --meshes DIR       OBJ files to add (default: ../shared/meshes when it is there)
-"""
+  scripts/campaign.py --out DIR          keeps what was done; the same again goes on
+  scripts/campaign.py --shard 0/4 --out A   every fourth unit; the other shards elsewhere
+  scripts/campaign.py --merge A B C D --out WHOLE   the sums of all, byte for byte as of one run
+
+Exit status: 0 all agreed and as much was compared as is promised (of a shard: all agreed); 1 otherwise; 2 bad input; 130 stopped."""
 import argparse
 import json
+import os
 import random
 import shlex
+import signal
 import sys
+import tempfile
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report.files import InputError  # noqa: E402
-from report.lockstep import CORNERS, FAMILIES, SKIPPING, Totals, fail, mesh_files, random_configuration, run, set_options  # noqa: E402
+from report.lockstep import CORNERS, FAMILIES, MESHES, SKIPPING, Totals, fail, mesh_files, random_configuration, run, set_options  # noqa: E402
 from report.program import PROGRAM  # noqa: E402
+from report.units import Units, merge, shard  # noqa: E402
 
 # Stall and gap; each takes every value.
 PATTERNS = [(0, 0), (0.1, 0.5), (0.5, 0.1), (0.9, 0.9)]
@@ -40,20 +48,63 @@ DRAWN_RUNS = (3, 2)  # of each input
 DRAWN_CONFIGURATIONS = (5, 1)  # beside the one given and SKIPPING; each takes a simulator
 
 
-class Campaign:
-    def __init__(self, args):
-        self.args = args
-        self.form = 1 if args.short else 0
-        self.failures = []
+SIZES = ("512x512", "160x160")
+LIMITS = (60_000, 4_000)  # fragments of an input that is no scene: scenes are drawn to their end, so that missing pixels show
+COUNTS = (2_000, 150), (200, 40)  # quads of a stress family, in the standard state and in states at random
+
+
+def inputs(scenes, count, meshes):
+    """Options that name an input, scenes first."""
+    # A tiny quad covers one or two pixels, so there are more of them.
+    stress = [["--stress", family, "--count", str(20 * count if family == "tiny" else count)] for family in FAMILIES]
+    return [["--scene", scene] for scene in scenes] + stress + [["--mesh", mesh] for mesh in meshes]
+
+
+def make_plan(args):
+    """What all units follow from: what each of them draws."""
+    form = 1 if args.short else 0
+    command = [args.quadrille, "scenes", "--json"]
+    listed = run(command)
+    if listed.returncode != 0:
+        fail(command, listed)
+    scenes = json.loads(listed.stdout)
+    if args.short:  # the first paper's figures have every shape that the others vary
+        scenes = [scene for scene in scenes if scene["paper"].startswith("Hormann & Tarini")]
+    scenes = [scene["name"] for scene in scenes]
+    meshes = [os.path.basename(mesh) for mesh in mesh_files(args.meshes)]
+    configurations = [[], SKIPPING]
+    rng = random.Random(f"{args.seed}")
+    for number in range(DRAWN_CONFIGURATIONS[form]):
+        configurations.append(random_configuration(args.quadrille, rng, dropped_bits=number % 2 == 0))
+    standard, drawn = (inputs(scenes, counts[form], meshes) for counts in COUNTS)
+    drawn += [["--corner", group] for group in CORNERS]
+    units = [["standard", source] for source in standard] + [["corner", group] for group in CORNERS] + [["hidden", scene] for scene in LAYERS]
+    units += [["drawn", source, index, number] for index, source in enumerate(drawn) for number in range(DRAWN_RUNS[form])]
+    return {"seed": args.seed, "form": form, "set": args.set, "meshes": meshes, "configurations": configurations, "units": units}
+
+
+class Unit:
+    """Runs of one input, added up: what a folder of units keeps of them."""
+
+    def __init__(self, args, plan):
+        self.args, self.plan = args, plan
+        self.folder = args.meshes or MESHES
+        self.totals, self.kinds, self.failures = Totals(), {}, []
+
+    def result(self):
+        return {"sum": self.totals.sum, "worst": self.totals.worst, "kinds": self.kinds, "failures": self.failures}
+
+    def count(self, kind, fragments):
+        self.kinds[kind] = self.kinds.get(kind, 0) + fragments
 
     def cosim(self, options, may_be_empty=False):
         """The report of a run. A failed one is recorded, but where only the truth differs and nothing is claimed about it (dropped bits of D
         and r^2), or where a run that compares nothing is no failure."""
-        command = [self.args.quadrille, "cosim", *options, "--no-alone", "--quiet", "--json", "-"]
-        command += set_options(self.args.set)
+        placed = [os.path.join(self.folder, part) if before == "--mesh" else part for before, part in zip(["", *options], options)]
+        command = [self.args.quadrille, "cosim", *placed, "--no-alone", "--quiet", "--json", "-", *set_options(self.plan["set"])]
         result = run(command)
         if not result.stdout:
-            fail(command, result)
+            raise InputError(f"{result.stderr}{shlex.join(command)}: ended with status {result.returncode}")
         report = json.loads(result.stdout)
         lockstep = report["mismatches"] + report["cycle_mismatches"] == 0
         sound = lockstep and report["model_alone"]["ok"]
@@ -61,160 +112,183 @@ class Campaign:
         empty = sound and report["fragments"] + report["reference_mismatches"] == 0
         if result.returncode != 0 and not no_claim and not (may_be_empty and empty):
             sys.stderr.write(result.stderr)
-            self.failures.append(f"{shlex.join(command)}: status {result.returncode}")
+            self.failures.append(f"quadrille cosim {shlex.join([*options, *set_options(self.plan['set'])])}: status {result.returncode}")
+        self.totals.add(report)
         return report
 
-    def inputs(self, count):
-        """Options that name an input, scenes first."""
-        command = [self.args.quadrille, "scenes", "--json"]
-        listed = run(command)
-        if listed.returncode != 0:
-            fail(command, listed)
-        scenes = json.loads(listed.stdout)
-        if self.args.short:  # the first paper's figures have every shape that the others vary
-            scenes = [scene for scene in scenes if scene["paper"].startswith("Hormann & Tarini")]
-        inputs = [["--scene", scene["name"]] for scene in scenes]
-        # A tiny quad covers one or two pixels, so there are more of them.
-        inputs += [["--stress", family, "--count", str(20 * count if family == "tiny" else count)] for family in FAMILIES]
-        try:
-            meshes = mesh_files(self.args.meshes)
-        except InputError as error:
-            sys.exit(str(error))
-        return inputs + [["--mesh", mesh] for mesh in meshes], len(meshes)
+    def patterns(self, patterns, options, count):
+        """The same under several patterns of stalls and gaps; `count` takes each report. The fragments must be the same."""
+        hashes = set()
+        for index, (stall, gap) in enumerate(patterns):
+            report = self.cosim([*options, "--seed", str(self.plan["seed"]), "--stall", str(stall), "--gap", str(gap)] +
+                                (["--no-snapping-error"] if index > 0 else []))
+            count(report)
+            hashes.add((report["fragments"], report["fragment_hash"]))
+        if len(hashes) != 1:
+            self.failures.append(f"{' '.join(options)}: the fragments depend on the stall pattern")
+        return report
 
-    def standard_runs(self):
-        """Every input in one draw state under every pattern."""
-        size = "160x160" if self.args.short else "512x512"
-        limit = 4_000 if self.args.short else 60_000
-        inputs, meshes = self.inputs(150 if self.args.short else 2_000)
-        totals = Totals()
-        kinds = dict.fromkeys(KINDS, 0)
-        complete = 0
-        for source in inputs:
-            hashes = set()
-            for index, (stall, gap) in enumerate(PATTERNS):
-                options = [*source, "--size", size, "--seed", str(self.args.seed), "--stall", str(stall), "--gap", str(gap)]
-                if source[0] != "--scene":  # scenes are drawn to their end, so that missing pixels show
-                    options += ["--limit-fragments", str(limit)]
-                if index > 0:
-                    options.append("--no-snapping-error")
-                report = self.cosim(options)
-                totals.add(report)
-                for kind in kinds:
-                    kinds[kind] += report["counts"][kind]
-                if source[0] == "--scene" and not report["complete"]:
-                    self.failures.append(f"{' '.join(source)}: not drawn to its end")
-                hashes.add((report["fragments"], report["fragment_hash"]))
-            complete += report["complete"]
-            if len(hashes) != 1:
-                self.failures.append(f"{' '.join(source)}: the fragment stream depends on the stall pattern")
-            print(f"{' '.join(source):60s} {report['fragments']:8d} fragments x {len(PATTERNS)}", flush=True)
+    def standard(self, source):
+        """An input in one draw state under every pattern."""
+        form = self.plan["form"]
 
-        print(f"\n{len(inputs)} inputs ({meshes} meshes), {complete} drawn to their end, (stall, gap) {PATTERNS}, seed {self.args.seed}")
-        totals.print("standard draw state")
-        print("  " + ", ".join(f"{kind} {count}" for kind, count in kinds.items()), flush=True)
-        self.failures += totals.failures("standard draw state")
-        if totals.sum["fragments"] < FRAGMENTS[self.form]:
-            self.failures.append(f"only {totals.sum['fragments']} fragments were compared, {FRAGMENTS[self.form]} are promised")
-        for kind, count in kinds.items():
-            if count < KINDS[kind]:
-                self.failures.append(f"only {count} fragments of kind {kind}, {KINDS[kind]} are promised")
+        def count(report):
+            for kind in KINDS:
+                self.count(kind, report["counts"][kind])
 
-    def corner_runs(self):
-        totals = Totals()
-        at_depth_limit = 0
-        for group, needs in CORNERS.items():
-            for stall, gap in CORNER_PATTERNS:
-                size = [] if "--size" in needs else ["--size", "40x40"]
-                report = self.cosim(["--corner", group, *size, *needs, "--seed", str(self.args.seed), "--stall", str(stall), "--gap", str(gap)])
-                totals.add(report)
-                at_depth_limit += report["counts"]["at_depth_limit"]
-        totals.print(f"{len(CORNERS)} corner groups, (stall, gap) {CORNER_PATTERNS}")
-        print(f"  at_depth_limit {at_depth_limit}", flush=True)
-        self.failures += totals.failures("corner groups")
-        if at_depth_limit < CORNER_DEPTH_LIMITS:
-            self.failures.append(f"only {at_depth_limit} fragments of corner groups at a limit of depth, {CORNER_DEPTH_LIMITS} are promised")
+        limit = [] if source[0] == "--scene" else ["--limit-fragments", str(LIMITS[form])]
+        report = self.patterns(PATTERNS, [*source, "--size", SIZES[form], *limit], count)
+        if source[0] == "--scene" and not report["complete"]:
+            self.failures.append(f"{' '.join(source)}: not drawn to its end")
+        self.count("complete", int(report["complete"]))
 
-    def hidden_runs(self):
-        totals = Totals()
-        hidden = 0
-        for scene in LAYERS:
-            hashes = set()
-            for stall, gap in CORNER_PATTERNS:
-                report = self.cosim(["--scene", scene, "--size", "96x96", "--skip", "all", "--seed", str(self.args.seed), "--stall", str(stall), "--gap", str(gap), *SKIPPING])
-                totals.add(report)
-                hidden += report["counters"]["tiles_hidden"]
-                hashes.add((report["fragments"], report["fragment_hash"]))
-            if len(hashes) != 1:
-                self.failures.append(f"{scene}: what is hidden depends on the stall pattern")
-        totals.print(f"{len(LAYERS)} scenes with hidden tiles, (stall, gap) {CORNER_PATTERNS}")
-        print(f"  tiles hidden {hidden}", flush=True)
-        self.failures += totals.failures("scenes with hidden tiles")
-        if hidden < HIDDEN_TILES:
-            self.failures.append(f"only {hidden} tiles were hidden, {HIDDEN_TILES} are promised")
+    def corner(self, group):
+        needs = CORNERS[group]
+        size = [] if "--size" in needs else ["--size", "40x40"]
+        self.patterns(CORNER_PATTERNS, ["--corner", group, *size, *needs], lambda report: self.count("at_depth_limit", report["counts"]["at_depth_limit"]))
 
-    def drawn_runs(self):
-        """Every input in draw states, viewports, stalls and configurations at random."""
-        configurations = [[], SKIPPING]
-        rng = random.Random(f"{self.args.seed}")
-        for number in range(DRAWN_CONFIGURATIONS[self.form]):
-            configurations.append(random_configuration(self.args.quadrille, rng, dropped_bits=number % 2 == 0))
-        inputs, _ = self.inputs(40 if self.args.short else 200)
-        inputs += [["--corner", group] for group in CORNERS]
-        totals = Totals()
-        kinds = dict.fromkeys(DRAWN_KINDS, 0)
-        for index, source in enumerate(inputs):
-            for number in range(DRAWN_RUNS[self.form]):
-                rng = random.Random(f"{self.args.seed} {index} {number}")
-                width, height = rng.randint(32, 160), rng.randint(32, 160)
-                if rng.random() < 0.25:
-                    width, height = rng.randint(32, 160), rng.randint(257, 600)
-                    if rng.random() < 0.25:
-                        width, height = height, width
-                stall, gap = rng.choice([0, 0.1, 0.5, 0.9, 0.95]), rng.choice([0, 0.1, 0.5, 0.9])
-                limit = (600 if stall >= 0.9 else 2_000) * (1 if self.args.short else 4)
-                report = self.cosim([*source, "--size", f"{width}x{height}", "--draw-state", f"random:{rng.randint(1, 10**9)}",
-                                     "--seed", str(self.args.seed + number), "--stall", str(stall), "--gap", str(gap),
-                                     "--limit-fragments", str(limit), "--no-snapping-error", *rng.choice(configurations)], may_be_empty=True)
-                totals.add(report)
-                state = report["draw_state"]
-                fragments = report["fragments"]
-                words = state.split()
-                skips = words[words.index("--skip") + 1].split(",") if "--skip" in words else ["tiles", "quads", "walk", "operands"]
-                held = {"scissor": "--scissor" in state, "cull": "--cull" in state, "no_perspective": "--no-perspective" in state,
-                        "no_depth": "--no-depth" in state, "znear": "--znear" in state and "--no-depth" not in state,
-                        "zfar": "--zfar" in state and "--no-depth" not in state, "fewer_attributes": "--attributes" in state,
-                        "no_tile_skip": "tiles" not in skips, "no_quad_skip": "quads" not in skips, "no_walk_skip": "walk" not in skips, "no_operand_skip": "operands" not in skips, "dropped_bits": not report["bound"]["applies"],
-                        "over_256_px": max(width, height) > 256, "stall_0.95": stall == 0.95}
-                for kind, holds in held.items():
-                    kinds[kind] += fragments if holds else 0
-                kinds["at_depth_limit"] += report["counts"]["at_depth_limit"]
-        print(f"\n{totals.sum['runs']} runs in draw states at random, seed {self.args.seed}; configurations beside the one given:")
-        for options in configurations[1:]:
-            print("  " + " ".join(options))
-        totals.print("draw states at random")
-        print("  fragments with " + ", ".join(f"{kind} {count}" for kind, count in kinds.items()), flush=True)
-        self.failures += totals.failures("draw states at random")
-        for kind, count in kinds.items():
-            if count < DRAWN_KINDS[kind][self.form]:
-                self.failures.append(f"only {count} fragments in draws of kind {kind}, {DRAWN_KINDS[kind][self.form]} are promised")
+    def hidden(self, scene):
+        self.patterns(CORNER_PATTERNS, ["--scene", scene, "--size", "96x96", "--skip", "all", *SKIPPING],
+                      lambda report: self.count("tiles_hidden", report["counters"]["tiles_hidden"]))
+
+    def drawn(self, source, index, number):
+        """An input in a draw state, a viewport, stalls and a configuration at random."""
+        plan = self.plan
+        rng = random.Random(f"{plan['seed']} {index} {number}")
+        width, height = rng.randint(32, 160), rng.randint(32, 160)
+        if rng.random() < 0.25:
+            width, height = rng.randint(32, 160), rng.randint(257, 600)
+            if rng.random() < 0.25:
+                width, height = height, width
+        stall, gap = rng.choice([0, 0.1, 0.5, 0.9, 0.95]), rng.choice([0, 0.1, 0.5, 0.9])
+        limit = (600 if stall >= 0.9 else 2_000) * (1 if plan["form"] else 4)
+        report = self.cosim([*source, "--size", f"{width}x{height}", "--draw-state", f"random:{rng.randint(1, 10**9)}",
+                             "--seed", str(plan["seed"] + number), "--stall", str(stall), "--gap", str(gap),
+                             "--limit-fragments", str(limit), "--no-snapping-error", *rng.choice(plan["configurations"])], may_be_empty=True)
+        state = report["draw_state"]
+        words = state.split()
+        skips = words[words.index("--skip") + 1].split(",") if "--skip" in words else ["tiles", "quads", "walk", "operands"]
+        held = {"scissor": "--scissor" in state, "cull": "--cull" in state, "no_perspective": "--no-perspective" in state,
+                "no_depth": "--no-depth" in state, "znear": "--znear" in state and "--no-depth" not in state,
+                "zfar": "--zfar" in state and "--no-depth" not in state, "fewer_attributes": "--attributes" in state,
+                "no_tile_skip": "tiles" not in skips, "no_quad_skip": "quads" not in skips, "no_walk_skip": "walk" not in skips,
+                "no_operand_skip": "operands" not in skips, "dropped_bits": not report["bound"]["applies"],
+                "over_256_px": max(width, height) > 256, "stall_0.95": stall == 0.95}
+        for kind, holds in held.items():
+            self.count(kind, report["fragments"] if holds else 0)
+        self.count("at_depth_limit", report["counts"]["at_depth_limit"])
 
 
-def main():
+def do(args, plan, number):
+    phase, *which = plan["units"][number]
+    unit = Unit(args, plan)
+    getattr(unit, phase)(*which)
+    return unit.result()
+
+
+class Sums:
+    """Of the units of one phase."""
+
+    def __init__(self, units, done, phase, kinds):
+        self.totals, self.kinds, self.failures, self.units = Totals(), dict.fromkeys(kinds, 0), [], 0
+        for number in done:
+            if units.plan["units"][number][0] != phase:
+                continue
+            result = units.read(number)
+            self.totals.add_sums(result["sum"], result["worst"])
+            self.failures += result["failures"]
+            self.units += 1
+            for kind, fragments in result["kinds"].items():
+                self.kinds[kind] = self.kinds.get(kind, 0) + fragments
+
+    def promised(self, what, promised):
+        return [f"only {self.kinds[kind]} {what} {kind}, {count} are promised" for kind, count in promised.items() if self.kinds[kind] < count]
+
+
+def report(units):
+    """Prints the sums of a whole campaign, or of a part; whether all agreed and, of a whole one, as much as is promised was compared."""
+    plan, done = units.plan, units.done()
+    form = plan["form"]
+    whole = len(done) == len(plan["units"])
+    standard, corner = Sums(units, done, "standard", KINDS), Sums(units, done, "corner", ["at_depth_limit"])
+    hidden, drawn = Sums(units, done, "hidden", ["tiles_hidden"]), Sums(units, done, "drawn", DRAWN_KINDS)
+    failures = []
+    print(f"\n{standard.units} inputs ({len(plan['meshes'])} meshes), {standard.kinds.pop('complete', 0)} drawn to their end, (stall, gap) {PATTERNS}, seed {plan['seed']}")
+    for sums, title, label in ((standard, "standard draw state", ""), (corner, f"{corner.units} corner groups, (stall, gap) {CORNER_PATTERNS}", ""),
+                               (hidden, f"{hidden.units} scenes with hidden tiles, (stall, gap) {CORNER_PATTERNS}", ""),
+                               (drawn, "draw states at random", "fragments with ")):
+        if sums is drawn:
+            print(f"\n{drawn.totals.sum['runs']} runs in draw states at random, seed {plan['seed']}; configurations beside the one given:")
+            for options in plan["configurations"][1:]:
+                print("  " + " ".join(options))
+        sums.totals.print(title)
+        print("  " + label + ", ".join(f"{kind} {count}" for kind, count in sums.kinds.items()))
+        failures += sums.failures + sums.totals.failures(title)
+    if whole:
+        if standard.totals.sum["fragments"] < FRAGMENTS[form]:
+            failures.append(f"only {standard.totals.sum['fragments']} fragments were compared, {FRAGMENTS[form]} are promised")
+        failures += standard.promised("fragments of kind", KINDS)
+        failures += corner.promised("fragments of corner groups", {"at_depth_limit": CORNER_DEPTH_LIMITS})
+        failures += hidden.promised("of", {"tiles_hidden": HIDDEN_TILES})
+        failures += drawn.promised("fragments in draws of kind", {kind: count[form] for kind, count in DRAWN_KINDS.items()})
+    else:
+        print(f"\n{len(done)} of {len(plan['units'])} units: a part; what is promised is of the whole")
+        if not done:
+            failures.append("no unit was done")
+    for failure in failures:
+        print("FAILED: " + failure, file=sys.stderr)
+    return not failures
+
+
+def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadrille", default=PROGRAM, help="the program")
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--meshes", metavar="DIR", help="folder with OBJ files (default: ../shared/meshes when it is there)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="configuration, as for quadrille")
-    campaign = Campaign(parser.parse_args())
-    campaign.standard_runs()
-    campaign.corner_runs()
-    campaign.hidden_runs()
-    campaign.drawn_runs()
-    for failure in campaign.failures:
-        print("FAILED: " + failure, file=sys.stderr)
-    return 1 if campaign.failures else 0
+    parser.add_argument("--out", metavar="DIR", help="folder of what was done (default: none is kept)")
+    parser.add_argument("--shard", type=shard, metavar="I/N", help="units I, I + N, … alone, 0 <= I < N; needs --out")
+    parser.add_argument("--jobs", type=int, default=1, help="units at a time (default: 1; each has threads of its own)")
+    parser.add_argument("--merge", nargs="+", metavar="DIR", help="put shards together into --out")
+    args = parser.parse_args()
+    if (args.shard or args.merge) and not args.out:
+        parser.error("--shard and --merge need a folder: --out DIR")
+    if args.jobs < 1:
+        parser.error(f"--jobs {args.jobs}: at least 1 is expected")
+    return args
+
+
+def work(args, folder):
+    """Units of a folder, which a later run goes on with."""
+    plan = make_plan(args)
+    units = Units(folder, plan)
+
+    def tell(number, result):
+        phase, which, *_ = plan["units"][number]
+        print(f"{phase:8} {which if isinstance(which, str) else ' '.join(which):60s} {result['sum']['fragments']:8d} fragments in {result['sum']['runs']} runs", flush=True)
+
+    start, step = args.shard or (0, 1)
+    units.run(lambda number: do(args, plan, number), range(start, len(plan["units"]), step), args.jobs, told=tell)
+    return report(units)
+
+
+def main():
+    args = options()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        if args.merge:
+            return 0 if report(merge(args.out, args.merge)) else 1
+        if args.out:
+            return 0 if work(args, args.out) else 1
+        with tempfile.TemporaryDirectory() as folder:
+            return 0 if work(args, os.path.join(folder, "campaign")) else 1
+    except InputError as error:
+        print(f"campaign: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("stopped" + ("; the same command goes on" if args.out else ""), file=sys.stderr)
+        return 130
 
 
 if __name__ == "__main__":

@@ -7,7 +7,9 @@
 #   scripts/mutate.sh --file F          those of one file: all that --count allows
 #   scripts/mutate.sh --class C         those of one class: operator constant width sign index enable reset priority comparison
 #   scripts/mutate.sh --jobs J          so many at a time (all processors)
-#   scripts/mutate.sh --json FILE       keeps the results; tb/mutants/report_mutants.py --from FILE prints them again
+#   scripts/mutate.sh --json FILE       keeps the results
+#   scripts/mutate.sh --shard I/N --json PART      every N-th mutant, on one of N machines
+#   tb/mutants/report_mutants.py --from PART… --json FILE      puts kept results together and prints the table
 # Exit status: 0 each is seen by a check or argued equivalent in tb/mutants/equivalent.toml, 1 not, 2 usage, 3 a tool is missing.
 set -euo pipefail
 case "${1:-}" in -h | --help) sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;; esac
@@ -18,7 +20,7 @@ while [ $# -gt 0 ]; do
   case $1 in
     --count | --seed | --file | --class) draw+=("$1" "$2") ;;
     --json) case $2 in /*) report+=("$1" "$2") ;; *) report+=("$1" "$caller/$2") ;; esac ;;
-    --jobs) report+=("$1" "$2") ;;
+    --jobs | --shard) report+=("$1" "$2") ;;
     *) echo "mutate.sh: no option $1 (--help)" >&2; exit 2 ;;
   esac
   shift 2

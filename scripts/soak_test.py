@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of soak.py and report/units.py: the same bytes from one run, from shards and from runs that were stopped; faults are found and kept.
+"""Tests of soak.py, campaign.py and report/units.py: the same bytes from one run, from shards and from runs that were stopped; faults are found and kept.
 
   soak_test.py PROGRAM"""
 import contextlib
@@ -27,14 +27,15 @@ words = sys.argv[1:]
 if words[0] == "config":
     sys.exit(0)
 if words[0] == "scenes":
-    print(json.dumps([{{"name": "sphere"}}, {{"name": "bowtie"}}]))
+    print(json.dumps([{{"name": "sphere", "paper": "Hormann & Tarini"}}, {{"name": "bowtie", "paper": "-"}}]))
     sys.exit(0)
 time.sleep(float(os.environ.get("STUB_SECONDS", "0")))
 digest = hashlib.sha256(" ".join(words).encode()).hexdigest()
 wrong = os.environ.get("STUB_FAULT", "") in words and "--quiet" in words and "--json" in words
 print(json.dumps({{"bound": {{"applies": True}}, "reference_mismatches": 0, "beyond_bound": 0, "fragments": int(digest[:3], 16), "cycles_all_passes": int(digest[:4], 16),
     "compared_bits": int(digest[:5], 16), "mismatches": 7 if wrong else 0, "cycle_mismatches": 0, "fragment_hash": digest[:16],
-    "worst": {{"error_over_bound": int(digest[:2], 16) / 512}}, "model_alone": {{"ok": True}}}}))
+    "worst": {{"error_over_bound": int(digest[:2], 16) / 512}}, "model_alone": {{"ok": True}}, "complete": True, "draw_state": "--cull back --no-depth",
+    "counts": dict.fromkeys(["eye_crossing", "near_edge", "near_vertex", "tiny", "at_depth_limit"], 20000), "counters": {{"tiles_hidden": 500}}}}))
 sys.exit(1 if wrong else 0)
 """
 
@@ -69,6 +70,8 @@ class WithStub(unittest.TestCase):
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         return result
 
+
+class Runs(WithStub):
     def test_any_number_of_jobs_and_of_runs(self):
         self.soak("one", "--units", "40", "--jobs", "1")
         self.soak("many", "--units", "13", "--jobs", "4")
@@ -175,6 +178,49 @@ class Program(unittest.TestCase):
         self.assertEqual(total["units"], 8)
         self.assertGreater(total["fragments"], 1000)
         self.assertGreater(total["bits"], 1_000_000)
+
+
+class Campaign(WithStub):
+    """The stub's fragments depend on the stalls, which every unit of several patterns must say."""
+
+    def campaign(self, out, *arguments, status=1, **environment):
+        command = [os.path.join(HERE, "campaign.py"), "--quadrille", self.stub, "--short", "--meshes", self.meshes, "--out", os.path.join(self.folder, out), *arguments]
+        result = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment}, check=False)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        return result
+
+    def setUp(self):
+        super().setUp()
+        self.meshes = os.path.join(self.folder, "meshes")
+        os.mkdir(self.meshes)
+        with open(os.path.join(self.meshes, "a.obj"), "w", encoding="utf-8") as file:
+            file.write("# not read by the stub\n")
+
+    def test_shards_put_together(self):
+        whole = self.campaign("whole")
+        self.assertIn("the fragments depend on the stall pattern", whole.stderr)
+        for index in range(3):
+            part = self.campaign(f"part{index}", "--shard", f"{index}/3", "--jobs", "2")
+            self.assertIn("a part", part.stdout)
+        merged = self.campaign("merged", "--merge", *(os.path.join(self.folder, f"part{index}") for index in (2, 0, 1)))
+        self.assertEqual(bytes_of(os.path.join(self.folder, "merged")), bytes_of(os.path.join(self.folder, "whole")))
+        self.assertTrue(whole.stdout.endswith(merged.stdout))
+        self.assertEqual(merged.stderr, whole.stderr)
+        self.assertIn("only ", whole.stderr)  # of some draws at random there are fewer than promised
+
+        # What is there is not done again, and not put among something else.
+        again = self.campaign("whole").stdout
+        self.assertTrue(whole.stdout.endswith(again))
+        self.assertLess(len(again), len(whole.stdout))
+        self.assertIn("seed is 1, not 2", self.campaign("whole", "--seed", "2", status=2).stderr)
+
+    def test_faults_have_their_command(self):
+        mesh = os.path.join(self.meshes, "a.obj")
+        number = 1 + len(soak.FAMILIES)  # behind the one scene of the short form
+        result = self.campaign("run", "--shard", f"{number}/1000", STUB_FAULT=mesh)
+        self.assertIn("FAILED: quadrille cosim --mesh a.obj ", result.stderr)
+        self.assertIn("FAILED: standard draw state: 28 mismatches", result.stderr)
+        self.assertIn("1 of ", result.stdout)
 
 
 if __name__ == "__main__":

@@ -353,6 +353,27 @@ TEST(HierarchicalZ, TwoCodesBehindIsHiddenAndEqualDepthsAreNot) {
   EXPECT_TRUE(both.same());
 }
 
+TEST(HierarchicalZ, TilesThatLieTogetherHavePlacesOfTheirOwn) {
+  for (const int log2 : {6, 7, 9}) {
+    Config config = configured();
+    config.hierarchical_z_tiles_log2 = log2;
+    const TilePlaces places(config);
+    ASSERT_EQ(places.count(), std::size_t{1} << log2);
+    const int columns = 1 << (log2 + 1) / 2, rows = 1 << log2 / 2;
+    for (const auto& [x0, y0] :
+         {std::pair{0, 0}, std::pair{columns, 0}, std::pair{3, 5}, std::pair{5 * columns - 1, 7}}) {
+      std::vector<bool> taken(places.count());
+      for (int y = y0; y < y0 + rows; ++y)
+        for (int x = x0; x < x0 + columns; ++x) {
+          const std::size_t place = places.place(x, y);
+          ASSERT_LT(place, places.count());
+          EXPECT_FALSE(taken[place]) << x << ", " << y;
+          taken[place] = true;
+        }
+    }
+  }
+}
+
 TEST(HierarchicalZ, OutlivesADrawUntilTheClear) {
   const Config config = configured();
   DrawState state = viewport(32, 32);
@@ -394,8 +415,7 @@ TEST(HierarchicalZ, IntervalHoldsEveryDepth) {
                      margin = depth_margin_steps(config) * std::ldexp(1, 1 - s);
         double least = 1, greatest = 0;
         for (const auto& c : corner) least = std::min(least, c[2]), greatest = std::max(greatest, c[2]);
-        EXPECT_GE(depth.near * unit,
-                  std::min(least * (1 - margin - 2 * std::ldexp(1, 1 - s)) - unit, unknown - 2 * unit))
+        EXPECT_GE(depth.near * unit, std::min(least * (1 - margin - 2 * std::ldexp(1, 1 - s)) - unit, unknown - unit))
             << i;
         EXPECT_LE(depth.far * unit, greatest * (1 + margin + 2 * std::ldexp(1, 1 - s)) + unit) << i;
         lowering += depth.lowers;
@@ -518,6 +538,40 @@ TEST(MaskedDepth, QuadsThatCoverATileTogetherHideIt) {
   EXPECT_EQ(both.masked(), 1u);
   EXPECT_EQ(both.pixels(), 64u + 72);
   EXPECT_TRUE(both.same());
+}
+
+TEST(MaskedDepth, WhatBeginsWhereAllEndsIsHiddenAndBeforeItIsNot) {
+  const Config config = configured();
+  for (const std::uint32_t near : {499u, 500u, 501u}) {
+    MaskedDepth masked(config);
+    const auto cover = [&](const DepthInterval& depth, std::uint32_t mask) {
+      masked.begin(1, 1, depth);
+      std::uint32_t seen = 0;
+      for (int row = 0; row < 1 << config.tile_log2; ++row) seen |= masked.row(row, mask);
+      masked.end();
+      return seen;
+    };
+    EXPECT_EQ(cover({400, 500, true}, 0xff), 0xffu);
+    masked.begin(1, 1, {near, near + 1, false});
+    EXPECT_EQ(masked.hidden(), near >= 500) << near;
+    EXPECT_EQ(cover({near, near + 1, false}, 0x3c), near >= 500 ? 0u : 0x3cu) << near;
+  }
+}
+
+TEST(MaskedDepth, OnePixelMoreJoinsTheMask) {
+  const Config config = configured();
+  MaskedDepth masked(config);
+  const int rows = 1 << config.tile_log2;
+  masked.begin(0, 0, {400, 500, true});  // all but the first pixel of the tile, and then that one
+  for (int row = 0; row < rows; ++row) masked.row(row, row == 0 ? 0xfe : 0xff);
+  masked.end();
+  masked.begin(0, 0, {500, 501, false});
+  EXPECT_FALSE(masked.hidden());
+  masked.begin(0, 0, {400, 500, true});
+  masked.row(0, 0x01);
+  masked.end();
+  masked.begin(0, 0, {500, 501, false});
+  EXPECT_TRUE(masked.hidden());
 }
 
 TEST(MaskedDepth, PixelsInTheMaskAreLeftOutOneByOne) {

@@ -84,6 +84,12 @@ class Totals:
         if exact:
             self.worst = max(self.worst, report.get("worst", {}).get("error_over_bound", 0))
 
+    def add_sums(self, sums, worst):
+        """Those of another."""
+        for key, value in sums.items():
+            self.sum[key] += value
+        self.worst = max(self.worst, worst)
+
     def print(self, what):
         print(f"{what}: {self.sum['fragments']} fragments, {self.sum['cycles']} cycles, {self.sum['bits']} bits compared")
         print("  " + ", ".join(f"{self.sum[key]} {name}" for key, name in FAULTS.items()) + f"; worst weight {100 * self.worst:.1f} % of the bound")

@@ -2,7 +2,7 @@
 // Prints a line of JSON for each mutant, in the order of the list; scripts/mutate.sh makes the table of it.
 //
 //   mutate [--file F] [--class C] [--name N] [--sample N --seed S] [--jobs J] [--limit SECONDS] [--only NAMES_FILE]
-//   [--all-checks]
+//   [--tests-alone]
 //
 // A mutant of the RTL is compared with the model in lockstep. One of the model is too, and then goes through the checks
 // that see the model alone. One of both alike goes through these only: that the RTL errs alike hides it from lockstep,
@@ -10,6 +10,7 @@
 // check that takes longer than --limit seconds in one scenario is ended: the fault is found, as hung.
 #include "model/support/prng.hpp"
 #include "tb/mutants/checks.hpp"
+#include "tb/mutants/model_tests.hpp"
 
 #include <poll.h>
 #include <sys/wait.h>
@@ -33,8 +34,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-/// Cheapest first: what each takes of a machine without a fault grows down the list.
+/// Cheapest first: what each takes of a machine without a fault grows down the list. Then the model's own tests.
 constexpr std::string_view model_checks[]{"truth", "lanes", "functions", "kept", "float", "limits"};
+constexpr const char* own_tests = "tests";
 
 /// One line of a child to its parent.
 void say(int to, const Json& what) {
@@ -77,6 +79,12 @@ bool finds_anywhere(int to, const CheckInfo& check) {
   return std::ranges::any_of(every_scenario(), [&](const Scenario* s) { return finds(to, check, s); });
 }
 
+void look_with_tests(int to) {
+  const auto begins = [&](const std::string& test) { say(to, {{"check", own_tests}, {"where", test}}); };
+  if (const auto failed = failing_test(begins))
+    say(to, {{"killed", own_tests}, {"where", failed->name}, {"how", "difference"}, {"what", failed->what}});
+}
+
 /// The checks on one mutant, in the child.
 void look(int to, const Mutant& mutant) {
   const CheckInfo& lockstep = check_named("lockstep");
@@ -100,6 +108,7 @@ void look(int to, const Mutant& mutant) {
   if (rtl) return;  // what agrees with the model in every clock is as good as that
   for (const std::string_view name : model_checks)
     if (finds_anywhere(to, check_named(name))) return;
+  look_with_tests(to);
 }
 
 /// A child that looks at a mutant.
@@ -113,7 +122,7 @@ struct Run {
   bool twin_undecided = false;
 };
 
-Run start(std::size_t index, const Mutant& mutant) {
+Run start(std::size_t index, const Mutant& mutant, bool tests_alone) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   std::fflush(nullptr);
@@ -123,7 +132,12 @@ Run start(std::size_t index, const Mutant& mutant) {
     close(ends[0]);
     std::freopen("/dev/null", "w", stderr);
     std::freopen("/dev/null", "w", stdout);
-    look(ends[1], mutant);
+    if (tests_alone) {
+      const Selected selected(mutant, false, true);
+      look_with_tests(ends[1]);
+    } else {
+      look(ends[1], mutant);
+    }
     say(ends[1], {{"done", true}});
     _exit(0);
   }
@@ -191,6 +205,7 @@ int run(int argc, char** argv) {
   std::uint64_t count = 0, seed = 1;
   unsigned jobs = 1;
   double limit = 60;
+  bool tests_alone = false;
   app.add_option("--side", side, "only of this side: rtl, model, common");
   app.add_option("--file", file, "only of this file");
   app.add_option("--class", fault_class, "only of this class");
@@ -199,6 +214,7 @@ int run(int argc, char** argv) {
   app.add_option("--sample", count, "so many, drawn by the seed; 0: all");
   app.add_option("--seed", seed, "of the sample");
   app.add_option("--jobs", jobs, "at a time")->check(CLI::Range(1, 64));
+  app.add_flag("--tests-alone", tests_alone, "only the model's own tests, for what no other check saw");
   app.add_option("--limit", limit, "seconds after which a check of one scenario hangs");
   CLI11_PARSE(app, argc, argv);
 
@@ -226,14 +242,14 @@ int run(int argc, char** argv) {
     return 2;
   }
 
-  for (const Scenario* s : every_scenario())
+  for (const Scenario* s : tests_alone ? std::vector<const Scenario*>() : every_scenario())
     simulator_of(s->options.config);  // built and loaded with no fault selected
   std::map<std::size_t, Json> results;
   std::vector<Run> runs;
   std::size_t next = 0, printed = 0;
   while (printed < mutants.size()) {
     while (runs.size() < jobs && next < mutants.size()) {
-      runs.push_back(start(next, mutants[next]));
+      runs.push_back(start(next, mutants[next], tests_alone));
       ++next;
     }
     std::vector<pollfd> ready;

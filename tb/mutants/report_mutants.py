@@ -2,11 +2,12 @@
 """Puts generated mutants through the checks and says which check saw which: a table, and the survivors.
 
     tb/mutants/report_mutants.py BUILD_DIR [--side S] [--file F] [--class C] [--name N] [--sample N] [--seed S] [--jobs J] [--json FILE] [--quiet]
-    tb/mutants/report_mutants.py --from FILE        the same of what --json kept
+    tb/mutants/report_mutants.py BUILD_DIR --shard I/N --json PART …      every N-th mutant, for several machines
+    tb/mutants/report_mutants.py --from FILE … [--json FILE]              the same of what --json kept, shards put together
 
 BUILD_DIR is tb/mutants of a build. A mutant that no check sees must be argued equivalent in equivalent.toml, by its file, its line and the line
 as changed; one that is there must be seen by none, and its line must still exist. An entry with `open` instead says which check is missing.
-Exit status: 0 every mutant is seen or argued equivalent (in a --sample: or open); 1 one is not; 2 usage; 3 the checks did not run."""
+Exit status: 0 every mutant is seen or argued equivalent (in a --sample: or open); 1 one is not, or a shard is missing; 2 usage; 3 the checks did not run."""
 import argparse
 import collections
 import json
@@ -14,14 +15,18 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "scripts"))
+from report.units import shard  # noqa: E402
 SIDES = {"rtl": "RTL", "model": "model", "common": "both alike"}
 CLASSES = ("operator", "constant", "width", "sign", "index", "enable", "reset", "priority", "comparison")
 # Of lockstep, how a mutant of the RTL showed: `differs` is a bit or a clock.
-CHECKS = ("lockstep", "truth", "lanes", "functions", "kept", "float", "limits")
+CHECKS = ("lockstep", "truth", "lanes", "functions", "kept", "float", "limits", "tests")
 
 
 def equivalents():
@@ -60,6 +65,37 @@ def run(build, arguments):
             yield json.loads(line)
     if process.returncode != 0:
         sys.exit(process.returncode if process.returncode in (2, 3) else 3)
+
+
+def run_shard(build, arguments, drawn):
+    """Those of a shard: every N-th of the draw, or of those named in --only."""
+    index, count = arguments.shard
+    names = [m["name"] for m in drawn]
+    if arguments.only:
+        wanted = set(pathlib.Path(arguments.only).read_text().split())
+        names = [name for name in names if name in wanted]
+    with tempfile.NamedTemporaryFile("w", suffix=".names") as file:
+        file.write("".join(name + "\n" for name in names[index::count]))
+        file.flush()
+        arguments.only = file.name
+        yield from run(build, arguments)
+
+
+def put_together(files):
+    """The mutants of several kept files, in the order of the draw; an error ends the script."""
+    found, drawn = {}, None
+    for file in files:
+        try:
+            kept = json.loads(file.read_text())
+            if drawn not in (None, kept["drawn"]):
+                sys.exit(f"{file}: of a draw of {kept['drawn']} mutants, {files[0]} of {drawn}; shards of one draw are expected")
+            drawn = kept["drawn"]
+            for m in kept["mutants"]:
+                if found.setdefault(m["number"], m) != m:
+                    sys.exit(f"{file}: {m['name']} has another result than in another file, where the same was expected")
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            sys.exit(f"{file}: is not what --json keeps ({error})")
+    return drawn, [found[number] for number in sorted(found)]
 
 
 def how_seen(result):
@@ -125,26 +161,32 @@ def main():
     parser.add_argument("--seed", type=int, default=int(os.environ.get("QUADRILLE_TEST_SEED", "1")))
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--json", type=pathlib.Path)
-    parser.add_argument("--from", dest="kept", type=pathlib.Path)
+    parser.add_argument("--from", dest="kept", type=pathlib.Path, nargs="+")
+    parser.add_argument("--shard", type=shard, metavar="I/N", help="every N-th mutant, from I; 0 <= I < N")
     parser.add_argument("--quiet", action="store_true")
     arguments = parser.parse_args()
     if not arguments.build and not arguments.kept:
         parser.error("BUILD_DIR is missing")
+    if arguments.shard and (arguments.sample or arguments.kept):
+        parser.error("--shard goes with neither --sample nor --from")
     entries, faults = equivalents()
     if arguments.kept:
-        mutants = json.loads(arguments.kept.read_text())
-        for m in mutants:
-            m.pop("why", None)
-            m.pop("open", None)
+        drawn, mutants = put_together(arguments.kept)
     else:
-        names = {m["name"]: m for m in json.loads((arguments.build / "generated.json").read_text())}
+        left_out = {name for file in arguments.build.glob("*.left_out") for name in file.read_text().split()}
+        generated = [m for m in json.loads((arguments.build / "generated.json").read_text()) if m["name"] not in left_out]
+        drawn = len(generated)
+        names = {m["name"]: {"number": number} | m for number, m in enumerate(generated)}
         mutants = []
-        for result in run(arguments.build, arguments):
+        for result in run_shard(arguments.build, arguments, generated) if arguments.shard else run(arguments.build, arguments):
+            seconds = result.pop("seconds")  # not kept: the same mutant leaves the same bytes
             mutants.append(names[result["name"]] | {"result": result})
             if not arguments.quiet:
-                print(f"{result['seconds']:6.1f} s  {result['name']}: {how_seen(result)}", file=sys.stderr, flush=True)
-        if arguments.json:
-            arguments.json.write_text(json.dumps(mutants, indent=1) + "\n")
+                print(f"{seconds:6.1f} s  {result['name']}: {how_seen(result)}", file=sys.stderr, flush=True)
+    if arguments.json:
+        arguments.json.write_text(json.dumps({"drawn": drawn, "mutants": mutants}, indent=1) + "\n")
+    if arguments.kept and len(mutants) < drawn:
+        print(f"{len(mutants)} of {drawn} mutants of the draw: not all of it was run, or a shard is missing")
     survivors = 0
     for m in mutants:
         entry = argument(entries, m)
@@ -160,7 +202,8 @@ def main():
     report(mutants, by_file=not arguments.quiet)
     for fault in faults:
         print(fault)
-    return 1 if faults or survivors or not mutants else 0
+    missing = arguments.kept and len(mutants) < drawn
+    return 1 if faults or survivors or missing or not mutants else 0
 
 
 if __name__ == "__main__":
