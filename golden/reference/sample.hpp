@@ -25,6 +25,8 @@ struct ReferenceSample {
   double z = 0;                    ///< window z
   double z_condition = 1;          ///< sum(|M W|) / |sum(M W)|
   std::array<double, max_attribute_slots> attribute{};
+
+  friend bool operator==(const ReferenceSample&, const ReferenceSample&) = default;
 };
 
 }  // namespace quadrille::golden

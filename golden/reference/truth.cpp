@@ -39,6 +39,12 @@ long double magnitude(long double value) { return std::abs(value); }
 bool negative(__float128 value) { return __builtin_signbit(value) != 0; }
 bool negative(long double value) { return std::signbit(value); }
 
+/// a - b, exactly.
+detail::TwoDoubles exact_difference(double a, double b) {
+  const double difference = a - b, of_b = a - difference;
+  return {difference, (a - (difference + of_b)) + (of_b - b)};
+}
+
 using golden::rsqrt;
 /// 1 / sqrt(a), within two roundings.
 long double rsqrt(long double a) { return 1.0L / std::sqrt(a); }
@@ -344,6 +350,14 @@ TruthQuad::TruthQuad(const SnappedQuad& quad, const Config& config, const DrawSt
   g.finish();
   geometry_ = g;
   quick_ = detail::VertexValues<long double>(exact_);
+  std::array<detail::TwoDoubles, 4> x, y;
+  std::array<double, 4> w;
+  for (int i = 0; i < 4; ++i) {
+    x[i] = {static_cast<double>(g.x[i])};
+    y[i] = {static_cast<double>(g.y[i])};
+    w[i] = static_cast<double>(g.w[i]);
+  }
+  set_lanes(x, y, w, g.eye_in_hull);
   unit_w_ = !homogeneous_;
   bounds_ = meet(scissor_of(draw), scissor_of(draw));
   if (!homogeneous_) {
@@ -387,8 +401,46 @@ TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
   g.finish();
   geometry_ = g;
   quick_ = detail::VertexValues<long double>(exact_);
+  std::array<detail::TwoDoubles, 4> x, y;
+  std::array<double, 4> w;
+  for (int i = 0; i < 4; ++i) {
+    const WindowVertex& v = quad.vertex[i];
+    x[i] = exact_difference(v.x, v.w / 2);
+    y[i] = exact_difference(v.y, v.w / 2);
+    w[i] = v.w;
+  }
+  set_lanes(x, y, w, g.eye_in_hull);
   bounds_ = meet(scissor_of(draw), scissor_of(draw));
   if (!homogeneous_) bounds_ = meet(bounds_, around(low_x, low_y, high_x, high_y));
+}
+
+void TruthQuad::set_lanes(const std::array<detail::TwoDoubles, 4>& x, const std::array<detail::TwoDoubles, 4>& y,
+                          const std::array<double, 4>& w, bool eye_in_hull) {
+  if (eye_in_hull) return;
+  // Nothing is drawn of a quad without any w or k; the filter's sums need one that is not 0.
+  const auto all_zero = [](const auto& values) { return std::ranges::all_of(values, [](auto v) { return v == 0; }); };
+  if (all_zero(exact_.k) || all_zero(exact_.w)) return;
+  bool fits = true;
+  const auto take = [&](__float128 value) {
+    const auto number = static_cast<double>(value);
+    const double size = std::fabs(number);
+    fits = fits && number == value &&
+           (number == 0 || (size >= detail::lane_least_value && size <= detail::lane_largest_value));
+    return number;
+  };
+  detail::LaneQuad& q = lanes_.emplace();
+  q.perspective = perspective_;
+  q.attributes = attributes_;
+  for (int i = 0; i < 4; ++i) {
+    q.x[i] = {take(x[i].hi), x[i].lo};
+    q.y[i] = {take(y[i].hi), y[i].lo};
+    q.w[i] = take(w[i]);
+    q.k[i] = take(exact_.k[i]);
+    q.z[i] = take(exact_.z[i]);
+    q.w_value[i] = take(exact_.w[i]);
+    for (int a = 0; a < attributes_; ++a) q.b[a][i] = take(exact_.b[a][i]);
+  }
+  if (!fits) lanes_.reset();
 }
 
 Coverage TruthQuad::cover(int px, int py) const {
@@ -519,6 +571,49 @@ ReferenceSample TruthQuad::sample(int px, int py, Effort effort) const {
         return out;
       },
       geometry_);
+}
+
+bool TruthQuad::take_lane(const detail::LaneSamples& from, std::size_t lane, int det_012, int det_023,
+                          ReferenceSample& out) const {
+  const std::int64_t decided = from.decided[lane];
+  if (decided == 0) return false;
+  out = {};
+  out.flags = homogeneous_ ? flag_homogeneous : 0;
+  out.covered = decided >= 2;
+  if (!out.covered) return true;
+  out.front = decided >= 4;
+  out.visible = (out.front ? -1 : 1) * (decided % 2 == 0 ? det_012 : det_023) > 0;
+  out.notch = from.notch[lane] != 0;
+  out.visible_margin = from.visible_margin[lane];
+  out.condition = from.condition[lane];
+  out.z = from.z[lane];
+  out.z_condition = from.z_condition[lane];
+  for (int i = 0; i < 4; ++i) out.lambda[i] = from.lambda[i][lane];
+  for (int a = 0; a < attributes_; ++a) out.attribute[a] = from.attribute[a][lane];
+  return true;
+}
+
+void TruthQuad::samples(std::span<const PixelPlace> pixels, std::span<ReferenceSample> out, TruthLanes lanes,
+                        std::vector<bool>* decided) const {
+  const auto [det_012, det_023] = std::visit([](const auto& g) { return std::pair(g.det_012, g.det_023); }, geometry_);
+  detail::LaneSamples samples;
+  for (std::size_t from = 0; from < pixels.size(); from += detail::truth_lanes) {
+    const std::size_t count = std::min(detail::truth_lanes, pixels.size() - from);
+    if (lanes_) {
+      for (std::size_t lane = 0; lane < detail::truth_lanes; ++lane) {
+        const PixelPlace& pixel = pixels[from + std::min(lane, count - 1)];
+        samples.px[lane] = pixel.x;
+        samples.py[lane] = pixel.y;
+      }
+      detail::sample_lanes(*lanes_, lanes, samples);
+    }
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const PixelPlace& pixel = pixels[from + lane];
+      const bool taken = lanes_ && take_lane(samples, lane, det_012, det_023, out[from + lane]);
+      if (!taken) out[from + lane] = sample(pixel.x, pixel.y);
+      if (decided != nullptr) decided->push_back(taken);
+    }
+  }
 }
 
 bool TruthQuad::needs_113_bits(int px, int py) const {

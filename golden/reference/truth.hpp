@@ -4,13 +4,17 @@
 #pragma once
 
 #include "golden/reference/sample.hpp"
+#include "golden/reference/truth_lanes.hpp"
 #include "model/config.hpp"
 #include "model/records.hpp"
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 namespace quadrille::golden {
 
@@ -20,6 +24,11 @@ struct PixelRect {
 
   bool empty() const { return x0 >= x1 || y0 >= y1; }
   friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
+/// A pixel by its column and row.
+struct PixelPlace {
+  int x = 0, y = 0;
 };
 
 /// The part of a ReferenceSample that needs no weights (save `visible` when `eye_in_hull`).
@@ -107,6 +116,13 @@ class TruthQuad {
   enum class Effort { filter, all_bits };
   ReferenceSample sample(int px, int py, Effort effort = Effort::filter) const;
 
+  /// sample() of many pixels, of which a second filter in double-double numbers decides most, eight at a time
+  /// (truth_lanes.hpp): flags and signs are the same again, values those of all bits rounded to double but for their
+  /// last bit (beside the largest term, where terms of both signs are summed). The same with any `lanes`. `decided`,
+  /// for tests: which pixels it decided.
+  void samples(std::span<const PixelPlace> pixels, std::span<ReferenceSample> out,
+               TruthLanes lanes = best_truth_lanes(), std::vector<bool>* decided = nullptr) const;
+
   /// The filter cannot decide the pixel.
   bool needs_113_bits(int px, int py) const;
 
@@ -128,11 +144,19 @@ class TruthQuad {
   std::variant<Exact, Rounded> geometry_;
   detail::VertexValues<__float128> exact_;
   detail::VertexValues<long double> quick_;  ///< the same for the filter
+  std::optional<detail::LaneQuad> lanes_;    ///< for the second one, where the numbers are such that it can be asked
   int attributes_ = 0;
   bool perspective_ = true;
   bool homogeneous_ = false;
   bool unit_w_ = false;  ///< every w is exactly 1
   PixelRect bounds_;
+
+  /// Sets lanes_, given S's coefficients.
+  void set_lanes(const std::array<detail::TwoDoubles, 4>& x, const std::array<detail::TwoDoubles, 4>& y,
+                 const std::array<double, 4>& w, bool eye_in_hull);
+  /// The pixel of a lane; false where it did not decide.
+  bool take_lane(const detail::LaneSamples& from, std::size_t lane, int det_012, int det_023,
+                 ReferenceSample& out) const;
 
   /// What singular pixels cross.
   const std::array<__float128, 4>& crossing() const { return perspective_ ? exact_.k : exact_.w; }

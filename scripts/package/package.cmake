@@ -23,6 +23,7 @@ set(golden_headers
   reference/paper_float.hpp
   reference/sample.hpp
   reference/truth.hpp
+  reference/truth_lanes.hpp
   scenes/corner_quads.hpp
   scenes/mesh.hpp
   scenes/procedural_texture.hpp

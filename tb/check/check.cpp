@@ -18,7 +18,9 @@ using golden::Coverage;
 using golden::ReferenceSample;
 using golden::TruthQuad;
 
-constexpr std::size_t fragments_per_job = 2048;
+// Without threads of their own these jobs stand in the lockstep's way: while one is done the device must not run out of
+// room (DeviceAhead keeps 768 clocks).
+constexpr std::size_t fragments_per_job = 512;
 constexpr std::size_t quads_per_job = 256;
 constexpr std::size_t pixels_per_job = 16384;
 
@@ -47,31 +49,46 @@ std::string text_of(const Place& place, const std::string& what) {
   return head + what;
 }
 
-/// Distances of a pixel centre to edges and corners, in double: for counting only.
-struct Vicinity {
-  bool near_edge = false, near_vertex = false;
-};
+/// Distances of pixel centres to edges and corners of a quad, in double: for counting only.
+class Vicinity {
+ public:
+  explicit Vicinity(const SnappedQuad& quad) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      x_[i] = quad.vertex[i].x;
+      y_[i] = quad.vertex[i].y;
+      w_[i] = quad.vertex[i].w;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t j = (i + 1) % 4;
+      slope_[i] = std::hypot(y_[i] * w_[j] - w_[i] * y_[j], w_[i] * x_[j] - x_[i] * w_[j]);
+    }
+  }
 
-Vicinity vicinity(const SnappedQuad& quad, int px, int py) {
-  std::array<double, 4> x{}, y{}, w{};
-  Vicinity result;
-  for (std::size_t i = 0; i < 4; ++i) {
-    w[i] = quad.vertex[i].w;
-    x[i] = quad.vertex[i].x - w[i] * px;
-    y[i] = quad.vertex[i].y - w[i] * py;
-    const double distance = std::hypot(x[i], y[i]);
-    if (w[i] != 0 && distance <= std::fabs(w[i]) * near_vertex_distance) result.near_vertex = true;
-    if (w[i] != 0 && distance <= std::fabs(w[i]) * near_edge_distance) result.near_edge = true;
+  struct Near {
+    bool edge = false, vertex = false;
+  };
+  Near at(int px, int py) const {
+    Near near;
+    std::array<double, 4> x, y;
+    for (std::size_t i = 0; i < 4; ++i) {
+      x[i] = x_[i] - w_[i] * px;
+      y[i] = y_[i] - w_[i] * py;
+      // Squares of integers: what is as near as the limit stays exact.
+      const double square = x[i] * x[i] + y[i] * y[i], limit = w_[i] * w_[i];
+      near.vertex = near.vertex || (w_[i] != 0 && square <= limit * (near_vertex_distance * near_vertex_distance));
+      near.edge = near.edge || (w_[i] != 0 && square <= limit * (near_edge_distance * near_edge_distance));
+    }
+    for (std::size_t i = 0; i < 4 && !near.edge; ++i) {
+      const std::size_t j = (i + 1) % 4;
+      if (x[i] * x[j] + y[i] * y[j] > 0) continue;  // beside the edge, not on its line beyond the ends
+      near.edge = std::fabs(x[i] * y[j] - y[i] * x[j]) <= slope_[i] * near_edge_distance;
+    }
+    return near;
   }
-  for (std::size_t i = 0; i < 4 && !result.near_edge; ++i) {
-    const std::size_t j = (i + 1) % 4;
-    if (x[i] * x[j] + y[i] * y[j] > 0) continue;  // beside the edge, not on its line beyond the ends
-    const double area = x[i] * y[j] - y[i] * x[j];
-    const double slope = std::hypot(y[i] * w[j] - w[i] * y[j], w[i] * x[j] - x[i] * w[j]);
-    if (std::fabs(area) <= slope * near_edge_distance) result.near_edge = true;
-  }
-  return result;
-}
+
+ private:
+  std::array<double, 4> x_{}, y_{}, w_{}, slope_{};
+};
 
 }  // namespace
 
@@ -136,13 +153,15 @@ class FragmentChecker::Reference : public JudgedQuad {
   Reference(const FragmentChecker& checker, std::size_t index)
       : JudgedQuad(checker.snapped_[index], checker.settings_.config, truth_state(checker), checker.settings_.state),
         eye_crossing(is_eye_crossing(quad())),
-        tiny(is_tiny(quad(), checker.settings_.config)) {
+        tiny(is_tiny(quad(), checker.settings_.config)),
+        vicinity(quad()) {
     if (checker.settings_.snapping)
       given.emplace(pass_quad(checker.given_[index], checker.settings_.pass), truth_state(checker));
   }
 
   std::optional<TruthQuad> given;
   bool eye_crossing, tiny;
+  Vicinity vicinity;
 
  private:
   /// The weights come with every sample; only true attributes are asked for.
@@ -259,10 +278,40 @@ class FragmentChecker::FragmentJudge {
         exact_(config_.qdrop() == 0),
         limits_(config_, state_) {}
 
-  void judge(const Fragment& fragment) {
-    if (!reference_ || fragment.quad != place_.index) reference_.emplace(checker_, fragment.quad);
-    place_ = {fragment.quad, checker_.given_[fragment.quad].id, fragment.x, fragment.y};
-    truth_ = reference_->truth().sample(fragment.x, fragment.y);
+  void judge(std::span<const Fragment> fragments) {
+    while (!fragments.empty()) {
+      const std::uint32_t quad = fragments.front().quad;
+      const auto other = std::ranges::find_if(fragments, [&](const Fragment& f) { return f.quad != quad; });
+      const auto count = static_cast<std::size_t>(other - fragments.begin());
+      judge_quad(quad, fragments.first(count));
+      fragments = fragments.subspan(count);
+    }
+  }
+
+  const CheckResult& result() const { return part_; }
+
+ private:
+  /// Fragments of one quad, which the truths take together.
+  void judge_quad(std::uint32_t quad, std::span<const Fragment> fragments) {
+    const Reference reference(checker_, quad);
+    reference_ = &reference;
+    pixels_.clear();
+    for (const Fragment& fragment : fragments) pixels_.push_back({fragment.x, fragment.y});
+    truths_.resize(pixels_.size());
+    reference.truth().samples(pixels_, truths_);
+    if (reference.given) {
+      givens_.resize(pixels_.size());
+      reference.given->samples(pixels_, givens_);
+    }
+    for (std::size_t i = 0; i < fragments.size(); ++i) {
+      place_ = {quad, checker_.given_[quad].id, fragments[i].x, fragments[i].y};
+      truth_ = truths_[i];
+      given_ = reference.given ? &givens_[i] : nullptr;
+      judge_fragment(fragments[i]);
+    }
+  }
+
+  void judge_fragment(const Fragment& fragment) {
     bound_ = checker_.bound_;
     corner_ = exact_ && (truth_.flags & flag_on_vertex) != 0 ? reference_->corner_at(fragment.x, fragment.y) : -1;
     cancelled_ = false;
@@ -276,9 +325,6 @@ class FragmentChecker::FragmentJudge {
     if (first_pass_) count(fragment);
   }
 
-  const CheckResult& result() const { return part_; }
-
- private:
   void differs(const std::string& what) {
     ++part_.mismatches;
     if (!part_.first.any || order(place_) < order(part_.first.place))
@@ -426,8 +472,8 @@ class FragmentChecker::FragmentJudge {
   }
 
   void measure_snapping() {
-    if (!reference_->given) return;
-    const ReferenceSample given = reference_->given->sample(place_.x, place_.y);
+    if (given_ == nullptr) return;
+    const ReferenceSample& given = *given_;
     if (!given.covered || !given.visible) {
       if (first_pass_) ++part_.coverage_flips;
       return;
@@ -451,9 +497,9 @@ class FragmentChecker::FragmentJudge {
     for (const auto& [flag, counter] : counted_flags) part_.*counter += (fragment.flags & flag) != 0;
     part_.eye_crossing += reference_->eye_crossing;
     part_.tiny += reference_->tiny;
-    const Vicinity near = vicinity(reference_->quad(), fragment.x, fragment.y);
-    part_.near_edge += near.near_edge;
-    part_.near_vertex += near.near_vertex;
+    const Vicinity::Near near = reference_->vicinity.at(fragment.x, fragment.y);
+    part_.near_edge += near.edge;
+    part_.near_vertex += near.vertex;
   }
 
   const FragmentChecker& checker_;
@@ -465,18 +511,23 @@ class FragmentChecker::FragmentJudge {
   const DepthLimits limits_;
   CheckResult part_;
 
-  // The fragment that is being judged.
-  std::optional<Reference> reference_;
+  // The quad that is being judged.
+  const Reference* reference_ = nullptr;
+  std::vector<golden::PixelPlace> pixels_;
+  std::vector<ReferenceSample> truths_, givens_;
+
+  // The fragment.
   Place place_;
   ReferenceSample truth_;
-  double bound_ = 0;        ///< of a weight
-  int corner_ = -1;         ///< the corner at the pixel, where that makes the machine exact
-  bool cancelled_ = false;  ///< a value about which nothing can be said
+  const ReferenceSample* given_ = nullptr;  ///< the truth on the given quad; null when snapping is not measured
+  double bound_ = 0;                        ///< of a weight
+  int corner_ = -1;                         ///< the corner at the pixel, where that makes the machine exact
+  bool cancelled_ = false;                  ///< a value about which nothing can be said
 };
 
 void FragmentChecker::compare(const std::vector<Fragment>& fragments) {
   FragmentJudge judge(*this);
-  for (const Fragment& fragment : fragments) judge.judge(fragment);
+  judge.judge(fragments);
   add(judge.result());
 }
 
