@@ -473,6 +473,12 @@ void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in,
   });
 }
 
+void area_blocks(std::span<const DifferenceLanes> signs, const NormalisedLanes* in, WeightLanes* out) {
+  on_lane_target([&]() LANE_LAMBDA {
+    for (std::size_t n = 0; n < signs.size(); ++n) area_stage(signs[n], in[n], out[n]);
+  });
+}
+
 void interpolate_blocks(std::span<const WeightLanes> in, const std::uint32_t* quad, const QuadColumns* values,
                         std::size_t columns, bool depth, int s, int g, LaneColumn* sums) {
   on_lane_target([&]() LANE_LAMBDA {

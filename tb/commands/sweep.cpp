@@ -45,6 +45,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::uint64_t point_limit = 1'000'000;  ///< more need --force
 constexpr std::size_t knee_count = 3;
 constexpr const char* standard_scene = "sphere";
+constexpr const char* plane_scene = "sprites_any_angle";  ///< of an axis of plane_tolerance_bits: nearly plane quads
+constexpr std::string_view plane_key = "plane_tolerance_bits";
 
 struct SweepOptions {
   CommonOptions common;
@@ -156,10 +158,9 @@ class SweepRun {
                  : !targets_.empty()         ? targets_.front().column
                                              : sweep::ErrorColumn{};
 
-    input_.state = options_.state.state(options_.common, base_);
-    input_.state.skip &= ~std::uint32_t{skip_hidden | skip_plane};  // every fragment is measured
+    input_.state = draw_state();
     InputOptions source = options_.input;
-    if (inputs_given(source) == 0) source.scene = standard_scene;
+    if (inputs_given(source) == 0) source.scene = asks_for_planes() ? plane_scene : standard_scene;
     draw_ = load_input(source, options_.shade, input_.state, base_, options_.common.seed);
     input_.state.perspective = input_.state.perspective && draw_.perspective;
     if (draw_.attributes > max_attribute_slots)
@@ -178,6 +179,29 @@ class SweepRun {
     const sweep::Candidates candidates{grid_, all, none, none};
     sweep::select_points(options_.synth, candidates);
     if (!options_.cosim.empty()) sweep::select_points(options_.cosim, candidates);
+  }
+
+  /// An axis of plane_tolerance_bits asks for plane quads, unless --skip says what is wanted.
+  DrawState draw_state() const {
+    Config config = base_;
+    bool varies = false;
+    for (const sweep::Axis& axis : grid_.axes())
+      if (axis.key == plane_key)
+        for (const int value : axis.values)
+          if (value != 0) {
+            config.set(plane_key, value);
+            varies = true;
+          }
+    DrawState state = options_.state.state(options_.common, config);
+    if (varies && options_.state.skip == StateOptions{}.skip) state.skip |= skip_plane;
+    state.skip &= ~std::uint32_t{skip_hidden};  // every fragment is measured
+    return state;
+  }
+
+  /// The user gave an axis of plane_tolerance_bits.
+  bool asks_for_planes() const {
+    return !options_.axes.empty() &&
+           std::ranges::find(grid_.axes(), plane_key, &sweep::Axis::key) != grid_.axes().end();
   }
 
   std::vector<sweep::ErrorColumn> measured_columns() const {
@@ -360,8 +384,8 @@ class SweepRun {
       const tb::Stopwatch start;
       Progress progress("co-simulation of " + std::to_string(cosim.size()) + " points", cosim.size(),
                         options_.common.show_progress());
-      cosim_ = cosimulate(cosim, input_.quads, input_.state, options_.cosim_fragments, options_.common.seed, threads,
-                          [&](std::size_t done) { progress.set(done); });
+      cosim_ = cosimulate(cosim, input_.quads, input_.attributes, input_.state, options_.cosim_fragments,
+                          options_.common.seed, threads, [&](std::size_t done) { progress.set(done); });
       if (!cosim.empty()) store.add_timing({"cosim", cosim.size(), start.seconds()});
     }
 
@@ -510,6 +534,7 @@ class SweepRun {
       else
         std::fprintf(out, "%.3f\n", correlation_);
     }
+    print_planes(out);
     if (performance_) {
       std::fputc('\n', out);
       print_counters(out, *performance_, "of the base, by the clocked model");
@@ -520,6 +545,35 @@ class SweepRun {
                                 near = std::filesystem::relative(report, far);
     std::fprintf(out, "\n%s/points.csv, manifest.json; %s %s draws them\n", options_.out.c_str(),
                  (far || near.native().starts_with("..") ? report : near).c_str(), options_.out.c_str());
+  }
+
+  /// What an axis of plane_tolerance_bits does, a line a point.
+  void print_planes(std::FILE* out) const {
+    if (!asks_for_planes()) return;
+    constexpr std::size_t most = 40;
+    std::fprintf(out, "\nquads with areas for weights (plane_tolerance_bits), errors against mean values\n");
+    std::fprintf(out, "  %6s %7s %12s %12s %10s  %s\n", "row", "share", "attribute", "depth", "cost", "");
+    std::size_t lines = 0;
+    bool taken = false;
+    const auto error = [&](const sweep::PointResult& result, sweep::Quantity quantity) {
+      const double value = sweep::ErrorColumn{sweep::ErrorKind::arithmetic, quantity}.value(result);
+      char text[16] = "-";
+      if (value > 0) std::snprintf(text, sizeof text, "2^%.2f", std::log2(value));
+      return std::string(text);
+    };
+    for (const sweep::PointRow& point : rows_) {
+      if (!point.result.refused.empty()) continue;
+      taken = taken || point.result.plane_quads != 0;
+      if (++lines > most) continue;
+      std::fprintf(out, "  %6zu %6.1f%% %12s %12s %10.0f  %s\n", point.row, 100 * sweep::plane_share(point.result),
+                   error(point.result, sweep::Quantity::attribute).c_str(),
+                   error(point.result, sweep::Quantity::depth).c_str(), point.scalar_cost,
+                   varied(point.config).c_str());
+    }
+    if (lines > most) std::fprintf(out, "  and %zu more: points.csv\n", lines - most);
+    if (!taken)
+      std::fprintf(out, "  no quad of this input is taken%s; %s has such\n",
+                   (input_.state.skip & skip_plane) == 0 ? ", as --skip says" : "", plane_scene);
   }
 
   void print_target(std::FILE* out) const {
@@ -612,6 +666,8 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       "Without\n"
       "--axis: each of the usual keys one at a time around the configuration; without an input: --scene sphere.\n"
       "The same command goes on where a sweep was interrupted, and takes over the results of a finished one.\n"
+      "An axis of plane_tolerance_bits (off, 1 to 16 bits, exact) also shows the share of quads that take areas for\n"
+      "weights; its input, if none is given, is --scene sprites_any_angle.\n"
       "A co-simulated point builds a simulator the first time (about 20 s), a synthesised one needs minutes.\n"
       "Selections: all, none, pareto, corners, default, knees, row numbers (3,7,10-12), or several with commas.\n"
       "Exit status 1: a co-simulation differs, or no point meets the target.\n\n"
@@ -620,6 +676,7 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       "  quadrille sweep --axis significand_bits=10:26:2 --axis subpixel_bits=4,6,8 --scene fig7_floor --out floor\n"
       "  quadrille sweep --axis significand_bits=12:24:4 --synth all --cosim none --out synth\n"
       "  quadrille sweep --axis significand_bits=8,12 --synth all --synth-target cells --cosim none --out clocks\n"
+      "  quadrille sweep --axis plane_tolerance_bits=off,exact,4:16 --objective attribute --out plane\n"
       "  quadrille sweep --target-error colour=0.5/255 --size 1920x1080 --out colour\n"
       "  quadrille sweep --axis significand_bits=10:26 --shard 0/2 --out part0\n"
       "  quadrille sweep --axis significand_bits=10:26 --merge part0 part1 --out whole");

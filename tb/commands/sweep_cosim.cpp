@@ -1,5 +1,6 @@
 #include "tb/commands/sweep_cosim.hpp"
 
+#include "model/plane_quad.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/check/check.hpp"
 #include "tb/engines/engine.hpp"
@@ -8,9 +9,12 @@
 namespace quadrille::cli {
 namespace {
 
-CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> quads, DrawState state,
+CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> quads, int attributes, DrawState state,
                           std::uint64_t limit, std::uint64_t seed) {
-  const Pass pass = plan_passes(0, true, point.config).front();
+  const bool planes = takes_plane_quads(point.config, state);
+  if (!planes) state.skip &= ~std::uint32_t{skip_plane};
+  const Pass pass =
+      (planes ? plan_passes(attributes, false, point.config) : plan_passes(0, true, point.config)).front();
   state.attributes = static_cast<int>(pass.columns.size());
   std::vector<SnappedQuad> snapped;
   for (std::size_t i = 0; i < quads.size(); ++i)
@@ -57,12 +61,13 @@ CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> q
 
 }  // namespace
 
-std::vector<CosimRow> cosimulate(std::span<const CosimPoint> points, std::span<const WindowQuad> quads,
+std::vector<CosimRow> cosimulate(std::span<const CosimPoint> points, std::span<const WindowQuad> quads, int attributes,
                                  const DrawState& state, std::uint64_t limit, std::uint64_t seed, unsigned threads,
                                  const std::function<void(std::size_t)>& done) {
   std::vector<CosimRow> rows;
   ordered_parallel(
-      points.size(), threads, [&](std::size_t i) { return cosimulate_point(points[i], quads, state, limit, seed); },
+      points.size(), threads,
+      [&](std::size_t i) { return cosimulate_point(points[i], quads, attributes, state, limit, seed); },
       [&](std::size_t, CosimRow row) {
         rows.push_back(std::move(row));
         if (done) done(rows.size());

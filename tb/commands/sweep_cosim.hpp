@@ -33,8 +33,10 @@ struct CosimRow {
 };
 
 /// The weights of the quads (in one pass, as many as there are slots) through RTL and model, at most `limit` fragments
-/// a point; results in the order of `points`. `done` counts finished points. Throws EnvironmentError without Verilator.
-std::vector<CosimRow> cosimulate(std::span<const CosimPoint> points, std::span<const WindowQuad> quads,
+/// a point; where plane_tolerance_bits counts their own attributes (the first of `attributes` that have a slot), since
+/// no weight is plane; results in the order of `points`. `done` counts finished points. Throws EnvironmentError without
+/// Verilator.
+std::vector<CosimRow> cosimulate(std::span<const CosimPoint> points, std::span<const WindowQuad> quads, int attributes,
                                  const DrawState& state, std::uint64_t limit, std::uint64_t seed, unsigned threads,
                                  const std::function<void(std::size_t)>& done);
 

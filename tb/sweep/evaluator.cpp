@@ -1,5 +1,7 @@
 #include "tb/sweep/evaluator.hpp"
 
+#include "model/plane_quad.hpp"
+#include "model/plane_tolerance.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/lockstep/lockstep.hpp"
@@ -106,12 +108,14 @@ StageCounters& StageCounters::operator+=(const StageCounters& other) {
 struct Evaluator::Impl {
   struct Positions {
     std::shared_ptr<const PositionData> data;
-    std::map<int, std::shared_ptr<const PortQuads>> ports;  ///< by significand_bits
+    std::map<int, std::shared_ptr<const PortQuads>> ports;                    ///< by significand_bits
+    std::map<std::pair<int, int>, std::shared_ptr<const PlaneQuads>> planes;  ///< and by plane_tolerance_bits
     std::uint64_t used = 0;
 
     std::size_t bytes() const {
       std::size_t sum = data->bytes();
       for (const auto& [s, port] : ports) sum += port->bytes();
+      for (const auto& [key, quads] : planes) sum += quads->bytes();
       return sum;
     }
   };
@@ -127,7 +131,7 @@ struct Evaluator::Impl {
   std::optional<GivenTruth> given;
   std::map<LevelKey, Positions> positions;
   std::map<DifferenceKey, Differences> differences;
-  std::map<std::pair<LevelKey, LevelKey>, std::uint64_t> cycles;
+  std::map<std::pair<LevelKey, CyclesKey>, std::uint64_t> cycles;
   std::map<std::pair<LevelKey, std::array<int, 2>>, std::string> snap_refusals;
   std::uint64_t clock = 0;  ///< of uses
   TableCache tables;
@@ -230,6 +234,15 @@ struct Evaluator::Impl {
     return entry.ports[config.significand_bits] = std::move(port);
   }
 
+  /// None where the configuration, or the draw, has mean value weights alone.
+  std::shared_ptr<const PlaneQuads> plane_quads(const Config& config) {
+    if (!takes_plane_quads(config, input.state)) return nullptr;
+    Positions& entry = positions.at(level_key(config, Level::positions));
+    std::shared_ptr<const PlaneQuads>& quads = entry.planes[{config.significand_bits, config.plane_tolerance_bits}];
+    if (!quads) quads = std::make_shared<PlaneQuads>(input, *entry.data, config, settings.threads);
+    return quads;
+  }
+
   /// The tree of some points that share a difference setting.
   StageTree tree(std::span<const Config> points, std::span<const std::size_t> batch, StageCounters& executed) {
     const Config& first = points[batch.front()];
@@ -237,7 +250,9 @@ struct Evaluator::Impl {
     const auto at = position_data(first, executed);
     StageTree result(input, at, difference_data(*at, first, executed));
     for (const std::size_t point : batch)
-      result.add(point, points[point], tables, [&] { return port_quads(points[point]); });
+      result.add(
+          point, points[point], tables, [&] { return port_quads(points[point]); },
+          [&] { return plane_quads(points[point]); });
     fit_memory(begin);
     return result;
   }
@@ -245,14 +260,28 @@ struct Evaluator::Impl {
   std::uint64_t clocks(const PositionData& at, const Config& config) const {
     tb::LockstepOptions options;
     options.config = widest_port(config);
-    options.config.attribute_slots = 1;
     options.state = input.state;
-    options.state.attributes = 0;
-    return tb::run_clocked_model_alone(at.snapped, options).cycles;
+    if (!has_plane_tolerance(config) || !takes_plane_quads(config, input.state)) {
+      options.config.attribute_slots = 1;
+      options.state.attributes = 0;
+      return tb::run_clocked_model_alone(at.snapped, options).cycles;
+    }
+    // With a tolerance clocks may depend on the slots, and on which quads are exactly plane: the first pass of the
+    // input's own attributes.
+    options.config.attribute_slots = config.attribute_slots;
+    options.state.attributes = std::min(config.attribute_slots, input.attributes);
+    std::vector<SnappedQuad> snapped;
+    for (const WindowQuad& quad : input.quads)
+      snapped.push_back(
+          snap_quad(own_quad(quad, static_cast<std::size_t>(options.state.attributes)), options.config, options.state));
+    for (std::size_t q = 0; q < snapped.size(); ++q) snapped[q].id = static_cast<std::uint32_t>(q);
+    return tb::run_clocked_model_alone(snapped, options).cycles;
   }
 
-  using CyclesKey = std::pair<LevelKey, LevelKey>;
-  static CyclesKey cycles_of(const Config& config) { return {level_key(config, Level::positions), cycles_key(config)}; }
+  using CyclesOf = std::pair<LevelKey, CyclesKey>;
+  CyclesOf cycles_of(const Config& config) const {
+    return {level_key(config, Level::positions), cycles_key(config, input.state)};
+  }
 
   Batch run(std::span<const Config> points, std::span<const std::size_t> batch,
             const std::function<void(double)>& progress) {
@@ -264,7 +293,7 @@ struct Evaluator::Impl {
     const auto at = positions.at(level_key(points[batch.front()], Level::positions)).data;
 
     // The clocked model's runs first: they are the longest units.
-    std::map<CyclesKey, std::size_t> cycle_runs;
+    std::map<CyclesOf, std::size_t> cycle_runs;
     std::vector<std::pair<std::size_t, std::uint64_t>> runs;  // point, clocks
     for (const std::size_t point : batch)
       if (settings.cycles && !cycles.contains(cycles_of(points[point])) &&
@@ -292,7 +321,7 @@ struct Evaluator::Impl {
     }
     std::map<std::size_t, std::size_t> place;
     for (std::size_t n = 0; n < batch.size(); ++n) place[batch[n]] = n;
-    stages.for_each_leaf([&](const OutputNode& leaf, const PortQuads& port) {
+    stages.for_each_leaf([&](const PlaneNode& leaf, const PortQuads& port) {
       LeafTotals totals;
       for (const StageTree::ScratchPointer& part : scratch)
         if (part) totals.merge(StageTree::totals(*part, leaf.leaf));
@@ -307,6 +336,9 @@ struct Evaluator::Impl {
       result.discard_differs = totals.discard_differs;
       result.colour_codes = totals.colour_codes;
       result.saturated = totals.saturated;
+      result.quads = at->covering;
+      result.plane_quads = leaf.quads ? leaf.quads->count() : 0;
+      result.plane_fragments = totals.plane_fragments;
       result.worst = totals.worst;
       for (const std::size_t point : leaf.points) {
         result.cycles = settings.cycles ? cycles.at(cycles_of(points[point])) : 0;

@@ -2,8 +2,11 @@
 // pixel at a time, every pixel of the viewport.
 #include "tb/sweep/evaluator.hpp"
 
+#include "golden/analysis/error_bound.hpp"
 #include "golden/reference/truth.hpp"
+#include "golden/scenes/nearly_plane.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/plane_tolerance.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
@@ -65,6 +68,8 @@ std::vector<std::array<double, 4>> columns_of(const WindowQuad& quad, int attrib
 struct Slow {
   std::uint64_t fragments = 0, coverage_gained = 0, coverage_lost = 0, discard_differs = 0, colour_codes = 0,
                 saturated = 0;
+  std::set<std::uint32_t> quads, plane_quads;
+  std::uint64_t plane_fragments = 0;
   std::uint64_t colour_ties = 0;  ///< channels so near a rounding tie that either code is right
   std::array<std::vector<double>, 4> snapping, arithmetic;
   double z_condition = 1;  ///< largest of a pixel that is measured
@@ -81,10 +86,12 @@ struct Values {
 
 int code(double v) { return static_cast<int>(std::floor(std::clamp(v, 0.0, 1.0) * 255 + 0.5)); }
 
-/// Columns come in passes of five, the last first.
+/// Columns come in passes of five, the last first; where quads may be drawn with areas the input's own attributes
+/// first, which decide what is drawn and its depth, then weights and colours with nothing discarded.
 Slow slow_path(const SweepInput& input, const Config& given_config) {
   Config c = given_config;
-  c.attribute_slots = 5;
+  const bool planes = c.plane_tolerance_bits != 0 && (input.state.skip & skip_plane) != 0;
+  c.attribute_slots = planes ? 8 : 5;
   c.quad_id_bits = 32;
   const std::size_t columns = 7 + static_cast<std::size_t>(input.attributes);
   Slow out;
@@ -93,17 +100,28 @@ Slow slow_path(const SweepInput& input, const Config& given_config) {
   std::set<Place> saturated;
   std::set<std::uint32_t> unmeasured;  // quads
 
-  for (std::size_t end = columns; end > 0; end -= std::min<std::size_t>(5, end)) {
-    const std::size_t begin = end - std::min<std::size_t>(5, end);
+  std::vector<std::vector<std::size_t>> passes;
+  if (planes) {
+    passes.resize(2);
+    for (std::size_t j = 0; j < columns; ++j) passes[j < 4 || j >= columns - 3].push_back(j);
+  } else {
+    for (std::size_t end = columns; end > 0; end -= std::min<std::size_t>(5, end)) {
+      passes.emplace_back();
+      for (std::size_t j = end - std::min<std::size_t>(5, end); j < end; ++j) passes.back().push_back(j);
+    }
+  }
+
+  for (const std::vector<std::size_t>& pass : passes) {
+    const bool decides = !planes || &pass == passes.data();
     DrawState state = input.state;
-    state.attributes = static_cast<int>(end - begin);
+    state.attributes = static_cast<int>(pass.size());
     for (std::size_t q = 0; q < input.quads.size(); ++q) {
       WindowQuad quad = input.quads[q];
       const auto all = columns_of(quad, input.attributes);
       quad.id = static_cast<std::uint32_t>(q);
       for (std::size_t i = 0; i < 4; ++i) {
         quad.attribute[i].clear();
-        for (std::size_t j = begin; j < end; ++j) quad.attribute[i].push_back(all[j][i]);
+        for (const std::size_t j : pass) quad.attribute[i].push_back(all[j][i]);
       }
       const SnappedQuad snapped = snap_quad(quad, c, state);
       for (const SnappedVertex& v : snapped.vertex)
@@ -111,22 +129,38 @@ Slow slow_path(const SweepInput& input, const Config& given_config) {
       const auto put = [&](std::map<Place, Values>& to, const Place& place, double z, double condition,
                            const auto& value) {
         Values& v = to[place];
-        v.z = z;
-        v.z_condition = condition;
+        if (decides) {
+          v.z = z;
+          v.z_condition = condition;
+        }
         v.column.resize(columns);
-        for (std::size_t j = begin; j < end; ++j) v.column[j] = value(j - begin);
+        for (std::size_t slot = 0; slot < pass.size(); ++slot) v.column[pass[slot]] = value(slot);
       };
 
-      UntimedModel model(c, state, PixelEngine::plain);
+      const bool taken = takes_areas(snapped, c, state);
+      EXPECT_TRUE(decides || !taken) << "a pass of weights";
+      DrawState kept = state;
+      if (!decides) kept.depth = false;
+      UntimedModel model(c, kept, PixelEngine::plain);
       model.draw(snapped, [&](std::span<const Fragment> fragments) {
         for (const Fragment& f : fragments) {
           const Place place{f.quad, f.y, f.x};
+          if (!decides && !machine.contains(place)) continue;
+          if (taken) ++out.plane_fragments;
           put(machine, place, std::ldexp(f.depth, -c.depth_bits), 1, [&](std::size_t slot) {
             return std::ldexp(static_cast<double>(f.attribute[slot]), -c.attribute_frac());
           });
           if (f.flags & flag_saturated) saturated.insert(place);
         }
       });
+      // A quad counts if it covers pixels, though its depth may leave it out before setup.
+      DrawState whole = kept;
+      whole.depth = false;
+      whole.skip = 0;
+      UntimedModel covering(c, whole);
+      covering.draw(snapped, [](auto) {});
+      if (covering.stats().pixels != 0) out.quads.insert(quad.id);
+      if (covering.stats().pixels != 0 && taken) out.plane_quads.insert(quad.id);
 
       const auto sample_all = [&](const golden::TruthQuad& exact, std::map<Place, Values>& drawn, bool snapped_truth) {
         const golden::PixelRect box = exact.bounds();
@@ -140,7 +174,7 @@ Slow slow_path(const SweepInput& input, const Config& given_config) {
             const bool inside = !state.depth || (s.z >= state.znear && s.z <= state.zfar);
             if (!s.visible || (!snapped_truth && !inside)) continue;
             put(drawn, place, s.z, s.z_condition,
-                [&](std::size_t slot) { return begin + slot < 4 ? s.lambda[begin + slot] : s.attribute[slot]; });
+                [&](std::size_t slot) { return pass[slot] < 4 ? s.lambda[pass[slot]] : s.attribute[slot]; });
           }
       };
       sample_all(golden::TruthQuad(snapped, c, state), truth, true);
@@ -216,6 +250,9 @@ void expect_slow(const PointResult& got, const Slow& want) {
   EXPECT_EQ(got.coverage_lost, want.coverage_lost);
   EXPECT_EQ(got.discard_differs, want.discard_differs);
   EXPECT_EQ(got.saturated, want.saturated);
+  EXPECT_EQ(got.quads, want.quads.size());
+  EXPECT_EQ(got.plane_quads, want.plane_quads.size());
+  EXPECT_EQ(got.plane_fragments, want.plane_fragments);
   EXPECT_NEAR(static_cast<double>(got.colour_codes), static_cast<double>(want.colour_codes),
               static_cast<double>(want.colour_ties));
   for (std::size_t q = 0; q < 4; ++q) {
@@ -326,6 +363,161 @@ TEST(Evaluator, SingularPixelsFollowTheNumbersAtThePort) {
   }
 }
 
+/// Every member as text, doubles in full.
+std::string text(const PointResult& r) {
+  std::string out = r.refused;
+  const auto put = [&](double v) {
+    char digits[40];
+    std::snprintf(digits, sizeof digits, " %a", v);
+    out += digits;
+  };
+  const auto count = [&](std::uint64_t v) { out += " " + std::to_string(v); };
+  for (const auto* list : {&r.snapping, &r.arithmetic})
+    for (const ErrorSummary& s : *list) {
+      count(s.count);
+      for (const double v : {s.max, s.p999, s.rms, s.mean}) put(v);
+    }
+  for (const std::uint64_t v : {r.fragments, r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes,
+                                r.saturated, r.cycles, r.quads, r.plane_quads, r.plane_fragments})
+    count(v);
+  out += r.worst.any ? " worst" : " none";
+  count(r.worst.index);
+  count(static_cast<std::uint64_t>(r.worst.x));
+  count(static_cast<std::uint64_t>(r.worst.y));
+  put(r.worst.error);
+  return out;
+}
+
+/// Rectangles turned by any angle, in perspective or not: plane, and bent by some powers of two.
+SweepInput plane_input(std::uint64_t seed = 11) {
+  SweepInput input = stress_input(golden::StressFamily::general, 0, 3);
+  input.state.skip |= skip_plane;
+  golden::Prng rng(seed);
+  for (const double tilt : {0.0, 0.3})
+    for (const double bend : {0.0, 0x1p-13, 0x1p-9, 0x1p-5, 0.5}) {
+      const golden::NearlyPlane kind{
+          .picture = size, .half_low = 2, .half_high = 8, .attributes = 3, .bend = bend, .tilt = tilt};
+      for (int n = 0; n < 3; ++n)
+        input.quads.push_back(golden::nearly_plane_quad(rng, static_cast<std::uint32_t>(input.quads.size()), kind));
+    }
+  // Exactly plane, corners on pixel centres.
+  WindowQuad sprite;
+  sprite.id = static_cast<std::uint32_t>(input.quads.size());
+  constexpr std::array<std::array<double, 2>, 4> at{{{4.5, 5.5}, {14.5, 5.5}, {14.5, 12.5}, {4.5, 12.5}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    sprite.vertex[i] = {at[i][0], at[i][1], 0.3, 1};
+    sprite.attribute[i] = {at[i][0] / 20, at[i][1] / 20, 0.7};
+  }
+  input.quads.push_back(sprite);
+  return input;
+}
+
+TEST(Evaluator, PlaneQuadsAreThoseOfTheSlowPath) {
+  std::set<std::uint64_t> taken;
+  for (const bool perspective : {true, false}) {
+    SweepInput input = plane_input();
+    input.state.perspective = perspective;
+    // One evaluator: the tolerances share what is before them.
+    Evaluator evaluator(input, {.threads = 2, .cycles = false});
+    for (const auto& [s, g] : {std::pair{18, 2}, {12, 0}, {26, 3}})
+      for (const int t : {0, 1, 4, 8, 12, 16, 31}) {
+        SCOPED_TRACE("S " + std::to_string(s) + ", t " + std::to_string(t) + (perspective ? ", perspective" : ""));
+        const Config c = config({{"significand_bits", s}, {"align_guard_bits", g}, {"plane_tolerance_bits", t}});
+        const PointResult got = evaluator.evaluate(c);
+        expect_slow(got, slow_path(input, c));
+        EXPECT_TRUE(t != 0 || got.plane_quads == 0);
+        EXPECT_TRUE(t != 31 || got.plane_quads == 1);
+        taken.insert(got.plane_quads);
+        // Within the bound of mean values and the tolerance; attributes of this input are below 2.
+        const double bound = bound_attribute(c, 2).value + (t >= 1 && t <= 16 ? 2 * std::ldexp(1.0, -t) : 0);
+        EXPECT_LE(got.arithmetic[static_cast<std::size_t>(Quantity::attribute)].max, bound);
+      }
+  }
+  EXPECT_GE(taken.size(), 6u);
+  // The draw may refuse.
+  SweepInput input = plane_input();
+  input.state.skip &= ~std::uint32_t{skip_plane};
+  const Config c = config({{"plane_tolerance_bits", 4}});
+  expect_slow(Evaluator(input, {.cycles = false}).evaluate(c), slow_path(input, c));
+  // Interval and scissor, and what a stress family has of it.
+  input.state.skip |= skip_plane;
+  input.state.znear = 0.47, input.state.zfar = 0.53, input.state.scissor_x0 = 15;
+  expect_slow(Evaluator(input, {.cycles = false}).evaluate(c), slow_path(input, c));
+  for (const auto family : {golden::StressFamily::on_vertex, golden::StressFamily::coplanar}) {
+    SweepInput stress = stress_input(family);
+    stress.state.skip |= skip_plane;
+    expect_slow(Evaluator(stress, {.cycles = false}).evaluate(c), slow_path(stress, c));
+  }
+}
+
+/// One fragment at a time, with a scissor of its pixel, the evaluator's largest errors are that fragment's.
+TEST(Evaluator, AFragmentOfAPlaneQuadIsTheModels) {
+  const SweepInput all = plane_input(12);
+  std::size_t taken_fragments = 0, other_fragments = 0;
+  for (const int t : {3, 9, 31}) {
+    const Config c = config({{"plane_tolerance_bits", t}});
+    Config wide = c;
+    wide.attribute_slots = 8;
+    for (std::size_t q = 0; q < all.quads.size(); ++q) {
+      SweepInput one = all;
+      one.quads = {all.quads[q]};
+      DrawState state = one.state;
+      state.attributes = one.attributes;
+      const SnappedQuad snapped = snap_quad(one.quads[0], wide, state);
+      const golden::TruthQuad truth(snapped, wide, state);
+      const bool taken = takes_areas(snapped, wide, state);
+      std::vector<Fragment> fragments;
+      UntimedModel model(wide, state, PixelEngine::plain);
+      model.draw(snapped,
+                 [&](std::span<const Fragment> list) { fragments.insert(fragments.end(), list.begin(), list.end()); });
+      for (std::size_t n = 0; n < fragments.size(); n += 5) {
+        const Fragment& f = fragments[n];
+        const golden::ReferenceSample s = truth.sample(f.x, f.y);
+        double attribute = 0;
+        for (std::size_t j = 0; j < 3; ++j)
+          attribute = std::max(
+              attribute,
+              std::fabs(std::ldexp(static_cast<double>(f.attribute[j]), -c.attribute_frac()) - s.attribute[j]));
+        one.state.scissor_x0 = f.x, one.state.scissor_x1 = f.x + 1;
+        one.state.scissor_y0 = f.y, one.state.scissor_y1 = f.y + 1;
+        const PointResult got = Evaluator(one, {.cycles = false}).evaluate(c);
+        ASSERT_EQ(got.fragments, 1u);
+        ASSERT_EQ(got.plane_fragments, taken ? 1u : 0u);
+        // A unit in the last place of either format is 9e-7 and 6e-8.
+        ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Quantity::attribute)].max, attribute, 1e-13);
+        ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Quantity::depth)].max,
+                    std::fabs(std::ldexp(f.depth, -c.depth_bits) - s.z), 1e-13);
+        (taken ? taken_fragments : other_fragments)++;
+      }
+    }
+  }
+  EXPECT_GT(taken_fragments, 500u);
+  EXPECT_GT(other_fragments, 500u);
+}
+
+TEST(Evaluator, TolerancesShareEveryStageOfMeanValues) {
+  const SweepInput input = plane_input();
+  std::vector<Config> points;
+  for (const int depth : {16, 24})
+    for (const int t : {0, 2, 8, 16, 31})
+      points.push_back(config({{"depth_bits", depth}, {"plane_tolerance_bits", t}}));
+  Evaluator evaluator(input, {.threads = 2});
+  std::vector<PointResult> results(points.size());
+  evaluator.evaluate(points, [&](const Batch& batch) {
+    for (std::size_t n = 0; n < batch.points.size(); ++n) results[batch.points[n]] = batch.results[n];
+  });
+  // Clocks: with a tolerance and without.
+  EXPECT_EQ(evaluator.counters().settings,
+            (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2}));
+  const auto at = [&](Stage stage) { return evaluator.counters().fragments[static_cast<std::size_t>(stage)]; };
+  EXPECT_LT(at(Stage::areas), at(Stage::output));
+  EXPECT_EQ(at(Stage::areas), 2 * results[1].plane_fragments);  // the least tolerance takes what any does
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    Evaluator fresh(input, {.threads = 1});
+    EXPECT_EQ(text(fresh.evaluate(points[n])), text(results[n]));
+  }
+}
+
 TEST(Evaluator, OfEqualErrorsTheFirstIsTheWorst) {
   SweepInput input = stress_input(golden::StressFamily::general, 1);
   const PointResult alone = Evaluator(input, {.cycles = false}).evaluate(Config{});
@@ -345,31 +537,6 @@ TEST(Evaluator, OfEqualErrorsTheFirstIsTheWorst) {
     a.merge(b);
     EXPECT_EQ(a.worst.y, 5);
   }
-}
-
-/// Every member as text, doubles in full.
-std::string text(const PointResult& r) {
-  std::string out = r.refused;
-  const auto put = [&](double v) {
-    char digits[40];
-    std::snprintf(digits, sizeof digits, " %a", v);
-    out += digits;
-  };
-  const auto count = [&](std::uint64_t v) { out += " " + std::to_string(v); };
-  for (const auto* list : {&r.snapping, &r.arithmetic})
-    for (const ErrorSummary& s : *list) {
-      count(s.count);
-      for (const double v : {s.max, s.p999, s.rms, s.mean}) put(v);
-    }
-  for (const std::uint64_t v :
-       {r.fragments, r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated, r.cycles})
-    count(v);
-  out += r.worst.any ? " worst" : " none";
-  count(r.worst.index);
-  count(static_cast<std::uint64_t>(r.worst.x));
-  count(static_cast<std::uint64_t>(r.worst.y));
-  put(r.worst.error);
-  return out;
 }
 
 struct Outcome {
@@ -529,7 +696,7 @@ TEST(Evaluator, EarlierStagesRunOnceForLaterAxes) {
   const StageCounters& c = evaluator.counters();
   EXPECT_EQ(c.settings, r.executed.settings);
   EXPECT_EQ(c.fragments, r.executed.fragments);
-  EXPECT_EQ(c.settings, (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 2, 12, 1}));
+  EXPECT_EQ(c.settings, (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 2, 12, 0, 1}));
   // Covered pixels by the model, drawn or not.
   std::uint64_t covered = 0;
   for (const WindowQuad& q : input.quads) {
@@ -579,7 +746,7 @@ TEST(Evaluator, AFullGridRunsTheProductOfTheSettings) {
   // given, positions, ×2 differences (10 and all), ×3, ×2, ×3, the same whatever the flag, the same, ×2, ×2, clocks of
   // each position
   EXPECT_EQ(evaluator.counters().settings,
-            (std::array<std::uint64_t, stage_count>{1, 2, 4, 12, 24, 72, 72, 72, 144, 288, 2}));
+            (std::array<std::uint64_t, stage_count>{1, 2, 4, 12, 24, 72, 72, 72, 144, 288, 0, 2}));
 
   // A batch below one subtree executes the ancestors again and says so.
   Evaluator cut(input, {.batch_points = 16});
@@ -632,6 +799,29 @@ TEST(Evaluator, CyclesAreTheClockedModels) {
     different.insert(clocks);
   }
   EXPECT_EQ(settings(evaluator.counters(), Stage::cycles), 6u);
+
+  // A tolerance looks at a value a clock, which eight slots show.
+  SweepInput planes = plane_input();
+  const std::vector<WindowQuad> once = planes.quads;
+  for (int n = 0; n < 3; ++n) planes.quads.insert(planes.quads.end(), once.begin(), once.end());
+  for (WindowQuad& q : planes.quads)  // of a tile or two
+    for (std::size_t i = 1; i < 4; ++i)
+      for (const auto& [of, origin] : {std::pair{&q.vertex[i].x, q.vertex[0].x}, {&q.vertex[i].y, q.vertex[0].y}})
+        *of = origin / q.vertex[0].w * q.vertex[i].w + (*of - origin / q.vertex[0].w * q.vertex[i].w) / 8;
+  Evaluator looking(planes, {.threads = 2});
+  std::set<std::uint64_t> by_slots;
+  for (const int slots : {4, 8}) {
+    tb::LockstepOptions options;
+    options.config = config({{"plane_tolerance_bits", 10}, {"attribute_slots", slots}});
+    options.state = planes.state;
+    options.state.attributes = 3;
+    std::vector<SnappedQuad> snapped;
+    for (const WindowQuad& q : planes.quads) snapped.push_back(snap_quad(q, options.config, options.state));
+    const std::uint64_t clocks = tb::run_clocked_model_alone(snapped, options).cycles;
+    EXPECT_EQ(looking.evaluate(options.config).cycles, clocks);
+    by_slots.insert(clocks);
+  }
+  EXPECT_EQ(by_slots.size(), 2u);
   EXPECT_GE(different.size(), 3u);
   EXPECT_EQ(Evaluator(input, {.cycles = false}).evaluate(Config{}).cycles, 0u);
 }

@@ -21,6 +21,10 @@ WindowQuad own_quad(const WindowQuad& quad, std::size_t attributes) {
   return out;
 }
 
+SnappedQuad own_port(const WindowQuad& quad, std::size_t attributes, const Config& config, const DrawState& state) {
+  return snap_quad(own_quad(quad, attributes), widest_port(config), state);
+}
+
 Config widest_port(Config config) {
   config.attribute_slots = max_attribute_slots;
   config.quad_id_bits = 32;
@@ -29,8 +33,7 @@ Config widest_port(Config config) {
 
 PortQuad::PortQuad(const WindowQuad& quad, std::size_t index, std::size_t attributes, const Config& config,
                    const DrawState& state)
-    : own(snap_quad(own_quad(quad, attributes), widest_port(config), state)),
-      test(snap_quad(test_quad(quad), widest_port(config), state)) {
+    : own(own_port(quad, attributes, config, state)), test(snap_quad(test_quad(quad), widest_port(config), state)) {
   own.id = test.id = static_cast<std::uint32_t>(index);
 }
 

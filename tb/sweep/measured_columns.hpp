@@ -38,6 +38,8 @@ struct PortQuad {
 
 /// The quad's first `attributes` attributes alone, 0 where it has fewer.
 WindowQuad own_quad(const WindowQuad& quad, std::size_t attributes);
+/// The same at the port, its own id with it. Throws SnapError.
+SnappedQuad own_port(const WindowQuad& quad, std::size_t attributes, const Config& config, const DrawState& state);
 
 /// Eight slots and any id, since columns are measured and quads numbered whatever the configuration's port is.
 Config widest_port(Config config);

@@ -1,5 +1,6 @@
 #include "tb/sweep/point_table.hpp"
 
+#include "model/plane_tolerance.hpp"
 #include "model/support/edit_distance.hpp"
 #include "tb/support/csv.hpp"
 
@@ -94,6 +95,10 @@ std::vector<PointColumn> make_columns() {
                   {"discard_differs", "pixels", "visibility or z interval decided otherwise than by exact arithmetic"},
                   {"colour_codes", "channels", "8-bit channels that differ from the truth's"},
                   {"saturated", "fragments", "with an attribute clamped to its format"},
+                  {"quads", "quads", "that cover a pixel in front of the eye"},
+                  {"plane_quads", "quads", "of these, whose attributes and depth are drawn with areas for weights"},
+                  {"plane_share", "1", "plane_quads of quads"},
+                  {"plane_fragments", "fragments", "of plane_quads"},
                   {"cost", "LUTs", "scalar cost"},
                   {"state_bits", "bits", "registers and memories"},
                   {"multiplier_bits", "bits^2", "sum over multipliers of operand widths' products"},
@@ -120,6 +125,11 @@ void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool
   row.bound_lambda = ordinary || perspective ? proofs.lambda : none;
   row.bound_attribute = ordinary || perspective ? proofs.attribute : none;
   row.bound_depth = ordinary ? proofs.depth : none;
+  if (has_plane_tolerance(row.config) && row.result.plane_quads != 0) {
+    const double tolerance = std::ldexp(1.0, -row.config.plane_tolerance_bits);
+    row.bound_attribute.value += tolerance;
+    row.bound_depth.value += tolerance;
+  }
   row.ranges = proofs.ranges;
 }
 
@@ -144,6 +154,11 @@ double ErrorColumn::value(const PointResult& result) const {
     sum += summary.*statistic;
   }
   return sum;
+}
+
+double plane_share(const PointResult& result) {
+  return result.quads == 0 ? std::numeric_limits<double>::quiet_NaN()
+                           : static_cast<double>(result.plane_quads) / static_cast<double>(result.quads);
 }
 
 ErrorColumn parse_error_column(std::string_view name, ErrorKind standard) {
@@ -197,8 +212,10 @@ std::string point_table(std::span<const PointRow> rows) {
       }
       cells.push_back(cli::csv_cell(p.ranges));
       for (const std::uint64_t count :
-           {r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated})
+           {r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated, r.quads, r.plane_quads})
         cells.push_back(std::to_string(count));
+      cells.push_back(csv_number(plane_share(r)));
+      cells.push_back(std::to_string(r.plane_fragments));
       cells.push_back(csv_number(p.scalar_cost));
       for (const std::uint64_t bits : {p.cost.state_bits, p.cost.multiplier_bits, p.cost.adder_bits, p.cost.table_bits,
                                        p.cost.dsps, p.cost.join_bits, p.cost.memory_bits, p.cost.block_rams})

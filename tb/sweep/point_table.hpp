@@ -27,9 +27,10 @@ struct PointRow {
   std::string worst;  ///< a command that prints the worst fragment
 };
 
-/// Fills what follows from the configuration: cost, bounds, ranges. `ordinary`: every snapped vertex of the input is
-/// ordinary. Otherwise the depth has no bound, and without perspective the others have none: those cells stay empty.
-/// Safe to call from several threads.
+/// Fills what follows from the configuration and, of the result, from whether quads were drawn with areas for weights
+/// (2^-t more of attributes in [-1, 1] and window z in [0, 1] with a tolerance of t bits): cost, bounds, ranges.
+/// `ordinary`: every snapped vertex of the input is ordinary. Otherwise the depth has no bound, and without perspective
+/// the others have none: those cells stay empty. Safe to call from several threads.
 void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool perspective);
 
 struct PointColumn {
@@ -54,6 +55,9 @@ struct ErrorColumn {
   /// NaN where the point was refused or the quantity (of a total: either part) was not measured.
   double value(const PointResult& result) const;
 };
+/// plane_quads of quads; NaN without any.
+double plane_share(const PointResult& result);
+
 /// A column, a quantity ("depth": its maximum, of the kind `standard`) or a kind ("arithmetic": the largest of the
 /// weights). Throws ConfigError naming the nearest of these.
 ErrorColumn parse_error_column(std::string_view name, ErrorKind standard);

@@ -31,6 +31,7 @@ PointRow example() {
   for (std::size_t q = 0; q < 4; ++q) row.result.arithmetic[q] = {1, 0.5 + static_cast<double>(q), 0.25, 0.125, 0.0625};
   row.result.snapping[0] = {1, 2, 3, 4, 5};
   row.result.coverage_lost = 17;
+  row.result.quads = 8, row.result.plane_quads = 2, row.result.plane_fragments = 3;
   row.worst = "quadrille fragments --pixel 1,2";
   complete_row(row, CostWeights{}, true, true);
   return row;
@@ -62,6 +63,10 @@ TEST(PointTable, EveryRowHasEveryColumn) {
   EXPECT_EQ(cell(1, "total_lambda_max"), "2.5");
   EXPECT_EQ(cell(1, "total_depth_max"), "");
   EXPECT_EQ(cell(1, "coverage_lost"), "17");
+  EXPECT_EQ(cell(1, "quads"), "8");
+  EXPECT_EQ(cell(1, "plane_quads"), "2");
+  EXPECT_EQ(cell(1, "plane_share"), "0.25");
+  EXPECT_EQ(cell(1, "plane_fragments"), "3");
   EXPECT_EQ(cell(1, "worst"), "\"quadrille fragments --pixel 1,2\"");
   EXPECT_EQ(cell(2, "status"), "refused");
   EXPECT_EQ(cell(2, "reason"), "\"a, \"\"b\"\"\"");
@@ -79,6 +84,29 @@ TEST(PointTable, BoundsWhereTheyHold) {
   EXPECT_EQ(finite(true, false), (std::array{true, true, true}));
   EXPECT_EQ(finite(false, true), (std::array{true, true, false}));
   EXPECT_EQ(finite(false, false), (std::array{false, false, false}));
+}
+
+TEST(PointTable, QuadsWithAreasForWeights) {
+  const auto bounds = [](int t, std::uint64_t taken) {
+    PointRow row;
+    row.config.plane_tolerance_bits = t;
+    row.result.quads = 8;
+    row.result.plane_quads = taken;
+    complete_row(row, CostWeights{}, true, true);
+    return std::array{row.bound_lambda.value, row.bound_attribute.value, row.bound_depth.value};
+  };
+  // The tolerance where quads are taken, of attributes and depth; exactly plane ones have the machine's bound.
+  const auto plain = bounds(0, 0);
+  EXPECT_EQ(bounds(9, 0), plain);
+  EXPECT_EQ(bounds(31, 5), plain);
+  EXPECT_EQ(bounds(9, 5), (std::array{plain[0], plain[1] + 0x1p-9, plain[2] + 0x1p-9}));
+
+  PointResult result;
+  EXPECT_TRUE(std::isnan(plane_share(result)));
+  result.quads = 8;
+  EXPECT_EQ(plane_share(result), 0);
+  result.plane_quads = 5;
+  EXPECT_EQ(plane_share(result), 0.625);
 }
 
 TEST(PointTable, ErrorColumnsByName) {

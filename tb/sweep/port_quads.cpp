@@ -4,6 +4,7 @@
 #include "golden/reference/truth.hpp"
 #include "model/quad_setup.hpp"
 #include "model/support/parallel.hpp"
+#include "tb/sweep/work_units.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -15,10 +16,8 @@
 namespace quadrille::sweep {
 namespace {
 
-constexpr std::size_t quads_per_unit = 64;
-constexpr std::size_t blocks_per_unit = 256;
-
-std::size_t units_of(std::size_t n, std::size_t per_unit) { return (n + per_unit - 1) / per_unit; }
+constexpr std::size_t ports_per_unit = 64;
+constexpr std::size_t truths_per_unit = 256;
 
 TruthNumbers truth_numbers(const PortQuad& quad, const Columns& columns, const Config& config, bool perspective) {
   TruthNumbers out;
@@ -69,8 +68,8 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
     if (positions.singular[block] != 0) singular_blocks[positions.quad[block]].push_back(block);
 
   std::vector<std::vector<SingularPixel>> singular(input.quads.size());
-  run_units(units_of(input.quads.size(), quads_per_unit), threads, [&](std::size_t unit, unsigned) {
-    for (std::size_t q = unit * quads_per_unit; q < std::min((unit + 1) * quads_per_unit, input.quads.size()); ++q) {
+  run_units(units_of(input.quads.size(), ports_per_unit), threads, [&](std::size_t unit, unsigned) {
+    for (std::size_t q = unit * ports_per_unit; q < std::min((unit + 1) * ports_per_unit, input.quads.size()); ++q) {
       const PortQuad port(input.quads[q], q, columns.attributes, config, input.state);
       data_[q] = quadrille::quad_data(port.own, quad_setup(port.own, config, state), config, input.state);
       machine_[q] = machine_numbers(port, data_[q], columns, config.significand_bits);
@@ -90,9 +89,9 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
   for (const std::vector<SingularPixel>& list : singular) singular_.insert(singular_.end(), list.begin(), list.end());
 
   std::vector<QuantityStats> parts(std::max(1u, threads));
-  run_units(units_of(positions.blocks(), blocks_per_unit), threads, [&](std::size_t unit, unsigned thread) {
-    const std::size_t first = unit * blocks_per_unit;
-    const std::size_t count = std::min(blocks_per_unit, positions.blocks() - first);
+  run_units(units_of(positions.blocks(), truths_per_unit), threads, [&](std::size_t unit, unsigned thread) {
+    const std::size_t first = unit * truths_per_unit;
+    const std::size_t count = std::min(truths_per_unit, positions.blocks() - first);
     const std::size_t stride = truth_per_block(columns);
     std::vector<LaneReals> values(count * stride);
     std::vector<std::uint8_t> draws(count), measured(count);

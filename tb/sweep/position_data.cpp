@@ -4,6 +4,7 @@
 #include "model/covered_pixels.hpp"
 #include "model/quad_setup.hpp"
 #include "model/support/parallel.hpp"
+#include "tb/sweep/work_units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,6 @@ namespace {
 
 constexpr std::size_t quads_per_unit = 16;
 constexpr std::size_t blocks_per_unit = 64;
-
-std::size_t units_of(std::size_t n, std::size_t per_unit) { return (n + per_unit - 1) / per_unit; }
 
 /// Calls f(tile, constants, dx, row) for every pixel that the machine covers, in its order.
 template <class F>
@@ -84,6 +83,7 @@ PositionData::PositionData(const SweepInput& input, const GivenTruth& given_trut
       const std::vector<std::uint32_t>& list = lists[n];
       const std::size_t q = unit * quads_per_unit + n;
       fragments += list.size();
+      covering += !list.empty();
       std::size_t at = given_truth.first(q);
       const std::size_t end = given_truth.first(q + 1);
       for (std::size_t first = 0; first < list.size(); first += lane_count) {

@@ -27,6 +27,7 @@ struct PositionData {
 
   std::vector<SnappedQuad> snapped;  ///< without attributes
   std::size_t fragments = 0;         ///< covered, not culled, in the scissor
+  std::size_t covering = 0;          ///< quads with such
 
   // Per block.
   std::vector<std::uint32_t> quad;

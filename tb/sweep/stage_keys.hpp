@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/config.hpp"
+#include "model/records.hpp"
 
 #include <array>
 
@@ -9,8 +10,8 @@ namespace quadrille::sweep {
 
 /// Levels of the tree of configurations, from the root. Those before `normalise` are computed for the whole input and
 /// kept; `weights` includes the sums.
-enum class Level { positions, differences, normalise, sqrt, ratios, weights, reciprocal, output };
-inline constexpr std::size_t level_count = 8;
+enum class Level { positions, differences, normalise, sqrt, ratios, weights, reciprocal, output, plane };
+inline constexpr std::size_t level_count = 9;
 
 /// Resolved values of the keys that enter at one level; unused places are 0.
 using LevelKey = std::array<int, 5>;
@@ -18,7 +19,9 @@ using LevelKey = std::array<int, 5>;
 LevelKey level_key(const Config& config, Level level);
 
 /// What the clocks of a draw depend on besides the positions: tile_log2, dot_units, quad_slots_log2,
-/// tile_slots_log2, stamp_fifo_log2.
-LevelKey cycles_key(const Config& config);
+/// tile_slots_log2, stamp_fifo_log2; with a tolerance for plane quads also attribute_slots, a clock each, and
+/// significand_bits, which decides which quads are looked at (else 0). What is taken changes no clock.
+using CyclesKey = std::array<int, 7>;
+CyclesKey cycles_key(const Config& config, const DrawState& state);
 
 }  // namespace quadrille::sweep

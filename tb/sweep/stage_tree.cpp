@@ -30,9 +30,13 @@ LaneIntegers colour_code(const LaneReals& v) {
   return __builtin_convertvector(__builtin_convertvector(clamped * 255.0 + 0.5, Codes), LaneIntegers);
 }
 
+bool takes(const PlaneNode& node) { return node.quads && node.quads->count() != 0; }
+
 LaneReals magnitude(const LaneReals& v) { return (LaneReals)((LaneIntegers)v & INT64_MAX); }
 
 }  // namespace
+
+bool OutputNode::takes_quads() const { return std::ranges::any_of(planes, takes); }
 
 void LeafTotals::merge(const LeafTotals& other) {
   fragments += other.fragments;
@@ -40,6 +44,7 @@ void LeafTotals::merge(const LeafTotals& other) {
   discard_differs += other.discard_differs;
   colour_codes += other.colour_codes;
   saturated += other.saturated;
+  plane_fragments += other.plane_fragments;
   for (std::size_t q = 0; q < arithmetic.size(); ++q) arithmetic[q].merge(other.arithmetic[q]);
   const WorstPixel& w = other.worst;
   if (w.any && (!worst.any || w.error > worst.error || (w.error == worst.error && order(w) < order(worst)))) worst = w;
@@ -73,6 +78,12 @@ struct StageTree::Scratch {
   std::vector<ReciprocalLanes> reciprocals{blocks_per_chunk};
   std::vector<LaneColumn> values;
   std::vector<LaneMasks> masks{blocks_per_chunk};
+  // With areas for weights, where a quad is drawn so; as large as those above when there is one.
+  std::vector<WeightLanes> area_weights;
+  std::vector<LaneColumn> area_sums;
+  std::vector<ReciprocalLanes> area_reciprocals;
+  std::vector<LaneColumn> area_values;
+  std::vector<LaneMasks> area_masks;
   // Truth.
   std::vector<LaneReals> truth;
   std::vector<LaneIntegers> truth_codes{3 * blocks_per_chunk};
@@ -85,6 +96,14 @@ struct StageTree::Scratch {
         truth(blocks_per_chunk * truth_per_block(columns)),
         draws(blocks_per_chunk),
         measured(blocks_per_chunk) {}
+
+  void make_areas() {
+    area_weights.resize(weights.size());
+    area_sums.resize(sums.size());
+    area_reciprocals.resize(reciprocals.size());
+    area_values.resize(values.size());
+    area_masks.resize(masks.size());
+  }
 };
 
 StageTree::StageTree(const SweepInput& input, std::shared_ptr<const PositionData> positions,
@@ -95,7 +114,8 @@ StageTree::StageTree(const SweepInput& input, std::shared_ptr<const PositionData
       differences_(std::move(differences)) {}
 
 void StageTree::add(std::size_t point, const Config& config, TableCache& tables,
-                    const std::function<std::shared_ptr<const PortQuads>()>& port) {
+                    const std::function<std::shared_ptr<const PortQuads>()>& port,
+                    const std::function<std::shared_ptr<const PlaneQuads>()>& planes) {
   const auto key = [&](Level level) { return level_key(config, level); };
   NormaliseNode* normalise = find(roots_, key(Level::normalise));
   if (!normalise) normalise = &roots_.emplace_back(key(Level::normalise), port());
@@ -114,9 +134,18 @@ void StageTree::add(std::size_t point, const Config& config, TableCache& tables,
     const LaneOutputFormat format{
         config.attribute_int_bits,       config.attribute_frac(),       config.depth_bits, state.depth,
         depth_code(state.znear, config), depth_code(state.zfar, config)};
-    output = &reciprocal->outputs.emplace_back(key(Level::output), format, leaves_++);
+    output = &reciprocal->outputs.emplace_back(key(Level::output), format);
   }
-  output->points.push_back(point);
+  PlaneNode* plane = find(output->planes, key(Level::plane));
+  if (!plane) {
+    plane = &output->planes.emplace_back(key(Level::plane), planes(), leaves_++);
+    if (takes(*plane)) {
+      const std::vector<std::uint8_t>& taken = plane->quads->taken();
+      normalise->areas.resize(taken.size());
+      for (std::size_t q = 0; q < taken.size(); ++q) normalise->areas[q] |= taken[q];
+    }
+  }
+  plane->points.push_back(point);
 }
 
 std::size_t StageTree::chunks() const { return (positions_->blocks() + blocks_per_chunk - 1) / blocks_per_chunk; }
@@ -143,6 +172,8 @@ void StageTree::walk(std::size_t chunk, Scratch& t, std::span<float> map) const 
         t.truth_codes[3 * n + channel] =
             colour_code(t.truth[n * truth_per_block(columns_) + 1 + columns_.first_colour() + channel]);
     normalise_blocks(differences, s, differences_->quadratic_bias, t.normalised.data());
+    const std::vector<Run> runs = area_runs(normalise, first, count);
+    if (!runs.empty()) t.make_areas();
     for (const SqrtNode& sqrt : normalise.sqrts) {
       sqrt_blocks({t.normalised.data(), count}, s, *sqrt.table, t.root.data());
       for (const RatioNode& ratio : sqrt.ratios) {
@@ -153,12 +184,32 @@ void StageTree::walk(std::size_t chunk, Scratch& t, std::span<float> map) const 
           singular_pixels(normalise, sqrt, ratio, first, count, t);
           interpolate_blocks({t.weights.data(), count}, quad, numbers, columns, input_.state.depth, s, g,
                              t.sums.data());
+          for (const Run& run : runs) {
+            area_blocks(differences.subspan(run.first, run.count), t.normalised.data() + run.first,
+                        t.area_weights.data() + run.first);
+            for (std::size_t n = run.first; n < run.first + run.count; ++n)
+              for (unsigned rest = differences_->singular[first + n]; rest != 0; rest &= rest - 1)
+                for (std::size_t i = 0; i < 4; ++i) {
+                  const int lane = std::countr_zero(rest);
+                  t.area_weights[n].m[i][lane] = t.weights[n].m[i][lane];
+                }
+            interpolate_blocks({t.area_weights.data() + run.first, run.count}, quad + run.first, numbers, columns,
+                               input_.state.depth, s, g, t.area_sums.data() + run.first * sums_per_block(columns));
+          }
           for (const ReciprocalNode& reciprocal : weight.reciprocals) {
             reciprocal_blocks(count, t.sums.data(), columns, s, *reciprocal.table, t.reciprocals.data());
+            for (const Run& run : runs)
+              reciprocal_blocks(run.count, t.area_sums.data() + run.first * sums_per_block(columns), columns, s,
+                                *reciprocal.table, t.area_reciprocals.data() + run.first);
             for (const OutputNode& node : reciprocal.outputs) {
               output_blocks(count, t.sums.data(), t.reciprocals.data(), quad, numbers, columns, node.format,
                             t.values.data(), t.masks.data());
-              compare(t.totals[node.leaf], first, count, t, map);
+              for (const Run& run : node.takes_quads() ? std::span(runs) : std::span<const Run>())
+                output_blocks(run.count, t.area_sums.data() + run.first * sums_per_block(columns),
+                              t.area_reciprocals.data() + run.first, quad + run.first, numbers, columns, node.format,
+                              t.area_values.data() + run.first * (1 + columns), t.area_masks.data() + run.first);
+              for (const PlaneNode& plane : node.planes)
+                compare(t.totals[plane.leaf], plane.quads.get(), first, count, t, map);
             }
           }
         }
@@ -181,27 +232,47 @@ void StageTree::singular_pixels(const NormaliseNode& normalise, const SqrtNode& 
     }
 }
 
-void StageTree::compare(LeafTotals& leaf, std::size_t first, std::size_t count, const Scratch& t,
-                        std::span<float> map) const {
+std::vector<StageTree::Run> StageTree::area_runs(const NormaliseNode& normalise, std::size_t first,
+                                                 std::size_t count) const {
+  std::vector<Run> runs;
+  if (normalise.areas.empty()) return runs;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (normalise.areas[positions_->quad[first + n]] == 0) continue;
+    if (!runs.empty() && runs.back().first + runs.back().count == n)
+      ++runs.back().count;
+    else
+      runs.push_back({n, 1});
+  }
+  return runs;
+}
+
+void StageTree::compare(LeafTotals& leaf, const PlaneQuads* areas, std::size_t first, std::size_t count,
+                        const Scratch& t, std::span<float> map) const {
   const std::size_t columns = columns_.count();
   const auto stats = [&](Quantity q) -> tb::ErrorStats& { return leaf.arithmetic[static_cast<std::size_t>(q)]; };
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t block = first + n;
     const unsigned used = (1u << positions_->count[block]) - 1;
-    const unsigned drawn = t.masks[n].drawn & used;
+    // Weights and colours are passes of their own, which no tolerance takes a quad of; of a taken quad they lie in
+    // [0, 1] but for rounding and saturate in neither.
+    const bool plane = areas && areas->taken()[positions_->quad[block]] != 0;
+    const LaneMasks& masks = plane ? t.area_masks[n] : t.masks[n];
+    const unsigned drawn = masks.drawn & used;
     const unsigned measured = drawn & t.measured[n];
     leaf.fragments += static_cast<unsigned>(std::popcount(drawn));
     leaf.drawn_as_given += static_cast<unsigned>(std::popcount(drawn & positions_->given[block]));
     leaf.discard_differs += static_cast<unsigned>(std::popcount((drawn ^ t.draws[n]) & used));
-    leaf.saturated += static_cast<unsigned>(std::popcount(drawn & t.masks[n].saturated));
+    leaf.saturated += static_cast<unsigned>(std::popcount(drawn & masks.saturated));
+    if (plane) leaf.plane_fragments += static_cast<unsigned>(std::popcount(drawn));
 
     const LaneColumn* value = t.values.data() + n * (1 + columns);
+    const LaneColumn* own = plane ? t.area_values.data() + n * (1 + columns) : value;
     const LaneReals* truth = t.truth.data() + n * truth_per_block(columns_);
     const auto add = [&](tb::ErrorStats& to, const LaneReals& error) {
       for (unsigned rest = measured; rest != 0; rest &= rest - 1)
         to.add(error[static_cast<std::size_t>(std::countr_zero(rest))]);
     };
-    if (input_.state.depth) add(stats(Quantity::depth), value[0].v - truth[0]);
+    if (input_.state.depth) add(stats(Quantity::depth), own[0].v - truth[0]);
     LaneReals largest{};
     for (std::size_t j = 0; j < Columns::first_attribute; ++j) {
       const LaneReals error = magnitude(value[1 + j].v - truth[1 + j]);
@@ -209,7 +280,7 @@ void StageTree::compare(LeafTotals& leaf, std::size_t first, std::size_t count, 
       add(stats(Quantity::lambda), error);
     }
     for (std::size_t j = Columns::first_attribute; j < columns_.first_colour(); ++j)
-      add(stats(Quantity::attribute), value[1 + j].v - truth[1 + j]);
+      add(stats(Quantity::attribute), own[1 + j].v - truth[1 + j]);
     LaneIntegers codes{};  // −1 per channel that differs
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const std::size_t j = columns_.first_colour() + channel;
@@ -239,6 +310,10 @@ StageCounters StageTree::executed() const {
   };
   for (const NormaliseNode& normalise : roots_) {
     count(Stage::normalise);
+    std::uint64_t area_fragments = 0;
+    if (!normalise.areas.empty())
+      for (std::size_t block = 0; block < positions_->blocks(); ++block)
+        if (normalise.areas[positions_->quad[block]] != 0) area_fragments += positions_->count[block];
     for (const SqrtNode& sqrt : normalise.sqrts) {
       count(Stage::sqrt);
       for (const RatioNode& ratio : sqrt.ratios) {
@@ -248,7 +323,12 @@ StageCounters StageTree::executed() const {
           count(Stage::interpolate);
           for (const ReciprocalNode& reciprocal : weight.reciprocals) {
             count(Stage::reciprocal);
-            for (std::size_t n = 0; n < reciprocal.outputs.size(); ++n) count(Stage::output);
+            for (const OutputNode& output : reciprocal.outputs) {
+              count(Stage::output);
+              if (area_fragments == 0 || !output.takes_quads()) continue;
+              ++out.settings[static_cast<std::size_t>(Stage::areas)];
+              out.fragments[static_cast<std::size_t>(Stage::areas)] += area_fragments;
+            }
           }
         }
       }
@@ -257,13 +337,14 @@ StageCounters StageTree::executed() const {
   return out;
 }
 
-void StageTree::for_each_leaf(const std::function<void(const OutputNode&, const PortQuads&)>& f) const {
+void StageTree::for_each_leaf(const std::function<void(const PlaneNode&, const PortQuads&)>& f) const {
   for (const NormaliseNode& normalise : roots_)
     for (const SqrtNode& sqrt : normalise.sqrts)
       for (const RatioNode& ratio : sqrt.ratios)
         for (const WeightNode& weight : ratio.weights)
           for (const ReciprocalNode& reciprocal : weight.reciprocals)
-            for (const OutputNode& output : reciprocal.outputs) f(output, *normalise.port);
+            for (const OutputNode& output : reciprocal.outputs)
+              for (const PlaneNode& plane : output.planes) f(plane, *normalise.port);
 }
 
 }  // namespace quadrille::sweep

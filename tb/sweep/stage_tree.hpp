@@ -2,6 +2,7 @@
 // input, whatever hangs below it.
 #pragma once
 
+#include "tb/sweep/plane_quads.hpp"
 #include "tb/sweep/port_quads.hpp"
 #include "tb/sweep/stage_keys.hpp"
 
@@ -17,17 +18,25 @@ namespace quadrille::sweep {
 /// What a leaf adds up over chunks; merging does not depend on the order.
 struct LeafTotals {
   std::uint64_t fragments = 0, drawn_as_given = 0, discard_differs = 0, colour_codes = 0, saturated = 0;
+  std::uint64_t plane_fragments = 0;  ///< drawn with areas for weights
   QuantityStats arithmetic;
   WorstPixel worst;
 
   void merge(const LeafTotals& other);
 };
 
+struct PlaneNode {
+  LevelKey key;
+  std::shared_ptr<const PlaneQuads> quads;  ///< none: all quads have mean value weights
+  std::size_t leaf;                         ///< number in the tree
+  std::vector<std::size_t> points;          ///< that end here
+};
 struct OutputNode {
   LevelKey key;
   LaneOutputFormat format;
-  std::size_t leaf;                 ///< number in the tree
-  std::vector<std::size_t> points;  ///< that end here
+  std::vector<PlaneNode> planes;
+
+  bool takes_quads() const;  ///< some point here
 };
 struct ReciprocalNode {
   LevelKey key;
@@ -51,6 +60,7 @@ struct SqrtNode {
 struct NormaliseNode {
   LevelKey key;
   std::shared_ptr<const PortQuads> port;
+  std::vector<std::uint8_t> areas;  ///< by quad, 1: taken by some point below; empty: none is
   std::vector<SqrtNode> sqrts;
 };
 
@@ -78,9 +88,11 @@ class StageTree {
   StageTree(const SweepInput& input, std::shared_ptr<const PositionData> positions,
             std::shared_ptr<const DifferenceData> differences);
 
-  /// Adds a point; `port` is called when its `normalise` setting is new.
+  /// Adds a point; `port` is called when its `normalise` setting is new, `planes` when it is a leaf of its own and may
+  /// take quads (it gives none where it does not).
   void add(std::size_t point, const Config& config, TableCache& tables,
-           const std::function<std::shared_ptr<const PortQuads>()>& port);
+           const std::function<std::shared_ptr<const PortQuads>()>& port,
+           const std::function<std::shared_ptr<const PlaneQuads>()>& planes);
 
   std::size_t leaves() const { return leaves_; }
   std::size_t chunks() const;
@@ -100,14 +112,20 @@ class StageTree {
   /// What a walk over all chunks executed, from normalise on.
   StageCounters executed() const;
   /// Calls f(leaf node, its PortQuads) for every leaf.
-  void for_each_leaf(const std::function<void(const OutputNode&, const PortQuads&)>& f) const;
+  void for_each_leaf(const std::function<void(const PlaneNode&, const PortQuads&)>& f) const;
 
  private:
   /// Replaces the weights of the singular lanes of a chunk.
   void singular_pixels(const NormaliseNode& normalise, const SqrtNode& sqrt, const RatioNode& ratio, std::size_t first,
                        std::size_t count, Scratch& scratch) const;
-  /// A leaf's output at a chunk against the truth.
-  void compare(LeafTotals& leaf, std::size_t first, std::size_t count, const Scratch& scratch,
+  /// Blocks of a chunk, neighbours, whose quads some point draws with areas.
+  struct Run {
+    std::size_t first, count;
+  };
+  std::vector<Run> area_runs(const NormaliseNode& normalise, std::size_t first, std::size_t count) const;
+  /// A leaf's output at a chunk against the truth. `areas` (may be null): the quads whose own attributes and depth are
+  /// those with areas for weights.
+  void compare(LeafTotals& leaf, const PlaneQuads* areas, std::size_t first, std::size_t count, const Scratch& scratch,
                std::span<float> map) const;
 
   const SweepInput& input_;

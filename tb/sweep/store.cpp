@@ -71,8 +71,8 @@ Ordered result_json(std::size_t row, const PointResult& r) {
   }
   json["snapping"] = errors_json(r.snapping);
   json["arithmetic"] = errors_json(r.arithmetic);
-  json["counts"] = {r.fragments,    r.coverage_gained, r.coverage_lost, r.discard_differs,
-                    r.colour_codes, r.saturated,       r.cycles};
+  json["counts"] = {r.fragments, r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes,
+                    r.saturated, r.cycles,          r.quads,         r.plane_quads,     r.plane_fragments};
   if (r.worst.any) json["worst"] = {r.worst.index, r.worst.x, r.worst.y, number_json(r.worst.error)};
   return json;
 }
@@ -89,7 +89,7 @@ std::pair<std::size_t, PointResult> result_from(const Json& json) {
   const Json& counts = json.at("counts");
   std::size_t i = 0;
   for (std::uint64_t* count : {&r.fragments, &r.coverage_gained, &r.coverage_lost, &r.discard_differs, &r.colour_codes,
-                               &r.saturated, &r.cycles})
+                               &r.saturated, &r.cycles, &r.quads, &r.plane_quads, &r.plane_fragments})
     *count = counts.at(i++).get<std::uint64_t>();
   if (json.contains("worst")) {
     const Json& w = json.at("worst");

@@ -57,7 +57,7 @@ class StoreTest : public testing::Test {
     r.arithmetic[2] = {3, std::numeric_limits<double>::infinity(), 1, 2, 3};
     r.snapping[3] = {1, 1e-300, 0, 0, 0};
     r.coverage_gained = 1, r.coverage_lost = 2, r.discard_differs = 3, r.colour_codes = 4, r.saturated = 5,
-    r.cycles = 6;
+    r.cycles = 6, r.quads = 12, r.plane_quads = 13, r.plane_fragments = 14;
     r.worst = {true, 9, 10, 11, 0.7};
     b.results[1].refused = "a \"quoted\" reason,\nwith a line break";
     b.executed.settings[2] = 1;
@@ -99,6 +99,9 @@ TEST_F(StoreTest, GoesOnWithWhatWasFinished) {
   EXPECT_EQ(found.colour_codes, 4u);
   EXPECT_EQ(found.saturated, 5u);
   EXPECT_EQ(found.cycles, 6u);
+  EXPECT_EQ(found.quads, 12u);
+  EXPECT_EQ(found.plane_quads, 13u);
+  EXPECT_EQ(found.plane_fragments, 14u);
   EXPECT_TRUE(found.worst.any);
   EXPECT_EQ(found.worst.index, 9u);
   EXPECT_EQ(found.worst.x, 10);
