@@ -18,11 +18,11 @@ using golden::Coverage;
 using golden::ReferenceSample;
 using golden::TruthQuad;
 
-// Without threads of their own these jobs stand in the lockstep's way: while one is done the device must not run out of
-// room (DeviceAhead keeps 768 clocks).
+// Sizes of jobs. Without threads of their own they stand in the lockstep's way: while one is done the device must not
+// run out of room to go on (DeviceAhead keeps 768 clocks).
 constexpr std::size_t fragments_per_job = 512;
 constexpr std::size_t quads_per_job = 256;
-constexpr std::size_t pixels_per_job = 16384;
+constexpr std::size_t pixels_per_job = 4096;
 
 constexpr double near_edge_distance = 1.0 / 16;  // pixels
 constexpr double near_vertex_distance = 1;
