@@ -69,7 +69,7 @@ struct WalkUnit {
 
   /// Tests whose result is known in this clock.
   struct Tests {
-    bool block = false, enter = false, tile = false, hidden = false;
+    bool block = false, enter = false, block_hidden = false, tile = false, hidden = false;
   };
 
   TileWalk walk;
@@ -111,6 +111,7 @@ struct WalkUnit {
         wait = walk.hit();
         tests.block = true;
         tests.enter = wait;
+        tests.block_hidden = walk.hidden();
         walk.advance();
         wait = wait || walk.state() == TileWalk::State::end;
         break;
@@ -528,6 +529,7 @@ struct ClockedModel::Impl {
 
     add(blocks_tested, walk_moves && walk.tests.block);
     add(blocks_entered, walk_moves && walk.tests.enter);
+    add(blocks_hidden, walk_moves && walk.tests.block_hidden);
     add(tiles_tested, walk_moves && walk.tests.tile);
     add(tiles_entered, push_tile && !walk.way.back().entry.end);
     add(tiles_hidden, walk_moves && walk.tests.hidden);

@@ -37,7 +37,7 @@ int for_each_covered_pixel(const TileEntry& tile, const QuadConstants& quad, con
 }
 
 struct WalkCounts {
-  std::uint64_t blocks_tested = 0, tiles_tested = 0, tiles_hidden = 0;
+  std::uint64_t blocks_tested = 0, blocks_hidden = 0, tiles_tested = 0, tiles_hidden = 0;
 };
 
 /// Takes an idle walk through a quad and back to idle; calls f() at every tile that may hold covered pixels.
@@ -49,7 +49,7 @@ WalkCounts walk_quad(TileWalk& walk, const SetupResult& setup, F&& f, Hierarchic
   for (walk.take(setup, memory, depth); walk.state() != TileWalk::State::end; walk.advance()) {
     const bool tile = walk.state() == TileWalk::State::tile;
     ++(tile ? counts.tiles_tested : counts.blocks_tested);
-    counts.tiles_hidden += walk.hidden();
+    if (walk.hidden()) ++(tile ? counts.tiles_hidden : counts.blocks_hidden);
     if (tile && walk.hit()) f();
   }
   walk.advance();

@@ -65,21 +65,34 @@ DepthInterval depth_interval(const SnappedQuad& quad, const Config& config, cons
   return depth;
 }
 
-HierarchicalZ::HierarchicalZ(const Config& config) : places_(config) {
+HierarchicalZ::HierarchicalZ(const Config& config) : places_(config), blocks_(config) {
   if (config.hierarchical_z_bits != 0) entries_.resize(places_.count());
 }
 
-void HierarchicalZ::clear() { std::ranges::fill(entries_, Entry{}); }
+void HierarchicalZ::clear() {
+  std::ranges::fill(entries_, Entry{});
+  blocks_.clear();
+}
 
 bool HierarchicalZ::hidden(int tile_x, int tile_y, const DepthInterval& depth) const {
   const Entry& entry = entries_[places_.place(tile_x, tile_y)];
   return entry.tile == TilePlaces::name(tile_x, tile_y) && depth.near >= entry.far;
 }
 
-void HierarchicalZ::lower(int tile_x, int tile_y, const DepthInterval& depth) {
+bool HierarchicalZ::block_hidden(int tile_x, int tile_y, int columns, int rows, const DepthInterval& depth) const {
+  return blocks_.hidden(tile_x, tile_y, columns, rows, depth.near);
+}
+
+void HierarchicalZ::tested(int tile_x, int tile_y, bool covered, const DepthInterval& depth) {
+  // What a quad teaches is behind its nearest depth: it hides nothing of the quad itself.
+  if (hidden(tile_x, tile_y, depth))
+    blocks_.learn(tile_x, tile_y, depth.near + 1);
+  else if (covered && depth.lowers)
+    blocks_.learn(tile_x, tile_y, depth.far);
   Entry& entry = entries_[places_.place(tile_x, tile_y)];
-  if (!depth.lowers || (entry.tile == TilePlaces::name(tile_x, tile_y) && entry.far <= depth.far)) return;
-  entry = {TilePlaces::name(tile_x, tile_y), depth.far};
+  const bool known = entry.tile == TilePlaces::name(tile_x, tile_y);
+  if (covered && depth.lowers && !(known && entry.far <= depth.far))
+    entry = {TilePlaces::name(tile_x, tile_y), depth.far};
 }
 
 WholeTiles::WholeTiles(const Config& config, const DrawState& state)

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "model/config.hpp"
+#include "model/hidden_blocks.hpp"
 #include "model/records.hpp"
 
 #include <cstddef>
@@ -69,8 +70,10 @@ class HierarchicalZ {
   void clear();
   /// Nothing of the tile can be seen.
   bool hidden(int tile_x, int tile_y, const DepthInterval& depth) const;
-  /// The quad covers every pixel of the tile; lowers the entry where that is nearer.
-  void lower(int tile_x, int tile_y, const DepthInterval& depth);
+  /// Nothing of the columns × rows tiles from this one can be seen, at most a block of them.
+  bool block_hidden(int tile_x, int tile_y, int columns, int rows, const DepthInterval& depth) const;
+  /// The tile has been tested. `covered`: the quad covers every pixel of it; lowers the entry where that is nearer.
+  void tested(int tile_x, int tile_y, bool covered, const DepthInterval& depth);
 
  private:
   struct Entry {
@@ -80,6 +83,7 @@ class HierarchicalZ {
 
   TilePlaces places_;
   std::vector<Entry> entries_;
+  HiddenBlocks blocks_;
 };
 
 /// The tiles that lie wholly inside the scissor rectangle: a quad that covers another one does not draw all of it.

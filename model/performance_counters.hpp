@@ -28,6 +28,7 @@ enum class PerformanceCounter : std::uint8_t {
   // Walk and coverage
   blocks_tested,
   blocks_entered,
+  blocks_hidden,
   tiles_tested,
   tiles_entered,
   tiles_hidden,
@@ -67,7 +68,7 @@ struct CounterInfo {
   std::string_view meaning;  ///< what it counts
 };
 
-inline constexpr std::size_t counter_count = 41;
+inline constexpr std::size_t counter_count = 42;
 /// By index.
 extern const std::array<CounterInfo, counter_count> counter_info;
 

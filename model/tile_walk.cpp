@@ -66,7 +66,11 @@ bool TileWalk::tested() const {
 }
 
 bool TileWalk::hidden() const {
-  return memory_ != nullptr && state_ == State::tile && memory_->hidden(tile_x(), tile_y(), depth_) && tested();
+  if (memory_ == nullptr) return false;
+  if (state_ == State::tile) return memory_->hidden(tile_x(), tile_y(), depth_) && tested();
+  if (state_ != State::block) return false;
+  const TileBlock tiles = block();
+  return memory_->block_hidden(tiles.tile_x, tiles.tile_y, tiles.columns, tiles.rows, depth_) && tested();
 }
 
 bool TileWalk::hit() const { return tested() && !hidden(); }
@@ -105,8 +109,9 @@ void TileWalk::advance() {
       }
       break;
     case State::tile: {
-      if (memory_ != nullptr && whole_.hold(tile_x(), tile_y()) && covers(at_, quad_, tile_, cull_))
-        memory_->lower(tile_x(), tile_y(), depth_);
+      if (memory_ != nullptr)
+        memory_->tested(tile_x(), tile_y(), whole_.hold(tile_x(), tile_y()) && covers(at_, quad_, tile_, cull_),
+                        depth_);
       const int nx = tiles_in_block(quad_.tiles_x, bx_);
       const int ny = tiles_in_block(quad_.tiles_y, by_);
       if (tile_right_ ? tx_ + 1 < nx : tx_ > 0) {

@@ -77,6 +77,11 @@ struct TileCorner {
   std::array<std::int64_t, linear_count> linear{};
 };
 
+/// The tiles of a block that the quad's box has.
+struct TileBlock {
+  int tile_x = 0, tile_y = 0, columns = 0, rows = 0;
+};
+
 /// The state machine.
 class TileWalk {
  public:
@@ -98,12 +103,17 @@ class TileWalk {
   void take(const SetupResult& setup, HierarchicalZ* memory = nullptr, const DepthInterval& depth = {});
   /// The square under test may be drawn: a BLOCK is entered, a TILE is pushed.
   bool hit() const;
-  /// The tile under test is left out because nothing of it can be seen.
+  /// The square under test is left out because nothing of it can be seen.
   bool hidden() const;
   /// Ring entry of the current tile, or the end entry in state END.
   TileEntry entry() const;
   /// The current tile's, without the quadratic functions.
   TileCorner corner() const { return {tile_x(), tile_y(), at_.linear}; }
+  /// The block under test, or that of the current tile.
+  TileBlock block() const {
+    return {quad_.tile_x0 + bx_ * Config::block_tiles, quad_.tile_y0 + by_ * Config::block_tiles,
+            tiles_in_block(quad_.tiles_x, bx_), tiles_in_block(quad_.tiles_y, by_)};
+  }
   /// One clock's work, once the entry (if any) has been accepted. Never call it for a hit tile or END while the ring is
   /// full.
   void advance();

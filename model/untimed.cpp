@@ -20,6 +20,7 @@ DrawStats& DrawStats::operator+=(const DrawStats& o) {
   homogeneous_quads += o.homogeneous_quads;
   hull_quads += o.hull_quads;
   blocks_tested += o.blocks_tested;
+  blocks_hidden += o.blocks_hidden;
   tiles_tested += o.tiles_tested;
   tiles_entered += o.tiles_entered;
   tiles_hidden += o.tiles_hidden;
@@ -281,6 +282,7 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
       },
       hidden ? &m.memory : nullptr, depth);
   if (by_floats) m.draw_floats(quad, true, sink);
+  m.stats.blocks_hidden += counts.blocks_hidden;
   m.stats.tiles_hidden += counts.tiles_hidden;
   m.stats.blocks_tested += counts.blocks_tested;
   m.stats.tiles_tested += counts.tiles_tested;

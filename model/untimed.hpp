@@ -18,10 +18,11 @@ struct DrawStats {
   std::array<std::uint64_t, quad_reject_count> rejected{};  ///< of these, by reason; [0] those that are none of them
   std::uint64_t homogeneous_quads = 0, hull_quads = 0;      ///< of those that were not rejected
   std::uint64_t blocks_tested = 0, tiles_tested = 0, tiles_entered = 0, stamps_covered = 0;
-  std::uint64_t tiles_hidden = 0;  ///< of those tested, left out by hierarchical_z
-  std::uint64_t tiles_masked = 0;  ///< of those entered, left out by masked_depth before their rows
-  std::uint64_t pixels = 0;        ///< covered pixels that entered the pipeline
-  std::uint64_t fragments = 0;     ///< of these, not discarded
+  std::uint64_t blocks_hidden = 0;  ///< of those tested, left out by hidden_blocks
+  std::uint64_t tiles_hidden = 0;   ///< of those tested, left out by hierarchical_z
+  std::uint64_t tiles_masked = 0;   ///< of those entered, left out by masked_depth before their rows
+  std::uint64_t pixels = 0;         ///< covered pixels that entered the pipeline
+  std::uint64_t fragments = 0;      ///< of these, not discarded
   std::uint64_t on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0, notch = 0, saturated = 0;
 
   DrawStats& operator+=(const DrawStats& other);

@@ -15,6 +15,7 @@ module hierarchical_z #(
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int TL = quadrille_pkg::TILE_LOG2,
     localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
+    localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2,
     localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
     localparam int EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
 ) (
@@ -44,9 +45,15 @@ module hierarchical_z #(
     input logic go_i,
     input logic [TC-1:0] column_i,
     input logic [TC-1:0] row_i,
+    input logic block_test_i,  // or a block is tested: its first tile,
+    input logic [TC-1:0] block_column_i,
+    input logic [TC-1:0] block_row_i,
+    input logic [BLOCK_LOG2-1:0] block_last_column_i,  // and the tiles behind that
+    input logic [BLOCK_LOG2-1:0] block_last_row_i,
     input logic tested_i,  // a clock later: it was a tile
     input logic covered_i,
-    output logic hidden_o
+    output logic hidden_o,
+    output logic block_hidden_o  // if it was a block
 );
   localparam int ROW = PLACE / 2;
   localparam int COLUMN = PLACE - ROW;
@@ -144,6 +151,36 @@ module hierarchical_z #(
       epoch_q <= epoch_q + EPOCH'(1);
     end
   end
+
+  // ---- Blocks of tiles ------------------------------------------------------------------------------------------------------
+  logic learn;
+  logic [H-1:0] near_next_q;  // what a hidden tile teaches is behind near: a quad hides nothing of itself
+
+  assign learn = tested_i && (hidden_o || (covered_i && whole_q1 && lowers_q));
+
+  always_ff @(posedge clk_i) near_next_q <= near_q + H'(1);
+
+  hidden_blocks u_blocks (
+      .clk_i,
+      .rst_ni,
+      .wipe_i(wiping_q),
+      .wipe_place_i(wipe_q),
+      .epoch_i(epoch_q),
+      .go_i,
+      .test_i(block_test_i),
+      .tile_x_i(tile_x0_q + block_column_i),
+      .tile_y_i(tile_y0_q + block_row_i),
+      .last_column_i(block_last_column_i),
+      .last_row_i(block_last_row_i),
+      .near_i(near_q),
+      .hidden_o(block_hidden_o),
+      .learn_x_i(tile_x),
+      .learn_y_i(tile_y),
+      .learn_i(learn),
+      .learn_hidden_i(hidden_o),
+      .near_next_i(near_next_q),
+      .far_i(far_q)
+  );
 
   logic unused;
   assign unused = ^{wide_x, wide_y};

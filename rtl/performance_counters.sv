@@ -30,6 +30,7 @@ module performance_counters #(
     // Walk and coverage
     input logic block_test_i,
     input logic block_enter_i,
+    input logic block_hidden_i,
     input logic tile_test_i,
     input logic tile_push_i,
     input logic tile_hidden_i,
@@ -194,7 +195,7 @@ module performance_counters #(
   // ---- The counters, in the order of their indices --------------------------------------------------------------------------
   localparam int STEP = 8;  // bits of what a clock adds: at most four products of eleven sums in four lanes, 176
   localparam int LANES = 4;  // indices for the pixels of a lane, used or not
-  localparam int COUNTERS = 41;
+  localparam int COUNTERS = 42;
   logic [COUNTERS*STEP-1:0] step;
   logic [COUNTERS*WIDTH-1:0] value_q;
   logic [LANES-1:0] entered;
@@ -219,27 +220,28 @@ module performance_counters #(
   assign step[9*STEP+:STEP] = STEP'(start_i && plane_i) + STEP'(nearly_plane_i);
   assign step[10*STEP+:STEP] = STEP'(block_test_i);
   assign step[11*STEP+:STEP] = STEP'(block_enter_i);
-  assign step[12*STEP+:STEP] = STEP'(tile_test_i);
-  assign step[13*STEP+:STEP] = STEP'(tile_push_i);
-  assign step[14*STEP+:STEP] = STEP'(tile_hidden_i);
-  assign step[15*STEP+:STEP] = STEP'(tile_masked_i);
-  assign step[16*STEP+:STEP] = STEP'(row_i);
-  assign step[17*STEP+:STEP] = STEP'(stamp_push_i);
+  assign step[12*STEP+:STEP] = STEP'(block_hidden_i);
+  assign step[13*STEP+:STEP] = STEP'(tile_test_i);
+  assign step[14*STEP+:STEP] = STEP'(tile_push_i);
+  assign step[15*STEP+:STEP] = STEP'(tile_hidden_i);
+  assign step[16*STEP+:STEP] = STEP'(tile_masked_i);
+  assign step[17*STEP+:STEP] = STEP'(row_i);
+  assign step[18*STEP+:STEP] = STEP'(stamp_push_i);
   for (genvar g = 0; g < LANES; g++) begin : gen_pixels
-    assign step[(18+g)*STEP+:STEP] = STEP'(entered[g]);
+    assign step[(19+g)*STEP+:STEP] = STEP'(entered[g]);
   end
-  assign step[22*STEP+:STEP] = norm_plane ? STEP'(at_norm) : '0;
-  assign step[23*STEP+:STEP] = STEP'(drawn);
-  assign step[24*STEP+:STEP] = (context_job_i || setup_job_i) ? STEP'(PAIRS * PER_JOB) : '0;
-  assign step[25*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
-  assign step[26*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
-  assign step[27*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
-  assign step[28*STEP+:STEP] = STEP'(at_sum) * STEP'(sums) * STEP'(PER_SUM);
-  assign step[29*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
-  assign step[30*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);
-  assign step[31*STEP+:STEP] = tolerance_i ? STEP'(PER_VALUE) : '0;
+  assign step[23*STEP+:STEP] = norm_plane ? STEP'(at_norm) : '0;
+  assign step[24*STEP+:STEP] = STEP'(drawn);
+  assign step[25*STEP+:STEP] = (context_job_i || setup_job_i) ? STEP'(PAIRS * PER_JOB) : '0;
+  assign step[26*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
+  assign step[27*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
+  assign step[28*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
+  assign step[29*STEP+:STEP] = STEP'(at_sum) * STEP'(sums) * STEP'(PER_SUM);
+  assign step[30*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
+  assign step[31*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);
+  assign step[32*STEP+:STEP] = tolerance_i ? STEP'(PER_VALUE) : '0;
   for (genvar g = 0; g < BOUNDS; g++) begin : gen_bound
-    assign step[(32+g)*STEP+:STEP] = STEP'(bound[g]);
+    assign step[(33+g)*STEP+:STEP] = STEP'(bound[g]);
   end
 
   for (genvar g = 0; g < COUNTERS; g++) begin : gen_counter

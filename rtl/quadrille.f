@@ -23,6 +23,7 @@ fp_sum.sv
 fp_term.sv
 fragment_fifo.sv
 fragment_output.sv
+hidden_blocks.sv
 hierarchical_z.sv
 inside_expression.sv
 interpolate.sv

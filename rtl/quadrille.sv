@@ -73,7 +73,7 @@ module quadrille (
   assign unused_skip = ^state.skip[7:6];
 
   // ---- For performance_counters: 0 without them -----------------------------------------------------------------------------
-  logic count_line, count_setup_job, count_setup, count_block, count_enter, count_tile, count_hidden, count_walk;
+  logic count_line, count_setup_job, count_setup, count_block, count_enter, count_block_hidden, count_tile, count_hidden, count_walk;
   logic count_masked, count_row, count_rows, count_rows_behind, count_head_waits;
   logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::LATENCY-1:0] lane_valid;
   logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] count_norm, count_area;
@@ -446,8 +446,9 @@ module quadrille (
   logic [TC-1:0] tile_x, tile_y, tile_column, tile_row;
   logic [TILE_LOG2-1:0] tile_last_row;
   logic [6*VAL-1:0] tile_lin_value;
-  logic walk_go, tile_tested, tile_covered, tile_hidden;
-  logic [TC-1:0] test_column, test_row;
+  logic walk_go, tile_tested, tile_covered, tile_hidden, block_test, block_hidden;
+  logic [TC-1:0] test_column, test_row, block_column, block_row;
+  logic [quadrille_pkg::BLOCK_LOG2-1:0] block_last_column, block_last_row;
 
   tile_walk u_walk (
       .clk_i,
@@ -474,6 +475,7 @@ module quadrille (
       .push_o(tile_push),
       .count_block_o(count_block),
       .count_enter_o(count_enter),
+      .count_block_hidden_o(count_block_hidden),
       .count_tile_o(count_tile),
       .count_hidden_o(count_hidden),
       .count_busy_o(count_walk),
@@ -488,9 +490,15 @@ module quadrille (
       .go_o(walk_go),
       .test_column_o(test_column),
       .test_row_o(test_row),
+      .block_test_o(block_test),
+      .block_column_o(block_column),
+      .block_row_o(block_row),
+      .block_last_column_o(block_last_column),
+      .block_last_row_o(block_last_row),
       .tested_o(tile_tested),
       .covered_o(tile_covered),
-      .hidden_i(tile_hidden)
+      .hidden_i(tile_hidden),
+      .block_hidden_i(block_hidden)
   );
 
   // ---- Hidden tiles -------------------------------------------------------------------------------------------------------
@@ -528,17 +536,23 @@ module quadrille (
         .go_i(walk_go),
         .column_i(test_column),
         .row_i(test_row),
+        .block_test_i(block_test),
+        .block_column_i(block_column),
+        .block_row_i(block_row),
+        .block_last_column_i(block_last_column),
+        .block_last_row_i(block_last_row),
         .tested_i(tile_tested),
         .covered_i(tile_covered),
-        .hidden_o(tile_hidden)
+        .hidden_o(tile_hidden),
+        .block_hidden_o(block_hidden)
     );
   end else begin : gen_nothing_hidden
     logic unused_hidden;
     assign {wipe_place, epoch} = '0;
-    assign unused_hidden = ^{wipe_place, epoch, clear_hidden_i, state.skip[2], quad_near, quad_far, quad_lowers, walk_go, test_column, test_row, tile_tested,
-        tile_covered};
+    assign unused_hidden = ^{wipe_place, epoch, clear_hidden_i, state.skip[2], quad_near, quad_far, quad_lowers, walk_go, test_column, test_row, block_test, block_column, block_row,
+        block_last_column, block_last_row, tile_tested, tile_covered};
     assign depths_ready = 1'b1;
-    assign tile_hidden = 1'b0;
+    assign {tile_hidden, block_hidden} = '0;
   end
 
   // ---- Quadratic functions of a tile --------------------------------------------------------------------------------------
@@ -934,6 +948,7 @@ module quadrille (
         .homogeneous_i(homogeneous),
         .block_test_i(count_block),
         .block_enter_i(count_enter),
+        .block_hidden_i(count_block_hidden),
         .tile_test_i(count_tile),
         .tile_push_i(tile_push && !tile_end),
         .tile_hidden_i(count_hidden),
@@ -972,6 +987,7 @@ module quadrille (
       count_tolerance,
       count_block,
       count_enter,
+      count_block_hidden,
       count_tile,
       count_hidden,
       count_walk,

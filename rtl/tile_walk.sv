@@ -43,7 +43,8 @@ module tile_walk #(
     input logic ready_i,
     output logic push_o,
     output logic count_block_o,  // for performance_counters, else 0: a block was tested
-    output logic count_enter_o,  // and may be covered
+    output logic count_enter_o,  // and its tiles will be
+    output logic count_block_hidden_o,  // or it is hit, and hidden
     output logic count_tile_o,  // a tile was tested
     output logic count_hidden_o,  // hit, and hidden
     output logic count_busy_o,  // a quad is here
@@ -59,9 +60,15 @@ module tile_walk #(
     output logic go_o,
     output logic [TC-1:0] test_column_o,
     output logic [TC-1:0] test_row_o,
+    output logic block_test_o,  // or a block is under test: its first tile, and those behind that
+    output logic [TC-1:0] block_column_o,
+    output logic [TC-1:0] block_row_o,
+    output logic [quadrille_pkg::BLOCK_LOG2-1:0] block_last_column_o,
+    output logic [quadrille_pkg::BLOCK_LOG2-1:0] block_last_row_o,
     output logic tested_o,
     output logic covered_o,
-    input logic hidden_i
+    input logic hidden_i,
+    input logic block_hidden_i  // or whether the block is
 );
   localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2;
   localparam int TL = TILE_LOG2;  // log2 of a tile step in pixels
@@ -112,7 +119,7 @@ module tile_walk #(
   assign in_block = state_q == BLOCK;
   assign in_walk = state_q == WALK;
   assign hit = may_cover || !reject_tiles_i;
-  assign enter_walk = block_q1 && hit;
+  assign enter_walk = block_q1 && hit && !block_hidden_i;
   assign test_block = in_block && more_q && !enter_walk;
 
   assign tile_end = in_walk && row_end_q && tile_y_q == tile_last_y_q;
@@ -179,8 +186,8 @@ module tile_walk #(
       slot_q1 <= slot_q;
       block_x_q1 <= block_x_q;
       block_y_q1 <= block_y_q;
-      tile_last_x_q1 <= last_column ? last_x_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
-      tile_last_y_q1 <= last_row ? last_y_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
+      tile_last_x_q1 <= block_last_column_o;
+      tile_last_y_q1 <= block_last_row_o;
       column_q1 <= test_column_o;
       row_q1 <= test_row_o;
       if (enter_walk) begin
@@ -322,16 +329,22 @@ module tile_walk #(
   if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
     assign count_block_o = block_q1 && go;
     assign count_enter_o = enter_walk && go;
+    assign count_block_hidden_o = go && block_q1 && hit && block_hidden_i;
     assign count_tile_o = tile_q1 && go;
     assign count_hidden_o = go && tile_q1 && hit && hidden_i;
     assign count_busy_o = state_q != IDLE;
   end else begin : gen_no_count
-    assign {count_block_o, count_enter_o, count_tile_o, count_hidden_o, count_busy_o} = '0;
+    assign {count_block_o, count_enter_o, count_block_hidden_o, count_tile_o, count_hidden_o, count_busy_o} = '0;
   end
 
   assign go_o = go;
   assign test_column_o = (walk_x_q << BLOCK_LOG2) | TC'(tile_x_q);
   assign test_row_o = (walk_y_q << BLOCK_LOG2) | TC'(tile_y_q);
+  assign block_test_o = test_block && go;
+  assign block_column_o = block_x_q << BLOCK_LOG2;
+  assign block_row_o = block_y_q << BLOCK_LOG2;
+  assign block_last_column_o = last_column ? last_x_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
+  assign block_last_row_o = last_row ? last_y_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
   assign tested_o = tile_q1;
 
   if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_covered

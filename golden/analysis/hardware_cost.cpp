@@ -570,13 +570,33 @@ HardwareCost depth_interval(const Widths& w, const HiddenWidths& h) {
          2 * (zero_test(h.H) + mux(h.H, 2) + adder(h.H + 1)) + adder(h.H) + zero_test(w.DB + 1) + control(200);
 }
 
-HardwareCost hierarchical_z(const Widths& w, const HiddenWidths& h) {
+/// Blocks of tiles, in the unit of hierarchical_z.
+HardwareCost hidden_blocks(const Widths& w, const Config& c, const HiddenWidths& h) {
+  constexpr int edge = 3, tiles = 64, banks = 4;
+  const int row = std::max(h.PLACE / 2 - edge, 2), column = std::max(h.PLACE - h.PLACE / 2 - edge, 2);
+  const int coordinate = c.tc_bits() - 1 - edge;
+  const int tag = std::max(coordinate - row, 1) + std::max(coordinate - column, 1);
+  const int places = row + column, bound = tag + h.EPOCH + h.H, word = bound + h.H + tiles;
+  const int known = 2 * (tag + h.EPOCH);
+  // The block under test.
+  HardwareCost cost =
+      banks * (memory(bound, 1 << (places - 2), 1) + state(bound + tag + 1) + zero_test(known) + adder(h.H));
+  cost += 2 * (adder(w.TC) + adder(edge + 1) + adder(coordinate));
+  // The tile, and its block's word: known or not, those of the two tiles before, the tile in the mask, a mask of all.
+  const int held = 2 * h.H + tiles;
+  cost += block_memory(word, 1 << places) + state(4 + 3 * places + 2 * tag + 2 * 2 * edge + h.H + 2 * held);
+  cost += 2 * zero_test(2 * places) + 5 * mux(held, 2) + zero_test(known) + 2 * adder(h.H) + 2 * mux(h.H, 2);
+  return cost + tiles * adder(1) + 2 * zero_test(tiles) + mux(2 * places, 2);
+}
+
+HardwareCost hierarchical_z(const Widths& w, const Config& c, const HiddenWidths& h) {
   const int interval = 2 * h.H + 1, word = h.TAG + h.EPOCH + h.H;
   HardwareCost cost = memory(interval, 1 << w.SLOT, 1) + memory(word, 1 << h.PLACE, 1);
   cost += state(word + 1 + w.SLOT + interval + 2 * w.TC + h.PLACE + h.TAG + 1 + 2 + h.PLACE + h.EPOCH);
   // The tile; whether it is inside the scissor; the test; what is written.
   cost += 2 * adder(w.TC) + 4 * adder(w.V + 1) + zero_test(2 * (h.TAG + h.EPOCH)) + 2 * adder(h.H);
-  return cost + mux(h.PLACE, 2) + mux(h.H, 2) + adder(h.PLACE + 2 * h.EPOCH) + mux(h.PLACE, 2) + control(210);
+  cost += mux(h.PLACE, 2) + mux(h.H, 2) + adder(h.PLACE + 2 * h.EPOCH) + mux(h.PLACE, 2);
+  return cost + hidden_blocks(w, c, h) + control(210);
 }
 
 HardwareCost masked_depth(const Widths& w, const HiddenWidths& h) {
@@ -634,7 +654,7 @@ HardwareCost area_weights(const Widths& w, const Config& c) {
 
 HardwareCost performance_counters(const Widths& w) {
   // Of lanes that are not there nothing is counted.
-  const int counters = 37 + w.P;
+  const int counters = 38 + w.P;
   constexpr int bits = 32;
   return counters * (state(bits) + adder(bits)) + mux(bits, counters) + state(12 * (3 + w.N) + 4 * w.P) +
          w.P * adder(9) + control(900);
@@ -674,7 +694,7 @@ std::vector<ModuleCost> module_costs(const Config& config) {
   if (config.hierarchical_z_bits != 0) {
     const HiddenWidths h(config);
     modules.push_back({"depth_interval", depth_interval(w, h)});
-    modules.push_back({"hierarchical_z", hierarchical_z(w, h)});
+    modules.push_back({"hierarchical_z", hierarchical_z(w, config, h)});
     modules.push_back({"masked_depth", masked_depth(w, h)});
   }
   if (config.plane_tolerance_bits != 0) {

@@ -244,10 +244,13 @@ TEST(PerformanceCounters, HiddenTiles) {
   EXPECT_EQ(all[bound_wipe], 256u);
   state.skip |= skip_hidden;
   const PerformanceCounters c = count(quads, config, state);
-  EXPECT_EQ(c[tiles_hidden], 64u);
+  EXPECT_EQ(c[tiles_hidden], 0u);
+  EXPECT_EQ(c[blocks_hidden], 1u);
+  EXPECT_EQ(c[blocks_tested], all[blocks_tested]);
+  EXPECT_EQ(c[blocks_entered], all[blocks_entered] - 1);
   EXPECT_EQ(c[tiles_entered], 64u + 192 + 64);
   EXPECT_EQ(c[tiles_masked], 0u);
-  EXPECT_EQ(c[tiles_tested], all[tiles_tested]);
+  EXPECT_EQ(c[tiles_tested], all[tiles_tested] - 64);
   EXPECT_EQ(c.pixels(), 4096u * 5);
   EXPECT_EQ(c[rows_tested], (64u + 192 + 64) * 8);
 
@@ -259,6 +262,58 @@ TEST(PerformanceCounters, HiddenTiles) {
   EXPECT_EQ(halves[tiles_masked], 1u);
   EXPECT_EQ(halves[rows_tested], 16u);
   EXPECT_EQ(halves.pixels(), 64u);
+}
+
+/// Blocks of the walk begin at the quad's first tile, those that are held at the viewport's.
+TEST(PerformanceCounters, HiddenBlocks) {
+  Config config;
+  config.set("hierarchical_z_bits", 12);
+  config.set("hierarchical_z_tiles_log2", 8);
+  DrawState state;
+  state.skip |= skip_hidden;
+  const auto at = [](double x, double y, double width, double height, double z) {
+    return quad_of({{{x, y + height}, {x + width, y + height}, {x + width, y}, {x, y}}}, z);
+  };
+  struct Case {
+    const char* what;
+    std::vector<WindowQuad> quads;  ///< the last one is looked at
+    std::uint64_t blocks, tiles;    ///< of it that are hidden
+  };
+  const std::vector<Case> cases{
+      {"over four that are covered", {at(0, 0, 128, 128, 0.25), at(40, 40, 32, 32, 0.5)}, 1, 0},
+      {"over three, and a tile of the fourth",
+       {at(0, 0, 64, 64, 0.25), at(64, 0, 64, 64, 0.25), at(0, 64, 64, 64, 0.25), at(40, 40, 32, 32, 0.5)},
+       0,
+       15},
+      {"nothing but its own tiles counts", {at(64, 64, 64, 64, 0.25), at(64, 64, 60, 60, 0.5)}, 1, 0},
+      {"no farther than the farther half",
+       {at(0, 0, 64, 32, 0.25), at(0, 32, 64, 32, 0.375), at(0, 0, 64, 64, 0.3)},
+       0,
+       32},
+      {"as far as both halves", {at(0, 0, 64, 32, 0.25), at(0, 32, 64, 32, 0.375), at(0, 0, 64, 64, 0.5)}, 1, 0},
+      {"a tile is missing", {at(0, 0, 64, 56, 0.25), at(0, 56, 56, 8, 0.25), at(0, 0, 64, 64, 0.5)}, 0, 63},
+      {"what is behind a nearer one that joined a farther mask",
+       {at(0, 0, 64, 32, 0.75), at(0, 0, 64, 64, 0.25), at(0, 0, 64, 64, 0.5)},
+       0,
+       64},
+      {"learned from the tiles that were hidden",
+       {at(0, 0, 64, 32, 0.75), at(0, 0, 64, 64, 0.25), at(0, 0, 64, 64, 0.5), at(0, 0, 64, 64, 0.625)},
+       1,
+       0},
+      {"but no nearer than those were",
+       {at(0, 0, 64, 32, 0.75), at(0, 0, 64, 64, 0.25), at(0, 0, 64, 64, 0.5), at(0, 0, 64, 64, 0.375)},
+       0,
+       64},
+      {"another block at its place", {at(0, 0, 64, 64, 0.25), at(256, 256, 64, 64, 0.25), at(0, 0, 64, 64, 0.5)}, 0, 0},
+  };
+  for (const Case& c : cases) {
+    const PerformanceCounters with = count(c.quads, config, state),
+                              before = count({c.quads.begin(), c.quads.end() - 1}, config, state);
+    EXPECT_EQ(with[blocks_hidden] - before[blocks_hidden], c.blocks) << c.what;
+    EXPECT_EQ(with[tiles_hidden] - before[tiles_hidden], c.tiles) << c.what;
+    EXPECT_EQ(with[blocks_tested] - before[blocks_tested], 1u) << c.what;
+    EXPECT_EQ(with[tiles_tested] == before[tiles_tested], c.blocks == 1) << c.what;
+  }
 }
 
 TEST(PerformanceCounters, PlaneQuads) {

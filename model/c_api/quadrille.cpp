@@ -210,6 +210,7 @@ constexpr std::array draw_counters{
     DrawCounter{"quads_outside", rejected<QuadReject::outside>},
     DrawCounter{"quads_homogeneous", counted<&DrawStats::homogeneous_quads>},
     DrawCounter{"blocks_tested", counted<&DrawStats::blocks_tested>},
+    DrawCounter{"blocks_hidden", counted<&DrawStats::blocks_hidden>},
     DrawCounter{"tiles_tested", counted<&DrawStats::tiles_tested>},
     DrawCounter{"tiles_entered", counted<&DrawStats::tiles_entered>},
     DrawCounter{"tiles_hidden", counted<&DrawStats::tiles_hidden>},

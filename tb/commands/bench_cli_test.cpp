@@ -65,7 +65,8 @@ TEST_F(Cli, BenchSkipsReports) {
     const int drawn = hides ? 1 : 8;
     EXPECT_EQ(entry["hierarchical_z_bits"], hides ? 12 : 0);
     EXPECT_EQ(entry["pixels"], drawn * 64 * 64);
-    EXPECT_EQ(entry["tiles_hidden"], (8 - drawn) * 64);
+    EXPECT_EQ(entry["tiles_hidden"], 0);
+    EXPECT_EQ(entry["blocks_hidden"], 8 - drawn);
     EXPECT_EQ(entry["counters"]["quads_ordinary"], 8);
     const bool plane = columns.back() == "plane" || columns.back() == "all";  // rectangles, parallel to the screen
     EXPECT_EQ(entry["plane_tolerance_bits"], plane ? 31 : 0);

@@ -268,20 +268,23 @@ class SkipBench {
         golden::command_line(arguments_).c_str(), scenes_.size(), scenes_.size() == 1 ? "" : "s",
         options_.common.size.c_str(), summary(config_).c_str(), options_.repeat,
         sets_.back().config.hierarchical_z_bits, sets_.back().config.plane_tolerance_bits);
-    std::fprintf(text, "%-22s %-9s", "", "--skip");
+    std::fprintf(text, "%-22s %-13s", "", "--skip");
     for (const SkipSet& set : sets_) std::fprintf(text, " %12s", set.name.c_str());
     std::fputs("\n", text);
     for (const SkipScene& scene : scenes_) {
       std::string name = scene.input.name;
       const auto row = [&](const char* what, auto&& value) {
-        std::fprintf(text, "%-22s %-9s", name.c_str(), what);
+        std::fprintf(text, "%-22s %-13s", name.c_str(), what);
         for (const Run& run : scene.runs) std::fprintf(text, " %12s", value(run).c_str());
         std::fputs("\n", text);
         name.clear();
       };
       row("clocks", [](const Run& run) { return std::to_string(run.cycles); });
       row("pixels", [](const Run& run) { return std::to_string(run.counters.pixels()); });
-      row("hidden", [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::tiles_hidden]); });
+      row("hidden tiles",
+          [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::tiles_hidden]); });
+      row("hidden blocks",
+          [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::blocks_hidden]); });
       row("plane", [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::pixels_plane]); });
       row("products", [](const Run& run) { return std::to_string(run.counters.products()); });
       row("bound by", [](const Run& run) { return bound_name(run.counters); });
@@ -320,6 +323,7 @@ class SkipBench {
         entry["plane_tolerance_bits"] = sets_[set].config.plane_tolerance_bits;
         entry["cycles"] = run.cycles;
         entry["pixels"] = run.counters.pixels();
+        entry["blocks_hidden"] = run.counters[PerformanceCounter::blocks_hidden];
         entry["tiles_hidden"] = run.counters[PerformanceCounter::tiles_hidden];
         entry["pixels_plane"] = run.counters[PerformanceCounter::pixels_plane];
         entry["products"] = run.counters.products();

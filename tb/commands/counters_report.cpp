@@ -15,13 +15,14 @@ nlohmann::ordered_json counters_json(const PerformanceCounters& counters) {
 void print_counters(std::FILE* out, const PerformanceCounters& counters, std::string_view whose) {
   using enum PerformanceCounter;
   const auto number = [&](PerformanceCounter counter) { return static_cast<unsigned long long>(counters[counter]); };
-  std::fprintf(out,
-               "  counters       blocks %llu of %llu, tiles %llu of %llu (%llu hidden, %llu masked), rows %llu of "
-               "%llu, pixels %llu "
-               "(%llu of plane quads); %s\n",
-               number(blocks_entered), number(blocks_tested), number(tiles_entered), number(tiles_tested),
-               number(tiles_hidden), number(tiles_masked), number(stamps), number(rows_tested),
-               static_cast<unsigned long long>(counters.pixels()), number(pixels_plane), std::string(whose).c_str());
+  std::fprintf(
+      out,
+      "  counters       blocks %llu of %llu (%llu hidden), tiles %llu of %llu (%llu hidden, %llu masked), rows %llu of "
+      "%llu, pixels %llu "
+      "(%llu of plane quads); %s\n",
+      number(blocks_entered), number(blocks_tested), number(blocks_hidden), number(tiles_entered), number(tiles_tested),
+      number(tiles_hidden), number(tiles_masked), number(stamps), number(rows_tested),
+      static_cast<unsigned long long>(counters.pixels()), number(pixels_plane), std::string(whose).c_str());
   const auto all = static_cast<double>(counters[clocks]);
   std::fputs("                 clocks bound by", out);
   for (auto i = static_cast<std::size_t>(bound_pixels); i < counter_count; ++i)

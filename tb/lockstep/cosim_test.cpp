@@ -174,6 +174,7 @@ TEST(Cosim, HiddenTilesAndTheirCounters) {
     ASSERT_TRUE(report.agreed() && report.complete) << report.first_divergence.value_or("");
     EXPECT_EQ(report.fragments, model.stats().fragments);
     EXPECT_EQ(report.counters[PerformanceCounter::tiles_hidden], model.stats().tiles_hidden);
+    EXPECT_EQ(report.counters[PerformanceCounter::blocks_hidden], model.stats().blocks_hidden);
     EXPECT_EQ(report.counters[PerformanceCounter::tiles_entered], model.stats().tiles_entered);
     EXPECT_EQ(report.counters[PerformanceCounter::bound_wipe], 128u) << "behind reset: every place, once";
   }

@@ -24,6 +24,7 @@ namespace {
 
 struct Named {
   const char* name;
+  int width, height;
   std::vector<std::pair<const char*, int>> keys;
 
   Config config() const {
@@ -35,17 +36,21 @@ struct Named {
   friend std::ostream& operator<<(std::ostream& out, const Named& n) { return out << n.name; }
 };
 
-/// Four epochs, and fewer places than tiles.
+/// Four epochs, and fewer places than tiles; of six columns of blocks of tiles, five of them whole, four have places.
 const Named few_places{"few_places",
-                       {{"viewport_bits", 7},
+                       168,
+                       36,
+                       {{"viewport_bits", 8},
                         {"significand_bits", 10},
                         {"attribute_slots", 1},
                         {"tile_log2", 2},
                         {"hierarchical_z_bits", 10},
                         {"performance_counters", 1},
                         {"hierarchical_z_tiles_log2", 6}}};
-/// More places than tiles, codes wider than significands.
+/// More places than tiles, one block of them, codes wider than significands.
 const Named many_places{"many_places",
+                        64,
+                        64,
                         {{"viewport_bits", 6},
                          {"significand_bits", 9},
                          {"attribute_slots", 1},
@@ -71,8 +76,11 @@ std::vector<Draw> make_draws(const Config& config, int width, int height, std::s
     std::vector<WindowQuad> given = golden::make_stress(family.family, 6, 400 + d, 1, width, height, 1);
     for (std::uint32_t i = 0; i < 8; ++i) {
       WindowQuad quad;
-      const double x = rng.uniform() * width * 0.7 - 6, y = rng.uniform() * height * 0.7 - 6,
-                   w = 8 + rng.uniform() * width, h = 8 + rng.uniform() * height, z = 0.02 + 0.9 * rng.uniform();
+      double x = rng.uniform() * width * 0.7 - 6, y = rng.uniform() * height * 0.7 - 6;
+      double w = 8 + rng.uniform() * width, h = 8 + rng.uniform() * height;
+      const double z = 0.02 + 0.9 * rng.uniform();
+      if (rng.chance(0.5)) x = -6, w = width + 12;  // from side to side, or down
+      if (rng.chance(0.5)) y = -6, h = height + 12;
       quad.id = 20 + i;
       quad.vertex = {{{x, y, z, 1}, {x, y + h, z + 0.01, 1}, {x + w, y + h, z + 0.02, 1}, {x + w, y, z, 1}}};
       for (auto& attribute : quad.attribute) attribute = {0.5};
@@ -97,7 +105,7 @@ std::vector<Draw> make_draws(const Config& config, int width, int height, std::s
   return draws;
 }
 
-std::vector<Fragment> untimed(const Config& config, const std::vector<Draw>& draws, std::uint64_t& hidden) {
+std::vector<Fragment> untimed(const Config& config, const std::vector<Draw>& draws, DrawStats& stats) {
   UntimedModel model(config, draws.front().state);
   std::vector<Fragment> all;
   for (const Draw& draw : draws) {
@@ -106,13 +114,13 @@ std::vector<Fragment> untimed(const Config& config, const std::vector<Draw>& dra
     for (const SnappedQuad& quad : draw.quads)
       model.draw(quad, [&](std::span<const Fragment> f) { all.insert(all.end(), f.begin(), f.end()); });
   }
-  hidden = model.stats().tiles_hidden;
+  stats = model.stats();
   return all;
 }
 
 /// One machine through all draws; both sides compared in every clock. Returns the model's fragments.
 std::vector<Fragment> lockstep(Device& device, const Config& config, const std::vector<Draw>& draws, double stall,
-                               double gap, std::uint64_t hidden) {
+                               double gap, const DrawStats& stats) {
   constexpr std::uint64_t seed = 5;
   ClockedModel model(config, draws.front().state);
   std::vector<Fragment> all;
@@ -169,7 +177,8 @@ std::vector<Fragment> lockstep(Device& device, const Config& config, const std::
   }
   for (std::size_t i = 0; i < counter_count; ++i)
     EXPECT_EQ(device.counter(i), static_cast<std::uint32_t>(model.counters().value[i])) << counter_info[i].name;
-  EXPECT_EQ(model.counters()[PerformanceCounter::tiles_hidden], hidden);
+  EXPECT_EQ(model.counters()[PerformanceCounter::tiles_hidden], stats.tiles_hidden);
+  EXPECT_EQ(model.counters()[PerformanceCounter::blocks_hidden], stats.blocks_hidden);
   return all;
 }
 
@@ -180,17 +189,19 @@ INSTANTIATE_TEST_SUITE_P(Cosim, HiddenTiles, testing::Values(few_places, many_pl
 
 TEST_P(HiddenTiles, LockstepThroughDrawsAndClears) {
   const Config config = GetParam().config();
-  const int width = std::min(72, 1 << config.viewport_bits), height = 44;
-  const std::vector<Draw> draws = make_draws(config, width, height, 20);
-  std::uint64_t hidden = 0;
-  const std::vector<Fragment> expected = untimed(config, draws, hidden);
-  EXPECT_GT(hidden, 500u);
+  const std::vector<Draw> draws = make_draws(config, GetParam().width, GetParam().height, 20);
+  DrawStats stats;
+  const std::vector<Fragment> expected = untimed(config, draws, stats);
+  EXPECT_GT(stats.tiles_hidden, 400u);
+  EXPECT_GT(stats.blocks_hidden, 40u);
   VerilatedDevice device(config, VerilateOptions{}, 3);
   for (const auto& [stall, gap] : {std::pair{0.0, 0.0}, {0.5, 0.1}, {0.0, 0.7}, {0.9, 0.0}}) {
-    const std::vector<Fragment> drawn = lockstep(device, config, draws, stall, gap, hidden);
+    const std::vector<Fragment> drawn = lockstep(device, config, draws, stall, gap, stats);
     ASSERT_TRUE(drawn == expected) << drawn.size() << " fragments of " << expected.size() << ", stall " << stall;
   }
-  std::printf("%zu fragments, %llu tiles hidden\n", expected.size(), static_cast<unsigned long long>(hidden));
+  std::printf("%zu fragments, %llu tiles and %llu blocks hidden\n", expected.size(),
+              static_cast<unsigned long long>(stats.tiles_hidden),
+              static_cast<unsigned long long>(stats.blocks_hidden));
 }
 
 }  // namespace

@@ -70,6 +70,14 @@ Config tolerating() {
   return config;
 }
 
+/// Six columns of blocks of tiles at four places.
+Config hiding_blocks() {
+  Config config = hiding();
+  config.set("viewport_bits", 8);
+  config.set("tile_log2", 2);
+  return config;
+}
+
 /// Areas for weights where values are nearly plane, a pixel a clock.
 Config plane_weights() {
   Config config;
@@ -323,6 +331,30 @@ Scenario layers() {
             if (random.chance(0.2)) quad.vertex[2].z += random.uniform(-0.3, 0.3);
             if (random.chance(0.15)) std::swap(quad.vertex[1], quad.vertex[3]);
             if (random.chance(0.1)) std::swap(quad.vertex[0], quad.vertex[1]);
+            return quad;
+          })};
+}
+
+/// Rectangles over some blocks of tiles, the borders of many half a tile from a block's: of a few depths, so that some
+/// are as far as what is before them.
+Scenario block_layers() {
+  LockstepOptions o = options(hiding_blocks(), 168);
+  o.state.height = o.state.scissor_y1 = 36;
+  o.state.attributes = 1;
+  o.state.skip |= skip_hidden;
+  o.stall = 0.2;
+  return {"block layers", o, drawn(o, 21, 160, [](golden::Prng& random) {
+            const auto border = [&random](int blocks) {
+              const double at = 32 * static_cast<double>(random.below(static_cast<std::uint64_t>(blocks)));
+              return at + (random.chance(0.4) ? random.uniform(-20, 20) : random.uniform(-2, 2));
+            };
+            const double left = border(5), right = left + random.uniform(20, 80),
+                         top = random.chance(0.6) ? -3 : border(2),
+                         bottom = random.chance(0.6) ? 39 : top + random.uniform(8, 30),
+                         z = 0.9 - std::ldexp(std::floor(random.uniform(0, 24)), -5), step = std::ldexp(1, -12);
+            WindowQuad quad;
+            quad.vertex = {
+                {{left, top, z, 1}, {left, bottom, z + step, 1}, {right, bottom, z + 2 * step, 1}, {right, top, z, 1}}};
             return quad;
           })};
 }
@@ -696,6 +728,7 @@ std::span<const Scenario> further_scenarios() {
     std::vector<Scenario> all;
     all.push_back(joined_layers());
     all.push_back(acute_layers());
+    all.push_back(block_layers());
     all.push_back(far_end());
     all.push_back(far_exponents());
     all.push_back(far_scissor());

@@ -90,6 +90,13 @@ TileFates tile_fates(std::span<const SnappedQuad> quads, const Config& config, c
     std::fill(tested.begin(), tested.end(), false);
     const DepthInterval depth = hiding != nullptr ? depth_interval(quad, config, state) : DepthInterval{};
     for (walk.take(setup, hiding, depth); walk.state() != TileWalk::State::end; walk.advance()) {
+      if (walk.state() == TileWalk::State::block && walk.hidden()) {
+        const TileBlock block = walk.block();
+        for_each_tile(fates, block.tile_x, block.tile_y, block.columns, block.rows, [&](int x, int y) {
+          tested[static_cast<std::size_t>(y * fates.columns + x)] = true;
+          ++at(fates, TileFate::hidden, x, y);
+        });
+      }
       if (walk.state() != TileWalk::State::tile) continue;
       const TileEntry tile = walk.entry();
       if (tile.tile_x >= fates.columns || tile.tile_y >= fates.rows) continue;

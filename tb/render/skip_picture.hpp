@@ -18,7 +18,7 @@ namespace quadrille::cli {
 /// What became of a tile of a quad's bounding box.
 enum class TileFate : std::uint8_t {
   entered,  ///< pushed: its rows were tested
-  hidden,   ///< hit, but nothing of it can be seen: not pushed, or pushed and its rows left out
+  hidden,   ///< nothing of it, or of a block that holds it, can be seen: not tested, not pushed, or its rows left out
   tile,     ///< its own test was not hit
   block,    ///< it was not tested: something larger that holds it was not hit
   depth,    ///< its quad was left out: outside [znear, zfar]
