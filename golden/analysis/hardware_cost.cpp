@@ -584,7 +584,8 @@ HardwareCost hidden_blocks(const Widths& w, const Config& c, const HiddenWidths&
   cost += 2 * (adder(w.TC) + adder(edge + 1) + adder(coordinate));
   // The tile, and its block's word: known or not, those of the two tiles before, the tile in the mask, a mask of all.
   const int held = 2 * h.H + tiles;
-  cost += block_memory(word, 1 << places) + state(4 + 3 * places + 2 * tag + 2 * 2 * edge + h.H + 2 * held);
+  cost += 1 << places > 32 ? block_memory(word, 1 << places) : memory(word, 1 << places, 1) + state(word);
+  cost += state(4 + 3 * places + 2 * tag + 2 * 2 * edge + h.H + 2 * held);
   cost += 2 * zero_test(2 * places) + 5 * mux(held, 2) + zero_test(known) + 2 * adder(h.H) + 2 * mux(h.H, 2);
   return cost + tiles * adder(1) + 2 * zero_test(tiles) + mux(2 * places, 2);
 }
