@@ -336,22 +336,23 @@ Scenario layers() {
 }
 
 /// Rectangles over some blocks of tiles, the borders of many half a tile from a block's: of a few depths, so that some
-/// are as far as what is before them.
-Scenario block_layers() {
+/// are as far as what is before them; `near_together` of fewer, with codes between them that margins keep apart.
+Scenario block_layers(const std::string& name, bool near_together) {
   LockstepOptions o = options(hiding_blocks(), 168);
   o.state.height = o.state.scissor_y1 = 36;
   o.state.attributes = 1;
   o.state.skip |= skip_hidden;
   o.stall = 0.2;
-  return {"block layers", o, drawn(o, 21, 160, [](golden::Prng& random) {
+  return {name, o, drawn(o, 21, 160, [near_together](golden::Prng& random) {
             const auto border = [&random](int blocks) {
               const double at = 32 * static_cast<double>(random.below(static_cast<std::uint64_t>(blocks)));
               return at + (random.chance(0.4) ? random.uniform(-20, 20) : random.uniform(-2, 2));
             };
             const double left = border(5), right = left + random.uniform(20, 80),
                          top = random.chance(0.6) ? -3 : border(2),
-                         bottom = random.chance(0.6) ? 39 : top + random.uniform(8, 30),
-                         z = 0.9 - std::ldexp(std::floor(random.uniform(0, 24)), -5), step = std::ldexp(1, -12);
+                         bottom = random.chance(0.6) ? 39 : top + random.uniform(8, 30), step = std::ldexp(1, -12);
+            double z = 0.9 - 128 * step * std::floor(random.uniform(0, near_together ? 10 : 24));
+            if (near_together) z += step * std::floor(random.uniform(0, 16));
             WindowQuad quad;
             quad.vertex = {
                 {{left, top, z, 1}, {left, bottom, z + step, 1}, {right, bottom, z + 2 * step, 1}, {right, top, z, 1}}};
@@ -700,7 +701,9 @@ std::span<const Scenario> scenarios() {
                               nearly_plane(),
                               unwiped("unwiped", 1),
                               unwiped("unwiped, another seed", 2),
-                              unwiped("unwiped, a third seed", 3)};
+                              unwiped("unwiped, a third seed", 3),
+                              block_layers("block layers", false),
+                              block_layers("block layers, near together", true)};
     const auto add = [&](const Config& config, const std::string& before, golden::CornerDraw draw) {
       for (std::size_t i = 0; i < draw.quads.size(); ++i) draw.quads[i].id = static_cast<std::uint32_t>(i);
       LockstepOptions o = options(config, draw.state.width);
@@ -728,7 +731,6 @@ std::span<const Scenario> further_scenarios() {
     std::vector<Scenario> all;
     all.push_back(joined_layers());
     all.push_back(acute_layers());
-    all.push_back(block_layers());
     all.push_back(far_end());
     all.push_back(far_exponents());
     all.push_back(far_scissor());
