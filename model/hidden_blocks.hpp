@@ -9,8 +9,8 @@
 #pragma once
 
 #include "model/config.hpp"
+#include "model/tile_places.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -37,9 +37,7 @@ class HiddenBlocks {
   };
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  std::size_t place(int block_x, int block_y) const;
-
-  int column_bits_ = 0, row_bits_ = 0;
+  TilePlaces places_;
   std::uint32_t unknown_ = 0;
   std::vector<Entry> entries_;
 };

@@ -16,6 +16,7 @@
 #include "model/config.hpp"
 #include "model/hidden_blocks.hpp"
 #include "model/records.hpp"
+#include "model/tile_places.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -38,27 +39,6 @@ DepthInterval depth_interval(const SnappedQuad& quad, const Config& config, cons
 
 /// The machine has the memory, and the draw state asks for it.
 bool skips_hidden(const Config& config, const DrawState& state);
-
-/// Where the depths of a tile are held.
-class TilePlaces {
- public:
-  TilePlaces() = default;
-  explicit TilePlaces(const Config& config)
-      : column_bits_((config.hierarchical_z_tiles_log2 + 1) / 2), row_bits_(config.hierarchical_z_tiles_log2 / 2) {}
-
-  std::size_t count() const { return std::size_t{1} << (column_bits_ + row_bits_); }
-  std::size_t place(int tile_x, int tile_y) const {
-    const int column = tile_x & ((1 << column_bits_) - 1), row = tile_y & ((1 << row_bits_) - 1);
-    return static_cast<std::size_t>(row << column_bits_ | column);
-  }
-  /// The tile itself, which the place does not tell.
-  static std::uint32_t name(int tile_x, int tile_y) {
-    return static_cast<std::uint32_t>(tile_y) << 16 | static_cast<std::uint32_t>(tile_x);
-  }
-
- private:
-  int column_bits_ = 0, row_bits_ = 0;
-};
 
 class HierarchicalZ {
  public:
