@@ -1,5 +1,7 @@
 #include "tb/sweep/stage_tree.hpp"
 
+#include "tb/sweep/work_units.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -68,22 +70,29 @@ std::shared_ptr<const PipelineContext> TableCache::context(const Config& config,
   return context_.emplace_back(key, std::make_shared<PipelineContext>(config, state)).value;
 }
 
+/// A chunk from its weights on: of mean value weights, or of areas in their place.
+struct StageTree::Weighted {
+  std::vector<WeightLanes> weights;
+  std::vector<LaneColumn> sums;
+  std::vector<ReciprocalLanes> reciprocals;
+  std::vector<LaneColumn> values;
+  std::vector<LaneMasks> masks;
+
+  void make(std::size_t columns) {
+    weights.resize(blocks_per_chunk);
+    sums.resize(blocks_per_chunk * sums_per_block(columns));
+    reciprocals.resize(blocks_per_chunk);
+    values.resize(blocks_per_chunk * (1 + columns));
+    masks.resize(blocks_per_chunk);
+  }
+};
+
 struct StageTree::Scratch {
   std::vector<LeafTotals> totals;
   std::vector<NormalisedLanes> normalised{blocks_per_chunk};
   std::vector<SqrtLanes> root{blocks_per_chunk};
   std::vector<RatioLanes> ratios{blocks_per_chunk};
-  std::vector<WeightLanes> weights{blocks_per_chunk};
-  std::vector<LaneColumn> sums;
-  std::vector<ReciprocalLanes> reciprocals{blocks_per_chunk};
-  std::vector<LaneColumn> values;
-  std::vector<LaneMasks> masks{blocks_per_chunk};
-  // With areas for weights, where a quad is drawn so; as large as those above when there is one.
-  std::vector<WeightLanes> area_weights;
-  std::vector<LaneColumn> area_sums;
-  std::vector<ReciprocalLanes> area_reciprocals;
-  std::vector<LaneColumn> area_values;
-  std::vector<LaneMasks> area_masks;
+  Weighted mean, areas;  ///< `areas` is made where a point draws a quad so
   // Truth.
   std::vector<LaneReals> truth;
   std::vector<LaneIntegers> truth_codes{3 * blocks_per_chunk};
@@ -91,18 +100,10 @@ struct StageTree::Scratch {
 
   Scratch(std::size_t leaves, const Columns& columns)
       : totals(leaves),
-        sums(blocks_per_chunk * sums_per_block(columns.count())),
-        values(blocks_per_chunk * (1 + columns.count())),
         truth(blocks_per_chunk * truth_per_block(columns)),
         draws(blocks_per_chunk),
-        measured(blocks_per_chunk) {}
-
-  void make_areas() {
-    area_weights.resize(weights.size());
-    area_sums.resize(sums.size());
-    area_reciprocals.resize(reciprocals.size());
-    area_values.resize(values.size());
-    area_masks.resize(masks.size());
+        measured(blocks_per_chunk) {
+    mean.make(columns.count());
   }
 };
 
@@ -148,7 +149,7 @@ void StageTree::add(std::size_t point, const Config& config, TableCache& tables,
   plane->points.push_back(point);
 }
 
-std::size_t StageTree::chunks() const { return (positions_->blocks() + blocks_per_chunk - 1) / blocks_per_chunk; }
+std::size_t StageTree::chunks() const { return units_of(positions_->blocks(), blocks_per_chunk); }
 
 StageTree::ScratchPointer StageTree::make_scratch() const { return ScratchPointer(new Scratch(leaves_, columns_)); }
 
@@ -173,41 +174,41 @@ void StageTree::walk(std::size_t chunk, Scratch& t, std::span<float> map) const 
             colour_code(t.truth[n * truth_per_block(columns_) + 1 + columns_.first_colour() + channel]);
     normalise_blocks(differences, s, differences_->quadratic_bias, t.normalised.data());
     const std::vector<Run> runs = area_runs(normalise, first, count);
-    if (!runs.empty()) t.make_areas();
+    if (!runs.empty()) t.areas.make(columns);
+    const Run whole{0, count};
+    const auto interpolate = [&](Weighted& by, const Run& run, int g) {
+      interpolate_blocks({by.weights.data() + run.first, run.count}, quad + run.first, numbers, columns,
+                         input_.state.depth, s, g, by.sums.data() + run.first * sums_per_block(columns));
+    };
+    const auto reciprocals = [&](Weighted& by, const Run& run, const LaneTable& table) {
+      reciprocal_blocks(run.count, by.sums.data() + run.first * sums_per_block(columns), columns, s, table,
+                        by.reciprocals.data() + run.first);
+    };
+    const auto output = [&](Weighted& by, const Run& run, const LaneOutputFormat& format) {
+      output_blocks(run.count, by.sums.data() + run.first * sums_per_block(columns), by.reciprocals.data() + run.first,
+                    quad + run.first, numbers, columns, format, by.values.data() + run.first * (1 + columns),
+                    by.masks.data() + run.first);
+    };
     for (const SqrtNode& sqrt : normalise.sqrts) {
       sqrt_blocks({t.normalised.data(), count}, s, *sqrt.table, t.root.data());
       for (const RatioNode& ratio : sqrt.ratios) {
         const int g = ratio.key[0];
         ratio_blocks({t.normalised.data(), count}, t.root.data(), s, g, t.ratios.data());
         for (const WeightNode& weight : ratio.weights) {
-          weight_blocks(differences, t.ratios.data(), s, g, *sqrt.table, t.weights.data());
+          weight_blocks(differences, t.ratios.data(), s, g, *sqrt.table, t.mean.weights.data());
           singular_pixels(normalise, sqrt, ratio, first, count, t);
-          interpolate_blocks({t.weights.data(), count}, quad, numbers, columns, input_.state.depth, s, g,
-                             t.sums.data());
+          interpolate(t.mean, whole, g);
           for (const Run& run : runs) {
-            area_blocks(differences.subspan(run.first, run.count), t.normalised.data() + run.first,
-                        t.area_weights.data() + run.first);
-            for (std::size_t n = run.first; n < run.first + run.count; ++n)
-              for (unsigned rest = differences_->singular[first + n]; rest != 0; rest &= rest - 1)
-                for (std::size_t i = 0; i < 4; ++i) {
-                  const int lane = std::countr_zero(rest);
-                  t.area_weights[n].m[i][lane] = t.weights[n].m[i][lane];
-                }
-            interpolate_blocks({t.area_weights.data() + run.first, run.count}, quad + run.first, numbers, columns,
-                               input_.state.depth, s, g, t.area_sums.data() + run.first * sums_per_block(columns));
+            area_weights(run, first, t);
+            interpolate(t.areas, run, g);
           }
           for (const ReciprocalNode& reciprocal : weight.reciprocals) {
-            reciprocal_blocks(count, t.sums.data(), columns, s, *reciprocal.table, t.reciprocals.data());
-            for (const Run& run : runs)
-              reciprocal_blocks(run.count, t.area_sums.data() + run.first * sums_per_block(columns), columns, s,
-                                *reciprocal.table, t.area_reciprocals.data() + run.first);
+            reciprocals(t.mean, whole, *reciprocal.table);
+            for (const Run& run : runs) reciprocals(t.areas, run, *reciprocal.table);
             for (const OutputNode& node : reciprocal.outputs) {
-              output_blocks(count, t.sums.data(), t.reciprocals.data(), quad, numbers, columns, node.format,
-                            t.values.data(), t.masks.data());
-              for (const Run& run : node.takes_quads() ? std::span(runs) : std::span<const Run>())
-                output_blocks(run.count, t.area_sums.data() + run.first * sums_per_block(columns),
-                              t.area_reciprocals.data() + run.first, quad + run.first, numbers, columns, node.format,
-                              t.area_values.data() + run.first * (1 + columns), t.area_masks.data() + run.first);
+              output(t.mean, whole, node.format);
+              if (node.takes_quads())
+                for (const Run& run : runs) output(t.areas, run, node.format);
               for (const PlaneNode& plane : node.planes)
                 compare(t.totals[plane.leaf], plane.quads.get(), first, count, t, map);
             }
@@ -216,6 +217,18 @@ void StageTree::walk(std::size_t chunk, Scratch& t, std::span<float> map) const 
       }
     }
   }
+}
+
+void StageTree::area_weights(const Run& run, std::size_t first, Scratch& t) const {
+  area_blocks({differences_->blocks.data() + first + run.first, run.count}, t.normalised.data() + run.first,
+              t.areas.weights.data() + run.first);
+  // Pixels on an edge or a corner have the same weights either way.
+  for (std::size_t n = run.first; n < run.first + run.count; ++n)
+    for (unsigned rest = differences_->singular[first + n]; rest != 0; rest &= rest - 1)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const int lane = std::countr_zero(rest);
+        t.areas.weights[n].m[i][lane] = t.mean.weights[n].m[i][lane];
+      }
 }
 
 void StageTree::singular_pixels(const NormaliseNode& normalise, const SqrtNode& sqrt, const RatioNode& ratio,
@@ -228,7 +241,7 @@ void StageTree::singular_pixels(const NormaliseNode& normalise, const SqrtNode& 
         context->format.g = ratio.key[0];
       }
       singular_weights(differences_->blocks[first + n], static_cast<std::size_t>(std::countr_zero(rest)),
-                       normalise.port->quad_data(positions_->quad[first + n]), *context, t.weights[n]);
+                       normalise.port->quad_data(positions_->quad[first + n]), *context, t.mean.weights[n]);
     }
 }
 
@@ -256,7 +269,8 @@ void StageTree::compare(LeafTotals& leaf, const PlaneQuads* areas, std::size_t f
     // Weights and colours are passes of their own, which no tolerance takes a quad of; of a taken quad they lie in
     // [0, 1] but for rounding and saturate in neither.
     const bool plane = areas && areas->taken()[positions_->quad[block]] != 0;
-    const LaneMasks& masks = plane ? t.area_masks[n] : t.masks[n];
+    const Weighted& by = plane ? t.areas : t.mean;
+    const LaneMasks& masks = by.masks[n];
     const unsigned drawn = masks.drawn & used;
     const unsigned measured = drawn & t.measured[n];
     leaf.fragments += static_cast<unsigned>(std::popcount(drawn));
@@ -265,8 +279,8 @@ void StageTree::compare(LeafTotals& leaf, const PlaneQuads* areas, std::size_t f
     leaf.saturated += static_cast<unsigned>(std::popcount(drawn & masks.saturated));
     if (plane) leaf.plane_fragments += static_cast<unsigned>(std::popcount(drawn));
 
-    const LaneColumn* value = t.values.data() + n * (1 + columns);
-    const LaneColumn* own = plane ? t.area_values.data() + n * (1 + columns) : value;
+    const LaneColumn* value = t.mean.values.data() + n * (1 + columns);
+    const LaneColumn* own = by.values.data() + n * (1 + columns);
     const LaneReals* truth = t.truth.data() + n * truth_per_block(columns_);
     const auto add = [&](tb::ErrorStats& to, const LaneReals& error) {
       for (unsigned rest = measured; rest != 0; rest &= rest - 1)

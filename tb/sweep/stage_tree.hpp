@@ -98,6 +98,7 @@ class StageTree {
   std::size_t chunks() const;
 
   /// Buffers of one thread, and what it has added up.
+  struct Weighted;
   struct Scratch;
   struct ScratchDeleter {
     void operator()(Scratch* scratch) const;
@@ -123,6 +124,8 @@ class StageTree {
     std::size_t first, count;
   };
   std::vector<Run> area_runs(const NormaliseNode& normalise, std::size_t first, std::size_t count) const;
+  /// Areas for weights in a run of the chunk whose first block is `first`; after the mean value weights.
+  void area_weights(const Run& run, std::size_t first, Scratch& scratch) const;
   /// A leaf's output at a chunk against the truth. `areas` (may be null): the quads whose own attributes and depth are
   /// those with areas for weights.
   void compare(LeafTotals& leaf, const PlaneQuads* areas, std::size_t first, std::size_t count, const Scratch& scratch,
