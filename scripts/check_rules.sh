@@ -3,6 +3,7 @@
 # rtl/config_check.sv in every tool, and the whole machine once in each; the default passes.
 #   scripts/check_rules.sh PATH_TO_QUADRILLE
 set -euo pipefail
+[ $# = 1 ] || { echo "usage: scripts/check_rules.sh PATH_TO_QUADRILLE" >&2; exit 2; }
 quadrille=$(realpath "$1")
 cd "$(dirname "$0")/../rtl"
 work=$(mktemp -d)

@@ -111,13 +111,11 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
 void add_fragments_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("fragments", "Write every fragment as a table, without depth test");
   command->footer(
-      "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,a0,...; sorted by quad, y, x; 17 significant digits. Flags: 1 on an "
-      "edge,\n"
-      "2 on a vertex, 4 two corners, 8 two edges, 16 tie, 32 homogeneous, 64 notch cure, 128 saturated; float and "
-      "shader:\n"
-      "256 undefined (its numbers are not to be used). With --json or --verbose the clocked model draws once more, for "
-      "the\n"
-      "counters of a machine (engines model and rtl).\n\n"
+      "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,a0,...; sorted by quad, y, x; 17 significant digits.\n"
+      "Flags: 1 on an edge, 2 on a vertex, 4 two corners, 8 two edges, 16 tie, 32 homogeneous, 64 notch cure,\n"
+      "128 saturated; float and shader: 256 undefined (its numbers are not to be used).\n"
+      "With --json or --verbose the clocked model draws once more, for the counters of a machine (engines model\n"
+      "and rtl).\n\n"
       "Examples:\n"
       "  quadrille fragments --quads some.quads --out some.csv\n"
       "  quadrille fragments --engine truth --snap off --scene bowtie --size 64x64 --out -\n"

@@ -204,9 +204,8 @@ int merge(const std::vector<std::string>& parts, const std::string& out, bool fo
 void add_merge(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("merge", "Put the sets of shards together");
   command->footer(
-      "Every set is checked first, its hashes too; all must be of one level, seed, limit and configuration. The bytes "
-      "are\n"
-      "those of one run.\n\n"
+      "Every set is checked first, its hashes too; all must be of one level, seed, limit and configuration.\n"
+      "The bytes are those of one run.\n\n"
       "Examples:\n"
       "  quadrille golden generate --shard 0/2 --out part0\n"
       "  quadrille golden generate --shard 1/2 --out part1\n"
@@ -338,12 +337,10 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
       "MB,\n"
       "level 2 about sixty times as much. The same level, seed, limit and configuration give the same bytes\n"
       "everywhere.\n\n"
-      "An input of your own (--scene, --mesh, --quads, --stress or --corner) gives one suite, `input`: its vertices as "
-      "given, "
-      "the\n"
-      "integers of the port, and fragments with their clocks; all of it unless --limit says less. --size, --shade and "
-      "the\n"
-      "draw state go with it. Attributes are those of the shading, or the weights where it needs none.\n\n"
+      "An input of your own (--scene, --mesh, --quads, --stress or --corner) gives one suite, `input`: its vertices\n"
+      "as given, the integers of the port, and fragments with their clocks; all of it unless --limit says less.\n"
+      "--size, --shade and the draw state go with it. Attributes are those of the shading, or the weights where it\n"
+      "needs none.\n\n"
       "Examples:\n"
       "  quadrille golden generate --level 1 --out vectors\n"
       "  quadrille golden generate --suite sqrt --suite weights --set significand_bits=12 --out vectors12\n"
@@ -448,11 +445,10 @@ int seal(const std::string& directory, bool quiet) {
 void add_seal(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("seal", "Make a set of your own responses comparable");
   command->footer(
-      "Copy a set, put what your implementation answers into response.hex (of machine suites beats.hex too), a record "
-      "a\n"
-      "line as in the set, and seal the copy: hashes, sizes and counts become those of your files. Then `golden diff`\n"
-      "compares it with the set and `golden verify` with the engines. Everything else must be as generated; malformed\n"
-      "files are refused with file and line, exit status 2. Pictures stay as they are.\n\n"
+      "Copy a set, put what your implementation answers into response.hex (of machine suites beats.hex too), a\n"
+      "record a line as in the set, and seal the copy: hashes, sizes and counts become those of your files. Then\n"
+      "`golden diff` compares it with the set and `golden verify` with the engines. Everything else must be as\n"
+      "generated; malformed files are refused with file and line, exit status 2. Pictures stay as they are.\n\n"
       "Examples:\n"
       "  quadrille golden seal mine\n"
       "  quadrille golden diff vectors mine");

@@ -129,11 +129,9 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
 void add_render_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("render", "Draw a depth-tested picture with any engine");
   command->footer(
-      "The EXR holds R G B A, Z, the weights L0-L3, the quad id and error.L0-L3 (weights minus the truth's). The bytes "
-      "do\n"
-      "not depend on --threads. With --json or --verbose the clocked model draws once more, for the counters of a "
-      "machine\n"
-      "(engines model and rtl).\n\n"
+      "The EXR holds R G B A, Z, the weights L0-L3, the quad id and error.L0-L3 (weights minus the truth's). The\n"
+      "bytes do not depend on --threads. With --json or --verbose the clocked model draws once more, for the\n"
+      "counters of a machine (engines model and rtl).\n\n"
       "Examples:\n"
       "  quadrille render --scene sphere --png sphere.png\n"
       "  quadrille render --engine rtl --mesh spot.obj --texture spot.png --shade texture --out spot.exr --png "

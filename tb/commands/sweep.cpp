@@ -662,9 +662,9 @@ class SweepRun {
 void add_sweep_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("sweep", "Errors, hardware cost and clocks over a grid of configurations");
   command->footer(
-      "Every configuration key is an axis (`quadrille config` lists them); nothing is recompiled between points. "
-      "Without\n"
-      "--axis: each of the usual keys one at a time around the configuration; without an input: --scene sphere.\n"
+      "Every configuration key is an axis (`quadrille config` lists them); nothing is recompiled between points.\n"
+      "Without --axis: each of the usual keys one at a time around the configuration; without an input: --scene "
+      "sphere.\n"
       "The same command goes on where a sweep was interrupted, and takes over the results of a finished one.\n"
       "An axis of plane_tolerance_bits (off, 1 to 16 bits, exact) also shows the share of quads that take areas for\n"
       "weights; its input, if none is given, is --scene sprites_any_angle.\n"
