@@ -2,8 +2,8 @@
 
 #include "model/latency.hpp"
 #include "model/masked_depth.hpp"
-#include "model/pixel_lanes.hpp"
 #include "model/pixel_pipeline.hpp"
+#include "model/pixels_ahead.hpp"
 #include "model/plane_quad.hpp"
 #include "model/plane_tolerance.hpp"
 #include "model/quad_reject.hpp"
@@ -36,6 +36,9 @@ class Fifo {
   bool valid() const { return valid_; }
   bool empty() const { return count_ == 0 && !valid_; }
   const T& head() const { return slots_[first_]; }
+  /// The head and the words behind it, those too that are not the head yet.
+  std::size_t words() const { return count_ + (valid_ ? 1 : 0); }
+  const T& word(std::size_t n) const { return slots_[wrapped(first_ + n)]; }
   /// Where the next word is written before it is pushed.
   T& next() { return slots_[wrapped(first_ + count_ + (valid_ ? 1 : 0))]; }
   /// The edge: the head leaves, the word in next() comes in.
@@ -324,29 +327,24 @@ struct HiddenUnit {
   }
 };
 
-/// What leaves the pipeline in a clock: the fragments of its lanes, those that are drawn.
+/// What leaves the pipeline in a clock: the fragments of its lanes, those that are drawn, by their places.
 struct FragmentBeat {
   std::uint32_t drawn = 0;
-  std::array<Fragment, Config::most_pixels_per_clock> fragment;
+  std::array<std::uint32_t, Config::most_pixels_per_clock> fragment;
 };
 
-/// A pixel on its way: what the control, the counters and the port need of it.
+/// A pixel on its way.
 struct Pixel {
   bool valid = false, end = false;
-  bool drawn = false;   ///< not discarded
-  bool plane = false;   ///< of a plane_quad
-  bool areas = false;   ///< which are its weights: no product makes them
-  bool corner = false;  ///< its weights are a corner's
-  bool hull = false;
-  std::uint32_t slot = 0;
-  Fragment fragment;
+  std::uint8_t kind = 0;       ///< PixelKind bits
+  std::uint32_t slot = 0;      ///< of an end
+  std::uint32_t fragment = 0;  ///< its place
+
+  bool drawn() const { return valid && (kind & pixel_drawn) != 0; }
 };
 
 /// What a slot of the bank holds: the back half's data and the front half's constants.
-struct Slot {
-  QuadData data;
-  QuadLanes lanes;  ///< of the data, without probes of pixels
-  QuadConstants constants;
+struct Slot : PixelQuad {
   DepthInterval depth;
   bool tests = false;       ///< plane_tolerance looks at it
   bool multiplies = false;  ///< and at its values
@@ -378,17 +376,22 @@ struct ClockedModel::Impl {
   int part = 0;                  ///< parts of the pixels that were sent, of a homogeneous quad
   int places = fragment_places;  ///< of the fragment FIFO that neither fragments have nor pixels on their way
   bool handed_over = false;      ///< fragments left in the clock before
-  /// The pixels of the head's row, by column, as pixel_lanes gave them; valid when !first.
-  std::array<Pixel, Config::widest_tile> row_pixels{};
+  PixelsAhead ahead;
   /// A delay line from emission to the last register, `lanes` pixels for each: those of stage n begin at place(n).
   std::size_t lanes;
   std::vector<Pixel> pipeline;
-  std::vector<PixelTrace> traces;  ///< beside the pixels, with probes of them
   std::size_t head = 0;
-  LaneTables tables;
+  /// Fragments of pixels on their way and in the FIFO, which has a place for each (pixel_emit counts them).
+  std::vector<Fragment> on_way;
+  std::uint32_t next_place = 0;
+  /// Beside the pixels, with probes of them.
+  std::vector<PixelTrace> traces;
+  std::array<LaneProbes, Config::most_pixels_per_clock> lane_probes{};
+  /// Pixels that were sent, by lane and kind: what the stages' counters are made of when they are read.
+  std::array<std::array<std::uint64_t, pixel_kinds>, Config::most_pixels_per_clock> sent{};
   std::array<WantedSums, 2> wanted;  ///< of pixels of a quad without and with the eye in its hull
   Fifo<FragmentBeat> fragments;
-  PerformanceCounters counters;
+  PerformanceCounters counters;  ///< but for the pixels in `sent`
   UnitProducts products;
 
   Impl(const Config& config, const DrawState& state, Probes probes)
@@ -397,10 +400,11 @@ struct ClockedModel::Impl {
         ring(static_cast<std::size_t>(ring_entries(config))),
         ring_mask(static_cast<std::uint32_t>(2 * ring_entries(config) - 1)),
         stamps(static_cast<std::size_t>(stamp_places(config))),
+        ahead(context),
         lanes(static_cast<std::size_t>(config.pixels_per_clock)),
         pipeline(pipeline_registers * lanes),
+        on_way(fragment_places * lanes),
         traces(probes == Probes::all ? pipeline.size() : 0),
-        tables(context),
         wanted{WantedSums(config, state, false), WantedSums(config, state, true)},
         fragments(fragment_places),
         products(config) {
@@ -494,9 +498,11 @@ struct ClockedModel::Impl {
     part = 0;
     places = fragment_places;
     handed_over = false;
+    ahead.clear();
     for (Pixel& p : pipeline) p = {};
     fragments.clear();
     counters = {};
+    sent = {};
   }
 
   bool busy() const {
@@ -535,37 +541,7 @@ struct ClockedModel::Impl {
     add(tiles_hidden, walk_moves && walk.tests.hidden);
     add(stamps, coverage.way.back().push() && !coverage.way.back().stamp.end);
 
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      add(static_cast<PerformanceCounter>(static_cast<std::size_t>(pixels_lane0) + lane), stage(0)[lane].valid);
-    add(pixels_plane,
-        std::ranges::count_if(stage(latency::norm_stage), [](const Pixel& p) { return p.valid && p.plane; }));
-    add(PerformanceCounter::fragments,
-        std::ranges::count_if(stage(last_stage), [](const Pixel& p) { return p.drawn; }));
-
     if (tile_unit.issues() || setup.has_jobs()) add(products_vertex_products, products.vertex_products);
-    // Operands that are held make no product.
-    const bool held = (context.state.skip & skip_operands) != 0;
-    const auto off_corners_in = [this, held](int n) {
-      return std::ranges::count_if(stage(n),
-                                   [held](const Pixel& p) { return p.valid && !p.plane && !(held && p.corner); });
-    };
-    const auto wanted_in = [this](int n, int WantedSums::*what) {
-      int total = 0;
-      for (const Pixel& p : stage(n))
-        if (p.valid) total += wanted[p.hull ? 1 : 0].*what;
-      return total;
-    };
-    add(products_sqrt, off_corners_in(latency::norm_stage) * products.sqrt);
-    add(products_mean_value_ratios, off_corners_in(latency::root_stage) * products.mean_value_ratios);
-    const auto multiplied =
-        std::ranges::count_if(stage(latency::ratio_stage), [](const Pixel& p) { return p.valid && !p.areas; });
-    add(products_mean_value_weights,
-        off_corners_in(latency::ratio_stage) * products.weight_ratios + multiplied * products.weight_factors);
-    add(products_interpolate, wanted_in(latency::weight_stage, &WantedSums::sums) * products.sum);
-    add(products_reciprocal, wanted_in(latency::sum_stage, &WantedSums::denominators) * products.reciprocal);
-    add(products_fragment_output,
-        wanted_in(latency::fragment_stage - latency::fragment_output_stages, &WantedSums::quotients));
-
     BoundInputs bound;
     bound.head = this->stamps.valid();
     bound.head_waits = bound.head && !this->stamps.head().end && places <= 0;
@@ -579,6 +555,56 @@ struct ClockedModel::Impl {
     bound.wipe = hidden.wiping > 0;
     bound.busy = busy();
     add(bound_of(bound), 1);
+  }
+
+  /// Adds the pixels in `sent` as far as each stage has seen them: all but those before it or in it.
+  void count_pixels(PerformanceCounters& to) const {
+    using enum PerformanceCounter;
+    std::array<std::int64_t, pixel_kinds> seen{};  // by the stage in question
+    for (const auto& lane : sent)
+      for (std::size_t kind = 0; kind < pixel_kinds; ++kind) seen[kind] += static_cast<std::int64_t>(lane[kind]);
+    const auto total = [&](auto&& of_kind) {
+      std::int64_t sum = 0;
+      for (std::size_t kind = 0; kind < pixel_kinds; ++kind) sum += seen[kind] * of_kind(kind);
+      return static_cast<std::uint64_t>(sum);
+    };
+    const auto sums = [&](int WantedSums::*what) {
+      return total([&](std::size_t kind) { return wanted[(kind & pixel_hull) != 0 ? 1 : 0].*what; });
+    };
+    // Operands that are held make no product.
+    const bool held = (context.state.skip & skip_operands) != 0;
+    const auto off_corners = [&] {
+      return total(
+          [&](std::size_t kind) { return (kind & pixel_plane) == 0 && !(held && (kind & pixel_corner) != 0) ? 1 : 0; });
+    };
+    const auto product = [](int count) { return static_cast<std::uint64_t>(count); };
+    for (int n = -emit_stages; n <= last_stage; ++n) {
+      const std::span<const Pixel> pixels = stage(n);
+      for (std::size_t lane = 0; lane < lanes; ++lane) seen[pixels[lane].kind] -= pixels[lane].valid ? 1 : 0;
+      if (n == latency::norm_stage) {
+        to[pixels_plane] += total([](std::size_t kind) { return (kind & pixel_plane) != 0 ? 1 : 0; });
+        to[products_sqrt] += off_corners() * product(products.sqrt);
+      }
+      if (n == latency::root_stage)
+        to[products_mean_value_ratios] += off_corners() * product(products.mean_value_ratios);
+      if (n == latency::ratio_stage)
+        to[products_mean_value_weights] += off_corners() * product(products.weight_ratios) +
+                                           total([](std::size_t kind) { return (kind & pixel_areas) == 0 ? 1 : 0; }) *
+                                               product(products.weight_factors);
+      if (n == latency::weight_stage) to[products_interpolate] += sums(&WantedSums::sums) * product(products.sum);
+      if (n == latency::sum_stage)
+        to[products_reciprocal] += sums(&WantedSums::denominators) * product(products.reciprocal);
+      if (n == latency::fragment_stage - latency::fragment_output_stages)
+        to[products_fragment_output] += sums(&WantedSums::quotients);
+      if (n == last_stage)
+        to[PerformanceCounter::fragments] += total([](std::size_t kind) { return (kind & pixel_drawn) != 0 ? 1 : 0; });
+    }
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      std::uint64_t entered = 0;
+      for (const std::uint64_t of_kind : sent[lane]) entered += of_kind;
+      for (int n = -emit_stages; n <= 0; ++n) entered -= stage(n)[lane].valid ? 1 : 0;
+      to[static_cast<PerformanceCounter>(static_cast<std::size_t>(pixels_lane0) + lane)] += entered;
+    }
   }
 
   bool is_homogeneous(const TileEntry& tile) const { return !tile.end && slots[tile.slot].constants.homogeneous; }
@@ -622,53 +648,27 @@ struct ClockedModel::Impl {
     stamps.clock(pop, leaving.push());
   }
 
-  /// A pixel of the head's row by the plain pipeline.
-  static Pixel pixel_of(const PixelTrace& p) {
-    const bool areas = p.plane && !p.two_corner && !p.on_vertex && !p.two_edge;
-    return {true, false, p.drawn, p.plane, areas, p.two_corner || p.on_vertex, p.hull, 0, p.fragment};
-  }
-  void plain_pixel(PixelTrace& p, const TileRow& row, const Slot& slot, const CoveredPixel& at) const {
-    p.front = at.front;
-    p.tie = at.tie;
-    pixel_lane(p, row, slot.constants, slot.data, at.dx, context);
+  /// Computes the head's row and those behind it up to their quad's end.
+  void compute_ahead(const TileEntry& tile) {
+    Slot& slot = slots[tile.slot];
+    ahead.begin();
+    for (std::size_t n = 0; n < stamps.words() && !ahead.full(); ++n) {
+      const StampEntry& row = stamps.word(n);
+      if (row.end) break;
+      ahead.add(ring_at(row.tile_ptr), row, slot);
+    }
+    ahead.compute(slot);
   }
 
-  /// row_pixels of a row that emission begins with.
-  void compute_row(const StampEntry& s, const TileEntry& tile, const Slot& slot) {
-    std::uint32_t mask = s.mask;
-    while (mask != 0) {
-      std::array<CoveredPixel, lane_count> at;
-      int dx[lane_count], row[lane_count], count = 0;
-      for (; count < lane_count && mask != 0; ++count, mask &= mask - 1) {
-        const int column = std::countr_zero(mask);
-        at[static_cast<std::size_t>(count)] = {column, s.row, (s.front >> column & 1) != 0, (s.tie >> column & 1) != 0};
-      }
-      for (int l = 0; l < lane_count; ++l) {
-        dx[l] = at[static_cast<std::size_t>(std::min(l, count - 1))].dx;
-        row[l] = s.row;
-      }
-      LaneResult r;
-      pixel_lanes(tile, slot.constants, slot.data, slot.lanes, context, tables, dx, row, r);
-      for (int l = 0; l < count; ++l) {
-        const CoveredPixel& pixel = at[static_cast<std::size_t>(l)];
-        Pixel& p = row_pixels[static_cast<std::size_t>(pixel.dx)];
-        if ((r.singular >> l & 1) != 0) {
-          PixelTrace trace;
-          plain_pixel(trace, forward_difference_row(tile, slot.constants, s.row), slot, pixel);
-          p = pixel_of(trace);
-        } else {
-          p = {true,
-               false,
-               (r.drawn >> l & 1) != 0,
-               slot.data.plane,
-               slot.data.plane,
-               false,
-               slot.data.hull,
-               0,
-               lane_fragment(r, l, tile, pixel, slot.data, context)};
-        }
-      }
-    }
+  /// A pixel enters the pipeline.
+  void send(Pixel& p, std::size_t lane, std::uint8_t kind, const Fragment& fragment) {
+    p.valid = true;
+    p.kind = kind;
+    ++sent[lane][kind];
+    if ((kind & pixel_drawn) == 0) return;
+    p.fragment = next_place;
+    on_way[next_place] = fragment;
+    next_place = (next_place + 1) & static_cast<std::uint32_t>(on_way.size() - 1);
   }
 
   /// pixel_emit and the pixel pipeline. Returns whether the stamp FIFO's head leaves.
@@ -676,12 +676,12 @@ struct ClockedModel::Impl {
     bool pixel = false, drawn = false;
     for (const Pixel& last : stage(last_stage)) {
       pixel |= last.valid;
-      drawn |= last.drawn;
+      drawn |= last.drawn();
     }
     int places_back = (handed_over ? 1 : 0) + (pixel && !drawn ? 1 : 0);
     const std::size_t next_head = (head + pipeline_registers - 1) % pipeline_registers;
     const std::span<Pixel> entering{&pipeline[next_head * lanes], lanes};
-    for (Pixel& p : entering) p.valid = p.end = p.drawn = false;
+    for (Pixel& p : entering) p.valid = p.end = false;
     bool pop = false;
     if (stamps.valid()) {
       const StampEntry& s = stamps.head();
@@ -697,16 +697,18 @@ struct ClockedModel::Impl {
         const Slot& slot = slots[tile.slot];
         std::uint32_t mask = first ? s.mask : rest;
         if (traces.empty()) {
-          if (first) compute_row(s, tile, slot);
-          for (std::size_t lane = 0; lane < lanes && mask != 0; ++lane, mask &= mask - 1)
-            entering[lane] = row_pixels[static_cast<std::size_t>(std::countr_zero(mask))];
+          if (ahead.empty()) compute_ahead(tile);
+          for (std::size_t lane = 0; lane < lanes && mask != 0; ++lane, mask &= mask - 1, ahead.advance())
+            send(entering[lane], lane, ahead.kind(), ahead.fragment());
         } else {
           const TileRow row = forward_difference_row(tile, slot.constants, s.row);
           for (std::size_t lane = 0; lane < lanes && mask != 0; ++lane, mask &= mask - 1) {
             const int dx = std::countr_zero(mask);
             PixelTrace& trace = traces[next_head * lanes + lane];
-            plain_pixel(trace, row, slot, {dx, s.row, (s.front >> dx & 1) != 0, (s.tie >> dx & 1) != 0});
-            entering[lane] = pixel_of(trace);
+            trace.front = (s.front >> dx & 1) != 0;
+            trace.tie = (s.tie >> dx & 1) != 0;
+            pixel_lane(trace, row, slot.constants, slot.data, dx, context);
+            send(entering[lane], lane, kind_of(trace), trace.fragment);
           }
         }
         rest = mask;
@@ -723,6 +725,7 @@ struct ClockedModel::Impl {
   void clock(const ClockedInputs& in) {
     if (in.reset) {
       reset();
+      lane_probes = {};
       return;
     }
     // All conditions first: every unit sees the state before the edge.
@@ -745,7 +748,7 @@ struct ClockedModel::Impl {
     FragmentBeat& beat = fragments.next();
     beat.drawn = 0;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (!last[lane].drawn) continue;
+      if (!last[lane].drawn()) continue;
       beat.drawn |= 1u << lane;
       beat.fragment[lane] = last[lane].fragment;
     }
@@ -789,7 +792,7 @@ struct ClockedModel::Impl {
       slots[slot].tests = plane_tolerance_tests(assembly.quad, context.config, context.state);
       slots[slot].multiplies = slots[slot].tests && strictly_convex(assembly.quad);
       slots[slot].data = quad_data(assembly.quad, result, context.config, context.state);
-      if (traces.empty()) slots[slot].lanes = QuadLanes(slots[slot].data, context);
+      if (traces.empty()) ahead.take(result, slots[slot]);
       setup.start(result, context.state);
       in_use |= 1u << slot;
       assembly.full = false;
@@ -801,6 +804,19 @@ struct ClockedModel::Impl {
       assembly.full = assembly.count == 3;
       if (assembly.full) assembly.reject = reject_by_vertices(assembly.quad, context.config, context.state);
       assembly.count = (assembly.count + 1) % 4;
+    }
+    if (!traces.empty()) show_lanes();
+  }
+
+  /// The probes of the pixels, after an edge.
+  void show_lanes() {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const auto pixel = [&](int n) {
+        const std::size_t at = place(n) + lane;
+        return pipeline[at].valid ? &traces[at] : nullptr;
+      };
+      lane_probes[lane] = {pixel(latency::diff_stage),  pixel(latency::norm_stage),   pixel(latency::root_stage),
+                           pixel(latency::ratio_stage), pixel(latency::weight_stage), pixel(latency::sum_stage)};
     }
   }
 };
@@ -819,7 +835,7 @@ ClockedOutputs ClockedModel::comb() const {
   out.vertex_ready = m.hidden.wiping == 0 && (!m.assembly.full || m.start() || m.assembly.drops());
   out.fragment_valid = m.fragments.valid();
   for (std::size_t lane = 0; out.fragment_valid && lane < m.lanes; ++lane)
-    if ((m.fragments.head().drawn >> lane & 1) != 0) out.fragment[lane] = &m.fragments.head().fragment[lane];
+    if ((m.fragments.head().drawn >> lane & 1) != 0) out.fragment[lane] = &m.on_way[m.fragments.head().fragment[lane]];
   out.busy = m.busy();
   if (m.take()) {
     out.probes.setup = &m.setup.result.setup;
@@ -828,30 +844,24 @@ ClockedOutputs ClockedModel::comb() const {
   if (m.completed) out.probes.tile = &m.ring_at(m.last_completed);
   if (m.coverage.way.back().push()) out.probes.stamp = &m.coverage.way.back().stamp;
   for (const Pixel& p : m.stage(latency::diff_stage)) out.probes.pixels += p.valid ? 1 : 0;
-  if (m.traces.empty()) return out;
-  for (std::size_t lane = 0; lane < m.lanes; ++lane) {
-    const auto pixel = [&](int n) {
-      const std::size_t place = m.place(n) + lane;
-      return m.pipeline[place].valid ? &m.traces[place] : nullptr;
-    };
-    LaneProbes& probes = out.probes.lane[lane];
-    probes.diff = pixel(latency::diff_stage);
-    probes.norm = pixel(latency::norm_stage);
-    probes.sqrt = pixel(latency::root_stage);
-    probes.ratio = pixel(latency::ratio_stage);
-    probes.weight = pixel(latency::weight_stage);
-    probes.sum = pixel(latency::sum_stage);
-  }
+  if (!m.traces.empty()) out.probes.lane = m.lane_probes.data();
   return out;
 }
 
 void ClockedModel::set_state(const DrawState& state) {
+  impl_->count_pixels(impl_->counters);  // by the old state's sums
+  impl_->sent = {};
   impl_->context = PipelineContext(Config(impl_->context.config), state);
+  impl_->ahead.set_state();
   for (const bool hull : {false, true}) impl_->wanted[hull ? 1 : 0] = WantedSums(impl_->context.config, state, hull);
   impl_->walk.walk = TileWalk(impl_->context.config, state);
 }
 
 void ClockedModel::clock(const ClockedInputs& inputs) { impl_->clock(inputs); }
-const PerformanceCounters& ClockedModel::counters() const { return impl_->counters; }
+PerformanceCounters ClockedModel::counters() const {
+  PerformanceCounters counters = impl_->counters;
+  impl_->count_pixels(counters);
+  return counters;
+}
 
 }  // namespace quadrille

@@ -28,7 +28,7 @@ struct ClockedInputs {
   SnappedVertex vertex;         ///< the beat, when vertex_valid
 };
 
-/// Boundaries of one lane that carry a pixel in this clock, or nullptr; Probes::pixels wanted.
+/// Boundaries of one lane that carry a pixel in this clock, or nullptr.
 struct LaneProbes {
   const PixelTrace* diff = nullptr;    ///< in register diff_stage (latency.hpp)
   const PixelTrace* norm = nullptr;    ///< in norm_stage
@@ -45,7 +45,7 @@ struct ClockedProbes {
   const TileEntry* tile = nullptr;     ///< complete in the ring since the last edge
   const StampEntry* stamp = nullptr;   ///< pushed in this clock
   int pixels = 0;                      ///< lanes with a pixel in register diff_stage
-  std::array<LaneProbes, Config::most_pixels_per_clock> lane;
+  const LaneProbes* lane = nullptr;    ///< one for each lane; Probes::all wanted
 };
 
 struct ClockedOutputs {
@@ -71,7 +71,7 @@ struct ClockedOutputs {
 };
 
 /// Which probes a clocked model shows. Those of pixels need every number of the plain integer pipeline; without them a
-/// row's pixels are computed at once by pixel_lanes, the same fragments several times as fast.
+/// rows that wait for emission are computed together by pixels_ahead, the same fragments several times as fast.
 enum class Probes { without_pixels, all };
 
 class ClockedModel {
@@ -86,7 +86,7 @@ class ClockedModel {
   /// The clock edge.
   void clock(const ClockedInputs& inputs);
   /// What the clocks since reset counted, whether the configuration has counters in hardware or not.
-  const PerformanceCounters& counters() const;
+  PerformanceCounters counters() const;
 
   /// From this clock on another draw state, while not busy; what is hidden stays so.
   void set_state(const DrawState& state);

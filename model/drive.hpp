@@ -57,7 +57,7 @@ class DrivenModel {
   void wait_idle() {
     while (model_.comb().busy) model_.clock(inputs_);
   }
-  const PerformanceCounters& counters() const { return model_.counters(); }
+  PerformanceCounters counters() const { return model_.counters(); }
 
  private:
   ClockedModel model_;

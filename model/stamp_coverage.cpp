@@ -12,6 +12,11 @@ StampMasks stamp_coverage(const TileEntry& entry, const QuadConstants& quad, int
   const int tile = config.tile();
   for (std::size_t k = 0; k < 5; ++k) {
     std::int64_t e = entry.linear[k] + row * quad.gy[k];
+    const std::int64_t last = e + (tile - 1) * quad.gx[k];
+    if ((e > 0 && last > 0) || (e < 0 && last < 0)) {  // as in most rows: no pixel between is on another side
+      (e > 0 ? signs[k].positive : signs[k].negative) = (1u << tile) - 1;
+      continue;
+    }
     std::uint32_t p = 0, n = 0, z = 0;
     for (int dx = 0; dx < tile; ++dx) {
       p |= static_cast<std::uint32_t>(e > 0) << dx;

@@ -137,6 +137,11 @@ std::vector<Fragment> lockstep(Device& device, const Config& config, const std::
   }
   device.set_reset(false);
   in.reset = false;
+  const auto compare_counters = [&] {
+    const PerformanceCounters counters = model.counters();
+    for (std::size_t i = 0; i < counter_count; ++i)
+      EXPECT_EQ(device.counter(i), static_cast<std::uint32_t>(counters.value[i])) << counter_info[i].name;
+  };
   std::uint64_t cycle = 0;
   for (std::size_t d = 0; d < draws.size(); ++d) {
     const Draw& draw = draws[d];
@@ -167,6 +172,7 @@ std::vector<Fragment> lockstep(Device& device, const Config& config, const std::
         return all;
       }
       if (out.fragment_valid && in.fragment_ready) out.for_each_fragment([&](const Fragment& f) { all.push_back(f); });
+      if (cycle % 64 == 0) compare_counters();  // with pixels on their way
       const bool taken = in.vertex_valid && out.vertex_ready;
       idle = vertices.done() && !out.busy ? idle + 1 : 0;
       device.clock();
@@ -175,8 +181,7 @@ std::vector<Fragment> lockstep(Device& device, const Config& config, const std::
       stalls.advance();
     }
   }
-  for (std::size_t i = 0; i < counter_count; ++i)
-    EXPECT_EQ(device.counter(i), static_cast<std::uint32_t>(model.counters().value[i])) << counter_info[i].name;
+  compare_counters();
   EXPECT_EQ(model.counters()[PerformanceCounter::tiles_hidden], stats.tiles_hidden);
   EXPECT_EQ(model.counters()[PerformanceCounter::blocks_hidden], stats.blocks_hidden);
   return all;

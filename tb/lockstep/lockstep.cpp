@@ -65,7 +65,7 @@ class DrivenPair {
     model_.clock();
     ++cycle_;
   }
-  const PerformanceCounters& counters() const { return model_.counters(); }
+  PerformanceCounters counters() const { return model_.counters(); }
 
  private:
   DeviceSide& device_;
