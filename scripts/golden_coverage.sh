@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 level=${1:-1}
-build=${BUILD_DIR:-build/coverage}
+build=${BUILD_DIR:-build/golden_coverage}
 
 cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS="--coverage -O0" >"$build.log" 2>&1 ||
   { cat "$build.log" >&2; exit 3; }

@@ -4,6 +4,13 @@
 #include "Vquadrille.h"
 #include "device_abi.h"
 #include "verilated.h"
+#if VM_COVERAGE
+#include "verilated_cov.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#endif
 #if QUADRILLE_TRACE
 #include "verilated_fst_c.h"
 extern "C" {
@@ -179,7 +186,11 @@ quadrille_device* create(uint64_t seed) {
     auto device = std::make_unique<quadrille_device>();
     Verilated::threadContextp(device->context.get());
     device->context->threads(1);
+#if VM_COVERAGE
+    device->context->randReset(0);  // a constant behind a random start would look like a bit that changes
+#else
     device->context->randReset(2);
+#endif
     device->context->randSeed(static_cast<int>((seed ^ (seed >> 32)) & 0x7fffffff) | 1);
 #if QUADRILLE_TRACE
     device->context->traceEverOn(true);
@@ -205,6 +216,23 @@ quadrille_device* create(uint64_t seed) {
   }
 }
 
+#if VM_COVERAGE
+/// Writes what the device counted to a file of its own in $QUADRILLE_COVERAGE_DIR (scripts/coverage.sh).
+void write_coverage(quadrille_device* d) {
+  const char* directory = std::getenv("QUADRILLE_COVERAGE_DIR");
+  if (directory == nullptr) return;
+  std::string name = std::string(directory) + "/rtl-XXXXXX";
+  const int file = mkstemp(name.data());  // many processes and devices write at a time
+  if (file < 0) {
+    std::perror(name.c_str());
+    std::abort();  // a count that is lost would look like a hole
+  }
+  close(file);
+  d->context->coveragep()->forcePerInstance(true);  // a bit has to change twice in one place
+  d->context->coveragep()->write(name.c_str());
+}
+#endif
+
 void destroy(quadrille_device* d) {
   // Verilator's destructors ask the thread for its context, which may be that of another device, gone already.
   Verilated::threadContextp(d->context.get());
@@ -215,6 +243,9 @@ void destroy(quadrille_device* d) {
     d->top->final();
   } catch (const std::exception&) {  // a machine that stopped on an assertion may complain once more
   }
+#if VM_COVERAGE
+  write_coverage(d);
+#endif
   d->top.reset();
   delete d;
 }

@@ -21,6 +21,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Whether simulators count what runs: in the build for coverage alone (scripts/coverage.sh).
+constexpr bool coverage = QUADRILLE_COVERAGE;
+
+/// Toggles are thirty times the code of the machine and its branches next to nothing, so they are asked for.
+bool count_toggles() { return coverage && std::getenv("QUADRILLE_COVERAGE_TOGGLE") != nullptr; }
+
 /// The tools and their versions.
 struct Tools {
   std::string verilator, compiler;
@@ -144,7 +150,7 @@ std::vector<std::string> common_flags(const fs::path& include, bool trace) {
           "-w",
           "-I" + include.string(),
           "-I" + (include / "vltstd").string(),
-          "-DVM_COVERAGE=0",
+          coverage ? "-DVM_COVERAGE=1" : "-DVM_COVERAGE=0",
           "-DVM_SC=0",
           trace ? "-DVM_TRACE=1" : "-DVM_TRACE=0",
           trace ? "-DVM_TRACE_FST=1" : "-DVM_TRACE_FST=0"};
@@ -158,6 +164,7 @@ struct Runtime {
 
 Runtime runtime(const Tools& tools, const fs::path& include, const fs::path& glue, bool trace, unsigned jobs) {
   std::vector<std::string> stems{"verilated", "verilated_threads"};
+  if (coverage) stems.push_back("verilated_cov");
   if (trace) stems.push_back("verilated_fst_c");
   std::vector<std::string> flags = common_flags(include, trace);
   flags.insert(flags.end(), {"-std=c++17", "-DVL_USER_FINISH", "-DVL_USER_STOP", "-DVL_USER_FATAL",
@@ -253,13 +260,14 @@ std::string description(const Config& config, const VerilateOptions& options) {
   if (options.optimise != VerilateOptions{}.optimise) text += ", -O" + std::to_string(options.optimise);
   if (!options.source.empty()) text += ", RTL " + fs::absolute(options.source).string();
   for (const fs::path& file : options.extra) text += ", " + file.filename().string();
+  if (coverage) text += count_toggles() ? ", counts lines and toggles" : ", counts lines";
   for (const std::string& argument : options.arguments) text += " " + argument;
   return text;
 }
 
 /// Writes files that include Verilator's, so that its headers, most of what a small file costs, are read in few
 /// compilations: code that runs once in one file, the simulated clock in as few as a compiler digests well.
-/// Returns their names, the slow one first. (README.md: what was measured.)
+/// Returns their names, the slow ones first. (README.md: what was measured.)
 std::vector<std::string> write_groups(const fs::path& work, const fs::path& generated) {
   constexpr std::uintmax_t group_bytes = 3'000'000;
   struct Part {
@@ -267,26 +275,28 @@ std::vector<std::string> write_groups(const fs::path& work, const fs::path& gene
     std::string name;
   };
   std::vector<Part> slow, fast;
-  std::uintmax_t total = 0;
+  std::uintmax_t slow_total = 0, total = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(generated)) {
     const std::string stem = entry.path().stem().string();
     if (entry.path().extension() != ".cpp") continue;
     const bool once = stem.find("__Slow") != std::string::npos || stem.find("__Trace") != std::string::npos;
     (once ? slow : fast).push_back({entry.file_size(), entry.path().filename().string()});
-    if (!once) total += entry.file_size();
+    (once ? slow_total : total) += entry.file_size();
   }
   const auto larger = [](const Part& a, const Part& b) {
     return a.bytes != b.bytes ? a.bytes > b.bytes : a.name < b.name;
   };
   std::sort(slow.begin(), slow.end(), larger);
   std::sort(fast.begin(), fast.end(), larger);
+  // Toggle coverage alone makes so much code that runs once that it wants more than one file.
+  const std::size_t once = count_toggles() ? slow_total / group_bytes + 1 : 1;
   const std::size_t groups = std::max<std::size_t>(1, (total + group_bytes / 2) / group_bytes);
-  std::vector<std::string> texts(1 + groups), names;
-  for (const Part& part : slow) texts[0] += "#include \"" + part.name + "\"\n";
-  for (std::size_t i = 0; i < fast.size(); ++i) texts[1 + i % groups] += "#include \"" + fast[i].name + "\"\n";
-  texts[1] += "#include \"device_glue.cpp\"\n";
+  std::vector<std::string> texts(once + groups), names;
+  for (std::size_t i = 0; i < slow.size(); ++i) texts[i % once] += "#include \"" + slow[i].name + "\"\n";
+  for (std::size_t i = 0; i < fast.size(); ++i) texts[once + i % groups] += "#include \"" + fast[i].name + "\"\n";
+  texts[once] += "#include \"device_glue.cpp\"\n";
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    names.push_back(i == 0 ? "slow" : "fast" + std::to_string(i));
+    names.push_back(i == 0 ? "slow" : i < once ? "slow" + std::to_string(i) : "fast" + std::to_string(i - once + 1));
     write_text(work / (names.back() + ".cpp"), texts[i]);
   }
   return names;
@@ -342,6 +352,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
   key.add({options.assertions ? "a" : "-"});
   key.add(std::to_string(options.optimise));
   for (const std::string& argument : options.arguments) key.add(argument);
+  if (coverage) key.add(count_toggles() ? "lines and toggles" : "lines");
   const std::string name = "device-" + key.hex();
 
   const unsigned jobs = options.jobs != 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
@@ -364,6 +375,8 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
     command.push_back("-Wall");
     if (!options.source.empty()) command.push_back("-Wno-fatal");  // lint is for the project's own sources
     if (options.trace) command.push_back("--trace-fst");
+    if (coverage) command.push_back("--coverage-line");
+    if (count_toggles()) command.push_back("--coverage-toggle");
     for (const std::string& define : key_defines(config)) command.push_back(define);
     command.insert(command.end(), options.arguments.begin(), options.arguments.end());
     if (!one_file) {
@@ -385,7 +398,10 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
                                options.probes ? "-DQUADRILLE_PROBES=1" : "-DQUADRILLE_NO_PROBES=1"});
     NinjaFile ninja(tools, flags);
     for (const std::string& group : write_groups(work, generated))
-      ninja.object(group + ".o", group + ".cpp", group == "slow" ? "-O0" : "-O" + std::to_string(options.optimise));
+      ninja.object(group + ".o", group + ".cpp",
+                   group.starts_with("slow") ? "-O0"
+                   : count_toggles()         ? "-O1"
+                                             : "-O" + std::to_string(options.optimise));
     ninja.link("device.so", shared.objects, options.trace ? "-lz" : "");
     notice.done(1, 1 + ninja.steps());
     if (ninja.run(work, log, jobs, notice, 1) != 0) fail("compiling the Verilated machine failed", log, name);

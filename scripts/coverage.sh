@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Builds with counters, runs the tests that reach most, merges gcov's and Verilator's counts and holds them to floors (README.md, Coverage).
+#   scripts/coverage.sh            lines and branches of model, golden and RTL, toggles of the RTL; 20 minutes
+#   scripts/coverage.sh --judge    judges again what the last run counted: after a change of coverage.toml
+# What is printed is in build/coverage/coverage/coverage.json too; coverage.info there is for lcov's readers.
+# Exit status: 0 floors held and exceptions right, 1 not, or a test failed, 2 usage, 3 a tool is missing.
+set -euo pipefail
+case "${1:-}" in
+  "" | --judge) ;;
+  -h | --help) sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;;
+  *) echo "coverage.sh: no option $1 (--help)" >&2; exit 2 ;;
+esac
+source "$(dirname "$0")/setup.sh"
+folder=$root/build/coverage
+if [ "${1:-}" = --judge ]; then exec scripts/coverage.py "$folder" "$folder/rtl_counts"; fi
+install_packages
+
+# Test programs beside the unit tests, and what they are asked. What takes long and comes again to the same lines stays out: mutants, syntheses, the
+# search for a width, campaigns.
+programs=(cosim_test hidden_tiles_test cli_test exhaustive_test error_bound_test)
+cmake --preset coverage >/dev/null
+cmake --build --preset coverage -j "$(nproc)" --target quadrille unit_tests "${programs[@]}"
+echo "Build: $SECONDS s"
+
+# Simulators of this build count and are of no use to another.
+export QUADRILLE_CACHE=$folder/cache QUADRILLE_CACHE_SIZE=0 QUADRILLE_COVERAGE_DIR=$folder/rtl_counts
+find "$folder" -name '*.gcda' -delete
+rm -rf "$QUADRILLE_COVERAGE_DIR"
+mkdir -p "$QUADRILLE_COVERAGE_DIR"
+export QUADRILLE_TEST_SEED=${QUADRILLE_TEST_SEED:-1}
+status=0
+run() { ctest --test-dir "$folder" --output-on-failure --no-tests=error --no-label-summary -j "$(nproc)" -L '^default$' "$@" || status=1; }
+run -L '^unit$' -E '^(sweep|fuzz)_test$'
+run -R "^($(IFS='|'; echo "${programs[*]}"))\$"
+echo "Tests: $SECONDS s"
+
+# Toggles, of one machine: the default widths and every unit that the default configuration leaves out. Its simulator is thirty times the code of
+# one that counts lines.
+export QUADRILLE_COVERAGE_TOGGLE=1
+draw=("$folder/quadrille" cosim --quiet --no-alone --no-snapping-error --threads 1
+  --set hierarchical_z_bits=12 --set plane_tolerance_bits=8 --set performance_counters=1)
+"${draw[@]}" --scene bowtie --size 32x32 || status=1  # builds it
+seed=0
+{
+  for scene in bowtie fig7_floor sphere layers_large; do echo "--scene $scene --limit-fragments 4000 --skip all --size 256x256"; done
+  for family in $("$folder/quadrille" scenes --stress | cut -d' ' -f1); do
+    echo "--stress $family --count 30 --limit-fragments 1000 --stall 0.3 --gap 0.2 --size 160x96"
+    echo "--stress $family --count 30 --limit-fragments 1000 --draw-state random:$((++seed)) --size 96x160"
+  done
+  echo "--corner face_plane --size 256x256"
+  echo "--corner flat --no-depth --size 256x256"
+  echo "--corner z_limits --znear 0.25 --zfar 0.75 --size 256x256"
+  echo "--corner minus_zero --size 256x256"
+  echo "--corner two_corner --size 256x256"
+  echo "--corner two_edge --no-perspective --size 256x256"
+  echo "--corner tall --size 192x704 --limit-fragments 4000"
+  echo "--corner burst --stall 0.95 --size 256x256"
+  echo "--corner extreme --limit-fragments 2000 --size 256x256"
+  echo "--corner far_corner --size 4096x4096 --limit-fragments 4000"
+} | xargs -P "$(nproc)" -L 1 "${draw[@]}" || status=1
+echo "Toggles: $SECONDS s"
+
+scripts/coverage.py "$folder" "$QUADRILLE_COVERAGE_DIR" || status=1
+exit "$status"
