@@ -111,8 +111,21 @@ inline void append_word(const TileWord& word, int x0, int y0, int tile_log2, Flo
   list.count += pixels;
 }
 
+/// Leaves what may be seen.
+void keep_seen(int tile, MaskedDepth& masked, TileMasks& masks) {
+  const std::uint64_t row_mask = (std::uint64_t{1} << tile) - 1;
+  for (int row = 0; row < tile; ++row) {
+    const int at = row * tile;
+    TileWord& word = masks[static_cast<std::size_t>(at / 64)];
+    const std::uint32_t covered = static_cast<std::uint32_t>(word.mask >> at % 64 & row_mask);
+    const std::uint64_t behind = std::uint64_t{covered ^ masked.row(row, covered)} << at % 64;
+    word.mask &= ~behind;
+    word.tie &= ~behind;
+  }
+}
+
 FloatLanes::TileCounts cover(const FloatLanes::Format& format, const FloatQuad& bounds, const TileCorner& corner,
-                             const QuadConstants& quad, PixelList& list) {
+                             const QuadConstants& quad, MaskedDepth* masked, PixelList& list) {
   FloatLanes::TileCounts counts;
   const int tile = 1 << format.tile_log2;
   const int x0 = (corner.tile_x << format.tile_log2) - bounds.x0, y0 = (corner.tile_y << format.tile_log2) - bounds.y0;
@@ -120,6 +133,7 @@ FloatLanes::TileCounts cover(const FloatLanes::Format& format, const FloatQuad& 
   if (rows.from >= rows.to || columns.from >= columns.to) return counts;
   TileMasks masks;
   tile_masks(format, corner, quad, rows, columns, masks);
+  if (masked != nullptr) keep_seen(tile, *masked, masks);
   for (int w = 0; w < std::max(1, tile * tile / 64); ++w)
     append_word(masks[static_cast<std::size_t>(w)], x0, y0 + w * (64 / tile), format.tile_log2, counts, list);
   return counts;

@@ -17,6 +17,7 @@
 //  every
 //    part is a multiple of the same last place, 53 bits wide at most (FloatLanes::take), so that nothing is rounded. No
 //    sum is -0: of a number and its opposite the unit makes +0, and the first one is of value, which is no -0.
+//  - Areas for weights are |A|, cut, as they are: M <= 4, and no product of three.
 //  - Range: u, v, r <= 4, M <= 2^12; those functions are far from the smallest double. Products of three can
 //    go below 2^-126 and become 0. Where the sums of M k and of M W are at least 2^-26, their E is at least -30, a term
 //    with such an M is below 2^-126 * 2^6 * 2^30 = 2^-90 (numbers of the port are taken up to 2^30), and a quotient of
@@ -99,8 +100,8 @@ inline Halves at_pixels(const FloatForms& f, std::size_t k, Halves dx, Halves dy
   return {fma(dy.a, gy, fma(dx.a, gx, value)), fma(dy.b, gy, fma(dx.b, gx, value))};
 }
 
-/// The whole list; MXCSR is as it must be. `in_columns`: of both tables.
-template <bool in_columns>
+/// The whole list; MXCSR is as it must be. `in_columns`: of both tables. `areas`: FloatQuad::areas.
+template <bool in_columns, bool areas>
 __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const FloatQuad& quad, const PixelList& list,
                                          int count, FloatResults& out) {
   const Arithmetic arithmetic(format.s);
@@ -125,36 +126,40 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
     F v[6], d[6], r2[4];
     // As drawn a double's exponent has the code of a float's.
     const auto magnitude = [&](I h) { return arithmetic.cut(real(shift_left<3>(h))); };
-    const D unit2 = splat(quad.unit2);
-    const Halves curve = {fma(dy.a, dy.a, dx.a * dx.a) * unit2, fma(dy.b, dy.b, dx.b * dx.b) * unit2};
-    Halves square[4];
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Halves linear = at_pixels(quad.r2, i, dx, dy);
-      square[i] = {linear.a + curve.a, linear.b + curve.b};
-      r2[i] = magnitude(upper_halves(square[i].a, square[i].b));
-    }
-    for (std::size_t k = 0; k < 6; ++k) {
-      const auto [i, j] = vertex_pair[k];
-      const D length2 = splat(quad.length2[k]);
-      const I dot = upper_halves(square[i].a + square[j].a - length2, square[i].b + square[j].b - length2);  // 2 D
-      sign_d[k] = sign(dot);
-      d[k] = half(magnitude(dot));
-    }
-    for (std::size_t k = 0; k < 6; ++k) {
+    const auto distances = [&]() __attribute__((always_inline)) {
+      const D unit2 = splat(quad.unit2);
+      const Halves curve = {fma(dy.a, dy.a, dx.a * dx.a) * unit2, fma(dy.b, dy.b, dx.b * dx.b) * unit2};
+      Halves square[4];
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Halves linear = at_pixels(quad.r2, i, dx, dy);
+        square[i] = {linear.a + curve.a, linear.b + curve.b};
+        r2[i] = magnitude(upper_halves(square[i].a, square[i].b));
+      }
+      for (std::size_t k = 0; k < 6; ++k) {
+        const auto [i, j] = vertex_pair[k];
+        const D length2 = splat(quad.length2[k]);
+        const I dot = upper_halves(square[i].a + square[j].a - length2, square[i].b + square[j].b - length2);  // 2 D
+        sign_d[k] = sign(dot);
+        d[k] = half(magnitude(dot));
+      }
+    };
+    if constexpr (!areas) distances();
+    constexpr std::size_t functions = areas ? 5 : 6;  // not E13
+    for (std::size_t k = 0; k < functions; ++k) {
       const Halves cross = at_pixels(quad.a, k, dx, dy);
       const I a = upper_halves(cross.a, cross.b);
       sign_a[k] = sign(a);
       v[k] = magnitude(a);
     }
 
-    // Singular pixels and edges are rare: something is 0.
-    const F smallest =
-        least(least(least(v[0], v[1]), least(v[2], v[3])), least(least(r2[0], r2[1]), least(r2[2], r2[3])));
+    // Singular pixels and edges are rare: something is 0. (Two A are at a corner.)
+    const F smallest = least(least(v[0], v[1]), least(v[2], v[3]));
     unsigned singular = 0;
     Mask on_edge = no_lane(), notch = no_lane(), saturated = no_lane();
     if (none(equal(smallest, zero))) [[likely]] {
       notch = without(sign_a[0] | sign_a[1] | sign_a[2] | sign_a[3], sign_a[0] & sign_a[1] & sign_a[2] & sign_a[3]);
     } else {
+      if constexpr (areas) distances();
       Mask corner = no_lane(), one = no_lane(), two = no_lane();
       const auto is_zero = [zero](F value) { return equal(value, zero); };
       for (std::size_t k = 0; k < 4; ++k) {
@@ -170,39 +175,48 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
       notch = without(notch, corner | two);
     }
 
-    // u = r r' + |D|.
-    F r[4], r_power[4];
-    sqrt_lanes<in_columns>(r2, format.sqrt, arithmetic, r, r_power);
-    F u[6];
-    for (std::size_t k = 0; k < 6; ++k) {
-      const auto [i, j] = vertex_pair[k];
-      const F c = greatest(r_power[i] * r_power[j], Arithmetic::power(d[k])) * align;
-      u[k] = arithmetic.cut(fma(r[i], r[j], c) + d[k] - c);
-    }
+    F m[4];
+    if constexpr (areas) {
+      const Mask behind_diagonal = (sign_a[0] | sign_a[1] | sign_a[2] | sign_a[3]) ^ sign_a[4];
+      m[0] = select(behind_diagonal, v[2], v[1]);
+      m[1] = select(behind_diagonal, zero, v[4]);
+      m[2] = select(behind_diagonal, v[3], v[0]);
+      m[3] = select(behind_diagonal, v[4], zero);
+    } else {
+      // u = r r' + |D|.
+      F r[4], r_power[4];
+      sqrt_lanes<in_columns>(r2, format.sqrt, arithmetic, r, r_power);
+      F u[6];
+      for (std::size_t k = 0; k < 6; ++k) {
+        const auto [i, j] = vertex_pair[k];
+        const F c = greatest(r_power[i] * r_power[j], Arithmetic::power(d[k])) * align;
+        u[k] = arithmetic.cut(fma(r[i], r[j], c) + d[k] - c);
+      }
 
-    // root_ratio.hpp; a term of an edge cancels where D < 0, of a diagonal where D >= 0.
-    struct Ratio {
-      F num, den;
-    };
-    constexpr std::size_t near_of[3] = {0, 3, 4}, far_of[3] = {2, 1, 5};
-    F under[3], root[3], no_power[3];
-    for (std::size_t i = 0; i < 3; ++i) under[i] = arithmetic.multiply(u[near_of[i]], u[far_of[i]]);
-    sqrt_lanes<in_columns>(under, format.sqrt, arithmetic, root, no_power);
-    const auto ratio = [&](std::size_t i, bool diagonal) {
-      const std::size_t near = near_of[i], far = far_of[i];
-      const Mask near_sign = sign_d[near], far_sign = sign_d[far];
-      const auto choose = [diagonal](Mask sign, F cancels, F regular) {
-        return diagonal ? select(sign, regular, cancels) : select(sign, cancels, regular);
+      // root_ratio.hpp; a term of an edge cancels where D < 0, of a diagonal where D >= 0.
+      struct Ratio {
+        F num, den;
       };
-      const F crossed = arithmetic.multiply(v[far], u[near]), scaled = arithmetic.multiply(v[near], root[i]);
-      return Ratio{choose(near_sign, choose(far_sign, crossed, root[i]), choose(far_sign, v[far], u[far])),
-                   choose(near_sign, choose(far_sign, scaled, v[near]), root[i])};
-    };
-    const Ratio a = ratio(0, false), b = ratio(1, false), e = ratio(2, true);
-    const F m[4] = {arithmetic.multiply(arithmetic.multiply(a.num, b.num), e.num),
-                    arithmetic.multiply(arithmetic.multiply(a.num, b.den), e.den),
-                    arithmetic.multiply(arithmetic.multiply(a.den, b.den), e.num),
-                    arithmetic.multiply(arithmetic.multiply(a.den, b.num), e.den)};
+      constexpr std::size_t near_of[3] = {0, 3, 4}, far_of[3] = {2, 1, 5};
+      F under[3], root[3], no_power[3];
+      for (std::size_t i = 0; i < 3; ++i) under[i] = arithmetic.multiply(u[near_of[i]], u[far_of[i]]);
+      sqrt_lanes<in_columns>(under, format.sqrt, arithmetic, root, no_power);
+      const auto ratio = [&](std::size_t i, bool diagonal) {
+        const std::size_t near = near_of[i], far = far_of[i];
+        const Mask near_sign = sign_d[near], far_sign = sign_d[far];
+        const auto choose = [diagonal](Mask sign, F cancels, F regular) {
+          return diagonal ? select(sign, regular, cancels) : select(sign, cancels, regular);
+        };
+        const F crossed = arithmetic.multiply(v[far], u[near]), scaled = arithmetic.multiply(v[near], root[i]);
+        return Ratio{choose(near_sign, choose(far_sign, crossed, root[i]), choose(far_sign, v[far], u[far])),
+                     choose(near_sign, choose(far_sign, scaled, v[near]), root[i])};
+      };
+      const Ratio a = ratio(0, false), b = ratio(1, false), e = ratio(2, true);
+      m[0] = arithmetic.multiply(arithmetic.multiply(a.num, b.num), e.num);
+      m[1] = arithmetic.multiply(arithmetic.multiply(a.num, b.den), e.den);
+      m[2] = arithmetic.multiply(arithmetic.multiply(a.den, b.den), e.num);
+      m[3] = arithmetic.multiply(arithmetic.multiply(a.den, b.num), e.den);
+    }
     F power[4];
     for (std::size_t i = 0; i < 4; ++i) power[i] = Arithmetic::power(m[i]);
 
@@ -304,8 +318,8 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
 
 void draw(const FloatLanes::Format& format, const FloatQuad& quad, const PixelList& list, int count,
           FloatResults& out) {
-  if (looks_up_columns && format.sqrt.in_columns && format.recip.in_columns)
-    draw_list<looks_up_columns>(format, quad, list, count, out);
-  else
-    draw_list<false>(format, quad, list, count, out);
+  const bool in_columns = looks_up_columns && format.sqrt.in_columns && format.recip.in_columns;
+  const auto draws = quad.areas ? (in_columns ? draw_list<looks_up_columns, true> : draw_list<false, true>)
+                                : (in_columns ? draw_list<looks_up_columns, false> : draw_list<false, false>);
+  draws(format, quad, list, count, out);
 }

@@ -1,7 +1,7 @@
 #include "model/float_lanes.hpp"
 
 #include "model/lane_target.hpp"
-#include "model/plane_quad.hpp"
+#include "model/plane_tolerance.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -116,7 +116,8 @@ FloatTable::FloatTable(const Table& table, int octave_bits)
   }
 }
 
-FloatLanes::FloatLanes(const PipelineContext& c) : depth_reject_(c.config, c.state) {
+FloatLanes::FloatLanes(const PipelineContext& c)
+    : config_(c.config), state_(c.state), depth_reject_(c.config, c.state) {
   const Config& config = c.config;
   format_.s = c.format.s;
   format_.prec = config.prec_bits();
@@ -147,7 +148,7 @@ FloatLanes::FloatLanes(const PipelineContext& c) : depth_reject_(c.config, c.sta
   // Where everything has its place in a double and nothing is dropped of D, whatever the positions on their grid.
   small_ = val_bits_ - 2 * config.homogeneous_frac_bits <= 53 && qdrop_ <= 2 * config.homogeneous_frac_bits &&
            config.tile_log2 == SmallQuad::tile_log2 && (c.state.skip & skip_tiles) != 0 &&
-           (c.state.skip & skip_quads) != 0 && !takes_plane_quads(config, c.state);
+           (c.state.skip & skip_quads) != 0;
   format_.sqrt = FloatTable(c.sqrt_table, 1);
   format_.recip = FloatTable(c.recip_table, 0);
 }
@@ -155,7 +156,7 @@ FloatLanes::FloatLanes(const PipelineContext& c) : depth_reject_(c.config, c.sta
 bool FloatLanes::usable() const { return fits_ && lane_target() != LaneTarget::baseline; }
 
 bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const {
-  if (setup.homogeneous || data.plane) return false;
+  if (setup.homogeneous) return false;
   // All positions are multiples of 2^low: products of two have 2 low bits of zeros, enough for a double to hold A, r²
   // and two of the latter's sum, and for nothing to be dropped of D.
   std::uint64_t positions = 0;
@@ -190,6 +191,7 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
   }
   out.unit2 = power_of_two(2 * (scale + frac_));
   out.id = data.id;
+  out.areas = data.plane;
   out.x0 = setup.tile_x0 << format_.tile_log2;
   out.y0 = setup.tile_y0 << format_.tile_log2;
   const auto first = [&](std::int64_t v) { return static_cast<int>(-(-v >> frac_)); };  // ceil
@@ -220,14 +222,16 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
 
 #ifdef QUADRILLE_LANE_TARGETS
 FloatLanes::TileCounts FloatLanes::cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad,
-                                         PixelList& list) const {
-  return lane_target() == LaneTarget::v4 ? v4::cover(format_, bounds, corner, quad, list)
-                                         : v3::cover(format_, bounds, corner, quad, list);
+                                         MaskedDepth* masked, PixelList& list) const {
+  return lane_target() == LaneTarget::v4 ? v4::cover(format_, bounds, corner, quad, masked, list)
+                                         : v3::cover(format_, bounds, corner, quad, masked, list);
 }
 
 std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const {
-  return lane_target() == LaneTarget::v4 ? v4::take_small(format_, depth_reject_, quad, out, small)
-                                         : v3::take_small(format_, depth_reject_, quad, out, small);
+  const auto taken = lane_target() == LaneTarget::v4 ? v4::take_small(format_, depth_reject_, quad, out, small)
+                                                     : v3::take_small(format_, depth_reject_, quad, out, small);
+  if (taken == QuadReject::none) out.areas = takes_areas(quad, config_, state_);
+  return taken;
 }
 
 void FloatLanes::walk_small(const SmallQuad& quad, SmallWalk& out) const {
@@ -259,7 +263,8 @@ void FloatLanes::walk_small(const SmallQuad&, SmallWalk&) const {}
 FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad&, const SmallQuad&, SmallWalk::Tile, PixelList&) const {
   return {};
 }
-FloatLanes::TileCounts FloatLanes::cover(const FloatQuad&, const TileCorner&, const QuadConstants&, PixelList&) const {
+FloatLanes::TileCounts FloatLanes::cover(const FloatQuad&, const TileCorner&, const QuadConstants&, MaskedDepth*,
+                                         PixelList&) const {
   return {};
 }
 void FloatLanes::draw(const FloatQuad&, const PixelList&, int, FloatResults&) const {}

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "model/covered_pixels.hpp"
+#include "model/masked_depth.hpp"
 #include "model/pixel_lanes.hpp"
 #include "model/quad_reject.hpp"
 
@@ -63,6 +64,7 @@ struct FloatQuad {
   FloatForms a;                                ///< A
   FloatForms r2;                               ///< the four r² without dx² + dy²
   std::array<double, linear_count> length2{};  ///< SetupResult::length2
+  bool areas = false;                          ///< for weights: plane_quad or plane_tolerance took it
   bool sum_k = true, sum_w = true;
   FloatColumn k, w, z;
   std::array<FloatColumn, max_attribute_slots> b;
@@ -85,6 +87,12 @@ struct PixelList {
   void drop(int n) {
     for (auto* column : {&place, &marks}) std::copy_n(column->begin() + n, count - n, column->begin());
     count -= n;
+  }
+  /// From the first tile's origin pixel. There is room.
+  void add(int x, int y, bool front, bool tie) {
+    const auto at = static_cast<std::size_t>(count++);
+    place[at] = static_cast<std::uint32_t>(x) | static_cast<std::uint32_t>(y) << 16;
+    marks[at] = static_cast<std::uint32_t>(front) | (tie ? std::uint32_t{flag_tie} << 8 : 0);
   }
 };
 
@@ -140,11 +148,12 @@ class FloatLanes {
   /// False: the quad is not ordinary, or a number of it does not fit; what `out` holds then is nobody's.
   bool take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const;
 
-  /// Appends the covered pixels of a tile to the list.
+  /// Appends the covered pixels of a tile to the list: with `masked`, which has begun the tile, those that may be seen.
   struct TileCounts {
     int stamps = 0, pixels = 0, ties = 0;
   };
-  TileCounts cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad, PixelList& list) const;
+  TileCounts cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad, MaskedDepth* masked,
+                   PixelList& list) const;
 
   /// Small quads, of configurations and draw states that small() says, without SetupResult and the like: what comes is
   /// the same. Nothing: it is none, or does not fit. Else none, or why it is left out.
@@ -168,6 +177,8 @@ class FloatLanes {
   };
 
  private:
+  Config config_;
+  DrawState state_;
   Format format_;
   DepthReject depth_reject_;
   bool fits_ = false, small_ = false;

@@ -1,6 +1,7 @@
 // The single-precision lanes against the plain pipeline, where they fit and at the edges of where they do.
 #include "model/float_lanes.hpp"
 #include "model/each_lane_target.hpp"
+#include "model/plane_tolerance.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
@@ -127,9 +128,10 @@ bool taken(const SnappedQuad& quad, const Config& c, const DrawState& s) {
 }
 
 std::vector<std::uint64_t> counts(const DrawStats& d) {
-  std::vector<std::uint64_t> all{d.blocks_tested, d.tiles_tested, d.tiles_entered, d.stamps_covered, d.pixels,
-                                 d.fragments,     d.on_edge,      d.on_vertex,     d.two_corner,     d.two_edge,
-                                 d.tie,           d.notch,        d.saturated};
+  std::vector<std::uint64_t> all{d.blocks_tested, d.tiles_tested,  d.tiles_entered, d.stamps_covered,
+                                 d.pixels,        d.fragments,     d.on_edge,       d.on_vertex,
+                                 d.two_corner,    d.two_edge,      d.tie,           d.notch,
+                                 d.saturated,     d.blocks_hidden, d.tiles_hidden,  d.tiles_masked};
   all.insert(all.end(), d.rejected.begin(), d.rejected.end());
   return all;
 }
@@ -179,6 +181,74 @@ TEST(FloatLanes, PlainAndLanesAreOne) {
   if (can_run_here()) {
     EXPECT_GT(quads, 1000u);
   }
+}
+
+/// A parallelogram whose values are the same along a pair of its sides, at depths inside [0, 1).
+SnappedQuad plane_one(Prng& rng, const Config& c, SnappedQuad q) {
+  const int depth = static_cast<int>(rng.integer(-8, -1));
+  const auto step = [&] { return static_cast<std::int32_t>(rng.integer(-12, 80)) << (c.frac() - 1); };
+  const std::int32_t ax = step(), ay = rng.chance(0.5) ? 0 : step(), bx = rng.chance(0.5) ? 0 : step(), by = step();
+  for (std::size_t i = 0; i < 4; ++i) {
+    SnappedVertex& v = q.vertex[i];
+    v.z = q.vertex[0].z;
+    v.z.neg = false;
+    v.z.exp = depth;
+    v.x = q.vertex[0].x + (i == 1 || i == 2 ? ax : 0) + (i >= 2 ? bx : 0);
+    v.y = q.vertex[0].y + (i == 1 || i == 2 ? ay : 0) + (i >= 2 ? by : 0);
+    v.k = q.vertex[0].k;
+  }
+  const std::size_t next = rng.chance(0.5) ? 1 : 3;  // along 01 and 32, or along 03 and 12
+  q.vertex[next].attribute = q.vertex[0].attribute;
+  q.vertex[next == 1 ? 3 : 1].attribute = q.vertex[2].attribute;
+  return q;
+}
+
+/// Areas for weights, and tiles and pixels of which nothing can be seen.
+TEST(FloatLanes, PlainAndLanesLeaveOutTheSame) {
+  Prng rng(404);
+  std::uint64_t plane = 0, pixels = 0, tiles_hidden = 0, blocks_hidden = 0, tiles_masked = 0, on_edge = 0, corners = 0;
+  for (int n = 0; n < 160; ++n) {
+    Config c = fitting_config(rng);
+    constexpr int tolerances[] = {0, 31, 31, 4, 9};
+    c.plane_tolerance_bits = tolerances[rng.below(5)];
+    if (rng.chance(0.6)) c.hierarchical_z_bits = static_cast<int>(rng.integer(6, std::min(12, c.depth_bits)));
+    c.hierarchical_z_tiles_log2 = static_cast<int>(rng.integer(7, 9));
+    c.validate();
+    DrawState s = random_state(rng, c);
+    s.skip |= skip_plane;
+    if (rng.chance(0.8)) s.skip |= skip_hidden;
+    std::vector<SnappedQuad> list;
+    for (int i = 0; i < 40; ++i) {
+      const SnappedQuad quad = random_quad(rng, c, 3);
+      list.push_back(rng.chance(0.7) ? plane_one(rng, c, quad) : quad);
+      plane += takes_areas(list.back(), c, s);
+    }
+    UntimedModel plain(c, s, PixelEngine::plain);
+    std::vector<std::vector<Fragment>> expected;
+    for (const SnappedQuad& quad : list) expected.push_back(draw(plain, quad));
+    on_each_lane_target([&] {
+      UntimedModel quick(c, s);
+      for (std::size_t i = 0; i < list.size(); ++i) ASSERT_EQ(expected[i], draw(quick, list[i])) << "quad " << i;
+      ASSERT_EQ(counts(plain.stats()), counts(quick.stats()));
+    });
+    if (HasFatalFailure()) FAIL() << "round " << n << ", S " << c.significand_bits << " + " << c.align_guard_bits;
+    pixels += plain.stats().pixels;
+    tiles_hidden += plain.stats().tiles_hidden;
+    blocks_hidden += plain.stats().blocks_hidden;
+    tiles_masked += plain.stats().tiles_masked;
+    on_edge += plain.stats().on_edge;
+    corners += plain.stats().on_vertex + plain.stats().two_corner;
+  }
+  std::printf("%llu plane quads, %llu pixels; hidden %llu tiles, %llu blocks, %llu by masks\n",
+              static_cast<unsigned long long>(plane), static_cast<unsigned long long>(pixels),
+              static_cast<unsigned long long>(tiles_hidden), static_cast<unsigned long long>(blocks_hidden),
+              static_cast<unsigned long long>(tiles_masked));
+  EXPECT_GT(plane, 1000u);
+  EXPECT_GT(pixels, 100'000u);
+  EXPECT_GT(tiles_hidden, 500u);
+  EXPECT_GT(tiles_masked, 10u);
+  EXPECT_GT(on_edge, 100u);
+  EXPECT_GT(corners, 100u);
 }
 
 /// What they take, and each reason to refuse.

@@ -36,9 +36,7 @@ void PixelsAhead::add(const TileEntry& tile, const StampEntry& stamp, const Pixe
     const int x = (tile.tile_x << log2) - quad.floats.x0, y = (tile.tile_y << log2) + stamp.row - quad.floats.y0;
     for (std::uint32_t mask = stamp.mask; mask != 0; mask &= mask - 1) {
       const int dx = std::countr_zero(mask);
-      const auto at = static_cast<std::size_t>(list_.count++);
-      list_.place[at] = static_cast<std::uint32_t>(x + dx) | static_cast<std::uint32_t>(y) << 16;
-      list_.marks[at] = (stamp.front >> dx & 1) | (stamp.tie >> dx & 1) * std::uint32_t{flag_tie} << 8;
+      list_.add(x + dx, y, (stamp.front >> dx & 1) != 0, (stamp.tie >> dx & 1) != 0);
     }
   }
   rows_.push_back({&tile, &stamp});
@@ -58,10 +56,11 @@ void PixelsAhead::compute(const PixelQuad& quad) {
 void PixelsAhead::compute_floats(const PixelQuad& quad) {
   floats_.draw(quad.floats, list_, list_.count, results_);
   const auto count = static_cast<std::size_t>(list_.count);
-  kind_.resize(count, pixel_drawn);
+  const std::uint8_t kind = quad.floats.areas ? pixel_plane | pixel_areas : 0;
+  kind_.resize(count, kind | pixel_drawn);
   if (results_.all_drawn && !results_.any_plain) return;
   for (std::size_t i = 0; i < count; ++i)
-    if ((results_.drawn[i / 8] >> i % 8 & 1) == 0) kind_[i] = 0;
+    if ((results_.drawn[i / 8] >> i % 8 & 1) == 0) kind_[i] = kind;
   if (!results_.any_plain) return;
   std::size_t i = 0;
   for (const Row& row : rows_)

@@ -192,24 +192,41 @@ struct UntimedModel::Impl {
     draw_floats(quad, true, sink);
   }
 
-  /// `depth`: of the quad, or nullptr where nothing is hidden.
+  /// Calls add(CoveredPixel) for what of the tile is covered and may be seen; returns its stamps. `depth`: of the quad,
+  /// or nullptr where nothing is hidden.
+  template <class Add>
+  int cover_tile(const TileEntry& tile, const DepthInterval* depth, Add&& add) {
+    if (depth == nullptr) return for_each_covered_pixel(tile, walk.constants(), context.config, context.state, add);
+    masked.begin(tile.tile_x, tile.tile_y, *depth);
+    if (masked.hidden()) {
+      ++stats.tiles_masked;
+      return 0;
+    }
+    const int stamps = for_each_covered_pixel(tile, walk.constants(), context.config, context.state, add,
+                                              [this](int row, std::uint32_t mask) { return masked.row(row, mask); });
+    masked.end();
+    return stamps;
+  }
+
+  /// FloatLanes::cover of the tile under test. `depth`: of the quad, or nullptr where nothing is hidden.
+  FloatLanes::TileCounts cover_floats(const DepthInterval* depth) {
+    const TileCorner corner = walk.corner();
+    if (depth == nullptr) return floats.cover(float_quad, corner, walk.constants(), nullptr, list);
+    masked.begin(corner.tile_x, corner.tile_y, *depth);
+    if (masked.hidden()) {
+      ++stats.tiles_masked;
+      return {};
+    }
+    const FloatLanes::TileCounts counts = floats.cover(float_quad, corner, walk.constants(), &masked, list);
+    masked.end();
+    return counts;
+  }
+
   void draw_tile(const TileEntry& tile, const QuadData& data, const QuadLanes& values, const DepthInterval* depth) {
     ++stats.tiles_entered;
     pixels = 0;
-    const auto add = [&](const CoveredPixel& at) { pixel[static_cast<std::size_t>(pixels++)] = at; };
-    int stamps = 0;
-    if (depth == nullptr) {
-      stamps = for_each_covered_pixel(tile, walk.constants(), context.config, context.state, add);
-    } else {
-      masked.begin(tile.tile_x, tile.tile_y, *depth);
-      if (masked.hidden()) {
-        ++stats.tiles_masked;
-      } else {
-        stamps = for_each_covered_pixel(tile, walk.constants(), context.config, context.state, add,
-                                        [this](int row, std::uint32_t mask) { return masked.row(row, mask); });
-        masked.end();
-      }
-    }
+    const int stamps =
+        cover_tile(tile, depth, [&](const CoveredPixel& at) { pixel[static_cast<std::size_t>(pixels++)] = at; });
     stats.stamps_covered += static_cast<std::uint64_t>(stamps);
     if (plain) {
       for (int i = 0; i < pixels; ++i) draw_plain(tile, data, i);
@@ -266,14 +283,13 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
   m.stats.homogeneous_quads += setup.homogeneous;
   m.stats.hull_quads += setup.hull;
   const DepthInterval depth = hidden ? depth_interval(quad, m.context.config, m.context.state) : DepthInterval{};
-  // Their coverage knows nothing of masks.
-  const bool by_floats = !m.plain && !hidden && m.floats.usable() && m.floats.take(setup, data, values, m.float_quad);
+  const bool by_floats = !m.plain && m.floats.usable() && m.floats.take(setup, data, values, m.float_quad);
   m.list.count = 0;  // a sink that threw left some
   const WalkCounts counts = walk_quad(
       m.walk, setup,
       [&] {
         if (by_floats) {
-          m.count_tile(quad, m.floats.cover(m.float_quad, m.walk.corner(), m.walk.constants(), m.list), sink);
+          m.count_tile(quad, m.cover_floats(hidden ? &depth : nullptr), sink);
           return;
         }
         m.draw_tile(m.walk.entry(), data, values, hidden ? &depth : nullptr);
