@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace quadrille {
@@ -141,6 +142,38 @@ TEST(Boundaries, HaveTheirBits) {
                                                    {Boundary::fragment, 178}};
   for (const auto& [boundary, expected] : bits)
     EXPECT_EQ(boundary_layout(boundary, Config{}).bits(), expected) << boundary_name(boundary);
+}
+
+/// The descriptions for people have every bit of the layouts that the machines are compared by.
+TEST(Boundaries, DescriptionsAreTheLayouts) {
+  Config other;
+  other.set("attribute_slots", 7);
+  other.set("tile_log2", 2);
+  for (const Config& c : {Config{}, other}) {
+    const auto expect_layout = [](const BoundaryDescription& d, const RecordLayout& layout) {
+      EXPECT_EQ(d.bits, layout.bits()) << d.name;
+      int bits = 0;
+      std::size_t fields = 0;
+      for (const BoundaryField& f : d.fields) {
+        bits += f.type.width * std::max(f.count, 1);
+        fields += static_cast<std::size_t>(std::max(f.count, 1));
+      }
+      EXPECT_EQ(bits, layout.bits()) << d.name;
+      EXPECT_EQ(fields, layout.fields().size()) << d.name;
+    };
+    const auto ports = describe_ports(c);
+    ASSERT_EQ(ports.size(), 3u);
+    expect_layout(ports[0], vertex_layout(c));
+    expect_layout(ports[1], state_layout(c));
+    expect_layout(ports[2], boundary_layout(Boundary::fragment, c));
+    EXPECT_EQ(ports[2].fields.back().count, c.attribute_slots) << "an array is one entry";
+    const auto probes = describe_probes(c);
+    ASSERT_EQ(probes.size(), 9u);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      EXPECT_EQ(probes[i].name, boundary_name(static_cast<Boundary>(i)));
+      expect_layout(probes[i], boundary_layout(static_cast<Boundary>(i), c));
+    }
+  }
 }
 
 TEST(Hex, HasTheDigitsOfItsWidth) {

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cfenv>
 #include <cmath>
@@ -134,6 +135,19 @@ std::vector<std::uint64_t> counts(const DrawStats& d) {
                                  d.saturated,     d.blocks_hidden, d.tiles_hidden,  d.tiles_masked};
   all.insert(all.end(), d.rejected.begin(), d.rejected.end());
   return all;
+}
+
+/// Every count, also one that is added to the struct some day.
+TEST(DrawStats, AddUp) {
+  using Words = std::array<std::uint64_t, sizeof(DrawStats) / sizeof(std::uint64_t)>;
+  Words a, b, sum;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    a[i] = i + 1;
+    b[i] = 1000 * (i + 1);
+    sum[i] = a[i] + b[i];
+  }
+  DrawStats stats = std::bit_cast<DrawStats>(a);
+  EXPECT_EQ(std::bit_cast<Words>(stats += std::bit_cast<DrawStats>(b)), sum);
 }
 
 bool can_run_here() { return lane_target() != LaneTarget::baseline; }

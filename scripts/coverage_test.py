@@ -156,6 +156,11 @@ class Judging(Tree):
         self.assertEqual(report["folders"]["rtl"], {"lines": {"covered": 4, "excused": 0, "all": 4}, "branches": {"covered": 2, "excused": 0, "all": 2},
                                                     "toggles": {"covered": 10, "excused": 0, "all": 10}})
 
+    def test_closing_lines_are_left_out(self):
+        self.fill()
+        self.gcov("../../model/a.cpp", [line(20, 0)])
+        self.assertEqual(self.judge()[2]["folders"]["model"]["lines"]["all"], 19)
+
     def test_floor_of_lines(self):
         self.fill(gone=[7])  # 18 of 19: 94.7 %
         right, text, report = self.judge()

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -174,6 +175,53 @@ TEST_P(CApi, UntimedIsTheUntimedModel) {
   EXPECT_EQ(value, model.stats().rejected[static_cast<std::size_t>(QuadReject::empty)]);
   ASSERT_EQ(quadrille_untimed_counter(untimed_, "tiles_hidden", &value), QUADRILLE_OK);
   EXPECT_EQ(value, model.stats().tiles_hidden);
+}
+
+TEST_P(CApi, UntimedCountersAreListed) {
+  UntimedModel model(config_, state_);
+  for (const SnappedQuad& quad : snapped_) model.draw(quad, [](auto) {});
+  ASSERT_EQ(quadrille_untimed_draw(untimed_, 100, vertices_.data(), given_.size()), QUADRILLE_OK) << error();
+  const DrawStats& s = model.stats();
+  const auto rejected = [&](QuadReject reason) { return s.rejected[static_cast<std::size_t>(reason)]; };
+  const std::map<std::string, std::uint64_t> expected{{"quads", s.quads},
+                                                      {"quads_empty", rejected(QuadReject::empty)},
+                                                      {"quads_behind", rejected(QuadReject::behind)},
+                                                      {"quads_depth", rejected(QuadReject::depth)},
+                                                      {"quads_line", rejected(QuadReject::line)},
+                                                      {"quads_culled", rejected(QuadReject::culled)},
+                                                      {"quads_outside", rejected(QuadReject::outside)},
+                                                      {"quads_homogeneous", s.homogeneous_quads},
+                                                      {"blocks_tested", s.blocks_tested},
+                                                      {"blocks_hidden", s.blocks_hidden},
+                                                      {"tiles_tested", s.tiles_tested},
+                                                      {"tiles_entered", s.tiles_entered},
+                                                      {"tiles_hidden", s.tiles_hidden},
+                                                      {"tiles_masked", s.tiles_masked},
+                                                      {"stamps", s.stamps_covered},
+                                                      {"pixels", s.pixels},
+                                                      {"fragments", s.fragments}};
+  std::map<std::string, std::uint64_t> actual;
+  for (std::uint32_t index = 0; const char* name = quadrille_untimed_counter_name(index); ++index)
+    ASSERT_EQ(quadrille_untimed_counter(untimed_, name, &actual[name]), QUADRILLE_OK) << error();
+  EXPECT_EQ(actual, expected);
+  EXPECT_GT(expected.at("tiles_entered"), expected.at("quads_homogeneous"));
+  EXPECT_GT(expected.at("quads_homogeneous"), 0u);
+}
+
+/// The same again after a clear of the depth buffer gives the same again.
+TEST_P(CApi, ClearHiddenForgetsWhatWasDrawn) {
+  std::vector<quadrille_fragment> drawn[2];
+  for (auto& fragments : drawn) {
+    ASSERT_EQ(quadrille_untimed_draw(untimed_, 100, vertices_.data(), given_.size()), QUADRILLE_OK) << error();
+    fragments = take_all(untimed_, quadrille_untimed_pending, quadrille_untimed_take);
+    ASSERT_EQ(quadrille_untimed_clear_hidden(untimed_), QUADRILLE_OK) << error();
+  }
+  ASSERT_EQ(drawn[0].size(), drawn[1].size());
+  for (std::size_t i = 0; i < drawn[0].size(); ++i) {
+    EXPECT_EQ(drawn[0][i].quad, drawn[1][i].quad);
+    EXPECT_EQ(drawn[0][i].x, drawn[1][i].x);
+    EXPECT_EQ(drawn[0][i].y, drawn[1][i].y);
+  }
 }
 
 /// Clock by clock beside the C++ model, with gaps and stalls; the ports as words too.
@@ -428,6 +476,8 @@ TEST_F(CApiErrors, PortsThatNoMachineMayBeGiven) {
   expect_error(quadrille_clocked_state_port(clocked_, state.data()), QUADRILLE_BAD_STATE, "draw state");
   std::uint64_t value = 0;
   expect_error(quadrille_clocked_counter(clocked_, "nothing", &value), QUADRILLE_BAD_ARGUMENT, "\"nothing\"");
+  expect_error(quadrille_untimed_counter(untimed_, "nothing", &value), QUADRILLE_BAD_ARGUMENT, "\"nothing\"");
+  expect_error(quadrille_untimed_clear_hidden(nullptr), QUADRILLE_BAD_ARGUMENT, "NULL");
   expect_error(quadrille_untimed_counter(untimed_, nullptr, &value), QUADRILLE_BAD_ARGUMENT, "NULL");
 }
 

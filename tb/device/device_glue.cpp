@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #endif
 #if QUADRILLE_TRACE
@@ -221,15 +222,19 @@ quadrille_device* create(uint64_t seed) {
 void write_coverage(quadrille_device* d) {
   const char* directory = std::getenv("QUADRILLE_COVERAGE_DIR");
   if (directory == nullptr) return;
-  std::string name = std::string(directory) + "/rtl-XXXXXX";
-  const int file = mkstemp(name.data());  // many processes and devices write at a time
-  if (file < 0) {
-    std::perror(name.c_str());
+  std::string part = std::string(directory) + "/part-XXXXXX";
+  const int file = mkstemp(part.data());  // many processes and devices write at a time
+  if (file >= 0) {
+    close(file);
+    d->context->coveragep()->forcePerInstance(true);  // a bit has to be seen at both values in one place
+    d->context->coveragep()->write(part.c_str());
+  }
+  // A process may be killed meanwhile, by a test say: what has the name of counts is whole.
+  const std::string whole = std::string(directory) + "/rtl-" + part.substr(part.size() - 6);
+  if (file < 0 || std::rename(part.c_str(), whole.c_str()) != 0) {
+    std::perror(part.c_str());
     std::abort();  // a count that is lost would look like a hole
   }
-  close(file);
-  d->context->coveragep()->forcePerInstance(true);  // a bit has to change twice in one place
-  d->context->coveragep()->write(name.c_str());
 }
 #endif
 
