@@ -137,6 +137,7 @@ TEST_F(Cli, BenchPeersReports) {
   }
   ASSERT_EQ(report["numbers"].size(), 2u);
   EXPECT_EQ(report["numbers"][1]["quads"], 100);
+  EXPECT_GT(report["numbers"][1]["resident_bytes"], 10'000'000);
 
   std::set<std::string> engines;
   std::set<int> bits;

@@ -12,9 +12,11 @@
 #include "tb/options/input.hpp"
 #include "tb/shader/paper_shader.hpp"
 #include "tb/support/errors.hpp"
+#include "tb/support/memory.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -106,6 +108,7 @@ struct Point {
   std::uint64_t counted_fragments = 0;  ///< the model's of the same
   double model = 0, shader = 0;         ///< CPU seconds of all quads
   std::uint64_t clocked_fragments = 0, clocks = 0;
+  std::uint64_t resident = 0;  ///< bytes of the whole process, behind the runs
 
   double per_fragment(double seconds) const { return seconds / static_cast<double>(fragments); }
   double clocks_per_fragment() const {
@@ -273,6 +276,7 @@ class PeerBench {
     Progress progress("bench --peers: numbers", 6, options_.common.show_progress());
     for (std::uint64_t quads = 10; quads <= std::min(largest_number, fitting); quads *= 10) {
       numbers_.push_back(draw_series(shader, number_side, quads));
+      numbers_.back().resident = tb::resident_bytes();
       progress.set(numbers_.size(), std::to_string(quads));
     }
   }
@@ -436,12 +440,17 @@ class PeerBench {
                    1e3 * median_cpu(p.shader), p.ratio(), 1e3 * median_cpu(p.readback));
 
     const auto series = [&](const std::vector<Point>& points) {
-      std::fprintf(text, "%10s %9s %11s %17s %18s %14s %20s\n", "px of quad", "quads", "fragments", "model ns/fragment",
-                   "shader ns/fragment", "model / shader", "RTL clocks/fragment");
-      for (const Point& p : points)
-        std::fprintf(text, "%10.0f %9llu %11llu %17.2f %18.2f %14.3f %20.3f\n", p.side * p.side, count(p.quads),
+      const bool resident = std::ranges::any_of(points, [](const Point& p) { return p.resident != 0; });
+      std::fprintf(text, "%10s %9s %11s %17s %18s %14s %20s%s\n", "px of quad", "quads", "fragments",
+                   "model ns/fragment", "shader ns/fragment", "model / shader", "RTL clocks/fragment",
+                   resident ? " resident MB" : "");
+      for (const Point& p : points) {
+        std::fprintf(text, "%10.0f %9llu %11llu %17.2f %18.2f %14.3f %20.3f", p.side * p.side, count(p.quads),
                      count(p.fragments), 1e9 * p.per_fragment(p.model), 1e9 * p.per_fragment(p.shader),
                      p.model / p.shader, p.clocks_per_fragment());
+        if (p.resident != 0) std::fprintf(text, " %11.1f", 1e-6 * static_cast<double>(p.resident));
+        std::fprintf(text, "\n");
+      }
     };
     std::fprintf(text, "\nOver the size of quads (%dx%d; clocks: the clocked model's, which are the RTL's)\n\n",
                  square_, square_);
@@ -483,6 +492,7 @@ class PeerBench {
       entry["shader_fragments"] = p.shader_fragments;
       entry["clocked_fragments"] = p.clocked_fragments;
       entry["clocks"] = p.clocks;
+      if (p.resident != 0) entry["resident_bytes"] = p.resident;
       json.push_back(std::move(entry));
     }
     return json;
