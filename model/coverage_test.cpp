@@ -481,6 +481,41 @@ TEST(TileWalk, CoversWhatExpressionTwelveCovers) {
   EXPECT_LT(tiles_with, tiles_without);
 }
 
+/// Triangles whose determinant is one unit, the smallest there is: corners at the unit vectors of (X, Y, W), their
+/// opposites and twice them.
+TEST(TileWalk, TheSmallestTrianglesAreDrawn) {
+  const Config c = small_config(6, 2);
+  DrawState state = state_of(c);
+  state.scissor_x1 = state.scissor_y1 = 6;
+  std::uint64_t covered = 0, smallest = 0;
+  int tiles = 0;
+  std::vector<SnappedVertex> vertices(9);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const std::int32_t value = i % 3 == 0 ? 1 : i % 3 == 1 ? -1 : 2;
+    (i < 3 ? vertices[i].x : i < 6 ? vertices[i].y : vertices[i].w) = value;
+  }
+  for (std::size_t n = 0; n < 9 * 9 * 9 * 9 && !testing::Test::HasFailure(); ++n) {
+    SnappedQuad q;
+    q.vertex = {vertices[n % 9], vertices[n / 9 % 9], vertices[n / 81 % 9], vertices[n / 729]};
+    std::map<std::pair<int, int>, Seen> seen;
+    walk(q, c, state, seen, tiles);
+    const std::uint64_t before = covered;
+    for (int py = 0; py < state.scissor_y1; ++py)
+      for (int px = 0; px < state.scissor_x1; ++px) {
+        const Drawn expected = brute_force(q, c, Cull::none, px, py);
+        const auto found = seen.find({px, py});
+        ASSERT_EQ(found != seen.end(), expected.covered) << px << ", " << py << " of quad " << n;
+        if (!expected.covered) continue;
+        ASSERT_EQ(found->second.front, expected.front) << px << ", " << py << " of quad " << n;
+        ++covered;
+      }
+    smallest += covered != before;
+  }
+  std::printf("%llu pixels of %llu quads covered\n", static_cast<unsigned long long>(covered),
+              static_cast<unsigned long long>(smallest));
+  EXPECT_GT(smallest, 100u);
+}
+
 /// may_cover is never false for a square with a drawn pixel, and stays useful: a square far outside is refused.
 TEST(TileWalk, MayCoverIsConservative) {
   Prng rng(23);

@@ -122,7 +122,7 @@ TEST(QuadReject, DepthAtItsLimits) {
   EXPECT_GT(kept_without_fragment, 300u);
 }
 
-/// Beyond the margin no quad with W = 1 is kept.
+/// Beyond the margin no quad is kept whose W are a power of two.
 TEST(QuadReject, DepthIsUsedFully) {
   const Config c = tiny();
   DrawState state;
@@ -141,6 +141,16 @@ TEST(QuadReject, DepthIsUsedFully) {
   };
   const auto steps = static_cast<std::uint32_t>(depth_margin_steps(c));
   const auto reject = [&](const SnappedQuad& q) { return reject_by_vertices(q, c, state); };
+  // Any power of two is as good a W as 1, down to one unit.
+  for (int log2 = 0; log2 <= c.frac(); ++log2) {
+    const auto scaled = [&](int exponent, std::uint32_t sig) {
+      SnappedQuad q = quad_at(exponent - log2, sig, false);
+      for (SnappedVertex& v : q.vertex) v.w = one >> log2, v.x >>= log2, v.y >>= log2;
+      return reject(q);
+    };
+    EXPECT_EQ(scaled(-1, low + steps), QuadReject::none) << "W 2^-" << log2;
+    EXPECT_EQ(scaled(-1, low + steps + 1), QuadReject::depth) << "W 2^-" << log2;
+  }
   // zfar: the code after it is 0.5 + 2^-24, truncated 0.5, and the next number is beyond it.
   EXPECT_EQ(reject(quad_at(-1, low + steps, false)), QuadReject::none);
   EXPECT_EQ(reject(quad_at(-1, low + steps + 1, false)), QuadReject::depth);
