@@ -1,9 +1,9 @@
 // Hill climbing over quads and pixels for the largest arithmetic error of a weight: |λ' of the untimed model − λ' of
 // the truth on the same snapped input|, in units of 2^-s. Bound: 8 units (2^-(s-3)), notch_exact on.
 //
-// The climb itself looks at one pixel through the pure functions of the model and compares with an 80-bit evaluation of
-// the truth's formulas; the verdict on every climb's summit comes from UntimedModel against TruthQuad. Starts are the
-// stress families. Everything follows from --seed, whatever the number of threads.
+// The climb itself looks at one pixel through the pure functions of the model; the verdict on every climb's summit
+// comes from UntimedModel against TruthQuad (PixelErrors). Starts are the stress families, whose shape a climb leaves;
+// `quadrille stress --search` stays within it. Everything follows from --seed, whatever the number of threads.
 //
 // Short climbs (6 starts of 1600 steps, as in the tests) are also held to the regression limits of
 // tb/check/error_limits.json. --record F --starts 6 --steps 1600 sets these there: the worst of --seeds seeds and
@@ -13,160 +13,37 @@
 
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/text_input.hpp"
-#include "golden/reference/truth.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/pixel_pipeline.hpp"
-#include "model/quad_setup.hpp"
-#include "model/snap.hpp"
-#include "model/stamp_coverage.hpp"
 #include "model/support/parallel.hpp"
 #include "model/support/prng.hpp"
-#include "model/tile_context.hpp"
-#include "model/untimed.hpp"
+#include "tb/check/climb.hpp"
 #include "tb/check/error_limits.hpp"
+#include "tb/check/pixel_error.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 #include <string>
 
 namespace quadrille::campaign {
 namespace {
 
+using cli::PixelError;
+using cli::PixelErrors;
 using golden::Prng;
 
 constexpr int viewport = 512;
 
 struct Candidate {
   WindowQuad quad;
-  int x = 0, y = 0;
+  golden::PixelPlace at;
 };
 
-struct Error {
-  double units = -1;  ///< largest |Δλ'|·2^s over the four weights
-  double condition = 0;
-  unsigned flags = 0;
-};
-
-/// λ' by the truth's formulas in 80-bit arithmetic on exact integers; nothing at singular pixels.
-std::optional<std::array<long double, 4>> quick_truth(const SnappedQuad& q, int px, int py,
-                                                      const std::array<double, 4>& k) {
-  using Wide = __int128;
-  std::int64_t x[4], y[4];
-  long double length[4];
-  for (std::size_t i = 0; i < 4; ++i) {
-    x[i] = q.vertex[i].x - std::int64_t{q.vertex[i].w} * px;
-    y[i] = q.vertex[i].y - std::int64_t{q.vertex[i].w} * py;
-    const Wide r2 = static_cast<Wide>(x[i]) * x[i] + static_cast<Wide>(y[i]) * y[i];
-    if (r2 == 0) return std::nullopt;
-    length[i] = std::sqrt(static_cast<long double>(r2));
-  }
-  long double t[4];
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t j = (i + 1) & 3;
-    const Wide a = static_cast<Wide>(x[i]) * y[j] - static_cast<Wide>(y[i]) * x[j];
-    const Wide d = static_cast<Wide>(x[i]) * x[j] + static_cast<Wide>(y[i]) * y[j];
-    const long double area = static_cast<long double>(a), dot = static_cast<long double>(d),
-                      both = length[i] * length[j];
-    if (d < 0 && a == 0) return std::nullopt;
-    t[i] = d < 0 ? (both - dot) / area : area / (both + dot);
-  }
-  std::array<long double, 4> lambda;
-  long double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    lambda[i] = (t[(i + 3) & 3] + t[i]) / length[i] * static_cast<long double>(k[i]);
-    sum += lambda[i];
-  }
-  for (long double& l : lambda) l /= sum;
-  return lambda;
+DrawState draw_state() {
+  DrawState s;
+  s.width = s.height = s.scissor_x1 = s.scissor_y1 = viewport;
+  s.depth = false;  // no fragment may be lost to depth
+  return s;
 }
-
-class Climber {
- public:
-  explicit Climber(const Config& c)
-      : config_(c),
-        state_(draw_state()),
-        context_(c, state_),
-        plain_(c, state_, PixelEngine::plain),
-        lanes_(c, state_, PixelEngine::lanes) {}
-
-  static DrawState draw_state() {
-    DrawState s;
-    s.width = s.height = s.scissor_x1 = s.scissor_y1 = viewport;
-    s.depth = false;  // no fragment may be lost to depth
-    return s;
-  }
-
-  /// The quick measure: one pixel; −1 where the pixel is not drawn or singular.
-  double measure(const Candidate& at) const {
-    SnappedQuad q;
-    try {
-      q = snap_quad(at.quad, config_, state_);
-    } catch (const SnapError&) {
-      return -1;
-    }
-    const SetupResult setup = quad_setup(q, config_, state_);
-    const QuadConstants constants(setup);
-    TileEntry tile;
-    tile.tile_x = at.x >> config_.tile_log2;
-    tile.tile_y = at.y >> config_.tile_log2;
-    const int x = (tile.tile_x - setup.tile_x0) * config_.tile(), y = (tile.tile_y - setup.tile_y0) * config_.tile();
-    WalkState walk;
-    for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
-    walk_step(walk, constants, x, y);
-    tile.linear = walk.linear;
-    tile.quadratic = tile_context(constants, x, y, config_.qdrop());
-    const int dx = at.x & (config_.tile() - 1), row = at.y & (config_.tile() - 1);
-    if (!(stamp_coverage(tile, constants, row, config_, state_).mask >> dx & 1)) return -1;
-    std::array<double, 4> k;
-    for (std::size_t i = 0; i < 4; ++i)
-      k[i] = std::ldexp(static_cast<double>(q.vertex[i].k.sig), q.vertex[i].k.exp - (config_.significand_bits - 1));
-    const auto truth = quick_truth(q, at.x, at.y, k);
-    if (!truth) return -1;
-    PixelTrace p;
-    pixel_pipeline(p, tile, constants, quad_data(q, setup, config_, state_), dx, row, context_);
-    if (!p.drawn) return -1;
-    double worst = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      worst = std::max(worst, std::fabs(lambda(p.fragment, i) - static_cast<double>((*truth)[i])));
-    return std::ldexp(worst, config_.significand_bits);
-  }
-
-  /// The verdict: the fragment as the untimed model draws it, with either engine, against TruthQuad.
-  Error judge(const Candidate& at) {
-    const SnappedQuad q = snap_quad(at.quad, config_, state_);
-    const golden::TruthQuad truth(q, config_, state_);
-    Error e;
-    for (UntimedModel* model : {&plain_, &lanes_}) judge(*model, q, truth, at, e);
-    return e;
-  }
-
- private:
-  void judge(UntimedModel& model, const SnappedQuad& q, const golden::TruthQuad& truth, const Candidate& at,
-             Error& e) const {
-    model.draw(q, [&](std::span<const Fragment> fragments) {
-      for (const Fragment& f : fragments) {
-        if (f.x != at.x || f.y != at.y) continue;
-        const golden::ReferenceSample s = truth.sample(at.x, at.y);
-        if (!s.covered) continue;
-        e.condition = s.condition;
-        e.flags = f.flags;
-        for (std::size_t i = 0; i < 4; ++i)
-          e.units = std::max(e.units, std::ldexp(std::fabs(lambda(f, i) - s.lambda[i]), config_.significand_bits));
-      }
-    });
-  }
-
-  double lambda(const Fragment& f, std::size_t i) const {
-    return std::ldexp(static_cast<double>(f.attribute[i]), -config_.attribute_frac());
-  }
-
-  Config config_;
-  DrawState state_;
-  PipelineContext context_;
-  UntimedModel plain_, lanes_;
-};
 
 Candidate mutate(const Candidate& from, Prng& rng) {
   Candidate c = from;
@@ -198,8 +75,7 @@ Candidate mutate(const Candidate& from, Prng& rng) {
         v.w *= 1 + rng.uniform(-0.1, 0.1);
         break;
       case 6:
-        c.x = std::min(viewport - 1, std::max(0, c.x + static_cast<int>(rng.integer(-3, 3))));
-        c.y = std::min(viewport - 1, std::max(0, c.y + static_cast<int>(rng.integer(-3, 3))));
+        c.at = cli::near_pixel(c.at, viewport, viewport, rng);
         break;
       case 7: {  // the whole quad against the pixel
         const double dx = step(), dy = step();
@@ -208,7 +84,7 @@ Candidate mutate(const Candidate& from, Prng& rng) {
       }
       default:  // closer to the pixel or farther from it
         if (v.w > 0) {
-          const double f = rng.log2_spread(-2, 1), px = c.x + 0.5, py = c.y + 0.5;
+          const double f = rng.log2_spread(-2, 1), px = c.at.x + 0.5, py = c.at.y + 0.5;
           v.x = v.w * (px + (v.x / v.w - px) * f);
           v.y = v.w * (py + (v.y / v.w - py) * f);
         } else {
@@ -221,55 +97,29 @@ Candidate mutate(const Candidate& from, Prng& rng) {
 
 struct Summit {
   Candidate at;
-  Error error;
+  PixelError error;
   std::uint64_t evaluations = 0;
 };
 
 /// One climb from one quad of a family.
-Summit climb(Climber& climber, const WindowQuad& start, std::uint64_t steps, std::uint64_t seed) {
+Summit climb(PixelErrors& errors, const WindowQuad& start, std::uint64_t steps, std::uint64_t seed) {
   Prng rng(seed);
-  Candidate best{start, 0, 0};
-  double units = -1;
+  cli::Climb climb(Candidate{start, {}}, [&](const Candidate& c) { return errors.measure(c.quad, c.at.x, c.at.y); });
   Summit out;
   // The worst of some drawn pixels, found by throwing darts at the bounding box.
-  double lo[2] = {0, 0}, hi[2] = {viewport - 1.0, viewport - 1.0};
-  bool ordinary = true;
-  for (const WindowVertex& v : start.vertex) ordinary = ordinary && v.w > 0;
-  if (ordinary) {
-    for (int axis = 0; axis < 2; ++axis) {
-      double low = viewport, high = 0;
-      for (const WindowVertex& v : start.vertex) {
-        low = std::min(low, (axis == 0 ? v.x : v.y) / v.w);
-        high = std::max(high, (axis == 0 ? v.x : v.y) / v.w);
-      }
-      lo[axis] = std::max(0.0, std::floor(low) - 1);
-      hi[axis] = std::min(viewport - 1.0, std::ceil(high));
-    }
+  const cli::PixelBox box(start, viewport, viewport);
+  for (int dart = 0, hits = 0; dart < 400 && hits < 40; ++dart) hits += climb.start({start, box.pick(rng)}) >= 0;
+  if (climb.height() >= 0) {
+    for (std::uint64_t n = 0; n < steps; ++n) climb.step(mutate(climb.best(), rng));
+    out.at = climb.best();
+    out.error = errors.judge(out.at.quad, out.at.at.x, out.at.at.y);
   }
-  for (int dart = 0, hits = 0; dart < 400 && hits < 40; ++dart) {
-    Candidate c{start, static_cast<int>(rng.uniform(lo[0], hi[0] + 1)),
-                static_cast<int>(rng.uniform(lo[1], hi[1] + 1))};
-    c.x = std::min(viewport - 1, std::max(0, c.x));
-    c.y = std::min(viewport - 1, std::max(0, c.y));
-    const double u = climber.measure(c);
-    ++out.evaluations;
-    hits += u >= 0;
-    if (u > units) units = u, best = c;
-  }
-  if (units < 0) return out;
-  for (std::uint64_t n = 0; n < steps; ++n) {
-    const Candidate c = mutate(best, rng);
-    const double u = climber.measure(c);
-    ++out.evaluations;
-    if (u >= units) units = u, best = c;
-  }
-  out.at = best;
-  out.error = climber.judge(best);
+  out.evaluations = climb.evaluations();
   return out;
 }
 
 void print_witness(const Candidate& c) {
-  std::printf("# pixel (%d, %d)\n", c.x, c.y);
+  std::printf("# pixel (%d, %d)\n", c.at.x, c.at.y);
   for (const WindowVertex& v : c.quad.vertex) std::printf("%.17g %.17g %.17g %.17g  ", v.x, v.y, v.z, v.w);
   std::printf("1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n");
 }
@@ -353,9 +203,9 @@ class HillClimb {
       quads.push_back(golden::make_stress(info.family, starts_, seed * 1000 + bits, 1.0, viewport, viewport, 4));
     std::vector<Summit> summits(quads.size() * starts_);
     parallel_for(summits.size(), options_.threads(), [&](std::size_t i) {
-      Climber climber(config);
+      PixelErrors errors(config, draw_state(), cli::Output::weight);
       summits[i] =
-          climb(climber, quads[i / starts_][i % starts_], steps_, seed * 0x9e3779b97f4a7c15u + bits * 1000003 + i);
+          climb(errors, quads[i / starts_][i % starts_], steps_, seed * 0x9e3779b97f4a7c15u + bits * 1000003 + i);
     });
     return summits;
   }

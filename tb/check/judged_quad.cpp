@@ -29,11 +29,15 @@ std::int64_t FixedPoint::code_of(bool neg, std::uint64_t sig, int exponent) cons
   return neg ? -code : code;
 }
 
-bool FixedPoint::may_stand_for(std::int64_t code, double value, double tolerance) const {
+double FixedPoint::distance(std::int64_t code, double value) const {
   // Truncation toward zero: the number is the code's or up to a unit further from zero.
   const double at = static_cast<double>(code) * unit();
   const double low = at - (code <= 0 ? unit() : 0), high = at + (code >= 0 ? unit() : 0);
-  return value >= low - tolerance && value <= high + tolerance;
+  return std::max({low - value, value - high, 0.0});
+}
+
+bool FixedPoint::may_stand_for(std::int64_t code, double value, double tolerance) const {
+  return distance(code, value) <= tolerance;
 }
 
 FixedPoint attribute_format(const Config& config) { return {config.attribute_int_bits, config.attribute_frac()}; }

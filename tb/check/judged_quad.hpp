@@ -21,6 +21,8 @@ struct FixedPoint {
   std::int64_t largest_code() const;  ///< what it is clamped to
   /// sig * 2^exponent on the grid, exactly.
   std::int64_t code_of(bool neg, std::uint64_t sig, int exponent) const;
+  /// How far `value` is from the numbers that are truncated to `code`; 0 for one of them.
+  double distance(std::int64_t code, double value) const;
   /// Whether `code` can stand for a real number within `tolerance` of `value`, if that was not clamped.
   bool may_stand_for(std::int64_t code, double value, double tolerance) const;
 };

@@ -1,0 +1,61 @@
+// The error of one quad at one pixel: what searches for the largest error climb on, and their verdict.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/pixel_pipeline.hpp"
+#include "model/records.hpp"
+#include "model/untimed.hpp"
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace quadrille::golden {
+class TruthQuad;
+}
+
+namespace quadrille::cli {
+
+enum class Output { weight, attribute, depth };
+inline constexpr std::array<std::string_view, 3> output_names{"weight", "attribute", "depth"};
+
+/// What the bound allows, in units of 2^-s of a weight. Of attributes and depth a unit is an eighth of what the bound
+/// on the weights allows them at the pixel (judged_quad.hpp), and the error begins where the output's truncation ends:
+/// 8 is where the judge finds a fault, for attributes of any size.
+inline constexpr double bound_units = 8;
+
+struct PixelError {
+  double units = -1;  ///< −1: nothing is drawn there, or no bound is claimed
+  double condition = 0;
+  unsigned flags = 0;
+};
+
+/// Of one output. For the weights the quads' attributes are (1,0,0,0), (0,1,0,0) …; of attributes slot 0 is looked at.
+class PixelErrors {
+ public:
+  /// As many of the draw state's attributes are in use as the output needs.
+  PixelErrors(const Config& config, const DrawState& state, Output output);
+
+  /// The quick measure: the model's pure functions at one pixel against an 80-bit evaluation of the truth's formulas.
+  /// −1 where the pixel is not drawn or singular, or no bound is claimed.
+  double measure(const WindowQuad& quad, int x, int y) const;
+
+  /// The verdict: the fragment as the untimed model draws it, with either engine, against TruthQuad.
+  PixelError judge(const WindowQuad& quad, int x, int y);
+
+ private:
+  struct QuickTruth;
+  std::optional<QuickTruth> quick_truth(const SnappedQuad& quad, int x, int y) const;
+  double units_of(const Fragment& fragment, const QuickTruth& truth) const;
+  void judge(UntimedModel& model, const SnappedQuad& quad, const golden::TruthQuad& truth, int x, int y,
+             PixelError& error) const;
+  double weight(const Fragment& fragment, std::size_t i) const;
+
+  Config config_;
+  DrawState state_;
+  Output output_;
+  PipelineContext context_;
+  UntimedModel plain_, lanes_;
+};
+
+}  // namespace quadrille::cli
