@@ -1,5 +1,6 @@
 #include "golden/scenes/stress.hpp"
 
+#include "golden/scenes/recorded_numbers.hpp"
 #include "golden/scenes/simple_engine.hpp"
 #include "golden/scenes/window_point.hpp"
 #include "model/support/prng.hpp"
@@ -7,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace quadrille::golden {
 namespace {
@@ -16,6 +19,7 @@ namespace {
 using Point = WindowPoint;
 using Points = std::array<Point, 4>;
 using Weights = std::array<double, 4>;
+using Numbers = RecordedNumbers;
 using Vertices = std::array<WindowVertex, 4>;
 
 constexpr Weights ones{1, 1, 1, 1};
@@ -26,7 +30,7 @@ constexpr std::array<Point, 12> lattice_steps{
 
 /// What every generator works with. Draws come in program order, never two in one function call.
 struct Batch {
-  Prng rng;
+  Numbers rng;
   double knob;
   int width, height;
   std::size_t count;
@@ -36,7 +40,7 @@ struct Batch {
   double extent() const { return std::min(width, height); }
 };
 
-Point random_point(Prng& rng, double x0, double y0, double x1, double y1) {
+Point random_point(Numbers& rng, double x0, double y0, double x1, double y1) {
   const double x = rng.uniform(x0, x1);
   const double y = rng.uniform(y0, y1);
   return {x, y};
@@ -58,14 +62,14 @@ Points random_corners(Batch& b, Point centre, double size) {
 }
 
 /// An angle's direction without sine: a point of the square's outline, normalised.
-Point random_direction(Prng& rng) {
+Point random_direction(Numbers& rng) {
   const double s = rng.uniform(-1, 1);
   const Point p = rng.chance(0.5) ? Point{s, rng.sign()} : Point{rng.sign(), s};
   return 1 / std::sqrt(p.x * p.x + p.y * p.y) * p;
 }
 
 /// Powers of two, so that x·w is exact and x·w/w is x again.
-Weights exact_weights(Prng& rng) {
+Weights exact_weights(Numbers& rng) {
   Weights w = ones;
   if (rng.chance(0.5)) {
     for (double& v : w) v = std::ldexp(1.0, static_cast<int>(rng.integer(-2, 2)));
@@ -74,13 +78,13 @@ Weights exact_weights(Prng& rng) {
 }
 
 /// Which corner comes first and which way round it goes is never the generator's.
-void turn(Prng& rng, Vertices& v) {
+void turn(Numbers& rng, Vertices& v) {
   std::rotate(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(rng.below(4)), v.end());
   if (rng.chance(0.5)) std::reverse(v.begin(), v.end());
 }
 
 /// A vertex of a family in front of the eye, at a window depth of its own.
-WindowVertex ordinary(Prng& rng, Point p, double w) { return {p.x * w, p.y * w, rng.uniform(0.1, 0.9) * w, w}; }
+WindowVertex ordinary(Numbers& rng, Point p, double w) { return {p.x * w, p.y * w, rng.uniform(0.1, 0.9) * w, w}; }
 
 void emit(Batch& b, const Points& p, const Weights& w = ones) {
   Vertices v;
@@ -95,7 +99,7 @@ void emit(Batch& b, const Points& p, const Weights& w = ones) {
 }
 
 /// z̃ = a w − b: what a perspective camera makes of depth, linear in w.
-void set_camera_depth(Prng& rng, Vertices& v) {
+void set_camera_depth(Numbers& rng, Vertices& v) {
   const double a = rng.uniform(0.5, 0.95);
   const double near = rng.uniform(0x1p-10, 0x1p-7);
   for (WindowVertex& q : v) q.z = a * q.w - near;
@@ -105,9 +109,13 @@ void set_camera_depth(Prng& rng, Vertices& v) {
 template <typename Make, typename Accept>
 void emit_visible(Batch& b, int least, Make make, Accept accept) {
   Vertices v;
+  const std::size_t first = b.rng.position();
   for (int attempt = 0; attempt < 64; ++attempt) {
+    const std::size_t begin = b.rng.position();
     v = make();
-    if (visible_probes(v, b.width, b.height) >= least && accept(v)) break;
+    if (visible_probes(v, b.width, b.height) < least || !accept(v)) continue;
+    b.rng.forget(first, begin);
+    break;
   }
   set_camera_depth(b.rng, v);
   turn(b.rng, v);
@@ -166,12 +174,12 @@ WindowVertex anywhere(Batch& b, double w, double reach) {
 /// |w| within this many octaves of 1, whatever the knob.
 constexpr double most_octaves = 30;
 
-double magnitude(Prng& rng, double octaves) {
+double magnitude(Numbers& rng, double octaves) {
   const double limit = std::min(octaves, most_octaves);
   return rng.log2_spread(-limit, limit);
 }
 
-double any_sign(Prng& rng, double octaves) {
+double any_sign(Numbers& rng, double octaves) {
   const double s = rng.sign();
   return s * magnitude(rng, octaves);
 }
@@ -679,13 +687,21 @@ StressFamily parse_stress_family(std::string_view name) {
   throw std::invalid_argument("no stress family '" + std::string(name) + "'; families:" + all);
 }
 
-std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std::uint64_t seed, double knob, int width,
-                                    int height, int attributes) {
+namespace {
+
+void check_arguments(double knob, int width, int height) {
   if (!(knob >= 0x1p-6 && knob <= 0x1p6)) throw std::invalid_argument("stress: the knob lies between 1/64 and 64");
   if (width < 1 || height < 1 || width > 32768 || height > 32768) {
     throw std::invalid_argument("stress: size " + std::to_string(width) + "x" + std::to_string(height) +
                                 " (1x1 to 32768x32768)");
   }
+}
+
+}  // namespace
+
+std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std::uint64_t seed, double knob, int width,
+                                    int height, int attributes) {
+  check_arguments(knob, width, height);
   if (attributes < 0 || attributes > max_attribute_slots) {
     throw std::invalid_argument("stress: " + std::to_string(attributes) + " attributes (0 to " +
                                 std::to_string(max_attribute_slots) + ")");
@@ -693,7 +709,7 @@ std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std:
   const std::size_t index = static_cast<std::size_t>(family);
   const std::uint64_t own_seed =
       Prng(seed ^ ((index + 1) * 0xd1342543de82ef95u)).next();  // one sequence per family and seed
-  Batch batch{Prng(own_seed), knob, width, height, count};
+  Batch batch{Numbers(own_seed), knob, width, height, count};
   batch.quads.reserve(count);
   while (!batch.full()) generators[index].make(batch);
 
@@ -710,6 +726,16 @@ std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std:
     }
   }
   return quads;
+}
+
+WindowQuad draw_stress(StressFamily family, StressDrawing& drawing, int width, int height) {
+  check_arguments(drawing.knob, width, height);
+  Batch batch{Numbers(drawing.seed, std::move(drawing.words)), drawing.knob, width, height, SIZE_MAX};
+  generators[static_cast<std::size_t>(family)].make(batch);
+  drawing.words = batch.rng.take_words();
+  WindowQuad quad;
+  quad.vertex = batch.quads[drawing.member % batch.quads.size()];
+  return quad;
 }
 
 std::vector<WindowQuad> make_stress_without_weights(StressFamily family, std::size_t count, std::uint64_t seed,

@@ -61,7 +61,21 @@ StressFamily parse_stress_family(std::string_view name);
 std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std::uint64_t seed, double knob = 1.0,
                                     int width = 512, int height = 512, int attributes = 4);
 
-/// The same quads with `attributes` random attributes alone: without the weights, which a draw may measure by itself.
+/// What one quad of a family is drawn from: the random words that its generator takes, in order. With other words it is
+/// another quad of the same family.
+struct StressDrawing {
+  double knob = 1.0;
+  std::uint64_t seed = 1;              ///< of the words that are missing
+  std::vector<std::uint64_t> words{};  ///< afterwards those that were taken, which make the same quad again
+  std::size_t member = 0;              ///< which quad of a group (shared_edge, shared_vertex), modulo its size
+};
+
+/// That quad, without attributes, id 0; `drawing.words` are completed. Attempts of the families that look whether a
+/// quad is visible are left out of the words, but for the last. Throws as make_stress does.
+WindowQuad draw_stress(StressFamily family, StressDrawing& drawing, int width, int height);
+
+/// The quads of make_stress with `attributes` random attributes alone: without the weights, which a draw may measure by
+/// itself.
 std::vector<WindowQuad> make_stress_without_weights(StressFamily family, std::size_t count, std::uint64_t seed,
                                                     int width, int height, int attributes, double knob = 1.0);
 

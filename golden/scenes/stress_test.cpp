@@ -106,6 +106,59 @@ TEST(Stress, SameArgumentsSameBits) {
   }
 }
 
+/// The words of a drawing make the same quad again, alone or of a group, and are no more than it takes.
+TEST(Stress, ADrawingIsItsWords) {
+  for (const auto& info : stress_families()) {
+    std::set<std::uint64_t> hashes;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      StressDrawing drawing{0.5, seed, {}, seed % 5};
+      const WindowQuad quad = draw_stress(info.family, drawing, 96, 64);
+      ASSERT_FALSE(drawing.words.empty()) << info.name;
+      StressDrawing again = drawing;
+      again.seed = seed + 1000;  // is not asked for words
+      EXPECT_EQ(hash_quads({quad}), hash_quads({draw_stress(info.family, again, 96, 64)})) << info.name;
+      EXPECT_EQ(again.words, drawing.words) << info.name;
+      hashes.insert(hash_quads({quad}));
+      // Attempts that show nothing are left out: one takes about 24 numbers.
+      const bool many_attempts = info.family == StressFamily::any_w || info.family == StressFamily::w_zero;
+      EXPECT_LE(drawing.words.size(), many_attempts ? 30u : 2000u) << info.name;
+      again.words.pop_back();
+      const std::size_t taken = drawing.words.size();
+      draw_stress(info.family, again, 96, 64);
+      EXPECT_GE(again.words.size(), taken) << info.name;
+    }
+    EXPECT_GE(hashes.size(), 39u) << info.name;
+  }
+}
+
+/// Whatever the words are, the condition of the family holds.
+TEST(Stress, OtherWordsAreOfTheSameFamily) {
+  Prng rng(3);
+  const auto changed = [&](StressFamily family, const std::function<bool(const WindowQuad&)>& condition) {
+    std::size_t moved = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+      StressDrawing drawing{1, seed};
+      const std::uint64_t before = hash_quads({draw_stress(family, drawing, 512, 512)});
+      for (int n = 0; n < 3; ++n) drawing.words[rng.below(drawing.words.size())] = rng.next();
+      const WindowQuad quad = draw_stress(family, drawing, 512, 512);
+      EXPECT_TRUE(condition(quad)) << stress_family_name(family);
+      moved += hash_quads({quad}) != before;
+    }
+    EXPECT_GT(moved, 150u) << stress_family_name(family);
+  };
+  const auto all = [](bool (*condition)(const WindowQuad&, std::size_t)) {
+    return [condition](const WindowQuad& q) {
+      return condition(q, 0) && condition(q, 1) && condition(q, 2) && condition(q, 3);
+    };
+  };
+  changed(StressFamily::on_vertex, all([](const WindowQuad& q, std::size_t i) { return at_centre(at(q, i)); }));
+  changed(StressFamily::general, all([](const WindowQuad& q, std::size_t i) { return q.vertex[i].w == 1; }));
+  changed(StressFamily::w_zero, [](const WindowQuad& q) {
+    return std::ranges::any_of(q.vertex, [](const WindowVertex& v) { return v.w == 0; });
+  });
+  changed(StressFamily::sliver, [](const WindowQuad& q) { return thickness(q) <= 2; });
+}
+
 TEST(Stress, EverySettingStaysInsideTheInputRange) {
   const auto good = [](double v) { return v == 0 || (std::abs(v) >= 0x1p-80 && std::abs(v) <= 0x1p80); };
   for (const auto& info : stress_families()) {
