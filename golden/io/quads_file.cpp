@@ -140,27 +140,27 @@ std::vector<WindowQuad> parse_quads(std::string_view text, const std::string& na
   return QuadsParser(name).parse(text);
 }
 
+std::string quad_text(const WindowQuad& quad) {
+  std::string line;
+  const auto append = [&](double value) {
+    if (!line.empty()) line += ' ';
+    line += number_text(value);
+  };
+  for (const WindowVertex& p : quad.vertex) {
+    for (const double value : {p.x, p.y, p.z, p.w}) append(value);
+  }
+  for (const std::vector<double>& attributes : quad.attribute) {
+    for (const double value : attributes) append(value);
+  }
+  return line;
+}
+
 void save_quads(const std::string& path, std::span<const WindowQuad> quads) {
   check(path, quads);
   AtomicFile file(path, AtomicFile::Dash::standard_output);
   file.write("# x y z w of v0, v1, v2, v3; then " + std::to_string(quads.front().attribute[0].size()) +
              " attributes of v0, of v1, of v2, of v3\n");
-  std::string line;
-  for (const WindowQuad& quad : quads) {
-    line.clear();
-    const auto append = [&](double value) {
-      if (!line.empty()) line += ' ';
-      line += number_text(value);
-    };
-    for (const WindowVertex& p : quad.vertex) {
-      for (const double value : {p.x, p.y, p.z, p.w}) append(value);
-    }
-    for (const std::vector<double>& attributes : quad.attribute) {
-      for (const double value : attributes) append(value);
-    }
-    line += '\n';
-    file.write(line);
-  }
+  for (const WindowQuad& quad : quads) file.write(quad_text(quad) + '\n');
   file.commit();
 }
 

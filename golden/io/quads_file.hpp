@@ -22,6 +22,9 @@ std::vector<WindowQuad> load_quads(const std::string& path);
 /// The same for a text in memory; `name` stands for the file in messages.
 std::vector<WindowQuad> parse_quads(std::string_view text, const std::string& name);
 
+/// The line of a quad, without a line's end.
+std::string quad_text(const WindowQuad& quad);
+
 /// Writes the quads in order (ids are not stored) so that load_quads gives the same doubles back. "-" is standard
 /// output. Throws InputError for quads that load_quads would refuse, and when writing fails; an older file then stays
 /// as it was.

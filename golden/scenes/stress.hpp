@@ -43,6 +43,9 @@ struct StressFamilyInfo {
   std::string_view knob;      ///< what the knob scales
 };
 
+/// StressFamilyInfo::knob of families in which it changes nothing.
+inline constexpr std::string_view no_stress_knob = "nothing";
+
 /// All families in the order of the enumeration.
 std::span<const StressFamilyInfo> stress_families();
 std::string_view stress_family_name(StressFamily family);

@@ -8,6 +8,7 @@
 #include "tb/check/knob_errors.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/stress_report.hpp"
+#include "tb/commands/stress_search.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/shard.hpp"
@@ -30,12 +31,12 @@ struct StressOptions {
   std::string families, engines = "model,float,fp32", csv;
   std::uint64_t count = 12;
   ShardOptions shards;
+  StressSearchOptions search;
 };
 
 constexpr const char* stress_size = "64x64";
 constexpr int drawn_attributes = 2;
-constexpr std::string_view no_knob = "nothing";  ///< of families without one: as many quads in one step
-constexpr int knob_octaves = 6;                  ///< of a family's knob, to either side of 1
+constexpr int knob_octaves = 6;  ///< of a family's knob, to either side of 1
 
 /// A name of --families: a stress family or an approach.
 struct KnobSeries {
@@ -50,17 +51,6 @@ struct KnobStep {
   int knob = 0;  ///< family: log2 of the knob; approach: the knob
   int side = 1;  ///< approach: 0 is the special case
 };
-
-std::vector<std::string> names_in(const std::string& list) {
-  std::vector<std::string> names(1);
-  for (const char c : list) {
-    if (c == ',')
-      names.emplace_back();
-    else
-      names.back() += c;
-  }
-  return names;
-}
 
 /// Files, text, faults and the exit status.
 int write_report(const StressOptions& options, const nlohmann::ordered_json& report) {
@@ -105,7 +95,7 @@ class StressCommand {
 
   void choose_bodies() {
     const std::vector<std::string> all(knob_body_names.begin(), knob_body_names.end());
-    for (const std::string& name : names_in(options_.engines)) bodies_ |= 1u << choose("engine", name, all);
+    for (const std::string& name : names_in_list(options_.engines)) bodies_ |= 1u << choose("engine", name, all);
     bodies_ |= 1u << static_cast<unsigned>(KnobBody::model);
   }
 
@@ -114,7 +104,7 @@ class StressCommand {
   void choose_series() {
     std::vector<std::string> all = stress_names();
     for (const golden::Approach& approach : golden::approaches()) all.emplace_back(approach.name);
-    const std::vector<std::string> wanted = options_.families.empty() ? all : names_in(options_.families);
+    const std::vector<std::string> wanted = options_.families.empty() ? all : names_in_list(options_.families);
     const auto [width, height] = common_.viewport(config_);
     for (const std::string& name : wanted) choose("family", name, all);
     if (shard_.count > wanted.size())
@@ -154,7 +144,7 @@ class StressCommand {
   void add_steps(std::size_t index) {
     const KnobSeries& s = series_[index];
     if (s.family) {
-      const int reach = s.knob == no_knob ? 0 : knob_octaves;
+      const int reach = s.knob == golden::no_stress_knob ? 0 : knob_octaves;
       for (int knob = -reach; knob <= reach; ++knob) steps_.push_back({index, knob, 1});
       return;
     }
@@ -170,7 +160,7 @@ class StressCommand {
     const KnobSeries& s = series_[step.series];
     if (s.approach)
       return golden::make_approach(*s.approach, step.knob, step.side, options_.count, common_.seed, drawn_attributes);
-    const bool one_step = s.knob == no_knob;
+    const bool one_step = s.knob == golden::no_stress_knob;
     return golden::make_stress_without_weights(*s.family, options_.count * (one_step ? 2 * knob_octaves + 1 : 1),
                                                common_.seed, s.state.width, s.state.height, drawn_attributes,
                                                std::ldexp(1.0, step.knob));
@@ -251,20 +241,11 @@ class StressCommand {
     return (s.approach ? (step.side < 0 ? "side -1, knob " : "knob ") : "knob 2^") + std::to_string(step.knob);
   }
 
-  /// A command that draws the pixel.
   std::string reproduce(std::size_t step, const Place& at) const {
-    const KnobSeries& s = series_[steps_[step].series];
-    const WindowQuad quad = quads_of(steps_[step])[at.index];
-    std::string line = "echo '";
-    for (std::size_t i = 0; i < 4; ++i) {
-      const WindowVertex& v = quad.vertex[i];
-      char text[128];
-      std::snprintf(text, sizeof text, "%s%.17g %.17g %.17g %.17g", i ? "  " : "", v.x, v.y, v.z, v.w);
-      line += text;
-    }
-    return line + "' | quadrille fragments --quads /dev/stdin --size " + std::to_string(s.state.width) + "x" +
-           std::to_string(s.state.height) + spelled(config_) + " --pixel " + std::to_string(at.x) + "," +
-           std::to_string(at.y) + " --out -";
+    const DrawState& state = series_[steps_[step].series].state;
+    WindowQuad quad = quads_of(steps_[step])[at.index];
+    quad.attribute = {};
+    return reproduce_pixel(quad, config_, state.width, state.height, at.x, at.y);
   }
 
   nlohmann::ordered_json report() const {
@@ -349,12 +330,20 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
       "Undefined are pixels where a body divides by zero, missing those that it does not draw; both together are\n"
       "\"lost\" in the table. Jump: how far an error of the model changes from any step to the special case, at\n"
       "the same pixel. scripts/stress_plot.py draws the JSON.\n\n"
+      "--search looks for the worst weight, attribute and depth of the model in each stress family instead:\n"
+      "an eighth of --evaluations pixels of quads as the family draws them, the rest climbs from the worst of\n"
+      "those, by the knob, by the random numbers that the family's code draws the quad from, so that its shape\n"
+      "remains, by the attribute and by the pixel. Errors are in units of which the bound allows 8: 2^-s of a\n"
+      "weight. --keep writes what it found as a .quads file with the errors in comments; --kept reads such a\n"
+      "file and compares, --kept F --keep F records the errors of its quads anew.\n\n"
       "Exit status 1: the model is beyond its bound or draws other pixels, its error jumps by more than the\n"
-      "bound, or the RTL differs from it.\n\n"
+      "bound, the RTL differs from it, or an error is not the one kept.\n\n"
       "Examples:\n"
       "  quadrille stress\n"
       "  quadrille stress --families edge_distance,eye_plane --set significand_bits=24 --csv stress.csv\n"
       "  quadrille stress --families reflex --count 8 --engines rtl,shader --json stress.json\n"
+      "  quadrille stress --search --evaluations 100000 --set significand_bits=12 --keep worst.quads\n"
+      "  quadrille stress --kept worst.quads\n"
       "  quadrille stress --shard 0/2 --json part0.json\n"
       "  quadrille stress --merge part0.json part1.json --json stress.json --csv stress.csv");
   const auto options = std::make_shared<StressOptions>();
@@ -373,9 +362,13 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   options->shards.add_to(*command, "the families, in turn", "the --json of each");
   command->add_option("--csv", options->csv, "A row for each step and body; - is standard output")->type_name("F.csv");
+  options->search.add_to(*command);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] {
       if (!options->shards.merge.empty()) return merge_reports(*options);
+      if (options->search.search) return search_stress(options->common, options->families, options->search);
+      if (!options->search.kept.empty()) return check_kept_stress(options->common, options->search);
+      if (!options->search.keep.empty()) throw UsageError("--keep: --search or --kept is expected with it");
       return StressCommand(*options, invocation.arguments).run();
     };
   });

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <set>
+#include <sstream>
 #include <string>
 
 namespace quadrille::cli_test {
@@ -134,6 +135,91 @@ TEST_F(Cli, StressSummary) {
        {"on_vertex", "vertex_distance", "jump", "fp32 is beyond the bound", "worst weight of the model", "echo '"})
     EXPECT_NE(outcome.out.find(piece), std::string::npos) << piece << " in: " << outcome.out;
   EXPECT_EQ(outcome.out.find("float"), outcome.out.npos);
+}
+
+TEST_F(Cli, StressSearchRefuses) {
+  refuses(2, "stress --search --families slivers", {"unknown family", "did you mean \"sliver\""});
+  refuses(2, "stress --search --families edge_distance", {"edge_distance is an approach"});
+  refuses(2, "stress --search --evaluations 0", {"--evaluations"});
+  refuses(2, "stress --search --evaluations -5", {"--evaluations"});
+  refuses(2, "stress --evaluations 5", {"--search"});
+  refuses(2, "stress --keep found.quads", {"--keep", "--search"});
+  refuses(2, "stress --search --csv t.csv", {"--csv"});
+  refuses(2, "stress --search --shard 0/2", {"--shard"});
+  refuses(2, "stress --search --families bowtie --keep nowhere/w.quads", {"nowhere"});
+  refuses(2, "stress --search --families bowtie --keep w --json w", {"w"});
+  refuses(2, "stress --search --set quadratic_frac_bits=10", {"quadratic_frac_bits"});
+  refuses(2, "stress --search --kept w.quads", {"--kept"});
+  refuses(2, "stress --kept w.quads --set significand_bits=12", {"--kept", "--set"});
+  refuses(2, "stress --kept nowhere.quads", {"nowhere.quads"});
+  write("plain.quads", "4 4 0.5 1 40 6 0.5 1 50 44 0.5 1 6 50 0.5 1\n");
+  refuses(2, "stress --kept plain.quads", {"plain.quads:1", "record"});
+  // One pixel of each output: nothing is drawn there, which is no success.
+  const Outcome nothing = run("stress --search --families tiny --evaluations 1 --keep none.quads");
+  EXPECT_EQ(nothing.status, 1);
+  EXPECT_NE(nothing.err.find("nothing was drawn, so nothing was shown; give more --evaluations than 1"),
+            std::string::npos)
+      << nothing.err;
+  EXPECT_FALSE(fs::exists(file("none.quads")));
+}
+
+TEST_F(Cli, StressSearchKeepsWhatItFinds) {
+  const std::string arguments =
+      "stress --search --families reflex,w_zero --evaluations 1500 --set significand_bits=12 ";
+  const Outcome outcome = run(arguments + "--threads 1 --keep one.quads --json one.json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Outcome again = run(arguments + "--threads 3 --keep three.quads --json three.json");
+  EXPECT_EQ(again.out, outcome.out);
+  EXPECT_EQ(read(file("three.quads")), read(file("one.quads")));
+  EXPECT_EQ(read(file("three.json")), read(file("one.json")));
+  ASSERT_EQ(run(arguments + "--seed 2 --keep other.quads").status, 0);
+  EXPECT_NE(read(file("other.quads")), read(file("one.quads")));
+
+  const json report = json::parse(read(file("one.json")));
+  EXPECT_TRUE(report["ok"]);
+  ASSERT_EQ(report["worst"].size(), 6u);
+  EXPECT_EQ(report["worst"][0]["family"], "reflex");
+  EXPECT_EQ(report["worst"][5]["output"], "depth");
+  // The reproducer's pixel: the weights of the model are as far from the truth's as the report says.
+  std::string line = report["worst"][0]["reproduce"];
+  EXPECT_NE(outcome.out.find(line), std::string::npos);
+  write("worst.quads", line.substr(6, line.find('\'', 6) - 6) + "\n");
+  line = line.substr(line.find("fragments"));
+  line.replace(line.find("/dev/stdin"), 10, "worst.quads");
+  const auto weights = [&](const std::string& engine) {
+    const Outcome drawn = run(line + " --engine " + engine);
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    std::istringstream cells(drawn.out.substr(drawn.out.find('\n') + 1));
+    std::vector<double> out;
+    std::string cell;
+    for (int column = 0; column < 9 && std::getline(cells, cell, ','); ++column)
+      if (column >= 5) out.push_back(std::strtod(cell.c_str(), nullptr));
+    return out;
+  };
+  const std::vector<double> model = weights("model"), truth = weights("truth");
+  ASSERT_EQ(model.size(), 4u);
+  double largest = 0;
+  for (std::size_t i = 0; i < 4; ++i) largest = std::max(largest, std::fabs(model[i] - truth[i]));
+  EXPECT_DOUBLE_EQ(std::ldexp(largest, 12), report["worst"][0]["units"].get<double>());
+
+  // What is kept passes, and with another error in the record does not, until it is recorded anew.
+  const Outcome kept = run("stress --kept one.quads");
+  EXPECT_EQ(kept.status, 0) << kept.err;
+  EXPECT_NE(kept.out.find("worst: "), std::string::npos);
+  const std::string good = read(file("one.quads"));
+  std::string bad = good;
+  const std::size_t at = bad.find("# reflex depth ");
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t digit = bad.find(' ', at + 15) - 1;
+  bad[digit] = bad[digit] == '5' ? '6' : '5';
+  write("bad.quads", bad);
+  const Outcome fault = run("stress --kept bad.quads --json bad.json");
+  EXPECT_EQ(fault.status, 1);
+  EXPECT_NE(fault.err.find("reflex depth"), std::string::npos) << fault.err;
+  EXPECT_NE(fault.err.find("the error is now"), std::string::npos) << fault.err;
+  EXPECT_FALSE(json::parse(read(file("bad.json")))["ok"].get<bool>());
+  EXPECT_EQ(run("stress --kept bad.quads --keep bad.quads").status, 0);
+  EXPECT_EQ(read(file("bad.quads")), good);
 }
 
 }  // namespace

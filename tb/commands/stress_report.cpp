@@ -2,6 +2,7 @@
 
 #include "golden/io/error.hpp"
 #include "golden/io/json_report.hpp"
+#include "golden/io/quads_file.hpp"
 #include "golden/io/text_input.hpp"
 #include "model/config.hpp"
 #include "tb/check/knob_errors.hpp"
@@ -75,6 +76,23 @@ std::string place(const Json& family, const Json& worst) {
 }
 
 }  // namespace
+
+std::vector<std::string> names_in_list(const std::string& list) {
+  std::vector<std::string> names(1);
+  for (const char c : list) {
+    if (c == ',')
+      names.emplace_back();
+    else
+      names.back() += c;
+  }
+  return names;
+}
+
+std::string reproduce_pixel(const WindowQuad& quad, const Config& config, int width, int height, int x, int y) {
+  return "echo '" + golden::quad_text(quad) + "' | quadrille fragments --quads /dev/stdin --size " +
+         std::to_string(width) + "x" + std::to_string(height) + spelled(config) + " --pixel " + std::to_string(x) +
+         "," + std::to_string(y) + " --out -";
+}
 
 Json merge_stress(const std::vector<std::string>& files) {
   std::map<std::size_t, Json> parts;

@@ -1,6 +1,9 @@
 // The report of `quadrille stress`: shards of it put together, and what is made of it, a table and text.
 #pragma once
 
+#include "model/config.hpp"
+#include "model/records.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -8,6 +11,12 @@
 #include <vector>
 
 namespace quadrille::cli {
+
+/// "a,b" as {"a", "b"}.
+std::vector<std::string> names_in_list(const std::string& list);
+
+/// A command that draws the pixel, for a shell.
+std::string reproduce_pixel(const WindowQuad& quad, const Config& config, int width, int height, int x, int y);
 
 /// Reads the reports of all shards of one command, in any order, and puts them together: the bytes are those of one run
 /// without --shard. Throws golden::InputError with the file for one that is no report of a shard, is of another
