@@ -628,7 +628,7 @@ def draw(count, seed, only_file="", only_class=""):
         return {f: changes for f, changes in kept.items() if changes}
 
     mutants, used = [], collections.Counter()
-    shared = {f: c for f, c in fits(model).items() if f.split("/")[1] not in CLOCKS and not re.match("float_|pixel_lanes|untimed", f.split("/")[1])}
+    shared = {f: c for f, c in fits(model).items() if f.split("/")[1] not in CLOCKS and not re.match("float_|pixel_lanes|pixels_ahead|untimed", f.split("/")[1])}
     for change in spread(fits(rtl), count // 2, seed, texts):
         mutants.append(entry("rtl", [change], texts, used))
     for change in spread(fits(model), count // 4, seed, texts):
