@@ -45,25 +45,26 @@ export QUADRILLE_COVERAGE_TOGGLE=1
 draw=("$folder/quadrille" cosim --quiet --no-alone --no-snapping-error --threads 1
   --set hierarchical_z_bits=12 --set plane_tolerance_bits=8 --set performance_counters=1)
 "${draw[@]}" --scene bowtie --size 32x32 || status=1  # builds it
-seed=0
+seed=100  # draw states in which every family has a fragment
 {
   # Many quads more than many pixels, and places far from the origin.
   for scene in bowtie sphere layers_large; do echo "--scene $scene --size 96x96 --skip all"; done
   for family in $("$folder/quadrille" scenes --stress | cut -d' ' -f1); do
-    echo "--stress $family --count 80 --size 40x40 --stall 0.3 --gap 0.2"
-    echo "--stress $family --count 20 --size 1600x24 --limit-fragments 20000 --draw-state random:$((++seed))"
-    echo "--stress $family --count 20 --size 24x1600 --limit-fragments 20000 --draw-state random:$((++seed))"
+    echo "--stress $family --count 100 --size 256x256 --limit-fragments 2000 --stall 0.3 --gap 0.2"
+    echo "--stress $family --count 60 --size 32x32 --stall 0.3 --gap 0.2"
+    echo "--stress $family --count 80 --size 1600x16 --limit-fragments 1500 --draw-state random:$((++seed))"
+    echo "--stress $family --count 80 --size 16x1600 --limit-fragments 1500 --draw-state random:$((++seed))"
   done
-  echo "--corner face_plane --size 256x256"
-  echo "--corner flat --no-depth --size 256x256"
-  echo "--corner z_limits --znear 0.25 --zfar 0.75 --size 256x256"
-  echo "--corner minus_zero --size 256x256"
-  echo "--corner two_corner --size 256x256"
-  echo "--corner two_edge --no-perspective --size 256x256"
-  echo "--corner tall --size 192x704 --limit-fragments 20000"
-  echo "--corner burst --stall 0.95 --size 256x256"
-  echo "--corner extreme --limit-fragments 20000 --size 256x256"
-  echo "--corner far_corner --size 4096x4096 --limit-fragments 20000"
+  echo "--corner face_plane --size 64x64"
+  echo "--corner flat --no-depth --size 64x64"
+  echo "--corner z_limits --znear 0.25 --zfar 0.75 --size 64x64"
+  echo "--corner minus_zero --size 64x64"
+  echo "--corner two_corner --size 64x64"
+  echo "--corner two_edge --no-perspective --size 64x64"
+  echo "--corner tall --size 192x704 --limit-fragments 4000"
+  echo "--corner burst --stall 0.95 --size 64x64"
+  echo "--corner extreme --limit-fragments 8000 --size 64x64"
+  echo "--corner far_corner --size 4096x4096 --limit-fragments 3000"
 } | xargs -P "$(nproc)" -L 1 "${draw[@]}" || status=1
 echo "Toggles: $SECONDS s"
 
