@@ -31,8 +31,9 @@ from report.units import Shards, Units, merge, shard, text  # noqa: E402
 
 KINDS = {"stress": 60, "scene": 25, "mesh": 10, "corner": 5}  # of 100 units
 SIZES = [(64, 64), (160, 160), (320, 240), (512, 512)]
-LIMIT = 200_000  # fragments of a unit
-SLOW_LIMIT = 20_000  # of one whose output waits nine clocks of ten
+LIMIT = 1_000_000  # fragments of a unit
+STALLED_PART, SLOW_PART = 5, 50  # of them where ports wait, and where they wait nine clocks of ten: so that a unit takes seconds
+SUMS = ("fragments", "passes", "cycles", "bits")  # report/lockstep.py, Totals
 
 
 def make_plan(args):
@@ -65,7 +66,7 @@ def unit_options(plan, folder, number):
     kind, name, options = source(rng, plan, folder)
     width, height = rng.choice(SIZES)
     stall, gap = (0, 0) if rng.random() < 0.5 else (rng.choice([0, 0.1, 0.5, 0.9]), rng.choice([0, 0.1, 0.5, 0.9]))
-    limit = min(plan["limit"], SLOW_LIMIT) if max(stall, gap) >= 0.9 else plan["limit"]
+    limit = max(1, plan["limit"] // (SLOW_PART if max(stall, gap) >= 0.9 else STALLED_PART if max(stall, gap) > 0 else 1))
     options += ["--size", f"{width}x{height}", "--seed", str(rng.randint(1, 10**9)), "--stall", str(stall), "--gap", str(gap), "--limit-fragments", str(limit)]
     if rng.random() < 0.5:
         options += ["--draw-state", f"random:{rng.randint(1, 10**9)}"]
@@ -92,7 +93,7 @@ class Soak:
             faults["model_alone"] = 1
         printed = [os.path.basename(part) if part.startswith(self.folder) else part for part in options]
         unit = {"kind": kind, "input": name, "options": printed, "fragment_hash": report["fragment_hash"], "worst": totals.worst, "faults": faults}
-        unit.update((key, totals.sum[key]) for key in ("fragments", "cycles", "bits"))
+        unit.update((key, totals.sum[key]) for key in SUMS)
         return unit
 
     def build_simulators(self):
@@ -112,24 +113,24 @@ class Soak:
         start, step = self.args.shard
         numbers = itertools.count(start, step) if self.args.units is None else range(start, self.args.units, step)
         until = None if self.args.hours is None else time.monotonic() + 3600 * self.args.hours
-        told = {"units": 0, "fragments": 0, "last": time.monotonic()}
+        told = {"units": 0, "passes": 0, "last": time.monotonic()}
 
         def tell(number, unit):
             told["units"] += 1
-            told["fragments"] += unit["fragments"]
+            told["passes"] += unit["passes"]
             if unit["faults"]:
                 print(f"FAILED: unit {number}: {unit['faults']}: quadrille cosim {shlex.join(unit['options'])}", file=sys.stderr, flush=True)
             if time.monotonic() > told["last"] + 60:
                 told["last"] = time.monotonic()
                 left = "" if until is None else f", {max(0.0, until - time.monotonic()) / 3600:.2f} h left"
-                print(f"{told['units']} units, {told['fragments']} fragments{left}", flush=True)
+                print(f"{told['units']} units, {told['passes']} fragments{left}", flush=True)
 
         units.run(self.unit, numbers, self.args.jobs, until, tell)
 
 
 def summary(seed, done):
     """Sums of all units done, without times: the same bytes for the same units."""
-    zero = {"units": 0, "fragments": 0, "cycles": 0, "bits": 0, "worst": 0.0}
+    zero = {"units": 0, **dict.fromkeys(SUMS, 0), "worst": 0.0}
     total, kinds, inputs = dict(zero), collections.defaultdict(lambda: dict(zero)), collections.defaultdict(lambda: dict(zero))
     faulty, worst = {}, {}
     for number, unit in done.items():
@@ -137,7 +138,7 @@ def summary(seed, done):
             worst = {"unit": number, "command": "quadrille cosim " + shlex.join(unit["options"])}
         for sums in (total, kinds[unit["kind"]], inputs[f"{unit['kind']} {unit['input']}"]):
             sums["units"] += 1
-            for key in ("fragments", "cycles", "bits"):
+            for key in SUMS:
                 sums[key] += unit[key]
             sums["worst"] = max(sums["worst"], unit["worst"])
         if unit["faults"]:
@@ -152,15 +153,16 @@ def report(units):
     if isinstance(units, Units):
         write_files(units.directory, {"totals.json": text(totals).encode()})
     total = totals["total"]
-    stress = totals["kinds"].get("stress", {"fragments": 0})["fragments"] / max(1, total["fragments"])
-    print(f"{total['units']} units of seed {totals['seed']}: {total['fragments']} fragments ({100 * stress:.1f} % of stress families), {total['cycles']} clocks, {total['bits']} bits compared")
+    stress = totals["kinds"].get("stress", {"passes": 0})["passes"] / max(1, total["passes"])
+    print(f"{total['units']} units of seed {totals['seed']}: {total['passes']} fragments in lockstep ({100 * stress:.1f} % of stress families), of {total['fragments']} pixels,"
+          f" each drawn in passes with other attributes; {total['cycles']} clocks, {total['bits']} bits compared")
     print(f"  worst weight {100 * total['worst']:.1f} % of the bound" + (f", unit {totals['worst']['unit']}: {totals['worst']['command']}" if totals["worst"] else ""))
     for name, sums in sorted(totals["inputs"].items()):
-        print(f"  {name:30} {sums['units']:6} units {sums['fragments']:12} fragments  worst {100 * sums['worst']:5.1f} %")
+        print(f"  {name:30} {sums['units']:6} units {sums['passes']:12} fragments  worst {100 * sums['worst']:5.1f} %")
     seconds = units.seconds()
     timed = [number for number in done if number in seconds]
-    if timed and total["fragments"]:
-        rate = sum(done[number]["fragments"] for number in timed) / max(1e-9, sum(seconds[number] for number in timed))
+    if timed and total["passes"]:
+        rate = sum(done[number]["passes"] for number in timed) / max(1e-9, sum(seconds[number] for number in timed))
         print(f"  {rate:.0f} fragments/s on a core: 10^9 fragments take {1e9 / rate / 3600:.1f} core hours, 10^12 {1e12 / rate / 3600 / 24:.0f} core days")
     for number, unit in totals["faulty"].items():
         print(f"FAILED: unit {number}: {unit['faults']}: {unit['command']}", file=sys.stderr)
@@ -178,7 +180,7 @@ def options():
     parser.add_argument("--shard", type=shard, default=(0, 1), metavar="I/N", help="units I, I + N, … alone, 0 <= I < N")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="units at a time (default: one a processor)")
     parser.add_argument("--machines", type=int, default=6, help="configurations at random, beside the default and one with every skip (default: 6)")
-    parser.add_argument("--limit", type=int, default=LIMIT, help=f"fragments of a unit, at most (default: {LIMIT})")
+    parser.add_argument("--limit", type=int, default=LIMIT, help=f"fragments of a unit, at most, a fifth of them where ports wait, a fiftieth where they do nine clocks of ten (default: {LIMIT})")
     parser.add_argument("--meshes", metavar="DIR", help="folder with OBJ files (default: ../shared/meshes when it is there)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="configuration, as for quadrille, after those at random")
     parser.add_argument("--status", nargs="+", metavar="DIR", help="only report on a run, or on its shards together")

@@ -32,7 +32,7 @@ if words[0] == "scenes":
 time.sleep(float(os.environ.get("STUB_SECONDS", "0")))
 digest = hashlib.sha256(" ".join(words).encode()).hexdigest()
 wrong = os.environ.get("STUB_FAULT", "") in words and "--quiet" in words and "--json" in words
-print(json.dumps({{"bound": {{"applies": True}}, "reference_mismatches": 0, "beyond_bound": 0, "fragments": int(digest[:3], 16), "cycles_all_passes": int(digest[:4], 16),
+print(json.dumps({{"bound": {{"applies": True}}, "reference_mismatches": 0, "beyond_bound": 0, "fragments": int(digest[:3], 16), "fragments_all_passes": 2 * int(digest[:3], 16), "cycles_all_passes": int(digest[:4], 16),
     "compared_bits": int(digest[:5], 16), "mismatches": 7 if wrong else 0, "cycle_mismatches": 0, "fragment_hash": digest[:16],
     "worst": {{"error_over_bound": int(digest[:2], 16) / 512}}, "model_alone": {{"ok": True}}, "complete": True, "draw_state": "--cull back --no-depth",
     "counts": dict.fromkeys(["eye_crossing", "near_edge", "near_vertex", "tiny", "at_depth_limit"], 20000), "counters": {{"tiles_hidden": 500}}}}))
@@ -78,11 +78,22 @@ class Runs(WithStub):
         self.soak("many", "--units", "40", "--jobs", "3")
         one = bytes_of(os.path.join(self.folder, "one"))
         self.assertEqual(len([name for name in one if name.startswith("units/")]), 40)
+        total = json.loads(one["totals.json"])["total"]
+        self.assertGreater(total["fragments"], 0)
+        self.assertEqual(total["passes"], 2 * total["fragments"])  # as the stub reports
         self.assertEqual(one, bytes_of(os.path.join(self.folder, "many")))
         with open(os.path.join(self.folder, "many", "times.jsonl"), encoding="utf-8") as file:
             self.assertEqual(sorted(json.loads(line)["unit"] for line in file if line.strip()), list(range(40)))  # none twice
         self.soak("other", "--units", "40", "--seed", "2")
         self.assertNotEqual(one["totals.json"], bytes_of(os.path.join(self.folder, "other"))["totals.json"])
+
+    def test_a_unit_that_waits_is_shorter(self):
+        self.soak("one", "--units", "60", "--limit", "1000")
+        for name, data in bytes_of(os.path.join(self.folder, "one")).items():
+            if name.startswith("units/"):
+                options = json.loads(data)["options"]
+                stall, gap, limit = (float(options[options.index(option) + 1]) for option in ("--stall", "--gap", "--limit-fragments"))
+                self.assertEqual(limit, 20 if max(stall, gap) == 0.9 else 200 if max(stall, gap) > 0 else 1000)
 
     def test_shards_put_together(self):
         self.soak("one", "--units", "31")

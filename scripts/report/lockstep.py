@@ -67,17 +67,17 @@ FAULTS = {"mismatches": "mismatches", "cycle_mismatches": "cycle mismatches", "r
 
 
 class Totals:
-    """What a number of runs compared and found."""
+    """What a number of runs compared and found. `passes`: fragments of all passes, each of which draws them with other attributes."""
 
     def __init__(self):
-        self.sum = dict.fromkeys(["runs", "fragments", "cycles", "bits", *FAULTS], 0)
+        self.sum = dict.fromkeys(["runs", "fragments", "passes", "cycles", "bits", *FAULTS], 0)
         self.worst = 0.0
 
     def add(self, report):
         exact = report["bound"]["applies"]  # with dropped bits of D and r^2 nothing is claimed about the truth
         reference = report["reference_mismatches"] if exact else 0
         beyond = sum(report[key] for key in report if key.startswith("beyond_")) if exact else 0
-        for key, value in (("runs", 1), ("fragments", report["fragments"]), ("cycles", report["cycles_all_passes"]),
+        for key, value in (("runs", 1), ("fragments", report["fragments"]), ("passes", report["fragments_all_passes"]), ("cycles", report["cycles_all_passes"]),
                            ("bits", report["compared_bits"]), ("mismatches", report["mismatches"]),
                            ("cycle_mismatches", report["cycle_mismatches"]), ("reference", reference), ("beyond", beyond)):
             self.sum[key] += value

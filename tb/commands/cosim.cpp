@@ -55,7 +55,7 @@ struct InputResult {
   std::uint64_t quads_drawn = 0, eye_crossing_quads = 0, homogeneous_quads = 0, antipodal_quads = 0, tiny_quads = 0;
   std::uint64_t passes = 0, fragments = 0, pixels = 0, mismatches = 0, cycles_rtl = 0, cycles_model = 0,
                 cycle_mismatches = 0, compared_bits = 0;
-  std::uint64_t pass_cycles = 0;     ///< of all passes
+  std::uint64_t pass_cycles = 0, pass_fragments = 0;  ///< of all passes
   std::uint64_t at_depth_limit = 0;  ///< fragments whose depth is exactly znear or zfar (where not 0 and 1)
   std::uint64_t left_out = 0, left_out_empty = 0, left_out_behind = 0, left_out_depth = 0, left_out_line = 0,
                 left_out_culled = 0, left_out_outside = 0;  ///< quads, by QuadReject
@@ -85,10 +85,13 @@ constexpr Metric draw_metrics[]{{"quads", &InputResult::quads},
                                 {"passes", &InputResult::passes},
                                 {"fragments", &InputResult::fragments},
                                 {"mismatches", &InputResult::mismatches}};
-constexpr Metric cycle_metrics[]{
-    {"cycles_all_passes", &InputResult::pass_cycles}, {"cycles_rtl", &InputResult::cycles_rtl},
-    {"cycles_model", &InputResult::cycles_model},     {"cycle_mismatches", &InputResult::cycle_mismatches},
-    {"compared_bits", &InputResult::compared_bits},   {"covered_pixels", &InputResult::pixels}};
+constexpr Metric cycle_metrics[]{{"cycles_all_passes", &InputResult::pass_cycles},
+                                 {"fragments_all_passes", &InputResult::pass_fragments},
+                                 {"cycles_rtl", &InputResult::cycles_rtl},
+                                 {"cycles_model", &InputResult::cycles_model},
+                                 {"cycle_mismatches", &InputResult::cycle_mismatches},
+                                 {"compared_bits", &InputResult::compared_bits},
+                                 {"covered_pixels", &InputResult::pixels}};
 constexpr Metric count_metrics[]{
     {"eye_crossing_quads", &InputResult::eye_crossing_quads}, {"homogeneous_quads", &InputResult::homogeneous_quads},
     {"antipodal_quads", &InputResult::antipodal_quads},       {"tiny_quads", &InputResult::tiny_quads},
@@ -446,6 +449,7 @@ class CosimRun {
     result.cycle_mismatches += report.cycle_mismatches;
     result.compared_bits += report.compared_bits;
     result.pass_cycles += report.cycles_rtl;
+    result.pass_fragments += report.fragments;
     result.loop_seconds += seconds;
     if (!result.first_divergence) result.first_divergence = report.first_divergence;
     CheckResult check = checker.result();
