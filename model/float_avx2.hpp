@@ -38,10 +38,6 @@ template <int places>
 I shift_right(I v) {
   return _mm256_srli_epi32(v, places);
 }
-template <int places>
-I shift_signed(I v) {
-  return _mm256_srai_epi32(v, places);
-}
 inline I shift_left(I v, int places) { return _mm256_sll_epi32(v, _mm_cvtsi32_si128(places)); }
 inline I shift_right(I v, int places) { return _mm256_srl_epi32(v, _mm_cvtsi32_si128(places)); }
 /// Half of a magnitude; 0 of 0.
@@ -110,23 +106,17 @@ inline Coefficients look_up(const FloatTable& table, F a) {
           _mm256_shuffle_ps(_mm256_unpackhi_ps(p0, p1), _mm256_unpackhi_ps(p2, p3), 0x44)};
 }
 
-/// Words by lanes, into the lanes' fragments.
-inline void store_words(std::uint8_t* to, const I (&word)[4]) {
-  const auto store = [to](I two, std::size_t lane) {
-    std::uint8_t* at = to + lane * sizeof(Fragment);
-    _mm_store_si128(reinterpret_cast<__m128i*>(at), _mm256_castsi256_si128(two));
-    _mm_store_si128(reinterpret_cast<__m128i*>(at + 4 * sizeof(Fragment)), _mm256_extracti128_si256(two, 1));
-  };
-  const I head01 = _mm256_unpacklo_epi32(word[0], word[1]), head23 = _mm256_unpackhi_epi32(word[0], word[1]);
-  const I tail01 = _mm256_unpacklo_epi32(word[2], word[3]), tail23 = _mm256_unpackhi_epi32(word[2], word[3]);
-  store(_mm256_unpacklo_epi64(head01, tail01), 0);
-  store(_mm256_unpackhi_epi64(head01, tail01), 1);
-  store(_mm256_unpacklo_epi64(head23, tail23), 2);
-  store(_mm256_unpackhi_epi64(head23, tail23), 3);
+/// Lanes one after the other.
+inline void store(std::uint32_t* to, I v) { _mm256_storeu_si256(reinterpret_cast<I*>(to), v); }
+/// Of numbers below 2^16.
+inline void store_lower_halves(std::uint16_t* to, I v) {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(to),
+                   _mm_packus_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1)));
 }
-inline void store_words(std::uint8_t* to, const I (&word)[8]) {
-  store_words(to, {word[0], word[1], word[2], word[3]});
-  store_words(to + 16, {word[4], word[5], word[6], word[7]});
+/// With their signs.
+inline void store_widened(std::int64_t* to, I v) {
+  _mm256_storeu_si256(reinterpret_cast<I*>(to), _mm256_cvtepi32_epi64(_mm256_castsi256_si128(v)));
+  _mm256_storeu_si256(reinterpret_cast<I*>(to + 4), _mm256_cvtepi32_epi64(_mm256_extracti128_si256(v, 1)));
 }
 
 /// Signs of value + dx gx + dy gy at the pixels of a tile of 8 by 8, bit 8 row + dx.

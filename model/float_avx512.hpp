@@ -37,10 +37,6 @@ template <int places>
 I shift_right(I v) {
   return _mm512_srli_epi32(v, places);
 }
-template <int places>
-I shift_signed(I v) {
-  return _mm512_srai_epi32(v, places);
-}
 inline I shift_left(I v, int places) { return _mm512_sll_epi32(v, _mm_cvtsi32_si128(places)); }
 inline I shift_right(I v, int places) { return _mm512_srl_epi32(v, _mm_cvtsi32_si128(places)); }
 /// Half of a magnitude; 0 of 0.
@@ -113,46 +109,16 @@ void look_up_columns(const FloatTable& table, const F (&a)[n], Coefficients (&ou
   column(2, &Coefficients::c2);
 }
 
-/// The four words of each lane, lanes n, n + 4, n + 8, n + 12 in vector n.
-struct Rows {
-  I row[4];
-
-  explicit Rows(const I* word) {
-    const I head01 = _mm512_unpacklo_epi32(word[0], word[1]), head23 = _mm512_unpackhi_epi32(word[0], word[1]);
-    const I tail01 = _mm512_unpacklo_epi32(word[2], word[3]), tail23 = _mm512_unpackhi_epi32(word[2], word[3]);
-    row[0] = _mm512_unpacklo_epi64(head01, tail01);
-    row[1] = _mm512_unpackhi_epi64(head01, tail01);
-    row[2] = _mm512_unpacklo_epi64(head23, tail23);
-    row[3] = _mm512_unpackhi_epi64(head23, tail23);
-  }
-};
-/// Words by lanes, into the lanes' fragments.
-inline void store_words(std::uint8_t* to, const I (&word)[4]) {
-  const Rows rows(word);
-  for (std::size_t n = 0; n < 4; ++n) {
-    const auto store = [&](std::size_t quarter, __m128i four) {
-      _mm_store_si128(reinterpret_cast<__m128i*>(to + (4 * quarter + n) * sizeof(Fragment)), four);
-    };
-    store(0, _mm512_castsi512_si128(rows.row[n]));
-    store(1, _mm512_extracti32x4_epi32(rows.row[n], 1));
-    store(2, _mm512_extracti32x4_epi32(rows.row[n], 2));
-    store(3, _mm512_extracti32x4_epi32(rows.row[n], 3));
-  }
+/// Lanes one after the other.
+inline void store(std::uint32_t* to, I v) { _mm512_storeu_si512(to, v); }
+/// Of numbers below 2^16.
+inline void store_lower_halves(std::uint16_t* to, I v) {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_cvtepi32_epi16(v));
 }
-inline void store_words(std::uint8_t* to, const I (&word)[8]) {
-  const Rows first(word), second(word + 4);
-  const I low = _mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0), high = _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4);
-  for (std::size_t n = 0; n < 4; ++n) {
-    const auto store = [&](std::size_t quarter, __m256i eight) {
-      _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + (4 * quarter + n) * sizeof(Fragment)), eight);
-    };
-    const I lower = _mm512_permutex2var_epi64(first.row[n], low, second.row[n]);
-    const I upper = _mm512_permutex2var_epi64(first.row[n], high, second.row[n]);
-    store(0, _mm512_castsi512_si256(lower));
-    store(1, _mm512_extracti64x4_epi64(lower, 1));
-    store(2, _mm512_castsi512_si256(upper));
-    store(3, _mm512_extracti64x4_epi64(upper, 1));
-  }
+/// With their signs.
+inline void store_widened(std::int64_t* to, I v) {
+  _mm512_storeu_si512(to, _mm512_cvtepi32_epi64(_mm512_castsi512_si256(v)));
+  _mm512_storeu_si512(to + 8, _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(v, 1)));
 }
 
 /// Signs of value + dx gx + dy gy at the pixels of a tile of 8 by 8, bit 8 row + dx.

@@ -115,7 +115,7 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
       splat(static_cast<std::int32_t>((std::int64_t{1} << (format.attribute_int_bits + format.attribute_frac)) - 1));
   const F depth_scale = splat(static_cast<float>(1 << format.depth_bits));
   const I depth_most = splat(static_cast<std::int32_t>((std::int64_t{2} << format.depth_bits) - 1));
-  const I corner_at = splat(quad.x0 | quad.y0 << 16), id = splat(static_cast<std::int32_t>(quad.id));
+  const I corner_at = splat(quad.x0 | quad.y0 << 16);
   const I nothing = splat(0);
 
   for (int begin = 0; begin < count; begin += width) {
@@ -289,32 +289,29 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
     out.any_plain |= plain != 0;
     out.all_drawn &= (discard & used) == 0;
     I marks = load(list.marks.data() + at);
-    const auto tally = [&](Mask of, std::uint64_t& counter) {
-      counter += static_cast<std::uint64_t>(__builtin_popcount(lanes(of) & counted));
-    };
-    tally(on_edge, out.on_edge);
-    tally(saturated, out.saturated);
-    marks = marks | flag<8>(on_edge) | flag<8 + 7>(saturated);
-    if (format.notch) {
-      tally(notch, out.notch);
-      marks = marks | flag<8 + 6>(notch);
+    if (!none(on_edge | saturated | notch)) {  // of most quads' pixels none is
+      const auto tally = [&](Mask of, std::uint64_t& counter) {
+        counter += static_cast<std::uint64_t>(__builtin_popcount(lanes(of) & counted));
+      };
+      tally(on_edge, out.on_edge);
+      tally(saturated, out.saturated);
+      marks = marks | flag<8>(on_edge) | flag<8 + 7>(saturated);
+      if (format.notch) {
+        tally(notch, out.notch);
+        marks = marks | flag<8 + 6>(notch);
+      }
     }
 
-    static_assert(offsetof(Fragment, quad) == 0 && offsetof(Fragment, x) == 4 && offsetof(Fragment, y) == 6 &&
-                  offsetof(Fragment, front) == 8 && offsetof(Fragment, flags) == 9 && offsetof(Fragment, depth) == 12 &&
-                  offsetof(Fragment, attribute) == 16 && sizeof(Fragment) == 16 + 8 * max_attribute_slots);
-    auto* bytes = reinterpret_cast<std::uint8_t*>(&out.fragment[at]);
-    const auto attributes = static_cast<std::size_t>(format.attributes);
-    const auto low = [&](std::size_t j) { return j < attributes ? attribute[j] : nothing; };
-    const auto high = [&](std::size_t j) { return shift_signed<31>(low(j)); };
-    if (attributes == 0)
-      store_words(bytes, {id, add(place, corner_at), marks, depth});
-    else
-      store_words(bytes, {id, add(place, corner_at), marks, depth, low(0), high(0), low(1), high(1)});
-    for (std::size_t j = 2; j < attributes; j += 2)
-      store_words(bytes + offsetof(Fragment, attribute) + 8 * j, {low(j), high(j), low(j + 1), high(j + 1)});
+    store(reinterpret_cast<std::uint32_t*>(out.fragments.place() + at), add(place, corner_at));
+    store_lower_halves(reinterpret_cast<std::uint16_t*>(out.fragments.marks() + at), marks);
+    store(out.fragments.depth() + at, depth);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j)
+      store_widened(out.fragments.attribute(j) + at, attribute[j]);
   }
 }
+
+static_assert(offsetof(FragmentPlace, x) == 0 && offsetof(FragmentPlace, y) == 2 && sizeof(FragmentPlace) == 4 &&
+              offsetof(FragmentMarks, front) == 0 && offsetof(FragmentMarks, flags) == 1 && sizeof(FragmentMarks) == 2);
 
 void draw(const FloatLanes::Format& format, const FloatQuad& quad, const PixelList& list, int count,
           FloatResults& out) {

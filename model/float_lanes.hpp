@@ -9,6 +9,7 @@
 #pragma once
 
 #include "model/covered_pixels.hpp"
+#include "model/fragment_arrays.hpp"
 #include "model/masked_depth.hpp"
 #include "model/pixel_lanes.hpp"
 #include "model/quad_reject.hpp"
@@ -98,8 +99,10 @@ struct PixelList {
 
 /// What came of a list of pixels, in its order.
 struct FloatResults {
-  /// What is beyond the attributes in use stays 0.
-  std::vector<Fragment> fragment{PixelList::capacity + PixelList::margin};
+  FloatResults() = default;
+  explicit FloatResults(int attributes) : fragments(PixelList::capacity + PixelList::margin, attributes) {}
+
+  FragmentBuffer fragments;
   std::array<std::uint8_t, PixelList::capacity / 8> drawn{}, plain{};  ///< bit by bit, eight to a byte
   bool all_drawn = true;
   bool any_plain = false;  ///< pixels for the plain pipeline: on corners or two edges, or out of the floats' range
@@ -162,7 +165,8 @@ class FloatLanes {
   void walk_small(const SmallQuad& quad, SmallWalk& out) const;
   TileCounts cover_small(const FloatQuad& bounds, const SmallQuad& quad, SmallWalk::Tile tile, PixelList& list) const;
 
-  /// The first `count` pixels of the list, which has at least one. Leaves the caller's rounding mode as it was.
+  /// The first `count` pixels of the list, which has at least one, to the same places of `out`, made for the draw
+  /// state's attributes. Leaves the caller's rounding mode as it was.
   void draw(const FloatQuad& quad, const PixelList& list, int count, FloatResults& out) const;
 
   struct Format {

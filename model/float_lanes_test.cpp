@@ -197,6 +197,79 @@ TEST(FloatLanes, PlainAndLanesAreOne) {
   }
 }
 
+/// Arrays hold what records hold, and batches of either engine the same in the same order; also behind a change of the
+/// draw state, to fewer attributes and without depth.
+TEST(FloatLanes, ArraysAndRecordsAreOne) {
+  Prng rng(409);
+  std::uint64_t fragments = 0;
+  for (int n = 0; n < 60; ++n) {
+    const Config c = fitting_config(rng);
+    std::array<DrawState, 3> states;
+    for (DrawState& s : states) s = random_state(rng, c);
+    std::vector<SnappedQuad> list;
+    for (int i = 0; i < 6; ++i) list.push_back(random_quad(rng, c, 3));
+    on_each_lane_target([&] {
+      UntimedModel by_records(c, states[0]), by_arrays(c, states[0]), plain(c, states[0], PixelEngine::plain);
+      for (const DrawState& s : states) {
+        for (UntimedModel* model : {&by_records, &by_arrays, &plain}) model->set_state(s);
+        for (const SnappedQuad& quad : list) {
+          const std::vector<Fragment> records = draw(by_records, quad);
+          for (UntimedModel* model : {&by_arrays, &plain}) {
+            std::size_t next = 0;
+            model->draw_arrays(quad, [&](const FragmentArrays& arrays) {
+              ASSERT_GT(arrays.size, 0u);
+              ASSERT_LE(next + arrays.size, records.size());
+              ASSERT_EQ(arrays.attributes, s.attributes);
+              for (std::size_t j = 0; j < max_attribute_slots; ++j)
+                ASSERT_EQ(arrays.attribute[j] != nullptr, j < static_cast<std::size_t>(s.attributes));
+              for (std::size_t i = 0; i < arrays.size; ++i, ++next) {
+                const Fragment& f = records[next];
+                ASSERT_EQ(arrays.quad, f.quad);
+                ASSERT_EQ(arrays.place[i].x, f.x);
+                ASSERT_EQ(arrays.place[i].y, f.y);
+                ASSERT_EQ(arrays.marks[i].front, f.front);
+                ASSERT_EQ(arrays.marks[i].flags, f.flags);
+                ASSERT_EQ(arrays.depth[i], f.depth);
+                for (std::size_t j = 0; j < max_attribute_slots; ++j)
+                  ASSERT_EQ(arrays.attribute[j] == nullptr ? 0 : arrays.attribute[j][i], f.attribute[j]);
+                ASSERT_EQ(arrays[i], f);
+              }
+            });
+            ASSERT_EQ(next, records.size());
+          }
+          fragments += records.size();
+        }
+      }
+    });
+    if (HasFatalFailure()) FAIL() << "round " << n;
+  }
+  EXPECT_GT(fragments, 50'000u);
+}
+
+/// Each pixel is computed in one kind of lanes: single precision alone where it fits, none of it where it does not.
+TEST(FloatLanes, PixelsByLane) {
+  Prng rng(410);
+  Config c;
+  for (const int bits : {18, 24}) {
+    c.significand_bits = bits;
+    c.validate();
+    UntimedModel model(c, square());
+    for (int i = 0; i < 40; ++i) draw(model, random_quad(rng, c, 3));
+    const LanePixels& lanes = model.lane_pixels();
+    EXPECT_EQ(lanes.single + lanes.wide + lanes.plain, model.stats().pixels);
+    EXPECT_GT(lanes.single + lanes.wide, 10 * lanes.plain);
+    if (bits == 18 && can_run_here()) {
+      EXPECT_GT(lanes.single, 1000u);
+    } else {
+      EXPECT_EQ(lanes.single, 0u);
+      EXPECT_GT(lanes.wide, 1000u);
+    }
+  }
+  UntimedModel plain(c, square(), PixelEngine::plain);
+  draw(plain, random_quad(rng, c, 0));
+  EXPECT_EQ(plain.lane_pixels().plain, plain.stats().pixels);
+}
+
 /// A parallelogram whose values are the same along a pair of its sides, at depths inside [0, 1).
 SnappedQuad plane_one(Prng& rng, const Config& c, SnappedQuad q) {
   const int depth = static_cast<int>(rng.integer(-8, -1));

@@ -12,11 +12,12 @@ std::uint8_t kind_of(const PixelTrace& p) {
                                    (p.hull ? pixel_hull : 0));
 }
 
-PixelsAhead::PixelsAhead(const PipelineContext& context) : context_(context), tables_(context), floats_(context) {}
+PixelsAhead::PixelsAhead(const PipelineContext& context)
+    : context_(context), tables_(context), floats_(context), results_(context.state.attributes) {}
 
 void PixelsAhead::set_state() {
   floats_ = FloatLanes(context_);
-  results_ = {};  // attributes that are not in use any more stay 0
+  results_ = FloatResults(context_.state.attributes);
 }
 
 void PixelsAhead::take(const SetupResult& setup, PixelQuad& quad) const {
@@ -46,6 +47,7 @@ void PixelsAhead::add(const TileEntry& tile, const StampEntry& stamp, const Pixe
 void PixelsAhead::compute(const PixelQuad& quad) {
   next_ = 0;
   kind_.clear();
+  quad_ = quad.data.id;
   if (quad.by_floats) {
     compute_floats(quad);
   } else {
@@ -96,7 +98,7 @@ void PixelsAhead::compute_row(const Row& row, const PixelQuad& quad) {
       if ((r.singular >> l & 1) != 0)
         plain(row, pixel, quad, place);
       else
-        results_.fragment[place] = lane_fragment(r, l, *row.tile, pixel, quad.data, context_);
+        results_.fragments.put(place, lane_fragment(r, l, *row.tile, pixel, quad.data, context_));
     }
   }
 }
@@ -107,7 +109,7 @@ void PixelsAhead::plain(const Row& row, const CoveredPixel& at, const PixelQuad&
   p.tie = at.tie;
   pixel_pipeline(p, *row.tile, quad.constants, quad.data, at.dx, at.row, context_);
   kind_[place] = kind_of(p);
-  results_.fragment[place] = p.fragment;
+  results_.fragments.put(place, p.fragment);
 }
 
 }  // namespace quadrille

@@ -59,7 +59,7 @@ class PixelsAhead {
 
   /// The next pixel, which is there.
   std::uint8_t kind() const { return kind_[next_]; }
-  const Fragment& fragment() const { return results_.fragment[next_]; }
+  Fragment fragment() const { return results_.fragments.view(quad_, kind_.size())[next_]; }
   void advance() { ++next_; }
 
  private:
@@ -78,7 +78,8 @@ class PixelsAhead {
   std::vector<Row> rows_;
   int pixels_ = 0;  ///< of the rows
   PixelList list_;
-  FloatResults results_;  ///< of all lanes: `fragment`
+  std::uint32_t quad_ = 0;  ///< id of the batch's
+  FloatResults results_;    ///< of all lanes: `fragments`
   std::vector<std::uint8_t> kind_;
   std::size_t next_ = 0;
 };

@@ -47,11 +47,14 @@ struct UntimedModel::Impl {
   HierarchicalZ memory;
   MaskedDepth masked;
   DrawStats stats;
-  std::vector<Fragment> batch;
+  LanePixels by_lane;
+  std::vector<Fragment> records;  ///< of a batch, for those who take records; attributes not in use are 0
 
-  // Covered pixels of the current tile, in order.
+  // Covered pixels of the current tile, in order, and their fragments.
   int pixels = 0;
-  std::array<CoveredPixel, 256> pixel{};
+  std::array<CoveredPixel, PixelList::widest> pixel{};
+  std::size_t drawn = 0;
+  FragmentBuffer batch;
 
   // Of a quad by FloatLanes.
   FloatQuad float_quad;
@@ -67,7 +70,9 @@ struct UntimedModel::Impl {
         plain(engine == PixelEngine::plain),
         walk(config, state),
         memory(config),
-        masked(config) {}
+        masked(config),
+        batch(PixelList::widest, state.attributes),
+        results(state.attributes) {}
 
   /// Every flag but tie, which coverage gives.
   void tally(unsigned flags) {
@@ -79,15 +84,16 @@ struct UntimedModel::Impl {
     stats.saturated += (flags & flag_saturated) != 0;
   }
 
-  void deliver(const Fragment& fragment, bool drawn) {
+  void deliver(const Fragment& fragment, bool draws) {
     ++stats.pixels;
-    stats.fragments += drawn;
+    stats.fragments += draws;
     tally(fragment.flags);
     stats.tie += (fragment.flags & flag_tie) != 0;
-    if (drawn) batch.push_back(fragment);
+    if (draws) batch.put(drawn++, fragment);
   }
 
   void draw_plain(const TileEntry& tile, const QuadData& data, int i) {
+    ++by_lane.plain;
     const CoveredPixel& at = pixel[static_cast<std::size_t>(i)];
     PixelTrace p;
     p.front = at.front;
@@ -112,24 +118,26 @@ struct UntimedModel::Impl {
         draw_plain(tile, data, i);
         continue;
       }
+      ++by_lane.wide;
       deliver(lane_fragment(r, l, tile, pixel[static_cast<std::size_t>(i)], data, context), r.drawn >> l & 1);
     }
   }
 
-  using Sink = std::function<void(std::span<const Fragment>)>;
+  using Sink = std::function<void(const FragmentArrays&)>;
 
   /// Draws the list's whole blocks, with `all` its rest too.
   void draw_floats(const SnappedQuad& quad, bool all, const Sink& sink) {
     const int count = all ? list.count : list.count / FloatLanes::block * FloatLanes::block;
     if (count == 0) return;
     floats.draw(float_quad, list, count, results);
+    by_lane.single += static_cast<std::uint64_t>(count);
     stats.on_edge += results.on_edge;
     stats.notch += results.notch;
     stats.saturated += results.saturated;
-    auto drawn = static_cast<std::size_t>(count);
-    if (results.any_plain || !results.all_drawn) drawn = settle_floats(quad, count);
-    stats.fragments += drawn;
-    if (drawn != 0) sink(std::span(results.fragment).first(drawn));
+    auto size = static_cast<std::size_t>(count);
+    if (results.any_plain || !results.all_drawn) size = settle_floats(quad, count);
+    stats.fragments += size;
+    if (size != 0) sink(results.fragments.view(quad.id, size));
     list.drop(count);
   }
 
@@ -143,7 +151,7 @@ struct UntimedModel::Impl {
       constants = QuadConstants(setup);
       data = quad_data(quad, setup, context.config, context.state);
     }
-    std::size_t drawn = 0;
+    std::size_t kept = 0;
     for (int i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       bool draws = results.drawn[at / 8] >> at % 8 & 1;
@@ -159,16 +167,18 @@ struct UntimedModel::Impl {
         entry.linear = linear.linear;
         entry.quadratic = tile_context(constants, column * tile, row * tile, context.config.qdrop());
         PixelTrace p;
-        p.front = results.fragment[at].front;
-        p.tie = (results.fragment[at].flags & flag_tie) != 0;
+        p.front = results.fragments.marks(at).front;
+        p.tie = (results.fragments.marks(at).flags & flag_tie) != 0;
         pixel_pipeline(p, entry, constants, data, x % tile, y % tile, context);
-        results.fragment[at] = p.fragment;
+        --by_lane.single;
+        ++by_lane.plain;
+        results.fragments.put(at, p.fragment);
         draws = p.drawn;
         tally(p.fragment.flags);
       }
-      if (draws) results.fragment[drawn++] = results.fragment[at];
+      if (draws) results.fragments.move(at, kept++);
     }
-    return drawn;
+    return kept;
   }
 
   /// The pixels of a tile are in the list.
@@ -225,6 +235,7 @@ struct UntimedModel::Impl {
   void draw_tile(const TileEntry& tile, const QuadData& data, const QuadLanes& values, const DepthInterval* depth) {
     ++stats.tiles_entered;
     pixels = 0;
+    drawn = 0;
     const int stamps =
         cover_tile(tile, depth, [&](const CoveredPixel& at) { pixel[static_cast<std::size_t>(pixels++)] = at; });
     stats.stamps_covered += static_cast<std::uint64_t>(stamps);
@@ -245,13 +256,16 @@ UntimedModel::UntimedModel(UntimedModel&&) noexcept = default;
 UntimedModel& UntimedModel::operator=(UntimedModel&&) noexcept = default;
 
 const DrawStats& UntimedModel::stats() const { return impl_->stats; }
+const LanePixels& UntimedModel::lane_pixels() const { return impl_->by_lane; }
 
 void UntimedModel::set_state(const DrawState& state) {
   const Config config = impl_->context.config;
   impl_->context = PipelineContext(config, state);
   impl_->tables = LaneTables(impl_->context);
   impl_->floats = FloatLanes(impl_->context);
-  impl_->results = {};
+  impl_->records.clear();
+  impl_->batch = FragmentBuffer(PixelList::widest, state.attributes);
+  impl_->results = FloatResults(state.attributes);
   impl_->walk = TileWalk(config, state);
 }
 
@@ -261,6 +275,15 @@ void UntimedModel::clear_hidden() {
 }
 
 void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::span<const Fragment>)>& sink) {
+  std::vector<Fragment>& records = impl_->records;
+  draw_arrays(quad, [&](const FragmentArrays& fragments) {
+    if (records.size() < fragments.size) records.resize(fragments.size);
+    fragments.copy_to(records.data());
+    sink(std::span(records).first(fragments.size));
+  });
+}
+
+void UntimedModel::draw_arrays(const SnappedQuad& quad, const std::function<void(const FragmentArrays&)>& sink) {
   Impl& m = *impl_;
   ++m.stats.quads;
   const bool hidden = skips_hidden(m.context.config, m.context.state);
@@ -293,8 +316,7 @@ void UntimedModel::draw(const SnappedQuad& quad, const std::function<void(std::s
           return;
         }
         m.draw_tile(m.walk.entry(), data, values, hidden ? &depth : nullptr);
-        if (!m.batch.empty()) sink(m.batch);
-        m.batch.clear();
+        if (m.drawn != 0) sink(m.batch.view(quad.id, m.drawn));
       },
       hidden ? &m.memory : nullptr, depth);
   if (by_floats) m.draw_floats(quad, true, sink);

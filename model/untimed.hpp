@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/config.hpp"
+#include "model/fragment_arrays.hpp"
 #include "model/records.hpp"
 
 #include <array>
@@ -28,6 +29,13 @@ struct DrawStats {
   DrawStats& operator+=(const DrawStats& other);
 };
 
+/// Pixels by what computed them: depends on the instruction set, as no DrawStats do.
+struct LanePixels {
+  std::uint64_t single = 0;  ///< lanes in single precision
+  std::uint64_t wide = 0;    ///< lanes in double precision
+  std::uint64_t plain = 0;   ///< one at a time: singular ones, or out of the range of the lanes that tried them
+};
+
 /// Two forms of the pixel pipeline with the same bits: plain integers, one pixel at a time (the oracle), or eight
 /// pixels at once, or sixteen, in single precision where that is enough (float_lanes.hpp), else in double
 /// (pixel_lanes.hpp).
@@ -40,9 +48,12 @@ class UntimedModel {
   UntimedModel(UntimedModel&&) noexcept;
   UntimedModel& operator=(UntimedModel&&) noexcept;
 
-  /// Draws one quad; `sink` gets its fragments in traversal order, in batches.
+  /// Draws one quad; `sink` gets its fragments in traversal order, in batches that live for the call only.
+  void draw_arrays(const SnappedQuad& quad, const std::function<void(const FragmentArrays&)>& sink);
+  /// The same, each fragment a record: takes longer by what writing records takes.
   void draw(const SnappedQuad& quad, const std::function<void(std::span<const Fragment>)>& sink);
   const DrawStats& stats() const;
+  const LanePixels& lane_pixels() const;
 
   /// From here on another draw state: what is hidden stays so.
   void set_state(const DrawState& state);

@@ -128,7 +128,7 @@ std::uint64_t limit_draw(MachineDraw& draw, const Config& config, std::uint64_t 
     const std::uint64_t fragments = model.stats().fragments;
     return fragments < limit && (count < limit || (some && fragments == 0));
   };
-  while (count < draw.quads.size() && go_on()) model.draw(draw.quads[count++], [](std::span<const Fragment>) {});
+  while (count < draw.quads.size() && go_on()) model.draw_arrays(draw.quads[count++], [](const FragmentArrays&) {});
   draw.quads.resize(count);
   return model.stats().fragments;
 }

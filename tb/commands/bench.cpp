@@ -161,19 +161,24 @@ class ErrorCommand {
     std::fprintf(text,
                  "%s\n%zu input%s, %s, snapped quads against exact arithmetic on the same; configuration %s\n\n"
                  "Largest error of a weight as a power of two (bound of the machine: %s), fragments where the paper's "
-                 "formulas\nare undefined, and fragments that they miss\n\n",
+                 "formulas\nare undefined, and fragments that they miss; of the model's pixels per cent in lanes of "
+                 "single and of double\nprecision and one at a time (%s)\n\n",
                  golden::command_line(arguments_).c_str(), inputs_.size(), inputs_.size() == 1 ? "" : "s",
-                 common_.size.c_str(), summary(config_).c_str(), power(weight_bound(config_)).c_str());
-    std::fprintf(text, "%-24s %9s %8s %9s %8s %8s %9s %8s %8s\n", "", "fragments", "fp32", "undefined", "missed",
-                 "fp64", "undefined", "missed", "machine");
+                 common_.size.c_str(), summary(config_).c_str(), power(weight_bound(config_)).c_str(),
+                 std::string(quadrille::name(lane_target())).c_str());
+    std::fprintf(text, "%-24s %9s %8s %9s %8s %8s %9s %8s %8s %6s %6s %6s\n", "", "fragments", "fp32", "undefined",
+                 "missed", "fp64", "undefined", "missed", "machine", "single", "double", "one");
     for (const Input& input : inputs_) {
       const BodyResult &fp32 = input.result(Body::fp32), &fp64 = input.result(Body::fp64),
                        &model = input.result(Body::model);
-      std::fprintf(text, "%-24s %9llu %8s %9llu %8llu %8s %9llu %8llu %8s%s\n",
+      const LanePixels& lanes = model.lanes;
+      const double pixels = std::max(1.0, static_cast<double>(lanes.single + lanes.wide + lanes.plain));
+      const auto share = [pixels](std::uint64_t of) { return 100 * static_cast<double>(of) / pixels; };
+      std::fprintf(text, "%-24s %9llu %8s %9llu %8llu %8s %9llu %8llu %8s %6.1f %6.1f %6.2f%s\n",
                    (std::string(input.kind) + " " + input.name).c_str(), count(model.fragments),
                    power(fp32.lambda).c_str(), count(fp32.undefined), count(fp32.missing), power(fp64.lambda).c_str(),
-                   count(fp64.undefined), count(fp64.missing), power(model.lambda).c_str(),
-                   input.bench->failures().empty() ? "" : "  FAILED");
+                   count(fp64.undefined), count(fp64.missing), power(model.lambda).c_str(), share(lanes.single),
+                   share(lanes.wide), share(lanes.plain), input.bench->failures().empty() ? "" : "  FAILED");
     }
   }
 
@@ -253,6 +258,8 @@ class ErrorCommand {
         entry["depth_max"] = or_null(r.depth, r.depth.max());
         entry["undefined"] = r.undefined;
         entry["missing"] = r.missing;
+        if (body == Body::model)
+          entry["pixels_by_lane"] = {{"single", r.lanes.single}, {"double", r.lanes.wide}, {"one", r.lanes.plain}};
         if (body == Body::model_clocked) entry["counters"] = counters_json(r.counters);
         json["error"].push_back(std::move(entry));
       }

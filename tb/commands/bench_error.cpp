@@ -268,6 +268,7 @@ void ErrorBench::time(int repeat) {
         sum.fragments += run.fragments;
         sum.seconds += run.seconds;
         results_[b].counters = run.counters;
+        results_[b].lanes = run.lanes;
       }
       seconds[b].push_back(sum.seconds / static_cast<double>(sum.fragments));
     }
@@ -296,14 +297,15 @@ ErrorBench::Run ErrorBench::run_machine(Body body) const {
   if (body == Body::model_clocked || body == Body::rtl) {
     const tb::AloneRun run = body == Body::rtl ? tb::run_rtl_alone(timed_, alone(settings_.config, state))
                                                : tb::run_clocked_model_alone(timed_, alone(settings_.config, state));
-    return {run.fragments, run.seconds, run.counters};
+    return {run.fragments, run.seconds, run.counters, {}};
   }
   UntimedModel model(settings_.config, state, pixel_engine(body));
   Run run;
   const tb::CpuStopwatch stopwatch;
   for (const SnappedQuad& quad : timed_)
-    model.draw(quad, [&](std::span<const Fragment> fragments) { run.fragments += fragments.size(); });
+    model.draw_arrays(quad, [&](const FragmentArrays& fragments) { run.fragments += fragments.size; });
   run.seconds = stopwatch.seconds();
+  run.lanes = model.lane_pixels();
   return run;
 }
 

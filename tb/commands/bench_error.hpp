@@ -5,6 +5,7 @@
 #include "model/config.hpp"
 #include "model/performance_counters.hpp"
 #include "model/records.hpp"
+#include "model/untimed.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/support/error_stats.hpp"
 
@@ -40,6 +41,7 @@ struct BodyResult {
   tb::ErrorStats lambda, attribute, depth;
   double seconds_per_fragment = 0;
   PerformanceCounters counters;  ///< of the clocked model, over the quads that are timed
+  LanePixels lanes;              ///< of the model in lanes, over the same
 };
 
 /// The fragments of one draw of a machine, in its order.
@@ -92,6 +94,7 @@ class ErrorBench {
     std::uint64_t fragments = 0;
     double seconds = 0;
     PerformanceCounters counters{};  ///< of the clocked model
+    LanePixels lanes{};              ///< of the untimed one
   };
 
   BodyResult& filled(Body body) { return results_[static_cast<std::size_t>(body)]; }

@@ -170,7 +170,7 @@ class PeerBench {
   static std::uint64_t draw_model(UntimedModel& model, std::span<const SnappedQuad> quads) {
     std::uint64_t fragments = 0;
     for (const SnappedQuad& quad : quads)
-      model.draw(quad, [&](std::span<const Fragment> some) { fragments += some.size(); });
+      model.draw_arrays(quad, [&](const FragmentArrays& some) { fragments += some.size; });
     return fragments;
   }
 

@@ -122,9 +122,9 @@ class SpeedBench {
       while (count < share) {
         model.clear_hidden();
         for (const SnappedQuad& quad : snapped_)
-          model.draw(quad, [&](std::span<const Fragment> fragments) {
-            count += fragments.size();
-            check += fragments.empty() ? 0 : fragments.back().depth;
+          model.draw_arrays(quad, [&](const FragmentArrays& fragments) {
+            count += fragments.size;
+            check += fragments.depth[fragments.size - 1];
           });
       }
       drawn[part] = count + (check == 1 ? 1 : 0);  // keeps the depths alive

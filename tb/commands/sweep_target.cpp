@@ -61,8 +61,8 @@ std::vector<Family> make_families(const TargetSearch& search) {
     const Config config;
     UntimedModel model(config, state);
     while (family.count < family.input.quads.size() && fragments < family_fragments)
-      model.draw(snap_quad(family.input.quads[family.count++], config, state),
-                 [&](std::span<const Fragment> drawn) { fragments += drawn.size(); });
+      model.draw_arrays(snap_quad(family.input.quads[family.count++], config, state),
+                        [&](const FragmentArrays& drawn) { fragments += drawn.size; });
     family.input.quads.resize(family.count);
     families.push_back(std::move(family));
   }

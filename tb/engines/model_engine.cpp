@@ -65,8 +65,9 @@ class ModelEngine final : public Engine {
     for (std::size_t p = 0; p < passes.size(); ++p) {
       const SnappedQuad snapped = snap_as(pass_quad(quad, passes[p]), index, settings_.config, state_of(passes[p]));
       std::size_t next = start;
-      models[p].draw(snapped, [&](std::span<const Fragment> fragments) {
-        for (const Fragment& fragment : fragments) {
+      models[p].draw_arrays(snapped, [&](const FragmentArrays& fragments) {
+        for (std::size_t n = 0; n < fragments.size; ++n) {
+          const Fragment fragment = fragments[n];
           if (p == 0) {
             EngineSample& sample = samples.emplace_back();
             sample.index = index;
