@@ -122,6 +122,12 @@ TEST_F(Cli, BenchPeersReports) {
     for (const char* runs : {"model_cpu_seconds", "shader_cpu_seconds", "readback_cpu_seconds"})
       EXPECT_EQ(picture[runs].size(), 3u);
     EXPECT_GT(picture["model_over_shader"], 0);
+    const json& stages = picture["stages"];
+    EXPECT_EQ(stages["other_quads"], report["lanes"] == "baseline" ? picture["quads"].get<int>() : 0);
+    EXPECT_EQ(stages["fragments"], report["lanes"] == "baseline" ? 0.0 : model);
+    double cpu = 0;
+    for (const char* stage : {"setup", "walk", "coverage", "pixels"}) cpu += stages[stage]["cpu_seconds"].get<double>();
+    EXPECT_EQ(cpu > 0, report["lanes"] != "baseline");
   }
   // A viewport of 128 x 128: sides 1 to 64; 500 quads of 64 pixels are 32 x 1000 fragments.
   ASSERT_EQ(report["sizes"].size(), 7u);

@@ -6,6 +6,7 @@
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/commands/bench_error.hpp"
+#include "tb/commands/bench_stages.hpp"
 #include "tb/commands/bench_timing.hpp"
 #include "tb/commands/peer_loads.hpp"
 #include "tb/lockstep/lockstep.hpp"
@@ -96,6 +97,7 @@ struct Picture {
   std::vector<WindowQuad> quads;
   std::uint64_t model_fragments = 0, shader_fragments = 0;
   std::vector<Seconds> model{}, shader{}, readback{};
+  StageTimes stages{};  ///< of the model
 
   double ratio() const { return median_cpu(model) / median_cpu(shader); }
 };
@@ -203,6 +205,7 @@ class PeerBench {
         picture.readback.push_back(measure([&] { shader.fetch(all_of(picture_state_)); }));
       }
       picture.shader_fragments = shader.count(0, snapped.size());
+      picture.stages = time_stages(snapped, config_, picture_state_, options_.repeat);
     }
   }
 
@@ -438,6 +441,7 @@ class PeerBench {
       std::fprintf(text, "%-20s %8zu %11llu %11llu %10.2f %10.2f %14.3f %11.2f\n", p.name, p.quads.size(),
                    count(p.model_fragments), count(p.shader_fragments), 1e3 * median_cpu(p.model),
                    1e3 * median_cpu(p.shader), p.ratio(), 1e3 * median_cpu(p.readback));
+    print_stages(text);
 
     const auto series = [&](const std::vector<Point>& points) {
       const bool resident = std::ranges::any_of(points, [](const Point& p) { return p.resident != 0; });
@@ -477,6 +481,21 @@ class PeerBench {
                    e.significand_bits == 0 ? "" : std::to_string(e.significand_bits).c_str(), e.result.lambda.max(),
                    e.result.lambda.rms(), count(e.result.undefined), count(e.result.missing), count(e.extra),
                    1e9 * e.result.seconds_per_fragment);
+  }
+
+  void print_stages(std::FILE* text) const {
+    std::fprintf(text, "\nThe model's stages, ns and cycles of the time stamp counter a fragment\n\n%-20s", "");
+    for (const std::string_view stage : stage_names) std::fprintf(text, " %16s", std::string(stage).c_str());
+    std::fputs("\n", text);
+    for (const Picture& p : pictures_) {
+      std::fprintf(text, "%-20s", p.name);
+      const double fragments = std::max(1.0, static_cast<double>(p.stages.fragments));
+      for (std::size_t i = 0; i < stage_names.size(); ++i)
+        std::fprintf(text, " %8.2f %7.1f", 1e9 * p.stages.seconds[i] / fragments, p.stages.cycles[i] / fragments);
+      if (p.stages.other_quads != 0)
+        std::fprintf(text, "  without %llu quads", static_cast<unsigned long long>(p.stages.other_quads));
+      std::fputs("\n", text);
+    }
   }
 
   static nlohmann::ordered_json json_of(const std::vector<Point>& points) {
@@ -523,6 +542,11 @@ class PeerBench {
       entry["model_wall_seconds"] = list(p.model, &Seconds::wall);
       entry["shader_wall_seconds"] = list(p.shader, &Seconds::wall);
       entry["readback_cpu_seconds"] = list(p.readback, &Seconds::cpu);
+      for (std::size_t i = 0; i < stage_names.size(); ++i)
+        entry["stages"][std::string(stage_names[i])] = {{"cpu_seconds", p.stages.seconds[i]},
+                                                        {"cycles", p.stages.cycles[i]}};
+      entry["stages"]["fragments"] = p.stages.fragments;
+      entry["stages"]["other_quads"] = p.stages.other_quads;
       json["pictures"].push_back(std::move(entry));
     }
     json["sizes"] = json_of(sizes_);
