@@ -111,12 +111,12 @@ inline void append_word(const TileWord& word, int x0, int y0, int tile_log2, Flo
   list.count += pixels;
 }
 
-/// Leaves what may be seen.
-void keep_seen(int tile, MaskedDepth& masked, TileMasks& masks) {
+/// Leaves what may be seen of a tile's words.
+inline void keep_seen(int tile, MaskedDepth& masked, TileWord* words) {
   const std::uint64_t row_mask = (std::uint64_t{1} << tile) - 1;
   for (int row = 0; row < tile; ++row) {
     const int at = row * tile;
-    TileWord& word = masks[static_cast<std::size_t>(at / 64)];
+    TileWord& word = words[at / 64];
     const std::uint32_t covered = static_cast<std::uint32_t>(word.mask >> at % 64 & row_mask);
     const std::uint64_t behind = std::uint64_t{covered ^ masked.row(row, covered)} << at % 64;
     word.mask &= ~behind;
@@ -133,15 +133,30 @@ FloatLanes::TileCounts cover(const FloatLanes::Format& format, const FloatQuad& 
   if (rows.from >= rows.to || columns.from >= columns.to) return counts;
   TileMasks masks;
   tile_masks(format, corner, quad, rows, columns, masks);
-  if (masked != nullptr) keep_seen(tile, *masked, masks);
+  if (masked != nullptr) keep_seen(tile, *masked, masks.data());
   for (int w = 0; w < std::max(1, tile * tile / 64); ++w)
     append_word(masks[static_cast<std::size_t>(w)], x0, y0 + w * (64 / tile), format.tile_log2, counts, list);
   return counts;
 }
 
+/// tile_walk's `covers`, by the signs at all pixels of a tile: a linear function is least and greatest at some of them.
+inline bool covers_tile(const SignWords<std::uint64_t> (&e)[5], Cull cull) {
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  const auto face = [&e](std::uint64_t SignWords<std::uint64_t>::*inner,
+                         std::uint64_t SignWords<std::uint64_t>::*outer) {
+    const auto everywhere = [&](std::size_t k) { return e[k].*inner == all; };
+    const bool first = everywhere(0) && everywhere(1) && (everywhere(2) || everywhere(3));
+    const bool second = everywhere(2) && everywhere(3) && (everywhere(0) || everywhere(1));
+    const bool on_first = e[4].*inner != 0, on_second = e[4].*outer != 0;
+    return (on_first || on_second) && (first || !on_first) && (second || !on_second);
+  };
+  return (cull != Cull::back && face(&SignWords<std::uint64_t>::positive, &SignWords<std::uint64_t>::negative)) ||
+         (cull != Cull::front && face(&SignWords<std::uint64_t>::negative, &SignWords<std::uint64_t>::positive));
+}
+
 /// The same of a small quad, tile (column, row) of its block.
 FloatLanes::TileCounts cover_small(const FloatLanes::Format& format, const FloatQuad& bounds, const SmallQuad& quad,
-                                   int column, int row, PixelList& list) {
+                                   int column, int row, MaskedDepth* masked, PixelList& list) {
   constexpr int tile = 1 << SmallQuad::tile_log2;
   FloatLanes::TileCounts counts;
   const int x0 = column * tile, y0 = row * tile;
@@ -156,6 +171,12 @@ FloatLanes::TileCounts cover_small(const FloatLanes::Format& format, const Float
   const PlaceWords<std::uint64_t> inside = inside_expression(signs, 0xf, format.cull);
   const std::uint64_t seen = seen_pixels(rows_in_tile(bounds, y0, tile), columns_in_tile(bounds, x0, tile), tile, 0);
   const std::uint64_t mask = (inside.back | inside.front) & seen;
-  append_word({mask, inside.front & seen, zeros & mask}, x0, y0, SmallQuad::tile_log2, counts, list);
+  TileWord word{mask, inside.front & seen, zeros & mask};
+  if (masked != nullptr) {
+    counts.covered = covers_tile(signs, format.cull);
+    if (masked->hidden()) return counts;
+    keep_seen(tile, *masked, &word);
+  }
+  append_word(word, x0, y0, SmallQuad::tile_log2, counts, list);
   return counts;
 }

@@ -242,9 +242,9 @@ void FloatLanes::walk_small(const SmallQuad& quad, SmallWalk& out) const {
 }
 
 FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad& bounds, const SmallQuad& quad, SmallWalk::Tile tile,
-                                               PixelList& list) const {
-  return lane_target() == LaneTarget::v4 ? v4::cover_small(format_, bounds, quad, tile.x, tile.y, list)
-                                         : v3::cover_small(format_, bounds, quad, tile.x, tile.y, list);
+                                               MaskedDepth* masked, PixelList& list) const {
+  return lane_target() == LaneTarget::v4 ? v4::cover_small(format_, bounds, quad, tile.x, tile.y, masked, list)
+                                         : v3::cover_small(format_, bounds, quad, tile.x, tile.y, masked, list);
 }
 
 void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, FloatResults& out) const {
@@ -260,7 +260,8 @@ void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, F
 #else
 std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad&, FloatQuad&, SmallQuad&) const { return {}; }
 void FloatLanes::walk_small(const SmallQuad&, SmallWalk&) const {}
-FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad&, const SmallQuad&, SmallWalk::Tile, PixelList&) const {
+FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad&, const SmallQuad&, SmallWalk::Tile, MaskedDepth*,
+                                               PixelList&) const {
   return {};
 }
 FloatLanes::TileCounts FloatLanes::cover(const FloatQuad&, const TileCorner&, const QuadConstants&, MaskedDepth*,

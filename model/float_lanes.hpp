@@ -134,6 +134,7 @@ struct SmallQuad {
 struct SmallWalk {
   struct Tile {
     std::uint8_t x, y;
+    friend bool operator==(Tile, Tile) = default;
   };
   int blocks_tested = 0, tiles_tested = 0, hits = 0;
   std::array<Tile, Config::block_tiles * Config::block_tiles> hit;
@@ -151,10 +152,11 @@ class FloatLanes {
   /// False: the quad is not ordinary, or a number of it does not fit; what `out` holds then is nobody's.
   bool take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const;
 
-  /// Appends the covered pixels of a tile to the list: with `masked`, which has begun the tile, those that may be seen.
   struct TileCounts {
     int stamps = 0, pixels = 0, ties = 0;
+    bool covered = false;  ///< of cover_small with `masked`: what tile_walk's `covers` says of the tile
   };
+  /// Appends the covered pixels of a tile to the list: with `masked`, which has begun the tile, those that may be seen.
   TileCounts cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad, MaskedDepth* masked,
                    PixelList& list) const;
 
@@ -163,7 +165,8 @@ class FloatLanes {
   bool small() const { return small_; }
   std::optional<QuadReject> take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const;
   void walk_small(const SmallQuad& quad, SmallWalk& out) const;
-  TileCounts cover_small(const FloatQuad& bounds, const SmallQuad& quad, SmallWalk::Tile tile, PixelList& list) const;
+  TileCounts cover_small(const FloatQuad& bounds, const SmallQuad& quad, SmallWalk::Tile tile, MaskedDepth* masked,
+                         PixelList& list) const;
 
   /// The first `count` pixels of the list, which has at least one, to the same places of `out`, made for the draw
   /// state's attributes. Leaves the caller's rounding mode as it was.

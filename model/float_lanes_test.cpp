@@ -246,6 +246,50 @@ TEST(FloatLanes, ArraysAndRecordsAreOne) {
   EXPECT_GT(fragments, 50'000u);
 }
 
+/// Small quads over whole blocks of tiles, and over parts of several, front to back and back again: blocks that become
+/// known are left out, by the quads' own setup and walk as by the others'.
+TEST(FloatLanes, HiddenBlocksOfSmallQuads) {
+  Prng rng(411);
+  Config c;
+  c.hierarchical_z_bits = 12;
+  c.hierarchical_z_tiles_log2 = 10;
+  DrawState s;
+  s.width = s.height = s.scissor_x1 = s.scissor_y1 = 192;
+  s.attributes = 1;
+  s.skip |= skip_hidden;
+  std::vector<SnappedQuad> list;
+  for (int n = 0; n < 300; ++n) {
+    const bool aligned = rng.chance(0.6);
+    const auto place = [&] { return aligned ? 64 * static_cast<int>(rng.below(3)) : static_cast<int>(rng.below(128)); };
+    const int x = place(), y = place(), edge = aligned ? 64 : static_cast<int>(rng.integer(1, 64));
+    const double z = rng.chance(0.8) ? 0.1 + 0.8 * n / 300 : rng.uniform();
+    // A square, or the triangles that it is cut into, which share the tiles along the cut.
+    const bool cut = rng.chance(0.5);
+    for (int half = 0; half < (cut ? 2 : 1); ++half) {
+      WindowQuad q;
+      q.id = static_cast<std::uint32_t>(list.size());
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t corner = !cut ? i : half == 0 ? std::min<std::size_t>(i, 2) : i < 2 ? 0 : i;
+        q.vertex[i] = {static_cast<double>(x + (corner == 1 || corner == 2 ? edge : 0)),
+                       static_cast<double>(y + (corner >= 2 ? edge : 0)), z, 1};
+        q.attribute[i] = {static_cast<double>(corner) / 4};
+      }
+      list.push_back(snap_quad(q, c, s));
+    }
+  }
+  UntimedModel plain(c, s, PixelEngine::plain);
+  std::vector<std::vector<Fragment>> expected;
+  for (const SnappedQuad& quad : list) expected.push_back(draw(plain, quad));
+  EXPECT_GT(plain.stats().blocks_hidden, 50u);
+  EXPECT_GT(plain.stats().tiles_hidden, 50u);
+  EXPECT_GT(plain.stats().tiles_masked, 50u);
+  on_each_lane_target([&] {
+    UntimedModel quick(c, s);
+    for (std::size_t i = 0; i < list.size(); ++i) ASSERT_EQ(expected[i], draw(quick, list[i])) << "quad " << i;
+    ASSERT_EQ(counts(plain.stats()), counts(quick.stats()));
+  });
+}
+
 /// Each pixel is computed in one kind of lanes: single precision alone where it fits, none of it where it does not.
 TEST(FloatLanes, PixelsByLane) {
   Prng rng(410);

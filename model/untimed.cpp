@@ -44,6 +44,7 @@ struct UntimedModel::Impl {
   FloatLanes floats;
   bool plain;
   TileWalk walk;
+  WholeTiles whole;
   HierarchicalZ memory;
   MaskedDepth masked;
   DrawStats stats;
@@ -69,6 +70,7 @@ struct UntimedModel::Impl {
         floats(context),
         plain(engine == PixelEngine::plain),
         walk(config, state),
+        whole(config, state),
         memory(config),
         masked(config),
         batch(PixelList::widest, state.attributes),
@@ -191,15 +193,54 @@ struct UntimedModel::Impl {
   }
 
   /// A quad that FloatLanes::take_small took.
-  void draw_small(const SnappedQuad& quad, const Sink& sink) {
+  void draw_small(const SnappedQuad& quad, bool hidden, const Sink& sink) {
     floats.walk_small(small_quad, small_walk);
     stats.blocks_tested += static_cast<std::uint64_t>(small_walk.blocks_tested);
-    stats.tiles_tested += static_cast<std::uint64_t>(small_walk.tiles_tested);
     list.count = 0;  // a sink that threw left some
-    for (int i = 0; i < small_walk.hits; ++i)
-      count_tile(quad, floats.cover_small(float_quad, small_quad, small_walk.hit[static_cast<std::size_t>(i)], list),
-                 sink);
+    if (hidden) {
+      if (small_walk.tiles_tested != 0) draw_small_seen(quad, sink);
+    } else {
+      stats.tiles_tested += static_cast<std::uint64_t>(small_walk.tiles_tested);
+      for (int i = 0; i < small_walk.hits; ++i)
+        count_tile(
+            quad,
+            floats.cover_small(float_quad, small_quad, small_walk.hit[static_cast<std::size_t>(i)], nullptr, list),
+            sink);
+    }
     draw_floats(quad, true, sink);
+  }
+
+  /// Its tiles in the walk's order, without what is hidden: each test of one teaches what is known of tiles.
+  void draw_small_seen(const SnappedQuad& quad, const Sink& sink) {
+    const DepthInterval depth = depth_interval(quad, context.config, context.state);
+    const int x0 = float_quad.x0 >> SmallQuad::tile_log2, y0 = float_quad.y0 >> SmallQuad::tile_log2;
+    if (memory.block_hidden(x0, y0, small_quad.tiles_x, small_quad.tiles_y, depth)) {
+      ++stats.blocks_hidden;
+      return;
+    }
+    stats.tiles_tested += static_cast<std::uint64_t>(small_walk.tiles_tested);
+    int hits = 0;
+    for (int row = 0; row < small_quad.tiles_y; ++row)
+      for (int n = 0; n < small_quad.tiles_x; ++n) {
+        const int column = row % 2 == 0 ? n : small_quad.tiles_x - 1 - n;
+        const SmallWalk::Tile tile{static_cast<std::uint8_t>(column), static_cast<std::uint8_t>(row)};
+        const bool hit = hits < small_walk.hits && small_walk.hit[static_cast<std::size_t>(hits)] == tile;
+        hits += hit;
+        bool covered = false;
+        if (hit && memory.hidden(x0 + column, y0 + row, depth)) {
+          ++stats.tiles_hidden;  // whether it is covered does not matter: it teaches nothing that is nearer
+        } else if (hit) {
+          masked.begin(x0 + column, y0 + row, depth);
+          const FloatLanes::TileCounts counts = floats.cover_small(float_quad, small_quad, tile, &masked, list);
+          covered = counts.covered && whole.hold(x0 + column, y0 + row);
+          if (masked.hidden())
+            ++stats.tiles_masked;
+          else
+            masked.end();
+          count_tile(quad, counts, sink);
+        }
+        memory.tested(x0 + column, y0 + row, covered, depth);
+      }
   }
 
   /// Calls add(CoveredPixel) for what of the tile is covered and may be seen; returns its stamps. `depth`: of the quad,
@@ -267,6 +308,7 @@ void UntimedModel::set_state(const DrawState& state) {
   impl_->batch = FragmentBuffer(PixelList::widest, state.attributes);
   impl_->results = FloatResults(state.attributes);
   impl_->walk = TileWalk(config, state);
+  impl_->whole = WholeTiles(config, state);
 }
 
 void UntimedModel::clear_hidden() {
@@ -287,10 +329,10 @@ void UntimedModel::draw_arrays(const SnappedQuad& quad, const std::function<void
   Impl& m = *impl_;
   ++m.stats.quads;
   const bool hidden = skips_hidden(m.context.config, m.context.state);
-  if (!m.plain && !hidden && m.floats.small() && m.floats.usable())
+  if (!m.plain && m.floats.small() && m.floats.usable())
     if (const auto taken = m.floats.take_small(quad, m.float_quad, m.small_quad)) {
       ++m.stats.rejected[static_cast<std::size_t>(*taken)];
-      if (*taken == QuadReject::none) m.draw_small(quad, sink);
+      if (*taken == QuadReject::none) m.draw_small(quad, hidden, sink);
       return;
     }
   QuadReject reject = reject_by_vertices(quad, m.context.config, m.context.state);

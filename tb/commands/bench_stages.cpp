@@ -58,7 +58,7 @@ class Stages {
     lanes_.walk_small(small_, small_walk_);
     for (int i = 0; stages > 2 && i < small_walk_.hits; ++i) {
       list_.count = 0;
-      lanes_.cover_small(quad_, small_, small_walk_.hit[static_cast<std::size_t>(i)], list_);
+      lanes_.cover_small(quad_, small_, small_walk_.hit[static_cast<std::size_t>(i)], nullptr, list_);
     }
   }
 
