@@ -194,24 +194,28 @@ TEST(ScissorWalk, AScissorFarFromTheFirstTileCostsItsOwnTiles) {
     machine.clock(in);
   }
   in.vertex_valid = false;
-  // Setup; steps of the walk, one more for each block that is entered; of each tile its functions, its rows and, of each
-  // pixel, three parts; the pipeline.
-  constexpr int setup = 51, around = 128, tile_functions = 29, pixel_parts = 3;
-  const ScissorTiles scissor(c, state);
-  const int pixels = (state.scissor_x1 - state.scissor_x0) * (state.scissor_y1 - state.scissor_y0);
-  const int bound = setup + scissor.approach() + 2 * scissor.blocks() + scissor.tiles_of_blocks() +
-                    scissor.tiles() * (tile_functions + c.tile()) + pixel_parts * pixels + around;
-  int clocks = 0;
-  for (; machine.comb().busy && clocks <= bound; ++clocks) machine.clock(in);
-  EXPECT_LE(clocks, bound);
+  // A walk that does not end soon is broken off.
+  constexpr std::uint64_t patience = 50'000;
+  while (machine.comb().busy && machine.counters()[PerformanceCounter::clocks] < patience) machine.clock(in);
   const PerformanceCounters counters = machine.counters();
   using enum PerformanceCounter;
+  const ScissorTiles scissor(c, state);
+  const auto blocks = static_cast<std::uint64_t>(scissor.blocks()),
+             tiles = static_cast<std::uint64_t>(scissor.tiles_of_blocks()),
+             approach = static_cast<std::uint64_t>(scissor.approach());
   EXPECT_EQ(counters[quads_homogeneous], 1u);
-  EXPECT_EQ(counters[blocks_tested], static_cast<std::uint64_t>(scissor.blocks()));
-  EXPECT_LE(counters[tiles_tested], static_cast<std::uint64_t>(scissor.tiles_of_blocks()));
+  EXPECT_EQ(counters[blocks_tested], blocks);
+  EXPECT_LE(counters[tiles_tested], tiles);
   EXPECT_LE(counters[tiles_entered], static_cast<std::uint64_t>(scissor.tiles()));
-  EXPECT_GE(counters[bound_walk], static_cast<std::uint64_t>(scissor.approach()));
-  std::printf("%d clocks, at most %d; %llu blocks and %llu tiles tested, %llu entered\n", clocks, bound,
+  EXPECT_GE(counters[bound_walk], approach + blocks);
+  // Beats and setup; steps of the walk, one more for each block that is entered; of each tile its functions and its
+  // rows, of each pixel three parts; the pipeline.
+  constexpr std::uint64_t setup = 4 + 51, around = 128, tile_functions = 29, pixel_parts = 3;
+  const std::uint64_t bound = setup + approach + 2 * blocks + tiles + (tile_functions + 8) * counters[tiles_entered] +
+                              pixel_parts * counters[pixels_lane0] + around;
+  EXPECT_LE(counters[clocks], bound);
+  std::printf("%llu clocks, at most %llu; %llu blocks and %llu tiles tested, %llu entered\n",
+              static_cast<unsigned long long>(counters[clocks]), static_cast<unsigned long long>(bound),
               static_cast<unsigned long long>(counters[blocks_tested]),
               static_cast<unsigned long long>(counters[tiles_tested]),
               static_cast<unsigned long long>(counters[tiles_entered]));
