@@ -5,8 +5,8 @@
 // step back subtracts what a step forth adds; forward differences of exact integers are reversible, so no row start is
 // kept.
 //
-// The tiles of a homogeneous quad begin at the screen's. With skip_walk those left of the scissor rectangle and above it
-// are left out, in the order of the whole walk.
+// The tiles of a homogeneous quad begin at the screen's. With skip_walk those left of the scissor rectangle and above
+// it are left out, in the order of the whole walk.
 #pragma once
 
 #include "model/hierarchical_z.hpp"

@@ -1,5 +1,5 @@
-// The walk of homogeneous quads, which have no bounding box: it enters no tile outside the scissor's tiles, it takes the
-// steps that its bounds say, and what it enters is what a walk from the first tile of the screen would, in the same
+// The walk of homogeneous quads, which have no bounding box: it enters no tile outside the scissor's tiles, it takes
+// the steps that its bounds say, and what it enters is what a walk from the first tile of the screen would, in the same
 // order.
 #include "model/clocked.hpp"
 #include "model/covered_pixels.hpp"
@@ -159,8 +159,8 @@ SnappedQuad any_vertices(Prng& rng, const Config& c) {
   return q;
 }
 
-/// The quad whose walk was found to take 4,681,696 clocks: it covers most of the screen, and its scissor is far from the
-/// screen's first tile.
+/// The quad whose walk was found to take 4,681,696 clocks: it covers most of the screen, and its scissor is far from
+/// the screen's first tile.
 SnappedQuad far_quad(const Config& c) {
   SnappedQuad q;
   constexpr std::array<std::array<std::int32_t, 3>, 4> vertices{{{-144491410, -42213348, -32768},
@@ -237,9 +237,9 @@ void nothing_outside(int count) {
     random_scissor(rng, state, size / 8);
     state.cull = static_cast<Cull>(rng.below(3));
     if (n % 512 == 0)
-      family = golden::make_stress(
-          n % 1024 == 0 ? golden::StressFamily::eye_crossing : golden::StressFamily::eye_in_hull, 256, n, 1.0, size,
-          size, 0);
+      family =
+          golden::make_stress(n % 1024 == 0 ? golden::StressFamily::eye_crossing : golden::StressFamily::eye_in_hull,
+                              256, n, 1.0, size, size, 0);
     const SnappedQuad quad = n % 2 == 0 ? snap_quad(family[n / 2 % 256], c, state) : any_vertices(rng, c);
     if (is_ordinary(quad, c)) continue;
     ++quads;
@@ -264,7 +264,8 @@ void nothing_outside(int count) {
         without.entered, [&](const TileCorner& tile) { return !scissor.has(tile.tile_x, tile.tile_y); });
   }
   std::printf("%d quads: %llu tiles entered, %.0f steps a quad; %d entered where a block is cut, %d from the right\n",
-              quads, static_cast<unsigned long long>(entered), static_cast<double>(steps) / quads, crossed, to_the_left);
+              quads, static_cast<unsigned long long>(entered), static_cast<double>(steps) / quads, crossed,
+              to_the_left);
   EXPECT_GT(crossed, count / 10);
   EXPECT_GT(to_the_left, count / 50);
   EXPECT_GT(outside_without, 0);
@@ -291,8 +292,8 @@ TEST(ScissorWalk, EntersWhatAWalkOfTheWholeScreenDoes) {
       DrawState state = screen(size);
       random_scissor(rng, state, size);
       state.cull = static_cast<Cull>(n % 3);
-      const SnappedQuad quad = n % 2 == 0 ? any_vertices(rng, c)
-                                          : snap_quad(n % 4 == 1 ? crossing[n / 4] : around[n / 4], c, state);
+      const SnappedQuad quad =
+          n % 2 == 0 ? any_vertices(rng, c) : snap_quad(n % 4 == 1 ? crossing[n / 4] : around[n / 4], c, state);
       if (is_ordinary(quad, c)) continue;
       const SetupResult setup = quad_setup(quad, c, state);
       const Steps taken = walk(setup, c, state);
@@ -342,8 +343,7 @@ TEST(ScissorWalk, OrdinaryQuadsDoNotApproach) {
   DrawState state = screen(512);
   state.scissor_x0 = 203;
   state.scissor_y0 = 150;
-  const std::vector<WindowQuad> quads =
-      golden::make_stress(golden::StressFamily::general, 200, 5, 1.0, 512, 512, 0);
+  const std::vector<WindowQuad> quads = golden::make_stress(golden::StressFamily::general, 200, 5, 1.0, 512, 512, 0);
   int walked = 0;
   for (const WindowQuad& q : quads) {
     const SnappedQuad quad = snap_quad(q, c, state);

@@ -400,16 +400,16 @@ TEST_P(Configuration, LockstepInScissorsFarFromTheFirstTile) {
   options.config = GetParam().config();
   VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
   constexpr std::array<double, 4> stalls{0, 0.1, 0.5, 0.95};
-  constexpr std::array<golden::StressFamily, 4> families{
-      golden::StressFamily::eye_crossing, golden::StressFamily::eye_in_hull, golden::StressFamily::w_zero,
-      golden::StressFamily::any_w};
+  constexpr std::array<golden::StressFamily, 4> families{golden::StressFamily::eye_crossing,
+                                                         golden::StressFamily::eye_in_hull,
+                                                         golden::StressFamily::w_zero, golden::StressFamily::any_w};
   constexpr int size = 400;
   const int block = options.config.tile() * Config::block_tiles;
   std::uint64_t total = 0, approached = 0, from_the_right = 0;
   for (std::uint64_t seed = 1; seed <= 32; ++seed) {
     golden::Prng rng(seed, 17);
-    const std::vector<WindowQuad> given = golden::make_stress(families[seed % families.size()], 8, seed, 1, size, size,
-                                                              options.config.attribute_slots);
+    const std::vector<WindowQuad> given =
+        golden::make_stress(families[seed % families.size()], 8, seed, 1, size, size, options.config.attribute_slots);
     DrawState& state = options.state = golden::random_draw_state(options.config, size, size, given, seed);
     const auto part = [&](int& lo, int& hi) {
       const auto length = static_cast<int>(rng.integer(1, 90));
