@@ -399,6 +399,7 @@ module tile_walk #(
     if (rst_ni) begin
       assert (!take_o || !push_q2 || end_q2);
       assert (!enter_walk || in_block);
+      assert (!test_block || row_end_q || back_q == block_left_q);
       assert (!test_block || (block_x_q >= first_x_q >> BLOCK_LOG2 && block_y_q >= first_y_q >> BLOCK_LOG2));
     end
   end
