@@ -110,6 +110,9 @@ struct WalkUnit {
     switch (walk.state()) {
       case TileWalk::State::idle:
         break;
+      case TileWalk::State::approach:
+        walk.advance();
+        break;
       case TileWalk::State::block:
         wait = walk.hit();
         tests.block = true;

@@ -47,6 +47,7 @@ WalkCounts walk_quad(TileWalk& walk, const SetupResult& setup, F&& f, Hierarchic
                      const DepthInterval& depth = {}) {
   WalkCounts counts;
   for (walk.take(setup, memory, depth); walk.state() != TileWalk::State::end; walk.advance()) {
+    if (walk.state() == TileWalk::State::approach) continue;
     const bool tile = walk.state() == TileWalk::State::tile;
     ++(tile ? counts.tiles_tested : counts.blocks_tested);
     if (walk.hidden()) ++(tile ? counts.tiles_hidden : counts.blocks_hidden);

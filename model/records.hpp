@@ -33,7 +33,7 @@ enum SkipBit : std::uint32_t {
   /// depth test LESS and depth writes, that no fragment is discarded afterwards, and nothing blended: the picture is
   /// the same, the list of fragments is not.
   skip_hidden = 1u << 2,
-  skip_walk = 1u << 3,  ///< homogeneous quads: what misses the scissor (scissor_separation)
+  skip_walk = 1u << 3,  ///< homogeneous quads: what misses the scissor (scissor_separation, tile_walk)
   /// Work inside a pixel that its fragment does not depend on: its operands do not switch, in software it is left out.
   skip_operands = 1u << 4,
   /// Mean value weights of quads whose values are plane (plane_quad): the same pixels and flags, attributes and depth

@@ -54,14 +54,20 @@ void TileWalk::take(const SetupResult& setup, HierarchicalZ* memory, const Depth
   slot_ = setup.slot;
   quad_ = QuadConstants(setup);
   for (std::size_t k = 0; k < linear_count; ++k) block_.linear[k] = setup.linear[k].value;
+  first_x_ = quad_.homogeneous ? scissor_x_ : 0;
+  first_y_ = quad_.homogeneous ? scissor_y_ : 0;
   bx_ = by_ = 0;
   block_right_ = true;
-  state_ = quad_.tiles_x == 0 || quad_.tiles_y == 0 ? State::end : State::block;
+  const bool apart = first_x_ >= Config::block_tiles || first_y_ >= Config::block_tiles;
+  state_ = quad_.tiles_x == 0 || quad_.tiles_y == 0 ? State::end : apart ? State::approach : State::block;
 }
 
 bool TileWalk::tested() const {
   if (state_ == State::block) return !reject_ || may_cover(block_, quad_, tile_ * Config::block_tiles, cull_);
-  if (state_ == State::tile) return !reject_ || may_cover(at_, quad_, tile_, cull_);
+  if (state_ == State::tile) {
+    const bool outside = tile_x() < quad_.tile_x0 + first_x_ || tile_y() < quad_.tile_y0 + first_y_;
+    return !outside && (!reject_ || may_cover(at_, quad_, tile_, cull_));
+  }
   return false;
 }
 
@@ -98,6 +104,9 @@ void TileWalk::advance() {
     case State::end:
       state_ = State::idle;
       break;
+    case State::approach:
+      approach();
+      break;
     case State::block:
       if (hit()) {
         at_ = block_;
@@ -130,22 +139,37 @@ void TileWalk::advance() {
   }
 }
 
+/// A block towards the scissor's first row of blocks, then towards the end of it at which the whole walk comes there.
+void TileWalk::approach() {
+  const int last = (quad_.tiles_x - 1) / Config::block_tiles;
+  if (by_ < first_y_ / Config::block_tiles) {
+    move_block(0, 1);
+  } else if (bx_ != (block_right_ ? first_x_ / Config::block_tiles : last)) {
+    move_block(1, 0);
+  } else {
+    state_ = State::block;
+  }
+}
+
 void TileWalk::step_block() {
-  const int blocks_x = (quad_.tiles_x + Config::block_tiles - 1) / Config::block_tiles;
-  const int blocks_y = (quad_.tiles_y + Config::block_tiles - 1) / Config::block_tiles;
-  const int size = tile_ * Config::block_tiles;
+  const int first = first_x_ / Config::block_tiles, last = (quad_.tiles_x - 1) / Config::block_tiles;
   state_ = State::block;
-  if (block_right_ ? bx_ + 1 < blocks_x : bx_ > 0) {
-    const int step = block_right_ ? 1 : -1;
-    bx_ += step;
-    walk_step(block_, quad_, step * size, 0);
-  } else if (by_ + 1 < blocks_y) {
-    ++by_;
-    block_right_ = !block_right_;
-    walk_step(block_, quad_, 0, size);
+  if (block_right_ ? bx_ < last : bx_ > first) {
+    move_block(block_right_ ? 1 : -1, 0);
+  } else if (by_ < (quad_.tiles_y - 1) / Config::block_tiles) {
+    move_block(0, 1);
   } else {
     state_ = State::end;
   }
+}
+
+/// To the block beside this one, or to that below, in whose row the walk goes the other way.
+void TileWalk::move_block(int columns, int rows) {
+  const int size = tile_ * Config::block_tiles;
+  bx_ += columns;
+  by_ += rows;
+  if (rows != 0) block_right_ = !block_right_;
+  walk_step(block_, quad_, columns * size, rows * size);
 }
 
 }  // namespace quadrille

@@ -4,6 +4,9 @@
 // The walk is one state machine that both models run: the clocked shell once per clock, the untimed model in a loop. A
 // step back subtracts what a step forth adds; forward differences of exact integers are reversible, so no row start is
 // kept.
+//
+// The tiles of a homogeneous quad begin at the screen's. With skip_walk those left of the scissor rectangle and above
+// it are left out, in the order of the whole walk.
 #pragma once
 
 #include "model/hierarchical_z.hpp"
@@ -85,7 +88,7 @@ struct TileBlock {
 /// The state machine.
 class TileWalk {
  public:
-  enum class State { idle, block, tile, end };
+  enum class State { idle, approach, block, tile, end };
 
   TileWalk() = default;
   TileWalk(const Config& config, const DrawState& state)
@@ -93,6 +96,8 @@ class TileWalk {
         drop_(config.qdrop()),
         cull_(state.cull),
         reject_(state.skip & skip_tiles),
+        scissor_x_((state.skip & skip_walk) != 0 ? state.scissor_x0 >> config.tile_log2 : 0),
+        scissor_y_((state.skip & skip_walk) != 0 ? state.scissor_y0 >> config.tile_log2 : 0),
         whole_(config, state) {}
 
   State state() const { return state_; }
@@ -119,7 +124,9 @@ class TileWalk {
   void advance();
 
  private:
+  void approach();
   void step_block();
+  void move_block(int columns, int rows);
   bool tested() const;
   int tile_x() const { return quad_.tile_x0 + bx_ * Config::block_tiles + tx_; }
   int tile_y() const { return quad_.tile_y0 + by_ * Config::block_tiles + ty_; }
@@ -131,12 +138,14 @@ class TileWalk {
   int drop_ = 0;
   Cull cull_ = Cull::none;
   bool reject_ = true;
+  int scissor_x_ = 0, scissor_y_ = 0;  ///< the scissor's first tile
   WholeTiles whole_;
   HierarchicalZ* memory_ = nullptr;
   DepthInterval depth_;
   State state_ = State::idle;
   std::uint32_t slot_ = 0;
   QuadConstants quad_;
+  int first_x_ = 0, first_y_ = 0;  ///< the same from the quad's first tile; of an ordinary quad, whose box is inside, 0
   WalkState block_, at_;
   int bx_ = 0, by_ = 0, tx_ = 0, ty_ = 0;
   bool block_right_ = true, tile_right_ = true;

@@ -3,8 +3,11 @@
 //
 // State is the values of the linear functions at the first pixel of the current block and of the current tile, moved by exact
 // forward differences. The test is conservative over the extent: each edge function is 'somewhere positive', 'somewhere negative'
-// or both, by its value and edge_reach. Does not look at the scissor rectangle. The quadratic functions of a tile that is pushed
-// are tile_context's.
+// or both, by its value and edge_reach. The quadratic functions of a tile that is pushed are tile_context's.
+//
+// A homogeneous quad has no bounding box: its tiles begin at the screen's. With bound_i those left of the scissor rectangle and above it
+// are left out: the walk approaches the scissor's first block, a block a clock without a test, stays in its columns of blocks, and pushes no
+// tile before its first one. The order is that of the whole walk: in rows of blocks that go to the left, the approach ends at the right.
 //
 // The walk steps on before it knows what a test says: the test's signs come in a register, the hit is known the clock after, and a tile
 // that is hit is in the register that pushes in the clock after that. Blocks are walked one ahead: a hit turns back to the block
@@ -16,12 +19,16 @@ module tile_walk #(
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
     localparam int REACH = quadrille_pkg::REACH_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2
 ) (
     input logic clk_i,
     input logic rst_ni,
     input logic [1:0] cull_i,
     input logic reject_tiles_i,  // skip bit 0
+    input logic bound_i,  // skip bit 3
+    input logic [V:0] scissor_x0_i,
+    input logic [V:0] scissor_y0_i,
     // Setup in
     input logic setup_done_i,
     output logic take_o,
@@ -31,6 +38,7 @@ module tile_walk #(
     input logic [TC-1:0] tiles_x_i,
     input logic [TC-1:0] tiles_y_i,
     input logic [TILE_LOG2-1:0] last_row_i,  // last pixel row of the quad, in its tile
+    input logic homogeneous_i,
     input logic [3:0] visible_i,
     input logic [6*VAL-1:0] lin_value_i,
     input logic [6*GRAD-1:0] lin_gx_i,
@@ -79,6 +87,7 @@ module tile_walk #(
   localparam logic [2:0] WALK = 3'd2;
   localparam logic [2:0] FINISH = 3'd3;
   localparam logic [2:0] FLUSH = 3'd4;  // until the end entry is in the ring, or the next quad comes
+  localparam logic [2:0] APPROACH = 3'd5;  // to the scissor's first block
 
   logic go;  // everything moves
   logic may_cover, hit, enter_walk;
@@ -89,7 +98,8 @@ module tile_walk #(
   logic more_q;
   logic [TC-1:0] tile_x0_q, tile_y0_q;
   logic [TC-1:0] last_x_q, last_y_q;  // of the quad's tiles
-  logic [TC-1:0] block_x_q, block_y_q;
+  logic [TC-1:0] first_x, first_y, first_x_q, first_y_q;  // the scissor's first tile, of an ordinary quad 0: its box is inside
+  logic [TC-1:0] block_x_q, block_y_q, block_y_next;
   logic [TC-1:0] blocks_x_q, blocks_y_q;  // blocks behind it in its row, rows of blocks behind it
   logic block_left_q;
   logic [TC-1:0] walk_x_q, walk_y_q;
@@ -100,8 +110,10 @@ module tile_walk #(
   logic [TILE_LOG2-1:0] last_row_q;
   logic [3:0] visible_q;
   logic empty;
-  logic in_block, in_walk, test_block;
-  logic tile_end, block_end, last_column, last_row;
+  logic in_approach, in_block, in_walk, test_block, step_block;
+  logic tile_end, block_end, first_column, last_column, last_row, one_column;
+  logic apart;  // the scissor's first block is another than the quad's
+  logic arrived;
 
   // The step after this clock's test: from the end of a row down, or to the left. Known a clock ahead, for it steers the adders.
   logic row_end_q, back_q;
@@ -109,6 +121,7 @@ module tile_walk #(
 
   // The test whose signs are known
   logic block_q1, tile_q1, end_q1;
+  logic outside_q1;  // a tile before the scissor's first column or row of tiles
   logic push_q2, end_q2;
   logic [TC-1:0] block_x_q1, block_y_q1, column_q1, row_q1;
   logic [BLOCK_LOG2-1:0] tile_last_x_q1, tile_last_y_q1;
@@ -116,16 +129,26 @@ module tile_walk #(
   // The last tile's entry has its functions' vertices when the end entry is where pushes wait.
   assign take_o = setup_done_i && (state_q == IDLE || (state_q == FLUSH && end_q2));
   assign empty = tiles_x_i == '0 || tiles_y_i == '0;
+  assign first_x = (bound_i && homogeneous_i) ? TC'(scissor_x0_i >> TL) : '0;
+  assign first_y = (bound_i && homogeneous_i) ? TC'(scissor_y0_i >> TL) : '0;
+  assign apart = first_x >> BLOCK_LOG2 != '0 || first_y >> BLOCK_LOG2 != '0;
+  assign in_approach = state_q == APPROACH;
   assign in_block = state_q == BLOCK;
   assign in_walk = state_q == WALK;
-  assign hit = may_cover || !reject_tiles_i;
+  assign hit = (may_cover || !reject_tiles_i) && !outside_q1;
   assign enter_walk = block_q1 && hit && !block_hidden_i;
   assign test_block = in_block && more_q && !enter_walk;
+  assign step_block = test_block || (in_approach && !arrived);
 
   assign tile_end = in_walk && row_end_q && tile_y_q == tile_last_y_q;
   assign block_end = row_end_q && blocks_y_q == '0;
+  assign block_y_next = block_y_q + TC'(1);
+  assign first_column = block_x_q == first_x_q >> BLOCK_LOG2;
   assign last_column = block_x_q == last_x_q >> BLOCK_LOG2;
   assign last_row = block_y_q == last_y_q >> BLOCK_LOG2;
+  assign one_column = first_x_q >> BLOCK_LOG2 == last_x_q >> BLOCK_LOG2;
+  // Down first, then to the end of the row at which the whole walk comes to the scissor.
+  assign arrived = in_approach && !row_end_q && (block_left_q ? last_column : first_column);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -135,10 +158,11 @@ module tile_walk #(
       end_q1 <= 1'b0;
     end else begin
       if (take_o) begin
-        state_q <= empty ? FINISH : BLOCK;
+        state_q <= empty ? FINISH : apart ? APPROACH : BLOCK;
       end else if (go) begin
         case (state_q)
           IDLE: state_q <= IDLE;
+          APPROACH: if (arrived) state_q <= BLOCK;
           BLOCK: if (enter_walk) state_q <= WALK;
           else if (!more_q) state_q <= FINISH;
           WALK: if (tile_end) state_q <= more_q ? BLOCK : FINISH;
@@ -163,23 +187,25 @@ module tile_walk #(
       tile_y0_q <= tile_y0_i;
       last_x_q <= tiles_x_i - TC'(1);
       last_y_q <= tiles_y_i - TC'(1);
+      first_x_q <= first_x;
+      first_y_q <= first_y;
       blocks_x_q <= (tiles_x_i - TC'(1)) >> BLOCK_LOG2;
       blocks_y_q <= (tiles_y_i - TC'(1)) >> BLOCK_LOG2;
       block_x_q <= '0;
       block_y_q <= '0;
       block_left_q <= 1'b0;
       more_q <= 1'b1;
-    end else if (test_block && go) begin
+    end else if (step_block && go) begin
       more_q <= !block_end;
       if (row_end_q) begin
-        block_y_q <= block_y_q + TC'(1);
+        block_y_q <= block_y_next;
         block_left_q <= !block_left_q;
         blocks_y_q <= blocks_y_q - TC'(1);
-        blocks_x_q <= last_x_q >> BLOCK_LOG2;
       end else begin
-        block_x_q <= block_left_q ? block_x_q - TC'(1) : block_x_q + TC'(1);
-        blocks_x_q <= blocks_x_q - TC'(1);
+        block_x_q <= back_q ? block_x_q - TC'(1) : block_x_q + TC'(1);
       end
+      if (row_end_q || in_approach) blocks_x_q <= (last_x_q >> BLOCK_LOG2) - (first_x_q >> BLOCK_LOG2);
+      else blocks_x_q <= blocks_x_q - TC'(1);
     end
     if (go) begin
       // Beside the test
@@ -188,6 +214,7 @@ module tile_walk #(
       block_y_q1 <= block_y_q;
       tile_last_x_q1 <= block_last_column_o;
       tile_last_y_q1 <= block_last_row_o;
+      outside_q1 <= in_walk && (test_column_o < first_x_q || test_row_o < first_y_q);
       column_q1 <= test_column_o;
       row_q1 <= test_row_o;
       if (enter_walk) begin
@@ -211,7 +238,7 @@ module tile_walk #(
 
   always_ff @(posedge clk_i) begin
     if (take_o) begin
-      row_end_q <= tiles_x_i <= TC'(quadrille_pkg::BLOCK_TILES);
+      row_end_q <= apart ? first_y >> BLOCK_LOG2 != '0 : tiles_x_i <= TC'(quadrille_pkg::BLOCK_TILES);
       back_q <= 1'b0;
     end else if (go) begin
       if (enter_walk) begin
@@ -229,9 +256,14 @@ module tile_walk #(
         tiles_q <= tiles_q - BLOCK_LOG2'(1);
         row_end_q <= tiles_q == BLOCK_LOG2'(1);
         back_q <= tile_left_q && tiles_q != BLOCK_LOG2'(1);
+      end else if (arrived) begin
+        row_end_q <= one_column;
+        back_q <= block_left_q && !one_column;
+      end else if (in_approach) begin
+        row_end_q <= row_end_q && block_y_next != first_y_q >> BLOCK_LOG2;
       end else if (test_block && row_end_q) begin
-        row_end_q <= last_x_q < TC'(quadrille_pkg::BLOCK_TILES);
-        back_q <= !block_left_q && last_x_q >= TC'(quadrille_pkg::BLOCK_TILES);
+        row_end_q <= one_column;
+        back_q <= !block_left_q && !one_column;
       end else if (test_block) begin
         row_end_q <= blocks_x_q == TC'(1);
         back_q <= block_left_q && blocks_x_q != TC'(1);
@@ -261,10 +293,10 @@ module tile_walk #(
         block_q <= lin_value_i[g*VAL+:VAL];
         tile_q <= lin_value_i[g*VAL+:VAL];
       end else if (go) begin
-        if (test_block) block_q <= next;
+        if (step_block) block_q <= next;
         if (enter_walk) tile_q <= lin_value_q1[g*VAL+:VAL];
         else if (tile_end) tile_q <= block_q;
-        else if (in_walk || test_block) tile_q <= next;
+        else if (in_walk || step_block) tile_q <= next;
       end
       if (go) begin
         lin_value_q1[g*VAL+:VAL] <= tile_q;
@@ -367,6 +399,8 @@ module tile_walk #(
     if (rst_ni) begin
       assert (!take_o || !push_q2 || end_q2);
       assert (!enter_walk || in_block);
+      assert (!test_block || row_end_q || back_q == block_left_q);
+      assert (!test_block || (block_x_q >= first_x_q >> BLOCK_LOG2 && block_y_q >= first_y_q >> BLOCK_LOG2));
     end
   end
 `endif

@@ -393,6 +393,61 @@ TEST_P(Configuration, LockstepInRandomDrawStates) {
   std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
 }
 
+/// Homogeneous quads, ordinary ones between, with scissors whose first tile is far from the screen's in both axes: the
+/// walk's approach to them, in rows of blocks that go to the right and to the left, and tiles cut off in a block.
+TEST_P(Configuration, LockstepInScissorsFarFromTheFirstTile) {
+  LockstepOptions options;
+  options.config = GetParam().config();
+  VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
+  constexpr std::array<double, 4> stalls{0, 0.1, 0.5, 0.95};
+  constexpr std::array<golden::StressFamily, 4> families{golden::StressFamily::eye_crossing,
+                                                         golden::StressFamily::eye_in_hull,
+                                                         golden::StressFamily::w_zero, golden::StressFamily::any_w};
+  constexpr int size = 400;
+  const int block = options.config.tile() * Config::block_tiles;
+  std::uint64_t total = 0, approached = 0, from_the_right = 0;
+  for (std::uint64_t seed = 1; seed <= 32; ++seed) {
+    golden::Prng rng(seed, 17);
+    const std::vector<WindowQuad> given =
+        golden::make_stress(families[seed % families.size()], 8, seed, 1, size, size, options.config.attribute_slots);
+    DrawState& state = options.state = golden::random_draw_state(options.config, size, size, given, seed);
+    const auto part = [&](int& lo, int& hi) {
+      const auto length = static_cast<int>(rng.integer(1, 90));
+      lo = static_cast<int>(rng.chance(0.2) ? size - length : rng.integer(0, size - length));
+      hi = lo + length;
+    };
+    part(state.scissor_x0, state.scissor_x1);
+    part(state.scissor_y0, state.scissor_y1);
+    if (seed % 8 == 7)
+      state.skip = (state.skip & ~std::uint32_t{skip_walk}) | skip_tiles;  // else 2,500 tiles a quad, or more
+    else
+      state.skip |= skip_walk;
+    options.stall = stalls[rng.below(stalls.size())];
+    options.gap = rng.chance(0.5) ? 0 : 0.5;
+    options.limit_fragments = options.stall > 0.9 ? 300 : 3000;
+    options.seed = seed;
+    std::vector<SnappedQuad> quads;
+    for (const WindowQuad& quad : given) {
+      quads.push_back(snap_quad(quad, options.config, state));
+      if (!rng.chance(0.3)) continue;
+      const double x = state.scissor_x0 + rng.uniform(-20, 20), y = state.scissor_y0 + rng.uniform(-20, 20);
+      WindowQuad ordinary = quad;  // for its attributes
+      ordinary.vertex = {{{x, y, 0.5, 1}, {x + 30, y, 0.5, 1}, {x + 30, y + 30, 0.5, 1}, {x, y + 30, 0.5, 1}}};
+      quads.push_back(snap_quad(ordinary, options.config, state));
+    }
+    const LockstepReport report = run_lockstep(device, quads, options);
+    ASSERT_TRUE(report.agreed()) << "seed " << seed << ": " << report.first_divergence.value_or("");
+    total += report.fragments;
+    if ((state.skip & skip_walk) == 0) continue;
+    approached += state.scissor_x0 >= block && state.scissor_y0 >= block;
+    from_the_right += state.scissor_y0 / block % 2 != 0 && state.scissor_x0 / block != (state.scissor_x1 - 1) / block;
+  }
+  EXPECT_GT(total, 10000u);
+  EXPECT_GT(approached, 8u);
+  EXPECT_GT(from_the_right, 3u);
+  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
+}
+
 /// Quads that are left out, for every reason, between others: while slots are free and while they are not.
 TEST_P(Configuration, LockstepAcrossQuadsLeftOut) {
   LockstepOptions options;

@@ -238,6 +238,17 @@ Scenario depth_off() {
   return {"depth off", o, random_quads(o.config, o.state, 34, 60)};
 }
 
+/// W = ONE/2 at two corners: no bounding box.
+void halve(SnappedQuad& quad) {
+  for (const std::size_t i : {1, 3}) {
+    SnappedVertex& v = quad.vertex[i];
+    v.x /= 2;
+    v.y /= 2;
+    v.w /= 2;
+    v.z.exp -= 1;
+  }
+}
+
 /// Homogeneous quads that reach over a border of the scissor by quarters of a pixel, or not, some of them turned a
 /// little.
 Scenario beside_scissor() {
@@ -261,14 +272,7 @@ Scenario beside_scissor() {
                     }
                     return quad;
                   })};
-  for (SnappedQuad& quad : result.quads)
-    for (const std::size_t i : {1, 3}) {  // W = ONE/2 there: no bounding box
-      SnappedVertex& v = quad.vertex[i];
-      v.x /= 2;
-      v.y /= 2;
-      v.w /= 2;
-      v.z.exp -= 1;
-    }
+  for (SnappedQuad& quad : result.quads) halve(quad);
   return result;
 }
 
@@ -525,6 +529,28 @@ Scenario far_scissor() {
           })};
 }
 
+/// Quads with W = ONE/2 at two corners, which have no bounding box, in and around a scissor that lies over three
+/// columns of blocks far from the first one, and begins in a row of blocks that the walk goes through to the left.
+Scenario far_scissor_homogeneous() {
+  LockstepOptions o = options(exact(), 400);
+  o.state.scissor_x0 = 211;
+  o.state.scissor_x1 = 347;
+  o.state.scissor_y0 = 87;
+  o.state.scissor_y1 = 140;
+  o.state.attributes = 1;
+  o.stall = 0.1;
+  Scenario result{
+      "far scissor, homogeneous", o, drawn(o, 14, 40, [](golden::Prng& random) {
+        const double x = random.uniform(190, 360), y = random.uniform(75, 150), size = random.uniform(4, 60);
+        WindowQuad quad;
+        for (WindowVertex& v : quad.vertex)
+          v = {x + random.uniform(-size, size), y + random.uniform(-size, size), random.uniform(0.1, 0.9), 1};
+        return quad;
+      })};
+  for (SnappedQuad& quad : result.quads) halve(quad);
+  return result;
+}
+
 /// Layers at depths about 1, the last codes there are.
 Scenario far_end() {
   LockstepOptions o = options(hiding(), 48);
@@ -734,6 +760,7 @@ std::span<const Scenario> further_scenarios() {
     all.push_back(far_end());
     all.push_back(far_exponents());
     all.push_back(far_scissor());
+    all.push_back(far_scissor_homogeneous());
     all.push_back(one_skip("tiles left out", skip_tiles));
     all.push_back(one_skip("quads left out", skip_quads));
     all.push_back(sprites());
