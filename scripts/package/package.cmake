@@ -8,6 +8,7 @@ set(model_headers
   clocked.hpp
   config.hpp
   drive.hpp
+  fragment_arrays.hpp
   lane_target.hpp
   performance_counters.hpp
   records.hpp
