@@ -90,7 +90,7 @@ module tile_walk #(
   localparam logic [2:0] APPROACH = 3'd5;  // to the scissor's first block
 
   logic go;  // everything moves
-  logic may_cover, hit, enter_walk;
+  logic may_cover, hit, hit_tile, enter_walk;
 
   // ---- Position and control -----------------------------------------------------------------------------------------------
   // block_*: the next block to test, while more_q; walk_*: the block whose tiles are tested.
@@ -135,7 +135,8 @@ module tile_walk #(
   assign in_approach = state_q == APPROACH;
   assign in_block = state_q == BLOCK;
   assign in_walk = state_q == WALK;
-  assign hit = (may_cover || !reject_tiles_i) && !outside_q1;
+  assign hit = may_cover || !reject_tiles_i;
+  assign hit_tile = tile_q1 && hit && !outside_q1;
   assign enter_walk = block_q1 && hit && !block_hidden_i;
   assign test_block = in_block && more_q && !enter_walk;
   assign step_block = test_block || (in_approach && !arrived);
@@ -214,7 +215,7 @@ module tile_walk #(
       block_y_q1 <= block_y_q;
       tile_last_x_q1 <= block_last_column_o;
       tile_last_y_q1 <= block_last_row_o;
-      outside_q1 <= in_walk && (test_column_o < first_x_q || test_row_o < first_y_q);
+      outside_q1 <= test_column_o < first_x_q || test_row_o < first_y_q;
       column_q1 <= test_column_o;
       row_q1 <= test_row_o;
       if (enter_walk) begin
@@ -345,7 +346,7 @@ module tile_walk #(
   // ---- Push ---------------------------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
     if (!rst_ni) {push_q2, end_q2} <= '0;
-    else if (go) {push_q2, end_q2} <= {(tile_q1 && hit && !hidden_i) || end_q1, end_q1};
+    else if (go) {push_q2, end_q2} <= {(hit_tile && !hidden_i) || end_q1, end_q1};
   end
 
   always_ff @(posedge clk_i) begin
@@ -363,7 +364,7 @@ module tile_walk #(
     assign count_enter_o = enter_walk && go;
     assign count_block_hidden_o = go && block_q1 && hit && block_hidden_i;
     assign count_tile_o = tile_q1 && go;
-    assign count_hidden_o = go && tile_q1 && hit && hidden_i;
+    assign count_hidden_o = go && hit_tile && hidden_i;
     assign count_busy_o = state_q != IDLE;
   end else begin : gen_no_count
     assign {count_block_o, count_enter_o, count_block_hidden_o, count_tile_o, count_hidden_o, count_busy_o} = '0;
