@@ -279,7 +279,7 @@ module quad_setup #(
   logic [6*VAL-1:0] lin_value_q;
   logic [6*GRAD-1:0] lin_gx_q, lin_gy_q;
   logic [PAIRS*EDGE_WIDTH-1:0] edge_words;  // value, gx, gy
-  logic [3:0] negative, zero, positive;  // of d_012, d_023, d_123, d_013
+  logic [3:0] negative, zero;  // of d_012, d_023, d_123, d_013
   logic [PAIRS*(V+1)-1:0] corner_x, corner_y;
   logic side_far_q;
 
@@ -575,13 +575,16 @@ module quad_setup #(
     end
   end
 
-  logic some_pos, some_neg;  // among d_123, -d_023, d_013, -d_012
   logic hull;
+  logic [3:0] visible;  // of the clauses, as visible_o
 
-  assign positive = ~negative & ~zero;
-  assign some_pos = positive[2] || negative[1] || positive[3] || negative[0];
-  assign some_neg = negative[2] || positive[1] || negative[3] || positive[0];
-  assign hull = !sum_ordinary && !(some_pos && some_neg);
+  eye_in_hull u_eye_in_hull (
+      .ordinary_i(sum_ordinary),
+      .negative_i(negative),
+      .zero_i(zero),
+      .hull_o(hull),
+      .visible_o(visible)
+  );
 
   // ---- Triangles that miss the scissor --------------------------------------------------------------------------------------
   logic [PAIRS-1:0] side_x_neg, side_y_neg;
@@ -622,9 +625,8 @@ module quad_setup #(
       .separated_o(separated)
   );
 
-  logic [3:0] visible, missing;
+  logic [3:0] missing;
 
-  assign visible = (sum_ordinary || hull) ? 4'b1111 : {negative[1:0], positive[1:0]};
   assign missing = {4{cornered_q && !sum_ordinary && !hull}} & {separated, separated};
 
   always_ff @(posedge clk_i) if (hand_over) {hull_o, visible_o} <= {hull, visible};

@@ -10,6 +10,7 @@ denominator_operands.sv
 depth_interval.sv
 dot_unit.sv
 edge_reach.sv
+eye_in_hull.sv
 factor_products.sv
 fixed_point.sv
 forward_difference_column.sv

@@ -44,7 +44,7 @@ OTHER_MODEL = {"config.cpp", "config.hpp", "config_text.cpp", "config_text.hpp",
                "float_avx2.hpp", "float_avx512.hpp"}
 # A model's file without a twin of its name.
 TWINS = {"significand.hpp": ("fp_sum", "fp_multiply", "fp_raw_product", "fp_normalise", "fp_product", "fp_add", "fp_term"),
-         "quad_setup.cpp": ("quad_setup", "bounding_range", "range_empty"), "tile_walk.cpp": ("tile_walk", "edge_reach"),
+         "quad_setup.cpp": ("quad_setup", "bounding_range", "range_empty", "eye_in_hull"), "tile_walk.cpp": ("tile_walk", "edge_reach"),
          "weight_factors.cpp": ("weight_factors", "factor_products", "ratio_products", "mean_value_weights", "singular_class"),
          "interpolate.cpp": ("interpolate",), "pixel_pipeline.cpp": ("pixel_lane", "denominator_operands"),
          "fragment_output.cpp": ("fragment_output", "fixed_point"), "clocked.cpp": (), "performance_counters.cpp": ("performance_counters",),
