@@ -349,8 +349,8 @@ HardwareCost vertex_products(const Widths& w) {
 
 HardwareCost tile_walk(const Widths& w) {
   constexpr int block = Widths::block_log2;
-  HardwareCost cost = state(3 + 1 + 20 * w.TC + 4 + 5 * block + 3 * w.SLOT + 2 * w.TL + 4 + 2 + 3 + 11 + 2) +
-                      19 * adder(w.TC) + 11 * mux(w.TC, 2) + control(55);
+  HardwareCost cost = state(3 + 1 + 18 * w.TC + 4 + 5 * block + 3 * w.SLOT + 2 * w.TL + 4 + 2 + 3 + 10 + 2) +
+                      14 * adder(w.TC) + 10 * mux(w.TC, 2) + control(45);
   // A step of a linear function: gx or gy, by a tile or a block, to the left or the right, added to the tile's value,
   // which may also be that of a block, of the walked block's first tile, or a new quad's.
   cost += 6 * (state(2 * w.GRAD + 4 * w.VAL) + mux(w.GRAD, 2) + mux(w.GRAD + block, 2) + adder(w.VAL) + mux(w.VAL, 2) +
