@@ -31,6 +31,10 @@ from report.units import Shards, Units, merge, shard, text  # noqa: E402
 
 KINDS = {"stress": 60, "scene": 25, "mesh": 10, "corner": 5}  # of 100 units
 SIZES = [(64, 64), (160, 160), (320, 240), (512, 512)]
+# --dense: what gives the most fragments a clock. Pixels of homogeneous quads take three clocks each, those of small quads wait for setup.
+DENSE_KINDS = {"stress": 45, "scene": 45, "mesh": 10}
+DENSE_FAMILIES = ("general", "perspective", "near_edge", "near_vertex", "reflex", "bowtie", "straight_corner", "collapsed_edge", "coplanar", "long_span", "shared_edge", "shared_vertex")
+DENSE_SIZES = [(512, 512)]
 LIMIT = 1_000_000  # fragments of a unit
 STALLED_PART, SLOW_PART = 5, 50  # of them where ports wait, and where they wait nine clocks of ten: so that a unit takes seconds
 SUMS = ("fragments", "passes", "cycles", "bits")  # report/lockstep.py, Totals
@@ -43,16 +47,17 @@ def make_plan(args):
     listed = run([args.quadrille, "scenes", "--json"])
     meshes = mesh_files(args.meshes)
     return {"seed": args.seed, "machines": machines, "scenes": [scene["name"] for scene in json.loads(listed.stdout)], "meshes": [os.path.basename(mesh) for mesh in meshes],
-            "set": args.set, "limit": args.limit}
+            "set": args.set, "limit": args.limit, "dense": args.dense}
 
 
 def source(rng, plan, folder):
     """The kind of an input, its name, and the options that draw it."""
-    kind = rng.choices(list(KINDS), list(KINDS.values()))[0]
+    kinds = DENSE_KINDS if plan["dense"] else KINDS
+    kind = rng.choices(list(kinds), list(kinds.values()))[0]
     if kind == "mesh" and not plan["meshes"]:
         kind = "scene"
     if kind == "stress":
-        family = rng.choice(FAMILIES)
+        family = rng.choice(DENSE_FAMILIES if plan["dense"] else FAMILIES)
         return kind, family, ["--stress", family, "--count", "5000"]
     if kind == "corner":
         group = rng.choice(sorted(CORNERS))
@@ -64,11 +69,11 @@ def source(rng, plan, folder):
 def unit_options(plan, folder, number):
     rng = random.Random(f"{plan['seed']} {number}")
     kind, name, options = source(rng, plan, folder)
-    width, height = rng.choice(SIZES)
-    stall, gap = (0, 0) if rng.random() < 0.5 else (rng.choice([0, 0.1, 0.5, 0.9]), rng.choice([0, 0.1, 0.5, 0.9]))
+    width, height = rng.choice(DENSE_SIZES if plan["dense"] else SIZES)
+    stall, gap = (0, 0) if plan["dense"] or rng.random() < 0.5 else (rng.choice([0, 0.1, 0.5, 0.9]), rng.choice([0, 0.1, 0.5, 0.9]))
     limit = max(1, plan["limit"] // (SLOW_PART if max(stall, gap) >= 0.9 else STALLED_PART if max(stall, gap) > 0 else 1))
     options += ["--size", f"{width}x{height}", "--seed", str(rng.randint(1, 10**9)), "--stall", str(stall), "--gap", str(gap), "--limit-fragments", str(limit)]
-    if rng.random() < 0.5:
+    if rng.random() < (0.1 if plan["dense"] else 0.5):
         options += ["--draw-state", f"random:{rng.randint(1, 10**9)}"]
     options += rng.choice(plan["machines"])
     return kind, name, options + set_options(plan["set"])
@@ -181,6 +186,7 @@ def options():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="units at a time (default: one a processor)")
     parser.add_argument("--machines", type=int, default=6, help="configurations at random, beside the default and one with every skip (default: 6)")
     parser.add_argument("--limit", type=int, default=LIMIT, help=f"fragments of a unit, at most, a fifth of them where ports wait, a fiftieth where they do nine clocks of ten (default: {LIMIT})")
+    parser.add_argument("--dense", action="store_true", help="large ordinary quads, ports that never wait: the most fragments an hour")
     parser.add_argument("--meshes", metavar="DIR", help="folder with OBJ files (default: ../shared/meshes when it is there)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="configuration, as for quadrille, after those at random")
     parser.add_argument("--status", nargs="+", metavar="DIR", help="only report on a run, or on its shards together")

@@ -95,6 +95,21 @@ class Runs(WithStub):
                 stall, gap, limit = (float(options[options.index(option) + 1]) for option in ("--stall", "--gap", "--limit-fragments"))
                 self.assertEqual(limit, 20 if max(stall, gap) == 0.9 else 200 if max(stall, gap) > 0 else 1000)
 
+    def test_dense_units(self):
+        self.soak("one", "--units", "40", "--dense")
+        seen = set()
+        for name, data in bytes_of(os.path.join(self.folder, "one")).items():
+            if name.startswith("units/"):
+                unit = json.loads(data)
+                for option, value in (("--stall", "0"), ("--gap", "0"), ("--size", "512x512")):
+                    self.assertEqual(unit["options"][unit["options"].index(option) + 1], value)
+                self.assertIn(unit["kind"], soak.DENSE_KINDS)
+                if unit["kind"] == "stress":
+                    self.assertIn(unit["input"], soak.DENSE_FAMILIES)
+                seen.add(unit["kind"])
+        self.assertGreater(len(seen), 1)
+        self.assertIn("dense is True, not False", self.soak("one", "--units", "40", status=2).stderr)
+
     def test_shards_put_together(self):
         self.soak("one", "--units", "31")
         parts = []
