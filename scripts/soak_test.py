@@ -179,7 +179,7 @@ class Runs(WithStub):
 
 
 class Units(unittest.TestCase):
-    PLAN = {"seed": 3, "machines": [[]], "scenes": ["sphere"], "meshes": [], "set": [], "limit": 1000}
+    PLAN = {"seed": 3, "machines": [[]], "scenes": ["sphere"], "meshes": [], "set": [], "dense": False, "limit": 1000}
 
     def test_a_unit_follows_from_seed_and_number(self):
         drawn = [soak.unit_options(self.PLAN, "", number) for number in range(400)]
