@@ -364,6 +364,8 @@ TEST_F(CliCosim, ReportHasEveryField) {
   EXPECT_EQ(report["cycle_mismatches"], 0);
   EXPECT_EQ(report["cycles_rtl"], report["cycles_model"]);
   EXPECT_GT(report["fragments"], 100);
+  EXPECT_GT(report["passes"], 1);
+  EXPECT_EQ(report["fragments_all_passes"], report["passes"].get<int>() * report["fragments"].get<int>());
   EXPECT_TRUE(report["model_alone"]["ok"]);
   EXPECT_GT(report["model_alone"]["function_arguments"], 100'000);
   EXPECT_EQ(report["model_alone"]["function_beyond"], 0);
