@@ -190,7 +190,6 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
     out.r2.gy[i] = static_cast<double>(-2 * y) * of_pixel;
   }
   out.unit2 = power_of_two(2 * (scale + frac_));
-  out.id = data.id;
   out.areas = data.plane;
   out.x0 = setup.tile_x0 << format_.tile_log2;
   out.y0 = setup.tile_y0 << format_.tile_log2;

@@ -57,7 +57,6 @@ struct FloatForms {
 struct FloatQuad {
   using Factor = QuadLanes::Factor;
 
-  std::uint32_t id = 0;
   int x0 = 0, y0 = 0;  ///< the first tile's origin pixel
   int left = 0, top = 0, right = 0,
       bottom = 0;                              ///< pixels of the scissor that the corners reach, inclusive, from there

@@ -157,7 +157,6 @@ std::optional<QuadReject> take_small(const FloatLanes::Format& format, const Dep
   };
   _mm256_storeu_pd(out.r2.gx.data(), slope(px));
   _mm256_storeu_pd(out.r2.gy.data(), slope(py));
-  out.id = quad.id;
   out.left = columns.from - out.x0;
   out.right = columns.to - out.x0;
   out.top = rows.from - out.y0;

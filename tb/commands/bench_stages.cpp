@@ -22,8 +22,8 @@ std::uint64_t time_stamp() {
 #endif
 }
 
-/// The first stages of a quad as UntimedModel has them. How many of the quad's numbers depend on the stage does not
-/// matter: what is computed is all in memory that the next quad uses again.
+/// The first stages of a quad as UntimedModel has them. Nothing of them is left out by the compiler: their functions
+/// are the library's.
 class Stages {
  public:
   Stages(const Config& config, const DrawState& state)
