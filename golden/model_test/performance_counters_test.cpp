@@ -88,6 +88,17 @@ PerformanceCounter largest_bound(const PerformanceCounters& c) {
   return static_cast<PerformanceCounter>(std::max_element(first, c.value.end()) - c.value.begin());
 }
 
+/// Every counter, the first and the last too.
+TEST(PerformanceCounters, AddUp) {
+  PerformanceCounters sum, other;
+  for (std::size_t i = 0; i < sum.value.size(); ++i) {
+    sum.value[i] = i + 1;
+    other.value[i] = 1000 * (i + 1);
+  }
+  sum += other;
+  for (std::size_t i = 0; i < sum.value.size(); ++i) EXPECT_EQ(sum.value[i], 1001 * (i + 1)) << counter_info[i].name;
+}
+
 using enum PerformanceCounter;
 
 TEST(PerformanceCounters, NamesAreThoseOfTheEnumeration) {
