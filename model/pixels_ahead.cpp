@@ -47,12 +47,12 @@ void PixelsAhead::add(const TileEntry& tile, const StampEntry& stamp, const Pixe
 void PixelsAhead::compute(const PixelQuad& quad) {
   next_ = 0;
   kind_.clear();
-  quad_ = quad.data.id;
   if (quad.by_floats) {
     compute_floats(quad);
   } else {
     for (const Row& row : rows_) compute_row(row, quad);
   }
+  batch_ = results_.fragments.view(quad.data.id, kind_.size());
 }
 
 void PixelsAhead::compute_floats(const PixelQuad& quad) {

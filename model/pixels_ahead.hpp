@@ -59,7 +59,7 @@ class PixelsAhead {
 
   /// The next pixel, which is there.
   std::uint8_t kind() const { return kind_[next_]; }
-  Fragment fragment() const { return results_.fragments.view(quad_, kind_.size())[next_]; }
+  Fragment fragment() const { return batch_[next_]; }
   void advance() { ++next_; }
 
  private:
@@ -78,8 +78,8 @@ class PixelsAhead {
   std::vector<Row> rows_;
   int pixels_ = 0;  ///< of the rows
   PixelList list_;
-  std::uint32_t quad_ = 0;  ///< id of the batch's
-  FloatResults results_;    ///< of all lanes: `fragments`
+  FloatResults results_;  ///< of all lanes: `fragments`
+  FragmentArrays batch_;  ///< of these
   std::vector<std::uint8_t> kind_;
   std::size_t next_ = 0;
 };
