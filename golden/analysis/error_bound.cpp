@@ -77,6 +77,11 @@ void visit_segments(const Table& table, int s, bool rising, Visit visit) {
 
 // ---- What a stored number can be off by ----------------------------------------------------------------------------
 
+/// Of a quotient's factor K: in general, and where no term of the denominator has more than Ingredients::shared of it.
+struct Quotient {
+  Interval any, shared;
+};
+
 /// Logarithms of stored / exact.
 struct Ingredients {
   double u;             ///< 2^-(s-1)
@@ -85,8 +90,9 @@ struct Ingredients {
   double sum4;          ///< of four
   double align4;        ///< what the alignment of four terms takes, relative to the largest
   Interval root;        ///< square root of a truncated argument
-  Interval quotient_k;  ///< weight of one term: truncation of the numerator, the denominator's sum, the reciprocal
-  Interval quotient_z;  ///< the same with a numerator of four positive terms
+  double shared;        ///< where no term of the denominator has a larger part of it, the sum loses less
+  Quotient quotient_k;  ///< weight of one term: truncation of the numerator, the denominator's sum, the reciprocal
+  Quotient quotient_z;  ///< the same with a numerator of four positive terms
 };
 
 Ingredients ingredients(const Config& c) {
@@ -99,13 +105,23 @@ Ingredients ingredients(const Config& c) {
   in.align4 = 4 * guard * in.u;
   const TableError root = sqrt_error(c);
   in.root = {root.low, root.high};
-  // The denominator's loss is relative to its significand, and so is the error of the reciprocal.
-  Interval denominator{0, in.sum4};
+  // The denominator's loss is relative to its significand, and so is the error of the reciprocal. Beside the sum's own
+  // truncation the terms lose 3·2^-G u of the largest exponent's power of two. If that exponent is below the sum's,
+  // that is half as much. If it is the sum's, the largest term is at least that power of two, the sum's significand at
+  // least 1 over that term's part of it, and the loss as much less. Neither is more than `half` where no part is larger
+  // than `shared`.
+  const double all = 1 + 3 * guard, half = 1 + 1.5 * guard;
+  in.shared = half / all / (1 + in.u * all);
+  Quotient denominator{{0, in.sum4}, {0, std::log1p(in.u * half)}};
   visit_segments(make_recip_table(c), c.significand_bits, false, [&](double m, Interval error) {
-    denominator = hull(denominator, error + Interval{0, std::log1p(in.u * (1 + 3 * guard) / m)});
+    denominator.any = hull(denominator.any, error + Interval{0, std::log1p(in.u * all / m)});
+    denominator.shared = hull(denominator.shared, error + Interval{0, std::log1p(in.u * std::min(half, all / m))});
   });
-  in.quotient_k = denominator + Interval{-in.t, 0};
-  in.quotient_z = denominator + Interval{-in.sum4, 0};
+  const auto with_numerator = [&](double loss) {
+    return Quotient{denominator.any + Interval{-loss, 0}, denominator.shared + Interval{-loss, 0}};
+  };
+  in.quotient_k = with_numerator(in.t);
+  in.quotient_z = with_numerator(in.sum4);
   return in;
 }
 
@@ -178,6 +194,22 @@ double rise(double log_q, double log_k) {
 double fall(double log_q, double log_k) {
   const double x = std::exp(log_q / 2) - std::exp(log_k / 2);
   return log_q + log_k <= 0 ? -std::expm1(log_k) : x * x / std::expm1(log_q);
+}
+
+/// The rise where the stored part p = λ q / (λ q + 1 - λ) or 1 - p is at least `part`. K p - λ is concave in p.
+double rise_beyond(double part, double log_q, double log_k) {
+  const double y = std::expm1(log_q), peak = 1 - std::expm1((log_q - log_k) / 2) / y;
+  if (y <= 0 || peak <= 1 - part || peak >= part) return rise(log_q, log_k);
+  const auto at = [&](double p) { return p * (std::expm1(log_k) + (1 - p) * y / (1 + (1 - p) * y)); };
+  return std::max(at(part), at(1 - part));
+}
+
+/// The largest of `error(rise, K)` over the two cases of a denominator: terms that share it, and one that has most of
+/// it; then the group of terms that rises has as much, or the other one.
+template <class Error>
+double over_denominators(const Ingredients& in, const Quotient& k, double log_q, Error error) {
+  return std::max(error(rise(log_q, k.shared.hi), k.shared.hi),
+                  error(rise_beyond(in.shared, log_q, k.any.hi), k.any.hi));
 }
 
 enum class Quads { any, ordinary };
@@ -499,8 +531,9 @@ ErrorBound bound_lambda(const Config& config) {
   if (!bound.proved) return bound;
   const Ingredients in = ingredients(config);
   const double q = weight_spread(in);
-  const double down = fall(q, in.quotient_k.lo) + std::ldexp(1.0, -config.attribute_frac());
-  bound.value = widened(std::max(rise(q, in.quotient_k.hi), down));
+  const double up = over_denominators(in, in.quotient_k, q, [](double rise, double) { return rise; });
+  const double down = fall(q, in.quotient_k.any.lo) + std::ldexp(1.0, -config.attribute_frac());
+  bound.value = widened(std::max(up, down));
   return bound;
 }
 
@@ -514,9 +547,10 @@ ErrorBound bound_attribute(const Config& config, double range) {
   const double q = weight_spread(in);
   // b and k are rounded to nearest: b/k is the corner's value times at most (1 + u/2) / (1 - u/2).
   const double corner = std::fabs(range) * (1 + in.u / 2) / (1 - in.u / 2);
-  double worst = 0;
-  for (const double k : {in.quotient_k.lo, in.quotient_k.hi}) worst = std::max(worst, 2 * rise(q, k) - std::expm1(k));
-  worst += in.align4 * std::exp(in.quotient_k.hi);
+  const auto error = [](double rise, double k) { return 2 * rise - std::expm1(k); };
+  const double low = in.quotient_k.any.lo;
+  double worst = std::max(error(rise(q, low), low), over_denominators(in, in.quotient_k, q, error));
+  worst += in.align4 * std::exp(in.quotient_k.any.hi);
   bound.value = widened(corner * worst + std::ldexp(1.0, -config.attribute_frac()));
   return bound;
 }
@@ -526,8 +560,9 @@ ErrorBound bound_depth(const Config& config) {
   if (!bound.proved) return bound;
   const Ingredients in = ingredients(config);
   const double q = weight_spread(in);
-  const double down = fall(q, in.quotient_z.lo) + std::ldexp(1.0, -config.depth_bits);
-  bound.value = widened(std::max(rise(q, in.quotient_z.hi), down));
+  const double up = over_denominators(in, in.quotient_z, q, [](double rise, double) { return rise; });
+  const double down = fall(q, in.quotient_z.any.lo) + std::ldexp(1.0, -config.depth_bits);
+  bound.value = widened(std::max(up, down));
   return bound;
 }
 

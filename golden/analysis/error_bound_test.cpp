@@ -511,6 +511,56 @@ TEST(ErrorBound, LiesAboveWhatHillClimbingFindsAndNotFar) {
   }
 }
 
+/// The rule of thumb that is checked everywhere, 2^-(s-3), is what is proved of the machine as it is configured.
+TEST(ErrorBound, ProvesTheRule) {
+  for (int s = 8; s <= 26; ++s) {
+    const ErrorBound bound = bound_lambda(with_significand(s));
+    EXPECT_TRUE(bound.proved);
+    EXPECT_LE(bound.value, std::ldexp(1.0, 3 - s)) << s;
+  }
+}
+
+/// What a sum of four positive products loses, against what the bound takes for it: the less where no term has most of
+/// the sum. Terms with many ones behind the window, sums a little above a power of two.
+TEST(ErrorBound, HoldsWhatASumOfFourLoses) {
+  for (const int s : {8, 12, 26})
+    for (int g = 0; g <= 3; ++g) {
+      const SignificandFormat f{s, g};
+      const double u = std::ldexp(1.0, 1 - s), guard = std::ldexp(1.0, -g);
+      const double all = 1 + 3 * guard, half = 1 + 1.5 * guard, part = half / all / (1 + u * all);
+      golden::Prng rng(static_cast<std::uint64_t>(100 * s + g));
+      double nearest = 0, nearest_shared = 0;
+      for (int n = 0; n < 400'000; ++n) {
+        std::array<RawProduct, 4> term;
+        double sum = 0, largest = 0;
+        const double first = rng.uniform(0, 2);
+        for (std::size_t i = 0; i < 4; ++i) {
+          const std::uint64_t low = std::uint64_t{1} << (s - 1);
+          const PipelineFloat a{false, 0, static_cast<std::uint32_t>(low + rng.below(low))};
+          const int exp = i == 0 ? 0 : -static_cast<int>(rng.below(i < 2 ? 2 : 12));
+          // The first ones near 1 or 1/2, or anything.
+          const PipelineFloat b{
+              false, exp, static_cast<std::uint32_t>(low + (first < 1 ? rng.below(1 + low / 32) : rng.below(low)))};
+          term[i] = raw_product(a, b);
+          const double value = std::ldexp(static_cast<double>(term[i].p), term[i].exp - (2 * s - 2));
+          sum += value;
+          largest = std::max(largest, value);
+        }
+        const PipelineFloat stored = fp_sum(term, f);
+        const double m = std::ldexp(static_cast<double>(stored.sig), 1 - s);
+        const double lost = (sum - std::ldexp(m, stored.exp)) / std::ldexp(m, stored.exp);
+        ASSERT_LE(lost, u * all / m);
+        nearest = std::max(nearest, lost / (u * all));
+        if (largest > part * sum) continue;
+        ASSERT_LE(lost, u * std::min(half, all / m)) << "S " << s << ", G " << g << ", sum " << sum;
+        nearest_shared = std::max(nearest_shared, lost / (u * half));
+      }
+      std::printf("S = %d, G = %d: %.2f of what any sum may lose, %.2f where the terms share it\n", s, g, nearest,
+                  nearest_shared);
+      EXPECT_GT(nearest_shared, 0.8);
+    }
+}
+
 /// Every term of first order is a truncation or a table's error, both proportional to 2^-s; the tables' segments differ
 /// from width to width by a few percent of that.
 TEST(ErrorBound, OneMoreBitHalvesIt) {
