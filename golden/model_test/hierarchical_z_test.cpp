@@ -409,6 +409,8 @@ TEST(HierarchicalZ, IntervalHoldsEveryDepth) {
           c = {24 * rng.uniform(), 24 * rng.uniform(),
                std::min(1.0, std::max(0.0, base + spread * (rng.uniform() - 0.5)))};
         if (i % 16 == 0) corner[0][2] = 0;
+        if (i % 16 == 8)  // down to depths whose codes are 0 by far
+          for (auto& c : corner) c[2] = std::ldexp(c[2], -i / 8);
         const SnappedQuad quad = snap_quad(quad_of(0, corner), config, state);
         const DepthInterval depth = depth_interval(quad, config, state);
         const double unit = std::ldexp(1, -bits), unknown = 1 - unit,

@@ -158,6 +158,38 @@ TEST(PlaneTolerance, TakesWhatTheReferenceAllows) {
   }
 }
 
+/// Where truncation takes most: areas of P = t + 6 bits, the largest magnitude a power of two, so that the limit has no
+/// other room, and deviations a little beyond it.
+TEST(PlaneTolerance, TruncationTakesNothingBeyondTheTolerance) {
+  for (const auto& [bits, t] : {std::pair{12, 6}, {18, 12}, {22, 16}}) {
+    const Config c = machine(bits, t);
+    DrawState s = draw_state(false);
+    s.depth = false;
+    s.attributes = 1;
+    Prng rng(static_cast<std::uint64_t>(bits));
+    int beyond = 0;
+    for (std::uint32_t id = 0; id < 4000; ++id) {
+      WindowQuad q = turned_rectangle(rng, id, 0, 0);
+      auto& list = q.attribute;
+      std::size_t largest = 0;
+      for (std::size_t i = 1; i < 4; ++i)
+        if (std::fabs(list[i][0]) > std::fabs(list[largest][0])) largest = i;
+      const double scale = 1 / std::fabs(list[largest][0]);
+      for (auto& values : list) values[0] *= scale;
+      double& bent = list[(largest + 2) % 4][0];
+      bent += (bent > 0 ? -1 : 1) * std::ldexp(rng.uniform(0.9, 1.3), -t);
+      const SnappedQuad quad = snap_quad(q, c, s);
+      const golden::PlaneDeviation deviation = golden::plane_deviation(quad, c, s);
+      const bool allowed = golden::plane_allowance(deviation, c, s) != 0;
+      ASSERT_TRUE(!plane_tolerance(quad, c, s) || allowed)
+          << "S " << bits << ", quad " << id << " deviates by " << deviation.largest() * std::ldexp(1, t)
+          << " of the tolerance";
+      beyond += !allowed && deviation.largest() < std::ldexp(1.2, -t);
+    }
+    EXPECT_GT(beyond, 500);
+  }
+}
+
 TEST(PlaneTolerance, LooksAtEveryValueAndTheShape) {
   const Config c = machine(18, 8);
   const DrawState s = draw_state(true);

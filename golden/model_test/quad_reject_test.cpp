@@ -191,6 +191,11 @@ TEST(QuadReject, MarginCoversTheReciprocal) {
         EXPECT_LE(std::expm1(table.high) + 1, (1 + margin) * (1 - sum))
             << "s " << s << " degree " << degree << " g " << g;
         EXPECT_GE((1 - sum) * std::exp(table.low), 1 - margin) << "s " << s << " degree " << degree << " g " << g;
+        // So many ranks are as far where they are least, below a power of two: u/2 each.
+        const double ranks = depth_margin_steps(c) * u / 2;
+        EXPECT_LE(std::expm1(table.high) + 1, (1 + ranks) * (1 - sum))
+            << "s " << s << " degree " << degree << " g " << g;
+        EXPECT_GE((1 - sum) * std::exp(table.low), 1 - ranks) << "s " << s << " degree " << degree << " g " << g;
       }
       const int automatic = c.recip_segments();
       if (automatic > 3) {

@@ -103,8 +103,9 @@ struct GridCounts {
 };
 
 /// All quads whose number is `first` modulo `stride`.
-GridCounts grid(std::uint64_t first, std::uint64_t stride) {
-  const Config config = tiny();
+GridCounts grid(std::uint64_t first, std::uint64_t stride, int significand_bits = 8) {
+  Config config = tiny();
+  config.set("significand_bits", significand_bits);
   const std::vector<SnappedVertex> vertices = grid_vertices(config);
   DrawState state;
   state.width = state.height = state.scissor_x1 = state.scissor_y1 = extent;
@@ -190,6 +191,12 @@ TEST(Exhaustive, SomeOfASmallGrid) {
 }
 TEST(Exhaustive, AllOfASmallGrid) {
   const GridCounts n = grid(0, 1);
+  print(n);
+  EXPECT_EQ(n.quads, 26u * 26u * 26u * 26u);
+}
+/// With wide significands, where what remains within the bound is Σ M·W = 0.
+TEST(Exhaustive, AllOfASmallGridWithWideSignificands) {
+  const GridCounts n = grid(0, 1, 26);
   print(n);
   EXPECT_EQ(n.quads, 26u * 26u * 26u * 26u);
 }

@@ -24,10 +24,12 @@ using Found = std::optional<std::string>;
 Found lockstep(const Scenario* s) {
   VerilatedDevice device(simulator_of(s->options.config), s->options.config, s->options.seed);
   try {
-    const LockstepReport report = run_lockstep(device, s->quads, s->options);
-    if (!report.agreed()) return report.first_divergence;
-    if (!anything_selected() && (!report.complete || (report.fragments == 0) != s->invisible))
-      return std::to_string(report.fragments) + " fragments were compared";
+    for (int run = 0; run < (s->again ? 2 : 1); ++run) {
+      const LockstepReport report = run_lockstep(device, s->quads, s->options);
+      if (!report.agreed()) return report.first_divergence;
+      if (!anything_selected() && (!report.complete || (report.fragments == 0) != s->invisible))
+        return std::to_string(report.fragments) + " fragments were compared";
+    }
     return {};
   } catch (const WatchdogError& hang) {
     return hang.what();

@@ -5,8 +5,8 @@
     tb/mutants/generate_mutants.py --candidates                                             how many there are, by file and class
 
 A fault is selected where its expression is evaluated, so only what is evaluated at run time is changed. Left out of the RTL: parameters,
-localparams, generate conditions, ranges and widths of selects (constants of elaboration), outputs of instances, functions (called in constants),
-quadrille_pkg.sv and config_check.sv (nothing else in them), assertions. Left out of the model: what a constant expression needs
+localparams, generate conditions, ranges and widths of selects (constants of elaboration), outputs of instances, functions that a constant calls,
+config_check.sv (nothing else in it), assertions. Left out of the model: what a constant expression needs
 (constexpr, static, template arguments, member initialisers), lambdas' heads, and the files of OTHER_MODEL.
 
 Classes:
@@ -26,6 +26,7 @@ the same change is made there: lockstep then decides whether the two are one fau
 import argparse
 import collections
 import dataclasses
+import functools
 import hashlib
 import json
 import pathlib
@@ -36,8 +37,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CLASSES = ("operator", "constant", "width", "sign", "index", "enable", "reset", "priority", "comparison")
 DEFAULT_COUNT, DEFAULT_SEED = 330, 1
 
-# Nothing of them is evaluated while a machine runs.
-OTHER_RTL = {"quadrille_pkg.sv", "config_check.sv"}
+# Nothing of it is evaluated while a machine runs.
+OTHER_RTL = {"config_check.sv"}
 # Not the machine: reading and writing of configurations, a processor's instructions and which there are, what the bench reads.
 OTHER_MODEL = {"config.cpp", "config.hpp", "config_text.cpp", "config_text.hpp", "lane_target.cpp", "lane_target.hpp", "each_lane_target.hpp",
                "bit_vector.cpp", "bit_vector.hpp", "fields.hpp", "record.cpp", "record.hpp", "drive.hpp", "tables.hpp", "boundaries.cpp", "boundaries.hpp",
@@ -341,6 +342,13 @@ class Expression:
 
 # ---- Expressions of a file ----
 
+@functools.cache
+def called_in_constants():
+    """The words of all parameters and localparams of the RTL: a function of such a name has to be constant."""
+    return {word for path in files("rtl") for line in re.findall(r"\b(?:localparam|parameter)\b[^;]*", path.read_text())
+            for word in re.findall(r"\w+", line)}
+
+
 class Verilog:
     def __init__(self, file, text):
         text = re.sub(r"`ifndef SYNTHESIS.*?`endif", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.DOTALL)
@@ -351,8 +359,11 @@ class Verilog:
         while i < len(ts):
             t = ts[i].text
             if t == "function":
+                head = until(ts, i, (";",))
+                name = ts[next(j for j in range(i, head) if ts[j].text == "(") - 1].text
+                i = head + 1
                 while ts[i].text != "endfunction":
-                    i += 1
+                    i = self.statement(i, False, False) if name not in called_in_constants() else i + 1
             elif t == "module":
                 i = until(ts, i, (";",))
             elif t in ("localparam", "parameter", "initial"):

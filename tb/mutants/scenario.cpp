@@ -377,6 +377,15 @@ Scenario unwiped(const std::string& name, std::uint64_t seed) {
           })};
 }
 
+/// A layer, and one before it that hides it in every tile: drawn again after a reset, the first must be there again.
+Scenario wiped() {
+  Scenario scenario = unwiped("wiped", 1);
+  scenario.again = true;
+  SnappedQuad& last = scenario.quads.back();
+  for (SnappedVertex& v : last.vertex) v.z.exp -= 2;
+  return scenario;
+}
+
 /// Quads whose values are nearly plane, by less and by more than the tolerance, in one value or another; most are
 /// small, one soon after the other. Of some a corner lies near the diagonal beside it, to either side; some have
 /// corners on pixels, some cross themselves, with the values of a rectangle.
@@ -758,6 +767,7 @@ std::span<const Scenario> further_scenarios() {
     all.push_back(joined_layers());
     all.push_back(acute_layers());
     all.push_back(far_end());
+    all.push_back(wiped());
     all.push_back(far_exponents());
     all.push_back(far_scissor());
     all.push_back(far_scissor_homogeneous());

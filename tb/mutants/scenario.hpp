@@ -14,6 +14,7 @@ struct Scenario {
   LockstepOptions options;         ///< configuration, state, stalls
   std::vector<SnappedQuad> quads;  ///< ids from 0
   bool invisible = false;          ///< the machine draws nothing of it
+  bool again = false;  ///< lockstep draws it twice in one machine, with a reset between: what it keeps shows
 };
 
 /// Those that mutants.toml records. The same in every process. Five configurations, so that four simulators serve all.
