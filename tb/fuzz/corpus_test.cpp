@@ -1,4 +1,4 @@
-// Every target over its kept corpus, and over the same with damage that the seed decides: without a fuzzer, so that
+// Every target over its kept corpus, and over the same with damage, the same in every run: without a fuzzer, so that
 // what one found once stays found.
 #include "model/support/prng.hpp"
 #include "tb/fuzz/fuzz_target.hpp"

@@ -14,10 +14,12 @@ constexpr Target list[]{
     {"config", "configuration files with costs", read_config, "tb/fuzz/corpus/config"},
     {"config_text", "configurations of the C interface", read_config_text, "tb/fuzz/corpus/config_text"},
     {"exr", "OpenEXR pictures", read_exr, "tb/fuzz/corpus/exr"},
+    {"journal", "journals of sweeps", read_journal, "tb/fuzz/corpus/journal"},
     {"manifest", "manifests of golden vectors", read_manifest, "golden/vectors/kept", "manifest.json"},
     {"obj", "meshes", read_obj, "tb/fuzz/corpus/obj"},
     {"png", "PNG pictures", read_png, "tb/fuzz/corpus/png"},
     {"quads", "files of quads", read_quads, "tb/fuzz/corpus/quads"},
+    {"records", "records of golden vectors", read_records, "tb/fuzz/corpus/records"},
 };
 
 }  // namespace

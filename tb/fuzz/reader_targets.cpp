@@ -8,12 +8,18 @@
 #include "golden/io/temporary.hpp"
 #include "golden/suites/manifest.hpp"
 #include "golden/suites/sha256.hpp"
+#include "golden/suites/suite.hpp"
 #include "model/config_text.hpp"
 #include "tb/fuzz/fuzz_target.hpp"
 #include "tb/fuzz/run_targets.hpp"
+#include "tb/sweep/store.hpp"
 
+#include <zlib.h>
+
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 namespace quadrille::fuzz {
@@ -132,6 +138,43 @@ Outcome read_manifest(std::span<const std::uint8_t> input) {
     }
   });
   return to_its_end ? Outcome::accepted : outcome;
+}
+
+Outcome read_records(std::span<const std::uint8_t> input) {
+  // A set of one suite, whose responses are the input: sealed, so that hashes do not keep it from the reader.
+  const golden::Temporary folder(std::filesystem::temp_directory_path(), golden::Temporary::Kind::folder);
+  const std::filesystem::path set = folder.path() / "set";
+  vectors::GenerateOptions generation;
+  generation.limit = 4;
+  const vectors::Suite& suite = vectors::find_suite("sqrt");
+  vectors::SetWriter writer(set, {generation.level, generation.seed, generation.config, generation.limit, {}}, false);
+  writer.add(suite.info(), [&](vectors::SuiteWriter& out) { suite.write(out, generation); });
+  writer.commit(false);
+  write(set / "sqrt" / "response.hex", text_of(input));
+  return outcome_of(set.string(), [&] {
+    vectors::seal_set(set);
+    const vectors::SuiteReader reader = vectors::SetReader(set).suite("sqrt");
+    require(suite.verify(reader, 1).vectors == reader.lines("response"), "not every record was compared");
+  });
+}
+
+Outcome read_journal(std::span<const std::uint8_t> input) {
+  // Each line of the input as a line of the journal, with its check sum.
+  const golden::Temporary folder(std::filesystem::temp_directory_path(), golden::Temporary::Kind::folder);
+  const nlohmann::ordered_json identity{{"sweep", "any"}};
+  std::istringstream lines(identity.dump() + "\n" + text_of(input));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    char sum[16];
+    std::snprintf(sum, sizeof sum, "%08lx",
+                  crc32(0, reinterpret_cast<const Bytef*>(line.data()), static_cast<uInt>(line.size())));
+    text += std::string("{\"crc\":\"") + sum + "\",\"content\":" + line + "}\n";
+  }
+  write(folder.path() / "journal.jsonl", text);
+  return outcome_of(folder.path().string(), [&] {
+    const sweep::Store store(folder.path(), identity, sweep::Store::Existing::resume);
+    require(store.results().empty() || !store.timings().empty(), "results of no batch");
+  });
 }
 
 }  // namespace quadrille::fuzz
