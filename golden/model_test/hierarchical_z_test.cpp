@@ -2,6 +2,7 @@
 // several orders, and for quads made so that each rule of hierarchical_z alone decides; and that what can be hidden is.
 #include "model/hierarchical_z.hpp"
 #include "model/depth_rank.hpp"
+#include "model/hidden_blocks.hpp"
 #include "model/masked_depth.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
@@ -436,6 +437,30 @@ TEST(HierarchicalZ, IntervalHoldsEveryDepth) {
       }
       EXPECT_GT(fragments, 5000u);
       EXPECT_GT(lowering, 100u);
+    }
+}
+
+/// A block's bound is that of its farthest tile, whichever comes first, and the next round's is its own.
+TEST(HiddenBlocks, FarthestTileDecidesAndEachRoundBeginsAnew) {
+  constexpr std::uint32_t before = 500;
+  for (int farthest = 0; farthest < 64; ++farthest)
+    for (const bool first : {false, true}) {
+      HiddenBlocks blocks(configured({{"hierarchical_z_bits", 10}}));
+      const auto learn = [&](int tile, std::uint32_t far) { blocks.learn(8 + tile % 8, 16 + tile / 8, far); };
+      const auto hidden = [&](std::uint32_t near) { return blocks.hidden(8, 16, 8, 8, near); };
+      const auto round = [&](std::uint32_t far) {
+        if (first) learn(farthest, far + 1);
+        for (int tile = 0; tile < 64; ++tile)
+          if (tile != farthest) learn(tile, far);
+        if (!first) {
+          EXPECT_FALSE(hidden(far + 1)) << "a tile is missing";
+          learn(farthest, far + 1);
+        }
+        EXPECT_TRUE(hidden(far + 1)) << "tile " << farthest << (first ? " first" : " last");
+        EXPECT_FALSE(hidden(far)) << "tile " << farthest << (first ? " first" : " last");
+      };
+      round(before);
+      round(before / 2);
     }
 }
 
