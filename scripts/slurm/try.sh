@@ -36,7 +36,7 @@ submit() {  # TASKS LOG COMMAND DIR OPTIONS…
   sbatch --parsable --output="$work/$log%a.log" --array="$tasks" scripts/slurm/array.sbatch "$@"
 }
 units() { find "$1/units" -name '[0-9]*.json' 2>/dev/null | wc -l; }
-batches() { wc -l <"$1/journal.jsonl" 2>/dev/null || echo 0; }
+batches() { cat "$1/journal.jsonl" 2>/dev/null | wc -l; }  # and a line before the first
 until_some() {  # COUNT DIR N: COUNT says how many DIR has; waits until it has N, at most ten minutes
   local i
   for ((i = 0; i < 6000; ++i)); do [ "$("$1" "$2")" -ge "$3" ] && return; sleep 0.1; done
@@ -108,12 +108,12 @@ done
 echo "a campaign: requeued with $(wc -l <"$work/campaign0.before") units done, killed with $(wc -l <"$work/campaign1.before"); byte for byte what one run leaves"
 
 if "$program" sweep --help >/dev/null 2>&1; then
-  grid=(sweep --scene sphere --size 320x320 --cosim none --axis significand_bits=10:26 --axis align_guard_bits=0:4 --axis subpixel_bits=4:8)
+  grid=(sweep --scene sphere --size 512x512 --cosim none --axis significand_bits=10:18 --axis align_guard_bits=0:4 --axis subpixel_bits=4:8)
   job=$(submit 0-2 sweep "$program" "$work/parts" "${grid[@]}")
-  until_some batches "$work/parts/0" 3
+  until_some batches "$work/parts/0" 2
   requeue "$job" 0
   continues sweep0 "$work/parts/0"
-  until_some batches "$work/parts/1" 3
+  until_some batches "$work/parts/1" 2
   stopped "$job" 1
   continues sweep1 "$work/parts/1"
   again=$(QUADRILLE_SHARDS=3 submit 1 again "$program" "$work/parts" "${grid[@]}")
@@ -131,7 +131,9 @@ if "$program" golden generate --help >/dev/null 2>&1; then
   job=$(submit 0-1 golden "$program" "$work/vectors" "${vectors[@]}")
   over "$job" 0 1
   before=$(find "$work/vectors/0" -printf '%p %T@\n' | sort)
-  again=$(QUADRILLE_SHARDS=2 submit 0 again_golden "$program" "$work/vectors" "${vectors[@]}")
+  requeue "$job" 0  # after its end
+  wait_for "$job" 0 COMPLETED
+  again=$(QUADRILLE_SHARDS=2 submit 0 again "$program" "$work/vectors" "${vectors[@]}")
   wait_for "$again" 0 COMPLETED
   [ "$(find "$work/vectors/0" -printf '%p %T@\n' | sort)" = "$before" ] || { echo "$work/vectors/0: was written again" >&2; exit 1; }
   "$program" golden merge "$work"/vectors/? --quiet --out "$work/set"
