@@ -12,21 +12,25 @@ again in draw states, viewports, stalls and configurations that the seed draws; 
   scripts/campaign.py --shard 0/4 --out A   every fourth unit; the other shards elsewhere
   scripts/campaign.py --merge A B C D --out WHOLE   the sums of all, byte for byte as of one run
 
-Exit status: 0 all agreed and as much was compared as is promised (of a shard: all agreed); 1 otherwise; 2 bad input; 130 stopped."""
+A run in which the program dies is a failure of its unit, and the campaign goes on. SIGTERM, SIGINT and SIGHUP end the units under way at
+once: they are lost, those that were done are kept in --out. So is a unit that something else kills (SIGKILL).
+
+Exit status: 0 all agreed and as much was compared as is promised (of a shard: all agreed); 1 otherwise; 2 bad input; 3 a missing tool; 130 stopped."""
 import argparse
 import json
 import os
 import random
 import shlex
-import signal
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report.files import InputError  # noqa: E402
-from report.lockstep import CORNERS, FAMILIES, MESHES, SKIPPING, Totals, fail, mesh_files, random_configuration, run, set_options  # noqa: E402
+from report.lockstep import (  # noqa: E402
+    CHILDREN, CORNERS, FAMILIES, MESHES, SKIPPING, MissingTool, NoReport, Stopped, Totals, cosim_report, fail, mesh_files, processors,
+    random_configuration, run, set_options)
 from report.program import PROGRAM  # noqa: E402
-from report.units import Units, merge, shard  # noqa: E402
+from report.units import Lost, Units, merge, shard  # noqa: E402
 
 # Stall and gap; each takes every value.
 PATTERNS = [(0, 0), (0.1, 0.5), (0.5, 0.1), (0.9, 0.9)]
@@ -89,6 +93,7 @@ class Unit:
     def __init__(self, args, plan):
         self.args, self.plan = args, plan
         self.folder = args.meshes or MESHES
+        self.threads = ["--threads", str(max(1, processors() // args.jobs))]
         self.totals, self.kinds, self.failures = Totals(), {}, []
 
     def result(self):
@@ -98,35 +103,40 @@ class Unit:
         self.kinds[kind] = self.kinds.get(kind, 0) + fragments
 
     def cosim(self, options, may_be_empty=False):
-        """The report of a run. A failed one is recorded, but where only the truth differs and nothing is claimed about it (dropped bits of D
-        and r^2), or where a run that compares nothing is no failure."""
+        """The report of a run, None if it had none. A failed one is recorded, but where only the truth differs and nothing is claimed about it
+        (dropped bits of D and r^2), or where a run that compares nothing is no failure."""
         placed = [os.path.join(self.folder, part) if before == "--mesh" else part for before, part in zip(["", *options], options)]
-        command = [self.args.quadrille, "cosim", *placed, "--no-alone", "--quiet", "--json", "-", *set_options(self.plan["set"])]
-        result = run(command)
-        if not result.stdout:
-            raise InputError(f"{result.stderr}{shlex.join(command)}: ended with status {result.returncode}")
-        report = json.loads(result.stdout)
+        command = [self.args.quadrille, "cosim", *placed, "--no-alone", "--quiet", "--json", "-", *self.threads, *set_options(self.plan["set"])]
+        printed = f"quadrille cosim {shlex.join([*options, *set_options(self.plan['set'])])}"
+        try:
+            report, result = cosim_report(command)
+        except NoReport as fault:
+            self.failures.append(f"{printed}: {fault}")
+            return None
         lockstep = report["mismatches"] + report["cycle_mismatches"] == 0
         sound = lockstep and report["model_alone"]["ok"]
         no_claim = sound and not report["bound"]["applies"]
         empty = sound and report["fragments"] + report["reference_mismatches"] == 0
         if result.returncode != 0 and not no_claim and not (may_be_empty and empty):
             sys.stderr.write(result.stderr)
-            self.failures.append(f"quadrille cosim {shlex.join([*options, *set_options(self.plan['set'])])}: status {result.returncode}")
+            self.failures.append(f"{printed}: status {result.returncode}")
         self.totals.add(report)
         return report
 
     def patterns(self, patterns, options, count):
-        """The same under several patterns of stalls and gaps; `count` takes each report. The fragments must be the same."""
-        hashes = set()
+        """The same under several patterns of stalls and gaps; `count` takes each report. The fragments must be the same. Whether the last was
+        complete."""
+        hashes, complete = set(), False
         for index, (stall, gap) in enumerate(patterns):
             report = self.cosim([*options, "--seed", str(self.plan["seed"]), "--stall", str(stall), "--gap", str(gap)] +
                                 (["--no-snapping-error"] if index > 0 else []))
-            count(report)
-            hashes.add((report["fragments"], report["fragment_hash"]))
-        if len(hashes) != 1:
+            complete = report is not None and report["complete"]
+            if report is not None:
+                count(report)
+                hashes.add((report["fragments"], report["fragment_hash"]))
+        if len(hashes) > 1:
             self.failures.append(f"{' '.join(options)}: the fragments depend on the stall pattern")
-        return report
+        return complete
 
     def standard(self, source):
         """An input in one draw state under every pattern."""
@@ -137,10 +147,10 @@ class Unit:
                 self.count(kind, report["counts"][kind])
 
         limit = [] if source[0] == "--scene" else ["--limit-fragments", str(LIMITS[form])]
-        report = self.patterns(PATTERNS, [*source, "--size", SIZES[form], *limit], count)
-        if source[0] == "--scene" and not report["complete"]:
+        complete = self.patterns(PATTERNS, [*source, "--size", SIZES[form], *limit], count)
+        if source[0] == "--scene" and not complete:
             self.failures.append(f"{' '.join(source)}: not drawn to its end")
-        self.count("complete", int(report["complete"]))
+        self.count("complete", int(complete))
 
     def corner(self, group):
         needs = CORNERS[group]
@@ -165,6 +175,8 @@ class Unit:
         report = self.cosim([*source, "--size", f"{width}x{height}", "--draw-state", f"random:{rng.randint(1, 10**9)}",
                              "--seed", str(plan["seed"] + number), "--stall", str(stall), "--gap", str(gap),
                              "--limit-fragments", str(limit), "--no-snapping-error", *rng.choice(plan["configurations"])], may_be_empty=True)
+        if report is None:
+            return
         state = report["draw_state"]
         words = state.split()
         skips = words[words.index("--skip") + 1].split(",") if "--skip" in words else ["tiles", "quads", "walk", "operands"]
@@ -265,17 +277,20 @@ def work(args, folder):
     units = Units(folder, plan)
 
     def tell(number, result):
+        if isinstance(result, Lost):
+            print(f"FAILED: unit {number}: {result}; not kept, the next run does it again", file=sys.stderr, flush=True)
+            return
         phase, which, *_ = plan["units"][number]
         print(f"{phase:8} {which if isinstance(which, str) else ' '.join(which):60s} {result['sum']['fragments']:8d} fragments in {result['sum']['runs']} runs", flush=True)
 
     start, step = args.shard or (0, 1)
-    units.run(lambda number: do(args, plan, number), range(start, len(plan["units"]), step), args.jobs, told=tell)
-    return report(units)
+    whole = units.run(lambda number: do(args, plan, number), range(start, len(plan["units"]), step), args.jobs, told=tell)
+    return report(units) and whole
 
 
 def main():
     args = options()
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    CHILDREN.stop_at_signals()
     try:
         if args.merge:
             return 0 if report(merge(args.out, args.merge)) else 1
@@ -285,9 +300,9 @@ def main():
             return 0 if work(args, os.path.join(folder, "campaign")) else 1
     except InputError as error:
         print(f"campaign: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("stopped" + ("; the same command goes on" if args.out else ""), file=sys.stderr)
+        return 3 if isinstance(error, MissingTool) else 2
+    except Stopped:
+        print("stopped" + ("; what was done is kept, the same command goes on" if args.out else ""), file=sys.stderr)
         return 130
 
 

@@ -7,7 +7,7 @@
 #   scripts/mutate.sh --file F          those of one file: all that --count allows
 #   scripts/mutate.sh --class C         those of one class: operator constant width sign index enable reset priority comparison
 #   scripts/mutate.sh --jobs J          so many at a time (all processors)
-#   scripts/mutate.sh --json FILE       keeps the results
+#   scripts/mutate.sh --json FILE       keeps the results; stopped, the same command goes on (FILE.part)
 #   scripts/mutate.sh --shard I/N --json PART      every N-th mutant, on one of N machines
 #   tb/mutants/report_mutants.py --from PART… --json FILE      puts kept results together and prints the table
 # Exit status: 0 each is seen by a check or argued equivalent in tb/mutants/equivalent.toml, 1 not, 2 usage, 3 a tool is missing.
@@ -27,6 +27,9 @@ while [ $# -gt 0 ]; do
 done
 source "$(dirname "$0")/setup.sh"
 python3 tb/mutants/generate_mutants.py /dev/null ${draw[@]+"${draw[@]}"} || exit 2
+mkdir -p build
+exec {lock}>build/.mutate.lock
+flock "$lock"  # of several at a time, such as an array's tasks, one sets up and builds, and the others find it done
 install_packages
 if [ ${#draw[@]} -eq 0 ]; then
   build release mutate
@@ -36,4 +39,5 @@ else
   cmake -S . -B $folder -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADRILLE_MUTATE_OPTIONS="${draw[*]}" >/dev/null
   cmake --build $folder --target mutate -j "$(nproc)"
 fi
+exec {lock}>&-
 exec tb/mutants/report_mutants.py $folder/tb/mutants ${report[@]+"${report[@]}"}

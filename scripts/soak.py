@@ -3,14 +3,19 @@
 fragment against the truth, added up in a folder that a later run goes on with.
 
 Unit k follows from the seed and k alone. Six of ten draw a stress family, the others scenes, corner groups and meshes; half of them in a
-draw state at random. A unit that finds a fault is kept with the command that repeats it, and the run goes on.
+draw state at random. A unit that finds a fault, or in which the program dies, is kept with the command that repeats it, and the run goes on.
 
   scripts/soak.sh --hours 8                     into build/soak; the same again goes on
   scripts/soak.sh --hours 8 --shard 0/4 --out A every fourth unit; the other shards elsewhere
   scripts/soak.sh --merge A B C D --out WHOLE   byte for byte what one run of the same units gives, times aside
-  scripts/soak.sh --status build/soak           what has been compared, and what 10^9 and 10^12 fragments would take; several folders: of all shards
+  scripts/soak.sh --status build/soak           what has been compared, and what 10^9 and 10^12 fragments would take; writes nothing
+  scripts/soak.sh --status A B C D              the same over several folders: shards, or runs of any seeds and machines
 
-Exit status: 0 if fragments were compared and no unit, of this run or an earlier one, found a fault; 1 otherwise; 2 bad input; 3 a missing tool."""
+SIGTERM, SIGINT and SIGHUP end the units under way at once: they are lost, every one that was done is kept. So is a unit that something else
+kills (SIGKILL: out of memory): it is not kept, the run goes on, and the next run does it again.
+
+Exit status: 0 if fragments were compared and no unit, of this run or an earlier one, found a fault or was lost; 1 otherwise; 2 bad input;
+3 a missing tool; 130 stopped."""
 import argparse
 import collections
 import concurrent.futures
@@ -19,15 +24,16 @@ import json
 import os
 import random
 import shlex
-import signal
 import sys
 import time
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report.files import InputError, write_files  # noqa: E402
-from report.lockstep import CORNERS, FAMILIES, FAULTS, MESHES, SKIPPING, Totals, mesh_files, random_configuration, run, set_options  # noqa: E402
+from report.lockstep import (  # noqa: E402
+    CHILDREN, CORNERS, FAMILIES, FAULTS, MESHES, SKIPPING, MissingTool, NoReport, Stopped, Totals, cosim_report, mesh_files, processors,
+    random_configuration, run, set_options)
 from report.program import PROGRAM, ROOT  # noqa: E402
-from report.units import Shards, Units, merge, shard, text  # noqa: E402
+from report.units import Lost, Shards, Units, merge, shard, text  # noqa: E402
 
 KINDS = {"stress": 60, "scene": 25, "mesh": 10, "corner": 5}  # of 100 units
 SIZES = [(64, 64), (160, 160), (320, 240), (512, 512)]
@@ -38,6 +44,8 @@ DENSE_SIZES = [(512, 512)]
 LIMIT = 1_000_000  # fragments of a unit
 STALLED_PART, SLOW_PART = 5, 50  # of them where ports wait, and where they wait nine clocks of ten: so that a unit takes seconds
 SUMS = ("fragments", "passes", "cycles", "bits")  # report/lockstep.py, Totals
+OLDER_PLANS = {"dense": False}  # what a plan without the key means
+SILENT = 100  # units on end without a report, after which a run ends: the program does nothing else
 
 
 def make_plan(args):
@@ -87,18 +95,19 @@ class Soak:
     def unit(self, number):
         kind, name, options = unit_options(self.plan, self.folder, number)
         command = [self.args.quadrille, "cosim", *options, "--no-alone", "--no-snapping-error", "--threads", "1", "--quiet", "--json", "-"]
-        result = run(command)
-        if not result.stdout:
-            raise InputError(f"{result.stderr}{shlex.join(command)}: ended with status {result.returncode}")
-        report = json.loads(result.stdout)
+        printed = [os.path.basename(part) if part.startswith(self.folder) else part for part in options]
+        unit = {"kind": kind, "input": name, "options": printed, "fragment_hash": "", "worst": 0.0, "faults": {}, **dict.fromkeys(SUMS, 0)}
+        try:
+            report, _ = cosim_report(command)
+        except NoReport as fault:
+            unit["faults"]["no_report"] = str(fault)
+            return unit
         totals = Totals()
         totals.add(report)
-        faults = {key: totals.sum[key] for key in FAULTS if totals.sum[key]}
+        unit["faults"] = {key: totals.sum[key] for key in FAULTS if totals.sum[key]}
         if not report["model_alone"]["ok"]:
-            faults["model_alone"] = 1
-        printed = [os.path.basename(part) if part.startswith(self.folder) else part for part in options]
-        unit = {"kind": kind, "input": name, "options": printed, "fragment_hash": report["fragment_hash"], "worst": totals.worst, "faults": faults}
-        unit.update((key, totals.sum[key]) for key in SUMS)
+            unit["faults"]["model_alone"] = 1
+        unit.update(fragment_hash=report["fragment_hash"], worst=totals.worst, **{key: totals.sum[key] for key in SUMS})
         return unit
 
     def build_simulators(self):
@@ -106,21 +115,32 @@ class Soak:
         def build(machine):
             command = [self.args.quadrille, "cosim", "--scene", "bowtie", "--size", "32x32", "--no-alone", "--quiet", *machine, *set_options(self.plan["set"])]
             result = run(command)
-            if result.returncode not in (0, 1):  # faults are for the units to find
-                raise InputError(f"{result.stderr}{shlex.join(command)}: ended with status {result.returncode}")
+            if result.returncode > 1:  # faults are for the units to find
+                kind = MissingTool if result.returncode == 3 else InputError
+                raise kind(f"{result.stderr}{shlex.join(command)}: ended with status {result.returncode}")
 
         with concurrent.futures.ThreadPoolExecutor(self.args.jobs) as pool:
             list(pool.map(build, self.plan["machines"]))
 
     def work(self, units):
-        """Until the time is over, or all units asked for are done."""
+        """Until the time is over, or all units asked for are done. Whether none was lost."""
         self.build_simulators()
         start, step = self.args.shard
-        numbers = itertools.count(start, step) if self.args.units is None else range(start, self.args.units, step)
         until = None if self.args.hours is None else time.monotonic() + 3600 * self.args.hours
-        told = {"units": 0, "passes": 0, "last": time.monotonic()}
+        told = {"units": 0, "passes": 0, "last": time.monotonic(), "silent": 0}
+
+        def numbers():
+            for number in itertools.count(start, step) if self.args.units is None else range(start, self.args.units, step):
+                if told["silent"] >= SILENT:
+                    break
+                yield number
 
         def tell(number, unit):
+            silent = isinstance(unit, Lost) or "no_report" in unit["faults"]
+            told["silent"] = told["silent"] + 1 if silent else 0
+            if isinstance(unit, Lost):
+                print(f"FAILED: unit {number}: {unit}; not kept, the next run does it again", file=sys.stderr, flush=True)
+                return
             told["units"] += 1
             told["passes"] += unit["passes"]
             if unit["faults"]:
@@ -130,47 +150,90 @@ class Soak:
                 left = "" if until is None else f", {max(0.0, until - time.monotonic()) / 3600:.2f} h left"
                 print(f"{told['units']} units, {told['passes']} fragments{left}", flush=True)
 
-        units.run(self.unit, numbers, self.args.jobs, until, tell)
+        whole = units.run(self.unit, numbers(), self.args.jobs, until, tell)
+        if told["silent"] >= SILENT:
+            print(f"FAILED: ended after {told['silent']} units on end without a report", file=sys.stderr)
+        return whole
 
 
-def summary(seed, done):
-    """Sums of all units done, without times: the same bytes for the same units."""
+def command_of(unit):
+    return "quadrille cosim " + shlex.join(unit["options"])
+
+
+def summary(done):
+    """Sums of units by label, without times: the same bytes for the same units."""
     zero = {"units": 0, **dict.fromkeys(SUMS, 0), "worst": 0.0}
     total, kinds, inputs = dict(zero), collections.defaultdict(lambda: dict(zero)), collections.defaultdict(lambda: dict(zero))
     faulty, worst = {}, {}
-    for number, unit in done.items():
+    for label, unit in done.items():
         if unit["worst"] > total["worst"]:
-            worst = {"unit": number, "command": "quadrille cosim " + shlex.join(unit["options"])}
+            worst = {"unit": label, "command": command_of(unit)}
         for sums in (total, kinds[unit["kind"]], inputs[f"{unit['kind']} {unit['input']}"]):
             sums["units"] += 1
             for key in SUMS:
                 sums[key] += unit[key]
             sums["worst"] = max(sums["worst"], unit["worst"])
         if unit["faults"]:
-            faulty[str(number)] = {"faults": unit["faults"], "command": "quadrille cosim " + shlex.join(unit["options"])}
-    return {"seed": seed, "total": total, "kinds": kinds, "inputs": inputs, "worst": worst, "faulty": faulty}
+            faulty[str(label)] = {"faults": unit["faults"], "command": command_of(unit)}
+    return {"total": total, "kinds": kinds, "inputs": inputs, "worst": worst, "faulty": faulty}
 
 
-def report(units):
-    """Prints the sums, and keeps them in the folder of a run. Whether something was compared and nothing was wrong."""
-    done = {number: units.read(number) for number in units.done()}
-    totals = summary(units.plan["seed"], done)
-    if isinstance(units, Units):
-        write_files(units.directory, {"totals.json": text(totals).encode()})
+def keep_totals(units):
+    """The sums, in the folder of the run."""
+    totals = {"seed": units.plan["seed"], **summary({number: units.read(number) for number in units.done()})}
+    write_files(units.directory, {"totals.json": text(totals).encode()})
+
+
+def runs_of(directories):
+    """The folders of each plan together, by the plan's text."""
+    plans = {}
+    for directory in directories:
+        plans.setdefault(text(Units(directory, defaults=OLDER_PLANS).plan), []).append(directory)
+    return [Shards(of_one, OLDER_PLANS) for of_one in plans.values()]
+
+
+def described(plan):
+    words = [f"seed {plan['seed']}", f"{len(plan['machines'])} machines", f"at most {plan['limit']} fragments a unit"]
+    return ", ".join(words + (["--dense"] if plan["dense"] else []) + plan["set"])
+
+
+def amount(passes, seconds):
+    """What more of the same would take."""
+    rate = passes / max(1e-9, seconds)
+    return f"{rate:9.0f} fragments/s on a core: 10^9 take {1e9 / rate / 3600:.1f} core hours, 10^12 {1e12 / rate / 3600 / 24:.0f} core days"
+
+
+def report(runs):
+    """Prints the sums of several runs. Whether something was compared and nothing was wrong."""
+    done, timed, lines = {}, collections.defaultdict(lambda: [0, 0.0]), []
+    for index, run_of in enumerate(runs):
+        seconds = run_of.seconds()
+        before = len(done)
+        for number in run_of.done():
+            unit = done[number if len(runs) == 1 else f"{run_of.directories[0]} {number}"] = run_of.read(number)
+            if number in seconds:
+                for kind in ("all", unit["kind"] + (" of --dense" if run_of.plan["dense"] else "")):
+                    timed[kind][0] += unit["passes"]
+                    timed[kind][1] += seconds[number]
+        passes = sum(unit["passes"] for unit in list(done.values())[before:])
+        lines.append(f"  {' '.join(run_of.directories)}: {described(run_of.plan)}: {len(done) - before} units, {passes} fragments")
+    totals = summary(done)
     total = totals["total"]
     stress = totals["kinds"].get("stress", {"passes": 0})["passes"] / max(1, total["passes"])
-    print(f"{total['units']} units of seed {totals['seed']}: {total['passes']} fragments in lockstep ({100 * stress:.1f} % of stress families), of {total['fragments']} pixels,"
-          f" each drawn in passes with other attributes; {total['cycles']} clocks, {total['bits']} bits compared")
+    whose = f"of seed {runs[0].plan['seed']}" if len(runs) == 1 else f"of {len(runs)} runs"
+    print(f"{total['units']} units {whose}: {total['passes']} fragments in lockstep ({100 * stress:.1f} % of stress families), of {total['fragments']} pixels,"
+          f" each drawn in passes with other attributes; {total['cycles']} clocks, {total['bits']} bits compared; {len(totals['faulty'])} units with faults")
+    if len(runs) > 1:
+        print("\n".join(lines))
     print(f"  worst weight {100 * total['worst']:.1f} % of the bound" + (f", unit {totals['worst']['unit']}: {totals['worst']['command']}" if totals["worst"] else ""))
     for name, sums in sorted(totals["inputs"].items()):
         print(f"  {name:30} {sums['units']:6} units {sums['passes']:12} fragments  worst {100 * sums['worst']:5.1f} %")
-    seconds = units.seconds()
-    timed = [number for number in done if number in seconds]
-    if timed and total["passes"]:
-        rate = sum(done[number]["passes"] for number in timed) / max(1e-9, sum(seconds[number] for number in timed))
-        print(f"  {rate:.0f} fragments/s on a core: 10^9 fragments take {1e9 / rate / 3600:.1f} core hours, 10^12 {1e12 / rate / 3600 / 24:.0f} core days")
-    for number, unit in totals["faulty"].items():
-        print(f"FAILED: unit {number}: {unit['faults']}: {unit['command']}", file=sys.stderr)
+    if timed["all"][0]:
+        print(f"  {timed['all'][1] / 3600:.2f} core hours of units")
+        for kind, (passes, took) in sorted(timed.items()):
+            print(f"  {kind:20} {100 * passes / timed['all'][0]:5.1f} % " + (amount(passes, took) if passes else "no fragments"))
+    for label, unit in totals["faulty"].items():
+        print(f"FAILED: unit {label}: {unit['faults']}: {unit['command']}", file=sys.stderr)
     if not total["fragments"]:
         print("FAILED: nothing was compared", file=sys.stderr)
     return total["fragments"] > 0 and not totals["faulty"]
@@ -183,13 +246,13 @@ def options():
     parser.add_argument("--out", metavar="DIR", help="folder of the run (default: build/soak)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--shard", type=shard, default=(0, 1), metavar="I/N", help="units I, I + N, … alone, 0 <= I < N")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="units at a time (default: one a processor)")
+    parser.add_argument("--jobs", type=int, default=processors(), help="units at a time (default: one a processor that may be used)")
     parser.add_argument("--machines", type=int, default=6, help="configurations at random, beside the default and one with every skip (default: 6)")
     parser.add_argument("--limit", type=int, default=LIMIT, help=f"fragments of a unit, at most, a fifth of them where ports wait, a fiftieth where they do nine clocks of ten (default: {LIMIT})")
     parser.add_argument("--dense", action="store_true", help="large ordinary quads, ports that never wait: the most fragments an hour")
     parser.add_argument("--meshes", metavar="DIR", help="folder with OBJ files (default: ../shared/meshes when it is there)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="configuration, as for quadrille, after those at random")
-    parser.add_argument("--status", nargs="+", metavar="DIR", help="only report on a run, or on its shards together")
+    parser.add_argument("--status", nargs="+", metavar="DIR", help="only report on a run, on its shards, or on several runs together; writes nothing")
     parser.add_argument("--merge", nargs="+", metavar="DIR", help="put shards together into --out")
     parser.add_argument("--quadrille", default=PROGRAM, help="the program")
     args = parser.parse_args()
@@ -209,22 +272,24 @@ def options():
 
 def main():
     args = options()
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # units under way are lost, the others kept
+    CHILDREN.stop_at_signals()
+    whole = True
     try:
         if args.status is not None:
-            units = Units(args.status[0]) if len(args.status) == 1 else Shards(args.status)
-        elif args.merge is not None:
-            units = merge(args.out, args.merge)
+            return 0 if report(runs_of(args.status)) else 1
+        if args.merge is not None:
+            units = merge(args.out, args.merge, OLDER_PLANS)
         else:
             plan = make_plan(args)
-            units = Units(args.out or os.path.join(ROOT, "build/soak"), plan)
-            Soak(args, plan).work(units)
-        return 0 if report(units) else 1
+            units = Units(args.out or os.path.join(ROOT, "build/soak"), plan, OLDER_PLANS)
+            whole = Soak(args, units.plan).work(units)
+        keep_totals(units)
+        return 0 if report(runs_of([units.directory])) and whole else 1
     except InputError as error:
         print(f"soak: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("stopped; the same command goes on", file=sys.stderr)
+        return 3 if isinstance(error, MissingTool) else 2
+    except Stopped:
+        print("stopped; what was done is kept, the same command goes on", file=sys.stderr)
         return 130
 
 

@@ -20,18 +20,30 @@ import soak  # noqa: E402
 from report import units  # noqa: E402
 from report.files import InputError  # noqa: E402
 
-# Stands for the program: reports about made-up fragments, with a fault where the input is a bow-tie; waits where asked.
+# Stands for the program: reports about made-up fragments, whatever the threads, with a fault where a word says so; waits or dies where asked.
 STUB = """#!{python} -SE
 import hashlib, json, os, sys, time
 words = sys.argv[1:]
+if "STUB_LOG" in os.environ:
+    with open(os.environ["STUB_LOG"], "a") as log:
+        log.write(" ".join(words) + chr(10))
+if "--threads" in words:
+    at = words.index("--threads")
+    del words[at:at + 2]
 if words[0] == "config":
     sys.exit(0)
 if words[0] == "scenes":
     print(json.dumps([{{"name": "sphere", "paper": "Hormann & Tarini"}}, {{"name": "bowtie", "paper": "-"}}]))
     sys.exit(0)
-time.sleep(float(os.environ.get("STUB_SECONDS", "0")))
+counted = "--json" in words  # not one that builds a simulator
 digest = hashlib.sha256(" ".join(words).encode()).hexdigest()
-wrong = os.environ.get("STUB_FAULT", "") in words and "--quiet" in words and "--json" in words
+slow = counted and ("STUB_SLOW" not in os.environ or digest[0] in "01234")
+time.sleep(float(os.environ.get("STUB_SECONDS", "0")) if slow else 0)
+if counted and os.environ.get("STUB_DIES", "") in words:
+    os.kill(os.getpid(), int(os.environ["STUB_SIGNAL"]))
+if counted and os.environ.get("STUB_SILENT", "") in words:
+    sys.exit(int(os.environ["STUB_STATUS"]))
+wrong = counted and os.environ.get("STUB_FAULT", "") in words
 print(json.dumps({{"bound": {{"applies": True}}, "reference_mismatches": 0, "beyond_bound": 0, "fragments": int(digest[:3], 16), "fragments_all_passes": 2 * int(digest[:3], 16), "cycles_all_passes": int(digest[:4], 16),
     "compared_bits": int(digest[:5], 16), "mismatches": 7 if wrong else 0, "cycle_mismatches": 0, "fragment_hash": digest[:16],
     "worst": {{"error_over_bound": int(digest[:2], 16) / 512}}, "model_alone": {{"ok": True}}, "complete": True, "draw_state": "--cull back --no-depth",
@@ -119,7 +131,9 @@ class Runs(WithStub):
             self.assertEqual(units.Units(parts[-1]).done(), list(range(index, 31, 3)))
         one = self.soak("one", "--status", os.path.join(self.folder, "one")).stdout.splitlines()
         both = self.soak("one", "--status", *parts).stdout.splitlines()
-        self.assertEqual(one[:-1], both[:-1])  # the last line is of times
+        first = [index for index, line in enumerate(one) if "core hours of units" in line][0]
+        self.assertEqual(one[:first], both[:first])  # the others are of times
+        self.assertGreater(len(one), first + 1)
         self.soak("whole", "--merge", *parts)
         self.assertEqual(bytes_of(os.path.join(self.folder, "one")), bytes_of(os.path.join(self.folder, "whole")))
 
@@ -141,6 +155,112 @@ class Runs(WithStub):
         again = self.soak("faulty", "--units", "60", status=1)
         self.assertIn("'mismatches': 7", again.stderr)
         self.soak("faulty", "--status", os.path.join(self.folder, "faulty"), status=1)
+
+    def test_a_crash_is_a_fault_of_its_unit(self):
+        self.soak("one", "--units", "60")
+        result = self.soak("crashes", "--units", "60", status=1, STUB_DIES="bowtie", STUB_SIGNAL=str(int(signal.SIGSEGV)))
+        self.assertIn("killed by SIGSEGV", result.stderr)
+        one, crashes = bytes_of(os.path.join(self.folder, "one")), bytes_of(os.path.join(self.folder, "crashes"))
+        self.assertEqual(one.keys(), crashes.keys())  # it went on to the end
+        dead = [name for name in one if name.startswith("units/") and one[name] != crashes[name]]
+        self.assertGreater(len(dead), 0)
+        for name in dead:
+            unit = json.loads(crashes[name])
+            self.assertEqual((unit["input"], unit["faults"], unit["passes"]), ("bowtie", {"no_report": "killed by SIGSEGV"}, 0))
+            self.assertIn(" bowtie ", json.loads(crashes["totals.json"])["faulty"][str(int(name[6:14]))]["command"])
+        self.assertIn("killed by SIGSEGV", self.soak("crashes", "--units", "60", status=1).stderr)  # kept
+        silent = self.soak("silent", "--units", "60", status=1, STUB_SILENT="bowtie", STUB_STATUS="1")
+        self.assertIn("status 1 without a report", silent.stderr)
+        self.assertEqual(len(bytes_of(os.path.join(self.folder, "silent"))), len(one))
+
+    def test_what_is_wrong_with_all_units_ends_the_run(self):
+        self.soak("input", "--units", "60", status=2, STUB_SILENT="bowtie", STUB_STATUS="2")
+        self.soak("tool", "--units", "60", status=3, STUB_SILENT="bowtie", STUB_STATUS="3")
+        result = self.soak("dead", "--units", "1000", status=1, STUB_DIES="cosim", STUB_SIGNAL=str(int(signal.SIGABRT)))
+        self.assertIn("units on end without a report", result.stderr)
+        self.assertLess(len(units.Units(os.path.join(self.folder, "dead")).done()), 200)
+
+    def test_a_unit_that_something_else_kills_is_done_again(self):
+        self.soak("one", "--units", "60")
+        result = self.soak("killed", "--units", "60", status=1, STUB_DIES="bowtie", STUB_SIGNAL=str(int(signal.SIGKILL)))
+        self.assertIn("killed by SIGKILL", result.stderr)
+        self.assertIn("not kept", result.stderr)
+        self.assertTrue(0 < len(units.Units(os.path.join(self.folder, "killed")).done()) < 60)
+        self.soak("killed", "--units", "60")
+        self.assertEqual(bytes_of(os.path.join(self.folder, "one")), bytes_of(os.path.join(self.folder, "killed")))
+
+    def test_a_signal_ends_it_at_once_and_loses_nothing_done(self):
+        self.soak("one", "--units", "12")
+        for number in (signal.SIGTERM, signal.SIGINT):
+            name = number.name
+            # A third of the units would take a minute, the others are over at once.
+            with subprocess.Popen(self.command(name, "--units", "12", "--jobs", "3"), env={**os.environ, "STUB_SLOW": "1", "STUB_SECONDS": "60"},
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+                folder = os.path.join(self.folder, name, "units")
+                while process.poll() is None and not (os.path.isdir(folder) and len(os.listdir(folder)) >= 3):
+                    time.sleep(0.02)
+                began = time.monotonic()
+                process.send_signal(number)
+                _, error = process.communicate(timeout=30)
+            self.assertLess(time.monotonic() - began, 10)
+            self.assertEqual(process.returncode, 130, error)
+            self.assertIn("stopped; what was done is kept", error)
+            self.assertNotIn("FAILED", error)
+            kept = {file: os.stat(os.path.join(folder, file)).st_mtime_ns for file in os.listdir(folder) if not file.startswith(".")}
+            self.assertGreaterEqual(len(kept), 3)
+            self.soak(name, "--units", "12")
+            self.assertEqual(kept, {file: os.stat(os.path.join(folder, file)).st_mtime_ns for file in kept})  # not done again
+            self.assertEqual(bytes_of(os.path.join(self.folder, "one")), bytes_of(os.path.join(self.folder, name)))
+
+    def test_a_child_that_was_told_to_end_too_is_no_fault(self):
+        """Slurm signals every process of a task, in any order."""
+        self.soak("told", "--units", "60", status=1, STUB_DIES="bowtie", STUB_SIGNAL=str(int(signal.SIGTERM)))
+        self.assertEqual(json.loads(bytes_of(os.path.join(self.folder, "told"))["totals.json"])["faulty"], {})
+
+    def test_a_plan_of_before_dense(self):
+        self.soak("one", "--units", "9")
+        self.soak("old", "--units", "5")
+        path = os.path.join(self.folder, "old", "plan.json")
+        with open(path, encoding="utf-8") as file:
+            plan = json.load(file)
+        del plan["dense"]
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(plan, file)
+        self.soak("old", "--units", "9")
+        self.soak("part", "--units", "9", "--shard", "1/2")
+        self.soak("old", "--status", os.path.join(self.folder, "old"), os.path.join(self.folder, "part"))
+        self.soak("whole", "--merge", os.path.join(self.folder, "old"), os.path.join(self.folder, "part"))
+        self.assertEqual(bytes_of(os.path.join(self.folder, "one")), bytes_of(os.path.join(self.folder, "whole")))
+        self.assertIn("dense is False, not True", self.soak("old", "--units", "9", "--dense", status=2).stderr)
+
+    def test_status_of_several_runs_writes_nothing(self):
+        self.soak("a", "--units", "20")
+        self.soak("b", "--units", "9", "--seed", "2", "--dense")
+        self.soak("c0", "--units", "12", "--seed", "3", "--shard", "0/2", status=1, STUB_FAULT="64x64")
+        self.soak("c1", "--units", "12", "--seed", "3", "--shard", "1/2", status=1, STUB_DIES="bowtie", STUB_SIGNAL=str(int(signal.SIGSEGV)))
+        folders = [os.path.join(self.folder, name) for name in ("a", "b", "c0", "c1")]
+        for folder in folders:
+            os.remove(os.path.join(folder, "totals.json"))
+        before = {folder: (bytes_of(folder), os.stat(folder).st_mtime_ns) for folder in folders}
+        result = self.soak("x", "--status", *folders, status=1)
+        self.assertEqual(before, {folder: (bytes_of(folder), os.stat(folder).st_mtime_ns) for folder in folders})
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "x")))
+        found = [json.loads(data) for files, _ in before.values() for name, data in files.items() if name.startswith("units/")]
+        sums = {key: sum(unit[key] for unit in found) for key in soak.SUMS}
+        stress = sum(unit["passes"] for unit in found if unit["kind"] == "stress") / sums["passes"]
+        faulty = sum(bool(unit["faults"]) for unit in found)
+        self.assertGreater(faulty, 0)
+        head, *lines = result.stdout.splitlines()
+        self.assertEqual(head, f"41 units of 3 runs: {sums['passes']} fragments in lockstep ({100 * stress:.1f} % of stress families), of {sums['fragments']} pixels, each drawn in"
+                               f" passes with other attributes; {sums['cycles']} clocks, {sums['bits']} bits compared; {faulty} units with faults")
+        self.assertIn(f"  {folders[2]} {folders[3]}: seed 3, 4 machines, at most 1000000 fragments a unit: 12 units, ", "\n".join(lines))
+        self.assertEqual(sum(int(line.split(" units, ")[1].split()[0]) for line in lines[:3]), sums["passes"])
+        rates = [line for line in lines if "10^12" in line]
+        self.assertEqual({"all", "stress", "stress of --dense"} - {line[:23].strip() for line in rates}, set())
+        self.assertIn("FAILED: unit " + folders[2], result.stderr)
+        seconds = sum(sum(units.Units(folder).seconds().values()) for folder in folders)
+        whole = [line for line in rates if line.split()[0] == "all"][0]
+        self.assertAlmostEqual(float(whole.split("10^9 take ")[1].split()[0]), 1e9 / sums["passes"] * seconds / 3600, delta=0.06)
 
     def test_what_is_refused(self):
         self.soak("one", "--units", "3")
@@ -172,9 +292,9 @@ class Runs(WithStub):
         self.assertEqual(part.done(), [0, 1, 2])
 
     def test_nothing_compared_is_a_failure(self):
-        part = units.Units(os.path.join(self.folder, "a"), {"seed": 1})
+        part = units.Units(os.path.join(self.folder, "a"), Units.PLAN)
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()) as error:
-            self.assertFalse(soak.report(part))
+            self.assertFalse(soak.report(soak.runs_of([part.directory])))
         self.assertIn("nothing was compared", error.getvalue())
 
 
@@ -239,6 +359,49 @@ class Campaign(WithStub):
         self.assertTrue(whole.stdout.endswith(again))
         self.assertLess(len(again), len(whole.stdout))
         self.assertIn("seed is 1, not 2", self.campaign("whole", "--seed", "2", status=2).stderr)
+
+    def test_a_crash_is_a_failure_of_its_unit(self):
+        mesh = os.path.join(self.meshes, "a.obj")
+        number = 1 + len(soak.FAMILIES)
+        result = self.campaign("run", "--shard", f"{number}/1000", STUB_DIES=mesh, STUB_SIGNAL=str(int(signal.SIGSEGV)))
+        self.assertEqual(result.stderr.count("FAILED: quadrille cosim --mesh a.obj "), 4)  # a pattern each
+        self.assertIn(": killed by SIGSEGV", result.stderr)
+        self.assertIn("1 of ", result.stdout)
+        again = self.campaign("run", "--shard", f"{number}/1000")
+        self.assertIn(": killed by SIGSEGV", again.stderr)  # kept
+        drawn = self.campaign("drawn", "--shard", "40/1000", STUB_DIES="cosim", STUB_SIGNAL=str(int(signal.SIGSEGV)))
+        self.assertIn("1 of ", drawn.stdout)
+        lost = self.campaign("lost", "--shard", f"{number}/1000", STUB_DIES=mesh, STUB_SIGNAL=str(int(signal.SIGKILL)))
+        self.assertIn("not kept, the next run does it again", lost.stderr)
+        self.assertEqual(units.Units(os.path.join(self.folder, "lost")).done(), [])
+
+    def test_a_signal_ends_it_at_once(self):
+        command = [os.path.join(HERE, "campaign.py"), "--quadrille", self.stub, "--short", "--meshes", self.meshes, "--out", os.path.join(self.folder, "run")]
+        log = os.path.join(self.folder, "log")
+        with subprocess.Popen(command, env={**os.environ, "STUB_SECONDS": "60", "STUB_LOG": log}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            begun = ""
+            while process.poll() is None and "cosim" not in begun:
+                time.sleep(0.02)
+                with contextlib.suppress(FileNotFoundError), open(log, encoding="utf-8") as file:
+                    begun = file.read()
+            began = time.monotonic()
+            process.send_signal(signal.SIGTERM)
+            _, error = process.communicate(timeout=30)
+        self.assertLess(time.monotonic() - began, 10)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("stopped; what was done is kept", error)
+
+    def test_threads_are_those_of_the_task(self):
+        usable = len(os.sched_getaffinity(0))
+        for task, jobs, threads in (({"SLURM_CPUS_PER_TASK": "1"}, 1, 1), ({"SLURM_CPUS_PER_TASK": ""}, 1, usable), ({"SLURM_CPUS_PER_TASK": "4096"}, usable, 1)):
+            log = os.path.join(self.folder, "log")
+            self.campaign(f"run{jobs}{task['SLURM_CPUS_PER_TASK']}", "--shard", "0/1000", "--jobs", str(jobs), STUB_LOG=log, **task)
+            with open(log, encoding="utf-8") as file:
+                lines = [line.split() for line in file if line.startswith("cosim")]
+            self.assertGreater(len(lines), 0)
+            self.assertEqual({line[line.index("--threads") + 1] for line in lines if "--threads" in line}, {str(threads)})
+            self.assertTrue(all("--threads" in line for line in lines))
+            os.remove(log)
 
     def test_faults_have_their_command(self):
         mesh = os.path.join(self.meshes, "a.obj")

@@ -34,16 +34,21 @@ def shard(word):
     return int(match[1]), int(match[2])
 
 
-class Units:
-    """A folder of units done. `plan` is that of a new one; what is there must have the same. None: it must be there."""
+class Lost(Exception):
+    """Of a unit that something else ended: it is not kept, and the next run does it again."""
 
-    def __init__(self, directory, plan=None):
+
+class Units:
+    """A folder of units done. `plan` is that of a new one; what is there must have the same. None: it must be there. `defaults`: values of the
+    keys that plans did not have once."""
+
+    def __init__(self, directory, plan=None, defaults=None):
         self.directory = directory
         path = os.path.join(directory, "plan.json")
         if os.path.exists(path):
             try:
-                self.plan = read_json(path)
-            except (OSError, ValueError) as error:
+                self.plan = {**(defaults or {}), **read_json(path)}
+            except (OSError, ValueError, TypeError) as error:
                 raise InputError(f"{path}: {error}; give another folder") from None
             if plan is not None:
                 same_plan(path, self.plan, plan)
@@ -95,13 +100,14 @@ class Units:
 
     def run(self, do, numbers, jobs=1, until=None, told=lambda number, result: None):
         """Does those of `numbers` that are missing, `jobs` at a time, until they or the seconds `until` (of time.monotonic) are over, and
-        tells of each on this thread. An exception of a unit ends the run when the others under way are done and kept."""
+        tells of each on this thread: its result, or that it was Lost. Another exception of a unit ends the run when the others under way are
+        over, and kept where they are done. Whether no unit was lost."""
         with self.locked():
             done = set(self.done())
             missing = (number for number in numbers if number not in done)
             with open(os.path.join(self.directory, "times.jsonl"), "a", encoding="utf-8") as times, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
                 running = {}
-                failed = None
+                failed, whole = None, True
                 while True:
                     while len(running) < jobs and not failed and (until is None or time.monotonic() < until):
                         number = next(missing, None)
@@ -113,6 +119,10 @@ class Units:
                     ended, _ = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
                     for future in ended:
                         number, began = running.pop(future)
+                        if isinstance(future.exception(), Lost):
+                            whole = False
+                            told(number, future.exception())
+                            continue
                         if future.exception():
                             failed = failed or future.exception()
                             continue
@@ -122,6 +132,7 @@ class Units:
                         told(number, future.result())
                 if failed:
                     raise failed
+                return whole
 
 
 def same_plan(path, there, wanted):
@@ -133,8 +144,9 @@ def same_plan(path, there, wanted):
 class Shards:
     """The units of several folders of one plan, as Units has them. The same unit in two of them must be the same."""
 
-    def __init__(self, sources):
-        parts = [Units(source) for source in sources]
+    def __init__(self, sources, defaults=None):
+        parts = [Units(source, defaults=defaults) for source in sources]
+        self.directories = list(sources)
         self.plan = parts[0].plan
         self.parts = {}
         self.times = {}
@@ -156,9 +168,9 @@ class Shards:
         return self.times
 
 
-def merge(directory, sources):
+def merge(directory, sources, defaults=None):
     """A new folder with the units of all."""
-    shards = Shards(sources)
+    shards = Shards(sources, defaults)
     if os.path.exists(directory) and os.listdir(directory):
         raise InputError(f"{directory}: is there already; a new folder is expected")
     whole = Units(directory, shards.plan)

@@ -7,12 +7,17 @@
 
 BUILD_DIR is tb/mutants of a build. A mutant that no check sees must be argued equivalent in equivalent.toml, by its file, its line and the line
 as changed; one that is there must be seen by none, and its line must still exist. An entry with `open` instead says which check is missing.
+With --json each result is kept in FILE.part as it comes: the same command goes on there after it was stopped, and FILE is written whole at the
+end (not of a --sample, of which only `mutate` knows the draw).
 Exit status: 0 every mutant is seen or argued equivalent (in a --sample: or open); 1 one is not, or a shard is missing; 2 usage; 3 the checks did not run."""
 import argparse
 import collections
+import fcntl
+import hashlib
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -22,6 +27,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
+from report.files import InputError, write_files  # noqa: E402
 from report.units import shard  # noqa: E402
 SIDES = {"rtl": "RTL", "model": "model", "common": "both alike"}
 CLASSES = ("operator", "constant", "width", "sign", "index", "enable", "reset", "priority", "comparison")
@@ -50,35 +56,105 @@ def argument(entries, mutant):
     return None
 
 
-def run(build, arguments):
-    """The results, one after the other."""
+def run(build, arguments, only):
+    """The results, one after the other; `only`: a file of names, or none."""
     command = [str(build / "mutate"), "--jobs", str(arguments.jobs), "--sample", str(arguments.sample), "--seed", str(arguments.seed)]
     for key in ("side", "file", "name"):
         if getattr(arguments, key):
             command += [f"--{key}", getattr(arguments, key)]
     if arguments.fault_class:
         command += ["--class", arguments.fault_class]
-    if arguments.only:
-        command += ["--only", arguments.only]
+    if only:
+        command += ["--only", str(only)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        for line in process.stdout:
-            yield json.loads(line)
+        try:
+            for line in process.stdout:
+                yield json.loads(line)
+        except BaseException:
+            process.terminate()
+            raise
     if process.returncode != 0:
         sys.exit(process.returncode if process.returncode in (2, 3) else 3)
 
 
-def run_shard(build, arguments, drawn):
-    """Those of a shard: every N-th of the draw, or of those named in --only."""
-    index, count = arguments.shard
-    names = [m["name"] for m in drawn]
+def names_wanted(arguments, drawn):
+    """Of a run without --sample: those in --only, of these the shard's (every N-th), of these what the options choose, as `mutate` does."""
+    chosen = drawn
     if arguments.only:
-        wanted = set(pathlib.Path(arguments.only).read_text().split())
-        names = [name for name in names if name in wanted]
-    with tempfile.NamedTemporaryFile("w", suffix=".names") as file:
-        file.write("".join(name + "\n" for name in names[index::count]))
-        file.flush()
-        arguments.only = file.name
-        yield from run(build, arguments)
+        only = set(pathlib.Path(arguments.only).read_text().split())
+        chosen = [m for m in chosen if m["name"] in only]
+    index, count = arguments.shard or (0, 1)
+    return [m["name"] for m in chosen[index::count]
+            if arguments.side in ("", m["side"]) and arguments.fault_class in ("", m["class"]) and arguments.name in ("", m["name"])
+            and (not arguments.file or f"/{m['file']}".endswith(f"/{arguments.file}"))]
+
+
+class Journal:
+    """Results in FILE.part as they come: a line that says what of, then one of each. What is there is gone on with."""
+
+    def __init__(self, path, build, wanted):
+        self.path = pathlib.Path(f"{path}.part")
+        of = {"mutants": digest("\n".join(wanted).encode()), "build": digest(*((build / name).read_bytes() for name in ("mutate", "generated.json")))}
+        self.file = open(self.path, "a+b")
+        try:
+            fcntl.flock(self.file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            raise InputError(f"{self.path}: another process is writing there") from None
+        self.file.seek(0)
+        self.results, whole = {}, 0
+        for number, line in enumerate(self.file):
+            if not line.endswith(b"\n"):
+                break  # cut off
+            try:
+                entry = json.loads(line)
+                if number == 0 and entry != of:
+                    what = next((key for key in of if entry[key] != of[key]), "mutants")
+                    raise InputError(f"{self.path}: is of {'another build' if what == 'build' else 'other mutants'}; the command that began it goes on there, or remove it")
+                if number > 0:
+                    self.results[entry["name"]] = entry
+            except (ValueError, KeyError, TypeError) as error:
+                raise InputError(f"{self.path}: line {number + 1} is not what a run leaves ({error}); remove it") from None
+            whole += len(line)
+        self.file.truncate(whole)
+        if whole == 0:
+            self.write(of)
+
+    def write(self, entry):
+        self.file.write((json.dumps(entry) + "\n").encode())
+        self.file.flush()
+
+    def close(self):
+        self.path.unlink()
+        self.file.close()
+
+
+def digest(*parts):
+    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
+
+
+def results(build, arguments, wanted, journal):
+    """Of those wanted, each without its time, as it comes; then those of earlier runs."""
+    kept = journal.results if journal else {}
+    if kept:
+        print(f"{journal.path}: {len(kept)} of {len(wanted)} mutants are done", file=sys.stderr, flush=True)
+    missing = [name for name in wanted if name not in kept]
+    if missing or not wanted:  # of none `mutate` says that there is none
+        with tempfile.NamedTemporaryFile("w", suffix=".names") as file:
+            file.write("".join(name + "\n" for name in missing or [""]))
+            file.flush()
+            for result in told(run(build, arguments, file.name), arguments):
+                if journal:
+                    journal.write(result)
+                yield result
+    yield from kept.values()
+
+
+def told(found, arguments):
+    for result in found:
+        seconds = result.pop("seconds")  # not kept: the same mutant leaves the same bytes
+        if not arguments.quiet:
+            print(f"{seconds:6.1f} s  {result['name']}: {how_seen(result)}", file=sys.stderr, flush=True)
+        yield result
 
 
 def put_together(files):
@@ -170,6 +246,7 @@ def main():
     if arguments.shard and (arguments.sample or arguments.kept):
         parser.error("--shard goes with neither --sample nor --from")
     entries, faults = equivalents()
+    journal = None
     if arguments.kept:
         drawn, mutants = put_together(arguments.kept)
     else:
@@ -177,14 +254,18 @@ def main():
         generated = [m for m in json.loads((arguments.build / "generated.json").read_text()) if m["name"] not in left_out]
         drawn = len(generated)
         names = {m["name"]: {"number": number} | m for number, m in enumerate(generated)}
-        mutants = []
-        for result in run_shard(arguments.build, arguments, generated) if arguments.shard else run(arguments.build, arguments):
-            seconds = result.pop("seconds")  # not kept: the same mutant leaves the same bytes
-            mutants.append(names[result["name"]] | {"result": result})
-            if not arguments.quiet:
-                print(f"{seconds:6.1f} s  {result['name']}: {how_seen(result)}", file=sys.stderr, flush=True)
+        if arguments.sample:
+            found = list(told(run(arguments.build, arguments, arguments.only), arguments))
+        else:
+            wanted = names_wanted(arguments, generated)
+            if arguments.json:
+                journal = Journal(arguments.json, arguments.build, wanted)
+            found = sorted(results(arguments.build, arguments, wanted, journal), key=lambda result: names[result["name"]]["number"])
+        mutants = [names[result["name"]] | {"result": result} for result in found]
     if arguments.json:
-        arguments.json.write_text(json.dumps({"drawn": drawn, "mutants": mutants}, indent=1) + "\n")
+        write_files(str(arguments.json.parent), {arguments.json.name: (json.dumps({"drawn": drawn, "mutants": mutants}, indent=1) + "\n").encode()})
+    if journal:
+        journal.close()
     if arguments.kept and len(mutants) < drawn:
         print(f"{len(mutants)} of {drawn} mutants of the draw: not all of it was run, or a shard is missing")
     survivors = 0
@@ -207,4 +288,9 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # with the checks, not leaving them behind
+    try:
+        sys.exit(main())
+    except InputError as error:
+        print(f"report_mutants: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -3,22 +3,33 @@
 import json
 import os
 import pathlib
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
-# Says of every mutant asked for that a check sees it, but of those named in STUB_SURVIVES.
+# Says of every mutant asked for that a check sees it, but of those named in STUB_SURVIVES; dies at STUB_STOPS, waits at STUB_WAITS; notes in
+# `looked` what it looked at.
 STUB = """#!{python} -SE
-import json, os, sys
+import json, os, sys, time
 words = dict(zip(sys.argv[1::2], sys.argv[2::2]))
 mutants = json.load(open(os.path.join(os.path.dirname(sys.argv[0]), "generated.json")))
 only = set(open(words["--only"]).read().split()) if "--only" in words else None
 for number, m in enumerate(mutants):
     if (only is None or m["name"] in only) and words.get("--side", m["side"]) == m["side"] and m["name"] != "left":
+        if m["name"] == os.environ.get("STUB_STOPS"):
+            sys.exit(3)
+        if m["name"] == os.environ.get("STUB_WAITS"):
+            sys.stdout.flush()
+            time.sleep(60)
+        with open(os.path.join(os.path.dirname(sys.argv[0]), "looked"), "a") as looked:
+            looked.write(m["name"] + " ")
         seen = {{}} if m["name"] in os.environ.get("STUB_SURVIVES", "").split() else {{"killed": "truth", "where": "bowtie", "how": "difference"}}
-        print(json.dumps({{"name": m["name"], "seconds": os.getpid() + number, **seen}}))
+        print(json.dumps({{"name": m["name"], "seconds": os.getpid() + number, **seen}}), flush=True)
 """
 
 
@@ -35,9 +46,9 @@ class Report(unittest.TestCase):
         (self.build / "generated.json").write_text(json.dumps([*mutants, mutants[0] | {"name": "left"}]))
         (self.build / "rtl.left_out").write_text("left\n")
 
-    def report(self, *arguments, status=0, survives=""):
+    def report(self, *arguments, status=0, survives="", **environment):
         result = subprocess.run([sys.executable, str(HERE / "report_mutants.py"), *map(str, arguments)], capture_output=True, text=True,
-                                env={**os.environ, "STUB_SURVIVES": survives}, check=False)
+                                env={**os.environ, "STUB_SURVIVES": survives, **environment}, check=False)
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         return result
 
@@ -57,6 +68,83 @@ class Report(unittest.TestCase):
         names.write_text("m1\nm2\nm4\nm7\n")
         self.report(self.build, "--only", names, "--shard", "1/2", "--json", part)
         self.assertEqual([m["name"] for m in json.loads(part.read_text())["mutants"]], ["m2", "m7"])
+
+    def looked(self):
+        return (self.build / "looked").read_text().split()
+
+    def test_a_stopped_run_goes_on(self):
+        whole, cut = self.build / "whole.json", self.build / "cut.json"
+        printed = self.report(self.build, "--json", whole, status=1, survives="m2").stdout
+        self.assertEqual([path.name for path in self.build.glob("whole*")], ["whole.json"])
+        for stops in ("m4", "m7"):
+            self.report(self.build, "--json", cut, status=3, survives="m2", STUB_STOPS=stops)
+            self.assertFalse(cut.exists())
+        part = self.build / "cut.json.part"
+        self.assertEqual(len(part.read_text().splitlines()), 1 + 7)
+        with part.open("a") as file:
+            file.write('{"name": "m7", "kil')  # cut off
+        (self.build / "looked").unlink()
+        result = self.report(self.build, "--json", cut, status=1, survives="m2")
+        self.assertEqual(self.looked(), ["m7", "m8", "m9", "m10"])
+        self.assertIn("7 of 11 mutants are done", result.stderr)
+        self.assertEqual(result.stdout, printed)
+        self.assertEqual(cut.read_bytes(), whole.read_bytes())
+        self.assertFalse(part.exists())
+
+    def test_a_killed_shard_goes_on(self):
+        part, one = self.build / "part.json", self.build / "one.json"
+        self.report(self.build, "--shard", "1/2", "--side", "model", "--json", one)
+        for number in (signal.SIGKILL, signal.SIGTERM):
+            (self.build / "looked").unlink()
+            command = [sys.executable, str(HERE / "report_mutants.py"), self.build, "--shard", "1/2", "--side", "model", "--json", part]
+            with subprocess.Popen(command, env={**os.environ, "STUB_WAITS": "m7"}, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as process:
+                for line in process.stderr:
+                    if " m5: " in line:
+                        break
+                began = time.monotonic()
+                process.send_signal(number)
+                process.wait(timeout=30)
+                self.assertLess(time.monotonic() - began, 10)
+            self.assertEqual(self.looked(), ["m1", "m5"])
+            self.assertFalse(part.exists())
+            self.report(self.build, "--shard", "1/2", "--side", "model", "--json", part)
+            self.assertEqual(self.looked(), ["m1", "m5", "m7"])
+            self.assertEqual(part.read_bytes(), one.read_bytes())
+            part.unlink()
+
+    def test_what_is_kept_of_something_else(self):
+        part = self.build / "part.json"
+        self.report(self.build, "--json", part, status=3, STUB_STOPS="m4")
+        self.assertIn("of other mutants", self.report(self.build, "--json", part, "--shard", "0/2", status=2).stderr)
+        with (self.build / "mutate").open("a") as file:
+            file.write("# built again\n")
+        self.assertIn("of another build", self.report(self.build, "--json", part, status=2).stderr)
+        (self.build / "part.json.part").write_text("{}\n")
+        self.assertIn("is not what a run leaves", self.report(self.build, "--json", part, status=2).stderr)
+
+    def test_one_build_at_a_time(self):
+        """mutate.sh, of which every task of an array sets up and builds."""
+        tree, tools = self.build / "clone", self.build / "tools"
+        for script in ("mutate.sh", "setup.sh"):
+            (tree / "scripts").mkdir(parents=True, exist_ok=True)
+            shutil.copy(HERE.parents[1] / "scripts" / script, tree / "scripts" / script)
+        (tree / "tb/mutants").mkdir(parents=True)
+        (tree / "tb/mutants/generate_mutants.py").write_text("")
+        (tree / "tb/mutants/report_mutants.py").write_text("#!/bin/sh\necho report >>log; sleep 1; echo over >>log\n")
+        (tree / "tb/mutants/report_mutants.py").chmod(0o755)
+        tools.mkdir()
+        (tools / "dpkg-query").write_text("#!/bin/sh\necho installed\n")
+        (tools / "cmake").write_text('#!/bin/sh\necho "begin $PPID" >>log; sleep 0.2; echo "end $PPID" >>log\n')
+        for tool in tools.iterdir():
+            tool.chmod(0o755)
+        tasks = [subprocess.Popen([tree / "scripts/mutate.sh"], env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"}) for _ in range(3)]
+        self.assertEqual([task.wait(timeout=60) for task in tasks], [0, 0, 0])
+        lines = (tree / "log").read_text().split("\n")[:-1]
+        steps = [line for line in lines if line not in ("report", "over")]
+        self.assertEqual(len(steps), 12)  # configured and built, each begun and ended
+        for place in range(0, 12, 4):
+            self.assertEqual(len({line.split()[1] for line in steps[place:place + 4]}), 1, steps)
+        self.assertLess(lines.index(steps[4]), lines.index("over"))  # only these: while one runs its mutants, the next builds
 
     def test_survivors_fail(self):
         part = self.build / "part.json"
