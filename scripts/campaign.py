@@ -106,7 +106,7 @@ class Unit:
         """The report of a run, None if it had none. A failed one is recorded, but where only the truth differs and nothing is claimed about it
         (dropped bits of D and r^2), or where a run that compares nothing is no failure."""
         placed = [os.path.join(self.folder, part) if before == "--mesh" else part for before, part in zip(["", *options], options)]
-        command = [self.args.quadrille, "cosim", *placed, "--no-alone", "--quiet", "--json", "-", *self.threads, *set_options(self.plan["set"])]
+        command = [self.args.quadrille, "cosim", *placed, "--no-alone", "--no-shrink", "--quiet", "--json", "-", *self.threads, *set_options(self.plan["set"])]
         printed = f"quadrille cosim {shlex.join([*options, *set_options(self.plan['set'])])}"
         try:
             report, result = cosim_report(command)

@@ -94,7 +94,7 @@ class Soak:
 
     def unit(self, number):
         kind, name, options = unit_options(self.plan, self.folder, number)
-        command = [self.args.quadrille, "cosim", *options, "--no-alone", "--no-snapping-error", "--threads", "1", "--quiet", "--json", "-"]
+        command = [self.args.quadrille, "cosim", *options, "--no-alone", "--no-shrink", "--no-snapping-error", "--threads", "1", "--quiet", "--json", "-"]
         printed = [os.path.basename(part) if part.startswith(self.folder) else part for part in options]
         unit = {"kind": kind, "input": name, "options": printed, "fragment_hash": "", "worst": 0.0, "faults": {}, **dict.fromkeys(SUMS, 0)}
         try:
