@@ -21,9 +21,18 @@ struct Step {
   int knob;
   int side;  ///< 1, -1, or 0: the special case
   int width, height;
+  ApproachPlace place{};  ///< the whole quad unless the approach says otherwise
 
   /// The signed distance, 0 at the special case.
   double offset() const { return side * std::ldexp(1.0, -knob); }
+
+  void happens_near(Point p, double radius) {
+    place.near_x = p.x;
+    place.near_y = p.y;
+    place.near_radius = radius;
+  }
+  /// At a pixel centre.
+  void happens_at(Point centre) { happens_near(centre, 0); }
 };
 
 double pick(Prng& rng, double low, double high) { return snap256(rng.uniform(low, high)); }
@@ -79,6 +88,7 @@ void set_camera_depth(Step& s, Vertices& v) {
 /// one.
 Vertices edge_distance(Step& s) {
   const Point c = centre(s);
+  s.happens_at(c);
   Point from, to;
   const double left = pick(s.rng, 6, 20), right = pick(s.rng, 6, 20), slope = s.rng.chance(0.5) ? 1 : 0;
   if (s.knob <= 8) {
@@ -99,6 +109,7 @@ Vertices edge_distance(Step& s) {
 /// Corner 0 beside a pixel centre.
 Vertices vertex_distance(Step& s) {
   const Point c = centre(s), d = direction(s);
+  s.happens_at(c);
   Points p{c + s.offset() * d};
   for (std::size_t i = 1; i < 4; ++i) p[i] = around(s, c, 16);
   return ordinary(s, p);
@@ -107,6 +118,7 @@ Vertices vertex_distance(Step& s) {
 /// A bow-tie: edges 01 and 23 cross near a pixel centre.
 Vertices crossing(Step& s) {
   const Point c = centre(s), u = direction(s);
+  s.happens_at(c);
   const Point v = s.rng.chance(0.5) ? Point{-u.y, u.x} : Point{u.x - 2 * u.y, u.y + 2 * u.x};
   const Point moved{s.offset(), -2 * s.offset()};
   const double a = pick(s.rng, 2, 8), b = pick(s.rng, 2, 8), d = pick(s.rng, 1, 4), e = pick(s.rng, 1, 4);
@@ -236,23 +248,48 @@ const Approach* find_approach(std::string_view name) {
   return nullptr;
 }
 
-std::vector<WindowQuad> make_approach(const Approach& approach, int knob, int side, std::size_t count,
-                                      std::uint64_t seed, int attributes) {
+namespace {
+
+/// The step of every quad, its vertices made.
+template <class Take>
+void each_step(const Approach& approach, int knob, int side, std::size_t count, std::uint64_t seed, const Take& take) {
   if (knob < approach.first || knob > approach.last || (side == 0 && !approach.limit) ||
       (side < 0 && !approach.both_sides) || side < -1 || side > 1)
     throw std::invalid_argument(std::string(approach.name) + ": no knob " + std::to_string(knob) + ", side " +
                                 std::to_string(side));
   const auto index = static_cast<std::size_t>(find_approach(approach.name) - infos.data());
-  std::vector<WindowQuad> quads(count);
   for (std::size_t q = 0; q < count; ++q) {
     // A sequence of its own for each quad: every step draws as many numbers.
     Step step{Prng(seed * 1'000'003 + q, index + 1), knob, side, approach.width, approach.height};
+    const Vertices vertices = generators[index].make(step);
+    take(q, step, vertices);
+  }
+}
+
+}  // namespace
+
+std::vector<WindowQuad> make_approach(const Approach& approach, int knob, int side, std::size_t count,
+                                      std::uint64_t seed, int attributes) {
+  std::vector<WindowQuad> quads(count);
+  each_step(approach, knob, side, count, seed, [&](std::size_t q, Step& step, const Vertices& vertices) {
     quads[q].id = static_cast<std::uint32_t>(q);
-    quads[q].vertex = generators[index].make(step);
+    quads[q].vertex = vertices;
     for (std::vector<double>& attribute : quads[q].attribute)
       for (int a = 0; a < attributes; ++a) attribute.push_back(step.rng.uniform(-1, 1));
-  }
+  });
   return quads;
+}
+
+bool ApproachPlace::is_near(int x, int y) const {
+  return std::hypot(x + 0.5 - near_x, y + 0.5 - near_y) <= near_radius;
+}
+
+std::vector<ApproachPlace> approach_places(const Approach& approach, int knob, int side, std::size_t count,
+                                           std::uint64_t seed) {
+  std::vector<ApproachPlace> places(count);
+  each_step(approach, knob, side, count, seed,
+            [&](std::size_t q, const Step& step, const Vertices&) { places[q] = step.place; });
+  return places;
 }
 
 }  // namespace quadrille::golden

@@ -4,8 +4,10 @@
 
 #include "model/records.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -34,5 +36,22 @@ const Approach* find_approach(std::string_view name);
 /// std::invalid_argument for a knob or side that the approach does not have.
 std::vector<WindowQuad> make_approach(const Approach& approach, int knob, int side, std::size_t count,
                                       std::uint64_t seed, int attributes);
+
+/// Where in a quad of make_approach the special case is: a pixel centre that it happens at, a point that the special
+/// corners are at, or the whole quad. The same at every knob and side.
+struct ApproachPlace {
+  /// In pixels of the window (pixel (x, y) has its centre at x + 0.5, y + 0.5).
+  double near_x = 0, near_y = 0;
+  /// The pixels whose centre is at most so far away are those near the case: 0 where it is of one pixel, infinite where
+  /// it is of the whole quad.
+  double near_radius = std::numeric_limits<double>::infinity();
+  /// Which corner of the quad is the one that the approach's definition (README.md) calls 0, 1, 2, 3.
+  std::array<std::size_t, 4> corner{0, 1, 2, 3};
+
+  bool is_near(int x, int y) const;
+};
+/// Of the quads that make_approach gives for the same arguments.
+std::vector<ApproachPlace> approach_places(const Approach& approach, int knob, int side, std::size_t count,
+                                           std::uint64_t seed);
 
 }  // namespace quadrille::golden
