@@ -85,6 +85,7 @@ const std::map<std::string_view, Distance> distances{
     {"opposite_distance", {[](const Approaching& a) { return length(a.at(0), a.at(2)); }, 2.23, 5, false}},
     {"diagonal_distance", {[](const Approaching& a) { return from_line(a.at(1), a.at(0), a.at(2)); }, 1, 2.24, true}},
     {"eye_plane", {[](const Approaching& a) { return a.vertex(1).w; }, 1, 1, true}},
+    {"eye_face", {[](const Approaching& a) { return -a.vertex(3).w - 1; }, 1, 1, true}},
     {"eye_edge", {[](const Approaching& a) { return line_through(a.vertex(0), a.vertex(1)); }, 11.3, 34, false}},
     {"eye_diagonal", {[](const Approaching& a) { return line_through(a.vertex(0), a.vertex(2)); }, 11.3, 34, false}},
     {"guard_band", {beyond_guard_band, 1, 1, true}},
@@ -113,12 +114,8 @@ std::string text(const Approach& approach, int knob, int side) {
 TEST(Approach, ComesAsNearAsItsKnobSays) {
   for (const auto& [name, distance] : distances) EXPECT_NE(find_approach(name), nullptr) << name;
   each_step([](const Approach& approach, int knob, int side) {
-    const auto found = distances.find(approach.name);
-    if (found == distances.end()) {
-      EXPECT_EQ(approach.name, "eye_face");  // of a hull: below
-      return;
-    }
-    const Distance& distance = found->second;
+    ASSERT_TRUE(distances.contains(approach.name)) << approach.name;
+    const Distance& distance = distances.at(approach.name);
     const auto quads = make_approach(approach, knob, side, count, seed, 1);
     const auto places = approach_places(approach, knob, side, count, seed);
     const auto others = approach.both_sides ? make_approach(approach, knob, -side, count, seed, 1) : quads;
@@ -133,14 +130,33 @@ TEST(Approach, ComesAsNearAsItsKnobSays) {
     }
   });
   for (const Approach& approach : approaches()) {
-    if (!approach.limit || !distances.contains(approach.name)) continue;
-    for (int knob : {approach.first, approach.last}) {
-      const auto quads = make_approach(approach, knob, 0, count, seed, 1);
-      const auto places = approach_places(approach, knob, 0, count, seed);
-      for (std::size_t i = 0; i < count; ++i)
-        EXPECT_EQ(distances.at(approach.name).of({quads[i], places[i]}), 0) << text(approach, knob, 0) << " quad " << i;
+    if (!approach.limit) continue;
+    const auto quads = make_approach(approach, approach.last, 0, count, seed, 1);
+    const auto same = make_approach(approach, approach.first, 0, count, seed, 1);
+    const auto places = approach_places(approach, approach.last, 0, count, seed);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(distances.at(approach.name).of({quads[i], places[i]}), 0) << approach.name << " quad " << i;
+      for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(quads[i].vertex[k].x, same[i].vertex[k].x) << approach.name << " quad " << i;
+        EXPECT_EQ(quads[i].vertex[k].y, same[i].vertex[k].y) << approach.name << " quad " << i;
+      }
     }
   }
+}
+
+TEST(Approach, NearIsACircleOfPixelCentres) {
+  ApproachPlace place;
+  EXPECT_TRUE(place.is_near(0, 0));
+  EXPECT_TRUE(place.is_near(4095, 4095));
+  place.near_x = 8.5;
+  place.near_y = 3.5;
+  place.near_radius = 0;
+  EXPECT_TRUE(place.is_near(8, 3));
+  EXPECT_FALSE(place.is_near(8, 4));
+  EXPECT_FALSE(place.is_near(3, 8));
+  place.near_radius = 1;
+  EXPECT_TRUE(place.is_near(8, 4));
+  EXPECT_FALSE(place.is_near(9, 4));
 }
 
 DrawState draw_state(const Approach& approach) {
