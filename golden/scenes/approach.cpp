@@ -173,7 +173,7 @@ Vertices vertex_distance(Step& s) {
                t3 = pick(s.rng, 4, 8), f = pick(s.rng, -1, 1);
   const double inward = s.rng.sign();
   const Point corner = c + s.offset() * d;
-  if (s.rng.chance(0.5))  // the notch is across the way of the corner
+  if (s.rng.chance(0.5))  // reflex, its notch to one side of the way
     return ordinary(s, {corner, c + t1 * d + a * across, c + f * d - e * across, c - t3 * d + b * across});
   return ordinary(s, {corner, c + inward * a * d + t1 * across, c + inward * (a + e) * d + f * across,
                       c + inward * b * d - t3 * across});
@@ -425,11 +425,11 @@ constexpr std::array<Generator, 20> generators{{
       extent, extent},
      eye_face,
      Window::turn},
-    {{"eye_edge", "the eye on an edge", "distance of the eye from the edge, times a number", 0, 16, true, true, extent,
-      extent},
+    {{"eye_edge", "the eye on an edge", "share of another vertex in the corner opposite the eye", 0, 16, true, true,
+      extent, extent},
      eye_edge,
      Window::turn},
-    {{"eye_diagonal", "the eye on a diagonal", "distance of the eye from the diagonal, times a number", 0, 16, true,
+    {{"eye_diagonal", "the eye on a diagonal", "share of another vertex in the corner opposite the eye", 0, 16, true,
       true, extent, extent},
      eye_diagonal,
      Window::turn},

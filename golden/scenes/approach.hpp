@@ -17,7 +17,7 @@ namespace quadrille::golden {
 struct Approach {
   std::string_view name;
   std::string_view special;  ///< the case that is approached
-  std::string_view knob;     ///< what 2^-knob (long_edge: 2^knob) is
+  std::string_view knob;     ///< what 2^-knob (long edges: 2^knob) is
   int first, last;           ///< knobs, both included
   bool both_sides;           ///< side -1 is another quad than side 1
   bool limit;                ///< side 0, the special case, is a quad
@@ -32,7 +32,8 @@ const Approach* find_approach(std::string_view name);
 /// `count` quads, id = index; the same arguments give the same bits on every machine. Quad i is the same at every knob
 /// and side but for what these say; its other corners, its place and its attributes (in [-1, 1]) follow from seed and
 /// i. side: 1, -1, or 0 for the special case, which does not depend on the knob. Corners are multiples of 1/256 px, or
-/// of 2^-knob px where that is finer, so that with subpixel_bits = 8 the special case is exact after snapping. Throws
+/// of 2^-knob px where that is finer, so that with subpixel_bits = 8 the special case is exact after snapping. The
+/// guard band is that of the standard configuration. Throws
 /// std::invalid_argument for a knob or side that the approach does not have.
 std::vector<WindowQuad> make_approach(const Approach& approach, int knob, int side, std::size_t count,
                                       std::uint64_t seed, int attributes);
