@@ -111,6 +111,7 @@ class Meter {
   void expect_quad(std::span<const EngineSample> drawn) {
     const std::uint32_t index = drawn.front().index;
     const JudgedQuad quad(snapped_[index], snapping_, state_, state_);
+    const ErrorLimits limits(quad, config_, state_);
     std::vector<golden::PixelPlace> pixels;
     for (const EngineSample& sample : drawn) pixels.push_back({sample.x, sample.y});
     std::vector<ReferenceSample> truths(pixels.size());
@@ -123,7 +124,7 @@ class Meter {
       expected_.push_back({{index, drawn[i].quad, x, y},
                            !places_.empty() && places_[index].is_near(x, y),
                            truth,
-                           allowed_errors(quad, truth, x, y, config_, state_)});
+                           limits.at(truth, x, y)});
     }
   }
 
@@ -195,34 +196,45 @@ std::string first_difference(std::span<const EngineSample> model, std::span<cons
   return "rtl differs from model: " + text(m, model.end()) + " and " + text(r, rtl.end());
 }
 
-/// JudgedQuad::depth_tolerance by the weights of eq. (10), which are M_i k_i up to a common factor.
-double depth_tolerance(const JudgedQuad& quad, const ReferenceSample& truth, double bound, const Config& config) {
-  double above = 0, below = 0, sum = 0;
+}  // namespace
+
+ErrorLimits::ErrorLimits(const JudgedQuad& quad, const Config& config, const DrawState& state)
+    : quad_(quad),
+      attributes_(static_cast<std::size_t>(state.attributes)),
+      bound_(weight_bound(config)),
+      attribute_unit_(attribute_format(config).unit()),
+      depth_unit_(depth_format(config).unit()),
+      quick_(state.perspective && quad.bounded()) {
   for (std::size_t i = 0; i < 4; ++i) {
     const SnappedVertex& v = quad.quad().vertex[i];
-    const double m = truth.lambda[i] / golden::port_value(v.k, config.significand_bits);
-    const double mw = m * std::ldexp(static_cast<double>(v.w), -config.frac());
-    above += std::fabs(m * golden::port_value(v.z, config.significand_bits));
+    const double k = golden::port_value(v.k, config.significand_bits);
+    z_[i] = golden::port_value(v.z, config.significand_bits) / k;
+    w_[i] = std::ldexp(static_cast<double>(v.w), -config.frac()) / k;
+  }
+  for (std::size_t a = 0; quick_ && a < attributes_; ++a)
+    fixed_.attribute[a] = quad.attribute_tolerance(a, 0, 0, 0, bound_) + attribute_unit_;
+}
+
+AllowedErrors ErrorLimits::at(const ReferenceSample& truth, int x, int y) const {
+  AllowedErrors allowed = fixed_;
+  for (std::size_t a = 0; !quick_ && a < attributes_; ++a)
+    allowed.attribute[a] = quad_.attribute_tolerance(a, truth.attribute[a], x, y, bound_) + attribute_unit_;
+  allowed.depth = (quick_ ? depth(truth) : quad_.depth_tolerance(x, y, bound_)) + depth_unit_;
+  return allowed;
+}
+
+/// JudgedQuad::depth_tolerance with M_i = lambda_i / k_i, up to a common factor.
+double ErrorLimits::depth(const ReferenceSample& truth) const {
+  double above = 0, below = 0, sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double mw = truth.lambda[i] * w_[i];
+    above += std::fabs(truth.lambda[i] * z_[i]);
     below += std::fabs(mw);
     sum += mw;
   }
-  const double scale = std::fabs(sum), lost = 2 * bound * (below / scale);
+  const double scale = std::fabs(sum), lost = 2 * bound_ * (below / scale);
   if (!(lost < 1)) return std::numeric_limits<double>::infinity();
-  return (2 * bound * (above / scale) + std::fabs(truth.z) * lost) / (1 - lost) + quad.depth_allowance();
-}
-
-}  // namespace
-
-AllowedErrors allowed_errors(const JudgedQuad& quad, const ReferenceSample& truth, int x, int y, const Config& config,
-                             const DrawState& state) {
-  const double bound = weight_bound(config), unit = attribute_format(config).unit();
-  AllowedErrors allowed;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(state.attributes); ++a)
-    allowed.attribute[a] = quad.attribute_tolerance(a, truth.attribute[a], x, y, bound) + unit;
-  const double depth = state.perspective && quad.bounded() ? depth_tolerance(quad, truth, bound, config)
-                                                           : quad.depth_tolerance(x, y, bound);
-  allowed.depth = depth + depth_format(config).unit();
-  return allowed;
+  return (2 * bound_ * (above / scale) + std::fabs(truth.z) * lost) / (1 - lost) + quad_.depth_allowance();
 }
 
 void BodyErrors::merge(const BodyErrors& other) {

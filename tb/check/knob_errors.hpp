@@ -32,13 +32,29 @@ struct AllowedErrors {
   std::array<double, max_attribute_slots> attribute{};
   double depth = 0;  ///< infinite where sum(M W) cancels to what the weights' errors leave of it
 };
-/// Of the attributes that `state` has in use; `truth` is that of the pixel. With perspective the depth's comes of the
-/// truth's weights in double, not of 113-bit ones as JudgedQuad::depth_tolerance: the same number but for rounding.
-AllowedErrors allowed_errors(const JudgedQuad& quad, const golden::ReferenceSample& truth, int x, int y,
-                             const Config& config, const DrawState& state);
+/// Of one quad, of the attributes that `state` has in use. With perspective they come of the truth's weights in double,
+/// not of 113-bit ones as JudgedQuad's: the same numbers but for rounding.
+class ErrorLimits {
+ public:
+  /// `quad` must outlive this.
+  ErrorLimits(const JudgedQuad& quad, const Config& config, const DrawState& state);
+
+  /// `truth` is that of the pixel.
+  AllowedErrors at(const golden::ReferenceSample& truth, int x, int y) const;
+
+ private:
+  double depth(const golden::ReferenceSample& truth) const;
+
+  const JudgedQuad& quad_;
+  std::size_t attributes_;
+  double bound_, attribute_unit_, depth_unit_;
+  bool quick_;                       ///< nothing but the weights of eq. (10) is needed
+  std::array<double, 4> z_{}, w_{};  ///< Z/k and W/k
+  AllowedErrors fixed_;              ///< of attributes, where the pixel does not matter
+};
 
 /// The largest error of one output, as a part of what the bound allows: a weight 2^-(s-3), attributes and depth
-/// allowed_errors().
+/// ErrorLimits.
 struct LargestError {
   double part = 0;
   Place place;

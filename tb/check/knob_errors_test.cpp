@@ -128,12 +128,13 @@ TEST(KnobErrors, ToleranceOfDepth) {
     for (const WindowQuad& given : golden::make_stress_without_weights(family, 60, 3, 64, 64, 1)) {
       const SnappedQuad snapped = snap_as(given, 0, config, state);
       const JudgedQuad quad(snapped, config, state, state);
+      const ErrorLimits limits(quad, config, state);
       for (int y = 0; y < 64; y += 3)
         for (int x = 0; x < 64; x += 3) {
           const golden::ReferenceSample truth = quad.truth().sample(x, y);
           if (!truth.covered || !truth.visible) continue;
           const double bound = weight_bound(config), exact = quad.depth_tolerance(x, y, bound),
-                       quick = allowed_errors(quad, truth, x, y, config, state).depth - depth_format(config).unit();
+                       quick = limits.at(truth, x, y).depth - depth_format(config).unit();
           ++compared;
           unlimited += std::isinf(exact);
           EXPECT_EQ(std::isinf(quick), std::isinf(exact));

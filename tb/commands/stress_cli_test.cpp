@@ -96,12 +96,29 @@ class CliStress : public Cli {
     return commands;
   }
 
-  /// With commas.
-  std::string approaches() const {
-    std::string names;
+  std::vector<std::string> approaches() const {
+    std::vector<std::string> names;
     for (const json& entry : json::parse(run("scenes --stress --json").out))
-      if (entry["kind"] == "approach") names += (names.empty() ? "" : ",") + entry["name"].get<std::string>();
+      if (entry["kind"] == "approach") names.push_back(entry["name"]);
     return names;
+  }
+
+  /// No rule on the widths fails on the way to a special case, nor is a step without a pixel that shows it.
+  void check_approaches(const std::vector<std::string>& names, int bits, int count) const {
+    SCOPED_TRACE(bits);
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+    const Outcome outcome = run("stress --engines model --json - --families " + list + " --count " +
+                                std::to_string(count) + " --set significand_bits=" + std::to_string(bits));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json report = json::parse(outcome.out);
+    EXPECT_EQ(report["weight_bound"], std::ldexp(1.0, 3 - bits));
+    ASSERT_EQ(report["families"].size(), names.size());
+    for (const json& family : report["families"])
+      for (const char* output : {"weight", "attribute", "depth"}) {
+        EXPECT_GT(family["worst"]["model"][output]["error"], 0) << family["family"] << output;
+        EXPECT_LT(family["worst"]["model"][output]["error"], 1) << family["family"] << output;
+      }
   }
 };
 
@@ -185,23 +202,19 @@ TEST_F(CliStressRtl, EveryCommandShowsItsError) {
   EXPECT_EQ(check_commands(json::parse(outcome.out)), (std::map<std::string, int>{{"model", 3}, {"rtl", 3}}));
 }
 
-/// No rule on the widths fails on the way to a special case, nor is a step without a pixel that shows it.
-TEST_F(CliStressWidths, ApproachesAtEveryWidth) {
-  const std::string names = approaches();
+/// Every second approach at every width, the others at the next: half a minute of CPU otherwise. Two quads a step: the
+/// edge of one has its pixel inside on one side alone.
+TEST_F(CliStressWidths, ApproachesInTurn) {
+  const std::vector<std::string> all = approaches();
   for (int bits = 8; bits <= 26; ++bits) {
-    SCOPED_TRACE(bits);
-    const Outcome outcome =
-        run("stress --engines model --families " + names + " --json - --set significand_bits=" + std::to_string(bits));
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const json report = json::parse(outcome.out);
-    EXPECT_EQ(report["weight_bound"], std::ldexp(1.0, 3 - bits));
-    EXPECT_EQ(report["families"].size(), std::count(names.begin(), names.end(), ',') + 1);
-    for (const json& family : report["families"])
-      for (const char* output : {"weight", "attribute", "depth"}) {
-        EXPECT_GT(family["worst"]["model"][output]["error"], 0) << family["family"] << output;
-        EXPECT_LT(family["worst"]["model"][output]["error"], 1) << family["family"] << output;
-      }
+    std::vector<std::string> names;
+    for (std::size_t i = static_cast<std::size_t>(bits) % 2; i < all.size(); i += 2) names.push_back(all[i]);
+    check_approaches(names, bits, 2);
   }
+}
+
+TEST_F(CliStressWhole, ApproachesAtEveryWidth) {
+  for (int bits = 8; bits <= 26; ++bits) check_approaches(approaches(), bits, 6);
 }
 
 /// The command as it is meant to be run, every family and approach by every body.
@@ -323,7 +336,7 @@ TEST_F(CliStress, FragmentsWithErrors) {
       if (row.rfind("quad,", 0) != 0) most = std::max(most, std::strtod(row.c_str() + row.rfind(',') + 1, nullptr));
     return most;
   };
-  EXPECT_EQ(largest(truth), 0);
+  EXPECT_LT(largest(truth), 1e-10);            // rounding of the truth alone
   EXPECT_GT(largest(model), largest(single));  // far from any case single precision is the better one
   EXPECT_LT(largest(model), 1);
   EXPECT_GT(largest(single), 0);

@@ -351,7 +351,7 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
     throw UsageError("--stall and --gap are for --engine rtl; " + engine + " has no clock");
   const bool machine = s.kind == EngineKind::rtl || s.kind == EngineKind::model;
   if (machine && !s.snap)
-    throw UsageError("--snap off is for floating point (float, shader, truth); the machine takes snapped quads only");
+    throw UsageError("--snap off is for the engines float, shader and truth; the machine takes snapped quads only");
   return s;
 }
 
