@@ -40,7 +40,7 @@ class Shrinking {
     ++tries_;
     const std::optional<Failure> first = run_(draw_);
     if (!first) return std::nullopt;
-    if (!draw_.waits) draw_.waits = first->waits;
+    draw_.waits = first->waits;
     // The quad whose beats are on offer is the last that can matter: what comes behind it need not be bisected.
     if (first->quads + 1 < draw_.quads.size())
       accept([&](FailingDraw& d) { erase_quads(d, first->quads + 1, d.quads.size()); });
@@ -77,7 +77,7 @@ class Shrinking {
     const std::optional<Failure> failure = run_(less);
     if (!failure) return false;
     draw_ = std::move(less);
-    if (!draw_.waits) draw_.waits = failure->waits;
+    draw_.waits = failure->waits;
     return true;
   }
 
@@ -95,7 +95,7 @@ class Shrinking {
     if (accept(change)) return true;
     if (stall_ == 0 && gap_ == 0) return false;
     for (unsigned i = 0; i < limits_.redraws && !ended_; ++i) {
-      const auto more = [&](double chance) { return chance == 0 ? 0 : 1 - (1 - chance) / (1 << i % 3); };
+      const auto more = [&](double chance) { return chance == 0 ? 0 : 1 - (1 - chance) / (1 << i % 6); };
       const bool taken = accept([&](FailingDraw& d) {
         change(d);
         d.waits.reset();
@@ -109,19 +109,15 @@ class Shrinking {
   }
 
   /// Calls leave_out(begin, end) for runs of `size()` things, half of all first, in the end one by one; it says whether
-  /// they are gone.
+  /// they are gone. (One that can go when another has gone is found when all is gone through again.)
   template <class Size, class LeaveOut>
   void fewer(std::size_t least, Size&& size, LeaveOut&& leave_out) {
-    for (std::size_t run = size() / 2 + size() % 2; run > 0 && !ended_;) {
-      bool any = false;
+    for (std::size_t run = size() / 2 + size() % 2; run > 0 && !ended_; run /= 2)
       for (std::size_t at = 0; at < size() && size() > least;) {
         const std::size_t end = std::min(at + run, size());
         const bool gone = size() - (end - at) >= least && leave_out(at, end);
-        any = any || gone;
         if (!gone) at = end;
       }
-      run = any && run == 1 ? 1 : run / 2;
-    }
   }
 
   /// As few of the first quads as bisection finds.

@@ -31,7 +31,7 @@ using FailingRun = std::function<std::optional<Failure>(const FailingDraw&)>;
 
 struct ShrinkLimits {
   std::uint64_t tries = 100'000;                             ///< runs
-  unsigned redraws = 8;                                      ///< of the waits, before a step is given up
+  unsigned redraws = 12;                                     ///< of the waits, before a step is given up
   std::function<bool()> out_of_time = [] { return false; };  ///< ends the search, too
 };
 

@@ -48,8 +48,8 @@ FailingRun failing(Fails fails) {
   };
 }
 
-FailingDraw least(FailingDraw draw, const FailingRun& run) {
-  const std::optional<Shrunk> shrunk = shrink(std::move(draw), run);
+FailingDraw least(FailingDraw draw, const FailingRun& run, const ShrinkLimits& limits = {}) {
+  const std::optional<Shrunk> shrunk = shrink(std::move(draw), run, limits);
   EXPECT_TRUE(shrunk && !shrunk->ended);
   return shrunk.value_or(Shrunk{}).draw;
 }
@@ -153,7 +153,9 @@ TEST(Shrink, GapsStayBeforeTheirBeats) {
       if (d.quads[i].id == 5 && std::ranges::count(d.waits->gap_beats, 4 * i + 1) == 2) return true;
     return false;
   };
-  const FailingDraw left = least(draw, failing(fails));
+  ShrinkLimits as_listed;
+  as_listed.redraws = 0;
+  const FailingDraw left = least(draw, failing(fails), as_listed);
   ASSERT_EQ(left.quads.size(), 1u);
   EXPECT_EQ(left.quads[0].id, 5u);
   EXPECT_EQ(*left.waits, (tb::PortWaits{{}, {1, 1}}));
@@ -165,6 +167,7 @@ TEST(Shrink, NothingCanBeLeftOutByItself) {
   for (int i = 0; i < 50; ++i) {
     FailingDraw draw = draw_of(40);
     draw.seed = static_cast<std::uint64_t>(i);
+    if (i % 2 == 1) draw.gap = 0;
     const tb::PortWaits all = waits_of(draw);
     std::vector<std::uint32_t> ids;
     std::vector<std::uint64_t> stalls;
@@ -182,16 +185,62 @@ TEST(Shrink, NothingCanBeLeftOutByItself) {
     stalls.erase(std::ranges::unique(stalls).begin(), stalls.end());
     EXPECT_EQ(left.quads.size(), ids.size());
     EXPECT_EQ(*left.waits, (tb::PortWaits{stalls, {}}));
+    EXPECT_EQ(left.stall, 0);  // which would draw others
   }
+}
+
+/// A quad that is needed only as long as there are many pixels.
+TEST(Shrink, FewerPixelsMayNeedFewerQuads) {
+  const FailingDraw left = least(draw_of(20), failing([](const FailingDraw& d) {
+                                   return has(d, 3) && (has(d, 12) || d.state.scissor_x1 - d.state.scissor_x0 <= 8);
+                                 }));
+  EXPECT_EQ(left.quads.size(), 1u);
+}
+
+/// Quads that the machine had not begun are gone at once.
+TEST(Shrink, OnlyQuadsThatWereTaken) {
+  std::vector<std::size_t> tried;
+  shrink(draw_of(1000), [&](const FailingDraw& d) -> std::optional<Failure> {
+    tried.push_back(d.quads.size());
+    if (!has(d, 300)) return std::nullopt;
+    return Failure{300, waits_of(d)};
+  });
+  ASSERT_GE(tried.size(), 2u);
+  EXPECT_EQ(tried[1], 301u);
+}
+
+/// Waits that are drawn anew are never those of a draw before.
+TEST(Shrink, EveryRedrawHasItsSeed) {
+  std::vector<std::uint64_t> seeds;
+  shrink(draw_of(10), [&](const FailingDraw& d) -> std::optional<Failure> {
+    if (!d.waits) seeds.push_back(d.seed);
+    if (d.waits && (d.waits->stall_clocks.empty() || d.quads.size() < 10)) return std::nullopt;
+    if (!d.waits && d.seed > 1) return std::nullopt;
+    return Failure{d.quads.size(), waits_of(d)};
+  });
+  EXPECT_GT(seeds.size(), 10u);
+  std::ranges::sort(seeds);
+  EXPECT_EQ(std::ranges::adjacent_find(seeds), seeds.end());
 }
 
 TEST(Shrink, WhatDoesNotFailAgain) {
   EXPECT_FALSE(shrink(draw_of(10), failing([](const FailingDraw&) { return false; })));
 }
 
-/// It ends after so many tries or when the time is up, says so, and leaves a draw that fails.
+/// It ends after so many tries or when the time is up, says so, and leaves a draw that fails, whose chances, where it
+/// has some, draw just its waits.
 TEST(Shrink, EndsAtItsLimits) {
-  for (const std::uint64_t most : {1u, 2u, 5u, 20u}) {
+  FailingDraw draw = draw_of(40);
+  draw.stall = 0;
+  const std::uint64_t beat = waits_of(draw).gap_beats[20];
+  const auto needed = static_cast<std::uint32_t>(beat / 4);
+  const FailingRun run = failing([&](const FailingDraw& d) {
+    for (std::size_t i = 0; i < d.quads.size(); ++i)
+      if (d.quads[i].id == needed && std::ranges::binary_search(d.waits->gap_beats, 4 * i + beat % 4)) return true;
+    return false;
+  });
+  bool with_chances = false, without = false;
+  for (std::uint64_t most = 1; most <= 30; ++most) {
     for (const bool timed : {false, true}) {
       std::uint64_t tries = 0;
       ShrinkLimits limits;
@@ -200,8 +249,8 @@ TEST(Shrink, EndsAtItsLimits) {
       else
         limits.tries = most;
       const std::optional<Shrunk> left = shrink(
-          draw_of(1000),
-          [&, run = failing([](const FailingDraw& d) { return has(d, 600); })](const FailingDraw& d) {
+          draw,
+          [&](const FailingDraw& d) {
             ++tries;
             return run(d);
           },
@@ -210,13 +259,16 @@ TEST(Shrink, EndsAtItsLimits) {
       ASSERT_TRUE(left);
       EXPECT_TRUE(left->ended);
       EXPECT_EQ(left->tries, tries);
-      EXPECT_TRUE(has(left->draw, 600));
-      if (left->draw.stall == 0 && left->draw.gap == 0) continue;
-      FailingDraw drawn = left->draw;  // the chances that are left with the waits draw just these
+      EXPECT_TRUE(run(left->draw));
+      FailingDraw drawn = left->draw;
       drawn.waits.reset();
-      EXPECT_EQ(*left->draw.waits, waits_of(drawn));
+      if (drawn.gap > 0) {
+        EXPECT_EQ(*left->draw.waits, waits_of(drawn)) << most;
+      }
+      (drawn.gap > 0 ? with_chances : without) = true;
     }
   }
+  EXPECT_TRUE(with_chances && without);
 }
 
 /// A fault that every second try shows (as one that depends on more than the draw) is no reason to go on for ever.
