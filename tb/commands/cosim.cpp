@@ -147,6 +147,10 @@ class CosimRun {
     } catch (const tb::VerilateError& error) {
       if (options_.rtl.empty()) throw;
       throw UsageError("--rtl " + options_.rtl + ": " + error.what());  // the user's sources
+    } catch (const tb::WatchdogError&) {
+      // Both sides hang alike (the RTL alone would have differed), each time for as long as it takes to be sure of it.
+      if (!options_.no_shrink) std::fputs("quadrille: not shrunk: a hang of RTL and model is not searched\n", stderr);
+      throw;
     }
   }
 

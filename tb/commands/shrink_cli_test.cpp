@@ -152,7 +152,9 @@ TEST_F(CliShrink, NothingIsWrittenWhereNothingFails) {
   EXPECT_FALSE(fs::exists(file("cosim_failure.quads")));
 }
 
-TEST_F(CliShrink, OptionsThatDoNotGoTogether) {
+using CliShrinkOptions = Cli;
+
+TEST_F(CliShrinkOptions, WhatIsRefused) {
   refuses(2, "cosim --scene bowtie --shrink a.quads --no-shrink", {"--shrink", "--no-shrink"});
   refuses(2, "cosim --scene bowtie --stall 0.5 --stall-clocks 3", {"--stall", "--stall-clocks"});
   refuses(2, "cosim --scene bowtie --gap 0.5 --gap-beats 3", {"--gap", "--gap-beats"});
