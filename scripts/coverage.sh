@@ -49,7 +49,7 @@ seed=100  # draw states in which every family has a fragment
 {
   # Many quads more than many pixels, and places far from the origin.
   for scene in bowtie sphere layers_large; do echo "--scene $scene --size 96x96 --skip all"; done
-  for family in $("$folder/quadrille" scenes --stress | cut -d' ' -f1); do
+  for family in $("$folder/quadrille" scenes --stress | sed '/^$/,$d' | cut -d' ' -f1); do
     echo "--stress $family --count 100 --size 256x256 --limit-fragments 2000 --stall 0.3 --gap 0.2"
     echo "--stress $family --count 60 --size 32x32 --stall 0.3 --gap 0.2"
     echo "--stress $family --count 80 --size 1600x16 --limit-fragments 1500 --draw-state random:$((++seed))"

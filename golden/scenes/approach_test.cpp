@@ -1,5 +1,5 @@
-// Every approach comes as near to its special case as its knob says, from both sides, and reaches it exactly; nothing
-// else about a quad changes on the way.
+// Every approach comes as near to its special case as its knob says, from both sides, and reaches it exactly; pixels
+// are drawn there; nothing else about a quad changes on the way.
 #include "golden/scenes/approach.hpp"
 
 #include "model/config.hpp"
@@ -11,9 +11,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace quadrille::golden {
 namespace {
@@ -25,117 +28,338 @@ struct Point {
   double x, y;
 };
 
-Point at(const WindowQuad& quad, std::size_t i) {
-  const WindowVertex& v = quad.vertex[i & 3];
-  return {v.x / v.w, v.y / v.w};
-}
 double cross(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 double length(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
-/// Of the pixel centre of the viewport that is nearest to the line ab, from it.
-double nearest_centre(Point a, Point b, const Approach& approach) {
-  double nearest = 1e9;
-  for (int y = 0; y < approach.height; ++y)
-    for (int x = 0; x < approach.width; ++x)
-      nearest = std::min(nearest, std::fabs(cross(a, b, {x + 0.5, y + 0.5})) / length(a, b));
-  return nearest;
+double from_line(Point p, Point a, Point b) { return cross(a, b, p) / length(a, b); }
+/// Of the angle between a and b as seen from p.
+double cosine(Point p, Point a, Point b) {
+  return ((a.x - p.x) * (b.x - p.x) + (a.y - p.y) * (b.y - p.y)) / (length(a, p) * length(b, p));
 }
 
-/// How far the quad is from the special case.
-double distance(const Approach& approach, const WindowQuad& q) {
-  const auto centre_of = [](Point p) { return Point{std::floor(p.x) + 0.5, std::floor(p.y) + 0.5}; };
-  if (approach.name == "edge_distance") return nearest_centre(at(q, 0), at(q, 1), approach);
-  if (approach.name == "vertex_distance") {  // of half a pixel either centre is one
-    const Point p = at(q, 0);
-    double nearest = 1e9;
-    for (const double dx : {-1.0, 0.0, 1.0})
-      for (const double dy : {-1.0, 0.0, 1.0})
-        nearest = std::min(nearest, length(p, {centre_of(p).x + dx, centre_of(p).y + dy}));
-    return nearest;
-  }
-  if (approach.name == "crossing")
-    return std::max(nearest_centre(at(q, 0), at(q, 1), approach), nearest_centre(at(q, 2), at(q, 3), approach));
-  if (approach.name == "sliver_thickness") return length(at(q, 1), at(q, 2));
-  if (approach.name == "edge_length") return length(at(q, 0), at(q, 1));
-  if (approach.name == "diagonal_distance")
-    return std::fabs(cross(at(q, 0), at(q, 2), at(q, 1))) / length(at(q, 0), at(q, 2));
-  if (approach.name == "eye_plane") return std::fabs(q.vertex[1].w);
-  if (approach.name == "coincident_w") return std::fabs(q.vertex[1].w / q.vertex[0].w - 1);
-  return -1;
+/// A quad, its corners in the order of the approach's definition.
+struct Approaching {
+  const WindowQuad& quad;
+  const ApproachPlace& place;
+
+  const WindowVertex& vertex(std::size_t i) const { return quad.vertex[place.corner[i]]; }
+  Point at(std::size_t i) const { return {vertex(i).x / vertex(i).w, vertex(i).y / vertex(i).w}; }
+  Point pixel() const { return {place.near_x, place.near_y}; }
+};
+
+/// How far a quad is from the special case, and what that is at the knob k: between least and most, times 2^-k.
+struct Distance {
+  double (*of)(const Approaching&);
+  double least, most;
+  bool is_signed;  ///< the sides are those of 0
+};
+
+double lines_apart(const Approaching& a) {
+  return std::max(std::fabs(from_line(a.pixel(), a.at(0), a.at(1))), std::fabs(from_line(a.pixel(), a.at(2), a.at(3))));
+}
+
+/// Homogeneous: of two vertices that are one point of the picture or opposite ones, 0.
+double line_through(const WindowVertex& a, const WindowVertex& b) {
+  return std::hypot(a.y * b.w - b.y * a.w, a.x * b.w - b.x * a.w);
+}
+
+double largest_w_ratio(const Approaching& a) {
+  const auto [low, high] = std::ranges::minmax(a.quad.vertex, {}, [](const WindowVertex& v) { return v.w; });
+  return low.w / high.w;
+}
+
+double beyond_guard_band(const Approaching& a) {
+  const Point p = a.at(0);
+  return std::max(std::fabs(p.x - 0.5), std::fabs(p.y - 0.5)) - 0x1p15;
+}
+
+const std::map<std::string_view, Distance> distances{
+    // Below the grid J / (N - 1), where the knob says N >= 2^12.
+    {"edge_distance", {[](const Approaching& a) { return from_line(a.pixel(), a.at(0), a.at(1)); }, 0.7, 1.0003, true}},
+    {"edge_line", {[](const Approaching& a) { return from_line(a.pixel(), a.at(0), a.at(1)); }, 0.7, 1.0003, true}},
+    {"right_angle_edge", {[](const Approaching& a) { return cosine(a.pixel(), a.at(0), a.at(1)); }, 0.66, 2, true}},
+    {"right_angle_diagonal", {[](const Approaching& a) { return cosine(a.pixel(), a.at(0), a.at(2)); }, 0.66, 2, true}},
+    {"vertex_distance", {[](const Approaching& a) { return length(a.pixel(), a.at(0)); }, 1, 2.24, false}},
+    {"crossing", {lines_apart, 1, 4.48, false}},
+    {"sliver_thickness", {[](const Approaching& a) { return length(a.at(1), a.at(2)); }, 1, 1, false}},
+    {"edge_length", {[](const Approaching& a) { return length(a.at(0), a.at(1)); }, 1, 2.24, false}},
+    {"opposite_distance", {[](const Approaching& a) { return length(a.at(0), a.at(2)); }, 2.23, 5, false}},
+    {"diagonal_distance", {[](const Approaching& a) { return from_line(a.at(1), a.at(0), a.at(2)); }, 1, 2.24, true}},
+    {"eye_plane", {[](const Approaching& a) { return a.vertex(1).w; }, 1, 1, true}},
+    {"eye_face", {[](const Approaching& a) { return -a.vertex(3).w - 1; }, 1, 1, true}},
+    {"eye_edge", {[](const Approaching& a) { return line_through(a.vertex(0), a.vertex(1)); }, 11.3, 34, false}},
+    {"eye_diagonal", {[](const Approaching& a) { return line_through(a.vertex(0), a.vertex(2)); }, 11.3, 34, false}},
+    {"guard_band", {beyond_guard_band, 1, 1, true}},
+    {"coincident_w", {[](const Approaching& a) { return a.vertex(1).w / a.vertex(0).w - 1; }, 1, 1, true}},
+    {"w_ratio", {largest_w_ratio, 1, 1, false}},
+    {"long_edge", {[](const Approaching& a) { return 1 / std::fabs(a.at(0).x - a.at(1).x); }, 1, 1, false}},
+    {"long_edge_down", {[](const Approaching& a) { return 1 / std::fabs(a.at(0).y - a.at(1).y); }, 1, 1, false}},
+    {"long_edge_behind", {[](const Approaching& a) { return 1 / std::fabs(a.at(0).x - a.at(2).x); }, 1, 1, false}},
+};
+
+std::vector<int> sides_of(const Approach& approach) {
+  return approach.both_sides ? std::vector{-1, 1} : std::vector{1};
+}
+
+/// Every quad of every step.
+void each_step(const std::function<void(const Approach&, int knob, int side)>& take) {
+  for (const Approach& approach : approaches())
+    for (int knob = approach.first; knob <= approach.last; ++knob)
+      for (const int side : sides_of(approach)) take(approach, knob, side);
+}
+
+std::string text(const Approach& approach, int knob, int side) {
+  return std::string(approach.name) + " knob " + std::to_string(knob) + " side " + std::to_string(side);
 }
 
 TEST(Approach, ComesAsNearAsItsKnobSays) {
-  for (const Approach& approach : approaches()) {
-    for (int knob = approach.first; knob <= approach.last; ++knob)
-      for (const int side : {-1, 1}) {
-        if (side < 0 && !approach.both_sides) continue;
-        for (const WindowQuad& quad : make_approach(approach, knob, side, count, seed, 1)) {
-          const double d = distance(approach, quad);
-          if (d < 0) continue;
-          EXPECT_LE(d, (approach.name == "crossing" ? 4.48 : 2.24) * std::ldexp(1.0, -knob))
-              << approach.name << " knob " << knob << " quad " << quad.id;
-          // A line meets other centres too, and a pixel aside is another centre.
-          if (approach.name != "edge_distance" && approach.name != "crossing" && knob > 0) {
-            EXPECT_GE(d, std::min(0.25, 0.9 * std::ldexp(1.0, -knob)))
-                << approach.name << " knob " << knob << " quad " << quad.id;
-          }
-        }
+  for (const auto& [name, distance] : distances) EXPECT_NE(find_approach(name), nullptr) << name;
+  each_step([](const Approach& approach, int knob, int side) {
+    ASSERT_TRUE(distances.contains(approach.name)) << approach.name;
+    const Distance& distance = distances.at(approach.name);
+    const auto quads = make_approach(approach, knob, side, count, seed, 1);
+    const auto places = approach_places(approach, knob, side, count, seed);
+    const auto others = approach.both_sides ? make_approach(approach, knob, -side, count, seed, 1) : quads;
+    constexpr double rounding = 1e-9;  // of the distances here
+    for (std::size_t i = 0; i < count; ++i) {
+      const double d = distance.of({quads[i], places[i]}), unit = std::ldexp(1.0, -knob);
+      EXPECT_LE(std::fabs(d), (distance.most + rounding) * unit) << text(approach, knob, side) << " quad " << i;
+      EXPECT_GE(std::fabs(d), (distance.least - rounding) * unit) << text(approach, knob, side) << " quad " << i;
+      if (distance.is_signed) {
+        EXPECT_LT(d * distance.of({others[i], places[i]}), 0) << text(approach, knob, side) << " quad " << i;
       }
+    }
+  });
+  for (const Approach& approach : approaches()) {
     if (!approach.limit) continue;
-    for (const WindowQuad& quad : make_approach(approach, approach.last, 0, count, seed, 1))
-      EXPECT_LE(distance(approach, quad), 0) << approach.name << " quad " << quad.id;
+    const auto quads = make_approach(approach, approach.last, 0, count, seed, 1);
+    const auto same = make_approach(approach, approach.first, 0, count, seed, 1);
+    const auto places = approach_places(approach, approach.last, 0, count, seed);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(distances.at(approach.name).of({quads[i], places[i]}), 0) << approach.name << " quad " << i;
+      for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(quads[i].vertex[k].x, same[i].vertex[k].x) << approach.name << " quad " << i;
+        EXPECT_EQ(quads[i].vertex[k].y, same[i].vertex[k].y) << approach.name << " quad " << i;
+      }
+    }
   }
 }
 
-/// Snapping keeps the special case exactly: edges through centres have A = 0 there, the eye is in the hull's face.
+TEST(Approach, NearIsACircleOfPixelCentres) {
+  ApproachPlace place;
+  EXPECT_TRUE(place.is_near(0, 0));
+  EXPECT_TRUE(place.is_near(4095, 4095));
+  place.near_x = 8.5;
+  place.near_y = 3.5;
+  place.near_radius = 0;
+  EXPECT_TRUE(place.is_near(8, 3));
+  EXPECT_FALSE(place.is_near(8, 4));
+  EXPECT_FALSE(place.is_near(3, 8));
+  place.near_radius = 1;
+  EXPECT_TRUE(place.is_near(8, 4));
+  EXPECT_FALSE(place.is_near(9, 4));
+}
+
+DrawState draw_state(const Approach& approach) {
+  DrawState state;
+  state.width = state.scissor_x1 = approach.width;
+  state.height = state.scissor_y1 = approach.height;
+  state.attributes = 1;
+  return state;
+}
+
+/// What was drawn of a quad near its special case.
+struct Near {
+  std::size_t pixels = 0, singular = 0;
+};
+
+std::vector<Near> draw_near(const Approach& approach, int knob, int side, DrawStats* stats = nullptr) {
+  constexpr unsigned singular = flag_on_edge | flag_on_vertex | flag_two_corner | flag_two_edge;
+  const Config config;
+  const DrawState state = draw_state(approach);
+  UntimedModel model(config, state);
+  const auto places = approach_places(approach, knob, side, count, seed);
+  std::vector<Near> near(count);
+  for (const WindowQuad& quad : make_approach(approach, knob, side, count, seed, 1))
+    model.draw(snap_quad(quad, config, state), [&](std::span<const Fragment> fragments) {
+      for (const Fragment& f : fragments) {
+        if (!places[f.quad].is_near(f.x, f.y)) continue;
+        ++near[f.quad].pixels;
+        near[f.quad].singular += (f.flags & singular) != 0;
+      }
+    });
+  if (stats != nullptr) *stats = model.stats();
+  return near;
+}
+
+/// Of every step at least half of the quads have a pixel near the special case that is drawn and no case of its own.
+/// The pixel of edge_distance is inside on one side only, so that a third is asked for.
+TEST(Approach, PixelsNearTheCaseAreDrawn) {
+  each_step([](const Approach& approach, int knob, int side) {
+    const auto near = draw_near(approach, knob, side);
+    const auto shown = std::ranges::count_if(near, [](const Near& n) { return n.pixels > n.singular; });
+    EXPECT_GE(shown, static_cast<long>(approach.name == "edge_distance" ? count / 3 : count / 2))
+        << text(approach, knob, side);
+  });
+}
+
+/// S of a snapped vertex at a pixel: section 1 of DESIGN.md.
+std::array<std::int64_t, 2> seen_from(const SnappedVertex& v, const ApproachPlace& place) {
+  const auto x = static_cast<std::int64_t>(std::floor(place.near_x)),
+             y = static_cast<std::int64_t>(std::floor(place.near_y));
+  return {v.x - v.w * x, v.y - v.w * y};
+}
+
+/// Snapping with the standard configuration keeps the special case exactly, and on the way to it what is 0 there is not
+/// yet: A, D, a distance of corners, of homogeneous vectors.
 TEST(Approach, TheSpecialCaseIsExactAtThePort) {
   const Config config;
-  for (const Approach& approach : approaches()) {
-    if (!approach.limit) continue;
-    DrawState state;
-    state.width = state.scissor_x1 = approach.width;
-    state.height = state.scissor_y1 = approach.height;
-    state.attributes = 1;
-    UntimedModel model(config, state);
-    std::size_t hulls = 0;
-    for (const WindowQuad& quad : make_approach(approach, approach.last, 0, count, seed, 1)) {
-      const SnappedQuad snapped = snap_quad(quad, config, state);
-      model.draw(snapped, [](std::span<const Fragment>) {});
-      hulls += quad_setup(snapped, config, state).hull;
-    }
-    const DrawStats& drawn = model.stats();
-    if (approach.name == "edge_distance") {
-      EXPECT_GT(drawn.on_edge, 10u);
-    }
-    if (approach.name == "vertex_distance") {
-      EXPECT_GT(drawn.on_vertex, 5u);
-    }
-    if (approach.name == "crossing") {
-      EXPECT_GT(drawn.two_edge, 2u);
-    }
-    if (approach.name == "coincident_w") {
-      EXPECT_GT(drawn.two_corner, 2u);
-    }
-    if (approach.name == "eye_face") {
-      EXPECT_EQ(hulls, count);
-    }
-    if (approach.name == "sliver_thickness") {
-      EXPECT_EQ(drawn.fragments, 0u);
-    }
+  /// 0 at the special case; of the corners in the approach's order. Given as a function of what the machine sees.
+  using Port = std::function<std::int64_t(const std::array<SnappedVertex, 4>&, const ApproachPlace&)>;
+  const auto area = [](std::size_t i, std::size_t j) -> Port {
+    return [i, j](const auto& v, const ApproachPlace& place) {
+      const auto a = seen_from(v[i], place), b = seen_from(v[j], place);
+      return a[0] * b[1] - a[1] * b[0];
+    };
+  };
+  const auto dot = [](std::size_t i, std::size_t j) -> Port {
+    return [i, j](const auto& v, const ApproachPlace& place) {
+      const auto a = seen_from(v[i], place), b = seen_from(v[j], place);
+      return a[0] * b[0] + a[1] * b[1];
+    };
+  };
+  const auto apart = [](std::size_t i, std::size_t j) -> Port {
+    return [i, j](const auto& v, const ApproachPlace&) -> std::int64_t {
+      return std::abs(v[i].x - v[j].x) + std::abs(v[i].y - v[j].y);
+    };
+  };
+  const auto line = [](std::size_t i, std::size_t j) -> Port {
+    return [i, j](const auto& v, const ApproachPlace&) {
+      const std::int64_t a = std::int64_t{v[i].y} * v[j].w - std::int64_t{v[j].y} * v[i].w,
+                         b = std::int64_t{v[i].x} * v[j].w - std::int64_t{v[j].x} * v[i].w;
+      return std::abs(a) + std::abs(b);
+    };
+  };
+  const std::map<std::string_view, Port> ports{
+      {"edge_distance", area(0, 1)},
+      {"edge_line", area(0, 1)},
+      {"right_angle_edge", dot(0, 1)},
+      {"right_angle_diagonal", dot(0, 2)},
+      {"edge_length", apart(0, 1)},
+      {"opposite_distance", apart(0, 2)},
+      {"eye_edge", line(0, 1)},
+      {"eye_diagonal", line(0, 2)},
+      {"vertex_distance",
+       [](const auto& v, const ApproachPlace& place) {
+         const auto s = seen_from(v[0], place);
+         return std::abs(s[0]) + std::abs(s[1]);
+       }},
+      {"eye_plane", [](const auto& v, const ApproachPlace&) -> std::int64_t { return v[1].w; }},
+  };
+  for (const auto& [name, port] : ports) {
+    const Approach& approach = *find_approach(name);
+    const DrawState state = draw_state(approach);
+    const auto values = [&](int knob, int side) {
+      std::vector<std::int64_t> out;
+      const auto places = approach_places(approach, knob, side, count, seed);
+      for (const WindowQuad& quad : make_approach(approach, knob, side, count, seed, 1)) {
+        const SnappedQuad snapped = snap_quad(quad, config, state);
+        const ApproachPlace& place = places[quad.id];
+        std::array<SnappedVertex, 4> v;
+        for (std::size_t i = 0; i < 4; ++i) v[i] = snapped.vertex[place.corner[i]];
+        out.push_back(port(v, place));
+        if (name == "edge_line") {
+          EXPECT_GT(dot(0, 1)(v, place), 0) << text(approach, knob, side);
+        }
+        if (name == "edge_distance") {
+          EXPECT_LT(dot(0, 1)(v, place), 0) << text(approach, knob, side);
+        }
+      }
+      return out;
+    };
+    for (const std::int64_t value : values(approach.last, 0)) EXPECT_EQ(value, 0) << name;
+    for (int knob = approach.first; knob <= approach.last; ++knob)
+      for (const int side : sides_of(approach))
+        for (const std::int64_t value : values(knob, side)) {
+          EXPECT_NE(value, 0) << text(approach, knob, side);
+        }
   }
+}
+
+/// What the machine says of the special cases that it knows.
+TEST(Approach, TheMachineSeesTheSpecialCase) {
+  const auto drawn = [](std::string_view name) {
+    const Approach& approach = *find_approach(name);
+    DrawStats stats;
+    draw_near(approach, approach.last, 0, &stats);
+    return stats;
+  };
+  EXPECT_GT(drawn("edge_distance").on_edge, 10u);
+  EXPECT_GT(drawn("vertex_distance").on_vertex, 5u);
+  EXPECT_GT(drawn("crossing").two_edge, 2u);
+  EXPECT_GT(drawn("coincident_w").two_corner, 2u);
+  EXPECT_EQ(drawn("sliver_thickness").fragments, 0u);
 }
 
 TEST(Approach, TheEyeIsInTheHullOnOneSideOfAFace) {
   const Config config;
   const DrawState state;
   const Approach& approach = *find_approach("eye_face");
+  const auto hulls = [&](int knob, int side) {
+    std::size_t sum = 0;
+    for (const WindowQuad& quad : make_approach(approach, knob, side, count, seed, 0))
+      sum += quad_setup(snap_quad(quad, config, state), config, state).hull;
+    return sum;
+  };
   for (int knob = approach.first; knob <= approach.last; ++knob)
-    for (const int side : {-1, 1}) {
-      std::size_t hulls = 0;
-      for (const WindowQuad& quad : make_approach(approach, knob, side, count, seed, 0))
-        hulls += quad_setup(snap_quad(quad, config, state), config, state).hull;
-      EXPECT_EQ(hulls, side > 0 ? count : 0u) << "knob " << knob << " side " << side;
+    for (const int side : {-1, 1}) EXPECT_EQ(hulls(knob, side), side > 0 ? count : 0u) << text(approach, knob, side);
+  EXPECT_EQ(hulls(approach.last, 0), count);
+}
+
+/// Within the guard band a corner is ordinary, at its limit and beyond it is scaled to the limit.
+TEST(Approach, TheGuardBandEndsAtItsLimit) {
+  const Config config;
+  const DrawState state;
+  const Approach& approach = *find_approach("guard_band");
+  for (int knob = approach.first; knob <= approach.last; ++knob)
+    for (const int side : {-1, 0, 1}) {
+      const auto places = approach_places(approach, knob, side, count, seed);
+      for (const WindowQuad& quad : make_approach(approach, knob, side, count, seed, 0)) {
+        const SnappedQuad snapped = snap_quad(quad, config, state);
+        const SnappedVertex& v = snapped.vertex[places[quad.id].corner[0]];
+        EXPECT_EQ(std::max(std::abs(v.x), std::abs(v.y)) == 1 << (config.pos_int() + config.frac()), side >= 0)
+            << text(approach, knob, side);
+        if (side < 0) {
+          EXPECT_TRUE(has_ordinary_vertices(snapped, config)) << text(approach, knob, side);
+        } else if (side > 0 && knob < 0) {
+          EXPECT_FALSE(has_ordinary_vertices(snapped, config)) << text(approach, knob, side);
+        }
+      }
     }
+}
+
+/// The special corners are any of the quad, in either order, and the window is turned and mirrored.
+TEST(Approach, EveryCornerIsApproached) {
+  for (const Approach& approach : approaches()) {
+    std::set<std::size_t> corners;
+    std::set<std::pair<std::size_t, std::size_t>> edges;
+    for (const ApproachPlace& place : approach_places(approach, approach.first, 1, count, seed)) {
+      EXPECT_EQ(std::set(place.corner.begin(), place.corner.end()).size(), 4u) << approach.name;
+      corners.insert(place.corner[0]);
+      edges.insert({place.corner[0], place.corner[1]});
+    }
+    EXPECT_EQ(corners.size(), 4u) << approach.name;
+    EXPECT_GE(edges.size(), 8u) << approach.name;
+  }
+  const Approach& approach = *find_approach("edge_distance");
+  std::set<std::pair<double, double>> directions;
+  const auto quads = make_approach(approach, approach.first, 1, count, seed, 1);
+  const auto places = approach_places(approach, approach.first, 1, count, seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Approaching a{quads[i], places[i]};
+    const double x = a.at(1).x - a.at(0).x, y = a.at(1).y - a.at(0).y;
+    directions.insert({(x > 0) - (x < 0), (y > 0) - (y < 0)});
+  }
+  EXPECT_EQ(directions.size(), 8u);
 }
 
 TEST(Approach, OneQuadAllTheWay) {
@@ -146,6 +370,15 @@ TEST(Approach, OneQuadAllTheWay) {
     const auto first = make_approach(approach, approach.first, 1, count, seed, 2);
     const auto again = make_approach(approach, approach.first, 1, count / 2, seed, 2);
     const auto last = make_approach(approach, approach.last, 1, count, seed, 2);
+    const auto place = approach_places(approach, approach.first, 1, count, seed);
+    for (const int side : sides_of(approach)) {
+      const auto other = approach_places(approach, approach.last, side, count, seed);
+      for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_EQ(place[i].near_x, other[i].near_x) << approach.name;
+        EXPECT_EQ(place[i].near_y, other[i].near_y) << approach.name;
+        EXPECT_EQ(place[i].corner, other[i].corner) << approach.name;
+      }
+    }
     for (std::size_t i = 0; i < count; ++i) {
       ASSERT_EQ(first[i].id, i);
       for (std::size_t k = 0; k < 4; ++k) {

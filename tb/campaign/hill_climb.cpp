@@ -1,5 +1,5 @@
 // Hill climbing over quads and pixels for the largest arithmetic error of a weight: |λ' of the untimed model − λ' of
-// the truth on the same snapped input|, in units of 2^-s. Bound: 8 units (2^-(s-3)), notch_exact on.
+// the truth on the same snapped input|, in units of 2^-s. Bound: 8 units (2^-(s-3)).
 //
 // The climb itself looks at one pixel through the pure functions of the model; the verdict on every climb's summit
 // comes from UntimedModel against TruthQuad (PixelErrors). Starts are the stress families, whose shape a climb leaves;

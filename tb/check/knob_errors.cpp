@@ -1,13 +1,14 @@
 #include "tb/check/knob_errors.hpp"
 
 #include "golden/reference/paper_float.hpp"
+#include "golden/reference/port_number.hpp"
 #include "model/snap.hpp"
 #include "tb/check/judge.hpp"
 #include "tb/check/judged_quad.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -19,17 +20,28 @@ using golden::ReferenceSample;
 /// One pixel as the truth has it, and what the bound allows there.
 struct Expected {
   Place place;
+  bool near_case = false;
   ReferenceSample truth;
-  std::array<double, max_attribute_slots> attribute_tolerance{};
-  double depth_tolerance = 0;
+  AllowedErrors allowed;
 };
 
 auto order(const Place& p) { return std::tuple(p.index, p.y, p.x); }
 
+/// Of value i of `count`: the weights, the attributes, depth.
+std::size_t output_of(std::size_t i, std::size_t count) {
+  if (i < 4) return static_cast<std::size_t>(Output::weight);
+  return static_cast<std::size_t>(i + 1 == count ? Output::depth : Output::attribute);
+}
+
 class Meter {
  public:
-  Meter(std::span<const WindowQuad> quads, int attributes, const Config& config, const DrawState& state)
-      : quads_(quads), attributes_(attributes), config_(config), snapping_(snapping_config(config, attributes)) {
+  Meter(std::span<const WindowQuad> quads, std::span<const golden::ApproachPlace> places, int attributes,
+        const Config& config, const DrawState& state)
+      : quads_(quads),
+        places_(places),
+        attributes_(attributes),
+        config_(config),
+        snapping_(snapping_config(config, attributes)) {
     state_ = state;
     state_.attributes = attributes;
     bound_ = weight_bound(config);
@@ -50,54 +62,34 @@ class Meter {
   }
 
   /// Of the pixels that the truth draws among these.
-  void expect(const std::vector<EngineSample>& drawn) {
-    std::optional<JudgedQuad> quad;
-    std::uint32_t current = 0;
-    for (const EngineSample& sample : drawn) {
-      if (!quad || sample.index != current) {
-        current = sample.index;
-        quad.emplace(snapped_[current], snapping_, state_, state_);
-      }
-      Expected e;
-      e.place = {sample.index, sample.quad, sample.x, sample.y};
-      e.truth = quad->truth().sample(sample.x, sample.y);
-      // Drawn by the model all the same: tolerated by the judge where sum(M w) is near 0, or z near its limits.
-      if (!e.truth.covered || !e.truth.visible || !in_depth(e.truth)) continue;
-      const double attribute_unit = attribute_format(config_).unit();
-      for (std::size_t a = 0; a < static_cast<std::size_t>(attributes_); ++a)
-        e.attribute_tolerance[a] =
-            quad->attribute_tolerance(a, e.truth.attribute[a], sample.x, sample.y, bound_) + attribute_unit;
-      if (state_.depth)
-        e.depth_tolerance = quad->depth_tolerance(sample.x, sample.y, bound_) + depth_format(config_).unit();
-      expected_.push_back(e);
+  void expect(std::vector<EngineSample> drawn) {
+    std::ranges::stable_sort(drawn, {}, &EngineSample::index);
+    for (std::size_t first = 0; first < drawn.size();) {
+      std::size_t last = first;
+      while (last < drawn.size() && drawn[last].index == drawn[first].index) ++last;
+      expect_quad(std::span(drawn).subspan(first, last - first));
+      first = last;
     }
     std::ranges::sort(expected_, {}, [](const Expected& e) { return order(e.place); });
   }
 
-  BodyErrors compare(std::vector<EngineSample> samples, std::vector<WeightErrors>* weights = nullptr) const {
+  /// The body's errors to `out`; those of every pixel to `series`, if there is one.
+  void compare(KnobBody body, std::vector<EngineSample> samples, KnobErrors& out, PixelSeries* series = nullptr) const {
     const auto place_of = [](const EngineSample& s) { return std::tuple(s.index, int{s.y}, int{s.x}); };
     std::ranges::sort(samples, {}, place_of);
-    BodyErrors out;
     for (const Expected& e : expected_) {
       const auto found = std::ranges::lower_bound(samples, order(e.place), {}, place_of);
-      if (found == samples.end() || place_of(*found) != order(e.place)) {
-        ++out.missing;
-      } else if (found->undefined) {
-        ++out.undefined;
-      } else {
-        const std::array<double, 4> errors = add(e, *found, out);
-        if (weights)
-          weights->push_back(
-              {e.place.index, static_cast<std::uint16_t>(e.place.x), static_cast<std::uint16_t>(e.place.y), errors});
-      }
+      const bool missing = found == samples.end() || place_of(*found) != order(e.place);
+      if (missing || found->undefined)
+        lose(body, e, missing, out);
+      else
+        add(body, e, *found, out, series);
     }
-    return out;
   }
 
   /// The paper's formulas at the same pixels.
   template <class Quad>
-  BodyErrors compare_paper() const {
-    BodyErrors out;
+  void compare_paper(KnobBody body, KnobErrors& out) const {
     std::optional<Quad> quad;
     std::uint32_t current = 0;
     for (const Expected& e : expected_) {
@@ -107,36 +99,80 @@ class Meter {
       }
       const ReferenceSample s = quad->sample(e.place.x, e.place.y);
       if (s.covered && s.undefined)
-        ++out.undefined;
+        lose(body, e, false, out);
       else if (!s.covered || !s.visible || !in_depth(s))
-        ++out.missing;
+        lose(body, e, true, out);
       else
-        add(e, s, out);
+        add(body, e, s, out, nullptr);
     }
-    return out;
   }
 
  private:
+  void expect_quad(std::span<const EngineSample> drawn) {
+    const std::uint32_t index = drawn.front().index;
+    const JudgedQuad quad(snapped_[index], snapping_, state_, state_);
+    const ErrorLimits limits(quad, config_, state_);
+    std::vector<golden::PixelPlace> pixels;
+    for (const EngineSample& sample : drawn) pixels.push_back({sample.x, sample.y});
+    std::vector<ReferenceSample> truths(pixels.size());
+    quad.truth().samples(pixels, truths);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const ReferenceSample& truth = truths[i];
+      const int x = drawn[i].x, y = drawn[i].y;
+      // Drawn by the model all the same: tolerated by the judge where sum(M w) is near 0, or z near its limits.
+      if (!truth.covered || !truth.visible || !in_depth(truth)) continue;
+      expected_.push_back({{index, drawn[i].quad, x, y},
+                           !places_.empty() && places_[index].is_near(x, y),
+                           truth,
+                           limits.at(truth, x, y)});
+    }
+  }
+
   bool in_depth(const ReferenceSample& s) const { return !state_.depth || (s.z >= state_.znear && s.z <= state_.zfar); }
 
-  /// Returns the weights' signed errors in units of the bound.
+  /// To the sum over all pixels and to that over those near the case.
+  template <class Change>
+  static void change(KnobBody body, const Expected& e, KnobErrors& out, const Change& what) {
+    what(out.body[static_cast<std::size_t>(body)]);
+    if (e.near_case) what(out.near_case[static_cast<std::size_t>(body)]);
+  }
+
+  void lose(KnobBody body, const Expected& e, bool missing, KnobErrors& out) const {
+    change(body, e, out, [&](BodyErrors& errors) {
+      if (errors.pixels_lost() == 0) errors.lost = e.place;
+      ++(missing ? errors.missing : errors.undefined);
+    });
+  }
+
   template <class Sample>
-  std::array<double, 4> add(const Expected& e, const Sample& s, BodyErrors& out) const {
-    ++out.fragments;
-    const auto raise = [](double part, double& largest) { largest = part > largest ? part : largest; };
-    std::array<double, 4> errors;
-    for (std::size_t i = 0; i < 4; ++i) {
-      errors[i] = (s.lambda[i] - e.truth.lambda[i]) / bound_;
-      if (std::fabs(errors[i]) > out.weight) out.weight = std::fabs(errors[i]), out.worst = e.place;
+  void add(KnobBody body, const Expected& e, const Sample& s, KnobErrors& out, PixelSeries* series) const {
+    std::array<double, 4 + max_attribute_slots + 1> errors{};
+    const auto attributes = static_cast<std::size_t>(attributes_);
+    const std::size_t count = 4 + attributes + 1;
+    for (std::size_t i = 0; i < 4; ++i) errors[i] = (s.lambda[i] - e.truth.lambda[i]) / bound_;
+    for (std::size_t a = 0; a < attributes; ++a)
+      errors[4 + a] = (s.attribute[a] - e.truth.attribute[a]) / e.allowed.attribute[a];
+    if (state_.depth) errors[count - 1] = (s.z - e.truth.z) / e.allowed.depth;  // 0 where nothing can be said
+    if (series) {
+      series->pixels.push_back(
+          {e.place.index, static_cast<std::uint16_t>(e.place.x), static_cast<std::uint16_t>(e.place.y)});
+      for (std::size_t i = 0; i < count; ++i) series->errors.push_back(static_cast<float>(errors[i]));
     }
-    for (std::size_t a = 0; a < static_cast<std::size_t>(attributes_); ++a)
-      raise(std::fabs(s.attribute[a] - e.truth.attribute[a]) / e.attribute_tolerance[a], out.attribute);
-    if (state_.depth && std::isfinite(e.depth_tolerance))
-      raise(std::fabs(s.z - e.truth.z) / e.depth_tolerance, out.depth);
-    return errors;
+    std::array<double, output_names.size()> largest{};
+    for (std::size_t i = 0; i < count; ++i) {
+      double& part = largest[output_of(i, count)];
+      part = std::max(part, std::fabs(errors[i]));
+    }
+    change(body, e, out, [&](BodyErrors& sum) {
+      ++sum.fragments;
+      sum.beyond += std::ranges::any_of(largest, [](double part) { return part > 1; });
+      for (std::size_t o = 0; o < largest.size(); ++o)
+        if (largest[o] > sum.largest[o].part) sum.largest[o] = {largest[o], e.place};
+    });
   }
 
   std::span<const WindowQuad> quads_;
+  std::span<const golden::ApproachPlace> places_;
   int attributes_;
   Config config_, snapping_;
   DrawState state_;
@@ -162,47 +198,96 @@ std::string first_difference(std::span<const EngineSample> model, std::span<cons
 
 }  // namespace
 
-void BodyErrors::merge(const BodyErrors& other) {
-  fragments += other.fragments;
-  undefined += other.undefined;
-  missing += other.missing;
-  if (other.weight > weight) worst = other.worst;
-  weight = std::max(weight, other.weight);
-  attribute = std::max(attribute, other.attribute);
-  depth = std::max(depth, other.depth);
+ErrorLimits::ErrorLimits(const JudgedQuad& quad, const Config& config, const DrawState& state)
+    : quad_(quad),
+      attributes_(static_cast<std::size_t>(state.attributes)),
+      bound_(weight_bound(config)),
+      attribute_unit_(attribute_format(config).unit()),
+      depth_unit_(depth_format(config).unit()),
+      quick_(state.perspective && quad.bounded()) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const SnappedVertex& v = quad.quad().vertex[i];
+    const double k = golden::port_value(v.k, config.significand_bits);
+    z_[i] = golden::port_value(v.z, config.significand_bits) / k;
+    w_[i] = std::ldexp(static_cast<double>(v.w), -config.frac()) / k;
+  }
+  for (std::size_t a = 0; quick_ && a < attributes_; ++a)
+    fixed_.attribute[a] = quad.attribute_tolerance(a, 0, 0, 0, bound_) + attribute_unit_;
 }
 
-KnobErrors measure_knob(std::span<const WindowQuad> quads, int attributes, const Config& config, const DrawState& state,
-                        unsigned bodies) {
+AllowedErrors ErrorLimits::at(const ReferenceSample& truth, int x, int y) const {
+  AllowedErrors allowed = fixed_;
+  for (std::size_t a = 0; !quick_ && a < attributes_; ++a)
+    allowed.attribute[a] = quad_.attribute_tolerance(a, truth.attribute[a], x, y, bound_) + attribute_unit_;
+  allowed.depth = (quick_ ? depth(truth) : quad_.depth_tolerance(x, y, bound_)) + depth_unit_;
+  return allowed;
+}
+
+/// JudgedQuad::depth_tolerance with M_i = lambda_i / k_i, up to a common factor.
+double ErrorLimits::depth(const ReferenceSample& truth) const {
+  double above = 0, below = 0, sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double mw = truth.lambda[i] * w_[i];
+    above += std::fabs(truth.lambda[i] * z_[i]);
+    below += std::fabs(mw);
+    sum += mw;
+  }
+  const double scale = std::fabs(sum), lost = 2 * bound_ * (below / scale);
+  if (!(lost < 1)) return std::numeric_limits<double>::infinity();
+  return (2 * bound_ * (above / scale) + std::fabs(truth.z) * lost) / (1 - lost) + quad_.depth_allowance();
+}
+
+void BodyErrors::merge(const BodyErrors& other) {
+  if (pixels_lost() == 0) lost = other.lost;
+  fragments += other.fragments;
+  beyond += other.beyond;
+  undefined += other.undefined;
+  missing += other.missing;
+  for (std::size_t o = 0; o < largest.size(); ++o)
+    if (other.largest[o].part > largest[o].part) largest[o] = other.largest[o];
+}
+
+KnobErrors measure_knob(std::span<const WindowQuad> quads, std::span<const golden::ApproachPlace> places,
+                        int attributes, const Config& config, const DrawState& state, unsigned bodies) {
   KnobErrors out;
   out.verdict = judge_untimed(quads, attributes, config, state, PixelEngine::lanes);
-  Meter meter(quads, attributes, config, state);
+  Meter meter(quads, places, attributes, config, state);
   const std::vector<EngineSample> model = meter.draw(EngineKind::model);
   meter.expect(model);
   const auto wanted = [&](KnobBody body) { return (bodies >> static_cast<unsigned>(body) & 1) != 0; };
-  const auto errors = [&](KnobBody body) -> BodyErrors& { return out.body[static_cast<std::size_t>(body)]; };
-  errors(KnobBody::model) = meter.compare(model, &out.weights);
-  if (wanted(KnobBody::paper_float)) errors(KnobBody::paper_float) = meter.compare_paper<golden::PaperFp64Quad>();
-  if (wanted(KnobBody::fp32)) errors(KnobBody::fp32) = meter.compare_paper<golden::PaperFp32Quad>();
-  if (wanted(KnobBody::shader)) errors(KnobBody::shader) = meter.compare(meter.draw(EngineKind::shader));
+  meter.compare(KnobBody::model, model, out, &out.model);
+  if (wanted(KnobBody::paper_float)) meter.compare_paper<golden::PaperFp64Quad>(KnobBody::paper_float, out);
+  if (wanted(KnobBody::fp32)) meter.compare_paper<golden::PaperFp32Quad>(KnobBody::fp32, out);
+  if (wanted(KnobBody::shader)) meter.compare(KnobBody::shader, meter.draw(EngineKind::shader), out);
   if (wanted(KnobBody::rtl)) {
     const std::vector<EngineSample> rtl = meter.draw(EngineKind::rtl);
     out.difference = first_difference(model, rtl);
-    errors(KnobBody::rtl) = meter.compare(rtl);
+    meter.compare(KnobBody::rtl, rtl, out);
   }
   return out;
 }
 
-ErrorJump error_jump(std::span<const WeightErrors> from, std::span<const WeightErrors> to) {
-  std::map<std::tuple<std::uint32_t, int, int>, const WeightErrors*> places;
-  for (const WeightErrors& e : from) places[{e.index, e.x, e.y}] = &e;
+void ErrorJump::merge(const ErrorJump& other) {
+  pixels += other.pixels;
+  for (std::size_t o = 0; o < largest.size(); ++o) largest[o] = std::max(largest[o], other.largest[o]);
+}
+
+ErrorJump error_jump(const PixelSeries& from, const PixelSeries& to) {
   ErrorJump jump;
-  for (const WeightErrors& e : to) {
-    const auto found = places.find({e.index, e.x, e.y});
-    if (found == places.end()) continue;
-    ++jump.pixels;
-    for (std::size_t i = 0; i < 4; ++i)
-      jump.largest = std::max(jump.largest, std::fabs(e.error[i] - found->second->error[i]));
+  if (from.empty() || to.empty()) return jump;
+  const auto place_of = [](const PixelSeries::Pixel& p) { return std::tuple(p.index, p.y, p.x); };
+  const std::size_t count = from.errors.size() / from.pixels.size();
+  for (std::size_t f = 0, t = 0; f < from.pixels.size() && t < to.pixels.size();) {
+    const auto a = place_of(from.pixels[f]), b = place_of(to.pixels[t]);
+    if (a == b) {
+      ++jump.pixels;
+      for (std::size_t i = 0; i < count; ++i) {
+        double& largest = jump.largest[output_of(i, count)];
+        largest = std::max(largest, std::fabs(double{from.errors[f * count + i]} - double{to.errors[t * count + i]}));
+      }
+    }
+    f += a <= b;
+    t += b <= a;
   }
   return jump;
 }

@@ -1,10 +1,12 @@
-// The fewest quads, pixels and stalls of a draw that fails, which still fail.
+// The fewest quads, pixels, stalls and gaps of a draw that fails, which still fail.
 #pragma once
 
 #include "model/records.hpp"
+#include "tb/lockstep/port_waits.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace quadrille::cli {
@@ -13,14 +15,40 @@ namespace quadrille::cli {
 struct FailingDraw {
   std::vector<WindowQuad> quads;
   DrawState state;
-  double stall = 0, gap = 0;
+  std::uint64_t seed = 1;              ///< of the waits at random, and of what the machine must not look at
+  double stall = 0, gap = 0;           ///< chances of waits. With `waits`: what drew them, 0 once they are others
+  std::optional<tb::PortWaits> waits;  ///< the waits one by one: these are driven
 };
 
-/// Makes `draw` less as long as `fails` says true of what is left, which must hold of `draw` itself: stalls and gaps
-/// none, the draw state's options as by default, the first quads, then without runs of others (delta debugging: Zeller
+/// What a run that fails says of itself.
+struct Failure {
+  std::uint64_t quads = 0;  ///< that the machine had taken whole
+  tb::PortWaits waits;      ///< that its ports had, drawn or listed: with these listed it must fail alike
+};
+
+/// Runs a draw; nothing when it does not fail.
+using FailingRun = std::function<std::optional<Failure>(const FailingDraw&)>;
+
+struct ShrinkLimits {
+  std::uint64_t tries = 100'000;                             ///< runs
+  unsigned redraws = 12;                                     ///< of the waits, before a step is given up
+  std::function<bool()> out_of_time = [] { return false; };  ///< ends the search, too
+};
+
+struct Shrunk {
+  FailingDraw draw;
+  std::uint64_t tries = 0;
+  bool ended = false;  ///< by a limit: there may be less
+};
+
+/// Makes `draw` less as long as `run` fails with what is left: only the first quads, without waits, the draw state's
+/// options as by default; then again and again, until nothing shrinks, without runs of quads (delta debugging: Zeller
 /// and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002), the scissor halved from each side, the
-/// viewport to it. Nothing that is left can be left out by itself. At most `tries` calls of `fails`; the same draw and
-/// answers give the same result.
-FailingDraw shrink(FailingDraw draw, const std::function<bool(const FailingDraw&)>& fails, std::uint64_t tries = 1000);
+/// viewport to it, without runs of waits. Waits at random are taken down one by one from the run that failed, so that a
+/// step does not draw others. But a wait that met a fragment of many quads may meet none of one: a step that passes
+/// with the waits listed is tried with some drawn anew, more and more of them, before it is given up. In the end no
+/// quad, no stall and no gap can be left out by itself. The same draw and answers give the same result; nothing when
+/// the draw does not fail when it is run again.
+std::optional<Shrunk> shrink(FailingDraw draw, const FailingRun& run, const ShrinkLimits& limits = {});
 
 }  // namespace quadrille::cli

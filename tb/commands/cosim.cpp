@@ -1,18 +1,17 @@
 // quadrille cosim: the RTL and its model in lockstep on real quads, the fragments compared with the truth as they come.
 #include "tb/commands/commands.hpp"
+#include "tb/commands/cosim_shrink.hpp"
 #include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
-#include "golden/io/quads_file.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "model/quad_reject.hpp"
 #include "model/snap.hpp"
 #include "tb/check/check.hpp"
 #include "tb/check/error_limits.hpp"
 #include "tb/check/model_check.hpp"
-#include "tb/check/shrink.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/input.hpp"
@@ -37,11 +36,11 @@ struct CosimOptions {
   CommonOptions common;
   StateOptions state;
   InputOptions input;
-  double stall = 0, gap = 0;
+  double stall = 0, gap = 0, shrink_seconds = ShrinkOptions{}.seconds;
   std::uint64_t limit_fragments = 0;
   int attributes = 0;  ///< in use per pass; 0: all slots
-  std::string draw_state, trace, shrink, out, png, texture, shade, rtl;
-  bool no_snapping = false, no_alone = false;
+  std::string stall_clocks, gap_beats, draw_state, trace, shrink, out, png, texture, shade, rtl;
+  bool no_snapping = false, no_alone = false, no_shrink = false;
 };
 
 constexpr std::uint64_t alone_fragments = 200'000;  ///< enough to time the RTL alone
@@ -148,6 +147,10 @@ class CosimRun {
     } catch (const tb::VerilateError& error) {
       if (options_.rtl.empty()) throw;
       throw UsageError("--rtl " + options_.rtl + ": " + error.what());  // the user's sources
+    } catch (const tb::WatchdogError&) {
+      // Both sides hang alike (the RTL alone would have differed), each time for as long as it takes to be sure of it.
+      if (!options_.no_shrink) std::fputs("quadrille: not shrunk: a hang of RTL and model is not searched\n", stderr);
+      throw;
     }
   }
 
@@ -175,10 +178,54 @@ class CosimRun {
     if (!options_.common.json.empty()) golden::save_json(options_.common.json, report(total, results, model, ok));
     for (const InputResult& result : results) complain(result);
     if (!model.ok()) std::fprintf(stderr, "quadrille: the model alone: %s\n", model.fault().c_str());
+    if (!ok && !options_.no_shrink) shrink_first_failure(results, model);
     return ok ? exit_ok : exit_mismatch;
   }
 
-  void check_options() const {
+  /// What failed first is made less, after all that the run has to say.
+  void shrink_first_failure(const std::vector<InputResult>& results, const ModelCheck& model) const {
+    std::fflush(stdout);
+    if (!failed_) {  // the draw itself is right
+      const bool limits = std::ranges::any_of(results, [](const InputResult& r) { return !r.beyond_limits.empty(); });
+      const char* const why = limits        ? "errors are beyond their regression limits, which are of the whole draw"
+                              : !model.ok() ? "the model alone failed, which draws nothing of this input"
+                                            : "there is no fragment";
+      std::fprintf(stderr, "quadrille: nothing to shrink: %s\n", why);
+      return;
+    }
+    try {
+      shrink_failed_pass(*failed_, {shrunk_file(), options_.shrink_seconds}, options_.common);
+    } catch (const std::exception& error) {  // the run has failed and is reported, whatever becomes of this
+      std::fprintf(stderr, "quadrille: %s was not shrunk: %s\n", failed_->input.c_str(), error.what());
+    }
+  }
+
+  /// --shrink, or a name of its own that is none of the files read.
+  std::string shrunk_file() const {
+    if (!options_.shrink.empty()) return options_.shrink;
+    std::string name = "cosim_failure";
+    const std::vector<std::string> read = options_.input.files();
+    const auto is_read = [&](const std::string& file) {
+      return std::ranges::any_of(read, [&](const std::string& other) {
+        std::error_code none;
+        return !other.empty() && std::filesystem::equivalent(file, other, none);
+      });
+    };
+    while (is_read(name + ".quads")) name += "_less";
+    return name + ".quads";
+  }
+
+  void check_options() {
+    try {
+      if (!options_.stall_clocks.empty()) waits_.stall_clocks = tb::parse_stall_clocks(options_.stall_clocks);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(std::string("--stall-clocks ") + error.what());
+    }
+    try {
+      if (!options_.gap_beats.empty()) waits_.gap_beats = tb::parse_gap_beats(options_.gap_beats);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(std::string("--gap-beats ") + error.what());
+    }
     probability("--stall", options_.stall);
     probability("--gap", options_.gap);
     if (options_.attributes > config_.attribute_slots)
@@ -200,9 +247,8 @@ class CosimRun {
       throw UsageError("--rtl " + options_.rtl + ": no such file or directory");
     if (std::filesystem::is_directory(options_.rtl) && !holds_verilog(options_.rtl))
       throw UsageError("--rtl " + options_.rtl + ": no SystemVerilog file (*.sv) is in this directory");
-    if (all_scenes() &&
-        (!options_.out.empty() || !options_.png.empty() || !options_.trace.empty() || !options_.shrink.empty()))
-      throw UsageError("--out, --png, --trace and --shrink are for one input, not for all scenes");
+    if (all_scenes() && (!options_.out.empty() || !options_.png.empty() || !options_.trace.empty()))
+      throw UsageError("--out, --png and --trace are for one input, not for all scenes");
   }
 
   static bool holds_verilog(const std::string& directory) {
@@ -283,10 +329,9 @@ class CosimRun {
     std::vector<EngineSample> samples;
     for (std::size_t p = 0; p < passes.size(); ++p) {
       run_pass(input, state, passes[p], p, weight_passes, frame.get(), samples, result);
-      if (!options_.shrink.empty() && !(result.lockstep_ok() && result.check.ok()))
-        shrink_failure(input, state, slots, passes[p], p, result.lockstep_ok());
+      if (!failed_ && !(result.lockstep_ok() && result.check.faults() == 0))
+        failed_ = failed_pass(input, state, slots, passes[p], p, result.lockstep_ok());
       if (!result.lockstep_ok()) break;  // more of the same is of no use
-      if (!options_.shrink.empty() && !result.check.ok()) break;
     }
     result.passes = passes.size();
     if (!input_options.stress.empty() && result.complete) compare_with_limits(input_options.stress, state, result);
@@ -310,6 +355,7 @@ class CosimRun {
     lockstep.seed = options_.common.seed;
     lockstep.stall = options_.stall;
     lockstep.gap = options_.gap;
+    lockstep.waits = waits_;
     lockstep.limit_fragments = options_.limit_fragments;
     lockstep.source = options_.rtl;
     lockstep.probes = !std::filesystem::is_regular_file(options_.rtl);  // one file has none: ports alone are compared
@@ -327,65 +373,12 @@ class CosimRun {
     return settings;
   }
 
-  /// The fewest quads, pixels and stalls of a pass that still fail, in lockstep or, if they agree, before the truth:
-  /// written to --shrink, with a waveform of the last clocks beside it and the command that repeats it.
-  void shrink_failure(const DrawInput& input, const DrawState& draw_state, int slots, const Pass& pass,
-                      std::size_t number, bool lockstep_ok) const {
-    constexpr std::uint64_t clocks_shown = 200;
-    std::uint64_t runs = 0;
-    tb::LockstepReport report;
-    Progress progress(input.name + ", shrinking", 1000, options_.common.show_progress());
-    const auto run = [&](const FailingDraw& draw, const std::string& trace, std::uint64_t trace_from) {
-      progress.set(++runs);
-      tb::LockstepOptions lockstep = lockstep_options(draw.state);
-      lockstep.state.attributes = static_cast<int>(pass.columns.size());
-      lockstep.stall = draw.stall;
-      lockstep.gap = draw.gap;
-      if (!trace.empty()) lockstep.trace = trace;
-      lockstep.trace_from = trace_from;
-      std::vector<SnappedQuad> snapped;
-      for (std::size_t i = 0; i < draw.quads.size(); ++i)
-        snapped.push_back(
-            snap_as(pass_quad(draw.quads[i], pass), static_cast<std::uint32_t>(i), config_, lockstep.state));
-      FragmentChecker::Settings settings = checker_settings(lockstep.state, pass, number == 0);
-      settings.snapping = false;
-      const CheckResult check = check_here(settings, draw.quads, snapped, [&](const auto& sink) {
-        report = tb::run_lockstep(snapped, lockstep, sink);
-        return report.complete;
-      });
-      return lockstep_ok ? report.agreed() && (check.mismatches != 0 || check.beyond_bound != 0 ||
-                                               check.beyond_attribute != 0 || check.beyond_depth != 0)
-                         : !report.agreed();
-    };
-    const FailingDraw whole{input.quads, draw_state, options_.stall, options_.gap};
-    const FailingDraw least = shrink(whole, [&](const FailingDraw& draw) { return run(draw, "", 0); });
-
-    golden::save_quads(options_.shrink, least.quads);
-    const FailingDraw kept{golden::load_quads(options_.shrink), least.state, least.stall, least.gap};
-    if (!run(kept, "", 0)) throw std::runtime_error("--shrink: the fault depends on more than the draw");
-    const std::uint64_t clocks = report.cycles_rtl;
-    const std::string waveform = std::filesystem::path(options_.shrink).replace_extension(".fst").string();
-    PartialFile trace(waveform);
-    run(kept, trace.path(), clocks > clocks_shown ? clocks - clocks_shown : 0);
-    trace.commit();
-    progress.finish();
-
-    std::string command = "quadrille cosim --quads " + one(options_.shrink);
-    if (!options_.common.config_file.empty()) command += " --config " + one(options_.common.config_file);
-    for (const std::string& setting : options_.common.settings) command += " --set " + one(setting);
-    command += " --size " + std::to_string(kept.state.width) + "x" + std::to_string(kept.state.height) + " --seed " +
-               std::to_string(options_.common.seed) + StateOptions::of(kept.state).spelled();
-    if (slots < config_.attribute_slots) command += " --attributes " + std::to_string(slots);
-    if (kept.stall > 0) command += " --stall " + nlohmann::json(kept.stall).dump();
-    if (kept.gap > 0) command += " --gap " + nlohmann::json(kept.gap).dump();
-    if (!options_.rtl.empty()) command += " --rtl " + one(options_.rtl);
-    std::fprintf(stderr,
-                 "quadrille: %s fails with %zu of %zu quads, in %dx%d pixels, %llu clocks (found in %llu runs):\n"
-                 "  %s\n  the last %llu clocks of it: %s\n",
-                 input.name.c_str(), kept.quads.size(), input.quads.size(),
-                 kept.state.scissor_x1 - kept.state.scissor_x0, kept.state.scissor_y1 - kept.state.scissor_y0,
-                 static_cast<unsigned long long>(clocks), static_cast<unsigned long long>(runs), command.c_str(),
-                 static_cast<unsigned long long>(std::min(clocks, clocks_shown)), waveform.c_str());
+  FailedPass failed_pass(const DrawInput& input, const DrawState& draw_state, int slots, const Pass& pass,
+                         std::size_t number, bool lockstep_ok) const {
+    DrawState state = draw_state;
+    state.attributes = static_cast<int>(pass.columns.size());
+    return {input.name, input.quads, lockstep_options(state), checker_settings(state, pass, number == 0),
+            slots,      lockstep_ok};
   }
 
   /// Regression limits, where some are recorded for such a draw.
@@ -595,6 +588,8 @@ class CosimRun {
     json["model_alone"] = model_json(model);
     json["stall"] = options_.stall;
     json["gap"] = options_.gap;
+    if (!options_.stall_clocks.empty()) json["stall_clocks"] = options_.stall_clocks;
+    if (!options_.gap_beats.empty()) json["gap_beats"] = options_.gap_beats;
     json["size"] = options_.common.size;
     if (results.size() > 1) {
       json["inputs"] = nlohmann::ordered_json::array();
@@ -719,6 +714,8 @@ class CosimRun {
   const CosimOptions options_;
   const std::vector<std::string> arguments_;
   const Config config_;
+  tb::PortWaits waits_;               ///< listed
+  std::optional<FailedPass> failed_;  ///< the first of all inputs
 };
 
 }  // namespace
@@ -727,7 +724,10 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("cosim", "RTL and model in lockstep, their fragments against the truth");
   command->footer(
       "Without an input all built-in scenes run. Exit status 0 only if at least one fragment was compared, nothing\n"
-      "differed and the error bound held.\n\n"
+      "differed and the error bound held. A run that fails in lockstep or before the truth shrinks itself: the fewest\n"
+      "quads, pixels, stalls and gaps that still fail are written, with a waveform of their last 200 clocks, and the "
+      "one\n"
+      "command that repeats it is printed.\n\n"
       "Examples:\n"
       "  quadrille cosim --scene fig7_floor --png floor.png\n"
       "  quadrille cosim --mesh pawn.obj --stall 0.5 --gap 0.1 --json report.json\n"
@@ -735,7 +735,8 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       "  quadrille cosim --corner z_limits --znear 0.25 --zfar 0.75 --size 64x64\n"
       "  quadrille cosim --stress general --draw-state random:7\n"
       "  quadrille cosim --scene sphere --limit-fragments 2000 --trace sphere.fst\n"
-      "  quadrille cosim --scene sphere --rtl changed_rtl --shrink fails.quads");
+      "  quadrille cosim --scene sphere --size 64x64 --stall 0.3 --gap 0.2 --rtl changed_rtl --shrink fails.quads\n"
+      "  quadrille cosim --quads fails.quads --size 34x56 --stall-clocks 80-83 --gap-beats 5:2,9");
   const auto options = std::make_shared<CosimOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
@@ -746,6 +747,16 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--gap", options->gap, "Probability per clock that no vertex is offered")
       ->type_name("P")
       ->capture_default_str();
+  command
+      ->add_option("--stall-clocks", options->stall_clocks,
+                   "The clocks in which the output is not ready, one by one: 17,40-43, counted from the end of reset")
+      ->type_name("LIST")
+      ->excludes("--stall");
+  command
+      ->add_option("--gap-beats", options->gap_beats,
+                   "The beats (vertices, from 0) before which none is offered, and for how many clocks: 5:2,9")
+      ->type_name("LIST")
+      ->excludes("--gap");
   command
       ->add_option("--attributes", options->attributes,
                    "Attributes in use in one pass; fewer of them make more passes. Default: attribute_slots")
@@ -763,9 +774,16 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--trace", options->trace, "Waveform of the RTL")->type_name("F.fst");
   command
       ->add_option("--shrink", options->shrink,
-                   "If the input fails: the fewest quads, pixels and stalls that still do, as quads, beside them a "
-                   "waveform (F.fst) of the last 200 clocks, and the command that repeats it")
+                   "Where a run that fails writes the fewest quads that still do, beside them the waveform (F.fst) of "
+                   "their last 200 clocks. Default: cosim_failure.quads")
       ->type_name("F.quads");
+  command
+      ->add_option("--shrink-time", options->shrink_seconds,
+                   "Seconds after which the search for less ends with what it has")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S")
+      ->capture_default_str();
+  command->add_flag("--no-shrink", options->no_shrink, "Do not shrink a run that fails")->excludes("--shrink");
   command->add_option("--out", options->out, "Picture of the RTL's fragments, with weights and errors")
       ->type_name("F.exr");
   command->add_option("--png", options->png, "The same to look at")->type_name("F.png");

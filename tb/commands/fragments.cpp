@@ -1,10 +1,13 @@
 // quadrille fragments: every fragment of every quad as a table, without depth test.
 #include "tb/commands/commands.hpp"
 #include "tb/commands/counters_report.hpp"
+#include "tb/commands/fragments_errors.hpp"
 #include "tb/options/command_line.hpp"
 
+#include "golden/io/atomic_file.hpp"
 #include "golden/io/fragment_csv.hpp"
 #include "golden/io/json_report.hpp"
+#include "golden/io/text_input.hpp"
 #include "model/snap.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/input.hpp"
@@ -16,6 +19,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -29,6 +33,7 @@ struct FragmentsOptions {
   EngineOptions engine;
   std::string out, pixel, shade;
   std::int64_t quad = -1;
+  bool errors = false;
 };
 
 /// "X,Y" inside the viewport.
@@ -48,6 +53,10 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   const tb::Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
   if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
+  if (options.errors && !settings.snap)
+    throw UsageError("--errors with --snap off: the bound is on errors against the truth on snapped quads");
+  if (options.errors && settings.config.qdrop() != 0)
+    throw UsageError("--errors: quadratic_frac_bits drops bits of D and R²; no bound is claimed then");
   std::vector<std::string> read = options.input.files();
   read.push_back(options.common.config_file);
   check_outputs({options.out, options.input.save_camera, options.common.json}, read);
@@ -63,23 +72,39 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   std::pair<int, int> pixel{-1, -1};
   if (!options.pixel.empty()) pixel = parse_pixel(options.pixel, settings.state);
 
+  const auto wanted = [&](const EngineSample& sample) {
+    return pixel.first < 0 || (sample.x == pixel.first && sample.y == pixel.second);
+  };
   std::vector<golden::FragmentRow> rows;
+  std::vector<EngineSample> kept, truth;  // --errors
   std::uint64_t undefined = 0;
   try {
     Progress progress("fragments of " + input.name, input.quads.size(), options.common.show_progress());
     make_engine(settings)->draw(input.quads, input.attributes, true, [&](std::span<const EngineSample> samples) {
       for (const EngineSample& sample : samples) {
-        if (pixel.first >= 0 && (sample.x != pixel.first || sample.y != pixel.second)) continue;
+        if (!wanted(sample)) continue;
+        if (options.errors) kept.push_back(sample);
         rows.push_back(
             {sample.quad, sample.x, sample.y, sample.front, sample.flags, sample.lambda, sample.z, sample.attribute});
         if (sample.undefined) rows.back().flags |= flag_undefined, ++undefined;
       }
       progress.set(samples.back().index + 1);
     });
+    if (options.errors) {
+      EngineSettings true_settings = settings;
+      true_settings.kind = EngineKind::truth;
+      make_engine(true_settings)->draw(input.quads, input.attributes, true, [&](std::span<const EngineSample> samples) {
+        std::ranges::copy_if(samples, std::back_inserter(truth), wanted);
+      });
+    }
   } catch (const SnapError& error) {
     throw UsageError(describe(error, input));
   }
-  golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
+  if (options.errors)
+    golden::write_file(options.out, fragment_errors_csv(input.quads, input.attributes, settings, kept, truth),
+                       golden::AtomicFile::Dash::standard_output);
+  else
+    golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
 
   const double seconds = start.seconds();
   std::optional<PerformanceCounters> counters;
@@ -112,24 +137,30 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("fragments", "Write every fragment as a table, without depth test");
   command->footer(
       "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,a0,...; sorted by quad, y, x; 17 significant digits.\n"
-      "Flags: 1 on an edge, 2 on a vertex, 4 two corners, 8 two edges, 16 tie, 32 homogeneous, 64 notch cure,\n"
-      "128 saturated; float and shader: 256 undefined (its numbers are not to be used).\n"
+      "Flags: 1 on an edge, 2 on a vertex, 4 two corners, 8 two edges, 16 tie, 32 homogeneous, 64 notch (an edge\n"
+      "turns backward as seen from the pixel: neighbouring areas differ in sign; with notch_exact), 128 saturated;\n"
+      "float, fp32 and shader: 256 undefined (its numbers are not to be used).\n"
+      "--errors writes a row for each value instead: quad,x,y,value,drawn,truth,error,of_bound; values are the\n"
+      "weights l0 to l3, z and the attributes, of_bound is |error| in units of what the bound allows the value.\n"
       "With --json or --verbose the clocked model draws once more, for the counters of a machine (engines model\n"
       "and rtl).\n\n"
       "Examples:\n"
       "  quadrille fragments --quads some.quads --out some.csv\n"
       "  quadrille fragments --engine truth --snap off --scene bowtie --size 64x64 --out -\n"
-      "  quadrille fragments --engine rtl --mesh pawn.obj --quad 17 --out pawn17.csv");
+      "  quadrille fragments --engine rtl --mesh pawn.obj --quad 17 --out pawn17.csv\n"
+      "  quadrille fragments --engine fp32 --scene bowtie --size 64x64 --pixel 20,20 --errors --out -");
   const auto options = std::make_shared<FragmentsOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  options->engine.add_to(*command);
+  options->engine.add_to(*command, true);
   command->add_option("--out", options->out, "The table; - is standard output")->type_name("F.csv");
   command->add_option("--quad", options->quad, "Only the quad at this position, counted from 0")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));
   command->add_option("--pixel", options->pixel, "Only this pixel")->type_name("X,Y");
+  command->add_flag("--errors", options->errors,
+                    "The truth and the errors in units of the bound, a row for each value");
   command
       ->add_option("--shade", options->shade,
                    "Attributes of a scene or mesh: uv, texture, normal, planes, colour; default: what suits the input")

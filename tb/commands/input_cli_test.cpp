@@ -171,7 +171,7 @@ TEST_F(Cli, ScenesAsJson) {
   EXPECT_EQ(to_file.out, run("scenes").out);
   EXPECT_EQ(read(file("s.json")), bare);
   EXPECT_EQ(run("scenes --json --stress").out, run("scenes --stress --json -").out);
-  EXPECT_EQ(json::parse(run("scenes --stress --json").out)[0].size(), 2u);
+  EXPECT_EQ(json::parse(run("scenes --stress --json").out)[0].size(), 3u);
   refuses(2, "scenes --json no/s.json", {"no/s.json", "No such file"});
 }
 

@@ -3,6 +3,7 @@
 #include "tb/options/command_line.hpp"
 
 #include "golden/io/json_report.hpp"
+#include "golden/scenes/approach.hpp"
 #include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
@@ -26,11 +27,15 @@ struct ScenesOptions {
 int list(const ScenesOptions& options) {
   if (options.stress) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const golden::StressFamilyInfo& family : golden::stress_families()) {
-      json.push_back({{"name", family.name}, {"stresses", family.stresses}});
-      if (options.json != "-")
-        std::printf("%-16s %s\n", std::string(family.name).c_str(), std::string(family.stresses).c_str());
-    }
+    const auto add = [&](const char* kind, std::string_view name, std::string_view what) {
+      json.push_back({{"name", name}, {"stresses", what}, {"kind", kind}});
+      if (options.json != "-") std::printf("%-18s %s\n", std::string(name).c_str(), std::string(what).c_str());
+    };
+    for (const golden::StressFamilyInfo& family : golden::stress_families())
+      add("family", family.name, family.stresses);
+    if (options.json != "-") std::printf("\nApproaches, drawn by `quadrille stress` alone: a knob leads to\n");
+    for (const golden::Approach& approach : golden::approaches())
+      add("approach", approach.name, approach.special.empty() ? approach.knob : approach.special);
     if (!options.json.empty()) golden::save_json(options.json, json);
     return exit_ok;
   }
@@ -75,7 +80,8 @@ void add_scenes_command(CLI::App& app, Invocation& invocation) {
                                        "Write an array of name, title, paper, quads (- or nothing: standard output)")
                           ->type_name("[F.json]")
                           ->expected(0, 1);
-  CLI::Option* stress = command->add_flag("--stress", options->stress, "The stress families instead");
+  CLI::Option* stress = command->add_flag("--stress", options->stress,
+                                          "The stress families, and the approaches of `quadrille stress`, instead");
   command->add_flag("--corner", options->corner, "The corner groups instead: directed quads of rare cases")
       ->excludes(stress);
   command->callback([options, json, &invocation] {

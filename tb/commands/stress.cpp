@@ -22,6 +22,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace quadrille::cli {
 namespace {
@@ -29,7 +30,7 @@ namespace {
 struct StressOptions {
   CommonOptions common;
   std::string families, engines = "model,float,fp32", csv;
-  std::uint64_t count = 12;
+  std::uint64_t count = 24;
   ShardOptions shards;
   StressSearchOptions search;
 };
@@ -41,6 +42,7 @@ constexpr int knob_octaves = 6;  ///< of a family's knob, to either side of 1
 /// A name of --families: a stress family or an approach.
 struct KnobSeries {
   std::string name, kind, special, knob;
+  int exponent = 1;  ///< knob k is 2^(exponent k) of what `knob` says
   std::optional<golden::StressFamily> family;
   const golden::Approach* approach = nullptr;
   DrawState state;
@@ -86,7 +88,6 @@ class StressCommand {
   int run() {
     check_outputs({options_.csv, common_.json}, {common_.config_file});
     measure();
-    for (std::size_t i = 0; i < series_.size(); ++i) judge(i);
     return write_report(options_, report());
   }
 
@@ -106,7 +107,10 @@ class StressCommand {
     for (const golden::Approach& approach : golden::approaches()) all.emplace_back(approach.name);
     const std::vector<std::string> wanted = options_.families.empty() ? all : names_in_list(options_.families);
     const auto [width, height] = common_.viewport(config_);
-    for (const std::string& name : wanted) choose("family", name, all);
+    for (const std::string& name : wanted) {
+      choose("family", name, all);
+      if (std::ranges::count(wanted, name) > 1) throw UsageError("--families: " + name + " stands there twice");
+    }
     if (shard_.count > wanted.size())
       throw UsageError("--shard " + options_.shards.shard + ": " + std::to_string(wanted.size()) +
                        " families are asked for; at most so many shards have some each");
@@ -120,6 +124,11 @@ class StressCommand {
         s.kind = "approach";
         s.special = s.approach->special;
         s.knob = s.approach->knob;
+        // As approach.hpp says of the name of the knob: a distance of 2^-k, but where it begins with what it is.
+        if (constexpr std::string_view length = "2^knob is the "; s.knob.starts_with(length))
+          s.knob.erase(0, length.size());
+        else
+          s.exponent = -1;
         s.state.width = s.approach->width;
         s.state.height = s.approach->height;
         if (s.state.width > 1 << config_.viewport_bits)
@@ -156,6 +165,12 @@ class StressCommand {
     if (s.approach->limit) steps_.push_back({index, s.approach->last, 0});
   }
 
+  std::vector<golden::ApproachPlace> places_of(const KnobStep& step) const {
+    const KnobSeries& s = series_[step.series];
+    if (!s.approach) return {};
+    return golden::approach_places(*s.approach, step.knob, step.side, options_.count, common_.seed);
+  }
+
   std::vector<WindowQuad> quads_of(const KnobStep& step) const {
     const KnobSeries& s = series_[step.series];
     if (s.approach)
@@ -178,13 +193,14 @@ class StressCommand {
         steps_.size(), threads(),
         [&](std::size_t i) {
           const KnobStep& step = steps_[i];
-          KnobErrors errors =
-              measure_knob(quads_of(step), drawn_attributes, config_, series_[step.series].state, bodies_);
-          if (!jumps(step)) errors.weights = {};
+          KnobErrors errors = measure_knob(quads_of(step), places_of(step), drawn_attributes, config_,
+                                           series_[step.series].state, bodies_);
+          if (!jumps(step)) errors.model = {};
           return errors;
         },
         [&](std::size_t i, KnobErrors&& errors) {
           results_.push_back(std::move(errors));
+          if (i + 1 == steps_.size() || steps_[i + 1].series != steps_[i].series) judge(steps_[i].series);
           progress.set(i + 1, series_[steps_[i].series].name);
         });
   }
@@ -192,27 +208,32 @@ class StressCommand {
   /// On the way to a special case, where the error must not jump.
   bool jumps(const KnobStep& step) const {
     const golden::Approach* approach = series_[step.series].approach;
-    return approach && approach->limit;
+    return approach && (approach->limit || approach->both_sides);
   }
 
   struct Summary {
     std::array<BodyErrors, bodies> body;
-    std::array<std::size_t, bodies> worst{};  ///< the step
-    ErrorJump jump;                           ///< of no pixels where there is no special case, or it draws nothing
+    std::array<std::array<std::size_t, output_names.size()>, bodies> worst{};  ///< the step of each largest error
+    std::array<std::size_t, bodies> lost{};                                    ///< and of the first pixel lost
+    std::optional<ErrorJump> jump;                                             ///< of approaches
+    bool between_sides = false;  ///< at the same distance: there is no special case, or it draws nothing
     std::vector<std::string> faults;
   };
 
+  /// Of the series whose steps are done; afterwards the errors of their single pixels are not kept.
   void judge(std::size_t index) {
     Summary sum;
     const KnobSeries& s = series_[index];
     const auto fault = [&](const std::string& what) { sum.faults.push_back(s.name + ": " + what); };
-    const KnobErrors* special = nullptr;
-    for (std::size_t i = 0; i < steps_.size(); ++i) {
-      if (steps_[i].series != index) continue;
+    std::size_t first = 0;
+    while (steps_[first].series != index) ++first;
+    const std::span<KnobErrors> results = std::span(results_).subspan(first);
+    for (std::size_t i = first; i < results_.size(); ++i) {
       const KnobErrors& r = results_[i];
-      if (steps_[i].side == 0) special = &r;
       for (std::size_t b = 0; b < bodies; ++b) {
-        if (r.body[b].weight > sum.body[b].weight) sum.worst[b] = i;
+        for (std::size_t o = 0; o < output_names.size(); ++o)
+          if (r.body[b].largest[o].part > sum.body[b].largest[o].part) sum.worst[b][o] = i;
+        if (sum.body[b].pixels_lost() == 0) sum.lost[b] = i;
         sum.body[b].merge(r.body[b]);
       }
       if (r.verdict.faults() != 0) {
@@ -220,19 +241,41 @@ class StressCommand {
         fault(place(steps_[i]) + ": " + std::to_string(r.verdict.faults()) + " faults, " + what);
       }
       if (!r.difference.empty()) fault(place(steps_[i]) + ": " + r.difference);
+      // Without such a pixel the step says nothing about the case. That the case itself has none may be what it is.
+      if (s.approach && steps_[i].side != 0 && r.near_case[0].fragments == 0)
+        fault(place(steps_[i]) + ": no fragment near the special case of any quad; give more --count than " +
+              std::to_string(options_.count));
     }
     if (sum.body[0].fragments == 0) fault("nothing was drawn");
-    if (sum.body[0].weight > 1) fault("a weight is beyond the bound: " + reproduce(sum.worst[0], sum.body[0].worst));
-    if (special) {
-      for (std::size_t i = 0; i < steps_.size(); ++i) {
-        if (steps_[i].series != index || steps_[i].side == 0) continue;
-        const ErrorJump jump = error_jump(special->weights, results_[i].weights);
-        sum.jump.pixels += jump.pixels;
-        sum.jump.largest = std::max(sum.jump.largest, jump.largest);
+    for (std::size_t o = 0; o < output_names.size(); ++o)
+      if (sum.body[0].largest[o].part > 1)
+        fault("largest error of " + std::string(output_names[o]) + " beyond the bound: " + reproduce(sum, 0, o));
+    if (s.approach && jumps(steps_[first])) judge_jump(std::span(steps_).subspan(first), results, sum);
+    for (std::size_t o = 0; sum.jump && o < output_names.size(); ++o)
+      if (sum.jump->largest[o] > 1)
+        fault("the error of " + std::string(output_names[o]) + " jumps by more than the bound " +
+              (sum.between_sides ? "from side to side" : "at the special case"));
+    for (KnobErrors& r : results) r.model = {};
+    summaries_.push_back(std::move(sum));
+  }
+
+  /// From each step to the special case, or where that draws nothing from side to side.
+  static void judge_jump(std::span<const KnobStep> steps, std::span<const KnobErrors> results, Summary& sum) {
+    sum.jump.emplace();
+    const PixelSeries* special = nullptr;
+    for (std::size_t i = 0; i < results.size(); ++i)
+      if (steps[i].side == 0 && !results[i].model.empty()) special = &results[i].model;
+    sum.between_sides = special == nullptr;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (steps[i].side == 0) continue;
+      if (special) {
+        sum.jump->merge(error_jump(*special, results[i].model));
+      } else if (steps[i].side < 0) {
+        for (std::size_t j = 0; j < results.size(); ++j)
+          if (steps[j].side > 0 && steps[j].knob == steps[i].knob)
+            sum.jump->merge(error_jump(results[i].model, results[j].model));
       }
-      if (sum.jump.largest > 1) fault("the error jumps by more than the bound at the special case");
     }
-    summaries_.push_back(sum);
   }
 
   std::string place(const KnobStep& step) const {
@@ -241,11 +284,51 @@ class StressCommand {
     return (s.approach ? (step.side < 0 ? "side -1, knob " : "knob ") : "knob 2^") + std::to_string(step.knob);
   }
 
-  std::string reproduce(std::size_t step, const Place& at) const {
+  /// The command that draws the pixel of the step by the body, with its errors.
+  std::string reproduce(std::size_t step, std::size_t body, const Place& at, bool attributes) const {
     const DrawState& state = series_[steps_[step].series].state;
     WindowQuad quad = quads_of(steps_[step])[at.index];
-    quad.attribute = {};
-    return reproduce_pixel(quad, config_, state.width, state.height, at.x, at.y);
+    if (!attributes) quad.attribute = {};
+    return reproduce_pixel(quad, config_, state.width, state.height, at.x, at.y, knob_body_names[body]);
+  }
+  std::string reproduce(const Summary& sum, std::size_t body, std::size_t output) const {
+    return reproduce(sum.worst[body][output], body, sum.body[body].largest[output].place,
+                     static_cast<Output>(output) == Output::attribute);
+  }
+
+  nlohmann::ordered_json place_json(std::size_t step) const {
+    return {{"knob", steps_[step].knob}, {"side", steps_[step].side}};
+  }
+
+  /// Of each output the largest error, and the first pixel that is undefined or missing.
+  nlohmann::ordered_json worst_json(const Summary& sum, std::size_t body) const {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    const BodyErrors& errors = sum.body[body];
+    for (std::size_t o = 0; errors.fragments != 0 && o < output_names.size(); ++o) {
+      nlohmann::ordered_json entry{{"error", errors.largest[o].part}};
+      entry.update(place_json(sum.worst[body][o]));
+      // All errors are 0: no pixel is the worst.
+      entry["reproduce"] = nullptr;
+      if (errors.largest[o].part > 0) entry["reproduce"] = reproduce(sum, body, o);
+      json[std::string(output_names[o])] = std::move(entry);
+    }
+    if (errors.pixels_lost() != 0) {
+      nlohmann::ordered_json entry = place_json(sum.lost[body]);
+      entry["reproduce"] = reproduce(sum.lost[body], body, errors.lost, false);
+      json["lost"] = std::move(entry);
+    }
+    return json;
+  }
+
+  static void add_errors(nlohmann::ordered_json& json, const BodyErrors& e) {
+    json["fragments"] = e.fragments;
+    json["beyond"] = e.beyond;
+    json["undefined"] = e.undefined;
+    json["missing"] = e.missing;
+    for (std::size_t o = 0; o < output_names.size(); ++o) {
+      nlohmann::ordered_json& value = json[std::string(output_names[o])];
+      if (e.fragments != 0) value = e.largest[o].part;
+    }
   }
 
   nlohmann::ordered_json report() const {
@@ -262,17 +345,18 @@ class StressCommand {
       entry["kind"] = series_[i].kind;
       entry["special"] = series_[i].special;
       entry["knob"] = series_[i].knob;
-      entry["jump"] = nullptr;
-      if (s.jump.pixels != 0) entry["jump"] = s.jump.largest;
-      entry["jump_pixels"] = s.jump.pixels;
-      for (std::size_t b = 0; b < bodies; ++b) {
-        if (!has(b) || s.body[b].fragments == 0) continue;
-        nlohmann::ordered_json& worst = entry["worst"][std::string(knob_body_names[b])];
-        worst["weight"] = s.body[b].weight;
-        worst["knob"] = steps_[s.worst[b]].knob;
-        worst["side"] = steps_[s.worst[b]].side;
-        worst["reproduce"] = reproduce(s.worst[b], s.body[b].worst);
+      entry["exponent"] = series_[i].exponent;
+      nlohmann::ordered_json& jump = entry["jump"];
+      if (s.jump) {
+        jump["between"] = s.between_sides ? "sides" : "special case";
+        jump["pixels"] = s.jump->pixels;
+        for (std::size_t o = 0; o < output_names.size(); ++o) {
+          nlohmann::ordered_json& largest = jump[std::string(output_names[o])];
+          if (s.jump->pixels != 0) largest = s.jump->largest[o];
+        }
       }
+      for (std::size_t b = 0; b < bodies; ++b)
+        if (has(b)) entry["worst"][std::string(knob_body_names[b])] = worst_json(s, b);
       entry["faults"] = s.faults;
       faults.insert(faults.end(), s.faults.begin(), s.faults.end());
       json["families"].push_back(std::move(entry));
@@ -281,20 +365,14 @@ class StressCommand {
     for (std::size_t i = 0; i < steps_.size(); ++i)
       for (std::size_t b = 0; b < bodies; ++b) {
         if (!has(b)) continue;
-        const BodyErrors& e = results_[i].body[b];
         nlohmann::ordered_json entry;
         entry["family"] = series_[steps_[i].series].name;
         entry["knob"] = steps_[i].knob;
         entry["side"] = steps_[i].side;
         entry["engine"] = knob_body_names[b];
-        entry["fragments"] = e.fragments;
-        entry["undefined"] = e.undefined;
-        entry["missing"] = e.missing;
-        for (const auto& [key, value] :
-             {std::pair{"weight", e.weight}, std::pair{"attribute", e.attribute}, std::pair{"depth", e.depth}}) {
-          entry[key] = nullptr;
-          if (e.fragments != 0) entry[key] = value;
-        }
+        add_errors(entry, results_[i].body[b]);
+        nlohmann::ordered_json& near_case = entry["near"];
+        if (series_[steps_[i].series].approach) add_errors(near_case, results_[i].near_case[b]);
         json["errors"].push_back(std::move(entry));
       }
     json["ok"] = faults.empty();
@@ -321,15 +399,19 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
       "stress", "Errors against a knob, towards every special case, of the model, the paper's formulas and others");
   command->footer(
       "Stress families take the knobs 2^-6 to 2^6 (those whose knob scales nothing, 1), quads at random.\n"
-      "Approaches walk one quad each towards a special case: knob k is a distance of 2^-k from it (long_edge: a\n"
-      "length of 2^k), on either side, and the case itself. What each is: golden/scenes/README.md, and in the\n"
-      "JSON.\n\n"
+      "Approaches walk quads towards a special case: knob k is a distance of 2^-k from it, on either side (of long\n"
+      "edges a length of 2^k), and the case itself. What each is: `quadrille scenes --stress`, "
+      "golden/scenes/README.md,\n"
+      "and in the JSON.\n\n"
       "Errors are those against exact arithmetic on the same snapped quads, in units of what the bound allows: a\n"
       "weight 2^-(s-3), attributes and depth what follows from it. Bodies: model; float and fp32, the paper's\n"
       "formulas as printed in double and single precision; shader, on OpenGL; rtl, which must equal the model.\n"
-      "Undefined are pixels where a body divides by zero, missing those that it does not draw; both together are\n"
-      "\"lost\" in the table. Jump: how far an error of the model changes from any step to the special case, at\n"
-      "the same pixel. scripts/stress_plot.py draws the JSON.\n\n"
+      "In the table: near, the model's largest error of a weight at the pixels near the special case; jump, how far\n"
+      "an error of a weight, an attribute or depth of the model changes at one pixel from any step to the special\n"
+      "case, or from side to side where that draws nothing. Of the other bodies: the largest error of a weight,\n"
+      "fragments beyond the bound in any output, pixels where it divides by zero (undefined), and that it does not\n"
+      "draw (missing). --json has for each family, body and output the command that shows the worst pixel.\n"
+      "scripts/stress_plot.py draws it.\n\n"
       "--search looks for the worst weight, attribute and depth of the model in each stress family instead:\n"
       "an eighth of --evaluations pixels of quads as the family draws them, the rest climbs from the worst of\n"
       "those, by the knob, by the random numbers that the family's code draws the quad from, so that its shape\n"
@@ -337,7 +419,8 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
       "weight. --keep writes what it found as a .quads file with the errors in comments; --kept reads such a\n"
       "file and compares, --kept F --keep F records the errors of its quads anew.\n\n"
       "Exit status 1: the model is beyond its bound or draws other pixels, its error jumps by more than the\n"
-      "bound, the RTL differs from it, or an error is not the one kept.\n\n"
+      "bound, no quad of an approach's step has a pixel near the case, the RTL differs from the model, or an error\n"
+      "is not the one kept.\n\n"
       "Examples:\n"
       "  quadrille stress\n"
       "  quadrille stress --families edge_distance,eye_plane --set significand_bits=24 --csv stress.csv\n"
@@ -351,7 +434,7 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
   options->common.add_to(*command);
   command
       ->add_option("--families", options->families,
-                   "Stress families (`quadrille scenes` lists them) and approaches, with commas; default: all")
+                   "Stress families and approaches (`quadrille scenes --stress` lists them), with commas; default: all")
       ->type_name("LIST");
   command->add_option("--engines", options->engines, "Beside the model: float, fp32, shader, rtl")
       ->type_name("LIST")

@@ -11,6 +11,7 @@
 #include "tb/support/errors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -48,23 +49,23 @@ void move_family(Json& to, const Json& from, const std::string& family) {
     if (entry["family"] == family) to.push_back(entry);
 }
 
-bool fails(const BodyErrors& e) { return e.weight > 1 || e.undefined != 0 || e.missing != 0; }
-
-std::string units(const BodyErrors& e, double value) {
-  if (e.fragments == 0) return "-";
+/// Small ones as 1e-09: 0.000 would say that there is none.
+std::string units(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, value < 1000 ? "%.3f" : "%.1e", value);
+  std::snprintf(text, sizeof text, value == 0 ? "%.0f" : value >= 1e-3 && value < 1000 ? "%.3f" : "%.1e", value);
   return text;
 }
+
+std::string units(const BodyErrors& e, Output output) { return e.fragments == 0 ? "-" : units(e.of(output).part); }
 
 BodyErrors body_errors(const Json& entry) {
   BodyErrors errors;
   errors.fragments = entry["fragments"];
+  errors.beyond = entry["beyond"];
   errors.undefined = entry["undefined"];
   errors.missing = entry["missing"];
-  for (const auto& [key, value] :
-       {std::pair{"weight", &errors.weight}, {"attribute", &errors.attribute}, {"depth", &errors.depth}})
-    if (!entry[key].is_null()) *value = entry[key];
+  for (std::size_t o = 0; o < output_names.size(); ++o)
+    if (const Json& value = entry[std::string(output_names[o])]; !value.is_null()) errors.largest[o].part = value;
   return errors;
 }
 
@@ -73,6 +74,60 @@ std::string place(const Json& family, const Json& worst) {
   if (side == 0) return "special case";
   const bool approach = family["kind"] == "approach";
   return (approach ? (side < 0 ? "side -1, knob " : "knob ") : "knob 2^") + std::to_string(worst["knob"].get<int>());
+}
+
+/// One body over all families: in how many it fails, how, and its largest errors.
+struct BodySummary {
+  std::size_t beyond = 0, undefined = 0, missing = 0, drawn_nothing = 0;
+  std::array<const Json*, output_names.size()> worst{};  ///< the family
+
+  void add(const Json& family, const std::string& body, const BodyErrors& errors) {
+    beyond += errors.beyond != 0;
+    undefined += errors.undefined != 0;
+    missing += errors.missing != 0;
+    drawn_nothing += errors.fragments == 0;
+    for (std::size_t o = 0; errors.fragments != 0 && o < output_names.size(); ++o)
+      if (errors.largest[o].part > 0 && (!worst[o] || error(family, body, o) > error(*worst[o], body, o)))
+        worst[o] = &family;
+  }
+
+  static const Json& entry(const Json& family, const std::string& body, std::size_t output) {
+    return family["worst"][body][std::string(output_names[output])];
+  }
+  static double error(const Json& family, const std::string& body, std::size_t output) {
+    return entry(family, body, output)["error"];
+  }
+};
+
+void print_body(std::FILE* text, const std::string& name, const BodySummary& body, std::size_t families) {
+  std::fprintf(text, "\n%s, of %zu families: beyond the bound in %zu, undefined pixels in %zu, missing pixels in %zu",
+               name.c_str(), families, body.beyond, body.undefined, body.missing);
+  if (body.drawn_nothing != 0) std::fprintf(text, ", no pixel at all in %zu", body.drawn_nothing);
+  std::fprintf(text, "\n");
+  const char* before = "  largest errors: ";
+  for (std::size_t o = 0; o < output_names.size(); ++o) {
+    if (!body.worst[o]) continue;
+    const Json& worst = BodySummary::entry(*body.worst[o], name, o);
+    std::fprintf(text, "%s%s %s (%s, %s)", before, std::string(output_names[o]).c_str(),
+                 units(worst["error"].get<double>()).c_str(), (*body.worst[o])["family"].get<std::string>().c_str(),
+                 place(*body.worst[o], worst).c_str());
+    before = ", ";
+  }
+  if (!body.worst[0]) return;
+  std::fprintf(text, "; that weight:\n  %s\n",
+               BodySummary::entry(*body.worst[0], name, 0)["reproduce"].get<std::string>().c_str());
+}
+
+/// Steps at which the model draws nothing, so that nothing was shown there; a line for each family.
+void print_empty_steps(std::FILE* text, const Json& report) {
+  for (const Json& family : report["families"]) {
+    std::string steps;
+    for (const Json& entry : report["errors"])
+      if (entry["family"] == family["family"] && entry["engine"] == "model" && entry["fragments"] == 0)
+        steps += (steps.empty() ? "" : "; ") + place(family, entry);
+    if (!steps.empty())
+      std::fprintf(text, "no fragments: %s at %s\n", family["family"].get<std::string>().c_str(), steps.c_str());
+  }
 }
 
 }  // namespace
@@ -88,10 +143,12 @@ std::vector<std::string> names_in_list(const std::string& list) {
   return names;
 }
 
-std::string reproduce_pixel(const WindowQuad& quad, const Config& config, int width, int height, int x, int y) {
+std::string reproduce_pixel(const WindowQuad& quad, const Config& config, int width, int height, int x, int y,
+                            std::string_view engine) {
   return "echo '" + golden::quad_text(quad) + "' | quadrille fragments --quads /dev/stdin --size " +
          std::to_string(width) + "x" + std::to_string(height) + spelled(config) + " --pixel " + std::to_string(x) +
-         "," + std::to_string(y) + " --out -";
+         "," + std::to_string(y) + (engine.empty() ? "" : " --engine " + std::string(engine) + " --errors") +
+         " --out -";
 }
 
 Json merge_stress(const std::vector<std::string>& files) {
@@ -140,19 +197,27 @@ Json merge_stress(const std::vector<std::string>& files) {
 std::string stress_csv(const Json& report) {
   std::map<std::string, std::string> kinds;
   for (const Json& family : report["families"]) kinds[family["family"]] = family["kind"];
-  std::string out = "family,kind,knob,side,engine,fragments,undefined,missing,weight,attribute,depth\n";
+  constexpr std::array<const char*, 7> columns{"fragments", "beyond",    "undefined", "missing",
+                                               "weight",    "attribute", "depth"};
+  std::string out = "family,kind,knob,side,engine";
+  for (const char* prefix : {",", ",near_"})
+    for (const char* column : columns) out += prefix + std::string(column);
+  out += "\n";
   for (const Json& entry : report["errors"]) {
     const std::string family = entry["family"];
     out += family + "," + kinds[family];
     for (const char* key : {"knob", "side"}) out += "," + std::to_string(entry[key].get<int>());
     out += "," + entry["engine"].get<std::string>();
-    for (const char* key : {"fragments", "undefined", "missing"})
-      out += "," + std::to_string(entry[key].get<std::uint64_t>());
-    for (const char* key : {"weight", "attribute", "depth"}) {
-      char text[40] = ",";
-      if (!entry[key].is_null()) std::snprintf(text, sizeof text, ",%.17g", entry[key].get<double>());
-      out += text;
-    }
+    for (const Json* errors : {&entry, &entry["near"]})
+      for (const char* column : columns) {
+        char text[40] = ",";
+        const Json* value = errors->is_null() ? errors : &(*errors)[column];
+        if (value->is_number_integer())
+          std::snprintf(text, sizeof text, ",%llu", value->get<unsigned long long>());
+        else if (!value->is_null())
+          std::snprintf(text, sizeof text, ",%.17g", value->get<double>());
+        out += text;
+      }
     out += "\n";
   }
   return out;
@@ -166,44 +231,53 @@ void print_stress(std::FILE* text, const Json& report) {
     if (std::ranges::any_of(report["errors"], [&](const Json& e) { return e["engine"] == name; }))
       bodies.emplace_back(name);
   std::map<std::pair<std::string, std::string>, BodyErrors> sums;
-  for (const Json& entry : report["errors"]) sums[{entry["family"], entry["engine"]}].merge(body_errors(entry));
+  std::map<std::string, double> near_weight;  // of the model
+  for (const Json& entry : report["errors"]) {
+    sums[{entry["family"], entry["engine"]}].merge(body_errors(entry));
+    if (entry["engine"] == "model" && !entry["near"].is_null() && !entry["near"]["weight"].is_null()) {
+      double& largest = near_weight[entry["family"]];
+      largest = std::max(largest, entry["near"]["weight"].get<double>());
+    }
+  }
 
   std::fprintf(text,
                "%s\n%llu quads a step, configuration %s; errors in units of the bound, 2^%.0f of a weight, the "
-               "largest over all steps\n\n%-18s %9s %7s %9s %7s",
+               "largest over all steps\n\n%-18s %9s %7s %9s %7s %7s %7s",
                report["command"].get<std::string>().c_str(), report["count"].get<unsigned long long>(),
                summary(config).c_str(), std::log2(report["weight_bound"].get<double>()), "", "fragments", "weight",
-               "attribute", "depth");
-  for (std::size_t b = 1; b < bodies.size(); ++b) std::fprintf(text, " %10s %9s", bodies[b].c_str(), "lost");
-  std::fprintf(text, " %7s\n", "jump");
-  std::map<std::string, std::size_t> failing;
-  const Json* worst = nullptr;
+               "attribute", "depth", "near", "jump");
+  for (std::size_t b = 1; b < bodies.size(); ++b)
+    std::fprintf(text, " | %8s %8s %9s %7s", bodies[b].c_str(), "beyond", "undefined", "missing");
+  std::fprintf(text, "\n");
+  std::map<std::string, BodySummary> summaries;
   for (const Json& family : report["families"]) {
     const std::string name = family["family"];
     const BodyErrors& model = sums[{name, "model"}];
-    std::fprintf(text, "%-18s %9llu %7s %9s %7s", name.c_str(), static_cast<unsigned long long>(model.fragments),
-                 units(model, model.weight).c_str(), units(model, model.attribute).c_str(),
-                 units(model, model.depth).c_str());
-    for (std::size_t b = 1; b < bodies.size(); ++b) {
-      const BodyErrors& body = sums[{name, bodies[b]}];
-      failing[bodies[b]] += fails(body);
-      std::fprintf(text, " %10s %9llu", units(body, body.weight).c_str(),
-                   static_cast<unsigned long long>(body.undefined + body.missing));
+    std::string jump;
+    if (!family["jump"].is_null()) {
+      jump = "-";
+      double largest = 0;
+      for (const std::string_view output : output_names)
+        if (const Json& value = family["jump"][std::string(output)]; !value.is_null())
+          largest = std::max(largest, value.get<double>()), jump = units(largest);
     }
-    if (!family["jump"].is_null()) std::fprintf(text, " %7.3f", family["jump"].get<double>());
+    std::fprintf(text, "%-18s %9llu %7s %9s %7s %7s %7s", name.c_str(),
+                 static_cast<unsigned long long>(model.fragments), units(model, Output::weight).c_str(),
+                 units(model, Output::attribute).c_str(), units(model, Output::depth).c_str(),
+                 near_weight.contains(name) ? units(near_weight[name]).c_str() : "", jump.c_str());
+    for (const std::string& body : bodies) {
+      const BodyErrors& errors = sums[{name, body}];
+      summaries[body].add(family, body, errors);
+      if (body != "model")
+        std::fprintf(text, " | %8s %8llu %9llu %7llu", units(errors, Output::weight).c_str(),
+                     static_cast<unsigned long long>(errors.beyond), static_cast<unsigned long long>(errors.undefined),
+                     static_cast<unsigned long long>(errors.missing));
+    }
     std::fprintf(text, "\n");
-    if (model.fragments != 0 && (worst == nullptr || model.weight > (*worst)["worst"]["model"]["weight"].get<double>()))
-      worst = &family;
   }
   std::fprintf(text, "\n");
-  for (std::size_t b = 1; b < bodies.size(); ++b)
-    std::fprintf(text, "%s is beyond the bound, undefined or without a fragment in %zu of %zu\n", bodies[b].c_str(),
-                 failing[bodies[b]], report["families"].size());
-  if (worst == nullptr) return;
-  const Json& pixel = (*worst)["worst"]["model"];
-  std::fprintf(text, "worst weight of the model, %.3f of the bound (%s, %s):\n%s\n", pixel["weight"].get<double>(),
-               (*worst)["family"].get<std::string>().c_str(), place(*worst, pixel).c_str(),
-               pixel["reproduce"].get<std::string>().c_str());
+  print_empty_steps(text, report);
+  for (const std::string& body : bodies) print_body(text, body, summaries[body], report["families"].size());
 }
 
 }  // namespace quadrille::cli

@@ -171,7 +171,7 @@ TEST_F(SweepCli, OneAtATimeAndTheWorstFragmentCanBePasted) {
           .status,
       0);
   const Table rows = table(file("o") / "points.csv");
-  ASSERT_EQ(rows.size(), 3u);  // the base, s = 12, notch cure off
+  ASSERT_EQ(rows.size(), 3u);  // the base, s = 12, the flag of notches off
   EXPECT_EQ(rows[1].at("significand_bits"), "12");
   EXPECT_EQ(rows[2].at("notch_exact"), "0");
   const std::string command = rows[1].at("worst");

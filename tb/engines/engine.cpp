@@ -14,12 +14,13 @@
 namespace quadrille::cli {
 namespace {
 
-constexpr std::array<std::string_view, 5> names{"rtl", "model", "float", "shader", "truth"};
+constexpr std::array<std::string_view, 6> names{"rtl", "model", "float", "shader", "truth", "fp32"};
 
 }  // namespace
 
-EngineKind engine_kind(std::string_view name) {
-  return static_cast<EngineKind>(choose("engine", name, {names[0], names[1], names[2], names[3], names[4]}));
+EngineKind engine_kind(std::string_view name, bool single) {
+  const std::vector<std::string> choices(names.begin(), names.end() - (single ? 0 : 1));
+  return static_cast<EngineKind>(choose("engine", name, choices));
 }
 
 std::string_view engine_name(EngineKind kind) { return names[static_cast<std::size_t>(kind)]; }
@@ -33,6 +34,7 @@ std::unique_ptr<Engine> make_engine(const EngineSettings& settings) {
     case EngineKind::shader:
       return make_shader_engine(settings);
     case EngineKind::paper_float:
+    case EngineKind::paper_single:
     case EngineKind::truth:
       return make_reference_engine(settings);
   }

@@ -15,13 +15,14 @@
 
 namespace quadrille::cli {
 
-enum class EngineKind { rtl, model, paper_float, shader, truth };
+enum class EngineKind { rtl, model, paper_float, shader, truth, paper_single };
 
-/// "rtl", "model", "float", "shader", "truth"; throws UsageError with the choices for any other name.
-EngineKind engine_kind(std::string_view name);
+/// "rtl", "model", "float", "shader", "truth"; with `single` also "fp32", the paper's formulas in single precision on
+/// the processor. Throws UsageError with the choices for any other name.
+EngineKind engine_kind(std::string_view name, bool single = false);
 std::string_view engine_name(EngineKind kind);
 
-/// Bit of a written flags column beyond FragmentFlag: the numbers are not to be used (float and shader).
+/// Bit of a written flags column beyond FragmentFlag: the numbers are not to be used (float, fp32 and shader).
 inline constexpr std::uint32_t flag_undefined = 256;
 
 /// One fragment in numbers.
@@ -30,7 +31,7 @@ struct EngineSample {
   std::uint32_t quad = 0;   ///< its id
   std::uint16_t x = 0, y = 0;
   bool front = false;
-  bool undefined = false;  ///< float, shader: the formulas divide by zero here; numbers are not to be used
+  bool undefined = false;  ///< float, fp32, shader: the formulas divide by zero here; numbers are not to be used
   std::uint8_t flags = 0;  ///< FragmentFlag
   double z = 0;
   std::array<double, 4> lambda{};
@@ -44,7 +45,7 @@ struct EngineSettings {
   EngineKind kind = EngineKind::model;
   Config config;
   DrawState state;   ///< state.attributes is set by draw()
-  bool snap = true;  ///< float, shader, truth: on the snapped quads; rtl and model always are
+  bool snap = true;  ///< float, fp32, shader, truth: on the snapped quads; rtl and model always are
   unsigned threads = 1;
   double stall = 0, gap = 0;  ///< rtl
   std::uint64_t seed = 1;     ///< rtl

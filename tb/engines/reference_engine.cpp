@@ -13,6 +13,7 @@
 namespace quadrille::cli {
 namespace {
 
+using golden::PaperFp32Quad;
 using golden::PaperFp64Quad;
 using golden::PixelRect;
 using golden::ReferenceSample;
@@ -36,6 +37,7 @@ class ReferenceEngine final : public Engine {
   struct Prepared {
     std::optional<TruthQuad> truth;
     std::optional<PaperFp64Quad> paper;
+    std::optional<PaperFp32Quad> single;
     PixelRect bounds;
   };
   /// Rows of one quad, or several small quads.
@@ -50,12 +52,18 @@ class ReferenceEngine final : public Engine {
     const SnappedQuad snapped = snap_as(quad, 0, config, state);  // refuses what no engine draws, also when not used
     const TruthQuad truth = settings_.snap ? TruthQuad(snapped, config, state) : TruthQuad(quad, state);
     result.bounds = truth.bounds();
+    const auto emplace = [&](auto& paper) {
+      if (settings_.snap)
+        paper.emplace(snapped, config, state);
+      else
+        paper.emplace(quad, state);
+    };
     if (settings_.kind == EngineKind::truth)
       result.truth.emplace(truth);
-    else if (settings_.snap)
-      result.paper.emplace(snapped, config, state);
+    else if (settings_.kind == EngineKind::paper_single)
+      emplace(result.single);
     else
-      result.paper.emplace(quad, state);
+      emplace(result.paper);
     return result;
   }
 
@@ -118,7 +126,9 @@ class ReferenceEngine final : public Engine {
           const golden::Coverage coverage = quad.truth->cover(x, y);
           if (!coverage.covered || !coverage.visible) continue;
         }
-        const ReferenceSample s = quad.truth ? quad.truth->sample(x, y) : quad.paper->sample(x, y);
+        const ReferenceSample s = quad.truth    ? quad.truth->sample(x, y)
+                                  : quad.single ? quad.single->sample(x, y)
+                                                : quad.paper->sample(x, y);
         if (!s.covered || (!s.visible && !s.undefined)) continue;
         if (state.cull == (s.front ? Cull::front : Cull::back)) continue;
         if (state.depth && !s.undefined && !(s.z >= state.znear && s.z <= state.zfar)) continue;

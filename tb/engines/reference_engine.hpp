@@ -1,4 +1,4 @@
-// The floating-point engines: the paper's formulas in double, and the truth.
+// The floating-point engines: the paper's formulas in double and single precision, and the truth.
 #pragma once
 
 #include "tb/engines/engine.hpp"

@@ -12,13 +12,14 @@
 namespace quadrille::tb {
 
 /// What drives both input ports: of quads and options alone, so that two of them that saw the same beats taken are
-/// alike.
+/// alike. Both must outlive it.
 struct Stimulus {
   VertexDriver vertices;
   ReadyDriver stalls;
 
   Stimulus(std::span<const SnappedQuad> quads, const LockstepOptions& o)
-      : vertices(quads, o.config, o.state.attributes, o.seed, o.gap), stalls(o.seed, o.stall) {}
+      : vertices(quads, o.config, o.state.attributes, o.seed, o.gap, o.waits.gap_beats),
+        stalls(o.seed, o.stall, o.waits.stall_clocks) {}
 
   bool done() const { return vertices.done(); }
   bool valid() const { return vertices.valid(); }
@@ -31,6 +32,11 @@ struct Stimulus {
     stalls.advance();
   }
 };
+
+/// The waits that the first `clocks` clocks of a run have, up to the beat number `beats` (counted from 0): the run with
+/// these listed in the place of its chances is the same bit by bit, as far as that.
+PortWaits recorded_waits(std::span<const SnappedQuad> quads, const LockstepOptions& o, std::uint64_t clocks,
+                         std::uint64_t beats);
 
 /// The device as a machine for drive(), after reset.
 class DrivenDevice {

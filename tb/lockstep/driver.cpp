@@ -19,16 +19,27 @@ double probability(double value, const char* name) {
   return value;
 }
 
+/// Waits at random and listed ones at a time would leave open which of them a list was recorded from.
+std::span<const std::uint64_t> checked_list(std::span<const std::uint64_t> listed, double chance, const char* name,
+                                            bool repeats) {
+  if (!listed.empty() && chance != 0) throw std::invalid_argument(std::string(name) + " both at random and listed");
+  for (std::size_t i = 1; i < listed.size(); ++i)
+    if (listed[i] < listed[i - 1] || (!repeats && listed[i] == listed[i - 1]))
+      throw std::invalid_argument(std::string(name) + " listed out of order");
+  return listed;
+}
+
 }  // namespace
 
 VertexDriver::VertexDriver(std::span<const SnappedQuad> quads, const Config& config, int attributes, std::uint64_t seed,
-                           double gap)
+                           double gap, std::span<const std::uint64_t> listed)
     : quads_(quads),
       config_(config),
       attributes_(attributes),
       random_(seed, 1),
       rubbish_(seed, 4),
       gap_(probability(gap, "gap")),
+      listed_(checked_list(listed, gap, "gap", true)),
       width_(vertex_layout(config).bits()),
       packed_(static_cast<std::size_t>((width_ + 63) / 64)),
       words_(words_for(width_)) {
@@ -41,8 +52,16 @@ VertexDriver::VertexDriver(std::span<const SnappedQuad> quads, const Config& con
   offer();
 }
 
+bool VertexDriver::waits() {
+  if (listed_.empty()) return gap_ > 0 && random_.chance(gap_);
+  random_.uniform();  // as the chance would: the rubbish that follows is that of the run with chances
+  if (next_listed_ == listed_.size() || listed_[next_listed_] != next_) return false;
+  ++next_listed_;
+  return true;
+}
+
 void VertexDriver::offer() {
-  if (done() || (gap_ > 0 && random_.chance(gap_))) {
+  if (done() || waits()) {
     valid_ = false;
     scramble();
     return;
@@ -86,7 +105,8 @@ void VertexDriver::advance(bool taken) {
   offer();
 }
 
-ReadyDriver::ReadyDriver(std::uint64_t seed, double stall) : random_(seed, 2), stall_(probability(stall, "stall")) {
+ReadyDriver::ReadyDriver(std::uint64_t seed, double stall, std::span<const std::uint64_t> listed)
+    : random_(seed, 2), stall_(probability(stall, "stall")), listed_(checked_list(listed, stall, "stall", false)) {
   advance();
 }
 

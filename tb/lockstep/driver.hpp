@@ -1,4 +1,5 @@
-// What drives the machine's inputs: vertex beats with random gaps, and the ready of its output with random stalls.
+// What drives the machine's inputs: vertex beats with gaps, and the ready of its output with stalls, at random or
+// listed.
 #pragma once
 
 #include "model/config.hpp"
@@ -12,15 +13,16 @@
 namespace quadrille::tb {
 
 /// Offers the vertices of a list of quads, four beats each. A beat, once offered, stays until it is taken; before each
-/// one valid is low for a random number of clocks, each with probability `gap`. What the machine must not look at is
-/// rubbish on purpose: the payload while valid is low, the ids of the beats v1 to v3 (a quad's id is v0's), and the
-/// attributes in slots that are not in use, which are numbers of any sign and exponent.
+/// one valid is low for a random number of clocks, each with probability `gap`, or for those listed. What the machine
+/// must not look at is rubbish on purpose: the payload while valid is low, the ids of the beats v1 to v3 (a quad's id
+/// is v0's), and the attributes in slots that are not in use, which are numbers of any sign and exponent.
 class VertexDriver {
  public:
-  /// `attributes`: slots in use. Throws std::invalid_argument for a gap outside [0, 1) or a quad id that does not fit
-  /// the port.
-  VertexDriver(std::span<const SnappedQuad> quads, const Config& config, int attributes, std::uint64_t seed,
-               double gap);
+  /// `attributes`: slots in use. `listed`: PortWaits::gap_beats, which must outlive it, in the place of `gap`; those
+  /// that the chance would have drawn give the same signals bit by bit, rubbish included. Throws std::invalid_argument
+  /// for a gap outside [0, 1), both, a list that does not ascend or a quad id that does not fit the port.
+  VertexDriver(std::span<const SnappedQuad> quads, const Config& config, int attributes, std::uint64_t seed, double gap,
+               std::span<const std::uint64_t> listed = {});
 
   bool done() const { return next_ == 4 * quads_.size(); }
   bool valid() const { return valid_; }
@@ -39,6 +41,7 @@ class VertexDriver {
   void advance(bool taken);
 
  private:
+  bool waits();
   void offer();
   void scramble();
   PortNumber any_number();
@@ -49,6 +52,8 @@ class VertexDriver {
   golden::Prng random_;
   golden::Prng rubbish_;  ///< inside a beat; apart from random_, so that the gaps depend on the seed alone
   double gap_;
+  std::span<const std::uint64_t> listed_;
+  std::size_t next_listed_ = 0;
   int width_;
   std::size_t next_ = 0;
   bool valid_ = false, changed_ = true;
@@ -58,17 +63,27 @@ class VertexDriver {
   std::vector<std::uint32_t> words_;
 };
 
-/// fragment_ready_i, low in each clock with probability `stall`.
+/// fragment_ready_i, low in each clock with probability `stall`, or in those listed.
 class ReadyDriver {
  public:
-  /// Throws std::invalid_argument for a stall outside [0, 1).
-  ReadyDriver(std::uint64_t seed, double stall);
+  /// `listed`: PortWaits::stall_clocks, which must outlive it, in the place of `stall`. Throws std::invalid_argument
+  /// for a stall outside [0, 1), both, or a list that does not ascend.
+  ReadyDriver(std::uint64_t seed, double stall, std::span<const std::uint64_t> listed = {});
   bool ready() const { return ready_; }
-  void advance() { ready_ = stall_ == 0 || !random_.chance(stall_); }
+  void advance() {
+    const bool low = listed_.empty() ? stall_ != 0 && random_.chance(stall_)
+                                     : next_listed_ < listed_.size() && listed_[next_listed_] == clock_;
+    next_listed_ += low ? 1 : 0;
+    ++clock_;
+    ready_ = !low;
+  }
 
  private:
   golden::Prng random_;
   double stall_;
+  std::span<const std::uint64_t> listed_;
+  std::size_t next_listed_ = 0;
+  std::uint64_t clock_ = 0;  ///< that comes next
   bool ready_ = true;
 };
 

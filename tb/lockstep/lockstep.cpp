@@ -244,8 +244,15 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
   return report;
 }
 
+Simulator simulator_in_lockstep(const LockstepOptions& o) { return verilate(o.config, build_options(o, o.probes)); }
+
 LockstepReport run_lockstep(std::span<const SnappedQuad> quads, const LockstepOptions& o, const FragmentSink& sink) {
-  VerilatedDevice device(o.config, build_options(o, o.probes), o.seed);
+  return run_lockstep(simulator_in_lockstep(o), quads, o, sink);
+}
+
+LockstepReport run_lockstep(const Simulator& simulator, std::span<const SnappedQuad> quads, const LockstepOptions& o,
+                            const FragmentSink& sink) {
+  VerilatedDevice device(simulator, o.config, o.seed);
   LockstepReport report;
   if (o.trace && o.trace_from > 0) {
     TracedLater later(device, *o.trace, o.trace_from);

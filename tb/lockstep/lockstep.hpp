@@ -9,6 +9,7 @@
 #include "tb/device/device.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/monitor.hpp"
+#include "tb/lockstep/port_waits.hpp"
 #include "tb/lockstep/scoreboard.hpp"
 
 #include <cstdint>
@@ -28,6 +29,7 @@ struct LockstepOptions {
   std::uint64_t seed = 1;
   double stall = 0;                        ///< probability per clock that fragment_ready is low; in [0, 1)
   double gap = 0;                          ///< probability per clock that vertex_valid is low before a beat; in [0, 1)
+  PortWaits waits;                         ///< these instead; of a port that has some the chance must be 0
   std::optional<std::string> trace;        ///< FST waveform file
   std::uint64_t trace_from = 0;            ///< of run_lockstep(): the clock in which it begins
   std::uint64_t limit_fragments = 0;       ///< end after so many fragments; 0: no limit
@@ -71,6 +73,12 @@ struct LockstepReport {
 /// a mismatch and ends the run.
 LockstepReport run_lockstep(std::span<const SnappedQuad> quads, const LockstepOptions& options,
                             const FragmentSink& sink = {});
+
+/// The same in two steps, for many runs of one machine: finding a simulator in the cache takes longer than a short run.
+/// Both options must ask for the same machine.
+Simulator simulator_in_lockstep(const LockstepOptions& options);
+LockstepReport run_lockstep(const Simulator& simulator, std::span<const SnappedQuad> quads,
+                            const LockstepOptions& options, const FragmentSink& sink = {});
 
 /// The same with a device that exists already (its probes must be there when options.probes is set).
 LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, const LockstepOptions& options,

@@ -6,6 +6,7 @@
 #include "model/bit_vector.hpp"
 #include "model/clocked.hpp"
 #include "model/quad_reject.hpp"
+#include "tb/lockstep/driven_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,6 +23,7 @@ class ModelDevice : public Device {
   struct Outputs {
     ClockedOutputs model;
     DeviceSample sample;
+    bool ready = false;  ///< of the fragment port, in this clock
     std::array<std::array<std::vector<std::uint32_t>, most_lanes>, probe_count + 1> words;  ///< by boundary and lane
   };
   using Fault = std::function<void(std::uint64_t cycle, Outputs&)>;
@@ -99,6 +101,7 @@ class ModelDevice : public Device {
     out_.sample.fragment_valid = out_.model.fragment_valid;
     out_.sample.busy = out_.model.busy;
     out_.sample.fragment_mask = out_.model.fragment_mask();
+    out_.ready = inputs_.fragment_ready;
     if (fault_ && !inputs_.reset) fault_(cycle_, out_);
   }
   const DeviceSample& sample() override { return out_.sample; }
@@ -304,6 +307,32 @@ TEST_P(Lockstep, FragmentBitsCountWhenNotValidToo) {
   });
   EXPECT_EQ(report.mismatches, 1u);
   EXPECT_EQ(report.cycle_mismatches, 0u);
+}
+
+/// A run that fails fails alike with its waits listed in the place of the chances, and the list says all: the same at
+/// both numbers of threads.
+TEST_P(Lockstep, ListedWaitsRepeatARun) {
+  // Stalled three clocks in a row with a fragment waiting, the device gives another one.
+  const auto fault = [stalls = std::uint64_t{0}](std::uint64_t, ModelDevice::Outputs& out) mutable {
+    stalls = out.sample.fragment_valid && !out.ready ? stalls + 1 : 0;
+    if (stalls == 3) out.words[probe_count][0][0] ^= 1;
+  };
+  const LockstepReport drawn = run(fault);
+  ASSERT_TRUE(drawn.first_divergence);
+  LockstepOptions listed = options;
+  listed.stall = listed.gap = 0;
+  listed.waits = recorded_waits(quads, options, drawn.cycles_rtl, 4 * drawn.quads + 4);
+  ModelDevice device(listed.config, listed.state, fault);
+  const LockstepReport again = run_lockstep(device, quads, listed);
+  EXPECT_EQ(again.first_divergence, drawn.first_divergence);
+  EXPECT_EQ(again.fragment_hash, drawn.fragment_hash);
+  EXPECT_EQ(again.cycles_rtl, drawn.cycles_rtl);
+  EXPECT_EQ(again.compared_bits, drawn.compared_bits);
+
+  // Without the last of its stalls it goes on.
+  listed.waits.stall_clocks.pop_back();
+  ModelDevice other(listed.config, listed.state, fault);
+  EXPECT_GT(run_lockstep(other, quads, listed).cycles_rtl, drawn.cycles_rtl);
 }
 
 TEST_P(Lockstep, StoppedDeviceIsAMismatch) {

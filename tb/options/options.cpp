@@ -320,13 +320,17 @@ void InputOptions::add_light_to(CLI::App& app) {
       ->type_name("LIGHT");
 }
 
-void EngineOptions::add_to(CLI::App& app) {
+void EngineOptions::add_to(CLI::App& app, bool fp32) {
+  single = fp32;
   app.add_option("--engine", engine,
-                 "rtl, model, float (the paper's formulas in double), shader (the paper's shader in fp32 on OpenGL) or "
-                 "truth")
+                 std::string("rtl, model, float (the paper's formulas in double), ") +
+                     (fp32 ? "fp32 (the same in single precision), " : "") +
+                     "shader (the paper's shader in fp32 on OpenGL) or truth")
       ->type_name("ENGINE")
       ->capture_default_str();
-  app.add_option("--snap", snap, "on or off: float, shader and truth draw the snapped or the given quads")
+  app.add_option("--snap", snap,
+                 std::string("on or off: float, ") + (fp32 ? "fp32, " : "") +
+                     "shader and truth draw the snapped or the given quads")
       ->type_name("on|off")
       ->capture_default_str();
   app.add_option("--stall", stall, "rtl: probability per clock that the output is not ready")->type_name("P");
@@ -335,7 +339,7 @@ void EngineOptions::add_to(CLI::App& app) {
 
 EngineSettings EngineOptions::settings(const CommonOptions& common, const StateOptions& state) const {
   EngineSettings s;
-  s.kind = engine_kind(engine);
+  s.kind = engine_kind(engine, single);
   s.config = common.config();
   s.state = state.state(common, s.config);
   s.snap = choose("--snap value", snap, {"on", "off"}) == 0;

@@ -90,8 +90,10 @@ double probability(const char* name, double value);
 struct EngineOptions {
   std::string engine = "model", snap = "on";
   double stall = 0, gap = 0;
+  bool single = false;  ///< the engine fp32 is one, too
 
-  void add_to(CLI::App& app);
+  /// `fp32`: for a command that has this engine, too.
+  void add_to(CLI::App& app, bool fp32 = false);
   /// Checked; throws UsageError where the engine and --snap do not go together.
   EngineSettings settings(const CommonOptions& common, const StateOptions& state) const;
 };

@@ -1,0 +1,198 @@
+#include "tb/commands/cosim_shrink.hpp"
+
+#include "golden/io/json_report.hpp"
+#include "golden/io/quads_file.hpp"
+#include "model/snap.hpp"
+#include "tb/check/shrink.hpp"
+#include "tb/lockstep/driven_device.hpp"
+#include "tb/support/output.hpp"
+#include "tb/support/progress.hpp"
+#include "tb/support/stopwatch.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace quadrille::cli {
+
+namespace {
+
+constexpr std::uint64_t clocks_shown = 200;
+
+/// Thrown out of a run that has become pointless.
+struct OutOfTime {};
+
+/// Draws of a failed pass, run again and again on one simulator.
+class FailedPassRuns {
+ public:
+  FailedPassRuns(const FailedPass& failed, const ShrinkOptions& options, bool show)
+      : failed_(failed),
+        seconds_(options.seconds),
+        simulator_(tb::simulator_in_lockstep(failed.lockstep)),
+        progress_(failed.input + ", shrinking", 0, show) {}
+
+  /// As shrink() wants it. The first run, of the whole, does not count in the time.
+  std::optional<Failure> operator()(const FailingDraw& draw) {
+    progress_.set(++runs_, std::to_string(draw.quads.size()) + " quads");
+    try {
+      if (!fails(draw, simulator_, options_of(draw), true)) {
+        if (!clock_) clock_.emplace();
+        return std::nullopt;
+      }
+    } catch (const tb::WatchdogError&) {  // both sides hang: not what is looked for
+      return std::nullopt;
+    } catch (const OutOfTime&) {
+      return std::nullopt;
+    }
+    if (!clock_) clock_.emplace();
+    Failure failure{report_.quads, {}};
+    failure.waits =
+        draw.waits ? *draw.waits : tb::recorded_waits(snapped_, options_of(draw), clocks() + 1, 4 * report_.quads + 4);
+    return failure;
+  }
+  bool out_of_time() const { return clock_ && clock_->seconds() > seconds_; }
+
+  /// Without a limit of time.
+  bool fails(const FailingDraw& draw) { return fails(draw, simulator_, options_of(draw), false); }
+  std::uint64_t clocks() const { return std::max(report_.cycles_rtl, report_.cycles_model); }  ///< of the last run
+
+  /// Writes the last clocks of a draw that failed just now; false when the machine with waveforms does not fail.
+  bool trace(const FailingDraw& draw, const std::string& file) {
+    tb::LockstepOptions options = options_of(draw);
+    options.trace = file;
+    options.trace_from = clocks() > clocks_shown ? clocks() - clocks_shown : 0;
+    options.optimise = 0;  // a few hundred clocks are nothing beside what compiling them well takes
+    return fails(draw, tb::simulator_in_lockstep(options), options, false);
+  }
+
+  std::uint64_t runs() const { return runs_; }
+  void finish() { progress_.finish(); }
+
+ private:
+  tb::LockstepOptions options_of(const FailingDraw& draw) const {
+    tb::LockstepOptions o = failed_.lockstep;
+    const int attributes = o.state.attributes;
+    o.state = draw.state;
+    o.state.attributes = attributes;
+    o.seed = draw.seed;
+    o.stall = draw.waits ? 0 : draw.stall;
+    o.gap = draw.waits ? 0 : draw.gap;
+    o.waits = draw.waits.value_or(tb::PortWaits{});
+    return o;
+  }
+
+  bool fails(const FailingDraw& draw, const tb::Simulator& simulator, tb::LockstepOptions options, bool in_time) {
+    options.progress = nullptr;
+    if (in_time)
+      options.progress = [this](double) {
+        if (out_of_time()) throw OutOfTime{};
+      };
+    snapped_.clear();
+    for (std::size_t i = 0; i < draw.quads.size(); ++i)
+      snapped_.push_back(snap_as(pass_quad(draw.quads[i], failed_.check.pass), static_cast<std::uint32_t>(i),
+                                 options.config, options.state));
+    if (!failed_.lockstep_ok) {
+      report_ = tb::run_lockstep(simulator, snapped_, options);
+      return !report_.agreed();
+    }
+    FragmentChecker::Settings settings = failed_.check;
+    settings.state = options.state;
+    settings.snapping = false;
+    const CheckResult check = check_here(settings, draw.quads, snapped_, [&](const auto& sink) {
+      report_ = tb::run_lockstep(simulator, snapped_, options, sink);
+      return report_.complete;
+    });
+    return report_.agreed() && check.faults() != 0;
+  }
+
+  const FailedPass& failed_;
+  double seconds_;
+  tb::Simulator simulator_;
+  Progress progress_;
+  std::optional<tb::Stopwatch> clock_;  ///< from the end of the first run on
+  std::uint64_t runs_ = 0;
+  std::vector<SnappedQuad> snapped_;
+  tb::LockstepReport report_;
+};
+
+std::string quoted(const std::string& argument) { return golden::command_line(std::span(&argument, 1)); }
+
+std::string command_of(const FailingDraw& draw, const FailedPass& failed, const ShrinkOptions& options,
+                       const CommonOptions& common) {
+  std::string command = "quadrille cosim --quads " + quoted(options.quads);
+  if (!common.config_file.empty()) command += " --config " + quoted(common.config_file);
+  for (const std::string& setting : common.settings) command += " --set " + quoted(setting);
+  command += " --size " + std::to_string(draw.state.width) + "x" + std::to_string(draw.state.height) + " --seed " +
+             std::to_string(draw.seed) + StateOptions::of(draw.state).spelled();
+  if (failed.slots < failed.lockstep.config.attribute_slots) command += " --attributes " + std::to_string(failed.slots);
+  if (draw.waits) {
+    if (!draw.waits->stall_clocks.empty())
+      command += " --stall-clocks " + tb::spell_stall_clocks(draw.waits->stall_clocks);
+    if (!draw.waits->gap_beats.empty()) command += " --gap-beats " + tb::spell_gap_beats(draw.waits->gap_beats);
+  } else {
+    if (draw.stall > 0) command += " --stall " + nlohmann::json(draw.stall).dump();
+    if (draw.gap > 0) command += " --gap " + nlohmann::json(draw.gap).dump();
+  }
+  if (failed.lockstep.limit_fragments != 0)
+    command += " --limit-fragments " + std::to_string(failed.lockstep.limit_fragments);
+  if (!failed.lockstep.source.empty()) command += " --rtl " + quoted(failed.lockstep.source.string());
+  return command + " --no-shrink";  // there is nothing less to be looked for
+}
+
+std::string counted(std::size_t count, const char* thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, const CommonOptions& common) {
+  const tb::LockstepOptions& lockstep = failed.lockstep;
+  FailedPassRuns runs(failed, options, common.show_progress());
+  FailingDraw whole{failed.quads, lockstep.state, lockstep.seed, lockstep.stall, lockstep.gap, std::nullopt};
+  if (!lockstep.waits.empty()) whole.waits = lockstep.waits;
+  ShrinkLimits limits;
+  limits.out_of_time = [&] { return runs.out_of_time(); };
+  const tb::Stopwatch start;
+  const FailingRun run = [&](const FailingDraw& draw) { return runs(draw); };
+  const std::optional<Shrunk> shrunk = shrink(std::move(whole), run, limits);
+  if (!shrunk) throw std::runtime_error("the same draw again does not fail: the fault depends on more than the draw");
+
+  golden::save_quads(options.quads, shrunk->draw.quads);
+  FailingDraw kept = shrunk->draw;
+  kept.quads = golden::load_quads(options.quads);
+  // Waits of which none could be left out are said in short, where the chances that drew them still do.
+  const tb::PortWaits waits = *kept.waits;
+  if (kept.stall > 0 || kept.gap > 0) {
+    kept.waits.reset();
+    if (!runs.fails(kept)) kept.waits = waits;
+  }
+  if (!runs.fails(kept)) throw std::runtime_error("what is left does not fail when it is read from " + options.quads);
+  const std::uint64_t clocks = runs.clocks();
+  const std::string waveform = std::filesystem::path(options.quads).replace_extension(".fst").string();
+  PartialFile trace(waveform);
+  const bool traced = runs.trace(kept, trace.path());
+  trace.commit();
+  runs.finish();
+
+  std::string text = "quadrille: " + failed.input + " fails with " + std::to_string(kept.quads.size()) + " of " +
+                     counted(failed.quads.size(), "quad") + ", in " +
+                     std::to_string(kept.state.scissor_x1 - kept.state.scissor_x0) + "x" +
+                     std::to_string(kept.state.scissor_y1 - kept.state.scissor_y0) + " pixels, with " +
+                     counted(waits.stall_clocks.size(), "stall") + " and " + counted(waits.gap_beats.size(), "gap") +
+                     ", in " + counted(clocks, "clock");
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%.1f", start.seconds());
+  text += " (" + counted(runs.runs(), "run") + ", " + seconds + " s):\n  " + command_of(kept, failed, options, common) +
+          "\n  the last " + counted(std::min(clocks, clocks_shown), "clock") + " of it: " + waveform + "\n";
+  if (!traced)
+    text += "  the waveform's machine does not fail: the fault depends on what registers hold before reset\n";
+  if (shrunk->ended) text += "  the search was ended by --shrink-time: there may be less\n";
+  std::fputs(text.c_str(), stderr);
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,32 @@
+// A failing co-simulation shrinks itself: the least that still fails as one command line, with a waveform of its end.
+#pragma once
+
+#include "model/records.hpp"
+#include "tb/check/check.hpp"
+#include "tb/lockstep/lockstep.hpp"
+#include "tb/options/options.hpp"
+
+#include <string>
+#include <vector>
+
+namespace quadrille::cli {
+
+/// A pass of an input that failed, and how it was run.
+struct FailedPass {
+  std::string input;              ///< its name
+  std::vector<WindowQuad> quads;  ///< of the whole input
+  tb::LockstepOptions lockstep;   ///< with the pass's draw state
+  FragmentChecker::Settings check;
+  int slots = 0;             ///< attributes in use per pass
+  bool lockstep_ok = false;  ///< the truth alone differs
+};
+
+struct ShrinkOptions {
+  std::string quads;    ///< the file for what is left; the waveform is beside it (.fst)
+  double seconds = 60;  ///< after which the search ends with what it has
+};
+
+/// Shrinks, writes both files and says on standard error what is left, the command and the waveform.
+void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, const CommonOptions& common);
+
+}  // namespace quadrille::cli
