@@ -1,10 +1,12 @@
-// Exactly once: front less back of a quad v0 v1 v2 v3 at the pixel at the origin is that of its triangles v0 v1 v2 and v0 v2 v3 added, and of v0 v1 v3
-// and v1 v2 v3 added; ties on edges, diagonals and vertices included, for all vertices of C bits: convex, concave, crossed, without area, in any
-// order. A triangle's edge function has opposite signs from the edge's ends (proof edge_both_sides), so in a mesh, too, whatever is inside of it
-// cancels: front less back of all its quads and triangles is a matter of its outline alone. Where all faces are convex and turn the same way, nothing
-// is negative, and that sum is how often a pixel is covered: once for each time the outline winds around it.
-// Triangles are sent as a, b, c, c. Nothing is assumed. An edge from its other end has all signs exchanged (proof edge_both_sides), so that six
-// edges are evaluated, not twenty-five.
+// Exactly once, for all vertices of C bits around the pixel at the origin, convex, concave, crossed, without area: front less back of a quad v0 v1 v2 v3
+// is that of its triangles v0 v1 v2 and v0 v2 v3 added, and that of v0 v1 v3 and v1 v2 v3 added; ties on edges, diagonals and vertices included.
+// Triangles are sent as a, b, c, c. Nothing is assumed.
+//
+// What follows for a mesh. Let f(abc) be front less back of a triangle. By both diagonals f(abc) + f(acd) = f(abd) + f(bcd) of any four points; and the
+// other way round f changes its sign, as all signs do (proof edge_both_sides). So with any fixed point o, f(abc) = f(oab) + f(obc) + f(oca): a sum over
+// the edges in which one shared by two faces comes twice with opposite signs. What is left of a mesh's sum is its outline. If no face of it is drawn
+// from the other side, nothing in the sum is negative, and it is how often the pixel is drawn: once where the outline goes round it once.
+// An edge from its other end has all signs exchanged (edge_both_sides), so that six edges are evaluated here, not twenty-five.
 module shared_edge_proof #(
     parameter int C = 3
 ) (
