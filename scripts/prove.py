@@ -7,6 +7,7 @@ Kinds of proof (tb/formal/README.md):
   induction  holds always: base case from reset over `depth` clocks, then any state in which it held for `depth` clocks leads to one where it does
   pipeline   holds always: from any contents of all registers, `depth` clocks on, when what was in them has left
   bounded    holds for `depth` clocks from reset
+A proof by induction with `bounded` has a line more in the tier all: so many clocks from reset, whatever the induction says.
 
 --faults: every fault of a proof, put into a copy of the RTL, must give a counterexample that starts from reset (pipeline: from any contents).
 Exit status: 0 all proved (all faults found), 1 not, 2 usage, 3 a tool is missing."""
@@ -95,14 +96,18 @@ def elaborate(proof, fault, work, limit):
     defines = "".join(f" -DQUADRILLE_{key.upper()}={value}" for key, value in proof.get("settings", {}).items())
     parameters = "".join(f" -chparam {key} {value}" for key, value in proof.get("parameters", {}).items())
     own = "" if proof.get("own_assertions", True) else " -DSYNTHESIS"
+    cut = "".join(f"proc *{name}\\* *{name}\ncutpoint *{name} *{name}\\*\n" for name in proof.get("cut", []))
     script = (f"read_verilog -sv -formal{own}{defines} {' '.join(sources(proof, fault, work))}\n"
               f"hierarchy -check -top {proof['top']}{parameters}\n"
-              "prep -flatten\nmemory_map\nopt -fast\nasync2sync\ndffunmap\nopt_clean\nwrite_smt2 -wires machine.smt2\n")
+              f"{cut}prep -flatten\nmemory_map\nopt -fast\nasync2sync\ndffunmap\nopt_clean\nwrite_smt2 -wires machine.smt2\n")
     with open(os.path.join(work, "elaborate.ys"), "w", encoding="utf-8") as file:
         file.write(script)
     status, output = run(["yosys", "-q", "-s", "elaborate.ys"], work, limit)
     if status != 0:
         raise Failed("yosys: " + output.strip()[-500:])
+
+
+WHOLE = "--noincr"  # each question whole, so that z3 simplifies it first: minutes become seconds, but not of many clocks in which nothing is found
 
 
 def solve(options, work, limit):
@@ -117,8 +122,8 @@ def solve(options, work, limit):
 
 
 def bounded(proof, depth):
-    """Options of a run from the start: every step, or of a pipeline the last alone, in one question that z3 simplifies as a whole."""
-    return ["--noincr", "-t", f"{depth}:{depth + 1}"] if proof["kind"] == "pipeline" else ["-t", str(depth)]
+    """Options of a run from the start: every step, or of a pipeline the last alone."""
+    return [WHOLE, "-t", f"{depth}:{depth + 1}" if proof["kind"] == "pipeline" else str(depth)]
 
 
 def prove(proof, limit):
@@ -126,9 +131,16 @@ def prove(proof, limit):
         elaborate(proof, None, work, limit)
         proved, where = solve(bounded(proof, proof["depth"]), work, limit)
         if proved and proof["kind"] == "induction":
-            proved, where = solve(["-i", "-t", str(proof["depth"])], work, limit)
+            proved, where = solve([WHOLE, "-i", "-t", str(proof["depth"])], work, limit)
             where = where and f"induction step: {where}"
         return proved, where
+
+
+def prove_bounded(proof, limit):
+    with tempfile.TemporaryDirectory(prefix="prove-") as work:
+        elaborate(proof, None, work, limit)
+        # A few clocks of wide words are faster as whole questions, many of narrow ones as a series.
+        return solve([*([WHOLE] if proof["bounded"] <= 10 else []), "-t", str(proof["bounded"])], work, limit)
 
 
 def find_fault(proof, fault, limit):
@@ -136,6 +148,17 @@ def find_fault(proof, fault, limit):
         elaborate(proof, fault, work, limit)
         proved, where = solve(bounded(proof, fault.get("depth", proof["depth"])), work, limit)
         return not proved, where or "no counterexample"
+
+
+def depths(proof):
+    """Kind and depth; of a pipeline, how many clocks from any contents."""
+    text = f"{proof['kind']}, depth {proof['depth']}"
+    return text + (f"; bounded, depth {proof['bounded']}, in the tier all" if "bounded" in proof else "")
+
+
+def widths(proof):
+    """Configuration keys and parameters that are not the default's."""
+    return ", ".join(f"{key} = {value}" for part in ("settings", "parameters") for key, value in proof.get(part, {}).items()) or "the default configuration's"
 
 
 def attempt(task):
@@ -164,7 +187,7 @@ def main():
         proofs = [proof for proof in proofs if proof["name"] in args.only]
     if args.list:
         for proof in proofs:
-            print(f"{proof['name']} ({proof['kind']}, {proof['depth']}): {proof['what']}\n    assumed: {proof['assumptions']}")
+            print(f"{proof['name']} ({depths(proof)}): {proof['what']}\n    widths: {widths(proof)}\n    assumed: {proof['assumptions']}")
         return 0
     for tool, package in TOOLS.items():
         if not shutil.which(tool):
@@ -177,7 +200,11 @@ def main():
                  for proof in proofs for fault in proof["faults"]]
         print("| proof | fault | counterexample to | s | |\n|---|---|---|---|---|")
     else:
-        tasks = [(proof, proof["assumptions"], lambda p=proof: prove(p, args.limit)) for proof in proofs]
+        tasks = []
+        for proof in proofs:
+            tasks.append((proof, proof["assumptions"], lambda p=proof: prove(p, args.limit)))
+            if "bounded" in proof and args.tier == "all":
+                tasks.append((proof | {"kind": "bounded", "depth": proof["bounded"]}, proof["assumptions"], lambda p=proof: prove_bounded(p, args.limit)))
         print("| proof | kind | depth | assumed | s | |\n|---|---|---|---|---|---|")
     bad = 0
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:

@@ -1,7 +1,12 @@
-// Exactly once: a convex quad v0 v1 v2 v3 covers the pixel at the origin as often as its triangles v0 v1 v2 and v0 v2 v3 together, and as v0 v1 v3
-// and v1 v2 v3 together: never both of two, ties on the shared edge and at its ends included, with the facing of the quad. Triangles are sent as
-// a, b, c, c. For all vertices of C bits, either orientation. Assumed: the quad is strictly convex.
-// An edge from its other end has all signs exchanged (proof edge_both_sides), so that six edges are evaluated, not twenty-five.
+// Exactly once, for all vertices of C bits around the pixel at the origin, convex, concave, crossed, without area: front less back of a quad v0 v1 v2 v3
+// is that of its triangles v0 v1 v2 and v0 v2 v3 added, and that of v0 v1 v3 and v1 v2 v3 added; ties on edges, diagonals and vertices included.
+// Triangles are sent as a, b, c, c. Nothing is assumed.
+//
+// What follows for a mesh. Let f(abc) be front less back of a triangle. By both diagonals f(abc) + f(acd) = f(abd) + f(bcd) of any four points; and the
+// other way round f changes its sign, as all signs do (proof edge_both_sides). So with any fixed point o, f(abc) = f(oab) + f(obc) + f(oca): a sum over
+// the edges in which one shared by two faces comes twice with opposite signs. What is left of a mesh's sum is its outline. If no face of it is drawn
+// from the other side, nothing in the sum is negative, and it is how often the pixel is drawn: once where the outline goes round it once.
+// An edge from its other end has all signs exchanged (edge_both_sides), so that six edges are evaluated here, not twenty-five.
 module shared_edge_proof #(
     parameter int C = 3
 ) (
@@ -35,17 +40,6 @@ module shared_edge_proof #(
     end
   end
 
-  logic [3:0] left, right;  // corner k turns left, right: twice the area of the triangle of k and its neighbours
-
-  for (genvar k = 0; k < 4; k++) begin : gen_corner
-    localparam int N = (k + 1) % 4;
-    localparam int M = (k + 2) % 4;
-    logic signed [BITS-1:0] area;
-    assign area = e[(4*k+N)*BITS+:BITS] + e[(4*N+M)*BITS+:BITS] + e[(4*M+k)*BITS+:BITS];
-    assign left[k] = area > 0;
-    assign right[k] = area < 0;
-  end
-
   logic [4:0] back, front;
 
   for (genvar t = 0; t < 5; t++) begin : gen_quad  // the quad; 012, 023; 013, 123
@@ -63,12 +57,13 @@ module shared_edge_proof #(
     );
   end
 
+  // Front less back
+  logic signed [2:0] turns [0:4];
+
   always_comb begin
-    assume (left == '1 || right == '1);
-    for (int t = 1; t < 5; t += 2) begin
-      assert (!(back[t] && back[t+1]) && (back[t] || back[t+1]) == back[0]);
-      assert (!(front[t] && front[t+1]) && (front[t] || front[t+1]) == front[0]);
-    end
-    assert (!(back[0] && front[0]));
+    for (int t = 0; t < 5; t++) turns[t] = $signed({2'b00, front[t]}) - $signed({2'b00, back[t]});
+    assert (turns[0] == turns[1] + turns[2]);
+    assert (turns[0] == turns[3] + turns[4]);
+    for (int t = 0; t < 5; t++) assert (!(back[t] && front[t]));
   end
 endmodule

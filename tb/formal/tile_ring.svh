@@ -1,61 +1,70 @@
-  // tile_ring: an entry is given back as it was written (tag with fetch; linear values with load; tag and values to emission two clocks after its
-  // pointer, the words of each part), and is not written over while it is in use; full_o leaves no room unused: it is low when the entry fits.
-  // By induction: one entry, tagged at any push, is followed, with the word of one part, chosen freely, and of the functions one of each kind.
-  // Assumed of the users: no push when full; complete_i for what was pushed and is not complete; coverage and emission read entries that are
-  // complete and not given back, complete_i goes from tile to tile; words are written to entries that are not complete; the head stamp's pointer, or coverage's while there is none, is an entry that is in use, or the next, and never moves back.
+  // tile_ring: an entry is given back as it was written (tag and last row with fetch; linear values with load; tag and values to emission two clocks
+  // after its pointer, of each of its parts the words of all four quadratic functions), and is not written over while it is in use. stamp_present_o
+  // is high at every entry that is complete and low at the first that is not; full_o leaves no room unused: it is low when the entry fits; the tail
+  // follows the tile of the head, or coverage's while there is none: so the ring neither stops with something complete in it nor stays full.
+  // By induction. Entries pushed, complete and given back are counted here, from the ports alone; one entry, tagged at any push, is followed with all
+  // six linear functions, and with the word of one quadratic function of one part, both chosen freely.
+  // Assumed of the users, where it is guaranteed behind it:
+  //   reset at the start and no more; no push when full (tile_walk waits for ring_full; asserted in tile_ring, so in simulation too)
+  //   complete_i, tile by tile in the order of the pushes, for what was pushed and is not complete (tile_context, one tile at a time, last step)
+  //   words are written to entries that were pushed and are not complete, that of this clock's complete_i included (tile_context: a step's job
+  //     has its entry with it, and complete_o leaves job_q with the last one)
+  //   fetch and load of complete entries not given back (stamp_coverage fetches what is present, and loads what it fetched; stamp_ptr_o is behind)
+  //   emission reads such entries (pixel_emit: ptr_o is the head's pointer of the clock before, which the tail has reached then)
+  //   the head's pointer, or coverage's while there is none, is a complete entry in use or the first that is not complete, and never moves back
+  //     (stamps leave sync_fifo in order, proof sync_fifo; stamp_ptr_o counts entries up)
   logic started_q = 1'b0;
   always_ff @(posedge clk_i) started_q <= 1'b1;
   always_comb assume (rst_ni == started_q);
 
-  (* anyseq *) logic choose;
-  logic seen_q, live_q, fetched_q, loaded_q, emit_q1, emit_q2, tag;
-  logic [RING:0] ptr_q;
-  logic [TAG-1:0] tag_kept_q;
-  logic [VAL-1:0] value_kept_q;
-  (* anyconst *) logic [1:0] part;
-  logic [RING-1:0] word_place, word_at;  // of the entry's word; of what is written, from the first entry that is not complete
-  logic [QVAL-1:0] word_kept_q;
-  logic word_known_q, word_q1, word_q2, word_written;
-  logic [RING:0] tail_next, room, from_tail, to_complete, from_tail_emit, from_tail_load, from_tail_fetch, from_tail_ptr, complete_from_tail;
+  // ---- Counts from the ports: next entry to push, first that is not complete, first in use ---------------------------------------------
+  logic [RING:0] pushed_q, completed_q, given_q, given_next;
+  logic [RING:0] push_size, step, occupied, complete_in_use, to_complete;
+  logic parts_come;
 
-  assign tag = choose && push_i && !seen_q;
-  assign tail_next = head_valid_i ? head_ptr_i : stamps_empty_i ? stamp_ptr_i : tail_q;
-  assign room = (RING + 1)'(ENTRIES) - used;
-  assign from_tail = tail_next - tail_q;
-  assign complete_from_tail = complete_q - tail_q;
-  assign to_complete = write_q - complete_q;
-  assign from_tail_emit = emit_ptr_i - tail_q;
-  assign from_tail_load = load_ptr_i - tail_q;
-  assign from_tail_fetch = fetch_ptr_i - tail_q;
-  assign from_tail_ptr = ptr_q - tail_q;
-
-  logic [RING:0] size, step, to_ptr;  // entries of the tagged tile; that complete_i adds; from the first that is not complete to the tagged one
-  logic [RING:0] behind, ptr_to_complete;
-  logic complete;  // the tagged one is
-
-  assign size = tag_kept_q[TAG-2] ? PARTS : (RING + 1)'(1);
+  assign parts_come = homogeneous_i && !end_i;
+  assign push_size = parts_come ? PARTS : (RING + 1)'(1);
   assign step = complete_homogeneous_i ? PARTS : (RING + 1)'(1);
-  assign to_ptr = ptr_q - complete_q;
-  assign behind = write_q - ptr_q;
-  assign ptr_to_complete = complete_q - ptr_q;
-  assign complete = from_tail_ptr < complete_from_tail;
-  assign word_place = ptr_q[RING-1:0] + ((part == quadrille_pkg::PART_SQUARES) ? RING'(0) : RING'(part));
-  assign word_at = value_entry_i - complete_q[RING-1:0];
-  assign word_written = value_write_i[0] && live_q && value_entry_i == word_place;
+  assign given_next = head_valid_i ? head_ptr_i : stamps_empty_i ? stamp_ptr_i : given_q;
+  assign occupied = pushed_q - given_q;
+  assign complete_in_use = completed_q - given_q;
+  assign to_complete = pushed_q - completed_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
-      word_known_q <= 1'b0;
-      word_q1 <= 1'b0;
-      word_q2 <= 1'b0;
+      pushed_q <= '0;
+      completed_q <= '0;
+      given_q <= '0;
     end else begin
-      if (word_written) word_known_q <= 1'b1;
-      if (word_written) word_kept_q <= value_i[0+:QVAL];
-      word_q1 <= live_q && word_known_q && emit_valid_i && emit_ptr_i == ptr_q && emit_part_i == part
-          && (tag_kept_q[TAG-2] || part == quadrille_pkg::PART_SQUARES || part == quadrille_pkg::PART_WHOLE);
-      word_q2 <= word_q1;
+      if (push_i) pushed_q <= pushed_q + push_size;
+      if (complete_i) completed_q <= completed_q + step;
+      given_q <= given_next;
     end
   end
+
+  // ---- The tagged entry ----------------------------------------------------------------------------------------------------------------
+  (* anyseq *) logic choose;
+  (* anyconst *) logic [1:0] part, which;
+  logic seen_q, live_q, fetched_q, loaded_q, emit_q1, emit_q2, word_q1, word_q2, tag;
+  logic [RING:0] ptr_q;
+  logic [TAG-1:0] tag_kept_q;
+  logic [TILE_LOG2-1:0] last_row_kept_q;
+  logic [6*VAL-1:0] value_kept_q, value_there;
+  logic [RING-1:0] place, word_place;  // of the entry, and of the word of the part
+  logic [RING:0] size, from_given, given_step, to_ptr, behind, past_complete;
+  logic complete, has_part;  // the tagged one is; it has the chosen part
+
+  assign tag = choose && push_i && !seen_q;
+  assign place = ptr_q[RING-1:0];
+  assign word_place = place + ((part == quadrille_pkg::PART_SQUARES) ? RING'(0) : RING'(part));
+  assign size = tag_kept_q[TAG-2] ? PARTS : (RING + 1)'(1);
+  assign from_given = ptr_q - given_q;
+  assign given_step = given_next - given_q;
+  assign to_ptr = ptr_q - completed_q;
+  assign behind = pushed_q - ptr_q;
+  assign past_complete = completed_q - ptr_q;
+  assign complete = from_given < complete_in_use;
+  assign has_part = tag_kept_q[TAG-2] || part == quadrille_pkg::PART_SQUARES || part == quadrille_pkg::PART_WHOLE;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -65,20 +74,93 @@
       loaded_q <= 1'b0;
       emit_q1 <= 1'b0;
       emit_q2 <= 1'b0;
+      word_q1 <= 1'b0;
+      word_q2 <= 1'b0;
     end else begin
       if (tag) begin
         seen_q <= 1'b1;
         live_q <= 1'b1;
-        ptr_q <= write_q;
-        tag_kept_q <= {end_i, in_parts, slot_i, tile_x_i, tile_y_i};
-        value_kept_q <= lin_value_i[0+:VAL];
-      end else if (live_q && from_tail > from_tail_ptr) begin
+        ptr_q <= pushed_q;
+        tag_kept_q <= {end_i, parts_come, slot_i, tile_x_i, tile_y_i};
+        last_row_kept_q <= last_row_i;
+        value_kept_q <= lin_value_i;
+      end else if (live_q && given_step > from_given) begin
         live_q <= 1'b0;
       end
-      fetched_q <= fetch_i ? live_q && fetch_ptr_i == ptr_q : fetched_q;
-      loaded_q <= load_i ? live_q && load_ptr_i == ptr_q : loaded_q;
+      if (fetch_i) fetched_q <= live_q && fetch_ptr_i == ptr_q;
+      if (load_i) loaded_q <= live_q && load_ptr_i == ptr_q;
       emit_q1 <= live_q && emit_valid_i && emit_ptr_i == ptr_q;
       emit_q2 <= emit_q1;
+      word_q1 <= live_q && emit_valid_i && emit_ptr_i == ptr_q && emit_part_i == part && has_part;
+      word_q2 <= word_q1;
+    end
+  end
+
+  for (genvar g = 0; g < 6; g++) begin : gen_there
+    assign value_there[g*VAL+:VAL] = gen_linear[g].value_q[place];
+  end
+
+  // Its words: what was written last of each function
+  logic [RING:0] value_at, gradient_at, q_at;  // entries written, from the first that is not complete
+
+  assign value_at = {1'b0, RING'(value_entry_i - completed_q[RING-1:0])};
+  assign gradient_at = {1'b0, RING'(gradient_entry_i - completed_q[RING-1:0])};
+  assign q_at = {1'b0, RING'(q_entry_i - completed_q[RING-1:0])};
+
+  // What is written, stored and given out of the chosen function
+  logic [QVAL-1:0] value_in, value_stored, value_out, value_word_q;
+  logic [2*QGRAD-1:0] gradient_in, gradient_stored, gradient_out, gradient_word_q;  // {gx, gy}
+  logic [QCURV-1:0] q_in, q_stored, q_out, q_word_q;
+  logic value_known_q, gradient_known_q, q_known_q;
+  logic [4*QVAL-1:0] values_stored;
+  logic [4*2*QGRAD-1:0] gradients_stored;
+  logic [4*QCURV-1:0] qs_stored;
+
+  for (genvar g = 0; g < 4; g++) begin : gen_stored
+    assign values_stored[g*QVAL+:QVAL] = gen_quadratic[g].value_q[word_place];
+    assign gradients_stored[g*2*QGRAD+:2*QGRAD] = {gen_quadratic[g].gx_q[word_place], gen_quadratic[g].gy_q[word_place]};
+    assign qs_stored[g*QCURV+:QCURV] = gen_quadratic[g].curv_q[word_place];
+  end
+
+  always_comb begin
+    {value_in, value_stored, value_out} = '0;
+    {gradient_in, gradient_stored, gradient_out} = '0;
+    {q_in, q_stored, q_out} = '0;
+    for (int g = 0; g < 4; g++) begin
+      if (which == 2'(g)) begin
+        value_in = value_i[(g%BUSES)*QVAL+:QVAL];
+        value_stored = values_stored[g*QVAL+:QVAL];
+        value_out = emit_quad_value_o[g*QVAL+:QVAL];
+        gradient_in = {gx_i[(g%BUSES)*QGRAD+:QGRAD], gy_i[(g%BUSES)*QGRAD+:QGRAD]};
+        gradient_stored = gradients_stored[g*2*QGRAD+:2*QGRAD];
+        gradient_out = {emit_quad_gx_o[g*QGRAD+:QGRAD], emit_quad_gy_o[g*QGRAD+:QGRAD]};
+        q_in = q_i[(g%PAIRS)*QCURV+:QCURV];
+        q_stored = qs_stored[g*QCURV+:QCURV];
+        q_out = emit_quad_q_o[g*QCURV+:QCURV];
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      {value_known_q, gradient_known_q, q_known_q} <= '0;
+    end else if (live_q) begin
+      if (value_write_i[which] && value_entry_i == word_place) {value_known_q, value_word_q} <= {1'b1, value_in};
+      if (gradient_write_i[which] && gradient_entry_i == word_place) {gradient_known_q, gradient_word_q} <= {1'b1, gradient_in};
+      if (q_write_i[which] && q_entry_i == word_place) {q_known_q, q_word_q} <= {1'b1, q_in};
+    end
+  end
+
+  always_comb begin
+    if (rst_ni) begin
+      assert (!word_q2 || !value_known_q || value_out == value_word_q);
+      assert (!word_q2 || !gradient_known_q || gradient_out == gradient_word_q);
+      assert (!word_q2 || !q_known_q || q_out == q_word_q);
+      // Invariants. In a clock in which the entry is read it is complete, and no longer written.
+      assert (seen_q || !(value_known_q || gradient_known_q || q_known_q));
+      assert (!(live_q || word_q1) || !value_known_q || value_stored == value_word_q);
+      assert (!(live_q || word_q1) || !gradient_known_q || gradient_stored == gradient_word_q);
+      assert (!(live_q || word_q1) || !q_known_q || q_stored == q_word_q);
     end
   end
 
@@ -87,31 +169,32 @@
       assume (!push_i || !full_o);
       assume (!complete_i || to_complete >= step);
       assume (!complete_i || !live_q || complete || (to_ptr == '0 ? step == size : step <= to_ptr));
-      assume (from_tail <= complete_from_tail);
-      assume (!fetch_i || from_tail_fetch < complete_from_tail);
-      assume (!load_i || from_tail_load < complete_from_tail);
-      assume (!emit_valid_i || from_tail_emit < complete_from_tail);
-      assume (!value_write_i[0] || {1'b0, word_at} < to_complete);
-      // The next entry begins behind this one's last.
-      assert (!live_q || behind >= size);
-      assert (!word_q2 || emit_quad_value_o[0+:QVAL] == word_kept_q);
-      assert (full_o == (room < (in_parts ? PARTS : (RING + 1)'(1))));
-      assert (used <= (RING + 1)'(ENTRIES));
+      assume (given_step <= complete_in_use);
+      assume (!fetch_i || (RING + 1)'(fetch_ptr_i - given_q) < complete_in_use);
+      assume (!load_i || (RING + 1)'(load_ptr_i - given_q) < complete_in_use);
+      assume (!emit_valid_i || (RING + 1)'(emit_ptr_i - given_q) < complete_in_use);
+      assume (value_write_i == '0 || value_at < to_complete);
+      assume (gradient_write_i == '0 || gradient_at < to_complete);
+      assume (q_write_i == '0 || q_at < to_complete);
+      assert (stamp_present_o == (fetch_ptr_i != completed_q));
+      assert (entry_o == pushed_q[RING-1:0]);
+      assert (full_o == (occupied + push_size > (RING + 1)'(ENTRIES)));
+      assert (!live_q || fetch_ptr_i != ptr_q || fetch_homogeneous_o == tag_kept_q[TAG-2]);
       assert (!fetched_q || {stamp_end_o, stamp_homogeneous_o, stamp_slot_o, stamp_tile_x_o, stamp_tile_y_o} == tag_kept_q);
-      assert (!loaded_q || stamp_lin_value_o[0+:VAL] == value_kept_q);
+      assert (!fetched_q || stamp_last_row_o == last_row_kept_q);
+      assert (!loaded_q || stamp_lin_value_o == value_kept_q[5*VAL-1:0]);
       assert (!emit_q1 || tag_slot_o == tag_kept_q[2*TC+:SLOT]);
       assert (!emit_q2 || {emit_slot_o, emit_tile_x_o, emit_tile_y_o} == tag_kept_q[TAG-3:0]);
-      assert (!emit_q2 || emit_lin_value_o[0+:VAL] == value_kept_q);
-      // Invariants
-      assert (complete_from_tail <= used);
-      assert (!live_q || !complete || ptr_to_complete >= size);
-      assert (!live_q || from_tail_ptr < used);
-      assert (seen_q || (!word_known_q && !word_q1 && !word_q2));
-      assert (!live_q || !word_known_q || gen_quadratic[0].value_q[word_place] == word_kept_q);
-      assert (!word_q1 || (word_index_q == word_place && gen_quadratic[0].value_q[word_place] == word_kept_q));
-      assert (seen_q || !(live_q || fetched_q || loaded_q || emit_q1 || emit_q2));
-      assert (!live_q || (tag_q[ptr_q[RING-1:0]] == tag_kept_q && gen_linear[0].value_q[ptr_q[RING-1:0]] == value_kept_q));
-      assert (!emit_q1 || (emit_index_q == ptr_q[RING-1:0] && {tag_tile_x_q, tag_tile_y_q} == tag_kept_q[2*TC-1:0]));
-      assert (!emit_q1 || gen_linear[0].value_q[ptr_q[RING-1:0]] == value_kept_q);
+      assert (!emit_q2 || emit_lin_value_o == value_kept_q);
+      // The registers are what the ports say.
+      assert (write_q == pushed_q && complete_q == completed_q && tail_q == given_q);
+      // Invariants. The next entry begins behind this one's last.
+      assert (occupied <= (RING + 1)'(ENTRIES) && complete_in_use <= occupied);
+      assert (!live_q || (behind >= size && from_given < occupied && (!complete || past_complete >= size)));
+      assert (seen_q || !(live_q || fetched_q || loaded_q || emit_q1 || emit_q2 || word_q1 || word_q2));
+      assert (!live_q || (tag_q[place] == tag_kept_q && last_row_q[place] == last_row_kept_q));
+      assert (!(live_q || emit_q1) || value_there == value_kept_q);
+      assert (!emit_q1 || (emit_index_q == place && {tag_tile_x_q, tag_tile_y_q} == tag_kept_q[2*TC-1:0]));
+      assert (!word_q1 || word_index_q == word_place);
     end
   end

@@ -1,23 +1,25 @@
-  // vertex_assembly: four accepted beats are a quad, each with its own vertex, the id of the first; the quad is stable until it is taken or
-  // dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock; least and greatest X and Y, all W are ONE.
+  // vertex_assembly: four accepted beats are a quad, each with its own vertex, all of its fields and its W as a significand number among them, the id
+  // of the first; the quad is stable until it is taken or dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock. Of the
+  // beats so far: least and greatest X and Y are those of some vertex and none is beyond; ordinary_o if and only if every W is ONE; behind_o, a
+  // judgement of quad_reject, if and only if none is positive. (empty_o: proof range_empty. depth_o and the interval: tested.)
   // By induction, with one vertex of the four chosen freely and kept.
-  // Assumed of the user: start or drop only of a full quad.
+  // Assumed: reset at the start and no more; start or drop only of a full quad (quadrille: start and drop_vertices have full in them).
   logic started_q = 1'b0;
   always_ff @(posedge clk_i) started_q <= 1'b1;
   always_comb assume (rst_ni == started_q);
 
   (* anyconst *) logic [1:0] which;
-  logic [2:0] held_q;  // beats in
-  logic [T-1:0] kept_x_q, kept_y_q;
-  logic [W-1:0] kept_w_q;
-  logic [PE+S-1:0] kept_k_q;
-  logic [ATTR-1:0] kept_attr_q;
+  localparam int KEPT = 2 * T + W + 2 * (PE + S) + 1 + ATTR;
+  logic [2:0] held_q, ones_q, positive_q;  // beats in; those of them whose W is ONE, is positive
+  logic [KEPT-1:0] kept_q, there;
+  logic [W-1:0] kept_w;
   logic [quadrille_pkg::QUAD_ID_BITS-1:0] kept_id_q;
   logic have;
   logic [2:0] after_leave;
 
   assign after_leave = (start_i || drop_i) ? 3'd0 : held_q;
   assign have = held_q > {1'b0, which};
+  assign kept_w = kept_q[2*(PE+S)+1+ATTR+:W];
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -25,35 +27,52 @@
     end else begin
       held_q <= after_leave + 3'(accept);
       if (accept && after_leave == 3'd0) kept_id_q <= vertex.id;
+      if (accept) ones_q <= ((after_leave == 3'd0) ? 3'd0 : ones_q) + 3'(vertex.w == W'(1 << quadrille_pkg::FRAC));
+      if (accept) positive_q <= ((after_leave == 3'd0) ? 3'd0 : positive_q) + 3'($signed(vertex.w) > 0);
       if (accept && after_leave == {1'b0, which}) begin
-        kept_x_q <= vertex.x;
-        kept_y_q <= vertex.y;
-        kept_w_q <= vertex.w;
-        kept_k_q <= {vertex.k_exp, vertex.k_sig};
-        kept_attr_q <= vertex.attr;
+        kept_q <= {vertex.x, vertex.y, vertex.w, vertex.k_exp, vertex.k_sig, vertex.z_neg, vertex.z_exp, vertex.z_sig, vertex.attr};
       end
     end
   end
 
-  logic [T-1:0] x_which, y_which;
-  logic [W-1:0] w_which;
-  logic [PE+S-1:0] k_which;
-  logic [ATTR-1:0] attr_which;
+  // The chosen vertex at the outputs; and of its W, fp_from_magnitude of rtl/README.md section 2
+  logic w_neg_there;
+  logic [PE-1:0] w_exp_there, w_exp_spec;
+  logic [S-1:0] w_sig_there, w_sig_spec;
+  logic [W-1:0] kept_magnitude;
+
+  assign kept_magnitude = kept_w[W-1] ? -kept_w : kept_w;
 
   always_comb begin
-    x_which = '0;
-    y_which = '0;
-    w_which = '0;
-    k_which = '0;
-    attr_which = '0;
+    there = '0;
+    {w_neg_there, w_exp_there, w_sig_there} = '0;
     for (int v = 0; v < 4; v++) begin
       if (which == 2'(v)) begin
-        x_which = x_o[v*T+:T];
-        y_which = y_o[v*T+:T];
-        w_which = w_o[v*W+:W];
-        k_which = {k_exp_o[v*PE+:PE], k_sig_o[v*S+:S]};
-        attr_which = attr_o[v*ATTR+:ATTR];
+        there = {x_o[v*T+:T], y_o[v*T+:T], w_o[v*W+:W], k_exp_o[v*PE+:PE], k_sig_o[v*S+:S], z_neg_o[v], z_exp_o[v*PE+:PE], z_sig_o[v*S+:S],
+                 attr_o[v*ATTR+:ATTR]};
+        {w_neg_there, w_exp_there, w_sig_there} = {w_neg_o[v], w_exp_o[v*PE+:PE], w_sig_o[v*S+:S]};
       end
+    end
+    {w_exp_spec, w_sig_spec} = '0;
+    for (int p = 0; p < W; p++) begin  // the last that is set: the highest one
+      if (kept_magnitude[p]) begin
+        w_exp_spec = PE'(p - quadrille_pkg::FRAC);
+        w_sig_spec = S'(((W + S)'(kept_magnitude) << S) >> (p + 1));
+      end
+    end
+  end
+
+  // Box of the beats so far, from the vertices at the outputs
+  logic [3:0] is_low_x, is_high_x, is_low_y, is_high_y, inside;  // of a vertex that is in
+
+  always_comb begin
+    for (int v = 0; v < 4; v++) begin
+      is_low_x[v] = held_q > 3'(v) && low_x_o == x_o[v*T+:T];
+      is_high_x[v] = held_q > 3'(v) && high_x_o == x_o[v*T+:T];
+      is_low_y[v] = held_q > 3'(v) && low_y_o == y_o[v*T+:T];
+      is_high_y[v] = held_q > 3'(v) && high_y_o == y_o[v*T+:T];
+      inside[v] = held_q <= 3'(v) || ($signed(low_x_o) <= $signed(x_o[v*T+:T]) && $signed(x_o[v*T+:T]) <= $signed(high_x_o) &&
+                                      $signed(low_y_o) <= $signed(y_o[v*T+:T]) && $signed(y_o[v*T+:T]) <= $signed(high_y_o));
     end
   end
 
@@ -64,12 +83,15 @@
       assert (full_o == (held_q == 3'd4));
       assert (busy_o == (held_q != 3'd0));
       assert (vertex_ready_o == (held_q != 3'd4 || start_i || drop_i));
-      assert (!have || {x_which, y_which, w_which, k_which, attr_which} == {kept_x_q, kept_y_q, kept_w_q, kept_k_q, kept_attr_q});
+      assert (!have || there == kept_q);
+      assert (!have || {w_neg_there, w_exp_there, w_sig_there} == {kept_w[W-1], w_exp_spec, w_sig_spec});
       assert (held_q == 3'd0 || id_o == kept_id_q);
-      assert (!have || ($signed(low_x_o) <= $signed(kept_x_q) && $signed(kept_x_q) <= $signed(high_x_o)));
-      assert (!have || ($signed(low_y_o) <= $signed(kept_y_q) && $signed(kept_y_q) <= $signed(high_y_o)));
-      assert (!have || !ordinary_o || kept_w_q == ONE);
-      // Invariant
+      assert (held_q == 3'd0 || (is_low_x != '0 && is_high_x != '0 && is_low_y != '0 && is_high_y != '0));
+      assert (inside == '1);
+      assert (held_q == 3'd0 || ordinary_o == (ones_q == held_q));
+      assert (held_q == 3'd0 || behind_o == (positive_q == 3'd0));
+      // Invariants
       assert (count_q == held_q[1:0]);
+      assert (held_q == 3'd0 || (ones_q <= held_q && positive_q <= held_q));
     end
   end
