@@ -377,12 +377,28 @@ Scenario unwiped(const std::string& name, std::uint64_t seed) {
           })};
 }
 
-/// A layer, and one before it that hides it in every tile: drawn again after a reset, the first must be there again.
-Scenario wiped() {
-  Scenario scenario = unwiped("wiped", 1);
+/// A layer, something before it in a part of every tile, and a quad before all that covers some tiles: drawn again
+/// after a reset, the first must be there again. What the unit still holds is of the last quad's end, which points at a
+/// tile beside the quad's, and of the mask that was there.
+Scenario wiped(int width, int height) {
+  LockstepOptions o = options(hiding(), 128);
+  o.state.attributes = 1;
+  o.state.skip |= skip_hidden;
+  const int tile = o.config.tile(), tiles = 128 / tile, count = tiles * tiles + 2;
+  const auto rectangle = [](double x, double y, double right, double bottom, double z) {
+    WindowQuad quad;
+    quad.vertex = {{{x, y, z, 1}, {x, bottom, z, 1}, {right, bottom, z, 1}, {right, y, z, 1}}};
+    return quad;
+  };
+  int n = 0;
+  Scenario scenario{"wiped, " + std::to_string(width) + "x" + std::to_string(height), o,
+                    drawn(o, 10, count, [=](golden::Prng&) mutable {
+                      const int i = n++, x = (i - 1) % tiles * tile, y = (i - 1) / tiles * tile;
+                      if (i == 0) return rectangle(0, 0, 128, 128, 0.9);
+                      if (i == count - 1) return rectangle(0, 0, width, height, 0.2);
+                      return rectangle(x, y, x + tile / 2, y + tile / 2, 0.3);
+                    })};
   scenario.again = true;
-  SnappedQuad& last = scenario.quads.back();
-  for (SnappedVertex& v : last.vertex) v.z.exp -= 2;
   return scenario;
 }
 
@@ -767,7 +783,8 @@ std::span<const Scenario> further_scenarios() {
     all.push_back(joined_layers());
     all.push_back(acute_layers());
     all.push_back(far_end());
-    all.push_back(wiped());
+    for (const int width : {8, 16, 32})
+      for (const int height : {8, 16, 32}) all.push_back(wiped(width, height));
     all.push_back(far_exponents());
     all.push_back(far_scissor());
     all.push_back(far_scissor_homogeneous());
