@@ -142,16 +142,16 @@ def results(build, arguments, wanted, journal):
         with tempfile.NamedTemporaryFile("w", suffix=".names") as file:
             file.write("".join(name + "\n" for name in missing or [""]))
             file.flush()
-            for result in told(run(build, arguments, file.name), arguments):
-                if journal:
-                    journal.write(result)
-                yield result
+            yield from told(run(build, arguments, file.name), arguments, journal)
     yield from kept.values()
 
 
-def told(found, arguments):
+def told(found, arguments, journal=None):
+    """Each without its time, said once it is kept."""
     for result in found:
         seconds = result.pop("seconds")  # not kept: the same mutant leaves the same bytes
+        if journal:
+            journal.write(result)
         if not arguments.quiet:
             print(f"{seconds:6.1f} s  {result['name']}: {how_seen(result)}", file=sys.stderr, flush=True)
         yield result
