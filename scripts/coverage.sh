@@ -19,7 +19,7 @@ install_packages
 # commands those that sweep or time.
 programs=(cosim_test hidden_tiles_test exhaustive_test error_bound_test)
 # A file without room takes gcov's counters too; the cache names these simulators otherwise and is not limited.
-commands='-CliShrink.*:SweepCli.*:Cli.BenchPeersReports:CliCosim.WaveformWithoutRoom:CliCosim.TheCacheIsListedAndCleared'
+commands='-CliShrink.*:CliStressWhole.*:SweepCli.*:Cli.BenchPeersReports:CliCosim.WaveformWithoutRoom:CliCosim.TheCacheIsListedAndCleared'
 cmake --preset coverage >/dev/null
 cmake --build --preset coverage -j "$(nproc)" --target quadrille unit_tests cli_test golden_stages "${programs[@]}"
 echo "Build: $SECONDS s"
