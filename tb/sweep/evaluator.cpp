@@ -97,14 +97,6 @@ class BatchPlan {
 
 }  // namespace
 
-StageCounters& StageCounters::operator+=(const StageCounters& other) {
-  for (std::size_t i = 0; i < stage_count; ++i) {
-    settings[i] += other.settings[i];
-    fragments[i] += other.fragments[i];
-  }
-  return *this;
-}
-
 struct Evaluator::Impl {
   struct Positions {
     std::shared_ptr<const PositionData> data;

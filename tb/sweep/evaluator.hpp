@@ -72,7 +72,13 @@ struct StageCounters {
   std::array<std::uint64_t, stage_count> settings{};   ///< distinct settings, each over the whole input
   std::array<std::uint64_t, stage_count> fragments{};  ///< fragments (cycles: clocks)
 
-  StageCounters& operator+=(const StageCounters& other);
+  StageCounters& operator+=(const StageCounters& other) {
+    for (std::size_t i = 0; i < stage_count; ++i) {
+      settings[i] += other.settings[i];
+      fragments[i] += other.fragments[i];
+    }
+    return *this;
+  }
 };
 
 /// Results of some points that became ready together.
