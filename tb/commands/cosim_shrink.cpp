@@ -39,17 +39,9 @@ class FailedPassRuns {
   /// As shrink() wants it. The first run, of the whole, does not count in the time.
   std::optional<Failure> operator()(const FailingDraw& draw) {
     progress_.set(++runs_, std::to_string(draw.quads.size()) + " quads");
-    try {
-      if (!fails(draw, simulator_, options_of(draw), true)) {
-        if (!clock_) clock_.emplace();
-        return std::nullopt;
-      }
-    } catch (const tb::WatchdogError&) {  // both sides hang: not what is looked for
-      return std::nullopt;
-    } catch (const OutOfTime&) {
-      return std::nullopt;
-    }
+    const bool failed = fails_in_time(draw);
     if (!clock_) clock_.emplace();
+    if (!failed) return std::nullopt;
     Failure failure{report_.quads, {}};
     failure.waits =
         draw.waits ? *draw.waits : tb::recorded_waits(snapped_, options_of(draw), clocks() + 1, 4 * report_.quads + 4);
@@ -84,6 +76,16 @@ class FailedPassRuns {
     o.gap = draw.waits ? 0 : draw.gap;
     o.waits = draw.waits.value_or(tb::PortWaits{});
     return o;
+  }
+
+  bool fails_in_time(const FailingDraw& draw) {
+    try {
+      return fails(draw, simulator_, options_of(draw), true);
+    } catch (const tb::WatchdogError&) {  // both sides hang: not what is looked for
+      return false;
+    } catch (const OutOfTime&) {
+      return false;
+    }
   }
 
   bool fails(const FailingDraw& draw, const tb::Simulator& simulator, tb::LockstepOptions options, bool in_time) {
@@ -167,11 +169,14 @@ void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, 
   kept.quads = golden::load_quads(options.quads);
   // Waits of which none could be left out are said in short, where the chances that drew them still do.
   const tb::PortWaits waits = *kept.waits;
+  bool fails = false;
   if (kept.stall > 0 || kept.gap > 0) {
     kept.waits.reset();
-    if (!runs.fails(kept)) kept.waits = waits;
+    fails = runs.fails(kept);
+    if (!fails) kept.waits = waits;
   }
-  if (!runs.fails(kept)) throw std::runtime_error("what is left does not fail when it is read from " + options.quads);
+  if (!fails && !runs.fails(kept))
+    throw std::runtime_error("what is left does not fail when it is read from " + options.quads);
   const std::uint64_t clocks = runs.clocks();
   const std::string waveform = std::filesystem::path(options.quads).replace_extension(".fst").string();
   PartialFile trace(waveform);
