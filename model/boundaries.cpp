@@ -31,9 +31,8 @@ void list_boundary(Boundary b, const Config& c, F&& f) {
 
 template <class F>
 void list_vertex(const Config& c, F&& f) {
-  std::uint32_t id = 0;
-  SnappedVertex vertex;
-  visit_vertex(id, vertex, c, f);
+  VertexBeat beat;
+  visit(beat, c, f);
 }
 
 template <class F>

@@ -39,6 +39,7 @@ inline Bits length2_bits(const Config& c) { return {c.length2_bits(), "LENGTH2_B
 inline Bits significand_bits(const Config& c) { return {c.significand_bits, "S"}; }
 inline Bits significand_frac(const Config& c) { return {c.significand_bits - 1, "S−1"}; }
 inline Bits depth_code_bits(const Config& c) { return {c.depth_bits + 1, "DEPTH_BITS+1"}; }
+inline Bits corner_depth_bits(const Config& c) { return {c.depth_bits + 2, "DEPTH_BITS+2"}; }
 inline Bits depth_frac(const Config& c) { return {c.depth_bits, "DEPTH_BITS"}; }
 inline Bits attr_out_bits(const Config& c) { return {c.attr_out_bits(), "ATTR_OUT_BITS"}; }
 inline Bits attr_out_frac(const Config& c) { return {c.attribute_frac(), "F"}; }
@@ -102,9 +103,11 @@ inline FpType port_numbers(const char* neg, const char* exp, const char* sig, co
 // ---- Ports ----
 
 /// vertex_t.
-template <class Id, class Vertex, class F>
-void visit_vertex(Id& id, Vertex& v, const Config& c, F&& f) {
-  f(plain("id", quad_id_bits(c), "quad, the same in its four beats"), -1, id);
+template <class Beat, class F>
+requires std::same_as<std::remove_const_t<Beat>, VertexBeat>
+void visit(Beat& beat, const Config& c, F&& f) {
+  auto& v = beat.vertex;
+  f(plain("id", quad_id_bits(c), "quad; the first beat's counts"), -1, beat.id);
   f(fixed("x", t_bits(c), frac_bits(c), "px", "X, relative to pixel centres"), -1, v.x);
   f(fixed("y", t_bits(c), frac_bits(c), "px", "Y, down"), -1, v.y);
   f(fixed("w", w_bits(c), frac_bits(c), "1", "W"), -1, v.w);
@@ -116,13 +119,21 @@ void visit_vertex(Id& id, Vertex& v, const Config& c, F&& f) {
   };
   f(exponent("k_exp", "exponent of k"), -1, v.k.exp);
   f(significand("k_sig", "k, the factor of this vertex"), -1, v.k.sig);
-  visit_number(f, port_numbers("z_neg", "z_exp", "z_sig", c, "Z = k z"), v.z);
+  visit_number(f, port_numbers("z_neg", "z_exp", "z_sig", c, "k times (z minus base)"), v.z);
   for (int i = c.attribute_slots; i-- > 0;) {
     auto& a = v.attribute[static_cast<std::size_t>(i)];
-    f(plain("attr_neg", 1, "sign of attribute times k"), i, a.neg);
-    f(exponent("attr_exp", "exponent of attribute times k"), i, a.exp);
-    f(significand("attr_sig", "attribute times k"), i, a.sig);
+    f(plain("attr_neg", 1, "sign of attr_sig's number"), i, a.neg);
+    f(exponent("attr_exp", "its exponent"), i, a.exp);
+    f(significand("attr_sig", "k times (attribute minus base); of vertex 0 not looked at"), i, a.sig);
   }
+  visit_array(
+      f, fixed("base_attr", attr_out_bits(c), attr_out_frac(c), "1", "base of an attribute; the first beat's counts"),
+      c.attribute_slots, [&](std::size_t i) -> auto& { return beat.base.attribute[i]; });
+  f(depth_type(c, "base_depth", "base of window z; the first beat's counts"), -1, beat.base.depth);
+  f(fixed("depth_low", corner_depth_bits(c), depth_frac(c), "1", "least corner's z, -2^-DEPTH_BITS: below 0"), -1,
+    beat.base.depth_low);
+  f(fixed("depth_high", corner_depth_bits(c), depth_frac(c), "1", "greatest corner's z, 1 + 2^-DEPTH_BITS: above 1"), -1,
+    beat.base.depth_high);
 }
 
 /// state_t. Its depth interval is the codes `znear` and `zfar`.
@@ -273,7 +284,7 @@ void visit(Record& p, Boundary b, const Config& c, F&& f) {
       break;
     case Boundary::sum:
       visit_numbers(
-          f, signed_numbers("attr_neg", "attr_exp", "attr_sig", c, "sum of M b of an attribute"),
+          f, signed_numbers("attr_neg", "attr_exp", "attr_sig", c, "sum of M b of an attribute, corners 1 to 3"),
           c.attribute_slots, [&](std::size_t i) -> auto& { return p.num_a[i]; });
       visit_number(f, signed_numbers("z_neg", "z_exp", "z_sig", c, "sum of M Z"), p.num_z);
       visit_number(f, signed_numbers("den_k_neg", "den_k_exp", "den_k_sig", c, "sum of M k"), p.den_k);

@@ -802,8 +802,11 @@ struct ClockedModel::Impl {
     }
     if (starting || dropping_vertices) ++assembly.number;
     if (accept) {
-      if (assembly.count == 0) assembly.quad.id = in.vertex_id;
-      assembly.quad.vertex[static_cast<std::size_t>(assembly.count)] = in.vertex;
+      if (assembly.count == 0) {
+        assembly.quad.id = in.vertex.id;
+        assembly.quad.base = in.vertex.base;
+      }
+      assembly.quad.vertex[static_cast<std::size_t>(assembly.count)] = in.vertex.vertex;
       assembly.full = assembly.count == 3;
       if (assembly.full) assembly.reject = reject_by_vertices(assembly.quad, context.config, context.state);
       assembly.count = (assembly.count + 1) % 4;

@@ -24,8 +24,7 @@ struct ClockedInputs {
   bool vertex_valid = false;
   bool fragment_ready = false;
   bool clear_hidden = false;    ///< while not busy: the depth buffer is cleared
-  std::uint32_t vertex_id = 0;  ///< quad id of the beat
-  SnappedVertex vertex;         ///< the beat, when vertex_valid
+  VertexBeat vertex;            ///< the beat, when vertex_valid
 };
 
 /// Boundaries of one lane that carry a pixel in this clock, or nullptr.

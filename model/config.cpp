@@ -39,9 +39,9 @@ constexpr std::array entries{
     Entry{{"align_guard_bits", 0, 6, 2, "bits", "fraction bits kept below the s bits of the largest term of a sum"},
           &Config::align_guard_bits},
     Entry{{"attribute_slots", 1, 8, 4, "", "attributes per vertex at the port"}, &Config::attribute_slots},
-    Entry{{"attribute_int_bits", 1, 8, 3, "bits", "integer bits of an output attribute, sign apart"},
+    Entry{{"attribute_int_bits", 1, 15, 7, "bits", "integer bits of an output attribute, sign apart"},
           &Config::attribute_int_bits},
-    Entry{{"attribute_frac_bits", 8, 30, -1, "bits", "fraction bits of an output attribute, at least s; auto: s + 2"},
+    Entry{{"attribute_frac_bits", 8, 30, -1, "bits", "fraction bits of an output attribute, at least s; auto: 24, or s + 2 if that is more"},
           &Config::attribute_frac_bits},
     Entry{{"depth_bits", 8, 30, 24, "bits", "fraction bits of window z"}, &Config::depth_bits},
     Entry{{"tile_log2", 2, 4, 3, "log2 px", "tile edge, also the width of a stamp; a block is 8x8 tiles"},
@@ -137,7 +137,9 @@ int Config::recip_segments() const {
   return std::clamp(recip_degree == 2 ? ceil_div(s - 2, 3) : ceil_div(s + 1, 2), 3, 14);
 }
 
-int Config::attribute_frac() const { return attribute_frac_bits == -1 ? significand_bits + 2 : attribute_frac_bits; }
+int Config::attribute_frac() const {
+  return attribute_frac_bits == -1 ? std::max(24, significand_bits + 2) : attribute_frac_bits;
+}
 
 void Config::validate() const {
   for (const Entry& e : entries) {
@@ -198,7 +200,7 @@ std::vector<DerivedWidth> Config::derived() const {
       {"TABLE_GUARD", table_guard, "accumulator bits of a table below its S-bit result"},
       {"SQRT_SEGMENTS", sqrt_segments(), "sqrt_segments_log2, resolved: cubic error of a segment about 1/8 ulp"},
       {"RECIP_SEGMENTS", recip_segments(), "recip_segments_log2, resolved: cubic error of a segment about 1/8 ulp"},
-      {"ATTRIBUTE_FRAC", attribute_frac(), "attribute_frac_bits, resolved: output truncation is 1/4 of 2^-s"},
+      {"ATTRIBUTE_FRAC", attribute_frac(), "attribute_frac_bits, resolved: rounding is 1/8 of 2^-s, and a value far from 0 keeps 24 bits"},
       {"TILE", tile(), "2^tile_log2 pixels"},
       {"TC_BITS", tc_bits(), "viewport_bits - tile_log2 + 1: tile coordinate or count"},
       {"ATTR_PORT_BITS", attr_port_bits(), "sign + PORT_EXP_BITS + S"},

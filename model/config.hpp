@@ -46,7 +46,7 @@ struct Config {
   int recip_degree = 2;
   int align_guard_bits = 2;
   int attribute_slots = 4;
-  int attribute_int_bits = 3;
+  int attribute_int_bits = 7;
   int attribute_frac_bits = -1;
   int depth_bits = 24;
   int tile_log2 = 3;
@@ -99,6 +99,10 @@ struct Config {
   int tc_bits() const { return viewport_bits - tile_log2 + 1; }
   int attr_port_bits() const { return 1 + port_exp_bits + significand_bits; }
   int attr_out_bits() const { return 1 + attribute_int_bits + attribute_frac(); }
+  /// A corner's depth code is -1 to this: above 1.
+  std::int32_t depth_above() const { return (std::int32_t{1} << depth_bits) + 1; }
+  /// The largest code of an attribute; the least is its negative.
+  std::int64_t attribute_limit() const { return (std::int64_t{1} << (attribute_int_bits + attribute_frac())) - 1; }
   /// Pairs of dot units: each has a job a clock.
   int product_pairs() const { return dot_units / 2; }
   int quad_slots() const { return 1 << quad_slots_log2; }

@@ -32,7 +32,7 @@ std::uint64_t drive(Machine& machine, Stimulus& stimulus, Look&& look) {
 }
 
 /// The clocked model as a machine for drive(), after reset. Of a stimulus it also wants ready() of the fragment port,
-/// changed() of the beat on offer, its id() and vertex().
+/// changed() of the beat() on offer.
 class DrivenModel {
  public:
   DrivenModel(const Config& config, const DrawState& state, Probes probes = Probes::without_pixels)
@@ -46,10 +46,7 @@ class DrivenModel {
   ClockedOutputs settle(const Stimulus& stimulus) {
     inputs_.vertex_valid = stimulus.valid();
     inputs_.fragment_ready = stimulus.ready();
-    if (stimulus.changed() && stimulus.valid()) {
-      inputs_.vertex_id = stimulus.id();
-      inputs_.vertex = stimulus.vertex();
-    }
+    if (stimulus.changed() && stimulus.valid()) inputs_.vertex = stimulus.beat();
     return model_.comb();
   }
   void clock() { model_.clock(inputs_); }
@@ -73,8 +70,7 @@ class SteadyBeats {
   bool valid() const { return !done(); }
   bool ready() const { return true; }
   bool changed() const { return true; }
-  std::uint32_t id() const { return quads_[next_ / 4].id; }
-  const SnappedVertex& vertex() const { return quads_[next_ / 4].vertex[next_ % 4]; }
+  VertexBeat beat() const { return beat_of(quads_[next_ / 4], next_ % 4); }
   std::size_t taken() const { return next_; }
   void advance(bool taken) { next_ += taken ? 1 : 0; }
 

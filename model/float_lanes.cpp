@@ -117,7 +117,7 @@ FloatTable::FloatTable(const Table& table, int octave_bits)
 }
 
 FloatLanes::FloatLanes(const PipelineContext& c)
-    : config_(c.config), state_(c.state), depth_reject_(c.config, c.state) {
+    : config_(c.config), state_(c.state), depth_limits_(c.config, c.state) {
   const Config& config = c.config;
   format_.s = c.format.s;
   format_.prec = config.prec_bits();
@@ -153,7 +153,7 @@ FloatLanes::FloatLanes(const PipelineContext& c)
   format_.recip = FloatTable(c.recip_table, 0);
 }
 
-bool FloatLanes::usable() const { return fits_ && lane_target() != LaneTarget::baseline; }
+bool FloatLanes::usable() const { return false; }  // TODO issue 28: its sums are those of values, not yet of differences
 
 bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const {
   if (setup.homogeneous) return false;
@@ -227,8 +227,8 @@ FloatLanes::TileCounts FloatLanes::cover(const FloatQuad& bounds, const TileCorn
 }
 
 std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const {
-  const auto taken = lane_target() == LaneTarget::v4 ? v4::take_small(format_, depth_reject_, quad, out, small)
-                                                     : v3::take_small(format_, depth_reject_, quad, out, small);
+  const auto taken = lane_target() == LaneTarget::v4 ? v4::take_small(format_, depth_limits_, quad, out, small)
+                                                     : v3::take_small(format_, depth_limits_, quad, out, small);
   if (taken == QuadReject::none) out.areas = takes_areas(quad, config_, state_);
   return taken;
 }

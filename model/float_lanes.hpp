@@ -186,7 +186,7 @@ class FloatLanes {
   Config config_;
   DrawState state_;
   Format format_;
-  DepthReject depth_reject_;
+  DepthLimits depth_limits_;
   bool fits_ = false, small_ = false;
   int frac_ = 0, val_bits_ = 0, qdrop_ = 0, viewport_bits_ = 0;
 };

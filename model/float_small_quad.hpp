@@ -60,7 +60,7 @@ inline bool small_columns(const FloatLanes::Format& format, const SnappedQuad& q
 }
 
 /// FloatLanes::take_small.
-std::optional<QuadReject> take_small(const FloatLanes::Format& format, const DepthReject& depth_reject,
+std::optional<QuadReject> take_small(const FloatLanes::Format& format, const DepthLimits& depth_limits,
                                      const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) {
   const auto vertex = [&](std::size_t i) {
     static_assert(offsetof(SnappedVertex, x) == 0 && offsetof(SnappedVertex, y) == 4 &&
@@ -98,7 +98,7 @@ std::optional<QuadReject> take_small(const FloatLanes::Format& format, const Dep
   small.tiles_y = (rows.to >> tile_log2) - tile_y0 + 1;
   if (extent > SmallQuad::largest * pixel || std::max(small.tiles_x, small.tiles_y) > Config::block_tiles)
     return std::nullopt;
-  if (depth_reject(quad)) return QuadReject::depth;
+  if (depth_limits.outside(quad.base)) return QuadReject::depth;
 
   // Around the first tile's origin pixel; E of 01 12 23 30, then of 20 and 13.
   out.x0 = tile_x0 << tile_log2;

@@ -1,67 +1,27 @@
 #include "model/hierarchical_z.hpp"
 
-#include "model/depth_rank.hpp"
+#include "model/quad_reject.hpp"
 #include "model/snap.hpp"
 #include "model/stages.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace quadrille {
-namespace {
-
-/// floor(v 2^H) of the number with this rank, v < 1.
-std::uint32_t floor_code(std::int64_t rank, const Config& config) {
-  const std::int64_t binade = std::int64_t{1} << (config.significand_bits - 1);
-  const auto sig = static_cast<std::uint64_t>(binade + (rank & (binade - 1)));
-  const std::int64_t exp = rank >> (config.significand_bits - 1);  // below 0
-  // sig 2^(exp - (S-1) + H)
-  const std::int64_t right = config.significand_bits - 1 - config.hierarchical_z_bits - exp;
-  if (right >= 64) return 0;
-  return static_cast<std::uint32_t>(right >= 0 ? sig >> right : sig << -right);
-}
-
-}  // namespace
-
 bool skips_hidden(const Config& config, const DrawState& state) {
   return config.hierarchical_z_bits != 0 && state.depth && (state.skip & skip_hidden) != 0;
 }
 
 DepthInterval depth_interval(const SnappedQuad& quad, const Config& config, const DrawState& state) {
-  const std::uint32_t unknown = (1u << config.hierarchical_z_bits) - 1;
-  DepthInterval depth;
-  depth.far = unknown;
-  if (!depth_margin_holds(config) || !is_ordinary(quad, config)) return depth;
-
-  // W is 1: Z is the depth itself, but for the margin.
-  std::int64_t least = std::numeric_limits<std::int64_t>::max(), greatest = std::numeric_limits<std::int64_t>::min();
-  bool some_negative = false, some_zero = false, all_zero = true;
-  for (const SnappedVertex& v : quad.vertex) {
-    some_negative |= v.z.neg;
-    if (v.z.sig == 0) {
-      some_zero = true;
-      continue;
-    }
-    all_zero = false;
-    const std::int64_t rank = depth_rank(v.z.exp, v.z.sig, config);
-    least = std::min(least, rank);
-    greatest = std::max(greatest, rank);
-  }
-  const int steps = depth_margin_steps(config);
-  if (!some_zero && !some_negative) {
-    // 1 and beyond count as the code before all ones, which hides whatever an entry says.
-    depth.near = least - steps >= 0 ? unknown - 1 : std::min(floor_code(least - steps, config), unknown - 1);
-  }
-  if (some_negative) return depth;
-  if (all_zero)
-    depth.far = 1;
-  else if (greatest + steps < 0)
-    depth.far = std::min(floor_code(greatest + steps, config) + 1, unknown);
-
+  const std::int32_t unknown = (std::int32_t{1} << config.hierarchical_z_bits) - 1;
   const int drop = config.depth_bits - config.hierarchical_z_bits;
-  const std::uint32_t znear = depth_code(state.znear, config), zfar = depth_code(state.zfar, config);
-  depth.lowers = config.quadratic_frac() >= 2 * config.subpixel_bits && depth.far != unknown &&
-                 (znear == 0 || depth.near > znear >> drop) && depth.far <= zfar >> drop;
+  const std::int32_t low = std::max(quad.base.depth_low, 0), high = std::max(quad.base.depth_high, 0);
+  const std::int32_t round_up = (std::int32_t{1} << drop) - 1;
+  DepthInterval depth;
+  // 1 and beyond count as the code before all ones, which hides whatever an entry says.
+  depth.near = static_cast<std::uint32_t>(std::min(low >> drop, unknown - 1));
+  depth.far = static_cast<std::uint32_t>(std::min((high + round_up) >> drop, unknown));
+  depth.lowers = is_ordinary(quad, config) && config.quadratic_frac() >= 2 * config.subpixel_bits &&
+                 depth.far != static_cast<std::uint32_t>(unknown) && DepthLimits(config, state).inside(quad.base);
   return depth;
 }
 

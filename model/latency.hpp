@@ -19,7 +19,7 @@ inline constexpr int product_stages = 1;
 inline constexpr int fp_sum_stages = 4 + fp_normalise_stages;  ///< from the product
 inline constexpr int fp_add_stages = 3;
 inline constexpr int fixed_point_stages = 2;
-inline constexpr int fragment_output_stages = product_stages + fixed_point_stages + 2;
+inline constexpr int fragment_output_stages = product_stages + fixed_point_stages + 3;  ///< sum, clamp, output
 
 // The registers at the boundaries. A pixel is in register n during the clocks after n + 1 edges.
 inline constexpr int diff_stage = forward_difference_stages + law_of_cosines_stages - 1;

@@ -286,33 +286,42 @@ LANE_INLINE void area_stage(const DifferenceLanes& signs, const NormalisedLanes&
   out.m[3] = select(behind_diagonal, p.a[4], V{});
 }
 
-/// |num·rec| in units of the last fraction bit, an integer below 2^51, clamped.
+/// base + num·rec as a code, the quotient rounded to nearest, halves away from zero; clamped.
 struct FixedLanes {
-  V q;
-  I over, sign;
+  I code, over;
 };
 
-LANE_INLINE FixedLanes attribute_stage(V num, V rec, int int_bits, int frac) {
+/// |value| below 2^50 codes, as an integer, with the sign of `value`. The sum with 1/2 is exact, or far from an integer.
+LANE_INLINE I rounded_codes(V value, V size, int frac) {
+  const I q = to_integer(integer_part(size * power_of_two(frac) + 0.5)), sign = bits(value) >> 63;
+  return (q ^ sign) - sign;
+}
+
+LANE_INLINE FixedLanes attribute_stage(V num, V rec, std::int64_t base, int int_bits, int frac) {
   const V value = num * rec;
   const V size = magnitude(value);
-  const I over = size >= power_of_two(int_bits);
-  const V q = select(over, splat(power_of_two(int_bits + frac) - 1),
-                     integer_part(select(over, V{}, size) * power_of_two(frac)));
-  return {q, over, bits(value) >> 63};
+  const I wide = size >= power_of_two(int_bits + 1);
+  const I limit = splat((std::int64_t{1} << (int_bits + frac)) - 1);
+  const I far = ((limit + 1) ^ (bits(value) >> 63)) - (bits(value) >> 63);
+  const I sum = select(wide, far, base + rounded_codes(value, select(wide, V{}, size), frac));
+  const I above = sum > limit, below = sum < -limit;
+  return {select(above, limit, select(below, -limit, sum)), above | below};
 }
 
 struct DepthLanes {
-  I q, discard;
+  I code, discard;
 };
 
-LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, int depth_bits, std::uint32_t znear, std::uint32_t zfar) {
+LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, const QuadBase& base, int depth_bits,
+                                   std::uint32_t znear, std::uint32_t zfar) {
   const V value = num_z * rec_w;
   const V size = magnitude(value);
-  const I over = (size >= 2.0) | (den_w == 0);
-  const I q = select(over, splat((std::int64_t{2} << depth_bits) - 1),
-                     to_integer(integer_part(select(over, V{}, size) * power_of_two(depth_bits))));
-  const I negative = (bits(value) >> 63) & (q != 0) & ~I(den_w == 0);
-  return {q, negative | (q < std::int64_t{znear}) | (q > std::int64_t{zfar})};
+  const I nothing = den_w == 0, wide = I(size >= 2.0) | nothing;
+  const I low = splat(std::int64_t{base.depth_low}), high = splat(std::int64_t{base.depth_high});
+  const I far = select((bits(value) >> 63) & ~nothing, low, high);
+  const I sum = select(wide, far, std::int64_t{base.depth} + rounded_codes(value, select(wide, V{}, size), depth_bits));
+  const I at_least = select(I(sum < low), low, sum), z = select(I(at_least > high), high, at_least);
+  return {select(I(z < 0), I{}, z), I(z < std::int64_t{znear}) | I(z > std::int64_t{zfar})};
 }
 
 }  // namespace
@@ -404,10 +413,10 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     I saturated{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) {
       const V num = values.b_of_k[j] ? den_k * *values.b_of_k[j] : sum(values.b[j]);
-      const FixedLanes f = attribute_stage(num, rec_k, c.config.attribute_int_bits, c.attribute_frac);
+      const FixedLanes f =
+          attribute_stage(num, rec_k, quad.base.attribute[j], c.config.attribute_int_bits, c.attribute_frac);
       saturated |= f.over;
-      const I fixed = (to_integer(f.q) ^ f.sign) - f.sign;
-      for (int l = 0; l < lane_count; ++l) out.attribute[j][static_cast<std::size_t>(l)] = fixed[l];
+      for (int l = 0; l < lane_count; ++l) out.attribute[j][static_cast<std::size_t>(l)] = f.code[l];
     }
     out.saturated = to_mask(saturated);
     I discard{};
@@ -415,9 +424,10 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     if (c.state.depth) {
       const V num_z = values.z_of_w ? den_w * *values.z_of_w : sum(values.z);
       const V rec_w = values.w_of_k ? rec_k * (1 / *values.w_of_k) : recip_lanes(den_w, tables.recip, s);
-      const DepthLanes z = depth_stage(num_z, den_w, rec_w, c.config.depth_bits, c.znear, c.zfar);
+      const DepthLanes z = depth_stage(num_z, den_w, rec_w, quad.base, c.config.depth_bits, c.znear, c.zfar);
       discard |= z.discard;
-      for (int l = 0; l < lane_count; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.q[l]);
+      for (int l = 0; l < lane_count; ++l)
+        out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.code[l]);
     } else {
       out.depth = {};
     }
@@ -516,20 +526,21 @@ void output_blocks(std::size_t blocks, const LaneColumn* sums, const ReciprocalL
     const double attribute_unit = power_of_two(-format.attribute_frac);
     const double depth_unit = power_of_two(-format.depth_bits);
     for (std::size_t n = 0; n < blocks; ++n, sums += sums_per_block(columns), values += 1 + columns) {
+      const QuadColumns& q = quads[quad[n]];
       I discard{}, saturated{};
-      if (quads[quad[n]].hull) discard = ~(sums[1].v > 0);
+      if (q.hull) discard = ~(sums[1].v > 0);
       values[0].v = V{};
       if (format.depth) {
-        const DepthLanes z =
-            depth_stage(sums[2].v, sums[1].v, reciprocals[n].w, format.depth_bits, format.znear, format.zfar);
+        const DepthLanes z = depth_stage(sums[2].v, sums[1].v, reciprocals[n].w, q.base, format.depth_bits,
+                                         format.znear, format.zfar);
         discard |= z.discard;
-        values[0].v = (from_bits(z.q | 0x4330000000000000) - 0x1p52) * depth_unit;
+        values[0].v = __builtin_convertvector(z.code, V) * depth_unit;
       }
       for (std::size_t j = 0; j < columns; ++j) {
-        const FixedLanes f =
-            attribute_stage(sums[3 + j].v, reciprocals[n].k, format.attribute_int_bits, format.attribute_frac);
+        const FixedLanes f = attribute_stage(sums[3 + j].v, reciprocals[n].k, q.attribute_base[j],
+                                             format.attribute_int_bits, format.attribute_frac);
         saturated |= f.over;
-        values[1 + j].v = from_bits(bits(f.q * attribute_unit) | (f.sign & INT64_MIN));
+        values[1 + j].v = __builtin_convertvector(f.code, V) * attribute_unit;
       }
       masks[n] = {static_cast<std::uint8_t>(to_mask(~discard)), static_cast<std::uint8_t>(to_mask(saturated))};
     }

@@ -24,6 +24,7 @@ QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Conf
   const SignificandFormat f{config.significand_bits, config.align_guard_bits};
   QuadData d;
   d.id = quad.id;
+  d.base = quad.base;
   d.homogeneous = setup.homogeneous;
   d.hull = setup.hull;
   d.plane = takes_areas(quad, config, state);
@@ -34,6 +35,7 @@ QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Conf
     d.w[i] = fp_from_signed(v.w, -config.frac(), f);
     d.k[i] = state.perspective ? from_port(v.k) : d.w[i];
     d.z[i] = from_port(v.z);
+    if (i == 0) continue;  // the base is its value
     for (std::size_t j = 0; j < attributes; ++j) d.b[i][j] = from_port(v.attribute[j]);
   }
   if (skips) {

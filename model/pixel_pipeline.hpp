@@ -19,8 +19,9 @@ struct QuadData {
   bool plane = false;                ///< takes_areas: areas in the place of mean value weights
   std::array<PipelineFloat, 4> k{};  ///< k_eff: k, or W when perspective is off
   std::array<PipelineFloat, 4> w{};  ///< W truncated to S bits
-  std::array<PipelineFloat, 4> z{};  ///< Z
-  std::array<std::array<PipelineFloat, max_attribute_slots>, 4> b{};
+  std::array<PipelineFloat, 4> z{};  ///< of depth, less its base
+  std::array<std::array<PipelineFloat, max_attribute_slots>, 4> b{};  ///< of attributes, less theirs; 0 of vertex 0
+  QuadBase base;
 };
 
 /// With skip_operands what no sum needs is zero: W without depth and hull, Z without depth, attributes not in use; of
@@ -66,7 +67,7 @@ void mean_value_ratios(PixelTrace& p, const PipelineContext& c);
 void mean_value_weights(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 /// The sums of eqs. (4), (10), (11).
 void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
-/// Two reciprocals, fixed point, flags, discard.
+/// Two reciprocals, quotients rounded to codes and added to the bases, clamps, flags, discard.
 void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext& c);
 
 /// All that a pixel has of its own, from its row on. With skip_operands a pixel on a corner has no significand numbers,

@@ -3,26 +3,24 @@
 #pragma once
 
 #include "model/config.hpp"
-#include "model/depth_rank.hpp"
 #include "model/stages.hpp"
-
-#include <optional>
 
 namespace quadrille {
 
-/// Whether every pixel's depth code is outside [znear, zfar], known from the corners'.
-class DepthReject {
+/// The interval [znear, zfar] as codes, and on which side of it a quad's corners lie; every depth lies between them.
+class DepthLimits {
  public:
-  DepthReject(const Config& config, const DrawState& state);
-  bool operator()(const SnappedQuad& quad) const;
+  DepthLimits(const Config& config, const DrawState& state)
+      : on_(state.depth), near_(depth_code(state.znear, config)), far_(depth_code(state.zfar, config)) {}
+
+  /// No pixel can be inside.
+  bool outside(const QuadBase& base) const { return on_ && (base.depth_high < near_ || base.depth_low > far_); }
+  /// No pixel can be outside.
+  bool inside(const QuadBase& base) const { return base.depth_low >= near_ && base.depth_high <= far_; }
 
  private:
-  Config config_;
-  bool possible_;
-  // The ranks of |Z / W| from which, or up to which, every code that can come of it is outside.
-  std::optional<std::int64_t> near_;  ///< up to this, and zero, below znear
-  std::int64_t far_ = 0;              ///< from this beyond zfar
-  std::int64_t some_ = 0;             ///< from this the code is not 0: outside when negative
+  bool on_;
+  std::int64_t near_, far_;
 };
 
 /// The reasons that need no product: empty, behind, depth. None when DrawState::skip says so.

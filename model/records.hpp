@@ -78,20 +78,42 @@ struct PortNumber {
 
 inline constexpr int max_attribute_slots = 8;
 
-/// One vertex beat: integers only. x, y, w in units of 2^-FRAC, relative to pixel CENTRES (pixel (x, y) has its centre
+/// One vertex: integers only. x, y, w in units of 2^-FRAC, relative to pixel CENTRES (pixel (x, y) has its centre
 /// at the integers x, y); FRAC = subpixel_bits + homogeneous_frac_bits. The vertex is k times the given one.
 struct SnappedVertex {
   std::int32_t x = 0, y = 0, w = 0;
   PortNumber k;  ///< k > 0, rounded to nearest
-  PortNumber z;  ///< Z = k * z~
-  std::array<PortNumber, max_attribute_slots>
-      attribute{};  ///< b = k_eff * a; k_eff = k, or W as a real number when perspective is off
+  PortNumber z;  ///< k * (z~ - base w~), the given w~
+  /// k_eff * (a - base); k_eff = k, or W as a real number when perspective is off. Of vertex 0 not looked at: 0.
+  std::array<PortNumber, max_attribute_slots> attribute{};
+};
+
+/// What the values of a quad are counted from, and where its depths lie. Codes of the output formats.
+struct QuadBase {
+  std::array<std::int64_t, max_attribute_slots> attribute{};  ///< vertex 0's, attribute_frac_bits fraction bits
+  std::uint32_t depth = 0;                                    ///< in [0, 1], depth_bits fraction bits
+  /// The least and greatest window z of a corner, depth_bits fraction bits: -1 is below 0, 2^depth_bits + 1 above 1.
+  /// A quad with some w <= 0 has these two: its depths lie anywhere.
+  std::int32_t depth_low = -1, depth_high = 0;
+
+  friend bool operator==(const QuadBase&, const QuadBase&) = default;
 };
 
 struct SnappedQuad {
   std::uint32_t id = 0;
+  QuadBase base;
   std::array<SnappedVertex, 4> vertex{};
 };
+
+/// What the vertex port takes in one clock. `id` and `base` belong to the quad: those of its first beat count.
+struct VertexBeat {
+  std::uint32_t id = 0;
+  QuadBase base;
+  SnappedVertex vertex;
+};
+
+/// Beat i of a quad.
+inline VertexBeat beat_of(const SnappedQuad& quad, std::size_t i) { return {quad.id, quad.base, quad.vertex[i]}; }
 
 /// Bits of Fragment::flags.
 enum FragmentFlag : std::uint8_t {

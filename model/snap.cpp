@@ -1,6 +1,12 @@
 #include "model/snap.hpp"
 
+#include "model/support/exact_quotient.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <locale>
 #include <sstream>
 
 namespace quadrille {
@@ -21,82 +27,199 @@ struct Rejected {
   std::string what;
 };
 
-/// To nearest, ties to even, S significant bits. Exponents below the port's range become zero.
-PortNumber round_to_port(long double value, const Config& config) {
-  if (value == 0) return {};
-  const int s = config.significand_bits;
-  int exponent = 0;
-  const long double fraction = frexpl(fabsl(value), &exponent);  // in [1/2, 1)
-  auto sig = static_cast<std::uint64_t>(llrintl(ldexpl(fraction, s)));
-  if (sig == std::uint64_t{1} << s) {
-    sig >>= 1;
-    ++exponent;
-  }
-  const int exp = exponent - 1;
-  if (exp < -(1 << (Config::port_exp_bits - 1))) return {};
-  if (exp >= 1 << (Config::port_exp_bits - 1)) throw Rejected{"a product with k is too large for the port"};
-  return {value < 0, exp, static_cast<std::uint32_t>(sig)};
-}
-
 bool finite(const WindowVertex& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-struct Position {
-  std::int32_t x, y, w;
-  long double k;
-};
-
-Position snap_position(const WindowVertex& v, const Config& config) {
-  // Half a pixel first: pixel centres become integers. long double holds x − w/2 of two doubles to 2^-64 relative, far
-  // below the grid wherever the result is in the guard band.
-  const long double x = static_cast<long double>(v.x) - static_cast<long double>(v.w) / 2;
-  const long double y = static_cast<long double>(v.y) - static_cast<long double>(v.w) / 2;
-  const long double w = v.w;
-  const int lift = config.homogeneous_frac_bits;
-  if (w > 0) {
-    const long double limit = ldexpl(1.0L, config.pos_int() + config.subpixel_bits);
-    const long double gx = rintl(ldexpl(x / w, config.subpixel_bits));
-    const long double gy = rintl(ldexpl(y / w, config.subpixel_bits));
-    if (fabsl(gx) < limit && fabsl(gy) < limit)
-      return {static_cast<std::int32_t>(gx) * (1 << lift), static_cast<std::int32_t>(gy) * (1 << lift),
-              1 << config.frac(), 1 / w};
-  }
-  const long double extent =
-      fmaxl(fmaxl(ldexpl(fabsl(x), -config.pos_int()), ldexpl(fabsl(y), -config.pos_int())), fabsl(w));
-  if (extent == 0) throw Rejected{"(x, y, w) is (0, 0, 0) after the half-pixel shift, which is no point"};
-  const long double k = 1 / extent;
-  const auto grid = [&](long double value) {
-    return static_cast<std::int32_t>(rintl(ldexpl(value / extent, config.frac())));
-  };
-  return {grid(x), grid(y), grid(w), k};
-}
-
-SnappedVertex snap_or_reject(const WindowVertex& v, const double* attributes, int attribute_count, const Config& config,
-                             const DrawState& state) {
+void check_vertex(const WindowVertex& v) {
   if (!finite(v)) throw Rejected{"a coordinate is NaN or infinite"};
   if (v.x == 0 && v.y == 0 && v.w == 0) throw Rejected{"(x, y, w) is (0, 0, 0), which is no point"};
-  const double extent = std::fmax(std::fmax(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.w));
+  const double extent = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.w)});
   if (extent > largest_magnitude || std::fabs(v.z) > largest_magnitude)
     throw Rejected{"a coordinate is larger than 2^80"};
   if (extent < 1 / largest_magnitude) throw Rejected{"x, y and w are all smaller than 2^-80"};
+}
 
-  const Position p = snap_position(v, config);
-  SnappedVertex out;
-  out.x = p.x;
-  out.y = p.y;
-  out.w = p.w;
-  out.k = round_to_port(p.k, config);
-  out.z = round_to_port(p.k * static_cast<long double>(v.z), config);
-  const long double scale = state.perspective ? p.k : ldexpl(static_cast<long double>(p.w), -config.frac());
-  const double limit = std::ldexp(1.0, config.attribute_int_bits);
-  for (int j = 0; j < attribute_count; ++j) {
-    if (!std::isfinite(attributes[j])) throw Rejected{"attribute " + std::to_string(j) + " is NaN or infinite"};
-    if (std::fabs(attributes[j]) >= limit)
-      throw Rejected{"attribute " + std::to_string(j) + " = " + std::to_string(attributes[j]) +
-                     " does not fit attribute_int_bits = " + std::to_string(config.attribute_int_bits)};
-    out.attribute[static_cast<std::size_t>(j)] = round_to_port(scale * static_cast<long double>(attributes[j]), config);
+void check_attribute(double value, std::size_t slot, const Config& config) {
+  if (!std::isfinite(value)) throw Rejected{"attribute " + std::to_string(slot) + " is NaN or infinite"};
+  if (!(std::fabs(value) < std::ldexp(1.0, config.attribute_int_bits)))
+    throw Rejected{"attribute " + std::to_string(slot) + " = " + std::to_string(value) +
+                   " does not fit attribute_int_bits = " + std::to_string(config.attribute_int_bits)};
+}
+
+/// n/d to nearest, ties to even, S significant bits. Exponents below the port's range become zero.
+template <class Integer>
+PortNumber port_quotient(const Exact<Integer>& n, const Exact<Integer>& d, const Config& config) {
+  if (n.zero()) return {};
+  const int s = config.significand_bits;
+  const int bits = s + 1 - (n.top() - d.top());
+  Floor floor = quotient_floor(n, d, bits);  // S + 1 or S + 2 bits
+  const int extra = static_cast<int>(std::bit_width(floor.whole)) - s;
+  if (extra == 2) floor = {floor.whole >> 1, floor.rest || (floor.whole & 1) != 0};
+  auto sig = static_cast<std::uint64_t>(round_half_even(floor));
+  int exp = s - 1 + extra - bits;
+  if (sig >> s != 0) {
+    sig >>= 1;
+    ++exp;
   }
+  if (exp < -(1 << (Config::port_exp_bits - 1))) return {};
+  if (exp >= 1 << (Config::port_exp_bits - 1)) throw Rejected{"a product with k is too large for the port"};
+  return {n.neg != d.neg, exp, static_cast<std::uint32_t>(sig)};
+}
+
+template <class Integer>
+class VertexSnapper {
+ public:
+  using Number = Exact<Integer>;
+
+  VertexSnapper(const WindowVertex& v, const Config& config)
+      : config_(config), w_(exact<Integer>(v.w)), z_(exact<Integer>(v.z)) {
+    // Half a pixel first: pixel centres become integers.
+    const Number half = w_.scaled(-1), x = exact<Integer>(v.x) - half, y = exact<Integer>(v.y) - half;
+    if (v.w > 0 && snap_ordinary(x, y)) return;
+    snap_homogeneous(x, y);
+  }
+
+  const SnappedVertex& position() const { return out_; }
+
+  /// k·value, k as it is before rounding.
+  PortNumber times_k(const Number& value) const { return port_quotient(value, extent_, config_); }
+  /// (W/ONE)·value.
+  PortNumber times_w(const Number& value) const {
+    return port_quotient((value * out_.w).scaled(-config_.frac()), exact_integer<Integer>(1), config_);
+  }
+  /// z~ − base w~, base a depth code.
+  Number depth_above(std::uint32_t base) const {
+    return z_ - (w_ * std::int64_t{base}).scaled(-config_.depth_bits);
+  }
+  /// Window z of a vertex before the eye as a code, clamped to [0, 1]; ties to even.
+  std::uint32_t base_depth() const {
+    if (z_.neg || z_.zero()) return 0;
+    const std::uint32_t one = std::uint32_t{1} << config_.depth_bits;
+    if (z_.top() > w_.top() + 1) return one;
+    return static_cast<std::uint32_t>(
+        std::min<std::int64_t>(round_half_even(quotient_floor(z_, w_, config_.depth_bits + 1)), one));
+  }
+  /// The same, halves up, from -1 (below 0) to depth_above() (above 1).
+  std::int32_t corner_depth() const {
+    const std::int32_t above = config_.depth_above();
+    if (z_.zero()) return 0;
+    if (z_.top() > w_.top() + 1) return z_.neg ? -1 : above;
+    const Floor twice = quotient_floor(z_, w_, config_.depth_bits + 1);
+    const auto whole = static_cast<std::int64_t>(twice.whole >> 1), odd = static_cast<std::int64_t>(twice.whole & 1);
+    const std::int64_t code = z_.neg ? -(whole + (odd != 0 && twice.rest)) : whole + odd;
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(code, -1, above));
+  }
+
+ private:
+  bool snap_ordinary(const Number& x, const Number& y) {
+    const int bits = config_.subpixel_bits, limit_log2 = config_.pos_int() + bits;
+    const auto grid = [&](const Number& value) {
+      if (!value.zero() && value.top() - w_.top() + bits > limit_log2 + 1) return std::int64_t{1} << limit_log2;
+      const std::int64_t size = round_half_even(quotient_floor(value, w_, bits + 1));
+      return value.neg ? -size : size;
+    };
+    const std::int64_t gx = grid(x), gy = grid(y), limit = std::int64_t{1} << limit_log2;
+    if (std::max(std::abs(gx), std::abs(gy)) >= limit) return false;
+    out_.x = static_cast<std::int32_t>(gx * (1 << config_.homogeneous_frac_bits));
+    out_.y = static_cast<std::int32_t>(gy * (1 << config_.homogeneous_frac_bits));
+    out_.w = std::int32_t{1} << config_.frac();
+    extent_ = w_;
+    out_.k = times_k(exact_integer<Integer>(1));
+    return true;
+  }
+
+  void snap_homogeneous(const Number& x, const Number& y) {
+    extent_ = w_;
+    for (const Number& at : {x.scaled(-config_.pos_int()), y.scaled(-config_.pos_int())})
+      if (smaller(extent_, at)) extent_ = at;
+    extent_.neg = false;
+    if (extent_.zero()) throw Rejected{"(x, y, w) is (0, 0, 0) after the half-pixel shift, which is no point"};
+    const auto grid = [&](const Number& value) {
+      const std::int64_t size = round_half_even(quotient_floor(value, extent_, config_.frac() + 1));
+      return static_cast<std::int32_t>(value.neg ? -size : size);
+    };
+    out_.x = grid(x);
+    out_.y = grid(y);
+    out_.w = grid(w_);
+    out_.k = times_k(exact_integer<Integer>(1));
+  }
+
+  const Config& config_;
+  Number w_, z_, extent_;  ///< k = 1/extent
+  SnappedVertex out_;
+};
+
+/// The binary places of vertices and attributes lie so close together that 128 bits hold what is made of them.
+bool all_narrow(const WindowQuad& quad, const Config& config) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const WindowVertex& v = quad.vertex[i];
+    NumberSpan position, depth, values;
+    for (const double at : {v.x, v.y, v.w}) position.add(at, config.pos_int());
+    depth.add(v.z);
+    depth.add(v.w, config.depth_bits);
+    values.add(1.0, config.attribute_frac());
+    for (const double a : quad.attribute[i]) values.add(a);
+    if (!position.narrow() || !depth.narrow() || !values.narrow()) return false;
+  }
+  return true;
+}
+
+double attribute_of(const WindowQuad& quad, std::size_t vertex, std::size_t slot) {
+  return slot < quad.attribute[vertex].size() ? quad.attribute[vertex][slot] : 0.0;
+}
+
+/// Calls f and says of which vertex a rejection is.
+template <class F>
+void naming_vertex(const WindowQuad& quad, std::size_t vertex, F&& f) {
+  try {
+    f();
+  } catch (const Rejected& r) {
+    throw SnapError(quad.id, static_cast<int>(vertex), describe(quad.vertex[vertex]) + ": " + r.what);
+  }
+}
+
+template <class Integer>
+SnappedQuad snap_exactly(const WindowQuad& quad, std::size_t attributes, const Config& config, const DrawState& state) {
+  SnappedQuad out;
+  out.id = quad.id;
+  QuadBase& base = out.base;
+  for (std::size_t j = 0; j < attributes; ++j) {
+    const auto first = exact<Integer>(attribute_of(quad, 0, j));
+    const std::int64_t size = round_half_even(
+        quotient_floor(first, exact_integer<Integer>(1), config.attribute_frac() + 1));
+    base.attribute[j] = (first.neg ? -1 : 1) * std::min(size, config.attribute_limit());
+  }
+  // Depths of vertices behind the eye are on no side of a pixel's.
+  const auto in_front = [](const WindowVertex& v) { return v.w > 0; };
+  const bool bounded = std::ranges::all_of(quad.vertex, in_front);
+  base.depth_high = bounded ? -1 : config.depth_above();
+  base.depth_low = bounded ? config.depth_above() : -1;
+  const auto anchor = static_cast<std::size_t>(std::ranges::find_if(quad.vertex, in_front) - quad.vertex.begin());
+  if (anchor < 4)
+    naming_vertex(quad, anchor,
+                  [&] { base.depth = VertexSnapper<Integer>(quad.vertex[anchor], config).base_depth(); });
+
+  for (std::size_t i = 0; i < 4; ++i)
+    naming_vertex(quad, i, [&] {
+      const VertexSnapper<Integer> snapper(quad.vertex[i], config);
+      SnappedVertex& v = out.vertex[i];
+      v = snapper.position();
+      v.z = snapper.times_k(snapper.depth_above(base.depth));
+      if (bounded) {
+        const std::int32_t code = snapper.corner_depth();
+        base.depth_low = std::min(base.depth_low, code);
+        base.depth_high = std::max(base.depth_high, code);
+      }
+      if (i == 0) return;
+      for (std::size_t j = 0; j < attributes; ++j) {
+        const double value = attribute_of(quad, i, j);
+        if (value == attribute_of(quad, 0, j)) continue;  // a constant stays one, whatever its base was rounded to
+        const Exact<Integer> above =
+            exact<Integer>(value) - exact_integer<Integer>(base.attribute[j]).scaled(-config.attribute_frac());
+        v.attribute[j] = state.perspective ? snapper.times_k(above) : snapper.times_w(above);
+      }
+    });
   return out;
 }
 
@@ -107,31 +230,20 @@ SnapError::SnapError(std::uint32_t quad_id, int vertex_index, const std::string&
       quad(quad_id),
       vertex(vertex_index) {}
 
-SnappedVertex snap_vertex(const WindowVertex& v, const double* attributes, int attribute_count, const Config& config,
-                          const DrawState& state) {
-  try {
-    return snap_or_reject(v, attributes, attribute_count, config, state);
-  } catch (const Rejected& r) {
-    throw SnapError(0, 0, describe(v) + ": " + r.what);
-  }
-}
-
 SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawState& state) {
   if (config.quad_id_bits < 32 && quad.id >> config.quad_id_bits)
     throw SnapError(quad.id, 0, "the quad id does not fit quad_id_bits = " + std::to_string(config.quad_id_bits));
-  SnappedQuad out;
-  out.id = quad.id;
-  for (int i = 0; i < 4; ++i) {
-    const std::vector<double>& a = quad.attribute[static_cast<std::size_t>(i)];
-    const int count = std::min<int>(static_cast<int>(a.size()), config.attribute_slots);
-    try {
-      out.vertex[static_cast<std::size_t>(i)] =
-          snap_or_reject(quad.vertex[static_cast<std::size_t>(i)], a.data(), count, config, state);
-    } catch (const Rejected& r) {
-      throw SnapError(quad.id, i, describe(quad.vertex[static_cast<std::size_t>(i)]) + ": " + r.what);
-    }
+  std::size_t attributes = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t count = std::min(quad.attribute[i].size(), static_cast<std::size_t>(config.attribute_slots));
+    attributes = std::max(attributes, count);
+    naming_vertex(quad, i, [&] {
+      check_vertex(quad.vertex[i]);
+      for (std::size_t j = 0; j < count; ++j) check_attribute(quad.attribute[i][j], j, config);
+    });
   }
-  return out;
+  return all_narrow(quad, config) ? snap_exactly<NarrowInteger>(quad, attributes, config, state)
+                                  : snap_exactly<WideInteger>(quad, attributes, config, state);
 }
 
 bool is_ordinary(const SnappedQuad& quad, const Config& config) {

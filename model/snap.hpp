@@ -1,6 +1,6 @@
-// Snapping: floating-point vertices in, the integers of the machine's port out; the rule looks at one
-// vertex alone. It depends on nothing but the vertex and the draw's configuration, so two quads that share a vertex see
-// the same integers.
+// Snapping: floating-point vertices in, the integers of the machine's port out, exactly rounded. X, Y, W and k depend on
+// the vertex and the draw's configuration alone, so two quads that share a vertex see the same integers. Depth and
+// attributes are differences to a base of their quad.
 #pragma once
 
 #include "model/config.hpp"
@@ -19,10 +19,14 @@ struct SnapError : std::runtime_error {
 
 /// x, y, w in units of 2^-FRAC relative to pixel centres. Ordinary (w > 0 and inside the guard band after rounding):
 /// position to nearest on the 2^-subpixel_bits grid, W = 1, k = 1/w. Otherwise k > 0 such that max(|X|/2^pos_int,
-/// |Y|/2^pos_int, |W|) = 1, rounded to nearest on the 2^-FRAC grid. Throws SnapError for NaN, infinity, (0,0,0),
-/// magnitudes outside 2^±80 and attributes that do not fit attribute_int_bits.
-SnappedVertex snap_vertex(const WindowVertex& v, const double* attributes, int attribute_count, const Config& config,
-                          const DrawState& state);
+/// |Y|/2^pos_int, |W|) = 1, rounded to nearest on the 2^-FRAC grid.
+///
+/// Base of an attribute: vertex 0's, to nearest. Base of depth: z of the first vertex with w > 0, clamped to [0, 1], to
+/// nearest. Differences times k (before rounding) have S significant bits; an attribute equal to vertex 0's has 0. Ties
+/// go to even; corner depths round halves up, as znear and zfar do (rtl/README.md section 3).
+///
+/// Throws SnapError for NaN, infinity, (0,0,0), magnitudes outside 2^±80 and attributes that do not fit
+/// attribute_int_bits.
 SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawState& state);
 
 /// All four W are exactly 1: the machine's narrow case.

@@ -270,10 +270,7 @@ struct quadrille_clocked {
     inputs.vertex_valid = (given & QUADRILLE_VERTEX_VALID) != 0 && !queue.empty();
     inputs.fragment_ready = (given & QUADRILLE_FRAGMENT_READY) != 0;
     inputs.clear_hidden = (given & QUADRILLE_CLEAR_HIDDEN) != 0;
-    if (inputs.vertex_valid) {
-      inputs.vertex_id = queue.front().id;
-      inputs.vertex = queue.front().vertex[beat];
-    }
+    if (inputs.vertex_valid) inputs.vertex = quadrille::beat_of(queue.front(), beat);
     if (outputs.fragment_valid && inputs.fragment_ready && !inputs.reset)
       outputs.for_each_fragment([&](const quadrille::Fragment& f) { waiting.add(f); });
     const bool taken = inputs.vertex_valid && outputs.vertex_ready;
@@ -544,18 +541,26 @@ quadrille_status quadrille_clocked_counter(const quadrille_clocked* machine, con
 
 // ---- The clocked model, port by port ----
 
-quadrille_status quadrille_vertex_port(const quadrille_clocked* machine, uint32_t id, const double* position,
-                                       const double* attributes, uint32_t* vertex) {
+quadrille_status quadrille_quad_port(const quadrille_clocked* machine, uint32_t id, const double* positions,
+                                     const double* attributes, uint32_t* beats) {
   return api::guarded([&] {
-    api::require_pointers("machine, position, attributes, vertex", machine, position, attributes, vertex);
-    const quadrille::SnappedVertex v =
-        quadrille::snap_vertex({position[0], position[1], position[2], position[3]}, attributes,
-                               machine->state.attributes, machine->config, machine->state);
-    std::array<std::uint64_t, QUADRILLE_VERTEX_WORDS / 2> words{};
-    quadrille::BitPacker packer(words.data(), machine->vertex_bits);
-    quadrille::visit_vertex(id, v, machine->config, packer);
-    packer.finish();
-    api::write_words(words.data(), machine->vertex_bits, vertex, QUADRILLE_VERTEX_WORDS);
+    api::require_pointers("machine, positions, attributes, beats", machine, positions, attributes, beats);
+    quadrille::WindowQuad given;
+    given.id = id;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double *at = positions + 4 * i, *values = attributes + QUADRILLE_MAX_ATTRIBUTES * i;
+      given.vertex[i] = {at[0], at[1], at[2], at[3]};
+      given.attribute[i].assign(values, values + machine->state.attributes);
+    }
+    const quadrille::SnappedQuad quad = snap_quad(given, machine->config, machine->state);
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::array<std::uint64_t, QUADRILLE_VERTEX_WORDS / 2> words{};
+      quadrille::BitPacker packer(words.data(), machine->vertex_bits);
+      const quadrille::VertexBeat beat = quadrille::beat_of(quad, i);
+      quadrille::visit(beat, machine->config, packer);
+      packer.finish();
+      api::write_words(words.data(), machine->vertex_bits, beats + QUADRILLE_VERTEX_WORDS * i, QUADRILLE_VERTEX_WORDS);
+    }
   });
 }
 
@@ -603,8 +608,8 @@ quadrille_status quadrille_clocked_clock_ports(quadrille_clocked* machine, int32
     inputs.fragment_ready = fragment_ready != 0;
     if (inputs.vertex_valid) {
       const quadrille::Record record = quadrille::Record::from_words(vertex, machine->vertex_bits);
-      quadrille::visit_vertex(inputs.vertex_id, inputs.vertex, machine->config, quadrille::RecordUnpacker(record));
-      api::check_vertex(inputs.vertex, machine->config, machine->config.attribute_slots);
+      quadrille::visit(inputs.vertex, machine->config, quadrille::RecordUnpacker(record));
+      api::check_vertex(inputs.vertex.vertex, machine->config, machine->config.attribute_slots);
     }
     machine->model.clock(inputs);
   });

@@ -28,7 +28,7 @@
 extern "C" {
 #endif
 
-#define QUADRILLE_ABI 1 /* of this header; see quadrille_abi() */
+#define QUADRILLE_ABI 2 /* of this header; see quadrille_abi() */
 
 typedef int32_t quadrille_status;
 enum {
@@ -188,16 +188,15 @@ QUADRILLE_API quadrille_status quadrille_clocked_counter(const quadrille_clocked
  * fragments that wait have no part in it. */
 
 enum {
-  QUADRILLE_VERTEX_WORDS = 16,  /* vertex_i */
+  QUADRILLE_VERTEX_WORDS = 32,  /* vertex_i */
   QUADRILLE_STATE_WORDS = 8,    /* state_i */
   QUADRILLE_FRAGMENT_WORDS = 64 /* fragment_o, the lanes together */
 };
 
-/* The beat vertex_i of a vertex {x, y, z, w} with QUADRILLE_MAX_ATTRIBUTES attributes, snapped as the draw state says.
- */
-QUADRILLE_API quadrille_status quadrille_vertex_port(const quadrille_clocked* machine, uint32_t id,
-                                                     const double* position, const double* attributes,
-                                                     uint32_t* vertex);
+/* The four beats vertex_i of a quad, snapped as the draw state says. positions: x, y, z, w of each vertex; attributes:
+ * QUADRILLE_MAX_ATTRIBUTES of each; beats: QUADRILLE_VERTEX_WORDS of each. */
+QUADRILLE_API quadrille_status quadrille_quad_port(const quadrille_clocked* machine, uint32_t id,
+                                                   const double* positions, const double* attributes, uint32_t* beats);
 /* state_i. As set_state, but nothing happens when it is the one there is, so that it may be given in every clock. The
  * viewport is as large as the configuration's. */
 QUADRILLE_API quadrille_status quadrille_clocked_state_port(quadrille_clocked* machine, const uint32_t* state);
