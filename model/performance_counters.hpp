@@ -50,7 +50,6 @@ enum class PerformanceCounter : std::uint8_t {
   products_interpolate,
   products_reciprocal,
   products_fragment_output,
-  products_plane_tolerance,
   // Clocks by what bound them
   bound_pixels,
   bound_output,
@@ -68,7 +67,7 @@ struct CounterInfo {
   std::string_view meaning;  ///< what it counts
 };
 
-inline constexpr std::size_t counter_count = 42;
+inline constexpr std::size_t counter_count = 41;
 /// By index.
 extern const std::array<CounterInfo, counter_count> counter_info;
 
@@ -101,7 +100,6 @@ struct UnitProducts {
   int vertex_products, sqrt, mean_value_ratios;
   int weight_ratios, weight_factors;  ///< mean_value_weights: up to the ratios of roots, and the weights made of them
   int sum, reciprocal;
-  int value;  ///< of plane_tolerance: a value of a quad
 
   explicit UnitProducts(const Config& config);
 };

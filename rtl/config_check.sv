@@ -52,8 +52,7 @@ module config_check;
   `QUADRILLE_REQUIRE(quadrille_pkg::HIERARCHICAL_Z_BITS <= quadrille_pkg::DEPTH_BITS, hierarchical_z_bits_must_be_at_most_depth_bits)
   `QUADRILLE_REQUIRE(quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2 >= 6 && quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2 <= 16,
       hierarchical_z_tiles_log2_must_be_6_to_16)
-  `QUADRILLE_REQUIRE((quadrille_pkg::PLANE_TOLERANCE_BITS >= 0 && quadrille_pkg::PLANE_TOLERANCE_BITS <= 16) ||
-      quadrille_pkg::PLANE_TOLERANCE_BITS == 31, plane_tolerance_bits_must_be_0_to_16_or_31)
+  `QUADRILLE_REQUIRE(quadrille_pkg::PLANE_QUADS >= 0 && quadrille_pkg::PLANE_QUADS <= 1, plane_quads_must_be_0_or_1)
   `QUADRILLE_REQUIRE(quadrille_pkg::QUAD_ID_BITS >= 8 && quadrille_pkg::QUAD_ID_BITS <= 32, quad_id_bits_must_be_8_to_32)
   // with it a position fits a dot unit's operand: T_BITS <= 32
   `QUADRILLE_REQUIRE(quadrille_pkg::VAL_BITS <= 64, a_d_and_r2_must_fit_64_bits_fewer_viewport_guard_or_fraction_bits)

@@ -118,7 +118,7 @@ module pixel_lane #(
       .data_o({ratio_class, ratio_d_neg})
   );
 
-  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+  if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     delay_line #(.WIDTH(1), .DEPTH(RATIO - NORM)) u_behind_diagonal (
         .clk_i,
         .data_i(norm_behind_diagonal),

@@ -27,9 +27,6 @@ module quad_slots #(
     // Vertex bank, written at start
     input logic perspective_i,
     input logic plane_i,
-    // Of a quad in a slot, later: its weights are areas too
-    input logic nearly_plane_i,
-    input logic [SLOT-1:0] nearly_plane_slot_i,
     input logic [ID-1:0] id_i,
     input logic [3:0] w_neg_i,
     input logic [4*PE-1:0] w_exp_i,
@@ -181,18 +178,15 @@ module quad_slots #(
 
   assign output_id_o = id_q[output_slot_i];
 
-  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+  if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     logic [SLOTS-1:0] plane_q;
 
-    always_ff @(posedge clk_i) begin
-      if (start_i) plane_q[alloc_q] <= plane_i;
-      if (nearly_plane_i) plane_q[nearly_plane_slot_i] <= 1'b1;
-    end
+    always_ff @(posedge clk_i) if (start_i) plane_q[alloc_q] <= plane_i;
 
     assign norm_plane_o = plane_q[norm_slot_i];
   end else begin : gen_no_plane
     logic unused_plane;
-    assign unused_plane = ^{plane_i, nearly_plane_i, nearly_plane_slot_i, norm_slot_i};
+    assign unused_plane = ^{plane_i, norm_slot_i};
     assign norm_plane_o = 1'b0;
   end
 

@@ -285,8 +285,6 @@ module quadrille (
   logic [SLOT-1:0] length2_slot;
   logic [6*LENGTH2-1:0] length2;
   logic quad_plane, norm_plane;
-  logic nearly_plane, tolerance_ready, count_tolerance;
-  logic [SLOT-1:0] nearly_plane_slot;
   logic [SLOT-1:0] norm_slot;
   logic [3:0] product_k_neg;
   logic [4*PE-1:0] product_k_exp, override_k_exp;
@@ -298,7 +296,7 @@ module quadrille (
   logic [ID-1:0] output_id;
   logic output_hull, output_homogeneous;
 
-  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+  if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     plane_quad u_plane (
         .clk_i,
         .on_i(state.skip[5]),
@@ -322,58 +320,6 @@ module quadrille (
     assign quad_plane = 1'b0;
   end
 
-  if (quadrille_pkg::PLANE_TOLERANCE) begin : gen_tolerance
-    plane_tolerance u_tolerance (
-        .clk_i,
-        .rst_ni,
-        .on_i(state.skip[5]),
-        .perspective_i(state.perspective),
-        .depth_on_i(depth_on),
-        .attributes_i(state.attributes),
-        .start_i(start),
-        .start_slot_i(alloc_slot),
-        .plane_i(quad_plane),
-        .k_exp_i(quad_k_exp),
-        .k_sig_i(quad_k_sig),
-        .z_neg_i(quad_z_neg),
-        .z_exp_i(quad_z_exp),
-        .z_sig_i(quad_z_sig),
-        .attr_i(quad_attr),
-        .done_i(setup_done),
-        .take_i(take),
-        .slot_i(setup_slot),
-        .homogeneous_i(homogeneous),
-        .lin_value_i(setup_lin_value),
-        .ready_o(tolerance_ready),
-        .taken_o(nearly_plane),
-        .taken_slot_o(nearly_plane_slot),
-        .count_value_o(count_tolerance)
-    );
-
-`ifndef SYNTHESIS
-    // It is said of a slot before the first of its pixels asks.
-    logic [(1<<SLOT)-1:0] asked_q, asks;
-
-    always_comb begin
-      asks = '0;
-      for (int g = 0; g < quadrille_pkg::PIXELS_PER_CLOCK; g++) begin
-        if (lane_valid[g*quadrille_pkg::LATENCY+quadrille_pkg::DIFF_STAGE]) asks[norm_slot] = 1'b1;
-      end
-    end
-
-    always_ff @(posedge clk_i) begin
-      asked_q <= asked_q | asks;
-      if (start) asked_q[alloc_slot] <= 1'b0;
-      if (rst_ni) assert (!nearly_plane || !(asked_q[nearly_plane_slot] || asks[nearly_plane_slot]));
-    end
-`endif
-  end else begin : gen_no_tolerance
-    assign tolerance_ready = 1'b1;
-    assign nearly_plane = 1'b0;
-    assign nearly_plane_slot = '0;
-    assign count_tolerance = 1'b0;
-  end
-
   quad_slots u_slots (
       .clk_i,
       .rst_ni,
@@ -386,8 +332,6 @@ module quadrille (
       .busy_o(slots_busy),
       .perspective_i(state.perspective),
       .plane_i(quad_plane),
-      .nearly_plane_i(nearly_plane),
-      .nearly_plane_slot_i(nearly_plane_slot),
       .id_i(quad_id),
       .w_neg_i(quad_w_neg),
       .w_exp_i(quad_w_exp),
@@ -458,7 +402,7 @@ module quadrille (
       .bound_i(state.skip[3]),
       .scissor_x0_i(state.scissor_x0),
       .scissor_y0_i(state.scissor_y0),
-      .setup_done_i(setup_done && tolerance_ready),
+      .setup_done_i(setup_done),
       .take_o(take),
       .slot_i(setup_slot),
       .tile_x0_i(tile_x0),
@@ -942,7 +886,6 @@ module quadrille (
         .value_o(counter_o),
         .start_i(start),
         .plane_i(quad_plane),
-        .nearly_plane_i(nearly_plane),
         .drop_vertices_i(drop_vertices),
         .empty_i(empty),
         .behind_i(behind),
@@ -967,7 +910,6 @@ module quadrille (
         .sum_active_i(count_sum),
         .context_job_i(context_job),
         .setup_job_i(count_setup_job),
-        .tolerance_i(count_tolerance),
         .head_i(head_valid),
         .head_waits_i(count_head_waits),
         .rows_i(count_rows),
@@ -988,7 +930,6 @@ module quadrille (
       count_line,
       count_setup_job,
       count_setup,
-      count_tolerance,
       count_block,
       count_enter,
       count_block_hidden,

@@ -84,8 +84,8 @@
 `ifndef QUADRILLE_HIERARCHICAL_Z_TILES_LOG2
 `define QUADRILLE_HIERARCHICAL_Z_TILES_LOG2 12
 `endif
-`ifndef QUADRILLE_PLANE_TOLERANCE_BITS
-`define QUADRILLE_PLANE_TOLERANCE_BITS 0
+`ifndef QUADRILLE_PLANE_QUADS
+`define QUADRILLE_PLANE_QUADS 0
 `endif
 `ifndef QUADRILLE_QUAD_ID_BITS
 `define QUADRILLE_QUAD_ID_BITS 24
@@ -114,7 +114,7 @@ package quadrille_pkg;
   localparam int STAMP_FIFO_LOG2 /*verilator public*/ = `QUADRILLE_STAMP_FIFO_LOG2;
   localparam int HIERARCHICAL_Z_BITS /*verilator public*/ = `QUADRILLE_HIERARCHICAL_Z_BITS;
   localparam int HIERARCHICAL_Z_TILES_LOG2 /*verilator public*/ = `QUADRILLE_HIERARCHICAL_Z_TILES_LOG2;
-  localparam int PLANE_TOLERANCE_BITS /*verilator public*/ = `QUADRILLE_PLANE_TOLERANCE_BITS;
+  localparam int PLANE_QUADS /*verilator public*/ = `QUADRILLE_PLANE_QUADS;
   localparam int QUAD_ID_BITS /*verilator public*/ = `QUADRILLE_QUAD_ID_BITS;
 
   localparam int PERFORMANCE_COUNTERS /*verilator public*/ = `QUADRILLE_PERFORMANCE_COUNTERS;
@@ -204,11 +204,6 @@ package quadrille_pkg;
   // A clear wipes the places of their epoch, 2^HIDDEN_SECTION_LOG2
   localparam int HIDDEN_SECTION_LOG2 = 4;
   localparam int HIDDEN_EPOCH_BITS = HIERARCHICAL_Z_TILES_LOG2 - HIDDEN_SECTION_LOG2;
-
-  // With a tolerance (1 to 16 bits; 31 is none): bits of the significands that plane_tolerance multiplies. Six more than the tolerance has,
-  // so that the limit of a parallelogram is twice what truncation may have taken; never fewer than the port's.
-  localparam bit PLANE_TOLERANCE = PLANE_TOLERANCE_BITS >= 1 && PLANE_TOLERANCE_BITS <= 16;
-  localparam int PLANE_SIG_BITS = (PLANE_TOLERANCE_BITS <= 16 && PLANE_TOLERANCE_BITS + 6 > SIGNIFICAND_BITS) ? PLANE_TOLERANCE_BITS + 6 : SIGNIFICAND_BITS;
 
   // ---- Depths beside the corners' ------------------------------------------------------------------------------------------
   // What a depth code can be beside the corners' Z / W, in ranks (model/depth_rank.hpp derives it): in units of 2^-(S-1)
