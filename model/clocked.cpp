@@ -566,7 +566,7 @@ struct ClockedModel::Impl {
         to[products_mean_value_weights] += off_corners() * product(products.weight_ratios) +
                                            total([](std::size_t kind) { return (kind & pixel_areas) == 0 ? 1 : 0; }) *
                                                product(products.weight_factors);
-      if (n == latency::weight_stage) to[products_interpolate] += sums(&WantedSums::sums) * product(products.sum);
+      if (n == latency::weight_stage) to[products_interpolate] += sums(&WantedSums::terms);
       if (n == latency::sum_stage)
         to[products_reciprocal] += sums(&WantedSums::denominators) * product(products.reciprocal);
       if (n == latency::fragment_stage - latency::fragment_output_stages)

@@ -74,14 +74,13 @@ UnitProducts::UnitProducts(const Config& c)
       mean_value_ratios(6),                        // r·r' of the pairs
       weight_ratios(3 * (2 + c.sqrt_degree + 1)),  // z, w', root and v·s of three ratios
       weight_factors(4 * 2),                       // x·y·z of four weights
-      sum(4),                                      // M·c of four vertices
       reciprocal(c.recip_degree) {}
 
 WantedSums::WantedSums(const Config& c, const DrawState& state, bool hull) {
   const bool held = (state.skip & skip_operands) != 0;
   const int attributes = held ? state.attributes : c.attribute_slots;
   const int k = !held || attributes > 0, w = !held || state.depth || hull, z = !held || state.depth;
-  sums = k + w + z + attributes;
+  terms = 4 * (k + w + z) + 3 * attributes;
   denominators = k + w;
   quotients = attributes + z;
 }

@@ -95,11 +95,11 @@ struct PerformanceCounters {
 };
 
 /// Products of the units: of vertex_products in one step of setup or tile context, all pairs of dot units together; of
-/// the others of one pixel, those of interpolate of one sum, of reciprocal of one denominator.
+/// the others of one pixel, those of reciprocal of one denominator.
 struct UnitProducts {
   int vertex_products, sqrt, mean_value_ratios;
   int weight_ratios, weight_factors;  ///< mean_value_weights: up to the ratios of roots, and the weights made of them
-  int sum, reciprocal;
+  int reciprocal;
 
   explicit UnitProducts(const Config& config);
 };
@@ -107,7 +107,7 @@ struct UnitProducts {
 /// Sums and quotients of a pixel whose operands switch: all that the machine has, or with skip_operands those that a
 /// fragment depends on.
 struct WantedSums {
-  int sums;          ///< k, W, Z and the attributes
+  int terms;         ///< of the sums: k, W and Z of four corners, attributes of three
   int denominators;  ///< k and W
   int quotients;     ///< attributes and z
 

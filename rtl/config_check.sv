@@ -33,8 +33,8 @@ module config_check;
   `QUADRILLE_REQUIRE(quadrille_pkg::RECIP_DEGREE >= 1 && quadrille_pkg::RECIP_DEGREE <= 2, recip_degree_must_be_1_or_2)
   `QUADRILLE_REQUIRE(quadrille_pkg::ALIGN_GUARD_BITS >= 0 && quadrille_pkg::ALIGN_GUARD_BITS <= 6, align_guard_bits_must_be_0_to_6)
   `QUADRILLE_REQUIRE(quadrille_pkg::ATTRIBUTE_SLOTS >= 1 && quadrille_pkg::ATTRIBUTE_SLOTS <= 8, attribute_slots_must_be_1_to_8)
-  `QUADRILLE_REQUIRE(quadrille_pkg::ATTRIBUTE_INT_BITS >= 1 && quadrille_pkg::ATTRIBUTE_INT_BITS <= 8,
-      attribute_int_bits_must_be_1_to_8)
+  `QUADRILLE_REQUIRE(quadrille_pkg::ATTRIBUTE_INT_BITS >= 1 && quadrille_pkg::ATTRIBUTE_INT_BITS <= 15,
+      attribute_int_bits_must_be_1_to_15)
   `QUADRILLE_REQUIRE(quadrille_pkg::ATTRIBUTE_FRAC_BITS >= S && quadrille_pkg::ATTRIBUTE_FRAC_BITS <= 30,
       attribute_frac_bits_must_be_significand_bits_to_30)
   `QUADRILLE_REQUIRE(quadrille_pkg::DEPTH_BITS >= 8 && quadrille_pkg::DEPTH_BITS <= 30, depth_bits_must_be_8_to_30)

@@ -27,6 +27,10 @@ module quadrille (
   localparam int PE = quadrille_pkg::PORT_EXP_BITS;
   localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS;
   localparam int AP = quadrille_pkg::ATTR_PORT_BITS;
+  localparam int AO = quadrille_pkg::ATTR_OUT_BITS;
+  localparam int DB = quadrille_pkg::DEPTH_BITS;
+  localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS;
+  localparam int TERMS = quadrille_pkg::BLEND_TERMS;
   localparam int ID = quadrille_pkg::QUAD_ID_BITS;
   localparam int V = quadrille_pkg::VIEWPORT_BITS;
   localparam int T = quadrille_pkg::T_BITS;
@@ -59,8 +63,8 @@ module quadrille (
     logic [1:0] cull;
     logic perspective;
     logic depth;
-    logic [quadrille_pkg::DEPTH_BITS:0] znear;
-    logic [quadrille_pkg::DEPTH_BITS:0] zfar;
+    logic [DB:0] znear;
+    logic [DB:0] zfar;
     logic [3:0] attributes;
     logic [7:0] skip;
   } state_t;
@@ -93,7 +97,10 @@ module quadrille (
   logic [4*PE-1:0] quad_k_exp, quad_z_exp;
   logic [4*S-1:0] quad_k_sig, quad_z_sig;
   logic [3:0] quad_z_neg;
-  logic [4*N*AP-1:0] quad_attr;
+  logic [3*N*AP-1:0] quad_attr;
+  logic [N*AO-1:0] quad_base_attr;
+  logic [DB:0] quad_base_depth;
+  logic [LIMITS-1:0] quad_depth_limits;
 
   logic assembly_ready, depths_ready;  // hierarchical_z is not wiping
   logic [H-1:0] quad_near, quad_far;
@@ -141,7 +148,10 @@ module quadrille (
       .z_neg_o(quad_z_neg),
       .z_exp_o(quad_z_exp),
       .z_sig_o(quad_z_sig),
-      .attr_o(quad_attr)
+      .attr_o(quad_attr),
+      .base_attr_o(quad_base_attr),
+      .base_depth_o(quad_base_depth),
+      .depth_limits_o(quad_depth_limits)
   );
 
   // ---- Setup, and the multipliers that it shares with the tiles -----------------------------------------------------------
@@ -277,7 +287,7 @@ module quadrille (
   );
 
   // ---- Quad slots ---------------------------------------------------------------------------------------------------------
-  logic [SLOT-1:0] stamp_slot, tag_slot, emit_slot, product_slot, override_slot, blend_slot, output_slot;
+  logic [SLOT-1:0] stamp_slot, tag_slot, emit_slot, product_slot, override_slot, blend_slot, base_slot, output_slot;
   logic [5*GRAD-1:0] stamp_gx, stamp_gy;
   logic [4:0] stamp_tie_pos, stamp_tie_neg;
   logic [3:0] stamp_visible;
@@ -289,10 +299,13 @@ module quadrille (
   logic [3:0] product_k_neg;
   logic [4*PE-1:0] product_k_exp, override_k_exp;
   logic [4*S-1:0] product_k_sig, override_k_sig;
-  logic [SETS*4-1:0] blend_neg;
-  logic [SETS*4*PE-1:0] blend_exp;
-  logic [SETS*4*S-1:0] blend_sig;
+  logic [TERMS-1:0] blend_neg;
+  logic [TERMS*PE-1:0] blend_exp;
+  logic [TERMS*S-1:0] blend_sig;
   logic blend_hull;
+  logic [N*AO-1:0] base_attr;
+  logic [DB:0] base_depth;
+  logic [LIMITS-1:0] base_limits;
   logic [ID-1:0] output_id;
   logic output_hull, output_homogeneous;
 
@@ -342,6 +355,9 @@ module quadrille (
       .z_exp_i(quad_z_exp),
       .z_sig_i(quad_z_sig),
       .attr_i(quad_attr),
+      .base_attr_i(quad_base_attr),
+      .base_depth_i(quad_base_depth),
+      .depth_limits_i(quad_depth_limits),
       .take_i(take),
       .take_slot_i(setup_slot),
       .lin_gx_i(setup_lin_gx),
@@ -378,6 +394,10 @@ module quadrille (
       .blend_exp_o(blend_exp),
       .blend_sig_o(blend_sig),
       .blend_hull_o(blend_hull),
+      .base_slot_i(base_slot),
+      .base_attr_o(base_attr),
+      .base_depth_o(base_depth),
+      .base_limits_o(base_limits),
       .output_slot_i(output_slot),
       .output_id_o(output_id),
       .output_hull_o(output_hull),
@@ -813,8 +833,6 @@ module quadrille (
       .rst_ni,
       .hold_i(state.skip[4]),
       .depth_on_i(depth_on),
-      .znear_i(state.znear),
-      .zfar_i(state.zfar),
       .attributes_i(state.attributes),
       .end_i(pixel_end),
       .part_i(pixel_part),
@@ -849,6 +867,10 @@ module quadrille (
       .blend_exp_i(blend_exp),
       .blend_sig_i(blend_sig),
       .blend_hull_i(blend_hull),
+      .base_slot_o(base_slot),
+      .base_attr_i(base_attr),
+      .base_depth_i(base_depth),
+      .base_limits_i(base_limits),
       .output_slot_o(output_slot),
       .output_id_i(output_id),
       .output_hull_i(output_hull),
