@@ -450,6 +450,12 @@ TEST(FloatLanes, TakeWhatFits) {
   EXPECT_TRUE(taken(bad, c, s)) << "differences may be as small as they like";
   bad.vertex[0].attribute[0] = {false, 31, 1u << (c.significand_bits - 1)};
   EXPECT_TRUE(taken(bad, c, s)) << "of vertex 0 there is none";
+  {
+    const PipelineContext context(c, s);
+    FloatQuad out;
+    SmallQuad small;
+    EXPECT_EQ(FloatLanes(context).take_small(bad, out, small), QuadReject::none) << "nor in what small quads read";
+  }
   for (const std::int64_t beyond : {0, 1}) {  // a code that no attribute has
     bad = good;
     bad.base.attribute[0] = -c.attribute_limit() - beyond;
