@@ -10,83 +10,160 @@
 namespace quadrille::vectors::floating {
 namespace {
 
-/// An ordinary vertex is its window position on the subpixel grid, to nearest: half a step. Others are scaled by k =
-/// 1/max(|x|/2^pos_int, |y|/2^pos_int, |w|) and rounded on the 2^-frac grid. Real's x - w/2 is off by 2^-64 of its
-/// terms. k, Z, b are rounded to nearest: half of u.
+/// A vertex of the suite `snapping` in Real. An ordinary one is its window position on the subpixel grid, to nearest:
+/// half a step. Others are scaled by k = 1/max(|x|/2^pos_int, |y|/2^pos_int, |w|) and rounded on the 2^-frac grid.
+/// Real's x - w/2 is off by 2^-64 of its terms.
+struct RealVertex {
+  Real x, y, w, error, k = 0;
+  bool ordinary = false, decided = true, point = true;
+
+  RealVertex(const WindowVertex& v, const Config& c)
+      : x(static_cast<Real>(v.x) - static_cast<Real>(v.w) / 2),
+        y(static_cast<Real>(v.y) - static_cast<Real>(v.w) / 2),
+        w(v.w),
+        error(rounding * (std::max(fabsl(v.x), fabsl(v.y)) + fabsl(w))) {
+    const Real extent = std::max({ldexpl(fabsl(x), -c.pos_int()), ldexpl(fabsl(y), -c.pos_int()), fabsl(w)});
+    point = extent != 0;
+    if (w > 0) {
+      // Rounding decides on which side of the guard band a position in its last half step is.
+      const Real reach = std::max(fabsl(x), fabsl(y)) / w, edge = ldexpl(1, c.pos_int());
+      const Real last = edge - ldexpl(1, -c.subpixel_bits - 1);
+      decided = fabsl(reach - last) > error / w;
+      ordinary = reach < last;
+    }
+    k = ordinary ? 1 / w : 1 / extent;
+  }
+};
+
+/// Numbers of the port are rounded to nearest: half of u. Differences to a base lose 2^-64 of what they are taken of.
 void snapping(Judge& judge, const Vector& t) {
   const Config& c = t.config;
-  const WindowVertex& v = t.in.vertex;
   const auto slots = static_cast<std::size_t>(c.attribute_slots);
-  const double extent_given = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.w)});
-  bool refused = !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w) ||
-                 !(extent_given <= 0x1p80) || !(extent_given >= 0x1p-80) || !(std::fabs(v.z) <= 0x1p80);
-  for (std::size_t j = 0; j < slots; ++j)
-    refused = refused || !(std::fabs(t.in.attribute[j]) < std::ldexp(1.0, c.attribute_int_bits));
-  const SnappedVertex& p = t.out.snapped;
+  bool refused = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const WindowVertex& v = t.in.vertex[i];
+    const double extent = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.w)});
+    refused = refused || !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w) ||
+              !(extent <= 0x1p80) || !(extent >= 0x1p-80) || !(std::fabs(v.z) <= 0x1p80) || !RealVertex(v, c).point;
+    for (std::size_t j = 0; j < slots; ++j)
+      refused = refused || !(std::fabs(t.in.attribute[i][j]) < std::ldexp(1.0, c.attribute_int_bits));
+  }
   const auto check_refused = [&] {
     judge.same("refused", -1, t.out.refused, 1);
     judge.undecided();
   };
   if (refused) return check_refused();
+  std::array<RealVertex, 4> vertices{RealVertex(t.in.vertex[0], c), RealVertex(t.in.vertex[1], c),
+                                     RealVertex(t.in.vertex[2], c), RealVertex(t.in.vertex[3], c)};
+  for (const RealVertex& v : vertices)
+    if (!v.decided) return judge.undecided();
 
-  const Real w = v.w, x = static_cast<Real>(v.x) - w / 2, y = static_cast<Real>(v.y) - w / 2;
-  const Real error = rounding * (std::max(fabsl(v.x), fabsl(v.y)) + fabsl(w));  // of x and y, generously
-  const Real extent = std::max({ldexpl(fabsl(x), -c.pos_int()), ldexpl(fabsl(y), -c.pos_int()), fabsl(w)});
-  if (extent == 0) return check_refused();
-  bool ordinary = false;
-  if (w > 0) {
-    // Rounding decides on which side of the guard band a position in its last half step is.
-    const Real reach = std::max(fabsl(x), fabsl(y)) / w, edge = ldexpl(1, c.pos_int());
-    const Real last = edge - ldexpl(1, -c.subpixel_bits - 1), doubt = error / w;
-    if (fabsl(reach - last) <= doubt) return judge.undecided();
-    ordinary = reach < last;
-  }
-  const Real k = ordinary ? 1 / w : 1 / extent;
-  const int fraction = ordinary ? c.subpixel_bits : c.frac();
-
-  // Products with k that the port cannot hold are refused, those below its exponents are zero.
+  const SnappedQuad& q = t.out.snapped;
   const Real half = ldexpl(1, -c.significand_bits) * (1 + rounding) + rounding;
   const auto too_large = ldexpl(1, 1 << (Config::port_exp_bits - 1)), too_small = 1 / too_large;
-  const Real scale = t.in.state.perspective ? k : ldexpl(static_cast<Real>(p.w), -c.frac());
-  std::array<Real, max_attribute_slots> b{};
-  Real largest = std::max(k, fabsl(k * static_cast<Real>(v.z)));
-  for (std::size_t j = 0; j < slots; ++j) {
-    b[j] = scale * static_cast<Real>(t.in.attribute[j]);
-    largest = std::max(largest, fabsl(b[j]));
-  }
-  if (largest * (1 + 2 * half) >= too_large) {
-    if (largest >= too_large) return check_refused();
-    return judge.undecided();
+  // A number of the port: its value, and how far Real may be off.
+  struct Number {
+    Real value, doubt;
+  };
+  const auto k_of = [&](std::size_t i) {
+    return Number{vertices[i].k, vertices[i].ordinary ? 0 : vertices[i].k * vertices[i].k * vertices[i].error};
+  };
+  const auto depth_of = [&](std::size_t i, Real base) {
+    const RealVertex& v = vertices[i];
+    const Real z = t.in.vertex[i].z, from = base * v.w, relative = v.ordinary ? 0 : v.k * v.error;
+    return Number{v.k * (z - from), v.k * (fabsl(z) + fabsl(from)) * (rounding + relative)};
+  };
+  const auto attribute_of = [&](std::size_t i, std::size_t j, Real base) {
+    const RealVertex& v = vertices[i];
+    const Real a = t.in.attribute[i][j], relative = v.ordinary ? 0 : v.k * v.error;
+    if (t.in.attribute[i][j] == t.in.attribute[0][j]) return Number{0, 0};
+    if (!t.in.state.perspective) {
+      const Real w = ldexpl(static_cast<Real>(q.vertex[i].w), -c.frac());
+      return Number{w * (a - base), fabsl(w) * (fabsl(a) + fabsl(base)) * rounding};
+    }
+    return Number{v.k * (a - base), v.k * (fabsl(a) + fabsl(base)) * (rounding + relative)};
+  };
+
+  // Products with k that the port cannot hold are refused, those below its exponents are zero.
+  for (std::size_t i = 0; i < 4; ++i) {
+    // Bases lie in [0, 1] and within the attribute's format: of no weight beside numbers of this size.
+    const Real largest = std::max(k_of(i).value, vertices[i].k * ldexpl(1, c.attribute_int_bits + 1));
+    const Real z = fabsl(depth_of(i, 0).value) + vertices[i].k * fabsl(vertices[i].w);
+    if (std::max(largest, z) * (1 + 2 * half) >= too_large) {
+      if (k_of(i).value >= too_large) return check_refused();
+      return judge.undecided();
+    }
   }
   judge.same("refused", -1, t.out.refused, 0);
   if (t.out.refused) return;
 
-  const auto position = [&](const char* name, std::int32_t actual, Real exact, Real doubt) {
-    const Real step = ldexpl(1, -fraction), value = ldexpl(static_cast<Real>(actual), -c.frac());
-    const Real tolerance = step / 2 + doubt + rounding * fabsl(exact);
-    judge.within(name, -1, value, exact - tolerance, exact + tolerance);
-    if (ordinary && actual % (1 << c.homogeneous_frac_bits) != 0)
-      judge.differs(std::string(name) + ": not on the grid of an ordinary vertex");
-  };
-  position("x", p.x, k * x, k * error);
-  position("y", p.y, k * y, k * error);
-  if (ordinary)
-    judge.same("w", -1, p.w, ldexpl(1, c.frac()));
-  else
-    position("w", p.w, k * w, k * error);
-  const auto number = [&](const char* name, int index, const PortNumber& actual, Real exact) {
-    const Real tolerance = (half + k * error * (ordinary ? 0 : 1)) * fabsl(exact);
-    Span span{exact - tolerance, exact + tolerance};
-    if (fabsl(exact) * (1 - half) < too_small) {
+  const auto number = [&](const char* name, int index, const PortNumber& actual, const Number& exact) {
+    const Real tolerance = half * fabsl(exact.value) + 2 * exact.doubt;
+    Span span{exact.value - tolerance, exact.value + tolerance};
+    if (fabsl(exact.value) - tolerance < too_small) {
       // Zero, or what rounds up to the smallest exponent.
-      if (fabsl(exact) * (1 + half) < too_small) span = {};
+      if (fabsl(exact.value) + tolerance < too_small) span = {};
       span = {std::min(span.lo, 0.0L), std::max(span.hi, 0.0L)};
     }
     check_number(judge, name, index, actual, span, t.losses);
   };
-  number("k_sig", -1, p.k, k);
-  number("z_sig", -1, p.z, k * static_cast<Real>(v.z));
-  for (std::size_t j = 0; j < slots; ++j) number("attr_sig", static_cast<int>(j), p.attribute[j], b[j]);
+  const auto within = [&](const char* name, int index, std::int64_t actual, Real exact, Real tolerance) {
+    judge.within(name, index, static_cast<Real>(actual), exact - tolerance, exact + tolerance);
+  };
+
+  // Bases, half a code from what they are of.
+  const Real top = ldexpl(1, c.attribute_int_bits + c.attribute_frac()) - 1;
+  for (std::size_t j = 0; j < slots; ++j)
+    within("base_attr", static_cast<int>(j), q.base.attribute[j],
+           std::clamp(ldexpl(t.in.attribute[0][j], c.attribute_frac()), -top, top), 0.5L);
+  const Real depth_one = ldexpl(1, c.depth_bits);
+  const auto first = std::ranges::find_if(vertices, [](const RealVertex& v) { return v.w > 0; });
+  const auto window_z = [&](std::size_t i) {
+    const Real z = static_cast<Real>(t.in.vertex[i].z) / vertices[i].w;
+    return z < -1 ? -1.0L : z > 2 ? 2.0L : z;
+  };
+  if (first == vertices.end())
+    judge.same("base_depth", -1, q.base.depth, 0);
+  else
+    within("base_depth", -1, q.base.depth,
+           depth_one * std::clamp(window_z(static_cast<std::size_t>(first - vertices.begin())), 0.0L, 1.0L),
+           0.5L + depth_one * rounding);
+  if (std::ranges::all_of(vertices, [](const RealVertex& v) { return v.w > 0; })) {
+    Real low = HUGE_VALL, high = -HUGE_VALL;
+    for (std::size_t i = 0; i < 4; ++i) low = std::min(low, window_z(i)), high = std::max(high, window_z(i));
+    const auto code = [&](Real z, Real doubt) {
+      return std::clamp(floorl(depth_one * (z + doubt) + 0.5L), -1.0L, depth_one + 1);
+    };
+    judge.within("depth_low", -1, q.base.depth_low, code(low, -rounding), code(low, rounding));
+    judge.within("depth_high", -1, q.base.depth_high, code(high, -rounding), code(high, rounding));
+  } else {
+    judge.same("depth_low", -1, q.base.depth_low, -1);
+    judge.same("depth_high", -1, q.base.depth_high, depth_one + 1);
+  }
+
+  for (std::size_t i = 0; i < 4; ++i) {
+    const RealVertex& v = vertices[i];
+    const SnappedVertex& p = q.vertex[i];
+    const int index = static_cast<int>(i), fraction = v.ordinary ? c.subpixel_bits : c.frac();
+    const auto position = [&](const char* name, std::int32_t actual, Real exact) {
+      const Real step = ldexpl(1, -fraction), value = ldexpl(static_cast<Real>(actual), -c.frac());
+      const Real tolerance = step / 2 + v.k * v.error + rounding * fabsl(exact);
+      judge.within(name, index, value, exact - tolerance, exact + tolerance);
+      if (v.ordinary && actual % (1 << c.homogeneous_frac_bits) != 0)
+        judge.differs(std::string(name) + ": not on the grid of an ordinary vertex");
+    };
+    position("x", p.x, v.k * v.x);
+    position("y", p.y, v.k * v.y);
+    if (v.ordinary)
+      judge.same("w", index, p.w, ldexpl(1, c.frac()));
+    else
+      position("w", p.w, v.k * v.w);
+    number("k_sig", index, p.k, k_of(i));
+    number("z_sig", index, p.z, depth_of(i, ldexpl(static_cast<Real>(q.base.depth), -c.depth_bits)));
+    for (std::size_t j = 0; i > 0 && j < slots; ++j)
+      number("attr_sig", static_cast<int>((i - 1) * slots + j), p.attribute[j],
+             attribute_of(i, j, ldexpl(static_cast<Real>(q.base.attribute[j]), -c.attribute_frac())));
+  }
 }
 
 /// Exact integers; visibility by the signs of determinants.
@@ -380,46 +457,49 @@ void weights(Judge& judge, const Vector& t) {
   for (std::size_t i = 0; i < 4; ++i) check_number(judge, "sig", static_cast<int>(i), t.out.pixel.m[i], m[i], l);
 }
 
-/// Four exact products: at most four grains of the largest and one truncation, 5u with no guard bits.
+/// Exact products, of attributes three: at most four grains of the largest and one truncation, 5u with no guard bits.
 void interpolation(Judge& judge, const Vector& t) {
   const Losses& l = t.losses;
   const PixelTrace& out = t.out.pixel;
   const QuadData& q = t.in.data;
-  const auto check = [&](const char* name, int index, const PipelineFloat& actual, auto&& factor) {
+  const auto check = [&](const char* name, int index, const PipelineFloat& actual, std::size_t first, auto&& factor) {
     std::array<Real, 4> terms{};
-    for (std::size_t i = 0; i < 4; ++i) terms[i] = value_of(t.in.pixel.m[i], l.s) * value_of(factor(i), l.s);
+    for (std::size_t i = first; i < 4; ++i) terms[i] = value_of(t.in.pixel.m[i], l.s) * value_of(factor(i), l.s);
     check_number(judge, name, index, actual, l.sum(terms), l);
   };
   for (std::size_t j = 0; j < static_cast<std::size_t>(t.config.attribute_slots); ++j)
-    check("attr_sig", static_cast<int>(j), out.num_a[j], [&](std::size_t i) { return q.b[i][j]; });
-  check("z_sig", -1, out.num_z, [&](std::size_t i) { return q.z[i]; });
-  check("den_k_sig", -1, out.den_k, [&](std::size_t i) { return q.k[i]; });
-  check("den_w_sig", -1, out.den_w, [&](std::size_t i) { return q.w[i]; });
+    check("attr_sig", static_cast<int>(j), out.num_a[j], 1, [&](std::size_t i) { return q.b[i][j]; });
+  check("z_sig", -1, out.num_z, 0, [&](std::size_t i) { return q.z[i]; });
+  check("den_k_sig", -1, out.den_k, 0, [&](std::size_t i) { return q.k[i]; });
+  check("den_w_sig", -1, out.den_w, 0, [&](std::size_t i) { return q.w[i]; });
 }
 
-/// Codes that |num/den| may have with `fraction` fraction bits below 2^integer, den != 0: the reciprocal's relative
-/// error, then truncation.
-Span quotient_codes(Real num, Real den, int integer, int fraction, const Losses& l) {
-  const Real q = fabsl(num / den), top = ldexpl(1, integer + fraction) - 1;
-  const auto code = [&](Real v) { return std::min(top, floorl(ldexpl(v, fraction))); };
-  return {code(q * (1 - l.reciprocal - rounding)), code(q * (1 + l.reciprocal + rounding))};
+/// What a base and num/den in codes may add up to, den != 0: the reciprocal's relative error, then rounding to nearest.
+/// From 2^integer on the quotient stands for one without end.
+Span sum_codes(Real base, Real num, Real den, int integer, int fraction, const Losses& l) {
+  const Real size = fabsl(num / den), limit = ldexpl(1, integer);
+  const auto code = [&](Real q) { return q >= limit ? HUGE_VALL : floorl(ldexpl(q, fraction) + 0.5L); };
+  const Span q{code(size * (1 - l.reciprocal - rounding)), code(size * (1 + l.reciprocal + rounding))};
+  return num * den < 0 ? Span{base - q.hi, base - q.lo} : Span{base + q.lo, base + q.hi};
 }
+
+Span clamped(Span v, Real low, Real high) { return {std::clamp(v.lo, low, high), std::clamp(v.hi, low, high)}; }
 
 void depth(Judge& judge, const Vector& t) {
   const Config& c = t.config;
   const Losses& l = t.losses;
   const PixelTrace &in = t.in.pixel, &out = t.out.pixel;
   const DrawState& state = t.in.state;
+  const QuadBase& base = t.in.data.base;
   const Real num_z = value_of(in.num_z, l.s), den_k = value_of(in.den_k, l.s), den_w = value_of(in.den_w, l.s);
 
   // Codes of a drawn pixel's depth.
   Span codes;
   bool may_draw = !(t.in.data.hull && !(den_w > 0)), must_draw = may_draw;
   if (state.depth) {
-    const Real infinite = ldexpl(2, c.depth_bits) - 1;
-    codes = den_w == 0 ? exactly(infinite) : quotient_codes(num_z, den_w, 1, c.depth_bits, l);
-    Span limits{static_cast<Real>(t.in.znear), static_cast<Real>(t.in.zfar)};
-    if (den_w != 0 && num_z * den_w < 0) limits.hi = std::min(limits.hi, 0.0L);
+    codes = clamped(den_w == 0 ? exactly(HUGE_VALL) : sum_codes(base.depth, num_z, den_w, 1, c.depth_bits, l),
+                    base.depth_low, base.depth_high);
+    const Span limits{static_cast<Real>(t.in.znear), static_cast<Real>(t.in.zfar)};
     must_draw = must_draw && codes.lo >= limits.lo && codes.hi <= limits.hi;
     codes = {std::max(codes.lo, limits.lo), std::min(codes.hi, limits.hi)};
     may_draw = may_draw && codes.lo <= codes.hi;
@@ -435,11 +515,13 @@ void depth(Judge& judge, const Vector& t) {
     return;
   }
   judge.within("depth", -1, g.depth, codes.lo, codes.hi);
+  const Real limit = ldexpl(1, c.attribute_int_bits + c.attribute_frac()) - 1;
   bool may_saturate = false, must_saturate = false;
-  for (int j = 0; j < c.attribute_slots; ++j) {
-    const Real actual = static_cast<Real>(g.attribute[static_cast<std::size_t>(j)]);
-    if (j >= state.attributes) {
-      judge.same("attr", j, actual, 0);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(c.attribute_slots); ++j) {
+    const Real actual = static_cast<Real>(g.attribute[j]);
+    const int index = static_cast<int>(j);
+    if (index >= state.attributes) {
+      judge.same("attr", index, actual, 0);
       continue;
     }
     if (den_k == 0) {
@@ -447,12 +529,12 @@ void depth(Judge& judge, const Vector& t) {
       judge.undecided();
       continue;
     }
-    const Real num = value_of(in.num_a[static_cast<std::size_t>(j)], l.s);
-    const Span q = quotient_codes(num, den_k, c.attribute_int_bits, c.attribute_frac(), l);
-    judge.within("attr", j, num * den_k < 0 ? -actual : actual, q.lo, q.hi);
-    const Real size = fabsl(num / den_k), limit = ldexpl(1, c.attribute_int_bits);
-    may_saturate = may_saturate || size * (1 + l.reciprocal + rounding) >= limit;
-    must_saturate = must_saturate || size * (1 - l.reciprocal - rounding) >= limit;
+    const Span sum = sum_codes(static_cast<Real>(base.attribute[j]), value_of(in.num_a[j], l.s), den_k,
+                               c.attribute_int_bits + 1, c.attribute_frac(), l);
+    const Span value = clamped(sum, -limit, limit);
+    judge.within("attr", index, actual, value.lo, value.hi);
+    may_saturate = may_saturate || sum.lo < -limit || sum.hi > limit;
+    must_saturate = must_saturate || sum.hi < -limit || sum.lo > limit;
   }
   if (may_saturate != must_saturate)
     judge.undecided();
