@@ -385,6 +385,8 @@ std::string text(const PointResult& r) {
   count(static_cast<std::uint64_t>(r.worst.x));
   count(static_cast<std::uint64_t>(r.worst.y));
   put(r.worst.error);
+  put(r.attribute_spread);
+  put(r.depth_spread);
   return out;
 }
 
@@ -696,7 +698,7 @@ TEST(Evaluator, EarlierStagesRunOnceForLaterAxes) {
   const StageCounters& c = evaluator.counters();
   EXPECT_EQ(c.settings, r.executed.settings);
   EXPECT_EQ(c.fragments, r.executed.fragments);
-  EXPECT_EQ(c.settings, (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 2, 12, 0, 1}));
+  EXPECT_EQ(c.settings, (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 6, 12, 12, 0, 2}));
   // Covered pixels by the model, drawn or not.
   std::uint64_t covered = 0;
   for (const WindowQuad& q : input.quads) {
@@ -707,9 +709,11 @@ TEST(Evaluator, EarlierStagesRunOnceForLaterAxes) {
   }
   for (const Stage stage : {Stage::snap_truth, Stage::difference, Stage::normalise, Stage::weights})
     EXPECT_EQ(c.fragments[static_cast<std::size_t>(stage)], covered);
-  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::reciprocal)], 2 * covered);
+  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::interpolate)], 6 * covered) << "bases in six formats";
   EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::output)], 12 * covered);
-  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::cycles)], evaluator.evaluate(Config{}).cycles);
+  // Depths may leave out other quads with 16 bits than with 24.
+  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::cycles)],
+            evaluator.evaluate(Config{}).cycles + evaluator.evaluate(config({{"depth_bits", 16}})).cycles);
 
   // Truth, differences and clocks stay.
   const StageCounters before = evaluator.counters();
@@ -743,10 +747,10 @@ TEST(Evaluator, AFullGridRunsTheProductOfTheSettings) {
                                              {"subpixel_bits", subpixel}}));
   Evaluator evaluator(input, {.threads = 2, .batch_points = 1000});
   run(evaluator, points);
-  // given, positions, ×2 differences (10 and all), ×3, ×2, ×3, the same whatever the flag, the same, ×2, ×2, clocks of
-  // each position
+  // given, positions, ×2 differences (10 and all), ×3, ×2, ×3, the same whatever the flag, ×2, ×2, the same, clocks of
+  // each position and depth
   EXPECT_EQ(evaluator.counters().settings,
-            (std::array<std::uint64_t, stage_count>{1, 2, 4, 12, 24, 72, 72, 72, 144, 288, 0, 2}));
+            (std::array<std::uint64_t, stage_count>{1, 2, 4, 12, 24, 72, 72, 144, 288, 288, 0, 4}));
 
   // A batch below one subtree executes the ancestors again and says so.
   Evaluator cut(input, {.batch_points = 16});

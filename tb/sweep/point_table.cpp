@@ -88,6 +88,8 @@ std::vector<PointColumn> make_columns() {
     columns.push_back({name, "1", "bound of the arithmetic error by analysis"});
     columns.push_back({name + "_kind", "", "proved, estimated, or none: no bound holds for this input"});
   }
+  columns.push_back({"attribute_spread", "the attributes'", "largest difference of an attribute between corners"});
+  columns.push_back({"depth_spread", "1", "the same of window z; empty where a vertex is not before the eye"});
   columns.insert(columns.end(),
                  {{"ranges", "", "proved: no signal can overflow; else the one that may"},
                   {"coverage_gained", "pixels", "drawn, though the given quad does not cover them"},
@@ -210,6 +212,8 @@ std::string point_table(std::span<const PointRow> rows) {
         cells.push_back(std::isfinite(bound->value) ? csv_number(bound->value) : std::string());
         cells.push_back(!std::isfinite(bound->value) ? "none" : bound->proved ? "proved" : "estimated");
       }
+      cells.push_back(csv_number(r.attribute_spread));
+      cells.push_back(std::isfinite(r.depth_spread) ? csv_number(r.depth_spread) : std::string());
       cells.push_back(cli::csv_cell(p.ranges));
       for (const std::uint64_t count :
            {r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated, r.quads, r.plane_quads})

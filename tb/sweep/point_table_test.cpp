@@ -54,7 +54,7 @@ TEST(PointTable, EveryRowHasEveryColumn) {
   EXPECT_EQ(cell(1, "row"), "3");
   EXPECT_EQ(cell(1, "status"), "ok");
   EXPECT_EQ(cell(1, "significand_bits"), "12");
-  EXPECT_EQ(cell(1, "attribute_frac_bits"), "14");  // auto: s + 2
+  EXPECT_EQ(cell(1, "attribute_frac_bits"), "24");  // auto
   EXPECT_EQ(cell(1, "arithmetic_lambda_max"), "0.5");
   EXPECT_EQ(cell(1, "arithmetic_colour_max"), "3.5");
   EXPECT_EQ(cell(1, "arithmetic_depth_mean"), "0.0625");

@@ -70,7 +70,7 @@ Spread spread_of(const TruthNumbers& quad, const Columns& columns, bool perspect
     std::array<double, 4> above{};
     for (std::size_t i = 0; i < 4; ++i) above[i] = difference[i] == 0 ? 0 : difference[i] / factor[i];
     const auto [least, greatest] = std::ranges::minmax(above);
-    return greatest - least;
+    return std::max(greatest, 0.0) - std::min(least, 0.0);  // the base counts too
   };
   for (std::size_t j = Columns::first_attribute; j < columns.first_colour(); ++j)
     out.attribute = std::max(out.attribute, range(quad.b[j], perspective ? quad.k : quad.w));
