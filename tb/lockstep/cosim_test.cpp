@@ -531,10 +531,7 @@ TEST(Cosim, BurstWaitsForQuadSlots) {
     std::size_t taken = 0;
     for (int clock = 0; clock < 2000; ++clock) {
       in.vertex_valid = taken < 4 * draw.quads.size();
-      if (in.vertex_valid) {
-        in.vertex_id = draw.quads[taken / 4].id;
-        in.vertex = draw.quads[taken / 4].vertex[taken % 4];
-      }
+      if (in.vertex_valid) in.vertex = beat_of(draw.quads[taken / 4], taken % 4);
       in.fragment_ready = clock % 20 == 0;
       taken += in.vertex_valid && machine.comb().vertex_ready;
       machine.clock(in);
