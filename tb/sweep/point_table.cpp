@@ -42,8 +42,22 @@ bool is_idle_in_proofs(std::string_view key) {
   return std::ranges::find(idle, key) != idle.end();
 }
 
+/// A bound of values at their corners' spread: proportional to it, but for half a code.
+struct SpreadBound {
+  double per_spread = 0, half_code = 0;
+  bool proved = false;
+
+  ErrorBound at(double spread) const { return {half_code + per_spread * spread, proved, {}}; }
+};
+
+SpreadBound between(const ErrorBound& none, const ErrorBound& one) {
+  // Both are rounded up; so is what is left.
+  return {(one.value - none.value) * (1 + 0x1p-48), none.value * (1 + 0x1p-48), one.proved};
+}
+
 struct Proofs {
-  ErrorBound lambda, attribute, depth;
+  ErrorBound lambda;
+  SpreadBound attribute, ordinary_depth, depth;
   std::string ranges;
 };
 
@@ -58,7 +72,16 @@ Proofs proofs_of(const Config& config) {
     const std::lock_guard lock(mutex);
     if (const auto found = known.find(values); found != known.end()) return found->second;
   }
-  Proofs proofs{bound_lambda(config), bound_attribute(config, 1), bound_depth(config), "proved"};
+  const auto attribute = between(bound_attribute(config, 0), bound_attribute(config, 1));
+  const auto ordinary_depth = between(bound_depth(config, 0), bound_depth(config, 1));
+  // The same argument, of denominators with W of more than S bits.
+  const SpreadBound depth{std::ldexp(value_bound_factor(config, true), 3 - config.significand_bits),
+                          std::ldexp(0.5, -config.depth_bits), attribute.proved};
+  Proofs proofs{bound_lambda(config), attribute, ordinary_depth, depth, "proved"};
+  // The first weight is what the others leave of its base: a value of spread 1.
+  const ErrorBound first = attribute.at(1);
+  proofs.lambda.value = std::max(proofs.lambda.value, first.value);
+  proofs.lambda.proved = proofs.lambda.proved && first.proved;
   for (const SignalRange& signal : prove_ranges(config).signals)
     if (!signal.fits) {
       proofs.ranges = signal.signal;
@@ -125,8 +148,9 @@ void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool
   row.scalar_cost = scalar_cost(row.cost, weights);
   const Proofs proofs = proofs_of(row.config);
   row.bound_lambda = ordinary || perspective ? proofs.lambda : none;
-  row.bound_attribute = ordinary || perspective ? proofs.attribute : none;
-  row.bound_depth = ordinary ? proofs.depth : none;
+  row.bound_attribute = ordinary || perspective ? proofs.attribute.at(row.result.attribute_spread) : none;
+  const bool bounded = std::isfinite(row.result.depth_spread);
+  row.bound_depth = bounded ? (ordinary ? proofs.ordinary_depth : proofs.depth).at(row.result.depth_spread) : none;
   if (has_plane_tolerance(row.config) && row.result.plane_quads != 0) {
     const double tolerance = std::ldexp(1.0, -row.config.plane_tolerance_bits);
     row.bound_attribute.value += tolerance;

@@ -27,12 +27,12 @@ void place(WindowQuad& quad, double x, double y, double edge, double z) {
 
 /// Something for every key: vertices of every kind, depths at a limit and across it, values at the ends of formats,
 /// enough small quads for queues to fill.
-SweepInput input_for_every_key(bool perspective) {
+SweepInput input_for_every_key(bool in_perspective) {
   using enum golden::StressFamily;
   SweepInput input;
   input.attributes = 3;
-  for (const auto family : {general, any_w, eye_crossing, on_vertex, golden::StressFamily::perspective, reflex})
-    for (WindowQuad& quad : golden::make_stress(family, 2, 11, 1.0, size, size, input.attributes))
+  for (const auto family : {general, any_w, eye_crossing, on_vertex, perspective})
+    for (WindowQuad& quad : golden::make_stress(family, 1, 11, 1.0, size, size, input.attributes))
       input.quads.push_back(std::move(quad));
   for (int n = 0; n < 24; ++n) {
     WindowQuad& quad = input.quads.emplace_back();
@@ -43,18 +43,25 @@ SweepInput input_for_every_key(bool perspective) {
       if (n % 4 == 1) quad.vertex[i].z += 0.07 * (v - 1);
     }
   }
+  // Past the guard band of narrower coordinates, and of all.
+  for (const double far : {9000.0, 40000.0}) {
+    WindowQuad& quad = input.quads.emplace_back();
+    place(quad, 3.3, 4.4, 20, 0.4);
+    quad.vertex[2].x = far;
+    for (std::size_t i = 0; i < 4; ++i) quad.attribute[i].assign(3, 0.25 * static_cast<double>(i));
+  }
   for (std::size_t q = 0; q < input.quads.size(); ++q) input.quads[q].id = static_cast<std::uint32_t>(q);
   DrawState& state = input.state;
   state.width = state.height = state.scissor_x1 = state.scissor_y1 = size;
   state.znear = 0.3, state.zfar = 0.9;
-  state.perspective = perspective;
+  state.perspective = in_perspective;
   return input;
 }
 
 std::vector<int> values_of(const ConfigKey& key) {
   std::set<int> values{key.minimum, key.maximum};
   const int middle = Config().resolved(key.name);
-  for (const int step : {-2, -1, 1, 2})
+  for (const int step : {-2, 1})
     if (middle + step >= key.minimum && middle + step <= key.maximum) values.insert(middle + step);
   return {values.begin(), values.end()};
 }
