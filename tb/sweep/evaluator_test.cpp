@@ -508,9 +508,9 @@ TEST(Evaluator, TolerancesShareEveryStageOfMeanValues) {
   evaluator.evaluate(points, [&](const Batch& batch) {
     for (std::size_t n = 0; n < batch.points.size(); ++n) results[batch.points[n]] = batch.results[n];
   });
-  // Clocks: with a tolerance and without.
+  // Two formats of depth from the sums on; clocks of each, with a tolerance and without.
   EXPECT_EQ(evaluator.counters().settings,
-            (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2}));
+            (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 4}));
   const auto at = [&](Stage stage) { return evaluator.counters().fragments[static_cast<std::size_t>(stage)]; };
   EXPECT_LT(at(Stage::areas), at(Stage::output));
   EXPECT_EQ(at(Stage::areas), 2 * results[1].plane_fragments);  // the least tolerance takes what any does
@@ -802,7 +802,8 @@ TEST(Evaluator, CyclesAreTheClockedModels) {
     EXPECT_EQ(evaluator.evaluate(c).cycles, clocks);
     different.insert(clocks);
   }
-  EXPECT_EQ(settings(evaluator.counters(), Stage::cycles), 6u);
+  // Of depth_bits too, though these quads lie within the limits; widths alone move none.
+  EXPECT_EQ(settings(evaluator.counters(), Stage::cycles), 7u);
 
   // A tolerance looks at a value a clock, which eight slots show.
   SweepInput planes = plane_input();

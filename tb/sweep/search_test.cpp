@@ -217,9 +217,9 @@ TEST(NowhereBetter, ComparesResolvedValues) {
   EXPECT_FALSE(worse({}, {{"sqrt_degree", 1}}));
   EXPECT_TRUE(worse({{"sqrt_degree", 1}, {"sqrt_segments_log2", 5}}, {}));
   EXPECT_TRUE(worse({{"sqrt_degree", 1}}, {{"sqrt_segments_log2", 9}}));
-  // auto is s + 2, so 20: fewer bits than the auto of more significand bits.
-  EXPECT_TRUE(worse({{"attribute_frac_bits", 20}}, {{"significand_bits", 19}}));
-  EXPECT_FALSE(worse({{"attribute_frac_bits", 22}}, {{"significand_bits", 19}}));
+  // auto is s + 2 from s = 22 on: 25 bits are fewer than the auto of 24, 27 are more.
+  EXPECT_TRUE(worse({{"attribute_frac_bits", 25}}, {{"significand_bits", 24}}));
+  EXPECT_FALSE(worse({{"attribute_frac_bits", 27}}, {{"significand_bits", 24}}));
   // Other positions are another input, either way.
   EXPECT_FALSE(worse({{"subpixel_bits", 7}, {"quadratic_frac_bits", 8}}, {{"quadratic_frac_bits", 8}}));
   EXPECT_FALSE(worse({{"quadratic_frac_bits", 8}}, {{"subpixel_bits", 7}, {"quadratic_frac_bits", 8}}));
