@@ -416,11 +416,12 @@ void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& fr
   // A sum whose terms may cancel keeps at least the least bit of its window.
   const auto cancelling = [&](Exponents a, int log2_terms) { return Exponents{a.lo - prec, a.hi + 1 + log2_terms}; };
 
-  // What snapping lets through: |x|, |y|, |w| <= 2^80, one of them >= 2^-80, |z| <= 2^80, |a| < 2^8. Half a pixel and
-  // the guard band enlarge the first by a factor of 2 and reduce the second by 2^-(POS_INT+1).
+  // What snapping lets through: |x|, |y|, |w| <= 2^80, one of them >= 2^-80, |z| <= 2^80, |a| < 2^int_bits. Half a
+  // pixel and the guard band enlarge the first by a factor of 2 and reduce the second by 2^-(POS_INT+1). A difference
+  // to a base (times w, for z) may be twice as large.
   const Exponents k{-82, 81 + c.pos_int()}, weight{-c.frac(), 0};
   const int underflow = -(1 << (Config::port_exp_bits - 1));  // below, snapping gives zero
-  const Exponents z{underflow, k.hi + 81}, b{underflow, k.hi + c.attribute_int_bits + 1};
+  const Exponents z{underflow, k.hi + 82}, b{underflow, k.hi + c.attribute_int_bits + 1};
   list.add("exponent of k", k.lo, k.hi, w.port_exponent);
   list.add("exponent of Z", z.lo, z.hi, w.port_exponent);
   list.add("exponent of b", b.lo, b.hi, w.port_exponent);
@@ -499,7 +500,7 @@ RangeProof prove_ranges(const Config& config, const ProofWidths& w) {
   list.add("sum of four terms", -4 * term, 4 * term, w.term + 3);
   const Wide attribute = power(config.attribute_int_bits + config.attribute_frac()) - 1;  // saturated
   list.add("attribute", -attribute, attribute, w.attribute);
-  list.add("depth", 0, power(config.depth_bits + 1) - 1, w.depth, false);
+  list.add("depth", 0, power(config.depth_bits) + 1, w.depth, false);  // of fragments that are discarded too
   return list.result();
 }
 

@@ -52,10 +52,7 @@ TEST(RangeProof, HoldsForRandomConfigurations) {
     Config c;
     for (const ConfigKey& key : Config::keys()) {
       const bool automatic = key.standard == -1 && rng.chance(key.name == "quadratic_frac_bits" ? 0.4 : 0.9);
-      const bool off_or_most = key.name == "plane_tolerance_bits";  // none between
-      const auto value = automatic     ? -1
-                         : off_or_most ? key.maximum * static_cast<int>(rng.below(2))
-                                       : static_cast<int>(rng.integer(key.minimum, key.maximum));
+      const auto value = automatic ? -1 : static_cast<int>(rng.integer(key.minimum, key.maximum));
       c.set(key.name, value);
     }
     try {
@@ -136,7 +133,7 @@ TEST(RangeProof, FailsWithANarrowerWidth) {
       {"C0 above 8 * 2^18", &ProofWidths::table_word, 0},
       {"2^18 before the clamp", &ProofWidths::table_factor, 0},
       {"saturated", &ProofWidths::attribute, 0},
-      {"saturated", &ProofWidths::depth, 0},
+      {"2^24 + 1", &ProofWidths::depth, 0},
   };
   const Config config;
   for (const Spare& s : widths) {
@@ -583,7 +580,7 @@ TEST(ErrorBound, ProvesTheFactorOfValues) {
       EXPECT_LT(of_cut_w, before);
       before = of_cut_w;
       EXPECT_LE(factor, g >= 2 ? 1.1 : 2) << "s " << s << ", G " << g;
-      if (g >= 2) EXPECT_LE(of_cut_w, 1.25) << "s " << s;
+      EXPECT_LE(of_cut_w, g >= 2 ? 1.25 : 2.3) << "s " << s;
       // Fewer terms lose less, and one weight is a value.
       const double rule = std::ldexp(1.0, 3 - s), code = std::ldexp(0.5, -c.attribute_frac());
       EXPECT_LT(bound_attribute(c, 1).value, rule * factor + code);
@@ -672,7 +669,7 @@ TEST(ErrorBound, IsNotClaimedWithoutItsAssumptions) {
   EXPECT_FALSE(bound_lambda(homogeneous).proved);
   EXPECT_EQ(bound_lambda(homogeneous).value, rule);
   EXPECT_FALSE(bound_attribute(homogeneous, 3).proved);
-  EXPECT_NEAR(bound_attribute(homogeneous, 3).value, 3 * rule * value_bound_factor(homogeneous) + 0x1p-25, 0x1p-30);
+  EXPECT_NEAR(bound_attribute(homogeneous, 3).value, 3 * rule * value_bound_factor(homogeneous) + 0x1p-25, 0x1p-28);
   EXPECT_FALSE(bound_lambda(homogeneous).reason.empty());
   EXPECT_TRUE(bound_depth(homogeneous, 1).proved);
   EXPECT_EQ(bound_depth(homogeneous, 1).value, bound_depth(Config{}, 1).value);

@@ -27,7 +27,7 @@ namespace quadrille::sweep {
 struct SweepInput {
   std::vector<WindowQuad> quads;
   int attributes = 0;  ///< of the quads, at most max_attribute_slots; measured whatever attribute_slots is
-  DrawState state;     ///< `attributes` in it is ignored; skip_plane: plane_tolerance_bits counts; never skip_hidden
+  DrawState state;     ///< `attributes` in it is ignored; skip_plane: plane_quads counts; never skip_hidden
 };
 
 /// Whether every vertex of an input is ordinary (model/snap.hpp, has_ordinary_vertices) once snapped. False too where
@@ -59,8 +59,7 @@ enum class Stage {
                 ///< summed are differences to a base in the output's format
   reciprocal,   ///< recip_segments_log2 recip_degree
   output,       ///< no key
-  areas,        ///< plane_tolerance_bits: what of taken quads is drawn with areas for weights, from the weights to the
-                ///< output; once for all tolerances behind an `output` setting, for the quads that any of them takes
+  areas,        ///< plane_quads: what of taken quads is drawn with areas for weights, from the weights to the output
   cycles,       ///< the clocked model alone: positions, and stage_keys.hpp
 };
 inline constexpr std::size_t stage_count = 12;

@@ -1,7 +1,5 @@
 #include "tb/sweep/stage_keys.hpp"
 
-#include "model/plane_quad.hpp"
-#include "model/plane_tolerance.hpp"
 #include "tb/sweep/search.hpp"
 
 #include <algorithm>
@@ -32,7 +30,7 @@ constexpr std::array key_levels{
     KeyLevel{"depth_bits", Level::interpolate},
     KeyLevel{"recip_segments_log2", Level::reciprocal},
     KeyLevel{"recip_degree", Level::reciprocal},
-    KeyLevel{"plane_tolerance_bits", Level::plane},
+    KeyLevel{"plane_quads", Level::plane},
 };
 
 /// None: the key has no effect on what the tree computes. quad_id_bits only decides whether the input can be drawn.
@@ -54,10 +52,10 @@ std::array<std::vector<std::string_view>, level_count> keys_by_level() {
 
 /// Keys that no clock depends on: widths and tables behind the traversal. hierarchical_z_bits counts: its unit is in
 /// the way of every quad and tile, though the sweep skips none.
-constexpr std::array<std::string_view, 12> clockless{
-    "quadratic_frac_bits",  "notch_exact",          "sqrt_segments_log2", "sqrt_degree",
-    "recip_segments_log2",  "recip_degree",         "align_guard_bits",   "quad_id_bits",
-    "performance_counters", "plane_tolerance_bits", "attribute_int_bits", "attribute_frac_bits"};
+constexpr std::array<std::string_view, 14> clockless{
+    "quadratic_frac_bits", "notch_exact",         "sqrt_segments_log2", "sqrt_degree",          "recip_segments_log2",
+    "recip_degree",        "align_guard_bits",    "quad_id_bits",       "performance_counters", "plane_quads",
+    "attribute_int_bits",  "attribute_frac_bits", "attribute_slots",    "significand_bits"};
 
 }  // namespace
 
@@ -76,17 +74,13 @@ LevelKey port_key(const Config& config) {
 }
 
 CyclesKey cycles_key(const Config& config, const DrawState& state) {
-  const bool looks = has_plane_tolerance(config) && takes_plane_quads(config, state);
   const bool rejects_by_depth = state.depth && (state.skip & skip_quads) != 0;
   CyclesKey values;
   for (const ConfigKey& key : Config::keys()) {
     bool counts = std::ranges::find(clockless, key.name) == clockless.end();
-    if (key.name == "depth_bits") counts = rejects_by_depth || looks;
-    if (key.name == "significand_bits" || key.name == "attribute_slots") counts = looks;
-    if (key.name == "attribute_int_bits" || key.name == "attribute_frac_bits") counts = looks;
+    if (key.name == "depth_bits") counts = rejects_by_depth;
     values.push_back(counts ? config.resolved(key.name) : 0);
   }
-  values.push_back(looks);
   return values;
 }
 

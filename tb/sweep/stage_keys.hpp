@@ -24,8 +24,7 @@ LevelKey level_key(const Config& config, Level level);
 LevelKey port_key(const Config& config);
 
 /// What the clocks of a draw depend on: the values of all keys, 0 for those that change no clock. depth_bits counts
-/// where quads are left out by their depths. A tolerance for plane quads looks at the port's numbers of every
-/// attribute slot, a clock each; what it takes changes no clock.
+/// where quads are left out by their depths. Plane quads change no clock.
 using CyclesKey = std::vector<int>;
 CyclesKey cycles_key(const Config& config, const DrawState& state);
 

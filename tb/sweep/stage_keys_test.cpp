@@ -41,6 +41,7 @@ SweepInput input_for_every_key(bool in_perspective) {
       const double v = static_cast<double>(i);
       quad.attribute[i] = {2 - 0x1p-27, 0.1 * v * (n % 5), 0.7 + 1e-5 * v};  // the first: 2 in a format
       if (n % 4 == 1) quad.vertex[i].z += 0.07 * (v - 1);
+      if (n % 5 == 0) quad.attribute[i][2] = i == 1 || i == 2 ? 0.25 : 0.75;  // plane
     }
   }
   // Past the guard band of narrower coordinates, and of all.
@@ -55,6 +56,7 @@ SweepInput input_for_every_key(bool in_perspective) {
   state.width = state.height = state.scissor_x1 = state.scissor_y1 = size;
   state.znear = 0.3, state.zfar = 0.9;
   state.perspective = in_perspective;
+  state.skip |= skip_plane;
   return input;
 }
 
@@ -143,7 +145,7 @@ TEST_P(EveryKey, IsOnAnAxisWhatItIsAlone) {
   for (const char* key :
        {"viewport_bits", "guard_bits", "subpixel_bits", "homogeneous_frac_bits", "quadratic_frac_bits",
         "significand_bits", "sqrt_segments_log2", "sqrt_degree", "recip_segments_log2", "recip_degree",
-        "align_guard_bits", "attribute_int_bits", "attribute_frac_bits", "depth_bits"})
+        "align_guard_bits", "attribute_int_bits", "attribute_frac_bits", "depth_bits", "plane_quads"})
     EXPECT_TRUE(errors.contains(key)) << key << " moves no error of this input";
   for (const char* key : {"depth_bits", "tile_log2", "pixels_per_clock", "dot_units", "quad_slots_log2",
                           "tile_slots_log2", "stamp_fifo_log2"})

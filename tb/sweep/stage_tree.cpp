@@ -275,8 +275,8 @@ void StageTree::compare(LeafTotals& leaf, const PlaneQuads* areas, const Truth& 
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t block = first + n;
     const unsigned used = (1u << positions_->count[block]) - 1;
-    // Weights and colours are passes of their own, which no tolerance takes a quad of; of a taken quad they lie in
-    // [0, 1] but for rounding and saturate in neither.
+    // Weights and colours are passes of their own, in which no quad is plane; of a taken quad they lie in [0, 1]
+    // but for rounding and saturate in neither.
     const bool plane = areas && areas->taken()[positions_->quad[block]] != 0;
     const Weighted& by = plane ? t.areas : t.mean;
     const LaneMasks& masks = by.masks[n];
