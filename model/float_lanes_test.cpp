@@ -39,7 +39,7 @@ Config fitting_config(Prng& rng) {
   if (rng.chance(0.5)) c.align_guard_bits = std::min(6, 20 - c.significand_bits);  // the largest sums
   c.notch_exact = static_cast<int>(rng.below(2));
   c.attribute_slots = static_cast<int>(rng.integer(1, 8));
-  c.attribute_int_bits = static_cast<int>(rng.integer(1, 8));
+  c.attribute_int_bits = static_cast<int>(rng.integer(1, std::min(15, 31 - c.significand_bits)));
   c.attribute_frac_bits = static_cast<int>(rng.integer(c.significand_bits, std::min(30, 31 - c.attribute_int_bits)));
   c.depth_bits = static_cast<int>(rng.integer(8, 30));
   c.tile_log2 = static_cast<int>(rng.integer(2, 4));
@@ -65,8 +65,32 @@ DrawState random_state(Prng& rng, const Config& c) {
   return s;
 }
 
+/// Codes that differences of 2^exponent codes and more are added to: 0, about a power of two, or at the end of the
+/// range but for some.
+std::int64_t random_base(Prng& rng, std::int64_t limit) {
+  const auto some = static_cast<std::int64_t>(rng.log2_spread(0, 30));
+  const std::int64_t magnitude = rng.chance(0.3) ? 0 : rng.chance(0.5) ? some : rng.chance(0.2) ? limit : limit - some;
+  return (rng.chance(0.5) ? -1 : 1) * std::clamp<std::int64_t>(magnitude, 0, limit);
+}
+
+/// Bases and depth limits: one code, a few, about the whole range, or all of it.
+QuadBase random_bases(Prng& rng, const Config& c) {
+  QuadBase base;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(c.attribute_slots); ++j)
+    base.attribute[j] = random_base(rng, c.attribute_limit());
+  const std::int32_t one = 1 << c.depth_bits;
+  base.depth = rng.chance(0.2) ? 0 : rng.chance(0.2) ? one : static_cast<std::uint32_t>(rng.integer(0, one));
+  base.depth_high = one + 1;
+  if (rng.chance(0.5)) return base;
+  const auto reach = static_cast<std::int32_t>(rng.chance(0.3) ? rng.below(3) : rng.below(static_cast<unsigned>(one)));
+  const auto at = static_cast<std::int32_t>(base.depth);
+  base.depth_low = std::max(-1, at - reach);
+  base.depth_high = rng.chance(0.2) ? base.depth_low : std::min(one - at, reach) + at + (rng.chance(0.2) ? 1 : 0);
+  return base;
+}
+
 /// Corners on pixel centres, on a coarse grid, or anywhere, some far outside; numbers of the port of either sign with
-/// exponents up to `exponents`, so that sums cancel, saturate, and are 0.
+/// exponents up to `exponents`, so that sums cancel, saturate, and are 0. Of vertex 0 the attributes are not looked at.
 SnappedQuad random_quad(Prng& rng, const Config& c, int exponents) {
   const int s = c.significand_bits;
   const auto number = [&](bool sign) {
@@ -77,10 +101,22 @@ SnappedQuad random_quad(Prng& rng, const Config& c, int exponents) {
     return PortNumber{sign && rng.chance(0.5), static_cast<int>(rng.integer(-exponents, exponents)), sig};
   };
   const double grid = rng.chance(0.3) ? 1 : rng.chance(0.3) ? 4 : 256;
-  const bool far = rng.chance(0.1), same_k = rng.chance(0.2), positive = rng.chance(0.5);
+  const bool far = rng.chance(0.1), same_k = rng.chance(0.2);
   const PortNumber k = number(false);
   SnappedQuad q;
   q.id = static_cast<std::uint32_t>(rng.below(1u << c.quad_id_bits));
+  q.base = random_bases(rng, c);
+  std::array<int, max_attribute_slots> signs{};  // 0 one, 1 the other, 2 mixed; 3: a constant
+  for (int& sign : signs) sign = static_cast<int>(rng.below(4));
+  const int less = rng.chance(0.3) ? static_cast<int>(rng.below(120)) : 0;  // differences may be far below k
+  const auto difference = [&](int sign) {
+    if (sign == 3 || rng.chance(0.1)) return PortNumber{};
+    PortNumber n = number(true);
+    if (sign < 2) n.neg = sign != 0;
+    n.exp -= less;
+    return n;
+  };
+  const int depth_sign = static_cast<int>(rng.below(4));
   for (SnappedVertex& v : q.vertex) {
     const auto position = [&] {
       const double at = far ? rng.uniform(-20000, 20000) : rng.uniform(-4, size + 4);
@@ -92,9 +128,9 @@ SnappedQuad random_quad(Prng& rng, const Config& c, int exponents) {
     v.y = position();
     v.w = 1 << c.frac();
     v.k = same_k ? k : number(false);
-    v.z = rng.chance(0.1) ? PortNumber{} : number(!positive);
+    v.z = difference(depth_sign);
     for (std::size_t j = 0; j < static_cast<std::size_t>(c.attribute_slots); ++j)
-      v.attribute[j] = rng.chance(0.2) ? PortNumber{} : number(!positive);
+      v.attribute[j] = &v == q.vertex.data() ? number(true) : difference(signs[j]);
   }
   if (rng.chance(0.1)) {  // a bow tie that crosses at a pixel centre
     const auto x = static_cast<std::int32_t>(rng.below(20)) << c.frac(), edge = std::int32_t{16} << c.frac();
@@ -314,22 +350,25 @@ TEST(FloatLanes, PixelsByLane) {
   EXPECT_EQ(plain.lane_pixels().plain, plain.stats().pixels);
 }
 
-/// A parallelogram whose values are the same along a pair of its sides, at depths inside [0, 1).
+/// A parallelogram whose values are the same along a pair of its sides, its depths within a small interval.
 SnappedQuad plane_one(Prng& rng, const Config& c, SnappedQuad q) {
-  const int depth = static_cast<int>(rng.integer(-8, -1));
+  const int depth = static_cast<int>(rng.integer(-12, -4));
+  const auto reach = static_cast<std::int32_t>(rng.below(1u << (c.depth_bits - 6)));
+  q.base.depth = static_cast<std::uint32_t>(rng.integer(reach, (1 << c.depth_bits) - reach));
+  q.base.depth_low = static_cast<std::int32_t>(q.base.depth) - reach;
+  q.base.depth_high = static_cast<std::int32_t>(q.base.depth) + reach;
   const auto step = [&] { return static_cast<std::int32_t>(rng.integer(-12, 80)) << (c.frac() - 1); };
   const std::int32_t ax = step(), ay = rng.chance(0.5) ? 0 : step(), bx = rng.chance(0.5) ? 0 : step(), by = step();
   for (std::size_t i = 0; i < 4; ++i) {
     SnappedVertex& v = q.vertex[i];
     v.z = q.vertex[0].z;
-    v.z.neg = false;
-    v.z.exp = depth;
+    if (v.z.sig != 0) v.z.exp = depth;
     v.x = q.vertex[0].x + (i == 1 || i == 2 ? ax : 0) + (i >= 2 ? bx : 0);
     v.y = q.vertex[0].y + (i == 1 || i == 2 ? ay : 0) + (i >= 2 ? by : 0);
     v.k = q.vertex[0].k;
   }
   const std::size_t next = rng.chance(0.5) ? 1 : 3;  // along 01 and 32, or along 03 and 12
-  q.vertex[next].attribute = q.vertex[0].attribute;
+  q.vertex[next].attribute = {};                     // that of vertex 0
   q.vertex[next == 1 ? 3 : 1].attribute = q.vertex[2].attribute;
   return q;
 }
@@ -393,7 +432,10 @@ TEST(FloatLanes, TakeWhatFits) {
     while (draw(*std::make_unique<UntimedModel>(c, s), q).empty());
     return q;
   };
-  const SnappedQuad good = quad();
+  SnappedQuad good = quad();
+  good.vertex[1].x |= 1 << c.homogeneous_frac_bits;  // the finest position of an ordinary vertex
+  for (const std::size_t i : {1, 2}) good.vertex[i].attribute[0] = {i == 1, 1, (1u << c.significand_bits) - 1};
+  good.base.attribute[0] = 0;
   EXPECT_TRUE(taken(good, c, s));
   SnappedQuad bad = good;
   bad.vertex[1].k.exp = 30;
@@ -401,8 +443,32 @@ TEST(FloatLanes, TakeWhatFits) {
   bad.vertex[1].k.exp = 31;
   EXPECT_FALSE(taken(bad, c, s)) << "exponents go to 30";
   bad = good;
-  bad.vertex[2].attribute[0] = {true, -31, 1u << (c.significand_bits - 1)};
+  bad.vertex[2].attribute[0].exp = 31;
   EXPECT_FALSE(taken(bad, c, s));
+  bad.vertex[2].attribute[0].exp = -256;
+  EXPECT_TRUE(taken(bad, c, s)) << "differences may be as small as they like";
+  bad.vertex[0].attribute[0] = {false, 31, 1u << (c.significand_bits - 1)};
+  EXPECT_TRUE(taken(bad, c, s)) << "of vertex 0 there is none";
+  {
+    const PipelineContext context(c, s);
+    FloatQuad out;
+    SmallQuad small;
+    EXPECT_EQ(FloatLanes(context).take_small(bad, out, small), QuadReject::none) << "nor in what small quads read";
+  }
+  for (const std::int64_t beyond : {0, 1}) {  // a code that no attribute has
+    bad = good;
+    bad.base.attribute[0] = -c.attribute_limit() - beyond;
+    EXPECT_EQ(taken(bad, c, s), beyond == 0);
+    bad = good;
+    bad.base.depth_low = static_cast<std::int32_t>(-1 - beyond);
+    EXPECT_EQ(taken(bad, c, s), beyond == 0);
+    bad.base.depth_low = -1;
+    bad.base.depth_high = static_cast<std::int32_t>(c.depth_above() + beyond);
+    EXPECT_EQ(taken(bad, c, s), beyond == 0);
+    bad.base.depth_high = c.depth_above();
+    bad.base.depth = static_cast<std::uint32_t>(c.depth_above() - 1 + beyond);
+    EXPECT_EQ(taken(bad, c, s), beyond == 0);
+  }
   bad = good;
   bad.vertex[0].w -= 1;
   EXPECT_FALSE(taken(bad, c, s)) << "not ordinary";
@@ -465,23 +531,23 @@ std::vector<Limit> limits() {
       c.sqrt_segments_log2 = segments - 1;
       c.recip_segments_log2 = segments;
     });
-  for (const int exponent : {-31, -30, -29, 29, 30, 31}) {
-    const bool fits = std::abs(exponent) <= 30;
-    const auto number = [&](const std::string& what, auto&& of) {
+  for (const int exponent : {-256, -127, -126, -91, -90, -64, -31, -30, -29, 29, 30, 31}) {
+    const auto number = [&](const std::string& what, bool difference, auto&& of) {
+      const bool fits = exponent <= 30 && (difference || exponent >= -30);
       for (std::size_t first = 0; first < 5; ++first)  // one vertex, or all
         list.push_back({what + " 2^" + std::to_string(exponent) + (first == 4 ? " everywhere" : ""), fits, standard,
                         [=](SnappedQuad& q) {
                           for (std::size_t i = 0; i < 4; ++i)
-                            if (first == 4 || first == i) {
+                            if (first == 4 || (difference && first == 0 ? 1 : first) == i) {
                               PortNumber& n = of(q.vertex[i]);
                               if (n.sig == 0) n.sig = 1u << 17;
                               n.exp = exponent;
                             }
                         }});
     };
-    number("k", [](SnappedVertex& v) -> PortNumber& { return v.k; });
-    number("Z", [](SnappedVertex& v) -> PortNumber& { return v.z; });
-    number("an attribute", [](SnappedVertex& v) -> PortNumber& { return v.attribute[1]; });
+    number("k", false, [](SnappedVertex& v) -> PortNumber& { return v.k; });
+    number("depth", true, [](SnappedVertex& v) -> PortNumber& { return v.z; });
+    number("an attribute", true, [](SnappedVertex& v) -> PortNumber& { return v.attribute[1]; });
   }
   // The sum of M k is near what the lanes leave to the plain pipeline, on either side of it.
   for (int exponent = -29; exponent <= -20; ++exponent)
@@ -512,6 +578,10 @@ TEST(FloatLanes, LimitsOfTheRange) {
       SnappedQuad quad;
       do quad = random_quad(rng, limit.config, 8);
       while (has_far_corner(quad, limit.config));
+      // No constants, of which nothing would be looked at.
+      quad.base.depth_low = -1;
+      quad.base.depth_high = limit.config.depth_above();
+      quad.vertex[3].attribute[0] = {false, 0, 1u << (limit.config.significand_bits - 1)};
       limit.edit(quad);
       ASSERT_EQ(taken(quad, limit.config, s), limit.taken);
       const std::vector<Fragment> expected = draw(plain, quad);
