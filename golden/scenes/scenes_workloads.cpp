@@ -274,7 +274,7 @@ Scene room() {
 
 constexpr std::string_view no_paper = "workload";
 
-constexpr std::array<SceneEntry, 12> entries{{
+constexpr std::array<SceneEntry, 13> entries{{
     {"city_front", "A city of 100 boxes, front to back (seed 1)", no_paper, city_front},
     {"city_back", "The same city back to front", no_paper, city_back},
     {"city_random", "The same city in random order (seed 1)", no_paper, city_random},
