@@ -134,6 +134,17 @@ class Driver(unittest.TestCase):
             self.assertIn("quad 0: vertex 2: (x, y, w) is no point", refused.stderr)
 
 
+    def test_example_of_the_page_on_converting(self):
+        page = (HERE.parent / "CONVERTING.md").read_text(encoding="utf-8").splitlines()
+        given, *expected = (line.strip() for line in page if line.startswith("    "))
+        with tempfile.TemporaryDirectory() as folder:
+            config = Path(folder) / "config.json"
+            run("config", "--json", str(config), "--quiet")
+            driver = [sys.executable, str(HERE / "driver.py"), str(config)]
+            lines = subprocess.run(driver, input=given, check=True, capture_output=True, text=True).stdout.splitlines()
+        self.assertEqual(lines, expected)
+
+
 if __name__ == "__main__":
     if len(sys.argv) < 2:
         sys.exit(__doc__)
