@@ -311,8 +311,12 @@ fault sqrt sqrt.sv "SQRT_STAGES - 1" "SQRT_STAGES - 2"
 fault reciprocal reciprocal.sv "E'(0) - exp_i : ~exp_i" "E'(0) - exp_i : -exp_i"
 fault ratios mean_value_ratios.sv "rr_rank_q <= rr_rank" "rr_rank_q <= rr_rank + RANK'(1)"
 fault weights factor_products.sv "late_neighbours && late_corner == 2'(g)" "1'b0"
-fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(t*4+v)*PE+:PE]))" "E'(term_exp_i[(t*4+v)*PE+:PE])"
-fault depth fragment_output.sv "z < znear_i" "z <= znear_i"
+fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(FIRST+c)*PE+:PE]))" "E'(term_exp_i[(FIRST+c)*PE+:PE])"
+fault interpolation interpolate.sv "V = 4 - CORNERS + c" "V = c" # attributes with the weights of corners 0 to 2
+fault depth fragment_output.sv "z_neg ^ z_fixed[0]" "z_neg" # toward zero
+fault depth fragment_output.sv "overflow[g] <= used && (too_large || least)" "overflow[g] <= used && too_large"
+fault depth fragment_output.sv "z_neg_q <= z_neg && !w_zero" "z_neg_q <= z_neg"
+fault depth quad_reject.sv "near_cuts_q ? znear_i : low_i[DB:0]" "low_i[DB:0]"
 fault $machine quadrille.sv "full && setup_ready && slot_available" "full && setup_ready && !slots_busy" # clocks alone
 fault $machine quadrille.sv "full && setup_ready && slot_available" "full && setup_ready && !slots_busy" verilator
 
