@@ -5,7 +5,6 @@
 #include "model/pixel_pipeline.hpp"
 #include "model/pixels_ahead.hpp"
 #include "model/plane_quad.hpp"
-#include "model/plane_tolerance.hpp"
 #include "model/quad_reject.hpp"
 #include "model/quad_setup.hpp"
 #include "model/stamp_coverage.hpp"
@@ -291,21 +290,6 @@ struct SetupUnit {
   }
 };
 
-/// The control of plane_tolerance: when a quad that setup has complete is accepted, which it must be before the walk
-/// takes it. What it says of the quad is known long before the quad's first pixel needs it.
-struct ToleranceUnit {
-  int interval = 0;       ///< clocks from one quad to the next
-  bool accepted = false;  ///< the complete quad
-  int wait = 0;           ///< clocks until the next may be
-
-  bool ready(bool tests) const { return !tests || accepted || wait == 0; }
-  bool accepts(bool complete, bool tests) const { return complete && tests && !accepted && wait == 0; }
-  void clock(bool accept, bool taken) {
-    accepted = (accept || accepted) && !taken;
-    wait = accept ? interval - 1 : std::max(wait - 1, 0);
-  }
-};
-
 /// The control of hierarchical_z: clocks in which words are wiped and no vertex is taken.
 struct HiddenUnit {
   static constexpr int section = 16;  ///< places that a clear wipes
@@ -349,9 +333,7 @@ struct Pixel {
 /// What a slot of the bank holds: the back half's data and the front half's constants.
 struct Slot : PixelQuad {
   DepthInterval depth;
-  bool tests = false;       ///< plane_tolerance looks at it
-  bool multiplies = false;  ///< and at its values
-  std::size_t quad = 0;     ///< VertexAssembly::number
+  std::size_t quad = 0;  ///< VertexAssembly::number
 };
 
 }  // namespace
@@ -364,7 +346,6 @@ struct ClockedModel::Impl {
   std::uint32_t alloc = 0;   ///< the slot that the next quad gets, once it is free
   std::uint32_t in_use = 0;  ///< bit i: slot i
   WalkUnit walk;
-  ToleranceUnit tolerance;
   HiddenUnit hidden;
   ContextUnit tile_unit;
   std::vector<TileEntry> ring;
@@ -423,8 +404,7 @@ struct ClockedModel::Impl {
   bool start() const {
     return assembly.full && !assembly.drops() && setup.ready(take(), tile_unit.issues()) && (in_use >> alloc & 1) == 0;
   }
-  bool take() const { return setup.ready_for_walk() && walk.ready() && tolerance.ready(complete_slot().tests); }
-  bool accept_tolerance() const { return tolerance.accepts(setup.ready_for_walk(), complete_slot().tests); }
+  bool take() const { return setup.ready_for_walk() && walk.ready(); }
   /// Of the quad that setup has complete, if it has one.
   const Slot& complete_slot() const { return slots[setup.result.setup.slot]; }
   bool ring_full(std::uint32_t entries) const { return ((ring_write - ring_tail) & ring_mask) + entries > ring.size(); }
@@ -487,8 +467,6 @@ struct ClockedModel::Impl {
     alloc = in_use = 0;
     walk = {};
     walk.walk = TileWalk(context.config, context.state);
-    tolerance = {};
-    tolerance.interval = std::max(6, 2 + context.config.attribute_slots);
     hidden.reset(context.config);
     tile_unit = {};
     tile_unit.pairs = context.config.product_pairs();
@@ -529,12 +507,6 @@ struct ClockedModel::Impl {
       add(reject_by_areas(setup.dropped(), context.state) == QuadReject::line ? quads_line : quads_culled, 1);
     if (taking) add(setup.result.setup.homogeneous ? quads_homogeneous : quads_ordinary, 1);
     add(quads_plane, starting && plane_quad(assembly.quad, context.config, context.state));
-    if (accept_tolerance()) {
-      const Slot& slot = complete_slot();
-      add(quads_plane, slot.data.plane);
-      const int values = context.state.perspective + context.state.depth + context.state.attributes;
-      if (slot.multiplies) add(products_plane_tolerance, values * products.value);
-    }
 
     add(blocks_tested, walk_moves && walk.tests.block);
     add(blocks_entered, walk_moves && walk.tests.enter);
@@ -594,7 +566,7 @@ struct ClockedModel::Impl {
         to[products_mean_value_weights] += off_corners() * product(products.weight_ratios) +
                                            total([](std::size_t kind) { return (kind & pixel_areas) == 0 ? 1 : 0; }) *
                                                product(products.weight_factors);
-      if (n == latency::weight_stage) to[products_interpolate] += sums(&WantedSums::sums) * product(products.sum);
+      if (n == latency::weight_stage) to[products_interpolate] += sums(&WantedSums::terms);
       if (n == latency::sum_stage)
         to[products_reciprocal] += sums(&WantedSums::denominators) * product(products.reciprocal);
       if (n == latency::fragment_stage - latency::fragment_output_stages)
@@ -734,7 +706,6 @@ struct ClockedModel::Impl {
     // All conditions first: every unit sees the state before the edge.
     const bool starting = start();
     const bool taking = take();
-    const bool accepting = accept_tolerance();
     const bool dropping = setup.drops();
     const bool dropping_vertices = assembly.drops();
     const bool accept = in.vertex_valid && hidden.wiping == 0 && (!assembly.full || starting || dropping_vertices);
@@ -784,7 +755,6 @@ struct ClockedModel::Impl {
     const std::uint32_t slot = alloc;
     if (next_slot) alloc = (alloc + 1) % static_cast<std::uint32_t>(slots.size());
     in_use &= ~free_slots;
-    tolerance.clock(accepting, taking);
     setup.clock(assembly.full && !dropping_vertices, taking, units_taken);
     if (dropping_vertices) assembly.full = false;
     if (starting) {
@@ -792,8 +762,6 @@ struct ClockedModel::Impl {
       result.slot = slot;
       slots[slot].quad = assembly.number;
       slots[slot].depth = depth_interval(assembly.quad, context.config, context.state);
-      slots[slot].tests = plane_tolerance_tests(assembly.quad, context.config, context.state);
-      slots[slot].multiplies = slots[slot].tests && strictly_convex(assembly.quad);
       slots[slot].data = quad_data(assembly.quad, result, context.config, context.state);
       if (traces.empty()) ahead.take(result, slots[slot]);
       setup.start(result, context.state);

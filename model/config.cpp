@@ -58,9 +58,8 @@ constexpr std::array entries{
           &Config::hierarchical_z_bits},
     Entry{{"hierarchical_z_tiles_log2", 6, 16, 12, "log2", "tiles whose farthest depth is held"},
           &Config::hierarchical_z_tiles_log2},
-    Entry{{"plane_tolerance_bits", 0, 31, 0, "bits",
-           "quads without mean values: 0: none; 1 to 16: plane within 2^-bits of a value's range; 31: exactly"},
-          &Config::plane_tolerance_bits},
+    Entry{{"plane_quads", 0, 1, 0, "", "exactly plane quads take areas for weights; 0: no hardware for them"},
+          &Config::plane_quads},
     Entry{{"quad_id_bits", 8, 32, 24, "bits", "width of the quad id"}, &Config::quad_id_bits},
     Entry{{"performance_counters", 0, 1, 0, "", "counters of what the machine did; 0: no hardware for them"},
           &Config::performance_counters},
@@ -78,11 +77,19 @@ constexpr auto key_list = [] {
 constexpr std::array<std::array<std::string_view, 2>, 2> former_names{
     {{"rsqrt_segments_log2", "sqrt_segments_log2"}, {"rsqrt_degree", "sqrt_degree"}}};
 
+constexpr std::array removed_keys{
+    RemovedKey{"plane_tolerance_bits", 0, "quads nearly plane are no longer treated apart",
+               "the tolerance was removed (it saved no clock); for exactly plane quads, formerly 31, set plane_quads = "
+               "1"},
+};
+
 const Entry& find(std::string_view key) {
   for (const auto& [former, name] : former_names)
     if (key == former) key = name;
   for (const Entry& e : entries)
     if (e.key.name == key) return e;
+  if (const RemovedKey* removed = Config::removed(key))
+    throw ConfigError(std::string(key) + ": " + std::string(removed->reason));
   throw ConfigError("unknown configuration key '" + std::string(key) + "'" +
                     did_you_mean(key, entries, [](const Entry& e) { return e.key.name; }) +
                     " (`quadrille config` lists all)");
@@ -100,9 +107,25 @@ std::span<const ConfigKey> Config::keys() { return key_list; }
 
 const ConfigKey& Config::key(std::string_view name) { return find(name).key; }
 
-int Config::get(std::string_view key) const { return this->*find(key).member; }
+const RemovedKey* Config::removed(std::string_view name) {
+  const auto found = std::ranges::find(removed_keys, name, &RemovedKey::name);
+  return found == removed_keys.end() ? nullptr : &*found;
+}
+
+std::string Config::note(std::string_view name) {
+  const RemovedKey* removed = Config::removed(name);
+  if (removed == nullptr) return "";
+  return std::string(name) + " = " + std::to_string(removed->off) +
+         " is no longer needed: " + std::string(removed->note);
+}
+
+int Config::get(std::string_view key) const {
+  const RemovedKey* removed = Config::removed(key);
+  return removed != nullptr ? removed->off : this->*find(key).member;
+}
 
 int Config::resolved(std::string_view given) const {
+  if (removed(given) != nullptr) return get(given);
   const std::string_view key = find(given).key.name;
   if (key == "quadratic_frac_bits") return quadratic_frac();
   if (key == "sqrt_segments_log2") return sqrt_segments();
@@ -112,6 +135,10 @@ int Config::resolved(std::string_view given) const {
 }
 
 void Config::set(std::string_view key, int value) {
+  if (const RemovedKey* removed = Config::removed(key)) {
+    if (value == removed->off) return;
+    throw ConfigError(std::string(key) + " = " + std::to_string(value) + ": " + std::string(removed->reason));
+  }
   const Entry& e = find(key);
   const bool automatic = value == -1 && e.key.standard == -1;
   if (!automatic && (value < e.key.minimum || value > e.key.maximum)) {
@@ -170,9 +197,6 @@ void Config::validate() const {
           "hierarchical_z_bits = " + std::to_string(hierarchical_z_bits) + "; it must be 0 or at least 4");
   require(hierarchical_z_bits <= depth_bits, "hierarchical_z_bits = " + std::to_string(hierarchical_z_bits) +
                                                  " exceeds depth_bits = " + std::to_string(depth_bits));
-  require(plane_tolerance_bits <= 16 || plane_tolerance_bits == 31,
-          "plane_tolerance_bits = " + std::to_string(plane_tolerance_bits) +
-              "; it must be 0 (off), 1 to 16, or 31 (exactly plane)");
   require(pixels_per_clock != 3, "pixels_per_clock = 3; it must be 1, 2 or 4");
 }
 

@@ -24,6 +24,14 @@ struct ConfigKey {
   std::string_view unit, meaning;
 };
 
+/// A key that there is no more. Old files and scripts may set it to the value with which nothing of it was there.
+struct RemovedKey {
+  std::string_view name;
+  int off;                  ///< the value that is read and ignored
+  std::string_view note;    ///< why nobody needs to set it
+  std::string_view reason;  ///< why any other value is refused, and what to set instead
+};
+
 /// A derived quantity with the reason for its value.
 struct DerivedWidth {
   std::string name;
@@ -57,7 +65,7 @@ struct Config {
   int stamp_fifo_log2 = 3;
   int hierarchical_z_bits = 0;
   int hierarchical_z_tiles_log2 = 12;
-  int plane_tolerance_bits = 0;
+  int plane_quads = 0;
   int quad_id_bits = 24;
   int performance_counters = 0;
 
@@ -66,13 +74,19 @@ struct Config {
   /// The keys in order, with range, default, unit and meaning.
   static std::span<const ConfigKey> keys();
   /// A key by its name, or by the one that it had before (rsqrt_segments_log2, rsqrt_degree); throws ConfigError for an
-  /// unknown name (the nearest one is suggested). So do the next two.
+  /// unknown name (the nearest one is suggested) and for a removed key.
   static const ConfigKey& key(std::string_view name);
-  /// Value of a key by name; throws ConfigError for an unknown name (the nearest one is suggested).
+  /// A key that was removed, by its name; else none.
+  static const RemovedKey* removed(std::string_view name);
+  /// What to tell a user who sets a key: "NAME = VALUE is no longer needed: …" of a removed one, else nothing.
+  static std::string note(std::string_view name);
+  /// Value of a key by name, of a removed one that at which it was off; throws ConfigError for an unknown name (the
+  /// nearest one is suggested).
   int get(std::string_view key) const;
   /// The same with auto replaced by the value that it stands for.
   int resolved(std::string_view key) const;
-  /// Sets a key; throws ConfigError for an unknown name or a value outside the key's range.
+  /// Sets a key; throws ConfigError for an unknown name or a value outside the key's range. A removed key takes the
+  /// value at which it was off, which changes nothing, and refuses any other.
   void set(std::string_view key, int value);
   /// Throws ConfigError when the combination cannot be built.
   void validate() const;

@@ -41,7 +41,7 @@ constexpr Row table[] = {
     {"stamp_fifo_log2", 3, 1, 5},
     {"hierarchical_z_bits", 0, 0, 16},
     {"hierarchical_z_tiles_log2", 12, 6, 16},
-    {"plane_tolerance_bits", 0, 0, 31},
+    {"plane_quads", 0, 0, 1},
     {"quad_id_bits", 24, 8, 32},
     {"performance_counters", 0, 0, 1},
 };
@@ -210,8 +210,6 @@ TEST(Config, ImpossibleCombinationsNameTheirRule) {
   EXPECT_TRUE(contains(refusal_of({{"hierarchical_z_bits", 3}}), "it must be 0 or at least 4"));
   EXPECT_TRUE(contains(refusal_of({{"hierarchical_z_bits", 12}, {"depth_bits", 10}}), "exceeds depth_bits = 10"));
   EXPECT_EQ(refusal_of({{"hierarchical_z_bits", 10}, {"depth_bits", 10}}), "");
-  EXPECT_TRUE(contains(refusal_of({{"plane_tolerance_bits", 17}}), "it must be 0 (off), 1 to 16, or 31"));
-  EXPECT_EQ(refusal_of({{"plane_tolerance_bits", 16}}), "");
   EXPECT_TRUE(contains(refusal_of({{"quadratic_frac_bits", 31}}), "quadratic_frac_bits"));
   EXPECT_TRUE(contains(refusal_of({{"dot_units", 3}}), "dot_units = 3"));
   EXPECT_TRUE(contains(refusal_of({{"attribute_frac_bits", 17}}), "attribute_frac_bits"));
@@ -275,6 +273,27 @@ TEST(Config, FormerNamesOfKeysAreKnown) {
   EXPECT_EQ(config.resolved("rsqrt_segments_log2"), 7);
   EXPECT_EQ(Config::key("rsqrt_degree").name, "sqrt_degree");
   EXPECT_THROW(config.set("rsqrt", 1), ConfigError);
+}
+
+TEST(Config, RemovedKeysAreReadWhereTheyWereOff) {
+  const Config standard;
+  Config config;
+  config.set("plane_tolerance_bits", 0);
+  EXPECT_EQ(config, standard);
+  EXPECT_EQ(config.get("plane_tolerance_bits"), 0);
+  EXPECT_EQ(config.resolved("plane_tolerance_bits"), 0);
+  EXPECT_EQ(Config::note("plane_tolerance_bits"),
+            "plane_tolerance_bits = 0 is no longer needed: quads nearly plane are no longer treated apart");
+  EXPECT_EQ(Config::note("plane_quads"), "");
+  for (const int value : {10, 31, -1}) {
+    const std::string what = refusal([&] { config.set("plane_tolerance_bits", value); });
+    EXPECT_TRUE(what.starts_with("plane_tolerance_bits = " + std::to_string(value) + ": the tolerance was removed"))
+        << what;
+    EXPECT_TRUE(contains(what, "plane_quads = 1")) << what;
+  }
+  EXPECT_EQ(config, standard);
+  EXPECT_TRUE(contains(refusal([] { static_cast<void>(Config::key("plane_tolerance_bits")); }), "was removed"));
+  for (const ConfigKey& key : Config::keys()) EXPECT_EQ(Config::removed(key.name), nullptr) << key.name;
 }
 
 }  // namespace

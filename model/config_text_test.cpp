@@ -46,6 +46,12 @@ TEST(ConfigText, TheTableOfCostsIsPassedOver) {
   EXPECT_EQ(of("depth_bits = 16\n[cost]\nstate = 1.5\nsignificand_bits = 8\n"), expected);
 }
 
+TEST(ConfigText, ARemovedKeyIsPassedOverWhereItWasOff) {
+  Config expected;
+  expected.depth_bits = 16;
+  EXPECT_EQ(of("plane_tolerance_bits = 0\ndepth_bits = 16"), expected);
+}
+
 TEST(ConfigText, EveryKeyIsReadBack) {
   Config expected;
   std::string text;

@@ -1,7 +1,7 @@
 #include "model/float_lanes.hpp"
 
 #include "model/lane_target.hpp"
-#include "model/plane_tolerance.hpp"
+#include "model/plane_quad.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -229,7 +229,7 @@ FloatLanes::TileCounts FloatLanes::cover(const FloatQuad& bounds, const TileCorn
 std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const {
   const auto taken = lane_target() == LaneTarget::v4 ? v4::take_small(format_, depth_limits_, quad, out, small)
                                                      : v3::take_small(format_, depth_limits_, quad, out, small);
-  if (taken == QuadReject::none) out.areas = takes_areas(quad, config_, state_);
+  if (taken == QuadReject::none) out.areas = plane_quad(quad, config_, state_);
   return taken;
 }
 

@@ -64,7 +64,7 @@ struct FloatQuad {
   FloatForms a;                                ///< A
   FloatForms r2;                               ///< the four r² without dx² + dy²
   std::array<double, linear_count> length2{};  ///< SetupResult::length2
-  bool areas = false;                          ///< for weights: plane_quad or plane_tolerance took it
+  bool areas = false;                          ///< for weights: it is a plane_quad
   bool sum_k = true, sum_w = true;
   FloatColumn k, w, z;
   std::array<FloatColumn, max_attribute_slots> b;

@@ -1,7 +1,7 @@
 // The single-precision lanes against the plain pipeline, where they fit and at the edges of where they do.
 #include "model/float_lanes.hpp"
 #include "model/each_lane_target.hpp"
-#include "model/plane_tolerance.hpp"
+#include "model/plane_quad.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
@@ -340,8 +340,7 @@ TEST(FloatLanes, PlainAndLanesLeaveOutTheSame) {
   std::uint64_t plane = 0, pixels = 0, tiles_hidden = 0, blocks_hidden = 0, tiles_masked = 0, on_edge = 0, corners = 0;
   for (int n = 0; n < 160; ++n) {
     Config c = fitting_config(rng);
-    constexpr int tolerances[] = {0, 31, 31, 4, 9};
-    c.plane_tolerance_bits = tolerances[rng.below(5)];
+    c.plane_quads = rng.chance(0.8) ? 1 : 0;
     if (rng.chance(0.6)) c.hierarchical_z_bits = static_cast<int>(rng.integer(6, std::min(12, c.depth_bits)));
     c.hierarchical_z_tiles_log2 = static_cast<int>(rng.integer(7, 9));
     c.validate();
@@ -352,7 +351,7 @@ TEST(FloatLanes, PlainAndLanesLeaveOutTheSame) {
     for (int i = 0; i < 40; ++i) {
       const SnappedQuad quad = random_quad(rng, c, 3);
       list.push_back(rng.chance(0.7) ? plane_one(rng, c, quad) : quad);
-      plane += takes_areas(list.back(), c, s);
+      plane += plane_quad(list.back(), c, s);
     }
     UntimedModel plain(c, s, PixelEngine::plain);
     std::vector<std::vector<Fragment>> expected;

@@ -37,7 +37,6 @@ const std::array<CounterInfo, counter_count> counter_info{{
     {"products_interpolate", "of the sums"},
     {"products_reciprocal", "of the reciprocals"},
     {"products_fragment_output", "of the quotients"},
-    {"products_plane_tolerance", "of quads' values, whether they are nearly plane"},
     {"bound_pixels", "clocks in which emission took from the head stamp, or an end entry"},
     {"bound_output", "in which the head stamp waited for places of the fragment FIFO"},
     {"bound_stamps", "bound by coverage"},
@@ -63,7 +62,7 @@ std::uint64_t PerformanceCounters::pixels() const {
   return sum(*this, PerformanceCounter::pixels_lane0, PerformanceCounter::pixels_lane3);
 }
 std::uint64_t PerformanceCounters::products() const {
-  return sum(*this, PerformanceCounter::products_vertex_products, PerformanceCounter::products_plane_tolerance);
+  return sum(*this, PerformanceCounter::products_vertex_products, PerformanceCounter::products_fragment_output);
 }
 std::uint64_t PerformanceCounters::quads_left_out() const {
   return sum(*this, PerformanceCounter::quads_empty, PerformanceCounter::quads_culled);
@@ -75,15 +74,13 @@ UnitProducts::UnitProducts(const Config& c)
       mean_value_ratios(6),                        // r·r' of the pairs
       weight_ratios(3 * (2 + c.sqrt_degree + 1)),  // z, w', root and v·s of three ratios
       weight_factors(4 * 2),                       // x·y·z of four weights
-      sum(4),                                      // M·c of four vertices
-      reciprocal(c.recip_degree),
-      value(4) {}  // c·f of four corners
+      reciprocal(c.recip_degree) {}
 
 WantedSums::WantedSums(const Config& c, const DrawState& state, bool hull) {
   const bool held = (state.skip & skip_operands) != 0;
   const int attributes = held ? state.attributes : c.attribute_slots;
   const int k = !held || attributes > 0, w = !held || state.depth || hull, z = !held || state.depth;
-  sums = k + w + z + attributes;
+  terms = 4 * (k + w + z) + 3 * attributes;
   denominators = k + w;
   quotients = attributes + z;
 }

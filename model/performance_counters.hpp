@@ -50,7 +50,6 @@ enum class PerformanceCounter : std::uint8_t {
   products_interpolate,
   products_reciprocal,
   products_fragment_output,
-  products_plane_tolerance,
   // Clocks by what bound them
   bound_pixels,
   bound_output,
@@ -68,7 +67,7 @@ struct CounterInfo {
   std::string_view meaning;  ///< what it counts
 };
 
-inline constexpr std::size_t counter_count = 42;
+inline constexpr std::size_t counter_count = 41;
 /// By index.
 extern const std::array<CounterInfo, counter_count> counter_info;
 
@@ -96,12 +95,11 @@ struct PerformanceCounters {
 };
 
 /// Products of the units: of vertex_products in one step of setup or tile context, all pairs of dot units together; of
-/// the others of one pixel, those of interpolate of one sum, of reciprocal of one denominator.
+/// the others of one pixel, those of reciprocal of one denominator.
 struct UnitProducts {
   int vertex_products, sqrt, mean_value_ratios;
   int weight_ratios, weight_factors;  ///< mean_value_weights: up to the ratios of roots, and the weights made of them
-  int sum, reciprocal;
-  int value;  ///< of plane_tolerance: a value of a quad
+  int reciprocal;
 
   explicit UnitProducts(const Config& config);
 };
@@ -109,7 +107,7 @@ struct UnitProducts {
 /// Sums and quotients of a pixel whose operands switch: all that the machine has, or with skip_operands those that a
 /// fragment depends on.
 struct WantedSums {
-  int sums;          ///< k, W, Z and the attributes
+  int terms;         ///< of the sums: k, W and Z of four corners, attributes of three
   int denominators;  ///< k and W
   int quotients;     ///< attributes and z
 

@@ -1,6 +1,6 @@
 #include "model/pixel_pipeline.hpp"
 
-#include "model/plane_tolerance.hpp"
+#include "model/plane_quad.hpp"
 
 namespace quadrille {
 namespace {
@@ -27,7 +27,7 @@ QuadData quad_data(const SnappedQuad& quad, const SetupResult& setup, const Conf
   d.base = quad.base;
   d.homogeneous = setup.homogeneous;
   d.hull = setup.hull;
-  d.plane = takes_areas(quad, config, state);
+  d.plane = plane_quad(quad, config, state);
   const bool skips = (state.skip & skip_operands) != 0;
   const auto attributes = skips ? static_cast<std::size_t>(state.attributes) : max_attribute_slots;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -16,7 +16,7 @@ struct QuadData {
   std::uint32_t id = 0;
   bool homogeneous = false, hull = false;
   bool sum_k = true;                 ///< the sum of M k is formed, not left 0
-  bool plane = false;                ///< takes_areas: areas in the place of mean value weights
+  bool plane = false;                ///< plane_quad: areas in the place of mean value weights
   std::array<PipelineFloat, 4> k{};  ///< k_eff: k, or W when perspective is off
   std::array<PipelineFloat, 4> w{};  ///< W truncated to S bits
   std::array<PipelineFloat, 4> z{};  ///< of depth, less its base

@@ -25,7 +25,7 @@ bool constant_along_sides(const SnappedQuad& quad, const Value& value) {
 }  // namespace
 
 bool takes_plane_quads(const Config& config, const DrawState& state) {
-  return config.plane_tolerance_bits != 0 && (state.skip & skip_plane) != 0;
+  return config.plane_quads != 0 && (state.skip & skip_plane) != 0;
 }
 
 bool plane_quad(const SnappedQuad& quad, const Config& config, const DrawState& state) {

@@ -33,8 +33,8 @@ module config_check;
   `QUADRILLE_REQUIRE(quadrille_pkg::RECIP_DEGREE >= 1 && quadrille_pkg::RECIP_DEGREE <= 2, recip_degree_must_be_1_or_2)
   `QUADRILLE_REQUIRE(quadrille_pkg::ALIGN_GUARD_BITS >= 0 && quadrille_pkg::ALIGN_GUARD_BITS <= 6, align_guard_bits_must_be_0_to_6)
   `QUADRILLE_REQUIRE(quadrille_pkg::ATTRIBUTE_SLOTS >= 1 && quadrille_pkg::ATTRIBUTE_SLOTS <= 8, attribute_slots_must_be_1_to_8)
-  `QUADRILLE_REQUIRE(quadrille_pkg::ATTRIBUTE_INT_BITS >= 1 && quadrille_pkg::ATTRIBUTE_INT_BITS <= 8,
-      attribute_int_bits_must_be_1_to_8)
+  `QUADRILLE_REQUIRE(quadrille_pkg::ATTRIBUTE_INT_BITS >= 1 && quadrille_pkg::ATTRIBUTE_INT_BITS <= 15,
+      attribute_int_bits_must_be_1_to_15)
   `QUADRILLE_REQUIRE(quadrille_pkg::ATTRIBUTE_FRAC_BITS >= S && quadrille_pkg::ATTRIBUTE_FRAC_BITS <= 30,
       attribute_frac_bits_must_be_significand_bits_to_30)
   `QUADRILLE_REQUIRE(quadrille_pkg::DEPTH_BITS >= 8 && quadrille_pkg::DEPTH_BITS <= 30, depth_bits_must_be_8_to_30)
@@ -52,8 +52,7 @@ module config_check;
   `QUADRILLE_REQUIRE(quadrille_pkg::HIERARCHICAL_Z_BITS <= quadrille_pkg::DEPTH_BITS, hierarchical_z_bits_must_be_at_most_depth_bits)
   `QUADRILLE_REQUIRE(quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2 >= 6 && quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2 <= 16,
       hierarchical_z_tiles_log2_must_be_6_to_16)
-  `QUADRILLE_REQUIRE((quadrille_pkg::PLANE_TOLERANCE_BITS >= 0 && quadrille_pkg::PLANE_TOLERANCE_BITS <= 16) ||
-      quadrille_pkg::PLANE_TOLERANCE_BITS == 31, plane_tolerance_bits_must_be_0_to_16_or_31)
+  `QUADRILLE_REQUIRE(quadrille_pkg::PLANE_QUADS >= 0 && quadrille_pkg::PLANE_QUADS <= 1, plane_quads_must_be_0_or_1)
   `QUADRILLE_REQUIRE(quadrille_pkg::QUAD_ID_BITS >= 8 && quadrille_pkg::QUAD_ID_BITS <= 32, quad_id_bits_must_be_8_to_32)
   // with it a position fits a dot unit's operand: T_BITS <= 32
   `QUADRILLE_REQUIRE(quadrille_pkg::VAL_BITS <= 64, a_d_and_r2_must_fit_64_bits_fewer_viewport_guard_or_fraction_bits)

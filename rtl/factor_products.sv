@@ -40,7 +40,7 @@ module factor_products #(
     );
   end
 
-  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_area
+  if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_area
     // A product takes a clock: z waits for xy, or beside both products.
     logic [1:0] area_q;
     logic [4*F-1:0] weight_q1, weight_q2;

@@ -1,7 +1,7 @@
-// Magnitude of a raw product as unsigned fixed point, truncated, saturated. Latency FIXED_POINT_STAGES (2), one per clock.
+// Magnitude of a raw product as unsigned fixed point, truncated. Latency FIXED_POINT_STAGES (2), one per clock.
 //
 // value = prod_i * 2^(exp_i-(2S-2)); fixed_o has INT_BITS integer and FRAC_BITS fraction bits. overflow_o: value >= 2^INT_BITS,
-// fixed_o is all ones then. Does not know signs.
+// fixed_o is 0 then. Does not know signs.
 module fixed_point #(
     parameter int INT_BITS = 3,
     parameter int FRAC_BITS = 20,
@@ -41,6 +41,6 @@ module fixed_point #(
   always_ff @(posedge clk_i) begin
     overflow_o <= overflow_q;
     fixed_o <= top_q >> distance_q[NEAR-1:0];
-    if (distance_q[E:NEAR] != '0) fixed_o <= overflow_q ? '1 : '0;
+    if (distance_q[E:NEAR] != '0) fixed_o <= '0;  // far below, or above
   end
 endmodule

@@ -1,4 +1,4 @@
-// Signed sum of TERMS (2 or 4) products. Latency FP_SUM_STAGES from neg_i and term_i; the ranks come one clock before those,
+// Signed sum of TERMS (2, 3 or 4) products. Latency FP_SUM_STAGES from neg_i and term_i; the ranks come one clock before those,
 // while the multipliers run (fp_term). One result per clock.
 //
 // The terms are aligned to the largest exponent E among the non-zero ones and truncated to PREC_BITS fraction bits below it:
@@ -23,7 +23,7 @@ module fp_sum #(
     output logic [S-1:0] sig_o
 );
   localparam int PREC = quadrille_pkg::PREC_BITS;
-  localparam int PAIRS = TERMS / 2;
+  localparam int PAIRS = (TERMS + 1) / 2;  // the second of three terms is one term alone
   localparam int PAIR = TERM + 2;  // signed sum of two terms
   localparam int MAG = TERM + $clog2(TERMS);  // magnitude of the sum
   localparam int SUM = MAG + 1;
@@ -32,10 +32,14 @@ module fp_sum #(
   logic [TERMS*RANK-1:0] rank_q;
   logic [PAIRS*RANK-1:0] higher_q;
 
-  always_ff @(posedge clk_i) begin
-    rank_q <= rank_i;
-    for (int p = 0; p < PAIRS; p++) begin
-      higher_q[p*RANK+:RANK] <= (rank_i[(2*p+1)*RANK+:RANK] > rank_i[2*p*RANK+:RANK]) ? rank_i[(2*p+1)*RANK+:RANK] : rank_i[2*p*RANK+:RANK];
+  always_ff @(posedge clk_i) rank_q <= rank_i;
+
+  for (genvar p = 0; p < PAIRS; p++) begin : gen_higher
+    localparam int FIRST = 2 * p;
+    localparam int SECOND = (FIRST + 1 < TERMS) ? FIRST + 1 : FIRST;
+
+    always_ff @(posedge clk_i) begin
+      higher_q[p*RANK+:RANK] <= (rank_i[SECOND*RANK+:RANK] > rank_i[FIRST*RANK+:RANK]) ? rank_i[SECOND*RANK+:RANK] : rank_i[FIRST*RANK+:RANK];
     end
   end
 
@@ -58,7 +62,6 @@ module fp_sum #(
 
   // ---- Stage 2: align -------------------------------------------------------------------------------------------------------
   logic [TERMS*TERM-1:0] aligned_q;
-  logic [PAIRS-1:0] differ_q;  // signs within a pair
   logic across_q;  // signs of the pairs
   logic aligned_neg_q;
   logic [E-1:0] aligned_exp_q;
@@ -68,8 +71,7 @@ module fp_sum #(
       aligned_q[k*TERM+:TERM] <= term_q[k*TERM+:TERM] >> distance_q[k*E+:NEAR];
       if (distance_q[k*E+NEAR+:E-NEAR] != '0) aligned_q[k*TERM+:TERM] <= '0;
     end
-    for (int p = 0; p < PAIRS; p++) differ_q[p] <= neg_q[2*p] != neg_q[2*p+1];
-    across_q <= neg_q[0] != neg_q[TERMS-2];
+    across_q <= neg_q[0] != neg_q[2*(PAIRS-1)];
     aligned_neg_q <= neg_q[0];
     aligned_exp_q <= top_exp_q;
   end
@@ -80,10 +82,16 @@ module fp_sum #(
   logic sum_neg_q;
   logic [E-1:0] sum_exp_q;
 
-  always_comb begin
-    for (int p = 0; p < PAIRS; p++) begin
-      pair[p*PAIR+:PAIR] = PAIR'(({PAIR'(aligned_q[2*p*TERM+:TERM]), 1'b1}
-          + {PAIR'(aligned_q[(2*p+1)*TERM+:TERM]) ^ {PAIR{differ_q[p]}}, differ_q[p]}) >> 1);
+  for (genvar p = 0; p < PAIRS; p++) begin : gen_pair
+    if (2 * p + 1 < TERMS) begin : gen_two
+      logic differ_q;  // signs within the pair
+
+      always_ff @(posedge clk_i) differ_q <= neg_q[2*p] != neg_q[2*p+1];
+
+      assign pair[p*PAIR+:PAIR] = PAIR'(({PAIR'(aligned_q[2*p*TERM+:TERM]), 1'b1}
+          + {PAIR'(aligned_q[(2*p+1)*TERM+:TERM]) ^ {PAIR{differ_q}}, differ_q}) >> 1);
+    end else begin : gen_one
+      assign pair[p*PAIR+:PAIR] = PAIR'(aligned_q[2*p*TERM+:TERM]);
     end
   end
 

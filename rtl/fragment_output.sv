@@ -1,9 +1,11 @@
-// Quotients to fixed point, discard, output register. Latency FRAGMENT_OUTPUT_STAGES from numerators and reciprocals to the port:
-// products, fixed_point, signs and depth limits, output.
+// Quotients to fixed point, their sums with the bases, clamps, discard, output register. Latency FRAGMENT_OUTPUT_STAGES from numerators and
+// reciprocals to the port: products, fixed_point, sums, clamps, output.
 //
-// Attribute: two's complement, ATTRIBUTE_INT_BITS and ATTRIBUTE_FRAC_BITS, truncated toward zero, saturated. Depth: unsigned,
-// 1 integer bit, DEPTH_BITS fraction bits. A pixel is discarded outside [znear, zfar], for negative depth, and, in a quad whose hull
-// holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come one clock before the port; the draw state is looked at two before.
+// A quotient is rounded to a code, halves away from zero: fixed_point gives a bit more, which is the carry of the sum with the base.
+// Attribute: two's complement, ATTRIBUTE_INT_BITS and ATTRIBUTE_FRAC_BITS, saturated to +-(2^(INT+FRAC)-1). Depth: unsigned, 1 integer
+// bit, DEPTH_BITS fraction bits, clamped to the corners' (quad_reject). A pixel is discarded outside [znear, zfar] and, in a quad whose
+// hull holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come
+// one clock before the port, limits and draw state two, bases three.
 module fragment_output #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
@@ -19,8 +21,6 @@ module fragment_output #(
     input logic rst_ni,
     // Draw state
     input logic depth_on_i,
-    input logic [DB:0] znear_i,
-    input logic [DB:0] zfar_i,
     input logic [3:0] attributes_i,
     // Numerators and reciprocals
     input logic [N-1:0] attr_neg_i,
@@ -35,6 +35,11 @@ module fragment_output #(
     input logic rw_neg_i,
     input logic [E-1:0] rw_exp_i,
     input logic [S-1:0] rw_sig_i,
+    // Three clocks before the port
+    input logic [N*AO-1:0] base_attr_i,
+    input logic [DB:0] base_depth_i,
+    // Two: {outside, near_cuts, far_cuts, least, greatest}
+    input logic [quadrille_pkg::DEPTH_LIMIT_BITS-1:0] depth_limits_i,
     // One clock before the port
     input logic valid_i,
     input logic [ID-1:0] id_i,
@@ -55,11 +60,13 @@ module fragment_output #(
   logic [N*AO-1:0] attr;
 
   for (genvar g = 0; g < N; g++) begin : gen_attribute
-    logic prod_neg, neg;
+    localparam int SUM = AO + 2;  // a quotient is below 2 2^INT, a base below 2^INT
+    logic prod_neg, neg, used, too_large, least, above;
     logic [E-1:0] exp;
     logic [2*S-1:0] prod;
-    logic used, saturated;
-    logic [AO-2:0] fixed;
+    logic overflow_d, overflow_q, neg_q;
+    logic [AO:0] fixed;  // with the bit that rounds
+    logic [SUM-1:0] sum_q;
 
     fp_raw_product u_product (
         .clk_i,
@@ -73,36 +80,51 @@ module fragment_output #(
         .prod_o(prod)
     );
 
+    // A difference of two values has one integer bit more than a value.
     fixed_point #(
-        .INT_BITS(quadrille_pkg::ATTRIBUTE_INT_BITS),
-        .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS)
+        .INT_BITS(quadrille_pkg::ATTRIBUTE_INT_BITS + 1),
+        .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS + 1)
     ) u_fixed (
         .clk_i,
         .exp_i(exp),
         .prod_i(prod),
-        .overflow_o(saturated),
+        .overflow_o(overflow_d),
         .fixed_o(fixed)
     );
 
     delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_neg (.clk_i, .data_i(prod_neg), .data_o(neg));
 
+    // base + q, or base + ~q + 1, and the rounding added to q: a carry, or one less. {a, 1} + {b, carry} is an adder with a carry-in.
+    always_ff @(posedge clk_i) begin
+      sum_q <= SUM'(({SUM'($signed(base_attr_i[g*AO+:AO])), 1'b1} + {SUM'(fixed[AO:1]) ^ {SUM{neg}}, neg ^ fixed[0]}) >> 1);
+      neg_q <= neg;
+      overflow_q <= overflow_d;
+    end
+
     assign used = attributes_i > 4'(g);
+    assign above = overflow_q ? !neg_q : !sum_q[SUM-1];  // when too large
+    assign too_large = overflow_q || (sum_q[SUM-1-:3] != 3'b000 && sum_q[SUM-1-:3] != 3'b111);
+    assign least = sum_q[AO-2:0] == '0 && sum_q[AO-1];  // -2^(INT+FRAC), when not too large
 
     always_ff @(posedge clk_i) begin
-      overflow[g] <= used && saturated;
-      attr[g*AO+:AO] <= !used ? '0 : neg ? AO'(0) - {1'b0, fixed} : {1'b0, fixed};
+      overflow[g] <= used && (too_large || least);
+      attr[g*AO+:AO] <= too_large ? {!above, {(AO - 2) {above}}, 1'b1} : {sum_q[AO-1:1], sum_q[0] || least};
+      if (!used) attr[g*AO+:AO] <= '0;
     end
   end
 
   // ---- Depth --------------------------------------------------------------------------------------------------------------
+  localparam int Z_SUM = DB + 3;  // signed: a quotient is below 2, a base at most 1
   logic z_prod_neg, z_neg, w_zero, w_neg;
   logic [E-1:0] z_exp;
   logic [2*S-1:0] z_prod;
-  logic z_saturated;
-  logic [DB:0] z_fixed, z;
-  logic z_below;
+  logic z_overflow, z_overflow_q, z_neg_q;
+  logic [DB+1:0] z_fixed;  // with the bit that rounds
+  logic [Z_SUM-1:0] z_q;
+  logic outside, near_cuts, far_cuts, below, beyond;
+  logic [DB:0] least_z, greatest_z;
   logic [DB:0] depth_q;
-  logic depth_discard_q, behind_q;
+  logic depth_discard_q, behind_q, behind_early_q;
 
   fp_raw_product u_product_z (
       .clk_i,
@@ -125,22 +147,31 @@ module fragment_output #(
 
   fixed_point #(
       .INT_BITS(1),
-      .FRAC_BITS(DB)
+      .FRAC_BITS(DB + 1)
   ) u_fixed_z (
       .clk_i,
       .exp_i(z_exp),
       .prod_i(z_prod),
-      .overflow_o(z_saturated),
+      .overflow_o(z_overflow),
       .fixed_o(z_fixed)
   );
 
-  assign z = (w_zero || z_saturated) ? '1 : z_fixed;
-  assign z_below = !w_zero && z_neg && z != '0;
+  always_ff @(posedge clk_i) begin
+    z_q <= Z_SUM'(({Z_SUM'(base_depth_i), 1'b1} + {Z_SUM'(z_fixed[DB+1:1]) ^ {Z_SUM{z_neg}}, z_neg ^ z_fixed[0]}) >> 1);
+    z_neg_q <= z_neg && !w_zero;
+    z_overflow_q <= z_overflow || w_zero;
+    behind_early_q <= w_zero || w_neg;
+  end
+
+  assign {outside, near_cuts, far_cuts, least_z, greatest_z} = depth_limits_i;
+  assign below = z_overflow_q ? z_neg_q : $signed(z_q) < $signed(Z_SUM'(least_z));
+  assign beyond = z_overflow_q ? !z_neg_q : $signed(z_q) > $signed(Z_SUM'(greatest_z));
 
   always_ff @(posedge clk_i) begin
-    depth_q <= depth_on_i ? z : (DB + 1)'(0);
-    depth_discard_q <= depth_on_i && (z_below || z < znear_i || z > zfar_i);
-    behind_q <= w_zero || w_neg;
+    depth_q <= beyond ? greatest_z : below ? least_z : z_q[DB:0];
+    if (!depth_on_i) depth_q <= '0;
+    depth_discard_q <= depth_on_i && (outside || (below && near_cuts) || (beyond && far_cuts));
+    behind_q <= behind_early_q;
   end
 
   // ---- Output register ----------------------------------------------------------------------------------------------------

@@ -67,7 +67,7 @@ module mean_value_weights #(
   logic [6*E-1:0] product_v_exp;  // v where it is multiplied
   logic [6*S-1:0] product_v_sig;
 
-  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+  if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     logic [5*F-1:0] v;  // of the edges and E20
 
     for (genvar g = 0; g < 5; g++) begin : gen_v

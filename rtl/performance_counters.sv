@@ -19,7 +19,6 @@ module performance_counters #(
     // Quads
     input logic start_i,  // setup takes the quad of vertex_assembly
     input logic plane_i,  // which is a plane_quad
-    input logic nearly_plane_i,  // plane_tolerance takes a quad
     input logic drop_vertices_i,  // or it is left out, for the first of these that holds, else by its depth
     input logic empty_i,
     input logic behind_i,
@@ -47,7 +46,6 @@ module performance_counters #(
     // Dot units
     input logic context_job_i,  // of all pairs
     input logic setup_job_i,
-    input logic tolerance_i,  // plane_tolerance multiplies a value in use
     // What bounds the clock
     input logic head_i,  // emission has a stamp or an end entry
     input logic head_waits_i,  // and no place for its fragments
@@ -70,14 +68,13 @@ module performance_counters #(
   localparam int PER_RATIO = PAIRS_OF_VERTICES;
   localparam int PER_WEIGHT_RATIO = RATIOS * (2 + quadrille_pkg::SQRT_DEGREE + 1);  // of mean_value_weights, up to the ratios of roots
   localparam int PER_WEIGHT_FACTOR = 2 * WEIGHTS;  // and behind them
-  localparam int PER_SUM = WEIGHTS;
+  localparam int PER_SUM = WEIGHTS;  // an attribute's has one less: none of corner 0
   localparam int PER_RECIPROCAL = quadrille_pkg::RECIP_DEGREE;
-  localparam int PER_VALUE = 4;  // of plane_tolerance: its corners
   localparam int PER_JOB = 4;  // a pair: two dot units of two products each
 
   localparam int BEFORE_OUTPUT = quadrille_pkg::FRAGMENT_STAGE - quadrille_pkg::FRAGMENT_OUTPUT_STAGES;
   localparam int COUNT = $clog2(P + 1);
-  localparam int SUMS = $clog2(SETS + 1);
+  localparam int SUMS = $clog2(quadrille_pkg::BLEND_TERMS + 1);
 
   // Lanes whose numbers are not those of a pixel before, at the units between normalise and the ratios of roots.
   logic [P-1:0] norm_active, root_active, ratio_active;
@@ -147,7 +144,7 @@ module performance_counters #(
   );
 
   logic [COUNT-1:0] at_norm, at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn;
-  logic [SUMS-1:0] sums, denominators, quotients;
+  logic [SUMS-1:0] terms, denominators, quotients;
 
   always_comb begin
     {at_norm, at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn} = '0;
@@ -162,10 +159,10 @@ module performance_counters #(
       at_output = at_output + COUNT'(lane_valid_i[g*LATENCY+BEFORE_OUTPUT]);
       drawn = drawn + COUNT'(drawn_i[g]);
     end
-    sums = '0;
+    terms = '0;
     quotients = '0;
     for (int g = 0; g < SETS; g++) begin
-      sums = sums + SUMS'(sum_active[g]);
+      if (sum_active[g]) terms = terms + SUMS'((g < 3) ? PER_SUM : PER_SUM - 1);
       if (g >= 2) quotients = quotients + SUMS'(output_active[g]);  // z and the attributes
     end
     denominators = SUMS'(quotient_active[0]) + SUMS'(quotient_active[1]);
@@ -193,9 +190,9 @@ module performance_counters #(
   end
 
   // ---- The counters, in the order of their indices --------------------------------------------------------------------------
-  localparam int STEP = 8;  // bits of what a clock adds: at most four products of eleven sums in four lanes, 176
+  localparam int STEP = 8;  // bits of what a clock adds: at most 36 products of the sums in four lanes, 144
   localparam int LANES = 4;  // indices for the pixels of a lane, used or not
-  localparam int COUNTERS = 42;
+  localparam int COUNTERS = 41;
   logic [COUNTERS*STEP-1:0] step;
   logic [COUNTERS*WIDTH-1:0] value_q;
   logic [LANES-1:0] entered;
@@ -217,7 +214,7 @@ module performance_counters #(
   assign step[6*STEP+:STEP] = STEP'(drop_i && !drop_line_i);
   assign step[7*STEP+:STEP] = STEP'(take_i && !homogeneous_i);
   assign step[8*STEP+:STEP] = STEP'(take_i && homogeneous_i);
-  assign step[9*STEP+:STEP] = STEP'(start_i && plane_i) + STEP'(nearly_plane_i);
+  assign step[9*STEP+:STEP] = STEP'(start_i && plane_i);
   assign step[10*STEP+:STEP] = STEP'(block_test_i);
   assign step[11*STEP+:STEP] = STEP'(block_enter_i);
   assign step[12*STEP+:STEP] = STEP'(block_hidden_i);
@@ -236,12 +233,11 @@ module performance_counters #(
   assign step[26*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
   assign step[27*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
   assign step[28*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
-  assign step[29*STEP+:STEP] = STEP'(at_sum) * STEP'(sums) * STEP'(PER_SUM);
+  assign step[29*STEP+:STEP] = STEP'(at_sum) * STEP'(terms);
   assign step[30*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
   assign step[31*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);
-  assign step[32*STEP+:STEP] = tolerance_i ? STEP'(PER_VALUE) : '0;
   for (genvar g = 0; g < BOUNDS; g++) begin : gen_bound
-    assign step[(33+g)*STEP+:STEP] = STEP'(bound[g]);
+    assign step[(32+g)*STEP+:STEP] = STEP'(bound[g]);
   end
 
   for (genvar g = 0; g < COUNTERS; g++) begin : gen_counter

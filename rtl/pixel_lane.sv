@@ -21,6 +21,9 @@ module pixel_lane #(
     localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
     localparam int QCURV = quadrille_pkg::QCURV_BITS,
     localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
+    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
+    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS,
+    localparam int TERMS = quadrille_pkg::BLEND_TERMS,
     localparam int SETS = 3 + N
 ) (
     input logic clk_i,
@@ -28,8 +31,6 @@ module pixel_lane #(
     // Draw state
     input logic hold_i,  // skip bit 4
     input logic depth_on_i,
-    input logic [DB:0] znear_i,
-    input logic [DB:0] zfar_i,
     input logic [3:0] attributes_i,
     // The pixel, at the pipeline's input. One of a homogeneous quad is valid with its last part
     input logic valid_i,
@@ -54,9 +55,12 @@ module pixel_lane #(
     input logic [4*S-1:0] product_k_sig_i,
     input logic [4*PE-1:0] override_k_exp_i,
     input logic [4*S-1:0] override_k_sig_i,
-    input logic [SETS*4-1:0] blend_neg_i,
-    input logic [SETS*4*PE-1:0] blend_exp_i,
-    input logic [SETS*4*S-1:0] blend_sig_i,
+    input logic [TERMS-1:0] blend_neg_i,
+    input logic [TERMS*PE-1:0] blend_exp_i,
+    input logic [TERMS*S-1:0] blend_sig_i,
+    input logic [N*AO-1:0] base_attr_i,
+    input logic [DB:0] base_depth_i,
+    input logic [LIMITS-1:0] base_limits_i,
     input logic [ID-1:0] output_id_i,
     input logic output_hull_i,
     input logic output_homogeneous_i,
@@ -118,7 +122,7 @@ module pixel_lane #(
       .data_o({ratio_class, ratio_d_neg})
   );
 
-  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+  if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     delay_line #(.WIDTH(1), .DEPTH(RATIO - NORM)) u_behind_diagonal (
         .clk_i,
         .data_i(norm_behind_diagonal),
@@ -400,8 +404,6 @@ module pixel_lane #(
       .clk_i,
       .rst_ni,
       .depth_on_i,
-      .znear_i,
-      .zfar_i,
       .attributes_i,
       .attr_neg_i(num_neg[NUMS-1:1]),
       .attr_exp_i(num_exp[NUMS*E-1:E]),
@@ -415,6 +417,9 @@ module pixel_lane #(
       .rw_neg_i(rw_neg),
       .rw_exp_i(rw_exp),
       .rw_sig_i(rw_sig),
+      .base_attr_i,
+      .base_depth_i,
+      .depth_limits_i(base_limits_i),
       .valid_i(valid_q[LAST-1]),
       .id_i(output_id_i),
       .hull_i(output_hull_i),

@@ -22,6 +22,9 @@ module pixel_pipeline #(
     localparam int QCURV = quadrille_pkg::QCURV_BITS,
     localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
+    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS,
+    localparam int TERMS = quadrille_pkg::BLEND_TERMS,
     localparam int SETS = 3 + N
 ) (
     input logic clk_i,
@@ -29,8 +32,6 @@ module pixel_pipeline #(
     // Draw state
     input logic hold_i,  // operands that nothing depends on do not switch (skip bit 4)
     input logic depth_on_i,
-    input logic [DB:0] znear_i,
-    input logic [DB:0] zfar_i,
     input logic [3:0] attributes_i,
     // Emission: the pixels' row. Those of a homogeneous quad are valid with their last part
     input logic end_i,
@@ -64,10 +65,14 @@ module pixel_pipeline #(
     input logic [4*PE-1:0] override_k_exp_i,
     input logic [4*S-1:0] override_k_sig_i,
     output logic [SLOT-1:0] blend_slot_o,
-    input logic [SETS*4-1:0] blend_neg_i,
-    input logic [SETS*4*PE-1:0] blend_exp_i,
-    input logic [SETS*4*S-1:0] blend_sig_i,
+    input logic [TERMS-1:0] blend_neg_i,
+    input logic [TERMS*PE-1:0] blend_exp_i,
+    input logic [TERMS*S-1:0] blend_sig_i,
     input logic blend_hull_i,
+    output logic [SLOT-1:0] base_slot_o,
+    input logic [N*AO-1:0] base_attr_i,
+    input logic [DB:0] base_depth_i,
+    input logic [LIMITS-1:0] base_limits_i,
     output logic [SLOT-1:0] output_slot_o,
     input logic [ID-1:0] output_id_i,
     input logic output_hull_i,
@@ -101,15 +106,15 @@ module pixel_pipeline #(
   end
 
   // ---- Side band: slot, tile column, row -----------------------------------------------------------------------------------
-  // A read of the slot bank ends in a register: the slot leaves two registers before the data's user; three for interpolation and
-  // squared lengths, whose memories have a register of their own.
+  // A read of the slot bank ends in a register: the slot leaves two registers before the data's user; three for interpolation, bases
+  // and squared lengths, whose memories have a register of their own.
   typedef struct packed {
     logic [SLOT-1:0] slot;
     logic [V-TILE_LOG2-1:0] tile_x;
     logic [V-1:0] y;
   } tag_t;
   localparam int TAG = SLOT + V - TILE_LOG2 + V;
-  tag_t diff_tag, product_tag, override_tag, blend_tag, output_tag;
+  tag_t diff_tag, product_tag, override_tag, blend_tag, base_tag, output_tag;
 
   delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (.clk_i, .data_i({slot_i, tile_x_i, y_i}), .data_o(diff_tag));
   delay_line #(.WIDTH(TAG), .DEPTH(RATIO - 1 - DIFF)) u_product_tag (.clk_i, .data_i(diff_tag), .data_o(product_tag));
@@ -119,16 +124,20 @@ module pixel_pipeline #(
       .data_o(override_tag)
   );
   delay_line #(.WIDTH(TAG), .DEPTH(WEIGHT - OVERRIDE)) u_blend_tag (.clk_i, .data_i(override_tag), .data_o(blend_tag));
-  delay_line #(.WIDTH(TAG), .DEPTH(LAST - WEIGHT)) u_output_tag (.clk_i, .data_i(blend_tag), .data_o(output_tag));
+  delay_line #(.WIDTH(TAG), .DEPTH(LAST - 3 - WEIGHT)) u_base_tag (.clk_i, .data_i(blend_tag), .data_o(base_tag));
+  delay_line #(.WIDTH(TAG), .DEPTH(3)) u_output_tag (.clk_i, .data_i(base_tag), .data_o(output_tag));
 
   // ---- Reads of the slot bank -----------------------------------------------------------------------------------------------
   logic norm_plane;
   logic [3:0] product_k_neg;
   logic [4*PE-1:0] product_k_exp, override_k_exp;
   logic [4*S-1:0] product_k_sig, override_k_sig;
-  logic [SETS*4-1:0] blend_neg;
-  logic [SETS*4*PE-1:0] blend_exp;
-  logic [SETS*4*S-1:0] blend_sig;
+  logic [TERMS-1:0] blend_neg;
+  logic [TERMS*PE-1:0] blend_exp;
+  logic [TERMS*S-1:0] blend_sig;
+  logic [N*AO-1:0] base_attr;
+  logic [DB:0] base_depth;
+  logic [LIMITS-1:0] limits_q, base_limits;
   logic [ID-1:0] output_id;
   logic output_hull, output_homogeneous;
   tag_t fragment_tag;  // output_tag in step with what was read
@@ -137,6 +146,7 @@ module pixel_pipeline #(
   assign product_slot_o = product_tag.slot;
   assign override_slot_o = override_tag.slot;
   assign blend_slot_o = blend_tag.slot;
+  assign base_slot_o = base_tag.slot;
   assign output_slot_o = output_tag.slot;
 
   always_ff @(posedge clk_i) begin
@@ -146,6 +156,9 @@ module pixel_pipeline #(
     product_k_sig <= product_k_sig_i;
     override_k_exp <= override_k_exp_i;
     override_k_sig <= override_k_sig_i;
+    base_attr <= base_attr_i;
+    base_depth <= base_depth_i;
+    {base_limits, limits_q} <= {limits_q, base_limits_i};  // used a clock after the bases
     output_id <= output_id_i;
     output_hull <= output_hull_i;
     output_homogeneous <= output_homogeneous_i;
@@ -161,18 +174,21 @@ module pixel_pipeline #(
   assign sum_active[2] = !hold_i || depth_on_i;
 
   for (genvar g = 0; g < SETS; g++) begin : gen_term
+    localparam int CORNERS = (g < 3) ? 4 : 3;
+    localparam int FIRST = (g < 3) ? 4 * g : 12 + 3 * (g - 3);
+
     if (g >= 3) begin : gen_attribute
       assign sum_active[g] = !hold_i || attributes_i > 4'(g - 3);
     end
 
     always_ff @(posedge clk_i) begin
-      blend_neg[g*4+:4] <= blend_neg_i[g*4+:4];
-      blend_exp[g*4*PE+:4*PE] <= blend_exp_i[g*4*PE+:4*PE];
-      blend_sig[g*4*S+:4*S] <= blend_sig_i[g*4*S+:4*S];
+      blend_neg[FIRST+:CORNERS] <= blend_neg_i[FIRST+:CORNERS];
+      blend_exp[FIRST*PE+:CORNERS*PE] <= blend_exp_i[FIRST*PE+:CORNERS*PE];
+      blend_sig[FIRST*S+:CORNERS*S] <= blend_sig_i[FIRST*S+:CORNERS*S];
       if (!sum_active[g]) begin
-        blend_neg[g*4+:4] <= '0;
-        blend_exp[g*4*PE+:4*PE] <= '0;
-        blend_sig[g*4*S+:4*S] <= '0;
+        blend_neg[FIRST+:CORNERS] <= '0;
+        blend_exp[FIRST*PE+:CORNERS*PE] <= '0;
+        blend_sig[FIRST*S+:CORNERS*S] <= '0;
       end
     end
   end
@@ -237,8 +253,6 @@ module pixel_pipeline #(
         .rst_ni,
         .hold_i,
         .depth_on_i,
-        .znear_i,
-        .zfar_i,
         .attributes_i,
         .valid_i(valid_i[g]),
         .row_i(row),
@@ -262,6 +276,9 @@ module pixel_pipeline #(
         .blend_neg_i(blend_neg),
         .blend_exp_i(blend_exp),
         .blend_sig_i(blend_sig),
+        .base_attr_i(base_attr),
+        .base_depth_i(base_depth),
+        .base_limits_i(base_limits),
         .output_id_i(output_id),
         .output_hull_i(output_hull),
         .output_homogeneous_i(output_homogeneous),

@@ -26,7 +26,7 @@ module plane_quad #(
     input logic [3:0] z_neg_i,
     input logic [4*PE-1:0] z_exp_i,
     input logic [4*S-1:0] z_sig_i,
-    input logic [4*N*AP-1:0] attr_i,
+    input logic [3*N*AP-1:0] attr_i,  // of v1, v2, v3; v0 has 0
     output logic plane_o
 );
   localparam int VALUES = 2 + N;
@@ -65,8 +65,10 @@ module plane_quad #(
         assign value[v*AP+:AP] = {1'b0, k_exp_i[v*PE+:PE], k_sig_i[v*S+:S]};
       end else if (t == 1) begin : gen_z
         assign value[v*AP+:AP] = {z_neg_i[v], z_exp_i[v*PE+:PE], z_sig_i[v*S+:S]};
+      end else if (v == 0) begin : gen_base
+        assign value[v*AP+:AP] = '0;
       end else begin : gen_attribute
-        assign value[v*AP+:AP] = attr_i[(v*N+t-2)*AP+:AP];
+        assign value[v*AP+:AP] = attr_i[((v-1)*N+t-2)*AP+:AP];
       end
     end
 

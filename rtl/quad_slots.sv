@@ -1,14 +1,18 @@
 // The quad slots: allocation, and everything that a pixel needs to know about its quad, read by slot index.
 //
 // Two banks. Vertex bank, written at start: id, k_eff (k, or W without perspective), W, Z, b as significand numbers with port
-// exponents. Function bank, written at take: gx, gy and tie signs of the linear functions, squared lengths, visibility, hull,
+// exponents, bases and depth limits. Function bank, written at take: gx, gy and tie signs of the linear functions, squared lengths, visibility, hull,
 // homogeneous.
-// Reads of the front end, of squared lengths and for interpolation end in registers, the pixel pipeline's others are combinational; a slot lives from start until the end beat leaves the pipeline. Not reset, except the pointers.
+// Reads of the front end, of squared lengths, for interpolation and of bases end in registers, the pixel pipeline's others are combinational; a slot lives from start until the end beat leaves the pipeline. Not reset, except the pointers.
 module quad_slots #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
     localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
     localparam int AP = quadrille_pkg::ATTR_PORT_BITS,
+    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
+    localparam int DB = quadrille_pkg::DEPTH_BITS,
+    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS,
+    localparam int TERMS = quadrille_pkg::BLEND_TERMS,
     localparam int ID = quadrille_pkg::QUAD_ID_BITS,
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
     localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
@@ -27,9 +31,6 @@ module quad_slots #(
     // Vertex bank, written at start
     input logic perspective_i,
     input logic plane_i,
-    // Of a quad in a slot, later: its weights are areas too
-    input logic nearly_plane_i,
-    input logic [SLOT-1:0] nearly_plane_slot_i,
     input logic [ID-1:0] id_i,
     input logic [3:0] w_neg_i,
     input logic [4*PE-1:0] w_exp_i,
@@ -39,7 +40,10 @@ module quad_slots #(
     input logic [3:0] z_neg_i,
     input logic [4*PE-1:0] z_exp_i,
     input logic [4*S-1:0] z_sig_i,
-    input logic [4*N*AP-1:0] attr_i,
+    input logic [3*N*AP-1:0] attr_i,  // of v1, v2, v3
+    input logic [N*AO-1:0] base_attr_i,
+    input logic [DB:0] base_depth_i,
+    input logic [LIMITS-1:0] depth_limits_i,
     // Function bank, written at take
     input logic take_i,
     input logic [SLOT-1:0] take_slot_i,
@@ -77,12 +81,17 @@ module quad_slots #(
     input logic [SLOT-1:0] override_slot_i,
     output logic [4*PE-1:0] override_k_exp_o,
     output logic [4*S-1:0] override_k_sig_o,
-    // Read for interpolation: term sets k_eff, W, Z, b0, b1, ..., each of four vertices; there a clock after the slot
+    // Read for interpolation: term sets k_eff, W, Z of four vertices, b0, b1, ... of v1, v2, v3; there a clock after the slot
     input logic [SLOT-1:0] blend_slot_i,
-    output logic [(3+N)*4-1:0] blend_neg_o,
-    output logic [(3+N)*4*PE-1:0] blend_exp_o,
-    output logic [(3+N)*4*S-1:0] blend_sig_o,
+    output logic [TERMS-1:0] blend_neg_o,
+    output logic [TERMS*PE-1:0] blend_exp_o,
+    output logic [TERMS*S-1:0] blend_sig_o,
     output logic blend_hull_o,
+    // Read for the output's sums: there a clock after the slot
+    input logic [SLOT-1:0] base_slot_i,
+    output logic [N*AO-1:0] base_attr_o,
+    output logic [DB:0] base_depth_o,
+    output logic [LIMITS-1:0] base_limits_o,
     // Read for the output
     input logic [SLOT-1:0] output_slot_i,
     output logic [ID-1:0] output_id_o,
@@ -116,7 +125,7 @@ module quad_slots #(
   // k_eff, which is read three times, in a small memory per vertex; the other term sets, read once for interpolation, in one word.
   localparam int WORD = 1 + PE + S;
   localparam int SETS = 3 + N;
-  localparam int BLEND = 4 * (SETS - 1) * WORD;
+  localparam int BLEND = (TERMS - 4) * WORD;
   // Block RAM: a slot that is read is in use, so it is never the one that is written.
   (* ram_style = "block", no_rw_check *) logic [BLEND-1:0] blend_q[0:SLOTS-1];
   logic [BLEND-1:0] write_blend, blend_word;
@@ -135,12 +144,14 @@ module quad_slots #(
     assign k_exp = perspective_i ? k_exp_i[v*PE+:PE] : w_exp_i[v*PE+:PE];
     assign k_sig = perspective_i ? k_sig_i[v*S+:S] : w_sig_i[v*S+:S];
 
-    for (genvar t = 0; t < SETS; t++) begin : gen_term
+    // An attribute has no term of vertex 0.
+    for (genvar t = 0; t < ((v == 0) ? 3 : SETS); t++) begin : gen_term
+      localparam int PLACE = (t < 3) ? 4 * t + v : 12 + 3 * (t - 3) + v - 1;
       logic [WORD-1:0] read_word;
 
-      assign blend_neg_o[t*4+v] = read_word[WORD-1];
-      assign blend_exp_o[(t*4+v)*PE+:PE] = read_word[S+:PE];
-      assign blend_sig_o[(t*4+v)*S+:S] = read_word[0+:S];
+      assign blend_neg_o[PLACE] = read_word[WORD-1];
+      assign blend_exp_o[PLACE*PE+:PE] = read_word[S+:PE];
+      assign blend_sig_o[PLACE*S+:S] = read_word[0+:S];
 
       if (t == 0) begin : gen_k
         logic [WORD-1:0] bank_q[0:SLOTS-1];
@@ -161,7 +172,7 @@ module quad_slots #(
         logic unused_neg;
         assign unused_neg = override_word[WORD-1];  // magnitude only
       end else begin : gen_blend
-        localparam int AT = ((t - 1) * 4 + v) * WORD;
+        localparam int AT = (PLACE - 4) * WORD;
         assign read_word = blend_word[AT+:WORD];
 
         if (t == 1) begin : gen_w
@@ -169,11 +180,23 @@ module quad_slots #(
         end else if (t == 2) begin : gen_z
           assign write_blend[AT+:WORD] = {z_neg_i[v], z_exp_i[v*PE+:PE], z_sig_i[v*S+:S]};
         end else begin : gen_b
-          assign write_blend[AT+:WORD] = attr_i[(v*N+t-3)*AP+:AP];
+          assign write_blend[AT+:WORD] = attr_i[((v-1)*N+t-3)*AP+:AP];
         end
       end
     end
   end
+
+  // Block RAM as blend_q, and a memory of its own, for it is read later.
+  localparam int BASE = N * AO + DB + 1 + LIMITS;
+  (* ram_style = "block", no_rw_check *) logic [BASE-1:0] base_q[0:SLOTS-1];
+  logic [BASE-1:0] base_word;
+
+  always_ff @(posedge clk_i) begin
+    if (start_i) base_q[alloc_q] <= {base_attr_i, base_depth_i, depth_limits_i};
+    base_word <= base_q[base_slot_i];
+  end
+
+  assign {base_attr_o, base_depth_o, base_limits_o} = base_word;
 
   logic [ID-1:0] id_q[0:SLOTS-1];
 
@@ -181,18 +204,15 @@ module quad_slots #(
 
   assign output_id_o = id_q[output_slot_i];
 
-  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+  if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     logic [SLOTS-1:0] plane_q;
 
-    always_ff @(posedge clk_i) begin
-      if (start_i) plane_q[alloc_q] <= plane_i;
-      if (nearly_plane_i) plane_q[nearly_plane_slot_i] <= 1'b1;
-    end
+    always_ff @(posedge clk_i) if (start_i) plane_q[alloc_q] <= plane_i;
 
     assign norm_plane_o = plane_q[norm_slot_i];
   end else begin : gen_no_plane
     logic unused_plane;
-    assign unused_plane = ^{plane_i, nearly_plane_i, nearly_plane_slot_i, norm_slot_i};
+    assign unused_plane = ^{plane_i, norm_slot_i};
     assign norm_plane_o = 1'b0;
   end
 

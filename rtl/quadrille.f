@@ -40,7 +40,6 @@ pixel_emit.sv
 pixel_lane.sv
 pixel_pipeline.sv
 plane_quad.sv
-plane_tolerance.sv
 quad_reject.sv
 quad_setup.sv
 quad_slots.sv

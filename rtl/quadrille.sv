@@ -27,6 +27,10 @@ module quadrille (
   localparam int PE = quadrille_pkg::PORT_EXP_BITS;
   localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS;
   localparam int AP = quadrille_pkg::ATTR_PORT_BITS;
+  localparam int AO = quadrille_pkg::ATTR_OUT_BITS;
+  localparam int DB = quadrille_pkg::DEPTH_BITS;
+  localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS;
+  localparam int TERMS = quadrille_pkg::BLEND_TERMS;
   localparam int ID = quadrille_pkg::QUAD_ID_BITS;
   localparam int V = quadrille_pkg::VIEWPORT_BITS;
   localparam int T = quadrille_pkg::T_BITS;
@@ -59,8 +63,8 @@ module quadrille (
     logic [1:0] cull;
     logic perspective;
     logic depth;
-    logic [quadrille_pkg::DEPTH_BITS:0] znear;
-    logic [quadrille_pkg::DEPTH_BITS:0] zfar;
+    logic [DB:0] znear;
+    logic [DB:0] zfar;
     logic [3:0] attributes;
     logic [7:0] skip;
   } state_t;
@@ -93,7 +97,10 @@ module quadrille (
   logic [4*PE-1:0] quad_k_exp, quad_z_exp;
   logic [4*S-1:0] quad_k_sig, quad_z_sig;
   logic [3:0] quad_z_neg;
-  logic [4*N*AP-1:0] quad_attr;
+  logic [3*N*AP-1:0] quad_attr;
+  logic [N*AO-1:0] quad_base_attr;
+  logic [DB:0] quad_base_depth;
+  logic [LIMITS-1:0] quad_depth_limits;
 
   logic assembly_ready, depths_ready;  // hierarchical_z is not wiping
   logic [H-1:0] quad_near, quad_far;
@@ -141,7 +148,10 @@ module quadrille (
       .z_neg_o(quad_z_neg),
       .z_exp_o(quad_z_exp),
       .z_sig_o(quad_z_sig),
-      .attr_o(quad_attr)
+      .attr_o(quad_attr),
+      .base_attr_o(quad_base_attr),
+      .base_depth_o(quad_base_depth),
+      .depth_limits_o(quad_depth_limits)
   );
 
   // ---- Setup, and the multipliers that it shares with the tiles -----------------------------------------------------------
@@ -277,7 +287,7 @@ module quadrille (
   );
 
   // ---- Quad slots ---------------------------------------------------------------------------------------------------------
-  logic [SLOT-1:0] stamp_slot, tag_slot, emit_slot, product_slot, override_slot, blend_slot, output_slot;
+  logic [SLOT-1:0] stamp_slot, tag_slot, emit_slot, product_slot, override_slot, blend_slot, base_slot, output_slot;
   logic [5*GRAD-1:0] stamp_gx, stamp_gy;
   logic [4:0] stamp_tie_pos, stamp_tie_neg;
   logic [3:0] stamp_visible;
@@ -285,20 +295,21 @@ module quadrille (
   logic [SLOT-1:0] length2_slot;
   logic [6*LENGTH2-1:0] length2;
   logic quad_plane, norm_plane;
-  logic nearly_plane, tolerance_ready, count_tolerance;
-  logic [SLOT-1:0] nearly_plane_slot;
   logic [SLOT-1:0] norm_slot;
   logic [3:0] product_k_neg;
   logic [4*PE-1:0] product_k_exp, override_k_exp;
   logic [4*S-1:0] product_k_sig, override_k_sig;
-  logic [SETS*4-1:0] blend_neg;
-  logic [SETS*4*PE-1:0] blend_exp;
-  logic [SETS*4*S-1:0] blend_sig;
+  logic [TERMS-1:0] blend_neg;
+  logic [TERMS*PE-1:0] blend_exp;
+  logic [TERMS*S-1:0] blend_sig;
   logic blend_hull;
+  logic [N*AO-1:0] base_attr;
+  logic [DB:0] base_depth;
+  logic [LIMITS-1:0] base_limits;
   logic [ID-1:0] output_id;
   logic output_hull, output_homogeneous;
 
-  if (quadrille_pkg::PLANE_TOLERANCE_BITS != 0) begin : gen_plane
+  if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     plane_quad u_plane (
         .clk_i,
         .on_i(state.skip[5]),
@@ -322,58 +333,6 @@ module quadrille (
     assign quad_plane = 1'b0;
   end
 
-  if (quadrille_pkg::PLANE_TOLERANCE) begin : gen_tolerance
-    plane_tolerance u_tolerance (
-        .clk_i,
-        .rst_ni,
-        .on_i(state.skip[5]),
-        .perspective_i(state.perspective),
-        .depth_on_i(depth_on),
-        .attributes_i(state.attributes),
-        .start_i(start),
-        .start_slot_i(alloc_slot),
-        .plane_i(quad_plane),
-        .k_exp_i(quad_k_exp),
-        .k_sig_i(quad_k_sig),
-        .z_neg_i(quad_z_neg),
-        .z_exp_i(quad_z_exp),
-        .z_sig_i(quad_z_sig),
-        .attr_i(quad_attr),
-        .done_i(setup_done),
-        .take_i(take),
-        .slot_i(setup_slot),
-        .homogeneous_i(homogeneous),
-        .lin_value_i(setup_lin_value),
-        .ready_o(tolerance_ready),
-        .taken_o(nearly_plane),
-        .taken_slot_o(nearly_plane_slot),
-        .count_value_o(count_tolerance)
-    );
-
-`ifndef SYNTHESIS
-    // It is said of a slot before the first of its pixels asks.
-    logic [(1<<SLOT)-1:0] asked_q, asks;
-
-    always_comb begin
-      asks = '0;
-      for (int g = 0; g < quadrille_pkg::PIXELS_PER_CLOCK; g++) begin
-        if (lane_valid[g*quadrille_pkg::LATENCY+quadrille_pkg::DIFF_STAGE]) asks[norm_slot] = 1'b1;
-      end
-    end
-
-    always_ff @(posedge clk_i) begin
-      asked_q <= asked_q | asks;
-      if (start) asked_q[alloc_slot] <= 1'b0;
-      if (rst_ni) assert (!nearly_plane || !(asked_q[nearly_plane_slot] || asks[nearly_plane_slot]));
-    end
-`endif
-  end else begin : gen_no_tolerance
-    assign tolerance_ready = 1'b1;
-    assign nearly_plane = 1'b0;
-    assign nearly_plane_slot = '0;
-    assign count_tolerance = 1'b0;
-  end
-
   quad_slots u_slots (
       .clk_i,
       .rst_ni,
@@ -386,8 +345,6 @@ module quadrille (
       .busy_o(slots_busy),
       .perspective_i(state.perspective),
       .plane_i(quad_plane),
-      .nearly_plane_i(nearly_plane),
-      .nearly_plane_slot_i(nearly_plane_slot),
       .id_i(quad_id),
       .w_neg_i(quad_w_neg),
       .w_exp_i(quad_w_exp),
@@ -398,6 +355,9 @@ module quadrille (
       .z_exp_i(quad_z_exp),
       .z_sig_i(quad_z_sig),
       .attr_i(quad_attr),
+      .base_attr_i(quad_base_attr),
+      .base_depth_i(quad_base_depth),
+      .depth_limits_i(quad_depth_limits),
       .take_i(take),
       .take_slot_i(setup_slot),
       .lin_gx_i(setup_lin_gx),
@@ -434,6 +394,10 @@ module quadrille (
       .blend_exp_o(blend_exp),
       .blend_sig_o(blend_sig),
       .blend_hull_o(blend_hull),
+      .base_slot_i(base_slot),
+      .base_attr_o(base_attr),
+      .base_depth_o(base_depth),
+      .base_limits_o(base_limits),
       .output_slot_i(output_slot),
       .output_id_o(output_id),
       .output_hull_o(output_hull),
@@ -458,7 +422,7 @@ module quadrille (
       .bound_i(state.skip[3]),
       .scissor_x0_i(state.scissor_x0),
       .scissor_y0_i(state.scissor_y0),
-      .setup_done_i(setup_done && tolerance_ready),
+      .setup_done_i(setup_done),
       .take_o(take),
       .slot_i(setup_slot),
       .tile_x0_i(tile_x0),
@@ -869,8 +833,6 @@ module quadrille (
       .rst_ni,
       .hold_i(state.skip[4]),
       .depth_on_i(depth_on),
-      .znear_i(state.znear),
-      .zfar_i(state.zfar),
       .attributes_i(state.attributes),
       .end_i(pixel_end),
       .part_i(pixel_part),
@@ -905,6 +867,10 @@ module quadrille (
       .blend_exp_i(blend_exp),
       .blend_sig_i(blend_sig),
       .blend_hull_i(blend_hull),
+      .base_slot_o(base_slot),
+      .base_attr_i(base_attr),
+      .base_depth_i(base_depth),
+      .base_limits_i(base_limits),
       .output_slot_o(output_slot),
       .output_id_i(output_id),
       .output_hull_i(output_hull),
@@ -942,7 +908,6 @@ module quadrille (
         .value_o(counter_o),
         .start_i(start),
         .plane_i(quad_plane),
-        .nearly_plane_i(nearly_plane),
         .drop_vertices_i(drop_vertices),
         .empty_i(empty),
         .behind_i(behind),
@@ -967,7 +932,6 @@ module quadrille (
         .sum_active_i(count_sum),
         .context_job_i(context_job),
         .setup_job_i(count_setup_job),
-        .tolerance_i(count_tolerance),
         .head_i(head_valid),
         .head_waits_i(count_head_waits),
         .rows_i(count_rows),
@@ -988,7 +952,6 @@ module quadrille (
       count_line,
       count_setup_job,
       count_setup,
-      count_tolerance,
       count_block,
       count_enter,
       count_block_hidden,

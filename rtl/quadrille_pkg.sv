@@ -49,7 +49,7 @@
 `define QUADRILLE_ATTRIBUTE_SLOTS 4
 `endif
 `ifndef QUADRILLE_ATTRIBUTE_INT_BITS
-`define QUADRILLE_ATTRIBUTE_INT_BITS 3
+`define QUADRILLE_ATTRIBUTE_INT_BITS 7
 `endif
 `ifndef QUADRILLE_ATTRIBUTE_FRAC_BITS
 `define QUADRILLE_ATTRIBUTE_FRAC_BITS -1
@@ -84,8 +84,8 @@
 `ifndef QUADRILLE_HIERARCHICAL_Z_TILES_LOG2
 `define QUADRILLE_HIERARCHICAL_Z_TILES_LOG2 12
 `endif
-`ifndef QUADRILLE_PLANE_TOLERANCE_BITS
-`define QUADRILLE_PLANE_TOLERANCE_BITS 0
+`ifndef QUADRILLE_PLANE_QUADS
+`define QUADRILLE_PLANE_QUADS 0
 `endif
 `ifndef QUADRILLE_QUAD_ID_BITS
 `define QUADRILLE_QUAD_ID_BITS 24
@@ -114,7 +114,7 @@ package quadrille_pkg;
   localparam int STAMP_FIFO_LOG2 /*verilator public*/ = `QUADRILLE_STAMP_FIFO_LOG2;
   localparam int HIERARCHICAL_Z_BITS /*verilator public*/ = `QUADRILLE_HIERARCHICAL_Z_BITS;
   localparam int HIERARCHICAL_Z_TILES_LOG2 /*verilator public*/ = `QUADRILLE_HIERARCHICAL_Z_TILES_LOG2;
-  localparam int PLANE_TOLERANCE_BITS /*verilator public*/ = `QUADRILLE_PLANE_TOLERANCE_BITS;
+  localparam int PLANE_QUADS /*verilator public*/ = `QUADRILLE_PLANE_QUADS;
   localparam int QUAD_ID_BITS /*verilator public*/ = `QUADRILLE_QUAD_ID_BITS;
 
   localparam int PERFORMANCE_COUNTERS /*verilator public*/ = `QUADRILLE_PERFORMANCE_COUNTERS;
@@ -136,8 +136,10 @@ package quadrille_pkg;
   localparam int RECIP_AUTO = (RECIP_DEGREE == 1) ? (SIGNIFICAND_BITS + 2) / 2 : (SIGNIFICAND_BITS - 2 + 2) / 3;
   localparam int RECIP_SEGMENTS_LOG2 /*verilator public*/ =
       (RECIP_SEGMENTS_KEY >= 0) ? RECIP_SEGMENTS_KEY : (RECIP_AUTO < 3) ? 3 : RECIP_AUTO;
-  // two bits below the significand, so that the output grid adds little to the arithmetic error
-  localparam int ATTRIBUTE_FRAC_BITS /*verilator public*/ = (ATTRIBUTE_FRAC_KEY < 0) ? SIGNIFICAND_BITS + 2 : ATTRIBUTE_FRAC_KEY;
+  // two bits below the significand, so that the output grid adds little to the arithmetic error; never fewer than 24, for a base may be
+  // far greater than the differences to it
+  localparam int ATTRIBUTE_FRAC_AUTO = (SIGNIFICAND_BITS + 2 < 24) ? 24 : SIGNIFICAND_BITS + 2;
+  localparam int ATTRIBUTE_FRAC_BITS /*verilator public*/ = (ATTRIBUTE_FRAC_KEY < 0) ? ATTRIBUTE_FRAC_AUTO : ATTRIBUTE_FRAC_KEY;
 
   // ---- Derived widths -----------------------------------------------------------------------------------------------------
   // integer bits of a position, sign apart
@@ -187,6 +189,12 @@ package quadrille_pkg;
   localparam int ATTR_PORT_BITS /*verilator public*/ = 1 + PORT_EXP_BITS + SIGNIFICAND_BITS;
   // two's complement
   localparam int ATTR_OUT_BITS /*verilator public*/ = 1 + ATTRIBUTE_INT_BITS + ATTRIBUTE_FRAC_BITS;
+  // signed code of a corner's depth: -1, below 0, to 2^DEPTH_BITS + 1, above 1
+  localparam int CORNER_DEPTH_BITS /*verilator public*/ = DEPTH_BITS + 2;
+  // {outside, near_cuts, far_cuts, least, greatest} of a quad's depths (quad_reject)
+  localparam int DEPTH_LIMIT_BITS = 3 + 2 * (DEPTH_BITS + 1);
+  // terms of the weighted sums: k, W, Z of four corners, an attribute of the last three, for corner 0's is the base itself
+  localparam int BLEND_TERMS = 4 * 3 + 3 * ATTRIBUTE_SLOTS;
   // operands of a dot unit: T_BITS <= 32, and the unsigned low halves of the determinants need a sign bit
   localparam int DOT_BITS /*verilator public*/ = 33;
   // a.b +- c.d
@@ -205,18 +213,6 @@ package quadrille_pkg;
   localparam int HIDDEN_SECTION_LOG2 = 4;
   localparam int HIDDEN_EPOCH_BITS = HIERARCHICAL_Z_TILES_LOG2 - HIDDEN_SECTION_LOG2;
 
-  // With a tolerance (1 to 16 bits; 31 is none): bits of the significands that plane_tolerance multiplies. Six more than the tolerance has,
-  // so that the limit of a parallelogram is twice what truncation may have taken; never fewer than the port's.
-  localparam bit PLANE_TOLERANCE = PLANE_TOLERANCE_BITS >= 1 && PLANE_TOLERANCE_BITS <= 16;
-  localparam int PLANE_SIG_BITS = (PLANE_TOLERANCE_BITS <= 16 && PLANE_TOLERANCE_BITS + 6 > SIGNIFICAND_BITS) ? PLANE_TOLERANCE_BITS + 6 : SIGNIFICAND_BITS;
-
-  // ---- Depths beside the corners' ------------------------------------------------------------------------------------------
-  // What a depth code can be beside the corners' Z / W, in ranks (model/depth_rank.hpp derives it): in units of 2^-(S-1)
-  // 2 + 3/2^ALIGN_GUARD_BITS rounded up; a rank is more than half of one, and one more for products of losses.
-  localparam int DEPTH_MARGIN = (ALIGN_GUARD_BITS == 0) ? 6 : (ALIGN_GUARD_BITS == 1) ? 4 : 3;
-  localparam int DEPTH_MARGIN_STEPS = 2 * DEPTH_MARGIN + 1;
-  // It holds for a table of reciprocals that has its automatic number of segments, or more.
-  localparam bit DEPTH_MARGIN_HOLDS = RECIP_SEGMENTS_LOG2 >= RECIP_AUTO;
 
   // ---- performance_counters --------------------------------------------------------------------------------------------------
   // wraps around after 14 s at 300 MHz: whoever counts for longer reads them more often than that
@@ -277,7 +273,7 @@ package quadrille_pkg;
   localparam int FP_SUM_STAGES /*verilator public*/ = 4 + FP_NORMALISE_STAGES;  // from the product: distances, align, add, magnitude
   localparam int FP_ADD_STAGES /*verilator public*/ = 3;  // order, align, add
   localparam int FIXED_POINT_STAGES /*verilator public*/ = 2;  // distance, shift
-  localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + FIXED_POINT_STAGES + 2;  // sign and limits, output
+  localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + FIXED_POINT_STAGES + 3;  // sum, clamp, output
   // Registers at the boundaries; register 0 is written by the edge that ends the clock in which the pixel is at the input.
   localparam int DIFF_STAGE /*verilator public*/ = FORWARD_DIFFERENCE_STAGES + LAW_OF_COSINES_STAGES - 1;
   localparam int NORM_STAGE /*verilator public*/ = DIFF_STAGE + NORMALISE_STAGES;
@@ -299,9 +295,10 @@ package quadrille_pkg;
   localparam int FRAGMENT_FIFO_LOG2 /*verilator public*/ = $clog2(LATENCY + 7);
 
   // ---- Ports: flat vectors, whose fields README.md section 3 gives; the structs are declared where they are read -----------
-  // id, X, Y, W, k, Z, attributes
+  // id, X, Y, W, k, Z, attributes; the quad's bases of attributes and depth, its corners' least and greatest depth
   localparam int VERTEX_BITS /*verilator public*/ =
-      QUAD_ID_BITS + 2 * T_BITS + W_BITS + (PORT_EXP_BITS + SIGNIFICAND_BITS) + ATTR_PORT_BITS + ATTRIBUTE_SLOTS * ATTR_PORT_BITS;
+      QUAD_ID_BITS + 2 * T_BITS + W_BITS + (PORT_EXP_BITS + SIGNIFICAND_BITS) + ATTR_PORT_BITS + ATTRIBUTE_SLOTS * ATTR_PORT_BITS +
+      ATTRIBUTE_SLOTS * ATTR_OUT_BITS + (DEPTH_BITS + 1) + 2 * CORNER_DEPTH_BITS;
   // scissor, cull, perspective, depth, znear, zfar, attributes, skip
   localparam int STATE_BITS /*verilator public*/ = 4 * (VIEWPORT_BITS + 1) + 2 + 1 + 1 + 2 * (DEPTH_BITS + 1) + 4 + 8;
   // quad, x, y, front, flags, depth, attributes: of one lane

@@ -1,9 +1,10 @@
 // Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i or drop_i clears it, in whose clock the
 // next quad's first beat is taken.
 //
-// vertex_ready_o depends on registers alone, not on valid. The quad's id is that of v0.
+// vertex_ready_o depends on registers alone, not on valid. The quad's id, bases and depth codes are those of v0.
 // Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X and Y, kept up with each beat; and
-// the judgements of its vertices by quad_reject, range_empty and depth_interval. Vertex i's field is at [i*width +: width] of each flat output.
+// the judgements of its vertices by quad_reject, range_empty and depth_interval. Vertex i's field is at [i*width +: width] of each flat output;
+// attributes are those of v1, v2, v3, for v0's are the bases.
 module vertex_assembly #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int PE = quadrille_pkg::PORT_EXP_BITS,
@@ -12,7 +13,9 @@ module vertex_assembly #(
     localparam int DB = quadrille_pkg::DEPTH_BITS,
     localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
+    localparam int ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS,
+    localparam int BASE = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_OUT_BITS,
+    localparam int CODE = quadrille_pkg::CORNER_DEPTH_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,
@@ -53,7 +56,10 @@ module vertex_assembly #(
     output logic [3:0] z_neg_o,
     output logic [4*PE-1:0] z_exp_o,
     output logic [4*S-1:0] z_sig_o,
-    output logic [4*ATTR-1:0] attr_o
+    output logic [3*ATTR-1:0] attr_o,
+    output logic [BASE-1:0] base_attr_o,
+    output logic [DB:0] base_depth_o,
+    output logic [quadrille_pkg::DEPTH_LIMIT_BITS-1:0] depth_limits_o
 );
   typedef struct packed {
     logic [quadrille_pkg::QUAD_ID_BITS-1:0] id;
@@ -66,6 +72,10 @@ module vertex_assembly #(
     logic [PE-1:0] z_exp;
     logic [S-1:0] z_sig;
     logic [ATTR-1:0] attr;
+    logic [BASE-1:0] base_attr;
+    logic [DB:0] base_depth;
+    logic [CODE-1:0] depth_low;
+    logic [CODE-1:0] depth_high;
   } vertex_t;
 
   vertex_t vertex;
@@ -110,11 +120,18 @@ module vertex_assembly #(
 
   localparam logic [W-1:0] ONE = W'(1) << quadrille_pkg::FRAC;
   logic first;
+  logic [CODE-1:0] depth_low_q, depth_high_q;
 
   assign first = count_q == 2'd0;
 
   always_ff @(posedge clk_i) begin
-    if (accept && count_q == 2'd0) id_o <= vertex.id;
+    if (accept && first) begin
+      id_o <= vertex.id;
+      base_attr_o <= vertex.base_attr;
+      base_depth_o <= vertex.base_depth;
+      depth_low_q <= vertex.depth_low;
+      depth_high_q <= vertex.depth_high;
+    end
     if (accept) begin
       ordinary_o <= (first || ordinary_o) && w == ONE;
       if (first || $signed(x) < $signed(low_x_o)) low_x_o <= x;
@@ -185,23 +202,19 @@ module vertex_assembly #(
       .accept_i(accept),
       .first_i(first),
       .w_i(w),
-      .z_neg_i(z_neg),
-      .z_exp_i(z_exp),
-      .z_sig_i(z_sig),
+      .low_i(depth_low_q),
+      .high_i(depth_high_q),
       .behind_o,
-      .depth_o
+      .depth_o,
+      .limits_o(depth_limits_o)
   );
 
   if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_interval
     depth_interval u_interval (
         .clk_i,
-        .znear_i,
-        .zfar_i,
-        .accept_i(accept),
-        .first_i(first),
-        .z_neg_i(z_neg),
-        .z_exp_i(z_exp),
-        .z_sig_i(z_sig),
+        .low_i(depth_low_q),
+        .high_i(depth_high_q),
+        .limits_i(depth_limits_o),
         .ordinary_i(ordinary_o),
         .near_o,
         .far_o,
@@ -222,7 +235,6 @@ module vertex_assembly #(
     logic [PE-1:0] k_exp_q, z_exp_q;
     logic [S-1:0] k_sig_q, z_sig_q;
     logic z_neg_q;
-    logic [ATTR-1:0] attr_q;
 
     always_ff @(posedge clk_i) begin
       if (accept && count_q == g) begin
@@ -235,8 +247,15 @@ module vertex_assembly #(
         z_neg_q <= z_neg;
         z_exp_q <= z_exp;
         z_sig_q <= z_sig;
-        attr_q <= attr;
       end
+    end
+
+    if (g != 0) begin : gen_attributes
+      logic [ATTR-1:0] attr_q;
+
+      always_ff @(posedge clk_i) if (accept && count_q == g) attr_q <= attr;
+
+      assign attr_o[(g-1)*ATTR+:ATTR] = attr_q;
     end
 
     assign x_o[g*T+:T] = x_q;
@@ -250,6 +269,5 @@ module vertex_assembly #(
     assign z_neg_o[g] = z_neg_q;
     assign z_exp_o[g*PE+:PE] = z_exp_q;
     assign z_sig_o[g*S+:S] = z_sig_q;
-    assign attr_o[g*ATTR+:ATTR] = attr_q;
   end
 endmodule

@@ -30,11 +30,10 @@ lint significand_bits=26 sqrt_degree=1 recip_degree=1
 lint significand_bits=12 quadratic_frac_bits=8 align_guard_bits=0 attribute_frac_bits=30
 lint significand_bits=16 viewport_bits=14 guard_bits=1 depth_bits=8
 lint hierarchical_z_bits=12
-lint plane_tolerance_bits=31
-lint plane_tolerance_bits=10 performance_counters=1
-lint significand_bits=8 attribute_slots=8 quad_slots_log2=1 plane_tolerance_bits=16
-lint significand_bits=26 attribute_slots=1 quad_slots_log2=4 dot_units=4 viewport_bits=8 guard_bits=2 subpixel_bits=2 homogeneous_frac_bits=4 tile_log2=2 plane_tolerance_bits=1
-lint significand_bits=8 attribute_slots=1 pixels_per_clock=2 plane_tolerance_bits=31
+lint plane_quads=1 performance_counters=1
+lint significand_bits=8 attribute_slots=8 quad_slots_log2=1 plane_quads=1
+lint significand_bits=26 attribute_slots=1 quad_slots_log2=4 dot_units=4 viewport_bits=8 guard_bits=2 subpixel_bits=2 homogeneous_frac_bits=4 tile_log2=2 plane_quads=1
+lint significand_bits=8 attribute_slots=1 pixels_per_clock=2 plane_quads=1
 lint significand_bits=8 viewport_bits=8 hierarchical_z_bits=16 hierarchical_z_tiles_log2=16
 lint significand_bits=26 viewport_bits=14 guard_bits=1 tile_log2=4 hierarchical_z_bits=4 hierarchical_z_tiles_log2=6
 echo "$count configurations are lint-clean"

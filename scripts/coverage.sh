@@ -34,7 +34,7 @@ status=0
 run() { ctest --test-dir "$folder" --output-on-failure --no-tests=error --no-label-summary -j "$(nproc)" -L '^default$' "$@" || status=1; }
 run -L '^unit$' -E '^(sweep|fuzz)_test$'
 run -R "^($(IFS='|'; echo "${programs[*]}"))\$"
-"$folder/tb/lockstep/cosim_test" --gtest_filter='Cosim/Tolerance.*/tolerance' --gtest_brief=1 || status=1  # plane quads in lockstep
+"$folder/tb/lockstep/cosim_test" --gtest_filter='Cosim.PlaneQuads*' --gtest_brief=1 || status=1  # plane quads in lockstep
 "$folder/golden/suites/golden_stages" 1 >/dev/null || status=1
 "$folder/tb/commands/cli_test" --gtest_filter="$commands" --gtest_brief=1 || status=1
 echo "Tests: $SECONDS s"
@@ -43,7 +43,7 @@ echo "Tests: $SECONDS s"
 # one that counts lines.
 export QUADRILLE_COVERAGE_TOGGLE=1
 draw=("$folder/quadrille" cosim --quiet --no-alone --no-snapping-error --threads 1
-  --set hierarchical_z_bits=12 --set plane_tolerance_bits=8 --set performance_counters=1)
+  --set hierarchical_z_bits=12 --set plane_quads=1 --set performance_counters=1)
 "${draw[@]}" --scene bowtie --size 32x32 || status=1  # builds it
 seed=100  # draw states in which every family has a fragment
 {

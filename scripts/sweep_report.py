@@ -26,7 +26,7 @@ except ImportError as missing:
 
 # More points than this make the page slow; the rest is in the PNG and in points.csv.
 INTERACTIVE_POINTS = 2500
-PLOTS = ("error_bits", "error_cost", "sensitivity", "plane_quads", "error_map", "run_time", "synthesis")
+PLOTS = ("error_bits", "error_cost", "sensitivity", "error_map", "run_time", "synthesis")
 BENCH_FIELDS = ("input", "kind", "engine", "fragments", "seconds_per_fragment", "lambda_max", "lambda_p999", "lambda_rms", "attribute_max",
                 "depth_max", "undefined", "missing")
 KINDS = {"full": "full grid: every combination of the axes", "one_at_a_time": "one key at a time around the base configuration",
@@ -129,7 +129,7 @@ def render(sweep, bench):
     sample = sweep.ok[::-(-len(sweep.ok) // INTERACTIVE_POINTS)]
     page = web.Page(f"Sweep of {escape(sweep.manifest['input'])}: error against hardware cost", sweep.rows, set(sample))
     for plot in (sweep_plots.error_against_bits(sweep), sweep_plots.error_against_cost(sweep, len(sample)), sweep_plots.sensitivity(sweep),
-                 sweep_plots.plane_quads(sweep), sweep_plots.error_map(sweep), sweep_plots.run_time(bench), sweep_plots.synthesis(sweep)):
+                 sweep_plots.error_map(sweep), sweep_plots.run_time(bench), sweep_plots.synthesis(sweep)):
         if plot:
             page.add_plot(plot)
     page.add("cosim", "Co-simulated points", cosim(sweep))

@@ -37,7 +37,6 @@ SWEEPS = {  # attribute_frac_bits below significand_bits is refused
     "one": ["--one-at-a-time", "--axis", "significand_bits=8:26:2", "--axis", "sqrt_segments_log2=3,8,auto", "--axis", "attribute_frac_bits=16,22",
             "--axis", "notch_exact=1"],
     "outside": ["--axis", "significand_bits=8,12", "--axis", "align_guard_bits=0,3"],
-    "plane": ["--axis", "plane_tolerance_bits=off,1,4,exact"],
     "search": ["--axis", "significand_bits=8:20:2", "--axis", "align_guard_bits=0,2", "--target-error", "lambda=2^-9", "--no-confirm"]}
 WORK = tempfile.mkdtemp()
 unittest.addModuleCleanup(shutil.rmtree, WORK)
@@ -257,23 +256,6 @@ class ReportTest(unittest.TestCase):
         least = traces(embedded(html, "figures")["sensitivity-0"][0])["least error of λ′"]
         for s, y in zip(least["x"], least["y"]):
             self.assertAlmostEqual(2 ** y / min(p["arithmetic_lambda_max"] for p in rows.drawn.values() if p["significand_bits"] == s), 1, places=4)
-
-    def test_plane_quads(self):
-        rows, html = Rows("plane"), page("plane")
-        figure = {name: trace for n in range(2) for name, trace in traces(embedded(html, "figures")[f"plane_quads-{n}"][0]).items()}
-        share, least = figure["share of quads"], rows.drawn[1]  # the sphere: some quads at one bit, none exactly
-        self.assertEqual((share["x"], share["customdata"]), ([1, 4, 18, 20], [1, 2, 3, 0]))
-        for row, y in zip(share["customdata"], share["y"]):
-            self.assertAlmostEqual(y, 100 * rows.drawn[row]["plane_quads"] / rows.drawn[row]["quads"], places=3)
-        self.assertGreater(least["plane_quads"], 0)
-        self.assertEqual(rows.drawn[3]["plane_quads"], 0)
-        error = figure["arithmetic error of attributes, max"]
-        for row, y in zip(error["customdata"], error["y"]):
-            self.assertAlmostEqual(2 ** y / rows.drawn[row]["arithmetic_attribute_max"], 1, places=4)
-        for row, y in zip(share["customdata"], figure["cost"]["y"]):
-            self.assertAlmostEqual(y / rows.drawn[row]["cost"], 1, places=4)
-        self.assertIn(f"<td>{100 * least['plane_share']:.1f} %</td>", html)
-        self.assertNotIn("plane_quads-0", embedded(page("outside"), "figures"))
 
     def test_search(self):
         rows, html = Rows("search"), page("search")

@@ -80,19 +80,21 @@ void visit_segments(const Table& table, int s, bool rising, Visit visit) {
 /// Of a quotient's factor K: in general, and where no term of the denominator has more than Ingredients::shared of it.
 struct Quotient {
   Interval any, shared;
+
+  /// With one more factor.
+  friend Quotient operator*(const Quotient& q, Interval factor) { return {q.any + factor, q.shared + factor}; }
 };
 
 /// Logarithms of stored / exact.
 struct Ingredients {
-  double u;             ///< 2^-(s-1)
-  double t;             ///< a truncation to S bits is in [-t, 0]
-  double sum2;          ///< a sum of two positive terms is in [-sum2, 0]
-  double sum4;          ///< of four
-  double align4;        ///< what the alignment of four terms takes, relative to the largest
-  Interval root;        ///< square root of a truncated argument
-  double shared;        ///< where no term of the denominator has a larger part of it, the sum loses less
-  Quotient quotient_k;  ///< weight of one term: truncation of the numerator, the denominator's sum, the reciprocal
-  Quotient quotient_z;  ///< the same with a numerator of four positive terms
+  double u;           ///< 2^-(s-1)
+  double t;           ///< a truncation to S bits is in [-t, 0]
+  double sum2;        ///< a sum of two positive terms is in [-sum2, 0]
+  double sum4;        ///< of four
+  double guard;       ///< 2^-G u: what a term of a sum loses at most, relative to the largest one
+  Interval root;      ///< square root of a truncated argument
+  double shared;      ///< where no term of the denominator has a larger part of it, the sum loses less
+  Quotient quotient;  ///< the denominator's sum and the reciprocal
 };
 
 Ingredients ingredients(const Config& c) {
@@ -102,7 +104,7 @@ Ingredients ingredients(const Config& c) {
   const double guard = std::ldexp(1.0, -c.align_guard_bits);
   in.sum2 = std::log1p(in.u * (1 + guard));
   in.sum4 = std::log1p(in.u * (1 + 3 * guard));
-  in.align4 = 4 * guard * in.u;
+  in.guard = guard * in.u;
   const TableError root = sqrt_error(c);
   in.root = {root.low, root.high};
   // The denominator's loss is relative to its significand, and so is the error of the reciprocal. Beside the sum's own
@@ -117,11 +119,7 @@ Ingredients ingredients(const Config& c) {
     denominator.any = hull(denominator.any, error + Interval{0, std::log1p(in.u * all / m)});
     denominator.shared = hull(denominator.shared, error + Interval{0, std::log1p(in.u * std::min(half, all / m))});
   });
-  const auto with_numerator = [&](double loss) {
-    return Quotient{denominator.any + Interval{-loss, 0}, denominator.shared + Interval{-loss, 0}};
-  };
-  in.quotient_k = with_numerator(in.t);
-  in.quotient_z = with_numerator(in.sum4);
+  in.quotient = denominator;
   return in;
 }
 
@@ -148,10 +146,10 @@ Interval ratio_roundings(bool above_cancels, bool below_cancels, const Ingredien
 }
 
 /// Largest ln of (M̂_i / M_i) / (M̂_j / M_j) over the vertices i, j of one pixel.
-double weight_spread(const Ingredients& in) {
+double weight_spread(const Ingredients& in, bool w_is_cut = false) {
   const auto width = [](Interval r) { return r.hi - r.lo; };
   // Two edges: r times a sum of r k, or two such terms. A corner at the pixel has no error here.
-  const double two_edge = 2 * width(in.root) + 2 * in.sum2 + in.t;
+  const double two_edge = 2 * width(in.root) + 2 * in.sum2 + in.t + (w_is_cut ? in.t : 0);
 
   // In u the stored and the exact terms are both possible weights of the mean.
   const double least_g = 1 / (1 + std::exp(-2 * in.root.lo));
@@ -211,6 +209,24 @@ double over_denominators(const Ingredients& in, const Quotient& k, double log_q,
   return std::max(error(rise(log_q, k.shared.hi), k.shared.hi),
                   error(rise_beyond(in.shared, log_q, k.any.hi), k.any.hi));
 }
+
+/// The largest of rise and fall of a quotient of which the factor is `above` when it rises, `below` when it falls.
+double quotient_error(const Ingredients& in, double log_q, const Quotient& above, const Quotient& below) {
+  const double up = over_denominators(in, above, log_q, [](double rise, double) { return rise; });
+  return std::max(up, fall(log_q, below.any.lo));
+}
+
+/// Error of base + sum(M D) / sum(M k) before its rounding, relative to the spread of the differences D/k and 0, with a
+/// numerator of `terms` terms of any sign (README.md, "Values").
+double value_error(const Config& config, int terms, bool w_is_cut) {
+  const Ingredients in = ingredients(config);
+  const double lost = (terms - 1) * in.guard;
+  const Interval w{0, w_is_cut ? in.t : 0};  // of the denominator alone
+  return quotient_error(in, weight_spread(in, w_is_cut), in.quotient * (w + Interval{0, std::log1p(lost)}),
+                        in.quotient * Interval{std::log1p(-in.u - lost), 0});
+}
+
+constexpr int attribute_terms = 3, depth_terms = 4;
 
 enum class Quads { any, ordinary };
 
@@ -400,11 +416,12 @@ void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& fr
   // A sum whose terms may cancel keeps at least the least bit of its window.
   const auto cancelling = [&](Exponents a, int log2_terms) { return Exponents{a.lo - prec, a.hi + 1 + log2_terms}; };
 
-  // What snapping lets through: |x|, |y|, |w| <= 2^80, one of them >= 2^-80, |z| <= 2^80, |a| < 2^8. Half a pixel and
-  // the guard band enlarge the first by a factor of 2 and reduce the second by 2^-(POS_INT+1).
+  // What snapping lets through: |x|, |y|, |w| <= 2^80, one of them >= 2^-80, |z| <= 2^80, |a| < 2^int_bits. Half a
+  // pixel and the guard band enlarge the first by a factor of 2 and reduce the second by 2^-(POS_INT+1). A difference
+  // to a base (times w, for z) may be twice as large.
   const Exponents k{-82, 81 + c.pos_int()}, weight{-c.frac(), 0};
   const int underflow = -(1 << (Config::port_exp_bits - 1));  // below, snapping gives zero
-  const Exponents z{underflow, k.hi + 81}, b{underflow, k.hi + c.attribute_int_bits + 1};
+  const Exponents z{underflow, k.hi + 82}, b{underflow, k.hi + c.attribute_int_bits + 1};
   list.add("exponent of k", k.lo, k.hi, w.port_exponent);
   list.add("exponent of Z", z.lo, z.hi, w.port_exponent);
   list.add("exponent of b", b.lo, b.hi, w.port_exponent);
@@ -483,7 +500,7 @@ RangeProof prove_ranges(const Config& config, const ProofWidths& w) {
   list.add("sum of four terms", -4 * term, 4 * term, w.term + 3);
   const Wide attribute = power(config.attribute_int_bits + config.attribute_frac()) - 1;  // saturated
   list.add("attribute", -attribute, attribute, w.attribute);
-  list.add("depth", 0, power(config.depth_bits + 1) - 1, w.depth, false);
+  list.add("depth", 0, power(config.depth_bits) + 1, w.depth, false);  // of fragments that are discarded too
   return list.result();
 }
 
@@ -530,39 +547,29 @@ ErrorBound bound_lambda(const Config& config) {
   ErrorBound bound = without_proof(config, Quads::any);
   if (!bound.proved) return bound;
   const Ingredients in = ingredients(config);
-  const double q = weight_spread(in);
-  const double up = over_denominators(in, in.quotient_k, q, [](double rise, double) { return rise; });
-  const double down = fall(q, in.quotient_k.any.lo) + std::ldexp(1.0, -config.attribute_frac());
-  bound.value = widened(std::max(up, down));
+  // The numerator is one product, truncated.
+  const double error = quotient_error(in, weight_spread(in), in.quotient, in.quotient * Interval{-in.t, 0});
+  bound.value = widened(error + std::ldexp(0.5, -config.attribute_frac()));
   return bound;
 }
 
-ErrorBound bound_attribute(const Config& config, double range) {
+double value_bound_factor(const Config& config, bool w_is_cut) {
+  return widened(std::ldexp(value_error(config, depth_terms, w_is_cut), config.significand_bits - 3));
+}
+
+ErrorBound bound_attribute(const Config& config, double spread) {
   ErrorBound bound = without_proof(config, Quads::any);
-  if (!bound.proved) {
-    bound.value *= 2 * std::fabs(range);  // what one weight gains another loses
-    return bound;
-  }
-  const Ingredients in = ingredients(config);
-  const double q = weight_spread(in);
-  // b and k are rounded to nearest: b/k is the corner's value times at most (1 + u/2) / (1 - u/2).
-  const double corner = std::fabs(range) * (1 + in.u / 2) / (1 - in.u / 2);
-  const auto error = [](double rise, double k) { return 2 * rise - std::expm1(k); };
-  const double low = in.quotient_k.any.lo;
-  double worst = std::max(error(rise(q, low), low), over_denominators(in, in.quotient_k, q, error));
-  worst += in.align4 * std::exp(in.quotient_k.any.hi);
-  bound.value = widened(corner * worst + std::ldexp(1.0, -config.attribute_frac()));
+  const double factor =
+      bound.proved ? value_error(config, attribute_terms, false) : bound.value * value_bound_factor(config);
+  bound.value = widened(factor * std::fabs(spread) + std::ldexp(0.5, -config.attribute_frac()));
   return bound;
 }
 
-ErrorBound bound_depth(const Config& config) {
+ErrorBound bound_depth(const Config& config, double spread) {
   ErrorBound bound = without_proof(config, Quads::ordinary);
   if (!bound.proved) return bound;
-  const Ingredients in = ingredients(config);
-  const double q = weight_spread(in);
-  const double up = over_denominators(in, in.quotient_z, q, [](double rise, double) { return rise; });
-  const double down = fall(q, in.quotient_z.any.lo) + std::ldexp(1.0, -config.depth_bits);
-  bound.value = widened(std::max(up, down));
+  bound.value =
+      widened(value_error(config, depth_terms, false) * std::fabs(spread) + std::ldexp(0.5, -config.depth_bits));
   return bound;
 }
 

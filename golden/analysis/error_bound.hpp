@@ -72,12 +72,20 @@ struct TableError {
 TableError sqrt_error(const Config& config);
 TableError reciprocal_error(const Config& config);
 
-/// max |Δλ'| against exact arithmetic on the same snapped quad, with perspective (or every W = 1 without), by analysis
-/// of the accumulated relative errors of t, M and the sums.
+/// max |Δλ'_i|, i = 1 to 3, against exact arithmetic on the same snapped quad, with perspective (or every W = 1
+/// without), by analysis of the accumulated relative errors of t, M and the sums; half a code of the output included.
+/// λ'_0 is what its base leaves of the others: a value of spread 1.
 ErrorBound bound_lambda(const Config& config);
-/// The same of an attribute whose corner values lie in [-range, range] and that does not saturate.
-ErrorBound bound_attribute(const Config& config, double range);
-/// The same of window z of a quad of ordinary vertices (snap.hpp) with 0 <= z <= 1 at the corners.
-ErrorBound bound_depth(const Config& config);
+
+/// c of |Δa| <= c 2^-(s-3) spread + half a code. `spread`: the largest minus the least of the corners' values and the
+/// base, of an attribute or of window z with every W > 0. Of the arithmetic with all bits of D and r². `w_is_cut`: the
+/// denominator is a sum of M W and some W has more than S bits.
+double value_bound_factor(const Config& config, bool w_is_cut = false);
+
+/// The bound of an attribute of that spread that does not saturate, half a code included; with perspective, or every
+/// W = 1.
+ErrorBound bound_attribute(const Config& config, double spread);
+/// The same of window z of a quad of ordinary vertices (snap.hpp).
+ErrorBound bound_depth(const Config& config, double spread);
 
 }  // namespace quadrille

@@ -1,7 +1,6 @@
 #include "golden/analysis/hardware_cost.hpp"
 
 #include "model/latency.hpp"
-#include "model/plane_tolerance.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -624,38 +623,17 @@ HardwareCost plane_quad(const Widths& w) {
   return 4 * adder(w.T + 1) + 2 * same(w.T + 1) + values * 4 * same(w.WORD) + state(values + 2);
 }
 
-HardwareCost plane_tolerance(const Widths& w, int p) {
-  constexpr int split = 3;
-  const int values = 2 + w.N, area = w.VAL + 2, magnitude = area - 1, kept = p + (1 << split) - 1;
-  const int wide = std::max(magnitude, kept), count = stages_of(wide), near = stages_of(p), limit = 2 * p + 3;
-  HardwareCost cost = values * memory(4 * w.WORD, 1 << w.SLOT, 1) + mux(4 * w.WORD, values) + state((1 << w.SLOT) + 12);
-  // Areas, their magnitudes one after the other to one scale.
-  // A sum of three takes a row of full adders before the carry chain, one of either sign two chains.
-  cost +=
-      12 * adder(area) + 4 * (adder(area) + mux(area, 2) + zero_test(area)) + 3 * mux(magnitude, 2) + adder(magnitude);
-  cost += shift_to_top(wide, (1 << split) - 1, count - 1, split) + (count - split) * mux(kept, 2) + split * mux(p, 2);
-  cost += state(4 * area + 5 * magnitude + count + (1 << split) - 1 + kept + 7 * p + 1 + w.SLOT + 1);
-  // A value: exponents, distances, shifts; products; D and what it may be.
-  const int rank = w.PE + 1, tag = 5 + w.SLOT;
-  cost += state(7 * tag + 4 * w.WORD + 2 * 4 * (1 + w.S) + 8 * rank + 4 * rank + 1 + 3 * 5 + 1);
-  cost += 4 * adder(rank) + 6 * mux(rank, 2) + zero_test(3 * w.WORD) + adder(rank) + 4 * (adder(rank) + shifter(p));
-  cost +=
-      4 * (zero_test(rank - near) + multiplier(p, p) + state(3 * p + 2)) + 5 * mux(limit - p, 2) + state(3 * limit + 4);
-  cost += 2 * (2 * adder(2 * p + 2) + mux(2 * p + 2, 2) + state(2 * p + 2)) + 2 * adder(limit) + mux(limit, 2);
-  return cost + 2 * adder(limit) + state(limit + 2 + w.SLOT) + control(40);
-}
-
 /// Of a lane: areas in the place of r; around the products of the weights.
 HardwareCost area_weights(const Widths& w, const Config& c) {
   using namespace latency;
-  if (c.plane_tolerance_bits == 0) return {};
+  if (c.plane_quads == 0) return {};
   return 2 * (mux(w.NUMBER, 3) + mux(w.NUMBER, 2)) + 4 * (2 * state(w.NUMBER) + mux(w.NUMBER, 2)) +
          state(2 * (ratio_stage - norm_stage) + (n_stage - ratio_stage) + 3);
 }
 
 HardwareCost performance_counters(const Widths& w) {
   // Of lanes that are not there nothing is counted.
-  const int counters = 38 + w.P;
+  const int counters = 37 + w.P;
   constexpr int bits = 32;
   return counters * (state(bits) + adder(bits)) + mux(bits, counters) + state(12 * (3 + w.N) + 4 * w.P) +
          w.P * adder(9) + control(900);
@@ -698,10 +676,7 @@ std::vector<ModuleCost> module_costs(const Config& config) {
     modules.push_back({"hierarchical_z", hierarchical_z(w, config, h)});
     modules.push_back({"masked_depth", masked_depth(w, h)});
   }
-  if (config.plane_tolerance_bits != 0) {
-    modules.push_back({"plane_quad", plane_quad(w)});
-    if (has_plane_tolerance(config)) modules.push_back({"plane_tolerance", plane_tolerance(w, plane_sig_bits(config))});
-  }
+  if (config.plane_quads != 0) modules.push_back({"plane_quad", plane_quad(w)});
   if (config.performance_counters != 0) modules.push_back({"performance_counters", performance_counters(w)});
   return modules;
 }

@@ -114,8 +114,8 @@ void set_weight(const Entry& entry, const std::string& name, CostWeights& weight
   weights.*found->member = value;
 }
 
-/// Both kinds of content, so that a file has the same errors whoever reads it.
-void parse(std::string_view text, const std::string& name, Config& config, CostWeights& weights) {
+/// Both kinds of content, so that a file has the same errors whoever reads it. Returns the notes of load_config().
+std::vector<std::string> parse(std::string_view text, const std::string& name, Config& config, CostWeights& weights) {
   toml::table table;
   try {
     table = toml::parse(text, name);
@@ -125,9 +125,12 @@ void parse(std::string_view text, const std::string& name, Config& config, CostW
   }
   Config new_config = config;
   CostWeights new_weights = weights;
+  std::vector<std::string> notes;
   for (const Entry& entry : in_file_order(table)) {
     if (entry.first->str() != "cost") {
       set_key(entry, name, new_config);
+      if (const std::string note = Config::note(entry.first->str()); !note.empty())
+        notes.push_back(name + ":" + std::to_string(line_of(entry)) + ": " + note);
     } else if (const toml::table* cost = entry.second->as_table(); cost != nullptr) {
       for (const Entry& weight : in_file_order(*cost)) set_weight(weight, name, new_weights);
     } else {
@@ -138,6 +141,7 @@ void parse(std::string_view text, const std::string& name, Config& config, CostW
   }
   config = new_config;
   weights = new_weights;
+  return notes;
 }
 
 /// `line` with a comment at column 30.
@@ -150,7 +154,9 @@ std::string text_of(const std::string& path) { return read_file(path, "a configu
 
 }  // namespace
 
-void load_config(const std::string& path, Config& config) { parse_config(text_of(path), path, config); }
+std::vector<std::string> load_config(const std::string& path, Config& config) {
+  return parse_config(text_of(path), path, config);
+}
 
 void load_cost_weights(const std::string& path, CostWeights& weights) {
   parse_cost_weights(text_of(path), path, weights);
@@ -174,9 +180,9 @@ std::string config_text(const Config& config, const CostWeights& weights) {
   return text;
 }
 
-void parse_config(std::string_view text, const std::string& name, Config& config) {
+std::vector<std::string> parse_config(std::string_view text, const std::string& name, Config& config) {
   CostWeights ignored;
-  parse(text, name, config, ignored);
+  return parse(text, name, config, ignored);
 }
 
 void parse_cost_weights(std::string_view text, const std::string& name, CostWeights& weights) {

@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace quadrille::golden {
 
@@ -15,7 +16,10 @@ namespace quadrille::golden {
 ///
 /// Throws InputError with file:line for syntax errors, unknown keys, wrong types, values out of range, and for a file
 /// that cannot be read; `config` is then unchanged.
-void load_config(const std::string& path, Config& config);
+///
+/// Returns notes for the user, "file:line: …" each: of keys that were removed and are set to the value at which they
+/// were off, which is ignored.
+std::vector<std::string> load_config(const std::string& path, Config& config);
 
 /// Sets weights of the hardware cost from the table [cost] of such a file: state, multiplier, adder, table, in LUTs a
 /// bit, each a number from 0 to max_cost_weight. Weights that the file does not name keep their value. The rest of the
@@ -29,7 +33,7 @@ inline constexpr double max_cost_weight = 1e6;
 std::string config_text(const Config& config, const CostWeights& weights);
 
 /// The same for a text in memory; `name` stands for the file in messages.
-void parse_config(std::string_view text, const std::string& name, Config& config);
+std::vector<std::string> parse_config(std::string_view text, const std::string& name, Config& config);
 void parse_cost_weights(std::string_view text, const std::string& name, CostWeights& weights);
 
 }  // namespace quadrille::golden

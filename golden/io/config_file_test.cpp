@@ -18,6 +18,18 @@ TEST(ConfigFile, SetsKeysAndLeavesTheRest) {
   EXPECT_EQ(config.significand_bits, 12);
 }
 
+TEST(ConfigFile, RemovedKeys) {
+  Config config;
+  EXPECT_EQ(parse_config("depth_bits = 20", "c.toml", config), std::vector<std::string>{});
+  EXPECT_EQ(
+      parse_config("# s\ndepth_bits = 21\nplane_tolerance_bits = 0\n", "c.toml", config),
+      std::vector<std::string>{"c.toml:3: plane_tolerance_bits = 0 is no longer needed: quads nearly plane are no "
+                               "longer treated apart"});
+  EXPECT_EQ(config.depth_bits, 21);
+  expect_input_error([&] { parse_config("plane_tolerance_bits = 10\n", "c.toml", config); }, "c.toml:1",
+                     {"plane_tolerance_bits = 10: the tolerance was removed", "plane_quads = 1"});
+}
+
 TEST(ConfigFile, ReadsBackEveryKey) {
   std::string text;
   for (const ConfigKey& key : Config::keys())

@@ -36,7 +36,7 @@ constexpr std::array settings{
     Setting{"", skip_default, 4, true, true},
     Setting{"significand_bits = 12\nattribute_slots = 2\npixels_per_clock = 4", 0, 2, false, true},
     Setting{"pixels_per_clock=2 attribute_slots=8 dot_units=4", skip_default, 3, true, false},
-    Setting{"hierarchical_z_bits=12 plane_tolerance_bits=31", skip_default | skip_hidden | skip_plane, 4, true, true},
+    Setting{"hierarchical_z_bits=12 plane_quads=1", skip_default | skip_hidden | skip_plane, 4, true, true},
 };
 
 Config config_of(const Setting& setting) {
@@ -368,6 +368,9 @@ TEST_F(CApiErrors, Configurations) {
   quadrille_clocked* clocked = nullptr;
   expect_error(quadrille_clocked_create("viewport_bits=14 guard_bits=4", &clocked), QUADRILLE_BAD_CONFIG, "VAL_BITS");
   expect_error(quadrille_clocked_create("", nullptr), QUADRILLE_BAD_ARGUMENT, "NULL");
+  expect_error(quadrille_clocked_create("plane_tolerance_bits=31", &clocked), QUADRILLE_BAD_CONFIG, "plane_quads = 1");
+  ASSERT_EQ(quadrille_clocked_create("plane_tolerance_bits=0", &clocked), QUADRILLE_OK);
+  quadrille_clocked_destroy(clocked);
   std::int32_t value = 0;
   EXPECT_EQ(quadrille_config_value("significand_bits=12", "attribute_frac_bits", &value), QUADRILLE_OK);
   EXPECT_EQ(value, 14);
@@ -408,7 +411,7 @@ TEST_F(CApiErrors, DrawStates) {
   state_.skip |= QUADRILLE_SKIP_HIDDEN;
   refused(QUADRILLE_BAD_STATE, "hierarchical_z_bits");
   state_.skip |= QUADRILLE_SKIP_PLANE;
-  refused(QUADRILLE_BAD_STATE, "plane_tolerance_bits");
+  refused(QUADRILLE_BAD_STATE, "plane_quads");
   expect_error(quadrille_draw_state_init(&state_, sizeof state_ - 8, 1, 1), QUADRILLE_BAD_ARGUMENT, "sizeof");
 }
 

@@ -96,7 +96,7 @@ TEST(ClockedPixels, LanesGiveThoseOfThePlainPipeline) {
     config.set("pixels_per_clock", 1 << seed % 3);
     config.set("tile_log2", 2 + static_cast<int>(seed % 3));
     config.set("significand_bits", 12 + static_cast<int>(seed % 4) * 4);
-    config.set("plane_tolerance_bits", seed % 2 != 0 ? 0 : seed % 4 == 0 ? 31 : 6);
+    config.set("plane_quads", seed % 2 == 0);
     config.validate();
     constexpr int size = 48;
     const std::vector<WindowQuad> quads = golden::make_stress(info.family, 120, seed, 1.0, size, size, 4);

@@ -145,7 +145,7 @@ TEST(PerformanceCounters, ProductsOfAPixelAreTheDspBlocksOfItsUnits) {
   EXPECT_EQ(c[products_sqrt], 64u * 8);
   EXPECT_EQ(c[products_mean_value_ratios], 64u * 6);
   EXPECT_EQ(c[products_mean_value_weights], 64u * 23);
-  EXPECT_EQ(c[products_interpolate], 64u * 28);
+  EXPECT_EQ(c[products_interpolate], 64u * 24);
   EXPECT_EQ(c[products_reciprocal], 64u * 4);
   EXPECT_EQ(c[products_fragment_output], 64u * 5);
 }
@@ -161,8 +161,8 @@ TEST(PerformanceCounters, OperandsHeldMakeNoProducts) {
   EXPECT_EQ(held[products_sqrt], 63u * 8);
   EXPECT_EQ(held[products_mean_value_ratios], 63u * 6);
   EXPECT_EQ(held[products_mean_value_weights], 63u * 15 + 64 * 8);
-  EXPECT_EQ(held[products_interpolate], 64u * 4 * 2);  // k and the attribute
-  EXPECT_EQ(held[products_reciprocal], 64u * 2);       // of k
+  EXPECT_EQ(held[products_interpolate], 64u * (4 + 3));  // k, the attribute without corner 0
+  EXPECT_EQ(held[products_reciprocal], 64u * 2);         // of k
   EXPECT_EQ(held[products_fragment_output], 64u);
   state.attributes = 0;
   state.depth = true;
@@ -185,7 +185,7 @@ TEST(PerformanceCounters, OperandsHeldMakeNoProducts) {
   state.skip &= ~std::uint32_t{skip_operands};
   const PerformanceCounters all = count({on_centres}, {}, state);
   EXPECT_EQ(all[products_sqrt], 64u * 8);
-  EXPECT_EQ(all[products_interpolate], 64u * 28);
+  EXPECT_EQ(all[products_interpolate], 64u * 24);
   EXPECT_EQ(all[products_reciprocal], 64u * 4);
   EXPECT_EQ(all[products_fragment_output], 64u * 5);
 }
@@ -329,7 +329,7 @@ TEST(PerformanceCounters, HiddenBlocks) {
 
 TEST(PerformanceCounters, PlaneQuads) {
   Config config;
-  config.set("plane_tolerance_bits", 31);
+  config.set("plane_quads", 1);
   DrawState state;
   WindowQuad bent = square(64, 0, 8);
   bent.attribute[2][1] = 0.5;
@@ -346,31 +346,6 @@ TEST(PerformanceCounters, PlaneQuads) {
   EXPECT_EQ(c[products_sqrt], 64u * 8);
   EXPECT_EQ(c[products_mean_value_ratios], 64u * 6);
   EXPECT_EQ(c[products_mean_value_weights], 64u * 23);
-}
-
-// Squares of which one is bent a little, one too much, and one concave: the unit multiplies what is not exactly plane,
-// of convex quads alone.
-TEST(PerformanceCounters, NearlyPlaneQuads) {
-  Config config;
-  config.set("plane_tolerance_bits", 4);
-  DrawState state;
-  state.skip |= skip_plane;
-  state.attributes = 2;
-  WindowQuad little = square(64, 0, 8), much = little, concave = square(64, 0, 16);
-  for (std::size_t i = 0; i < 4; ++i) little.attribute[i][1] = 0.5 + (i == 2 ? 1.0 / 256 : 0);
-  much.attribute[2][1] = 0.5;
-  concave.vertex[2].x -= 12;
-  concave.vertex[2].y += 12;
-  const std::vector<WindowQuad> quads{square(0, 0, 8), little, much, concave};
-  const PerformanceCounters c = count(quads, config, state);
-  EXPECT_EQ(c[quads_plane], 2u);
-  EXPECT_EQ(c[pixels_plane], 64u + 64);
-  EXPECT_EQ(c[products_plane_tolerance], 2u * 4 * (2 + 2)) << "k, Z and the attributes in use";
-  state.perspective = state.depth = false;
-  EXPECT_EQ(count(quads, config, state)[products_plane_tolerance], 2u * 4 * 2);
-  config.set("plane_tolerance_bits", 31);
-  EXPECT_EQ(count(quads, config, state)[products_plane_tolerance], 0u);
-  EXPECT_EQ(count(quads, config, state)[quads_plane], 1u);
 }
 
 TEST(PerformanceCounters, PixelsByLane) {

@@ -25,7 +25,7 @@ Config machine(int significand_bits) {
   Config c;
   c.set("viewport_bits", 8);
   c.set("significand_bits", significand_bits);
-  c.set("plane_tolerance_bits", 31);
+  c.set("plane_quads", 1);
   c.validate();
   return c;
 }
@@ -103,7 +103,7 @@ TEST(PlaneQuad, IsTakenWhereEveryValueInUseIsConstantAlongSides) {
   off.skip &= ~std::uint32_t{skip_plane};
   EXPECT_FALSE(taken(good, off));
   Config without = c;
-  without.set("plane_tolerance_bits", 0);
+  without.set("plane_quads", 0);
   EXPECT_FALSE(plane_quad(snap_quad(good, without, s), without, s));
 }
 

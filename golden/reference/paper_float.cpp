@@ -25,6 +25,7 @@ PaperQuad<Real>::PaperQuad(const SnappedQuad& quad, const Config& config, const 
   const auto port = [&](const PortNumber& number) {
     return static_cast<Real>(port_value(number, config.significand_bits));
   };
+  const auto base_z = static_cast<Real>(std::ldexp(static_cast<double>(quad.base.depth), -config.depth_bits));
   for (int i = 0; i < 4; ++i) {
     const SnappedVertex& v = quad.vertex[i];
     x_[i] = std::ldexp(static_cast<double>(v.x), -frac);
@@ -36,9 +37,14 @@ PaperQuad<Real>::PaperQuad(const SnappedQuad& quad, const Config& config, const 
     vy_[i] = static_cast<Real>(y_[i]) / w;
     w_sign_[i] = sign(w);
     inverse_w_[i] = port(v.k) / w;
-    z_over_w_[i] = port(v.z) / w;
-    // b is k a with perspective and W a without, so one division serves both.
-    for (int a = 0; a < attributes_; ++a) a_[a][i] = port(v.attribute[a]) / w;
+    z_over_w_[i] = base_z + port(v.z) / w;
+    for (int a = 0; a < attributes_; ++a) {
+      const auto base =
+          static_cast<Real>(std::ldexp(static_cast<double>(quad.base.attribute[a]), -config.attribute_frac()));
+      // The difference is k (a - base) with perspective, W (a - base) without; vertex 0 has the base itself.
+      const Real value = i == 0 ? base : base + port(v.attribute[a]) / (perspective_ ? port(v.k) : w);
+      a_[a][i] = perspective_ ? value * inverse_w_[i] : value;
+    }
   }
 }
 

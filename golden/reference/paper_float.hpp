@@ -36,7 +36,7 @@ class PaperQuad {
   };
 
   /// Snapped input, read as reals: x = X 2^-frac etc., relative to pixel centres at the integers; the given w of eq.
-  /// (10) is W/k, z_i = Z/W, attribute a_i = b/k (b/W without perspective).
+  /// (10) is W/k, z_i = base + Z/W, attribute a_i = base + b/k (b/W without perspective), a_0 = base.
   PaperQuad(const SnappedQuad& quad, const Config& config, const DrawState& draw);
   /// Input as given, pixel centres at +0.5.
   PaperQuad(const WindowQuad& quad, const DrawState& draw);

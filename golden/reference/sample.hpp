@@ -25,6 +25,10 @@ struct ReferenceSample {
   double z = 0;                    ///< window z
   double z_condition = 1;          ///< sum(|M W|) / |sum(M W)|
   std::array<double, max_attribute_slots> attribute{};
+  /// z and attributes without the bases of a snapped quad (truth only): exact relative to what varies over the quad,
+  /// where the sums above are exact relative to their own size. Of a quad as given the same as above.
+  double z_above = 0;
+  std::array<double, max_attribute_slots> attribute_above{};
 
   friend bool operator==(const ReferenceSample&, const ReferenceSample&) = default;
 };

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 
 namespace quadrille::golden::test {
@@ -23,7 +24,17 @@ struct Point {
 /// Nearest port number; exact for every value with at most `bits` significant bits.
 inline PortNumber port(double value, int bits = Config{}.significand_bits) { return nearest_port_number(value, bits); }
 
-/// Integer vertices in units of `unit` * 2^-15; k = 1, Z = i, attribute a = 1 at vertex a and 0 elsewhere.
+/// A value as the base of an attribute (of a default Config), which is nearest to it.
+inline std::int64_t base_code(double value) { return std::llround(std::ldexp(value, Config{}.attribute_frac())); }
+
+/// Corner codes that clamp no depth below 128.
+inline void leave_depth(QuadBase& base) {
+  base.depth_low = std::numeric_limits<std::int32_t>::min();
+  base.depth_high = std::numeric_limits<std::int32_t>::max();
+}
+
+/// Integer vertices in units of `unit` * 2^-15; k = 1, Z = i, attribute a = 1 at vertex a and 0 elsewhere (a_0 by its
+/// base of 1, the others' bases are 0).
 inline SnappedQuad make_quad(const std::array<Point, 4>& points, std::int32_t unit = one) {
   SnappedQuad quad;
   for (int i = 0; i < 4; ++i) {
@@ -33,8 +44,13 @@ inline SnappedQuad make_quad(const std::array<Point, 4>& points, std::int32_t un
     v.w = points[i].w * unit;
     v.k = port(1);
     v.z = port(i);
-    v.attribute[i] = port(1);
+    if (i > 0) {
+      v.attribute[0] = port(-1);
+      v.attribute[i] = port(1);
+    }
   }
+  quad.base.attribute[0] = base_code(1);
+  leave_depth(quad.base);
   return quad;
 }
 
@@ -56,7 +72,7 @@ class Random {
 };
 
 /// Ordinary vertices on the 1/256 grid within `radius` pixels of the origin; random k in [1/4, 4], Z = z W, z in [0,
-/// 1].
+/// 1], bases in [-1, 1] (depth: [0, 1]), numbers that are not looked at where vertex 0 has no differences.
 inline SnappedQuad random_ordinary(Random& random, int radius) {
   SnappedQuad quad;
   for (auto& v : quad.vertex) {
@@ -67,6 +83,9 @@ inline SnappedQuad random_ordinary(Random& random, int radius) {
     v.z = port(random.real(0, 1));
     for (auto& b : v.attribute) b = port(random.real(-1, 1));
   }
+  for (auto& base : quad.base.attribute) base = base_code(random.real(-1, 1));
+  quad.base.depth = static_cast<std::uint32_t>(random.integer(0, 1 << Config{}.depth_bits));
+  leave_depth(quad.base);
   return quad;
 }
 

@@ -345,8 +345,15 @@ TruthQuad::TruthQuad(const SnappedQuad& quad, const Config& config, const DrawSt
     exact_.w[i] = std::ldexp(static_cast<double>(v.w), -frac);
     exact_.k[i] = port_value(v.k, config.significand_bits);
     exact_.z[i] = port_value(v.z, config.significand_bits);
-    for (int a = 0; a < attributes_; ++a) exact_.b[a][i] = port_value(v.attribute[a], config.significand_bits);
+    for (int a = 0; a < attributes_; ++a)
+      exact_.b[a][i] = i == 0 ? 0 : port_value(v.attribute[a], config.significand_bits);
   }
+  const auto depth = [&](auto code) { return std::ldexp(static_cast<double>(code), -config.depth_bits); };
+  base_z_ = depth(quad.base.depth);
+  z_low_ = depth(quad.base.depth_low);
+  z_high_ = depth(quad.base.depth_high);
+  for (int a = 0; a < attributes_; ++a)
+    base_attribute_[a] = std::ldexp(static_cast<double>(quad.base.attribute[a]), -config.attribute_frac());
   g.finish();
   geometry_ = g;
   quick_ = detail::VertexValues<long double>(exact_);
@@ -526,7 +533,7 @@ bool weigh(const detail::TruthGeometry<Coord, Product>& g, const PixelEdges<Coor
   }
   if (sum_w != 0) {
     const long double per_w = 1.0L / narrow(sum_w);
-    out.z = static_cast<double>(narrow(sum_z) * per_w);
+    out.z_above = static_cast<double>(narrow(sum_z) * per_w);
     out.z_condition = static_cast<double>(std::abs(narrow(size_w) * per_w));
   } else {
     out.z_condition = std::numeric_limits<double>::infinity();
@@ -543,7 +550,7 @@ bool weigh(const detail::TruthGeometry<Coord, Product>& g, const PixelEdges<Coor
   const long double per_whole = 1.0L / narrow(whole);
   for (int i = 0; i < 4; ++i) out.lambda[i] = static_cast<double>(narrow(part[i]) * per_whole);
   for (int a = 0; a < attributes; ++a) {
-    out.attribute[a] = static_cast<double>(narrow(inner(m, v.b[a])) * per_whole);
+    out.attribute_above[a] = static_cast<double>(narrow(inner(m, v.b[a])) * per_whole);
   }
   return true;
 }
@@ -565,12 +572,21 @@ ReferenceSample TruthQuad::sample(int px, int py, Effort effort) const {
         if (!covered.covered) return covered;
 
         ReferenceSample out = covered;
-        if (effort == Effort::filter && weigh(g, p, quick_, perspective_, unit_w_, attributes_, out)) return out;
-        out = covered;
-        weigh(g, p, exact_, perspective_, unit_w_, attributes_, out);
+        if (effort != Effort::filter || !weigh(g, p, quick_, perspective_, unit_w_, attributes_, out)) {
+          out = covered;
+          weigh(g, p, exact_, perspective_, unit_w_, attributes_, out);
+        }
+        add_bases(out);
         return out;
       },
       geometry_);
+}
+
+void TruthQuad::add_bases(ReferenceSample& sample) const {
+  // Clamped as a difference, so that nothing is lost beside the base.
+  sample.z_above = std::clamp(sample.z_above, z_low_ - base_z_, z_high_ - base_z_);
+  sample.z = base_z_ + sample.z_above;
+  for (int a = 0; a < attributes_; ++a) sample.attribute[a] = base_attribute_[a] + sample.attribute_above[a];
 }
 
 bool TruthQuad::take_lane(const detail::LaneSamples& from, std::size_t lane, int det_012, int det_023,
@@ -586,10 +602,11 @@ bool TruthQuad::take_lane(const detail::LaneSamples& from, std::size_t lane, int
   out.notch = from.notch[lane] != 0;
   out.visible_margin = from.visible_margin[lane];
   out.condition = from.condition[lane];
-  out.z = from.z[lane];
+  out.z_above = from.z_above[lane];
   out.z_condition = from.z_condition[lane];
   for (int i = 0; i < 4; ++i) out.lambda[i] = from.lambda[i][lane];
-  for (int a = 0; a < attributes_; ++a) out.attribute[a] = from.attribute[a][lane];
+  for (int a = 0; a < attributes_; ++a) out.attribute_above[a] = from.attribute_above[a][lane];
+  add_bases(out);
   return true;
 }
 

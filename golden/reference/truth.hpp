@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -56,7 +57,8 @@ struct TruthGeometry {
   void finish();
 };
 
-/// Values of the vertices, w in units of 1. Those of the port are exact in either Number; others are within 2^-64.
+/// Values of the vertices, w in units of 1: k, k (z~ - base w~) and k_eff (a - base) of a snapped quad, b of its vertex
+/// 0 being 0. Those of the port are exact in either Number; others are within 2^-64.
 template <class Number>
 struct VertexValues {
   std::array<Number, 4> k{}, z{}, w{};
@@ -79,15 +81,15 @@ struct VertexValues {
 
 /// One quad, ready to be asked about any pixel. Two ways in:
 ///  - snapped: X, Y, W in units of 2^-frac relative to pixel centres at the integers; k, Z, b the rounded numbers of
-///  the
-///    port. A, D and R^2 are exact integers, hence coverage, ties and singular classes are exact.
-///  - as given: pixel centres at +0.5, k = 1, Z = z~, b = a (w a without perspective). The same formulas in __float128;
-///    edge functions round at 113 bits, so a tie is recognised when that rounding gives 0.
+///    the port, to which the quad's bases are added; depth is clamped to the corners' codes. A, D and R^2 are exact
+///    integers, hence coverage, ties and singular classes are exact.
+///  - as given: pixel centres at +0.5, k = 1, Z = z~, b = a (w a without perspective), no base. The same formulas in
+///    __float128; edge functions round at 113 bits, so a tie is recognised when that rounding gives 0.
 /// The weights carry a relative error of about 2^-108 times `ReferenceSample::condition`; results are rounded to
 /// double.
 class TruthQuad {
  public:
-  /// Uses config.frac() and config.significand_bits only; the truth never drops bits of D and R^2. Throws
+  /// Uses the formats of the port and of the output; the truth never drops bits of D and R^2. Throws
   /// std::invalid_argument when a vertex is (0, 0, 0) or draw.attributes is out of range.
   TruthQuad(const SnappedQuad& quad, const Config& config, const DrawState& draw);
   /// Attributes beyond the vector given for a vertex count as 0. Throws std::invalid_argument for a vertex that is
@@ -98,8 +100,9 @@ class TruthQuad {
   /// Everything about pixel (px, py): eq. (10), (11), (4) and (12) of the paper. Scissor, cull mode, znear and zfar are
   /// not applied. Where the pixel is not covered only `covered`, `eye_in_hull` and `flags` (tie, homogeneous) are set.
   ///
-  /// With M_i = (t_{i-1} + t_i) / R_i: lambda'_i = M_i k_i / sum(M k), z = sum(M Z) / sum(M W), attribute =
-  /// sum(M b) / sum(M k). Without perspective lambda_i = M_i W_i / sum(M W), attribute = sum(M b) / sum(M W).
+  /// With M_i = (t_{i-1} + t_i) / R_i: lambda'_i = M_i k_i / sum(M k), z = base + sum(M Z) / sum(M W), attribute =
+  /// base + sum(M b) / sum(M k). Without perspective lambda_i = M_i W_i / sum(M W), attribute = base + sum(M b) /
+  /// sum(M W).
   /// Singular pixels, in this order (the first that applies gives M and the flag):
   ///   two corners i, j at the pixel    M_i = |k_j|, M_j = |k_i|          lambda' = 1/2 each
   ///   one corner                       M_i = 1                           lambda' = 1
@@ -107,8 +110,8 @@ class TruthQuad {
   ///                                    rho = 1/R                         lambda' = mean of the two edge interpolations
   ///   one edge                         the general form gives the linear interpolation along the edge
   /// visible_margin is signed so that it is positive in front of the eye, and exactly 0 where sum(M w) vanishes
-  /// identically (eye and vertices in a plane without the pixel's ray). Where sum(M W) = 0, z is 0
-  /// and z_condition infinite.
+  /// identically (eye and vertices in a plane without the pixel's ray). Where sum(M W) = 0, z is its base and
+  /// z_condition infinite.
   ///
   /// A filter in long double decides the pixels where no sum cancels, which it knows from bounds evaluated with the
   /// sums (as in Shewchuk's predicates, "Adaptive Precision Floating-Point Arithmetic", 1997): flags and signs are the
@@ -149,11 +152,16 @@ class TruthQuad {
   bool perspective_ = true;
   bool homogeneous_ = false;
   bool unit_w_ = false;  ///< every w is exactly 1
+  /// Added to the quotients: 0 of a quad as given, which has no corner codes either.
+  std::array<double, max_attribute_slots> base_attribute_{};
+  double base_z_ = 0, z_low_ = -std::numeric_limits<double>::infinity(), z_high_ = -z_low_;
   PixelRect bounds_;
 
   /// Sets lanes_, given S's coefficients.
   void set_lanes(const std::array<detail::TwoDoubles, 4>& x, const std::array<detail::TwoDoubles, 4>& y,
                  const std::array<double, 4>& w, bool eye_in_hull);
+  /// From the quotients z_above and attribute_above of the sums: the values.
+  void add_bases(ReferenceSample& sample) const;
   /// The pixel of a lane; false where it did not decide.
   bool take_lane(const detail::LaneSamples& from, std::size_t lane, int det_012, int det_023,
                  ReferenceSample& out) const;

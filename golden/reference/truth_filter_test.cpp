@@ -49,9 +49,9 @@ void compare_lanes(const ReferenceSample& lane, const ReferenceSample& exact, in
   expect_near(lane.visible_margin, exact.visible_margin, 1);
   expect_near(lane.condition, exact.condition, 0);
   expect_near(lane.z_condition, exact.z_condition, 0);
-  if (std::isfinite(largest_z)) expect_near(lane.z, exact.z, largest_z);
+  if (std::isfinite(largest_z)) expect_near(lane.z_above, exact.z_above, largest_z);
   for (int i = 0; i < 4; ++i) expect_near(lane.lambda[i], exact.lambda[i], 1);
-  for (int a = 0; a < attributes; ++a) expect_near(lane.attribute[a], exact.attribute[a], largest_b);
+  for (int a = 0; a < attributes; ++a) expect_near(lane.attribute_above[a], exact.attribute_above[a], largest_b);
 }
 
 constexpr std::array all_lanes{TruthLanes::baseline, TruthLanes::v3, TruthLanes::v4};
@@ -91,8 +91,8 @@ void compare_lanes(const TruthQuad& truth, const std::vector<PixelPlace>& pixels
   }
 }
 
-/// Every pixel of the viewport. No attribute of a vertex is larger than `largest_b`, no Z/W than `largest_z` (infinite
-/// where some W is not positive).
+/// Every pixel of the viewport. No difference of an attribute is larger than `largest_b`, no Z/W than `largest_z`
+/// (infinite where some W is not positive).
 void compare(const TruthQuad& truth, bool perspective, int attributes, double largest_b, double largest_z, Seen& seen) {
   const std::vector<PixelPlace> pixels = all_pixels(size, size);
   std::vector<ReferenceSample> all_bits;
@@ -119,13 +119,14 @@ void compare(const TruthQuad& truth, bool perspective, int attributes, double la
     }
     if (std::isfinite(largest_z)) {
       ++seen.depths;
-      ASSERT_NEAR(quick.z, exact.z, by_w * largest_z * exact.z_condition);
+      ASSERT_NEAR(quick.z_above, exact.z_above, by_w * largest_z * exact.z_condition);
     }
     const double quotient = perspective ? weight : by_w;
     const double terms = perspective ? 1 : std::max(1.0, exact.z_condition);
     for (int i = 0; i < 4; ++i) ASSERT_NEAR(quick.lambda[i], exact.lambda[i], quotient * terms) << "vertex " << i;
     for (int a = 0; a < attributes; ++a)
-      ASSERT_NEAR(quick.attribute[a], exact.attribute[a], quotient * terms * largest_b) << "attribute " << a;
+      ASSERT_NEAR(quick.attribute_above[a], exact.attribute_above[a], quotient * terms * largest_b)
+          << "attribute " << a;
   }
   compare_lanes(truth, pixels, all_bits, attributes, largest_b, largest_z, seen);
 }
@@ -143,7 +144,7 @@ TEST(TruthFilter, DecidesAsAllBitsDo) {
       for (const WindowQuad& quad : make_stress(info.family, 12, 5, 1.0, size, size, draw.attributes)) {
         double largest = 0;
         for (int i = 0; i < 4; ++i)
-          for (const double b : quad.attribute[i]) largest = std::max(largest, std::abs(b));
+          for (const double b : quad.attribute[i]) largest = std::max(largest, 2 * std::abs(b));  // of differences
         double depth = 0;  // twice what is given: snapped Z and W are near it
         for (const WindowVertex& v : quad.vertex)
           depth = v.w > 0 ? std::max(depth, 2 * std::abs(v.z / v.w)) : std::numeric_limits<double>::infinity();

@@ -134,13 +134,13 @@ QUADRILLE_INLINE void sample(const LaneQuad& q, LaneSamples& out) {
   const DoubleDouble per_w = reciprocal<fused>(sum_w), per_k = reciprocal<fused>(sum_k);
   const V margin = times(sum_w, reciprocal<fused>(size_w)).hi;
   store(flip(margin, sign_bit(sum_k.hi)), out.visible_margin);
-  store(times(total(of(m, q.z)), per_w).hi, out.z);
+  store(times(total(of(m, q.z)), per_w).hi, out.z_above);
   store(times(size_w, magnitude(per_w)).hi, out.z_condition);
   store(times(total(spread_k), magnitude(per_k)).hi, out.condition);
   const auto& part = q.perspective ? mk : mw;
   const DoubleDouble per = q.perspective ? per_k : per_w;
   for (int i = 0; i < 4; ++i) store(times(part[i], per).hi, out.lambda[i]);
-  for (int a = 0; a < q.attributes; ++a) store(times(total(of(m, q.b[a])), per).hi, out.attribute[a]);
+  for (int a = 0; a < q.attributes; ++a) store(times(total(of(m, q.b[a])), per).hi, out.attribute_above[a]);
 
   // At most one of them holds.
   store(certain & (1 + (first & 1) + (second & 2) + (back_first & 3) + (back_second & 4)), out.decided);

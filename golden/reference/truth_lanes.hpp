@@ -43,9 +43,9 @@ struct LaneSamples {
   /// 2 and 3 for orientation 1, 4 and 5 for -1.
   Integers decided;
   Integers notch;  ///< 0 or -1
-  Reals visible_margin, condition, z, z_condition;
+  Reals visible_margin, condition, z_above, z_condition;
   std::array<Reals, 4> lambda;
-  std::array<Reals, max_attribute_slots> attribute;
+  std::array<Reals, max_attribute_slots> attribute_above;
 };
 
 /// Decides pixels at no corner and on no edge's line of which no sum cancels much, as TruthQuad::sample() would.

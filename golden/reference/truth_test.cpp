@@ -66,7 +66,8 @@ TEST(Truth, QuarterAtTheCentreOfASquare) {
   EXPECT_TRUE(s.flags & flag_tie) << "the diagonal runs through the centre";
   for (int i = 0; i < 4; ++i) {
     EXPECT_NEAR(s.lambda[i], k[i] / 7.5, double_ulp);  // lambda = 1/4 each, eq. 10 with 1/w = k
-    EXPECT_NEAR(s.attribute[i], 1 / 7.5, double_ulp);  // b = 1 at vertex i: sum(M b) / sum(M k)
+    // b = 1 at vertex i: sum(M b) / sum(M k); of vertex 0 a base of 1 and -1 at the others.
+    EXPECT_NEAR(s.attribute[i], i == 0 ? 1 - 3 / 7.5 : 1 / 7.5, double_ulp);
   }
   EXPECT_NEAR(s.z, (0 + 1 + 2 + 3) / 4.0, 3 * double_ulp);
   EXPECT_NEAR(s.condition, 1, double_ulp);
@@ -311,9 +312,9 @@ TEST(TruthSingular, TwoCorners) {
   ASSERT_TRUE(s.covered && s.visible && !s.front);
   EXPECT_EQ(s.flags, flag_two_corner | flag_tie);
   EXPECT_EQ(s.lambda, (std::array<double, 4>{0.5, 0.5, 0, 0}));
-  // M_0 = k_1 = 1/2, M_1 = k_0 = 1: z = (0 * 1/2 + 1/4 * 1) / (1/2 + 1), a_0 = 1/2, a_1 = 1 over sum(M k) = 1.
+  // M_0 = k_1 = 1/2, M_1 = k_0 = 1: z = (0 * 1/2 + 1/4 * 1) / (1/2 + 1), a_0 = 1 - 1, a_1 = 1 over sum(M k) = 1.
   EXPECT_NEAR(s.z, 1.0 / 6, double_ulp);
-  EXPECT_EQ(s.attribute[0], 0.5);
+  EXPECT_EQ(s.attribute[0], 0);
   EXPECT_EQ(s.attribute[1], 1);
   EXPECT_EQ(s.condition, 1);
 }
@@ -581,10 +582,13 @@ WindowQuad unsnapped(const SnappedQuad& quad, bool perspective) {
   for (int i = 0; i < 4; ++i) {
     const auto& v = quad.vertex[i];
     const double k = port_double(v.k), w = std::ldexp(v.w, -test::frac);
+    const double base_z = std::ldexp(quad.base.depth, -config.depth_bits);
     out.vertex[i] = {(std::ldexp(v.x, -test::frac) + w / 2) / k, (std::ldexp(v.y, -test::frac) + w / 2) / k,
-                     port_double(v.z) / k, w / k};
-    for (int a = 0; a < draw.attributes; ++a)
-      out.attribute[i].push_back(port_double(v.attribute[a]) / (perspective ? k : w));
+                     (port_double(v.z) + base_z * w) / k, w / k};
+    for (int a = 0; a < draw.attributes; ++a) {
+      const double base = std::ldexp(static_cast<double>(quad.base.attribute[a]), -config.attribute_frac());
+      out.attribute[i].push_back(i == 0 ? base : base + port_double(v.attribute[a]) / (perspective ? k : w));
+    }
   }
   return out;
 }
@@ -610,11 +614,11 @@ TEST(Truth, SnappedAndGivenQuadsAgree) {
     hidden += !s.visible;
     for (int i = 0; i < 4; ++i) {
       ASSERT_NEAR(s.lambda[i], g.lambda[i], 0x1p-53);
-      // The same quotient with a_i = b_i / k_i rounded to double: half an ulp of |a| <= 8, then of the result.
-      ASSERT_NEAR(s.attribute[i], g.attribute[i], 8 * 2 * 0x1p-53);
+      // The same with a_i = base + b_i / k_i rounded to double: half an ulp of |a| <= 9, of the quotient, of the sum.
+      ASSERT_NEAR(s.attribute[i], g.attribute[i], 9 * 3 * 0x1p-53);
     }
     if (s.z_condition < 16) {
-      ASSERT_NEAR(s.z, g.z, 16 * double_ulp);
+      ASSERT_NEAR(s.z, g.z, 32 * double_ulp);  // of corners' z in [0, 2]
     }
   }
   EXPECT_GT(tested, 5'000);
@@ -636,7 +640,7 @@ TEST(Truth, WithoutPerspectiveWeightsAreThoseOfTheScreen) {
       quad.vertex[i].x /= 4;
       quad.vertex[i].y /= 4;
       quad.vertex[i].w = one >> shift;
-      quad.vertex[i].z = port(0.125 * i);
+      quad.vertex[i].z = port(0.125 * i);  // beside the base in [0, 1]
       screen.vertex[i].x = quad.vertex[i].x << shift;
       screen.vertex[i].y = quad.vertex[i].y << shift;
       screen.vertex[i].z = port(0.125 * i * (1 << shift));
@@ -661,6 +665,72 @@ TEST(Truth, WithoutPerspectiveWeightsAreThoseOfTheScreen) {
     ASSERT_NEAR(s.z, expected.z, 2 * double_ulp);
   }
   EXPECT_GT(tested, 2'000);
+}
+
+TEST(Truth, AddsItsBases) {
+  Random random(14);
+  int tested = 0;
+  for (int n = 0; n < 20'000; ++n) {
+    SnappedQuad quad = n % 2 ? test::random_any_w(random, 8) : test::random_ordinary(random, 8);
+    SnappedQuad bare = quad, other = quad;
+    bare.base = {};
+    test::leave_depth(bare.base);
+    for (int a = 0; a < 4; ++a) other.vertex[0].attribute[a] = port(random.real(-9, 9));
+    const int px = random.integer(-4, 4), py = random.integer(-4, 4);
+    const auto s = truth_of(quad).sample(px, py), d = truth_of(bare).sample(px, py);
+    if (!s.covered) continue;
+    ++tested;
+    ASSERT_EQ(truth_of(other).sample(px, py), s) << "of vertex 0 there are no differences";
+    for (int a = 0; a < 4; ++a) {
+      const double base = std::ldexp(static_cast<double>(quad.base.attribute[a]), -config.attribute_frac());
+      ASSERT_EQ(s.attribute_above[a], d.attribute[a]);
+      ASSERT_EQ(s.attribute[a], base + d.attribute[a]);
+    }
+    if (std::fabs(d.z) > 100) continue;
+    ASSERT_EQ(s.z_above, d.z);
+    ASSERT_EQ(s.z, std::ldexp(quad.base.depth, -config.depth_bits) + d.z);
+  }
+  EXPECT_GT(tested, 5'000);
+}
+
+TEST(Truth, ClampsDepthToTheCornersCodes) {
+  SnappedQuad quad = make_quad({Point{0, 0}, {8, 0}, {8, 8}, {0, 8}});
+  const double code = 0x1p-24;  // Z = 0 at vertex 0 and 1, 10 codes above the base at the others
+  for (int i = 0; i < 4; ++i) quad.vertex[i].z = port(i < 2 ? 0 : 10 * code);
+  quad.base.depth = 1'000;
+  quad.base.depth_low = 1'003;
+  quad.base.depth_high = 1'007;
+  const TruthQuad truth = truth_of(quad);
+  for (int y = 1; y < 8; ++y) {  // linear from row 0 to 8
+    const auto s = truth.sample(4, y);
+    const double expected = std::clamp(10 * y / 8.0, 3.0, 7.0);
+    EXPECT_NEAR(s.z_above, expected * code, 0x1p-50 * code);
+    EXPECT_NEAR(s.z, (1'000 + expected) * code, 0x1p-42 * code);
+  }
+}
+
+/// A spread of 2^-30 beside a base of 100: differences are as exact, in every way of evaluation, as without the base.
+TEST(Truth, DifferencesAreExactRelativeToTheSpread) {
+  Random random(15);
+  int tested = 0;
+  for (int n = 0; n < 2'000; ++n) {
+    SnappedQuad quad = test::random_ordinary(random, 8);
+    quad.base.attribute[0] = test::base_code(100);
+    for (auto& v : quad.vertex) v.attribute[0].exp -= 30, v.z.exp -= 30;
+    const TruthQuad truth = truth_of(quad);
+    std::array<PixelPlace, 1> at{{{random.integer(-3, 3), random.integer(-3, 3)}}};
+    std::array<ReferenceSample, 1> lanes;
+    truth.samples(at, lanes);
+    const auto quick = truth.sample(at[0].x, at[0].y);
+    const auto exact = truth.sample(at[0].x, at[0].y, TruthQuad::Effort::all_bits);
+    if (!exact.covered) continue;
+    ++tested;
+    for (const auto& s : {lanes[0], quick}) {
+      ASSERT_NEAR(s.attribute_above[0], exact.attribute_above[0], 0x1p-50 * 0x1p-28);  // |b / k| <= 4 2^-30
+      ASSERT_NEAR(s.z_above, exact.z_above, 0x1p-50 * 0x1p-30);
+    }
+  }
+  EXPECT_GT(tested, 300);
 }
 
 TEST(Truth, ExtremeIntegersDoNotOverflow) {

@@ -77,7 +77,7 @@ DrawState random_draw_state(const Config& config, int width, int height, std::sp
   if (config.hierarchical_z_bits != 0 && rng.chance(0.5) && state.depth) state.skip |= skip_hidden;
   if (rng.chance(0.25)) state.skip &= ~std::uint32_t{skip_walk};
   if (rng.chance(0.25)) state.skip &= ~std::uint32_t{skip_operands};
-  if (config.plane_tolerance_bits != 0 && rng.chance(0.5)) state.skip |= skip_plane;
+  if (config.plane_quads != 0 && rng.chance(0.5)) state.skip |= skip_plane;
   return state;
 }
 

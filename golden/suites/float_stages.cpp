@@ -10,83 +10,160 @@
 namespace quadrille::vectors::floating {
 namespace {
 
-/// An ordinary vertex is its window position on the subpixel grid, to nearest: half a step. Others are scaled by k =
-/// 1/max(|x|/2^pos_int, |y|/2^pos_int, |w|) and rounded on the 2^-frac grid. Real's x - w/2 is off by 2^-64 of its
-/// terms. k, Z, b are rounded to nearest: half of u.
+/// A vertex of the suite `snapping` in Real. An ordinary one is its window position on the subpixel grid, to nearest:
+/// half a step. Others are scaled by k = 1/max(|x|/2^pos_int, |y|/2^pos_int, |w|) and rounded on the 2^-frac grid.
+/// Real's x - w/2 is off by 2^-64 of its terms.
+struct RealVertex {
+  Real x, y, w, error, k = 0;
+  bool ordinary = false, decided = true, point = true;
+
+  RealVertex(const WindowVertex& v, const Config& c)
+      : x(static_cast<Real>(v.x) - static_cast<Real>(v.w) / 2),
+        y(static_cast<Real>(v.y) - static_cast<Real>(v.w) / 2),
+        w(v.w),
+        error(rounding * (std::max(fabsl(v.x), fabsl(v.y)) + fabsl(w))) {
+    const Real extent = std::max({ldexpl(fabsl(x), -c.pos_int()), ldexpl(fabsl(y), -c.pos_int()), fabsl(w)});
+    point = extent != 0;
+    if (w > 0) {
+      // Rounding decides on which side of the guard band a position in its last half step is.
+      const Real reach = std::max(fabsl(x), fabsl(y)) / w, edge = ldexpl(1, c.pos_int());
+      const Real last = edge - ldexpl(1, -c.subpixel_bits - 1);
+      decided = fabsl(reach - last) > error / w;
+      ordinary = reach < last;
+    }
+    k = ordinary ? 1 / w : 1 / extent;
+  }
+};
+
+/// Numbers of the port are rounded to nearest: half of u. Differences to a base lose 2^-64 of what they are taken of.
 void snapping(Judge& judge, const Vector& t) {
   const Config& c = t.config;
-  const WindowVertex& v = t.in.vertex;
   const auto slots = static_cast<std::size_t>(c.attribute_slots);
-  const double extent_given = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.w)});
-  bool refused = !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w) ||
-                 !(extent_given <= 0x1p80) || !(extent_given >= 0x1p-80) || !(std::fabs(v.z) <= 0x1p80);
-  for (std::size_t j = 0; j < slots; ++j)
-    refused = refused || !(std::fabs(t.in.attribute[j]) < std::ldexp(1.0, c.attribute_int_bits));
-  const SnappedVertex& p = t.out.snapped;
+  bool refused = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const WindowVertex& v = t.in.vertex[i];
+    const double extent = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.w)});
+    refused = refused || !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w) ||
+              !(extent <= 0x1p80) || !(extent >= 0x1p-80) || !(std::fabs(v.z) <= 0x1p80) || !RealVertex(v, c).point;
+    for (std::size_t j = 0; j < slots; ++j)
+      refused = refused || !(std::fabs(t.in.attribute[i][j]) < std::ldexp(1.0, c.attribute_int_bits));
+  }
   const auto check_refused = [&] {
     judge.same("refused", -1, t.out.refused, 1);
     judge.undecided();
   };
   if (refused) return check_refused();
+  std::array<RealVertex, 4> vertices{RealVertex(t.in.vertex[0], c), RealVertex(t.in.vertex[1], c),
+                                     RealVertex(t.in.vertex[2], c), RealVertex(t.in.vertex[3], c)};
+  for (const RealVertex& v : vertices)
+    if (!v.decided) return judge.undecided();
 
-  const Real w = v.w, x = static_cast<Real>(v.x) - w / 2, y = static_cast<Real>(v.y) - w / 2;
-  const Real error = rounding * (std::max(fabsl(v.x), fabsl(v.y)) + fabsl(w));  // of x and y, generously
-  const Real extent = std::max({ldexpl(fabsl(x), -c.pos_int()), ldexpl(fabsl(y), -c.pos_int()), fabsl(w)});
-  if (extent == 0) return check_refused();
-  bool ordinary = false;
-  if (w > 0) {
-    // Rounding decides on which side of the guard band a position in its last half step is.
-    const Real reach = std::max(fabsl(x), fabsl(y)) / w, edge = ldexpl(1, c.pos_int());
-    const Real last = edge - ldexpl(1, -c.subpixel_bits - 1), doubt = error / w;
-    if (fabsl(reach - last) <= doubt) return judge.undecided();
-    ordinary = reach < last;
-  }
-  const Real k = ordinary ? 1 / w : 1 / extent;
-  const int fraction = ordinary ? c.subpixel_bits : c.frac();
-
-  // Products with k that the port cannot hold are refused, those below its exponents are zero.
+  const SnappedQuad& q = t.out.snapped;
   const Real half = ldexpl(1, -c.significand_bits) * (1 + rounding) + rounding;
   const auto too_large = ldexpl(1, 1 << (Config::port_exp_bits - 1)), too_small = 1 / too_large;
-  const Real scale = t.in.state.perspective ? k : ldexpl(static_cast<Real>(p.w), -c.frac());
-  std::array<Real, max_attribute_slots> b{};
-  Real largest = std::max(k, fabsl(k * static_cast<Real>(v.z)));
-  for (std::size_t j = 0; j < slots; ++j) {
-    b[j] = scale * static_cast<Real>(t.in.attribute[j]);
-    largest = std::max(largest, fabsl(b[j]));
-  }
-  if (largest * (1 + 2 * half) >= too_large) {
-    if (largest >= too_large) return check_refused();
-    return judge.undecided();
+  // A number of the port: its value, and how far Real may be off.
+  struct Number {
+    Real value, doubt;
+  };
+  const auto k_of = [&](std::size_t i) {
+    return Number{vertices[i].k, vertices[i].ordinary ? 0 : vertices[i].k * vertices[i].k * vertices[i].error};
+  };
+  const auto depth_of = [&](std::size_t i, Real base) {
+    const RealVertex& v = vertices[i];
+    const Real z = t.in.vertex[i].z, from = base * v.w, relative = v.ordinary ? 0 : v.k * v.error;
+    return Number{v.k * (z - from), v.k * (fabsl(z) + fabsl(from)) * (rounding + relative)};
+  };
+  const auto attribute_of = [&](std::size_t i, std::size_t j, Real base) {
+    const RealVertex& v = vertices[i];
+    const Real a = t.in.attribute[i][j], relative = v.ordinary ? 0 : v.k * v.error;
+    if (t.in.attribute[i][j] == t.in.attribute[0][j]) return Number{0, 0};
+    if (!t.in.state.perspective) {
+      const Real w = ldexpl(static_cast<Real>(q.vertex[i].w), -c.frac());
+      return Number{w * (a - base), fabsl(w) * (fabsl(a) + fabsl(base)) * rounding};
+    }
+    return Number{v.k * (a - base), v.k * (fabsl(a) + fabsl(base)) * (rounding + relative)};
+  };
+
+  // Products with k that the port cannot hold are refused, those below its exponents are zero.
+  for (std::size_t i = 0; i < 4; ++i) {
+    // Bases lie in [0, 1] and within the attribute's format: of no weight beside numbers of this size.
+    const Real largest = std::max(k_of(i).value, vertices[i].k * ldexpl(1, c.attribute_int_bits + 1));
+    const Real z = fabsl(depth_of(i, 0).value) + vertices[i].k * fabsl(vertices[i].w);
+    if (std::max(largest, z) * (1 + 2 * half) >= too_large) {
+      if (k_of(i).value >= too_large) return check_refused();
+      return judge.undecided();
+    }
   }
   judge.same("refused", -1, t.out.refused, 0);
   if (t.out.refused) return;
 
-  const auto position = [&](const char* name, std::int32_t actual, Real exact, Real doubt) {
-    const Real step = ldexpl(1, -fraction), value = ldexpl(static_cast<Real>(actual), -c.frac());
-    const Real tolerance = step / 2 + doubt + rounding * fabsl(exact);
-    judge.within(name, -1, value, exact - tolerance, exact + tolerance);
-    if (ordinary && actual % (1 << c.homogeneous_frac_bits) != 0)
-      judge.differs(std::string(name) + ": not on the grid of an ordinary vertex");
-  };
-  position("x", p.x, k * x, k * error);
-  position("y", p.y, k * y, k * error);
-  if (ordinary)
-    judge.same("w", -1, p.w, ldexpl(1, c.frac()));
-  else
-    position("w", p.w, k * w, k * error);
-  const auto number = [&](const char* name, int index, const PortNumber& actual, Real exact) {
-    const Real tolerance = (half + k * error * (ordinary ? 0 : 1)) * fabsl(exact);
-    Span span{exact - tolerance, exact + tolerance};
-    if (fabsl(exact) * (1 - half) < too_small) {
+  const auto number = [&](const char* name, int index, const PortNumber& actual, const Number& exact) {
+    const Real tolerance = half * fabsl(exact.value) + 2 * exact.doubt;
+    Span span{exact.value - tolerance, exact.value + tolerance};
+    if (fabsl(exact.value) - tolerance < too_small) {
       // Zero, or what rounds up to the smallest exponent.
-      if (fabsl(exact) * (1 + half) < too_small) span = {};
+      if (fabsl(exact.value) + tolerance < too_small) span = {};
       span = {std::min(span.lo, 0.0L), std::max(span.hi, 0.0L)};
     }
     check_number(judge, name, index, actual, span, t.losses);
   };
-  number("k_sig", -1, p.k, k);
-  number("z_sig", -1, p.z, k * static_cast<Real>(v.z));
-  for (std::size_t j = 0; j < slots; ++j) number("attr_sig", static_cast<int>(j), p.attribute[j], b[j]);
+  const auto within = [&](const char* name, int index, std::int64_t actual, Real exact, Real tolerance) {
+    judge.within(name, index, static_cast<Real>(actual), exact - tolerance, exact + tolerance);
+  };
+
+  // Bases, half a code from what they are of.
+  const Real top = ldexpl(1, c.attribute_int_bits + c.attribute_frac()) - 1;
+  for (std::size_t j = 0; j < slots; ++j)
+    within("base_attr", static_cast<int>(j), q.base.attribute[j],
+           std::clamp(ldexpl(t.in.attribute[0][j], c.attribute_frac()), -top, top), 0.5L);
+  const Real depth_one = ldexpl(1, c.depth_bits);
+  const auto first = std::ranges::find_if(vertices, [](const RealVertex& v) { return v.w > 0; });
+  const auto window_z = [&](std::size_t i) {
+    const Real z = static_cast<Real>(t.in.vertex[i].z) / vertices[i].w;
+    return z < -1 ? -1.0L : z > 2 ? 2.0L : z;
+  };
+  if (first == vertices.end())
+    judge.same("base_depth", -1, q.base.depth, 0);
+  else
+    within("base_depth", -1, q.base.depth,
+           depth_one * std::clamp(window_z(static_cast<std::size_t>(first - vertices.begin())), 0.0L, 1.0L),
+           0.5L + depth_one * rounding);
+  if (std::ranges::all_of(vertices, [](const RealVertex& v) { return v.w > 0; })) {
+    Real low = HUGE_VALL, high = -HUGE_VALL;
+    for (std::size_t i = 0; i < 4; ++i) low = std::min(low, window_z(i)), high = std::max(high, window_z(i));
+    const auto code = [&](Real z, Real doubt) {
+      return std::clamp(floorl(depth_one * (z + doubt) + 0.5L), -1.0L, depth_one + 1);
+    };
+    judge.within("depth_low", -1, q.base.depth_low, code(low, -rounding), code(low, rounding));
+    judge.within("depth_high", -1, q.base.depth_high, code(high, -rounding), code(high, rounding));
+  } else {
+    judge.same("depth_low", -1, q.base.depth_low, -1);
+    judge.same("depth_high", -1, q.base.depth_high, depth_one + 1);
+  }
+
+  for (std::size_t i = 0; i < 4; ++i) {
+    const RealVertex& v = vertices[i];
+    const SnappedVertex& p = q.vertex[i];
+    const int index = static_cast<int>(i), fraction = v.ordinary ? c.subpixel_bits : c.frac();
+    const auto position = [&](const char* name, std::int32_t actual, Real exact) {
+      const Real step = ldexpl(1, -fraction), value = ldexpl(static_cast<Real>(actual), -c.frac());
+      const Real tolerance = step / 2 + v.k * v.error + rounding * fabsl(exact);
+      judge.within(name, index, value, exact - tolerance, exact + tolerance);
+      if (v.ordinary && actual % (1 << c.homogeneous_frac_bits) != 0)
+        judge.differs(std::string(name) + ": not on the grid of an ordinary vertex");
+    };
+    position("x", p.x, v.k * v.x);
+    position("y", p.y, v.k * v.y);
+    if (v.ordinary)
+      judge.same("w", index, p.w, ldexpl(1, c.frac()));
+    else
+      position("w", p.w, v.k * v.w);
+    number("k_sig", index, p.k, k_of(i));
+    number("z_sig", index, p.z, depth_of(i, ldexpl(static_cast<Real>(q.base.depth), -c.depth_bits)));
+    for (std::size_t j = 0; i > 0 && j < slots; ++j)
+      number("attr_sig", static_cast<int>((i - 1) * slots + j), p.attribute[j],
+             attribute_of(i, j, ldexpl(static_cast<Real>(q.base.attribute[j]), -c.attribute_frac())));
+  }
 }
 
 /// Exact integers; visibility by the signs of determinants.

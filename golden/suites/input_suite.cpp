@@ -19,8 +19,9 @@ std::unique_ptr<const StageUnderTest> snapping(const Config& config) {
   return dynamic_cast<const StageSuite&>(find_suite("snapping")).stage(config);
 }
 
-Record pack_vertex(std::uint32_t id, const SnappedVertex& vertex, const Config& config, const RecordLayout& layout) {
-  return pack_record(layout.bits(), [&](auto& f) { visit_vertex(id, vertex, config, f); });
+Record pack_beat(const SnappedQuad& quad, std::size_t i, const Config& config, const RecordLayout& layout) {
+  const VertexBeat beat = beat_of(quad, i);
+  return pack_record(layout.bits(), [&](auto& f) { visit(beat, config, f); });
 }
 
 }  // namespace
@@ -37,46 +38,46 @@ InputSuite::InputSuite(std::vector<WindowQuad> quads, const DrawState& state, co
 
 std::vector<std::string> InputSuite::roles() const {
   std::vector<std::string> roles = MachineSuite::roles();
-  roles.emplace_back("vertices");
+  roles.emplace_back("quads");
   return roles;
 }
 
 void InputSuite::write(SuiteWriter& writer, const GenerateOptions& options) const {
   MachineSuite::write(writer, options);
   const auto stage = snapping(options.config);
-  writer.add_record("vertices", stage->stimulus_layout());
+  writer.add_record("quads", stage->stimulus_layout());
   StageData data;
   data.state = state_;
-  for (std::size_t n = 0; n < writer.count("quads"); ++n)
-    for (std::size_t i = 0; i < 4; ++i) {
-      data.vertex = given_[n].vertex[i];
-      std::ranges::copy(given_[n].attribute[i], data.attribute.begin());
-      writer.write("vertices", stage->pack_stimulus(data));
-    }
+  for (std::size_t n = 0; n < writer.count("quads"); ++n) {
+    data.vertex = given_[n].vertex;
+    for (std::size_t i = 0; i < 4; ++i) std::ranges::copy(given_[n].attribute[i], data.attribute[i].begin());
+    writer.write("quads", stage->pack_stimulus(data));
+  }
 }
 
 VerifyResult InputSuite::verify(const SuiteReader& reader, unsigned threads) const {
   const Config& config = reader.set().config;
   const auto stage = snapping(config);
-  require_layout(reader, "vertices", stage->stimulus_layout());
-  if (reader.lines("vertices") != reader.lines("stimulus"))
-    throw golden::input_error(reader.manifest_file(), 0, "vertices and stimulus have different numbers of lines");
+  require_layout(reader, "quads", stage->stimulus_layout());
+  if (4 * reader.lines("quads") != reader.lines("stimulus"))
+    throw golden::input_error(reader.manifest_file(), 0, "stimulus has not four lines for each of quads");
   VerifyResult total = MachineSuite::verify(reader, threads);
   const RecordLayout layout = vertex_layout(config);
-  const std::vector<Record> vertices = reader.read("vertices", 0, reader.lines("vertices"));
+  const std::vector<Record> quads = reader.read("quads", 0, reader.lines("quads"));
   std::uint64_t line = 0;
   for (const MachineDraw& draw : read_draws(reader))
-    for (const SnappedQuad& quad : draw.quads)
-      for (const SnappedVertex& vertex : quad.vertex) {
-        StageData data;
-        stage->unpack_stimulus(vertices[line], data);
-        stage->run(data);
-        const Record given = pack_vertex(quad.id, vertex, config, layout);
-        const Record expected = pack_vertex(quad.id, data.snapped, config, layout);
+    for (const SnappedQuad& quad : draw.quads) {
+      StageData data;
+      stage->unpack_stimulus(quads[line / 4], data);
+      stage->run(data);
+      data.snapped.id = quad.id;
+      for (std::size_t beat = 0; beat < 4; ++beat, ++line) {
+        const Record given = pack_beat(quad, beat, config, layout);
+        const Record expected = pack_beat(data.snapped, beat, config, layout);
         if (given != expected && total.mismatches++ == 0)
           total.first_difference = reader.place("stimulus", line) + ": " + first_difference(layout, expected, given);
-        ++line;
       }
+    }
   return total;
 }
 

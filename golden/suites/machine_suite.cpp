@@ -45,8 +45,8 @@ void visit_record(R& r, const Config& c, F&& f) requires std::same_as<std::remov
 }
 
 struct VertexRecord {
-  std::uint32_t draw = 0, id = 0;
-  SnappedVertex vertex;
+  std::uint32_t draw = 0;
+  VertexBeat beat;
 };
 
 constexpr FieldType draw_field = plain("draw", 16, "line of states.hex");
@@ -54,7 +54,7 @@ constexpr FieldType draw_field = plain("draw", 16, "line of states.hex");
 template <class R, class F>
 void visit_record(R& r, const Config& c, F&& f) requires std::same_as<std::remove_const_t<R>, VertexRecord> {
   f(draw_field, -1, r.draw);
-  visit_vertex(r.id, r.vertex, c, f);
+  visit(r.beat, c, f);
 }
 
 struct FragmentRecord {
@@ -338,9 +338,9 @@ void MachineSuite::write(SuiteWriter& writer, const GenerateOptions& options) co
         const StateRecord state{draw.state, depth_code(draw.state.znear, config), depth_code(draw.state.zfar, config)};
         writer.write("states", packed(state, config, layouts.state));
         for (const SnappedQuad& quad : draw.quads)
-          for (const SnappedVertex& vertex : quad.vertex) {
-            const VertexRecord beat{static_cast<std::uint32_t>(i), quad.id, vertex};
-            writer.write("stimulus", packed(beat, config, layouts.vertex));
+          for (std::size_t beat = 0; beat < 4; ++beat) {
+            const VertexRecord record{static_cast<std::uint32_t>(i), beat_of(quad, beat)};
+            writer.write("stimulus", packed(record, config, layouts.vertex));
           }
         beat_lines(i, run, config, layouts.beat, [&](const Record& line) { writer.write("beats", line); });
         fragment_lines(i, run, config, layouts.fragment, [&](const Record& line) { writer.write("response", line); });
@@ -384,14 +384,15 @@ std::vector<MachineDraw> read_draws(const SuiteReader& reader) {
   std::uint64_t line = 0;
   std::uint32_t beat = 0, last_draw = 0;
   for (const Record& record : whole("stimulus")) {
-    const auto vertex = unpacked<VertexRecord>(record, config);
-    if (vertex.draw >= draws.size() || vertex.draw < last_draw || (beat != 0 && vertex.draw != last_draw))
+    const auto [draw, given] = unpacked<VertexRecord>(record, config);
+    if (draw >= draws.size() || draw < last_draw || (beat != 0 && draw != last_draw))
       refuse("stimulus", line, "beats must come in the order of the draws");
-    last_draw = vertex.draw;
-    std::vector<SnappedQuad>& quads = draws[vertex.draw].quads;
-    if (beat == 0) quads.emplace_back().id = vertex.id;
-    if (quads.empty() || quads.back().id != vertex.id) refuse("stimulus", line, "a beat of another quad among four");
-    quads.back().vertex[beat] = vertex.vertex;
+    last_draw = draw;
+    std::vector<SnappedQuad>& quads = draws[draw].quads;
+    if (beat == 0) quads.push_back({given.id, given.base, {}});
+    if (quads.back().id != given.id || quads.back().base != given.base)
+      refuse("stimulus", line, "a beat of another quad among four");
+    quads.back().vertex[beat] = given.vertex;
     beat = (beat + 1) % 4;
     ++line;
   }

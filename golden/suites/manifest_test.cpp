@@ -160,6 +160,21 @@ TEST_F(Set, DamageOfFilesIsNamed) {
   EXPECT_GT(check(path("set")), 0u);
 }
 
+TEST_F(Set, ManifestsFromBeforeAKeyWasRemoved) {
+  const auto replace_everywhere = [&](const std::string& from, const std::string& to) {
+    replace_text("set/manifest.json", from, to);
+    for (const char* suite : {"sqrt", "coverage", "depth"}) {
+      replace_text("set/" + std::string(suite) + "/manifest.json", from, to);
+      sign(suite);
+    }
+  };
+  replace_everywhere("\"plane_quads\": 0", "\"plane_tolerance_bits\": 0");
+  EXPECT_GT(check(path("set")), 0u);
+  replace_everywhere("\"plane_tolerance_bits\": 0", "\"plane_tolerance_bits\": 10");
+  EXPECT_EQ(complaint().find(path("set/manifest.json") + ": config: plane_tolerance_bits = 10: the tolerance was"), 0u)
+      << complaint();
+}
+
 TEST_F(Set, DamageOfManifestsIsNamed) {
   const std::string set = path("set/manifest.json"), text = read(set);
   const auto with = [&](const std::string& from, const std::string& to) {

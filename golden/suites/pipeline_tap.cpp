@@ -129,12 +129,10 @@ void tap_pipeline(std::size_t unit, std::uint64_t seed, Source source, const Con
     data.state = state;
     data.znear = context.znear;
     data.zfar = context.zfar;
-    if (source == Source::vertices) {
-      for (std::size_t i = 0; i < 4; ++i) {
-        data.vertex = given.vertex[i];
-        std::copy(given.attribute[i].begin(), given.attribute[i].end(), data.attribute.begin());
-        sink(data);
-      }
+    if (source == Source::given) {
+      data.vertex = given.vertex;
+      for (std::size_t i = 0; i < 4; ++i) std::ranges::copy(given.attribute[i], data.attribute[i].begin());
+      sink(data);
       continue;
     }
     data.quad = snap_quad(given, config, state);

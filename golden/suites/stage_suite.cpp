@@ -54,7 +54,7 @@ Record random_record(const StageUnderTest& stage, const std::vector<FieldRange>&
   }
   StageData data;
   stage.unpack_stimulus(record, data);
-  if (prng.chance(0.5)) stage.shape(prng, data);
+  if (prng.chance(stage.shaped())) stage.shape(prng, data);
   stage.constrain(data);
   return stage.pack_stimulus(data);
 }

@@ -12,14 +12,14 @@
 
 namespace quadrille::vectors {
 
-/// Everything that one vertex, its quad, one tile and one pixel are at the stage boundaries. A stage reads some of it
+/// Everything that one quad, one of its tiles and one pixel are at the stage boundaries. A stage reads some of it
 /// and writes some of it; a record holds those parts.
 struct StageData {
   // snapping
-  WindowVertex vertex;
-  std::array<double, max_attribute_slots> attribute{};
+  std::array<WindowVertex, 4> vertex{};
+  std::array<std::array<double, max_attribute_slots>, 4> attribute{};
   bool refused = false;
-  SnappedVertex snapped;
+  SnappedQuad snapped;
   // front end
   DrawState state;                    ///< its znear and zfar do not count
   std::uint32_t znear = 0, zfar = 0;  ///< as codes
@@ -40,7 +40,7 @@ struct StageData {
 };
 
 /// What realistic stimuli of a stage are taken from.
-enum class Source { vertices, quads, tiles, pixels };
+enum class Source { given, quads, tiles, pixels };
 
 /// A stage for one configuration.
 class StageUnderTest {
@@ -70,7 +70,8 @@ class StageUnderTest {
   virtual FieldRange range(const RecordField& field) const;
   /// Makes the fields fit together, changing as little as it can. What comes out is legal.
   virtual void constrain(StageData&) const {}
-  /// Puts structure into random data: chance alone hardly ever makes it.
+  /// Puts structure into random data: chance alone hardly ever makes it. With this chance:
+  virtual double shaped() const { return 0.5; }
   virtual void shape(golden::Prng&, StageData&) const {}
   /// Corner cases beyond single fields.
   virtual void corners(const Sink&) const {}

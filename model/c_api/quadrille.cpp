@@ -101,8 +101,8 @@ void check_state(const DrawState& s, const Config& c) {
   if ((s.skip & ~every_skip) != 0) refuse("unknown bits of skip");
   if ((s.skip & skip_hidden) != 0 && (c.hierarchical_z_bits == 0 || !s.depth))
     refuse("QUADRILLE_SKIP_HIDDEN needs depth, and hierarchical_z_bits in the configuration");
-  if ((s.skip & skip_plane) != 0 && c.plane_tolerance_bits == 0)
-    refuse("QUADRILLE_SKIP_PLANE needs plane_tolerance_bits in the configuration");
+  if ((s.skip & skip_plane) != 0 && c.plane_quads == 0)
+    refuse("QUADRILLE_SKIP_PLANE needs plane_quads in the configuration");
 }
 
 DrawState default_state(const Config& config) {

@@ -68,7 +68,7 @@ enum { QUADRILLE_CULL_NONE = 0, QUADRILLE_CULL_FRONT = 1, QUADRILLE_CULL_BACK = 
 
 /* What may be left out. HIDDEN needs hierarchical_z_bits, depth on, and promises a depth test LESS with writes and
  * nothing discarded or blended afterwards: the picture stays, the list of fragments does not. PLANE needs
- * plane_tolerance_bits. */
+ * plane_quads. */
 enum {
   QUADRILLE_SKIP_TILES = 1,
   QUADRILLE_SKIP_QUADS = 2,

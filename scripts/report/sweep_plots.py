@@ -192,53 +192,6 @@ def sensitivity(sweep):
     return Plot("sensitivity", "Sensitivity to each key", "How far one key alone moves the errors (above) and the cost (below).", caption, figures, True)
 
 
-PLANE = "plane_tolerance_bits"
-EXACT, PLANE_EXACT_AT, PLANE_OFF_AT = 31, 18, 20  # where the plot has what is no number of bits
-
-
-def plane_quads(sweep):
-    """What a tolerance for plane quads takes, costs and does to attributes and depth; None where it is no axis."""
-    single = sweep.base is not None
-    points = [i for i in (sweep.one_key[PLANE] if single else sweep.ok) if i in sweep.ok] if PLANE in sweep.axes else []
-    if len({sweep.value[PLANE][i] for i in points}) < 2:
-        return None
-    place = {0: PLANE_OFF_AT, EXACT: PLANE_EXACT_AT}
-    points.sort(key=lambda i: place.get(sweep.value[PLANE][i], sweep.value[PLANE][i]))
-    line = "solid" if single else ""
-
-    def at(chosen):
-        return [place.get(int(sweep.value[PLANE][i]), int(sweep.value[PLANE][i])) for i in chosen]
-
-    columns = ("arithmetic_attribute_max", "arithmetic_depth_max", "arithmetic_attribute_rms")
-    rule = [t for t in sorted({int(sweep.value[PLANE][i]) for i in points}) if t not in place]
-    scale = ErrorAxis(*(sweep.value[column][points] for column in columns), [2.0 ** -t for t in rule])
-    errors = []
-    for column, (colour, symbol) in zip(columns, (QUANTITY_STYLE["attribute"], QUANTITY_STYLE["depth"], (SKY, "x"))):
-        chosen = sweep.finite(column, points)
-        errors.append(Series(error_title(column), at(chosen), scale(sweep.value[column][chosen]), colour, symbol, line, points=chosen))
-    if rule:
-        errors.append(Series("2<sup>−t</sup> of a value's range, what a tolerance may add", rule, scale([2.0 ** -t for t in rule]), BLACK, "circle-open", "dash", 5,
-                             text=[f"t = {t}: 2<sup>−{t}</sup>" for t in rule]))
-    x = Axis("t", [min(at(points)) - 0.6, PLANE_OFF_AT + 0.6],
-             "whole")
-    cost = sweep.value["cost"][points]
-    share = Series("share of quads", at(points), (100 * sweep.value["plane_share"][points]).tolist(), BLUE, "circle", line, points=points)
-    below = Panel(x, Axis("share, %", [-8, 108], "whole"), [share])
-    price = Series("cost", at(points), cost.tolist(), BLACK, "circle", line, 5, points=points)
-    lines = [[sweep.rows[i], ", ".join(sweep.words(i)), f"{100 * sweep.value['plane_share'][i]:.1f} %", count(sweep.value["plane_fragments"][i]),
-              *(power(sweep.value[column][i]) if math.isfinite(sweep.value[column][i]) else "–" for column in columns), count(sweep.value["cost"][i])]
-             for i in points]
-    caption = f"{len(points):,} points. At t = {PLANE_EXACT_AT} exactly plane quads alone, at t = {PLANE_OFF_AT} none: mean values for all. " + ("" if single else "The base configuration is not a point of this sweep: every point is shown. ")
-    if not any(sweep.value["plane_quads"][i] for i in points):
-        caption += "No quad of this input is taken at any tolerance. "
-    return Plot("plane_quads", "Plane quads", "Quads over which every attribute and the depth are plane to within 2<sup>−t</sup> of their range are drawn with "
-                "areas of triangles for weights. The share of such quads, the errors of all fragments against mean value coordinates, and the cost.",
-                caption + scale.note(),
-                [Figure([Panel(x, scale.axis("error"), errors, 2), below], "error", columns=(*columns, "plane_share"), height=330),
-                 Figure([Panel(x, Axis("cost, LUTs", around(cost), "count"), [price], 2), below], "cost", columns=("cost", "plane_share"), height=330)], True,
-                extra=table(["row", "configuration", "quads taken", "fragments of them", *map(error_title, columns), "cost"], lines))
-
-
 def error_map(sweep):
     height, width = sweep.map.shape
     s = sweep.base_config["significand_bits"]

@@ -310,33 +310,6 @@ TEST(Throughput, SmallQuads) {
   }
 }
 
-/// With a tolerance every quad is looked at: up to four attribute slots take no clock, eight a value each.
-TEST(Throughput, NearlyPlaneQuadsAtTheRateOfSetup) {
-  constexpr int count = 2'000;
-  for (const int units : {2, 4}) {
-    for (const int slots : {1, 4, 8}) {
-      Config config;
-      config.dot_units = units;
-      config.quad_slots_log2 = 4;
-      config.attribute_slots = slots;
-      const std::vector<SnappedQuad> quads = small_quads(count, 1, config, 7);
-      DrawState state = draw_state();
-      state.attributes = slots;
-      const std::uint64_t plain = run(quads, config, state).clocks;
-      config.plane_tolerance_bits = 10;
-      state.skip |= skip_plane;
-      const std::uint64_t looked_at = run(quads, config, state).clocks;
-      std::printf("%d slots, %d dot units: %.4f clocks a quad, %.4f with a tolerance\n", slots, units,
-                  static_cast<double>(plain) / count, static_cast<double>(looked_at) / count);
-      if (slots <= 4) {
-        EXPECT_EQ(looked_at, plain);
-      } else {
-        EXPECT_LE(looked_at, (2 + static_cast<std::uint64_t>(slots)) * count + 200);
-      }
-    }
-  }
-}
-
 /// Runs of quads that are left out: clocks a quad, over 200 of them. Those that their vertices show take the clocks of
 /// their beats.
 TEST(Throughput, QuadsLeftOut) {

@@ -151,7 +151,7 @@ bool is_tiny(const SnappedQuad& quad, const Config& config) {
 class FragmentChecker::Reference : public JudgedQuad {
  public:
   Reference(const FragmentChecker& checker, std::size_t index)
-      : JudgedQuad(checker.snapped_[index], checker.settings_.config, truth_state(checker), checker.settings_.state),
+      : JudgedQuad(checker.snapped_[index], checker.settings_.config, truth_state(checker)),
         eye_crossing(is_eye_crossing(quad())),
         tiny(is_tiny(quad(), checker.settings_.config)),
         vicinity(quad()) {
@@ -383,14 +383,13 @@ class FragmentChecker::FragmentJudge {
     if (!first_pass_) return;
     const double error = static_cast<double>(fragment.depth) * format.unit() - truth_.z;
     part_.arithmetic.depth.add(error);
-    if (!reference_->depth_may_cancel())  // then depth_tolerance() is 4 |z| times the bound, and what areas may change
-      part_.depth.add(error / (4 * bound_ * std::fabs(truth_.z) + reference_->depth_allowance() + format.unit()));
+    if (!reference_->depth_may_cancel())  // then depth_tolerance() is 4 |z| times the bound
+      part_.depth.add(error / (4 * bound_ * std::fabs(truth_.z) + format.unit()));
   }
 
   /// Every slot of the port. Returns whether an attribute may be saturated and one is at its limit.
   bool judge_slots(const Fragment& fragment) {
     const FixedPoint format = attribute_format(config_);
-    const double weight_tolerance = bound_ + reference_->areas_allowance();  // a weight's range is 1
     double lambda_error = 0, attribute_error = 0, lambda_sum = 0;
     bool attributes_hold = true, weights_hold = true, may_saturate = false, must_saturate = false;
     int weight = 0, weights = 0, attributes = 0;
@@ -408,7 +407,7 @@ class FragmentChecker::FragmentJudge {
           differs("slot " + std::to_string(slot) + " is " + std::to_string(code) + " at a corner, expected " +
                   std::to_string(*exact));
 
-      double tolerance = weight_tolerance;
+      double tolerance = bound_;
       if (!is_weight || reference_->may_cancel())
         tolerance = reference_->attribute_tolerance(slot, wanted, fragment.x, fragment.y, bound_);
       if (tolerance == std::numeric_limits<double>::infinity()) {
@@ -442,12 +441,12 @@ class FragmentChecker::FragmentJudge {
     }
     if (weights > 0 && !reference_->may_cancel()) {
       part_.arithmetic.lambda.add(lambda_error);
-      part_.weight.add(lambda_sum / (weights * weight_tolerance));
-      const double ratio = lambda_error / weight_tolerance;
+      part_.weight.add(lambda_sum / (weights * bound_));
+      const double ratio = lambda_error / bound_;
       part_.weight.max = std::max(part_.weight.max, ratio);
       weights_hold = ratio <= 1;
       if (!(ratio <= part_.worst.ratio) || (ratio == part_.worst.ratio && order(place_) < order(part_.worst.place)))
-        part_.worst = {ratio, lambda_error, weight_tolerance, truth_.condition, weight, place_};
+        part_.worst = {ratio, lambda_error, bound_, truth_.condition, weight, place_};
     }
     if (attributes > 0 && !reference_->may_cancel()) part_.arithmetic.attribute.add(attribute_error);
     if (exact_) {

@@ -150,7 +150,7 @@ GridCounts grid(std::uint64_t first, std::uint64_t stride, int significand_bits 
         ++counts.pixels;
         bool drawn = expected.covered && expected.visible && !antipodal;
         if (expected.covered && hull && !antipodal) {  // by the sign of sum(M w)
-          if (!judged) judged.emplace(quad, config, state, state);
+          if (!judged) judged.emplace(quad, config, state);
           const golden::ReferenceSample truth = judged->truth().sample(x, y);
           drawn = truth.visible;
           if (judged->tolerates_visibility(truth, weight_bound(config))) {

@@ -61,13 +61,8 @@ int DepthLimits::side(double z, double tolerance) const {
   return z - tolerance >= lowest_ && z + tolerance < end_ ? 1 : 0;
 }
 
-JudgedQuad::JudgedQuad(const SnappedQuad& snapped, const Config& config, const DrawState& state, const DrawState& drawn)
-    : quad_(snapped),
-      config_(config),
-      truth_(snapped, config, state),
-      deviation_(golden::plane_deviation(snapped, config, drawn)),
-      areas_allowance_(golden::plane_allowance(deviation_, config, drawn)),
-      perspective_(state.perspective) {
+JudgedQuad::JudgedQuad(const SnappedQuad& snapped, const Config& config, const DrawState& state)
+    : quad_(snapped), config_(config), truth_(snapped, config, state), perspective_(state.perspective) {
   for (std::size_t i = 0; i < 4; ++i) w_[i] = std::ldexp(static_cast<double>(snapped.vertex[i].w), -config.frac());
   const bool behind = std::ranges::any_of(w_, [](double w) { return w <= 0; });
   const auto negative = [](const SnappedVertex& v) { return v.z.neg; };
@@ -107,7 +102,7 @@ double JudgedQuad::depth_tolerance(int x, int y, double bound) const {
     sum_z += static_cast<double>(m[i]) * z[i];
     sum_w += static_cast<double>(m[i]) * w_[i];
   }
-  return quotient_tolerance(x, y, bound, z, sum_z / sum_w) + depth_allowance();
+  return quotient_tolerance(x, y, bound, z, sum_z / sum_w);
 }
 
 double JudgedQuad::attribute_tolerance(std::size_t slot, double value, int x, int y, double bound) const {
@@ -117,7 +112,7 @@ double JudgedQuad::attribute_tolerance(std::size_t slot, double value, int x, in
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
     sum += std::fabs(b[i] / (perspective_ ? port_value(quad_.vertex[i].k, config_.significand_bits) : w_[i]));
-  return bound * sum + areas_allowance_ * deviation_.attribute_range[slot];
+  return bound * sum;
 }
 
 int JudgedQuad::corner_at(int x, int y) const {

@@ -2,7 +2,6 @@
 // weights, and the pixels at which the machine's result is exact by its specification (rtl/README.md sections 2 and 5).
 #pragma once
 
-#include "golden/reference/plane_deviation.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/config.hpp"
 #include "model/records.hpp"
@@ -46,9 +45,8 @@ class DepthLimits {
 
 class JudgedQuad {
  public:
-  /// `snapped` and `config` must outlive this. `state` is that of the truth, which may leave out attributes; `drawn`
-  /// that of the machine.
-  JudgedQuad(const SnappedQuad& snapped, const Config& config, const DrawState& state, const DrawState& drawn);
+  /// `snapped` and `config` must outlive this. `state` is that of the truth, which may leave out attributes.
+  JudgedQuad(const SnappedQuad& snapped, const Config& config, const DrawState& state);
 
   const SnappedQuad& quad() const { return quad_; }
   const golden::TruthQuad& truth() const { return truth_; }
@@ -64,17 +62,12 @@ class JudgedQuad {
   /// Of window z: some w is not positive, or z differs in sign.
   bool depth_may_cancel() const { return depth_may_cancel_; }
 
-  /// Of quads that may be drawn with areas in the place of mean values (plane_deviation): how far depth, attributes and
-  /// weights may be off beside the weights' bound, relative to their range. Else 0.
-  double areas_allowance() const { return areas_allowance_; }
-  double depth_allowance() const { return areas_allowance_ * deviation_.depth_range; }
-
   /// Whether a machine may disagree about a covered pixel being in front of the eye: the eye is in the hull of the
   /// vertices and |sum(M w)| below the bound; but a sum of zeros is 0 in any arithmetic.
   bool tolerates_visibility(const golden::ReferenceSample& truth, double bound) const;
 
   /// How far window z before the output's truncation may be off: each M carries the weights' relative error. Infinite
-  /// where sum(M w) cancels to what that error leaves of it. Here and below with what areas may change.
+  /// where sum(M w) cancels to what that error leaves of it.
   double depth_tolerance(int x, int y, double bound) const;
   /// The same of sum(M b) / sum(M k_eff) = `value`, b of attribute slot `slot`. Where nothing can cancel: a =
   /// sum(lambda' a_i), each lambda' within `bound`.
@@ -93,8 +86,6 @@ class JudgedQuad {
   const SnappedQuad& quad_;
   const Config& config_;
   golden::TruthQuad truth_;
-  golden::PlaneDeviation deviation_;
-  double areas_allowance_;
   bool perspective_, may_cancel_, depth_may_cancel_;
   std::array<double, 4> w_{};  ///< real values
 };

@@ -110,7 +110,7 @@ class Meter {
  private:
   void expect_quad(std::span<const EngineSample> drawn) {
     const std::uint32_t index = drawn.front().index;
-    const JudgedQuad quad(snapped_[index], snapping_, state_, state_);
+    const JudgedQuad quad(snapped_[index], snapping_, state_);
     const ErrorLimits limits(quad, config_, state_);
     std::vector<golden::PixelPlace> pixels;
     for (const EngineSample& sample : drawn) pixels.push_back({sample.x, sample.y});
@@ -234,7 +234,7 @@ double ErrorLimits::depth(const ReferenceSample& truth) const {
   }
   const double scale = std::fabs(sum), lost = 2 * bound_ * (below / scale);
   if (!(lost < 1)) return std::numeric_limits<double>::infinity();
-  return (2 * bound_ * (above / scale) + std::fabs(truth.z) * lost) / (1 - lost) + quad_.depth_allowance();
+  return (2 * bound_ * (above / scale) + std::fabs(truth.z) * lost) / (1 - lost);
 }
 
 void BodyErrors::merge(const BodyErrors& other) {

@@ -127,7 +127,7 @@ TEST(KnobErrors, ToleranceOfDepth) {
     int compared = 0, unlimited = 0;
     for (const WindowQuad& given : golden::make_stress_without_weights(family, 60, 3, 64, 64, 1)) {
       const SnappedQuad snapped = snap_as(given, 0, config, state);
-      const JudgedQuad quad(snapped, config, state, state);
+      const JudgedQuad quad(snapped, config, state);
       const ErrorLimits limits(quad, config, state);
       for (int y = 0; y < 64; y += 3)
         for (int x = 0; x < 64; x += 3) {

@@ -160,7 +160,7 @@ void PixelErrors::judge(UntimedModel& model, const SnappedQuad& q, const golden:
       QuickTruth exact;
       std::ranges::copy(s.lambda, exact.lambda.begin());
       if (output_ != Output::weight) {
-        const JudgedQuad judged(q, config_, state_, state_);
+        const JudgedQuad judged(q, config_, state_);
         const double bound = weight_bound(config_);
         exact.value = output_ == Output::attribute ? s.attribute[0] : s.z;
         exact.tolerance = output_ == Output::attribute ? judged.attribute_tolerance(0, s.attribute[0], x, y, bound)

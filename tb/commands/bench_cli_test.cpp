@@ -69,7 +69,7 @@ TEST_F(Cli, BenchSkipsReports) {
     EXPECT_EQ(entry["blocks_hidden"], 8 - drawn);
     EXPECT_EQ(entry["counters"]["quads_ordinary"], 8);
     const bool plane = columns.back() == "plane" || columns.back() == "all";  // rectangles, parallel to the screen
-    EXPECT_EQ(entry["plane_tolerance_bits"], plane ? 31 : 0);
+    EXPECT_EQ(entry["plane_quads"], plane ? 1 : 0);
     EXPECT_EQ(entry["counters"]["quads_plane"], plane ? 8 : 0);
     EXPECT_EQ(entry["pixels_plane"], plane ? entry["pixels"] : json(0));
     EXPECT_EQ(entry["counters"]["products_sqrt"] == 0, plane);

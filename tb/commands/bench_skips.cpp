@@ -87,7 +87,6 @@ class NearestFragments {
 };
 
 constexpr int depth_bits_of_tiles = 12;
-constexpr int exactly_plane = 31;
 constexpr double enough_seconds = 0.02;  ///< of a time of the model, which takes one draw of the scene or several
 constexpr int most_timed_draws = 100;
 
@@ -95,7 +94,7 @@ constexpr int most_timed_draws = 100;
 Config able(Config config, std::uint32_t skip) {
   if (skip == skip_hidden && config.hierarchical_z_bits == 0)
     config.set("hierarchical_z_bits", std::min(depth_bits_of_tiles, config.depth_bits));
-  if (skip == skip_plane && config.plane_tolerance_bits == 0) config.set("plane_tolerance_bits", exactly_plane);
+  if (skip == skip_plane && config.plane_quads == 0) config.set("plane_quads", 1);
   config.validate();
   return config;
 }
@@ -270,14 +269,13 @@ class SkipBench {
   }
 
   void print(std::FILE* text) const {
-    std::fprintf(
-        text,
-        "%s\n%zu scene%s, %s; configuration %s; model times of one core, median of %d runs;\nhidden and all "
-        "with hierarchical_z_bits=%d, plane and all with plane_tolerance_bits=%d; clocks without those that wipe "
-        "behind reset\n\n",
-        golden::command_line(arguments_).c_str(), scenes_.size(), scenes_.size() == 1 ? "" : "s",
-        options_.common.size.c_str(), summary(config_).c_str(), options_.repeat,
-        sets_.back().config.hierarchical_z_bits, sets_.back().config.plane_tolerance_bits);
+    std::fprintf(text,
+                 "%s\n%zu scene%s, %s; configuration %s; model times of one core, median of %d runs;\nhidden and all "
+                 "with hierarchical_z_bits=%d, plane and all with plane_quads=%d; clocks without those that wipe "
+                 "behind reset\n\n",
+                 golden::command_line(arguments_).c_str(), scenes_.size(), scenes_.size() == 1 ? "" : "s",
+                 options_.common.size.c_str(), summary(config_).c_str(), options_.repeat,
+                 sets_.back().config.hierarchical_z_bits, sets_.back().config.plane_quads);
     std::fprintf(text, "%-22s %-13s", "", "--skip");
     for (const SkipSet& set : sets_) std::fprintf(text, " %12s", set.name.c_str());
     std::fputs("\n", text);
@@ -330,7 +328,7 @@ class SkipBench {
         entry["input"] = scene.input.name;
         entry["skip"] = sets_[set].name;
         entry["hierarchical_z_bits"] = sets_[set].config.hierarchical_z_bits;
-        entry["plane_tolerance_bits"] = sets_[set].config.plane_tolerance_bits;
+        entry["plane_quads"] = sets_[set].config.plane_quads;
         entry["cycles"] = run.cycles;
         entry["pixels"] = run.counters.pixels();
         entry["blocks_hidden"] = run.counters[PerformanceCounter::blocks_hidden];

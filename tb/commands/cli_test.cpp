@@ -336,6 +336,22 @@ TEST_F(Cli, ConfigurationGoesToAFileAndBack) {
   refuses(2, "config --toml --markdown", {"--toml"});
 }
 
+TEST_F(Cli, RemovedKeysAreReadWithANote) {
+  const std::string note =
+      "plane_tolerance_bits = 0 is no longer needed: quads nearly plane are no longer treated apart\n";
+  write("old.toml", "depth_bits = 20\n\nplane_tolerance_bits = 0\n");
+  const Outcome file = run("config --config old.toml");
+  EXPECT_EQ(file.status, 0);
+  EXPECT_EQ(file.err, "note: old.toml:3: " + note);
+  const Outcome set = run("config --set plane_tolerance_bits=0");
+  EXPECT_EQ(set.status, 0);
+  EXPECT_EQ(set.err, "note: " + note);
+  EXPECT_EQ(run("config --quiet --set plane_tolerance_bits=0").err, "");
+  for (const char* value : {"10", "31"})
+    refuses(2, "config --set plane_tolerance_bits=" + std::string(value),
+            {"plane_tolerance_bits = " + std::string(value), "the tolerance was removed", "set plane_quads = 1"});
+}
+
 TEST_F(Cli, NoVerilator) {
   const Outcome outcome = run("cosim --scene bowtie", "PATH=/nonexistent QUADRILLE_CACHE=cache");
   EXPECT_EQ(outcome.status, 3);

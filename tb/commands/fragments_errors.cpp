@@ -47,7 +47,7 @@ std::string fragment_errors_csv(std::span<const WindowQuad> quads, int attribute
       limits.reset();
       quad.reset();
       snapped = snap_as(quads[index], index, snapping, state);
-      quad.emplace(*snapped, snapping, state, state);
+      quad.emplace(*snapped, snapping, state);
       limits.emplace(*quad, settings.config, state);
     }
     // In lanes, as `stress` has it: their last bits are not those of sample(), and errors are few bits.

@@ -45,8 +45,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::uint64_t point_limit = 1'000'000;  ///< more need --force
 constexpr std::size_t knee_count = 3;
 constexpr const char* standard_scene = "sphere";
-constexpr const char* plane_scene = "sprites_any_angle";  ///< of an axis of plane_tolerance_bits: nearly plane quads
-constexpr std::string_view plane_key = "plane_tolerance_bits";
+constexpr const char* plane_scene = "sprites_turned";  ///< of an axis of plane_quads
+constexpr std::string_view plane_key = "plane_quads";
 
 struct SweepOptions {
   CommonOptions common;
@@ -181,7 +181,7 @@ class SweepRun {
     if (!options_.cosim.empty()) sweep::select_points(options_.cosim, candidates);
   }
 
-  /// An axis of plane_tolerance_bits asks for plane quads, unless --skip says what is wanted.
+  /// An axis of plane_quads asks for plane quads, unless --skip says what is wanted.
   DrawState draw_state() const {
     Config config = base_;
     bool varies = false;
@@ -198,7 +198,7 @@ class SweepRun {
     return state;
   }
 
-  /// The user gave an axis of plane_tolerance_bits.
+  /// The user gave an axis of plane_quads.
   bool asks_for_planes() const {
     return !options_.axes.empty() &&
            std::ranges::find(grid_.axes(), plane_key, &sweep::Axis::key) != grid_.axes().end();
@@ -547,11 +547,11 @@ class SweepRun {
                  (far || near.native().starts_with("..") ? report : near).c_str(), options_.out.c_str());
   }
 
-  /// What an axis of plane_tolerance_bits does, a line a point.
+  /// What an axis of plane_quads does, a line a point.
   void print_planes(std::FILE* out) const {
     if (!asks_for_planes()) return;
     constexpr std::size_t most = 40;
-    std::fprintf(out, "\nquads with areas for weights (plane_tolerance_bits), errors against mean values\n");
+    std::fprintf(out, "\nquads with areas for weights (plane_quads), errors against mean values\n");
     std::fprintf(out, "  %6s %7s %12s %12s %10s  %s\n", "row", "share", "attribute", "depth", "cost", "");
     std::size_t lines = 0;
     bool taken = false;
@@ -666,8 +666,8 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       "Without --axis: each of the usual keys one at a time around the configuration; without an input: --scene "
       "sphere.\n"
       "The same command goes on where a sweep was interrupted, and takes over the results of a finished one.\n"
-      "An axis of plane_tolerance_bits (off, 1 to 16 bits, exact) also shows the share of quads that take areas for\n"
-      "weights; its input, if none is given, is --scene sprites_any_angle.\n"
+      "An axis of plane_quads also shows the share of quads that take areas for weights; its input, if none is given,\n"
+      "is --scene sprites_turned.\n"
       "A co-simulated point builds a simulator the first time (about 20 s), a synthesised one needs minutes.\n"
       "Selections: all, none, pareto, corners, default, knees, row numbers (3,7,10-12), or several with commas.\n"
       "Exit status 1: a co-simulation differs, or no point meets the target.\n\n"
@@ -676,7 +676,7 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       "  quadrille sweep --axis significand_bits=10:26:2 --axis subpixel_bits=4,6,8 --scene fig7_floor --out floor\n"
       "  quadrille sweep --axis significand_bits=12:24:4 --synth all --cosim none --out synth\n"
       "  quadrille sweep --axis significand_bits=8,12 --synth all --synth-target cells --cosim none --out clocks\n"
-      "  quadrille sweep --axis plane_tolerance_bits=off,exact,4:16 --objective attribute --out plane\n"
+      "  quadrille sweep --axis plane_quads=0,1 --objective attribute --out plane\n"
       "  quadrille sweep --target-error colour=0.5/255 --size 1920x1080 --out colour\n"
       "  quadrille sweep --axis significand_bits=10:26 --shard 0/2 --out part0\n"
       "  quadrille sweep --axis significand_bits=10:26 --merge part0 part1 --out whole");

@@ -33,7 +33,7 @@ struct CosimRow {
 };
 
 /// The weights of the quads (in one pass, as many as there are slots) through RTL and model, at most `limit` fragments
-/// a point; where plane_tolerance_bits counts their own attributes (the first of `attributes` that have a slot), since
+/// a point; where plane_quads counts their own attributes (the first of `attributes` that have a slot), since
 /// no weight is plane; results in the order of `points`. `done` counts finished points. Throws EnvironmentError without
 /// Verilator.
 std::vector<CosimRow> cosimulate(std::span<const CosimPoint> points, std::span<const WindowQuad> quads, int attributes,

@@ -4,8 +4,7 @@
   // By induction: one quad, tagged at any start, is followed through its slot.
   // Assumed: reset at the start and no more; start only when a slot is available (quadrille: start has slot_available in it; asserted in quad_slots);
   // drop and release only of a slot in use, not both of one, take of a quad once, and before its end (quad_setup drops or hands over, once; an end
-  // beat leaves the pipeline once, proof pixel_pipeline; it is pushed behind the take); nearly_plane_i only of a slot in use (plane_tolerance: of the
-  // quad of its start).
+  // beat leaves the pipeline once, proof pixel_pipeline; it is pushed behind the take).
   logic started_q = 1'b0;
   always_ff @(posedge clk_i) started_q <= 1'b1;
   always_comb assume (rst_ni == started_q);
@@ -84,7 +83,6 @@
       end else if ((release_i && left_q2 == slot_q) || (drop_i && drop_slot_i == slot_q)) begin
         live_q <= 1'b0;
       end
-      if (nearly_plane_i && live_q && nearly_plane_slot_i == slot_q) plane_tag_q <= 1'b1;
       if (take_tag) begin
         taken_q <= 1'b1;
         gx_tag_q <= lin_gx_i;
@@ -135,7 +133,6 @@
       assume (!release_i || used_q[left_q2]);
       assume (!drop_i || !release_i || drop_slot_i != left_q2);
       assume (!take_i || (used_q[take_slot_i] && !(live_q && taken_q && take_slot_i == slot_q)));
-      assume (!nearly_plane_i || used_q[nearly_plane_slot_i]);
       assert (!live_q || !start_i || alloc_o != slot_q);  // nobody else gets it
       assert (!live_q || output_slot_i != slot_q || output_id_o == id_tag_q);
       assert (!live_q || !taken_q || output_slot_i != slot_q || {output_hull_o, output_homogeneous_o} == class_tag_q);

@@ -1,10 +1,9 @@
 // The RTL and the clocked model in lockstep, and the RTL's configuration against the C++ side's.
 #include "golden/scenes/corner_quads.hpp"
-#include "golden/scenes/nearly_plane.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/plane_tolerance.hpp"
+#include "model/plane_quad.hpp"
 #include "model/quad_reject.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
@@ -67,7 +66,7 @@ const Named odd{"odd",
                  {"stamp_fifo_log2", 1},
                  {"hierarchical_z_bits", 9},
                  {"hierarchical_z_tiles_log2", 7},
-                 {"plane_tolerance_bits", 7},
+                 {"plane_quads", 1},
                  {"quad_id_bits", 13},
                  {"performance_counters", 1}}};
 
@@ -206,7 +205,7 @@ TEST(Cosim, PlaneQuadsAndTheirCounters) {
     UntimedModel model(options.config, options.state);
     std::uint64_t drawn = 0, of_plane = 0, plane = 0;
     for (const SnappedQuad& quad : quads) {
-      const bool takes = takes_areas(quad, options.config, options.state);
+      const bool takes = plane_quad(quad, options.config, options.state);
       plane += takes && reject_by_vertices(quad, options.config, options.state) == QuadReject::none;
       model.draw(quad, [&](std::span<const Fragment> f) {
         drawn += f.size();
@@ -226,81 +225,6 @@ TEST(Cosim, PlaneQuadsAndTheirCounters) {
       EXPECT_EQ(report.fragments, drawn);
       EXPECT_EQ(report.counters[PerformanceCounter::quads_plane], plane);
       EXPECT_EQ(report.counters[PerformanceCounter::pixels_plane], of_plane) << "none is discarded";
-    }
-  }
-}
-
-/// A tolerance in the default widths, in wide ones with all attributes, and in narrow ones with few.
-const Named tolerance{"tolerance", {{"plane_tolerance_bits", 10}, {"performance_counters", 1}}};
-const Named wide_tolerance{"wide_tolerance",
-                           {{"significand_bits", 16},
-                            {"attribute_slots", 8},
-                            {"viewport_bits", 14},
-                            {"guard_bits", 1},
-                            {"dot_units", 4},
-                            {"plane_tolerance_bits", 11},
-                            {"performance_counters", 1}}};
-
-class Tolerance : public testing::TestWithParam<Named> {};
-INSTANTIATE_TEST_SUITE_P(Cosim, Tolerance, testing::Values(tolerance, odd, wide_tolerance), test_name);
-
-// Rectangles at any angle with values that are nearly plane, some bent a little too much, some in perspective, most so
-// small that one comes as soon as it can behind the other; among them random quads, which turn the others away at
-// times.
-TEST_P(Tolerance, NearlyPlaneQuadsInLockstep) {
-  LockstepOptions options;
-  options.config = GetParam().config();
-  options.state = small_state(options.config);
-  options.state.attributes = options.config.attribute_slots;
-  const int t = options.config.plane_tolerance_bits;
-  const std::vector<SnappedQuad> others = random_quads(options.config, options.state, 2027, 100);
-  VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
-  for (const bool perspective : {false, true}) {
-    options.state.perspective = perspective;
-    options.state.depth = !perspective || options.seed % 2 == 0;
-    golden::Prng rng(11);
-    std::vector<SnappedQuad> quads;
-    for (std::uint32_t id = 0; id < 500; ++id) {
-      golden::NearlyPlane kind;
-      kind.picture = options.state.width;
-      kind.half_low = 0.5;
-      kind.half_high = rng.chance(0.7) ? 3 : 20;
-      kind.attributes = options.state.attributes;
-      if (rng.chance(0.7)) kind.bend = std::ldexp(rng.uniform(-1, 1), -t + static_cast<int>(rng.integer(-3, 3)));
-      if (perspective && rng.chance(0.5)) kind.tilt = 0.1;
-      quads.push_back(snap_quad(golden::nearly_plane_quad(rng, id, kind), options.config, options.state));
-      if (id % 5 == 4) quads.push_back(others[id / 5]);
-    }
-    for (const bool on : {true, false}) {
-      options.state.skip = on ? skip_default | skip_plane : skip_default;
-      UntimedModel model(options.config, options.state);
-      std::uint64_t nearly = 0, plane = 0, refused = 0, of_plane = 0;
-      for (const SnappedQuad& quad : quads) {
-        const bool takes = takes_areas(quad, options.config, options.state);
-        const bool set_up = reject_by_vertices(quad, options.config, options.state) == QuadReject::none;
-        plane += set_up && takes;
-        nearly += plane_tolerance(quad, options.config, options.state);
-        refused += plane_tolerance_tests(quad, options.config, options.state) && !takes;
-        model.draw(quad, [&](std::span<const Fragment> f) {
-          if (takes) of_plane += f.size();
-        });
-      }
-      if (on) {
-        EXPECT_GT(nearly, 50u);
-        EXPECT_GT(refused, 50u);
-      }
-      for (const double stall : {0.0, 0.5}) {
-        options.stall = stall;
-        ++options.seed;
-        const LockstepReport report = run_lockstep(device, quads, options);
-        ASSERT_TRUE(report.agreed() && report.complete) << report.first_divergence.value_or("");
-        EXPECT_EQ(report.fragments, model.stats().fragments);
-        EXPECT_EQ(report.counters[PerformanceCounter::quads_plane], plane);
-        EXPECT_EQ(report.counters[PerformanceCounter::pixels_plane], of_plane) << "none is discarded";
-        EXPECT_EQ(report.counters[PerformanceCounter::products_plane_tolerance] != 0, on);
-      }
-      std::printf("perspective %d: %llu of %zu quads nearly plane, %llu refused\n", perspective,
-                  static_cast<unsigned long long>(nearly), quads.size(), static_cast<unsigned long long>(refused));
     }
   }
 }
@@ -531,10 +455,7 @@ TEST(Cosim, BurstWaitsForQuadSlots) {
     std::size_t taken = 0;
     for (int clock = 0; clock < 2000; ++clock) {
       in.vertex_valid = taken < 4 * draw.quads.size();
-      if (in.vertex_valid) {
-        in.vertex_id = draw.quads[taken / 4].id;
-        in.vertex = draw.quads[taken / 4].vertex[taken % 4];
-      }
+      if (in.vertex_valid) in.vertex = beat_of(draw.quads[taken / 4], taken % 4);
       in.fragment_ready = clock % 20 == 0;
       taken += in.vertex_valid && machine.comb().vertex_ready;
       machine.clock(in);

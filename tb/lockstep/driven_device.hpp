@@ -25,8 +25,7 @@ struct Stimulus {
   bool valid() const { return vertices.valid(); }
   bool ready() const { return stalls.ready(); }
   bool changed() const { return vertices.changed(); }
-  std::uint32_t id() const { return vertices.id(); }
-  const SnappedVertex& vertex() const { return vertices.vertex(); }
+  const VertexBeat& beat() const { return vertices.beat(); }
   void advance(bool taken) {
     vertices.advance(taken);
     stalls.advance();

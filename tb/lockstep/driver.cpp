@@ -69,14 +69,21 @@ void VertexDriver::offer() {
   valid_ = true;
   changed_ = true;
   const SnappedQuad& quad = quads_[next_ / 4];
-  const std::size_t beat = next_ % 4;
-  id_ = quad.id;
-  if (beat != 0) id_ ^= static_cast<std::uint32_t>(1 + rubbish_.below((std::uint64_t{1} << config_.quad_id_bits) - 1));
-  vertex_ = quad.vertex[beat];
-  for (int slot = attributes_; slot < config_.attribute_slots; ++slot)
-    vertex_.attribute[static_cast<std::size_t>(slot)] = any_number();
+  const std::size_t beat = next_ % 4, slots = static_cast<std::size_t>(config_.attribute_slots),
+                    used = static_cast<std::size_t>(attributes_);
+  beat_ = beat_of(quad, beat);
+  if (beat != 0) {
+    beat_.id ^= static_cast<std::uint32_t>(1 + rubbish_.below((std::uint64_t{1} << config_.quad_id_bits) - 1));
+    const int depth = config_.depth_bits;
+    beat_.base.depth = static_cast<std::uint32_t>(rubbish_.below(std::uint64_t{2} << depth));
+    beat_.base.depth_low = static_cast<std::int32_t>(any_code(depth + 2));
+    beat_.base.depth_high = static_cast<std::int32_t>(any_code(depth + 2));
+  }
+  for (std::size_t slot = beat == 0 ? used : 0; slot < slots; ++slot)
+    beat_.base.attribute[slot] = any_code(config_.attr_out_bits());
+  for (std::size_t slot = beat == 0 ? 0 : used; slot < slots; ++slot) beat_.vertex.attribute[slot] = any_number();
   BitPacker packer(packed_.data(), width_);
-  visit_vertex(std::as_const(id_), std::as_const(vertex_), config_, packer);
+  visit(std::as_const(beat_), config_, packer);
   packer.finish();
   std::memcpy(words_.data(), packed_.data(), words_.size() * sizeof(std::uint32_t));
 }
@@ -95,6 +102,11 @@ PortNumber VertexDriver::any_number() {
   number.exp = static_cast<std::int32_t>(rubbish_.integer(-exp_limit, exp_limit - 1));
   number.sig = leading | static_cast<std::uint32_t>(rubbish_.below(leading));
   return number;
+}
+
+std::int64_t VertexDriver::any_code(int bits) {
+  const std::int64_t limit = std::int64_t{1} << (bits - 1);
+  return rubbish_.integer(-limit, limit - 1);
 }
 
 void VertexDriver::advance(bool taken) {

@@ -14,8 +14,9 @@ namespace quadrille::tb {
 
 /// Offers the vertices of a list of quads, four beats each. A beat, once offered, stays until it is taken; before each
 /// one valid is low for a random number of clocks, each with probability `gap`, or for those listed. What the machine
-/// must not look at is rubbish on purpose: the payload while valid is low, the ids of the beats v1 to v3 (a quad's id
-/// is v0's), and the attributes in slots that are not in use, which are numbers of any sign and exponent.
+/// must not look at is rubbish on purpose: the payload while valid is low; ids, bases and depth limits of the beats v1
+/// to v3 (a quad's are v0's); the attributes of v0; attributes and their bases in slots that are not in use. Attributes
+/// are then numbers of any sign and exponent, bases any code.
 class VertexDriver {
  public:
   /// `attributes`: slots in use. `listed`: PortWaits::gap_beats, which must outlive it, in the place of `gap`; those
@@ -27,8 +28,7 @@ class VertexDriver {
   bool done() const { return next_ == 4 * quads_.size(); }
   bool valid() const { return valid_; }
   /// The beat on offer, when valid.
-  std::uint32_t id() const { return id_; }
-  const SnappedVertex& vertex() const { return vertex_; }
+  const VertexBeat& beat() const { return beat_; }
   /// The packed beat (or the rubbish); `changed` tells whether it is new in this clock.
   std::span<const std::uint32_t> words() const { return words_; }
   bool changed() const { return changed_; }
@@ -45,6 +45,7 @@ class VertexDriver {
   void offer();
   void scramble();
   PortNumber any_number();
+  std::int64_t any_code(int bits);
 
   std::span<const SnappedQuad> quads_;
   const Config& config_;
@@ -57,8 +58,7 @@ class VertexDriver {
   int width_;
   std::size_t next_ = 0;
   bool valid_ = false, changed_ = true;
-  std::uint32_t id_ = 0;
-  SnappedVertex vertex_;
+  VertexBeat beat_;
   std::vector<std::uint64_t> packed_;
   std::vector<std::uint32_t> words_;
 };

@@ -158,8 +158,7 @@ std::vector<Fragment> lockstep(Device& device, const Config& config, const std::
       if (in.clear_hidden && before.busy) in.clear_hidden = false;  // the first draw's, while reset wipes
       first = false;
       in.vertex_valid = vertices.valid();
-      in.vertex_id = vertices.id();
-      in.vertex = vertices.vertex();
+      in.vertex = vertices.beat();
       in.fragment_ready = stalls.ready();
       device.set_clear_hidden(in.clear_hidden);
       device.set_vertex(vertices.words());

@@ -37,22 +37,7 @@ class ModelDevice : public Device {
   void set_reset(bool active) override { inputs_.reset = active; }
   void set_state(std::span<const std::uint32_t>) override {}
   void set_vertex(std::span<const std::uint32_t> words) override {
-    const Record beat = Record::from_words(words.data(), vertex_.bits());
-    const auto get = [&](const char* name, int index = -1) { return beat.get(vertex_.field(name, index)); };
-    const auto get_signed = [&](const char* name, int index = -1) {
-      return static_cast<std::int32_t>(beat.get_signed(vertex_.field(name, index)));
-    };
-    inputs_.vertex_id = static_cast<std::uint32_t>(get("id"));
-    SnappedVertex& v = inputs_.vertex;
-    v.x = get_signed("x");
-    v.y = get_signed("y");
-    v.w = get_signed("w");
-    v.k = {false, get_signed("k_exp"), static_cast<std::uint32_t>(get("k_sig"))};
-    v.z = {get("z_neg") != 0, get_signed("z_exp"), static_cast<std::uint32_t>(get("z_sig"))};
-    for (int j = 0; j < config_.attribute_slots; ++j) {
-      v.attribute[static_cast<std::size_t>(j)] = {get("attr_neg", j) != 0, get_signed("attr_exp", j),
-                                                  static_cast<std::uint32_t>(get("attr_sig", j))};
-    }
+    visit(inputs_.vertex, config_, RecordUnpacker(Record::from_words(words.data(), vertex_.bits())));
   }
   void set_clear_hidden(bool) override {}
   void set_handshake(bool vertex_valid, bool fragment_ready) override {

@@ -1,7 +1,6 @@
 #include "tb/mutants/scenario.hpp"
 
 #include "golden/scenes/corner_quads.hpp"
-#include "golden/scenes/nearly_plane.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
@@ -58,18 +57,6 @@ Config hiding() {
   return config;
 }
 
-/// Quads that are nearly plane: a tolerance that shows above the errors of few bits, and more values than setup has
-/// clocks for a small quad.
-Config tolerating() {
-  Config config = exact();
-  config.set("viewport_bits", 7);
-  config.set("dot_units", 4);
-  config.set("attribute_slots", 8);
-  config.set("plane_tolerance_bits", 4);
-  config.set("performance_counters", 1);
-  return config;
-}
-
 /// Six columns of blocks of tiles at four places.
 Config hiding_blocks() {
   Config config = hiding();
@@ -78,12 +65,12 @@ Config hiding_blocks() {
   return config;
 }
 
-/// Areas for weights where values are nearly plane, a pixel a clock.
+/// Areas for weights where values are plane, a pixel a clock.
 Config plane_weights() {
   Config config;
   config.set("significand_bits", 12);
   config.set("attribute_slots", 3);
-  config.set("plane_tolerance_bits", 8);
+  config.set("plane_quads", 1);
   config.set("performance_counters", 1);
   return config;
 }
@@ -402,71 +389,6 @@ Scenario wiped(int width, int height) {
   return scenario;
 }
 
-/// Quads whose values are nearly plane, by less and by more than the tolerance, in one value or another; most are
-/// small, one soon after the other. Of some a corner lies near the diagonal beside it, to either side; some have
-/// corners on pixels, some cross themselves, with the values of a rectangle.
-Scenario nearly_plane() {
-  LockstepOptions o = options(tolerating(), 64);
-  o.state.attributes = o.config.attribute_slots;
-  o.state.skip |= skip_plane;
-  o.stall = 0.05;
-  return {"nearly plane", o, drawn(o, 9, 400, [](golden::Prng& random) {
-            golden::NearlyPlane kind;
-            kind.attributes = max_attribute_slots;
-            if (random.chance(0.6)) kind.half_low = 1, kind.half_high = 3;
-            kind.bend = random.chance(0.5) ? random.uniform(-0.4, 0.4) : random.uniform(-0.1, 0.1);
-            if (random.chance(0.2)) kind.tilt = 0.3;
-            WindowQuad quad = golden::nearly_plane_quad(random, 0, kind);
-            if (kind.tilt == 0 && random.chance(0.15)) {
-              const double left = quad.vertex[0].x, top = quad.vertex[0].y;
-              for (std::size_t i = 0; i < 4; ++i) {
-                quad.vertex[i].x = std::floor(left) + (i == 1 || i == 2 ? 4.5 : 0.5);
-                quad.vertex[i].y = std::floor(top) + (i >= 2 ? 3.5 : 0.5);
-              }
-            } else if (kind.tilt == 0 && random.chance(0.1)) {
-              std::swap(quad.vertex[0].x, quad.vertex[1].x);
-              std::swap(quad.vertex[0].y, quad.vertex[1].y);
-            } else if (random.chance(0.4)) {
-              // All is linear in 1/w, x/w, y/w, and so on: the corner goes towards the one opposite.
-              const std::size_t i = random.chance(0.5) ? 0 : random.below(4), far = (i + 2) % 4;
-              const double part = random.uniform(0.494, 0.503);
-              WindowVertex& v = quad.vertex[i];
-              const WindowVertex from = quad.vertex[far];
-              const double w = 1 / (part / v.w + (1 - part) / from.w);
-              const auto between = [&](double a, double b) { return (part * a / v.w + (1 - part) * b / from.w) * w; };
-              for (std::size_t j = 0; j < quad.attribute[i].size(); ++j)
-                quad.attribute[i][j] = between(quad.attribute[i][j], quad.attribute[far][j]);
-              v = {between(v.x, from.x), between(v.y, from.y), between(v.z, from.z), w};
-            }
-            return quad;
-          })};
-}
-
-/// Rectangles at any angle whose values are plane, nearly so on both sides of the tolerance, or far from it; among them
-/// quads that are not.
-Scenario plane_among_others(const std::string& name, bool perspective) {
-  LockstepOptions o = options(plane_weights(), 64);
-  o.state.perspective = perspective;
-  o.state.skip |= skip_plane;
-  o.state.attributes = o.config.attribute_slots;
-  const int t = o.config.plane_tolerance_bits;
-  const std::vector<SnappedQuad> others = random_quads(o.config, o.state, 37, 50);
-  golden::Prng random(perspective ? 38 : 39);
-  Scenario scenario{name, o, {}};
-  for (std::uint32_t id = 0; id < 200; ++id) {
-    golden::NearlyPlane kind;
-    kind.half_low = 0.5;
-    kind.half_high = random.chance(0.7) ? 3 : 20;
-    kind.attributes = o.state.attributes;
-    if (random.chance(0.7)) kind.bend = std::ldexp(random.uniform(-1, 1), -t + static_cast<int>(random.integer(-3, 3)));
-    if (perspective && random.chance(0.5)) kind.tilt = 0.1;
-    scenario.quads.push_back(snap_quad(golden::nearly_plane_quad(random, id, kind), o.config, o.state));
-    if (id % 5 == 4) scenario.quads.push_back(others[id / 5]);
-  }
-  for (std::size_t i = 0; i < scenario.quads.size(); ++i) scenario.quads[i].id = static_cast<std::uint32_t>(i);
-  return scenario;
-}
-
 /// Halves of the viewport that meet along a slanted edge, in either order of corners, each pair before the last one or
 /// a code behind it; behind them quads about that edge, whose tiles the two halves hide together or not.
 Scenario joined_layers() {
@@ -749,7 +671,7 @@ std::span<const Scenario> scenarios() {
                               lanes(),
                               beside_scissor(),
                               layers(),
-                              nearly_plane(),
+                              sprites(),
                               unwiped("unwiped", 1),
                               unwiped("unwiped, another seed", 2),
                               unwiped("unwiped, a third seed", 3),
@@ -790,12 +712,9 @@ std::span<const Scenario> further_scenarios() {
     all.push_back(far_scissor_homogeneous());
     all.push_back(one_skip("tiles left out", skip_tiles));
     all.push_back(one_skip("quads left out", skip_quads));
-    all.push_back(sprites());
     all.push_back(plane_grid());
     all.push_back(flat_at_infinity());
     for (std::uint64_t seed = 1; seed <= 24; ++seed) all.push_back(after_reset(seed));
-    all.push_back(plane_among_others("plane among others", false));
-    all.push_back(plane_among_others("plane among others, in perspective", true));
     return all;
   }();
   return list;

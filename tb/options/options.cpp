@@ -12,7 +12,9 @@
 #include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
+#include <set>
 #include <thread>
 #include <tuple>
 
@@ -58,7 +60,7 @@ const std::array<std::string, 6> skip_names{"tiles", "quads", "hidden", "walk", 
 /// pictures of this program are drawn as that skip asks for. `plane`, where the machine can.
 std::uint32_t parse_skips(std::string_view list, const Config& config, bool depth) {
   const bool can_hide = config.hierarchical_z_bits != 0;
-  const bool can_plane = config.plane_tolerance_bits != 0;
+  const bool can_plane = config.plane_quads != 0;
   if (list == "all") return skip_default | (can_hide && depth ? skip_hidden : 0u) | (can_plane ? skip_plane : 0u);
   if (list == "none") return 0;
   std::uint32_t skips = 0;
@@ -72,8 +74,8 @@ std::uint32_t parse_skips(std::string_view list, const Config& config, bool dept
     if ((skips & skip_hidden) != 0 && !depth) throw UsageError("--skip hidden: there is no depth test with --no-depth");
     if ((skips & skip_plane) != 0 && !can_plane)
       throw UsageError(
-          "--skip plane: this configuration has mean value weights alone; --set plane_tolerance_bits=31 for quads that "
-          "are exactly plane, 1 to 16 for those that nearly are");
+          "--skip plane: this configuration has mean value weights alone; --set plane_quads=1 for quads that "
+          "are exactly plane");
     if (comma == list.size()) return skips;
     list.remove_prefix(comma + 1);
   }
@@ -142,7 +144,8 @@ void CommonOptions::add_to(CLI::App& app, bool draws) {
 
 Config CommonOptions::config() const {
   Config result;
-  if (!config_file.empty()) golden::load_config(config_file, result);
+  std::vector<std::string> notes;
+  if (!config_file.empty()) notes = golden::load_config(config_file, result);
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -155,8 +158,12 @@ Config CommonOptions::config() const {
       result.set(key, value == "true" ? 1 : 0);
     else
       result.set(key, parse<int>(value, "--set " + key));
+    if (const std::string note = Config::note(key); !note.empty()) notes.push_back(note);
   }
   result.validate();
+  static std::set<std::string> said;  // a command may ask for the configuration several times
+  for (const std::string& note : notes)
+    if (!quiet && said.insert(note).second) std::fprintf(stderr, "note: %s\n", note.c_str());
   return result;
 }
 
@@ -206,7 +213,7 @@ void StateOptions::add_to(CLI::App& app) {
          "can be in), quads (those that cannot give a fragment), walk (of homogeneous quads what misses the scissor), "
          "operands (work inside a pixel that its fragment does not depend on) and hidden (tiles behind what was drawn, "
          "with hierarchical_z_bits) and plane (mean value weights of quads whose values are plane, with "
-         "plane_tolerance_bits); without hidden and plane the fragments are the same, with it the picture is")
+         "plane_quads); without hidden and plane the fragments are the same, with it the picture is")
       ->type_name("LIST")
       ->capture_default_str()
       ->group(group);

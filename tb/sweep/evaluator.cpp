@@ -1,7 +1,6 @@
 #include "tb/sweep/evaluator.hpp"
 
 #include "model/plane_quad.hpp"
-#include "model/plane_tolerance.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/lockstep/lockstep.hpp"
@@ -100,8 +99,8 @@ class BatchPlan {
 struct Evaluator::Impl {
   struct Positions {
     std::shared_ptr<const PositionData> data;
-    std::map<int, std::shared_ptr<const PortQuads>> ports;                    ///< by significand_bits
-    std::map<std::pair<int, int>, std::shared_ptr<const PlaneQuads>> planes;  ///< and by plane_tolerance_bits
+    std::map<int, std::shared_ptr<const PortQuads>> ports;    ///< by significand_bits
+    std::map<int, std::shared_ptr<const PlaneQuads>> planes;  ///< likewise
     std::uint64_t used = 0;
 
     std::size_t bytes() const {
@@ -230,7 +229,7 @@ struct Evaluator::Impl {
   std::shared_ptr<const PlaneQuads> plane_quads(const Config& config) {
     if (!takes_plane_quads(config, input.state)) return nullptr;
     Positions& entry = positions.at(level_key(config, Level::positions));
-    std::shared_ptr<const PlaneQuads>& quads = entry.planes[{config.significand_bits, config.plane_tolerance_bits}];
+    std::shared_ptr<const PlaneQuads>& quads = entry.planes[config.significand_bits];
     if (!quads) quads = std::make_shared<PlaneQuads>(input, *entry.data, config, settings.threads);
     return quads;
   }
@@ -253,27 +252,13 @@ struct Evaluator::Impl {
     tb::LockstepOptions options;
     options.config = widest_port(config);
     options.state = input.state;
-    if (!has_plane_tolerance(config) || !takes_plane_quads(config, input.state)) {
-      options.config.attribute_slots = 1;
-      options.state.attributes = 0;
-      return tb::run_clocked_model_alone(at.snapped, options).cycles;
-    }
-    // With a tolerance clocks may depend on the slots, and on which quads are exactly plane: the first pass of the
-    // input's own attributes.
-    options.config.attribute_slots = config.attribute_slots;
-    options.state.attributes = std::min(config.attribute_slots, input.attributes);
-    std::vector<SnappedQuad> snapped;
-    for (const WindowQuad& quad : input.quads)
-      snapped.push_back(
-          snap_quad(own_quad(quad, static_cast<std::size_t>(options.state.attributes)), options.config, options.state));
-    for (std::size_t q = 0; q < snapped.size(); ++q) snapped[q].id = static_cast<std::uint32_t>(q);
-    return tb::run_clocked_model_alone(snapped, options).cycles;
+    options.config.attribute_slots = 1;
+    options.state.attributes = 0;
+    return tb::run_clocked_model_alone(at.snapped, options).cycles;
   }
 
   using CyclesOf = std::pair<LevelKey, CyclesKey>;
-  CyclesOf cycles_of(const Config& config) const {
-    return {level_key(config, Level::positions), cycles_key(config, input.state)};
-  }
+  CyclesOf cycles_of(const Config& config) const { return {level_key(config, Level::positions), cycles_key(config)}; }
 
   Batch run(std::span<const Config> points, std::span<const std::size_t> batch,
             const std::function<void(double)>& progress) {

@@ -27,7 +27,7 @@ namespace quadrille::sweep {
 struct SweepInput {
   std::vector<WindowQuad> quads;
   int attributes = 0;  ///< of the quads, at most max_attribute_slots; measured whatever attribute_slots is
-  DrawState state;     ///< `attributes` in it is ignored; skip_plane: plane_tolerance_bits counts; never skip_hidden
+  DrawState state;     ///< `attributes` in it is ignored; skip_plane: plane_quads counts; never skip_hidden
 };
 
 /// Whether every vertex of an input is ordinary (model/snap.hpp, has_ordinary_vertices) once snapped. False too where
@@ -58,7 +58,7 @@ enum class Stage {
   interpolate,  ///< the sums, all columns at once
   reciprocal,   ///< recip_segments_log2 recip_degree
   output,       ///< attribute_int_bits attribute_frac_bits depth_bits
-  areas,        ///< plane_tolerance_bits: what of taken quads is drawn with areas for weights, from the weights to the
+  areas,        ///< plane_quads: what of taken quads is drawn with areas for weights, from the weights to the
                 ///< output; once for all tolerances behind an `output` setting, for the quads that any of them takes
   cycles,       ///< the clocked model alone: positions, and stage_keys.hpp
 };

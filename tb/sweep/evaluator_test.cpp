@@ -4,9 +4,8 @@
 
 #include "golden/analysis/error_bound.hpp"
 #include "golden/reference/truth.hpp"
-#include "golden/scenes/nearly_plane.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/plane_tolerance.hpp"
+#include "model/plane_quad.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
@@ -90,7 +89,7 @@ int code(double v) { return static_cast<int>(std::floor(std::clamp(v, 0.0, 1.0) 
 /// first, which decide what is drawn and its depth, then weights and colours with nothing discarded.
 Slow slow_path(const SweepInput& input, const Config& given_config) {
   Config c = given_config;
-  const bool planes = c.plane_tolerance_bits != 0 && (input.state.skip & skip_plane) != 0;
+  const bool planes = c.plane_quads != 0 && (input.state.skip & skip_plane) != 0;
   c.attribute_slots = planes ? 8 : 5;
   c.quad_id_bits = 32;
   const std::size_t columns = 7 + static_cast<std::size_t>(input.attributes);
@@ -137,7 +136,7 @@ Slow slow_path(const SweepInput& input, const Config& given_config) {
         for (std::size_t slot = 0; slot < pass.size(); ++slot) v.column[pass[slot]] = value(slot);
       };
 
-      const bool taken = takes_areas(snapped, c, state);
+      const bool taken = plane_quad(snapped, c, state);
       EXPECT_TRUE(decides || !taken) << "a pass of weights";
       DrawState kept = state;
       if (!decides) kept.depth = false;
@@ -388,56 +387,53 @@ std::string text(const PointResult& r) {
   return out;
 }
 
-/// Rectangles turned by any angle, in perspective or not: plane, and bent by some powers of two.
+/// Parallelograms with values constant along two sides; of every second one a value is bent.
 SweepInput plane_input(std::uint64_t seed = 11) {
   SweepInput input = stress_input(golden::StressFamily::general, 0, 3);
   input.state.skip |= skip_plane;
   golden::Prng rng(seed);
-  for (const double tilt : {0.0, 0.3})
-    for (const double bend : {0.0, 0x1p-13, 0x1p-9, 0x1p-5, 0.5}) {
-      const golden::NearlyPlane kind{
-          .picture = size, .half_low = 2, .half_high = 8, .attributes = 3, .bend = bend, .tilt = tilt};
-      for (int n = 0; n < 3; ++n)
-        input.quads.push_back(golden::nearly_plane_quad(rng, static_cast<std::uint32_t>(input.quads.size()), kind));
+  for (std::uint32_t id = 0; id < 30; ++id) {
+    WindowQuad quad;
+    quad.id = id;
+    const double x = rng.uniform(0, size / 2.0), y = rng.uniform(0, size / 2.0), lean = std::floor(rng.uniform(-4, 5));
+    const double width = std::floor(rng.uniform(3, 12)), height = std::floor(rng.uniform(3, 12));
+    quad.vertex = {{{x, y, 0.45, 1},
+                    {x + width, y, 0.45, 1},
+                    {x + width + lean, y + height, 0.55, 1},
+                    {x + lean, y + height, 0.55, 1}}};
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double low = rng.uniform(-1, 1), high = rng.uniform(-1, 1);
+      const std::array<double, 4> along = j == 1 ? std::array{low, high, high, low} : std::array{low, low, high, high};
+      for (std::size_t i = 0; i < 4; ++i) quad.attribute[i].push_back(along[i]);
     }
-  // Exactly plane, corners on pixel centres.
-  WindowQuad sprite;
-  sprite.id = static_cast<std::uint32_t>(input.quads.size());
-  constexpr std::array<std::array<double, 2>, 4> at{{{4.5, 5.5}, {14.5, 5.5}, {14.5, 12.5}, {4.5, 12.5}}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    sprite.vertex[i] = {at[i][0], at[i][1], 0.3, 1};
-    sprite.attribute[i] = {at[i][0] / 20, at[i][1] / 20, 0.7};
+    if (id % 2 != 0) quad.attribute[2][rng.below(3)] += 0.25;
+    input.quads.push_back(quad);
   }
-  input.quads.push_back(sprite);
   return input;
 }
 
 TEST(Evaluator, PlaneQuadsAreThoseOfTheSlowPath) {
-  std::set<std::uint64_t> taken;
   for (const bool perspective : {true, false}) {
     SweepInput input = plane_input();
     input.state.perspective = perspective;
-    // One evaluator: the tolerances share what is before them.
+    // One evaluator: both share what is before them.
     Evaluator evaluator(input, {.threads = 2, .cycles = false});
     for (const auto& [s, g] : {std::pair{18, 2}, {12, 0}, {26, 3}})
-      for (const int t : {0, 1, 4, 8, 12, 16, 31}) {
-        SCOPED_TRACE("S " + std::to_string(s) + ", t " + std::to_string(t) + (perspective ? ", perspective" : ""));
-        const Config c = config({{"significand_bits", s}, {"align_guard_bits", g}, {"plane_tolerance_bits", t}});
+      for (const int on : {0, 1}) {
+        SCOPED_TRACE("S " + std::to_string(s) + (on != 0 ? ", plane quads" : "") +
+                     (perspective ? ", perspective" : ""));
+        const Config c = config({{"significand_bits", s}, {"align_guard_bits", g}, {"plane_quads", on}});
         const PointResult got = evaluator.evaluate(c);
         expect_slow(got, slow_path(input, c));
-        EXPECT_TRUE(t != 0 || got.plane_quads == 0);
-        EXPECT_TRUE(t != 31 || got.plane_quads == 1);
-        taken.insert(got.plane_quads);
-        // Within the bound of mean values and the tolerance; attributes of this input are below 2.
-        const double bound = bound_attribute(c, 2).value + (t >= 1 && t <= 16 ? 2 * std::ldexp(1.0, -t) : 0);
-        EXPECT_LE(got.arithmetic[static_cast<std::size_t>(Quantity::attribute)].max, bound);
+        EXPECT_EQ(got.plane_quads, on != 0 ? 15u : 0u);
+        // Within the bound of mean values; attributes of this input are below 2.
+        EXPECT_LE(got.arithmetic[static_cast<std::size_t>(Quantity::attribute)].max, bound_attribute(c, 2).value);
       }
   }
-  EXPECT_GE(taken.size(), 6u);
   // The draw may refuse.
   SweepInput input = plane_input();
   input.state.skip &= ~std::uint32_t{skip_plane};
-  const Config c = config({{"plane_tolerance_bits", 4}});
+  const Config c = config({{"plane_quads", 1}});
   expect_slow(Evaluator(input, {.cycles = false}).evaluate(c), slow_path(input, c));
   // Interval and scissor, and what a stress family has of it.
   input.state.skip |= skip_plane;
@@ -454,64 +450,59 @@ TEST(Evaluator, PlaneQuadsAreThoseOfTheSlowPath) {
 TEST(Evaluator, AFragmentOfAPlaneQuadIsTheModels) {
   const SweepInput all = plane_input(12);
   std::size_t taken_fragments = 0, other_fragments = 0;
-  for (const int t : {3, 9, 31}) {
-    const Config c = config({{"plane_tolerance_bits", t}});
-    Config wide = c;
-    wide.attribute_slots = 8;
-    for (std::size_t q = 0; q < all.quads.size(); ++q) {
-      SweepInput one = all;
-      one.quads = {all.quads[q]};
-      DrawState state = one.state;
-      state.attributes = one.attributes;
-      const SnappedQuad snapped = snap_quad(one.quads[0], wide, state);
-      const golden::TruthQuad truth(snapped, wide, state);
-      const bool taken = takes_areas(snapped, wide, state);
-      std::vector<Fragment> fragments;
-      UntimedModel model(wide, state, PixelEngine::plain);
-      model.draw(snapped,
-                 [&](std::span<const Fragment> list) { fragments.insert(fragments.end(), list.begin(), list.end()); });
-      for (std::size_t n = 0; n < fragments.size(); n += 5) {
-        const Fragment& f = fragments[n];
-        const golden::ReferenceSample s = truth.sample(f.x, f.y);
-        double attribute = 0;
-        for (std::size_t j = 0; j < 3; ++j)
-          attribute = std::max(
-              attribute,
-              std::fabs(std::ldexp(static_cast<double>(f.attribute[j]), -c.attribute_frac()) - s.attribute[j]));
-        one.state.scissor_x0 = f.x, one.state.scissor_x1 = f.x + 1;
-        one.state.scissor_y0 = f.y, one.state.scissor_y1 = f.y + 1;
-        const PointResult got = Evaluator(one, {.cycles = false}).evaluate(c);
-        ASSERT_EQ(got.fragments, 1u);
-        ASSERT_EQ(got.plane_fragments, taken ? 1u : 0u);
-        // A unit in the last place of either format is 9e-7 and 6e-8.
-        ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Quantity::attribute)].max, attribute, 1e-13);
-        ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Quantity::depth)].max,
-                    std::fabs(std::ldexp(f.depth, -c.depth_bits) - s.z), 1e-13);
-        (taken ? taken_fragments : other_fragments)++;
-      }
+  const Config c = config({{"plane_quads", 1}});
+  Config wide = c;
+  wide.attribute_slots = 8;
+  for (std::size_t q = 0; q < all.quads.size(); ++q) {
+    SweepInput one = all;
+    one.quads = {all.quads[q]};
+    DrawState state = one.state;
+    state.attributes = one.attributes;
+    const SnappedQuad snapped = snap_quad(one.quads[0], wide, state);
+    const golden::TruthQuad truth(snapped, wide, state);
+    const bool taken = plane_quad(snapped, wide, state);
+    std::vector<Fragment> fragments;
+    UntimedModel model(wide, state, PixelEngine::plain);
+    model.draw(snapped,
+               [&](std::span<const Fragment> list) { fragments.insert(fragments.end(), list.begin(), list.end()); });
+    for (std::size_t n = 0; n < fragments.size(); ++n) {
+      const Fragment& f = fragments[n];
+      const golden::ReferenceSample s = truth.sample(f.x, f.y);
+      double attribute = 0;
+      for (std::size_t j = 0; j < 3; ++j)
+        attribute = std::max(attribute, std::fabs(std::ldexp(static_cast<double>(f.attribute[j]), -c.attribute_frac()) -
+                                                  s.attribute[j]));
+      one.state.scissor_x0 = f.x, one.state.scissor_x1 = f.x + 1;
+      one.state.scissor_y0 = f.y, one.state.scissor_y1 = f.y + 1;
+      const PointResult got = Evaluator(one, {.cycles = false}).evaluate(c);
+      ASSERT_EQ(got.fragments, 1u);
+      ASSERT_EQ(got.plane_fragments, taken ? 1u : 0u);
+      // A unit in the last place of either format is 9e-7 and 6e-8.
+      ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Quantity::attribute)].max, attribute, 1e-13);
+      ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Quantity::depth)].max,
+                  std::fabs(std::ldexp(f.depth, -c.depth_bits) - s.z), 1e-13);
+      (taken ? taken_fragments : other_fragments)++;
     }
   }
   EXPECT_GT(taken_fragments, 500u);
   EXPECT_GT(other_fragments, 500u);
 }
 
-TEST(Evaluator, TolerancesShareEveryStageOfMeanValues) {
+TEST(Evaluator, PlaneQuadsShareEveryStageOfMeanValues) {
   const SweepInput input = plane_input();
   std::vector<Config> points;
   for (const int depth : {16, 24})
-    for (const int t : {0, 2, 8, 16, 31})
-      points.push_back(config({{"depth_bits", depth}, {"plane_tolerance_bits", t}}));
+    for (const int on : {0, 1}) points.push_back(config({{"depth_bits", depth}, {"plane_quads", on}}));
   Evaluator evaluator(input, {.threads = 2});
   std::vector<PointResult> results(points.size());
   evaluator.evaluate(points, [&](const Batch& batch) {
     for (std::size_t n = 0; n < batch.points.size(); ++n) results[batch.points[n]] = batch.results[n];
   });
-  // Clocks: with a tolerance and without.
   EXPECT_EQ(evaluator.counters().settings,
-            (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2}));
+            (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 1}));
   const auto at = [&](Stage stage) { return evaluator.counters().fragments[static_cast<std::size_t>(stage)]; };
   EXPECT_LT(at(Stage::areas), at(Stage::output));
-  EXPECT_EQ(at(Stage::areas), 2 * results[1].plane_fragments);  // the least tolerance takes what any does
+  EXPECT_EQ(at(Stage::areas), 2 * results[1].plane_fragments);
   for (std::size_t n = 0; n < points.size(); ++n) {
     Evaluator fresh(input, {.threads = 1});
     EXPECT_EQ(text(fresh.evaluate(points[n])), text(results[n]));
@@ -800,28 +791,6 @@ TEST(Evaluator, CyclesAreTheClockedModels) {
   }
   EXPECT_EQ(settings(evaluator.counters(), Stage::cycles), 6u);
 
-  // A tolerance looks at a value a clock, which eight slots show.
-  SweepInput planes = plane_input();
-  const std::vector<WindowQuad> once = planes.quads;
-  for (int n = 0; n < 3; ++n) planes.quads.insert(planes.quads.end(), once.begin(), once.end());
-  for (WindowQuad& q : planes.quads)  // of a tile or two
-    for (std::size_t i = 1; i < 4; ++i)
-      for (const auto& [of, origin] : {std::pair{&q.vertex[i].x, q.vertex[0].x}, {&q.vertex[i].y, q.vertex[0].y}})
-        *of = origin / q.vertex[0].w * q.vertex[i].w + (*of - origin / q.vertex[0].w * q.vertex[i].w) / 8;
-  Evaluator looking(planes, {.threads = 2});
-  std::set<std::uint64_t> by_slots;
-  for (const int slots : {4, 8}) {
-    tb::LockstepOptions options;
-    options.config = config({{"plane_tolerance_bits", 10}, {"attribute_slots", slots}});
-    options.state = planes.state;
-    options.state.attributes = 3;
-    std::vector<SnappedQuad> snapped;
-    for (const WindowQuad& q : planes.quads) snapped.push_back(snap_quad(q, options.config, options.state));
-    const std::uint64_t clocks = tb::run_clocked_model_alone(snapped, options).cycles;
-    EXPECT_EQ(looking.evaluate(options.config).cycles, clocks);
-    by_slots.insert(clocks);
-  }
-  EXPECT_EQ(by_slots.size(), 2u);
   EXPECT_GE(different.size(), 3u);
   EXPECT_EQ(Evaluator(input, {.cycles = false}).evaluate(Config{}).cycles, 0u);
 }

@@ -64,8 +64,6 @@ std::vector<int> item_values(const ConfigKey& key, std::string_view text) {
   if (text.find(':') != std::string_view::npos) return range_values(key, text);
   if (key.standard == -1 && (text == "auto" || text == "-1")) return {-1};
   if (key.name == "notch_exact" && (text == "true" || text == "false")) return {text == "true" ? 1 : 0};
-  if (key.name == "plane_tolerance_bits" && text == "off") return {0};
-  if (key.name == "plane_tolerance_bits" && text == "exact") return {31};
   return {in_range(key, text)};
 }
 
@@ -185,7 +183,7 @@ std::vector<Axis> default_axes() {
                      "stamp_fifo_log2=1:5",
                      "hierarchical_z_bits=0,8,12,16",
                      "hierarchical_z_tiles_log2=8:14:2",
-                     "plane_tolerance_bits=off,4:16:4,exact",
+                     "plane_quads=0,1",
                      "quad_id_bits=16,24,32",
                      "performance_counters=0,1"});
 }

@@ -17,7 +17,7 @@ struct Axis {
 };
 
 /// "KEY=A:B[:STEP]" (both ends included if the step hits them; STEP may be negative), "KEY=A,B,C", "KEY=auto", or these
-/// mixed: "KEY=10:20:2,26"; notch_exact also takes true and false, plane_tolerance_bits off (0) and exact (31).
+/// mixed: "KEY=10:20:2,26"; notch_exact also takes true and false.
 /// Throws ConfigError: unknown key (nearest named), empty range, not a whole number, a value outside the key's range, a
 /// value twice, step 0.
 Axis parse_axis(const std::string& text);

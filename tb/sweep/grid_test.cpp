@@ -51,7 +51,6 @@ TEST(ParseAxis, ListsAndRanges) {
   EXPECT_EQ(parse_axis("quadratic_frac_bits=-1").values, Values{-1});
   EXPECT_EQ(parse_axis("notch_exact=true,false").values, (Values{1, 0}));
   EXPECT_EQ(parse_axis("notch_exact=0,true").values, (Values{0, 1}));
-  EXPECT_EQ(parse_axis("plane_tolerance_bits=off,exact,4:6").values, (Values{0, 31, 4, 5, 6}));
 }
 
 TEST(ParseAxis, EveryKeyCanBeAnAxis) {

@@ -1,6 +1,6 @@
 #include "tb/sweep/plane_quads.hpp"
 
-#include "model/plane_tolerance.hpp"
+#include "model/plane_quad.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/sweep/work_units.hpp"
 
@@ -21,8 +21,8 @@ PlaneQuads::PlaneQuads(const SweepInput& input, const PositionData& positions, c
   run_units(units_of(taken_.size(), judged_per_unit), threads, [&](std::size_t unit, unsigned) {
     for (std::size_t q = unit * judged_per_unit; q < std::min((unit + 1) * judged_per_unit, taken_.size()); ++q)
       if (taken_[q] != 0)
-        taken_[q] = takes_areas(own_port(input.quads[q], static_cast<std::size_t>(input.attributes), config, state),
-                                config, state);
+        taken_[q] = plane_quad(own_port(input.quads[q], static_cast<std::size_t>(input.attributes), config, state),
+                               config, state);
   });
   count_ = static_cast<std::uint64_t>(std::ranges::count(taken_, 1));
 }

@@ -1,4 +1,4 @@
-// Which quads of an input a configuration draws with areas for weights (plane_tolerance_bits): what positions,
+// Which quads of an input a configuration draws with areas for weights (plane_quads): what positions,
 // significand_bits and that key fix together.
 #pragma once
 
@@ -16,7 +16,7 @@ class PlaneQuads {
  public:
   PlaneQuads(const SweepInput& input, const PositionData& positions, const Config& config, unsigned threads);
 
-  /// By position in the input, 1: taken (model/plane_tolerance.hpp, takes_areas), and covers a pixel.
+  /// By position in the input, 1: taken (model/plane_quad.hpp), and covers a pixel.
   const std::vector<std::uint8_t>& taken() const { return taken_; }
   std::uint64_t count() const { return count_; }
   std::size_t bytes() const { return taken_.size(); }

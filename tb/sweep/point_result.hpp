@@ -44,7 +44,7 @@ struct PointResult {
                                       ///< than exact arithmetic on the same snapped quad
   std::uint64_t colour_codes = 0;     ///< 8-bit channels (round to nearest) that differ from the snapped truth's
   std::uint64_t saturated = 0;        ///< fragments with a weight, attribute or colour clamped to the output format
-  // plane_tolerance_bits: quads whose attributes and depth are drawn with areas for weights. Judged on the draw of all
+  // plane_quads: quads whose attributes and depth are drawn with areas for weights. Judged on the draw of all
   // the input's attributes; their errors stay those against mean values. Weights and colours keep mean values.
   std::uint64_t quads = 0;            ///< that cover a pixel, in front of the eye
   std::uint64_t plane_quads = 0;      ///< of these taken

@@ -1,6 +1,5 @@
 #include "tb/sweep/point_table.hpp"
 
-#include "model/plane_tolerance.hpp"
 #include "model/support/edit_distance.hpp"
 #include "tb/support/csv.hpp"
 
@@ -36,9 +35,9 @@ std::string error_name(std::size_t kind, std::size_t quantity, std::size_t stati
 /// Keys without a signal or a rounding of their own.
 bool is_idle_in_proofs(std::string_view key) {
   constexpr std::array<std::string_view, 10> idle{
-      "pixels_per_clock",          "dot_units",           "quad_slots_log2",      "tile_slots_log2",
-      "stamp_fifo_log2",           "quad_id_bits",        "performance_counters", "hierarchical_z_bits",
-      "hierarchical_z_tiles_log2", "plane_tolerance_bits"};
+      "pixels_per_clock",          "dot_units",    "quad_slots_log2",      "tile_slots_log2",
+      "stamp_fifo_log2",           "quad_id_bits", "performance_counters", "hierarchical_z_bits",
+      "hierarchical_z_tiles_log2", "plane_quads"};
   return std::ranges::find(idle, key) != idle.end();
 }
 
@@ -96,9 +95,9 @@ std::vector<PointColumn> make_columns() {
                   {"colour_codes", "channels", "8-bit channels that differ from the truth's"},
                   {"saturated", "fragments", "with an attribute clamped to its format"},
                   {"quads", "quads", "that cover a pixel in front of the eye"},
-                  {"plane_quads", "quads", "of these, whose attributes and depth are drawn with areas for weights"},
-                  {"plane_share", "1", "plane_quads of quads"},
-                  {"plane_fragments", "fragments", "of plane_quads"},
+                  {"quads_plane", "quads", "of these, whose attributes and depth are drawn with areas for weights"},
+                  {"plane_share", "1", "quads_plane of quads"},
+                  {"plane_fragments", "fragments", "of quads_plane"},
                   {"cost", "LUTs", "scalar cost"},
                   {"state_bits", "bits", "registers and memories"},
                   {"multiplier_bits", "bits^2", "sum over multipliers of operand widths' products"},
@@ -125,11 +124,6 @@ void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool
   row.bound_lambda = ordinary || perspective ? proofs.lambda : none;
   row.bound_attribute = ordinary || perspective ? proofs.attribute : none;
   row.bound_depth = ordinary ? proofs.depth : none;
-  if (has_plane_tolerance(row.config) && row.result.plane_quads != 0) {
-    const double tolerance = std::ldexp(1.0, -row.config.plane_tolerance_bits);
-    row.bound_attribute.value += tolerance;
-    row.bound_depth.value += tolerance;
-  }
   row.ranges = proofs.ranges;
 }
 

@@ -64,7 +64,7 @@ TEST(PointTable, EveryRowHasEveryColumn) {
   EXPECT_EQ(cell(1, "total_depth_max"), "");
   EXPECT_EQ(cell(1, "coverage_lost"), "17");
   EXPECT_EQ(cell(1, "quads"), "8");
-  EXPECT_EQ(cell(1, "plane_quads"), "2");
+  EXPECT_EQ(cell(1, "quads_plane"), "2");
   EXPECT_EQ(cell(1, "plane_share"), "0.25");
   EXPECT_EQ(cell(1, "plane_fragments"), "3");
   EXPECT_EQ(cell(1, "worst"), "\"quadrille fragments --pixel 1,2\"");
@@ -87,20 +87,6 @@ TEST(PointTable, BoundsWhereTheyHold) {
 }
 
 TEST(PointTable, QuadsWithAreasForWeights) {
-  const auto bounds = [](int t, std::uint64_t taken) {
-    PointRow row;
-    row.config.plane_tolerance_bits = t;
-    row.result.quads = 8;
-    row.result.plane_quads = taken;
-    complete_row(row, CostWeights{}, true, true);
-    return std::array{row.bound_lambda.value, row.bound_attribute.value, row.bound_depth.value};
-  };
-  // The tolerance where quads are taken, of attributes and depth; exactly plane ones have the machine's bound.
-  const auto plain = bounds(0, 0);
-  EXPECT_EQ(bounds(9, 0), plain);
-  EXPECT_EQ(bounds(31, 5), plain);
-  EXPECT_EQ(bounds(9, 5), (std::array{plain[0], plain[1] + 0x1p-9, plain[2] + 0x1p-9}));
-
   PointResult result;
   EXPECT_TRUE(std::isnan(plane_share(result)));
   result.quads = 8;

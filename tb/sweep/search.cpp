@@ -50,8 +50,8 @@ constexpr std::array key_effects{
     KeyEffect{"stamp_fifo_log2", Effect::none},
     KeyEffect{"hierarchical_z_bits", Effect::none},  // the sweep draws every tile
     KeyEffect{"hierarchical_z_tiles_log2", Effect::none},
-    KeyEffect{"plane_tolerance_bits", Effect::unordered},  // errors of taken quads are others, larger or smaller
-    KeyEffect{"quad_id_bits", Effect::larger_is_better},   // ids that are refused
+    KeyEffect{"plane_quads", Effect::unordered},          // errors of taken quads are others, larger or smaller
+    KeyEffect{"quad_id_bits", Effect::larger_is_better},  // ids that are refused
     KeyEffect{"performance_counters", Effect::none},
 };
 
@@ -73,8 +73,7 @@ constexpr std::int8_t exact = 127;  ///< as good as every value
 /// `ordinary`: of inputs whose vertices are all ordinary.
 Abilities abilities(const Config& config, bool ordinary, std::span<const std::string_view> idle_keys) {
   const bool exact_quadratics = config.qdrop() == 0 || (ordinary && keeps_ordinary_products(config));
-  const bool takes_quads =
-      config.plane_tolerance_bits != 0 && std::ranges::find(idle_keys, "plane_tolerance_bits") == idle_keys.end();
+  const bool takes_quads = config.plane_quads != 0 && std::ranges::find(idle_keys, "plane_quads") == idle_keys.end();
   Abilities result;
   for (std::size_t i = 0; i < key_effects.size(); ++i) {
     const auto [key, effect] = key_effects[i];
@@ -85,7 +84,7 @@ Abilities abilities(const Config& config, bool ordinary, std::span<const std::st
     // Exact D and r² are the same from every origin.
     if (key == "tile_log2" && exact_quadratics) result.of[2 * i] = result.of[2 * i + 1] = exact;
     if (key == "quadratic_frac_bits" && exact_quadratics && ordinary) result.of[2 * i] = exact;
-    // Which quads a tolerance takes depends on the port's numbers.
+    // Which quads are plane depends on the port's numbers.
     if (key == "significand_bits" && takes_quads) result.of[2 * i + 1] = static_cast<std::int8_t>(-value);
   }
   return result;
@@ -169,7 +168,7 @@ std::vector<std::string_view> idle_keys(std::span<const Quantity> measured) {
   if (depths == 0) keys.emplace_back("depth_bits");
   if (depths == measured.size()) keys.emplace_back("attribute_frac_bits");
   const auto attributes = static_cast<std::size_t>(std::ranges::count(measured, Quantity::attribute));
-  if (depths + attributes == 0) keys.emplace_back("plane_tolerance_bits");  // weights and colours keep mean values
+  if (depths + attributes == 0) keys.emplace_back("plane_quads");  // weights and colours keep mean values
   return keys;
 }
 

@@ -57,8 +57,8 @@ constexpr Known known[] = {
     {"stamp_fifo_log2", false, 0},
     {"hierarchical_z_bits", false, 0},  // every tile is drawn
     {"hierarchical_z_tiles_log2", false, 0},
-    {"plane_tolerance_bits", true, 0},  // errors of taken quads are others
-    {"quad_id_bits", true, 1},          // fewer refused
+    {"plane_quads", true, 0},   // errors of taken quads are others
+    {"quad_id_bits", true, 1},  // fewer refused
     {"performance_counters", false, 0},
 };
 

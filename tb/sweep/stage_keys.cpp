@@ -1,8 +1,5 @@
 #include "tb/sweep/stage_keys.hpp"
 
-#include "model/plane_quad.hpp"
-#include "model/plane_tolerance.hpp"
-
 namespace quadrille::sweep {
 
 LevelKey level_key(const Config& c, Level level) {
@@ -24,20 +21,13 @@ LevelKey level_key(const Config& c, Level level) {
     case Level::output:
       return {c.attribute_int_bits, c.attribute_frac(), c.depth_bits};
     case Level::plane:
-      return {c.plane_tolerance_bits};
+      return {c.plane_quads};
   }
   return {};
 }
 
-CyclesKey cycles_key(const Config& c, const DrawState& state) {
-  const bool looks = has_plane_tolerance(c) && takes_plane_quads(c, state);
-  return {c.tile_log2,
-          c.dot_units,
-          c.quad_slots_log2,
-          c.tile_slots_log2,
-          c.stamp_fifo_log2,
-          looks ? c.attribute_slots : 0,
-          looks ? c.significand_bits : 0};
+CyclesKey cycles_key(const Config& c) {
+  return {c.tile_log2, c.dot_units, c.quad_slots_log2, c.tile_slots_log2, c.stamp_fifo_log2};
 }
 
 }  // namespace quadrille::sweep

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "model/config.hpp"
-#include "model/records.hpp"
 
 #include <array>
 
@@ -19,9 +18,8 @@ using LevelKey = std::array<int, 5>;
 LevelKey level_key(const Config& config, Level level);
 
 /// What the clocks of a draw depend on besides the positions: tile_log2, dot_units, quad_slots_log2,
-/// tile_slots_log2, stamp_fifo_log2; with a tolerance for plane quads also attribute_slots, a clock each, and
-/// significand_bits, which decides which quads are looked at (else 0). What is taken changes no clock.
-using CyclesKey = std::array<int, 7>;
-CyclesKey cycles_key(const Config& config, const DrawState& state);
+/// tile_slots_log2, stamp_fifo_log2. Plane quads change no clock.
+using CyclesKey = std::array<int, 5>;
+CyclesKey cycles_key(const Config& config);
 
 }  // namespace quadrille::sweep
