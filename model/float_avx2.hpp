@@ -27,6 +27,10 @@ inline D fma(D a, D b, D c) { return _mm256_fmadd_pd(a, b, c); }
 inline F fms(F a, F b, F c) { return _mm256_fmsub_ps(a, b, c); }
 inline F least(F a, F b) { return _mm256_min_ps(a, b); }
 inline F greatest(F a, F b) { return _mm256_max_ps(a, b); }
+inline D least(D a, D b) { return _mm256_min_pd(a, b); }
+inline D greatest(D a, D b) { return _mm256_max_pd(a, b); }
+inline I least(I a, I b) { return _mm256_min_epi32(a, b); }
+inline I greatest(I a, I b) { return _mm256_max_epi32(a, b); }
 inline F keep(F v, F mask) { return _mm256_and_ps(v, mask); }
 inline I add(I a, I b) { return _mm256_add_epi32(a, b); }
 inline I subtract(I a, I b) { return _mm256_sub_epi32(a, b); }
@@ -43,6 +47,7 @@ inline I shift_right(I v, int places) { return _mm256_srl_epi32(v, _mm_cvtsi32_s
 /// Half of a magnitude; 0 of 0.
 inline F half(F v) { return real(_mm256_subs_epu16(bits(v), splat(1 << 23))); }
 inline F converted(I v) { return _mm256_cvtepi32_ps(v); }
+inline D toward_zero(D v) { return _mm256_round_pd(v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC); }
 inline I truncated(F v) { return _mm256_cvttps_epi32(v); }
 
 inline Mask sign(F v) { return {v}; }
@@ -74,6 +79,16 @@ inline Halves to_doubles(I v) {
 }
 /// The upper 32 bits of doubles: sign, exponent, 20 bits of the significand.
 inline I upper_halves(D a, D b) { return bits(_mm256_shuffle_ps(_mm256_castpd_ps(a), _mm256_castpd_ps(b), 0xdd)); }
+
+/// The lanes one after the other.
+struct Doubles {
+  D low, high;
+};
+inline Doubles widened(F v) {
+  return {_mm256_cvtps_pd(_mm256_castps256_ps128(v)), _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1))};
+}
+/// What has no place in 32 bits becomes the least integer.
+inline I truncated(Doubles v) { return _mm256_setr_m128i(_mm256_cvttpd_epi32(v.low), _mm256_cvttpd_epi32(v.high)); }
 
 /// Places of a table for each lane.
 struct Coefficients {

@@ -26,6 +26,10 @@ inline D fma(D a, D b, D c) { return _mm512_fmadd_pd(a, b, c); }
 inline F fms(F a, F b, F c) { return _mm512_fmsub_ps(a, b, c); }
 inline F least(F a, F b) { return _mm512_min_ps(a, b); }
 inline F greatest(F a, F b) { return _mm512_max_ps(a, b); }
+inline D least(D a, D b) { return _mm512_min_pd(a, b); }
+inline D greatest(D a, D b) { return _mm512_max_pd(a, b); }
+inline I least(I a, I b) { return _mm512_min_epi32(a, b); }
+inline I greatest(I a, I b) { return _mm512_max_epi32(a, b); }
 inline F keep(F v, F mask) { return _mm512_and_ps(v, mask); }
 inline I add(I a, I b) { return _mm512_add_epi32(a, b); }
 inline I subtract(I a, I b) { return _mm512_sub_epi32(a, b); }
@@ -42,6 +46,7 @@ inline I shift_right(I v, int places) { return _mm512_srl_epi32(v, _mm_cvtsi32_s
 /// Half of a magnitude; 0 of 0.
 inline F half(F v) { return real(_mm512_subs_epu16(bits(v), splat(1 << 23))); }
 inline F converted(I v) { return _mm512_cvtepi32_ps(v); }
+inline D toward_zero(D v) { return _mm512_roundscale_pd(v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC); }
 inline I truncated(F v) { return _mm512_cvttps_epi32(v); }
 
 inline Mask sign(I v) { return {_mm512_movepi32_mask(v)}; }
@@ -73,6 +78,18 @@ inline Halves to_doubles(I v) {
 }
 /// The upper 32 bits of doubles: sign, exponent, 20 bits of the significand.
 inline I upper_halves(D a, D b) { return bits(_mm512_shuffle_ps(_mm512_castpd_ps(a), _mm512_castpd_ps(b), 0xdd)); }
+
+/// The lanes one after the other.
+struct Doubles {
+  D low, high;
+};
+inline Doubles widened(F v) {
+  return {_mm512_cvtps_pd(_mm512_castps512_ps256(v)), _mm512_cvtps_pd(_mm512_extractf32x8_ps(v, 1))};
+}
+/// What has no place in 32 bits becomes the least integer.
+inline I truncated(Doubles v) {
+  return _mm512_inserti64x4(_mm512_castsi256_si512(_mm512_cvttpd_epi32(v.low)), _mm512_cvttpd_epi32(v.high), 1);
+}
 
 /// Places of a table for each lane.
 struct Coefficients {

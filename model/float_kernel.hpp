@@ -21,9 +21,9 @@
 //  - Range: u, v, r <= 4, M <= 2^12; those functions are far from the smallest double. Products of three can
 //    go below 2^-126 and become 0. Where the sums of M k and of M W are at least 2^-26, their E is at least -30, a term
 //    with such an M is below 2^-126 * 2^6 * 2^30 = 2^-90 (numbers of the port are taken up to 2^30), and a quotient of
-//    2^-30 or more, the last bit that an output can have, is of a sum with E >= -64: the term is below its quantum
-//    2^-83 and is nothing there either. A smaller quotient is 0 in both. Lanes with a smaller sum are for the plain
-//    pipeline.
+//    2^-31 or more is of a sum with E >= -64: the term is below its quantum 2^-83 and is nothing there either. A
+//    smaller quotient, less than half of the last bit that an output can have, is 0 in both: so nothing hangs on
+//    differences below 2^-90, nor on a C that went to 0. Lanes with a smaller sum are for the plain pipeline.
 
 struct Arithmetic {
   F cut_mask;
@@ -86,12 +86,23 @@ template <bool in_columns, std::size_t n>
     out[i] = real(select(equal(bits(a[i]), power[i]), subtract(splat(254 << 23), power[i]), bits(out[i])));
 }
 
-/// |num * rec| in units of 2^-frac, toward zero: below 2^31. The product's first 24 bits, and what they left, which
-/// counts when they do not reach down to the unit.
-inline I to_fixed(F num, F rec, F p, F scale, bool long_one) {
-  I q = truncated(p * scale);
-  if (long_one) q = add(q, truncated(fms(num, rec, p) * scale));
-  return q;
+/// base + num * rec * per_unit, the quotient rounded to nearest, halves away from zero. The half is fused in: of a sum
+/// below 2^24 cutting it to 24 bits takes nothing but fraction. Others, and what 32 bits may not hold, are left to
+/// doubles, which also clamp; `clamped` gains their lanes.
+[[gnu::always_inline]] inline I to_codes(F num, F rec, F per_unit, const FloatCodes& to, Mask& clamped) {
+  const F scaled = num * per_unit;
+  const F half = real((bits(num) & splat(INT32_MIN)) | bits(splat(0.5f)));
+  const F sum = fma(scaled, rec, half);
+  if (none(at_least(keep(sum, real(splat(INT32_MAX))), splat(to.bound)))) [[likely]]
+    return add(truncated(sum), splat(to.base));
+  const D base = splat(static_cast<double>(to.base)), low = splat(static_cast<double>(to.low)),
+          high = splat(static_cast<double>(to.high));
+  const Doubles n = widened(scaled), r = widened(rec), h = widened(half);
+  const Doubles code = {toward_zero(fma(n.low, r.low, h.low)) + base, toward_zero(fma(n.high, r.high, h.high)) + base};
+  const Doubles in = {least(greatest(code.low, low), high), least(greatest(code.high, low), high)};
+  const I beyond = truncated(Doubles{code.low - in.low, code.high - in.high});
+  clamped = clamped | greater(beyond, splat(0)) | greater(splat(0), beyond);
+  return truncated(in);
 }
 
 /// Function k at all lanes.
@@ -107,14 +118,8 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
   const Arithmetic arithmetic(format.s);
   const F zero = splat(0.0f);
   const F align = splat(static_cast<float>(1 << (23 - format.prec)));
-  const F magnitude_mask = real(splat(0x7fffffff));
   const F attribute_scale = splat(static_cast<float>(1 << format.attribute_frac));
-  const F attribute_limit = splat(static_cast<float>(1 << format.attribute_int_bits));
-  const bool long_attribute = format.attribute_int_bits + format.attribute_frac > 24;
-  const I attribute_most =
-      splat(static_cast<std::int32_t>((std::int64_t{1} << (format.attribute_int_bits + format.attribute_frac)) - 1));
   const F depth_scale = splat(static_cast<float>(1 << format.depth_bits));
-  const I depth_most = splat(static_cast<std::int32_t>((std::int64_t{2} << format.depth_bits) - 1));
   const I corner_at = splat(quad.x0 | quad.y0 << 16);
   const I nothing = splat(0);
 
@@ -220,16 +225,18 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
     F power[4];
     for (std::size_t i = 0; i < 4; ++i) power[i] = Arithmetic::power(m[i]);
 
-    const auto sum = [&](const FloatColumn& column) {
-      const F c = greatest(greatest(power[0] * splat(column.align[0]), power[1] * splat(column.align[1])),
-                           greatest(power[2] * splat(column.align[2]), power[3] * splat(column.align[3])));
+    const auto sum_from = [&](std::size_t first, const FloatColumn& column) __attribute__((always_inline)) {
+      F c = greatest(power[2] * splat(column.align[2]), power[3] * splat(column.align[3]));
+      for (std::size_t i = first; i < 2; ++i) c = greatest(power[i] * splat(column.align[i]), c);
       F positive = c;
-      for (std::size_t i = 0; i < 4; ++i) positive = fma(m[i], splat(column.positive[i]), positive);
+      for (std::size_t i = first; i < 4; ++i) positive = fma(m[i], splat(column.positive[i]), positive);
       F negative = c;
       if (column.mixed)
-        for (std::size_t i = 0; i < 4; ++i) negative = fma(m[i], splat(column.negative[i]), negative);
+        for (std::size_t i = first; i < 4; ++i) negative = fma(m[i], splat(column.negative[i]), negative);
       return arithmetic.cut(positive - negative);
     };
+    const auto sum = [&](const FloatColumn& column) __attribute__((always_inline)) { return sum_from(0, column); };
+    const auto flipped = [](F value, const FloatColumn& column) { return real(bits(value) ^ splat(column.flip)); };
     F den_k = splat(1.0f), den_w = splat(1.0f), rec_k = splat(1.0f), rec_w = splat(1.0f);
     if (quad.sum_k) den_k = sum(quad.k);
     if (quad.w_of_k)
@@ -241,7 +248,8 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
       recip_lanes<in_columns>({of}, format.recip, arithmetic, one);
       to = one[0];
     };
-    if (quad.sum_k && format.depth && !quad.w_of_k) {
+    const bool recip_w = quad.sum_w && quad.sum_z;
+    if (quad.sum_k && recip_w && !quad.w_of_k) {
       F both[2];
       recip_lanes<in_columns>({den_k, den_w}, format.recip, arithmetic, both);
       rec_k = both[0];
@@ -250,33 +258,29 @@ __attribute__((noinline)) void draw_list(const FloatLanes::Format& format, const
       if (quad.sum_k) reciprocal(den_k, rec_k);
       if (quad.w_of_k)
         rec_w = rec_k * splat(static_cast<float>(1 / *quad.w_of_k));
-      else if (format.depth)
+      else if (recip_w)
         reciprocal(den_w, rec_w);
     }
     const unsigned small = lanes(not_at_least(least(den_k, den_w), splat(0x1p-26f)));
 
     I attribute[max_attribute_slots];
     for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) {
-      const F num = quad.b_of_k[j] ? den_k * splat(static_cast<float>(*quad.b_of_k[j])) : sum(quad.b[j]);
-      const F p = num * rec_k;
-      I q = to_fixed(num, rec_k, p, attribute_scale, long_attribute);
-      const Mask over = at_least(keep(p, magnitude_mask), attribute_limit);
-      if (!none(over)) [[unlikely]] {
-        q = select(over, select(sign(p), subtract(nothing, attribute_most), attribute_most), q);
-        saturated = saturated | over;
-      }
-      attribute[j] = q;
+      const FloatColumn& b = quad.b[j];
+      attribute[j] = quad.sum_b[j]
+                         ? to_codes(flipped(sum_from(1, b), b), rec_k, attribute_scale, quad.attribute[j], saturated)
+                         : splat(quad.attribute[j].base);
     }
 
     unsigned discard = 0;
     I depth = nothing;
     if (format.depth) {
-      const F num = quad.z_of_w ? den_w * splat(static_cast<float>(*quad.z_of_w)) : sum(quad.z);
-      const F size = keep(num, magnitude_mask);
-      const F p = size * rec_w;
-      depth = select(at_least(p, splat(2.0f)), depth_most, to_fixed(size, rec_w, p, depth_scale, true));
-      discard = lanes(without(sign(num), equal(depth, nothing)) | greater(splat(format.znear), depth) |
-                      greater(depth, splat(format.zfar)));
+      const I low = splat(quad.depth.low), high = splat(quad.depth.high);
+      I z = splat(quad.depth.base);
+      Mask clamped = no_lane();
+      if (quad.sum_z) z = to_codes(flipped(sum(quad.z), quad.z), rec_w, depth_scale, quad.depth, clamped);
+      z = least(greatest(z, low), high);
+      depth = greatest(z, nothing);
+      discard = lanes(greater(splat(format.znear), z) | greater(z, splat(format.zfar)));
     }
 
     constexpr unsigned every_lane = (1u << width) - 1;

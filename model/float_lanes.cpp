@@ -15,8 +15,9 @@
 namespace quadrille {
 namespace {
 
-/// Exponents of the port's numbers that the lanes take, either sign (float_kernel.hpp, range).
-constexpr int largest_exponent = 30;
+/// Exponents of the port's numbers that the lanes take, of k either sign; differences below the least one count for
+/// nothing (float_kernel.hpp, range).
+constexpr int largest_exponent = 30, least_difference = -90;
 
 double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
 
@@ -32,6 +33,34 @@ const std::array<bool, 64> may_face = [] {
   }
   return table;
 }();
+
+/// The largest float that is not above the integer; 0 of a negative one.
+float at_most(std::int64_t value) {
+  if (value <= 0) return 0;
+  const auto v = static_cast<std::uint64_t>(value);
+  const int drop = std::max(0, static_cast<int>(std::bit_width(v)) - 24);
+  return static_cast<float>(v >> drop << drop);
+}
+
+/// Below it a float has no last place above 1.
+constexpr std::int64_t single_codes = 1 << 24;
+
+/// False when the base or a limit is no code that a quad can have.
+bool float_codes(const FloatLanes::Format& format, const QuadBase& base, FloatQuad& out) {
+  const std::int32_t one = std::int32_t{1} << format.depth_bits;
+  if (format.depth) {
+    if (base.depth > static_cast<std::uint32_t>(one) || base.depth_low < -1 || base.depth_high > one + 1) return false;
+    out.depth = {static_cast<std::int32_t>(base.depth), base.depth_low, base.depth_high, at_most(single_codes)};
+  }
+  const std::int64_t limit = (std::int64_t{1} << (format.attribute_int_bits + format.attribute_frac)) - 1;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) {
+    const std::int64_t of = base.attribute[j], room = limit - std::abs(of);
+    if (room < 0) return false;
+    out.attribute[j] = {static_cast<std::int32_t>(of), static_cast<std::int32_t>(-limit),
+                        static_cast<std::int32_t>(limit), at_most(std::min(room, single_codes))};
+  }
+  return true;
+}
 
 #ifdef QUADRILLE_LANE_TARGETS
 // Each function of the kernel is compiled for the target around it.
@@ -75,16 +104,25 @@ bool fits(const Table& table) {
 }
 
 /// False when an exponent is out of range.
-bool float_column(const std::array<double, 4>& values, int prec, FloatColumn& out) {
+bool float_column(const std::array<double, 4>& values, int prec, FloatColumnOf what, FloatColumn& out) {
   out = {};
+  const bool differences = what != FloatColumnOf::weight;
+  bool negative = false, positive = false;
   for (std::size_t i = 0; i < 4; ++i) {
     const double v = values[i];
     if (v == 0) continue;
     const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(v) >> 52 & 0x7ff) - 1023;
-    if (std::abs(exponent) > largest_exponent) return false;
+    if (differences && exponent < least_difference) continue;
+    if (exponent > largest_exponent || (!differences && exponent < -largest_exponent)) return false;
     (v < 0 ? out.negative : out.positive)[i] = static_cast<float>(std::fabs(v));
     out.align[i] = std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 23 - prec + 127) << 23);
-    out.mixed |= v < 0;
+    (v < 0 ? negative : positive) = true;
+  }
+  out.any = negative || positive;
+  out.mixed = negative && positive;
+  if (negative && !positive) {
+    std::swap(out.positive, out.negative);
+    out.flip = INT32_MIN;
   }
   return true;
 }
@@ -153,7 +191,7 @@ FloatLanes::FloatLanes(const PipelineContext& c)
   format_.recip = FloatTable(c.recip_table, 0);
 }
 
-bool FloatLanes::usable() const { return false; }  // TODO issue 28: its sums are those of values, not yet of differences
+bool FloatLanes::usable() const { return fits_ && lane_target() != LaneTarget::baseline; }
 
 bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const {
   if (setup.homogeneous) return false;
@@ -203,18 +241,18 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
   out.sum_k = values.sum_k;
   out.sum_w = values.sum_w;
   out.w_of_k = values.w_of_k;
-  out.z_of_w = values.z_of_w;
-  out.b_of_k = values.b_of_k;
-  bool fit = fits(values.w_of_k) && fits(values.z_of_w);
-  const auto column = [&](bool wanted, const std::array<double, 4>& v, FloatColumn& to) {
-    fit = fit && (!wanted || float_column(v, format_.prec, to));
+  using Of = FloatColumnOf;
+  const auto column = [&](bool wanted, const std::array<double, 4>& v, Of what, FloatColumn& to) {
+    return !wanted || float_column(v, format_.prec, what, to);
   };
-  column(values.sum_k, values.k, out.k);
-  column(values.sum_w && !values.w_of_k, values.w, out.w);
-  column(format_.depth && !values.z_of_w, values.z, out.z);
+  bool fit = float_codes(format_, data.base, out) && fits(values.w_of_k) &&
+             column(values.sum_k, values.k, Of::weight, out.k) &&
+             column(values.sum_w && !values.w_of_k, values.w, Of::weight, out.w) &&
+             column(values.sum_z, values.z, Of::depth, out.z);
+  out.sum_z = values.sum_z && out.z.any;
   for (std::size_t j = 0; j < static_cast<std::size_t>(format_.attributes); ++j) {
-    fit = fit && fits(values.b_of_k[j]);
-    column(!values.b_of_k[j], values.b[j], out.b[j]);
+    fit = fit && column(values.sum_b[j], values.b[j], Of::attribute, out.b[j]);
+    out.sum_b[j] = values.sum_b[j] && out.b[j].any;
   }
   return fit;
 }

@@ -44,7 +44,16 @@ struct FloatTable {
 struct FloatColumn {
   std::array<float, 4> positive{}, negative{};  ///< |v_i|, 0 where the sign is the other one
   std::array<float, 4> align{};                 ///< 2^(floor(log2 |v_i|) + 23 - PREC_BITS), 0 of a zero
-  bool mixed = false;                           ///< some v_i is negative
+  bool any = false;                             ///< some v_i is not 0
+  bool mixed = false;                           ///< of either sign
+  std::int32_t flip = 0;                        ///< the sign bit where all are negative, and given as positive
+};
+enum class FloatColumnOf { weight, depth, attribute };  ///< k or W; differences; differences, with none of vertex 0
+
+/// What a quotient is added to, as codes, and the limits that the sum is clamped to.
+struct FloatCodes {
+  std::int32_t base = 0, low = 0, high = 0;
+  float bound = 0;  ///< of quotients below this single precision has the code, and 32 bits the sum
 };
 
 /// Functions of pixels: value + gx dx + gy dy.
@@ -65,11 +74,14 @@ struct FloatQuad {
   FloatForms r2;                               ///< the four r² without dx² + dy²
   std::array<double, linear_count> length2{};  ///< SetupResult::length2
   bool areas = false;                          ///< for weights: it is a plane_quad
-  bool sum_k = true, sum_w = true;
+  // As in QuadLanes.
+  bool sum_k = true, sum_w = true, sum_z = true;
+  std::array<bool, max_attribute_slots> sum_b{};
+  Factor w_of_k;
   FloatColumn k, w, z;
-  std::array<FloatColumn, max_attribute_slots> b;
-  Factor w_of_k, z_of_w;  ///< as in QuadLanes
-  std::array<Factor, max_attribute_slots> b_of_k{};
+  std::array<FloatColumn, max_attribute_slots> b;  ///< nothing of vertex 0
+  FloatCodes depth;
+  std::array<FloatCodes, max_attribute_slots> attribute{};
 };
 
 /// Covered pixels in the machine's order, from the first tile's origin pixel of their quad.

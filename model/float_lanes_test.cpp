@@ -39,7 +39,7 @@ Config fitting_config(Prng& rng) {
   if (rng.chance(0.5)) c.align_guard_bits = std::min(6, 20 - c.significand_bits);  // the largest sums
   c.notch_exact = static_cast<int>(rng.below(2));
   c.attribute_slots = static_cast<int>(rng.integer(1, 8));
-  c.attribute_int_bits = static_cast<int>(rng.integer(1, 8));
+  c.attribute_int_bits = static_cast<int>(rng.integer(1, std::min(15, 31 - c.significand_bits)));
   c.attribute_frac_bits = static_cast<int>(rng.integer(c.significand_bits, std::min(30, 31 - c.attribute_int_bits)));
   c.depth_bits = static_cast<int>(rng.integer(8, 30));
   c.tile_log2 = static_cast<int>(rng.integer(2, 4));
@@ -65,8 +65,32 @@ DrawState random_state(Prng& rng, const Config& c) {
   return s;
 }
 
+/// Codes that differences of 2^exponent codes and more are added to: 0, about a power of two, or at the end of the
+/// range but for some.
+std::int64_t random_base(Prng& rng, std::int64_t limit) {
+  const auto some = static_cast<std::int64_t>(rng.log2_spread(0, 30));
+  const std::int64_t magnitude = rng.chance(0.3) ? 0 : rng.chance(0.5) ? some : rng.chance(0.2) ? limit : limit - some;
+  return (rng.chance(0.5) ? -1 : 1) * std::clamp<std::int64_t>(magnitude, 0, limit);
+}
+
+/// Bases and depth limits: one code, a few, about the whole range, or all of it.
+QuadBase random_bases(Prng& rng, const Config& c) {
+  QuadBase base;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(c.attribute_slots); ++j)
+    base.attribute[j] = random_base(rng, c.attribute_limit());
+  const std::int32_t one = 1 << c.depth_bits;
+  base.depth = rng.chance(0.2) ? 0 : rng.chance(0.2) ? one : static_cast<std::uint32_t>(rng.integer(0, one));
+  base.depth_high = one + 1;
+  if (rng.chance(0.5)) return base;
+  const auto reach = static_cast<std::int32_t>(rng.chance(0.3) ? rng.below(3) : rng.below(static_cast<unsigned>(one)));
+  const auto at = static_cast<std::int32_t>(base.depth);
+  base.depth_low = std::max(-1, at - reach);
+  base.depth_high = rng.chance(0.2) ? base.depth_low : std::min(one - at, reach) + at + (rng.chance(0.2) ? 1 : 0);
+  return base;
+}
+
 /// Corners on pixel centres, on a coarse grid, or anywhere, some far outside; numbers of the port of either sign with
-/// exponents up to `exponents`, so that sums cancel, saturate, and are 0.
+/// exponents up to `exponents`, so that sums cancel, saturate, and are 0. Of vertex 0 the attributes are not looked at.
 SnappedQuad random_quad(Prng& rng, const Config& c, int exponents) {
   const int s = c.significand_bits;
   const auto number = [&](bool sign) {
@@ -77,10 +101,22 @@ SnappedQuad random_quad(Prng& rng, const Config& c, int exponents) {
     return PortNumber{sign && rng.chance(0.5), static_cast<int>(rng.integer(-exponents, exponents)), sig};
   };
   const double grid = rng.chance(0.3) ? 1 : rng.chance(0.3) ? 4 : 256;
-  const bool far = rng.chance(0.1), same_k = rng.chance(0.2), positive = rng.chance(0.5);
+  const bool far = rng.chance(0.1), same_k = rng.chance(0.2);
   const PortNumber k = number(false);
   SnappedQuad q;
   q.id = static_cast<std::uint32_t>(rng.below(1u << c.quad_id_bits));
+  q.base = random_bases(rng, c);
+  std::array<int, max_attribute_slots> signs{};  // 0 one, 1 the other, 2 mixed; 3: a constant
+  for (int& sign : signs) sign = static_cast<int>(rng.below(4));
+  const int less = rng.chance(0.3) ? static_cast<int>(rng.below(120)) : 0;  // differences may be far below k
+  const auto difference = [&](int sign) {
+    if (sign == 3 || rng.chance(0.1)) return PortNumber{};
+    PortNumber n = number(true);
+    if (sign < 2) n.neg = sign != 0;
+    n.exp -= less;
+    return n;
+  };
+  const int depth_sign = static_cast<int>(rng.below(4));
   for (SnappedVertex& v : q.vertex) {
     const auto position = [&] {
       const double at = far ? rng.uniform(-20000, 20000) : rng.uniform(-4, size + 4);
@@ -92,9 +128,9 @@ SnappedQuad random_quad(Prng& rng, const Config& c, int exponents) {
     v.y = position();
     v.w = 1 << c.frac();
     v.k = same_k ? k : number(false);
-    v.z = rng.chance(0.1) ? PortNumber{} : number(!positive);
+    v.z = difference(depth_sign);
     for (std::size_t j = 0; j < static_cast<std::size_t>(c.attribute_slots); ++j)
-      v.attribute[j] = rng.chance(0.2) ? PortNumber{} : number(!positive);
+      v.attribute[j] = &v == q.vertex.data() ? number(true) : difference(signs[j]);
   }
   if (rng.chance(0.1)) {  // a bow tie that crosses at a pixel centre
     const auto x = static_cast<std::int32_t>(rng.below(20)) << c.frac(), edge = std::int32_t{16} << c.frac();

@@ -3,7 +3,8 @@
 // small that 32 bits hold their functions; everything in double is an exact integer, or one times a power of two.
 
 /// Four numbers of the port, the first vertex's given, as a column; false when one does not fit.
-inline bool port_column(const FloatLanes::Format& format, const PortNumber& first, FloatColumn& out) {
+inline bool port_column(const FloatLanes::Format& format, const PortNumber& first, FloatColumnOf what,
+                        FloatColumn& out) {
   // Vertex by vertex {what is before it, neg, exp, sig}: behind the last number of the last vertex there is nothing.
   static_assert(sizeof(PortNumber) == 12 && offsetof(PortNumber, neg) == 0 && offsetof(PortNumber, exp) == 4 &&
                 offsetof(PortNumber, sig) == 8 && offsetof(SnappedVertex, k) >= 4);
@@ -16,46 +17,61 @@ inline bool port_column(const FloatLanes::Format& format, const PortNumber& firs
   const __m128i exponent = _mm_unpacklo_epi64(high01, high23), sig = _mm_unpackhi_epi64(high01, high23);
   const __m128i neg =
       _mm_and_si128(_mm_unpackhi_epi64(_mm_unpacklo_epi32(v0, v1), _mm_unpacklo_epi32(v2, v3)), _mm_set1_epi32(0xff));
-  const __m128i none = _mm_cmpeq_epi32(sig, _mm_setzero_si128());
-  const __m128i beyond =
-      _mm_andnot_si128(none, _mm_cmpgt_epi32(_mm_abs_epi32(exponent), _mm_set1_epi32(largest_exponent)));
-  if (_mm_testz_si128(beyond, beyond) == 0) return false;
+  const __m128i tiny =
+      _mm_cmpgt_epi32(_mm_set1_epi32(what == FloatColumnOf::weight ? -largest_exponent : least_difference), exponent);
+  __m128i none = _mm_cmpeq_epi32(sig, _mm_setzero_si128());
+  if (what == FloatColumnOf::attribute) none = _mm_or_si128(none, _mm_setr_epi32(-1, 0, 0, 0));
+  __m128i beyond = _mm_cmpgt_epi32(exponent, _mm_set1_epi32(largest_exponent));
+  if (what == FloatColumnOf::weight)
+    beyond = _mm_or_si128(beyond, tiny);
+  else
+    none = _mm_or_si128(none, tiny);
+  if (_mm_testc_si128(none, beyond) == 0) return false;
   const auto with_code = [none](__m128i fraction, __m128i code) {
     return _mm_castsi128_ps(_mm_andnot_si128(none, _mm_add_epi32(fraction, _mm_slli_epi32(code, 23))));
   };
   const __m128 size =
       with_code(_mm_castps_si128(_mm_cvtepi32_ps(sig)), _mm_sub_epi32(exponent, _mm_set1_epi32(format.s - 1)));
-  const __m128 negative = _mm_castsi128_ps(_mm_cmpgt_epi32(neg, _mm_setzero_si128()));
+  __m128 negative = _mm_castsi128_ps(_mm_andnot_si128(none, _mm_cmpgt_epi32(neg, _mm_setzero_si128())));
+  const int minus = _mm_movemask_ps(negative), some = ~_mm_movemask_ps(_mm_castsi128_ps(none)) & 15;
+  out.any = some != 0;
+  out.mixed = minus != 0 && minus != some;
+  out.flip = minus != 0 && !out.mixed ? INT32_MIN : 0;
+  if (!out.mixed) negative = _mm_setzero_ps();
   _mm_storeu_ps(out.positive.data(), _mm_andnot_ps(negative, size));
   _mm_storeu_ps(out.negative.data(), _mm_and_ps(negative, size));
   _mm_storeu_ps(out.align.data(),
                 with_code(_mm_setzero_si128(), _mm_add_epi32(exponent, _mm_set1_epi32(23 - format.prec + 127))));
-  out.mixed = _mm_movemask_ps(_mm_andnot_ps(_mm_castsi128_ps(none), negative)) != 0;
   return true;
 }
 
 /// The numbers of a small quad, all four w being 1.
 inline bool small_columns(const FloatLanes::Format& format, const SnappedQuad& quad, FloatQuad& out) {
   const SnappedVertex& v = quad.vertex[0];
+  using Of = FloatColumnOf;
+  bool fit = float_codes(format, quad.base, out);
+  out.sum_z = false;
+  if (format.depth && quad.base.depth_low != quad.base.depth_high) {
+    fit = fit && port_column(format, v.z, Of::depth, out.z);
+    out.sum_z = out.z.any;
+  }
+  out.sum_k = false;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) {
+    fit = fit && port_column(format, v.attribute[j], Of::attribute, out.b[j]);
+    out.sum_b[j] = out.b[j].any;
+    out.sum_k |= out.sum_b[j];
+  }
+  out.sum_w = out.sum_z;
   FloatColumn ones;
   ones.positive.fill(1);
   ones.align.fill(static_cast<float>(1 << (23 - format.prec)));
-  out.sum_k = format.attributes > 0;
-  out.sum_w = format.depth;
   out.w = ones;
   out.k = ones;
-  bool fit = !format.perspective || !out.sum_k || port_column(format, v.k, out.k);
-  // Other sums that are one times a power of two are formed: the bits are the same.
+  if (format.perspective && out.sum_k) fit = fit && port_column(format, v.k, Of::weight, out.k);
   const float k0 = out.k.positive[0];
   const bool same_k = k0 == out.k.positive[1] && k0 == out.k.positive[2] && k0 == out.k.positive[3] &&
                       (std::bit_cast<std::uint32_t>(k0) & 0x7fffff) == 0;
   out.w_of_k = out.sum_k && out.sum_w && same_k ? QuadLanes::Factor(1 / k0) : std::nullopt;
-  out.z_of_w = std::nullopt;
-  if (format.depth) fit = fit && port_column(format, v.z, out.z);
-  for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) {
-    out.b_of_k[j] = std::nullopt;
-    fit = fit && port_column(format, v.attribute[j], out.b[j]);
-  }
   return fit;
 }
 

@@ -3,8 +3,10 @@
 #include "model/lane_stages.hpp"
 #include "model/lane_target.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 
 // The vector type is wider than some targets' registers; everything that passes it is inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -111,18 +113,19 @@ struct LaneArithmetic {
     return cut(truncate_at(p0, q) + truncate_at(p1, q));
   }
 
-  /// fp_sum of four raw products m_i·v_i; `exponent_m` = exponent(m).
-  LANE_INLINE V sum4(const V* m, const I* exponent_m, const double* v) const {
+  /// fp_sum of the raw products m_i·v_i from vertex `first` on; `exponent_m` = exponent(m).
+  template <int first = 0>
+  LANE_INLINE V sum(const V* m, const I* exponent_m, const double* v) const {
     V p[4];
     I largest = splat(std::int64_t{-4096});
-    for (int i = 0; i < 4; ++i) {
+    for (int i = first; i < 4; ++i) {
       p[i] = m[i] * v[i];
       const std::int64_t ev = static_cast<std::int64_t>((std::bit_cast<std::uint64_t>(v[i]) >> 52) & 0x7ff) - 1023;
       const I e = select(p[i] != 0, exponent_m[i] + ev, splat(std::int64_t{-4096}));
       largest = select(e > largest, e, largest);
     }
     V sum{};
-    for (int i = 0; i < 4; ++i) sum += truncate_at(p[i], largest - prec);
+    for (int i = first; i < 4; ++i) sum += truncate_at(p[i], largest - prec);
     return cut(sum);
   }
 };
@@ -291,7 +294,8 @@ struct FixedLanes {
   I code, over;
 };
 
-/// |value| below 2^50 codes, as an integer, with the sign of `value`. The sum with 1/2 is exact, or far from an integer.
+/// |value| below 2^50 codes to nearest, halves away from zero, with the sign of `value`. `size` has 2 S <= 52 bits: its
+/// sum with 1/2 fits a double from 1/2 on; below that the sum is at most 1 - 2^-53, which no rounding mode leaves.
 LANE_INLINE I rounded_codes(V value, V size, int frac) {
   const I q = to_integer(integer_part(size * power_of_two(frac) + 0.5)), sign = bits(value) >> 63;
   return (q ^ sign) - sign;
@@ -312,8 +316,11 @@ struct DepthLanes {
   I code, discard;
 };
 
-LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, const QuadBase& base, int depth_bits,
-                                   std::uint32_t znear, std::uint32_t zfar) {
+/// Codes below 2^51 either way as doubles, without a conversion that older instruction sets have not.
+LANE_INLINE V to_real(I code) { return from_bits(code + 0x4338000000000000) - 0x1.8p52; }
+
+LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, const QuadBase& base, int depth_bits, std::uint32_t znear,
+                                   std::uint32_t zfar) {
   const V value = num_z * rec_w;
   const V size = magnitude(value);
   const I nothing = den_w == 0, wide = I(size >= 2.0) | nothing;
@@ -333,6 +340,8 @@ double to_double(const PipelineFloat& v, int s) {
 }
 
 namespace {
+
+bool all_zero(const std::array<double, 4>& values) { return values == std::array<double, 4>{}; }
 
 /// The factor ±2^n or 0 by which `of` gives `values`, if there is one.
 QuadLanes::Factor power_of_two_factor(const std::array<double, 4>& values, const std::array<double, 4>& of) {
@@ -356,14 +365,15 @@ QuadLanes::QuadLanes(const QuadData& quad, const PipelineContext& c) {
     z[i] = to_double(quad.z[i], s);
     for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) b[j][i] = to_double(quad.b[i][j], s);
   }
+  constant_depth = quad.base.depth_low == quad.base.depth_high;
+  sum_z = c.state.depth && !constant_depth && !all_zero(z);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j)
+    sum_b[j] = !all_zero(b[j]) || std::abs(quad.base.attribute[j]) > c.config.attribute_limit();
   if ((c.state.skip & skip_operands) == 0) return;
-  sum_k = quad.sum_k;
-  sum_w = c.state.depth || quad.hull;
+  sum_k = quad.sum_k && std::ranges::any_of(sum_b, std::identity());
+  sum_w = (c.state.depth && !constant_depth) || quad.hull;
   if (sum_k && sum_w)
     if (const Factor factor = power_of_two_factor(w, k); factor && *factor != 0) w_of_k = factor;
-  if (c.state.depth) z_of_w = power_of_two_factor(z, w);
-  for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j)
-    b_of_k[j] = power_of_two_factor(b[j], k);
 }
 
 LaneTable::LaneTable(const Table& table) : segments_log2(table.segments_log2), rest_bits(table.rest_bits) {
@@ -400,7 +410,7 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
 
     // Sums, reciprocals, fixed point.
     const auto sum = [&](const std::array<double, 4>& v)
-                         LANE_LAMBDA { return arithmetic.sum4(weights.m, exponent_m, v.data()); };
+                         LANE_LAMBDA { return arithmetic.sum(weights.m, exponent_m, v.data()); };
     V den_k{}, rec_k{}, den_w{};
     if (values.sum_k) {
       den_k = sum(values.k);
@@ -412,7 +422,11 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
       den_w = sum(values.w);
     I saturated{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) {
-      const V num = values.b_of_k[j] ? den_k * *values.b_of_k[j] : sum(values.b[j]);
+      if (!values.sum_b[j]) {
+        out.attribute[j].fill(quad.base.attribute[j]);
+        continue;
+      }
+      const V num = arithmetic.sum<1>(weights.m, exponent_m, values.b[j].data());
       const FixedLanes f =
           attribute_stage(num, rec_k, quad.base.attribute[j], c.config.attribute_int_bits, c.attribute_frac);
       saturated |= f.over;
@@ -422,8 +436,11 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
     I discard{};
     if (quad.hull) discard = ~(den_w > 0);
     if (c.state.depth) {
-      const V num_z = values.z_of_w ? den_w * *values.z_of_w : sum(values.z);
-      const V rec_w = values.w_of_k ? rec_k * (1 / *values.w_of_k) : recip_lanes(den_w, tables.recip, s);
+      V num_z{}, rec_w{};
+      if (values.sum_z) {
+        num_z = sum(values.z);
+        rec_w = values.w_of_k ? rec_k * (1 / *values.w_of_k) : recip_lanes(den_w, tables.recip, s);
+      }
       const DepthLanes z = depth_stage(num_z, den_w, rec_w, quad.base, c.config.depth_bits, c.znear, c.zfar);
       discard |= z.discard;
       for (int l = 0; l < lane_count; ++l)
@@ -501,10 +518,10 @@ void interpolate_blocks(std::span<const WeightLanes> in, const std::uint32_t* qu
         m[i] = in[n].m[i];
         exponent_m[i] = exponent(m[i]);
       }
-      sums[0].v = arithmetic.sum4(m, exponent_m, q.k.data());
-      sums[1].v = arithmetic.sum4(m, exponent_m, q.w.data());
-      sums[2].v = depth ? arithmetic.sum4(m, exponent_m, q.z.data()) : V{};
-      for (std::size_t j = 0; j < columns; ++j) sums[3 + j].v = arithmetic.sum4(m, exponent_m, q.b[j].data());
+      sums[0].v = arithmetic.sum(m, exponent_m, q.k.data());
+      sums[1].v = arithmetic.sum(m, exponent_m, q.w.data());
+      sums[2].v = depth ? arithmetic.sum(m, exponent_m, q.z.data()) : V{};
+      for (std::size_t j = 0; j < columns; ++j) sums[3 + j].v = arithmetic.sum<1>(m, exponent_m, q.b[j].data());
     }
   });
 }
@@ -531,16 +548,16 @@ void output_blocks(std::size_t blocks, const LaneColumn* sums, const ReciprocalL
       if (q.hull) discard = ~(sums[1].v > 0);
       values[0].v = V{};
       if (format.depth) {
-        const DepthLanes z = depth_stage(sums[2].v, sums[1].v, reciprocals[n].w, q.base, format.depth_bits,
-                                         format.znear, format.zfar);
+        const DepthLanes z =
+            depth_stage(sums[2].v, sums[1].v, reciprocals[n].w, q.base, format.depth_bits, format.znear, format.zfar);
         discard |= z.discard;
-        values[0].v = __builtin_convertvector(z.code, V) * depth_unit;
+        values[0].v = to_real(z.code) * depth_unit;
       }
       for (std::size_t j = 0; j < columns; ++j) {
         const FixedLanes f = attribute_stage(sums[3 + j].v, reciprocals[n].k, q.attribute_base[j],
                                              format.attribute_int_bits, format.attribute_frac);
         saturated |= f.over;
-        values[1 + j].v = __builtin_convertvector(f.code, V) * attribute_unit;
+        values[1 + j].v = to_real(f.code) * attribute_unit;
       }
       masks[n] = {static_cast<std::uint8_t>(to_mask(~discard)), static_cast<std::uint8_t>(to_mask(saturated))};
     }

@@ -3,7 +3,8 @@
 //
 // A significand number is a double whose mantissa is cut to S bits by an AND mask, so truncation toward zero costs one
 // instruction; products of two S-bit significands (S <= 26) are exact in 53 bits, aligned sums are too, and all
-// exponents stay far inside a double's range. Nothing here ever rounds. lane_stages.hpp has the same stages one by one.
+// exponents stay far inside a double's range. Nothing here ever rounds but what the output's codes round.
+// lane_stages.hpp has the same stages one by one.
 #pragma once
 
 #include "model/covered_pixels.hpp"
@@ -17,18 +18,18 @@ inline constexpr int lane_count = 8;
 
 /// A quad's data as doubles; see QuadData.
 ///
-/// Numbers of the four vertices that are those of k times one factor ±2^n, or all 0, have the sum of k times it, bit
-/// for bit: alignment is relative to the largest exponent and truncation toward zero, so that neither sees the factor.
-/// With skip_operands their sums are not formed, and W's reciprocal is k's. (No other constant attribute may be left
-/// out: what its sum's and k's truncation leave differs from pixel to pixel.)
+/// A constant has no differences: its sum is 0 and need not be formed. Depth between equal limits needs no sum at all.
+/// W that is k times one factor ±2^n has the sum of k times it, bit for bit: alignment is relative to the largest
+/// exponent and truncation toward zero, so that neither sees the factor. With skip_operands W's reciprocal is then k's.
 struct QuadLanes {
   using Factor = std::optional<double>;  ///< nothing: the sum is formed
 
   std::array<double, 4> k{}, w{}, z{};
   std::array<std::array<double, 4>, max_attribute_slots> b{};  ///< [attribute][vertex]
-  bool sum_k = true, sum_w = true;                             ///< wanted at all
-  Factor w_of_k, z_of_w;
-  std::array<Factor, max_attribute_slots> b_of_k{};
+  bool sum_k = true, sum_w = true, sum_z = true;               ///< wanted, and not known to be 0
+  std::array<bool, max_attribute_slots> sum_b{};
+  bool constant_depth = false;  ///< depth_low, whatever the sums
+  Factor w_of_k;
 
   QuadLanes() = default;
   QuadLanes(const QuadData& quad, const PipelineContext& c);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -23,6 +24,8 @@ struct Step {
   int side;  ///< 1, -1, or 0: the special case
   int width, height;
   ApproachPlace place{};  ///< the whole quad unless the approach says otherwise
+  /// Of approaches that are about values: the attributes of corner 0, 1, 2, 3 of the definition. None: any in [-1, 1].
+  std::optional<std::array<double, 4>> value{};
 
   /// The signed distance, 0 at the special case.
   double offset() const { return side * std::ldexp(1.0, -knob); }
@@ -312,6 +315,52 @@ Vertices guard_band(Step& s) {
   return ordinary(s, p);
 }
 
+/// One depth for all four corners, beyond the limit of the guard band. So far away the vertex is rounded to
+/// the grid of homogeneous ones, but not its depth.
+Vertices guard_band_flat(Step& s) {
+  Vertices v = guard_band(s);
+  const double depth = snap256(s.rng.uniform(0.9, 1));
+  for (WindowVertex& q : v) q.z = depth * q.w;
+  return v;
+}
+
+/// Depths from either end of their range on, spread over 2^-knob of it; attributes likewise from 100 to 127 on, or from
+/// below 0.
+Vertices value_spread(Step& s) {
+  const Point c = centre(s);
+  Points p;
+  for (Point& q : p) q = around(s, c, 24);
+  Vertices v = ordinary(s, p);
+  std::array<double, 4> part{};
+  for (double& share : part) share = s.rng.uniform();
+  const std::size_t one = 1 + s.rng.below(3);
+  part[0] = 0;
+  part[one] = 1;
+  const bool from_low = s.rng.chance(0.5);
+  const double step = from_low ? s.offset() : -s.offset(), end = s.rng.uniform(100, 127);
+  s.value.emplace();
+  for (std::size_t i = 0; i < 4; ++i) {
+    v[i].z = ((from_low ? 0 : 1) + part[i] * step) * v[i].w;
+    (*s.value)[i] = end * ((from_low ? -1 : 1) + 2 * part[i] * step);
+  }
+  return v;
+}
+
+/// Corner 0 within the range of depth or beyond its end, which is where znear and zfar are; the others within, or at
+/// the end.
+Vertices depth_limit(Step& s) {
+  const Point c = centre(s);
+  Points p;
+  for (Point& q : p) q = around(s, c, 24);
+  Vertices v = ordinary(s, p);
+  const bool far = s.rng.chance(0.5), others = s.rng.chance(0.75);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double inward = i == 0 ? s.offset() : others ? s.rng.uniform(0.1, 0.9) : 0;
+    v[i].z = (far ? 1 - inward : inward) * v[i].w;
+  }
+  return v;
+}
+
 /// w of 2^knob or 2^-knob among corners of w = 1: corner 0, corners 0 and 1, or spread over the four.
 Vertices w_ratio(Step& s) {
   const Point c = centre(s);
@@ -379,7 +428,7 @@ struct Generator {
 };
 
 constexpr int extent = 64, long_extent = 4096, short_extent = 16;
-constexpr std::array<Generator, 20> generators{{
+constexpr std::array<Generator, 23> generators{{
     {{"edge_distance", "an edge through a pixel centre", "distance in px", 0, 24, true, true, extent, extent},
      edge_distance,
      Window::turn},
@@ -437,6 +486,18 @@ constexpr std::array<Generator, 20> generators{{
       extent, extent},
      guard_band,
      Window::keep},
+    {{"guard_band_flat", "the same of a quad of one depth", "distance from the limit in px", -24, 8, false, true, extent,
+      extent},
+     guard_band_flat,
+     Window::keep},
+    {{"value_spread", "one depth, and attributes of one value far from 0", "spread of the whole range", 0, 32, false,
+      true, extent, extent, 127},
+     value_spread,
+     Window::turn},
+    {{"depth_limit", "the depth of a corner at the end of its range, at znear or zfar", "distance in depth", 2, 27,
+      true, true, extent, extent},
+     depth_limit,
+     Window::turn},
     {{"coincident_w", "two neighbouring corners equal, w too", "|w1/w0 - 1| of corners at one place", 1, 24, true, true,
       extent, extent},
      coincident_w,
@@ -524,8 +585,10 @@ std::vector<WindowQuad> make_approach(const Approach& approach, int knob, int si
   each_step(approach, knob, side, count, seed, [&](std::size_t q, Step& step, const Vertices& vertices) {
     quads[q].id = static_cast<std::uint32_t>(q);
     quads[q].vertex = vertices;
-    for (std::vector<double>& attribute : quads[q].attribute)
-      for (int a = 0; a < attributes; ++a) attribute.push_back(step.rng.uniform(-1, 1));
+    for (std::size_t i = 0; i < 4; ++i)
+      for (int a = 0; a < attributes; ++a)
+        quads[q].attribute[step.place.corner[i]].push_back(step.value ? (a % 2 == 0 ? 1 : -1) * (*step.value)[i]
+                                                                      : step.rng.uniform(-1, 1));
   });
   return quads;
 }

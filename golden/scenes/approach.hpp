@@ -22,6 +22,7 @@ struct Approach {
   bool both_sides;           ///< side -1 is another quad than side 1
   bool limit;                ///< side 0, the special case, is a quad
   int width, height;         ///< of the viewport
+  double attribute = 1;      ///< none is larger
 };
 
 /// In the order in which they are drawn.
@@ -30,11 +31,10 @@ std::span<const Approach> approaches();
 const Approach* find_approach(std::string_view name);
 
 /// `count` quads, id = index; the same arguments give the same bits on every machine. Quad i is the same at every knob
-/// and side but for what these say; its other corners, its place and its attributes (in [-1, 1]) follow from seed and
-/// i. side: 1, -1, or 0 for the special case, which does not depend on the knob. Corners are multiples of 1/256 px, or
-/// of 2^-knob px where that is finer, so that with subpixel_bits = 8 the special case is exact after snapping. The
-/// guard band is that of the standard configuration. Throws
-/// std::invalid_argument for a knob or side that the approach does not have.
+/// and side but for what these say; its other corners, its place and its attributes follow from seed and i. side: 1,
+/// -1, or 0 for the special case, which does not depend on the knob. Corners are multiples of 1/256 px, or of 2^-knob
+/// px where that is finer, so that with subpixel_bits = 8 the special case is exact after snapping. The guard band is
+/// that of the standard configuration. Throws std::invalid_argument for a knob or side that the approach does not have.
 std::vector<WindowQuad> make_approach(const Approach& approach, int knob, int side, std::size_t count,
                                       std::uint64_t seed, int attributes);
 

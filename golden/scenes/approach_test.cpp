@@ -72,6 +72,12 @@ double beyond_guard_band(const Approaching& a) {
   return std::max(std::fabs(p.x - 0.5), std::fabs(p.y - 0.5)) - 0x1p15;
 }
 
+double depth_spread(const Approaching& a) {
+  const auto depth = [](const WindowVertex& v) { return v.z / v.w; };
+  const auto [low, high] = std::ranges::minmax_element(a.quad.vertex, {}, depth);
+  return depth(*high) - depth(*low);
+}
+
 const std::map<std::string_view, Distance> distances{
     // Below the grid J / (N - 1), where the knob says N >= 2^12.
     {"edge_distance", {[](const Approaching& a) { return from_line(a.pixel(), a.at(0), a.at(1)); }, 0.7, 1.0003, true}},
@@ -89,6 +95,14 @@ const std::map<std::string_view, Distance> distances{
     {"eye_edge", {[](const Approaching& a) { return line_through(a.vertex(0), a.vertex(1)); }, 11.3, 34, false}},
     {"eye_diagonal", {[](const Approaching& a) { return line_through(a.vertex(0), a.vertex(2)); }, 11.3, 34, false}},
     {"guard_band", {beyond_guard_band, 1, 1, true}},
+    {"guard_band_flat", {beyond_guard_band, 1, 1, false}},
+    {"value_spread", {depth_spread, 1, 1, false}},
+    {"depth_limit",
+     {[](const Approaching& a) {
+        const double z = a.vertex(0).z / a.vertex(0).w;
+        return z < 0.5 ? z : 1 - z;
+      },
+      1, 1, true}},
     {"coincident_w", {[](const Approaching& a) { return a.vertex(1).w / a.vertex(0).w - 1; }, 1, 1, true}},
     {"w_ratio", {largest_w_ratio, 1, 1, false}},
     {"long_edge", {[](const Approaching& a) { return 1 / std::fabs(a.at(0).x - a.at(1).x); }, 1, 1, false}},
@@ -337,6 +351,59 @@ TEST(Approach, TheGuardBandEndsAtItsLimit) {
     }
 }
 
+/// Attributes are spread as depths are, from the whole range to nothing, and far from 0 at the base or its opposite.
+TEST(Approach, AttributesAreSpreadFarFromZero) {
+  const Approach& approach = *find_approach("value_spread");
+  int negative = 0;
+  for (int knob = approach.first; knob <= approach.last; ++knob)
+    for (const int side : {0, 1}) {
+      const auto places = approach_places(approach, knob, side, count, seed);
+      for (const WindowQuad& quad : make_approach(approach, knob, side, count, seed, 2)) {
+        const auto value = [&](std::size_t corner, std::size_t slot) {
+          return quad.attribute[places[quad.id].corner[corner]][slot];
+        };
+        const double base = value(0, 0);
+        double spread = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+          EXPECT_EQ(value(i, 1), -value(i, 0));
+          EXPECT_LE(std::fabs(value(i, 0)), std::fabs(base));
+          spread = std::max(spread, std::fabs(value(i, 0) - base));
+        }
+        EXPECT_GE(std::fabs(base), 100);
+        EXPECT_LE(std::fabs(base), approach.attribute);
+        EXPECT_NEAR(spread, side == 0 ? 0 : 2 * std::fabs(base) * std::ldexp(1.0, -knob), 1e-13);
+        negative += base < 0;
+      }
+    }
+  EXPECT_GT(negative, 500);
+}
+
+/// No pixel is lost of a quad of one depth, however far beyond the guard band a corner is.
+TEST(Approach, OneDepthIsOneDepthFarAway) {
+  const Config config;
+  const Approach& approach = *find_approach("guard_band_flat");
+  DrawState state = draw_state(approach);
+  const auto drawn = [&](const WindowQuad& quad, double depth) {
+    const double code = std::floor(std::ldexp(depth, config.depth_bits) + 0.5);
+    state.znear = state.zfar = std::ldexp(code, -config.depth_bits);
+    std::size_t pixels = 0;
+    UntimedModel model(config, state);
+    model.draw(snap_quad(quad, config, state), [&](std::span<const Fragment> f) { pixels += f.size(); });
+    return pixels;
+  };
+  std::size_t all = 0;
+  for (int knob = approach.first; knob <= approach.last; knob += 4)
+    for (const WindowQuad& quad : make_approach(approach, knob, 1, count, seed, 1)) {
+      const double depth = quad.vertex[0].z / quad.vertex[0].w;
+      const std::size_t within = drawn(quad, depth);
+      state.depth = false;
+      EXPECT_EQ(within, drawn(quad, depth)) << "knob " << knob << " quad " << quad.id;
+      state.depth = true;
+      all += within;
+    }
+  EXPECT_GT(all, 10'000u);
+}
+
 /// The special corners are any of the quad, in either order, and the window is turned and mirrored.
 TEST(Approach, EveryCornerIsApproached) {
   for (const Approach& approach : approaches()) {
@@ -382,7 +449,8 @@ TEST(Approach, OneQuadAllTheWay) {
     for (std::size_t i = 0; i < count; ++i) {
       ASSERT_EQ(first[i].id, i);
       for (std::size_t k = 0; k < 4; ++k) {
-        EXPECT_EQ(first[i].attribute[k], last[i].attribute[k]) << approach.name;
+        EXPECT_EQ(first[i].attribute[k] == last[i].attribute[k], approach.attribute == 1 || k == place[i].corner[0])
+            << approach.name;
         if (i < count / 2) {
           EXPECT_EQ(first[i].vertex[k].x, again[i].vertex[k].x) << approach.name;
         }

@@ -1,8 +1,8 @@
 #include "golden/scenes/corner_quads.hpp"
 
+#include "golden/scenes/corner_batch.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "model/snap.hpp"
-#include "model/support/prng.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 namespace quadrille::golden {
 namespace {
 
-constexpr std::array<CornerGroupInfo, 12> table{{
+constexpr std::array<CornerGroupInfo, 17> table{{
     {CornerGroup::face_plane, "face_plane",
      "every combination of signs of the determinants d_012, d_023, d_123, d_013, zero included: the eye in the plane "
      "of a face",
@@ -31,10 +31,11 @@ constexpr std::array<CornerGroupInfo, 12> table{{
      "corners next to pixel centres far from the origin pixel, where dropped bits make r^2 negative; several in a "
      "pixel",
      "quadratic_frac_bits of a few bits"},
-    {CornerGroup::z_limits, "z_limits", "window z exactly at znear and zfar, and the next numbers on either side",
-     "depth, znear > 0, zfar < 1"},
-    {CornerGroup::minus_zero, "minus_zero", "window z below 0 by less than a unit of the depth format",
-     "depth, znear 0"},
+    {CornerGroup::z_limits, "z_limits",
+     "corners' depth codes at znear and zfar and beside them by one, window z there and between",
+     "depth, znear > 0, "
+     "zfar < 1"},
+    {CornerGroup::minus_zero, "minus_zero", "window z just below 0: codes 0 and -1", "depth, znear 0"},
     {CornerGroup::two_corner, "two_corner", "two corners of different w at a pixel centre", "perspective"},
     {CornerGroup::two_edge, "two_edge", "two edges crossing at a pixel centre, W of either sign at their ends",
      "perspective off"},
@@ -48,12 +49,19 @@ constexpr std::array<CornerGroupInfo, 12> table{{
      "vertices behind the eye at the end of the guard band, pixels at the other end: the widest edge functions and dot "
      "products",
      "a viewport of 2^viewport_bits pixels in width and height"},
+    {CornerGroup::constant_depth, "constant_depth",
+     "one depth code at all corners: at znear and zfar and beside them; ordinary, perspective, beyond the guard band, "
+     "w of either sign",
+     "depth, znear > 0"},
+    {CornerGroup::one_corner, "one_corner",
+     "values of one corner alone that differ from the others', by one code or the whole range", "depth"},
+    {CornerGroup::far_base, "far_base", "attributes at the ends of their format, depth near 1, spread over few codes",
+     "depth"},
+    {CornerGroup::ties, "ties", "corners at pixel centres half a code from the base's grid, above and below", "depth"},
+    {CornerGroup::saturation, "saturation",
+     "quotients beyond the format and sums beyond it, in either direction, which the port alone can give", "depth"},
 }};
 
-/// A point of the integer lattice in homogeneous form, relative to some pixel centre.
-struct LatticePoint {
-  std::int64_t x = 0, y = 0, w = 0;
-};
 using LatticeQuad = std::array<LatticePoint, 4>;
 
 std::int64_t determinant(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
@@ -61,27 +69,6 @@ std::int64_t determinant(const LatticePoint& a, const LatticePoint& b, const Lat
 }
 
 int sign(std::int64_t v) { return (v > 0) - (v < 0); }
-
-/// What every generator works with. Draws come in program order, never two in one function call.
-struct Batch {
-  Prng rng;
-  const Config& config;
-  const DrawState& state;
-  std::vector<std::array<WindowVertex, 4>> quads{};
-
-  int integer(int low, int high) { return static_cast<int>(rng.integer(low, high)); }
-  LatticePoint pixel() {  // with room for a few steps around it
-    const int x = integer(10, 20);
-    return {x, integer(10, 20), 1};
-  }
-};
-
-/// The vertex w·(pixel + point/w) of a lattice point around a pixel's centre, `step` pixels a unit; z̃ is left 0.
-WindowVertex vertex_at(const LatticePoint& pixel, const LatticePoint& p, double step) {
-  const auto w = static_cast<double>(p.w);
-  return {w * (static_cast<double>(pixel.x) + 0.5) + step * static_cast<double>(p.x),
-          w * (static_cast<double>(pixel.y) + 0.5) + step * static_cast<double>(p.y), 0, w};
-}
 
 /// One window z for the whole quad, whatever the signs of w, so that no visible pixel is discarded.
 void set_flat_depth(Batch& b, std::array<WindowVertex, 4>& quad) {
@@ -200,40 +187,6 @@ void negative_r2(Batch& b) {
       v = {w * (static_cast<double>(pixel.x) + 0.5 + x), w * (static_cast<double>(pixel.y) + 0.5 + y), 0, w};
     }
     set_flat_depth(b, quad);
-    b.quads.push_back(quad);
-  }
-}
-
-/// Ordinary vertices at pixel centres, where interpolation gives a corner's z without an error.
-std::array<WindowVertex, 4> lattice_polygon(Batch& b) {
-  const LatticePoint pixel = b.pixel();
-  std::array<WindowVertex, 4> quad;
-  for (WindowVertex& v : quad) {
-    const int x = b.integer(-8, 8);
-    v = vertex_at(pixel, {x, b.integer(-8, 8), 1}, 1);
-  }
-  return quad;
-}
-
-void z_limits(Batch& b) {
-  const double ulp = std::ldexp(1.0, 1 - b.config.significand_bits);
-  for (int count = 0; count < 120; ++count) {
-    std::array<WindowVertex, 4> quad = lattice_polygon(b);
-    for (WindowVertex& v : quad) {
-      const double limit = b.rng.chance(0.5) ? b.state.znear : b.state.zfar;
-      v.z = b.rng.chance(0.5) ? limit : limit * (1 + b.integer(-1, 1) * ulp);
-    }
-    if (count % 3 == 0)  // one z everywhere
-      for (WindowVertex& v : quad) v.z = quad[0].z;
-    b.quads.push_back(quad);
-  }
-}
-
-void minus_zero(Batch& b) {
-  const double unit = std::ldexp(1.0, -b.config.depth_bits);
-  for (int count = 0; count < 30; ++count) {
-    std::array<WindowVertex, 4> quad = lattice_polygon(b);
-    for (WindowVertex& v : quad) v.z = -unit * b.rng.uniform(0, count % 2 == 0 ? 0.99 : 1.5);
     b.quads.push_back(quad);
   }
 }
@@ -384,6 +337,16 @@ void fill(CornerGroup group, Batch& b) {
       return extreme(b);
     case CornerGroup::far_corner:
       return far_corner(b);
+    case CornerGroup::constant_depth:
+      return constant_depth(b);
+    case CornerGroup::one_corner:
+      return one_corner(b);
+    case CornerGroup::far_base:
+      return far_base(b);
+    case CornerGroup::ties:
+      return ties(b);
+    case CornerGroup::saturation:
+      return saturation(b);
   }
 }
 
@@ -406,12 +369,13 @@ std::vector<WindowQuad> make_corner(CornerGroup group, const Config& config, con
   Batch batch{Prng(seed, first_stream + static_cast<std::uint64_t>(group)), config, state};
   fill(group, batch);
   std::vector<WindowQuad> quads(batch.quads.size());
-  const double limit = std::ldexp(1.0, config.attribute_int_bits);
   for (std::size_t i = 0; i < quads.size(); ++i) {
     quads[i].id = static_cast<std::uint32_t>(i);
     quads[i].vertex = batch.quads[i];
-    for (std::vector<double>& list : quads[i].attribute)
-      for (int j = 0; j < attributes; ++j) list.push_back(batch.rng.uniform(-limit, limit) * 0.99);
+    for (int j = 0; j < attributes; ++j) {
+      const std::array<double, 4> values = corner_values(group, batch, i);
+      for (std::size_t v = 0; v < 4; ++v) quads[i].attribute[v].push_back(values[v]);
+    }
   }
   return quads;
 }
@@ -423,6 +387,7 @@ std::vector<CornerDraw> corner_draws(const Config& config, std::uint64_t seed) {
     DrawState& state = draw.state;
     state.attributes = 1 + static_cast<int>(info.group) % config.attribute_slots;
     if (info.group == CornerGroup::z_limits) state.znear = 0.25, state.zfar = 0.75;
+    if (info.group == CornerGroup::constant_depth) state.znear = 0.5;
     if (info.group == CornerGroup::flat) state.depth = false;
     if (info.group == CornerGroup::two_edge) state.perspective = false;
     if (info.group == CornerGroup::tall) {
@@ -433,8 +398,12 @@ std::vector<CornerDraw> corner_draws(const Config& config, std::uint64_t seed) {
     if (info.group == CornerGroup::burst) draw.stall = 0.95;
     if (info.group == CornerGroup::far_corner)
       state.width = state.height = state.scissor_x1 = state.scissor_y1 = 1 << config.viewport_bits;
-    for (const WindowQuad& quad : make_corner(info.group, config, state, seed, state.attributes))
+    constexpr std::uint64_t first_port_stream = 150;
+    Batch batch{Prng(seed, first_port_stream + static_cast<std::uint64_t>(info.group)), config, state};
+    for (const WindowQuad& quad : make_corner(info.group, config, state, seed, state.attributes)) {
       draw.quads.push_back(snap_quad(quad, config, state));
+      change_at_port(info.group, batch, draw.quads.back());
+    }
     draws.push_back(std::move(draw));
   }
   return draws;

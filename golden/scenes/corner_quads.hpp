@@ -25,6 +25,11 @@ enum class CornerGroup {
   burst,
   extreme,
   far_corner,
+  constant_depth,
+  one_corner,
+  far_base,
+  ties,
+  saturation,
 };
 
 struct CornerGroupInfo {
@@ -39,14 +44,15 @@ std::span<const CornerGroupInfo> corner_groups();
 /// Throws std::invalid_argument listing the groups for an unknown name.
 CornerGroup parse_corner_group(std::string_view name);
 
-/// The quads of a group, ids 0, 1, 2 …, with `attributes` random attributes per vertex. They lie in the upper left 32
-/// pixels of the viewport, on its whole height (`tall`) or at its end (`far_corner`); z_limits takes znear and zfar
-/// from the state. Snapping them with this configuration is exact in x, y and w. The same arguments give the same bits
-/// everywhere.
+/// The quads of a group, ids 0, 1, 2 …, with `attributes` attributes per vertex. They lie in the upper left 32 pixels
+/// of the viewport, on its whole height (`tall`) or at its end (`far_corner`); z_limits and constant_depth take znear
+/// and zfar from the state. Snapping them with this configuration is exact in x, y and w. The same arguments give the
+/// same bits everywhere.
 std::vector<WindowQuad> make_corner(CornerGroup group, const Config& config, const DrawState& state, std::uint64_t seed,
                                     int attributes);
 
-/// A group in the state that it needs, ready for the machine.
+/// A group in the state that it needs, ready for the machine. Some quads of `saturation` and `den_w_zero` are then
+/// changed to what the port may be given but no vertices give.
 struct CornerDraw {
   std::string_view group;
   DrawState state;

@@ -2,9 +2,8 @@
 // plain pipeline are.
 #include "golden/scenes/corner_quads.hpp"
 
+#include "golden/scenes/corner_test_support.hpp"
 #include "golden/scenes/random_quads.hpp"
-#include "model/covered_pixels.hpp"
-#include "model/pixel_pipeline.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/tile_context.hpp"
@@ -13,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -21,39 +19,10 @@
 namespace quadrille::golden {
 namespace {
 
-CornerDraw draw_of(const Config& config, CornerGroup group, std::uint64_t seed = 1) {
-  return corner_draws(config, seed).at(static_cast<std::size_t>(group));
-}
-
-Config narrow() {
-  Config config;
-  config.set("significand_bits", 12);
-  return config;
-}
-
 Config coarse(int quadratic_frac_bits) {
-  Config config = narrow();
+  Config config = narrow_config();
   config.set("quadratic_frac_bits", quadratic_frac_bits);
   return config;
-}
-
-/// Every covered pixel of a draw, discarded ones included, with what led to it.
-void for_each_pixel(const CornerDraw& draw, const Config& config,
-                    const std::function<void(const SnappedQuad&, const TileEntry&, const PixelTrace&)>& f) {
-  const PipelineContext context(config, draw.state);
-  TileWalk walk(config, draw.state);
-  for (const SnappedQuad& quad : draw.quads) {
-    const SetupResult setup = quad_setup(quad, config, draw.state);
-    const QuadData data = quad_data(quad, setup, config, draw.state);
-    walk_tiles(walk, setup, [&](const TileEntry& tile) {
-      for_each_covered_pixel(tile, walk.constants(), config, draw.state, [&](const CoveredPixel& at) {
-        PixelTrace p;
-        p.valid = true;
-        pixel_pipeline(p, tile, walk.constants(), data, at.dx, at.row, context);
-        f(quad, tile, p);
-      });
-    });
-  }
 }
 
 int corners(const PixelTrace& p) {
@@ -108,7 +77,7 @@ TEST(CornerQuads, SeedDecides) {
 }
 
 TEST(CornerQuads, FacePlaneHasEveryCombinationOfSigns) {
-  for (const Config& config : {Config{}, narrow()}) {
+  for (const Config& config : {Config{}, narrow_config()}) {
     std::map<std::array<int, 4>, int> seen;
     std::set<std::array<int, 4>> hull;
     const CornerDraw draw = draw_of(config, CornerGroup::face_plane);
@@ -151,7 +120,7 @@ TEST(CornerQuads, FlatPixelsAreInSeveralClasses) {
 }
 
 TEST(CornerQuads, DenominatorOfDepthIsZeroWithoutAnEyeInTheHull) {
-  const Config config = narrow();
+  const Config config = narrow_config();
   int zero = 0;
   for_each_pixel(draw_of(config, CornerGroup::den_w_zero), config,
                  [&](const SnappedQuad&, const TileEntry&, const PixelTrace& p) {
@@ -177,38 +146,6 @@ TEST(CornerQuads, SquaredDistancesBecomeNegative) {
       EXPECT_GT(many, 5);
     }
   }
-}
-
-TEST(CornerQuads, DepthIsExactlyAtItsLimitsAndBesideThem) {
-  const Config config;
-  const CornerDraw draw = draw_of(config, CornerGroup::z_limits);
-  const std::uint32_t znear = depth_code(draw.state.znear, config), zfar = depth_code(draw.state.zfar, config);
-  int at_near = 0, below = 0, at_far = 0, above = 0;
-  for_each_pixel(draw, config, [&](const SnappedQuad&, const TileEntry&, const PixelTrace& p) {
-    if (!p.on_vertex) return;
-    at_near += p.drawn && p.fragment.depth == znear;
-    at_far += p.drawn && p.fragment.depth == zfar;
-    const std::uint32_t near_enough = 1u << (config.depth_bits - config.significand_bits + 1);
-    below += !p.drawn && p.fragment.depth < znear && p.fragment.depth + near_enough >= znear;
-    above += !p.drawn && p.fragment.depth > zfar && p.fragment.depth <= zfar + near_enough;
-  });
-  EXPECT_GT(at_near, 10);
-  EXPECT_GT(at_far, 10);
-  EXPECT_GT(below, 2);
-  EXPECT_GT(above, 2);
-}
-
-TEST(CornerQuads, DepthIsMinusZero) {
-  const Config config;
-  int minus_zero = 0, below = 0;
-  for_each_pixel(draw_of(config, CornerGroup::minus_zero), config,
-                 [&](const SnappedQuad&, const TileEntry&, const PixelTrace& p) {
-                   const bool negative = p.num_z.neg != p.den_w.neg && p.num_z.sig != 0;
-                   minus_zero += negative && p.drawn && p.fragment.depth == 0;
-                   below += negative && !p.drawn && p.fragment.depth == 1;
-                 });
-  EXPECT_GT(minus_zero, 100);
-  EXPECT_GT(below, 20);
 }
 
 TEST(CornerQuads, TwoCornersOfDifferentFactor) {

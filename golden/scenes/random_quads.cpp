@@ -12,6 +12,26 @@ namespace {
 
 int pick(golden::Prng& random, int low, int high) { return static_cast<int>(random.integer(low, high)); }
 
+/// Window depths within 2^-1 to 2^-26 of the first vertex's, or all equal.
+void draw_depths_together(golden::Prng& random, WindowQuad& q) {
+  const WindowVertex& first = q.vertex[0];
+  const double depth = first.w == 0 ? 0.5 : first.z / first.w;
+  const double part = random.chance(0.25) ? 0 : std::exp2(random.uniform(-26, -1));
+  for (WindowVertex& v : q.vertex) v.z = depth * v.w + part * (v.z - depth * v.w);
+}
+
+/// An attribute of any magnitude at each vertex, or one of any magnitude and others close to it or equal.
+void add_attribute(golden::Prng& random, WindowQuad& q, double limit) {
+  const auto any = [&] {
+    const double magnitude = limit * std::exp2(random.uniform(-12, -0.01));
+    return random.chance(0.1) ? 0.0 : (random.chance(0.5) ? magnitude : -magnitude);
+  };
+  const bool together = random.chance(0.25);
+  const double first = any(), part = together && random.chance(0.75) ? std::exp2(random.uniform(-32, -1)) : 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    q.attribute[i].push_back(i == 0 ? first : together ? first - part * random.uniform() * first : any());
+}
+
 /// One quad of family `family`, positions within `edge` pixels.
 WindowQuad random_quad(golden::Prng& random, int family, double edge, int attributes, double attribute_limit) {
   WindowQuad q;
@@ -85,22 +105,28 @@ WindowQuad random_quad(golden::Prng& random, int family, double edge, int attrib
     default:
       break;
   }
-  for (auto& list : q.attribute) {
-    for (int j = 0; j < attributes; ++j) {
-      const double magnitude = attribute_limit * std::exp2(random.uniform(-12, -0.01));
-      list.push_back(random.chance(0.1) ? 0.0 : (random.chance(0.5) ? magnitude : -magnitude));
-    }
-  }
+  if (random.chance(0.25)) draw_depths_together(random, q);
+  for (int j = 0; j < attributes; ++j) add_attribute(random, q, attribute_limit);
   if (family == 6) q.attribute[3] = q.attribute[2];
   return q;
 }
 
-/// Attributes four times as large as the format holds, which snapping would refuse: the output must clamp them.
-void saturate(SnappedQuad& quad) {
-  for (SnappedVertex& v : quad.vertex) {
-    for (PortNumber& b : v.attribute) {
-      if (b.sig != 0) b.exp += 2;
-    }
+/// What no vertices give and the output must clamp: attributes four times as large as the format holds, bases of other
+/// quads, corner codes that have nothing to do with the depths.
+void change_at_port(golden::Prng& random, SnappedQuad& quad, const Config& config) {
+  QuadBase& base = quad.base;
+  if (random.chance(0.5))
+    for (SnappedVertex& v : quad.vertex)
+      for (PortNumber& b : v.attribute)
+        if (b.sig != 0) b.exp += 2;
+  if (random.chance(0.5))
+    for (std::int64_t& code : base.attribute)
+      if (code != 0) code = random.integer(-config.attribute_limit(), config.attribute_limit());
+  const std::int32_t one = std::int32_t{1} << config.depth_bits;
+  if (random.chance(0.5)) base.depth = static_cast<std::uint32_t>(random.integer(0, one));
+  if (random.chance(0.5)) {
+    base.depth_low = pick(random, -1, one + 1);
+    base.depth_high = pick(random, base.depth_low, one + 1);
   }
 }
 
@@ -122,7 +148,7 @@ std::vector<SnappedQuad> random_quads(const Config& config, const DrawState& sta
     quad.id = static_cast<std::uint32_t>(quads.size());
     try {
       SnappedQuad snapped = snap_quad(quad, config, state);
-      if (random.chance(0.1)) saturate(snapped);
+      if (random.chance(0.15)) change_at_port(random, snapped, config);
       quads.push_back(snapped);
     } catch (const SnapError&) {  // no point of the machine's space: draw another
     }

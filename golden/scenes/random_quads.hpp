@@ -14,8 +14,9 @@ namespace quadrille::tb {
 DrawState small_state(const Config& config, int edge = 48);
 
 /// `count` snapped quads with ids 0, 1, 2 …: general, concave, bow-tie, tiny, on integer positions (exact ties, pixels
-/// on edges and vertices), collapsed edges, triangles, off screen, behind the eye, w = 0, all around the eye,
-/// attributes that saturate.
+/// on edges and vertices), collapsed edges, triangles, off screen, behind the eye, w = 0, all around the eye; depths
+/// and attributes that are close together or equal, far from 0 or not. Some are changed to what the port may be given
+/// but no vertices give: attributes that saturate, other bases, corner codes that clamp depth.
 std::vector<SnappedQuad> random_quads(const Config& config, const DrawState& state, std::uint64_t seed, int count);
 
 }  // namespace quadrille::tb

@@ -20,24 +20,21 @@ std::pair<int, int> random_part(Prng& rng, int size) {
   return {first, first + length};
 }
 
-/// Window z of a vertex as the machine gives it at a pixel on that vertex alone: rounded to S bits at the port,
-/// truncated to the depth format at the output.
-double corner_depth(const WindowVertex& v, const Config& config) {
-  int exponent = 0;
-  const double fraction = std::frexp(v.z / v.w, &exponent);
-  const int s = config.significand_bits;
-  const double port = std::ldexp(std::nearbyint(std::ldexp(fraction, s)), exponent - s);
-  return std::ldexp(std::floor(std::ldexp(port, config.depth_bits)), -config.depth_bits);
+/// The depth code of a vertex, halves up.
+double corner_code(const WindowVertex& v, const Config& config) {
+  return std::floor(std::ldexp(v.z / v.w, config.depth_bits) + 0.5);
 }
 
-/// A limit of window z: that of some corner, or any number.
+/// A limit of window z: the code of some corner, the next one on either side, or any number.
 double random_limit(Prng& rng, std::span<const WindowQuad> quads, const Config& config) {
   if (!quads.empty() && rng.chance(0.5)) {
     constexpr int tries = 16;
     for (int i = 0; i < tries; ++i) {
       const WindowQuad& quad = quads[rng.below(quads.size())];
       const WindowVertex& v = quad.vertex[rng.below(4)];
-      if (v.w > 0 && v.z >= 0 && v.z <= v.w) return corner_depth(v, config);
+      if (v.w <= 0 || v.z < 0 || v.z > v.w) continue;
+      const double code = corner_code(v, config) + static_cast<double>(rng.integer(-1, 1));
+      return std::clamp(std::ldexp(code, -config.depth_bits), 0.0, 1.0);
     }
   }
   return rng.uniform();

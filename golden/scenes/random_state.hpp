@@ -11,8 +11,8 @@ namespace quadrille::golden {
 
 /// A draw state for a viewport of this size: scissor rectangle (at least a quarter of the viewport in each direction),
 /// culling, perspective, depth, znear and zfar (at least 1/4 apart), attributes in use (1 to attribute_slots) and
-/// the skips, each at its default in about half of the draws. znear or zfar may be exactly the depth code that the
-/// machine gives a corner of one of `quads` (which may be none). The same arguments give the same state everywhere.
+/// the skips, each at its default in about half of the draws. znear or zfar may be the depth code of a corner of
+/// one of `quads` (which may be none) or the next code. The same arguments give the same state everywhere.
 DrawState random_draw_state(const Config& config, int width, int height, std::span<const WindowQuad> quads,
                             std::uint64_t seed);
 

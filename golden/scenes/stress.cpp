@@ -697,6 +697,27 @@ void check_arguments(double knob, int width, int height) {
   }
 }
 
+/// Window depths of a spread of 2^-1 to 2^-24 of what it was, about that of a corner in front of the eye.
+void draw_depths_together(Prng& rng, Vertices& v) {
+  const double part = std::ldexp(1.0, static_cast<int>(rng.integer(-24, -1)));
+  const auto first = std::ranges::find_if(v, [](const WindowVertex& q) { return q.w > 0; });
+  if (first == v.end()) return;
+  const double depth = first->z / first->w;
+  for (WindowVertex& q : v) q.z = depth * q.w + part * (q.z - depth * q.w);
+}
+
+/// Slots 0 to 3 hold the weights. Of the others even ones hold any numbers, odd ones a number far from 0 and others of
+/// a spread of 2^-1 to 2^-24 of it.
+void add_attribute(Prng& rng, std::size_t slot, WindowQuad& quad) {
+  const bool together = slot >= 4 && slot % 2 == 1;
+  const double base = together ? rng.sign() * rng.uniform(0.75, 1) : 0;
+  const double part = together ? std::ldexp(1.0, static_cast<int>(rng.integer(-24, -1))) : 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double weight = slot == i ? 1 : 0;
+    quad.attribute[i].push_back(slot < 4 ? weight : together ? base * (1 - part * rng.uniform()) : rng.uniform(-1, 1));
+  }
+}
+
 }  // namespace
 
 std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std::uint64_t seed, double knob, int width,
@@ -713,17 +734,14 @@ std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std:
   batch.quads.reserve(count);
   while (!batch.full()) generators[index].make(batch);
 
-  Prng attribute_rng(~own_seed);
+  Prng attribute_rng(~own_seed), depth_rng(~own_seed, 1);
+  const bool shares_corners = family == StressFamily::shared_edge || family == StressFamily::shared_vertex;
   std::vector<WindowQuad> quads(count);
   for (std::size_t q = 0; q < count; ++q) {
     quads[q].id = static_cast<std::uint32_t>(q);
     quads[q].vertex = batch.quads[q];
-    for (std::size_t i = 0; i < 4; ++i) {
-      std::vector<double>& attribute = quads[q].attribute[i];
-      for (std::size_t a = 0; a < static_cast<std::size_t>(attributes); ++a) {
-        attribute.push_back(a < 4 ? (a == i ? 1.0 : 0.0) : attribute_rng.uniform(-1, 1));
-      }
-    }
+    if (q % 4 == 3 && !shares_corners) draw_depths_together(depth_rng, quads[q].vertex);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(attributes); ++a) add_attribute(attribute_rng, a, quads[q]);
   }
   return quads;
 }

@@ -54,13 +54,14 @@ StressFamily parse_stress_family(std::string_view name);
 
 /// `count` quads of a family for a viewport, id = index. The same arguments give the same bits on every machine, and
 /// the geometry does not depend on `attributes`. Slots 0-3 hold the weights (1,0,0,0) (0,1,0,0) …, further ones random
-/// values in [−1, 1]. Positions and w are finite, zero or of magnitude 2^−80 to 2^80; x̃ = ỹ = w = 0 does not occur.
-/// Families of ordinary vertices use depths in [0.1, 0.9]; those with w ≤ 0 use z̃ = a w − b with small b, as a camera
-/// does, so that visible pixels lie in [0, 1] unless they are very close to the eye (coplanar: one depth for all
-/// corners). Families in which chance alone gives few visible pixels (any_w, huge, eye_crossing, eye_in_hull, w_zero)
-/// draw until some of 256 probes are visible, 64 times at most. Knob 1 is the standard setting, more or less of it as
-/// the table says; it must lie in [2^−6, 2^6]. Throws std::invalid_argument for a knob, size or attribute count out of
-/// range.
+/// values in [−1, 1], the odd ones of them close together and far from 0. Positions and w are finite, zero or of
+/// magnitude 2^−80 to 2^80; x̃ = ỹ = w = 0 does not occur. Families of ordinary vertices use depths in [0.1, 0.9]; those
+/// with w ≤ 0 use z̃ = a w − b with small b, as a camera does, so that visible pixels lie in [0, 1] unless they are very
+/// close to the eye (coplanar: one depth for all corners). Of every fourth quad, but in families whose quads share
+/// corners, depths are drawn together to a spread of 2^−1 to 2^−24 of theirs. Families in which chance alone gives few
+/// visible pixels (any_w, huge, eye_crossing, eye_in_hull, w_zero) draw until some of 256 probes are visible, 64 times
+/// at most. Knob 1 is the standard setting, more or less of it as the table says; it must lie in [2^−6, 2^6]. Throws
+/// std::invalid_argument for a knob, size or attribute count out of range.
 std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std::uint64_t seed, double knob = 1.0,
                                     int width = 512, int height = 512, int attributes = 4);
 

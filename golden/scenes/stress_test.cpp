@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace quadrille::golden {
 namespace {
@@ -223,6 +224,59 @@ TEST(Stress, FamiliesShowPixels) {
         break;
     }
     EXPECT_GE(visible, least) << info.name;
+  }
+}
+
+/// Spread of the numbers in one attribute slot, and the least of their sizes.
+std::pair<double, double> spread_and_size(const WindowQuad& quad, std::size_t slot) {
+  double low = 2, high = -2, size = 2;
+  for (const std::vector<double>& attribute : quad.attribute) {
+    low = std::min(low, attribute[slot]);
+    high = std::max(high, attribute[slot]);
+    size = std::min(size, std::fabs(attribute[slot]));
+  }
+  return {high - low, size};
+}
+
+TEST(Stress, AttributesOfOddSlotsAreCloseTogetherAndFarFromZero) {
+  for (const StressFamilyInfo& info : stress_families()) {
+    int tiny = 0, large = 0;
+    for (const WindowQuad& quad : make_stress(info.family, 200, 1, 1, 512, 512, 8)) {
+      for (const std::size_t slot : {5, 7}) {
+        const auto [spread, size] = spread_and_size(quad, slot);
+        EXPECT_LE(spread, 0.5);
+        EXPECT_GE(size, 0.375);
+        tiny += spread < 0x1p-18;
+        large += spread > 0x1p-4;
+      }
+      EXPECT_GT(spread_and_size(quad, 4).first, 0.01);
+    }
+    EXPECT_GT(tiny, 50) << info.name;
+    EXPECT_GT(large, 20) << info.name;
+  }
+}
+
+/// z/w of every fourth quad in a small part of what others have; nothing else of them is different.
+TEST(Stress, DepthsOfEveryFourthQuadAreCloseTogether) {
+  const auto close = [](const WindowQuad& quad) {
+    double low = 1, high = 0;
+    for (const WindowVertex& v : quad.vertex) {
+      low = std::min(low, v.z / v.w);
+      high = std::max(high, v.z / v.w);
+    }
+    return high - low < 0x1p-8;
+  };
+  for (const StressFamily family : {StressFamily::general, StressFamily::perspective, StressFamily::shared_edge}) {
+    int fourth = 0, others = 0;
+    for (const WindowQuad& quad : make_stress(family, 400, 1)) {
+      (quad.id % 4 == 3 ? fourth : others) += close(quad);
+      for (const WindowVertex& v : quad.vertex) {
+        EXPECT_GE(v.z, 0.0999999 * v.w);
+        EXPECT_LE(v.z, 0.9000001 * v.w);
+      }
+    }
+    EXPECT_EQ(fourth > 60, family != StressFamily::shared_edge);
+    EXPECT_LT(others, 5);
   }
 }
 

@@ -69,8 +69,8 @@ std::vector<Record> stimuli(const StageSuite& suite, const Config& config, std::
   return std::move(made.corner);
 }
 
-/// The largest share of undefined vectors. Snapping refuses random bit patterns; determinants of vertices in one plane
-/// with the eye round in setup; corner vectors of depth lie at the limits of z and of the outputs.
+/// The largest share of undefined vectors. Snapping refuses most corner values of doubles; determinants of vertices in
+/// one plane with the eye round in setup; corner vectors of depth lie at the limits of z and of the outputs.
 double undefined_limit(const std::string& suite) {
   return suite == "snapping" ? 0.45 : suite == "setup" || suite == "depth" ? 0.1 : 0;
 }
@@ -134,8 +134,9 @@ TEST(FloatEngine, FindsDamagedFields) {
       }
     }
     EXPECT_GT(tried, 100u);
-    // Sums that cancel have a wide bound, for their magnitude.
-    const double least = name == "interpolation" ? 0.8 : 1;
+    // Sums that cancel have a wide bound, for their magnitude; so have differences to a base in the last places of long
+    // double.
+    const double least = name == "interpolation" ? 0.8 : name == "snapping" ? 0.98 : 1;
     EXPECT_GE(static_cast<double>(found), least * static_cast<double>(tried));
   }
 }

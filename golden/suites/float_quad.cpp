@@ -36,20 +36,18 @@ FloatQuad::FloatQuad(const SnappedQuad& quad, const Config& config, const DrawSt
                 std::fabs(static_cast<double>(v.w));
     k_over_w_[i] = golden::port_value(v.k, s) / w;
     z_over_w_[i] = golden::port_value(v.z, s) / w;
-    for (std::size_t j = 0; j < max_attribute_slots; ++j) b_over_w_[j][i] = golden::port_value(v.attribute[j], s) / w;
+    for (std::size_t j = 0; i > 0 && j < max_attribute_slots; ++j)
+      b_over_w_[j][i] = golden::port_value(v.attribute[j], s) / w;
   }
 }
 
 bool FloatQuad::must_draw(int x, int y) const {
   if (hull_ || !visible_decided_) return false;
   if (!homogeneous_ && (x < lowest_[0] || x > highest_[0] || y < lowest_[1] || y > highest_[1])) return false;
-  if (state_.depth) {
-    // Weights in [0, 1] leave z between those of the vertices, but for the machine's error (check_values).
-    if (behind_) return false;
-    const double doubt = std::ldexp(4.0, 3 - config_.significand_bits) + std::ldexp(1.0, -config_.depth_bits);
-    for (const double z : z_over_w_)
-      if (!(z >= state_.znear + doubt && z <= state_.zfar - doubt)) return false;
-  }
+  // No depth is beyond the corners'.
+  if (state_.depth && (quad_.base.depth_low < std::int64_t{depth_code(state_.znear, config_)} ||
+                       quad_.base.depth_high > std::int64_t{depth_code(state_.zfar, config_)}))
+    return false;
   const PixelEdges at(quad_, x, y);
   const PixelCover pixel = cover(at.e, at.gx, at.gy, visible_, state_.cull);
   return pixel.decided && pixel.covered;
@@ -118,9 +116,9 @@ VectorOutcome FloatQuad::check(const Fragment& g) const {
   return values;
 }
 
-/// The machine's weights lambda' err by at most 2^-(s-3), so an attribute by that times the sum of |a_i|, and each M by
-/// at most twice that, relatively; where weights may cancel (z, and attributes without perspective behind the eye) this
-/// multiplies the terms. An output code is lost on top.
+/// The machine's weights lambda' err by at most 2^-(s-3), so an attribute by that times the sum of |a_i - base|, and
+/// each M by at most twice that, relatively; where weights may cancel (z, and attributes without perspective behind the
+/// eye) this multiplies the terms. Half an output code is lost on top.
 ///
 /// The paper's formulas in double: with e = 2^-52 a corner's s = v - p is off by ds = e (|v| + |p|), r and A, D by ds
 /// times lengths, t = (r r' - D)/A by 3 dA (1 + |t|)/|A|, mu by the sum of its dt over r; quotients of sums of mu
@@ -179,32 +177,34 @@ VectorOutcome FloatQuad::check_values(const Fragment& g) const {
     if (error_den > std::fabs(den) / 16) rounding_error = HUGE_VAL;
     return Quotient{value, rounding_error, 2 * bound * size, bound * values};
   };
-  // The code must be within tolerance of the value, clamped to its format.
+  // The code must be within tolerance of the value, clamped to where it may be.
   const auto compare = [&](const char* name, int index, double actual, double value, double tolerance,
-                           double rounding_error, double clamp) {
+                           double rounding_error, double low, double high) {
     if (!(rounding_error <= tolerance)) return judge.undecided();
     tolerance += rounding_error;
-    judge.within(name, index, actual, std::clamp(value - tolerance, -clamp, clamp),
-                 std::clamp(value + tolerance, -clamp, clamp));
+    judge.within(name, index, actual, std::clamp(value - tolerance, low, high),
+                 std::clamp(value + tolerance, low, high));
   };
 
   const std::array<double, 4> ones{1, 1, 1, 1};
   if (state_.depth) {
     const Quotient z = quotient(z_over_w_, ones);
-    compare("depth", -1, std::ldexp(static_cast<double>(g.depth), -config_.depth_bits), z.value,
-            z.by_weights + std::ldexp(1.0, -config_.depth_bits), z.rounding, 1);
+    const double code = std::ldexp(1.0, -config_.depth_bits);
+    compare("depth", -1, g.depth * code, quad_.base.depth * code + z.value, z.by_weights + code / 2, z.rounding,
+            quad_.base.depth_low * code, quad_.base.depth_high * code);
   }
   const double limit = std::ldexp(1.0, config_.attribute_int_bits), code = std::ldexp(1.0, -config_.attribute_frac());
   bool may_saturate = false, must_saturate = false;
   for (int j = 0; j < state_.attributes; ++j) {
     const auto slot = static_cast<std::size_t>(j);
     const Quotient a = quotient(b_over_w_[slot], state_.perspective ? k_over_w_ : ones);
-    const double tolerance = (!state_.perspective && behind_ ? a.by_weights : a.by_lambda) + code;
-    const double size = std::fabs(a.value), doubt = tolerance + a.rounding;
-    may_saturate = may_saturate || !(size + doubt < limit);
+    const double tolerance = (!state_.perspective && behind_ ? a.by_weights : a.by_lambda) + code / 2;
+    const double value = static_cast<double>(quad_.base.attribute[slot]) * code + a.value;
+    const double size = std::fabs(value), doubt = tolerance + a.rounding;
+    may_saturate = may_saturate || !(size + doubt < limit - code);
     must_saturate = must_saturate || size - doubt >= limit;
-    compare("attr", j, std::ldexp(static_cast<double>(g.attribute[slot]), -config_.attribute_frac()), a.value,
-            tolerance, a.rounding, limit - code);
+    compare("attr", j, static_cast<double>(g.attribute[slot]) * code, value, tolerance, a.rounding, code - limit,
+            limit - code);
   }
   if (may_saturate == must_saturate && ((g.flags & flag_saturated) != 0) != must_saturate)
     judge.differs(std::string("flags: ") +

@@ -457,46 +457,49 @@ void weights(Judge& judge, const Vector& t) {
   for (std::size_t i = 0; i < 4; ++i) check_number(judge, "sig", static_cast<int>(i), t.out.pixel.m[i], m[i], l);
 }
 
-/// Four exact products: at most four grains of the largest and one truncation, 5u with no guard bits.
+/// Exact products, of attributes three: at most four grains of the largest and one truncation, 5u with no guard bits.
 void interpolation(Judge& judge, const Vector& t) {
   const Losses& l = t.losses;
   const PixelTrace& out = t.out.pixel;
   const QuadData& q = t.in.data;
-  const auto check = [&](const char* name, int index, const PipelineFloat& actual, auto&& factor) {
+  const auto check = [&](const char* name, int index, const PipelineFloat& actual, std::size_t first, auto&& factor) {
     std::array<Real, 4> terms{};
-    for (std::size_t i = 0; i < 4; ++i) terms[i] = value_of(t.in.pixel.m[i], l.s) * value_of(factor(i), l.s);
+    for (std::size_t i = first; i < 4; ++i) terms[i] = value_of(t.in.pixel.m[i], l.s) * value_of(factor(i), l.s);
     check_number(judge, name, index, actual, l.sum(terms), l);
   };
   for (std::size_t j = 0; j < static_cast<std::size_t>(t.config.attribute_slots); ++j)
-    check("attr_sig", static_cast<int>(j), out.num_a[j], [&](std::size_t i) { return q.b[i][j]; });
-  check("z_sig", -1, out.num_z, [&](std::size_t i) { return q.z[i]; });
-  check("den_k_sig", -1, out.den_k, [&](std::size_t i) { return q.k[i]; });
-  check("den_w_sig", -1, out.den_w, [&](std::size_t i) { return q.w[i]; });
+    check("attr_sig", static_cast<int>(j), out.num_a[j], 1, [&](std::size_t i) { return q.b[i][j]; });
+  check("z_sig", -1, out.num_z, 0, [&](std::size_t i) { return q.z[i]; });
+  check("den_k_sig", -1, out.den_k, 0, [&](std::size_t i) { return q.k[i]; });
+  check("den_w_sig", -1, out.den_w, 0, [&](std::size_t i) { return q.w[i]; });
 }
 
-/// Codes that |num/den| may have with `fraction` fraction bits below 2^integer, den != 0: the reciprocal's relative
-/// error, then truncation.
-Span quotient_codes(Real num, Real den, int integer, int fraction, const Losses& l) {
-  const Real q = fabsl(num / den), top = ldexpl(1, integer + fraction) - 1;
-  const auto code = [&](Real v) { return std::min(top, floorl(ldexpl(v, fraction))); };
-  return {code(q * (1 - l.reciprocal - rounding)), code(q * (1 + l.reciprocal + rounding))};
+/// What a base and num/den in codes may add up to, den != 0: the reciprocal's relative error, then rounding to nearest.
+/// From 2^integer on the quotient stands for one without end.
+Span sum_codes(Real base, Real num, Real den, int integer, int fraction, const Losses& l) {
+  const Real size = fabsl(num / den), limit = ldexpl(1, integer);
+  const auto code = [&](Real q) { return q >= limit ? HUGE_VALL : floorl(ldexpl(q, fraction) + 0.5L); };
+  const Span q{code(size * (1 - l.reciprocal - rounding)), code(size * (1 + l.reciprocal + rounding))};
+  return num * den < 0 ? Span{base - q.hi, base - q.lo} : Span{base + q.lo, base + q.hi};
 }
+
+Span clamped(Span v, Real low, Real high) { return {std::clamp(v.lo, low, high), std::clamp(v.hi, low, high)}; }
 
 void depth(Judge& judge, const Vector& t) {
   const Config& c = t.config;
   const Losses& l = t.losses;
   const PixelTrace &in = t.in.pixel, &out = t.out.pixel;
   const DrawState& state = t.in.state;
+  const QuadBase& base = t.in.data.base;
   const Real num_z = value_of(in.num_z, l.s), den_k = value_of(in.den_k, l.s), den_w = value_of(in.den_w, l.s);
 
   // Codes of a drawn pixel's depth.
   Span codes;
   bool may_draw = !(t.in.data.hull && !(den_w > 0)), must_draw = may_draw;
   if (state.depth) {
-    const Real infinite = ldexpl(2, c.depth_bits) - 1;
-    codes = den_w == 0 ? exactly(infinite) : quotient_codes(num_z, den_w, 1, c.depth_bits, l);
-    Span limits{static_cast<Real>(t.in.znear), static_cast<Real>(t.in.zfar)};
-    if (den_w != 0 && num_z * den_w < 0) limits.hi = std::min(limits.hi, 0.0L);
+    codes = clamped(den_w == 0 ? exactly(HUGE_VALL) : sum_codes(base.depth, num_z, den_w, 1, c.depth_bits, l),
+                    base.depth_low, base.depth_high);
+    const Span limits{static_cast<Real>(t.in.znear), static_cast<Real>(t.in.zfar)};
     must_draw = must_draw && codes.lo >= limits.lo && codes.hi <= limits.hi;
     codes = {std::max(codes.lo, limits.lo), std::min(codes.hi, limits.hi)};
     may_draw = may_draw && codes.lo <= codes.hi;
@@ -512,11 +515,13 @@ void depth(Judge& judge, const Vector& t) {
     return;
   }
   judge.within("depth", -1, g.depth, codes.lo, codes.hi);
+  const Real limit = ldexpl(1, c.attribute_int_bits + c.attribute_frac()) - 1;
   bool may_saturate = false, must_saturate = false;
-  for (int j = 0; j < c.attribute_slots; ++j) {
-    const Real actual = static_cast<Real>(g.attribute[static_cast<std::size_t>(j)]);
-    if (j >= state.attributes) {
-      judge.same("attr", j, actual, 0);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(c.attribute_slots); ++j) {
+    const Real actual = static_cast<Real>(g.attribute[j]);
+    const int index = static_cast<int>(j);
+    if (index >= state.attributes) {
+      judge.same("attr", index, actual, 0);
       continue;
     }
     if (den_k == 0) {
@@ -524,12 +529,12 @@ void depth(Judge& judge, const Vector& t) {
       judge.undecided();
       continue;
     }
-    const Real num = value_of(in.num_a[static_cast<std::size_t>(j)], l.s);
-    const Span q = quotient_codes(num, den_k, c.attribute_int_bits, c.attribute_frac(), l);
-    judge.within("attr", j, num * den_k < 0 ? -actual : actual, q.lo, q.hi);
-    const Real size = fabsl(num / den_k), limit = ldexpl(1, c.attribute_int_bits);
-    may_saturate = may_saturate || size * (1 + l.reciprocal + rounding) >= limit;
-    must_saturate = must_saturate || size * (1 - l.reciprocal - rounding) >= limit;
+    const Span sum = sum_codes(static_cast<Real>(base.attribute[j]), value_of(in.num_a[j], l.s), den_k,
+                               c.attribute_int_bits + 1, c.attribute_frac(), l);
+    const Span value = clamped(sum, -limit, limit);
+    judge.within("attr", index, actual, value.lo, value.hi);
+    may_saturate = may_saturate || sum.lo < -limit || sum.hi > limit;
+    must_saturate = must_saturate || sum.hi < -limit || sum.lo > limit;
   }
   if (may_saturate != must_saturate)
     judge.undecided();

@@ -83,10 +83,10 @@ void for_each(const std::string& name, const Config& config, std::uint64_t limit
 
 // Widths of golden/vectors/README.md for the default configuration, added up by hand: T = 32, W = 17, V = 12, TC = 10,
 // VAL = QVAL = 63, GRAD = QGRAD = 48, QCURV = 32, LENGTH2 = 64, S = 18, E = 12, PE = 9, N = 4, DB = 24, TL = 3,
-// AO = 24.
+// AO = 32.
 TEST(StageSuites, WidthsByHand) {
   const std::map<std::string, std::pair<int, int>> bits{
-      {"snapping", {1 + 4 * 64 + 4 * 64, 1 + 2 * 32 + 17 + 9 + 18 + 28 + 4 * 28}},
+      {"snapping", {1 + 16 * 64 + 16 * 64, 1 + 4 * (2 * 32 + 17 + 9 + 18 + 28) + 12 * 28 + 4 * 32 + 25 + 26 + 26}},
       {"setup", {8 * 32 + 4 * 17 + 4 * 13, 3 + 4 * 10 + 2 + 4 + 6 * (63 + 48 + 48) + 6 * 64}},
       {"tile_context", {1 + 8 * 32 + 4 * 17 + 20, 10 * (63 + 48 + 48 + 32)}},
       {"coverage", {2 + 4 * 13 + 20 + 5 * (63 + 48 + 48) + 4, 3 * 64}},
@@ -96,8 +96,8 @@ TEST(StageSuites, WidthsByHand) {
       {"reciprocal", {31, 31}},
       {"ratios", {6 * 30 + 6 * 31 + 4 * 30, 12 * 30}},
       {"weights", {8 + 6 + 4 + 4 * 28 + 4 * 30 + 12 * 30, 4 * 30}},
-      {"interpolation", {4 * 30 + 28 * 28, 7 * 31}},
-      {"depth", {1 + 25 + 25 + 4 + 1 + 7 * 31, 1 + 1 + 25 + 4 * 24}},
+      {"interpolation", {4 * 30 + 24 * 28, 7 * 31}},
+      {"depth", {1 + 25 + 25 + 4 + 1 + 4 * 32 + 25 + 26 + 26 + 7 * 31, 1 + 1 + 25 + 4 * 32}},
   };
   ASSERT_EQ(stage_names().size(), bits.size());
   for (const auto& [name, widths] : bits) {
@@ -129,8 +129,8 @@ TEST(StageSuites, StimulusFieldsInTheStatedOrder) {
   EXPECT_EQ(order("interpolation"),
             "m_exp m_sig k_neg k_exp k_sig w_neg w_exp w_sig z_neg z_exp z_sig b_neg b_exp b_sig");
   EXPECT_EQ(order("depth"),
-            "depth_on znear zfar attributes hull attr_neg attr_exp attr_sig z_neg z_exp z_sig den_k_neg den_k_exp "
-            "den_k_sig den_w_neg den_w_exp den_w_sig");
+            "depth_on znear zfar attributes hull base_attr base_depth depth_low depth_high attr_neg attr_exp attr_sig "
+            "z_neg z_exp z_sig den_k_neg den_k_exp den_k_sig den_w_neg den_w_exp den_w_sig");
 }
 
 // ---- Stimuli ----
@@ -234,47 +234,109 @@ TEST(StageSuites, WeightedNumbersReachTheWholeOfAWideRange) {
 
 TEST(StageResponses, Snapping) {
   const Config c;
-  std::uint64_t accepted = 0, refused = 0, ordinary = 0;
+  std::uint64_t accepted = 0, refused = 0, ordinary = 0, behind = 0, constant = 0, beyond = 0;
   for_each("snapping", c, 3000, [&](const Values& in, const Values& out) {
-    const auto real = [&](const char* name, int index = -1) {
+    const auto real = [&](const char* name, int index) {
       return static_cast<long double>(std::bit_cast<double>(in.integer(name, index)));
     };
-    const long double x = real("x"), y = real("y"), z = real("z"), w = real("w");
-    bool bad = !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || !std::isfinite(w);
-    const long double extent = fmaxl(fmaxl(fabsl(x), fabsl(y)), fabsl(w));
-    bad = bad || extent > 0x1p80L || extent < 0x1p-80L || fabsl(z) > 0x1p80L || (x == w / 2 && y == w / 2 && w == 0);
-    for (int j = 0; j < 4; ++j) bad = bad || !(fabsl(real("attr", j)) < 8);
+    bool bad = false;
+    for (int i = 0; i < 4; ++i) {
+      const long double x = real("x", i), y = real("y", i), z = real("z", i), w = real("w", i);
+      bad = bad || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || !std::isfinite(w);
+      const long double extent = fmaxl(fmaxl(fabsl(x), fabsl(y)), fabsl(w));
+      bad = bad || extent > 0x1p80L || extent < 0x1p-80L || fabsl(z) > 0x1p80L || (x == w / 2 && y == w / 2 && w == 0);
+      for (int j = 0; j < 4; ++j) bad = bad || !(fabsl(real("attr", 4 * i + j)) < 128);
+    }
     if (bad) {
       ++refused;
       EXPECT_EQ(out.integer("refused"), 1);
-      EXPECT_EQ(out.integer("k_sig"), 0);
+      EXPECT_EQ(out.integer("k_sig", 2), 0);
+      EXPECT_EQ(out.integer("depth_low"), 0);
+      EXPECT_EQ(out.integer("depth_high"), 0);
       return;
     }
     EXPECT_EQ(out.integer("refused"), 0);
     ++accepted;
-    // The snapped point is k times the given one (shifted by half a pixel) within half a step of the grid and the
-    // rounding of k.
-    const long double k = out.number("k_"), ulp = 0x1p-17L;
-    const bool on_grid = out.integer("w") == 1 << 15 && out.integer("x") % 128 == 0 && out.integer("y") % 128 == 0;
-    ordinary += on_grid;
-    const long double step = on_grid ? 0x1p-9L : 0x1p-16L;
-    const auto close = [&](long double snapped, long double given, const char* what) {
-      EXPECT_LE(fabsl(snapped - k * given), step + fabsl(k * given) * ulp) << what;
-    };
-    close(ldexpl(static_cast<long double>(out.integer("x")), -15), x - w / 2, "x");
-    close(ldexpl(static_cast<long double>(out.integer("y")), -15), y - w / 2, "y");
-    close(ldexpl(static_cast<long double>(out.integer("w")), -15), w, "w");
-    const long double scale =
-        in.integer("perspective") != 0 ? k : ldexpl(static_cast<long double>(out.integer("w")), -15);
-    for (int j = 0; j < 4; ++j) {
-      const long double b = scale * real("attr", j);
-      EXPECT_LE(fabsl(out.number("attr_", j, true) - b), fmaxl(fabsl(b) * ulp, 0x1p-256L)) << j;
+
+    // Bases: the nearest code of vertex 0's attribute, and of the first depth before the eye.
+    constexpr long double depth_one = 0x1p24L;
+    const auto depth_of = [&](int i) { return depth_one * real("z", i) / real("w", i); };
+    int first = 0;
+    while (first < 4 && !(real("w", first) > 0)) ++first;
+    const auto base_depth = static_cast<long double>(out.integer("base_depth"));
+    if (first == 4)
+      EXPECT_EQ(base_depth, 0);
+    else
+      EXPECT_LE(fabsl(base_depth - fminl(fmaxl(depth_of(first), 0), depth_one)), 0.5L + 0x1p-30L);
+    for (int j = 0; j < 4; ++j)
+      EXPECT_LE(fabsl(static_cast<long double>(out.integer("base_attr", j)) - 0x1p24L * real("attr", j)),
+                0.5L + (fabsl(real("attr", j)) > 127.9L ? 0.5L : 0))
+          << j;
+    // The corners' codes, halves up.
+    bool bounded = true;
+    long double low = HUGE_VALL, high = -HUGE_VALL;
+    for (int i = 0; i < 4; ++i) {
+      bounded = bounded && real("w", i) > 0;
+      low = fminl(low, depth_of(i)), high = fmaxl(high, depth_of(i));
     }
-    EXPECT_LE(fabsl(out.number("z_", -1, true) - k * z), fmaxl(fabsl(k * z) * ulp, 0x1p-256L));
+    if (bounded) {
+      const auto code = [&](long double z) { return fminl(fmaxl(floorl(z + 0.5L), -1), depth_one + 1); };
+      // A quotient of doubles is rounded; its half is exact only where w is a power of two.
+      for (const auto& [name, z] : {std::pair{"depth_low", low}, std::pair{"depth_high", high}}) {
+        const auto actual = static_cast<long double>(out.integer(name));
+        EXPECT_GE(actual, code(z - fabsl(z) * 0x1p-62L)) << name;
+        EXPECT_LE(actual, code(z + fabsl(z) * 0x1p-62L)) << name;
+      }
+      beyond += high > depth_one || low < 0;
+    } else {
+      ++behind;
+      EXPECT_EQ(out.integer("depth_low"), -1);
+      EXPECT_EQ(out.integer("depth_high"), (1 << 24) + 1);
+    }
+
+    for (int i = 0; i < 4; ++i) {
+      // The snapped point is k times the given one (shifted by half a pixel) within half a step of the grid and the
+      // rounding of k. Differences are k times those to the base, within the roundings of k and their own.
+      const long double x = real("x", i), y = real("y", i), z = real("z", i), w = real("w", i);
+      const long double k = out.number("k_", i), ulp = 0x1p-17L;
+      const bool on_grid =
+          out.integer("w", i) == 1 << 15 && out.integer("x", i) % 128 == 0 && out.integer("y", i) % 128 == 0;
+      ordinary += on_grid;
+      const long double step = on_grid ? 0x1p-9L : 0x1p-16L;
+      const auto close = [&](const char* name, long double given) {
+        EXPECT_LE(fabsl(ldexpl(static_cast<long double>(out.integer(name, i)), -15) - k * given),
+                  step + fabsl(k * given) * ulp)
+            << name << i;
+      };
+      close("x", x - w / 2);
+      close("y", y - w / 2);
+      close("w", w);
+      const auto near = [&](long double actual, long double exact, long double terms) {
+        return fabsl(actual - exact) <= fmaxl(fabsl(exact) * ulp + terms * 0x1p-62L, 0x1p-256L);
+      };
+      const long double from = w * base_depth / depth_one;
+      EXPECT_TRUE(near(out.number("z_", i, true), k * (z - from), k * (fabsl(z) + fabsl(from)))) << i;
+      const long double scale =
+          in.integer("perspective") != 0 ? k : ldexpl(static_cast<long double>(out.integer("w", i)), -15);
+      for (int j = 0; i > 0 && j < 4; ++j) {
+        const long double a = real("attr", 4 * i + j),
+                          base = 0x1p-24L * static_cast<long double>(out.integer("base_attr", j));
+        const long double actual = out.number("attr_", 4 * (i - 1) + j, true);
+        if (a == real("attr", j)) {
+          ++constant;
+          EXPECT_EQ(actual, 0) << i << j;
+        } else {
+          EXPECT_TRUE(near(actual, scale * (a - base), fabsl(scale) * (fabsl(a) + fabsl(base)))) << i << j;
+        }
+      }
+    }
   });
   EXPECT_GT(refused, 300u);
-  EXPECT_GT(accepted, 500u);
-  EXPECT_GT(ordinary, 200u);
+  EXPECT_GT(accepted, 1000u);
+  EXPECT_GT(ordinary, 1000u);
+  EXPECT_GT(behind, 300u);
+  EXPECT_GT(constant, 300u);
+  EXPECT_GT(beyond, 100u);
 }
 
 TEST(StageResponses, Setup) {
@@ -552,36 +614,46 @@ TEST(StageResponses, Weights) {
 
 TEST(StageResponses, Interpolation) {
   for_each("interpolation", Config{}, 3000, [&](const Values& in, const Values& out) {
-    const auto check = [&](const std::string& from, const std::string& to, int index) {
+    // `element(i)`: of corner i; attributes have no corner 0.
+    const auto check = [&](const std::string& from, const std::string& to, int index, int first, auto&& element) {
       long double exact = 0, largest = 0;
-      for (int i = 0; i < 4; ++i) {
-        const long double term = in.number("m_", i) * in.number(from, index < 0 ? i : 4 * index + i, true);
+      for (int i = first; i < 4; ++i) {
+        const long double term = in.number("m_", i) * in.number(from, element(i), true);
         exact += term;
         largest = fmaxl(largest, fabsl(term));
       }
-      // Four terms cut 19 bits below the binary order of the largest, and the sum to 18 bits.
-      EXPECT_LE(fabsl(out.number(to, index, true) - exact), largest * 4 * 0x1p-19L + fabsl(exact) * 0x1p-17L)
+      // Terms cut 19 bits below the binary order of the largest, and the sum to 18 bits.
+      EXPECT_LE(fabsl(out.number(to, index, true) - exact), largest * (4 - first) * 0x1p-19L + fabsl(exact) * 0x1p-17L)
           << to << index;
     };
-    check("k_", "den_k_", -1);
-    check("w_", "den_w_", -1);
-    check("z_", "z_", -1);
-    for (int j = 0; j < 4; ++j) check("b_", "attr_", j);
+    const auto corner = [](int i) { return i; };
+    check("k_", "den_k_", -1, 0, corner);
+    check("w_", "den_w_", -1, 0, corner);
+    check("z_", "z_", -1, 0, corner);
+    for (int j = 0; j < 4; ++j) check("b_", "attr_", j, 1, [&](int i) { return 3 * j + i - 1; });
   });
 }
 
 TEST(StageResponses, Depth) {
-  std::uint64_t valid = 0, discarded = 0, saturated = 0;
+  std::uint64_t valid = 0, discarded = 0, saturated = 0, clamped_z = 0;
   for_each("depth", Config{}, 6000, [&](const Values& in, const Values& out) {
     const long double w = in.number("den_w_", -1, true), k = in.number("den_k_", -1, true);
-    const long double z = w == 0 ? 4 : in.number("z_", -1, true) / w;
+    const auto integer = [&](const char* name, int index = -1) {
+      return static_cast<long double>(in.integer(name, index));
+    };
+    // Window z in codes: its base and the quotient, between the corners'. A truncated reciprocal of 18 bits, half a
+    // code.
+    const long double low = integer("depth_low"), high = integer("depth_high");
+    const auto clamp = [](long double v, long double lo, long double hi) { return fmaxl(lo, fminl(hi, v)); };
+    const long double quotient = w == 0 ? 0 : ldexpl(in.number("z_", -1, true) / w, 24);
+    const long double sum = integer("base_depth") + quotient, error = fabsl(quotient) * 3 * 0x1p-17L + 0.5L;
+    const long double z_low = w == 0 ? high : clamp(sum - error, low, high),
+                      z_high = w == 0 ? high : clamp(sum + error, low, high);
     const bool depth = in.integer("depth_on") != 0;
-    const long double slack = fabsl(z) * 3 * 0x1p-17L + 0x1p-24L;
-    const long double lo = ldexpl(static_cast<long double>(in.integer("znear")), -24),
-                      hi = ldexpl(static_cast<long double>(in.integer("zfar")), -24);
+    const long double near = integer("znear"), far = integer("zfar");
     const bool behind = in.integer("hull") != 0 && !(w > 0);
-    const bool out_of_range = depth && (z < fmaxl(lo - slack, -0x1p-24L) - slack || z > hi + 0x1p-23L + slack);
-    const bool inside = !depth || (z > fmaxl(lo + slack, 0) + slack && z < fminl(hi, 1) - slack);
+    const bool out_of_range = depth && (z_high < near || z_low > far);
+    const bool inside = !depth || (z_low >= near && z_high <= far);
     if (behind || out_of_range) {
       EXPECT_EQ(out.integer("valid"), 0);
     }
@@ -595,26 +667,28 @@ TEST(StageResponses, Depth) {
       return;
     }
     ++valid;
-    const long double code = ldexpl(static_cast<long double>(out.integer("depth")), -24);
+    const auto code = static_cast<long double>(out.integer("depth"));
     if (!depth) {
       EXPECT_EQ(code, 0);
-    }
-    if (depth && w != 0 && fabsl(z) < 1.9L) {
-      EXPECT_LE(fabsl(code - fmaxl(z, 0)), slack);
+    } else {
+      EXPECT_GE(code, z_low);
+      EXPECT_LE(code, z_high);
+      clamped_z += w != 0 && (sum < low || sum > high);
     }
     bool clamped = false, uncertain = false;
     for (int j = 0; j < 4; ++j) {
-      const long double a = k == 0 ? 0 : in.number("attr_", j, true) / k;
-      const long double actual = ldexpl(static_cast<long double>(out.integer("attr", j)), -20);
+      const auto actual = static_cast<long double>(out.integer("attr", j));
       if (j >= in.integer("attributes")) {
         EXPECT_EQ(actual, 0);
         continue;
       }
-      const long double error = fabsl(a) * 3 * 0x1p-17L + 0x1p-20L;
-      clamped = clamped || fabsl(a) >= 8;
-      uncertain = uncertain || fabsl(fabsl(a) - 8) < error;
-      const long double limit = 8 - 0x1p-20L;
-      EXPECT_LE(fabsl(actual - fmaxl(-limit, fminl(limit, a))), error) << j;
+      const long double q = k == 0 ? 0 : ldexpl(in.number("attr_", j, true) / k, 24);
+      const long double a = integer("base_attr", j) + q, slack = fabsl(q) * 3 * 0x1p-17L + 0.5L;
+      const long double limit = 0x1p31L - 1;
+      clamped = clamped || fabsl(a) - slack > limit;
+      uncertain = uncertain || fabsl(fabsl(a) - limit) <= slack + 0.5L;
+      EXPECT_GE(actual, clamp(a - slack, -limit, limit)) << j;
+      EXPECT_LE(actual, clamp(a + slack, -limit, limit)) << j;
     }
     if (!uncertain) {
       EXPECT_EQ(out.integer("saturated"), clamped);
@@ -624,6 +698,7 @@ TEST(StageResponses, Depth) {
   EXPECT_GT(valid, 1000u);
   EXPECT_GT(discarded, 1000u);
   EXPECT_GT(saturated, 100u);
+  EXPECT_GT(clamped_z, 100u);
 }
 
 }  // namespace

@@ -769,8 +769,8 @@ void add_front_stages(std::vector<std::unique_ptr<Suite>>& suites) {
   const auto add = [&](SuiteInfo info, StageSuite::Make make) {
     suites.push_back(std::make_unique<StageSuite>(std::move(info), make));
   };
-  add({"snapping", "snapping", "Vertices as given to the integers of the port", "none", 0,
-       "nothing: every bit pattern of every double occurs"},
+  add({"snapping", "snapping", "Quads as given to the integers of the port", "none", 0,
+       "nothing: any double may occur"},
       make_stage<Snapping>);
   add({"setup", "handshake", "Edge functions, squared lengths, tiles and visibility of a quad", "quad_setup", 0,
        "|x| or |y| above 2^(POS_INT+FRAC); |w| above 2^FRAC; x = y = w = 0; a scissor rectangle beyond 2^VIEWPORT_BITS "

@@ -434,17 +434,19 @@ struct InterpolationLists {
         f, magnitudes("m_exp", "m_sig", c, "M: weights of the corners"),
         4, [&](std::size_t i) -> auto& { return d.pixel.m[i]; });
     visit_numbers(
-        f, port_numbers("k_neg", "k_exp", "k_sig", c, "k of the corners; without perspective w"),
+        f, port_numbers("k_neg", "k_exp", "k_sig", c, "k of the corners; without perspective W"),
         4, [&](std::size_t i) -> auto& { return d.data.k[i]; });
     visit_numbers(
-        f, port_numbers("w_neg", "w_exp", "w_sig", c, "k w of the corners"),
+        f, port_numbers("w_neg", "w_exp", "w_sig", c, "W of the corners"),
         4, [&](std::size_t i) -> auto& { return d.data.w[i]; });
     visit_numbers(
-        f, port_numbers("z_neg", "z_exp", "z_sig", c, "Z of the corners"),
+        f, port_numbers("z_neg", "z_exp", "z_sig", c, "Z of the corners: k times (z minus base)"),
         4, [&](std::size_t i) -> auto& { return d.data.z[i]; });
     visit_numbers(
-        f, port_numbers("b_neg", "b_exp", "b_sig", c, "b: element 4 j + i is attribute j of corner i"),
-        4 * c.attribute_slots, [&](std::size_t i) -> auto& { return d.data.b[i % 4][i / 4]; });
+        f,
+        port_numbers("b_neg", "b_exp", "b_sig", c,
+                     "k times (attribute minus base): element 3 j + i - 1 is attribute j of corner i, 1 to 3"),
+        3 * c.attribute_slots, [&](std::size_t n) -> auto& { return d.data.b[1 + n % 3][n / 3]; });
   }
   template <class D, class F>
   static void response(D& d, const Config& c, F&& f) {
@@ -536,6 +538,15 @@ struct DepthLists {
     f(depth_type(c, "zfar", "fragments above are discarded"), -1, d.zfar);
     f(plain("attributes", 4, "attributes in use"), -1, d.state.attributes);
     f(plain("hull", 1, "the eye is in the hull: discard unless the sum of M W is positive"), -1, d.data.hull);
+    auto& base = d.data.base;
+    visit_array(
+        f, fixed("base_attr", attr_out_bits(c), attr_out_frac(c), "1", "bases of the attributes"),
+        c.attribute_slots, [&](std::size_t i) -> auto& { return base.attribute[i]; });
+    f(depth_type(c, "base_depth", "base of window z"), -1, base.depth);
+    f(fixed("depth_low", corner_depth_bits(c), depth_frac(c), "1", "least corner's z: window z is not below"), -1,
+      base.depth_low);
+    f(fixed("depth_high", corner_depth_bits(c), depth_frac(c), "1", "greatest corner's z: window z is not above"), -1,
+      base.depth_high);
     visit(d.pixel, Boundary::sum, c, f);
   }
   template <class D, class F>
@@ -570,7 +581,9 @@ class Depth : public StageOf<DepthLists> {
   FieldRange range(const RecordField& f) const override {
     const Exponents e(config());
     if (f.name == "attributes") return {0, config().attribute_slots};
-    if (f.name == "znear" || f.name == "zfar") return {0, std::int64_t{1} << config().depth_bits};
+    if (f.name == "znear" || f.name == "zfar" || f.name == "base_depth") return {0, depth_one()};
+    if (f.name == "depth_low" || f.name == "depth_high") return {-1, config().depth_above()};
+    if (f.name == "base_attr") return {-config().attribute_limit(), config().attribute_limit()};
     if (f.name.ends_with("exp")) return {e.sum_lo, e.sum_hi};
     return StageUnderTest::range(f);
   }
@@ -585,6 +598,7 @@ class Depth : public StageOf<DepthLists> {
     fit(d.pixel.num_z);
     fit(d.pixel.den_k);
     fit(d.pixel.den_w);
+    if (d.data.base.depth_low > d.data.base.depth_high) std::swap(d.data.base.depth_low, d.data.base.depth_high);
   }
 
   void shape(golden::Prng& prng, StageData& d) const override {
@@ -597,30 +611,49 @@ class Depth : public StageOf<DepthLists> {
     };
     for (PipelineFloat& a : p.num_a)
       near(a, p.den_k, config().attribute_int_bits + 1, prng.chance(0.5) ? 3 : config().attribute_frac() + 2);
-    near(p.num_z, p.den_w, 2, prng.chance(0.7) ? 2 : config().depth_bits + 2);
+    near(p.num_z, p.den_w, 2, prng.chance(0.7) ? 4 : config().depth_bits + 2);
     p.den_w.neg = prng.chance(0.2);
-    p.num_z.neg = p.den_w.neg != prng.chance(0.1);
+    p.num_z.neg = p.den_w.neg != prng.chance(0.4);
     if (prng.chance(0.6)) {
       d.znear = 0;
-      d.zfar = std::uint32_t{1} << config().depth_bits;
+      d.zfar = static_cast<std::uint32_t>(depth_one());
     }
+    // Corners as quads have them: about the base, or anywhere where one is behind the eye.
+    QuadBase& base = d.data.base;
+    base.depth_low = -1;
+    base.depth_high = config().depth_above();
+    if (prng.chance(0.7)) {
+      const auto beside = [&](std::int64_t span) {
+        return static_cast<std::int32_t>(
+            std::clamp<std::int64_t>(base.depth + prng.integer(-span, span), -1, config().depth_above()));
+      };
+      const std::int64_t span = std::int64_t{1} << prng.below(static_cast<std::uint64_t>(config().depth_bits));
+      base.depth_low = beside(span), base.depth_high = beside(span);
+    }
+    for (std::int64_t& attribute : base.attribute)
+      if (prng.chance(0.3)) attribute = prng.integer(-3, 3);
     d.state.attributes = static_cast<int>(prng.integer(0, config().attribute_slots));
   }
 
   void corners(const Sink& sink) const override {
     const std::uint32_t one = context_.format.one().sig, most = 2 * one - 1,
-                        depth_one = std::uint32_t{1} << config().depth_bits;
+                        depth_one = static_cast<std::uint32_t>(this->depth_one());
     StageData d;
     d.state.attributes = config().attribute_slots;
     d.zfar = depth_one;
     PixelTrace& p = d.pixel;
-    // z of 0, the smallest code, 1/2, just below and at 1, above; every sign; every kind of denominator; limits about
-    // it.
+    QuadBase& base = d.data.base;
+    base.depth_low = -1;
+    base.depth_high = config().depth_above();
+    // Quotients of 0, half a code and beside it, 1/2, just below and at 1, above; every sign; every kind of
+    // denominator; limits about them.
+    std::uint32_t turn = 0;
     for (const PipelineFloat den :
          {PipelineFloat{}, PipelineFloat{false, 0, one}, PipelineFloat{true, 0, one}, PipelineFloat{false, 3, most}})
       for (const PipelineFloat num :
            {PipelineFloat{}, PipelineFloat{false, -config().depth_bits, one},
-            PipelineFloat{false, -config().depth_bits - 1, most}, PipelineFloat{false, -1, one},
+            PipelineFloat{false, -config().depth_bits - 1, one}, PipelineFloat{false, -config().depth_bits - 1, most},
+            PipelineFloat{false, -config().depth_bits - 2, most}, PipelineFloat{false, -1, one},
             PipelineFloat{false, -1, most}, PipelineFloat{false, 0, one}, PipelineFloat{false, 0, one + 1},
             PipelineFloat{false, 1, one}, PipelineFloat{false, 30, one}})
         for (const bool neg : {false, true})
@@ -632,6 +665,8 @@ class Depth : public StageOf<DepthLists> {
               p.num_a.fill({neg, 0, most});
               d.data.hull = hull;
               d.state.depth = depth;
+              base.depth = turn++ % 2 == 0 ? 0 : depth_one / 2 + turn % 3;
+              base.attribute.fill(turn % 5 == 0 ? config().attribute_limit() : 0);
               for (const std::uint32_t lo : {std::uint32_t{0}, std::uint32_t{1}, depth_one / 2, depth_one}) {
                 d.znear = lo;
                 d.zfar = depth_one;
@@ -641,24 +676,50 @@ class Depth : public StageOf<DepthLists> {
                 sink(d);
               }
             }
+    // Base and corners: a sum beyond either corner and one code beside it, bases at 0 and 1.
+    d.znear = 0;
+    d.zfar = depth_one;
+    d.state.depth = true;
+    d.data.hull = false;
+    p.den_w = {false, 0, one};
+    p.num_a.fill({});
+    for (const std::uint32_t at : {std::uint32_t{0}, std::uint32_t{1}, depth_one / 2, depth_one - 1, depth_one})
+      for (const int codes_log2 : {-2, -1, 0, 1, config().depth_bits - 1, config().depth_bits, config().depth_bits + 1})
+        for (const bool neg : {false, true})
+          for (const int low : {-1, 0, 1, 2})
+            for (const int high : {0, 1, 2})
+              for (const bool wide : {false, true}) {
+                p.num_z = {neg, codes_log2 - config().depth_bits, wide ? most : one};
+                base.depth = at;
+                base.depth_low = std::max(static_cast<std::int32_t>(at) - low, -1);
+                base.depth_high = std::min(static_cast<std::int32_t>(at) + high, config().depth_above());
+                sink(d);
+              }
     // Attributes at and around the ends of their format, one at a time.
     d.znear = 0;
     d.zfar = depth_one;
     d.state.depth = false;
     d.data.hull = false;
     const int top = config().attribute_int_bits, low = -config().attribute_frac();
+    const std::int64_t limit = config().attribute_limit();
     for (std::size_t j = 0; j < static_cast<std::size_t>(config().attribute_slots); ++j)
-      for (const int exp : {top + 1, top, top - 1, 0, low + 1, low, low - 1, low - 40, low - 70})
+      for (const int exp : {top + 2, top + 1, top, top - 1, 0, low + 1, low, low - 1, low - 2, low - 40, low - 70})
         for (const std::uint32_t sig : {one, one + 1, most})
           for (const bool neg : {false, true})
-            for (int used : {static_cast<int>(j), static_cast<int>(j) + 1}) {
-              p.num_a.fill({});
-              p.num_a[j] = {neg, exp, sig};
-              p.den_k = {false, 0, one};
-              d.state.attributes = used;
-              sink(d);
-            }
+            for (const std::int64_t from : {std::int64_t{0}, limit, -limit, limit - 1, 1 - limit, std::int64_t{-1}})
+              for (int used : {static_cast<int>(j), static_cast<int>(j) + 1}) {
+                p.num_a.fill({});
+                p.num_a[j] = {neg, exp, sig};
+                p.den_k = {false, 0, one};
+                base.attribute.fill(0);
+                base.attribute[j] = from;
+                d.state.attributes = used;
+                sink(d);
+              }
   }
+
+ private:
+  std::int64_t depth_one() const { return std::int64_t{1} << config().depth_bits; }
 };
 
 }  // namespace
@@ -686,13 +747,15 @@ void add_pixel_stages(std::vector<std::unique_ptr<Suite>>& suites) {
            "r = 0 elsewhere than at a corner, and another r there; u = 0 elsewhere than at a corner, and another u "
            "or v there; v above u, or 0 elsewhere than where A is 0, or not 0 there"},
       make_stage<Weights>);
-  add({"interpolation", "stage", "Weighted sums over the corners", "interpolate",
+  add({"interpolation", "stage", "Weighted sums over the corners, of attributes over three", "interpolate",
        latency::sum_stage - latency::weight_stage,
        numbers + "exponents of M that neither three factors nor a number of the port have; |W| above 1"},
       make_stage<Interpolation>);
-  add({"depth", "stage", "Quotients, fixed point, saturation and discard", "fragment_output",
+  add({"depth", "stage", "Quotients rounded and added to their bases, clamps and discard", "fragment_output",
        latency::fragment_stage - latency::sum_stage,
-       numbers + "exponents that no sum has; attributes above ATTRIBUTE_SLOTS; znear or zfar above 1"},
+       numbers + "exponents that no sum has; attributes above ATTRIBUTE_SLOTS; znear, zfar or base_depth above 1; "
+                 "depth_low above depth_high, "
+                 "or one of them below -1 or above 2^DEPTH_BITS + 1; the most negative base_attr"},
       make_stage<Depth>);
 }
 

@@ -134,6 +134,10 @@ class StressCommand {
         if (s.state.width > 1 << config_.viewport_bits)
           throw UsageError(name + " is drawn " + std::to_string(s.state.width) + " pixels wide: viewport_bits = " +
                            std::to_string(config_.viewport_bits) + " is too few; leave it out with --families");
+        if (s.approach->attribute >= std::ldexp(1.0, config_.attribute_int_bits))
+          throw UsageError(name + " has attributes up to " + std::to_string(static_cast<int>(s.approach->attribute)) +
+                           ": attribute_int_bits = " + std::to_string(config_.attribute_int_bits) +
+                           " is too few; leave it out with --families");
       } else {
         s.family = golden::parse_stress_family(name);
         const golden::StressFamilyInfo& info = golden::stress_families()[static_cast<std::size_t>(*s.family)];
