@@ -61,7 +61,8 @@ golden::CornerDraw saturated(const Config& config) {
       const std::array<double, 4> first{low, 1.5, 1.25, low}, second{1.5, 2.5, 2, 1.25}, w{1, 2, 1, 4};
       SnappedQuad quad;
       const auto base = [&](double value) {
-        return std::clamp<std::int64_t>(std::llround(std::ldexp(sign * limit * value, config.attribute_frac())), -largest, largest);
+        return std::clamp<std::int64_t>(std::llround(std::ldexp(sign * limit * value, config.attribute_frac())),
+                                        -largest, largest);
       };
       quad.base.attribute[0] = base(low);
       quad.base.attribute[1] = base(second[0]);

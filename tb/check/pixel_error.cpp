@@ -26,6 +26,26 @@ Config with_slots(const Config& config) { return snapping_config(config, 4); }
 
 }  // namespace
 
+PixelAlone pixel_alone(const SnappedQuad& quad, const Config& config, const DrawState& state,
+                       const PipelineContext& context, int px, int py) {
+  const SetupResult setup = quad_setup(quad, config, state);
+  const QuadConstants constants(setup);
+  TileEntry tile;
+  tile.tile_x = px >> config.tile_log2;
+  tile.tile_y = py >> config.tile_log2;
+  const int x = (tile.tile_x - setup.tile_x0) * config.tile(), y = (tile.tile_y - setup.tile_y0) * config.tile();
+  WalkState walk;
+  for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
+  walk_step(walk, constants, x, y);
+  tile.linear = walk.linear;
+  tile.quadratic = tile_context(constants, x, y, config.qdrop());
+  const int dx = px & (config.tile() - 1), row = py & (config.tile() - 1);
+  PixelAlone out;
+  out.covered = (stamp_coverage(tile, constants, row, config, state).mask >> dx & 1) != 0;
+  pixel_pipeline(out.trace, tile, constants, quad_data(quad, setup, config, state), dx, row, context);
+  return out;
+}
+
 /// The truth's formulas in 80-bit arithmetic on exact integers. Attributes and depth need more than weights do.
 struct PixelErrors::QuickTruth {
   std::array<long double, 4> lambda{};
@@ -129,24 +149,10 @@ double PixelErrors::measure(const WindowQuad& quad, int px, int py) const {
   } catch (const SnapError&) {
     return -1;
   }
-  const SetupResult setup = quad_setup(q, config_, state_);
-  const QuadConstants constants(setup);
-  TileEntry tile;
-  tile.tile_x = px >> config_.tile_log2;
-  tile.tile_y = py >> config_.tile_log2;
-  const int x = (tile.tile_x - setup.tile_x0) * config_.tile(), y = (tile.tile_y - setup.tile_y0) * config_.tile();
-  WalkState walk;
-  for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
-  walk_step(walk, constants, x, y);
-  tile.linear = walk.linear;
-  tile.quadratic = tile_context(constants, x, y, config_.qdrop());
-  const int dx = px & (config_.tile() - 1), row = py & (config_.tile() - 1);
-  if (!(stamp_coverage(tile, constants, row, config_, state_).mask >> dx & 1)) return -1;
+  const PixelAlone pixel = pixel_alone(q, config_, state_, context_, px, py);
+  if (!pixel.covered || !pixel.trace.drawn) return -1;
   const auto truth = quick_truth(q, px, py);
-  if (!truth) return -1;
-  PixelTrace p;
-  pixel_pipeline(p, tile, constants, quad_data(q, setup, config_, state_), dx, row, context_);
-  return p.drawn ? units_of(p.fragment, q, *truth) : -1;
+  return truth ? units_of(pixel.trace.fragment, q, *truth) : -1;
 }
 
 PixelError PixelErrors::judge(const WindowQuad& quad, int x, int y) {

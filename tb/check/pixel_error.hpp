@@ -13,6 +13,14 @@
 
 namespace quadrille::cli {
 
+/// The model's pure functions at one pixel.
+struct PixelAlone {
+  bool covered = false;
+  PixelTrace trace;  ///< as if it were covered
+};
+PixelAlone pixel_alone(const SnappedQuad& quad, const Config& config, const DrawState& state,
+                       const PipelineContext& context, int x, int y);
+
 enum class Output { weight, attribute, depth };
 inline constexpr std::array<std::string_view, 3> output_names{"weight", "attribute", "depth"};
 

@@ -162,13 +162,13 @@ class StageCheck {
     const std::int64_t largest = attribute_format(config_).largest_code();
     for (std::int64_t& a : base.attribute)
       a = rng_.chance(0.2) ? (rng_.chance(0.5) ? largest : -largest) : rng_.integer(-largest, largest);
-    const std::int64_t above = std::int64_t{1} << config_.depth_bits;
-    base.depth = static_cast<std::uint32_t>(rng_.chance(0.2) ? (rng_.chance(0.5) ? above : 0) : rng_.integer(0, above));
+    const std::int64_t whole = std::int64_t{1} << config_.depth_bits;
+    base.depth = static_cast<std::uint32_t>(rng_.chance(0.2) ? (rng_.chance(0.5) ? whole : 0) : rng_.integer(0, whole));
     base.depth_low = -1;
-    base.depth_high = static_cast<std::int32_t>(above + 1);
+    base.depth_high = static_cast<std::int32_t>(whole + 1);
     if (rng_.chance(0.5)) {
-      const auto a = static_cast<std::int32_t>(rng_.integer(-1, above + 1)),
-                 b = static_cast<std::int32_t>(rng_.integer(-1, above + 1));
+      const auto a = static_cast<std::int32_t>(rng_.integer(-1, whole + 1)),
+                 b = static_cast<std::int32_t>(rng_.integer(-1, whole + 1));
       base.depth_low = std::min(a, b);
       base.depth_high = std::max(a, b);
     }
