@@ -238,7 +238,7 @@ TEST(BaseAndDifference, ErrorsFollowWhatVaries) {
   std::printf("largest error against exact arithmetic on the same snapped quads, log2\n");
   std::printf("%3s %9s %9s | %7s %7s %7s %7s\n", "s", "fraction", "fragments", "u", "v", "z", "depth");
   for (const int s : {12, 18, 24})
-    for (const int fraction : {26, 30}) {
+    for (const int fraction : {of_bits(s).attribute_frac(), 30}) {
       Config config = of_bits(s);
       config.set("attribute_frac_bits", fraction);
       const Fragments drawn = draw_values(EngineKind::model, config, quads);
