@@ -3,6 +3,7 @@
 #include "golden/scenes/plane_pair.hpp"
 #include "golden/scenes/projection.hpp"
 #include "golden/scenes/scenes.hpp"
+#include "golden/scenes/stress.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <vector>
@@ -125,6 +127,30 @@ TEST(DepthAtLimits, CornersOnBothLimits) {
       EXPECT_EQ(count(square(z), of_bits(s), state), whole) << s;
       EXPECT_EQ(count(in_perspective(square(z), distances), of_bits(s), state), whole) << s;
     }
+}
+
+/// The limits are the least and the greatest code of each quad's corners. What a quad's arithmetic adds to that at some
+/// pixel must not cost the pixel.
+TEST(DepthAtLimits, NoPixelIsLostBetweenTheCorners) {
+  std::size_t pixels = 0;
+  for (const golden::StressFamily family :
+       {golden::StressFamily::general, golden::StressFamily::perspective, golden::StressFamily::near_edge,
+        golden::StressFamily::on_vertex, golden::StressFamily::sliver})
+    for (const WindowQuad& quad : golden::make_stress(family, 150, 7, 1, size, size, 1)) {
+      DrawState state = picture();
+      state.znear = 2;
+      state.zfar = -1;
+      for (const WindowVertex& v : quad.vertex) {
+        const double code = std::floor(std::ldexp(v.z / v.w, 24) + 0.5);
+        state.znear = std::min(state.znear, std::ldexp(code, -24));
+        state.zfar = std::max(state.zfar, std::ldexp(code, -24));
+      }
+      const std::size_t within = count(quad, of_bits(12), state);
+      state.depth = false;
+      EXPECT_EQ(within, count(quad, of_bits(12), state)) << golden::stress_family_name(family) << " " << quad.id;
+      pixels += within;
+    }
+  EXPECT_GT(pixels, 80'000u);
 }
 
 /// A cube far away from an eye that sees from 0.001 to a million: its depths are sixteen codes below 1. Every pixel in
