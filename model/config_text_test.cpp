@@ -108,7 +108,7 @@ TEST(ConfigText, WhatIsWrongIsNamedWithItsLine) {
 TEST(ConfigText, NumbersByName) {
   const Config config = of("significand_bits=12");
   EXPECT_EQ(config_number(config, "significand_bits"), 12);
-  EXPECT_EQ(config_number(config, "attribute_frac_bits"), 14) << "auto is s + 2";
+  EXPECT_EQ(config_number(config, "attribute_frac_bits"), 24) << "auto is at least 24";
   EXPECT_EQ(config_number(config, "ATTR_PORT_BITS"), 1 + 9 + 12);
   EXPECT_EQ(config_number(config, "ATTR_PORT"), std::nullopt);
 }

@@ -350,22 +350,25 @@ TEST(FloatLanes, PixelsByLane) {
   EXPECT_EQ(plain.lane_pixels().plain, plain.stats().pixels);
 }
 
-/// A parallelogram whose values are the same along a pair of its sides, at depths inside [0, 1).
+/// A parallelogram whose values are the same along a pair of its sides, its depths within a small interval.
 SnappedQuad plane_one(Prng& rng, const Config& c, SnappedQuad q) {
-  const int depth = static_cast<int>(rng.integer(-8, -1));
+  const int depth = static_cast<int>(rng.integer(-12, -4));
+  const auto reach = static_cast<std::int32_t>(rng.below(1u << (c.depth_bits - 6)));
+  q.base.depth = static_cast<std::uint32_t>(rng.integer(reach, (1 << c.depth_bits) - reach));
+  q.base.depth_low = static_cast<std::int32_t>(q.base.depth) - reach;
+  q.base.depth_high = static_cast<std::int32_t>(q.base.depth) + reach;
   const auto step = [&] { return static_cast<std::int32_t>(rng.integer(-12, 80)) << (c.frac() - 1); };
   const std::int32_t ax = step(), ay = rng.chance(0.5) ? 0 : step(), bx = rng.chance(0.5) ? 0 : step(), by = step();
   for (std::size_t i = 0; i < 4; ++i) {
     SnappedVertex& v = q.vertex[i];
     v.z = q.vertex[0].z;
-    v.z.neg = false;
-    v.z.exp = depth;
+    if (v.z.sig != 0) v.z.exp = depth;
     v.x = q.vertex[0].x + (i == 1 || i == 2 ? ax : 0) + (i >= 2 ? bx : 0);
     v.y = q.vertex[0].y + (i == 1 || i == 2 ? ay : 0) + (i >= 2 ? by : 0);
     v.k = q.vertex[0].k;
   }
   const std::size_t next = rng.chance(0.5) ? 1 : 3;  // along 01 and 32, or along 03 and 12
-  q.vertex[next].attribute = q.vertex[0].attribute;
+  q.vertex[next].attribute = {};                     // that of vertex 0
   q.vertex[next == 1 ? 3 : 1].attribute = q.vertex[2].attribute;
   return q;
 }
@@ -429,7 +432,10 @@ TEST(FloatLanes, TakeWhatFits) {
     while (draw(*std::make_unique<UntimedModel>(c, s), q).empty());
     return q;
   };
-  const SnappedQuad good = quad();
+  SnappedQuad good = quad();
+  good.vertex[1].x |= 1 << c.homogeneous_frac_bits;  // the finest position of an ordinary vertex
+  for (const std::size_t i : {1, 2}) good.vertex[i].attribute[0] = {i == 1, 1, (1u << c.significand_bits) - 1};
+  good.base.attribute[0] = 0;
   EXPECT_TRUE(taken(good, c, s));
   SnappedQuad bad = good;
   bad.vertex[1].k.exp = 30;
@@ -437,8 +443,32 @@ TEST(FloatLanes, TakeWhatFits) {
   bad.vertex[1].k.exp = 31;
   EXPECT_FALSE(taken(bad, c, s)) << "exponents go to 30";
   bad = good;
-  bad.vertex[2].attribute[0] = {true, -31, 1u << (c.significand_bits - 1)};
+  bad.vertex[2].attribute[0].exp = 31;
   EXPECT_FALSE(taken(bad, c, s));
+  bad.vertex[2].attribute[0].exp = -256;
+  EXPECT_TRUE(taken(bad, c, s)) << "differences may be as small as they like";
+  bad.vertex[0].attribute[0] = {false, 31, 1u << (c.significand_bits - 1)};
+  EXPECT_TRUE(taken(bad, c, s)) << "of vertex 0 there is none";
+  {
+    const PipelineContext context(c, s);
+    FloatQuad out;
+    SmallQuad small;
+    EXPECT_EQ(FloatLanes(context).take_small(bad, out, small), QuadReject::none) << "nor in what small quads read";
+  }
+  for (const std::int64_t beyond : {0, 1}) {  // a code that no attribute has
+    bad = good;
+    bad.base.attribute[0] = -c.attribute_limit() - beyond;
+    EXPECT_EQ(taken(bad, c, s), beyond == 0);
+    bad = good;
+    bad.base.depth_low = static_cast<std::int32_t>(-1 - beyond);
+    EXPECT_EQ(taken(bad, c, s), beyond == 0);
+    bad.base.depth_low = -1;
+    bad.base.depth_high = static_cast<std::int32_t>(c.depth_above() + beyond);
+    EXPECT_EQ(taken(bad, c, s), beyond == 0);
+    bad.base.depth_high = c.depth_above();
+    bad.base.depth = static_cast<std::uint32_t>(c.depth_above() - 1 + beyond);
+    EXPECT_EQ(taken(bad, c, s), beyond == 0);
+  }
   bad = good;
   bad.vertex[0].w -= 1;
   EXPECT_FALSE(taken(bad, c, s)) << "not ordinary";
@@ -501,23 +531,23 @@ std::vector<Limit> limits() {
       c.sqrt_segments_log2 = segments - 1;
       c.recip_segments_log2 = segments;
     });
-  for (const int exponent : {-31, -30, -29, 29, 30, 31}) {
-    const bool fits = std::abs(exponent) <= 30;
-    const auto number = [&](const std::string& what, auto&& of) {
+  for (const int exponent : {-256, -127, -126, -91, -90, -64, -31, -30, -29, 29, 30, 31}) {
+    const auto number = [&](const std::string& what, bool difference, auto&& of) {
+      const bool fits = exponent <= 30 && (difference || exponent >= -30);
       for (std::size_t first = 0; first < 5; ++first)  // one vertex, or all
         list.push_back({what + " 2^" + std::to_string(exponent) + (first == 4 ? " everywhere" : ""), fits, standard,
                         [=](SnappedQuad& q) {
                           for (std::size_t i = 0; i < 4; ++i)
-                            if (first == 4 || first == i) {
+                            if (first == 4 || (difference && first == 0 ? 1 : first) == i) {
                               PortNumber& n = of(q.vertex[i]);
                               if (n.sig == 0) n.sig = 1u << 17;
                               n.exp = exponent;
                             }
                         }});
     };
-    number("k", [](SnappedVertex& v) -> PortNumber& { return v.k; });
-    number("Z", [](SnappedVertex& v) -> PortNumber& { return v.z; });
-    number("an attribute", [](SnappedVertex& v) -> PortNumber& { return v.attribute[1]; });
+    number("k", false, [](SnappedVertex& v) -> PortNumber& { return v.k; });
+    number("depth", true, [](SnappedVertex& v) -> PortNumber& { return v.z; });
+    number("an attribute", true, [](SnappedVertex& v) -> PortNumber& { return v.attribute[1]; });
   }
   // The sum of M k is near what the lanes leave to the plain pipeline, on either side of it.
   for (int exponent = -29; exponent <= -20; ++exponent)
@@ -548,6 +578,10 @@ TEST(FloatLanes, LimitsOfTheRange) {
       SnappedQuad quad;
       do quad = random_quad(rng, limit.config, 8);
       while (has_far_corner(quad, limit.config));
+      // No constants, of which nothing would be looked at.
+      quad.base.depth_low = -1;
+      quad.base.depth_high = limit.config.depth_above();
+      quad.vertex[3].attribute[0] = {false, 0, 1u << (limit.config.significand_bits - 1)};
       limit.edit(quad);
       ASSERT_EQ(taken(quad, limit.config, s), limit.taken);
       const std::vector<Fragment> expected = draw(plain, quad);

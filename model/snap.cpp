@@ -76,7 +76,7 @@ class VertexSnapper {
       : config_(config), w_(exact<Integer>(v.w)), z_(exact<Integer>(v.z)) {
     // Half a pixel first: pixel centres become integers.
     const Number half = w_.scaled(-1), x = exact<Integer>(v.x) - half, y = exact<Integer>(v.y) - half;
-    if (v.w > 0 && snap_ordinary(x, y)) return;
+    if (positive(v.w) && snap_ordinary(x, y)) return;
     snap_homogeneous(x, y);
   }
 
@@ -191,7 +191,7 @@ SnappedQuad snap_exactly(const WindowQuad& quad, std::size_t attributes, const C
     base.attribute[j] = (first.neg ? -1 : 1) * std::min(size, config.attribute_limit());
   }
   // Depths of vertices behind the eye are on no side of a pixel's.
-  const auto in_front = [](const WindowVertex& v) { return v.w > 0; };
+  const auto in_front = [](const WindowVertex& v) { return positive(v.w); };
   const bool bounded = std::ranges::all_of(quad.vertex, in_front);
   base.depth_high = bounded ? -1 : config.depth_above();
   base.depth_low = bounded ? config.depth_above() : -1;

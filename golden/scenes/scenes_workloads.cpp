@@ -1,5 +1,6 @@
 // Scenes that no paper has: loads for the machine, each with something that can be skipped, or with nothing of the
 // kind.
+#include "golden/scenes/plane_pair.hpp"
 #include "golden/scenes/scene_builders.hpp"
 #include "model/support/prng.hpp"
 
@@ -273,7 +274,7 @@ Scene room() {
 
 constexpr std::string_view no_paper = "workload";
 
-constexpr std::array<SceneEntry, 12> entries{{
+constexpr std::array<SceneEntry, 13> entries{{
     {"city_front", "A city of 100 boxes, front to back (seed 1)", no_paper, city_front},
     {"city_back", "The same city back to front", no_paper, city_back},
     {"city_random", "The same city in random order (seed 1)", no_paper, city_random},
@@ -286,6 +287,8 @@ constexpr std::array<SceneEntry, 12> entries{{
     {"layers_small", "Eight layers of unaligned quads of 32 × 32 pixels, front to back", no_paper, layers_small},
     {"layers_small_back", "The same back to front", no_paper, layers_small_back},
     {"layers_small_random", "The same in random order (seed 1)", no_paper, layers_small_random},
+    {"planes", "Eight pairs of parallel planes at distance 50, 1 to 0.005 apart, the nearer one over the other",
+     no_paper, plane_strips},
 }};
 
 }  // namespace

@@ -143,20 +143,7 @@ void require_format(const std::string& file, const Json& manifest) {
   if (!format.is_number_integer() || format != format_version)
     throw input_error(file, 0,
                       "has format " + golden::printable(format.dump().substr(0, 40)) + "; this program reads format " +
-                          std::to_string(format_version));
-}
-
-/// Every key in order, resolved. A manifest that holds a removed key is older than some keys: those it may lack, and
-/// they have their defaults.
-bool holds_every_key(const Json& given, const Config& config) {
-  Json expected = config_json(config), kept = Json::object();
-  for (const auto& [key, value] : given.items())
-    if (Config::removed(key) == nullptr) kept[key] = value;
-  if (kept.size() == given.size()) return given == expected;
-  Json there = Json::object();
-  for (const auto& [key, value] : expected.items())
-    if (given.contains(key)) there[key] = value;
-  return kept == there;
+                          std::to_string(format_version) + " (golden/CONVERTING.md)");
 }
 
 /// Level, seed, configuration: what set and suites share. `suites`: what the command has behind them.
@@ -179,7 +166,7 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
   } catch (const ConfigError& error) {
     throw input_error(file, 0, "config: " + golden::printable(error.what()));
   }
-  if (!holds_every_key(config, info.config)) throw input_error(file, 0, "config does not hold every key, in order");
+  if (config != config_json(info.config)) throw input_error(file, 0, "config does not hold every key, in order");
   if (object_member(file, manifest, "derived") != derived_json(info.config))
     throw input_error(file, 0, "\"derived\" does not follow from \"config\"");
 
@@ -193,7 +180,7 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
   named.level = info.level;
   named.seed = info.seed;
   const std::string spelled = set_command(named);
-  if (!command.starts_with(spelled) || config_json(named.config) != config_json(info.config))
+  if (!command.starts_with(spelled) || config_json(named.config) != config)
     throw input_error(file, 0, "\"command\" does not generate this level, seed and configuration");
   suites = command.substr(spelled.size());
   return named;

@@ -22,7 +22,7 @@
 namespace quadrille::vectors {
 
 /// Version of the format; grows when a reader of the old one would misread a set.
-inline constexpr int format_version = 1;
+inline constexpr int format_version = 2;
 
 /// What a suite is, for listings and its manifest.
 struct SuiteInfo {

@@ -117,6 +117,12 @@ struct DoubleBits {
   }
 };
 
+/// value > 0, also of a subnormal number.
+inline bool positive(double value) {
+  const DoubleBits bits(value);
+  return bits.m != 0 && !bits.neg;
+}
+
 template <class Integer>
 Exact<Integer> exact(double value) {
   const DoubleBits bits(value);

@@ -1,5 +1,6 @@
-// Hill climbing over quads and pixels for the largest arithmetic error of a weight: |λ' of the untimed model − λ' of
-// the truth on the same snapped input|, in units of 2^-s. Bound: 8 units (2^-(s-3)).
+// Hill climbing over quads and pixels for the largest arithmetic error of a weight, or with --output attribute or depth
+// of such a value: |untimed model − truth on the same snapped input|, in units of 2^-s of weights 1 to 3, of an eighth
+// of their bounds of everything else (tb/check/pixel_error.hpp). Bound: 8 units.
 //
 // The climb itself looks at one pixel through the pure functions of the model; the verdict on every climb's summit
 // comes from UntimedModel against TruthQuad (PixelErrors). Starts are the stress families, whose shape a climb leaves;
@@ -20,13 +21,16 @@
 #include "tb/check/error_limits.hpp"
 #include "tb/check/pixel_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 
 namespace quadrille::campaign {
 namespace {
 
+using cli::Output;
 using cli::PixelError;
 using cli::PixelErrors;
 using golden::Prng;
@@ -38,6 +42,7 @@ struct Candidate {
   golden::PixelPlace at;
 };
 
+/// PixelErrors switch depth on where it is looked at.
 DrawState draw_state() {
   DrawState s;
   s.width = s.height = s.scissor_x1 = s.scissor_y1 = viewport;
@@ -45,8 +50,39 @@ DrawState draw_state() {
   return s;
 }
 
-Candidate mutate(const Candidate& from, Prng& rng) {
+/// The attribute of a vertex, in [-1, 1], or its window z, in [0, 1]: anywhere, at an end, or a step away.
+void mutate_value(Candidate& c, Output output, Prng& rng) {
+  const std::size_t i = rng.below(4);
+  WindowVertex& v = c.quad.vertex[i];
+  const bool depth = output == Output::depth;
+  if (depth && v.w == 0) return;
+  const double low = depth ? 0 : -1;
+  double value = depth ? v.z / v.w : c.quad.attribute[i][0];
+  switch (rng.below(4)) {
+    case 0:
+      value = rng.chance(0.5) ? low : 1;
+      break;
+    case 1:
+      value = rng.uniform(low, 1);
+      break;
+    case 2: {
+      const WindowVertex& next = c.quad.vertex[(i + 1) % 4];
+      value = !depth ? c.quad.attribute[(i + 1) % 4][0] : next.w != 0 ? next.z / next.w : value;
+      break;
+    }
+    default:
+      value += rng.sign() * rng.log2_spread(-20, -1);
+  }
+  value = std::clamp(value, low, 1.0);
+  (depth ? v.z : c.quad.attribute[i][0]) = depth ? value * v.w : value;
+}
+
+Candidate mutate(const Candidate& from, Output output, Prng& rng) {
   Candidate c = from;
+  if (output != Output::weight && rng.chance(0.3)) {
+    mutate_value(c, output, rng);
+    return c;
+  }
   const auto step = [&] { return rng.sign() * rng.log2_spread(-9, rng.chance(0.3) ? 8 : 2); };
   const auto moved = [](WindowVertex& v, double dx, double dy) {
     const double scale = v.w != 0 ? std::fabs(v.w) : 1;
@@ -102,7 +138,7 @@ struct Summit {
 };
 
 /// One climb from one quad of a family.
-Summit climb(PixelErrors& errors, const WindowQuad& start, std::uint64_t steps, std::uint64_t seed) {
+Summit climb(PixelErrors& errors, Output output, const WindowQuad& start, std::uint64_t steps, std::uint64_t seed) {
   Prng rng(seed);
   cli::Climb climb(Candidate{start, {}}, [&](const Candidate& c) { return errors.measure(c.quad, c.at.x, c.at.y); });
   Summit out;
@@ -110,7 +146,7 @@ Summit climb(PixelErrors& errors, const WindowQuad& start, std::uint64_t steps, 
   const cli::PixelBox box(start, viewport, viewport);
   for (int dart = 0, hits = 0; dart < 400 && hits < 40; ++dart) hits += climb.start({start, box.pick(rng)}) >= 0;
   if (climb.height() >= 0) {
-    for (std::uint64_t n = 0; n < steps; ++n) climb.step(mutate(climb.best(), rng));
+    for (std::uint64_t n = 0; n < steps; ++n) climb.step(mutate(climb.best(), output, rng));
     out.at = climb.best();
     out.error = errors.judge(out.at.quad, out.at.at.x, out.at.at.y);
   }
@@ -121,7 +157,9 @@ Summit climb(PixelErrors& errors, const WindowQuad& start, std::uint64_t steps, 
 void print_witness(const Candidate& c) {
   std::printf("# pixel (%d, %d)\n", c.at.x, c.at.y);
   for (const WindowVertex& v : c.quad.vertex) std::printf("%.17g %.17g %.17g %.17g  ", v.x, v.y, v.z, v.w);
-  std::printf("1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n");
+  for (const std::vector<double>& attributes : c.quad.attribute)
+    for (const double a : attributes) std::printf("%.17g ", a);
+  std::printf("\n");
 }
 
 /// Starts and steps up to which the recorded limits hold: longer climbs find more.
@@ -130,16 +168,24 @@ constexpr std::uint64_t limit_starts = 6, limit_steps = 1600;
 class HillClimb {
  public:
   explicit HillClimb(const Options& options)
-      : options_(options), starts_(options.number("starts")), steps_(options.number("steps")) {}
+      : options_(options),
+        starts_(options.number("starts")),
+        steps_(options.number("steps")),
+        output_(output_of(options)) {}
 
   int run() {
     const std::string file = options_.text("record");
-    if (!file.empty()) return record(file);
+    if (!file.empty()) {
+      if (output_ != Output::weight) throw std::invalid_argument("--record is of weights");
+      return record(file);
+    }
     const std::uint64_t seed = options_.number("seed");
     const auto bound = static_cast<double>(options_.number("bound"));
-    std::printf("hill climbing: %zu families x %llu starts x %llu steps, seed %llu; |Δλ'| in units of 2^-s, bound %g\n",
-                golden::stress_families().size(), static_cast<unsigned long long>(starts_),
-                static_cast<unsigned long long>(steps_), static_cast<unsigned long long>(seed), bound);
+    std::printf(
+        "hill climbing: %zu families x %llu starts x %llu steps, seed %llu; %s in units of which the bound has %g\n",
+        golden::stress_families().size(), static_cast<unsigned long long>(starts_),
+        static_cast<unsigned long long>(steps_), static_cast<unsigned long long>(seed), options_.text("output").c_str(),
+        bound);
     bool ok = true;
     for (const std::uint64_t bits : options_.numbers("significand-bits")) {
       const int s = static_cast<int>(bits);
@@ -186,7 +232,8 @@ class HillClimb {
   }
 
   bool limits_apply() const {
-    return starts_ <= limit_starts && steps_ <= limit_steps && options_.number("notch-exact") == 1 &&
+    return output_ == Output::weight && starts_ <= limit_starts && steps_ <= limit_steps &&
+           options_.number("notch-exact") == 1 &&
            options_.number("align-guard-bits") == static_cast<std::uint64_t>(Config{}.align_guard_bits);
   }
 
@@ -200,12 +247,15 @@ class HillClimb {
     config.validate();
     std::vector<std::vector<WindowQuad>> quads;
     for (const auto& info : golden::stress_families())
-      quads.push_back(golden::make_stress(info.family, starts_, seed * 1000 + bits, 1.0, viewport, viewport, 4));
+      quads.push_back(
+          output_ == Output::weight
+              ? golden::make_stress(info.family, starts_, seed * 1000 + bits, 1.0, viewport, viewport, 4)
+              : golden::make_stress_without_weights(info.family, starts_, seed * 1000 + bits, viewport, viewport, 1));
     std::vector<Summit> summits(quads.size() * starts_);
     parallel_for(summits.size(), options_.threads(), [&](std::size_t i) {
-      PixelErrors errors(config, draw_state(), cli::Output::weight);
-      summits[i] =
-          climb(errors, quads[i / starts_][i % starts_], steps_, seed * 0x9e3779b97f4a7c15u + bits * 1000003 + i);
+      PixelErrors errors(config, draw_state(), output_);
+      summits[i] = climb(errors, output_, quads[i / starts_][i % starts_], steps_,
+                         seed * 0x9e3779b97f4a7c15u + bits * 1000003 + i);
     });
     return summits;
   }
@@ -241,8 +291,16 @@ class HillClimb {
     return worst;
   }
 
+  static Output output_of(const Options& options) {
+    const auto found = std::ranges::find(cli::output_names, options.text("output"));
+    if (found == cli::output_names.end())
+      throw std::invalid_argument("--output is weight, attribute or depth, not " + options.text("output"));
+    return static_cast<Output>(found - cli::output_names.begin());
+  }
+
   const Options& options_;
   const std::uint64_t starts_, steps_;
+  const Output output_;
   std::string undrawn_;  ///< families without a climb, with the width
 };
 
@@ -257,6 +315,7 @@ int run(int argc, char** argv) {
                          {"notch-exact", "1"},
                          {"align-guard-bits", "2"},
                          {"bound", "8"},
+                         {"output", "weight"},
                          {"record", ""}});
   return HillClimb(options).run();
 }

@@ -62,7 +62,7 @@ void check_multiply(const SignificandFormat& f, Prng& rng, FunctionTally& tally)
 
 void check_sum(const SignificandFormat& f, Prng& rng, FunctionTally& tally) {
   for (int n = 0; n < operands; ++n) {
-    const std::size_t count = n % 2 == 0 ? 4 : 2;
+    const std::size_t count = n % 2 == 0 ? 4 : n % 4 == 1 ? 3 : 2;
     // Nearly equal exponents, as far apart as the window is wide, or beyond a shifter's width.
     constexpr int spreads[] = {0, 1, 3};
     const int spread = n % 5 < 3 ? spreads[n % 5] : n % 5 == 3 ? f.s + f.g : 70;

@@ -92,8 +92,6 @@ class Vicinity {
 
 }  // namespace
 
-double weight_bound(const Config& config) { return std::ldexp(1.0, -(config.significand_bits - 3)); }
-
 void QuantityErrors::merge(const QuantityErrors& other) {
   lambda.merge(other.lambda);
   attribute.merge(other.attribute);
@@ -151,7 +149,7 @@ bool is_tiny(const SnappedQuad& quad, const Config& config) {
 class FragmentChecker::Reference : public JudgedQuad {
  public:
   Reference(const FragmentChecker& checker, std::size_t index)
-      : JudgedQuad(checker.snapped_[index], checker.settings_.config, truth_state(checker)),
+      : JudgedQuad(checker.snapped_[index], checker.settings_.config, checker.bounds_, truth_state(checker)),
         eye_crossing(is_eye_crossing(quad())),
         tiny(is_tiny(quad(), checker.settings_.config)),
         vicinity(quad()) {
@@ -175,7 +173,7 @@ class FragmentChecker::Reference : public JudgedQuad {
 
 FragmentChecker::FragmentChecker(const Settings& settings, std::span<const WindowQuad> given,
                                  std::span<const SnappedQuad> snapped, WorkQueue& queue)
-    : settings_(settings), given_(given), snapped_(snapped), queue_(queue), bound_(weight_bound(settings.config)) {
+    : settings_(settings), given_(given), snapped_(snapped), queue_(queue), bounds_(settings.config) {
   covered_.emplace_back();
   if (settings.first_pass && skips_hidden(settings.config, settings.state))
     hidden_ = std::make_unique<HiddenCheck>(settings.config, settings.state);
@@ -312,7 +310,6 @@ class FragmentChecker::FragmentJudge {
   }
 
   void judge_fragment(const Fragment& fragment) {
-    bound_ = checker_.bound_;
     corner_ = exact_ && (truth_.flags & flag_on_vertex) != 0 ? reference_->corner_at(fragment.x, fragment.y) : -1;
     cancelled_ = false;
     ++part_.compared;
@@ -344,7 +341,7 @@ class FragmentChecker::FragmentJudge {
       return false;
     }
     if (!truth_.visible) {
-      if (reference_->tolerates_visibility(truth_, checker_.bound_))
+      if (reference_->tolerates_visibility(truth_))
         ++part_.tolerated_visible;
       else
         differs("drawn, but the truth has it behind the eye");
@@ -367,49 +364,55 @@ class FragmentChecker::FragmentJudge {
       if (const auto code = reference_->exact_depth(corner_); code && *code != std::int64_t{fragment.depth})
         differs("depth code " + std::to_string(fragment.depth) + " at a corner, expected " + std::to_string(*code));
 
-    // Which is never more than depth_tolerance() and mostly enough.
-    const double least = checker_.bound_ * std::fabs(truth_.z);
-    const FixedPoint format = depth_format(config_);
-    double tolerance = least;
-    if (limits_.side(truth_.z, least) != 1 || !format.may_stand_for(fragment.depth, truth_.z, least))
-      tolerance = reference_->depth_tolerance(fragment.x, fragment.y, bound_);
+    const double tolerance = reference_->depth_tolerance(fragment.x, fragment.y);
+    const QuadBase& base = reference_->quad().base;
     if (first_pass_ && limits_.side(truth_.z, 0) < 0) {
-      if (limits_.side(truth_.z, tolerance) < 0)
+      if (!limits_.cut(base) || limits_.side(truth_.z, tolerance) < 0)
         differs("drawn, but window z is outside znear and zfar");
       else
         ++part_.tolerated_depth;
     }
-    if (exact_ && !format.may_stand_for(fragment.depth, truth_.z, tolerance)) ++part_.beyond_depth;
+    // Counted from the base, beside which the tolerance may be small.
+    const FixedPoint format = depth_format(config_);
+    const std::int64_t above = std::int64_t{fragment.depth} - base.depth;
+    if (exact_ && !format.may_stand_for(above, truth_.z_above, tolerance)) ++part_.beyond_depth;
     if (!first_pass_) return;
-    const double error = static_cast<double>(fragment.depth) * format.unit() - truth_.z;
+    const double error = static_cast<double>(above) * format.unit() - truth_.z_above;
     part_.arithmetic.depth.add(error);
-    if (!reference_->depth_may_cancel())  // then depth_tolerance() is 4 |z| times the bound
-      part_.depth.add(error / (4 * bound_ * std::fabs(truth_.z) + format.unit()));
+    if (!reference_->depth_may_cancel() && exact_)
+      part_.depth.add(part_of(format.distance(above, truth_.z_above), tolerance),
+                      (truth_.z_above < 0 ? -error : error) / (tolerance + format.unit() / 2));
   }
+
+  /// An error of 0 is no part of a bound that is 0 too.
+  static double part_of(double error, double bound) { return error == 0 ? 0 : error / bound; }
 
   /// Every slot of the port. Returns whether an attribute may be saturated and one is at its limit.
   bool judge_slots(const Fragment& fragment) {
     const FixedPoint format = attribute_format(config_);
+    const double rounding = format.unit() / 2, weight_bound = checker_.bounds_.weight;
     double lambda_error = 0, attribute_error = 0, lambda_sum = 0;
     bool attributes_hold = true, weights_hold = true, may_saturate = false, must_saturate = false;
-    int weight = 0, weights = 0, attributes = 0;
+    int weights = 0, differences = 0, attributes = 0;
+    CheckResult::Worst worst;
     for (std::size_t slot = columns_.size(); slot < fragment.attribute.size(); ++slot)
       if (fragment.attribute[slot] != 0) differs("slot " + std::to_string(slot) + " is not in use, but not 0");
 
     for (std::size_t slot = 0; slot < columns_.size(); ++slot) {
-      const std::int64_t code = fragment.attribute[slot];
+      const std::int64_t code = fragment.attribute[slot], base = reference_->quad().base.attribute[slot];
       const bool is_weight = columns_[slot] < 4;
+      const double base_value = static_cast<double>(base) * format.unit();
       const double wanted =
           is_weight ? truth_.lambda[static_cast<std::size_t>(columns_[slot])] : truth_.attribute[slot];
-      const double signed_error = static_cast<double>(code) * format.unit() - wanted, error = std::fabs(signed_error);
+      const double above = is_weight ? wanted - base_value : truth_.attribute_above[slot];
+      const double signed_error = static_cast<double>(code - base) * format.unit() - above,
+                   error = std::fabs(signed_error);
       if (corner_ >= 0)
         if (const auto exact = reference_->exact_attribute(corner_, slot); exact && *exact != code)
           differs("slot " + std::to_string(slot) + " is " + std::to_string(code) + " at a corner, expected " +
                   std::to_string(*exact));
 
-      double tolerance = bound_;
-      if (!is_weight || reference_->may_cancel())
-        tolerance = reference_->attribute_tolerance(slot, wanted, fragment.x, fragment.y, bound_);
+      const double tolerance = reference_->attribute_tolerance(slot, fragment.x, fragment.y);
       if (tolerance == std::numeric_limits<double>::infinity()) {
         cancelled_ = true;
         may_saturate = true;
@@ -420,7 +423,7 @@ class FragmentChecker::FragmentJudge {
       const bool clamped = at_limit && std::fabs(wanted) + tolerance >= format.limit() && (wanted < 0) == (code < 0);
       may_saturate = may_saturate || clamped;
       must_saturate = must_saturate || beyond;
-      const bool holds = beyond ? clamped : clamped || format.may_stand_for(code, wanted, tolerance);
+      const bool holds = beyond ? clamped : clamped || format.may_stand_for(code - base, above, tolerance);
 
       if (is_weight) {
         ++weights;
@@ -428,25 +431,31 @@ class FragmentChecker::FragmentJudge {
           weights_hold = weights_hold && holds;
           continue;
         }
+        // Weight 0 is what its base of 1 leaves of the others.
+        const double allowed = columns_[slot] == 0 ? tolerance + rounding : weight_bound, ratio = error / allowed;
+        if (!(ratio <= worst.ratio)) worst = {ratio, error, allowed, truth_.condition, columns_[slot], place_};
+        lambda_error = std::max(lambda_error, error);
+        if (columns_[slot] == 0) continue;
+        ++differences;
         lambda_sum += signed_error;
-        if (!(error <= lambda_error)) lambda_error = error, weight = columns_[slot];
       } else {
         ++attributes;
         attributes_hold = attributes_hold && holds;
         if (clamped) continue;
         if (!(error <= attribute_error)) attribute_error = error;
         if (!reference_->may_cancel())
-          part_.attribute.add((wanted < 0 ? -signed_error : signed_error) / (tolerance + format.unit()));
+          part_.attribute.add(part_of(format.distance(code - base, above), tolerance),
+                              (above < 0 ? -signed_error : signed_error) / (tolerance + rounding));
       }
     }
     if (weights > 0 && !reference_->may_cancel()) {
       part_.arithmetic.lambda.add(lambda_error);
-      part_.weight.add(lambda_sum / (weights * bound_));
-      const double ratio = lambda_error / bound_;
-      part_.weight.max = std::max(part_.weight.max, ratio);
-      weights_hold = ratio <= 1;
-      if (!(ratio <= part_.worst.ratio) || (ratio == part_.worst.ratio && order(place_) < order(part_.worst.place)))
-        part_.worst = {ratio, lambda_error, bound_, truth_.condition, weight, place_};
+      part_.weight.raise(worst.ratio);
+      if (differences > 0) part_.weight.mean.add(lambda_sum / (differences * weight_bound));
+      weights_hold = worst.ratio <= 1;
+      if (!(worst.ratio <= part_.worst.ratio) ||
+          (worst.ratio == part_.worst.ratio && order(place_) < order(part_.worst.place)))
+        part_.worst = worst;
     }
     if (attributes > 0 && !reference_->may_cancel()) part_.arithmetic.attribute.add(attribute_error);
     if (exact_) {
@@ -519,7 +528,6 @@ class FragmentChecker::FragmentJudge {
   Place place_;
   ReferenceSample truth_;
   const ReferenceSample* given_ = nullptr;  ///< the truth on the given quad; null when snapping is not measured
-  double bound_ = 0;                        ///< of a weight
   int corner_ = -1;                         ///< the corner at the pixel, where that makes the machine exact
   bool cancelled_ = false;                  ///< a value about which nothing can be said
 };
@@ -563,26 +571,27 @@ void FragmentChecker::cover(std::size_t first, const std::vector<std::vector<std
         if (!coverage.covered || !coverage.visible || state.cull == (coverage.front ? Cull::front : Cull::back))
           continue;
         const ReferenceSample truth = reference.truth().sample(x, y);
-        if (reference.tolerates_visibility(truth, bound_)) {
+        if (reference.tolerates_visibility(truth)) {
           ++part.tolerated_visible;
           continue;
         }
-        if (state.depth) {
+        // A quad whose depths are all within the limits loses no pixel to them.
+        if (const QuadBase& base = reference.quad().base; state.depth && !limits.hold_all_of(base)) {
           // As far as the truth can tell it was discarded rightly, unless the machine is exact at this pixel.
           std::optional<std::int64_t> code;
           if ((truth.flags & flag_on_vertex) != 0 && settings_.config.qdrop() == 0)
             code = reference.exact_depth(reference.corner_at(x, y));
-          if (code ? !limits.holds(*code) : limits.side(truth.z, 0) < 0) {
+          if (limits.hold_none_of(base) || (code ? !limits.holds(*code) : limits.side(truth.z, 0) < 0)) {
             ++part.discarded;
             continue;
           }
-          if (!code && limits.side(truth.z, reference.depth_tolerance(x, y, bound_)) == 0) {
+          if (!code && limits.side(truth.z, reference.depth_tolerance(x, y)) == 0) {
             ++part.tolerated_depth;
             continue;
           }
         }
         if (hidden_) {
-          if (hidden_->may_refuse(x, y, truth.z, reference.depth_tolerance(x, y, bound_))) {
+          if (hidden_->may_refuse(x, y, truth.z, reference.depth_tolerance(x, y))) {
             ++part.hidden;
             continue;
           }

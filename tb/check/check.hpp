@@ -4,6 +4,7 @@
 #include "model/config.hpp"
 #include "model/records.hpp"
 #include "tb/check/hidden_check.hpp"
+#include "tb/check/judged_quad.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/support/error_stats.hpp"
 #include "tb/support/work_queue.hpp"
@@ -22,9 +23,6 @@ namespace quadrille::cli {
 
 using tb::ErrorStats;
 
-/// The arithmetic bound |error of a weight| <= 2^-(s-3) of a configuration.
-double weight_bound(const Config& config);
-
 /// Where the fragments are, for counting and naming.
 struct Place {
   std::uint32_t index = 0, quad = 0;  ///< position in the draw, and id
@@ -37,15 +35,20 @@ struct QuantityErrors {
   void merge(const QuantityErrors& other);
 };
 
-/// Errors as parts of what the bound allows each of them, for comparison with recorded ones (regression.hpp): quads
-/// with large attributes, or near the eye plane, do not drown the others. `mean` is signed, positive away from zero.
+/// Errors as parts of what the bound allows each of them, for comparison with recorded ones (error_limits.hpp): quads
+/// with large attributes, or near the eye plane, do not drown the others. `max` counts where the output's rounding
+/// ends; `mean` is signed, positive away from the base, and includes it.
 struct RelativeErrors {
   double max = 0;
   tb::MeanError mean;
 
-  void add(double part) {
-    if (!(std::fabs(part) <= max)) max = std::fabs(part);
-    mean.add(part);
+  void add(double part) { add(std::fabs(part), part); }
+  void add(double part, double signed_part) {
+    raise(part);
+    mean.add(signed_part);
+  }
+  void raise(double part) {
+    if (!(part <= max)) max = part;
   }
   void merge(const RelativeErrors& other) {
     if (!(other.max <= max)) max = other.max;
@@ -58,10 +61,9 @@ struct CheckResult {
   std::uint64_t compared = 0;  ///< fragments compared with the truth
   std::uint64_t mismatches =
       0;  ///< pixels that the machine drew and the truth does not, or the reverse, or with other flags or facing
-  std::uint64_t beyond_bound = 0;  ///< weights beyond weight_bound()
-  std::uint64_t beyond_attribute =
-      0;  ///< fragments with an attribute further off than the weights' bound allows, or saturated wrongly
-  std::uint64_t beyond_depth = 0;  ///< the same of window z
+  std::uint64_t beyond_bound = 0;      ///< fragments with a weight beyond its bound
+  std::uint64_t beyond_attribute = 0;  ///< with an attribute beyond its bound, or saturated wrongly
+  std::uint64_t beyond_depth = 0;      ///< the same of window z
 
   RelativeErrors weight, attribute, depth;
 
@@ -71,9 +73,10 @@ struct CheckResult {
   // Legitimate differences.
   std::uint64_t coverage_flips = 0;     ///< drawn pixels that the given, unsnapped quad does not cover
   std::uint64_t tolerated_visible = 0;  ///< eye in the hull and |sum(M w)| below the bound: either answer is right
-  std::uint64_t tolerated_depth = 0;    ///< window z within the bound of znear or zfar
-  std::uint64_t hidden = 0;             ///< covered pixels rightly left out: the depth buffer refuses them
-  std::uint64_t discarded = 0;          ///< covered pixels rightly discarded by window z
+  /// Window z within its bound of znear or zfar, of quads that the limit cuts: drawn or not, either is right.
+  std::uint64_t tolerated_depth = 0;
+  std::uint64_t hidden = 0;     ///< covered pixels rightly left out: the depth buffer refuses them
+  std::uint64_t discarded = 0;  ///< covered pixels rightly discarded by window z
   std::uint64_t bound_exempt =
       0;  ///< fragments with a value that no bound speaks of: sum(M W) cancels to what the weights' errors leave of it
 
@@ -194,7 +197,7 @@ class FragmentChecker {
   std::span<const WindowQuad> given_;
   std::span<const SnappedQuad> snapped_;
   WorkQueue& queue_;
-  double bound_;
+  Bounds bounds_;
 
   std::unique_ptr<HiddenCheck> hidden_;  ///< where the draw leaves hidden tiles out
   std::vector<Fragment> batch_;

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace quadrille::cli {
 namespace {
@@ -124,18 +125,16 @@ TEST_F(Checker, FindsADepthThatIsOff) {
 
 TEST_F(Checker, FindsWrongSaturation) {
   const FixedPoint format = attribute_format(config_);
-  // 1.5 times the limit at every corner, of either sign.
-  for (SnappedVertex& v : snapped_[0].vertex)
-    for (std::size_t slot = 0; slot < 2; ++slot) {
+  // Bases at the limit, of either sign, and half of it more at the other corners.
+  for (std::size_t slot = 0; slot < 2; ++slot) {
+    snapped_[0].base.attribute[slot] = slot == 0 ? format.largest_code() : -format.largest_code();
+    for (std::size_t i = 1; i < 4; ++i) {
+      SnappedVertex& v = snapped_[0].vertex[i];
       v.attribute[slot] = v.k;
       v.attribute[slot].neg = slot == 1;
-      v.attribute[slot].exp += config_.attribute_int_bits;
-      v.attribute[slot].sig = v.k.sig + v.k.sig / 2;
-      if (v.attribute[slot].sig >> config_.significand_bits != 0) {
-        v.attribute[slot].sig >>= 1;
-        ++v.attribute[slot].exp;
-      }
+      v.attribute[slot].exp += config_.attribute_int_bits - 1;
     }
+  }
   redraw();
   const std::vector<int> columns{4, 5, 6, 7};
   EXPECT_TRUE(check(fragments_, columns).ok());
@@ -164,7 +163,7 @@ TEST_F(Checker, FindsWhatIsOffByOneAtACorner) {
       std::find_if(fragments_.begin(), fragments_.end(), [](const Fragment& f) { return f.x == 10 && f.y == 8; });
   ASSERT_NE(at, fragments_.end());
   --at->attribute[0];
-  EXPECT_EQ(check(fragments_, columns).mismatches, 1u) << "rounded away from zero";
+  EXPECT_EQ(check(fragments_, columns).mismatches, 1u) << "not the base";
   ++at->attribute[0];
   ++at->depth;
   EXPECT_EQ(check(fragments_, columns).mismatches, 1u);
@@ -184,6 +183,7 @@ TEST_F(Checker, FindsPixelsOnTheWrongSideOfTheDepthLimits) {
     return check(fragments).mismatches;
   };
   EXPECT_EQ(missing(0.25, 1), 1u) << "z = znear is drawn";
+  EXPECT_EQ(missing(0.25, 0.45), 1u) << "of a quad that is cut too";
   for (WindowVertex& v : given_[0].vertex) v.z = 0.5 - v.z / 2;  // 3/8 at the corner, 1/4 at the others
   snapped_ = {snap_quad(given_[0], config_, state_)};
   EXPECT_EQ(missing(0, 0.375), 1u) << "z = zfar is drawn";
@@ -191,6 +191,79 @@ TEST_F(Checker, FindsPixelsOnTheWrongSideOfTheDepthLimits) {
   // The same fragments, but the least code inside is now beyond what they have.
   state_.zfar = 0.375 - std::ldexp(1.0, -config_.depth_bits);
   EXPECT_GE(check(fragments_).mismatches, 1u);
+}
+
+/// A quad of nearly one depth, a limit at the least of its corners' codes: no pixel may be missing, however near the
+/// limit it is. With the limit one code further in either is right near it, and counted.
+TEST_F(Checker, ToleratesDepthsNearALimitOnlyWhereItCutsTheQuad) {
+  const double unit = std::ldexp(1.0, -config_.depth_bits), z = 0.998;
+  const double least = std::round(z / unit) * unit;
+  given_[0].vertex = {
+      {{10.2, 8.3, least, 1}, {40.7, 8.9, least, 1}, {40.1, 30.5, least + 3 * unit, 1}, {10.5, 30.5, least, 1}}};
+  snapped_ = {snap_quad(given_[0], config_, state_)};
+  state_.znear = least;
+  redraw();
+  const CheckResult all = check(fragments_);
+  EXPECT_TRUE(all.ok());
+  EXPECT_EQ(all.tolerated_depth, 0u);
+  std::size_t lost = 0;
+  for (std::size_t n = 0; n < fragments_.size(); n += 37, ++lost) {
+    std::vector<Fragment> fragments = fragments_;
+    fragments.erase(fragments.begin() + static_cast<std::ptrdiff_t>(n));
+    EXPECT_EQ(check(fragments).mismatches, 1u) << "pixel " << n;
+  }
+  EXPECT_GT(lost, 10u);
+
+  // Half a code above the least one: the codes 1 and higher are drawn, and of the others nothing.
+  state_.znear = least + unit;
+  const std::size_t before = fragments_.size();
+  redraw();
+  EXPECT_LT(fragments_.size(), before);
+  EXPECT_GT(fragments_.size(), 10u);
+  EXPECT_TRUE(check(fragments_).ok());
+  std::vector<Fragment> fragments = fragments_;
+  const auto far = std::ranges::max_element(fragments, {}, &Fragment::depth);
+  fragments.erase(far);
+  EXPECT_EQ(check(fragments).mismatches, 1u) << "the farthest one";
+
+  // Of a wide range: what is within its tolerance of the limit.
+  given_[0].vertex = {{{10.2, 8.3, 0.1, 1}, {40.7, 8.9, 0.5, 1}, {40.1, 30.5, 0.9, 1}, {10.5, 30.5, 0.4, 1}}};
+  snapped_ = {snap_quad(given_[0], config_, state_)};
+  state_.znear = 0;
+  redraw();
+  fragments = fragments_;
+  const std::size_t n = fragments.size() / 2;
+  state_.znear = std::ldexp(static_cast<double>(fragments[n].depth), -config_.depth_bits);
+  std::erase_if(fragments, [&](const Fragment& f) { return f.depth <= fragments_[n].depth; });
+  const CheckResult cut = check(fragments);
+  EXPECT_TRUE(cut.ok()) << cut.first.text;
+  EXPECT_GT(cut.tolerated_depth, 0u);
+}
+
+/// An error of two codes far from zero, where the spread allows less than one.
+TEST_F(Checker, JudgesByTheSpread) {
+  given_[0].vertex = {{{10, 8, 0.998, 1}, {100, 24, 1.9961, 2}, {44, 50, 0.99801, 1}, {12, 40, 0.99803, 1}}};
+  given_[0].attribute = {{{100, 7, 5, 0}, {100.25, 7, 5, 0}, {100.125, 7, 5, 0}, {99.75, 7, 5.001, 0}}};
+  snapped_ = {snap_quad(given_[0], config_, state_)};
+  redraw();
+  const std::vector<int> columns{4, 5, 6, 7};
+  EXPECT_TRUE(check(fragments_, columns).ok());
+  const Bounds bounds(config_);
+  const auto codes = [&](double spread, int fraction) {
+    return static_cast<std::int64_t>(std::ldexp(2.01 * bounds.value * spread, fraction)) + 2;
+  };
+  const auto faulty = [&](auto&& change) {
+    std::vector<Fragment> fragments = fragments_;
+    change(fragments[100]);
+    return check(fragments, columns);
+  };
+  const int f = config_.attribute_frac();
+  EXPECT_EQ(faulty([&](Fragment& g) { g.attribute[0] += codes(0.5, f); }).beyond_attribute, 1u);
+  EXPECT_EQ(faulty([&](Fragment& g) { g.attribute[1] += 1; }).beyond_attribute, 1u) << "a constant";
+  EXPECT_EQ(faulty([&](Fragment& g) { g.attribute[2] -= codes(0.001, f); }).beyond_attribute, 1u);
+  EXPECT_LT(codes(0.001, f), 5);
+  const CheckResult deep = faulty([&](Fragment& g) { g.depth += static_cast<std::uint32_t>(codes(0.0001, 24)); });
+  EXPECT_EQ(deep.beyond_depth, 1u);
 }
 
 TEST_F(Checker, FindsASumWithTheWrongSign) {

@@ -1,6 +1,7 @@
 #include "tb/check/directed.hpp"
 
 #include "golden/reference/port_number.hpp"
+#include "tb/check/judged_quad.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,8 @@ golden::CornerDraw at_infinity(const Config& config) {
     SnappedVertex& v = quad.vertex[i];
     v.x = directions[i][0] * unit;
     v.y = directions[i][1] * unit;
-    v.k = v.attribute[0] = golden::nearest_port_number(1, config.significand_bits);
+    v.k = golden::nearest_port_number(1, config.significand_bits);
+    if (i > 0) v.attribute[0] = v.k;
   }
   draw.quads.push_back(quad);
   std::ranges::reverse(quad.vertex);
@@ -47,16 +49,26 @@ golden::CornerDraw at_infinity(const Config& config) {
   return draw;
 }
 
-/// Squares of ordinary vertices; slot 0 from `low` to 1.5 times the limit, slot 1 beyond it everywhere.
+/// Squares of ordinary vertices; slot 0 from `low` to 1.5 times the limit, slot 1 beyond it everywhere but at its base.
 golden::CornerDraw saturated(const Config& config) {
   golden::CornerDraw draw = small_draw("saturated");
   draw.state.attributes = std::min(2, config.attribute_slots);
   const int s = config.significand_bits;
-  const double limit = std::ldexp(1.0, config.attribute_int_bits);
+  const std::int64_t largest = attribute_format(config).largest_code();
+  const double unit = attribute_format(config).unit(), limit = std::ldexp(1.0, config.attribute_int_bits);
   for (const double sign : {1.0, -1.0})
     for (const double low : {1.5, 1.0, -0.5, -1.5}) {
-      const std::array<double, 4> first{low, 1.5, 1.25, low}, second{1.5, 1.5, 2, 1.25}, w{1, 2, 1, 4};
+      const std::array<double, 4> first{low, 1.5, 1.25, low}, second{1.5, 2.5, 2, 1.25}, w{1, 2, 1, 4};
       SnappedQuad quad;
+      const auto base = [&](double value) {
+        return std::clamp<std::int64_t>(std::llround(std::ldexp(sign * limit * value, config.attribute_frac())),
+                                        -largest, largest);
+      };
+      quad.base.attribute[0] = base(low);
+      quad.base.attribute[1] = base(second[0]);
+      quad.base.depth = std::uint32_t{1} << (config.depth_bits - 1);
+      quad.base.depth_low = 0;
+      quad.base.depth_high = std::int32_t{1} << config.depth_bits;
       for (std::size_t i = 0; i < 4; ++i) {
         SnappedVertex& v = quad.vertex[i];
         const auto place = static_cast<int>(draw.quads.size());
@@ -64,9 +76,11 @@ golden::CornerDraw saturated(const Config& config) {
         v.y = (place / 3 * 10 + (i >= 2 ? 8 : 0)) << config.frac();
         v.w = 1 << config.frac();
         v.k = golden::nearest_port_number(1 / w[i], s);
-        v.z = golden::nearest_port_number(0.5, s);
-        v.attribute[0] = golden::nearest_port_number(sign * limit * first[i] / w[i], s);
-        v.attribute[1] = golden::nearest_port_number(sign * limit * second[i] / w[i], s);
+        const auto above = [&](double value, std::size_t slot) {
+          const double b = static_cast<double>(quad.base.attribute[slot]) * unit;
+          return golden::nearest_port_number((sign * limit * value - b) / w[i], s);
+        };
+        if (i > 0) v.attribute[0] = above(first[i], 0), v.attribute[1] = above(second[i], 1);
       }
       draw.quads.push_back(quad);
     }

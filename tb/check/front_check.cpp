@@ -21,7 +21,7 @@ using exact::top_bit;
 using exact::Wide;
 using golden::Prng;
 
-constexpr int vertices = 3000, quads = 1500, walked_quads = 100, limits = 500;
+constexpr int snapped_quads = 1000, quads = 1500, walked_quads = 100, limits = 500;
 
 // ---- Roundings of the port ----
 
@@ -32,7 +32,7 @@ Wide nearest(Wide n, Wide d) {
   return sign_of(n) * (whole + (up ? 1 : 0));
 }
 
-/// n / d to S significant bits, as the port has it; d > 0, both below 2^80.
+/// n / d to S significant bits, as the port has it; d > 0, both below 2^85 and d 2^S below 2^120.
 PortNumber nearest_float(Wide n, Wide d, int s) {
   if (n == 0) return {};
   int exponent = top_bit(n) - top_bit(d);  // of the quotient, or one too much
@@ -45,57 +45,118 @@ PortNumber nearest_float(Wide n, Wide d, int s) {
 
 bool same(const PortNumber& a, const PortNumber& b) { return a.neg == b.neg && a.exp == b.exp && a.sig == b.sig; }
 
-/// A vertex whose coordinates are multiples of 2^-10, so that the half pixel is exact in units of 2^-11.
+/// Numbers given and snapped are compared in units of 2^-10, so that the half pixel is exact in units of 2^-11.
+constexpr int unit_bits = 10;
+
+struct GivenVertex {
+  std::int64_t x, y, z, w, a;
+};
+
+/// Powers of two make ties of positions, odd numbers none; a quarter lies behind the eye or at infinity.
+GivenVertex random_vertex(const Config& config, Prng& rng, bool before) {
+  std::int64_t w = rng.chance(0.5) ? std::int64_t{1} << rng.below(16) : rng.integer(1, 1 << 14);
+  if (!before && rng.chance(0.2)) w = -w;
+  if (!before && rng.chance(0.05)) w = 0;
+  const double reach = std::ldexp(1.0, config.pos_int() + (rng.chance(0.2) ? 1 : -1)) *
+                       (w == 0 ? 1024.0 : static_cast<double>(std::abs(w)));
+  GivenVertex v{static_cast<std::int64_t>(rng.uniform(-reach, reach)),
+                static_cast<std::int64_t>(rng.uniform(-reach, reach)),
+                rng.chance(0.5) ? rng.integer(-2 * std::abs(w), 2 * std::abs(w)) : rng.integer(0, std::abs(w)), w, 0};
+  const std::int64_t limit = std::int64_t{1} << (config.attribute_int_bits + unit_bits);
+  v.a = rng.integer(1 - limit, limit - 1);
+  if (v.x == 0 && v.y == 0 && v.w == 0) v.x = 1;
+  return v;
+}
+
+/// Position and k = scale / extent of a vertex.
+struct ExactVertex {
+  std::array<Wide, 3> at;
+  Wide scale, extent;
+
+  ExactVertex(const GivenVertex& v, const Config& config) : scale(Wide{1} << (unit_bits + 1)), extent(2 * Wide{v.w}) {
+    const int pos = config.pos_int();
+    const Wide cx = 2 * Wide{v.x} - v.w, cy = 2 * Wide{v.y} - v.w, cw = 2 * Wide{v.w};
+    const Wide grid = Wide{1} << config.subpixel_bits, band = grid << pos;
+    if (cw > 0) {
+      const Wide gx = nearest(cx * grid, cw), gy = nearest(cy * grid, cw);
+      at = {gx << config.homogeneous_frac_bits, gy << config.homogeneous_frac_bits, Wide{1} << config.frac()};
+      if (magnitude(gx) < band && magnitude(gy) < band) return;
+    }
+    extent = std::max({magnitude(cx), magnitude(cy), magnitude(cw) << pos});
+    scale <<= pos;
+    const Wide fraction = Wide{1} << (config.frac() + pos);
+    at = {nearest(cx * fraction, extent), nearest(cy * fraction, extent), nearest(cw * fraction, extent)};
+  }
+};
+
+/// floor(n / d), d > 0.
+Wide floored(Wide n, Wide d) { return n / d - (n % d < 0 ? 1 : 0); }
+
+/// Bases, corner codes and differences of a quad: what is wrong, or nothing.
+std::string snapping_fault(const std::array<GivenVertex, 4>& given, const SnappedQuad& quad, const Config& config,
+                           const DrawState& state) {
+  const int s = config.significand_bits, fraction = config.attribute_frac(), depth = config.depth_bits;
+  const Wide one = Wide{1} << depth;
+  const Wide limit = (Wide{1} << (config.attribute_int_bits + fraction)) - 1;
+  const Wide base = std::clamp(nearest(Wide{given[0].a} << fraction, Wide{1} << unit_bits), -limit, limit);
+  if (quad.base.attribute[0] != base) return "base of the attribute";
+  Wide base_z = 0;
+  for (const GivenVertex& v : given)
+    if (v.w > 0) {
+      base_z = std::clamp<Wide>(nearest(Wide{v.z} << depth, v.w), 0, one);
+      break;
+    }
+  if (quad.base.depth != base_z) return "base of depth";
+  Wide low = one + 1, high = -1;
+  for (const GivenVertex& v : given) {
+    if (v.w <= 0) {
+      low = -1, high = one + 1;
+      break;
+    }
+    const Wide code = std::clamp<Wide>(floored(((Wide{v.z} << depth) * 2) + v.w, 2 * Wide{v.w}), -1, one + 1);
+    low = std::min(low, code);
+    high = std::max(high, code);
+  }
+  if (quad.base.depth_low != low || quad.base.depth_high != high) return "codes of the corners";
+  for (std::size_t i = 0; i < 4; ++i) {
+    const SnappedVertex& v = quad.vertex[i];
+    const ExactVertex exact(given[i], config);
+    if (v.x != exact.at[0] || v.y != exact.at[1] || v.w != exact.at[2]) return "position";
+    if (!same(v.k, nearest_float(exact.scale, exact.extent, s))) return "k";
+    const Wide z = (Wide{given[i].z} << depth) - base_z * given[i].w;
+    if (!same(v.z, nearest_float(z * exact.scale, exact.extent << (unit_bits + depth), s)))
+      return "difference of depth";
+    PortNumber b;
+    if (const Wide above = (Wide{given[i].a} << fraction) - (base << unit_bits); given[i].a != given[0].a)
+      b = state.perspective ? nearest_float(above * exact.scale, exact.extent << (unit_bits + fraction), s)
+                            : nearest_float(above * Wide{v.w}, Wide{1} << (unit_bits + fraction + config.frac()), s);
+    if (!same(v.attribute[0], b)) return "difference of the attribute";
+  }
+  return "";
+}
+
 void check_snapping(const Config& config, Prng& rng, FunctionTally& tally) {
-  constexpr int unit_bits = 10, half_bits = unit_bits + 1;
-  const int s = config.significand_bits, pos = config.pos_int();
-  for (int n = 0; n < vertices; ++n) {
+  for (int n = 0; n < snapped_quads; ++n) {
     DrawState state;
     state.perspective = rng.chance(0.75);
-    // Powers of two make ties of positions, odd numbers none; a quarter lies behind the eye or at infinity.
-    std::int64_t w = rng.chance(0.5) ? std::int64_t{1} << rng.below(16) : rng.integer(1, 1 << 14);
-    if (rng.chance(0.2)) w = -w;
-    if (rng.chance(0.05)) w = 0;
-    const double reach =
-        std::ldexp(1.0, pos + (rng.chance(0.2) ? 1 : -1)) * (w == 0 ? 1024.0 : static_cast<double>(std::abs(w)));
-    const auto x = static_cast<std::int64_t>(rng.uniform(-reach, reach)),
-               y = static_cast<std::int64_t>(rng.uniform(-reach, reach)),
-               z = rng.integer(-2 * std::abs(w), 2 * std::abs(w));
-    const std::int64_t a = rng.integer(1 - (std::int64_t{1} << (config.attribute_int_bits + unit_bits)),
-                                       (std::int64_t{1} << (config.attribute_int_bits + unit_bits)) - 1);
-    const auto given = [](std::int64_t v) { return std::ldexp(static_cast<double>(v), -unit_bits); };
-    if (x == 0 && y == 0 && w == 0) continue;
-    const double attribute = given(a);
-    const SnappedVertex v = snap_vertex({given(x), given(y), given(z), given(w)}, &attribute, 1, config, state);
-
-    // In units of 2^-half_bits, relative to pixel centres.
-    const Wide cx = 2 * Wide{x} - w, cy = 2 * Wide{y} - w, cw = 2 * Wide{w};
-    const Wide grid = Wide{1} << config.subpixel_bits, band = grid << pos;
-    bool ordinary = cw > 0;
-    Wide gx = 0, gy = 0;
-    if (ordinary) {
-      gx = nearest(cx * grid, cw);
-      gy = nearest(cy * grid, cw);
-      ordinary = magnitude(gx) < band && magnitude(gy) < band;
+    const bool before = rng.chance(0.6);
+    std::array<GivenVertex, 4> given;
+    WindowQuad quad;
+    const auto real = [](std::int64_t v) { return std::ldexp(static_cast<double>(v), -unit_bits); };
+    for (std::size_t i = 0; i < 4; ++i) {
+      GivenVertex& v = given[i];
+      v = random_vertex(config, rng, before);
+      if (i > 0 && rng.chance(0.3)) v.a = given[0].a + (rng.chance(0.5) ? 0 : given[0].a > 0 ? -1 : 1);
+      quad.vertex[i] = {real(v.x), real(v.y), real(v.z), real(v.w)};
+      quad.attribute[i] = {real(v.a)};
     }
-    // k = scale / extent
-    Wide scale = Wide{1} << half_bits, extent = cw;
-    std::array<Wide, 3> at{gx << config.homogeneous_frac_bits, gy << config.homogeneous_frac_bits,
-                           Wide{1} << config.frac()};
-    if (!ordinary) {
-      extent = std::max({magnitude(cx), magnitude(cy), magnitude(cw) << pos});
-      scale <<= pos;
-      const Wide fraction = Wide{1} << (config.frac() + pos);
-      at = {nearest(cx * fraction, extent), nearest(cy * fraction, extent), nearest(cw * fraction, extent)};
-    }
-    const PortNumber b = state.perspective ? nearest_float(a * scale, extent << unit_bits, s)
-                                           : nearest_float(a * Wide{v.w}, Wide{1} << (unit_bits + config.frac()), s);
-    const bool right = v.x == at[0] && v.y == at[1] && v.w == at[2] && same(v.k, nearest_float(scale, extent, s)) &&
-                       same(v.z, nearest_float(z * scale, extent << unit_bits, s)) && same(v.attribute[0], b);
-    tally.expect(right, [&] {
-      return "of (" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ", " +
-             std::to_string(w) + ") / 1024 gives (" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " +
-             std::to_string(v.w) + ")";
+    const std::string fault = snapping_fault(given, snap_quad(quad, config, state), config, state);
+    tally.expect(fault.empty(), [&] {
+      std::string text = fault + " of (x, y, z, w; a) * 1024 =";
+      for (const GivenVertex& v : given)
+        text += " (" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ", " +
+                std::to_string(v.w) + "; " + std::to_string(v.a) + ")";
+      return text;
     });
   }
 }

@@ -51,7 +51,8 @@ std::optional<HiddenCheck::Fault> HiddenCheck::quad_done(const SnappedQuad& quad
 }
 
 bool HiddenCheck::may_refuse(int x, int y, double z, double tolerance) const {
-  return std::ldexp(z + tolerance, depth_bits_) >= depth_[static_cast<std::size_t>(y * width_ + x)];
+  // A code is the nearest one.
+  return std::ldexp(z + tolerance, depth_bits_) + 0.5 >= depth_[static_cast<std::size_t>(y * width_ + x)];
 }
 
 }  // namespace quadrille::cli

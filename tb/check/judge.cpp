@@ -26,15 +26,20 @@ CheckResult judge_pass(std::span<const WindowQuad> given, std::span<const Snappe
   });
 }
 
+/// Weight 0 as a base of 1 and differences of -k_eff, the others as k_eff at their vertex.
 SnappedQuad with_weights(SnappedQuad quad, const Pass& pass, const Config& config, const DrawState& state) {
+  quad.base.attribute = {};
+  for (std::size_t slot = 0; slot < pass.columns.size(); ++slot)
+    if (pass.columns[slot] == 0) quad.base.attribute[slot] = std::int64_t{1} << config.attribute_frac();
   for (std::size_t i = 0; i < 4; ++i) {
     SnappedVertex& v = quad.vertex[i];
     v.attribute = {};
-    for (std::size_t slot = 0; slot < pass.columns.size(); ++slot)
-      if (pass.columns[slot] == static_cast<int>(i))
-        v.attribute[slot] = state.perspective
-                                ? v.k
-                                : golden::nearest_port_number(std::ldexp(v.w, -config.frac()), config.significand_bits);
+    const PortNumber k =
+        state.perspective ? v.k : golden::nearest_port_number(std::ldexp(v.w, -config.frac()), config.significand_bits);
+    for (std::size_t slot = 0; i > 0 && slot < pass.columns.size(); ++slot) {
+      if (pass.columns[slot] == static_cast<int>(i)) v.attribute[slot] = k;
+      if (pass.columns[slot] == 0 && k.sig != 0) v.attribute[slot] = {!k.neg, k.exp, k.sig};
+    }
   }
   return quad;
 }

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace quadrille::cli {
@@ -35,6 +37,63 @@ TEST(JudgeUntimed, PassesEveryStressFamily) {
       const CheckResult result = judge_untimed(quads, 6, Config{}, state);
       EXPECT_TRUE(result.ok()) << info.name << (perspective ? "" : " without perspective") << ": " << faults(result);
     }
+}
+
+/// Bases far from zero, beside a spread of a few codes: values that the bound of their size would leave unjudged.
+TEST(JudgeUntimed, PassesNarrowSpreadsFarFromZero) {
+  for (const int s : {8, 26})
+    for (const bool perspective : {true, false})
+      for (const golden::StressFamilyInfo& info : golden::stress_families()) {
+        Config config;
+        config.set("significand_bits", s);
+        DrawState state = square(48);
+        state.perspective = perspective;
+        auto quads = golden::make_stress(info.family, 8, 11, 1.0, 48, 48, 4);
+        golden::Prng rng(static_cast<std::uint64_t>(s));
+        for (WindowQuad& quad : quads) {
+          const double depth = rng.uniform(0, 1), spread = rng.log2_spread(-28, -2);
+          for (std::size_t i = 0; i < 4; ++i) {
+            quad.vertex[i].z = (depth + rng.uniform(0, 1) * spread * (1 - depth)) * quad.vertex[i].w;
+            quad.attribute[i] = {-100 + rng.uniform(-1, 1) * spread, 100 + rng.uniform(-1, 1) * spread, 127.5,
+                                 rng.uniform(-127, 127)};
+          }
+        }
+        const CheckResult result = judge_untimed(quads, 4, config, state);
+        EXPECT_TRUE(result.ok()) << info.name << (perspective ? "" : " without perspective") << ", s = " << s << ": "
+                                 << faults(result);
+      }
+}
+
+/// Limits at the corners' codes and one code beside: nothing is tolerated where no corner is cut off.
+TEST(JudgeUntimed, PassesLimitsAtTheCornersCodes) {
+  golden::Prng rng(21);
+  std::uint64_t compared = 0, cut = 0;
+  for (int n = 0; n < 150; ++n) {
+    Config config;
+    config.set("significand_bits", n % 2 == 0 ? 12 : 18);
+    DrawState state = square(48);
+    const double unit = std::ldexp(1.0, -config.depth_bits), spread = rng.log2_spread(-24, 0);
+    const double depth = rng.uniform(0, 1 - spread);
+    auto quads =
+        golden::make_stress(golden::StressFamily::perspective, 1, static_cast<std::uint64_t>(n), 1.0, 48, 48, 0);
+    double low = 1, high = 0;
+    for (WindowVertex& v : quads[0].vertex) {
+      v.z = (depth + rng.uniform(0, spread)) * v.w;
+      low = std::min(low, std::floor(v.z / v.w / unit + 0.5) * unit);
+      high = std::max(high, std::floor(v.z / v.w / unit + 0.5) * unit);
+    }
+    for (const int inward : {-1, 0, 1, 2}) {
+      state.znear = std::clamp(low + inward * unit, 0.0, 1.0);
+      state.zfar = std::clamp(high - inward * unit, 0.0, 1.0);
+      if (state.zfar < state.znear) continue;
+      const CheckResult result = judge_untimed(quads, 0, config, state);
+      EXPECT_EQ(result.faults(), 0u) << n << ", " << inward << ": " << faults(result);
+      EXPECT_TRUE(inward > 0 || result.discarded + result.tolerated_depth == 0) << n;
+      (inward <= 0 ? compared : cut) += result.compared;
+    }
+  }
+  EXPECT_GT(compared, 10'000u);
+  EXPECT_GT(cut, 1'000u);
 }
 
 TEST(JudgeUntimed, PassesQuadsAtThePort) {

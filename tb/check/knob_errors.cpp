@@ -41,10 +41,11 @@ class Meter {
         places_(places),
         attributes_(attributes),
         config_(config),
-        snapping_(snapping_config(config, attributes)) {
+        snapping_(snapping_config(config, attributes)),
+        bounds_(config),
+        limits_(config, state) {
     state_ = state;
     state_.attributes = attributes;
-    bound_ = weight_bound(config);
     for (std::size_t i = 0; i < quads.size(); ++i)
       snapped_.push_back(snap_as(quads[i], static_cast<std::uint32_t>(i), snapping_, state_));
   }
@@ -110,7 +111,7 @@ class Meter {
  private:
   void expect_quad(std::span<const EngineSample> drawn) {
     const std::uint32_t index = drawn.front().index;
-    const JudgedQuad quad(snapped_[index], snapping_, state_);
+    const JudgedQuad quad(snapped_[index], snapping_, bounds_, state_);
     const ErrorLimits limits(quad, config_, state_);
     std::vector<golden::PixelPlace> pixels;
     for (const EngineSample& sample : drawn) pixels.push_back({sample.x, sample.y});
@@ -128,7 +129,8 @@ class Meter {
     }
   }
 
-  bool in_depth(const ReferenceSample& s) const { return !state_.depth || (s.z >= state_.znear && s.z <= state_.zfar); }
+  /// By codes, as the machine discards.
+  bool in_depth(const ReferenceSample& s) const { return !state_.depth || limits_.side(s.z, 0) >= 0; }
 
   /// To the sum over all pixels and to that over those near the case.
   template <class Change>
@@ -149,7 +151,7 @@ class Meter {
     std::array<double, 4 + max_attribute_slots + 1> errors{};
     const auto attributes = static_cast<std::size_t>(attributes_);
     const std::size_t count = 4 + attributes + 1;
-    for (std::size_t i = 0; i < 4; ++i) errors[i] = (s.lambda[i] - e.truth.lambda[i]) / bound_;
+    for (std::size_t i = 0; i < 4; ++i) errors[i] = (s.lambda[i] - e.truth.lambda[i]) / e.allowed.weight[i];
     for (std::size_t a = 0; a < attributes; ++a)
       errors[4 + a] = (s.attribute[a] - e.truth.attribute[a]) / e.allowed.attribute[a];
     if (state_.depth) errors[count - 1] = (s.z - e.truth.z) / e.allowed.depth;  // 0 where nothing can be said
@@ -175,8 +177,9 @@ class Meter {
   std::span<const golden::ApproachPlace> places_;
   int attributes_;
   Config config_, snapping_;
+  Bounds bounds_;
+  DepthLimits limits_;
   DrawState state_;
-  double bound_ = 0;
   std::vector<SnappedQuad> snapped_;
   std::vector<Expected> expected_;
 };
@@ -201,9 +204,8 @@ std::string first_difference(std::span<const EngineSample> model, std::span<cons
 ErrorLimits::ErrorLimits(const JudgedQuad& quad, const Config& config, const DrawState& state)
     : quad_(quad),
       attributes_(static_cast<std::size_t>(state.attributes)),
-      bound_(weight_bound(config)),
-      attribute_unit_(attribute_format(config).unit()),
-      depth_unit_(depth_format(config).unit()),
+      attribute_code_(attribute_format(config).unit() / 2),
+      depth_code_(depth_format(config).unit() / 2),
       quick_(state.perspective && quad.bounded()) {
   for (std::size_t i = 0; i < 4; ++i) {
     const SnappedVertex& v = quad.quad().vertex[i];
@@ -211,30 +213,32 @@ ErrorLimits::ErrorLimits(const JudgedQuad& quad, const Config& config, const Dra
     z_[i] = golden::port_value(v.z, config.significand_bits) / k;
     w_[i] = std::ldexp(static_cast<double>(v.w), -config.frac()) / k;
   }
-  for (std::size_t a = 0; quick_ && a < attributes_; ++a)
-    fixed_.attribute[a] = quad.attribute_tolerance(a, 0, 0, 0, bound_) + attribute_unit_;
+  const Bounds& bounds = quad.bounds();
+  fixed_.weight = {bounds.value + attribute_code_, bounds.weight, bounds.weight, bounds.weight};
+  for (std::size_t a = 0; !quad.may_cancel() && a < attributes_; ++a)
+    fixed_.attribute[a] = quad.attribute_tolerance(a, 0, 0) + attribute_code_;
 }
 
 AllowedErrors ErrorLimits::at(const ReferenceSample& truth, int x, int y) const {
   AllowedErrors allowed = fixed_;
-  for (std::size_t a = 0; !quick_ && a < attributes_; ++a)
-    allowed.attribute[a] = quad_.attribute_tolerance(a, truth.attribute[a], x, y, bound_) + attribute_unit_;
-  allowed.depth = (quick_ ? depth(truth) : quad_.depth_tolerance(x, y, bound_)) + depth_unit_;
+  for (std::size_t a = 0; quad_.may_cancel() && a < attributes_; ++a)
+    allowed.attribute[a] = quad_.attribute_tolerance(a, x, y) + attribute_code_;
+  allowed.depth = (quick_ && quad_.depth_may_cancel() ? depth(truth) : quad_.depth_tolerance(x, y)) + depth_code_;
   return allowed;
 }
 
 /// JudgedQuad::depth_tolerance with M_i = lambda_i / k_i, up to a common factor.
 double ErrorLimits::depth(const ReferenceSample& truth) const {
-  double above = 0, below = 0, sum = 0;
+  double above = 0, below = 0, sum = 0, sum_z = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const double mw = truth.lambda[i] * w_[i];
-    above += std::fabs(truth.lambda[i] * z_[i]);
+    const double mw = truth.lambda[i] * w_[i], mz = truth.lambda[i] * z_[i];
+    above += std::fabs(mz);
     below += std::fabs(mw);
     sum += mw;
+    sum_z += mz;
   }
-  const double scale = std::fabs(sum), lost = 2 * bound_ * (below / scale);
-  if (!(lost < 1)) return std::numeric_limits<double>::infinity();
-  return (2 * bound_ * (above / scale) + std::fabs(truth.z) * lost) / (1 - lost);
+  const double scale = std::fabs(sum);
+  return quad_.cancelled_tolerance(sum_z / sum, above / scale, below / scale);
 }
 
 void BodyErrors::merge(const BodyErrors& other) {

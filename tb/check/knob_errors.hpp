@@ -29,6 +29,7 @@ inline constexpr std::array<std::string_view, 5> knob_body_names{"model", "float
 /// How far attributes and window z may be from the truth at one pixel: their tolerances (judged_quad.hpp) and a unit
 /// of the output, which is truncated.
 struct AllowedErrors {
+  std::array<double, 4> weight{};
   std::array<double, max_attribute_slots> attribute{};
   double depth = 0;  ///< infinite where sum(M W) cancels to what the weights' errors leave of it
 };
@@ -47,14 +48,13 @@ class ErrorLimits {
 
   const JudgedQuad& quad_;
   std::size_t attributes_;
-  double bound_, attribute_unit_, depth_unit_;
-  bool quick_;                       ///< nothing but the weights of eq. (10) is needed
-  std::array<double, 4> z_{}, w_{};  ///< Z/k and W/k
-  AllowedErrors fixed_;              ///< of attributes, where the pixel does not matter
+  double attribute_code_, depth_code_;  ///< half a code
+  bool quick_;                          ///< nothing but the weights of eq. (10) is needed
+  std::array<double, 4> z_{}, w_{};     ///< Z/k and W/k
+  AllowedErrors fixed_;                 ///< of weights and attributes, where the pixel does not matter
 };
 
-/// The largest error of one output, as a part of what the bound allows: a weight 2^-(s-3), attributes and depth
-/// ErrorLimits.
+/// The largest error of one output, as a part of what ErrorLimits allow.
 struct LargestError {
   double part = 0;
   Place place;

@@ -26,11 +26,31 @@ Config with_slots(const Config& config) { return snapping_config(config, 4); }
 
 }  // namespace
 
+PixelAlone pixel_alone(const SnappedQuad& quad, const Config& config, const DrawState& state,
+                       const PipelineContext& context, int px, int py) {
+  const SetupResult setup = quad_setup(quad, config, state);
+  const QuadConstants constants(setup);
+  TileEntry tile;
+  tile.tile_x = px >> config.tile_log2;
+  tile.tile_y = py >> config.tile_log2;
+  const int x = (tile.tile_x - setup.tile_x0) * config.tile(), y = (tile.tile_y - setup.tile_y0) * config.tile();
+  WalkState walk;
+  for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
+  walk_step(walk, constants, x, y);
+  tile.linear = walk.linear;
+  tile.quadratic = tile_context(constants, x, y, config.qdrop());
+  const int dx = px & (config.tile() - 1), row = py & (config.tile() - 1);
+  PixelAlone out;
+  out.covered = (stamp_coverage(tile, constants, row, config, state).mask >> dx & 1) != 0;
+  pixel_pipeline(out.trace, tile, constants, quad_data(quad, setup, config, state), dx, row, context);
+  return out;
+}
+
 /// The truth's formulas in 80-bit arithmetic on exact integers. Attributes and depth need more than weights do.
 struct PixelErrors::QuickTruth {
   std::array<long double, 4> lambda{};
-  double value = 0;      ///< attribute or depth
-  double tolerance = 0;  ///< of it
+  double above = 0;      ///< attribute or depth, without its base
+  double tolerance = 0;  ///< of it; of weight 0
 };
 
 PixelErrors::PixelErrors(const Config& config, const DrawState& state, Output output)
@@ -38,6 +58,7 @@ PixelErrors::PixelErrors(const Config& config, const DrawState& state, Output ou
       state_(with_output(state, output)),
       output_(output),
       context_(config_, state_),
+      bounds_(config_),
       plain_(config_, state_, PixelEngine::plain),
       lanes_(config_, state_, PixelEngine::lanes) {}
 
@@ -73,46 +94,52 @@ std::optional<PixelErrors::QuickTruth> PixelErrors::quick_truth(const SnappedQua
     sum += truth.lambda[i];
   }
   for (long double& l : truth.lambda) l /= sum;
+  truth.tolerance = bounds_.value;
   if (output_ == Output::weight) return truth;
 
-  const long double bound = weight_bound(config_);
-  long double value = 0, tolerance = 0;
   if (output_ == Output::attribute) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const long double a = port(q.vertex[i].attribute[0]) / port(q.vertex[i].k);
-      value += truth.lambda[i] * a;
-      tolerance += bound * std::fabs(a);
-    }
-  } else {
-    // As JudgedQuad::depth_tolerance.
-    long double sum_z = 0, sum_w = 0, above = 0, below = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const long double z = m[i] * port(q.vertex[i].z),
-                        w = m[i] * std::ldexp(static_cast<long double>(q.vertex[i].w), -config_.frac());
-      sum_z += z, sum_w += w, above += std::fabs(z), below += std::fabs(w);
-    }
-    const long double scale = std::fabs(sum_w), lost = 2 * bound * (below / scale);
-    if (!(lost < 1)) return std::nullopt;
-    value = sum_z / sum_w;
-    tolerance = (2 * bound * (above / scale) + std::fabs(value) * lost) / (1 - lost);
+    long double above = 0;
+    for (std::size_t i = 1; i < 4; ++i)
+      above += truth.lambda[i] * (static_cast<long double>(port(q.vertex[i].attribute[0])) / port(q.vertex[i].k));
+    truth.above = static_cast<double>(above);
+    truth.tolerance = bounds_.value * attribute_spread(q, 0, config_, true);
+    return truth;
   }
-  truth.value = static_cast<double>(value);
-  truth.tolerance = static_cast<double>(tolerance);
+  long double sum_z = 0, sum_w = 0, above = 0, below = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const long double z = m[i] * port(q.vertex[i].z),
+                      w = m[i] * std::ldexp(static_cast<long double>(q.vertex[i].w), -config_.frac());
+    sum_z += z, sum_w += w, above += std::fabs(z), below += std::fabs(w);
+  }
+  if (std::ranges::all_of(q.vertex, [](const SnappedVertex& v) { return v.w > 0; })) {
+    truth.tolerance = (cuts_w(q, config_) ? bounds_.value_of_cut_w : bounds_.value) * depth_spread(q, config_);
+  } else {
+    // As JudgedQuad::cancelled_tolerance.
+    const long double scale = std::fabs(sum_w), error = 2 * bounds_.weight, lost = error * (below / scale);
+    if (!(lost < 1)) return std::nullopt;
+    truth.tolerance = static_cast<double>((error * (above / scale) + std::fabs(sum_z / sum_w) * lost) / (1 - lost));
+  }
+  const double unit = depth_format(config_).unit(), base = q.base.depth;
+  truth.above = std::clamp(static_cast<double>(sum_z / sum_w), (q.base.depth_low - base) * unit,
+                           (q.base.depth_high - base) * unit);
   return truth;
 }
 
-double PixelErrors::units_of(const Fragment& fragment, const QuickTruth& truth) const {
+double PixelErrors::units_of(const Fragment& fragment, const SnappedQuad& quad, const QuickTruth& truth) const {
+  const bool depth = output_ == Output::depth;
+  const FixedPoint format = depth ? depth_format(config_) : attribute_format(config_);
   if (output_ == Output::weight) {
     double worst = 0;
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 1; i < 4; ++i)
       worst = std::max(worst, std::fabs(weight(fragment, i) - static_cast<double>(truth.lambda[i])));
-    return std::ldexp(worst, config_.significand_bits);
+    const double first = format.distance(fragment.attribute[0], static_cast<double>(truth.lambda[0]));
+    return std::max(std::ldexp(worst, config_.significand_bits), bound_units * first / truth.tolerance);
   }
-  const bool attribute = output_ == Output::attribute;
-  const FixedPoint format = attribute ? attribute_format(config_) : depth_format(config_);
-  if (!(truth.tolerance > 0) || std::fabs(truth.value) + truth.tolerance >= format.limit()) return -1;
-  return bound_units * format.distance(attribute ? fragment.attribute[0] : fragment.depth, truth.value) /
-         truth.tolerance;
+  const std::int64_t base = depth ? quad.base.depth : quad.base.attribute[0];
+  const std::int64_t code = depth ? fragment.depth : fragment.attribute[0];
+  const double value = static_cast<double>(base) * format.unit() + truth.above;
+  if (!(truth.tolerance > 0) || std::fabs(value) + truth.tolerance >= format.limit()) return -1;
+  return bound_units * format.distance(code - base, truth.above) / truth.tolerance;
 }
 
 double PixelErrors::measure(const WindowQuad& quad, int px, int py) const {
@@ -122,24 +149,10 @@ double PixelErrors::measure(const WindowQuad& quad, int px, int py) const {
   } catch (const SnapError&) {
     return -1;
   }
-  const SetupResult setup = quad_setup(q, config_, state_);
-  const QuadConstants constants(setup);
-  TileEntry tile;
-  tile.tile_x = px >> config_.tile_log2;
-  tile.tile_y = py >> config_.tile_log2;
-  const int x = (tile.tile_x - setup.tile_x0) * config_.tile(), y = (tile.tile_y - setup.tile_y0) * config_.tile();
-  WalkState walk;
-  for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
-  walk_step(walk, constants, x, y);
-  tile.linear = walk.linear;
-  tile.quadratic = tile_context(constants, x, y, config_.qdrop());
-  const int dx = px & (config_.tile() - 1), row = py & (config_.tile() - 1);
-  if (!(stamp_coverage(tile, constants, row, config_, state_).mask >> dx & 1)) return -1;
+  const PixelAlone pixel = pixel_alone(q, config_, state_, context_, px, py);
+  if (!pixel.covered || !pixel.trace.drawn) return -1;
   const auto truth = quick_truth(q, px, py);
-  if (!truth) return -1;
-  PixelTrace p;
-  pixel_pipeline(p, tile, constants, quad_data(q, setup, config_, state_), dx, row, context_);
-  return p.drawn ? units_of(p.fragment, *truth) : -1;
+  return truth ? units_of(pixel.trace.fragment, q, *truth) : -1;
 }
 
 PixelError PixelErrors::judge(const WindowQuad& quad, int x, int y) {
@@ -159,17 +172,17 @@ void PixelErrors::judge(UntimedModel& model, const SnappedQuad& q, const golden:
       if (!s.covered) continue;
       QuickTruth exact;
       std::ranges::copy(s.lambda, exact.lambda.begin());
+      exact.tolerance = bounds_.value;
       if (output_ != Output::weight) {
-        const JudgedQuad judged(q, config_, state_);
-        const double bound = weight_bound(config_);
-        exact.value = output_ == Output::attribute ? s.attribute[0] : s.z;
-        exact.tolerance = output_ == Output::attribute ? judged.attribute_tolerance(0, s.attribute[0], x, y, bound)
-                                                       : judged.depth_tolerance(x, y, bound);
+        const JudgedQuad judged(q, config_, bounds_, state_);
+        const bool attribute = output_ == Output::attribute;
+        exact.above = attribute ? s.attribute_above[0] : s.z_above;
+        exact.tolerance = attribute ? judged.attribute_tolerance(0, x, y) : judged.depth_tolerance(x, y);
         if (!std::isfinite(exact.tolerance)) continue;
       }
       error.condition = s.condition;
       error.flags = f.flags;
-      error.units = std::max(error.units, units_of(f, exact));
+      error.units = std::max(error.units, units_of(f, q, exact));
     }
   });
 }

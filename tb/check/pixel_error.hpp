@@ -5,23 +5,28 @@
 #include "model/pixel_pipeline.hpp"
 #include "model/records.hpp"
 #include "model/untimed.hpp"
+#include "tb/check/judged_quad.hpp"
 
 #include <array>
 #include <optional>
 #include <string_view>
 
-namespace quadrille::golden {
-class TruthQuad;
-}
-
 namespace quadrille::cli {
+
+/// The model's pure functions at one pixel.
+struct PixelAlone {
+  bool covered = false;
+  PixelTrace trace;  ///< as if it were covered
+};
+PixelAlone pixel_alone(const SnappedQuad& quad, const Config& config, const DrawState& state,
+                       const PipelineContext& context, int x, int y);
 
 enum class Output { weight, attribute, depth };
 inline constexpr std::array<std::string_view, 3> output_names{"weight", "attribute", "depth"};
 
-/// What the bound allows, in units of 2^-s of a weight. Of attributes and depth a unit is an eighth of what the bound
-/// on the weights allows them at the pixel (judged_quad.hpp), and the error begins where the output's truncation ends:
-/// 8 is where the judge finds a fault, for attributes of any size.
+/// What the bound allows, in units of 2^-s of weights 1 to 3. Of weight 0, attributes and depth a unit is an eighth of
+/// what their bound allows them at the pixel (judged_quad.hpp), and the error begins where the output's rounding ends:
+/// 8 is where the judge finds a fault, for values of any spread.
 inline constexpr double bound_units = 8;
 
 struct PixelError {
@@ -46,7 +51,7 @@ class PixelErrors {
  private:
   struct QuickTruth;
   std::optional<QuickTruth> quick_truth(const SnappedQuad& quad, int x, int y) const;
-  double units_of(const Fragment& fragment, const QuickTruth& truth) const;
+  double units_of(const Fragment& fragment, const SnappedQuad& quad, const QuickTruth& truth) const;
   void judge(UntimedModel& model, const SnappedQuad& quad, const golden::TruthQuad& truth, int x, int y,
              PixelError& error) const;
   double weight(const Fragment& fragment, std::size_t i) const;
@@ -55,6 +60,7 @@ class PixelErrors {
   DrawState state_;
   Output output_;
   PipelineContext context_;
+  Bounds bounds_;
   UntimedModel plain_, lanes_;
 };
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace quadrille::cli {
 namespace {
@@ -155,7 +156,22 @@ class StageCheck {
     t.hull = p.quad.hull = rng_.chance(0.25);
     t.homogeneous = p.quad.homogeneous = rng_.chance(0.5);
     const bool at_infinity = rng_.chance(0.05);
-    const Number steps[] = {{1, -config_.depth_bits}, {1, -s_ - 2}};
+    const Number steps[] = {{1, -config_.depth_bits}, {1, -config_.depth_bits - 1}, {1, -s_ - 2}};
+    // Bases anywhere or at their ends; corner codes anywhere, often all of the range.
+    QuadBase& base = p.quad.base;
+    const std::int64_t largest = attribute_format(config_).largest_code();
+    for (std::int64_t& a : base.attribute)
+      a = rng_.chance(0.2) ? (rng_.chance(0.5) ? largest : -largest) : rng_.integer(-largest, largest);
+    const std::int64_t whole = std::int64_t{1} << config_.depth_bits;
+    base.depth = static_cast<std::uint32_t>(rng_.chance(0.2) ? (rng_.chance(0.5) ? whole : 0) : rng_.integer(0, whole));
+    base.depth_low = -1;
+    base.depth_high = static_cast<std::int32_t>(whole + 1);
+    if (rng_.chance(0.5)) {
+      const auto a = static_cast<std::int32_t>(rng_.integer(-1, whole + 1)),
+                 b = static_cast<std::int32_t>(rng_.integer(-1, whole + 1));
+      base.depth_low = std::min(a, b);
+      base.depth_high = std::max(a, b);
+    }
     for (std::size_t i = 0; i < 4; ++i) {
       const std::int64_t one = std::int64_t{1} << config_.frac();
       const std::int64_t w = at_infinity ? 0 : rng_.chance(0.5) ? one : rng_.integer(-one, one);
@@ -167,12 +183,13 @@ class StageCheck {
       if (rng_.chance(0.5)) {
         const double limit = rng_.chance(0.5) ? state_.znear : state_.zfar;
         Number z{static_cast<Wide>(std::ldexp(limit, 40)), -40};
-        const Number& step = steps[rng_.below(2)];
+        z.m -= Wide{p.quad.base.depth} << (40 - config_.depth_bits);
+        const Number& step = steps[rng_.below(3)];
         z.m += rng_.integer(-1, 1) * (Wide{1} << (40 + step.e));
         p.quad.z[i] = float_of(z);
       }
-      for (std::size_t j = 0; j < max_attribute_slots; ++j) {
-        p.quad.b[i][j] = random_float(8);
+      for (std::size_t j = 0; i > 0 && j < max_attribute_slots; ++j) {
+        p.quad.b[i][j] = random_float(config_.attribute_int_bits + 1);
         if (rng_.chance(0.1)) p.quad.b[i][j] = {};
       }
     }
@@ -306,31 +323,30 @@ class StageCheck {
 
   std::string sums(const Pixel& p) const {
     const PixelTrace& t = p.trace;
+    const auto term = [&](std::size_t i, const PipelineFloat& v) { return Term{real(t.m[i]), real(v)}; };
     const auto of = [&](auto&& v) {
-      std::array<Term, 4> terms;
-      for (std::size_t i = 0; i < 4; ++i) terms[i] = {real(t.m[i]), real(v(i))};
-      return sum(terms);
+      return sum(std::array{term(0, v(0)), term(1, v(1)), term(2, v(2)), term(3, v(3))});
     };
     if (!same(t.den_k, of([&](std::size_t i) { return p.quad.k[i]; }))) return "sum of M k";
     if (!same(t.den_w, of([&](std::size_t i) { return p.quad.w[i]; }))) return "sum of M W";
     if (!same(t.num_z, of([&](std::size_t i) { return p.quad.z[i]; }))) return "sum of M Z";
     for (std::size_t j = 0; j < static_cast<std::size_t>(config_.attribute_slots); ++j)
-      if (!same(t.num_a[j], of([&](std::size_t i) { return p.quad.b[i][j]; })))
+      if (!same(t.num_a[j], sum(std::array{term(1, p.quad.b[1][j]), term(2, p.quad.b[2][j]), term(3, p.quad.b[3][j])})))
         return "sum of M b[" + std::to_string(j) + "]";
     return "";
   }
 
-  /// Magnitude of num / den on a grid, by the machine's reciprocal.
-  std::int64_t quotient(const PipelineFloat& num, const PipelineFloat& den, const FixedPoint& format) const {
-    const PipelineFloat inverse = reciprocal(den, context_.recip_table, context_.format);
-    const Number q = exact::product(size(num), size(inverse));
-    return format.code_of(false, static_cast<std::uint64_t>(q.m), q.e);
-  }
-
-  /// |num / den| is 2^int_bits or more.
-  bool clamped(const PipelineFloat& num, const PipelineFloat& den, const FixedPoint& format) const {
+  /// num / den in codes by the machine's reciprocal, its magnitude to nearest and halves up; nothing where that is
+  /// 2^int_bits or more. `size`: of the product, exactly.
+  std::optional<Wide> quotient(const PipelineFloat& num, const PipelineFloat& den, int int_bits, int fraction) const {
     const Number q = exact::product(size(num), size(reciprocal(den, context_.recip_table, context_.format)));
-    return !q.zero() && q.exponent() >= format.int_bits;
+    if (q.zero()) return 0;
+    if (q.exponent() >= int_bits) return std::nullopt;
+    // floor(2 q + 1 in half codes), halved.
+    const Number twice = exact::truncated(q, -fraction - 1);
+    const int up = std::min(twice.e + fraction + 1, 100);
+    const Wide code = ((twice.m << up) + 1) >> 1;
+    return num.neg != den.neg ? -code : code;
   }
 
   std::string output(const Pixel& p) const {
@@ -338,16 +354,19 @@ class StageCheck {
     const Fragment& g = t.fragment;
     if (g.quad != p.quad.id || g.x != t.x || g.y != t.y || g.front != t.front) return "quad, x, y or front";
     bool saturated = false;
+    const Wide limit = (Wide{1} << (config_.attribute_int_bits + config_.attribute_frac())) - 1;
     for (std::size_t j = 0; j < max_attribute_slots; ++j) {
-      std::int64_t wanted = 0;
+      Wide wanted = 0;
       if (static_cast<int>(j) < state_.attributes) {
-        wanted = quotient(t.num_a[j], t.den_k, attribute_format(config_));
-        saturated = saturated || clamped(t.num_a[j], t.den_k, attribute_format(config_));
-        if (t.num_a[j].neg != t.den_k.neg) wanted = -wanted;
+        const auto above = quotient(t.num_a[j], t.den_k, config_.attribute_int_bits + 1, config_.attribute_frac());
+        const bool neg = t.num_a[j].neg != t.den_k.neg;
+        const Wide value = above ? p.quad.base.attribute[j] + *above : neg ? -limit - 1 : limit + 1;
+        wanted = std::clamp(value, -limit, limit);
+        saturated = saturated || wanted != value;
       }
       if (g.attribute[j] != wanted)
         return "attribute " + std::to_string(j) + " " + std::to_string(g.attribute[j]) + ", expected " +
-               std::to_string(wanted);
+               std::to_string(static_cast<std::int64_t>(wanted));
     }
     unsigned flags = 0;
     const auto expect = [&](FragmentFlag flag, bool set) { flags |= set ? static_cast<unsigned>(flag) : 0u; };
@@ -364,11 +383,14 @@ class StageCheck {
     bool drawn = !p.quad.hull || (!t.den_w.neg && t.den_w.sig != 0);
     std::int64_t depth = 0;
     if (state_.depth) {
-      const FixedPoint format = depth_format(config_);
-      const bool nothing = t.den_w.sig == 0;
-      depth = nothing ? format.largest_code() : quotient(t.num_z, t.den_w, format);
-      const bool negative = !nothing && t.num_z.neg != t.den_w.neg && depth != 0;
-      drawn = drawn && !negative && DepthLimits(config_, state_).holds(depth);
+      const QuadBase& base = p.quad.base;
+      const bool nothing = t.den_w.sig == 0;  // counts as too large a quotient
+      const auto above = nothing ? std::optional<Wide>() : quotient(t.num_z, t.den_w, 1, config_.depth_bits);
+      const bool neg = !nothing && t.num_z.neg != t.den_w.neg;
+      Wide z = above ? Wide{base.depth} + *above : neg ? base.depth_low : base.depth_high;
+      z = std::clamp<Wide>(z, base.depth_low, base.depth_high);
+      drawn = drawn && DepthLimits(config_, state_).holds(static_cast<std::int64_t>(z));
+      depth = std::max<std::int64_t>(static_cast<std::int64_t>(z), 0);
     }
     if (g.depth != depth) return "depth " + std::to_string(g.depth) + ", expected " + std::to_string(depth);
     return t.drawn == drawn ? "" : drawn ? "discarded" : "not discarded";
@@ -381,8 +403,8 @@ class StageCheck {
   const int s_;
 };
 
-/// What the slots hold of a quad: the port's numbers, and W truncated to S bits, which is k too without perspective;
-/// zeros for what skip_operands holds.
+/// What the slots hold of a quad: the port's numbers (no attribute of vertex 0) and bases, and W truncated to S bits,
+/// which is k too without perspective; zeros for what skip_operands holds.
 void check_quad_data(const Config& config, Prng& rng, FunctionTally& tally) {
   const int s = config.significand_bits;
   const auto number = [&] {
@@ -397,6 +419,10 @@ void check_quad_data(const Config& config, Prng& rng, FunctionTally& tally) {
     SetupResult setup;
     setup.homogeneous = rng.chance(0.5);
     setup.hull = rng.chance(0.5);
+    for (std::int64_t& base : quad.base.attribute) base = rng.integer(-one, one);
+    quad.base.depth = static_cast<std::uint32_t>(rng.below(1 << 20));
+    quad.base.depth_low = static_cast<std::int32_t>(rng.integer(-1, 10));
+    quad.base.depth_high = static_cast<std::int32_t>(rng.integer(10, 1 << 20));
     for (SnappedVertex& v : quad.vertex) {
       v.w = static_cast<std::int32_t>(rng.chance(0.2) ? one : rng.integer(-one, one));
       v.k = number();
@@ -414,7 +440,7 @@ void check_quad_data(const Config& config, Prng& rng, FunctionTally& tally) {
     const bool needs_z = !held || state.depth, needs_w = needs_z || setup.hull;
     const auto needs_b = [&](std::size_t j) { return !held || j < static_cast<std::size_t>(state.attributes); };
     const QuadData d = quad_data(quad, setup, config, state);
-    bool right = d.id == quad.id && d.homogeneous == setup.homogeneous && d.hull == setup.hull;
+    bool right = d.id == quad.id && d.homogeneous == setup.homogeneous && d.hull == setup.hull && d.base == quad.base;
     for (std::size_t i = 0; i < 4; ++i) {
       const SnappedVertex& v = quad.vertex[i];
       const Number w = exact::cut({v.w, -config.frac()}, s);
@@ -422,7 +448,7 @@ void check_quad_data(const Config& config, Prng& rng, FunctionTally& tally) {
               exact::is(d.k[i], state.perspective ? value_of(v.k, s) : w, s) &&
               exact::is(d.z[i], needs_z ? value_of(v.z, s) : Number{}, s);
       for (std::size_t j = 0; j < static_cast<std::size_t>(config.attribute_slots); ++j)
-        right = right && exact::is(d.b[i][j], needs_b(j) ? value_of(v.attribute[j], s) : Number{}, s);
+        right = right && exact::is(d.b[i][j], i > 0 && needs_b(j) ? value_of(v.attribute[j], s) : Number{}, s);
     }
     tally.expect(right, [&] { return "of quad " + std::to_string(n) + " differs from what was sent"; });
   }

@@ -676,10 +676,16 @@ class CosimRun {
         "                 on an edge {on_edge}, a vertex {on_vertex}, two corners {two_corner}, two edges {two_edge}, "
         "ties {tie}\n",
         json["counts"]);
+    if (c.tolerated_depth + c.tolerated_visible > 0)
+      print(
+          "                 tolerated, either being right: {tolerated_depth} within a depth's bound of a limit that "
+          "cuts the quad,\n"
+          "                 {tolerated_visible} with the eye in the hull and a sum of M W within its bound of 0\n",
+          json["counts"]);
     if (options_.common.verbose)
       print(
           "                 notches {notch}, saturated {saturated}, discarded by z {discarded}, moved by snapping "
-          "{coverage_flips}, tolerated {tolerated_visible} + {tolerated_depth}\n",
+          "{coverage_flips}\n",
           json["counts"]);
     const double rate = ratio(static_cast<double>(r.pass_cycles), r.loop_seconds);
     const double alone = ratio(static_cast<double>(r.alone_cycles), r.alone_seconds);

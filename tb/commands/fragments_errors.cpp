@@ -34,7 +34,7 @@ std::string fragment_errors_csv(std::span<const WindowQuad> quads, int attribute
   DrawState state = settings.state;
   state.attributes = attributes;
   const Config snapping = snapping_config(settings.config, attributes);
-  const double bound = weight_bound(settings.config);
+  const Bounds bounds(settings.config);
   std::string out = "quad,x,y,value,drawn,truth,error,of_bound\n";
   std::optional<SnappedQuad> snapped;
   std::optional<JudgedQuad> quad;
@@ -47,7 +47,7 @@ std::string fragment_errors_csv(std::span<const WindowQuad> quads, int attribute
       limits.reset();
       quad.reset();
       snapped = snap_as(quads[index], index, snapping, state);
-      quad.emplace(*snapped, snapping, state);
+      quad.emplace(*snapped, snapping, bounds, state);
       limits.emplace(*quad, settings.config, state);
     }
     // In lanes, as `stress` has it: their last bits are not those of sample(), and errors are few bits.
@@ -69,7 +69,8 @@ std::string fragment_errors_csv(std::span<const WindowQuad> quads, int attribute
         out += ",,\n";
       }
     };
-    for (std::size_t i = 0; i < 4; ++i) row("l" + std::to_string(i), bound, [&](const auto& s) { return s.lambda[i]; });
+    for (std::size_t i = 0; i < 4; ++i)
+      row("l" + std::to_string(i), allowed.weight[i], [&](const auto& s) { return s.lambda[i]; });
     if (state.depth) row("z", allowed.depth, [](const auto& s) { return s.z; });
     for (std::size_t a = 0; a < static_cast<std::size_t>(attributes); ++a)
       row("a" + std::to_string(a), allowed.attribute[a], [&](const auto& s) { return s.attribute[a]; });

@@ -110,13 +110,8 @@ class Search {
     for (std::size_t i = 0; i < search.configs.size(); ++i)
       points_.push_back({search.configs[i], search.costs[i], search.ordinary[i]});
     std::vector<sweep::Quantity> measured;
-    std::vector<sweep::TargetedError> errors;
-    for (const ErrorTarget& target : search.targets) {
-      measured.push_back(target.column.quantity);
-      errors.push_back({target.column, target.limit});
-    }
+    for (const ErrorTarget& target : search.targets) measured.push_back(target.column.quantity);
     idle_keys_ = sweep::idle_keys(measured);
-    gain_ = sweep::output_gain(errors);
   }
 
   TargetResult run() {
@@ -136,7 +131,7 @@ class Search {
  private:
   sweep::SearchResult find() {
     return sweep::cheapest_meeting(
-        points_, [&](std::size_t i) { return miss(i); }, sweep::sampled_slack, idle_keys_, gain_);
+        points_, [&](std::size_t i) { return miss(i); }, sweep::sampled_slack, idle_keys_);
   }
 
   double input_miss(std::size_t point) {
@@ -237,7 +232,6 @@ class Search {
   const TargetSearch& search_;
   std::vector<sweep::SearchPoint> points_;
   std::vector<std::string_view> idle_keys_;
-  sweep::OutputGain gain_;
   std::map<std::size_t, double> missed_;  ///< input_miss() by point
   std::vector<Family> families_;
   std::vector<std::unique_ptr<sweep::Evaluator>> evaluators_;

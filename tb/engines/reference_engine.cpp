@@ -3,9 +3,11 @@
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/snap.hpp"
+#include "model/stages.hpp"
 #include "model/support/parallel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
@@ -24,7 +26,7 @@ constexpr int pixels_per_unit = 16384;
 
 class ReferenceEngine final : public Engine {
  public:
-  explicit ReferenceEngine(const EngineSettings& settings) : settings_(settings) {}
+  explicit ReferenceEngine(const EngineSettings& settings) : settings_(settings), limits_(settings) {}
 
   void draw(std::span<const WindowQuad> quads, int attributes, bool, const SampleSink& sink) override {
     DrawState state = settings_.state;
@@ -131,7 +133,7 @@ class ReferenceEngine final : public Engine {
                                                 : quad.paper->sample(x, y);
         if (!s.covered || (!s.visible && !s.undefined)) continue;
         if (state.cull == (s.front ? Cull::front : Cull::back)) continue;
-        if (state.depth && !s.undefined && !(s.z >= state.znear && s.z <= state.zfar)) continue;
+        if (state.depth && !s.undefined && !(s.z >= limits_.low && s.z <= limits_.high)) continue;
         EngineSample sample;
         sample.index = index;
         sample.quad = given.id;
@@ -148,7 +150,21 @@ class ReferenceEngine final : public Engine {
     }
   }
 
+  /// Of window z: as given, or what the codes of the limits stand for, whose rounding is to nearest.
+  struct Limits {
+    explicit Limits(const EngineSettings& settings) : low(settings.state.znear), high(settings.state.zfar) {
+      if (!settings.snap) return;
+      const auto half_codes = [&](double z, int more) {
+        return std::ldexp(2.0 * depth_code(z, settings.config) + more, -settings.config.depth_bits - 1);
+      };
+      low = half_codes(settings.state.znear, -1);
+      high = half_codes(settings.state.zfar, 1);
+    }
+    double low, high;
+  };
+
   EngineSettings settings_;
+  Limits limits_;
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ class ShaderEngine final : public Engine {
       for (std::size_t i = first; i < last; ++i) {
         const SnappedQuad snapped = snap_as(quads[i], 0, config, state);  // refuses what no engine draws
         if (settings_.snap) {
-          vertices.add(snapped, config);
+          vertices.add(snapped, config, state.perspective);
           bounds.push_back(around(golden::TruthQuad(snapped, config, state).bounds(), state));
         } else {
           vertices.add(quads[i]);

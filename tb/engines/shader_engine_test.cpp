@@ -97,13 +97,22 @@ Tolerance tolerance(const SnappedQuad& quad, const Config& config, const DrawSta
     inside = inside && over_w[i].value > over_w[i].error;
     outside = outside || over_w[i].value < -over_w[i].error;
     result.lambda[i] = higher_orders * (state.perspective ? over_w[i] / sum_over_w : lambda[i]).error;
-    term[i] = lambda[i] * (port(quad.vertex[i].z) / number(quad.vertex[i].w));
+    const double w = std::ldexp(static_cast<double>(quad.vertex[i].w), -config.frac());
+    const double z = golden::port_value(quad.vertex[i].z, config.significand_bits) +
+                     w * std::ldexp(quad.base.depth, -config.depth_bits);
+    term[i] = lambda[i] * (rounded(z) / number(quad.vertex[i].w));
   }
   result.certain = inside || outside;
   result.z = higher_orders * sum(term).error;
   for (std::size_t a = 0; a < static_cast<std::size_t>(state.attributes); ++a) {
-    for (std::size_t i = 0; i < 4; ++i)
-      term[i] = lambda[i] * (port(quad.vertex[i].attribute[a]) / number(quad.vertex[i].w));
+    for (std::size_t i = 0; i < 4; ++i) {
+      const SnappedVertex& v = quad.vertex[i];
+      const double k = state.perspective ? golden::port_value(v.k, config.significand_bits)
+                                         : std::ldexp(static_cast<double>(v.w), -config.frac());
+      const double base = std::ldexp(static_cast<double>(quad.base.attribute[a]), -config.attribute_frac());
+      const double above = i == 0 ? 0 : golden::port_value(v.attribute[a], config.significand_bits);
+      term[i] = lambda[i] * (rounded(above + k * base) / number(v.w));
+    }
     const Bounded mean = sum(term);
     result.attribute[a] = higher_orders * (state.perspective ? mean / sum_over_w : mean).error;
   }
@@ -152,7 +161,7 @@ Agreement compare(const std::string& name, tb::PaperShader& shader, const DrawSt
     const SnappedQuad snapped = snap_as(quad, 0, config, state);
     const golden::PaperFp64Quad paper(snapped, config, state);
     tb::ShaderQuads quads(attributes);
-    quads.add(snapped, config);
+    quads.add(snapped, config, state.perspective);
     // One pixel more than the exact rule has.
     const golden::PixelRect bounds = golden::TruthQuad(snapped, config, state).bounds();
     if (bounds.empty()) continue;

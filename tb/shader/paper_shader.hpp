@@ -18,8 +18,8 @@ namespace quadrille::tb {
 class ShaderQuads {
  public:
   explicit ShaderQuads(int attributes) : attributes_(attributes) {}
-  /// Snapped: relative to pixel centres at the integers.
-  void add(const SnappedQuad& quad, const Config& config);
+  /// Snapped: relative to pixel centres at the integers; z and attributes with their bases, k_eff a and k z~.
+  void add(const SnappedQuad& quad, const Config& config, bool perspective = true);
   /// As given, pixel centres at +0.5.
   void add(const WindowQuad& quad);
 

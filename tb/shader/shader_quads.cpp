@@ -12,21 +12,29 @@ void fill(std::vector<float>& numbers, std::size_t begin, int attributes) {
 
 }  // namespace
 
-void ShaderQuads::add(const SnappedQuad& quad, const Config& config) {
+void ShaderQuads::add(const SnappedQuad& quad, const Config& config, bool perspective) {
   const auto coordinate = [&](std::int32_t value) {
     numbers_.push_back(static_cast<float>(std::ldexp(static_cast<double>(value), -config.frac())));
   };
   const auto port = [&](const PortNumber& number) {
     numbers_.push_back(static_cast<float>(golden::port_value(number, config.significand_bits)));
   };
-  for (const SnappedVertex& vertex : quad.vertex) {
+  const auto with_base = [&](const PortNumber& difference, double base, double scale) {
+    numbers_.push_back(static_cast<float>(golden::port_value(difference, config.significand_bits) + base * scale));
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    const SnappedVertex& vertex = quad.vertex[i];
     const std::size_t begin = numbers_.size();
+    const double w = std::ldexp(static_cast<double>(vertex.w), -config.frac());
+    const double k = perspective ? golden::port_value(vertex.k, config.significand_bits) : w;
     coordinate(vertex.x);
     coordinate(vertex.y);
     coordinate(vertex.w);
     port(vertex.k);
-    port(vertex.z);
-    for (int a = 0; a < attributes_; ++a) port(vertex.attribute[static_cast<std::size_t>(a)]);
+    with_base(vertex.z, std::ldexp(static_cast<double>(quad.base.depth), -config.depth_bits), w);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(attributes_); ++a)
+      with_base(i == 0 ? PortNumber{} : vertex.attribute[a],
+                std::ldexp(static_cast<double>(quad.base.attribute[a]), -config.attribute_frac()), k);
     fill(numbers_, begin, attributes_);
   }
 }

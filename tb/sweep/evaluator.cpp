@@ -8,6 +8,7 @@
 #include "tb/sweep/stage_tree.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -99,8 +100,8 @@ class BatchPlan {
 struct Evaluator::Impl {
   struct Positions {
     std::shared_ptr<const PositionData> data;
-    std::map<int, std::shared_ptr<const PortQuads>> ports;    ///< by significand_bits
-    std::map<int, std::shared_ptr<const PlaneQuads>> planes;  ///< likewise
+    std::map<LevelKey, std::shared_ptr<const PortQuads>> ports;    ///< by port_key()
+    std::map<LevelKey, std::shared_ptr<const PlaneQuads>> planes;  ///< likewise
     std::uint64_t used = 0;
 
     std::size_t bytes() const {
@@ -122,16 +123,15 @@ struct Evaluator::Impl {
   std::optional<GivenTruth> given;
   std::map<LevelKey, Positions> positions;
   std::map<DifferenceKey, Differences> differences;
-  std::map<std::pair<LevelKey, CyclesKey>, std::uint64_t> cycles;
-  std::map<std::pair<LevelKey, std::array<int, 2>>, std::string> snap_refusals;
-  std::uint64_t clock = 0;  ///< of uses
+  std::map<CyclesKey, std::uint64_t> cycles;
+  std::map<std::pair<LevelKey, LevelKey>, std::string> snap_refusals;  ///< by positions and port_key()
+  std::uint64_t clock = 0;                                             ///< of uses
   TableCache tables;
 
   Impl(const SweepInput& i, const Settings& s) : input(i), settings(s) { settings.threads = std::max(1u, s.threads); }
 
   std::string snap_refusal(const Config& config) {
-    const std::pair key(level_key(config, Level::positions),
-                        std::array{config.significand_bits, config.attribute_int_bits});
+    const std::pair key(level_key(config, Level::positions), port_key(config));
     const auto [entry, isnew] = snap_refusals.try_emplace(key);
     if (!isnew) return entry->second;
     try {
@@ -220,16 +220,16 @@ struct Evaluator::Impl {
 
   std::shared_ptr<const PortQuads> port_quads(const Config& config) {
     Positions& entry = positions.at(level_key(config, Level::positions));
-    if (const auto found = entry.ports.find(config.significand_bits); found != entry.ports.end()) return found->second;
-    auto port = std::make_shared<PortQuads>(input, *given, *entry.data, config, settings.threads);
-    return entry.ports[config.significand_bits] = std::move(port);
+    std::shared_ptr<const PortQuads>& port = entry.ports[port_key(config)];
+    if (!port) port = std::make_shared<PortQuads>(input, *given, *entry.data, config, settings.threads);
+    return port;
   }
 
   /// None where the configuration, or the draw, has mean value weights alone.
   std::shared_ptr<const PlaneQuads> plane_quads(const Config& config) {
     if (!takes_plane_quads(config, input.state)) return nullptr;
     Positions& entry = positions.at(level_key(config, Level::positions));
-    std::shared_ptr<const PlaneQuads>& quads = entry.planes[config.significand_bits];
+    std::shared_ptr<const PlaneQuads>& quads = entry.planes[port_key(config)];
     if (!quads) quads = std::make_shared<PlaneQuads>(input, *entry.data, config, settings.threads);
     return quads;
   }
@@ -248,17 +248,20 @@ struct Evaluator::Impl {
     return result;
   }
 
-  std::uint64_t clocks(const PositionData& at, const Config& config) const {
+  std::uint64_t clocks(const Config& config) const {
     tb::LockstepOptions options;
     options.config = widest_port(config);
     options.state = input.state;
     options.config.attribute_slots = 1;
     options.state.attributes = 0;
-    return tb::run_clocked_model_alone(at.snapped, options).cycles;
+    // Snapped anew: the quads kept by positions have bases of another configuration's formats.
+    std::vector<SnappedQuad> snapped;
+    for (const WindowQuad& quad : input.quads) snapped.push_back(own_port(quad, 0, options.config, options.state));
+    for (std::size_t q = 0; q < snapped.size(); ++q) snapped[q].id = static_cast<std::uint32_t>(q);
+    return tb::run_clocked_model_alone(snapped, options).cycles;
   }
 
-  using CyclesOf = std::pair<LevelKey, CyclesKey>;
-  CyclesOf cycles_of(const Config& config) const { return {level_key(config, Level::positions), cycles_key(config)}; }
+  CyclesKey cycles_of(const Config& config) const { return cycles_key(config, input.state); }
 
   Batch run(std::span<const Config> points, std::span<const std::size_t> batch,
             const std::function<void(double)>& progress) {
@@ -270,7 +273,7 @@ struct Evaluator::Impl {
     const auto at = positions.at(level_key(points[batch.front()], Level::positions)).data;
 
     // The clocked model's runs first: they are the longest units.
-    std::map<CyclesOf, std::size_t> cycle_runs;
+    std::map<CyclesKey, std::size_t> cycle_runs;
     std::vector<std::pair<std::size_t, std::uint64_t>> runs;  // point, clocks
     for (const std::size_t point : batch)
       if (settings.cycles && !cycles.contains(cycles_of(points[point])) &&
@@ -283,7 +286,7 @@ struct Evaluator::Impl {
         units, settings.threads,
         [&](std::size_t unit, unsigned thread) {
           if (unit < runs.size()) {
-            runs[unit].second = clocks(*at, points[runs[unit].first]);
+            runs[unit].second = clocks(points[runs[unit].first]);
             return;
           }
           if (!scratch[thread]) scratch[thread] = stages.make_scratch();
@@ -317,6 +320,8 @@ struct Evaluator::Impl {
       result.plane_quads = leaf.quads ? leaf.quads->count() : 0;
       result.plane_fragments = totals.plane_fragments;
       result.worst = totals.worst;
+      result.attribute_spread = port.spread().attribute;
+      result.depth_spread = port.spread().depth.value_or(std::numeric_limits<double>::infinity());
       for (const std::size_t point : leaf.points) {
         result.cycles = settings.cycles ? cycles.at(cycles_of(points[point])) : 0;
         out.results[place[point]] = result;
@@ -335,7 +340,7 @@ bool OrdinaryInput::operator()(const Config& config) {
     DrawState state = input_.state;
     state.attributes = 0;
     const auto ordinary = [&](const WindowQuad& quad) {
-      return has_ordinary_vertices(snap_quad(quad, config, state), config);
+      return has_ordinary_vertices(own_port(quad, 0, config, state), config);
     };
     try {
       found->second = std::ranges::all_of(input_.quads, ordinary);

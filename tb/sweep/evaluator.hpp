@@ -55,11 +55,11 @@ enum class Stage {
   sqrt,         ///< sqrt_segments_log2 sqrt_degree
   ratios,       ///< align_guard_bits
   weights,      ///< no key
-  interpolate,  ///< the sums, all columns at once
+  interpolate,  ///< the sums, all columns at once: attribute_int_bits attribute_frac_bits depth_bits, for what is
+                ///< summed are differences to a base in the output's format
   reciprocal,   ///< recip_segments_log2 recip_degree
-  output,       ///< attribute_int_bits attribute_frac_bits depth_bits
-  areas,        ///< plane_quads: what of taken quads is drawn with areas for weights, from the weights to the
-                ///< output; once for all tolerances behind an `output` setting, for the quads that any of them takes
+  output,       ///< no key
+  areas,        ///< plane_quads: what of taken quads is drawn with areas for weights, from the weights to the output
   cycles,       ///< the clocked model alone: positions, and stage_keys.hpp
 };
 inline constexpr std::size_t stage_count = 12;

@@ -384,6 +384,8 @@ std::string text(const PointResult& r) {
   count(static_cast<std::uint64_t>(r.worst.x));
   count(static_cast<std::uint64_t>(r.worst.y));
   put(r.worst.error);
+  put(r.attribute_spread);
+  put(r.depth_spread);
   return out;
 }
 
@@ -498,8 +500,9 @@ TEST(Evaluator, PlaneQuadsShareEveryStageOfMeanValues) {
   evaluator.evaluate(points, [&](const Batch& batch) {
     for (std::size_t n = 0; n < batch.points.size(); ++n) results[batch.points[n]] = batch.results[n];
   });
+  // Two formats of depth from the sums on, and clocks of each.
   EXPECT_EQ(evaluator.counters().settings,
-            (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 1}));
+            (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2}));
   const auto at = [&](Stage stage) { return evaluator.counters().fragments[static_cast<std::size_t>(stage)]; };
   EXPECT_LT(at(Stage::areas), at(Stage::output));
   EXPECT_EQ(at(Stage::areas), 2 * results[1].plane_fragments);
@@ -687,7 +690,7 @@ TEST(Evaluator, EarlierStagesRunOnceForLaterAxes) {
   const StageCounters& c = evaluator.counters();
   EXPECT_EQ(c.settings, r.executed.settings);
   EXPECT_EQ(c.fragments, r.executed.fragments);
-  EXPECT_EQ(c.settings, (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 1, 2, 12, 0, 1}));
+  EXPECT_EQ(c.settings, (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 6, 12, 12, 0, 2}));
   // Covered pixels by the model, drawn or not.
   std::uint64_t covered = 0;
   for (const WindowQuad& q : input.quads) {
@@ -698,9 +701,11 @@ TEST(Evaluator, EarlierStagesRunOnceForLaterAxes) {
   }
   for (const Stage stage : {Stage::snap_truth, Stage::difference, Stage::normalise, Stage::weights})
     EXPECT_EQ(c.fragments[static_cast<std::size_t>(stage)], covered);
-  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::reciprocal)], 2 * covered);
+  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::interpolate)], 6 * covered) << "bases in six formats";
   EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::output)], 12 * covered);
-  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::cycles)], evaluator.evaluate(Config{}).cycles);
+  // Depths may leave out other quads with 16 bits than with 24.
+  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::cycles)],
+            evaluator.evaluate(Config{}).cycles + evaluator.evaluate(config({{"depth_bits", 16}})).cycles);
 
   // Truth, differences and clocks stay.
   const StageCounters before = evaluator.counters();
@@ -734,10 +739,10 @@ TEST(Evaluator, AFullGridRunsTheProductOfTheSettings) {
                                              {"subpixel_bits", subpixel}}));
   Evaluator evaluator(input, {.threads = 2, .batch_points = 1000});
   run(evaluator, points);
-  // given, positions, ×2 differences (10 and all), ×3, ×2, ×3, the same whatever the flag, the same, ×2, ×2, clocks of
-  // each position
+  // given, positions, ×2 differences (10 and all), ×3, ×2, ×3, the same whatever the flag, ×2, ×2, the same, clocks of
+  // each position and depth
   EXPECT_EQ(evaluator.counters().settings,
-            (std::array<std::uint64_t, stage_count>{1, 2, 4, 12, 24, 72, 72, 72, 144, 288, 0, 2}));
+            (std::array<std::uint64_t, stage_count>{1, 2, 4, 12, 24, 72, 72, 144, 288, 288, 0, 4}));
 
   // A batch below one subtree executes the ancestors again and says so.
   Evaluator cut(input, {.batch_points = 16});
@@ -789,7 +794,8 @@ TEST(Evaluator, CyclesAreTheClockedModels) {
     EXPECT_EQ(evaluator.evaluate(c).cycles, clocks);
     different.insert(clocks);
   }
-  EXPECT_EQ(settings(evaluator.counters(), Stage::cycles), 6u);
+  // Of depth_bits too, though these quads lie within the limits; widths alone move none.
+  EXPECT_EQ(settings(evaluator.counters(), Stage::cycles), 7u);
 
   EXPECT_GE(different.size(), 3u);
   EXPECT_EQ(Evaluator(input, {.cycles = false}).evaluate(Config{}).cycles, 0u);

@@ -116,7 +116,8 @@ TEST(Resolved, ReplacesAuto) {
   EXPECT_EQ(c.quadratic_frac_bits, 30);  // 2·(8 + 7)
   EXPECT_EQ(c.sqrt_segments_log2, 5);    // ceil(14 / 3)
   EXPECT_EQ(c.recip_segments_log2, 6);   // ceil(16 / 3)
-  EXPECT_EQ(c.attribute_frac_bits, 20);  // 18 + 2
+  EXPECT_EQ(c.attribute_frac_bits, 24);  // from S = 23 on S + 2
+  EXPECT_EQ(resolved(with({{"significand_bits", 23}})).attribute_frac_bits, 25);
   EXPECT_EQ(c.significand_bits, 18);
   EXPECT_EQ(resolved(c), c);
   EXPECT_EQ(resolved(with({{"quadratic_frac_bits", 30}})), c);

@@ -37,10 +37,20 @@ PortQuad::PortQuad(const WindowQuad& quad, std::size_t index, std::size_t attrib
   own.id = test.id = static_cast<std::uint32_t>(index);
 }
 
-const PortNumber& PortQuad::column(std::size_t column, std::size_t vertex, const Columns& columns) const {
-  if (column < Columns::first_attribute) return test.vertex[vertex].attribute[column];
-  if (column < columns.first_colour()) return own.vertex[vertex].attribute[column - Columns::first_attribute];
-  return test.vertex[vertex].attribute[column - columns.attributes];
+PortQuad::Slot PortQuad::slot(std::size_t column, const Columns& columns) const {
+  if (column < Columns::first_attribute) return {&test, column};
+  if (column < columns.first_colour()) return {&own, column - Columns::first_attribute};
+  return {&test, column - columns.attributes};
+}
+
+PortNumber PortQuad::difference(std::size_t column, std::size_t vertex, const Columns& columns) const {
+  const Slot at = slot(column, columns);
+  return vertex == 0 ? PortNumber{} : at.pass->vertex[vertex].attribute[at.attribute];
+}
+
+std::int64_t PortQuad::base(std::size_t column, const Columns& columns) const {
+  const Slot at = slot(column, columns);
+  return at.pass->base.attribute[at.attribute];
 }
 
 }  // namespace quadrille::sweep

@@ -32,8 +32,17 @@ struct PortQuad {
 
   PortQuad(const WindowQuad& quad, std::size_t index, std::size_t attributes, const Config& config,
            const DrawState& state);
-  /// The number that column `column` has at the port.
-  const PortNumber& column(std::size_t column, std::size_t vertex, const Columns& columns) const;
+  /// What column `column` has at the port: of a vertex the difference to the base, 0 of vertex 0, and the base, a code
+  /// of the output's format.
+  PortNumber difference(std::size_t column, std::size_t vertex, const Columns& columns) const;
+  std::int64_t base(std::size_t column, const Columns& columns) const;
+
+ private:
+  struct Slot {
+    const SnappedQuad* pass;
+    std::size_t attribute;
+  };
+  Slot slot(std::size_t column, const Columns& columns) const;
 };
 
 /// The quad's first `attributes` attributes alone, 0 where it has fewer.

@@ -51,6 +51,10 @@ struct PointResult {
   std::uint64_t plane_fragments = 0;  ///< of these drawn
   std::uint64_t cycles = 0;           ///< clocks of the whole draw, without stalls; 0: not asked for
   WorstPixel worst;
+  // How far values are apart at the corners of a quad, largest of the quads that cover a pixel: errors are
+  // bounded by it.
+  double attribute_spread = 0;
+  double depth_spread = 0;  ///< infinity: some quad has a vertex that is not before the eye
 };
 
 }  // namespace quadrille::sweep

@@ -41,8 +41,22 @@ bool is_idle_in_proofs(std::string_view key) {
   return std::ranges::find(idle, key) != idle.end();
 }
 
+/// A bound of values at their corners' spread: proportional to it, but for half a code.
+struct SpreadBound {
+  double per_spread = 0, half_code = 0;
+  bool proved = false;
+
+  ErrorBound at(double spread) const { return {half_code + per_spread * spread, proved, {}}; }
+};
+
+SpreadBound between(const ErrorBound& none, const ErrorBound& one) {
+  // Both are rounded up; so is what is left.
+  return {(one.value - none.value) * (1 + 0x1p-48), none.value * (1 + 0x1p-48), one.proved};
+}
+
 struct Proofs {
-  ErrorBound lambda, attribute, depth;
+  ErrorBound lambda;
+  SpreadBound attribute, ordinary_depth, depth;
   std::string ranges;
 };
 
@@ -57,7 +71,16 @@ Proofs proofs_of(const Config& config) {
     const std::lock_guard lock(mutex);
     if (const auto found = known.find(values); found != known.end()) return found->second;
   }
-  Proofs proofs{bound_lambda(config), bound_attribute(config, 1), bound_depth(config), "proved"};
+  const auto attribute = between(bound_attribute(config, 0), bound_attribute(config, 1));
+  const auto ordinary_depth = between(bound_depth(config, 0), bound_depth(config, 1));
+  // The same argument, of denominators with W of more than S bits.
+  const SpreadBound depth{std::ldexp(value_bound_factor(config, true), 3 - config.significand_bits),
+                          std::ldexp(0.5, -config.depth_bits), attribute.proved};
+  Proofs proofs{bound_lambda(config), attribute, ordinary_depth, depth, "proved"};
+  // The first weight is what the others leave of its base: a value of spread 1.
+  const ErrorBound first = attribute.at(1);
+  proofs.lambda.value = std::max(proofs.lambda.value, first.value);
+  proofs.lambda.proved = proofs.lambda.proved && first.proved;
   for (const SignalRange& signal : prove_ranges(config).signals)
     if (!signal.fits) {
       proofs.ranges = signal.signal;
@@ -87,6 +110,8 @@ std::vector<PointColumn> make_columns() {
     columns.push_back({name, "1", "bound of the arithmetic error by analysis"});
     columns.push_back({name + "_kind", "", "proved, estimated, or none: no bound holds for this input"});
   }
+  columns.push_back({"attribute_spread", "the attributes'", "largest difference of an attribute between corners"});
+  columns.push_back({"depth_spread", "1", "the same of window z; empty where a vertex is not before the eye"});
   columns.insert(columns.end(),
                  {{"ranges", "", "proved: no signal can overflow; else the one that may"},
                   {"coverage_gained", "pixels", "drawn, though the given quad does not cover them"},
@@ -122,8 +147,9 @@ void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool
   row.scalar_cost = scalar_cost(row.cost, weights);
   const Proofs proofs = proofs_of(row.config);
   row.bound_lambda = ordinary || perspective ? proofs.lambda : none;
-  row.bound_attribute = ordinary || perspective ? proofs.attribute : none;
-  row.bound_depth = ordinary ? proofs.depth : none;
+  row.bound_attribute = ordinary || perspective ? proofs.attribute.at(row.result.attribute_spread) : none;
+  const bool bounded = std::isfinite(row.result.depth_spread);
+  row.bound_depth = bounded ? (ordinary ? proofs.ordinary_depth : proofs.depth).at(row.result.depth_spread) : none;
   row.ranges = proofs.ranges;
 }
 
@@ -204,6 +230,8 @@ std::string point_table(std::span<const PointRow> rows) {
         cells.push_back(std::isfinite(bound->value) ? csv_number(bound->value) : std::string());
         cells.push_back(!std::isfinite(bound->value) ? "none" : bound->proved ? "proved" : "estimated");
       }
+      cells.push_back(csv_number(r.attribute_spread));
+      cells.push_back(std::isfinite(r.depth_spread) ? csv_number(r.depth_spread) : std::string());
       cells.push_back(cli::csv_cell(p.ranges));
       for (const std::uint64_t count :
            {r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated, r.quads, r.plane_quads})

@@ -27,10 +27,10 @@ struct PointRow {
   std::string worst;  ///< a command that prints the worst fragment
 };
 
-/// Fills what follows from the configuration and, of the result, from whether quads were drawn with areas for weights
-/// (2^-t more of attributes in [-1, 1] and window z in [0, 1] with a tolerance of t bits): cost, bounds, ranges.
-/// `ordinary`: every snapped vertex of the input is ordinary. Otherwise the depth has no bound, and without perspective
-/// the others have none: those cells stay empty. Safe to call from several threads.
+/// Fills what follows from the configuration and, of the result, from the spreads: cost, bounds, ranges. `ordinary`:
+/// every snapped vertex of the input is ordinary. Otherwise, without perspective, weights and attributes have no bound;
+/// depth has none where the result's depth_spread is infinite. Those cells stay empty. Safe to call from several
+/// threads.
 void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool perspective);
 
 struct PointColumn {

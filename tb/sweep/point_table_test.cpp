@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 namespace quadrille::sweep {
@@ -54,7 +56,7 @@ TEST(PointTable, EveryRowHasEveryColumn) {
   EXPECT_EQ(cell(1, "row"), "3");
   EXPECT_EQ(cell(1, "status"), "ok");
   EXPECT_EQ(cell(1, "significand_bits"), "12");
-  EXPECT_EQ(cell(1, "attribute_frac_bits"), "14");  // auto: s + 2
+  EXPECT_EQ(cell(1, "attribute_frac_bits"), "24");  // auto
   EXPECT_EQ(cell(1, "arithmetic_lambda_max"), "0.5");
   EXPECT_EQ(cell(1, "arithmetic_colour_max"), "3.5");
   EXPECT_EQ(cell(1, "arithmetic_depth_mean"), "0.0625");
@@ -74,16 +76,49 @@ TEST(PointTable, EveryRowHasEveryColumn) {
 }
 
 TEST(PointTable, BoundsWhereTheyHold) {
-  const auto finite = [](bool ordinary, bool perspective) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto finite = [](bool ordinary, bool perspective, double depth_spread) {
     PointRow row;
+    row.result.depth_spread = depth_spread;
     complete_row(row, CostWeights{}, ordinary, perspective);
     return std::array{std::isfinite(row.bound_lambda.value), std::isfinite(row.bound_attribute.value),
                       std::isfinite(row.bound_depth.value)};
   };
-  EXPECT_EQ(finite(true, true), (std::array{true, true, true}));
-  EXPECT_EQ(finite(true, false), (std::array{true, true, true}));
-  EXPECT_EQ(finite(false, true), (std::array{true, true, false}));
-  EXPECT_EQ(finite(false, false), (std::array{false, false, false}));
+  EXPECT_EQ(finite(true, true, 0.5), (std::array{true, true, true}));
+  EXPECT_EQ(finite(true, false, 0.5), (std::array{true, true, true}));
+  EXPECT_EQ(finite(false, true, 0.5), (std::array{true, true, true}));
+  EXPECT_EQ(finite(false, true, infinity), (std::array{true, true, false}));
+  EXPECT_EQ(finite(false, false, infinity), (std::array{false, false, false}));
+}
+
+/// Half a code, and c 2^-(s-3) for each 1 of the spread; proofs round up by 2^-16.
+TEST(PointTable, BoundsGrowWithTheSpread) {
+  for (const int s : {8, 12, 18, 26}) {
+    const auto bounds = [&](double attribute, double depth, bool ordinary = true) {
+      PointRow row;
+      row.config.significand_bits = s;
+      row.result.attribute_spread = attribute;
+      row.result.depth_spread = depth;
+      complete_row(row, CostWeights{}, ordinary, true);
+      EXPECT_TRUE(row.bound_lambda.proved && row.bound_attribute.proved && row.bound_depth.proved);
+      return std::array{row.bound_lambda.value, row.bound_attribute.value, row.bound_depth.value};
+    };
+    const double unit = std::ldexp(1.0, 3 - s), attribute_code = std::ldexp(1.0, -std::max(24, s + 2)),
+                 depth_code = 0x1p-24;
+    EXPECT_NEAR(bounds(0, 0)[1], attribute_code / 2, attribute_code * 0x1p-16);
+    EXPECT_NEAR(bounds(0, 0)[2], depth_code / 2, depth_code * 0x1p-16);
+    for (const double spread : {0.25, 3.0}) {
+      const auto at = bounds(spread, spread);
+      for (const auto& [value, code] : {std::pair{at[1], attribute_code}, {at[2], depth_code}}) {
+        const double c = (value - code / 2) / (unit * spread);
+        EXPECT_GT(c, 0.5) << s << " " << spread;
+        EXPECT_LT(c, 2) << s << " " << spread;
+      }
+      EXPECT_GT(bounds(spread, spread, false)[2], at[2]) << "W may be cut";
+    }
+    // The first weight is a value of spread 1.
+    EXPECT_GE(bounds(0, 0)[0], bounds(1, 0)[1]);
+  }
 }
 
 TEST(PointTable, QuadsWithAreasForWeights) {

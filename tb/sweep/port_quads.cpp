@@ -3,6 +3,7 @@
 #include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/quad_setup.hpp"
+#include "model/stages.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/sweep/work_units.hpp"
 
@@ -29,23 +30,31 @@ TruthNumbers truth_numbers(const PortQuad& quad, const Columns& columns, const C
     out.w[i] = std::ldexp(static_cast<double>(v.w), -config.frac());
     out.z[i] = golden::port_value(v.z, config.significand_bits);
     for (std::size_t j = 0; j < columns.count(); ++j)
-      out.b[j][i] = golden::port_value(quad.column(j, i, columns), config.significand_bits);
+      out.b[j][i] = golden::port_value(quad.difference(j, i, columns), config.significand_bits);
   }
+  for (std::size_t j = 0; j < columns.count(); ++j)
+    out.base[j] = std::ldexp(static_cast<double>(quad.base(j, columns)), -config.attribute_frac());
+  const auto depth_value = [&](auto code) { return std::ldexp(static_cast<double>(code), -config.depth_bits); };
+  out.depth = depth_value(quad.own.base.depth);
+  out.depth_low = depth_value(quad.own.base.depth_low);
+  out.depth_high = depth_value(quad.own.base.depth_high);
   return out;
 }
 
 QuadColumns machine_numbers(const PortQuad& quad, const QuadData& data, const Columns& columns, int s) {
   QuadColumns out;
   out.hull = data.hull;
+  out.base = quad.own.base;
   for (std::size_t i = 0; i < 4; ++i) {
     out.k[i] = to_double(data.k[i], s);
     out.w[i] = to_double(data.w[i], s);
     out.z[i] = to_double(data.z[i], s);
     for (std::size_t j = 0; j < columns.count(); ++j) {
-      const PortNumber& b = quad.column(j, i, columns);
+      const PortNumber b = quad.difference(j, i, columns);
       out.b[j][i] = to_double({b.neg, b.exp, b.sig}, s);
     }
   }
+  for (std::size_t j = 0; j < columns.count(); ++j) out.attribute_base[j] = quad.base(j, columns);
   return out;
 }
 
@@ -53,11 +62,37 @@ QuadColumns machine_numbers(const PortQuad& quad, const QuadData& data, const Co
   return (m[0] * v[0] + m[1] * v[1]) + (m[2] * v[2] + m[3] * v[3]);
 }
 
+/// Differences between the values that the port's numbers stand for.
+Spread spread_of(const TruthNumbers& quad, const Columns& columns, bool perspective) {
+  Spread out;
+  if (!quad.measured) return out;
+  const auto range = [](const std::array<double, 4>& difference, const std::array<double, 4>& factor) {
+    std::array<double, 4> above{};
+    for (std::size_t i = 0; i < 4; ++i) above[i] = difference[i] == 0 ? 0 : difference[i] / factor[i];
+    const auto [least, greatest] = std::ranges::minmax(above);
+    return std::max(greatest, 0.0) - std::min(least, 0.0);  // the base counts too
+  };
+  for (std::size_t j = Columns::first_attribute; j < columns.first_colour(); ++j)
+    out.attribute = std::max(out.attribute, range(quad.b[j], perspective ? quad.k : quad.w));
+  out.depth =
+      std::ranges::all_of(quad.w, [](double w) { return w > 0; }) ? std::optional(range(quad.z, quad.w)) : std::nullopt;
+  return out;
+}
+
 }  // namespace
+
+void Spread::merge(const Spread& other) {
+  attribute = std::max(attribute, other.attribute);
+  depth = depth && other.depth ? std::optional(std::max(*depth, *other.depth)) : std::nullopt;
+}
 
 PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const PositionData& positions,
                      const Config& config, unsigned threads)
-    : machine_(input.quads.size()), data_(input.quads.size()), truth_(input.quads.size()) {
+    : machine_(input.quads.size()),
+      data_(input.quads.size()),
+      truth_(input.quads.size()),
+      znear_(std::ldexp(depth_code(input.state.znear, config), -config.depth_bits)),
+      zfar_(std::ldexp(depth_code(input.state.zfar, config), -config.depth_bits)) {
   const Columns columns{static_cast<std::size_t>(input.attributes)};
   DrawState state = input.state;
   state.attributes = 0;
@@ -86,6 +121,9 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
         }
     }
   });
+  for (std::size_t block = 0; block < positions.blocks(); ++block)
+    if (block == 0 || positions.quad[block] != positions.quad[block - 1])
+      spread_.merge(spread_of(truth_[positions.quad[block]], columns, input.state.perspective));
   for (const std::vector<SingularPixel>& list : singular) singular_.insert(singular_.end(), list.begin(), list.end());
 
   std::vector<QuantityStats> parts(std::max(1u, threads));
@@ -138,14 +176,16 @@ void PortQuads::truth(const SweepInput& input, const PositionData& positions, st
     const LaneReals sum_w = weighted(m.m, q.w);
     const std::array<double, 4>& factor = input.state.perspective ? q.k : q.w;
     const LaneReals whole = input.state.perspective ? weighted(m.m, q.k) : sum_w;
-    values[0] = weighted(m.m, q.z) / sum_w;
+    const LaneReals z = q.depth + weighted(m.m, q.z) / sum_w;
+    const LaneReals above = z < q.depth_high ? z : LaneReals{} + q.depth_high;
+    values[0] = above > q.depth_low ? above : LaneReals{} + q.depth_low;
     for (std::size_t i = 0; i < 4; ++i) values[1 + i] = m.m[i] * factor[i] / whole;
-    for (std::size_t j = 4; j < columns; ++j) values[1 + j] = weighted(m.m, q.b[j]) / whole;
+    for (std::size_t j = 4; j < columns; ++j) values[1 + j] = q.base[j] + weighted(m.m, q.b[j]) / whole;
     draws[n] = visible;
     measured[n] = q.measured ? visible : 0;
     if (!input.state.depth) continue;
     for (std::size_t lane = 0; lane < lane_count; ++lane)
-      if (const double z = values[0][lane]; !(z >= input.state.znear && z <= input.state.zfar))
+      if (const double at = values[0][lane]; !(at >= znear_ && at <= zfar_))
         draws[n] = static_cast<std::uint8_t>(draws[n] & ~(1u << lane));
   }
 }

@@ -1,5 +1,5 @@
-// What positions and significand_bits fix together: the numbers at the port, exact arithmetic on them, and what
-// snapping alone did.
+// What positions, significand_bits and the formats of the outputs fix together (port_key): the numbers at the port,
+// exact arithmetic on them, and what snapping alone did.
 #pragma once
 
 #include "tb/support/error_stats.hpp"
@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace quadrille::sweep {
@@ -15,11 +16,22 @@ namespace quadrille::sweep {
 /// Errors by Quantity.
 using QuantityStats = std::array<tb::ErrorStats, quantity_names.size()>;
 
-/// A quad's numbers at the port as exact arithmetic sees them (W is not cut to S bits).
+/// A quad's numbers at the port as exact arithmetic sees them (W is not cut to S bits): bases, and differences to them.
 struct TruthNumbers {
   std::array<double, 4> k{}, w{}, z{};
+  double depth = 0, depth_low = 0, depth_high = 0;
   std::array<std::array<double, 4>, max_lane_columns> b{};
+  std::array<double, max_lane_columns> base{};
   bool measured = true;
+};
+
+/// How far values are apart at the corners of a quad: what errors of attributes and depth are bounded by. Largest of
+/// all quads that cover a pixel and are measured.
+struct Spread {
+  double attribute = 0;
+  std::optional<double> depth = 0.0;  ///< none: some quad has a vertex that is not before the eye, its depths no bound
+
+  void merge(const Spread& other);
 };
 
 /// Truth of a block: window z, then the columns.
@@ -34,11 +46,14 @@ class PortQuads {
   const QuadData& quad_data(std::size_t quad) const { return data_[quad]; }
   /// Truth on the snapped quads against truth on the given ones, at pixels that both draw.
   const QuantityStats& snapping() const { return snapping_; }
+  const Spread& spread() const { return spread_; }
   std::size_t bytes() const;
 
   /// Exact arithmetic at `count` blocks from `first`: truth_per_block() values each, and masks of the lanes that it
   /// draws (visible, window z in the interval) and of those where errors are measured: visible, and not of a quad with
   /// a vertex behind the eye drawn without perspective, whose weights may cancel without limit.
+  ///
+  /// Window z is clamped to the codes of the quad's corners, and its interval ends at the codes of znear and zfar.
   ///
   /// Plain double is enough. M has one sign where the quad covers (Hormann & Tarini) and k > 0, so Σ M k does not
   /// cancel and λ' carries a few 2^-53: 2^-24 of the smallest unit, 2^-29. Window z and what has no perspective may
@@ -58,7 +73,9 @@ class PortQuads {
   std::vector<QuadData> data_;
   std::vector<TruthNumbers> truth_;
   std::vector<SingularPixel> singular_;  ///< by block
+  double znear_, zfar_;                  ///< as the machine's codes
   QuantityStats snapping_;
+  Spread spread_;
 };
 
 }  // namespace quadrille::sweep

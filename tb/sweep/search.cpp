@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -25,6 +24,7 @@ struct KeyEffect {
 
 /// Where the input lies decides which errors it meets, so keys that move snapped positions are unordered. Keys that
 /// only decide whether the input can be drawn are ordered: what a width refuses, a smaller one refuses.
+/// A key that is not named is unordered: its values do not rule each other out.
 constexpr std::array key_effects{
     KeyEffect{"viewport_bits", Effect::unordered},
     KeyEffect{"guard_bits", Effect::unordered},
@@ -57,14 +57,15 @@ constexpr std::array key_effects{
 
 Effect effect_of(std::string_view key) {
   Config().get(key);  // an unknown key: names the nearest
-  return std::ranges::find(key_effects, key, &KeyEffect::key)->effect;
+  const auto named = std::ranges::find(key_effects, key, &KeyEffect::key);
+  return named == key_effects.end() ? Effect::unordered : named->effect;
 }
 
 /// What a machine can do, such that it is nowhere better than another if no element is larger. An unordered key has two
 /// elements, its value and the negative: only equal values are then nowhere better. All values fit: they are below 127.
-/// Whole 16-byte words, which compilers compare at once.
+/// By position of the key in Config::keys(); whole 16-byte words, which compilers compare at once.
 struct alignas(16) Abilities {
-  std::array<std::int8_t, (2 * key_effects.size() + 15) / 16 * 16> of{};
+  std::array<std::int8_t, 2 * Config::most_keys> of{};
   friend auto operator<=>(const Abilities&, const Abilities&) = default;
 };
 
@@ -75,8 +76,9 @@ Abilities abilities(const Config& config, bool ordinary, std::span<const std::st
   const bool exact_quadratics = config.qdrop() == 0 || (ordinary && keeps_ordinary_products(config));
   const bool takes_quads = config.plane_quads != 0 && std::ranges::find(idle_keys, "plane_quads") == idle_keys.end();
   Abilities result;
-  for (std::size_t i = 0; i < key_effects.size(); ++i) {
-    const auto [key, effect] = key_effects[i];
+  for (std::size_t i = 0; i < Config::keys().size(); ++i) {
+    const std::string_view key = Config::keys()[i].name;
+    const Effect effect = effect_of(key);
     if (effect == Effect::none || std::ranges::find(idle_keys, key) != idle_keys.end()) continue;
     const auto value = static_cast<std::int8_t>(config.resolved(key));
     result.of[2 * i] = value;
@@ -85,26 +87,11 @@ Abilities abilities(const Config& config, bool ordinary, std::span<const std::st
     if (key == "tile_log2" && exact_quadratics) result.of[2 * i] = result.of[2 * i + 1] = exact;
     if (key == "quadratic_frac_bits" && exact_quadratics && ordinary) result.of[2 * i] = exact;
     // Which quads are plane depends on the port's numbers.
-    if (key == "significand_bits" && takes_quads) result.of[2 * i + 1] = static_cast<std::int8_t>(-value);
+    if (takes_quads && (key == "significand_bits" || key == "attribute_int_bits" || key == "attribute_frac_bits" ||
+                        key == "depth_bits"))
+      result.of[2 * i + 1] = static_cast<std::int8_t>(-value);
   }
   return result;
-}
-
-constexpr std::size_t element_of(std::string_view key) {
-  return 2 * static_cast<std::size_t>(std::ranges::find(key_effects, key, &KeyEffect::key) - key_effects.begin());
-}
-
-/// Bound of the difference of `miss` between machines that are alike up to the formats of their outputs, else infinity.
-/// A key that is idle has the same element in both.
-double output_difference(Abilities a, Abilities b, const OutputGain& gain) {
-  double difference = 0;
-  for (const auto& [key, factor] : {std::pair{"attribute_frac_bits", gain.attribute}, {"depth_bits", gain.depth}}) {
-    const std::size_t i = element_of(key);
-    // Both truncate one value: what they keep of it differs by less than a step of the coarser format.
-    if (a.of[i] != b.of[i]) difference = std::max(difference, factor * std::exp2(-std::min(a.of[i], b.of[i])));
-    a.of[i] = b.of[i];
-  }
-  return a == b ? difference : std::numeric_limits<double>::infinity();
 }
 
 bool nowhere_better(const Abilities& a, const Abilities& b) {
@@ -172,22 +159,12 @@ std::vector<std::string_view> idle_keys(std::span<const Quantity> measured) {
   return keys;
 }
 
-OutputGain output_gain(std::span<const TargetedError> targets) {
-  OutputGain gain{.attribute = 0, .depth = 0};
-  for (const TargetedError& target : targets) {
-    double& of = target.column.quantity == Quantity::depth ? gain.depth : gain.attribute;
-    const bool quantile = target.column.statistic == &ErrorSummary::p999;
-    of = std::max(of, quantile ? std::numeric_limits<double>::infinity() : 1 / target.limit);
-  }
-  return gain;
-}
-
 bool nowhere_better(const Config& a, const Config& b) {
   return nowhere_better(abilities(a, false, {}), abilities(b, false, {}));
 }
 
 SearchResult cheapest_meeting(std::span<const SearchPoint> points, const std::function<double(std::size_t)>& miss,
-                              double slack, std::span<const std::string_view> idle_keys, const OutputGain& gain) {
+                              double slack, std::span<const std::string_view> idle_keys) {
   SearchResult result;
   result.closest = std::numeric_limits<double>::infinity();
   std::vector<Candidate> candidates = all_candidates(points, idle_keys);
@@ -204,11 +181,9 @@ SearchResult cheapest_meeting(std::span<const SearchPoint> points, const std::fu
       result.winner = tried.point;  // cheaper than every winner before: those that cost more are gone
       candidates.resize(position);
     } else {
-      // Negated, so that NaN misses clearly; a difference that is unknown rules out nothing, not even infinity.
-      const bool clearly = !(ratio <= slack);
+      const bool clearly = !(ratio <= slack);  // negated, so that NaN misses clearly
       std::erase_if(candidates, [&](const Candidate& c) {
-        return c.point == tried.point || (clearly && nowhere_better(c.abilities, tried.abilities)) ||
-               ratio - output_difference(c.abilities, tried.abilities, gain) > 1;
+        return c.point == tried.point || (clearly && nowhere_better(c.abilities, tried.abilities));
       });
     }
   }

@@ -4,11 +4,11 @@
 // to the noise of a sampled maximum. So a point that misses the target clearly (by more than the factor `slack`) rules
 // out every point that is nowhere better, and one that meets it rules out everything that costs more. The search
 // evaluates the point that rules out most in the worse of these two outcomes, and ends when nothing is left that is
-// cheaper than the best point that met. A point that misses within `slack` rules out itself and what follows from it
-// exactly: two machines that are alike up to the format of an output truncate the same value, so their errors differ by
-// less than a step of the coarser format (OutputGain). Points that differ only in keys without any effect on errors
-// have equal errors, so the cheapest of them stands for all; so do, on ordinary input (every W = 1), the values of
-// quadratic_frac_bits from 2 subpixel_bits on, for products of two coordinates have no more fraction bits.
+// cheaper than the best point that met. A point that misses within `slack` rules out itself alone: machines that differ
+// in the format of an output have other bases and so other differences from the port on. Points that differ only in
+// keys without any effect on errors have equal errors, so the cheapest of them stands for all; so do, on ordinary input
+// (every W = 1), the values of quadratic_frac_bits from 2 subpixel_bits on, for products of two coordinates have no
+// more fraction bits.
 //
 // The winner is that of full evaluation if no point's error exceeds `slack` times the error of a point that is nowhere
 // better, and keys of output formats move no fragment across an end of the z interval.
@@ -16,11 +16,9 @@
 
 #include "model/config.hpp"
 #include "tb/sweep/point_result.hpp"
-#include "tb/sweep/point_table.hpp"
 
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -47,13 +45,6 @@ struct SearchPoint {
   bool ordinary = false;  ///< all that `miss` is measured on has snapped vertices with W = 1 alone
 };
 
-/// At most how much `miss` changes for a change of 1 in every value that leaves in a format: the largest 1 / target of
-/// those measured there; 0 where none is, infinity where nothing is known.
-struct OutputGain {
-  double attribute = std::numeric_limits<double>::infinity();  ///< attribute_frac_bits
-  double depth = std::numeric_limits<double>::infinity();      ///< depth_bits
-};
-
 struct SearchResult {
   std::optional<std::size_t> winner;  ///< position of the cheapest point that meets the target; of equal cost the first
   std::size_t evaluations = 0;
@@ -65,8 +56,7 @@ struct SearchResult {
 /// `miss(i)` evaluates point i and returns error / target (<= 1: met; NaN or infinity: missed clearly). slack >= 1.
 /// `idle_keys`: further keys that cannot change `miss`, such as depth_bits where no target is a depth.
 SearchResult cheapest_meeting(std::span<const SearchPoint> points, const std::function<double(std::size_t)>& miss,
-                              double slack, std::span<const std::string_view> idle_keys = {},
-                              const OutputGain& gain = {});
+                              double slack, std::span<const std::string_view> idle_keys = {});
 
 /// The factor `slack` for sampled errors of quads. Full evaluation of the grid of 1,000 points on six inputs shows
 /// steps against the order of up to 1.51; with 1.35 some of 6,930 searches miss the winner, with 1.4 and more none.
@@ -74,14 +64,5 @@ inline constexpr double sampled_slack = 1.5;
 
 /// Keys that cannot change errors of these quantities.
 std::vector<std::string_view> idle_keys(std::span<const Quantity> measured);
-
-/// An error with its target, `limit` > 0.
-struct TargetedError {
-  ErrorColumn column;
-  double limit = 1;
-};
-/// For `miss` = the largest error / limit. Maximum, mean and root mean square of errors change by no more than the
-/// errors do; of a quantile, which is the edge of a bin, nothing is known.
-OutputGain output_gain(std::span<const TargetedError> targets);
 
 }  // namespace quadrille::sweep

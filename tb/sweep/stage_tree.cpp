@@ -1,5 +1,6 @@
 #include "tb/sweep/stage_tree.hpp"
 
+#include "model/stages.hpp"
 #include "tb/sweep/work_units.hpp"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ LaneReals magnitude(const LaneReals& v) { return (LaneReals)((LaneIntegers)v & I
 
 }  // namespace
 
-bool OutputNode::takes_quads() const { return std::ranges::any_of(planes, takes); }
+bool ReciprocalNode::takes_quads() const { return std::ranges::any_of(planes, takes); }
 
 void LeafTotals::merge(const LeafTotals& other) {
   fragments += other.fragments;
@@ -87,24 +88,25 @@ struct StageTree::Weighted {
   }
 };
 
+/// A chunk by exact arithmetic, on the quads of one PortNode.
+struct StageTree::Truth {
+  std::vector<LaneReals> values;
+  std::vector<LaneIntegers> codes{3 * blocks_per_chunk};
+  std::vector<std::uint8_t> draws, measured;
+
+  explicit Truth(const Columns& columns)
+      : values(blocks_per_chunk * truth_per_block(columns)), draws(blocks_per_chunk), measured(blocks_per_chunk) {}
+};
+
 struct StageTree::Scratch {
   std::vector<LeafTotals> totals;
   std::vector<NormalisedLanes> normalised{blocks_per_chunk};
   std::vector<SqrtLanes> root{blocks_per_chunk};
   std::vector<RatioLanes> ratios{blocks_per_chunk};
-  Weighted mean, areas;  ///< `areas` is made where a point draws a quad so
-  // Truth.
-  std::vector<LaneReals> truth;
-  std::vector<LaneIntegers> truth_codes{3 * blocks_per_chunk};
-  std::vector<std::uint8_t> draws, measured;
+  Weighted mean, areas;       ///< `areas` is made where a point draws a quad so
+  std::vector<Truth> truths;  ///< by PortNode
 
-  Scratch(std::size_t leaves, const Columns& columns)
-      : totals(leaves),
-        truth(blocks_per_chunk * truth_per_block(columns)),
-        draws(blocks_per_chunk),
-        measured(blocks_per_chunk) {
-    mean.make(columns.count());
-  }
+  Scratch(std::size_t leaves, const Columns& columns) : totals(leaves) { mean.make(columns.count()); }
 };
 
 StageTree::StageTree(const SweepInput& input, std::shared_ptr<const PositionData> positions,
@@ -119,27 +121,30 @@ void StageTree::add(std::size_t point, const Config& config, TableCache& tables,
                     const std::function<std::shared_ptr<const PlaneQuads>()>& planes) {
   const auto key = [&](Level level) { return level_key(config, level); };
   NormaliseNode* normalise = find(roots_, key(Level::normalise));
-  if (!normalise) normalise = &roots_.emplace_back(key(Level::normalise), port());
-  SqrtNode* sqrt = find(normalise->sqrts, key(Level::sqrt));
-  if (!sqrt)
-    sqrt = &normalise->sqrts.emplace_back(key(Level::sqrt), tables.sqrt(config), tables.context(config, input_.state));
-  RatioNode* ratio = find(sqrt->ratios, key(Level::ratios));
-  if (!ratio) ratio = &sqrt->ratios.emplace_back(key(Level::ratios));
-  WeightNode* weight = find(ratio->weights, key(Level::weights));
-  if (!weight) weight = &ratio->weights.emplace_back(key(Level::weights));
-  ReciprocalNode* reciprocal = find(weight->reciprocals, key(Level::reciprocal));
-  if (!reciprocal) reciprocal = &weight->reciprocals.emplace_back(key(Level::reciprocal), tables.recip(config));
-  OutputNode* output = find(reciprocal->outputs, key(Level::output));
-  if (!output) {
+  if (!normalise) normalise = &roots_.emplace_back(key(Level::normalise), config.significand_bits);
+  PortNode* numbers = find(normalise->ports, key(Level::interpolate));
+  if (!numbers) {
     const DrawState& state = input_.state;
     const LaneOutputFormat format{
         config.attribute_int_bits,       config.attribute_frac(),       config.depth_bits, state.depth,
         depth_code(state.znear, config), depth_code(state.zfar, config)};
-    output = &reciprocal->outputs.emplace_back(key(Level::output), format);
+    numbers = &normalise->ports.emplace_back(key(Level::interpolate), port(), format);
   }
-  PlaneNode* plane = find(output->planes, key(Level::plane));
+  SqrtNode* sqrt = find(normalise->sqrts, key(Level::sqrt));
+  if (!sqrt)
+    sqrt = &normalise->sqrts.emplace_back(key(Level::sqrt), tables.sqrt(config), tables.context(config, input_.state));
+  RatioNode* ratio = find(sqrt->ratios, key(Level::ratios));
+  if (!ratio) ratio = &sqrt->ratios.emplace_back(key(Level::ratios), config.align_guard_bits);
+  InterpolateNode* interpolate = find(ratio->interpolates, key(Level::interpolate));
+  if (!interpolate) {
+    const auto place = static_cast<std::size_t>(numbers - normalise->ports.data());
+    interpolate = &ratio->interpolates.emplace_back(key(Level::interpolate), place);
+  }
+  ReciprocalNode* reciprocal = find(interpolate->reciprocals, key(Level::reciprocal));
+  if (!reciprocal) reciprocal = &interpolate->reciprocals.emplace_back(key(Level::reciprocal), tables.recip(config));
+  PlaneNode* plane = find(reciprocal->planes, key(Level::plane));
   if (!plane) {
-    plane = &output->planes.emplace_back(key(Level::plane), planes(), leaves_++);
+    plane = &reciprocal->planes.emplace_back(key(Level::plane), planes(), leaves_++);
     if (takes(*plane)) {
       const std::vector<std::uint8_t>& taken = plane->quads->taken();
       normalise->areas.resize(taken.size());
@@ -165,53 +170,56 @@ void StageTree::walk(std::size_t chunk, Scratch& t, std::span<float> map) const 
   const std::size_t columns = columns_.count();
 
   for (const NormaliseNode& normalise : roots_) {
-    const int s = normalise.key[0];
-    const QuadColumns* numbers = normalise.port->machine();
-    normalise.port->truth(input_, *positions_, first, count, t.truth.data(), t.draws.data(), t.measured.data());
-    for (std::size_t n = 0; n < count; ++n)
-      for (std::size_t channel = 0; channel < 3; ++channel)
-        t.truth_codes[3 * n + channel] =
-            colour_code(t.truth[n * truth_per_block(columns_) + 1 + columns_.first_colour() + channel]);
+    const int s = normalise.significand_bits;
+    while (t.truths.size() < normalise.ports.size()) t.truths.emplace_back(columns_);
+    for (std::size_t port = 0; port < normalise.ports.size(); ++port) {
+      Truth& truth = t.truths[port];
+      normalise.ports[port].quads->truth(input_, *positions_, first, count, truth.values.data(), truth.draws.data(),
+                                         truth.measured.data());
+      for (std::size_t n = 0; n < count; ++n)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          truth.codes[3 * n + channel] =
+              colour_code(truth.values[n * truth_per_block(columns_) + 1 + columns_.first_colour() + channel]);
+    }
     normalise_blocks(differences, s, differences_->quadratic_bias, t.normalised.data());
     const std::vector<Run> runs = area_runs(normalise, first, count);
     if (!runs.empty()) t.areas.make(columns);
     const Run whole{0, count};
-    const auto interpolate = [&](Weighted& by, const Run& run, int g) {
-      interpolate_blocks({by.weights.data() + run.first, run.count}, quad + run.first, numbers, columns,
+    const auto interpolate = [&](Weighted& by, const Run& run, const PortNode& port, int g) {
+      interpolate_blocks({by.weights.data() + run.first, run.count}, quad + run.first, port.quads->machine(), columns,
                          input_.state.depth, s, g, by.sums.data() + run.first * sums_per_block(columns));
     };
     const auto reciprocals = [&](Weighted& by, const Run& run, const LaneTable& table) {
       reciprocal_blocks(run.count, by.sums.data() + run.first * sums_per_block(columns), columns, s, table,
                         by.reciprocals.data() + run.first);
     };
-    const auto output = [&](Weighted& by, const Run& run, const LaneOutputFormat& format) {
+    const auto output = [&](Weighted& by, const Run& run, const PortNode& port) {
       output_blocks(run.count, by.sums.data() + run.first * sums_per_block(columns), by.reciprocals.data() + run.first,
-                    quad + run.first, numbers, columns, format, by.values.data() + run.first * (1 + columns),
-                    by.masks.data() + run.first);
+                    quad + run.first, port.quads->machine(), columns, port.format,
+                    by.values.data() + run.first * (1 + columns), by.masks.data() + run.first);
     };
     for (const SqrtNode& sqrt : normalise.sqrts) {
       sqrt_blocks({t.normalised.data(), count}, s, *sqrt.table, t.root.data());
       for (const RatioNode& ratio : sqrt.ratios) {
-        const int g = ratio.key[0];
+        const int g = ratio.align_guard_bits;
         ratio_blocks({t.normalised.data(), count}, t.root.data(), s, g, t.ratios.data());
-        for (const WeightNode& weight : ratio.weights) {
-          weight_blocks(differences, t.ratios.data(), s, g, *sqrt.table, t.mean.weights.data());
-          singular_pixels(normalise, sqrt, ratio, first, count, t);
-          interpolate(t.mean, whole, g);
-          for (const Run& run : runs) {
-            area_weights(run, first, t);
-            interpolate(t.areas, run, g);
-          }
-          for (const ReciprocalNode& reciprocal : weight.reciprocals) {
+        weight_blocks(differences, t.ratios.data(), s, g, *sqrt.table, t.mean.weights.data());
+        singular_pixels(normalise, sqrt, ratio, first, count, t);
+        for (const Run& run : runs) area_weights(run, first, t);
+        for (const InterpolateNode& node : ratio.interpolates) {
+          const PortNode& port = normalise.ports[node.port];
+          interpolate(t.mean, whole, port, g);
+          for (const Run& run : runs) interpolate(t.areas, run, port, g);
+          for (const ReciprocalNode& reciprocal : node.reciprocals) {
             reciprocals(t.mean, whole, *reciprocal.table);
-            for (const Run& run : runs) reciprocals(t.areas, run, *reciprocal.table);
-            for (const OutputNode& node : reciprocal.outputs) {
-              output(t.mean, whole, node.format);
-              if (node.takes_quads())
-                for (const Run& run : runs) output(t.areas, run, node.format);
-              for (const PlaneNode& plane : node.planes)
-                compare(t.totals[plane.leaf], plane.quads.get(), first, count, t, map);
-            }
+            output(t.mean, whole, port);
+            if (reciprocal.takes_quads())
+              for (const Run& run : runs) {
+                reciprocals(t.areas, run, *reciprocal.table);
+                output(t.areas, run, port);
+              }
+            for (const PlaneNode& plane : reciprocal.planes)
+              compare(t.totals[plane.leaf], plane.quads.get(), t.truths[node.port], first, count, t, map);
           }
         }
       }
@@ -238,10 +246,11 @@ void StageTree::singular_pixels(const NormaliseNode& normalise, const SqrtNode& 
     for (unsigned rest = differences_->singular[first + n]; rest != 0; rest &= rest - 1) {
       if (!context) {
         context = std::make_unique<PipelineContext>(*sqrt.context);
-        context->format.g = ratio.key[0];
+        context->format.g = ratio.align_guard_bits;
       }
       singular_weights(differences_->blocks[first + n], static_cast<std::size_t>(std::countr_zero(rest)),
-                       normalise.port->quad_data(positions_->quad[first + n]), *context, t.mean.weights[n]);
+                       normalise.ports.front().quads->quad_data(positions_->quad[first + n]), *context,
+                       t.mean.weights[n]);
     }
 }
 
@@ -259,29 +268,29 @@ std::vector<StageTree::Run> StageTree::area_runs(const NormaliseNode& normalise,
   return runs;
 }
 
-void StageTree::compare(LeafTotals& leaf, const PlaneQuads* areas, std::size_t first, std::size_t count,
-                        const Scratch& t, std::span<float> map) const {
+void StageTree::compare(LeafTotals& leaf, const PlaneQuads* areas, const Truth& exact, std::size_t first,
+                        std::size_t count, const Scratch& t, std::span<float> map) const {
   const std::size_t columns = columns_.count();
   const auto stats = [&](Quantity q) -> tb::ErrorStats& { return leaf.arithmetic[static_cast<std::size_t>(q)]; };
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t block = first + n;
     const unsigned used = (1u << positions_->count[block]) - 1;
-    // Weights and colours are passes of their own, which no tolerance takes a quad of; of a taken quad they lie in
-    // [0, 1] but for rounding and saturate in neither.
+    // Weights and colours are passes of their own, in which no quad is plane; of a taken quad they lie in [0, 1]
+    // but for rounding and saturate in neither.
     const bool plane = areas && areas->taken()[positions_->quad[block]] != 0;
     const Weighted& by = plane ? t.areas : t.mean;
     const LaneMasks& masks = by.masks[n];
     const unsigned drawn = masks.drawn & used;
-    const unsigned measured = drawn & t.measured[n];
+    const unsigned measured = drawn & exact.measured[n];
     leaf.fragments += static_cast<unsigned>(std::popcount(drawn));
     leaf.drawn_as_given += static_cast<unsigned>(std::popcount(drawn & positions_->given[block]));
-    leaf.discard_differs += static_cast<unsigned>(std::popcount((drawn ^ t.draws[n]) & used));
+    leaf.discard_differs += static_cast<unsigned>(std::popcount((drawn ^ exact.draws[n]) & used));
     leaf.saturated += static_cast<unsigned>(std::popcount(drawn & masks.saturated));
     if (plane) leaf.plane_fragments += static_cast<unsigned>(std::popcount(drawn));
 
     const LaneColumn* value = t.mean.values.data() + n * (1 + columns);
     const LaneColumn* own = by.values.data() + n * (1 + columns);
-    const LaneReals* truth = t.truth.data() + n * truth_per_block(columns_);
+    const LaneReals* truth = exact.values.data() + n * truth_per_block(columns_);
     const auto add = [&](tb::ErrorStats& to, const LaneReals& error) {
       for (unsigned rest = measured; rest != 0; rest &= rest - 1)
         to.add(error[static_cast<std::size_t>(std::countr_zero(rest))]);
@@ -299,7 +308,7 @@ void StageTree::compare(LeafTotals& leaf, const PlaneQuads* areas, std::size_t f
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const std::size_t j = columns_.first_colour() + channel;
       add(stats(Quantity::colour), value[1 + j].v - truth[1 + j]);
-      codes += colour_code(value[1 + j].v) != t.truth_codes[3 * n + channel];
+      codes += colour_code(value[1 + j].v) != exact.codes[3 * n + channel];
     }
     for (unsigned rest = measured; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -332,17 +341,15 @@ StageCounters StageTree::executed() const {
       count(Stage::sqrt);
       for (const RatioNode& ratio : sqrt.ratios) {
         count(Stage::ratios);
-        for (const WeightNode& weight : ratio.weights) {
-          count(Stage::weights);
+        count(Stage::weights);
+        for (const InterpolateNode& interpolate : ratio.interpolates) {
           count(Stage::interpolate);
-          for (const ReciprocalNode& reciprocal : weight.reciprocals) {
+          for (const ReciprocalNode& reciprocal : interpolate.reciprocals) {
             count(Stage::reciprocal);
-            for (const OutputNode& output : reciprocal.outputs) {
-              count(Stage::output);
-              if (area_fragments == 0 || !output.takes_quads()) continue;
-              ++out.settings[static_cast<std::size_t>(Stage::areas)];
-              out.fragments[static_cast<std::size_t>(Stage::areas)] += area_fragments;
-            }
+            count(Stage::output);
+            if (area_fragments == 0 || !reciprocal.takes_quads()) continue;
+            ++out.settings[static_cast<std::size_t>(Stage::areas)];
+            out.fragments[static_cast<std::size_t>(Stage::areas)] += area_fragments;
           }
         }
       }
@@ -355,10 +362,9 @@ void StageTree::for_each_leaf(const std::function<void(const PlaneNode&, const P
   for (const NormaliseNode& normalise : roots_)
     for (const SqrtNode& sqrt : normalise.sqrts)
       for (const RatioNode& ratio : sqrt.ratios)
-        for (const WeightNode& weight : ratio.weights)
-          for (const ReciprocalNode& reciprocal : weight.reciprocals)
-            for (const OutputNode& output : reciprocal.outputs)
-              for (const PlaneNode& plane : output.planes) f(plane, *normalise.port);
+        for (const InterpolateNode& interpolate : ratio.interpolates)
+          for (const ReciprocalNode& reciprocal : interpolate.reciprocals)
+            for (const PlaneNode& plane : reciprocal.planes) f(plane, *normalise.ports[interpolate.port].quads);
 }
 
 }  // namespace quadrille::sweep

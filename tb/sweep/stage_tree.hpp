@@ -31,25 +31,22 @@ struct PlaneNode {
   std::size_t leaf;                         ///< number in the tree
   std::vector<std::size_t> points;          ///< that end here
 };
-struct OutputNode {
+struct ReciprocalNode {
   LevelKey key;
-  LaneOutputFormat format;
+  std::shared_ptr<const LaneTable> table;
   std::vector<PlaneNode> planes;
 
   bool takes_quads() const;  ///< some point here
 };
-struct ReciprocalNode {
+struct InterpolateNode {
   LevelKey key;
-  std::shared_ptr<const LaneTable> table;
-  std::vector<OutputNode> outputs;
-};
-struct WeightNode {
-  LevelKey key;
+  std::size_t port;  ///< in the ports of the NormaliseNode above
   std::vector<ReciprocalNode> reciprocals;
 };
 struct RatioNode {
   LevelKey key;
-  std::vector<WeightNode> weights;
+  int align_guard_bits;
+  std::vector<InterpolateNode> interpolates;
 };
 struct SqrtNode {
   LevelKey key;
@@ -57,9 +54,17 @@ struct SqrtNode {
   std::shared_ptr<const PipelineContext> context;  ///< with these bits and table; for singular pixels
   std::vector<RatioNode> ratios;
 };
+/// Quads at the port with outputs of one format, and the truth on them: of use to every InterpolateNode of that key
+/// below one NormaliseNode.
+struct PortNode {
+  LevelKey key;
+  std::shared_ptr<const PortQuads> quads;
+  LaneOutputFormat format;
+};
 struct NormaliseNode {
   LevelKey key;
-  std::shared_ptr<const PortQuads> port;
+  int significand_bits;
+  std::vector<PortNode> ports;      ///< at least one; X, Y, W, k are the same in all
   std::vector<std::uint8_t> areas;  ///< by quad, 1: taken by some point below; empty: none is
   std::vector<SqrtNode> sqrts;
 };
@@ -88,7 +93,7 @@ class StageTree {
   StageTree(const SweepInput& input, std::shared_ptr<const PositionData> positions,
             std::shared_ptr<const DifferenceData> differences);
 
-  /// Adds a point; `port` is called when its `normalise` setting is new, `planes` when it is a leaf of its own and may
+  /// Adds a point; `port` is called when its port_key() is new, `planes` when it is a leaf of its own and may
   /// take quads (it gives none where it does not).
   void add(std::size_t point, const Config& config, TableCache& tables,
            const std::function<std::shared_ptr<const PortQuads>()>& port,
@@ -98,6 +103,7 @@ class StageTree {
   std::size_t chunks() const;
 
   /// Buffers of one thread, and what it has added up.
+  struct Truth;
   struct Weighted;
   struct Scratch;
   struct ScratchDeleter {
@@ -128,8 +134,8 @@ class StageTree {
   void area_weights(const Run& run, std::size_t first, Scratch& scratch) const;
   /// A leaf's output at a chunk against the truth. `areas` (may be null): the quads whose own attributes and depth are
   /// those with areas for weights.
-  void compare(LeafTotals& leaf, const PlaneQuads* areas, std::size_t first, std::size_t count, const Scratch& scratch,
-               std::span<float> map) const;
+  void compare(LeafTotals& leaf, const PlaneQuads* areas, const Truth& truth, std::size_t first, std::size_t count,
+               const Scratch& scratch, std::span<float> map) const;
 
   const SweepInput& input_;
   Columns columns_;

@@ -73,6 +73,7 @@ Ordered result_json(std::size_t row, const PointResult& r) {
   json["arithmetic"] = errors_json(r.arithmetic);
   json["counts"] = {r.fragments, r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes,
                     r.saturated, r.cycles,          r.quads,         r.plane_quads,     r.plane_fragments};
+  json["spreads"] = {number_json(r.attribute_spread), number_json(r.depth_spread)};
   if (r.worst.any) json["worst"] = {r.worst.index, r.worst.x, r.worst.y, number_json(r.worst.error)};
   return json;
 }
@@ -91,6 +92,8 @@ std::pair<std::size_t, PointResult> result_from(const Json& json) {
   for (std::uint64_t* count : {&r.fragments, &r.coverage_gained, &r.coverage_lost, &r.discard_differs, &r.colour_codes,
                                &r.saturated, &r.cycles, &r.quads, &r.plane_quads, &r.plane_fragments})
     *count = counts.at(i++).get<std::uint64_t>();
+  r.attribute_spread = number_from(json.at("spreads").at(0));
+  r.depth_spread = number_from(json.at("spreads").at(1));
   if (json.contains("worst")) {
     const Json& w = json.at("worst");
     r.worst = {true, w.at(0).get<std::uint32_t>(), w.at(1).get<int>(), w.at(2).get<int>(), number_from(w.at(3))};

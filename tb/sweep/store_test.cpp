@@ -59,6 +59,7 @@ class StoreTest : public testing::Test {
     r.coverage_gained = 1, r.coverage_lost = 2, r.discard_differs = 3, r.colour_codes = 4, r.saturated = 5,
     r.cycles = 6, r.quads = 12, r.plane_quads = 13, r.plane_fragments = 14;
     r.worst = {true, 9, 10, 11, 0.7};
+    r.attribute_spread = 0.3, r.depth_spread = std::numeric_limits<double>::infinity();
     b.results[1].refused = "a \"quoted\" reason,\nwith a line break";
     b.executed.settings[2] = 1;
     b.executed.fragments[2] = 100;
@@ -107,6 +108,8 @@ TEST_F(StoreTest, GoesOnWithWhatWasFinished) {
   EXPECT_EQ(found.worst.x, 10);
   EXPECT_EQ(found.worst.y, 11);
   EXPECT_EQ(found.worst.error, 0.7);
+  EXPECT_EQ(found.attribute_spread, 0.3);
+  EXPECT_EQ(found.depth_spread, std::numeric_limits<double>::infinity());
   EXPECT_EQ(store.results().at(2).refused, batch().results[1].refused);
   EXPECT_EQ(store.counters().settings[2], 1u);
   EXPECT_EQ(store.counters().fragments[2], 100u);

@@ -157,10 +157,10 @@ TEST_F(Synthesis, ASecondRequestComesFromTheCache) {
 
   // Auto and the value that it stands for are one machine; another value is another.
   SynthesisPoint same = point(0, 20);
-  same.config.attribute_frac_bits = 22;
+  same.config.attribute_frac_bits = 24;
   synthesise(std::vector{same}, ecp5, weights_, 1);
   EXPECT_EQ(calls(), 2u);
-  same.config.attribute_frac_bits = 23;
+  same.config.attribute_frac_bits = 25;
   synthesise(std::vector{same}, ecp5, weights_, 1);
   EXPECT_EQ(calls(), 3u);
 
