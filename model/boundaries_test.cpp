@@ -50,7 +50,7 @@ TEST(BitPacker, FullWordsAndSingleBits) {
 }
 
 TEST(BitPacker, FragmentOfTheDefaultConfiguration) {
-  // quad 24, x 12, y 12, front 1, flags 8, depth 25, attr[3..0] 24 each: 178 bits. attr[0] is bits 23..0.
+  // quad 24, x 12, y 12, front 1, flags 8, depth 25, attr[3..0] 32 each: 210 bits. attr[0] is bits 31..0.
   const Config config;
   Fragment f;
   f.quad = 0xABCDEF;
@@ -59,18 +59,19 @@ TEST(BitPacker, FragmentOfTheDefaultConfiguration) {
   f.front = true;
   f.flags = 0x81;
   f.depth = 0x1000000;
-  f.attribute = {1, -1, 0x7FFFFF, -0x800000};
+  f.attribute = {1, -1, 0x7FFFFFFF, -0x80000000ll};
   const RecordLayout layout = boundary_layout(Boundary::fragment, config);
-  ASSERT_EQ(layout.bits(), 178);
+  ASSERT_EQ(layout.bits(), 210);
   Record packed = pack_record(layout.bits(), [&](auto& list) { visit(f, config, list); });
-  std::uint32_t words[6];
+  std::uint32_t words[7];
   std::memcpy(words, packed.words(), sizeof words);
-  EXPECT_EQ(words[0], 0xFF000001u);  // attr[1]'s low byte, attr[0]
-  EXPECT_EQ(words[1], 0xFFFFFFFFu);  // attr[2]'s low half, the rest of attr[1]
-  EXPECT_EQ(words[2], 0x8000007Fu);  // attr[3], attr[2]'s top byte
-  EXPECT_EQ(words[3], 0x03000000u);  // flags from bit 25 on, depth
-  EXPECT_EQ(words[4], 0xBC48D15Bu);  // quad from bit 26 on, x, y, front, flags bit 7
-  EXPECT_EQ(words[5], 0x0002AF37u);  // the rest of quad
+  EXPECT_EQ(words[0], 0x00000001u);  // attr[0]
+  EXPECT_EQ(words[1], 0xFFFFFFFFu);  // attr[1]
+  EXPECT_EQ(words[2], 0x7FFFFFFFu);  // attr[2]
+  EXPECT_EQ(words[3], 0x80000000u);  // attr[3]
+  EXPECT_EQ(words[4], 0x03000000u);  // flags from bit 25 on, depth
+  EXPECT_EQ(words[5], 0xBC48D15Bu);  // quad from bit 26 on, x, y, front, flags bit 7
+  EXPECT_EQ(words[6], 0x0002AF37u);  // the rest of quad
   Fragment again;
   visit(again, config, RecordUnpacker(packed));
   EXPECT_EQ(again, f);
@@ -107,9 +108,15 @@ TEST(Layout, FirstFieldIsTheMostSignificant) {
   const RecordLayout layout = vertex_layout(config);
   EXPECT_EQ(layout.fields().front().name, "id");
   EXPECT_EQ(layout.fields().front().position, layout.bits() - config.quad_id_bits);
-  EXPECT_EQ(layout.field("attr_sig", 0).position, 0);
-  EXPECT_EQ(layout.field("attr_neg", 0).position, config.attr_port_bits() - 1);
-  EXPECT_EQ(layout.field("attr_sig", 2).position, 2 * config.attr_port_bits());
+  // From the last one on: limits of 26 bits, bases of 25 and four times 32, then attributes of 28.
+  EXPECT_EQ(layout.field("depth_high").position, 0);
+  EXPECT_EQ(layout.field("depth_low").position, 26);
+  EXPECT_EQ(layout.field("base_depth").position, 52);
+  EXPECT_EQ(layout.field("base_attr", 0).position, 77);
+  EXPECT_EQ(layout.field("base_attr", 3).position, 77 + 3 * 32);
+  EXPECT_EQ(layout.field("attr_sig", 0).position, 205);
+  EXPECT_EQ(layout.field("attr_neg", 0).position, 205 + 27);
+  EXPECT_EQ(layout.field("attr_sig", 2).position, 205 + 2 * 28);
   EXPECT_THROW(layout.field("nonsense"), std::out_of_range);
 }
 
@@ -139,7 +146,7 @@ TEST(Boundaries, HaveTheirBits) {
                                                    {Boundary::ratio, 12 * 30},
                                                    {Boundary::weight, 4 * 30},
                                                    {Boundary::sum, 7 * 31},
-                                                   {Boundary::fragment, 178}};
+                                                   {Boundary::fragment, 210}};
   for (const auto& [boundary, expected] : bits)
     EXPECT_EQ(boundary_layout(boundary, Config{}).bits(), expected) << boundary_name(boundary);
 }

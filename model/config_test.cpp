@@ -30,7 +30,7 @@ constexpr Row table[] = {
     {"recip_degree", 2, 1, 2},
     {"align_guard_bits", 2, 0, 6},
     {"attribute_slots", 4, 1, 8},
-    {"attribute_int_bits", 3, 1, 8},
+    {"attribute_int_bits", 7, 1, 15},
     {"attribute_frac_bits", -1, 8, 30},
     {"depth_bits", 24, 8, 30},
     {"tile_log2", 3, 2, 4},
@@ -136,7 +136,7 @@ TEST(Config, AutomaticValues) {
     c.set("significand_bits", s);
     EXPECT_EQ(c.sqrt_segments(), sqrt2[s - 8]) << "S = " << s;
     EXPECT_EQ(c.recip_segments(), recip2[s - 8]) << "S = " << s;
-    EXPECT_EQ(c.attribute_frac(), s + 2);
+    EXPECT_EQ(c.attribute_frac(), s <= 22 ? 24 : s + 2);
     c.set("sqrt_degree", 1);
     c.set("recip_degree", 1);
     EXPECT_EQ(c.sqrt_segments(), sqrt1[s - 8]) << "S = " << s;
@@ -168,7 +168,7 @@ TEST(Config, ResolvedValuesReplaceAuto) {
     EXPECT_NE(given, c) << key.name;
   }
   EXPECT_EQ(c.resolved("quadratic_frac_bits"), 30);
-  EXPECT_EQ(c.resolved("attribute_frac_bits"), 20);
+  EXPECT_EQ(c.resolved("attribute_frac_bits"), 24);
 }
 
 TEST(Config, DerivedWidthsOfTheDefault) {
@@ -187,8 +187,8 @@ TEST(Config, DerivedWidthsOfTheDefault) {
   EXPECT_EQ(c.tile(), 8);
   EXPECT_EQ(c.tc_bits(), 10);
   EXPECT_EQ(c.attr_port_bits(), 28);
-  EXPECT_EQ(c.attr_out_bits(), 24);
-  EXPECT_EQ(c.attribute_frac(), 20);
+  EXPECT_EQ(c.attr_out_bits(), 32);
+  EXPECT_EQ(c.attribute_frac(), 24);
   Config one;
   one.set("guard_bits", 1);
   EXPECT_EQ(one.val_bits(), 2 * (13 + 15) + 4);

@@ -77,7 +77,8 @@ TEST(LaneStages, EachIsThePlainOne) {
     if (rng.chance(0.3)) c.quadratic_frac_bits = static_cast<int>(rng.integer(8, 30));
     if (rng.chance(0.3)) c.sqrt_degree = c.recip_degree = 1;
     c.attribute_slots = static_cast<int>(columns);
-    c.attribute_int_bits = static_cast<int>(rng.integer(1, 8));
+    c.attribute_int_bits = static_cast<int>(rng.integer(1, 15));
+    if (rng.chance(0.3)) c.attribute_frac_bits = 30;
     c.depth_bits = static_cast<int>(rng.integer(8, 30));
     c.validate();
     DrawState state;
@@ -95,11 +96,21 @@ TEST(LaneStages, EachIsThePlainOne) {
     for (std::size_t b = 0; b < blocks; ++b) {
       quad[b] = static_cast<std::uint32_t>(blocks - 1 - b);
       quads[b].hull = values[b].hull = rng.chance(0.3);
+      QuadBase& base = quads[b].base;
+      for (std::size_t j = 0; j < columns; ++j)
+        values[b].attribute_base[j] = base.attribute[j] = rng.chance(0.2)   ? c.attribute_limit()
+                                                          : rng.chance(0.2) ? 0
+                                                                            : rng.integer(-c.attribute_limit(), 0);
+      base.depth = static_cast<std::uint32_t>(rng.integer(0, std::int64_t{1} << c.depth_bits));
+      base.depth_low = static_cast<std::int32_t>(rng.chance(0.5) ? -1 : rng.integer(-1, base.depth));
+      base.depth_high =
+          static_cast<std::int32_t>(rng.chance(0.5) ? c.depth_above() : rng.integer(base.depth, c.depth_above()));
+      values[b].base = base;
       for (std::size_t i = 0; i < 4; ++i) {
         values[b].k[i] = to_double(quads[b].k[i] = port_number(rng, s, false), s);
         values[b].w[i] = to_double(quads[b].w[i] = port_number(rng, s, true), s);
         values[b].z[i] = to_double(quads[b].z[i] = port_number(rng, s, true), s);
-        for (std::size_t j = 0; j < columns; ++j)
+        for (std::size_t j = 0; j < columns && i != 0; ++j)
           values[b].b[j][i] =
               to_double(quads[b].b[i][j] = rng.chance(0.2) ? PipelineFloat{} : port_number(rng, s, true), s);
       }

@@ -61,10 +61,10 @@ module fragment_output #(
 
   for (genvar g = 0; g < N; g++) begin : gen_attribute
     localparam int SUM = AO + 2;  // a quotient is below 2 2^INT, a base below 2^INT
-    logic prod_neg, neg, used, too_large, least, above;
+    logic prod_neg, neg, late_neg, used, too_large, least, above;
     logic [E-1:0] exp;
     logic [2*S-1:0] prod;
-    logic overflow_d, overflow_q, neg_q;
+    logic overflow_d, overflow_q;
     logic [AO:0] fixed;  // with the bit that rounds
     logic [SUM-1:0] sum_q;
 
@@ -86,23 +86,25 @@ module fragment_output #(
         .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS + 1)
     ) u_fixed (
         .clk_i,
+        .neg_i(prod_neg),
         .exp_i(exp),
         .prod_i(prod),
         .overflow_o(overflow_d),
+        .neg_o(neg),
         .fixed_o(fixed)
     );
 
-    delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_neg (.clk_i, .data_i(prod_neg), .data_o(neg));
+    delay_line #(.WIDTH(1), .DEPTH(TO_FIXED + 1)) u_delay_neg (.clk_i, .data_i(prod_neg), .data_o(late_neg));
 
-    // base + q, or base + ~q + 1, and the rounding added to q: a carry, or one less. {a, 1} + {b, carry} is an adder with a carry-in.
+    // base + q or base + ~q + 1. Rounded q is one more where its last bit is set: then a carry the more, or the one not, which of both
+    // fixed's last bit says as it is. {a, 1} + {b, carry} is an adder whose carry-in is used.
     always_ff @(posedge clk_i) begin
-      sum_q <= SUM'(({SUM'($signed(base_attr_i[g*AO+:AO])), 1'b1} + {SUM'(fixed[AO:1]) ^ {SUM{neg}}, neg ^ fixed[0]}) >> 1);
-      neg_q <= neg;
+      sum_q <= SUM'(({SUM'($signed(base_attr_i[g*AO+:AO])), 1'b1} + {{2{neg}}, fixed}) >> 1);
       overflow_q <= overflow_d;
     end
 
     assign used = attributes_i > 4'(g);
-    assign above = overflow_q ? !neg_q : !sum_q[SUM-1];  // when too large
+    assign above = overflow_q ? !late_neg : !sum_q[SUM-1];  // when too large
     assign too_large = overflow_q || (sum_q[SUM-1-:3] != 3'b000 && sum_q[SUM-1-:3] != 3'b111);
     assign least = sum_q[AO-2:0] == '0 && sum_q[AO-1];  // -2^(INT+FRAC), when not too large
 
@@ -115,7 +117,7 @@ module fragment_output #(
 
   // ---- Depth --------------------------------------------------------------------------------------------------------------
   localparam int Z_SUM = DB + 3;  // signed: a quotient is below 2, a base at most 1
-  logic z_prod_neg, z_neg, w_zero, w_neg;
+  logic z_prod_neg, z_neg, late_z_neg, w_zero, w_neg;
   logic [E-1:0] z_exp;
   logic [2*S-1:0] z_prod;
   logic z_overflow, z_overflow_q, z_neg_q;
@@ -138,7 +140,7 @@ module fragment_output #(
       .prod_o(z_prod)
   );
 
-  delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_z_neg (.clk_i, .data_i(z_prod_neg), .data_o(z_neg));
+  delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_z_neg (.clk_i, .data_i(z_prod_neg), .data_o(late_z_neg));
   delay_line #(.WIDTH(2), .DEPTH(quadrille_pkg::PRODUCT_STAGES + TO_FIXED)) u_delay_w (
       .clk_i,
       .data_i({rw_sig_i == '0, rw_neg_i}),
@@ -150,15 +152,17 @@ module fragment_output #(
       .FRAC_BITS(DB + 1)
   ) u_fixed_z (
       .clk_i,
+      .neg_i(z_prod_neg),
       .exp_i(z_exp),
       .prod_i(z_prod),
       .overflow_o(z_overflow),
+      .neg_o(z_neg),
       .fixed_o(z_fixed)
   );
 
   always_ff @(posedge clk_i) begin
-    z_q <= Z_SUM'(({Z_SUM'(base_depth_i), 1'b1} + {Z_SUM'(z_fixed[DB+1:1]) ^ {Z_SUM{z_neg}}, z_neg ^ z_fixed[0]}) >> 1);
-    z_neg_q <= z_neg && !w_zero;
+    z_q <= Z_SUM'(({Z_SUM'(base_depth_i), 1'b1} + {{2{z_neg}}, z_fixed}) >> 1);
+    z_neg_q <= late_z_neg && !w_zero;
     z_overflow_q <= z_overflow || w_zero;
     behind_early_q <= w_zero || w_neg;
   end

@@ -185,6 +185,8 @@ damage sqrt 'os.remove(f"{suite}/manifest.json"); os.mkfifo(f"{suite}/manifest.j
 expect 2 "manifest.json: not a regular file" "a pipe as manifest" timeout 20 $replay "$work/bad" $tool --suite sqrt
 damage sqrt 'import os; os.remove(f"{suite}/stimulus.hex")'
 expect 2 "stimulus.hex" "a missing file" $replay "$work/bad" $tool --suite sqrt
+damage sqrt 'text = open(f"{suite}/manifest.json").read(); open(f"{suite}/manifest.json", "w").write(text.replace("\"format\": 2", "\"format\": 1"))'
+expect 2 "manifest.json: format 1, this is a replay of format 2" "a set of an older format" $replay "$work/bad" $tool --suite sqrt
 expect 2 "no suite rsqr" "an unknown suite" $replay "$set" $tool --suite rsqr
 expect 2 "nothing to replay: snapping has no RTL" "only a suite without RTL" $replay "$set" $tool --suite snapping
 expect 2 "manifest.json" "no set" $replay "$work" $tool
@@ -309,8 +311,12 @@ fault sqrt sqrt.sv "SQRT_STAGES - 1" "SQRT_STAGES - 2"
 fault reciprocal reciprocal.sv "E'(0) - exp_i : ~exp_i" "E'(0) - exp_i : -exp_i"
 fault ratios mean_value_ratios.sv "rr_rank_q <= rr_rank" "rr_rank_q <= rr_rank + RANK'(1)"
 fault weights factor_products.sv "late_neighbours && late_corner == 2'(g)" "1'b0"
-fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(t*4+v)*PE+:PE]))" "E'(term_exp_i[(t*4+v)*PE+:PE])"
-fault depth fragment_output.sv "z < znear_i" "z <= znear_i"
+fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(FIRST+c)*PE+:PE]))" "E'(term_exp_i[(FIRST+c)*PE+:PE])"
+fault interpolation interpolate.sv "V = 4 - CORNERS + c" "V = c" # attributes with the weights of corners 0 to 2
+fault depth fragment_output.sv "z_neg ^ z_fixed[0]" "z_neg" # toward zero
+fault depth fragment_output.sv "overflow[g] <= used && (too_large || least)" "overflow[g] <= used && too_large"
+fault depth fragment_output.sv "z_neg_q <= z_neg && !w_zero" "z_neg_q <= z_neg"
+fault depth quad_reject.sv "near_cuts_q ? znear_i : low_i[DB:0]" "low_i[DB:0]"
 fault $machine quadrille.sv "full && setup_ready && slot_available" "full && setup_ready && !slots_busy" # clocks alone
 fault $machine quadrille.sv "full && setup_ready && slot_available" "full && setup_ready && !slots_busy" verilator
 

@@ -244,6 +244,9 @@ TEST_P(CApi, ClockedIsTheClockedModelInEveryClock) {
   std::vector<Fragment> expected;
   std::size_t beat = 0, stalled = 0;
   std::uint64_t cycle = 0;
+  std::array<std::array<std::uint32_t, QUADRILLE_VERTEX_WORDS>, 4> beats{};
+  std::array<double, 16> positions{};
+  std::array<double, std::size_t{4} * QUADRILLE_MAX_ATTRIBUTES> attributes{};
   for (;; ++cycle) {
     ASSERT_LT(cycle, 2'000'000u);
     const ClockedOutputs now = model.comb();
@@ -278,11 +281,17 @@ TEST_P(CApi, ClockedIsTheClockedModelInEveryClock) {
     inputs.fragment_ready = random.below(3) != 0;
     std::array<std::uint32_t, QUADRILLE_VERTEX_WORDS> vertex{};
     if (inputs.vertex_valid) {
-      inputs.vertex_id = snapped_[beat / 4].id;
-      inputs.vertex = snapped_[beat / 4].vertex[beat % 4];
-      const quadrille_vertex& v = vertices_[beat];
-      ASSERT_EQ(quadrille_vertex_port(by_ports, inputs.vertex_id, &v.x, v.attribute, vertex.data()), QUADRILLE_OK)
-          << error();
+      inputs.vertex = beat_of(snapped_[beat / 4], beat % 4);
+      for (std::size_t i = 0; i < 4 && beat % 4 == 0; ++i) {
+        const quadrille_vertex& v = vertices_[beat + i];
+        std::ranges::copy(std::array{v.x, v.y, v.z, v.w}, positions.begin() + static_cast<std::ptrdiff_t>(4 * i));
+        std::ranges::copy(v.attribute, attributes.begin() + static_cast<std::ptrdiff_t>(QUADRILLE_MAX_ATTRIBUTES * i));
+      }
+      if (beat % 4 == 0)
+        ASSERT_EQ(quadrille_quad_port(by_ports, inputs.vertex.id, positions.data(), attributes.data(), beats[0].data()),
+                  QUADRILLE_OK)
+            << error();
+      vertex = beats[beat % 4];
     }
     if (now.fragment_valid && inputs.fragment_ready)
       now.for_each_fragment([&](const Fragment& f) { expected.push_back(f); });
@@ -456,7 +465,19 @@ TEST_F(CApiErrors, PortsThatNoMachineMayBeGiven) {
   vertex.fill(0);
   expect_error(quadrille_clocked_clock_ports(clocked_, 0, 0, 1, vertex.data(), 1), QUADRILLE_BAD_VERTEX,
                "k is not normalised");
-  ASSERT_EQ(quadrille_vertex_port(clocked_, 5, &vertices_[0].x, vertices_[0].attribute, vertex.data()), QUADRILLE_OK);
+  std::array<double, 16> positions{};
+  std::array<double, std::size_t{4} * QUADRILLE_MAX_ATTRIBUTES> attributes{};
+  for (std::size_t i = 0; i < 4; ++i)
+    std::ranges::copy(std::array{vertices_[i].x, vertices_[i].y, vertices_[i].z, vertices_[i].w},
+                      positions.begin() + static_cast<std::ptrdiff_t>(4 * i));
+  std::array<std::uint32_t, std::size_t{4} * QUADRILLE_VERTEX_WORDS> beats{};
+  ASSERT_EQ(quadrille_quad_port(clocked_, 5, positions.data(), attributes.data(), beats.data()), QUADRILLE_OK);
+  std::copy_n(beats.begin() + QUADRILLE_VERTEX_WORDS, QUADRILLE_VERTEX_WORDS, vertex.begin());
+  expect_error(quadrille_quad_port(clocked_, 5, positions.data(), attributes.data(), nullptr), QUADRILLE_BAD_ARGUMENT,
+               "NULL");
+  positions[6] = std::nan("");
+  expect_error(quadrille_quad_port(clocked_, 5, positions.data(), attributes.data(), beats.data()),
+               QUADRILLE_BAD_VERTEX, "vertex 1");
   const RecordLayout layout = vertex_layout(Config());
   const auto with = [&](const char* field, std::uint64_t value) {
     Record record = Record::from_words(vertex.data(), layout.bits());

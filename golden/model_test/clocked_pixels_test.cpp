@@ -56,10 +56,7 @@ Compared compare(const std::vector<SnappedQuad>& quads, const Config& config, co
     if (beat == 4 * quads.size() && !a.busy) break;
     in.fragment_ready = rng.chance(0.8);
     in.vertex_valid = beat < 4 * quads.size();  // stays on offer until it is taken
-    if (in.vertex_valid) {
-      in.vertex_id = quads[beat / 4].id;
-      in.vertex = quads[beat / 4].vertex[beat % 4];
-    }
+    if (in.vertex_valid) in.vertex = beat_of(quads[beat / 4], beat % 4);
     beat += in.vertex_valid && a.vertex_ready ? 1 : 0;
     if (a.fragment_valid && in.fragment_ready)
       a.for_each_fragment([&](const Fragment& f) {

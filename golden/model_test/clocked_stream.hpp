@@ -32,8 +32,7 @@ inline std::vector<Fragment> clocked_stream(const std::vector<SnappedQuad>& quad
     if (beat < 4 * quads.size()) {
       // Valid, once up, stays until accepted.
       in.vertex_valid = offered || !rng.chance(gap);
-      in.vertex_id = quads[beat / 4].id;
-      in.vertex = in.vertex_valid ? quads[beat / 4].vertex[beat % 4] : SnappedVertex{};
+      in.vertex = in.vertex_valid ? beat_of(quads[beat / 4], beat % 4) : VertexBeat{};
     } else {
       in.vertex_valid = false;
     }

@@ -45,8 +45,7 @@ class Paused {
   bool valid() const { return !done() && clock_ % rhythm_.every < rhythm_.burst; }
   bool ready() const { return clock_ % rhythm_.ready == 0; }
   bool changed() const { return true; }
-  std::uint32_t id() const { return beats_.id(); }
-  const SnappedVertex& vertex() const { return beats_.vertex(); }
+  VertexBeat beat() const { return beats_.beat(); }
   void advance(bool taken) {
     beats_.advance(taken);
     ++clock_;

@@ -96,7 +96,7 @@ Config random_config(Prng& rng) {
     c.align_guard_bits = static_cast<int>(rng.below(7));
     c.quadratic_frac_bits = rng.chance(0.5) ? -1 : static_cast<int>(rng.integer(0, 30));
     c.attribute_slots = static_cast<int>(rng.integer(1, 8));
-    c.attribute_int_bits = static_cast<int>(rng.integer(1, 8));
+    c.attribute_int_bits = static_cast<int>(rng.integer(1, 15));
     c.depth_bits = static_cast<int>(rng.integer(8, 30));
     c.tile_log2 = static_cast<int>(rng.integer(2, 4));
     if (rng.chance(0.3)) c.attribute_frac_bits = std::max(c.significand_bits, static_cast<int>(rng.integer(8, 30)));
@@ -169,6 +169,23 @@ TEST(CornerQuads, PlainAndLanesAreOne) {
   EXPECT_GT(fragments, 20'000u);
 }
 
+/// Bases of attributes anywhere, also at the end of the range, and depths between limits far and near, or equal ones.
+QuadBase random_base(Prng& rng, const Config& c) {
+  QuadBase base;
+  for (std::int64_t& a : base.attribute)
+    a = rng.chance(0.3)   ? 0
+        : rng.chance(0.2) ? static_cast<std::int64_t>(rng.sign()) * c.attribute_limit()
+                          : rng.integer(-c.attribute_limit(), c.attribute_limit());
+  base.depth = static_cast<std::uint32_t>(rng.integer(0, std::int64_t{1} << c.depth_bits));
+  base.depth_high = c.depth_above();
+  if (rng.chance(0.5)) {
+    base.depth_low = static_cast<std::int32_t>(rng.integer(-1, c.depth_above()));
+    base.depth_high =
+        static_cast<std::int32_t>(rng.chance(0.3) ? base.depth_low : rng.integer(base.depth_low, c.depth_above()));
+  }
+  return base;
+}
+
 /// Bit patterns that rounding anywhere would betray: long runs of ones and single bits, up to 2^62, straight into the
 /// pipeline's front. A, D <= r² as in a real quad; everything else random. An ordinary quad's D comes of the law of
 /// cosines: its squared lengths are those that give D, or one less than twice that.
@@ -205,12 +222,14 @@ TEST(PixelLanes, HardBitPatterns) {
       return PipelineFloat{sign && rng.chance(0.5), static_cast<int>(rng.integer(-20, 20)), sig};
     };
     QuadData data;
+    data.base = random_base(rng, c);
     for (std::size_t i = 0; i < 4; ++i) {
       data.k[i] = number(false);
       data.w[i] = number(true);
       data.z[i] = number(true);
-      for (std::size_t j = 0; j < 4; ++j) data.b[i][j] = rng.chance(0.2) ? PipelineFloat{} : number(true);
+      for (std::size_t j = 0; j < 4 && i != 0; ++j) data.b[i][j] = rng.chance(0.2) ? PipelineFloat{} : number(true);
     }
+    if (rng.chance(0.2)) data.z = {};
     const QuadLanes values(data, context);
     for (int m = 0; m < 20; ++m) {
       TileEntry tile;
@@ -326,11 +345,12 @@ TEST(Clocked, QuadsWithoutFragmentsComeAndGo) {
   EXPECT_TRUE(clocked_stream({}, c, s, 1, 0, 0).empty());
 }
 
-/// Makes something of the quad constant, by the generator: attributes that are k times 0 or a power of two, one that is
-/// constant otherwise, a flat depth, k = W, equal k.
+/// Makes something of the quad constant, by the generator: attributes without differences or with equal ones, a depth
+/// that is its base, or W times a power of two above it, or between equal limits; k = W, equal k.
 void make_constant(SnappedQuad& quad, Prng& rng, const Config& c) {
   const int fill = c.significand_bits - 1;
-  const bool k_is_w = rng.chance(0.4), equal_k = rng.chance(0.3), flat = rng.chance(0.5);
+  const bool k_is_w = rng.chance(0.4), equal_k = rng.chance(0.3), flat = rng.chance(0.5), none = rng.chance(0.3);
+  if (rng.chance(0.3)) quad.base.depth_high = quad.base.depth_low = static_cast<std::int32_t>(quad.base.depth);
   const int z_exp = -static_cast<int>(rng.integer(1, 4));
   std::vector<int> kind, exp;
   for (std::size_t j = 0; j < max_attribute_slots; ++j) {
@@ -342,7 +362,7 @@ void make_constant(SnappedQuad& quad, Prng& rng, const Config& c) {
     const PipelineFloat w = fp_from_signed(v.w, -c.frac(), {c.significand_bits, c.align_guard_bits});
     if (equal_k) v.k = k0;
     if (k_is_w && v.w > 0) v.k = {false, w.exp, w.sig};
-    if (flat) v.z = {w.neg, w.exp + z_exp, w.sig};
+    if (flat) v.z = none ? PortNumber{} : PortNumber{w.neg, w.exp + z_exp, w.sig};
     for (std::size_t j = 0; j < max_attribute_slots; ++j) {
       if (kind[j] == 0) v.attribute[j] = {};
       if (kind[j] == 1) v.attribute[j] = {exp[j] % 2 != 0, v.k.exp + exp[j], v.k.sig};
@@ -382,7 +402,7 @@ TEST(PixelPipeline, LeavesNothingOutThatAFragmentNeeds) {
       const PipelineContext context(c, s);
       for (const SnappedQuad& quad : quads) {
         const QuadLanes values(quad_data(quad, quad_setup(quad, c, s), c, s), context);
-        shared += values.w_of_k.has_value() + values.b_of_k[0].has_value() + values.z_of_w.has_value();
+        shared += values.w_of_k.has_value() + (s.attributes > 0 && !values.sum_b[0]) + (s.depth && !values.sum_z);
       }
     }
   EXPECT_GT(fragments, 20'000u);
@@ -488,37 +508,37 @@ TEST(PixelPipeline, EndsFollowTheirDefinitions) {
             // Stage 25.
             const PipelineFloat rk = reciprocal(p.den_k, context.recip_table, context.format);
             const PipelineFloat rw = reciprocal(p.den_w, context.recip_table, context.format);
-            const auto floor_fixed = [&](const PipelineFloat& a, const PipelineFloat& b, int int_bits, int frac,
-                                         bool& over) -> std::uint64_t {
-              const long double value = std::ldexp(static_cast<long double>(a.sig) * static_cast<long double>(b.sig),
-                                                   a.exp + b.exp - 2 * (S - 1));  // exact: 52 bits
-              over = value >= std::ldexp(1.0L, int_bits);
-              return over ? (std::uint64_t{1} << (int_bits + frac)) - 1
-                          : static_cast<std::uint64_t>(std::floor(std::ldexp(value, frac)));
+            // base + a b in codes, the product to nearest, halves away from 0; beyond every code from 2^int_bits on.
+            const auto in_codes = [&](const PipelineFloat& a, const PipelineFloat& b, std::int64_t base, int int_bits,
+                                      int frac) -> std::int64_t {
+              const double size = std::ldexp(static_cast<double>(std::uint64_t{a.sig} * b.sig),
+                                             a.exp + b.exp - 2 * (S - 1) + frac);  // exact: 52 bits
+              double code = size >= std::ldexp(1.0, int_bits + frac) ? 0x1p60 : std::floor(size);
+              if (size - code >= 0.5) ++code;
+              return base + static_cast<std::int64_t>(a.neg != b.neg ? -code : code);
             };
+            const std::int64_t limit = (std::int64_t{1} << (c.attribute_int_bits + c.attribute_frac())) - 1;
             bool any = false;
             for (std::size_t j = 0; j < max_attribute_slots; ++j) {
               if (static_cast<int>(j) >= s.attributes) {
                 ASSERT_EQ(p.fragment.attribute[j], 0);
                 continue;
               }
-              bool over = false;
-              const auto m = static_cast<std::int64_t>(
-                  floor_fixed(p.num_a[j], rk, c.attribute_int_bits, c.attribute_frac(), over));
-              any = any || over;
-              ASSERT_EQ(p.fragment.attribute[j], p.num_a[j].neg != p.den_k.neg ? -m : m);
+              const std::int64_t sum =
+                  in_codes(p.num_a[j], rk, data.base.attribute[j], c.attribute_int_bits + 1, c.attribute_frac());
+              any = any || std::abs(sum) > limit;
+              ASSERT_EQ(p.fragment.attribute[j], sum > limit ? limit : sum < -limit ? -limit : sum);
             }
             ASSERT_EQ((p.fragment.flags & flag_saturated) != 0, any);
             saturated += any;
             bool drop = setup.hull && (p.den_w.sig == 0 || p.den_w.neg);
             if (s.depth) {
-              bool over = false;
-              std::uint64_t z = floor_fixed(p.num_z, rw, 1, c.depth_bits, over);
-              bool negative = p.num_z.neg != p.den_w.neg;
-              if (p.den_w.sig == 0) z = (std::uint64_t{2} << c.depth_bits) - 1, negative = false;
-              ASSERT_EQ(p.fragment.depth, z);
+              std::int64_t z = in_codes(p.num_z, rw, data.base.depth, 1, c.depth_bits);
+              if (p.den_w.sig == 0 || z > data.base.depth_high) z = data.base.depth_high;
+              if (z < data.base.depth_low) z = data.base.depth_low;
+              ASSERT_EQ(p.fragment.depth, z < 0 ? 0 : z);
               const double scale = std::ldexp(1.0, c.depth_bits);
-              drop = drop || (negative && z != 0) || static_cast<double>(z) < std::nearbyint(s.znear * scale) ||
+              drop = drop || static_cast<double>(z) < std::nearbyint(s.znear * scale) ||
                      static_cast<double>(z) > std::nearbyint(s.zfar * scale);
             } else {
               ASSERT_EQ(p.fragment.depth, 0u);
@@ -561,9 +581,15 @@ void exhaustive(int side, bool homogeneous, std::uint64_t stride, const Config& 
   for (std::uint64_t code = 0; code < n * n * n * n; code += stride) {
     SnappedQuad q;
     std::uint64_t rest = code;
+    // Attribute i is 1 at vertex i: of vertex 0 as a base that the others are 1 below.
+    q.base.attribute[0] = std::int64_t{1} << c.attribute_frac();
     for (std::size_t i = 0; i < 4; ++i) {
-      q.vertex[i] = points[rest % n];
-      q.vertex[i].attribute[i] = q.vertex[i].k;
+      SnappedVertex& v = q.vertex[i];
+      v = points[rest % n];
+      if (i == 0)
+        v.attribute[0] = {};
+      else
+        v.attribute[0] = {true, v.k.exp, v.k.sig}, v.attribute[i] = v.k;
       rest /= n;
     }
     std::vector<Fragment> a, b;
@@ -574,7 +600,7 @@ void exhaustive(int side, bool homogeneous, std::uint64_t stride, const Config& 
       double sum = 0;
       for (std::size_t i = 0; i < 4; ++i) {
         const double lambda = static_cast<double>(f.attribute[i]) / one;
-        ASSERT_GE(lambda, 0) << "quad " << code << ": " << text(f);
+        ASSERT_GE(lambda, i == 0 ? -bound : 0) << "quad " << code << ": " << text(f);
         ASSERT_LE(lambda, 1 + bound) << "quad " << code << ": " << text(f);
         sum += lambda;
       }

@@ -49,8 +49,9 @@ TEST(PlanePair, StripsHaveEachDistanceAndTheNearerPlaneLast) {
     for (std::size_t v = 0; v < 4; ++v) {
       EXPECT_NEAR(distance(back.vertex[v]) - distance(front.vertex[v]),
                   plane_distances[i] * 50 / std::hypot(15, 10, 50), 1e-9);
-      if (i > 0)
-        EXPECT_GT(front.vertex[0].x / front.vertex[0].w, quads[2 * i - 1].vertex[1].x / quads[2 * i - 1].vertex[1].w);
+      if (i == 0) continue;
+      const WindowVertex &left = quads[2 * i - 1].vertex[1], &right = front.vertex[0];
+      EXPECT_GT(right.x / right.w, left.x / left.w);
     }
   }
 }

@@ -1,5 +1,7 @@
 #include "golden/scenes/projection.hpp"
 
+#include "golden/scenes/polygon.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -70,6 +72,21 @@ void check_face(const Mesh& mesh, std::size_t face) {
       throw std::invalid_argument("face " + std::to_string(face) + ": normal index " + std::to_string(corner.normal) +
                                   " is out of range");
     }
+  }
+}
+
+/// The primitives of a face with checked corners.
+std::vector<Piece> pieces_of(const Mesh& mesh, std::size_t face) {
+  const Face& corners = mesh.faces[face];
+  if (corners.size() == 3) return {{0, 1, 2, 2}};
+  if (corners.size() == 4) return {{0, 1, 2, 3}};
+  std::vector<Vec3> positions;
+  for (const Corner& corner : corners) positions.push_back(position_of(mesh, face, corner));
+  try {
+    return cut_polygon(positions);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("face " + std::to_string(face) + ", of " + std::to_string(corners.size()) +
+                                " corners: " + error.what());
   }
 }
 
@@ -316,10 +333,7 @@ Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int h
     }
     const bool textured = std::all_of(face.begin(), face.end(), [](const Corner& c) { return c.texcoord >= 0; });
     const std::size_t before = result.quads.size();
-    for (std::size_t i = 1; i + 1 < face.size(); i += 2) {
-      const std::size_t last = std::min(i + 2, face.size() - 1);
-      emit(f, textured, {&face[0], &face[i], &face[i + 1], &face[last]});
-    }
+    for (const auto& [a, b, c, d] : pieces_of(mesh, f)) emit(f, textured, {&face[a], &face[b], &face[c], &face[d]});
     if (face.size() > 4) result.fan_primitives += result.quads.size() - before;
   }
   return result;

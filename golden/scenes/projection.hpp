@@ -41,7 +41,7 @@ struct Projection {
   std::vector<std::array<Vec2, 4>> textures;  ///< of every quad: what AttributeSet::uv gives
   std::size_t triangles = 0;                  ///< primitives drawn as (a, b, c, c), those of fans included
   std::size_t fanned_faces = 0;               ///< faces with more than four corners
-  std::size_t fan_primitives = 0;             ///< quads and triangles that those faces became
+  std::size_t fan_primitives = 0;             ///< quads and triangles that those faces were cut into
 };
 
 /// clip = M · (x, y, z, 1), NDC y up, z −1..1 (OpenGL's look-at times perspective when the camera has no matrix; aspect
@@ -81,12 +81,13 @@ Vec3 direction_to_eye(const Camera& camera);
 /// zero.
 std::vector<Vec3> smooth_normals(const Mesh& mesh);
 
-/// Faces in order. A triangle (a, b, c) becomes (a, b, c, c); a face with n > 4 corners a fan from its first corner, as
-/// quads then (n odd) a triangle. A face in which a corner has no texture coordinate gets the unit square (0,0) (1,0)
-/// (1,1) (0,1) per primitive (a triangle: its fourth corner repeats the third); a corner without normal gets the smooth
-/// one. Normals are normalised. Throws std::invalid_argument with the face number for fewer than three corners, an
-/// index out of range, and with `strict` for more than four corners; without one for AttributeSet::colour when the mesh
-/// has not one colour per position.
+/// Faces in order. A triangle (a, b, c) becomes (a, b, c, c); a face with n > 4 corners what cut_polygon() makes of it:
+/// if convex, a fan from its first corner, as quads then (n odd) a triangle. A face in which a corner has no texture
+/// coordinate gets the unit square (0,0) (1,0) (1,1) (0,1) per primitive (a triangle: its fourth corner repeats the
+/// third); a corner without normal gets the smooth one. Normals are normalised. Throws std::invalid_argument with the
+/// face number for fewer than three corners, an index out of range, a face that cut_polygon() refuses, and with
+/// `strict` for more than four corners; without one for AttributeSet::colour when the mesh has not one colour per
+/// position.
 Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int height,
                         const ProjectOptions& options = {});
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -176,6 +177,43 @@ TEST(Projection, FramingOfNothingAndOfOnePointIsUsable) {
   for (Vec3& p : point.positions) p = {3, 4, 5};
   const auto quads = project_mesh(point, frame_mesh(point, 64, 64), 64, 64).quads;
   EXPECT_NEAR(quads.at(0).vertex[0].x / quads[0].vertex[0].w, 32, 1e-6);
+}
+
+TEST(Projection, AFaceThatCannotBeCutIsNamed) {
+  Mesh mesh = polygon(4);
+  mesh.positions = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, -1, 0}, {0, 4, 0}};
+  mesh.faces.push_back({{0}, {1}, {2}, {3}, {4}});
+  try {
+    project_mesh(mesh, identity_camera(), 2, 2);
+    FAIL() << "drawn";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "face 1, of 5 corners: the edges between corners 1-2 and 3-4 cross");
+  }
+}
+
+/// Twice the area of what a mesh in a plane of constant z is drawn as, fragments that overlap counted twice.
+double drawn_area(const Mesh& mesh) {
+  double sum = 0;
+  for (const WindowQuad& quad : project_mesh(mesh, identity_camera(), 2, 2).quads) {
+    double area = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const WindowVertex &a = quad.vertex[i], &b = quad.vertex[(i + 1) % 4];
+      area += a.x * b.y - a.y * b.x;
+    }
+    sum += std::fabs(area);
+  }
+  return sum;
+}
+
+TEST(Projection, AConcaveFacePaintsTheSameFromEveryFirstCorner) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
+  mesh.faces.push_back({{0}, {1}, {2}, {3}, {4}, {5}});
+  for (int first = 0; first < 6; ++first) {
+    EXPECT_EQ(drawn_area(mesh), 10) << first;  // an L of 5 squares
+    EXPECT_EQ(project_mesh(mesh, identity_camera(), 2, 2).fan_primitives, 2u);
+    std::ranges::rotate(mesh.faces[0], mesh.faces[0].begin() + 1);
+  }
 }
 
 TEST(Projection, FacesBecomeQuadsThenATriangle) {

@@ -50,9 +50,9 @@ int main(void) {
   for (size_t i = 0; i < count && i < clocked_count; ++i) {
     const quadrille_fragment* f = &drawn[i];
     check(f->quad == 7 && f->x >= 4 && f->x < 8 && f->y >= 4 && f->y < 8 && f->front == 1, "id, place and face");
-    /* Within the machine's bound 2^-(18 - 3) of what is the same everywhere: 1 with 20 and 0.5 with 24 fraction bits. */
-    check(llabs(f->attribute[0] - (1 << 20)) <= 1 << 5 && f->attribute[1] == 0, "attribute 1");
-    check(llabs((long long)f->depth - (1 << 23)) <= 1 << 9, "depth 0.5");
+    /* What is the same everywhere is exact: 1 and 0.5 with 24 fraction bits. */
+    check(f->attribute[0] == 1 << 24 && f->attribute[1] == 0, "attribute 1");
+    check(f->depth == 1 << 23, "depth 0.5");
     check(memcmp(f, &clocked_out[i], sizeof *f) == 0, "both models alike");
   }
   quadrille_untimed_destroy(untimed);

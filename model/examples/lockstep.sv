@@ -8,7 +8,7 @@ module lockstep;
     bit front;
     bit [7:0] flags;
     bit [24:0] depth;
-    bit [3:0][23:0] attribute;
+    bit [3:0][31:0] attribute;
   } fragment_t;  // the default configuration
 
   bit clk, rst_n, vertex_valid, taken, fragment_ready;
@@ -30,20 +30,18 @@ module lockstep;
   chandle model;
   initial begin
     string name;
-    real position[4][4], attributes[4][8];
-    vertex_port_t beat;
+    real positions[4][4], attributes[4][8];
+    vertex_port_t quad[4];
     int file, id;
     check(quadrille_clocked_create("", model));
     check(quadrille_clocked_state_port(model, state_port_t'(state)));
     if ($value$plusargs("quads=%s", name) == 0) $fatal(1, "+quads=FILE is missing");
     file = $fopen(name, "r");
-    for (id = 0; $fscanf(file, "%f", position[0][0]) == 1; id++) begin
-      for (int i = 1; i < 16; i++) void'($fscanf(file, "%f", position[i/4][i%4]));
+    for (id = 0; $fscanf(file, "%f", positions[0][0]) == 1; id++) begin
+      for (int i = 1; i < 16; i++) void'($fscanf(file, "%f", positions[i/4][i%4]));
       for (int i = 0; i < 16; i++) void'($fscanf(file, "%f", attributes[i/4][i%4]));
-      for (int i = 0; i < 4; i++) begin
-        check(quadrille_vertex_port(model, id, position[i], attributes[i], beat));
-        beats.push_back(beat);
-      end
+      check(quadrille_quad_port(model, id, positions, attributes, quad));
+      for (int i = 0; i < 4; i++) beats.push_back(quad[i]);
     end
     forever #1 clk = !clk;
   end

@@ -13,7 +13,7 @@ STATE = np.dtype([("size", "u4"), ("viewport", "i4", 2), ("scissor", "i4", 4), (
 
 library = ctypes.CDLL(sys.argv[1])
 library.quadrille_last_error.restype = ctypes.c_char_p
-assert library.quadrille_abi() == 1
+assert library.quadrille_abi() == 2
 
 
 def call(name, *arguments):

@@ -124,21 +124,43 @@ TEST_F(Dpi, SqrtOfFourPowersKeepsTheirOrder) {
 }
 
 TEST_F(Dpi, SnapPutsAPixelCentreAtAnInteger) {
-  const auto real = [&](const char* name, double value) {
+  const auto real = [&](const char* name, int index, double value) {
     std::int64_t raw = 0;
     static_assert(sizeof raw == sizeof value);
     std::memcpy(&raw, &value, sizeof raw);
-    set("snapping", name, -1, raw);
+    set("snapping", name, index, raw);
   };
-  real("x", 3.5);
-  real("y", 0.75);
-  real("z", 0.25);
-  real("w", 1);
+  // Vertex i at (3.5 + i, 0.75), z = 1/4 + i/8; attribute 2 is 3 at vertex 0, 3.5 at vertex 3, else 0.
+  for (int i = 0; i < 4; ++i) {
+    real("x", i, 3.5 + i);
+    real("y", i, 0.75);
+    real("z", i, 0.25 + i / 8.0);
+    real("w", i, 1);
+  }
+  real("attr", 4 * 0 + 2, 3);
+  real("attr", 4 * 3 + 2, 3.5);
+  set("snapping", "perspective", -1, 1);
   ASSERT_EQ(quadrille_snap(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
   EXPECT_EQ(get("snapping", "refused"), 0);
-  EXPECT_EQ(get_signed("snapping", "x"), 3 << 15);
-  EXPECT_EQ(get_signed("snapping", "y"), 1 << 13);
-  EXPECT_EQ(get_signed("snapping", "w"), 1 << 15);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(get_signed("snapping", "x", i), (3 + i) << 15);
+    EXPECT_EQ(get_signed("snapping", "y", i), 1 << 13);
+    EXPECT_EQ(get_signed("snapping", "w", i), 1 << 15);
+  }
+  EXPECT_EQ(get_signed("snapping", "base_attr", 2), 3 << 24);
+  EXPECT_EQ(get("snapping", "base_depth"), 1 << 22);
+  EXPECT_EQ(get_signed("snapping", "depth_low"), 1 << 22);
+  EXPECT_EQ(get_signed("snapping", "depth_high"), 5 << 21);
+  EXPECT_EQ(get("snapping", "z_sig", 0), 0);
+  EXPECT_EQ(get_signed("snapping", "z_exp", 2), -2) << "1/2 - 1/4";
+  EXPECT_EQ(get("snapping", "z_sig", 2), one);
+  // Attribute 2 of vertices 1 and 3: -3 and 1/2.
+  EXPECT_EQ(get("snapping", "attr_neg", 2), 1);
+  EXPECT_EQ(get_signed("snapping", "attr_exp", 2), 1);
+  EXPECT_EQ(get("snapping", "attr_sig", 2), 3 * one / 2);
+  EXPECT_EQ(get("snapping", "attr_neg", 4 * 2 + 2), 0);
+  EXPECT_EQ(get_signed("snapping", "attr_exp", 4 * 2 + 2), -1);
+  EXPECT_EQ(get("snapping", "attr_sig", 4 * 2 + 2), one);
 }
 
 TEST_F(Dpi, SetupOfASquare) {
@@ -265,14 +287,14 @@ TEST_F(Dpi, WeightAtAVertexIsOneThere) {
 }
 
 TEST_F(Dpi, InterpolationAddsUp) {
-  // M = 1 at corners 0 and 1, k = 1: the denominator is 2. Attribute 3 is 1 and -4 there: -3.
-  for (int i = 0; i < 2; ++i) {
+  // M = 1 at corners 1 and 2, k = 1: the denominator is 2. Attribute 3 differs from its base by 1 and -4 there: -3.
+  for (int i = 1; i < 3; ++i) {
     set("interpolation", "m_sig", i, one);
     set("interpolation", "k_sig", i, one);
-    set("interpolation", "b_sig", 4 * 3 + i, one);
+    set("interpolation", "b_sig", 3 * 3 + i - 1, one);
   }
-  set("interpolation", "b_exp", 4 * 3 + 1, 2);
-  set("interpolation", "b_neg", 4 * 3 + 1, 1);
+  set("interpolation", "b_exp", 3 * 3 + 1, 2);
+  set("interpolation", "b_neg", 3 * 3 + 1, 1);
   ASSERT_EQ(quadrille_interpolate(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
   EXPECT_EQ(get("interpolation", "den_k_sig"), one);
   EXPECT_EQ(get_signed("interpolation", "den_k_exp"), 1);
@@ -283,7 +305,7 @@ TEST_F(Dpi, InterpolationAddsUp) {
 }
 
 TEST_F(Dpi, DepthIsAQuotientInFixedPoint) {
-  // z = 1/2 / 2 in [0, 1]; attribute 0 is -1 / 2.
+  // z = 1/2 / 2 in [0, 1], from 1/16 on; attribute 0 is -1 / 2, from 3 on.
   set("depth", "depth_on", -1, 1);
   set("depth", "zfar", -1, 1 << 24);
   set("depth", "attributes", -1, 1);
@@ -293,10 +315,17 @@ TEST_F(Dpi, DepthIsAQuotientInFixedPoint) {
   for (const char* name : {"den_k_exp", "den_w_exp"}) set("depth", name, -1, 1);
   set("depth", "attr_sig", 0, one);
   set("depth", "attr_neg", 0, 1);
+  set("depth", "base_attr", 0, 3 << 24);
+  set("depth", "base_depth", -1, 1 << 20);
+  set("depth", "depth_high", -1, 1 << 24);
   ASSERT_EQ(quadrille_fragment_output(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
   EXPECT_EQ(get("depth", "valid"), 1);
-  EXPECT_EQ(get("depth", "depth"), 1 << 22);
-  EXPECT_EQ(get_signed("depth", "attr", 0), -(1 << 19));
+  EXPECT_EQ(get("depth", "depth"), 5 << 20);
+  EXPECT_EQ(get_signed("depth", "attr", 0), 5 << 23);
+  // No depth is above the corners'.
+  set("depth", "depth_high", -1, 3 << 20);
+  ASSERT_EQ(quadrille_fragment_output(model_, stimulus_.data(), response_.data()), ok) << quadrille_error();
+  EXPECT_EQ(get("depth", "depth"), 3 << 20);
 }
 
 TEST_F(Dpi, EveryStageFunctionIsTheSuiteThatItNames) {

@@ -6,7 +6,7 @@ package quadrille_machine_pkg;
 
   localparam int OK = 0;  // of a status; anything else: quadrille_last_error() has the words
 
-  typedef bit [511:0] vertex_port_t;  // vertex_i
+  typedef bit [1023:0] vertex_port_t;  // vertex_i
   typedef bit [255:0] state_port_t;  // state_i
   typedef bit [2047:0] fragment_port_t;  // fragment_o
 
@@ -18,13 +18,13 @@ package quadrille_machine_pkg;
   import "DPI-C" function void quadrille_clocked_destroy(input chandle machine);
   import "DPI-C" function string quadrille_last_error();
 
-  // The beat of a vertex {x, y, z, w} in window coordinates with its attributes, snapped.
-  import "DPI-C" function int quadrille_vertex_port(
+  // The four beats of a quad: of each vertex {x, y, z, w} in window coordinates and its attributes, snapped.
+  import "DPI-C" function int quadrille_quad_port(
     input chandle machine,
     input int unsigned id,
-    input real position[4],
-    input real attributes[8],
-    output vertex_port_t vertex
+    input real positions[4][4],
+    input real attributes[4][8],
+    output vertex_port_t beats[4]
   );
   // May be called in every clock: an error only when another state is given while the machine is busy.
   import "DPI-C" function int quadrille_clocked_state_port(

@@ -1,7 +1,7 @@
-  // vertex_assembly: four accepted beats are a quad, each with its own vertex, all of its fields and its W as a significand number among them, the id
-  // of the first; the quad is stable until it is taken or dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock. Of the
+  // vertex_assembly: four accepted beats are a quad, each with its own vertex, all of its fields and its W as a significand number among them, the id,
+  // the bases and the corner depths of the first, whose attributes are not kept; the quad is stable until it is taken or dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock. Of the
   // beats so far: least and greatest X and Y are those of some vertex and none is beyond; ordinary_o if and only if every W is ONE; behind_o, a
-  // judgement of quad_reject, if and only if none is positive. (empty_o: proof range_empty. depth_o and the interval: tested.)
+  // judgement of quad_reject, if and only if none is positive. (empty_o: proof range_empty. depth_o, limits and the interval: tested.)
   // By induction, with one vertex of the four chosen freely and kept.
   // Assumed: reset at the start and no more; start or drop only of a full quad (quadrille: start and drop_vertices have full in them).
   logic started_q = 1'b0;
@@ -14,10 +14,13 @@
   logic [KEPT-1:0] kept_q, there;
   logic [W-1:0] kept_w;
   logic [quadrille_pkg::QUAD_ID_BITS-1:0] kept_id_q;
+  logic [BASE+DB+1+2*CODE-1:0] kept_base_q;
+  logic [4*ATTR-1:0] attr_there;  // of vertex 0 whatever came
   logic have;
   logic [2:0] after_leave;
 
   assign after_leave = (start_i || drop_i) ? 3'd0 : held_q;
+  assign attr_there = {attr_o, kept_q[ATTR-1:0]};
   assign have = held_q > {1'b0, which};
   assign kept_w = kept_q[2*(PE+S)+1+ATTR+:W];
 
@@ -26,7 +29,10 @@
       held_q <= '0;
     end else begin
       held_q <= after_leave + 3'(accept);
-      if (accept && after_leave == 3'd0) kept_id_q <= vertex.id;
+      if (accept && after_leave == 3'd0) begin
+        kept_id_q <= vertex.id;
+        kept_base_q <= {vertex.base_attr, vertex.base_depth, vertex.depth_low, vertex.depth_high};
+      end
       if (accept) ones_q <= ((after_leave == 3'd0) ? 3'd0 : ones_q) + 3'(vertex.w == W'(1 << quadrille_pkg::FRAC));
       if (accept) positive_q <= ((after_leave == 3'd0) ? 3'd0 : positive_q) + 3'($signed(vertex.w) > 0);
       if (accept && after_leave == {1'b0, which}) begin
@@ -49,7 +55,7 @@
     for (int v = 0; v < 4; v++) begin
       if (which == 2'(v)) begin
         there = {x_o[v*T+:T], y_o[v*T+:T], w_o[v*W+:W], k_exp_o[v*PE+:PE], k_sig_o[v*S+:S], z_neg_o[v], z_exp_o[v*PE+:PE], z_sig_o[v*S+:S],
-                 attr_o[v*ATTR+:ATTR]};
+                 attr_there[v*ATTR+:ATTR]};
         {w_neg_there, w_exp_there, w_sig_there} = {w_neg_o[v], w_exp_o[v*PE+:PE], w_sig_o[v*S+:S]};
       end
     end
@@ -86,6 +92,7 @@
       assert (!have || there == kept_q);
       assert (!have || {w_neg_there, w_exp_there, w_sig_there} == {kept_w[W-1], w_exp_spec, w_sig_spec});
       assert (held_q == 3'd0 || id_o == kept_id_q);
+      assert (held_q == 3'd0 || {base_attr_o, base_depth_o, depth_low_q, depth_high_q} == kept_base_q);
       assert (held_q == 3'd0 || (is_low_x != '0 && is_high_x != '0 && is_low_y != '0 && is_high_y != '0));
       assert (inside == '1);
       assert (held_q == 3'd0 || ordinary_o == (ones_q == held_q));

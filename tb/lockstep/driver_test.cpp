@@ -55,20 +55,39 @@ TEST(VertexDriver, WhatTheMachineMustNotLookAtIsRubbish) {
     const std::vector<SnappedQuad> quads = random_quads(config, state, 1, 100);
     VertexDriver driver(quads, config, attributes, 7, 0);
     int negative = 0, large = 0, small = 0, unused = 0;
+    int other_bases = 0, other_depths = 0, other_limits = 0;
     for (std::size_t beat = 0; !driver.done(); driver.advance(true), ++beat) {
       const SnappedQuad &quad = quads[beat / 4];
-      EXPECT_EQ(driver.id() == quad.id, beat % 4 == 0) << "beat " << beat;
+      const bool first = beat % 4 == 0;
+      EXPECT_EQ(driver.beat().id == quad.id, first) << "beat " << beat;
       const Record words = Record::from_words(driver.words().data(), layout.bits());
-      EXPECT_EQ(words.get(layout.field("id")), driver.id());
-      const SnappedVertex &sent = driver.vertex(), &given = quad.vertex[beat % 4];
+      EXPECT_EQ(words.get(layout.field("id")), driver.beat().id);
+      const SnappedVertex &sent = driver.beat().vertex, &given = quad.vertex[beat % 4];
       EXPECT_EQ(sent.x, given.x);
       EXPECT_EQ(sent.k.sig, given.k.sig);
+      EXPECT_EQ(sent.z.sig, given.z.sig);
+      const QuadBase &base = driver.beat().base;
+      EXPECT_EQ(words.get(layout.field("base_depth")), base.depth);
+      EXPECT_EQ(words.get_signed(layout.field("depth_low")), base.depth_low);
+      EXPECT_EQ(words.get_signed(layout.field("depth_high")), base.depth_high);
+      if (first) {
+        EXPECT_EQ(base.depth, quad.base.depth);
+        EXPECT_EQ(base.depth_low, quad.base.depth_low);
+        EXPECT_EQ(base.depth_high, quad.base.depth_high);
+      }
+      other_depths += base.depth != quad.base.depth;
+      other_limits += base.depth_low > base.depth_high;
       for (int j = 0; j < config.attribute_slots; ++j) {
-        const PortNumber &a = sent.attribute[static_cast<std::size_t>(j)],
-                         &b = given.attribute[static_cast<std::size_t>(j)];
+        const auto slot = static_cast<std::size_t>(j);
+        const PortNumber &a = sent.attribute[slot], &b = given.attribute[slot];
         EXPECT_EQ(words.get(layout.field("attr_sig", j)), a.sig);
         EXPECT_EQ(words.get_signed(layout.field("attr_exp", j)), a.exp);
-        if (j < attributes) {
+        EXPECT_EQ(words.get_signed(layout.field("base_attr", j)), base.attribute[slot]);
+        if (first && j < attributes)
+          EXPECT_EQ(base.attribute[slot], quad.base.attribute[slot]);
+        else
+          other_bases += base.attribute[slot] != quad.base.attribute[slot];
+        if (j < attributes && !first) {
           EXPECT_EQ(a.sig, b.sig);
           EXPECT_EQ(a.exp, b.exp);
         } else {
@@ -80,7 +99,11 @@ TEST(VertexDriver, WhatTheMachineMustNotLookAtIsRubbish) {
         }
       }
     }
-    if (attributes == config.attribute_slots) continue;
+    // 400 beats, of which 100 are the first of their quads.
+    EXPECT_GT(other_bases, 400 * config.attribute_slots - 100 * attributes - 10);
+    EXPECT_GT(other_depths, 290);
+    EXPECT_GT(other_limits, 100);
+    EXPECT_GE(unused, 100 * config.attribute_slots);
     EXPECT_GT(negative, unused / 4);
     EXPECT_GT(large, unused / 4);
     EXPECT_GT(small, unused / 4);

@@ -19,7 +19,7 @@ BENCHES = os.path.join(ROOT, "tb", "replay")
 # Installed, ROOT is PREFIX/share/quadrille.
 IN_TREE = os.path.exists(os.path.join(ROOT, "CMakeLists.txt"))
 PROGRAM = os.path.normpath(os.path.join(ROOT, "build/release/quadrille" if IN_TREE else "../../bin/quadrille"))
-FORMAT = 1
+FORMAT = 2
 # Gate netlists that are quick to make and to simulate; others on request (--suite).
 NETLISTS = ("sqrt", "reciprocal")
 # Their inputs enter at different stages; the manifest's latency counts from the last, the wrapper's from the first.
@@ -58,7 +58,7 @@ def load_json(path):
     if not isinstance(value, dict):
         raise InputError(f"{path}: not a JSON object")
     if value.get("format") != FORMAT:
-        raise InputError(f"{path}: format {value.get('format')!r}, this is a replay of format {FORMAT}")
+        raise InputError(f"{path}: format {value.get('format')!r}, this is a replay of format {FORMAT} (golden/CONVERTING.md)")
     return value
 
 

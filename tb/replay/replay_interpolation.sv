@@ -1,4 +1,4 @@
-// Suite `interpolation`: M and the four corners' k_eff, W, Z, b in, the `sum` boundary out.
+// Suite `interpolation`: M, the four corners' k_eff, W, Z and three corners' b in, the `sum` boundary out.
 module replay_interpolation (
     `include "replay_ports.svh"
 );
