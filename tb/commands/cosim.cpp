@@ -501,8 +501,18 @@ class CosimRun {
       sample.index = fragment.quad;
       sample.quad = input.quads[fragment.quad].id;
       read_columns(fragment, pass, config_, sample);
-    } else if (position < samples.size()) {
-      read_columns(fragment, pass, config_, samples[position++]);
+    } else {
+      // Of plane quads a pass may discard pixels by depth that another draws (state_of_pass).
+      const auto same = [&](const EngineSample& s) {
+        return s.index == fragment.quad && s.x == fragment.x && s.y == fragment.y;
+      };
+      constexpr std::size_t most_missing = 1024;
+      const auto first = samples.begin() + static_cast<std::ptrdiff_t>(position);
+      const auto last = first + static_cast<std::ptrdiff_t>(std::min(most_missing, samples.size() - position));
+      const auto found = std::find_if(first, last, same);
+      if (found == last) return;
+      read_columns(fragment, pass, config_, *found, false);
+      position = static_cast<std::size_t>(found - samples.begin()) + 1;
     }
   }
 
