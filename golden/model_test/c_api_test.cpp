@@ -287,10 +287,11 @@ TEST_P(CApi, ClockedIsTheClockedModelInEveryClock) {
         std::ranges::copy(std::array{v.x, v.y, v.z, v.w}, positions.begin() + static_cast<std::ptrdiff_t>(4 * i));
         std::ranges::copy(v.attribute, attributes.begin() + static_cast<std::ptrdiff_t>(QUADRILLE_MAX_ATTRIBUTES * i));
       }
-      if (beat % 4 == 0)
+      if (beat % 4 == 0) {
         ASSERT_EQ(quadrille_quad_port(by_ports, inputs.vertex.id, positions.data(), attributes.data(), beats[0].data()),
                   QUADRILLE_OK)
             << error();
+      }
       vertex = beats[beat % 4];
     }
     if (now.fragment_valid && inputs.fragment_ready)
@@ -382,7 +383,7 @@ TEST_F(CApiErrors, Configurations) {
   quadrille_clocked_destroy(clocked);
   std::int32_t value = 0;
   EXPECT_EQ(quadrille_config_value("significand_bits=12", "attribute_frac_bits", &value), QUADRILLE_OK);
-  EXPECT_EQ(value, 14);
+  EXPECT_EQ(value, 24);
   EXPECT_EQ(quadrille_config_value(nullptr, "VAL_BITS", &value), QUADRILLE_OK);
   EXPECT_EQ(value, 63);
   expect_error(quadrille_config_value(nullptr, "VAL", &value), QUADRILLE_BAD_ARGUMENT, "\"VAL\"");
