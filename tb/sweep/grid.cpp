@@ -1,8 +1,11 @@
 #include "tb/sweep/grid.hpp"
 
+#include "model/config_text.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
