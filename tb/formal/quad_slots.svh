@@ -1,5 +1,5 @@
   // quad_slots: a slot is given to one quad at a time, and from its start to its end gives back what is that quad's, at each of its read ports: id, k_eff
-  // (or W), W, Z, attributes, bases and whether the weights are areas from the start on; gradients, squared lengths, ties, visibility and class from the take
+  // (or W), W, Z, attributes, bases and depth limits and whether the weights are areas from the start on; gradients, squared lengths, ties, visibility and class from the take
   // on. While a slot is free one is offered after at most SLOTS clocks; busy_o while one is in use; release_i frees the slot of two clocks before.
   // By induction: one quad, tagged at any start, is followed through its slot.
   // Assumed: reset at the start and no more; start only when a slot is available (quadrille: start has slot_available in it; asserted in quad_slots);
@@ -9,7 +9,7 @@
   always_ff @(posedge clk_i) started_q <= 1'b1;
   always_comb assume (rst_ni == started_q);
 
-  localparam int VERTICES = (TERMS - 4) * WORD;
+  localparam int VERTICES = BLEND;
   localparam int STAMP = 5 + 5 + 4;
   (* anyseq *) logic choose;
   logic seen_q, live_q, taken_q, tag, take_tag;
@@ -17,8 +17,8 @@
   logic [ID-1:0] id_tag_q;
   logic [4*WORD-1:0] k_tag, k_tag_q, k_there;
   logic [VERTICES-1:0] vertex_tag_q;
-  logic plane_tag_q;
   logic [BASE-1:0] base_tag_q;
+  logic plane_tag_q;
   logic [6*GRAD-1:0] gx_tag_q, gy_tag_q, gx_there, gy_there;
   logic [6*LENGTH2-1:0] length2_tag_q;
   logic [STAMP-1:0] stamp_tag_q;
@@ -40,7 +40,7 @@
     assign gy_there[g*GRAD+:GRAD] = gen_linear[g].gy_q[slot_q];
   end
 
-  // Of the term sets from 1 on: W and Z of four vertices each, b of the last three
+  // Of term set t from 1 on: W and Z of four vertices, each b of the last three
   logic [VERTICES-1:0] vertex_tag, vertex_out;
   logic [4*WORD-1:0] k_out;
 
@@ -53,12 +53,10 @@
       vertex_tag[v*WORD+:WORD] = {w_neg_i[v], w_exp_i[v*PE+:PE], w_sig_i[v*S+:S]};
       vertex_tag[(4+v)*WORD+:WORD] = {z_neg_i[v], z_exp_i[v*PE+:PE], z_sig_i[v*S+:S]};
     end
-    for (int v = 0; v < 3; v++) begin
-      for (int n = 0; n < N; n++) vertex_tag[(8+3*n+v)*WORD+:WORD] = attr_i[(v*N+n)*AP+:AP];
+    for (int n = 0; n < N; n++) begin
+      for (int v = 1; v < 4; v++) vertex_tag[(8+3*n+v-1)*WORD+:WORD] = attr_i[((v-1)*N+n)*AP+:AP];
     end
-    for (int t = 4; t < TERMS; t++) begin
-      vertex_out[(t-4)*WORD+:WORD] = {blend_neg_o[t], blend_exp_o[t*PE+:PE], blend_sig_o[t*S+:S]};
-    end
+    for (int p = 4; p < TERMS; p++) vertex_out[(p-4)*WORD+:WORD] = {blend_neg_o[p], blend_exp_o[p*PE+:PE], blend_sig_o[p*S+:S]};
   end
 
   always_ff @(posedge clk_i) begin
@@ -82,8 +80,8 @@
         id_tag_q <= id_i;
         k_tag_q <= k_tag;
         vertex_tag_q <= vertex_tag;
-        plane_tag_q <= plane_i;
         base_tag_q <= {base_attr_i, base_depth_i, depth_limits_i};
+        plane_tag_q <= plane_i;
       end else if ((release_i && left_q2 == slot_q) || (drop_i && drop_slot_i == slot_q)) begin
         live_q <= 1'b0;
       end
@@ -145,8 +143,8 @@
       assert (!live_q || override_slot_i != slot_q || override_word == k_tag_magnitude);
       assert (!live_q || norm_slot_i != slot_q || norm_plane_o == plane_tag_q);
       assert (!blend_q1 || {vertex_out, k_out} == {vertex_tag_q, k_tag_q});
-      assert (!blend_taken_q1 || blend_hull_o == class_tag_q[1]);
       assert (!base_q1 || {base_attr_o, base_depth_o, base_limits_o} == base_tag_q);
+      assert (!blend_taken_q1 || blend_hull_o == class_tag_q[1]);
       assert (!emit_q1 || {emit_gx_o, emit_gy_o} == {gx_tag_q, gy_tag_q});
       assert (!length2_q1 || length2_o == length2_tag_q);
       assert (!stamp_q1 || {stamp_gx_o, stamp_gy_o} == {gx_tag_q[5*GRAD-1:0], gy_tag_q[5*GRAD-1:0]});
@@ -166,5 +164,4 @@
     end
   end
 
-  // The word of the blend bank is in another order: vertex by vertex within a term set, as it is written.
   always_comb if (rst_ni) assert (!live_q || (blend_q[slot_q] == vertex_tag_q && base_q[slot_q] == base_tag_q));

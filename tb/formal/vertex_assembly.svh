@@ -1,7 +1,8 @@
-  // vertex_assembly: four accepted beats are a quad, each with its own vertex, all of its fields and its W as a significand number among them, the id,
-  // the bases and the corner depths of the first, whose attributes are not kept; the quad is stable until it is taken or dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock. Of the
+  // vertex_assembly: four accepted beats are a quad, each with its own vertex, all of its fields and its W as a significand number among them (of the
+  // first vertex no attributes), and id, bases and corner codes of the first beat; the quad is stable until it is taken or dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock. Of the
   // beats so far: least and greatest X and Y are those of some vertex and none is beyond; ordinary_o if and only if every W is ONE; behind_o, a
-  // judgement of quad_reject, if and only if none is positive. (empty_o: proof range_empty. depth_o, limits and the interval: tested.)
+  // judgement of quad_reject, if and only if none is positive. (empty_o: proof range_empty; depth_o and depth_limits_o: proof quad_reject; the interval:
+  // proof depth_interval.)
   // By induction, with one vertex of the four chosen freely and kept.
   // Assumed: reset at the start and no more; start or drop only of a full quad (quadrille: start and drop_vertices have full in them).
   logic started_q = 1'b0;
@@ -10,17 +11,15 @@
 
   (* anyconst *) logic [1:0] which;
   localparam int KEPT = 2 * T + W + 2 * (PE + S) + 1 + ATTR;
+  localparam int OF_QUAD = quadrille_pkg::QUAD_ID_BITS + BASE + DB + 1 + 2 * CODE;
   logic [2:0] held_q, ones_q, positive_q;  // beats in; those of them whose W is ONE, is positive
   logic [KEPT-1:0] kept_q, there;
   logic [W-1:0] kept_w;
-  logic [quadrille_pkg::QUAD_ID_BITS-1:0] kept_id_q;
-  logic [BASE+DB+1+2*CODE-1:0] kept_base_q;
-  logic [4*ATTR-1:0] attr_there;  // of vertex 0 whatever came
+  logic [OF_QUAD-1:0] of_quad_q;
   logic have;
   logic [2:0] after_leave;
 
   assign after_leave = (start_i || drop_i) ? 3'd0 : held_q;
-  assign attr_there = {attr_o, kept_q[ATTR-1:0]};
   assign have = held_q > {1'b0, which};
   assign kept_w = kept_q[2*(PE+S)+1+ATTR+:W];
 
@@ -30,13 +29,13 @@
     end else begin
       held_q <= after_leave + 3'(accept);
       if (accept && after_leave == 3'd0) begin
-        kept_id_q <= vertex.id;
-        kept_base_q <= {vertex.base_attr, vertex.base_depth, vertex.depth_low, vertex.depth_high};
+        of_quad_q <= {vertex.id, vertex.base_attr, vertex.base_depth, vertex.depth_low, vertex.depth_high};
       end
       if (accept) ones_q <= ((after_leave == 3'd0) ? 3'd0 : ones_q) + 3'(vertex.w == W'(1 << quadrille_pkg::FRAC));
       if (accept) positive_q <= ((after_leave == 3'd0) ? 3'd0 : positive_q) + 3'($signed(vertex.w) > 0);
       if (accept && after_leave == {1'b0, which}) begin
-        kept_q <= {vertex.x, vertex.y, vertex.w, vertex.k_exp, vertex.k_sig, vertex.z_neg, vertex.z_exp, vertex.z_sig, vertex.attr};
+        kept_q <= {vertex.x, vertex.y, vertex.w, vertex.k_exp, vertex.k_sig, vertex.z_neg, vertex.z_exp, vertex.z_sig,
+                   (which == 2'd0) ? ATTR'(0) : vertex.attr};
       end
     end
   end
@@ -54,8 +53,8 @@
     {w_neg_there, w_exp_there, w_sig_there} = '0;
     for (int v = 0; v < 4; v++) begin
       if (which == 2'(v)) begin
-        there = {x_o[v*T+:T], y_o[v*T+:T], w_o[v*W+:W], k_exp_o[v*PE+:PE], k_sig_o[v*S+:S], z_neg_o[v], z_exp_o[v*PE+:PE], z_sig_o[v*S+:S],
-                 attr_there[v*ATTR+:ATTR]};
+        there = {x_o[v*T+:T], y_o[v*T+:T], w_o[v*W+:W], k_exp_o[v*PE+:PE], k_sig_o[v*S+:S], z_neg_o[v], z_exp_o[v*PE+:PE], z_sig_o[v*S+:S], ATTR'(0)};
+        if (v != 0) there[0+:ATTR] = attr_o[((v == 0) ? 0 : v - 1)*ATTR+:ATTR];
         {w_neg_there, w_exp_there, w_sig_there} = {w_neg_o[v], w_exp_o[v*PE+:PE], w_sig_o[v*S+:S]};
       end
     end
@@ -91,8 +90,7 @@
       assert (vertex_ready_o == (held_q != 3'd4 || start_i || drop_i));
       assert (!have || there == kept_q);
       assert (!have || {w_neg_there, w_exp_there, w_sig_there} == {kept_w[W-1], w_exp_spec, w_sig_spec});
-      assert (held_q == 3'd0 || id_o == kept_id_q);
-      assert (held_q == 3'd0 || {base_attr_o, base_depth_o, depth_low_q, depth_high_q} == kept_base_q);
+      assert (held_q == 3'd0 || {id_o, base_attr_o, base_depth_o, depth_low_q, depth_high_q} == of_quad_q);
       assert (held_q == 3'd0 || (is_low_x != '0 && is_high_x != '0 && is_low_y != '0 && is_high_y != '0));
       assert (inside == '1);
       assert (held_q == 3'd0 || ordinary_o == (ones_q == held_q));

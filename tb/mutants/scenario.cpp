@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 namespace quadrille::tb {
 namespace {
@@ -514,6 +515,46 @@ Scenario far_end() {
       })};
 }
 
+/// Values at and beyond the ends of their formats, and values that are constant: bases of every kind. Attributes: one
+/// for all corners, at an end of the format with differences of a code or less, at opposite ends, any. Depths: one for
+/// all corners, at znear or zfar, below 0, above 1. Of some the codes of the corners are others than snapping gives.
+Scenario bases() {
+  LockstepOptions o = options(exact(), 48);
+  o.state.znear = 0.25;
+  o.state.zfar = 0.75;
+  Scenario scenario{"bases", o, drawn(o, 18, 300, [&](golden::Prng& random) {
+                      static constexpr double w[]{1, 1, 1, 1, 1, 1, 0.5, -1};
+                      WindowQuad quad = on_grid(random, 9, w);
+                      const std::uint64_t depths = random.below(6);
+                      const double one = depths == 1 ? 0.25 : depths == 2 ? 0.75 : random.uniform(-0.2, 1.2);
+                      for (WindowVertex& v : quad.vertex)
+                        v.z = (depths < 4 ? one : random.uniform(depths == 4 ? -2 : 0, depths == 4 ? 3 : 1)) * v.w;
+                      const double end = std::ldexp(1, o.config.attribute_int_bits),
+                                   code = std::ldexp(1, -o.config.attribute_frac());
+                      for (int j = 0; j < o.config.attribute_slots; ++j) {
+                        const std::uint64_t kind = random.below(5);
+                        const double any = random.uniform(-7, 7), side = random.chance(0.5) ? 1 : -1,
+                                     near_end = code * random.uniform(0.01, 1.3);
+                        for (std::size_t i = 0; i < 4; ++i) {
+                          const double at = kind == 0   ? any
+                                            : kind == 1 ? side * (end - (i == 0 ? near_end : code * 0.01))
+                                            : kind == 2 ? (random.chance(0.5) ? 1 : -1) * random.uniform(0.8, 0.999) * end
+                                                        : random.uniform(-7, 7);
+                          quad.attribute[i].push_back(at);
+                        }
+                      }
+                      return quad;
+                    })};
+  golden::Prng random(19);
+  const int one = 1 << o.config.depth_bits;
+  for (SnappedQuad& quad : scenario.quads) {
+    if (!random.chance(0.3)) continue;
+    const auto code = [&] { return static_cast<std::int32_t>(random.integer(-1, one + 1)); };
+    std::tie(quad.base.depth_low, quad.base.depth_high) = std::minmax({code(), code()});
+  }
+  return scenario;
+}
+
 /// Exponents at the limits of the port, which snapping never gives.
 Scenario far_exponents() {
   LockstepOptions o = options(exact(), 32);
@@ -672,6 +713,7 @@ std::span<const Scenario> scenarios() {
                               beside_scissor(),
                               layers(),
                               sprites(),
+                              bases(),
                               unwiped("unwiped", 1),
                               unwiped("unwiped, another seed", 2),
                               unwiped("unwiped, a third seed", 3),
