@@ -168,7 +168,7 @@ TEST(Config, ResolvedValuesReplaceAuto) {
     EXPECT_NE(given, c) << key.name;
   }
   EXPECT_EQ(c.resolved("quadratic_frac_bits"), 30);
-  EXPECT_EQ(c.resolved("attribute_frac_bits"), 20);
+  EXPECT_EQ(c.resolved("attribute_frac_bits"), 24);
 }
 
 TEST(Config, DerivedWidthsOfTheDefault) {
@@ -187,8 +187,8 @@ TEST(Config, DerivedWidthsOfTheDefault) {
   EXPECT_EQ(c.tile(), 8);
   EXPECT_EQ(c.tc_bits(), 10);
   EXPECT_EQ(c.attr_port_bits(), 28);
-  EXPECT_EQ(c.attr_out_bits(), 24);
-  EXPECT_EQ(c.attribute_frac(), 20);
+  EXPECT_EQ(c.attr_out_bits(), 32);
+  EXPECT_EQ(c.attribute_frac(), 24);
   Config one;
   one.set("guard_bits", 1);
   EXPECT_EQ(one.val_bits(), 2 * (13 + 15) + 4);

@@ -10,7 +10,7 @@ level=${1:-1}
 build=${BUILD_DIR:-build/golden_coverage}
 
 cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS="--coverage -O0" >"$build.log" 2>&1 ||
-  { cat "$build.log" >&2; exit 3; }
+  { cat "$build.log" >&2; exit 2; }
 rm -f "$build.log"
 cmake --build "$build" -j "$(nproc)" --target golden_stages
 find "$build" -name '*.gcda' -delete

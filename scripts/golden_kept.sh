@@ -20,7 +20,9 @@ generate() {
 form=${2:-}
 case $form in "" | --update | --quick | --default) ;; *) sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 2 ;; esac
 if [ "$form" = --update ]; then
-  generate "$kept" --force
+  generate "$kept.new"  # --force replaces sets of this format alone
+  rm -r "$kept"
+  mv "$kept.new" "$kept"
 elif [ "$form" != --quick ]; then
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT

@@ -313,10 +313,16 @@ fault ratios mean_value_ratios.sv "rr_rank_q <= rr_rank" "rr_rank_q <= rr_rank +
 fault weights factor_products.sv "late_neighbours && late_corner == 2'(g)" "1'b0"
 fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(FIRST+c)*PE+:PE]))" "E'(term_exp_i[(FIRST+c)*PE+:PE])"
 fault interpolation interpolate.sv "V = 4 - CORNERS + c" "V = c" # attributes with the weights of corners 0 to 2
-fault depth fragment_output.sv "z_neg ^ z_fixed[0]" "z_neg" # toward zero
-fault depth fragment_output.sv "overflow[g] <= used && (too_large || least)" "overflow[g] <= used && too_large"
-fault depth fragment_output.sv "z_neg_q <= z_neg && !w_zero" "z_neg_q <= z_neg"
+fault depth fragment_output.sv "{Z_SUM'(base_depth_i), 1'b1}" "{Z_SUM'(base_depth_i), 1'b0}" # rounds otherwise
+fault depth fragment_output.sv "{SUM'(\$signed(base_attr_i[g*AO+:AO])), 1'b1}" "{SUM'(\$signed(base_attr_i[g*AO+:AO])), 1'b0}"
 fault depth quad_reject.sv "near_cuts_q ? znear_i : low_i[DB:0]" "low_i[DB:0]"
+# What few vectors show.
+many=$work/many
+"$QUADRILLE" golden generate --level 1 --limit 6000 --out "$many" --quiet --suite depth
+expect 0 "^depth: [0-9]+ vectors, 0 mismatches" "many vectors of depth" $replay "$many" $tool
+set=$many fault depth fragment_output.sv "overflow[g] <= used && (too_large || least)" "overflow[g] <= used && too_large"
+set=$many fault depth fragment_output.sv "late_z_neg && !w_zero" "late_z_neg"
+set=$many fault depth quad_reject.sv "outside_q <= \$signed(high_i) < \$signed(znear)" "outside_q <= \$signed(high_i) <= \$signed(znear)"
 fault $machine quadrille.sv "full && setup_ready && slot_available" "full && setup_ready && !slots_busy" # clocks alone
 fault $machine quadrille.sv "full && setup_ready && slot_available" "full && setup_ready && !slots_busy" verilator
 

@@ -126,14 +126,16 @@ int main(int argc, char** argv) {
     return fail(exit_usage, error.what());
   } catch (const tb::EnvironmentError& error) {
     return fail(exit_environment, error.what());
+  } catch (const tb::SystemError& error) {
+    return fail(exit_usage, error.what());
   } catch (const tb::VerilateError& error) {
-    return fail(exit_environment, error.what());
+    return fail(exit_usage, error.what());
   } catch (const tb::DeviceError& error) {
     return fail(exit_mismatch, error.what());
   } catch (const tb::WatchdogError& error) {
     return fail(exit_mismatch, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(exit_environment, "out of memory");
+    return fail(exit_usage, "out of memory");
   } catch (const std::invalid_argument& error) {
     return fail(exit_usage, error.what());
   } catch (const std::exception& error) {

@@ -153,6 +153,7 @@ struct Widths {
         PAIRS(c.dot_units / 2),
         FRAC(c.frac()),
         AO(c.attr_out_bits()),
+        LIMITS(3 + 2 * (c.depth_bits + 1)),
         NUMBER(E + S),
         WORD(1 + PE + S),
         RANK(E + 1),
@@ -164,7 +165,7 @@ struct Widths {
   static constexpr int block_log2 = 3;  ///< a block is 8 × 8 tiles
 
   int S, E, PE, N, V, T, W, VAL, GRAD, CURV, QVAL, QGRAD, QCURV, LENGTH2, TC, SLOT, RING, FIFO, TL, TILE, ID, DB, P,
-      PAIRS, FRAC, AO;
+      PAIRS, FRAC, AO, LIMITS;
   int NUMBER;  ///< exponent and significand
   int WORD;    ///< sign, port exponent, significand
   int RANK;    ///< exponent in the order of unsigned numbers
@@ -197,15 +198,16 @@ HardwareCost fp_term(const Widths& w) { return state(w.TERM) + multiplier(w.S, w
 HardwareCost fp_product(const Widths& w) { return fp_multiply(w) + adder(w.E); }
 
 HardwareCost fp_sum(const Widths& w, int terms, bool with_sign) {
-  const int pairs = terms / 2, magnitude = w.TERM + stages_of(terms), sum = magnitude + 1;
+  // The last of three terms is a pair alone.
+  const int pairs = (terms + 1) / 2, whole = terms / 2, magnitude = w.TERM + stages_of(terms), sum = magnitude + 1;
   // The higher rank of each pair, then the highest; distances to it.
   HardwareCost cost = state((terms + pairs) * w.RANK) + (terms - 1) * (adder(w.RANK) + mux(w.RANK, 2));
   cost += terms * (state(w.E + w.TERM + 1) + adder(w.E)) + state(w.E);
   // Far terms by the registers' reset.
   cost += terms * (state(w.TERM) + shifter(w.TERM) + zero_test(w.E - stages_of(w.TERM)));
-  cost += state(pairs + (pairs - 1) + 1 + w.E);
+  cost += state(whole + (pairs - 1) + 1 + w.E);
   // The others are added in the sign of the first.
-  cost += pairs * (adder(w.TERM + 2) + mux(w.TERM, 2)) + (pairs - 1) * (adder(sum) + mux(w.TERM + 2, 2));
+  cost += whole * (adder(w.TERM + 2) + mux(w.TERM, 2)) + (pairs - 1) * (adder(sum) + mux(w.TERM + 2, 2));
   cost += state(sum + 1 + w.E) + adder(sum) + mux(magnitude, 2) + state((with_sign ? 1 : 0) + magnitude + w.E);
   cost += adder(w.E);  // less the fraction bits
   if (with_sign) cost += zero_test(magnitude) + state(2);
@@ -263,21 +265,16 @@ HardwareCost table_polynomial(const Widths& w, const Table& table, int segments_
 
 HardwareCost fixed_point(const Widths& w, int integer_bits, int fraction_bits) {
   const int out = integer_bits + fraction_bits, kept = std::min(2 * w.S, out);
-  return mux(kept, 2) + adder(w.E + 1) + state(w.E + 1 + kept + 1) + shifter(out) + mux(out, 3) +
+  return mux(kept, 2) + adder(w.E + 1) + state(w.E + 1 + kept + 1) + shifter(out) +
          zero_test(w.E + 1 - stages_of(out)) + state(1 + out);
 }
 
 // ---- The front
 // ----------------------------------------------------------------------------------------------------------
 
-/// Limits as ranks, registers; the beat's ratio of powers of two and its rank against them; what holds for all beats.
+/// The corners' codes against znear and zfar; the narrower of both intervals; no w above 0 so far.
 HardwareCost quad_reject(const Widths& w) {
-  const int rank = w.PE + 2 + w.S - 1, wide = std::max(w.DB + 2, w.S);
-  HardwareCost cost = 2 * shift_to_top(wide, w.S, stages_of(wide) - 1, 0) + adder(w.DB + 2) +
-                      state(2 * (w.S - 1 + stages_of(wide)) + 1);  // exponents as counts of zeros
-  cost += shift_to_top(w.W, 1, stages_of(w.W) - 1, 0) + adder(w.W) + zero_test(w.W);
-  cost += state(5 + 2 * rank) + 2 * (adder(w.S) + 2 * adder(w.PE + 2)) + 3 * adder(rank);
-  return cost + state(7) + mux(7, 2) + control(10);
+  return state(1 + w.LIMITS) + 4 * adder(w.DB + 2) + 2 * mux(w.DB + 1, 2) + zero_test(w.W);
 }
 
 /// Of one axis: a vertex before, behind, on a pixel's centre, in the same pixel as those before it.
@@ -288,10 +285,12 @@ HardwareCost range_empty(const Widths& w) {
 
 HardwareCost vertex_assembly(const Widths& w) {
   // The vertices; whether all are ordinary; least and greatest coordinates; W as a significand number beside W.
-  const int vertex = 2 * w.T + w.W + (w.PE + w.S) + w.WORD + w.N * w.WORD;
+  const int vertex = 2 * w.T + w.W + (w.PE + w.S) + w.WORD;
+  // Of the quad: bases, two codes; attributes of three vertices.
+  const int quad = w.ID + w.N * w.AO + w.DB + 1 + 2 * (w.DB + 2) + 3 * w.N * w.WORD;
   // Of W's exponent, -FRAC to 0, and its significand the bits that may differ from another.
   const int w_number = 1 + stages_of(w.FRAC + 1) + 1 + std::min(w.S, w.W - 1);
-  return state(w.ID + 4 * (vertex + w_number) + 3 + 1 + 4 * w.T) + 4 * adder(w.T) + zero_test(w.W) + adder(w.W) +
+  return state(quad + 4 * (vertex + w_number) + 3 + 1 + 4 * w.T) + 4 * adder(w.T) + zero_test(w.W) + adder(w.W) +
          mux(w.W, 2) + fp_normalise(w, w.W, w.PE, false) + quad_reject(w) + 2 * range_empty(w) + control(30);
 }
 
@@ -379,8 +378,10 @@ HardwareCost tile_ring(const Widths& w) {
 HardwareCost quad_slots(const Widths& w) {
   const int words = 1 << w.SLOT;
   // Terms for the sums; k_eff, chosen at the start, for the weights' products and the overrides too.
-  HardwareCost cost =
-      block_memory(4 * (2 + w.N) * w.WORD, words) + 4 * (memory(w.WORD, words, 3) + state(w.WORD)) + 4 * mux(w.WORD, 2);
+  HardwareCost cost = block_memory((2 * 4 + 3 * w.N) * w.WORD, words) + 4 * (memory(w.WORD, words, 3) + state(w.WORD)) +
+                      4 * mux(w.WORD, 2);
+  // Bases and limits, for the output.
+  cost += block_memory(w.N * w.AO + w.DB + 1 + w.LIMITS, words);
   // Gradients for emission and, of the five edges, for coverage; what ends in registers here.
   cost += 10 * memory(w.GRAD, words, 2) + 2 * memory(w.GRAD, words, 1) + state(22 * w.GRAD);
   cost += block_memory(6 * w.LENGTH2, words) + memory(14, words, 1) + state(14) + memory(2, words, 1) +
@@ -433,7 +434,8 @@ HardwareCost pixel_pipeline(const Widths& w) {
   // End bits; slot, tile column and row; what is read of the slots.
   const int tag = w.SLOT + w.V - w.TL + w.V;
   HardwareCost cost = state(pipeline + (pipeline - 1) * tag + tag - w.SLOT);
-  cost += state(vertices * (2 * w.WORD - 1) + (3 + w.N) * vertices * w.WORD + w.ID + 2);
+  cost += state(vertices * (2 * w.WORD - 1) + (3 * vertices + 3 * w.N) * w.WORD + w.ID + 2);
+  cost += state(w.N * w.AO + w.DB + 1 + 2 * w.LIMITS);
   // Part, slot and squared lengths for the law of cosines.
   return cost + state(forward_difference_stages * (2 + w.SLOT) + 1 + 6 * w.LENGTH2) + control(140);
 }
@@ -527,14 +529,20 @@ HardwareCost mean_value_weights(const Widths& w, const Config& c) {
   return cost + 2 * one_of_four(w.NUMBER) + fp_add(w) + 4 * (mux(w.NUMBER, 2) + state(w.NUMBER)) + control(125);
 }
 
-HardwareCost interpolate(const Widths& w) { return (3 + w.N) * (4 * fp_term(w) + state(4) + fp_sum(w, 4, true)); }
+HardwareCost interpolate(const Widths& w) {
+  // Attributes are counted from vertex 0's.
+  const auto sum = [&](int terms) { return terms * fp_term(w) + state(terms) + fp_sum(w, terms, true); };
+  return 3 * sum(4) + w.N * sum(3);
+}
 
 HardwareCost fragment_output(const Widths& w, const Config& c) {
-  // Two's complement, slots not in use; z interval; the output register, which is cleared when not valid.
-  const HardwareCost attribute = fp_raw_product(w) + fixed_point(w, c.attribute_int_bits, c.attribute_frac()) +
-                                 state(2 + 1 + w.AO) + adder(w.AO) + mux(w.AO, 2);
-  const HardwareCost depth = fp_raw_product(w) + fixed_point(w, 1, w.DB) + state(2 + 2 * 3 + w.DB + 1 + 2) +
-                             2 * adder(w.DB + 1) + 2 * mux(w.DB + 1, 2) + zero_test(w.DB + 1);
+  // Sums with the bases, in two's complement; their ends; slots not in use. Depth between the corners, which are its
+  // ends. The output register, which is cleared when not valid.
+  const int sum = w.AO + 2, z_sum = w.DB + 3;
+  const HardwareCost attribute = fp_raw_product(w) + fixed_point(w, c.attribute_int_bits + 1, c.attribute_frac() + 1) +
+                                 state(2 + sum + 2 + 1 + w.AO) + adder(sum) + mux(w.AO, 2) + zero_test(w.AO);
+  const HardwareCost depth = fp_raw_product(w) + fixed_point(w, 1, w.DB + 1) +
+                             state(2 + 2 * 3 + z_sum + 3 + w.DB + 1 + 2) + 3 * adder(z_sum) + mux(w.DB + 1, 3);
   return w.N * attribute + depth + state(1 + w.FRAGMENT);
 }
 
@@ -563,10 +571,8 @@ struct HiddenWidths {
 };
 
 HardwareCost depth_interval(const Widths& w, const HiddenWidths& h) {
-  // Least and greatest rank, with the margin; of each the shift to a code, its end of the range, the limits.
-  const int rank = w.PE + w.S;
-  return state(5 + 5 * rank + 1 + 2 * h.H + 1) + 4 * adder(rank) + mux(rank, 2) + 2 * (shifter(h.H) + zero_test(w.PE)) +
-         2 * (zero_test(h.H) + mux(h.H, 2) + adder(h.H + 1)) + adder(h.H) + zero_test(w.DB + 1) + control(200);
+  // Codes not below 0; the farthest rounded up; of each what is left against the last code.
+  return state(2 * h.H + 1) + adder(w.DB + 2) + 2 * (adder(h.H + 2) + mux(h.H, 2)) + 2 * zero_test(3);
 }
 
 /// Blocks of tiles, in the unit of hierarchical_z.
@@ -620,7 +626,9 @@ HardwareCost plane_quad(const Widths& w) {
   // Two words are the same: five quarters of a LUT a bit, as synthesised.
   const auto same = [](int width) { return adder(width + width / 4); };
   const int values = 2 + w.N;
-  return 4 * adder(w.T + 1) + 2 * same(w.T + 1) + values * 4 * same(w.WORD) + state(values + 2);
+  // An attribute is 0 at vertex 0.
+  return 4 * adder(w.T + 1) + 2 * same(w.T + 1) + 2 * 4 * same(w.WORD) +
+         w.N * (2 * same(w.WORD) + 2 * zero_test(w.WORD)) + state(values + 2);
 }
 
 /// Of a lane: areas in the place of r; around the products of the weights.

@@ -165,7 +165,10 @@ class CameraParser {
 
 Camera load_camera(const std::string& path) { return parse_camera(read_file(path, "a camera in JSON"), path); }
 
-Camera parse_camera(std::string_view text, const std::string& name) { return CameraParser(text, name).parse(); }
+Camera parse_camera(std::string_view text, const std::string& name) {
+  refuse_wide_text(text, name);
+  return CameraParser(text, name).parse();
+}
 
 std::string camera_text(const Camera& camera) {
   const auto list = [](std::span<const double> numbers) {

@@ -116,6 +116,7 @@ void set_weight(const Entry& entry, const std::string& name, CostWeights& weight
 
 /// Both kinds of content, so that a file has the same errors whoever reads it. Returns the notes of load_config().
 std::vector<std::string> parse(std::string_view text, const std::string& name, Config& config, CostWeights& weights) {
+  refuse_wide_text(text, name);
   toml::table table;
   try {
     table = toml::parse(text, name);
@@ -126,9 +127,15 @@ std::vector<std::string> parse(std::string_view text, const std::string& name, C
   Config new_config = config;
   CostWeights new_weights = weights;
   std::vector<std::string> notes;
+  std::vector<std::string_view> keys_set;  // by their present names: TOML sees to the ones that the file has
   for (const Entry& entry : in_file_order(table)) {
     if (entry.first->str() != "cost") {
       set_key(entry, name, new_config);
+      const std::string_view given = entry.first->str();
+      const std::string_view key = Config::removed(given) != nullptr ? given : Config::key(given).name;
+      if (std::ranges::find(keys_set, key) != keys_set.end())
+        throw input_error(name, line_of(entry), "key " + in_quotes(given) + " was set before, as " + in_quotes(key));
+      keys_set.push_back(key);
       if (const std::string note = Config::note(entry.first->str()); !note.empty())
         notes.push_back(name + ":" + std::to_string(line_of(entry)) + ": " + note);
     } else if (const toml::table* cost = entry.second->as_table(); cost != nullptr) {

@@ -72,6 +72,12 @@ TEST(ConfigFile, NamesThePlaceAndChangesNothing) {
   }
 }
 
+TEST(ConfigFile, AKeyByTwoNamesIsOneKey) {
+  Config config;
+  expect_input_error([&] { parse_config("sqrt_degree = 2\nrsqrt_degree = 2\n", "c", config); }, "c:2",
+                     {"\"rsqrt_degree\" was set before, as \"sqrt_degree\""});
+}
+
 TEST(ConfigFile, ReportsTheFirstErrorOfTheFile) {
   Config config;
   expect_input_error([&] { parse_config("zzz = 1\naaa = 1\n", "c", config); }, "c:1", {"zzz"});

@@ -24,12 +24,17 @@ ChannelDiff diff_channel(const std::string& name, const std::vector<T>& a, const
     ++diff.count;
     const double difference = std::fabs(p - q);
     if (largest && !((*largest)[i] >= difference)) (*largest)[i] = static_cast<float>(difference);
-    if (unordered) continue;
+    const auto x = static_cast<int>(i % static_cast<std::size_t>(width));
+    const auto y = static_cast<int>(i / static_cast<std::size_t>(width));
+    if (unordered) {
+      if (diff.nans++ == 0) diff.nan_x = x, diff.nan_y = y, diff.nan_a = p, diff.nan_b = q;
+      continue;
+    }
     squares += difference * difference;
     if (difference > diff.max) {
       diff.max = difference;
-      diff.x = static_cast<int>(i % static_cast<std::size_t>(width));
-      diff.y = static_cast<int>(i / static_cast<std::size_t>(width));
+      diff.x = x;
+      diff.y = y;
     }
   }
   diff.rms = a.empty() ? 0 : std::sqrt(squares / static_cast<double>(a.size()));

@@ -11,12 +11,16 @@
 
 namespace quadrille::golden {
 
-/// One channel of both pictures. Equal NaNs are equal; a NaN against a number differs, and counts in `count` alone.
+/// One channel of both pictures. Two NaNs are equal. A NaN against a number differs: it counts in `count` and `nans`,
+/// and has no size, so that max, rms, x and y are of the other pixels.
 struct ChannelDiff {
   std::string name;
-  double max = 0, rms = 0;  ///< of |a − b| over all pixels (uint channels: of the numbers)
-  std::uint64_t count = 0;  ///< pixels that differ
-  int x = -1, y = -1;       ///< where the largest difference is, the first of equal ones
+  double max = 0, rms = 0;      ///< of |a − b| over all pixels (uint channels: of the numbers)
+  std::uint64_t count = 0;      ///< pixels that differ
+  int x = -1, y = -1;           ///< where the largest difference is, the first of equal ones; -1 without any
+  std::uint64_t nans = 0;       ///< pixels with a NaN on one side
+  int nan_x = -1, nan_y = -1;   ///< the first of them
+  double nan_a = 0, nan_b = 0;  ///< its values
 };
 
 struct ImageDiff {

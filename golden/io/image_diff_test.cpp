@@ -53,6 +53,10 @@ TEST(ImageDiff, NanAgainstANumberDiffers) {
   const ImageDiff diff = diff_images(picture(), b, "a", "b");
   EXPECT_EQ(diff.channels[0].count, 1u);
   EXPECT_EQ(diff.channels[0].max, 0);
+  EXPECT_EQ(diff.channels[0].nans, 1u);
+  EXPECT_EQ(diff.channels[0].nan_x, 2);
+  EXPECT_EQ(diff.channels[0].nan_y, 0);
+  EXPECT_FALSE(diff.same());
   const Image8 map = heat_map(diff);
   EXPECT_EQ(map.rgba[4 * 2], 255);
   EXPECT_EQ(map.rgba[4 * 2 + 2], 255);

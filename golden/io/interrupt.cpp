@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::chrono::seconds second_signal_ignored{2};
+
 struct Registry {
   std::mutex mutex;  ///< an interruption takes it and keeps it
   std::set<fs::path> temporaries;
@@ -57,13 +59,30 @@ void end_children(const std::set<pid_t>& children) {
   for (const pid_t pid : children) ::kill(-pid, SIGKILL);
 }
 
-[[noreturn]] void interrupt(int signal, const sigset_t& signals) {
-  Registry& r = registry();
-  r.interrupted = true;
-  // A second signal ends the process at once, wherever this one's work hangs.
+/// From here on a signal ends the process at once. Those that came before are forgotten.
+void end_at_signals(const sigset_t& signals) {
+  const timespec now{};
+  while (sigtimedwait(&signals, nullptr, &now) > 0) {
+  }
   for (const int each : {SIGINT, SIGTERM, SIGHUP})
     if (sigismember(&signals, each) == 1) ::signal(each, SIG_DFL);
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+}
+
+[[noreturn]] void interrupt(int signal, const sigset_t& signals) {
+  Registry& r = registry();
+  r.interrupted = true;
+  // timeout(1), batch systems and terminals send the same signal twice in a moment: the second must not cut off the
+  // tidying. After a while it ends the process, wherever the tidying hangs.
+  try {
+    std::thread([&signals] {
+      std::this_thread::sleep_for(second_signal_ignored);
+      end_at_signals(signals);
+      for (;;) ::pause();  // the one thread that signals reach
+    }).detach();
+  } catch (const std::system_error&) {
+    end_at_signals(signals);
+  }
 
   r.mutex.lock();
   say(r, signal);
@@ -74,6 +93,7 @@ void end_children(const std::set<pid_t>& children) {
     for (int attempt = 0; attempt < 5 && fs::exists(fs::symlink_status(path, error)); ++attempt)
       fs::remove_all(path, error);
   }
+  end_at_signals(signals);
   ::kill(getpid(), signal);
   for (;;) ::pause();
 }

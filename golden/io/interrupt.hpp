@@ -1,5 +1,6 @@
 // What a process undoes when it is told to end (Ctrl-C, SIGTERM, a closed terminal): a line on standard error, children
-// ended, temporary files removed; then it dies of the same signal, so that the status is 130 or 143.
+// ended, temporary files removed; then it dies of the same signal, so that the status is 130 or 143. Further signals
+// are ignored for two seconds, so that they do not cut that off; later ones end the process at once.
 #pragma once
 
 #include <sys/types.h>

@@ -1,6 +1,7 @@
 #include "golden/io/json_report.hpp"
 
 #include "golden/io/atomic_file.hpp"
+#include "golden/io/text_input.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -14,6 +15,11 @@ std::string shell_word(const std::string& argument) {
            std::string_view("_-+=./:,%@").find(c) != std::string_view::npos;
   };
   if (!argument.empty() && std::all_of(argument.begin(), argument.end(), harmless)) return argument;
+  if (!is_utf8(argument)) {  // $'…' of the shell gives any byte, and the line stays text
+    std::string word;
+    for (const char c : argument) (word += c == '\'' || c == '\\' ? "\\" : "") += c;
+    return "$'" + readable(word) + "'";
+  }
   std::string word = "'";
   for (const char c : argument) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return word + "'";

@@ -2,6 +2,7 @@
 
 #include "golden/io/test_support.hpp"
 
+#include <cstdlib>
 #include <limits>
 
 namespace quadrille::golden {
@@ -38,6 +39,16 @@ TEST_F(JsonReportTest, AnyArgumentCanBeWritten) {
   report["worst"] = std::numeric_limits<double>::quiet_NaN();
   save_json(path("r"), report);
   EXPECT_TRUE(nlohmann::ordered_json::parse(read(path("r")))["worst"].is_null());
+}
+
+TEST_F(JsonReportTest, ACommandWithAnyBytesIsTextThatTheShellGivesBack) {
+  const std::vector<std::string> arguments{"caf\xe9.quads", "it's \\ \xff\x66", "caf\xc3\xa9.quads"};
+  const std::string line = command_line(arguments);
+  EXPECT_EQ(line, "$'caf\\xe9.quads' $'it\\'s \\\\ \\xfff' 'caf\xc3\xa9.quads'");
+  EXPECT_NO_THROW(nlohmann::json(line).dump());
+  write("line.sh", "printf '%s\\n' " + line + " >" + path("out") + "\n");
+  ASSERT_EQ(std::system(("bash " + path("line.sh")).c_str()), 0);
+  EXPECT_EQ(read(path("out")), arguments[0] + "\n" + arguments[1] + "\n" + arguments[2] + "\n");
 }
 
 TEST_F(JsonReportTest, DashIsStandardOutputAndFailuresKeepTheOldFile) {

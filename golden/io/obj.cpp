@@ -42,7 +42,23 @@ class ObjParser {
       face(tokens);
     } else {
       ++mesh_.skipped_lines;
+      note_swallowed(tokens);
     }
+  }
+
+  /// A backslash at the end of a name, such as that of a folder, joins the next line to a statement that is skipped.
+  void note_swallowed(std::span<const Token> tokens) {
+    for (std::size_t i = 1; i < tokens.size(); ++i) {
+      const Token& token = tokens[i];
+      if (token.line == tokens[i - 1].line || !is_read(token.text)) continue;
+      mesh_.notes.push_back("line " + std::to_string(token.line) + ", '" + std::string(token.text) +
+                            "', is not read: the backslash that ends line " + std::to_string(tokens[i - 1].line) +
+                            " joins it to '" + printable(tokens.front().text) + "'");
+    }
+  }
+
+  static bool is_read(std::string_view keyword) {
+    return keyword == "v" || keyword == "vt" || keyword == "vn" || keyword == "f";
   }
 
   /// The statement's arguments into values_.
@@ -119,8 +135,10 @@ class ObjParser {
           place(token, number) + ": " + kind + " index " + in_quotes(field) + " " + problem + "; " + range);
     };
     long long value = 0;
-    const char* const end = field.data() + field.size();
-    const auto [rest, error] = std::from_chars(field.data(), end, value);
+    // from_chars knows no '+', which printf("%+d") writes; "+-1" must stay an error.
+    const std::string_view digits = field.size() > 1 && field[0] == '+' && field[1] != '-' ? field.substr(1) : field;
+    const char* const end = digits.data() + digits.size();
+    const auto [rest, error] = std::from_chars(digits.data(), end, value);
     if (error == std::errc::result_out_of_range && rest == end) throw failure("is out of range");
     if (error != std::errc() || rest != end) throw failure("is not an integer");
     if (value == 0) throw failure("is 0, and indices start at 1");
@@ -144,6 +162,9 @@ class ObjParser {
 
 Mesh load_obj(const std::string& path) { return parse_obj(read_file(path, "an OBJ mesh"), path); }
 
-Mesh parse_obj(std::string_view text, const std::string& name) { return ObjParser(name).parse(text); }
+Mesh parse_obj(std::string_view text, const std::string& name) {
+  refuse_wide_text(text, name);
+  return ObjParser(name).parse(text);
+}
 
 }  // namespace quadrille::golden

@@ -31,6 +31,25 @@ TEST(Obj, ReadsEveryIndexForm) {
   EXPECT_EQ(mesh.skipped_lines, 0u);
 }
 
+TEST(Obj, IndicesMayHaveAPlus) {
+  const Mesh mesh = parse_obj(square + "f +1/+2/+1 2/+3/1 +4/1/+1\n", "m");
+  EXPECT_EQ(mesh.faces[0][0].position, 0);
+  EXPECT_EQ(mesh.faces[0][0].texcoord, 1);
+  EXPECT_EQ(mesh.faces[0][1].texcoord, 2);
+  EXPECT_EQ(mesh.faces[0][2].position, 3);
+}
+
+TEST(Obj, WhatABackslashSwallowsIsNoted) {
+  const Mesh mesh =
+      parse_obj(square + "usemtl dir\\sub\\\nf 1 2 3 4\nf 4 3 2 1\no x\\\r\nvt 0 0\nmtllib a \\\n b.mtl\n", "m");
+  EXPECT_EQ(mesh.faces.size(), 1u);
+  EXPECT_EQ(mesh.texcoords.size(), 4u);
+  ASSERT_EQ(mesh.notes.size(), 2u);  // none of mtllib, which goes on as it should
+  EXPECT_EQ(mesh.notes[0], "line 11, 'f', is not read: the backslash that ends line 10 joins it to 'usemtl'");
+  EXPECT_EQ(mesh.notes[1], "line 14, 'vt', is not read: the backslash that ends line 13 joins it to 'o'");
+  EXPECT_TRUE(parse_obj(square + "f 1 2 3 \\\n 4\n", "m").notes.empty());
+}
+
 TEST(Obj, NegativeIndicesCountFromTheFace) {
   const Mesh mesh = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 5 5 5\nf -3 -2 -1\n", "m");
   EXPECT_EQ(mesh.faces[0][0].position, 0);
@@ -83,7 +102,10 @@ TEST(Obj, NamesThePlaceOfEachError) {
       {"f 1 2 99999999999999999999", {"position index", "is out of range"}},
       {"f 1 2 2147483649", {"is out of range"}},
       {"f 1 2.0 3", {"face corner 2", "\"2.0\" is not an integer"}},
-      {"f 1 +2 3", {"\"+2\" is not an integer"}},
+      {"f 1 +-2 3", {"\"+-2\" is not an integer"}},
+      {"f 1 ++2 3", {"\"++2\" is not an integer"}},
+      {"f 1 + 3", {"\"+\" is not an integer"}},
+      {"f 1 +0 3", {"position index \"+0\" is 0"}},
       {"f 1 b 3", {"\"b\" is not an integer"}},
       {"f 1/ 2/ 3/", {"face corner 1 is \"1/\"", "a/b/c"}},
       {"f /1 /2 /3", {"face corner 1 is \"/1\""}},

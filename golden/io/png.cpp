@@ -12,6 +12,7 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace quadrille::golden {
 namespace {
@@ -40,8 +41,54 @@ std::string without_colour_space(std::string_view file) {
   throw std::runtime_error("the file ends too early");
 }
 
+/// The simplified interface draws a palette index that has no colour as black, so such a file is decoded to indices
+/// first.
+void check_palette(const std::string& bytes) {
+  // After the signature comes IHDR: length, type, width, height, depth, colour type.
+  constexpr std::size_t colour_type_at = 25;
+  if (bytes.size() <= colour_type_at || bytes[colour_type_at] != PNG_COLOR_TYPE_PALETTE) return;
+  struct Reader {
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, throw_error, ignore_warning);
+    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+    std::string_view rest;
+    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+    [[noreturn]] static void throw_error(png_structp, png_const_charp message) { throw std::runtime_error(message); }
+    static void ignore_warning(png_structp, png_const_charp) {}
+    static void take(png_structp png, png_bytep to, std::size_t size) {
+      std::string_view& rest = static_cast<Reader*>(png_get_io_ptr(png))->rest;
+      if (size > rest.size()) throw std::runtime_error("the file ends too early");
+      std::ranges::copy(rest.substr(0, size), to);
+      rest.remove_prefix(size);
+    }
+  } reader;
+  if (reader.info == nullptr) throw std::bad_alloc();
+  reader.rest = bytes;
+  png_set_read_fn(reader.png, &reader, Reader::take);
+  png_read_info(reader.png, reader.info);
+  const std::size_t width = png_get_image_width(reader.png, reader.info);
+  const std::size_t height = png_get_image_height(reader.png, reader.info);
+  if (width > max_image_side || height > max_image_side) return;  // refused below
+  png_colorp palette = nullptr;
+  int colours = 0;
+  png_get_PLTE(reader.png, reader.info, &palette, &colours);
+  png_set_packing(reader.png);
+  png_set_interlace_handling(reader.png);
+  png_read_update_info(reader.png, reader.info);
+  std::vector<std::uint8_t> indices(width * height);
+  std::vector<png_bytep> rows;
+  for (std::size_t y = 0; y < height; ++y) rows.push_back(indices.data() + y * width);
+  png_read_image(reader.png, rows.data());
+  const auto found = std::ranges::find_if(indices, [&](std::uint8_t index) { return index >= colours; });
+  if (found == indices.end()) return;
+  const auto at = static_cast<std::size_t>(found - indices.begin());
+  throw std::runtime_error("the pixel (" + std::to_string(at % width) + ", " + std::to_string(at / width) +
+                           ") has the palette index " + std::to_string(*found) + "; the palette (PLTE) has " +
+                           std::to_string(colours) + " colours");
+}
+
 Image8 decode(std::string_view file) {
   const std::string bytes = without_colour_space(file);
+  check_palette(bytes);
   png_image png{};
   const std::unique_ptr<png_image, ImageDeleter> owner(&png);
   png.version = PNG_IMAGE_VERSION;

@@ -45,7 +45,8 @@ void write_raw(const std::string& file, int width, int height, int depth, int ty
   png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), depth, type,
                interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
-  png_set_gAMA(png, info, 0.1);  // must have no effect
+  png_set_benign_errors(png, 1);  // indices that the palette does not have
+  png_set_gAMA(png, info, 0.1);   // must have no effect
   png_color palette[2] = {{1, 2, 3}, {200, 100, 50}};
   png_byte alpha[1] = {7};
   if (type == PNG_COLOR_TYPE_PALETTE) {
@@ -86,6 +87,24 @@ TEST_F(PngTest, ReadsEveryColourType) {
   const Image8 image = random_image(13, 11);
   write_raw(path("p"), 13, 11, 8, PNG_COLOR_TYPE_RGB_ALPHA, image.rgba, true);
   EXPECT_EQ(pixels(), image.rgba);
+}
+
+TEST_F(PngTest, RefusesAPaletteIndexWithoutColour) {
+  // The palette has two colours; the decoder's own answer is black for index 2 and above.
+  const auto refuses = [&](const char* pixel, const char* index) {
+    expect_input_error([&] { load_png(path("p")); }, path("p"), {pixel, index, "has 2 colours"});
+  };
+  write_raw(path("p"), 3, 2, 8, PNG_COLOR_TYPE_PALETTE, {1, 0, 1, 0, 1, 2});
+  refuses("pixel (2, 1)", "palette index 2;");
+  write_raw(path("p"), 3, 2, 8, PNG_COLOR_TYPE_PALETTE, {1, 255, 1, 0, 1, 0}, true);
+  refuses("pixel (1, 0)", "palette index 255;");
+  write_raw(path("p"), 3, 2, 2, PNG_COLOR_TYPE_PALETTE, {0b00010000, 0b01001100});
+  refuses("pixel (2, 1)", "palette index 3;");
+  write_raw(path("p"), 3, 1, 4, PNG_COLOR_TYPE_PALETTE, {0x10, 0x9f});
+  refuses("pixel (2, 0)", "palette index 9;");
+  // Bits beyond the last pixel of a row are no index.
+  write_raw(path("p"), 3, 1, 4, PNG_COLOR_TYPE_PALETTE, {0x10, 0x1f});
+  EXPECT_EQ(load_png(path("p")).rgba.size(), 12u);
 }
 
 TEST_F(PngTest, RefusesWhatIsNoCompletePng) {

@@ -137,6 +137,7 @@ std::vector<WindowQuad> load_quads(const std::string& path) {
 }
 
 std::vector<WindowQuad> parse_quads(std::string_view text, const std::string& name) {
+  refuse_wide_text(text, name);
   return QuadsParser(name).parse(text);
 }
 

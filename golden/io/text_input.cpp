@@ -18,6 +18,24 @@
 namespace quadrille::golden {
 namespace {
 
+/// Bytes of the UTF-8 character at the start; 0: none is there (the table of well-formed sequences of Unicode).
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xc2 && first <= 0xdf   ? 2
+                             : (first & 0xf0u) == 0xe0        ? 3
+                             : first >= 0xf0 && first <= 0xf4 ? 4
+                                                              : 0;
+  if (length == 0 || length > text.size()) return 0;
+  const unsigned low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+  const unsigned high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+  if (byte(1) < low || byte(1) > high) return 0;
+  for (std::size_t i = 2; i < length; ++i)
+    if ((byte(i) & 0xc0u) != 0x80) return 0;
+  return length;
+}
+
 struct Descriptor {
   int fd;
   ~Descriptor() {
@@ -62,6 +80,15 @@ std::string read_file(const std::string& path, std::string_view what) {
   }
 }
 
+void refuse_wide_text(std::string_view text, const std::string& name) {
+  using namespace std::string_view_literals;
+  const bool marked = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+  if (!marked && text.substr(0, 2).find('\0') == std::string_view::npos) return;
+  const bool four = text.starts_with("\xff\xfe\0\0"sv) || text.starts_with("\0\0"sv) || text.substr(1, 3) == "\0\0\0"sv;
+  throw InputError(name + ": is text in " + (four ? "UTF-32" : "UTF-16") +
+                   "; save it as UTF-8 or ASCII, such as with iconv -f " + (four ? "UTF-32" : "UTF-16") + " -t UTF-8");
+}
+
 std::string in_quotes(std::string_view token) {
   constexpr std::size_t longest = 40;
   constexpr std::string_view hex = "0123456789abcdef";
@@ -83,6 +110,30 @@ std::string printable(std::string_view text) {
   std::string out;
   for (const char c : text) out += c >= 0x20 && c < 0x7f ? c : '?';
   return out;
+}
+
+std::string readable(std::string_view text) {
+  constexpr std::string_view hex = "0123456789abcdef";
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const auto byte = static_cast<unsigned char>(text.front());
+    if (length > 0)
+      out += text.substr(0, length);
+    else
+      (out += "\\x") += {hex[byte >> 4], hex[byte & 15]};
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
 }
 
 std::size_t line_at(std::string_view text, std::size_t offset) {

@@ -20,11 +20,21 @@ inline constexpr std::uint64_t max_file_bytes = std::uint64_t{2} << 30;
 /// expected there.
 std::string read_file(const std::string& path, std::string_view what);
 
+/// Throws InputError for text of two or four bytes a character, as some editors save it: by its byte order mark, or by
+/// a zero byte among its first two. `name` stands for the file.
+void refuse_wide_text(std::string_view text, const std::string& name);
+
 /// The token in double quotes, for messages: control and non-ASCII bytes as \xNN, long ones shortened.
 std::string in_quotes(std::string_view token);
 
 /// The text with control and non-ASCII bytes replaced by '?', for messages of libraries that may quote the file.
 std::string printable(std::string_view text);
+
+/// The text with each byte that is no part of valid UTF-8 as \\xNN, for reports: JSON knows no other bytes.
+std::string readable(std::string_view text);
+
+/// Whether all of it is UTF-8.
+bool is_utf8(std::string_view text);
 
 /// 1-based line number of a byte offset.
 std::size_t line_at(std::string_view text, std::size_t offset);

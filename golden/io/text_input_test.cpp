@@ -1,5 +1,9 @@
 #include "golden/io/text_input.hpp"
 
+#include "golden/io/camera.hpp"
+#include "golden/io/config_file.hpp"
+#include "golden/io/obj.hpp"
+#include "golden/io/quads_file.hpp"
 #include "golden/io/test_support.hpp"
 
 #include <clocale>
@@ -8,6 +12,50 @@
 
 namespace quadrille::golden {
 namespace {
+
+TEST(WideText, EveryReaderNamesIt) {
+  using namespace std::string_literals;
+  const auto wide = [](const std::string& narrow, bool little, std::size_t bytes) {
+    std::string text;
+    for (const char c : narrow) {
+      const std::string zeros(bytes - 1, '\0');
+      text += little ? c + zeros : zeros + c;
+    }
+    return text;
+  };
+  const auto refuses = [](const std::string& text, const char* encoding) {
+    expect_input_error([&] { parse_obj(text, "m"); }, "m", {encoding, "UTF-8"});
+    expect_input_error([&] { parse_quads(text, "m"); }, "m", {encoding});
+    expect_input_error([&] { parse_camera(text, "m"); }, "m", {encoding});
+    Config config;
+    expect_input_error([&] { parse_config(text, "m", config); }, "m", {encoding});
+  };
+  const std::string face = "v 0 0 0\n";
+  refuses("\xff\xfe" + wide(face, true, 2), "UTF-16");
+  refuses("\xfe\xff" + wide(face, false, 2), "UTF-16");
+  refuses(wide(face, true, 2), "UTF-16");
+  refuses(wide(face, false, 2), "UTF-16");
+  refuses("\xff\xfe\0\0"s + wide(face, true, 4), "UTF-32");
+  refuses("\0\0\xfe\xff"s + wide(face, false, 4), "UTF-32");
+  refuses(wide(face, true, 4), "UTF-32");
+  for (const char* text : {"", "v", "\xc3\xbc", "\xef\xbb\xbf#"}) EXPECT_NO_THROW(refuse_wide_text(text, "m"));
+}
+
+TEST(Readable, BytesThatAreNoUtf8AreEscaped) {
+  EXPECT_EQ(readable("caf\xe9.quads"), "caf\\xe9.quads");
+  for (const char* good :
+       {"", "plain", "caf\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x98\x80", "\xef\xbf\xbf", "\xf4\x8f\xbf\xbf"}) {
+    EXPECT_TRUE(is_utf8(good)) << good;
+    EXPECT_EQ(readable(good), good);
+  }
+  // Cut short, overlong, surrogates, beyond U+10FFFF, lone continuation.
+  for (const char* bad : {"\xc3", "\xe2\x82", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\x80",
+                          "\xff", "\xf0\x8f\xbf\xbf"}) {
+    EXPECT_FALSE(is_utf8(bad));
+    EXPECT_TRUE(is_utf8(readable(bad))) << readable(bad);
+  }
+  EXPECT_EQ(readable("\xe2\x82x"), "\\xe2\\x82x");
+}
 
 TEST(ParseNumber, AcceptsDecimalNumbersOnly) {
   EXPECT_EQ(parse_number("1.5").value, 1.5);

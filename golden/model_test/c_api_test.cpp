@@ -287,10 +287,11 @@ TEST_P(CApi, ClockedIsTheClockedModelInEveryClock) {
         std::ranges::copy(std::array{v.x, v.y, v.z, v.w}, positions.begin() + static_cast<std::ptrdiff_t>(4 * i));
         std::ranges::copy(v.attribute, attributes.begin() + static_cast<std::ptrdiff_t>(QUADRILLE_MAX_ATTRIBUTES * i));
       }
-      if (beat % 4 == 0)
+      if (beat % 4 == 0) {
         ASSERT_EQ(quadrille_quad_port(by_ports, inputs.vertex.id, positions.data(), attributes.data(), beats[0].data()),
                   QUADRILLE_OK)
             << error();
+      }
       vertex = beats[beat % 4];
     }
     if (now.fragment_valid && inputs.fragment_ready)

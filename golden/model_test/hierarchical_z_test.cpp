@@ -1,7 +1,6 @@
 // Hidden tiles: the depth-tested picture is the same with and without, bit by bit, for every scene and stress family in
 // several orders, and for quads made so that each rule of hierarchical_z alone decides; and that what can be hidden is.
 #include "model/hierarchical_z.hpp"
-#include "model/depth_rank.hpp"
 #include "model/hidden_blocks.hpp"
 #include "model/masked_depth.hpp"
 #include "model/snap.hpp"
@@ -221,7 +220,7 @@ TEST(HierarchicalZ, FamiliesLookTheSameWithDroppedBits) {
   families(configured({{"significand_bits", 12}, {"quadratic_frac_bits", 16}, {"hierarchical_z_bits", 16}}), 2900, 2);
 }
 
-/// Many layers a little apart, so that the margin decides: depths of neighbouring layers differ by a few units of the
+/// Many layers a little apart, so that codes decide: depths of neighbouring layers differ by a few units of the
 /// arithmetic.
 TEST(HierarchicalZ, LayersALittleApart) {
   for (const int s : {8, 10, 12})
@@ -340,17 +339,23 @@ TEST(HierarchicalZ, OnlyWhatIsDrawnHides) {
   }
 }
 
-TEST(HierarchicalZ, TwoCodesBehindIsHiddenAndEqualDepthsAreNot) {
-  // Nothing is lost but the margin and what is rounded: of one depth each, two codes behind is hidden.
+TEST(HierarchicalZ, EqualDepthsAreHiddenAndTheLeastNearerIsNot) {
+  // Of one depth each: nothing is lost but what is rounded to the entries' codes.
   const Config config = configured();
   const DrawState state = viewport(32, 32);
   BothWays both(config, state);
-  const double code = std::ldexp(1, -config.hierarchical_z_bits);
-  both.draw(snap_quad(rectangle(0, -8, -8, 40, 40, 0.5), config, state));
-  both.draw(snap_quad(rectangle(1, -8, -8, 40, 40, 0.5 + 2 * code), config, state));
-  EXPECT_EQ(both.hidden(), 16u);
-  both.draw(snap_quad(rectangle(2, -8, -8, 40, 40, 0.5), config, state));
-  EXPECT_EQ(both.hidden(), 16u) << "the margin: nothing is known of equal depths that are not 0";
+  const double least = std::ldexp(1, -config.depth_bits);
+  const auto hidden_at = [&](std::uint32_t id, double z) {
+    const std::uint64_t before = both.hidden();
+    both.draw(snap_quad(rectangle(id, -8, -8, 40, 40, z), config, state));
+    return both.hidden() - before;
+  };
+  EXPECT_EQ(hidden_at(0, 0.5 + least), 0u);
+  EXPECT_EQ(hidden_at(1, 0.5 + least), 0u) << "its entry's code is rounded up";
+  EXPECT_EQ(hidden_at(2, 0.5), 0u);
+  EXPECT_EQ(hidden_at(3, 0.5), 16u) << "LESS draws nothing of an equal depth";
+  EXPECT_EQ(hidden_at(4, 0.5 + 9 * least), 16u);
+  EXPECT_EQ(hidden_at(5, 0.5 - least), 0u);
   EXPECT_TRUE(both.same());
 }
 
@@ -394,7 +399,7 @@ TEST(HierarchicalZ, OutlivesADrawUntilTheClear) {
   EXPECT_EQ(both.covered(), 32u * 32u);
 }
 
-/// Depths of fragments lie in the interval of their quad, which is no wider than the codes and the margin make it.
+/// Depths of fragments lie in the interval of their quad, which is no wider than the codes make it.
 TEST(HierarchicalZ, IntervalHoldsEveryDepth) {
   for (const int bits : {4, 10, 16})
     for (const int s : {8, 18, 26}) {
@@ -414,13 +419,13 @@ TEST(HierarchicalZ, IntervalHoldsEveryDepth) {
           for (auto& c : corner) c[2] = std::ldexp(c[2], -i / 8);
         const SnappedQuad quad = snap_quad(quad_of(0, corner), config, state);
         const DepthInterval depth = depth_interval(quad, config, state);
-        const double unit = std::ldexp(1, -bits), unknown = 1 - unit,
-                     margin = depth_margin_steps(config) * std::ldexp(1, 1 - s);
+        const double unit = std::ldexp(1, -bits), unknown = 1 - unit, half = std::ldexp(1, -config.depth_bits - 1);
         double least = 1, greatest = 0;
         for (const auto& c : corner) least = std::min(least, c[2]), greatest = std::max(greatest, c[2]);
-        EXPECT_GE(depth.near * unit, std::min(least * (1 - margin - 2 * std::ldexp(1, 1 - s)) - unit, unknown - unit))
-            << i;
-        EXPECT_LE(depth.far * unit, greatest * (1 + margin + 2 * std::ldexp(1, 1 - s)) + unit) << i;
+        EXPECT_GT(depth.near * unit, std::min(least - half, unknown) - unit - half) << i;
+        EXPECT_LE(depth.near * unit, least + half) << i;
+        EXPECT_GE(depth.far * unit, std::min(greatest - half, unknown)) << i;
+        EXPECT_LT(depth.far * unit, greatest + half + unit) << i;
         lowering += depth.lowers;
         model.draw(quad, [&](std::span<const Fragment> drawn) {
           for (const Fragment& f : drawn) {
@@ -428,7 +433,7 @@ TEST(HierarchicalZ, IntervalHoldsEveryDepth) {
             ++fragments;
             EXPECT_GE(z, std::floor(depth.near * std::ldexp(1, config.depth_bits - bits)) *
                              std::ldexp(1, -config.depth_bits));
-            if (depth.lowers) {
+            if (depth.far * unit != unknown) {
               EXPECT_LE(z, depth.far * unit);
             }
           }
@@ -464,12 +469,9 @@ TEST(HiddenBlocks, FarthestTileDecidesAndEachRoundBeginsAnew) {
     }
 }
 
-TEST(HierarchicalZ, NothingIsClaimedWithoutAMargin) {
-  Config config = configured({{"significand_bits", 18}, {"recip_segments_log2", 3}});
+TEST(HierarchicalZ, NothingIsLoweredWhereWeightsMayBeNone) {
   const DrawState state = viewport(32, 32);
-  EXPECT_EQ(depth_interval(snap_quad(rectangle(0, 0, 0, 9, 9, 0.5), config, state), config, state),
-            (DepthInterval{0, 4095, false}));
-  config = configured({{"quadratic_frac_bits", 15}});
+  const Config config = configured({{"quadratic_frac_bits", 15}});
   const DepthInterval depth = depth_interval(snap_quad(rectangle(0, 0, 0, 9, 9, 0.5), config, state), config, state);
   EXPECT_FALSE(depth.lowers) << "the sum of the weights may be 0";
   EXPECT_GT(depth.near, 2000u);

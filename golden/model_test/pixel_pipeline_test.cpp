@@ -581,9 +581,15 @@ void exhaustive(int side, bool homogeneous, std::uint64_t stride, const Config& 
   for (std::uint64_t code = 0; code < n * n * n * n; code += stride) {
     SnappedQuad q;
     std::uint64_t rest = code;
+    // Attribute i is 1 at vertex i: of vertex 0 as a base that the others are 1 below.
+    q.base.attribute[0] = std::int64_t{1} << c.attribute_frac();
     for (std::size_t i = 0; i < 4; ++i) {
-      q.vertex[i] = points[rest % n];
-      q.vertex[i].attribute[i] = q.vertex[i].k;
+      SnappedVertex& v = q.vertex[i];
+      v = points[rest % n];
+      if (i == 0)
+        v.attribute[0] = {};
+      else
+        v.attribute[0] = {true, v.k.exp, v.k.sig}, v.attribute[i] = v.k;
       rest /= n;
     }
     std::vector<Fragment> a, b;
@@ -594,7 +600,7 @@ void exhaustive(int side, bool homogeneous, std::uint64_t stride, const Config& 
       double sum = 0;
       for (std::size_t i = 0; i < 4; ++i) {
         const double lambda = static_cast<double>(f.attribute[i]) / one;
-        ASSERT_GE(lambda, 0) << "quad " << code << ": " << text(f);
+        ASSERT_GE(lambda, i == 0 ? -bound : 0) << "quad " << code << ": " << text(f);
         ASSERT_LE(lambda, 1 + bound) << "quad " << code << ": " << text(f);
         sum += lambda;
       }

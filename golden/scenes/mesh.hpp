@@ -28,7 +28,8 @@ struct Mesh {
   std::vector<Vec3> normals;
   std::vector<Vec3> colours;  ///< red, green, blue in [0, 1]: one per position, or none at all
   std::vector<Face> faces;
-  std::size_t skipped_lines = 0;  ///< lines of a file that were valid but not used (OBJ materials, groups, tags …)
+  std::vector<std::string> notes;  ///< what a reader of files found that its user should know
+  std::size_t skipped_lines = 0;   ///< lines of a file that were valid but not used (OBJ materials, groups, tags …)
 };
 
 struct Camera {

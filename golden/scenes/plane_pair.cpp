@@ -45,12 +45,17 @@ std::vector<WindowQuad> plane_pair(const PlanePair& pair, int width, int height)
 Scene plane_strips() {
   Scene scene;
   scene.camera = camera_of(PlaneView::turned);
+  scene.camera.fovy = 26;
   scene.shade = "colour";
-  constexpr double strip = 2 * half_width / plane_distances.size(), gap = 0.4;
+  constexpr double reach = 20, half_height = 9, strip = 2 * reach / plane_distances.size(), gap = 0.3;
+  constexpr double inset = 0.8;  // of the farther plane, which therefore shows nowhere
+  const auto add = [&](double x0, double x1, double y, double down) {
+    add_quad(scene.mesh, {{{x0, -y, -down}, {x1, -y, -down}, {x1, y, -down}, {x0, y, -down}}});
+  };
   for (std::size_t i = 0; i < plane_distances.size(); ++i) {
-    const double x0 = -half_width + strip * static_cast<double>(i), x1 = x0 + strip - gap;
-    add_quad(scene.mesh, plane(PlaneView::turned, x0, x1, plane_distances[i]));
-    add_quad(scene.mesh, plane(PlaneView::turned, x0, x1, 0));
+    const double x0 = -reach + strip * static_cast<double>(i), x1 = x0 + strip - gap;
+    add(x0 + inset, x1 - inset, half_height - inset, plane_distances[i]);
+    add(x0, x1, half_height, 0);
   }
   constexpr std::array<Vec3, 2> colours{{{0.75, 0.15, 0.1}, {0.85, 0.88, 0.9}}};  // of the farther and the nearer
   for (std::size_t i = 0; i < scene.mesh.positions.size(); ++i) scene.mesh.colours.push_back(colours[i / 4 % 2]);

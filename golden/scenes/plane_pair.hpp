@@ -31,7 +31,7 @@ inline constexpr std::array<double, 8> plane_distances{1, 0.5, 0.2, 0.1, 0.05, 0
 std::vector<WindowQuad> plane_pair(const PlanePair& pair, int width, int height);
 
 /// Eight strips of planes seen as `turned`, in each the nearer plane over the other at one of plane_distances, from
-/// left to right.
+/// left to right. The nearer one is white, and nothing of the other, which is red, shows beside it.
 Scene plane_strips();
 
 }  // namespace quadrille::golden

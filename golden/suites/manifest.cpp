@@ -5,6 +5,7 @@
 #include "golden/io/interrupt.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/text_input.hpp"
+#include "golden/suites/memory_file.hpp"
 
 #include <sys/stat.h>
 
@@ -682,8 +683,12 @@ bool is_response(const std::string& name) {
   return name == "response.hex" || name == "beats.hex" || name.ends_with(".exr");
 }
 
-/// The suite's manifest for the files as they are.
-std::string sealed_manifest(const fs::path& directory) {
+/// New contents of files.
+using Contents = std::map<fs::path, std::string>;
+
+/// Adds the suite's manifest for the files as they are, and responses that a simulator wrote as this project would
+/// have. Returns the manifest.
+std::string sealed_manifest(const fs::path& directory, Contents& contents) {
   const std::string file = (directory / manifest_name).string();
   Json manifest = parse_manifest(file, read_manifest(file, "the manifest of a suite"));
   require_format(file, manifest);
@@ -701,8 +706,18 @@ std::string sealed_manifest(const fs::path& directory) {
     std::error_code error;
     if (!fs::is_regular_file(fs::symlink_status(path, error)))
       throw input_error(path.string(), 0, "is no regular file");
-    if (bits.contains(name)) lines[name] = count_records(path.string(), bits[name]);
-    const FileDigest digest = digest_file(path);
+    FileDigest digest = digest_file(path);
+    if (bits.contains(name) && is_response(name)) {
+      MemoryFile memory =
+          read_memory_file(golden::read_file(path.string(), "a file of records"), path.string(), bits[name]);
+      lines[name] = memory.lines;
+      if (const std::string hash = sha256(memory.records); hash != digest.sha256) {
+        digest.sha256 = hash, digest.bytes = memory.records.size();
+        contents[path] = std::move(memory.records);
+      }
+    } else if (bits.contains(name)) {
+      lines[name] = count_records(path.string(), bits[name]);
+    }
     if (!is_response(name) && digest.sha256 != text_member(file, entry, "sha256"))
       throw input_error(path.string(), 0,
                         "is not the generated file; only response.hex and beats.hex may be one's own");
@@ -718,7 +733,7 @@ std::string sealed_manifest(const fs::path& directory) {
                           std::to_string(lines["stimulus.hex"]) + ", and each needs one");
   object_member(file, manifest, "counts");
   manifest["counts"]["vectors"] = lines["response.hex"];
-  return manifest_text(manifest);
+  return contents[directory / manifest_name] = manifest_text(manifest);
 }
 
 }  // namespace
@@ -729,14 +744,12 @@ void seal_set(const fs::path& directory) {
   require_format(file, manifest);
   object_member(file, manifest, "suites");
   // Nothing is written before every suite is right.
-  std::map<std::string, std::string> manifests;
+  Contents contents;
   for (auto& [name, entry] : manifest["suites"].items()) {
     if (!plain_name(name) || !entry.is_object()) throw input_error(file, 0, golden::in_quotes(name) + " is no suite");
-    const std::string& text = manifests[name] = sealed_manifest(directory / name);
-    entry["sha256"] = sha256(text);
+    entry["sha256"] = sha256(sealed_manifest(directory / name, contents));
   }
-  for (const auto& [name, text] : manifests)
-    golden::write_file((directory / name / manifest_name).string(), text, golden::AtomicFile::Dash::refused);
+  for (const auto& [path, text] : contents) golden::write_file(path.string(), text, golden::AtomicFile::Dash::refused);
   golden::write_file(file, manifest_text(manifest), golden::AtomicFile::Dash::refused);
 }
 

@@ -160,7 +160,8 @@ class SuiteReader {
 };
 
 /// Makes a set of one's own responses one that SetReader takes: hashes, sizes and numbers of lines of response.hex, of
-/// beats.hex and of pictures are those of the files as they are. Throws golden::InputError, with the line, for records
+/// beats.hex and of pictures are those of the files as they are. Records may stand as $writememh writes them
+/// (memory_file.hpp); they are then written as this project does. Throws golden::InputError, with the line, for records
 /// that are malformed, too few or too many, and for any other file that is not the generated one.
 void seal_set(const std::filesystem::path& directory);
 

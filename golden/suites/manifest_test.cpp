@@ -190,7 +190,7 @@ TEST_F(Set, DamageOfManifestsIsNamed) {
   EXPECT_EQ(with("--limit 30", "--limit 31"), set + ": \"command\" differs from that of suite sqrt");
   EXPECT_EQ(with("\"sqrt\"", "\"../sqrt\""), set + ": \"../sqrt\" is no name of a suite");
   EXPECT_EQ(with("  \"seed\"", " \"seed\"").find(set + ":4: is not written as a manifest is"), 0u);
-  EXPECT_EQ(with("{", "{\n  \"more\": 1,"), set + ": has \"more\", which is unknown in format 1");
+  EXPECT_EQ(with("{", "{\n  \"more\": 1,"), set + ": has \"more\", which is unknown in format 2");
   EXPECT_EQ(with("{", "[").find(set + ":"), 0u);
   write("set/manifest.json", "{}\n");
   EXPECT_EQ(complaint(), set + ": has no \"format\"");
@@ -225,7 +225,7 @@ TEST_F(Set, ConsistentNonsenseIsRefused) {
       0u);
   EXPECT_EQ(with("\"response.hex\": {", "\"other.hex\": {").find(path("set/sqrt/")), 0u);
   EXPECT_EQ(with("\"title\"", "\"notes\": 1,\n  \"title\""),
-            manifest + ": has \"notes\", which is unknown in format 1");
+            manifest + ": has \"notes\", which is unknown in format 2");
   EXPECT_EQ(with("--suite sqrt", "--suite depth"), manifest + ": \"command\" is not that of suite sqrt");
   // What a reader takes, but is not what this program says of the suite.
   const auto known = [&](const std::string& from, const std::string& to) {

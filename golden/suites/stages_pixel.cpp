@@ -629,10 +629,22 @@ class Depth : public StageOf<DepthLists> {
       };
       const std::int64_t span = std::int64_t{1} << prng.below(static_cast<std::uint64_t>(config().depth_bits));
       base.depth_low = beside(span), base.depth_high = beside(span);
+      const auto limit = [&](std::int32_t code) {
+        return static_cast<std::uint32_t>(std::clamp<std::int64_t>(code, 0, depth_one()));
+      };
+      if (prng.chance(0.3)) d.znear = limit(base.depth_high);
+      if (prng.chance(0.3)) d.zfar = limit(base.depth_low);
     }
-    for (std::int64_t& attribute : base.attribute)
-      if (prng.chance(0.3)) attribute = prng.integer(-3, 3);
+    if (prng.chance(0.1)) p.den_w = {};  // z lies beyond depth_high, whatever the numerator's sign
     d.state.attributes = static_cast<int>(prng.integer(0, config().attribute_slots));
+    // Bases about 0, and at an end of the format with a quotient of one or two codes.
+    for (std::size_t j = 0; j < static_cast<std::size_t>(config().attribute_slots); ++j) {
+      if (prng.chance(0.3)) base.attribute[j] = prng.integer(-3, 3);
+      if (p.den_k.sig == 0 || !prng.chance(0.3)) continue;
+      base.attribute[j] = prng.sign() < 0 ? -config().attribute_limit() : config().attribute_limit();
+      p.num_a[j] = {prng.chance(0.5), p.den_k.exp - config().attribute_frac() + static_cast<int>(prng.below(2)),
+                    p.den_k.sig};
+    }
   }
 
   void corners(const Sink& sink) const override {

@@ -99,9 +99,9 @@ QUADRILLE_API uint32_t quadrille_abi(void);
 /* What was wrong in the last call of this thread that failed; "" before. Valid until the next one fails. */
 QUADRILLE_API const char* quadrille_last_error(void);
 
-/* A configuration is text: lines of `key = value` as in a configuration file, or "key=value key=value"; NULL or "" is
- * the default one. Keys: README.md of model/, or `quadrille config`. The value of a key (auto resolved) or, in upper
- * case, of a derived width. */
+/* A configuration is text: lines of `key = value` as in a configuration file, or "key=value key=value", each key once;
+ * NULL or "" is the default one. Keys: README.md of model/, or `quadrille config`. The value of a key (auto resolved)
+ * or, in upper case, of a derived width. */
 QUADRILLE_API quadrille_status quadrille_config_value(const char* config, const char* name, int32_t* value);
 
 /* A draw state for a viewport of that size: all of it drawn, four attributes, depth, perspective, every skip that keeps

@@ -27,16 +27,28 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// The one of `names` that `given` was probably meant to be: one to three edits away, by its length, or holding it.
+/// Capitals of a name as small letters: who writes SIGNIFICAND_BITS, as the RTL does, means significand_bits.
+inline std::string without_capitals(std::string_view name) {
+  std::string small(name);
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return small;
+}
+
+/// The one of `names` that `given` was probably meant to be: one to three edits away, by its length, or holding it;
+/// capitals count for nothing.
 /// Empty when none is: a hint that is far off only misleads.
 template <class Names, class Projection = std::identity>
 std::string nearest_name(std::string_view given, const Names& names, Projection name_of = {}) {
   std::size_t distance = given.size() <= 3 ? 2 : given.size() <= 8 ? 3 : 4;
   std::string nearest;
+  const std::string small = without_capitals(given);
   for (const auto& element : names) {
     const std::string name(std::invoke(name_of, element));
-    const bool part = given.size() >= 3 && name.find(given) != std::string::npos;
-    if (const std::size_t d = part ? 1 : edit_distance(given, name); d < distance) distance = d, nearest = name;
+    const std::string small_name = without_capitals(name);
+    const bool part = small.size() >= 3 && small_name.find(small) != std::string::npos;
+    const std::size_t d = small == small_name ? 0 : part ? 1 : edit_distance(small, small_name);
+    if (d < distance) distance = d, nearest = name;
   }
   return nearest;
 }

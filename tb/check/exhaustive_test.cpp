@@ -106,6 +106,7 @@ struct GridCounts {
 GridCounts grid(std::uint64_t first, std::uint64_t stride, int significand_bits = 8) {
   Config config = tiny();
   config.set("significand_bits", significand_bits);
+  const Bounds bounds(config);
   const std::vector<SnappedVertex> vertices = grid_vertices(config);
   DrawState state;
   state.width = state.height = state.scissor_x1 = state.scissor_y1 = extent;
@@ -150,10 +151,10 @@ GridCounts grid(std::uint64_t first, std::uint64_t stride, int significand_bits 
         ++counts.pixels;
         bool drawn = expected.covered && expected.visible && !antipodal;
         if (expected.covered && hull && !antipodal) {  // by the sign of sum(M w)
-          if (!judged) judged.emplace(quad, config, state);
+          if (!judged) judged.emplace(quad, config, bounds, state);
           const golden::ReferenceSample truth = judged->truth().sample(x, y);
           drawn = truth.visible;
-          if (judged->tolerates_visibility(truth, weight_bound(config))) {
+          if (judged->tolerates_visibility(truth)) {
             ++counts.undecided;
             drawn = f != nullptr;
           }

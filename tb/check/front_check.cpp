@@ -45,8 +45,9 @@ PortNumber nearest_float(Wide n, Wide d, int s) {
 
 bool same(const PortNumber& a, const PortNumber& b) { return a.neg == b.neg && a.exp == b.exp && a.sig == b.sig; }
 
-/// Numbers given and snapped are compared in units of 2^-10, so that the half pixel is exact in units of 2^-11.
-constexpr int unit_bits = 10;
+/// Coordinates are given in units of 2^-10, so that the half pixel is exact in units of 2^-11; attributes in sixteenths
+/// of a code, of which bases are rounded.
+constexpr int unit_bits = 10, code_bits = 4;
 
 struct GivenVertex {
   std::int64_t x, y, z, w, a;
@@ -62,7 +63,7 @@ GivenVertex random_vertex(const Config& config, Prng& rng, bool before) {
   GivenVertex v{static_cast<std::int64_t>(rng.uniform(-reach, reach)),
                 static_cast<std::int64_t>(rng.uniform(-reach, reach)),
                 rng.chance(0.5) ? rng.integer(-2 * std::abs(w), 2 * std::abs(w)) : rng.integer(0, std::abs(w)), w, 0};
-  const std::int64_t limit = std::int64_t{1} << (config.attribute_int_bits + unit_bits);
+  const std::int64_t limit = std::int64_t{1} << (config.attribute_int_bits + config.attribute_frac() + code_bits);
   v.a = rng.integer(1 - limit, limit - 1);
   if (v.x == 0 && v.y == 0 && v.w == 0) v.x = 1;
   return v;
@@ -95,10 +96,10 @@ Wide floored(Wide n, Wide d) { return n / d - (n % d < 0 ? 1 : 0); }
 /// Bases, corner codes and differences of a quad: what is wrong, or nothing.
 std::string snapping_fault(const std::array<GivenVertex, 4>& given, const SnappedQuad& quad, const Config& config,
                            const DrawState& state) {
-  const int s = config.significand_bits, fraction = config.attribute_frac(), depth = config.depth_bits;
+  const int s = config.significand_bits, depth = config.depth_bits, fraction = config.attribute_frac() + code_bits;
   const Wide one = Wide{1} << depth;
-  const Wide limit = (Wide{1} << (config.attribute_int_bits + fraction)) - 1;
-  const Wide base = std::clamp(nearest(Wide{given[0].a} << fraction, Wide{1} << unit_bits), -limit, limit);
+  const Wide limit = (Wide{1} << (config.attribute_int_bits + config.attribute_frac())) - 1;
+  const Wide base = std::clamp(nearest(given[0].a, Wide{1} << code_bits), -limit, limit);
   if (quad.base.attribute[0] != base) return "base of the attribute";
   Wide base_z = 0;
   for (const GivenVertex& v : given)
@@ -127,9 +128,9 @@ std::string snapping_fault(const std::array<GivenVertex, 4>& given, const Snappe
     if (!same(v.z, nearest_float(z * exact.scale, exact.extent << (unit_bits + depth), s)))
       return "difference of depth";
     PortNumber b;
-    if (const Wide above = (Wide{given[i].a} << fraction) - (base << unit_bits); given[i].a != given[0].a)
-      b = state.perspective ? nearest_float(above * exact.scale, exact.extent << (unit_bits + fraction), s)
-                            : nearest_float(above * Wide{v.w}, Wide{1} << (unit_bits + fraction + config.frac()), s);
+    if (const Wide above = given[i].a - (base << code_bits); given[i].a != given[0].a)
+      b = state.perspective ? nearest_float(above * exact.scale, exact.extent << fraction, s)
+                            : nearest_float(above * Wide{v.w}, Wide{1} << (fraction + config.frac()), s);
     if (!same(v.attribute[0], b)) return "difference of the attribute";
   }
   return "";
@@ -143,16 +144,17 @@ void check_snapping(const Config& config, Prng& rng, FunctionTally& tally) {
     std::array<GivenVertex, 4> given;
     WindowQuad quad;
     const auto real = [](std::int64_t v) { return std::ldexp(static_cast<double>(v), -unit_bits); };
+    const int fraction = config.attribute_frac() + code_bits;
     for (std::size_t i = 0; i < 4; ++i) {
       GivenVertex& v = given[i];
       v = random_vertex(config, rng, before);
       if (i > 0 && rng.chance(0.3)) v.a = given[0].a + (rng.chance(0.5) ? 0 : given[0].a > 0 ? -1 : 1);
       quad.vertex[i] = {real(v.x), real(v.y), real(v.z), real(v.w)};
-      quad.attribute[i] = {real(v.a)};
+      quad.attribute[i] = {std::ldexp(static_cast<double>(v.a), -fraction)};
     }
     const std::string fault = snapping_fault(given, snap_quad(quad, config, state), config, state);
     tally.expect(fault.empty(), [&] {
-      std::string text = fault + " of (x, y, z, w; a) * 1024 =";
+      std::string text = fault + " of (x, y, z, w) * 1024, a in sixteenths of a code =";
       for (const GivenVertex& v : given)
         text += " (" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ", " +
                 std::to_string(v.w) + "; " + std::to_string(v.a) + ")";

@@ -6,10 +6,12 @@
 #include "golden/suites/manifest.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/options/command_line.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -44,11 +46,33 @@ struct Findings {
 /// Ids are names: how far apart two of them are means nothing.
 bool is_id(const std::string& channel) { return channel == "quad"; }
 
+std::string value_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", std::isnan(value) ? std::fabs(value) : value);
+  return text;
+}
+
+/// What is said of a channel that differs: NaNs first, which have no size.
+std::string difference_text(const golden::ChannelDiff& c) {
+  std::string text = c.count == 1 ? "1 pixel differs" : std::to_string(c.count) + " pixels differ";
+  if (is_id(c.name)) return text;
+  const auto place = [](int x, int y) { return "(" + std::to_string(x) + ", " + std::to_string(y) + ")"; };
+  if (c.nans > 0)
+    text += ", " + std::to_string(c.nans) + " of them NaN on one side, the first at " + place(c.nan_x, c.nan_y) + ": " +
+            value_text(c.nan_a) + " against " + value_text(c.nan_b);
+  if (c.nans < c.count) text += ", max " + value_text(c.max) + " at " + place(c.x, c.y) + ", RMS " + value_text(c.rms);
+  return text;
+}
+
 Json channels_json(const golden::ImageDiff& diff) {
   Json json = Json::array();
   for (const golden::ChannelDiff& c : diff.channels) {
     json.push_back({{"channel", c.name}, {"count", c.count}});
-    if (!is_id(c.name)) json.back().update({{"max", c.max}, {"rms", c.rms}, {"x", c.x}, {"y", c.y}});
+    if (is_id(c.name)) continue;
+    // JSON has no infinity: null would be taken for "no difference".
+    const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(value_text(value)); };
+    json.back().update({{"max", number(c.max)}, {"rms", number(c.rms)}, {"x", c.x}, {"y", c.y}});
+    json.back().update({{"nans", c.nans}, {"nan_x", c.nan_x}, {"nan_y", c.nan_y}});
   }
   return json;
 }
@@ -63,19 +87,12 @@ golden::ImageDiff compare_pictures(const std::string& a, const std::string& b, c
   for (const std::string& channel : diff.only_b)
     findings.differs(head + "channel " + channel + " is in the second only");
   for (const golden::ChannelDiff& c : diff.channels) {
-    char text[160];
-    if (c.count == 0) {
-      std::snprintf(text, sizeof text, "%-10s equal", c.name.c_str());
-      if (name.empty()) findings.lines.emplace_back(text);
-      continue;
-    }
-    const auto count = static_cast<unsigned long long>(c.count);
-    if (is_id(c.name))
-      std::snprintf(text, sizeof text, "%-10s %llu pixels differ", c.name.c_str(), count);
-    else
-      std::snprintf(text, sizeof text, "%-10s %llu pixels differ, max %.6g at (%d, %d), RMS %.6g", c.name.c_str(),
-                    count, c.max, c.x, c.y, c.rms);
-    findings.differs(head + text);
+    std::string channel = c.name;
+    channel.resize(std::max<std::size_t>(channel.size(), 10), ' ');
+    if (c.count > 0)
+      findings.differs(head + channel + " " + difference_text(c));
+    else if (name.empty())
+      findings.lines.push_back(channel + " equal");
   }
   return diff;
 }
@@ -201,9 +218,12 @@ void add_golden_diff_command(CLI::App& golden, Invocation& invocation) {
   const auto options = std::make_shared<DiffOptions>();
   command->add_option("A", options->a, "A set or a picture")->required()->check(CLI::ExistingPath);
   command->add_option("B", options->b, "The other")->required()->check(CLI::ExistingPath);
-  command->add_option("--heat-map", options->heat_map, "Picture of where they differ: logarithmic, black is equal")
-      ->type_name("F.png");
-  command->add_option("--json", options->json, "Write a JSON report (- for standard output)")->type_name("F.json");
+  writes_file(
+      *command,
+      command->add_option("--heat-map", options->heat_map, "Picture of where they differ: logarithmic, black is equal"),
+      "png");
+  writes_file(*command, command->add_option("--json", options->json, "Write a JSON report (- for standard output)"),
+              "json");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return run_diff(*options, invocation.arguments); };

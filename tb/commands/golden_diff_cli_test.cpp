@@ -1,7 +1,10 @@
 // quadrille golden diff on sets and pictures.
+#include "golden/io/exr.hpp"
 #include "tb/commands/cli_fixture.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <limits>
 
 namespace {
 
@@ -82,6 +85,41 @@ TEST_F(GoldenDiffCli, Pictures) {
   const std::size_t quad = text.find("quad ");
   ASSERT_NE(quad, std::string::npos) << text;
   EXPECT_EQ(text.substr(quad, text.find('\n', quad) - quad).find("max"), std::string::npos) << text;
+}
+
+TEST_F(GoldenDiffCli, WhatIsNoFiniteNumberIsNamed) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  quadrille::golden::FrameImage image(4, 3);
+  const auto save = [&](const char* name) { quadrille::golden::save_exr(file(name).string(), image); };
+  save("plain.exr");
+  image.z[6] = nan;  // (2, 1)
+  save("nan.exr");
+  image.z[0] = 0.25f;
+  save("nan_and_small.exr");
+  image.z[6] = image.z[0] = 1;
+  image.z[11] = infinity;
+  save("infinite.exr");
+  const auto z_line = [&](const std::string& pictures) {
+    const Outcome outcome = run("golden diff " + pictures + " --json d.json");
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    const std::size_t z = outcome.out.find("Z  ");
+    return outcome.out.substr(z, outcome.out.find('\n', z) - z);
+  };
+  const auto z_json = [&] {
+    for (const json report = json::parse(read(file("d.json"))); const json& channel : report.at("channels"))
+      if (channel.at("channel") == "Z") return channel;
+    return json();
+  };
+  EXPECT_EQ(z_line("plain.exr nan.exr"),
+            "Z          1 pixel differs, 1 of them NaN on one side, the first at (2, 1): 1 against nan");
+  EXPECT_EQ(z_json().at("nans"), 1);
+  EXPECT_EQ(z_json().at("nan_x"), 2);
+  EXPECT_EQ(z_line("nan_and_small.exr plain.exr"),
+            "Z          2 pixels differ, 1 of them NaN on one side, the first at (2, 1): nan against 1, max 0.75 at "
+            "(0, 0), RMS 0.216506");
+  EXPECT_EQ(z_line("plain.exr infinite.exr"), "Z          1 pixel differs, max inf at (3, 2), RMS inf");
+  EXPECT_EQ(z_json().at("max"), "inf");  // JSON has no infinity, and null would be read as nothing
+  EXPECT_EQ(run("golden diff nan.exr nan.exr").status, 0);
 }
 
 TEST_F(GoldenDiffCli, BadInput) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace {
@@ -199,6 +200,39 @@ TEST_F(SweepCli, OneAtATimeAndTheWorstFragmentCanBePasted) {
   for (std::size_t i = 0; i < 4; ++i) error = std::max(error, std::fabs(a[i] - b[i]));
   EXPECT_NEAR(error, std::stod(rows[1].at("worst_error")), 1e-12);
   EXPECT_EQ(rows[1].at("worst_error"), rows[1].at("arithmetic_lambda_max"));
+}
+
+/// A point of an axis is the machine that --set makes, in every column: of each key the last value of the default axes.
+TEST_F(SweepCli, AKeyOnAnAxisIsTheKeyBySet) {
+  const std::string sweep = "sweep --stress any_w --count 4 --size 48x48 --cosim none ";
+  ASSERT_EQ(run(sweep + "--out axes").status, 0);
+  const Table rows = table(file("axes") / "points.csv");
+  ASSERT_GT(rows.size(), 80u);
+  std::map<std::string, std::map<std::string, std::string>> last;
+  const json axes = manifest("axes").at("axes");
+  const std::set<std::string> automatic{"quadratic_frac_bits", "sqrt_segments_log2", "recip_segments_log2",
+                                        "attribute_frac_bits"};  // follow other keys
+  for (const auto& row : rows) {
+    std::vector<std::string> moved, followed;
+    for (const json& axis : axes) {
+      const std::string key = axis.at("key");
+      if (row.at(key) != rows[0].at(key)) (automatic.contains(key) ? followed : moved).push_back(key);
+    }
+    if (moved.empty()) moved = followed;
+    if (!moved.empty()) last[moved.front()] = row;
+  }
+  EXPECT_GE(last.size(), 25u);
+  last.erase("plane_quads");  // its axis asks for plane quads, --set alone does not
+  for (const auto& [key, row] : last) {
+    ASSERT_EQ(row.at("status"), "ok") << key;
+    const std::string other = key == "significand_bits" ? "depth_bits" : "significand_bits";
+    const Outcome alone =
+        run(sweep + "--set " + key + "=" + row.at(key) + " --axis " + other + "=" + row.at(other) + " --out by_" + key);
+    ASSERT_EQ(alone.status, 0) << key << alone.err;
+    auto wanted = table(file("by_" + key) / "points.csv").at(0);
+    for (const char* of_the_table : {"row", "pareto"}) wanted[of_the_table] = row.at(of_the_table);
+    EXPECT_EQ(row, wanted) << key;
+  }
 }
 
 TEST_F(SweepCli, TargetsAreSearched) {

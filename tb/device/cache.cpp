@@ -93,11 +93,11 @@ Locked lock_for_building(const fs::path& file, const std::function<void(long)>& 
     if (std::optional<Locked> lock = Locked::open(file, O_RDWR | O_CREAT, LOCK_EX | LOCK_NB)) {
       const std::string pid = std::to_string(getpid());
       if (ftruncate(lock->descriptor(), 0) != 0 || pwrite(lock->descriptor(), pid.data(), pid.size(), 0) < 0)
-        throw EnvironmentError("cannot write " + file.string() + ": " + std::strerror(errno));
+        throw SystemError("cannot write " + file.string() + ": " + std::strerror(errno));
       return std::move(*lock);
     }
     if (errno == ESTALE) continue;  // its holder has finished
-    if (errno != EWOULDBLOCK) throw EnvironmentError("cannot write " + file.string() + ": " + std::strerror(errno));
+    if (errno != EWOULDBLOCK) throw SystemError("cannot write " + file.string() + ": " + std::strerror(errno));
     long pid = 0;
     std::ifstream(file) >> pid;
     if (waiting) waiting(pid);
@@ -205,7 +205,7 @@ std::string Fingerprint::hex() const {
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw EnvironmentError("cannot read " + file.string() + ": " + std::strerror(errno));
+  if (!in) throw SystemError("cannot read " + file.string() + ": " + std::strerror(errno));
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
@@ -213,7 +213,7 @@ void write_text(const fs::path& file, std::string_view text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw EnvironmentError("cannot write " + file.string() + ": " + std::strerror(errno));
+  if (!out) throw SystemError("cannot write " + file.string() + ": " + std::strerror(errno));
 }
 
 fs::path cache_directory() {
@@ -233,8 +233,8 @@ fs::path writable_cache_directory() {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error || access(directory.c_str(), W_OK) != 0) {
-    throw EnvironmentError("cannot write to the cache directory " + directory.string() +
-                           "; set QUADRILLE_CACHE to a directory that can be written");
+    throw SystemError("cannot write to the cache directory " + directory.string() +
+                      "; set QUADRILLE_CACHE to a directory that can be written");
   }
   return directory;
 }
@@ -247,7 +247,7 @@ std::uintmax_t cache_limit() {
   const std::string unit(end, text.data() + text.size());
   const int shift = unit == "K" ? 10 : unit == "M" ? 20 : unit == "G" ? 30 : 0;
   if (error != std::errc{} || (shift == 0 && !unit.empty()) || value > UINTMAX_MAX >> shift)
-    throw EnvironmentError(
+    throw SystemError(
         "QUADRILLE_CACHE_SIZE is a number of bytes, with K, M or G behind it or none, 0 for no limit, not '" + text +
         "'");
   return value << shift;
@@ -278,7 +278,7 @@ CacheEntry cached(const std::string& name, const std::string& description,
       work.publish(found.path_);
     } while (!in_use());
   } catch (const std::system_error& error) {
-    throw EnvironmentError("cannot write to the cache directory " + cache.string() + ": " + error.code().message());
+    throw SystemError("cannot write to the cache directory " + cache.string() + ": " + error.code().message());
   }
   trim(cache);
   return found;

@@ -21,8 +21,7 @@ namespace quadrille::tb {
 class Fingerprint {
  public:
   void add(std::string_view piece);
-  void add_file(
-      const std::filesystem::path& file);  ///< name and contents; throws EnvironmentError when it cannot be read
+  void add_file(const std::filesystem::path& file);  ///< name and contents; throws SystemError when it cannot be read
   std::string hex() const;
 
  private:
@@ -30,14 +29,14 @@ class Fingerprint {
   unsigned __int128 hash_ = (static_cast<unsigned __int128>(0x6c62272e07bb0142u) << 64) | 0x62b821756295c58du;
 };
 
-/// Contents of a file; throws EnvironmentError when it cannot be read.
+/// Contents of a file; throws SystemError when it cannot be read.
 std::string read_text(const std::filesystem::path& file);
-/// Writes a file; throws EnvironmentError when it cannot be written.
+/// Writes a file; throws SystemError when it cannot be written.
 void write_text(const std::filesystem::path& file, std::string_view text);
 
 /// The cache's directory; whether it exists is another question.
 std::filesystem::path cache_directory();
-/// The same, created if need be; throws EnvironmentError when nothing can be written to it.
+/// The same, created if need be; throws SystemError when nothing can be written to it.
 std::filesystem::path writable_cache_directory();
 
 /// An entry that is in use as long as this or a copy of it lives.
@@ -54,7 +53,7 @@ class CacheEntry {
 
 /// Entry `name`. When the cache has none, `build(directory)` fills an empty directory; afterwards the entries that were
 /// not used for longest go until the cache is within its limit. `description`, a line, says what it is. `waiting(pid)`
-/// is called every second while another process (or thread) builds it. Throws what `build` throws, and EnvironmentError
+/// is called every second while another process (or thread) builds it. Throws what `build` throws, and SystemError
 /// when the cache cannot be written.
 CacheEntry cached(const std::string& name, const std::string& description,
                   const std::function<void(const std::filesystem::path&)>& build,
@@ -78,7 +77,7 @@ std::vector<CacheItem> clear_cache();
 bool remove_cached(const std::string& name);
 
 /// $QUADRILLE_CACHE_SIZE: a number of bytes, with K, M or G of 1024, 1024² or 1024³ (default 1G); 0: no limit. Throws
-/// EnvironmentError for anything else.
+/// SystemError for anything else.
 std::uintmax_t cache_limit();
 
 }  // namespace quadrille::tb

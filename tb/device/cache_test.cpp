@@ -77,7 +77,7 @@ TEST_F(Cache, ServesWhatItHasWhenItCannotBeWritten) {
               try {
                 entry("kind-2");
                 return 8;
-              } catch (const EnvironmentError&) {
+              } catch (const SystemError&) {
                 return 7;
               }
             }),
@@ -170,15 +170,14 @@ TEST_F(Cache, Limit) {
   EXPECT_EQ(of("3K"), 3072u);
   EXPECT_EQ(of("5M"), 5u << 20);
   EXPECT_EQ(of("2G"), std::uintmax_t{2} << 30);
-  for (const char* wrong : {"much", "-1", "1.5G", "1T", "99999999999G"})
-    EXPECT_THROW(of(wrong), EnvironmentError) << wrong;
+  for (const char* wrong : {"much", "-1", "1.5G", "1T", "99999999999G"}) EXPECT_THROW(of(wrong), SystemError) << wrong;
 }
 
 TEST_F(Cache, CannotBeWritten) {
   fs::create_directories(directory);
   std::ofstream(directory / "file") << "no directory";
   const Variable below("QUADRILLE_CACHE", (directory / "file" / "cache").string());
-  EXPECT_THROW(writable_cache_directory(), EnvironmentError);
+  EXPECT_THROW(writable_cache_directory(), SystemError);
 }
 
 TEST_F(Cache, DirectoryByPrecedence) {

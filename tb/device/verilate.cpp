@@ -252,6 +252,24 @@ std::vector<fs::path> sources_of(const VerilateOptions& options) {
   return sources;
 }
 
+/// The sources as Verilator 5.006 can be told them, run in `work`: it cuts names off at a blank, so folders with one
+/// are reached through links.
+std::vector<std::string> source_arguments(const std::vector<fs::path>& sources, const fs::path& work) {
+  std::vector<std::string> arguments;
+  std::map<fs::path, std::string> links;
+  for (const fs::path& source : sources) {
+    const fs::path file = fs::absolute(source), folder = file.parent_path();
+    if (folder.string().find_first_of(" \t\n") == std::string::npos) {
+      arguments.push_back(file.string());
+      continue;
+    }
+    const auto [link, added] = links.emplace(folder, "sources" + std::to_string(links.size()));
+    if (added) fs::create_directory_symlink(folder, work / link->second);
+    arguments.push_back(link->second + "/" + file.filename().string());
+  }
+  return arguments;
+}
+
 /// Keys that differ from their defaults, and what else tells one simulator from another.
 std::string description(const Config& config, const VerilateOptions& options) {
   std::string text = summary(config) + (options.probes ? " with probes" : " without probes");
@@ -368,7 +386,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
     // 2. SystemVerilog to C++.
     const std::string top_module = options.probes ? "quadrille_probed" : "quadrille";
     std::vector<std::string> command{tools.verilator, "--cc",           "--prefix", "Vquadrille",
-                                     "--top-module",  top_module,       "--Mdir",   generated.string(),
+                                     "--top-module",  top_module,       "--Mdir",   generated.filename().string(),
                                      "-O3",           "--x-assign",     "fast",     "--x-initial",
                                      "unique",        "--output-split", "12000",    "--no-timing"};
     if (options.assertions) command.push_back("--assert");
@@ -381,9 +399,9 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
     command.insert(command.end(), options.arguments.begin(), options.arguments.end());
     if (!one_file) {
       write_text(work / "quadrille_tables_pkg.sv", tables);
-      command.push_back((work / "quadrille_tables_pkg.sv").string());
+      command.push_back("quadrille_tables_pkg.sv");
     }
-    for (const fs::path& source : sources) command.push_back(fs::absolute(source).string());
+    for (const std::string& source : source_arguments(sources, work)) command.push_back(source);
     if (run_watched(
             command, work, log, [](std::string_view) {}, [&] { notice.tick(); }) != 0)
       fail("Verilator failed", log, name);

@@ -84,6 +84,28 @@ TEST(Verilate, BrokenSourceNamesTheLog) {
     EXPECT_TRUE(entry.path().filename().string().starts_with("failed-device-")) << entry.path();
 }
 
+TEST(Verilate, BlanksInEveryPath) {
+  const Scratch scratch;
+  const fs::path folder = scratch.path / "a folder's \"name\" $x";
+  fs::create_directories(folder / "rtl");
+  const Variable cache("QUADRILLE_CACHE", (folder / "ca che").string());
+  std::ofstream(folder / "rtl" / "quadrille.sv") << "module quadrille(input clk_i, rst_i); endmodule\n";
+  VerilateOptions options;
+  options.source = folder / "rtl";
+  options.probes = false;
+  options.arguments = {"-Werror-DECLFILENAME"};  // of a name that was cut off
+  testing::internal::CaptureStderr();
+  try {
+    verilate(Config{}, options);
+  } catch (const VerilateError& error) {
+    // Verilator has read it and the compiler what it wrote: only the glue misses the machine's ports.
+    EXPECT_NE(std::string(error.what()).find("compiling the Verilated machine failed"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("device_glue.cpp"), std::string::npos) << error.what();
+  }
+  testing::internal::GetCapturedStderr();
+}
+
 TEST(Verilate, EveryKeyBecomesADefine) {
   Config config;
   config.set("significand_bits", 12);

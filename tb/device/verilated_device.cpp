@@ -20,7 +20,7 @@ class Library {
  public:
   explicit Library(const std::filesystem::path& file)
       : handle_(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
-    if (handle_ == nullptr) throw EnvironmentError("cannot load " + file.string() + ": " + dlerror());
+    if (handle_ == nullptr) throw SystemError("cannot load " + file.string() + ": " + dlerror());
   }
   ~Library() { dlclose(handle_); }
   Library(const Library&) = delete;
@@ -30,7 +30,7 @@ class Library {
     const auto function = reinterpret_cast<quadrille_device_api_function>(dlsym(handle_, "quadrille_device_api"));
     const quadrille_device_table* found = function == nullptr ? nullptr : function();
     if (found == nullptr || found->abi_version != quadrille_device_abi_version) {
-      throw EnvironmentError(file.string() + " is no device of this program; empty the cache");
+      throw SystemError(file.string() + " is no device of this program; empty the cache");
     }
     return found;
   }
@@ -60,7 +60,7 @@ struct VerilatedDevice::Impl {
   Impl& operator=(const Impl&) = delete;
 
   void check(int status) const {
-    if (status == quadrille_no_waveform) throw EnvironmentError(table->last_error(device));
+    if (status == quadrille_no_waveform) throw SystemError(table->last_error(device));
     if (status != 0) throw DeviceError(table->last_error(device));
   }
 };

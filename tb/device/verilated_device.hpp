@@ -32,7 +32,7 @@ class VerilatedDevice final : public Device {
   void clock() override;
   std::uint32_t counter(std::size_t index) override;
 
-  /// Writes an FST waveform from now on; needs VerilateOptions::trace. Throws EnvironmentError when it cannot be
+  /// Writes an FST waveform from now on; needs VerilateOptions::trace. Throws SystemError when it cannot be
   /// written, as settle(), clock() and close_trace() do then; only after close_trace() is the file whole.
   void open_trace(const std::filesystem::path& file);
   void close_trace();

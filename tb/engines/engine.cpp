@@ -105,12 +105,21 @@ void check_quad_count(std::size_t quads, const Config& config) {
                      std::to_string(config.quad_id_bits) + " can number; use --set quad_id_bits=32");
 }
 
-void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, EngineSample& sample) {
+DrawState state_of_pass(DrawState state, const Pass& pass, bool first) {
+  state.attributes = static_cast<int>(pass.columns.size());
+  if (!first && (state.skip & skip_plane) != 0) {
+    state.depth = false;
+    state.skip &= ~std::uint32_t{skip_hidden};
+  }
+  return state;
+}
+
+void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, EngineSample& sample, bool first) {
   sample.x = fragment.x;
   sample.y = fragment.y;
   sample.front = fragment.front;
   sample.flags |= fragment.flags;
-  sample.z = std::ldexp(static_cast<double>(fragment.depth), -config.depth_bits);
+  if (first) sample.z = std::ldexp(static_cast<double>(fragment.depth), -config.depth_bits);
   for (std::size_t slot = 0; slot < pass.columns.size(); ++slot) {
     const double value = std::ldexp(static_cast<double>(fragment.attribute[slot]), -config.attribute_frac());
     const auto column = static_cast<std::size_t>(pass.columns[slot]);

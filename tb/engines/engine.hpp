@@ -87,8 +87,14 @@ SnappedQuad snap_as(const WindowQuad& quad, std::uint32_t id, const Config& conf
 /// Throws UsageError when `quads` positions do not fit the machine's quad ids.
 void check_quad_count(std::size_t quads, const Config& config);
 
-/// A machine's fragment as numbers; adds the columns of one pass to `sample`.
-void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, EngineSample& sample);
+/// The draw state of a pass, `first` or another. Of plane quads the last bits of depth depend on whether a pass's
+/// columns are plane too (skip_plane). Then the first pass alone decides by depth which fragments there are: the others
+/// give these fragments and, where the first has discarded or hidden some, more.
+DrawState state_of_pass(DrawState state, const Pass& pass, bool first);
+
+/// A machine's fragment as numbers; adds the columns of one pass to `sample`, and depth if it is the first.
+void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, EngineSample& sample,
+                  bool first = true);
 
 /// The configuration that snaps `attributes` attributes whatever the machine's slots are; vertices and weights are the
 /// same.

@@ -94,6 +94,34 @@ TEST(Passes, TheModelMergesThemIntoTheSameSamples) {
   }
 }
 
+/// A ramp of depth through a limit that lies exactly at a column of pixels. The attributes are plane and the weights
+/// are not, so their passes have other last bits of depth there.
+TEST(Passes, TheFirstDecidesByDepthOfPlaneQuads) {
+  WindowQuad quad;
+  quad.vertex = {{{10, 111, 0.25, 1}, {111, 111, 0.75, 1}, {111, 10, 0.75, 1}, {10, 10, 0.25, 1}}};
+  quad.attribute = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  for (const bool hidden : {false, true}) {
+    EngineSettings settings;
+    settings.config.set("plane_quads", 1);
+    settings.config.set("hierarchical_z_bits", 12);
+    settings.state.width = settings.state.height = settings.state.scissor_x1 = settings.state.scissor_y1 = 128;
+    settings.state.zfar = 0.5;
+    settings.state.skip = skip_default | skip_plane | (hidden ? std::uint32_t{skip_hidden} : 0);
+    std::size_t drawn = 0;
+    make_engine(settings)->draw({&quad, 1}, 2, true, [&](std::span<const EngineSample> samples) {
+      for (const EngineSample& s : samples) {
+        EXPECT_LE(s.z, 0.5);
+        EXPECT_GE(s.z, 0.25);
+        EXPECT_NEAR(s.lambda[1] + s.lambda[2], s.attribute[0], 1e-4);
+        EXPECT_NEAR(s.z, 0.25 + 0.5 * s.attribute[0], 1e-4);
+      }
+      drawn += samples.size();
+    });
+    EXPECT_GE(drawn, 50 * 101u);
+    EXPECT_LE(drawn, 51 * 101u);
+  }
+}
+
 /// Layers from front to back in several units of work: what is hidden is the same with any number of threads.
 TEST(Passes, ThreadsHideTheSame) {
   std::vector<WindowQuad> quads;

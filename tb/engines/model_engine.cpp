@@ -35,7 +35,7 @@ class ModelEngine final : public Engine {
                          }
                        }
                        if (models.empty())
-                         for (const Pass& pass : passes) models.emplace_back(settings_.config, state_of(pass));
+                         for (const Pass& pass : passes) models.emplace_back(settings_.config, state_of(pass, passes));
                        const std::size_t first = unit * quads_per_unit,
                                          last = std::min(quads.size(), first + quads_per_unit);
                        std::vector<EngineSample> samples;
@@ -53,17 +53,17 @@ class ModelEngine final : public Engine {
  private:
   using Models = std::vector<UntimedModel>;  ///< one per pass
 
-  DrawState state_of(const Pass& pass) const {
-    DrawState state = settings_.state;
-    state.attributes = static_cast<int>(pass.columns.size());
-    return state;
+  DrawState state_of(const Pass& pass, const std::vector<Pass>& passes) const {
+    return state_of_pass(settings_.state, pass, &pass == &passes.front());
   }
 
   void draw_quad(const WindowQuad& quad, std::uint32_t index, const std::vector<Pass>& passes, Models& models,
                  std::vector<EngineSample>& samples) const {
     const std::size_t start = samples.size();
+    const bool plane = (settings_.state.skip & skip_plane) != 0;
     for (std::size_t p = 0; p < passes.size(); ++p) {
-      const SnappedQuad snapped = snap_as(pass_quad(quad, passes[p]), index, settings_.config, state_of(passes[p]));
+      const SnappedQuad snapped =
+          snap_as(pass_quad(quad, passes[p]), index, settings_.config, state_of(passes[p], passes));
       std::size_t next = start;
       models[p].draw_arrays(snapped, [&](const FragmentArrays& fragments) {
         for (std::size_t n = 0; n < fragments.size; ++n) {
@@ -73,9 +73,10 @@ class ModelEngine final : public Engine {
             sample.index = index;
             sample.quad = quad.id;
           } else if (next >= samples.size() || samples[next].x != fragment.x || samples[next].y != fragment.y) {
+            if (plane) continue;  // the first pass has left it out
             throw std::logic_error("model: passes over one quad have different fragments");
           }
-          read_columns(fragment, passes[p], settings_.config, samples[next++]);
+          read_columns(fragment, passes[p], settings_.config, samples[next++], p == 0);
         }
       });
       if (next != samples.size()) throw std::logic_error("model: passes over one quad have different fragments");

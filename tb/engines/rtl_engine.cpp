@@ -44,8 +44,8 @@ class RtlEngine final : public Engine {
     for (const Pass& pass : passes) {
       tb::LockstepOptions options;
       options.config = settings_.config;
-      options.state = settings_.state;
-      options.state.attributes = static_cast<int>(pass.columns.size());
+      const bool first_pass = &pass == &passes.front(), plane = (settings_.state.skip & skip_plane) != 0;
+      options.state = state_of_pass(settings_.state, pass, first_pass);
       options.seed = settings_.seed;
       options.stall = settings_.stall;
       options.gap = settings_.gap;
@@ -54,7 +54,6 @@ class RtlEngine final : public Engine {
         snapped.push_back(
             snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), options.config, options.state));
       std::size_t next = 0;
-      const bool first_pass = &pass == &passes.front();
       tb::run_rtl_alone(simulator_, snapped, options, [&](const Fragment& fragment) {
         if (first_pass) {
           EngineSample& sample = samples.emplace_back();
@@ -62,9 +61,10 @@ class RtlEngine final : public Engine {
           sample.quad = quads[fragment.quad].id;
         } else if (next >= samples.size() || samples[next].index != fragment.quad || samples[next].x != fragment.x ||
                    samples[next].y != fragment.y) {
+          if (plane) return;  // the first pass has left it out
           throw std::logic_error("rtl: passes over the same quads have different fragments");
         }
-        read_columns(fragment, pass, settings_.config, samples[next++]);
+        read_columns(fragment, pass, settings_.config, samples[next++], first_pass);
       });
       if (next != samples.size()) throw std::logic_error("rtl: passes over the same quads have different fragments");
     }

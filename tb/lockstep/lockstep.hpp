@@ -68,9 +68,9 @@ struct LockstepReport {
 };
 
 /// Verilates what `options` ask for and runs both sides. The sink (may be empty) gets the RTL's fragments in order.
-/// Throws EnvironmentError (no tool, no room for the waveform), VerilateError, DeviceError (widths differ),
-/// WatchdogError (when nothing differed before) and std::invalid_argument. An assertion of the RTL that fails counts as
-/// a mismatch and ends the run.
+/// Throws EnvironmentError (no tool), SystemError (no room for the waveform), VerilateError, DeviceError (widths
+/// differ), WatchdogError (when nothing differed before) and std::invalid_argument. An assertion of the RTL that fails
+/// counts as a mismatch and ends the run.
 LockstepReport run_lockstep(std::span<const SnappedQuad> quads, const LockstepOptions& options,
                             const FragmentSink& sink = {});
 

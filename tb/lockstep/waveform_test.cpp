@@ -38,7 +38,7 @@ TEST(Waveform, HasTheSignalsOfTheGtkwFile) {
 
   std::filesystem::remove(file);
   options.trace = "/nonexistent/directory/wave.fst";
-  EXPECT_THROW(run_lockstep(quads, options), EnvironmentError);
+  EXPECT_THROW(run_lockstep(quads, options), SystemError);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "model/support/prng.hpp"
 #include "tb/mutants/checks.hpp"
 #include "tb/mutants/model_tests.hpp"
+#include "tb/support/environment_error.hpp"
 
 #include <poll.h>
 #include <sys/wait.h>
@@ -276,8 +277,11 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return quadrille::tb::run(argc, argv);
-  } catch (const std::exception& error) {
+  } catch (const quadrille::tb::EnvironmentError& error) {
     std::fprintf(stderr, "mutate: %s\n", error.what());
     return 3;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "mutate: %s\n", error.what());
+    return 2;
   }
 }

@@ -181,6 +181,14 @@ void remark_on_texture(const golden::Mesh& mesh, DrawInput& input) {
                  " puts the whole picture on each";
 }
 
+/// What the reader noted; the first of many.
+void remark_on_reading(const golden::Mesh& mesh, DrawInput& input) {
+  if (mesh.notes.empty()) return;
+  if (!input.remark.empty()) input.remark += "; ";
+  input.remark += mesh.notes.front();
+  if (mesh.notes.size() > 1) input.remark += " (and " + std::to_string(mesh.notes.size() - 1) + " more of these)";
+}
+
 void load_scene(const InputOptions& options, const std::string& shade, int width, int height, DrawInput& input) {
   std::vector<std::string> names = scene_names();
   std::ranges::copy(workload_names(), std::back_inserter(names));
@@ -202,7 +210,7 @@ void load_scene(const InputOptions& options, const std::string& shade, int width
 
 void load_mesh(const InputOptions& options, const std::string& shade, int width, int height, DrawInput& input) {
   const golden::Mesh mesh = golden::load_obj(options.mesh);
-  input.name = std::filesystem::path(options.mesh).filename().string();
+  input.name = golden::readable(std::filesystem::path(options.mesh).filename().string());
   input.title = "mesh " + input.name;
   std::vector<std::string> arguments{"--mesh", options.mesh};
   for (const auto& [name, value] :
@@ -218,12 +226,13 @@ void load_mesh(const InputOptions& options, const std::string& shade, int width,
     golden::write_file(options.save_camera, golden::camera_text(camera), golden::AtomicFile::Dash::refused);
   project(mesh, camera, width, height, options.strict, options.mesh, input);
   remark_on_texture(mesh, input);
+  remark_on_reading(mesh, input);
   if (input.layout == AttributeLayout::position) fit_positions(input);
 }
 
 void load_quads_file(const InputOptions& options, const std::string& shade, DrawInput& input) {
   input.quads = golden::load_quads(options.quads);
-  input.name = std::filesystem::path(options.quads).filename().string();
+  input.name = golden::readable(std::filesystem::path(options.quads).filename().string());
   input.title = "quads " + input.name;
   input.option = golden::command_line(std::array<std::string, 2>{"--quads", options.quads});
   input.quads_file = options.quads;

@@ -1,9 +1,11 @@
 #include "tb/options/options.hpp"
 
 #include "golden/io/config_file.hpp"
+#include "model/config_text.hpp"
 #include "tb/device/build_notice.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/options/command_line.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 
@@ -135,7 +137,7 @@ void CommonOptions::add_to(CLI::App& app, bool draws) {
         ->capture_default_str()
         ->group(group);
   }
-  app.add_option("--json", json, "Write a JSON report (- for standard output)")->type_name("F.json")->group(group);
+  writes_file(app, app.add_option("--json", json, "Write a JSON report (- for standard output)"), "json")->group(group);
   auto* be_quiet = app.add_flag("--quiet", quiet, "Print nothing but errors")
                        ->each([](const std::string&) { tb::BuildNotice::silence(); })
                        ->group(group);
@@ -156,8 +158,10 @@ Config CommonOptions::config() const {
       result.set(key, -1);
     else if (key == "notch_exact" && (value == "true" || value == "false"))
       result.set(key, value == "true" ? 1 : 0);
+    else if (const std::optional<int> number = toml_integer(value))
+      result.set(key, *number);
     else
-      result.set(key, parse<int>(value, "--set " + key));
+      throw UsageError("--set " + key + ": \"" + value + "\" is not a whole number in range, as TOML writes it");
     if (const std::string note = Config::note(key); !note.empty()) notes.push_back(note);
   }
   result.validate();
@@ -173,7 +177,9 @@ std::pair<int, int> CommonOptions::viewport(const Config& config) const {
   const auto width = parse<int>(std::string_view(size).substr(0, cross), "--size " + size);
   const auto height = parse<int>(std::string_view(size).substr(cross + 1), "--size " + size);
   const int limit = 1 << config.viewport_bits;
-  if (width < 1 || height < 1 || width > limit || height > limit)
+  if (width < 1 || height < 1)
+    throw UsageError("--size " + size + ": width and height must be at least 1, such as --size 640x480");
+  if (width > limit || height > limit)
     throw UsageError("--size " + size + ": width and height must be from 1 to " + std::to_string(limit) +
                      " (viewport_bits = " + std::to_string(config.viewport_bits) + ")" +
                      larger_viewport(config, std::max(width, height)));
@@ -299,8 +305,10 @@ void InputOptions::add_to(CLI::App& app, bool any) {
                  "axis with a sign, or X,Y,Z")
       ->type_name("AXIS")
       ->group(group);
-  app.add_option("--save-camera", save_camera, "Write the camera of --mesh; --camera reads it and draws the same")
-      ->type_name("F.json")
+  writes_file(
+      app,
+      app.add_option("--save-camera", save_camera, "Write the camera of --mesh; --camera reads it and draws the same"),
+      "json")
       ->group(group);
   if (any) {
     app.add_option("--quads", quads, "Quads in homogeneous window coordinates")->type_name("F.quads")->group(group);

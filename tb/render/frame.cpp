@@ -59,14 +59,28 @@ Vec3 weight_colour(const std::array<double, 4>& lambda) {
   return colour;
 }
 
+/// A colour that an eye tells from what is not drawn and from what is undefined.
+bool stands_out(const Vec3& colour) {
+  constexpr double least = 0.3;
+  const auto far_from = [&](const Vec3& other) {
+    return std::max({std::fabs(colour[0] - other[0]), std::fabs(colour[1] - other[1]),
+                     std::fabs(colour[2] - other[2])}) >= least;
+  };
+  return far_from(background) && far_from(undefined_colour);
+}
+
 /// One of many well-separated colours.
 Vec3 id_colour(std::uint32_t id) {
   std::uint32_t h = id * 0x9e3779b1u;
-  h ^= h >> 15;
-  h *= 0x85ebca6bu;
-  h ^= h >> 13;
-  const auto part = [&](int shift) { return 0.25 + 0.7 * static_cast<double>((h >> shift) & 0xff) / 255; };
-  return {part(0), part(8), part(16)};
+  for (;;) {
+    h ^= h >> 15;
+    h *= 0x85ebca6bu;
+    h ^= h >> 13;
+    const auto part = [&](int shift) { return 0.25 + 0.7 * static_cast<double>((h >> shift) & 0xff) / 255; };
+    const Vec3 colour{part(0), part(8), part(16)};
+    if (stands_out(colour)) return colour;
+    h += 0x9e3779b1u;
+  }
 }
 
 std::size_t slot(int first, int offset) { return static_cast<std::size_t>(first + offset); }
@@ -195,7 +209,8 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
       case 3:
         return weight_colour(s.lambda);
       case 4: {
-        const double grey = farthest > nearest ? 0.95 - 0.8 * (s.z - nearest) / (farthest - nearest) : 0.95;
+        // Down to 0.4: darker ones would pass through the background's grey.
+        const double grey = farthest > nearest ? 0.95 - 0.55 * (s.z - nearest) / (farthest - nearest) : 0.95;
         return {grey, grey, grey};
       }
       case 5:

@@ -1,7 +1,10 @@
-// The depth test of a frame.
+// The depth test of a frame, and colours that are told apart.
 #include "tb/render/frame.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
 
 namespace quadrille::cli {
 namespace {
@@ -63,6 +66,45 @@ TEST(FrameBuffer, AmendsTheSampleOfTheSameQuadAlone) {
   fragment.x = 4;
   frame.amend(fragment, 7, pass, config);
   EXPECT_FALSE(frame.drawn(4, 2));
+}
+
+/// The largest difference of a channel between two pixels of a picture, in steps of 8 bits.
+int contrast(const golden::Image8& picture, std::size_t a, std::size_t b) {
+  int largest = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    largest = std::max(largest, std::abs(picture.rgba[4 * a + c] - picture.rgba[4 * b + c]));
+  return largest;
+}
+
+TEST(ShadeFrame, EveryQuadStandsOutFromWhatIsNotDrawn) {
+  constexpr int side = 300;
+  FrameBuffer frame(side, side, false);
+  for (std::uint32_t quad = 0; quad + 2 < side * side; ++quad) {  // one pixel each; then an undefined one, then none
+    EngineSample s = sample_of(quad, 0, quad + 3 == side * side);
+    s.x = static_cast<std::uint16_t>(quad % side), s.y = static_cast<std::uint16_t>(quad / side);
+    frame.add(std::span(&s, 1));
+  }
+  ShadeSettings settings;
+  settings.shade = "quad";
+  const golden::Image8 picture = frame_picture(shade_frame(frame, settings));
+  const std::size_t nothing = side * side - 1, undefined = side * side - 3;
+  for (std::size_t pixel = 0; pixel < undefined; ++pixel) {
+    ASSERT_GE(contrast(picture, pixel, nothing), 64) << pixel;
+    ASSERT_GE(contrast(picture, pixel, undefined), 64) << pixel;
+  }
+}
+
+TEST(ShadeFrame, DepthStandsOutFromWhatIsNotDrawn) {
+  FrameBuffer frame(102, 1, true);
+  for (int x = 0; x <= 100; ++x) {
+    EngineSample s = sample_of(0, 0.009 * x);
+    s.x = static_cast<std::uint16_t>(x), s.y = 0;
+    frame.add(std::span(&s, 1));
+  }
+  ShadeSettings settings;
+  settings.shade = "depth";
+  const golden::Image8 picture = frame_picture(shade_frame(frame, settings));
+  for (std::size_t pixel = 0; pixel <= 100; ++pixel) ASSERT_GE(contrast(picture, pixel, 101), 32) << pixel;
 }
 
 }  // namespace

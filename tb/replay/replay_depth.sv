@@ -81,7 +81,7 @@ module replay_depth (
         .zfar_i(zfar),
         .accept_i(1'b0),
         .first_i(1'b0),
-        .w_i('0),
+        .w_i({quadrille_pkg::W_BITS{1'b0}}),
         .low_i(low),
         .high_i(high),
         .behind_o(unused_reject[2*g]),

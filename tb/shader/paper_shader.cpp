@@ -87,7 +87,7 @@ struct PaperShader::Impl {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (state.width > largest || state.height > largest)
-      throw EnvironmentError("the engine shader draws at most " + std::to_string(largest) + " pixels a side here");
+      throw SystemError("the engine shader draws at most " + std::to_string(largest) + " pixels a side here");
     glGenFramebuffers(1, &frame);
     glBindFramebuffer(GL_FRAMEBUFFER, frame);
     textures.resize(static_cast<std::size_t>(targets.all));
@@ -136,7 +136,7 @@ struct PaperShader::Impl {
 
   static void no_error(const char* what) {
     if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-      throw EnvironmentError(std::string("OpenGL: error ") + std::to_string(error) + " in " + what);
+      throw SystemError(std::string("OpenGL: error ") + std::to_string(error) + " in " + what);
   }
 
   /// Component `component` of target `target` at pixel `i` of what read() has fetched.

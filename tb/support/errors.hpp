@@ -8,8 +8,8 @@ namespace quadrille::cli {
 enum ExitStatus : int {
   exit_ok = 0,           ///< done and within bounds
   exit_mismatch = 1,     ///< two bodies differ or a bound is exceeded
-  exit_usage = 2,        ///< wrong usage or input
-  exit_environment = 3,  ///< a missing tool
+  exit_usage = 2,        ///< wrong usage or input, or the system refuses a file or memory
+  exit_environment = 3,  ///< a missing tool, and nothing else
 };
 
 /// The command line asks for something that does not exist or does not fit together.

@@ -58,7 +58,8 @@ struct Spawn {
       error = posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, arguments.data(), environ);
       if (error == 0 && golden::interrupts_watched()) golden::remember_child(pid);
     });
-    if (error != 0) throw EnvironmentError("cannot start " + argv.front() + ": " + std::strerror(error));
+    if (error == ENOENT) throw EnvironmentError("cannot start " + argv.front() + ": " + std::strerror(error));
+    if (error != 0) throw SystemError("cannot start " + argv.front() + ": " + std::strerror(error));
     return pid;
   }
 };
@@ -82,8 +83,7 @@ int wait_for(pid_t pid) {
 class Pipe {
  public:
   Pipe() {
-    if (pipe2(ends_, O_CLOEXEC) != 0)
-      throw EnvironmentError(std::string("cannot open a pipe: ") + std::strerror(errno));
+    if (pipe2(ends_, O_CLOEXEC) != 0) throw SystemError(std::string("cannot open a pipe: ") + std::strerror(errno));
   }
   ~Pipe() {
     close(ends_[0]);

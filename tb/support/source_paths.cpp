@@ -38,7 +38,7 @@ std::vector<fs::path> rtl_sources(const fs::path& directory) {
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
     if (entry.path().extension() == ".sv") files.push_back(entry.path());
   }
-  if (files.empty()) throw EnvironmentError("no SystemVerilog files in " + directory.string());
+  if (files.empty()) throw SystemError("no SystemVerilog files in " + directory.string());
   const auto is_package = [](const fs::path& p) { return p.stem().string().ends_with("_pkg"); };
   std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
     if (is_package(a) != is_package(b)) return is_package(a);

@@ -15,7 +15,7 @@ std::filesystem::path rtl_directory();
 std::filesystem::path glue_directory();
 /// Directory with the scripts that the program calls (compare_plot.py).
 std::filesystem::path scripts_directory();
-/// Every *.sv of a directory: packages first, then the rest by name. Throws EnvironmentError when there is none.
+/// Every *.sv of a directory: packages first, then the rest by name. Throws SystemError when there is none.
 std::vector<std::filesystem::path> rtl_sources(const std::filesystem::path& directory);
 
 }  // namespace quadrille::tb

@@ -1,8 +1,11 @@
 #include "tb/sweep/grid.hpp"
 
+#include "model/config_text.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -24,6 +27,7 @@ std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"
 
 /// All of `text` as a whole number; too large a magnitude becomes the largest, which is outside every range.
 std::int64_t whole_number(std::string_view text) {
+  if (const std::optional<int> value = toml_integer(text)) return *value;  // as --set and files take it
   std::int64_t value = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);

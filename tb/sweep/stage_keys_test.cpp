@@ -111,7 +111,7 @@ TEST_P(EveryKey, IsOnAnAxisWhatItIsAlone) {
                                    {"attribute_frac_bits", 14},
                                    {"sqrt_segments_log2", 4},
                                    {"recip_segments_log2", 4},
-                                   {"quadratic_frac_bits", 20},
+                                   {"quadratic_frac_bits", 8},
                                    {"dot_units", 4}})
     other.set(key, value);
   std::vector<Point> points = points_around("default", Config());

@@ -26,7 +26,7 @@ std::string read_commands(const Config& config, const fs::path& directory) {
   std::ofstream out(tables);
   out << tables_package(config);
   out.close();
-  if (!out) throw EnvironmentError("cannot write " + tables.string());
+  if (!out) throw SystemError("cannot write " + tables.string());
   std::string command = "read_verilog -sv -DSYNTHESIS=1";
   for (const std::string& define : key_defines(config)) command += " " + define;
   command += " \"" + tables.string() + "\"";
@@ -183,7 +183,7 @@ HardwareSize synthesise_for(const Config& config, SynthesisTarget target) {
   };
   std::optional<HardwareSize> size = stored();
   if (!size && remove_cached(name)) size = stored();  // a damaged entry is made again
-  if (!size) throw EnvironmentError("entry " + name + " of the cache is damaged and in use");
+  if (!size) throw SystemError("entry " + name + " of the cache is damaged and in use");
   return *size;
 }
 

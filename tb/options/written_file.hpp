@@ -1,0 +1,18 @@
+// Options that name a file to be written in a known format.
+#pragma once
+
+#include "tb/options/command_line.hpp"
+
+#include <string>
+
+namespace quadrille::cli {
+
+/// Makes `option` of `command` one that writes a file in the format of `ending` (exr, png, …), which becomes its type
+/// in the help. A name that ends like another known format is refused with what would be right. Names without an
+/// ending, with one that no format here has, and "-" are left alone.
+CLI::Option* writes_file(const CLI::App& command, CLI::Option* option, const std::string& ending);
+
+/// The same for a folder that is filled: a name like a file's is refused unless the folder is there already.
+CLI::Option* writes_folder(CLI::Option* option);
+
+}  // namespace quadrille::cli
