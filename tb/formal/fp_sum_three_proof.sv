@@ -1,6 +1,7 @@
-// fp_sum of three terms is fp_sum of four of which one is zero, whichever: the rule of rtl/README.md section 2 says nothing of how many terms there are.
+// fp_sum of three terms is fp_sum of four of which one is zero: the rule of rtl/README.md section 2 says nothing of how many terms there are.
 // Assumed: ranks and terms are those of fp_term (proof fp_products), of exponents that stay in EXP_BITS.
 module fp_sum_three_proof #(
+    parameter int ZERO = 3,  // the one of the four that is zero
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
     localparam int TERM = quadrille_pkg::TERM_BITS,
@@ -12,7 +13,6 @@ module fp_sum_three_proof #(
     input logic [3*TERM-1:0] term_i,
     input logic zero_neg_i
 );
-  (* anyconst *) logic [1:0] which;  // the one of the four that is zero
   logic [3*RANK-1:0] rank_q;
   logic [4*RANK-1:0] rank_four;
   logic [3:0] neg_four;
@@ -31,7 +31,7 @@ module fp_sum_three_proof #(
       assume ((rank_q[k*RANK+:RANK] == '0) == (term_i[k*TERM+:TERM] == '0));
       assume (rank_q[k*RANK+:RANK] == '0 || (rank_q[k*RANK+RANK-1] && term_i[k*TERM+TERM-2+:2] != 2'b00));
       for (int at = 0; at < 4; at++) begin
-        if (at == k + ((2'(k) >= which) ? 1 : 0)) begin
+        if (at == k + ((k >= ZERO) ? 1 : 0)) begin
           rank_four[at*RANK+:RANK] = rank_i[k*RANK+:RANK];
           neg_four[at] = neg_i[k];
           term_four[at*TERM+:TERM] = term_i[k*TERM+:TERM];

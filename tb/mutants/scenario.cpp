@@ -233,7 +233,7 @@ void halve(SnappedQuad& quad) {
     v.x /= 2;
     v.y /= 2;
     v.w /= 2;
-    v.z.exp -= 1;
+    if (v.z.sig != 0) v.z.exp -= 1;
   }
 }
 
@@ -522,29 +522,29 @@ Scenario bases() {
   LockstepOptions o = options(exact(), 48);
   o.state.znear = 0.25;
   o.state.zfar = 0.75;
-  Scenario scenario{"bases", o, drawn(o, 18, 300, [&](golden::Prng& random) {
-                      static constexpr double w[]{1, 1, 1, 1, 1, 1, 0.5, -1};
-                      WindowQuad quad = on_grid(random, 9, w);
-                      const std::uint64_t depths = random.below(6);
-                      const double one = depths == 1 ? 0.25 : depths == 2 ? 0.75 : random.uniform(-0.2, 1.2);
-                      for (WindowVertex& v : quad.vertex)
-                        v.z = (depths < 4 ? one : random.uniform(depths == 4 ? -2 : 0, depths == 4 ? 3 : 1)) * v.w;
-                      const double end = std::ldexp(1, o.config.attribute_int_bits),
-                                   code = std::ldexp(1, -o.config.attribute_frac());
-                      for (int j = 0; j < o.config.attribute_slots; ++j) {
-                        const std::uint64_t kind = random.below(5);
-                        const double any = random.uniform(-7, 7), side = random.chance(0.5) ? 1 : -1,
-                                     near_end = code * random.uniform(0.01, 1.3);
-                        for (std::size_t i = 0; i < 4; ++i) {
-                          const double at = kind == 0   ? any
-                                            : kind == 1 ? side * (end - (i == 0 ? near_end : code * 0.01))
-                                            : kind == 2 ? (random.chance(0.5) ? 1 : -1) * random.uniform(0.8, 0.999) * end
-                                                        : random.uniform(-7, 7);
-                          quad.attribute[i].push_back(at);
-                        }
-                      }
-                      return quad;
-                    })};
+  Scenario scenario{
+      "bases", o, drawn(o, 18, 300, [&](golden::Prng& random) {
+        static constexpr double w[]{1, 1, 1, 1, 1, 1, 0.5, -1};
+        WindowQuad quad = on_grid(random, 9, w);
+        const std::uint64_t depths = random.below(6);
+        const double one = depths == 1 ? 0.25 : depths == 2 ? 0.75 : random.uniform(-0.2, 1.2);
+        for (WindowVertex& v : quad.vertex)
+          v.z = (depths < 4 ? one : random.uniform(depths == 4 ? -2 : 0, depths == 4 ? 3 : 1)) * v.w;
+        const double end = std::ldexp(1, o.config.attribute_int_bits), code = std::ldexp(1, -o.config.attribute_frac());
+        for (int j = 0; j < o.config.attribute_slots; ++j) {
+          const std::uint64_t kind = random.below(5);
+          const double any = random.uniform(-7, 7), side = random.chance(0.5) ? 1 : -1,
+                       near_end = code * random.uniform(0.01, 1.3);
+          for (std::size_t i = 0; i < 4; ++i) {
+            const double at = kind == 0   ? any
+                              : kind == 1 ? side * (end - (i == 0 ? near_end : code * 0.01))
+                              : kind == 2 ? (random.chance(0.5) ? 1 : -1) * random.uniform(0.8, 0.999) * end
+                                          : random.uniform(-7, 7);
+            quad.attribute[i].push_back(at);
+          }
+        }
+        return quad;
+      })};
   golden::Prng random(19);
   const int one = 1 << o.config.depth_bits;
   for (SnappedQuad& quad : scenario.quads) {
@@ -604,6 +604,10 @@ Scenario sprites() {
     SnappedQuad snapped = snap_quad(quad, o.config, o.state);
     SnappedVertex& v = snapped.vertex[random.below(4)];
     const int far = random.chance(0.5) ? 2 << o.config.frac() : 1;
+    const auto value = [&](PortNumber& number) -> PortNumber& {  // constant ones are zeros: then the least that differs
+      if (number.sig == 0) number = {false, -20, std::uint32_t{1} << (o.config.significand_bits - 1)};
+      return number;
+    };
     switch (random.below(12)) {
       case 0:
         v.x += far;
@@ -612,16 +616,16 @@ Scenario sprites() {
         v.y -= far;
         break;
       case 2:
-        v.z.sig ^= 1;
+        value(v.z).sig ^= 1;
         break;
       case 3:
-        v.attribute[random.below(2)].sig ^= 1;
+        value(v.attribute[random.below(2)]).sig ^= 1;
         break;
       case 4:
-        v.attribute[random.below(2)].neg = true;
+        value(v.attribute[random.below(2)]).neg = true;
         break;
       case 5:
-        v.attribute[random.below(2)].exp -= 1;
+        value(v.attribute[random.below(2)]).exp -= 1;
         break;
       default:
         break;
