@@ -16,6 +16,7 @@
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/options.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/render/frame.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -543,7 +544,7 @@ class CosimRun {
     json["error"] = {{"arithmetic", error_json(c.arithmetic)}, {"snapping", error_json(c.snapping)}};
     json["bound"] = {{"lambda_max", weight_bound(config_)},
                      {"applies", bound_applies()},
-                     {"held", bound_applies() && c.within_bound()},
+                     {"held", bound_applies() && c.compared > 0 && c.within_bound()},
                      {"exempt_fragments", c.bound_exempt}};
     if (c.worst.ratio >= 0) {
       json["worst"] = {
@@ -609,6 +610,13 @@ class CosimRun {
     if (head)
       std::fprintf(out, "%-22s %7s %10s %11s %5s  %-9s %-9s %s\n", "input", "quads", "fragments", "cycles", "px/ck",
                    "max error", "of bound", "");
+    if (r.check.compared == 0) {
+      std::fprintf(out, "%-22s %7llu %10llu %11llu no fragments compared %11s %s\n", r.name.c_str(),
+                   static_cast<unsigned long long>(r.quads), static_cast<unsigned long long>(r.fragments),
+                   static_cast<unsigned long long>(r.cycles_rtl), "", r.ok() ? "ok" : "FAILED");
+      std::fflush(out);
+      return;
+    }
     std::fprintf(out, "%-22s %7llu %10llu %11llu %5.2f  %-9.2e %8.1f%% %s\n", r.name.c_str(),
                  static_cast<unsigned long long>(r.quads), static_cast<unsigned long long>(r.fragments),
                  static_cast<unsigned long long>(r.cycles_rtl),
@@ -644,18 +652,40 @@ class CosimRun {
         "                 {mismatches} bit mismatches, {cycle_mismatches} cycle mismatches; {compared_bits} bits "
         "compared\n",
         json);
-    std::fprintf(out, "  coverage       %llu fragments against the truth, ",
-                 static_cast<unsigned long long>(c.compared));
-    print("{reference_mismatches} differ\n", json);
-    print("  functions      {function_arguments} arguments, {function_beyond} beyond their limit; ", model_json(model));
-    std::fprintf(out, "directed draws %llu fragments, %llu faults\n",
+    if (c.compared == 0)
+      std::fputs("  coverage       no fragments compared", out);
+    else
+      std::fprintf(out, "  coverage       %llu fragments against the truth",
+                   static_cast<unsigned long long>(c.compared));
+    print(", {reference_mismatches} differ\n", json);
+    if (c.tolerated_depth + c.tolerated_visible > 0)
+      print(
+          "                 tolerated, either being right: {tolerated_depth} within a depth's bound of a limit that "
+          "cuts the quad,\n"
+          "                 {tolerated_visible} with the eye in the hull and a sum of M W within its bound of 0\n",
+          json.at("counts"));
+    print("  functions      {function_arguments} directed arguments, {function_beyond} beyond their limit; ",
+          model_json(model));
+    std::fprintf(out, "directed draws %llu fragments, %llu faults (of the configuration, whatever the input)\n",
                  static_cast<unsigned long long>(model.directed.compared),
                  static_cast<unsigned long long>(model.directed.faults()));
-    std::fprintf(out, "  throughput     %.3f covered pixels per clock\n",
-                 ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl)));
+    if (c.compared > 0)
+      std::fprintf(out, "  throughput     %.3f covered pixels per clock\n",
+                   ratio(static_cast<double>(r.pixels), static_cast<double>(r.cycles_rtl)));
     print_counters(
         out, r.counters,
         config_.performance_counters != 0 ? "the RTL's are the same" : "of the model (performance_counters=0)");
+    if (c.compared > 0) print_errors(out, r, json);
+    const double rate = ratio(static_cast<double>(r.pass_cycles), r.loop_seconds);
+    const double alone = ratio(static_cast<double>(r.alone_cycles), r.alone_seconds);
+    std::fprintf(out, "\n  speed          %.0f cycles/s with all comparisons", rate);
+    if (alone > 0) std::fprintf(out, "; RTL alone %.0f (%.1f x)", alone, ratio(alone, rate));
+    std::fprintf(out, "; %.1f s in all\n\n%s\n", r.seconds, ok ? "OK" : "FAILED");
+  }
+
+  /// The errors of what was compared, and where its fragments lie.
+  void print_errors(std::FILE* out, const InputResult& r, const nlohmann::ordered_json& json) const {
+    const CheckResult& c = r.check;
     std::fprintf(out, "\n  error                   max        p99.9      rms        attribute  depth\n");
     const auto row = [&](const char* name, const QuantityErrors& e) {
       std::fprintf(out, "    %-18s %9.2e  %9.2e  %9.2e  %9.2e  %9.2e\n", name, e.lambda.max(), e.lambda.p999(),
@@ -670,28 +700,16 @@ class CosimRun {
                    c.within_bound() ? "held" : "EXCEEDED", 100 * std::max(0.0, c.worst.ratio));
     if (r.limits_checked > 0)
       std::fprintf(out, "    regression limits  %s\n", r.beyond_limits.empty() ? "held" : "EXCEEDED");
+    const auto print = [&](std::string_view form) { std::fputs(filled(form, json["counts"]).c_str(), out); };
     print(
         "\n  fragments of   eye-crossing quads {eye_crossing} ({eye_crossing_quads} quads), under-4-px quads {tiny}\n"
         "                 within 1/16 px of an edge {near_edge}, within 1 px of a vertex {near_vertex}\n"
         "                 on an edge {on_edge}, a vertex {on_vertex}, two corners {two_corner}, two edges {two_edge}, "
-        "ties {tie}\n",
-        json["counts"]);
-    if (c.tolerated_depth + c.tolerated_visible > 0)
-      print(
-          "                 tolerated, either being right: {tolerated_depth} within a depth's bound of a limit that "
-          "cuts the quad,\n"
-          "                 {tolerated_visible} with the eye in the hull and a sum of M W within its bound of 0\n",
-          json["counts"]);
+        "ties {tie}\n");
     if (options_.common.verbose)
       print(
           "                 notches {notch}, saturated {saturated}, discarded by z {discarded}, moved by snapping "
-          "{coverage_flips}\n",
-          json["counts"]);
-    const double rate = ratio(static_cast<double>(r.pass_cycles), r.loop_seconds);
-    const double alone = ratio(static_cast<double>(r.alone_cycles), r.alone_seconds);
-    std::fprintf(out, "\n  speed          %.0f cycles/s with all comparisons", rate);
-    if (alone > 0) std::fprintf(out, "; RTL alone %.0f (%.1f x)", alone, ratio(alone, rate));
-    std::fprintf(out, "; %.1f s in all\n\n%s\n", r.seconds, ok ? "OK" : "FAILED");
+          "{coverage_flips}\n");
   }
 
   static void complain(const InputResult& r) {
@@ -713,8 +731,7 @@ class CosimRun {
                    static_cast<unsigned long long>(r.check.beyond_depth));
     for (const std::string& text : r.beyond_limits)
       std::fprintf(stderr, "quadrille: %s: beyond its regression limit: %s\n", r.name.c_str(), text.c_str());
-    if (r.check.compared == 0)
-      std::fprintf(stderr, "quadrille: %s: no fragment was compared, so nothing was shown\n", r.name.c_str());
+    if (r.check.compared == 0) std::fprintf(stderr, "quadrille: %s: no fragments compared\n", r.name.c_str());
   }
 
   const CosimOptions options_;
@@ -777,12 +794,13 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->add_option("--limit-fragments", options->limit_fragments, "End each input after so many fragments; 0: no limit")
       ->check(whole_number())
       ->type_name("N");
-  command->add_option("--trace", options->trace, "Waveform of the RTL")->type_name("F.fst");
-  command
-      ->add_option("--shrink", options->shrink,
-                   "Where a run that fails writes the fewest quads that still do, beside them the waveform (F.fst) of "
-                   "their last 200 clocks. Default: cosim_failure.quads")
-      ->type_name("F.quads");
+  writes_file(*command, command->add_option("--trace", options->trace, "Waveform of the RTL"), "fst");
+  writes_file(*command,
+              command->add_option(
+                  "--shrink", options->shrink,
+                  "Where a run that fails writes the fewest quads that still do, beside them the waveform (F.fst) of "
+                  "their last 200 clocks. Default: cosim_failure.quads"),
+              "quads");
   command
       ->add_option("--shrink-time", options->shrink_seconds,
                    "Seconds after which the search for less ends with what it has")
@@ -790,9 +808,10 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->type_name("S")
       ->capture_default_str();
   command->add_flag("--no-shrink", options->no_shrink, "Do not shrink a run that fails")->excludes("--shrink");
-  command->add_option("--out", options->out, "Picture of the RTL's fragments, with weights and errors")
-      ->type_name("F.exr");
-  command->add_option("--png", options->png, "The same to look at")->type_name("F.png");
+  writes_file(*command,
+              command->add_option("--out", options->out, "Picture of the RTL's fragments, with weights and errors"),
+              "exr");
+  writes_file(*command, command->add_option("--png", options->png, "The same to look at"), "png");
   command->add_option("--texture", options->texture, "Picture instead of the scene's own pattern")->type_name("F.png");
   command
       ->add_option("--shade", options->shade,
