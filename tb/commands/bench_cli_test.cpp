@@ -66,6 +66,9 @@ TEST_F(Cli, BenchSkipsReports) {
     EXPECT_EQ(entry["hierarchical_z_bits"], hides ? 12 : 0);
     EXPECT_EQ(entry["pixels"], drawn * 64 * 64);
     EXPECT_EQ(entry["tiles_hidden"], 0);
+    EXPECT_EQ(entry["tiles_masked"], entry["counters"]["tiles_masked"]);
+    EXPECT_EQ(entry["quads"], 8);
+    EXPECT_DOUBLE_EQ(entry["pixels_per_clock"], entry["pixels"].get<double>() / entry["cycles"].get<double>());
     EXPECT_EQ(entry["blocks_hidden"], 8 - drawn);
     EXPECT_EQ(entry["counters"]["quads_ordinary"], 8);
     const bool plane = columns.back() == "plane" || columns.back() == "all";  // rectangles, parallel to the screen
@@ -92,6 +95,9 @@ TEST_F(Cli, BenchSkipsReports) {
   EXPECT_GT(png.size(), 50u);
   EXPECT_NE(exr.find("skip.entered"), std::string::npos);
   EXPECT_EQ(skips("--threads 2")["skips"], report["skips"]);
+  const std::string text = run("bench --skips --scene layers_large --size 64x64 --repeat 1").out;
+  for (const char* row : {" quads ", " pixels ", " pixels/clock ", " hidden tiles ", " masked tiles ", " hidden blocks "})
+    EXPECT_NE(text.find(row), std::string::npos) << row << text;
 }
 
 TEST_F(Cli, BenchPeersRefuses) {

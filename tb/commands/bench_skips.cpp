@@ -46,6 +46,12 @@ struct SkipSet {
   Config config;
 };
 
+std::uint64_t quads_of(const Run& run) { return run.counters[PerformanceCounter::quads]; }
+
+double pixels_per_clock(const Run& run) {
+  return run.cycles == 0 ? 0 : static_cast<double>(run.counters.pixels()) / static_cast<double>(run.cycles);
+}
+
 /// Adds a word to a hash.
 void add_word(std::uint64_t& hash, std::uint64_t word) { hash = (hash ^ word) * 0x9e3779b97f4a7c15u ^ hash >> 29; }
 constexpr std::uint64_t hash_of_nothing = 0xcbf29ce484222325u;
@@ -288,9 +294,17 @@ class SkipBench {
         name.clear();
       };
       row("clocks", [](const Run& run) { return std::to_string(run.cycles); });
+      row("quads", [](const Run& run) { return std::to_string(quads_of(run)); });
       row("pixels", [](const Run& run) { return std::to_string(run.counters.pixels()); });
+      row("pixels/clock", [](const Run& run) {
+        char number[32];
+        std::snprintf(number, sizeof number, "%.3f", pixels_per_clock(run));
+        return std::string(number);
+      });
       row("hidden tiles",
           [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::tiles_hidden]); });
+      row("masked tiles",
+          [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::tiles_masked]); });
       row("hidden blocks",
           [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::blocks_hidden]); });
       row("plane", [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::pixels_plane]); });
@@ -330,9 +344,12 @@ class SkipBench {
         entry["hierarchical_z_bits"] = sets_[set].config.hierarchical_z_bits;
         entry["plane_quads"] = sets_[set].config.plane_quads;
         entry["cycles"] = run.cycles;
+        entry["quads"] = quads_of(run);
         entry["pixels"] = run.counters.pixels();
+        entry["pixels_per_clock"] = pixels_per_clock(run);
         entry["blocks_hidden"] = run.counters[PerformanceCounter::blocks_hidden];
         entry["tiles_hidden"] = run.counters[PerformanceCounter::tiles_hidden];
+        entry["tiles_masked"] = run.counters[PerformanceCounter::tiles_masked];
         entry["pixels_plane"] = run.counters[PerformanceCounter::pixels_plane];
         entry["products"] = run.counters.products();
         entry["model_seconds"] = run.model_seconds;
