@@ -160,7 +160,7 @@ def remarks(row):
 def numbers(table):
     """The key numbers of table.json: differences, creases at the picture's size, what was set up."""
     size = table["crease_sizes"][-1]
-    heads = ["method", "pixels", f"max from {table['reference']}", "max from the truth", "crease 0–2", "crease 1–3", "quads", "triangles", "remarks"]
+    heads = ["method", "pixels", f"max from {table['reference']}", "max from exact mean value", "crease 0–2", "crease 1–3", "quads", "triangles", "remarks"]
     rows = [[html.escape(row["method"]), f"{row['covered']:,}", number(row["reference_max"]), number(row["truth_max"]), number(row[f"crease02_{size}"]),
              number(row[f"crease13_{size}"]), f"{row['emitted_quads']:,}", f"{row['triangles']:,}", remarks(row)] for row in table["methods"]]
     head = "".join(f"<th>{cell}</th>" for cell in heads)
@@ -220,7 +220,7 @@ def page(papers, figures, size, directory):
 <body>
 <h1>Figures of the papers</h1>
 <p>The papers’ figures of rendered quads, drawn again by <code>quadrille compare</code>: one column for each method. The first row of a sheet is the picture, the
-second the difference of the attributes from <code>refine:20</code> (20 × 20 bilinear refinement), the third the difference from the truth
+second the difference of the attributes from <code>refine:20</code> (20 × 20 bilinear refinement), the third the difference from exact mean value coordinates
 (mean value coordinates of the whole quad with 113-bit significands). A click on a sheet opens it in full size.</p>
 <p>In the tables, a crease is the largest change of an attribute’s slope from one pixel to the next, in attribute per picture side, within 4
 pixels of the middle half of a quad’s diagonal; a smooth method has a small one that halves when the picture doubles, a split keeps its own.

@@ -14,6 +14,7 @@
 #include "tb/compare/table.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/render/frame.hpp"
 #include "tb/render/method_engine.hpp"
 #include "tb/render/method_frame.hpp"
@@ -306,7 +307,8 @@ class Compare {
                             "picture)") +
                      "; differences of " + compared_values(input);
     sheet.columns = options_.methods;
-    sheet.rows = {{"picture", {}}, {"difference from " + options_.reference, {}}, {"difference from the truth", {}}};
+    sheet.rows = {
+        {"picture", {}}, {"difference from " + options_.reference, {}}, {"difference from exact mean value", {}}};
     sheet.heat_most = heat_most;
     sheet.heat_octaves = heat_octaves;
     sheet.keys = {{{0, 0, 0}, "equal"},
@@ -449,7 +451,7 @@ class Compare {
                  scene.input.shade.c_str(), compared_values(scene.input));
     const std::string size = sizes.empty() ? "" : std::to_string(sizes[(sizes.size() - 1) / 2]);
     std::fprintf(out, "%-18s %8s %8s %8s %9s %8s  %-19s %-19s %-19s %9s %9s %8s\n", "method", "pixels", "missing",
-                 "extra", "undefined", "wrong", ("from " + options_.reference).c_str(), "from the truth",
+                 "extra", "undefined", "wrong", ("from " + options_.reference).c_str(), "from exact MV",
                  sizes.empty() ? "" : ("crease at " + size + " px").c_str(), "quads", "triangles", "ns/px");
     std::fprintf(out, "%-18s %8s %8s %8s %9s %8s  %9s %9s %9s %9s %9s %9s\n", "", "", "", "", "", "", "max", "RMS",
                  "max", "RMS", sizes.empty() ? "" : "0-2", sizes.empty() ? "" : "1-3");
@@ -464,6 +466,13 @@ class Compare {
                    sizes.empty() ? "" : text(row["crease13_" + size], "%.1e").c_str(),
                    row["emitted_quads"].get<unsigned long long>(), row["triangles"].get<unsigned long long>(),
                    text(row["ns_per_pixel"], "%.3g").c_str());
+    std::fprintf(
+        out,
+        "wrong: pixels whose attributes are off by more than %g from exact mean value coordinates (exact MV), "
+        "which is what mvc\ncomputes: its nearness to them is by definition and no merit; from %s says how near "
+        "a method is to %s\n",
+        compare::default_wrong_above, options_.reference.c_str(),
+        options_.reference.starts_with("refine") ? "the refined surface" : "that one");
     const bool no_crease = !sizes.empty() && std::ranges::all_of(rows, [&](const compare::Row& row) {
       return row["crease02_" + size].is_null() && row["crease13_" + size].is_null();
     });
@@ -519,8 +528,7 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--methods", options->methods, "Methods, in the order of the columns; default: all")
       ->delimiter(',')
       ->type_name("A,B,…");
-  command->add_option("--out", options->out, "Directory for what is written; made if it is not there")
-      ->type_name("DIR");
+  writes_folder(command->add_option("--out", options->out, "Directory for what is written; made if it is not there"));
   command->add_option("--reference", options->reference, "Method that the differences are taken from")
       ->type_name("METHOD")
       ->capture_default_str();

@@ -77,9 +77,10 @@ std::string table_markdown(const std::vector<Row>& rows, const std::vector<int>&
   const std::vector<Column> columns{
       {"method", {"method"}},
       {"pixels", {"covered"}},
-      {"missing / extra / undefined / wrong", {"missing", "extra", "undefined", "truth_wrong"}},
+      {"missing / extra / undefined / wrong (more than 1e-3 from exact mean value)",
+       {"missing", "extra", "undefined", "truth_wrong"}},
       {"from " + reference + ": max / p99.9 / RMS", {"reference_max", "reference_p999", "reference_rms"}},
-      {"from the truth: max / p99.9 / RMS", {"truth_max", "truth_p999", "truth_rms"}},
+      {"from exact mean value: max / p99.9 / RMS", {"truth_max", "truth_p999", "truth_rms"}},
       {"crease on 0–2 at " + at + " px", crease02},
       {"crease on 1–3 at " + at + " px", crease13},
       {"largest jump inside at " + at + " px", jump},

@@ -14,7 +14,8 @@ using Row = nlohmann::ordered_json;
 /// RFC 4180; numbers with 9 significant digits, null as an empty field.
 std::string table_csv(const std::vector<Row>& rows);
 
-/// The columns that a person compares, as a Markdown table; `wrong` pixels are off by more than 1e-3 from the truth.
+/// The columns that a person compares, as a Markdown table; `wrong` pixels are off by more than 1e-3 from exact
+/// mean value coordinates (keys truth_*), which the method mvc computes.
 /// `sizes`: of the crease columns ("crease02_512").
 std::string table_markdown(const std::vector<Row>& rows, const std::vector<int>& sizes, const std::string& reference);
 
