@@ -12,6 +12,7 @@
 #include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
@@ -127,6 +128,7 @@ class ErrorCommand {
 
   void add(const char* kind, const InputOptions& input_options) {
     const DrawInput input = load_input(input_options, "", state_, config_, common_.seed);
+    print_remark(input, common_);
     ErrorBench::Settings settings;
     settings.config = config_;
     settings.state = state_;
@@ -353,10 +355,10 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
                      "of quads, error against time. --size is 1920x1080 unless it is given")
           ->excludes(error)
           ->excludes(skips);
-  command
-      ->add_option("--pictures", options->pictures,
-                   "With --skips: folder for a PNG and an EXR of each scene, its tiles coloured by what became of them")
-      ->type_name("DIR")
+  writes_folder(
+      command->add_option(
+          "--pictures", options->pictures,
+          "With --skips: folder for a PNG and an EXR of each scene, its tiles coloured by what became of them"))
       ->needs(skips);
   options->input.add_to(*command);
   speed.common.add_to(*command);

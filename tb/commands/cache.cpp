@@ -1,5 +1,6 @@
 // quadrille cache: what was built on demand, and making room.
 #include "tb/commands/commands.hpp"
+#include "tb/options/written_file.hpp"
 
 #include "golden/io/json_report.hpp"
 #include "tb/device/cache.hpp"
@@ -84,7 +85,7 @@ void add_cache_command(CLI::App& app, Invocation& invocation) {
       "not used for longest goes.\n\n"
       "Examples:\n  quadrille cache\n  quadrille cache --json -\n  quadrille cache clear");
   const auto json = std::make_shared<std::string>();
-  command->add_option("--json", *json, "Report as JSON (- for standard output)")->type_name("F");
+  writes_file(*command, command->add_option("--json", *json, "Report as JSON (- for standard output)"), "json");
   command->require_subcommand(0, 1);
   CLI::App* list = command->add_subcommand("list", "What there is, longest unused first (the default)");
   CLI::App* clear = command->add_subcommand("clear", "Remove everything that no program uses");

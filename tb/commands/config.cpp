@@ -1,6 +1,7 @@
 // quadrille config: every key and every derived width of a configuration.
 #include "tb/commands/commands.hpp"
 #include "tb/options/command_line.hpp"
+#include "tb/options/written_file.hpp"
 
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/config_file.hpp"
@@ -150,10 +151,10 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
       "  quadrille config --json -");
   const auto options = std::make_shared<ConfigOptions>();
   options->common.add_to(*command, false);
-  command
-      ->add_option("--emit-tables", options->emit_tables,
-                   "Write the package of the sqrt and reciprocal tables; - is standard output")
-      ->type_name("F.sv");
+  writes_file(*command,
+              command->add_option("--emit-tables", options->emit_tables,
+                                  "Write the package of the sqrt and reciprocal tables; - is standard output"),
+              "sv");
   auto* boundaries =
       command
           ->add_option("--boundaries", options->boundaries,

@@ -11,6 +11,7 @@
 #include "model/snap.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -62,6 +63,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   check_outputs({options.out, options.input.save_camera, options.common.json}, read);
 
   DrawInput input = load_input(options.input, options.shade, settings.state, settings.config, options.common.seed);
+  print_remark(input, options.common);
   adjust_state(input, settings.state);
   if (options.quad >= 0) {
     if (static_cast<std::uint64_t>(options.quad) >= input.quads.size())
@@ -154,7 +156,7 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
   options->common.add_to(*command);
   options->state.add_to(*command);
   options->engine.add_to(*command, true);
-  command->add_option("--out", options->out, "The table; - is standard output")->type_name("F.csv");
+  writes_file(*command, command->add_option("--out", options->out, "The table; - is standard output"), "csv");
   command->add_option("--quad", options->quad, "Only the quad at this position, counted from 0")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));

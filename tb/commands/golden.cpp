@@ -10,6 +10,7 @@
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/shard.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -217,9 +218,7 @@ void add_merge(CLI::App& golden, Invocation& invocation) {
   };
   const auto options = std::make_shared<Options>();
   command->add_option("sets", options->parts, "The sets of the shards")->type_name("DIR ...")->required();
-  command->add_option("--out", options->out, "Directory of the whole set; made if missing")
-      ->type_name("DIR")
-      ->required();
+  writes_folder(command->add_option("--out", options->out, "Directory of the whole set; made if missing"))->required();
   command->add_flag("--force", options->force, "Replace the set that DIR holds");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([options, &invocation] {
@@ -387,7 +386,7 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
       ->type_name("N")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_option("--out", options->out, "Directory of the set; made if missing")->type_name("DIR");
+  writes_folder(command->add_option("--out", options->out, "Directory of the set; made if missing"));
   command->add_flag("--force", options->force, "Replace the set that DIR holds");
   command->add_flag("--list-suites", options->list, "Print the names of the suites, one a line");
   command->callback([options, &invocation] {
@@ -418,7 +417,8 @@ void add_verify(CLI::App& golden, Invocation& invocation) {
       ->type_name("N")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_option("--json", options->json, "Write a JSON report (- for standard output)")->type_name("F.json");
+  writes_file(*command, command->add_option("--json", options->json, "Write a JSON report (- for standard output)"),
+              "json");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return verify(*options, invocation.arguments); };
@@ -446,9 +446,10 @@ void add_seal(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("seal", "Make a set of your own responses comparable");
   command->footer(
       "Copy a set, put what your implementation answers into response.hex (of machine suites beats.hex too), a\n"
-      "record a line as in the set, and seal the copy: hashes, sizes and counts become those of your files. Then\n"
-      "`golden diff` compares it with the set and `golden verify` with the engines. Everything else must be as\n"
-      "generated; malformed files are refused with file and line, exit status 2. Pictures stay as they are.\n\n"
+      "record a line as in the set or as $writememh writes it, and seal the copy: the records are then written as in\n"
+      "the set; hashes, sizes and counts become those of your files. Then `golden diff` compares it with the set and\n"
+      "`golden verify` with the engines. Everything else must be as generated; malformed files are refused with file\n"
+      "and line, exit status 2. Pictures stay as they are.\n\n"
       "Examples:\n"
       "  quadrille golden seal mine\n"
       "  quadrille golden diff vectors mine");

@@ -41,6 +41,26 @@ TEST_F(Cli, TextureWithoutCoordinatesIsSaid) {
   EXPECT_EQ(run("render --scene sphere" + options).err, "");
 }
 
+// The same number in a file, in --set and, in the interfaces to other languages, in a text.
+TEST_F(Cli, NumbersOfAConfigurationAreThoseOfToml) {
+  const auto bits = [&](const std::string& arguments) {
+    const Outcome outcome = run("config --quiet --json r.json " + arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return nlohmann::json::parse(read(file("r.json")))["config"]["significand_bits"].get<int>();
+  };
+  for (const std::string value : {"0x0c", "0b1100", "0o14", "+12", "1_2"}) {
+    EXPECT_EQ(bits("--set significand_bits=" + value), 12) << value;
+    write("c.toml", "significand_bits = " + value + "\n");
+    EXPECT_EQ(bits("--config c.toml"), 12) << value;
+  }
+  for (const std::string value : {"012", "0X0c", "1e1", "12.0", "_12"}) {
+    refuses(2, "config --set significand_bits=" + value, {"--set significand_bits", "as TOML writes it"});
+    write("c.toml", "significand_bits = " + value + "\n");
+    EXPECT_EQ(run("config --config c.toml").status, 2) << value;
+  }
+  EXPECT_EQ(run("sweep --scene bowtie --size 32x32 --cosim none --axis significand_bits=0x0c,18 --out d").status, 0);
+}
+
 TEST_F(Cli, AutoInConfigurationFiles) {
   write("c.toml", "attribute_frac_bits = 24\nquadratic_frac_bits = \"auto\"\n");
   write("d.toml", "attribute_frac_bits = \"auto\"\n");
@@ -72,6 +92,11 @@ TEST_F(Cli, TheAdviceOnSizesWorks) {
     EXPECT_EQ(run(full + " " + advice(full)).status, 0) << advice(full);
   }
   refuses(2, "fragments --quads q --out a.csv --size 16385x4", {"1 to 4096", "viewport_bits = 12)\n"});
+  // One that is too small is not cured by a larger viewport.
+  for (const std::string size : {"0x0", "0x5", "640x0", "-1x5", "5x-1"}) {
+    refuses(2, "fragments --quads q --out a.csv --size " + size, {"--size " + size, "must be at least 1"});
+    EXPECT_EQ(run("fragments --quads q --out a.csv --size " + size).err.find("viewport_bits"), std::string::npos);
+  }
 }
 
 TEST_F(Cli, ScissorsSayWhatIsWrong) {
@@ -92,6 +117,11 @@ TEST_F(Cli, HintsOnlyWhereSomethingIsNear) {
     EXPECT_EQ(outcome.err.find("nearest"), std::string::npos) << outcome.err;
   }
   refuses(2, "config --set signficand_bits=3", {"did you mean \"significand_bits\"", "quadrille config"});
+  // Capitals, as the RTL's parameters have them, everywhere that a name is chosen.
+  refuses(2, "config --set SIGNIFICAND_BITS=12", {"did you mean \"significand_bits\""});
+  refuses(2, "sweep --scene bowtie --axis SIGNIFICAND_BITS=8:9 --out d", {"did you mean \"significand_bits\""});
+  refuses(2, "render --scene SPHERE --png a.png", {"did you mean \"sphere\""});
+  refuses(2, "RENDER", {"did you mean \"render\""});
   refuses(2, "render --scene fig10 --png a.png", {"did you mean \"fig10_"});
 }
 

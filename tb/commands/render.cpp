@@ -8,6 +8,7 @@
 #include "golden/methods/method.hpp"
 #include "model/snap.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/render/frame.hpp"
 #include "tb/render/method_engine.hpp"
 #include "tb/support/choices.hpp"
@@ -83,8 +84,13 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   if (options.method.empty() && reports_counters(options.common))
     counters = count_draw(settings, input.quads, input.attributes);
   double error_max = 0;
-  for (const auto& [name, layer] : image.error)
-    for (const float error : layer) error_max = std::max(error_max, std::fabs(static_cast<double>(error)));
+  std::uint64_t error_nans = 0;  // std::max would pass over them
+  for (const auto& [name, layer] : image.error) {
+    for (const float error : layer) {
+      if (std::isnan(error)) ++error_nans;
+      error_max = std::max(error_max, std::fabs(static_cast<double>(error)));
+    }
+  }
 
   if (!options.common.json.empty()) {
     nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
@@ -101,6 +107,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
     json["undefined"] = frame.undefined();
     json["pixels_drawn"] = frame.pixels_drawn();
     if (!image.error.empty()) json["error_max"] = error_max;
+    if (error_nans > 0) json["error_nans"] = error_nans;
     json["wall_seconds"] = seconds;
     if (counters) json["counters"] = counters_json(*counters);
     golden::save_json(options.common.json, json);
@@ -111,7 +118,10 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
                  static_cast<unsigned long long>(frame.pixels_drawn()));
     if (frame.undefined()) std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(frame.undefined()));
     if (!image.error.empty()) std::fprintf(text, ", largest weight error %.2e", error_max);
+    if (error_nans > 0) std::fprintf(text, " and %llu that are NaN", static_cast<unsigned long long>(error_nans));
     std::fprintf(text, ", %.2f s\n", seconds);
+    for (const std::string& file : {options.out, options.png, options.input.save_camera, options.common.json})
+      if (!file.empty() && file != "-") std::fprintf(text, "wrote %s\n", file.c_str());
     if (counters) print_counters(text, *counters, "of the clocked model");
     if (input.fanned_faces)
       std::fprintf(text, "%zu faces with more than four corners were cut into %zu primitives\n", input.fanned_faces,
@@ -150,8 +160,9 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
       ->type_name("METHOD")
       ->excludes("--engine")
       ->excludes("--snap");
-  command->add_option("--out", options->out, "Picture with depth, weights, ids and errors")->type_name("F.exr");
-  command->add_option("--png", options->png, "Picture to look at")->type_name("F.png");
+  writes_file(*command, command->add_option("--out", options->out, "Picture with depth, weights, ids and errors"),
+              "exr");
+  writes_file(*command, command->add_option("--png", options->png, "Picture to look at"), "png");
   command
       ->add_option("--shade", options->shade,
                    "uv, texture, normal, lambda, depth, quad, planes or colour; default: what suits the input")

@@ -1,6 +1,7 @@
 // quadrille scenes: the built-in scenes.
 #include "tb/commands/commands.hpp"
 #include "tb/options/command_line.hpp"
+#include "tb/options/written_file.hpp"
 
 #include "golden/io/json_report.hpp"
 #include "golden/scenes/approach.hpp"
@@ -75,11 +76,9 @@ void add_scenes_command(CLI::App& app, Invocation& invocation) {
       "Examples:\n  quadrille scenes\n  quadrille scenes --json\n  quadrille scenes --stress\n  quadrille scenes "
       "--corner");
   const auto options = std::make_shared<ScenesOptions>();
-  CLI::Option* json = command
-                          ->add_option("--json", options->json,
-                                       "Write an array of name, title, paper, quads (- or nothing: standard output)")
-                          ->type_name("[F.json]")
-                          ->expected(0, 1);
+  CLI::Option* json = command->add_option(
+      "--json", options->json, "Write an array of name, title, paper, quads (- or nothing: standard output)");
+  writes_file(*command, json, "json")->type_name("[F.json]")->expected(0, 1);
   CLI::Option* stress = command->add_flag("--stress", options->stress,
                                           "The stress families, and the approaches of `quadrille stress`, instead");
   command->add_flag("--corner", options->corner, "The corner groups instead: directed quads of rare cases")

@@ -12,6 +12,7 @@
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/shard.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -448,7 +449,8 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}))
       ->capture_default_str();
   options->shards.add_to(*command, "the families, in turn", "the --json of each");
-  command->add_option("--csv", options->csv, "A row for each step and body; - is standard output")->type_name("F.csv");
+  writes_file(*command,
+              command->add_option("--csv", options->csv, "A row for each step and body; - is standard output"), "csv");
   options->search.add_to(*command);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] {

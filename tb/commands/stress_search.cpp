@@ -10,6 +10,7 @@
 #include "tb/commands/stress_report.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -117,8 +118,10 @@ void StressSearchOptions::add_to(CLI::App& app) {
                             ->type_name("F.quads")
                             ->group(group)
                             ->excludes(one);
-  app.add_option("--keep", keep, "Write the quads found, or those of --kept with their errors as they are now")
-      ->type_name("F.quads")
+  writes_file(
+      app,
+      app.add_option("--keep", keep, "Write the quads found, or those of --kept with their errors as they are now"),
+      "quads")
       ->group(group);
   for (const char* other : {"--engines", "--count", "--csv", "--shard", "--merge"}) {
     one->excludes(app.get_option(other));

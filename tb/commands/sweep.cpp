@@ -15,6 +15,7 @@
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/shard.hpp"
+#include "tb/options/written_file.hpp"
 #include "tb/support/csv.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -162,6 +163,7 @@ class SweepRun {
     InputOptions source = options_.input;
     if (inputs_given(source) == 0) source.scene = asks_for_planes() ? plane_scene : standard_scene;
     draw_ = load_input(source, options_.shade, input_.state, base_, options_.common.seed);
+    print_remark(draw_, options_.common);
     input_.state.perspective = input_.state.perspective && draw_.perspective;
     if (draw_.attributes > max_attribute_slots)
       throw UsageError(draw_.name + " has " + std::to_string(draw_.attributes) + " attributes; at most " +
@@ -688,7 +690,7 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
       ->type_name("KEY=VALUES")
       ->allow_extra_args(false);
   command->add_flag("--one-at-a-time", options->one_at_a_time, "Vary one axis at a time around the configuration");
-  command->add_option("--out", options->out, "Directory of the results; made if missing")->type_name("DIR");
+  writes_folder(command->add_option("--out", options->out, "Directory of the results; made if missing"));
   command
       ->add_option("--target-error", options->targets,
                    "Find the cheapest point with at most this error; several must all hold. COLUMN as in points.csv; "

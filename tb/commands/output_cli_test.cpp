@@ -1,0 +1,93 @@
+// What a command writes and says: the format that a name promises, and what was written where.
+#include "tb/commands/cli_fixture.hpp"
+
+#include <regex>
+#include <set>
+
+namespace {
+
+using namespace quadrille::cli_test;
+
+// Whatever option of whatever command names a file in its help is tried, so that a new one cannot be forgotten.
+TEST_F(Cli, AFileHasTheFormatOfItsName) {
+  const std::set<std::string> inputs{"--config", "--mesh", "--camera", "--quads", "--texture", "--kept"};
+  const std::regex option(R"((--[a-z-]+) \[?(F\.([a-z]+)|DIR)\b)");
+  std::size_t tried = 0;
+  for (const std::string command :
+       {"cosim", "render", "fragments", "config", "scenes", "bench", "sweep", "compare", "stress", "cache",
+        "golden generate", "golden merge", "golden verify", "golden diff"}) {
+    const std::string help = run(command + " --help").out;
+    for (std::sregex_iterator match(help.begin(), help.end(), option), end; match != end; ++match) {
+      const std::string name = (*match)[1], ending = (*match)[3];
+      if (inputs.contains(name)) continue;
+      ++tried;
+      for (const std::string other : {"png", "exr", "JPG", "json", "csv", "quads"}) {
+        if (other == ending) continue;
+        std::vector<std::string> pieces{name, "x." + other + ": this option "};
+        if (!ending.empty()) pieces.push_back("a name such as x." + ending + " is right");
+        refuses(2, command + " " + name + " x." + other, pieces);
+        EXPECT_FALSE(fs::exists(file("x." + other)));
+      }
+    }
+  }
+  EXPECT_GE(tried, 25u);
+  refuses(2, "render --scene bowtie --out p.png", {"--out", "writes OpenEXR", "or --png for PNG"});
+  refuses(2, "render --scene bowtie --png p.exr", {"--png", "writes PNG", "or --out for OpenEXR"});
+  refuses(2, "render --scene bowtie --png p.jpeg", {"JPEG; a name such as p.png is right"});
+}
+
+TEST_F(Cli, ANameThatPromisesNothingIsTaken) {
+  for (const char* name : {"p.PNG", "p", "p.1", "p.tmp"})
+    EXPECT_EQ(run(std::string("render --scene bowtie --size 32x32 --no-error --quiet --png ") + name).status, 0)
+        << name;
+}
+
+TEST_F(Cli, RenderSaysWhatItWrote) {
+  const Outcome outcome = run("render --scene bowtie --size 32x32 --out p.exr --png p.png --json r.json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* name : {"p.exr", "p.png", "r.json"})
+    EXPECT_NE(outcome.out.find("\nwrote " + std::string(name) + "\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(run("render --scene bowtie --size 32x32 --png p.png --quiet").out, "");
+  EXPECT_EQ(run("render --scene bowtie --size 32x32 --png p.png").out.find("p.exr"), std::string::npos);
+}
+
+// Latin-1, as older file systems have it.
+TEST_F(Cli, AFileNameNeedNotBeUtf8) {
+  const std::string name = "caf\xe9.quads";
+  write(name, "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n");
+  for (const std::string command : {"render --size 64x64 --png p.png", "fragments --size 64x64 --out f.csv",
+                                    "golden generate --size 64x64 --out set",
+                                    "sweep --axis significand_bits=12,18 --size 64x64 --cosim none --out d",
+                                    "bench --skips --size 64x64 --repeat 1"}) {
+    SCOPED_TRACE(command);
+    const Outcome outcome = run(command + " --quiet --json r.json --quads '" + name + "'");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::string report = read(file("r.json"));
+    EXPECT_NE(report.find(R"($'caf\\xe9.quads')"), std::string::npos) << report.substr(0, 2000);  // JSON's \\ is one
+  }
+}
+
+TEST_F(Cli, NotesOfAMesh) {
+  write("m.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl dir\\sub\\\nf 1 2 3 4\nf 4 3 2 1\n");
+  for (const char* command : {"render --png p.png", "fragments --out f.csv", "golden generate --out set",
+                              "compare --repeats 1 --methods mvc --crease-sizes 64 --out d",
+                              "sweep --axis significand_bits=12,18 --cosim none --out s", "bench --skips --repeat 1"}) {
+    const Outcome outcome = run(std::string(command) + " --mesh m.obj --size 64x64");
+    EXPECT_EQ(outcome.status, 0) << command << outcome.err;
+    EXPECT_NE(outcome.err.find("m.obj: line 6, 'f', is not read: the backslash that ends line 5"), std::string::npos)
+        << command << ": " << outcome.err;
+  }
+}
+
+TEST_F(Cli, ConcaveFacesAreCounted) {
+  // An L from the end of an arm, where a fan would paint outside.
+  write("l.obj", "v 0 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 2 3 4 5 6 1\nf 3 4 5 6 1 2\n");
+  const Outcome outcome = run("render --mesh l.obj --view front --size 64x64 --png p.png");
+  EXPECT_NE(outcome.out.find("2 faces with more than four corners were cut into 4 primitives"), std::string::npos)
+      << outcome.out;
+  write("star.obj", "v 0 3 0\nv 2 -3 0\nv -3 1 0\nv 3 1 0\nv -2 -3 0\nf 1 2 3 4 5\n");
+  refuses(2, "render --mesh star.obj --png p.png",
+          {"star.obj: face 0, of 5 corners: the edges between corners", "cross"});
+}
+
+}  // namespace
