@@ -132,8 +132,8 @@ void visit(Beat& beat, const Config& c, F&& f) {
   f(depth_type(c, "base_depth", "base of window z; the first beat's counts"), -1, beat.base.depth);
   f(fixed("depth_low", corner_depth_bits(c), depth_frac(c), "1", "least corner's z, -2^-DEPTH_BITS: below 0"), -1,
     beat.base.depth_low);
-  f(fixed("depth_high", corner_depth_bits(c), depth_frac(c), "1", "greatest corner's z, 1 + 2^-DEPTH_BITS: above 1"), -1,
-    beat.base.depth_high);
+  f(fixed("depth_high", corner_depth_bits(c), depth_frac(c), "1", "greatest corner's z, 1 + 2^-DEPTH_BITS: above 1"),
+    -1, beat.base.depth_high);
 }
 
 /// state_t. Its depth interval is the codes `znear` and `zfar`.

@@ -23,8 +23,8 @@ struct ClockedInputs {
   bool reset = false;  ///< rst_ni = 0
   bool vertex_valid = false;
   bool fragment_ready = false;
-  bool clear_hidden = false;    ///< while not busy: the depth buffer is cleared
-  VertexBeat vertex;            ///< the beat, when vertex_valid
+  bool clear_hidden = false;  ///< while not busy: the depth buffer is cleared
+  VertexBeat vertex;          ///< the beat, when vertex_valid
 };
 
 /// Boundaries of one lane that carry a pixel in this clock, or nullptr.

@@ -53,8 +53,8 @@ void fragment_output(PixelTrace& p, const QuadData& quad, const PipelineContext&
     Quotient q = to_codes(p.num_z, rec_w, 1, c.config.depth_bits, c.format);
     if (p.den_w.sig == 0) q = {false, true, 0};
     const std::int64_t low = quad.base.depth_low, high = quad.base.depth_high;
-    const std::int64_t z = q.overflow ? (q.neg ? low : high)
-                                      : std::min(std::max(quad.base.depth + q.signed_code(), low), high);
+    const std::int64_t z =
+        q.overflow ? (q.neg ? low : high) : std::min(std::max(quad.base.depth + q.signed_code(), low), high);
     discard |= z < std::int64_t{c.znear} || z > std::int64_t{c.zfar};
     g.depth = static_cast<std::uint32_t>(std::max<std::int64_t>(z, 0));
   }

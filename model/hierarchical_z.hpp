@@ -8,8 +8,9 @@
 // (SkipBit::skip_hidden).
 //
 // Codes have hierarchical_z_bits = H fraction bits: code c of an entry says that no depth is beyond c 2^-H; all ones
-// says nothing. Nearest depths round down, farthest ones up. Entries are held by the low bits of the tile's coordinates, and the others beside them: a tile that takes another's place forgets
-// what was known of that one, which is always right.
+// says nothing. Nearest depths round down, farthest ones up. Entries are held by the low bits of the tile's
+// coordinates, and the others beside them: a tile that takes another's place forgets what was known of that one, which
+// is always right.
 #pragma once
 
 #include "model/config.hpp"
@@ -32,8 +33,8 @@ struct DepthInterval {
   friend bool operator==(const DepthInterval&, const DepthInterval&) = default;
 };
 
-/// Of a quad with a vertex that is not before the eye: [0, infinity). `lowers` also asks for an ordinary quad with D and
-/// r² that are exact, so that no sum of weights is 0, and for corners inside [znear, zfar].
+/// Of a quad with a vertex that is not before the eye: [0, infinity). `lowers` also asks for an ordinary quad with D
+/// and r² that are exact, so that no sum of weights is 0, and for corners inside [znear, zfar].
 DepthInterval depth_interval(const SnappedQuad& quad, const Config& config, const DrawState& state);
 
 /// The machine has the memory, and the draw state asks for it.

@@ -12,9 +12,9 @@ void interpolate(PixelTrace& p, const QuadData& quad, const PipelineContext& c) 
   p.den_w = weighted_sum(quad.w[0], quad.w[1], quad.w[2], quad.w[3]);
   p.num_z = weighted_sum(quad.z[0], quad.z[1], quad.z[2], quad.z[3]);
   for (std::size_t j = 0; j < static_cast<std::size_t>(c.config.attribute_slots); ++j)
-    p.num_a[j] =
-        fp_sum({raw_product(p.m[1], quad.b[1][j]), raw_product(p.m[2], quad.b[2][j]), raw_product(p.m[3], quad.b[3][j])},
-               c.format);
+    p.num_a[j] = fp_sum(
+        {raw_product(p.m[1], quad.b[1][j]), raw_product(p.m[2], quad.b[2][j]), raw_product(p.m[3], quad.b[3][j])},
+        c.format);
 }
 
 }  // namespace quadrille

@@ -47,8 +47,8 @@ inline constexpr std::size_t max_lane_columns = 16;
 /// A quad's numbers behind the port as doubles. A column is what an attribute slot carries.
 struct QuadColumns {
   bool hull = false;
-  QuadBase base;                        ///< of it what belongs to depth; attributes have columns
-  std::array<double, 4> k{}, w{}, z{};  ///< k: k_eff
+  QuadBase base;                                            ///< of it what belongs to depth; attributes have columns
+  std::array<double, 4> k{}, w{}, z{};                      ///< k: k_eff
   std::array<std::array<double, 4>, max_lane_columns> b{};  ///< 0 of vertex 0
   std::array<std::int64_t, max_lane_columns> attribute_base{};
 };

@@ -52,9 +52,6 @@ LANE_INLINE V integer_part(V v) {
   return r - select(r > v, splat(1.0), V{});
 }
 
-/// An integer 0 <= v < 2^51 held as a double.
-LANE_INLINE I to_integer(V v) { return bits(v + 0x1p52) & ((std::int64_t{1} << 52) - 1); }
-
 /// |v| for |v| < 2^63 with at least 26 leading bits right, the rest cut toward zero: exact below 2^37, else the low 10
 /// bits go, so that the conversion to 53 bits cannot round up.
 LANE_INLINE V leading_magnitude(I v) {
@@ -289,46 +286,46 @@ LANE_INLINE void area_stage(const DifferenceLanes& signs, const NormalisedLanes&
   out.m[3] = select(behind_diagonal, p.a[4], V{});
 }
 
-/// base + num·rec as a code, the quotient rounded to nearest, halves away from zero; clamped.
-struct FixedLanes {
-  I code, over;
-};
+/// A code below 2^51 either way, held as a double.
+LANE_INLINE I to_signed_integer(V code) { return bits(code + 0x1.8p52) - 0x4338000000000000; }
 
-/// |value| below 2^50 codes to nearest, halves away from zero, with the sign of `value`. `size` has 2 S <= 52 bits: its
-/// sum with 1/2 fits a double from 1/2 on; below that the sum is at most 1 - 2^-53, which no rounding mode leaves.
-LANE_INLINE I rounded_codes(V value, V size, int frac) {
-  const I q = to_integer(integer_part(size * power_of_two(frac) + 0.5)), sign = bits(value) >> 63;
-  return (q ^ sign) - sign;
+/// base + num·rec as a code, the quotient rounded to nearest, halves away from zero. A quotient of 2^int_bits or more
+/// becomes one of 2^(int_bits + 2): beyond every code, of its sign.
+///
+/// A product has 2 S <= 52 bits: its sum with 1/2 fits a double from 1/2 on; below that the sum is at most 1 - 2^-53,
+/// which no rounding mode leaves. Codes have 46 bits, 48 with what is beyond.
+LANE_INLINE V sum_of_codes(V num, V rec, double base, int int_bits, int frac) {
+  const V value = num * rec, size = magnitude(value) * power_of_two(frac);
+  const I wide = size >= power_of_two(int_bits + frac);
+  const V q = integer_part(select(wide, splat(power_of_two(int_bits + 2 + frac)), size) + 0.5);
+  return base + from_bits(bits(q) | (bits(value) & INT64_MIN));
 }
 
+/// Codes, as doubles.
+struct FixedLanes {
+  V code;
+  I over;
+};
+
 LANE_INLINE FixedLanes attribute_stage(V num, V rec, std::int64_t base, int int_bits, int frac) {
-  const V value = num * rec;
-  const V size = magnitude(value);
-  const I wide = size >= power_of_two(int_bits + 1);
-  const I limit = splat((std::int64_t{1} << (int_bits + frac)) - 1);
-  const I far = ((limit + 1) ^ (bits(value) >> 63)) - (bits(value) >> 63);
-  const I sum = select(wide, far, base + rounded_codes(value, select(wide, V{}, size), frac));
+  const V sum = sum_of_codes(num, rec, static_cast<double>(base), int_bits + 1, frac);
+  const V limit = splat(power_of_two(int_bits + frac) - 1);
   const I above = sum > limit, below = sum < -limit;
   return {select(above, limit, select(below, -limit, sum)), above | below};
 }
 
 struct DepthLanes {
-  I code, discard;
+  V code;
+  I discard;
 };
-
-/// Codes below 2^51 either way as doubles, without a conversion that older instruction sets have not.
-LANE_INLINE V to_real(I code) { return from_bits(code + 0x4338000000000000) - 0x1.8p52; }
 
 LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, const QuadBase& base, int depth_bits, std::uint32_t znear,
                                    std::uint32_t zfar) {
-  const V value = num_z * rec_w;
-  const V size = magnitude(value);
-  const I nothing = den_w == 0, wide = I(size >= 2.0) | nothing;
-  const I low = splat(std::int64_t{base.depth_low}), high = splat(std::int64_t{base.depth_high});
-  const I far = select((bits(value) >> 63) & ~nothing, low, high);
-  const I sum = select(wide, far, std::int64_t{base.depth} + rounded_codes(value, select(wide, V{}, size), depth_bits));
-  const I at_least = select(I(sum < low), low, sum), z = select(I(at_least > high), high, at_least);
-  return {select(I(z < 0), I{}, z), I(z < std::int64_t{znear}) | I(z > std::int64_t{zfar})};
+  const V low = splat(static_cast<double>(base.depth_low)), high = splat(static_cast<double>(base.depth_high));
+  const V sum = sum_of_codes(num_z, rec_w, base.depth, 1, depth_bits);
+  const V at_least = select(I(sum < low), low, sum);
+  const V z = select(I(at_least > high) | I(den_w == 0), high, at_least);
+  return {select(I(z < 0), V{}, z), I(z < static_cast<double>(znear)) | I(z > static_cast<double>(zfar))};
 }
 
 }  // namespace
@@ -430,7 +427,8 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
       const FixedLanes f =
           attribute_stage(num, rec_k, quad.base.attribute[j], c.config.attribute_int_bits, c.attribute_frac);
       saturated |= f.over;
-      for (int l = 0; l < lane_count; ++l) out.attribute[j][static_cast<std::size_t>(l)] = f.code[l];
+      const I code = to_signed_integer(f.code);
+      for (int l = 0; l < lane_count; ++l) out.attribute[j][static_cast<std::size_t>(l)] = code[l];
     }
     out.saturated = to_mask(saturated);
     I discard{};
@@ -443,8 +441,8 @@ void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const Qu
       }
       const DepthLanes z = depth_stage(num_z, den_w, rec_w, quad.base, c.config.depth_bits, c.znear, c.zfar);
       discard |= z.discard;
-      for (int l = 0; l < lane_count; ++l)
-        out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(z.code[l]);
+      const I code = to_signed_integer(z.code);
+      for (int l = 0; l < lane_count; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(code[l]);
     } else {
       out.depth = {};
     }
@@ -551,13 +549,13 @@ void output_blocks(std::size_t blocks, const LaneColumn* sums, const ReciprocalL
         const DepthLanes z =
             depth_stage(sums[2].v, sums[1].v, reciprocals[n].w, q.base, format.depth_bits, format.znear, format.zfar);
         discard |= z.discard;
-        values[0].v = to_real(z.code) * depth_unit;
+        values[0].v = z.code * depth_unit;
       }
       for (std::size_t j = 0; j < columns; ++j) {
         const FixedLanes f = attribute_stage(sums[3 + j].v, reciprocals[n].k, q.attribute_base[j],
                                              format.attribute_int_bits, format.attribute_frac);
         saturated |= f.over;
-        values[1 + j].v = to_real(f.code) * attribute_unit;
+        values[1 + j].v = f.code * attribute_unit;
       }
       masks[n] = {static_cast<std::uint8_t>(to_mask(~discard)), static_cast<std::uint8_t>(to_mask(saturated))};
     }

@@ -36,7 +36,8 @@ bool plane_quad(const SnappedQuad& quad, const Config& config, const DrawState& 
   if (state.perspective && !constant_along_sides(quad, [](const SnappedVertex& v) { return v.k; })) return false;
   if (state.depth && !constant_along_sides(quad, [](const SnappedVertex& v) { return v.z; })) return false;
   for (std::size_t j = 0; j < static_cast<std::size_t>(state.attributes); ++j)
-    if (!constant_along_sides(quad, [&](const SnappedVertex& v) { return &v == quad.vertex.data() ? PortNumber{} : v.attribute[j]; }))
+    if (!constant_along_sides(
+            quad, [&](const SnappedVertex& v) { return &v == quad.vertex.data() ? PortNumber{} : v.attribute[j]; }))
       return false;
   return true;
 }

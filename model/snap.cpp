@@ -89,9 +89,7 @@ class VertexSnapper {
     return port_quotient((value * out_.w).scaled(-config_.frac()), exact_integer<Integer>(1), config_);
   }
   /// z~ − base w~, base a depth code.
-  Number depth_above(std::uint32_t base) const {
-    return z_ - (w_ * std::int64_t{base}).scaled(-config_.depth_bits);
-  }
+  Number depth_above(std::uint32_t base) const { return z_ - (w_ * std::int64_t{base}).scaled(-config_.depth_bits); }
   /// Window z of a vertex before the eye as a code, clamped to [0, 1]; ties to even.
   std::uint32_t base_depth() const {
     if (z_.neg || z_.zero()) return 0;
@@ -186,8 +184,8 @@ SnappedQuad snap_exactly(const WindowQuad& quad, std::size_t attributes, const C
   QuadBase& base = out.base;
   for (std::size_t j = 0; j < attributes; ++j) {
     const auto first = exact<Integer>(attribute_of(quad, 0, j));
-    const std::int64_t size = round_half_even(
-        quotient_floor(first, exact_integer<Integer>(1), config.attribute_frac() + 1));
+    const std::int64_t size =
+        round_half_even(quotient_floor(first, exact_integer<Integer>(1), config.attribute_frac() + 1));
     base.attribute[j] = (first.neg ? -1 : 1) * std::min(size, config.attribute_limit());
   }
   // Depths of vertices behind the eye are on no side of a pixel's.
@@ -197,8 +195,7 @@ SnappedQuad snap_exactly(const WindowQuad& quad, std::size_t attributes, const C
   base.depth_low = bounded ? config.depth_above() : -1;
   const auto anchor = static_cast<std::size_t>(std::ranges::find_if(quad.vertex, in_front) - quad.vertex.begin());
   if (anchor < 4)
-    naming_vertex(quad, anchor,
-                  [&] { base.depth = VertexSnapper<Integer>(quad.vertex[anchor], config).base_depth(); });
+    naming_vertex(quad, anchor, [&] { base.depth = VertexSnapper<Integer>(quad.vertex[anchor], config).base_depth(); });
 
   for (std::size_t i = 0; i < 4; ++i)
     naming_vertex(quad, i, [&] {

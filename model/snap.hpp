@@ -1,5 +1,5 @@
-// Snapping: floating-point vertices in, the integers of the machine's port out, exactly rounded. X, Y, W and k depend on
-// the vertex and the draw's configuration alone, so two quads that share a vertex see the same integers. Depth and
+// Snapping: floating-point vertices in, the integers of the machine's port out, exactly rounded. X, Y, W and k depend
+// on the vertex and the draw's configuration alone, so two quads that share a vertex see the same integers. Depth and
 // attributes are differences to a base of their quad.
 #pragma once
 

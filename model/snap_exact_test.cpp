@@ -143,6 +143,29 @@ TEST(SnapExactly, RandomQuads) {
   EXPECT_GT(homogeneous, drawn / 4);
 }
 
+/// Numbers 2^0 to 2^100 apart, of all 53 bits, alike at all four vertices: up to where 128 bits hold what is made of
+/// them, and beyond.
+TEST(SnapExactly, BothLengthsOfIntegers) {
+  Prng rng(14);
+  const Config c;
+  for (int apart = 0; apart <= 100; ++apart)
+    for (int n = 0; n < 6; ++n) {
+      DrawState state;
+      state.perspective = n % 3 != 0;
+      const auto full = [&](int exponent) { return rng.sign() * std::ldexp(rng.uniform(1, 2), exponent); };
+      const std::size_t which = rng.below(3);
+      WindowQuad q;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double far = full(10), near = full(10 - apart);
+        q.vertex[i] = {far, which == 1 ? near : full(10), which == 2 ? near : far, which == 0 ? near : full(0)};
+        q.attribute[i] = {full(6), full(6 - apart), i % 2 == 0 ? full(6) : full(6 - apart)};
+      }
+      SCOPED_TRACE("apart " + std::to_string(apart) + ", quad " + std::to_string(n));
+      expect_exact(q, c, state, false);
+      if (HasFailure()) return;
+    }
+}
+
 /// Magnitudes at the ends of the range, all of them together.
 TEST(SnapExactly, Extremes) {
   const Config c;

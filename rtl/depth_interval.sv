@@ -23,14 +23,12 @@ module depth_interval #(
   localparam logic [H-1:0] UNKNOWN = {H{1'b1}};  // not '1, of which Yosys 0.23 makes 1 in a parameter
   localparam bit EXACT = quadrille_pkg::QUADRATIC_FRAC_BITS >= 2 * quadrille_pkg::SUBPIXEL_BITS;
   localparam logic [CODE-1:0] ROUND_UP = (CODE'(1) << DROP) - CODE'(1);
-  logic [CODE-1:0] low, high;  // not below 0
   logic [CODE-1:0] near_down, far_up;
   logic near_end, far_end;
 
-  assign low = low_i[CODE-1] ? '0 : low_i;
-  assign high = high_i[CODE-1] ? '0 : high_i;
-  assign near_down = low >> DROP;
-  assign far_up = (high + ROUND_UP) >> DROP;
+  // Below 0: any, for the registers are 0 then.
+  assign near_down = low_i >> DROP;
+  assign far_up = (high_i + ROUND_UP) >> DROP;
   // 1 and beyond count as the code before all ones, which hides whatever an entry says.
   assign near_end = near_down >= CODE'(UNKNOWN);
   assign far_end = far_up >= CODE'(UNKNOWN);
@@ -38,6 +36,8 @@ module depth_interval #(
   always_ff @(posedge clk_i) begin
     near_o <= near_end ? UNKNOWN - H'(1) : near_down[H-1:0];
     far_o <= far_end ? UNKNOWN : far_up[H-1:0];
+    if (low_i[CODE-1]) near_o <= '0;
+    if (high_i[CODE-1]) far_o <= '0;
     lowers_o <= EXACT && ordinary_i && !far_end && limits_i[LIMITS-2-:2] == 2'b00;
   end
 

@@ -47,7 +47,7 @@ def fragments_of_program(program, quads, work):
     rows = []
     with out.open() as file:
         for row in csv.DictReader(file):
-            code = [float(row["z"]) * 2**24] + [float(row[f"a{i}"]) * 2**20 for i in range(4)]
+            code = [float(row["z"]) * 2**24] + [float(row[f"a{i}"]) * 2**24 for i in range(4)]
             if any(value != int(value) for value in code):
                 fail(f"{row}: no number of the output formats")
             rows.append(tuple(int(row[key]) for key in ("quad", "y", "x", "front", "flags")) + tuple(map(int, code)))

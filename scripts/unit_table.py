@@ -193,7 +193,7 @@ def latency(text, package):
 
 
 def mhz(clock):
-    if not clock:
+    if not clock or not clock["mhz"]:  # changed since it was placed and routed
         return ""
     count = len(clock["mhz"])
     return f"{statistics.median(clock['mhz']):.0f}{'' if count >= 3 else f' ({count} seed' + ('s)' if count > 1 else ')')}"

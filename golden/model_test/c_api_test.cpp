@@ -383,7 +383,7 @@ TEST_F(CApiErrors, Configurations) {
   quadrille_clocked_destroy(clocked);
   std::int32_t value = 0;
   EXPECT_EQ(quadrille_config_value("significand_bits=12", "attribute_frac_bits", &value), QUADRILLE_OK);
-  EXPECT_EQ(value, 14);
+  EXPECT_EQ(value, 24);
   EXPECT_EQ(quadrille_config_value(nullptr, "VAL_BITS", &value), QUADRILLE_OK);
   EXPECT_EQ(value, 63);
   expect_error(quadrille_config_value(nullptr, "VAL", &value), QUADRILLE_BAD_ARGUMENT, "\"VAL\"");

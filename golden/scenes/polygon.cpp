@@ -97,15 +97,6 @@ bool sees_all(const Outline& o, std::size_t start) {
   return true;
 }
 
-std::vector<Piece> fan(std::size_t corners, std::size_t start) {
-  std::vector<Piece> pieces;
-  for (std::size_t i = 1; i + 1 < corners; i += 2) {
-    const std::size_t last = std::min(i + 2, corners - 1);
-    pieces.push_back({start, (start + i) % corners, (start + i + 1) % corners, (start + last) % corners});
-  }
-  return pieces;
-}
-
 class EarCutter {
  public:
   explicit EarCutter(const Outline& outline) : o_(outline), ring_(outline.size()) {
@@ -163,12 +154,21 @@ class EarCutter {
 
 }  // namespace
 
+std::vector<Piece> polygon_fan(std::size_t corners, std::size_t start) {
+  std::vector<Piece> pieces;
+  for (std::size_t i = 1; i + 1 < corners; i += 2) {
+    const std::size_t last = std::min(i + 2, corners - 1);
+    pieces.push_back({start, (start + i) % corners, (start + i + 1) % corners, (start + last) % corners});
+  }
+  return pieces;
+}
+
 std::vector<Piece> cut_polygon(std::span<const Vec3> corners) {
   const Outline outline = outline_of(corners);
-  if (convex(outline)) return fan(corners.size(), 0);
+  if (convex(outline)) return polygon_fan(corners.size());
   refuse_crossing(outline);
   for (std::size_t start = 0; start < corners.size(); ++start)
-    if (sees_all(outline, start)) return fan(corners.size(), start);
+    if (sees_all(outline, start)) return polygon_fan(corners.size(), start);
   return EarCutter(outline).cut();
 }
 

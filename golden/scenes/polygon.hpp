@@ -25,4 +25,7 @@ using Piece = std::array<std::size_t, 4>;
 /// std::invalid_argument for a polygon whose edges cross, which encloses nothing, or which is too warped to be cut.
 std::vector<Piece> cut_polygon(std::span<const Vec3> corners);
 
+/// From corner `start`: quads and, for an odd number of corners, a triangle at the end.
+std::vector<Piece> polygon_fan(std::size_t corners, std::size_t start = 0);
+
 }  // namespace quadrille::golden

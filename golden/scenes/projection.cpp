@@ -75,8 +75,9 @@ void check_face(const Mesh& mesh, std::size_t face) {
   }
 }
 
-/// The primitives of a face with checked corners.
-std::vector<Piece> pieces_of(const Mesh& mesh, std::size_t face) {
+/// The primitives of a face with checked corners. One that crosses itself, as a warped one of a mesh may, still closes
+/// the mesh as a fan.
+std::vector<Piece> pieces_of(const Mesh& mesh, std::size_t face, std::size_t& crossed_faces) {
   const Face& corners = mesh.faces[face];
   if (corners.size() == 3) return {{0, 1, 2, 2}};
   if (corners.size() == 4) return {{0, 1, 2, 3}};
@@ -84,9 +85,9 @@ std::vector<Piece> pieces_of(const Mesh& mesh, std::size_t face) {
   for (const Corner& corner : corners) positions.push_back(position_of(mesh, face, corner));
   try {
     return cut_polygon(positions);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("face " + std::to_string(face) + ", of " + std::to_string(corners.size()) +
-                                " corners: " + error.what());
+  } catch (const std::invalid_argument&) {
+    ++crossed_faces;
+    return polygon_fan(corners.size());
   }
 }
 
@@ -333,7 +334,8 @@ Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int h
     }
     const bool textured = std::all_of(face.begin(), face.end(), [](const Corner& c) { return c.texcoord >= 0; });
     const std::size_t before = result.quads.size();
-    for (const auto& [a, b, c, d] : pieces_of(mesh, f)) emit(f, textured, {&face[a], &face[b], &face[c], &face[d]});
+    for (const auto& [a, b, c, d] : pieces_of(mesh, f, result.crossed_faces))
+      emit(f, textured, {&face[a], &face[b], &face[c], &face[d]});
     if (face.size() > 4) result.fan_primitives += result.quads.size() - before;
   }
   return result;

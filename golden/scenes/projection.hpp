@@ -42,6 +42,7 @@ struct Projection {
   std::size_t triangles = 0;                  ///< primitives drawn as (a, b, c, c), those of fans included
   std::size_t fanned_faces = 0;               ///< faces with more than four corners
   std::size_t fan_primitives = 0;             ///< quads and triangles that those faces were cut into
+  std::size_t crossed_faces = 0;              ///< of them those that no cut covers once: fans from the first corner
 };
 
 /// clip = M · (x, y, z, 1), NDC y up, z −1..1 (OpenGL's look-at times perspective when the camera has no matrix; aspect

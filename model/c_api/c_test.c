@@ -1,4 +1,5 @@
-/* quadrille.h as a C11 compiler sees it: the layout of its structs, which other languages write down by hand, and one quad. */
+/* quadrille.h as a C11 compiler sees it: the layout of its structs, which other languages write down by hand, and one
+ * quad. */
 #include "model/c_api/quadrille.h"
 
 #include <stdio.h>
@@ -6,9 +7,9 @@
 #include <string.h>
 
 _Static_assert(sizeof(quadrille_vertex) == 96 && offsetof(quadrille_vertex, attribute) == 32, "vertex");
-_Static_assert(sizeof(quadrille_fragment) == 80 && offsetof(quadrille_fragment, x) == 4 && offsetof(quadrille_fragment, front) == 8 &&
-                   offsetof(quadrille_fragment, flags) == 9 && offsetof(quadrille_fragment, depth) == 12 &&
-                   offsetof(quadrille_fragment, attribute) == 16,
+_Static_assert(sizeof(quadrille_fragment) == 80 && offsetof(quadrille_fragment, x) == 4 &&
+                   offsetof(quadrille_fragment, front) == 8 && offsetof(quadrille_fragment, flags) == 9 &&
+                   offsetof(quadrille_fragment, depth) == 12 && offsetof(quadrille_fragment, attribute) == 16,
                "fragment");
 _Static_assert(sizeof(quadrille_draw_state) == 64 && offsetof(quadrille_draw_state, cull) == 28 &&
                    offsetof(quadrille_draw_state, skip) == 44 && offsetof(quadrille_draw_state, znear) == 48,
@@ -24,8 +25,10 @@ static void check(int ok, const char* what) {
 }
 
 int main(void) {
-  /* A square of 4 x 4 pixels, its corners on pixel centres' lines: y down, so this order is counter-clockwise on the screen. */
-  const quadrille_vertex square[4] = {{4, 4, 0.5, 1, {1}}, {4, 8, 0.5, 1, {1}}, {8, 8, 0.5, 1, {1}}, {8, 4, 0.5, 1, {1}}};
+  /* A square of 4 x 4 pixels, its corners on pixel centres' lines: y down, so this order is counter-clockwise on the
+   * screen. */
+  const quadrille_vertex square[4] = {
+      {4, 4, 0.5, 1, {1}}, {4, 8, 0.5, 1, {1}}, {8, 8, 0.5, 1, {1}}, {8, 4, 0.5, 1, {1}}};
   check(quadrille_abi() == QUADRILLE_ABI, "the library is of another ABI");
   check(strcmp(quadrille_last_error(), "") == 0, "an error before the first call");
 
@@ -46,7 +49,8 @@ int main(void) {
   check(quadrille_untimed_take(untimed, drawn, 20, &count) == QUADRILLE_OK && count == 16, "16 pixels");
   check(quadrille_clocked_push(clocked, 7, square, 1) == QUADRILLE_OK, "push");
   check(quadrille_clocked_run(clocked, 10000, NULL) == QUADRILLE_OK, "run");
-  check(quadrille_clocked_take(clocked, clocked_out, 20, &clocked_count) == QUADRILLE_OK && clocked_count == 16, "16 of the clocked model");
+  check(quadrille_clocked_take(clocked, clocked_out, 20, &clocked_count) == QUADRILLE_OK && clocked_count == 16,
+        "16 of the clocked model");
   for (size_t i = 0; i < count && i < clocked_count; ++i) {
     const quadrille_fragment* f = &drawn[i];
     check(f->quad == 7 && f->x >= 4 && f->x < 8 && f->y >= 4 && f->y < 8 && f->front == 1, "id, place and face");

@@ -30,7 +30,7 @@ def resolved(config):
     s = config["significand_bits"]
     auto = {"quadratic_frac_bits": 2 * (config["subpixel_bits"] + config["homogeneous_frac_bits"]),
             "sqrt_segments_log2": max(3, up(s, 2) if config["sqrt_degree"] == 1 else up(s - 4, 3)),
-            "recip_segments_log2": max(3, up(s + 1, 2) if config["recip_degree"] == 1 else up(s - 2, 3)), "attribute_frac_bits": s + 2}
+            "recip_segments_log2": max(3, up(s + 1, 2) if config["recip_degree"] == 1 else up(s - 2, 3)), "attribute_frac_bits": max(24, s + 2)}
     return {key: auto[key] if value == -1 else value for key, value in config.items()}
 
 

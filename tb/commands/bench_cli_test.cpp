@@ -96,7 +96,8 @@ TEST_F(Cli, BenchSkipsReports) {
   EXPECT_NE(exr.find("skip.entered"), std::string::npos);
   EXPECT_EQ(skips("--threads 2")["skips"], report["skips"]);
   const std::string text = run("bench --skips --scene layers_large --size 64x64 --repeat 1").out;
-  for (const char* row : {" quads ", " pixels ", " pixels/clock ", " hidden tiles ", " masked tiles ", " hidden blocks "})
+  for (const char* row :
+       {" quads ", " pixels ", " pixels/clock ", " hidden tiles ", " masked tiles ", " hidden blocks "})
     EXPECT_NE(text.find(row), std::string::npos) << row << text;
 }
 

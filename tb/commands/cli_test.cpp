@@ -501,7 +501,8 @@ TEST_F(CliCosim, NothingComparedIsAFailure) {
   EXPECT_NE(outcome.err.find("off.quads: no fragments compared\n"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("coverage       no fragments compared, 0 differ\n"), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("throughput"), std::string::npos) << outcome.out;
-  EXPECT_EQ(outcome.out.find("bound"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("held"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("max  "), std::string::npos) << outcome.out;
   // What does not depend on the input is said to be so.
   EXPECT_NE(outcome.out.find(" directed arguments, 0 beyond"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("(of the configuration, whatever the input)"), std::string::npos) << outcome.out;

@@ -95,7 +95,7 @@ TEST_F(GoldenCli, GeneratesAndVerifies) {
             "quadrille golden generate --level 1 --seed 1 --limit 30 --suite sqrt --suite weights");
   EXPECT_EQ(manifest["suites"].size(), 2u);
   const json suite = json::parse(read(file("set") / "sqrt" / "manifest.json"));
-  EXPECT_EQ(suite["config"]["attribute_frac_bits"], 20);
+  EXPECT_EQ(suite["config"]["attribute_frac_bits"], 24);
   EXPECT_EQ(suite["counts"]["vectors"], suite["files"]["stimulus.hex"]["lines"]);
 
   const Outcome outcome = run("golden verify set");
@@ -162,7 +162,7 @@ TEST_F(GoldenCli, WrongPicturesAreFound) {
   generate("--suite stress_bowtie --out set");
   ASSERT_EQ(run("golden verify set").status, 0);
   const std::string good = read(file("set/stress_bowtie/image_0.exr"));
-  for (const std::size_t at : {good.size() / 4, good.size() / 2, good.size() * 7 / 8}) {
+  for (const std::size_t at : {good.size() / 4, good.size() / 2, good.size() * 3 / 4}) {
     std::string text = good;
     text[at] = static_cast<char>(text[at] ^ 1);
     put("set", "stress_bowtie", "image_0.exr", text);
@@ -331,11 +331,12 @@ TEST_F(GoldenCli, AnInputOfOnesOwn) {
   ASSERT_EQ(run("golden generate --quads square.quads --size 32x32 --out own").status, 0);
   const json manifest = json::parse(read(file("own/input/manifest.json")));
   EXPECT_EQ(manifest["counts"], (json{{"vectors", 64}, {"draws", 1}, {"quads", 1}}));
-  // {draw[16], id[24], x[32], y[32], ...}: the first corner is half a pixel from the first pixel's centre, FRAC = 15.
-  EXPECT_EQ(read(file("own/input/stimulus.hex")).substr(0, 26), "00000000000000400000004000");
-  // {perspective, x[64], y[64], z[64], w[64], ...}: as given.
-  EXPECT_EQ(read(file("own/input/vertices.hex")).substr(0, 65),
-            "13ff00000000000003ff00000000000003fe00000000000003ff0000000000000");
+  // {draw[16], id[24], x[32], y[32], ...}, 493 bits behind three zeros: the first corner is half a pixel from the first
+  // pixel's centre, FRAC = 15.
+  EXPECT_EQ(read(file("own/input/stimulus.hex")).substr(0, 26), "00000000000000080000000800");
+  // {perspective, x[4 of 64], y, z, w, ...}: as given, x of the last vertex first.
+  EXPECT_EQ(read(file("own/input/quads.hex")).substr(0, 65),
+            "13ff0000000000000402200000000000040220000000000003ff0000000000000");
   for (const char* engine : {"model", "float"}) {
     const Outcome outcome = run(std::string("golden verify own --engine ") + engine);
     EXPECT_EQ(outcome.status, 0) << engine << ": " << outcome.err;
@@ -348,23 +349,23 @@ TEST_F(GoldenCli, AnInputOfOnesOwn) {
   EXPECT_EQ(bytes("own"), bytes("again"));
 }
 
-// Under right hashes: a port integer that does not follow from its vertex, and a fragment that the machine does not
+// Under right hashes: a port integer that does not follow from its quad, and a fragment that the machine does not
 // draw.
 TEST_F(GoldenCli, WrongBytesOfAnInputAreFound) {
   write("square.quads", square);
   ASSERT_EQ(run("golden generate --quads square.quads --size 32x32 --out own").status, 0);
-  const std::string vertices = read(file("own/input/vertices.hex")), response = read(file("own/input/response.hex"));
-  std::string text = vertices;
-  ASSERT_EQ(text[20], '0');
-  text[20] = '1';  // y of the first vertex: 1 + 1/16
-  write("own/input/vertices.hex", text);
-  refuses(2, "golden verify own", {"vertices.hex", "SHA-256"});
-  write("own/input/vertices.hex", vertices);
-  put("own", "input", "vertices.hex", text);
+  const std::string quads = read(file("own/input/quads.hex")), response = read(file("own/input/response.hex"));
+  std::string text = quads;
+  ASSERT_EQ(text.substr(113, 4), "3ff0");
+  text[116] = '1';  // y of the first vertex: 1 + 1/16
+  write("own/input/quads.hex", text);
+  refuses(2, "golden verify own", {"quads.hex", "SHA-256"});
+  write("own/input/quads.hex", quads);
+  put("own", "input", "quads.hex", text);
   Outcome outcome = run("golden verify own");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_EQ(outcome.err.find("quadrille: own/input/stimulus.hex:1: y: expected "), 0u) << outcome.err;
-  put("own", "input", "vertices.hex", vertices);
+  put("own", "input", "quads.hex", quads);
   ASSERT_EQ(run("golden verify own").status, 0);
 
   text = response;

@@ -126,6 +126,9 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
     if (input.fanned_faces)
       std::fprintf(text, "%zu faces with more than four corners were cut into %zu primitives\n", input.fanned_faces,
                    input.fan_primitives);
+    if (input.crossed_faces)
+      std::fprintf(text, "%zu of them cross themselves: fans from their first corners, which may paint outside\n",
+                   input.crossed_faces);
     if (input.skipped_lines && options.common.verbose)
       std::fprintf(text, "%zu lines of the mesh were skipped\n", input.skipped_lines);
   }

@@ -423,13 +423,8 @@ TEST_P(Configuration, LockstepAcrossQuadsLeftOut) {
   }
   UntimedModel model(options.config, options.state);
   for (const SnappedQuad& quad : quads) model.draw(quad, [](std::span<const Fragment>) {});
-  for (std::size_t reason = 0; reason < quad_reject_count; ++reason) {
-    const bool never = reason == static_cast<std::size_t>(QuadReject::depth) && !depth_margin_holds(options.config);
-    if (never)
-      EXPECT_EQ(model.stats().rejected[reason], 0u);
-    else
-      EXPECT_GT(model.stats().rejected[reason], 20u) << reason;
-  }
+  for (std::size_t reason = 0; reason < quad_reject_count; ++reason)
+    EXPECT_GT(model.stats().rejected[reason], 20u) << reason;
   for (const double stall : {0.0, 0.9}) {
     options.stall = stall;
     const LockstepReport report = run_lockstep(device, quads, options);

@@ -193,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(Cosim, HiddenTiles, testing::Values(few_places, many_pl
 
 TEST_P(HiddenTiles, LockstepThroughDrawsAndClears) {
   const Config config = GetParam().config();
-  const std::vector<Draw> draws = make_draws(config, GetParam().width, GetParam().height, 20);
+  const std::vector<Draw> draws = make_draws(config, GetParam().width, GetParam().height, 24);
   DrawStats stats;
   const std::vector<Fragment> expected = untimed(config, draws, stats);
   EXPECT_GT(stats.tiles_hidden, 400u);

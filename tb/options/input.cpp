@@ -164,6 +164,7 @@ void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, 
   input.faces = mesh.faces.size();
   input.triangles = projection.triangles;
   input.fanned_faces = projection.fanned_faces;
+  input.crossed_faces = projection.crossed_faces;
   input.fan_primitives = projection.fan_primitives;
   input.skipped_lines = mesh.skipped_lines;
 }

@@ -40,7 +40,7 @@ struct DrawInput {
   golden::TextureKind texture = golden::TextureKind::checker;
   Lighting lighting;
   golden::CuttingPlanes planes;  ///< of shade `planes`, in the unit of the position attributes (a power of two)
-  std::size_t faces = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, skipped_lines = 0;
+  std::size_t faces = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, crossed_faces = 0, skipped_lines = 0;
   std::string quads_file;  ///< where the quads came from, if a .quads file
   std::string remark;      ///< what the input lacks for its shading or its reader noted; empty: nothing
 };

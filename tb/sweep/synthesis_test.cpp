@@ -183,7 +183,7 @@ TEST_F(Synthesis, EachTargetIsASynthesisOfItsOwn) {
             "row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost,cost_luts,"
             "cost_dsps\n"
             "0,ecp5,2039,7,5,4,86,,,,," +
-                csv_number(with.cost) + "," + csv_number(with.cost_luts) + ",272\n0,ecp5-nodsp,2039,7,2,4,86,,,,," +
+                csv_number(with.cost) + "," + csv_number(with.cost_luts) + ",256\n0,ecp5-nodsp,2039,7,2,4,86,,,,," +
                 csv_number(without.cost) + "," + csv_number(without.cost_luts) + ",0\n");
   EXPECT_EQ(weights_of(ecp5).multiplier, 0);
   EXPECT_EQ(weights_of(tb::SynthesisTarget::ecp5_nodsp).dsp, 0);
