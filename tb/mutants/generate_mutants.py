@@ -42,7 +42,7 @@ OTHER_RTL = {"config_check.sv"}
 # Not the machine: reading and writing of configurations, a processor's instructions and which there are, what the bench reads.
 OTHER_MODEL = {"config.cpp", "config.hpp", "config_text.cpp", "config_text.hpp", "lane_target.cpp", "lane_target.hpp", "each_lane_target.hpp",
                "bit_vector.cpp", "bit_vector.hpp", "fields.hpp", "record.cpp", "record.hpp", "drive.hpp", "tables.hpp", "boundaries.cpp", "boundaries.hpp",
-               "float_avx2.hpp", "float_avx512.hpp"}
+               "float_avx2.hpp", "float_avx512.hpp", "slow_snap.hpp"}
 # A model's file without a twin of its name.
 TWINS = {"significand.hpp": ("fp_sum", "fp_multiply", "fp_raw_product", "fp_normalise", "fp_product", "fp_add", "fp_term"),
          "quad_setup.cpp": ("quad_setup", "bounding_range", "range_empty", "eye_in_hull"), "tile_walk.cpp": ("tile_walk", "edge_reach"),
@@ -50,7 +50,8 @@ TWINS = {"significand.hpp": ("fp_sum", "fp_multiply", "fp_raw_product", "fp_norm
          "interpolate.cpp": ("interpolate",), "pixel_pipeline.cpp": ("pixel_lane", "denominator_operands"),
          "fragment_output.cpp": ("fragment_output", "fixed_point"), "clocked.cpp": (), "performance_counters.cpp": ("performance_counters",),
          "forward_difference.cpp": ("forward_difference_column", "forward_difference_row", "law_of_cosines"),
-         "normalise.cpp": ("normalise", "fp_normalise"), "quad_reject.cpp": ("quad_reject",)}
+         "normalise.cpp": ("normalise", "fp_normalise"), "quad_reject.cpp": ("quad_reject",),
+         "hierarchical_z.cpp": ("hierarchical_z", "depth_interval")}
 # Of the lanes and the untimed model there is no RTL. A change of the clocks, in both, is another machine, not a fault: nothing but the twin says when something happens.
 CLOCKS = {"clocked.cpp", "clocked.hpp", "latency.hpp", "performance_counters.cpp", "performance_counters.hpp", "boundaries.cpp", "boundaries.hpp"}
 

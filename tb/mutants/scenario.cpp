@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 namespace quadrille::tb {
 namespace {
@@ -299,6 +301,8 @@ Scenario lanes() {
 
 /// Layers over the whole viewport, some of them at an angle, a few codes apart: hidden or just not, by codes of a few
 /// steps of the depths; some hide nothing, being outside znear and zfar or partly so, culled or not all over a tile.
+/// After a level one there may be the same again, a quarter of such a code before it: seen, though their codes are
+/// alike.
 Scenario layers() {
   LockstepOptions o = options(hiding(), 72);  // more tiles than places
   o.state.attributes = 1;
@@ -309,8 +313,14 @@ Scenario layers() {
   o.state.scissor_x0 = 3;
   o.state.scissor_y1 = 70;
   o.stall = 0.2;
-  return {"layers", o, drawn(o, 8, 140, [](golden::Prng& random) {
+  std::optional<WindowQuad> level;
+  return {"layers", o, drawn(o, 8, 160, [level](golden::Prng& random) mutable {
             WindowQuad quad;
+            if (level) {
+              quad = *std::exchange(level, {});
+              for (WindowVertex& v : quad.vertex) v.z -= std::ldexp(1, -14);
+              return quad;
+            }
             const double step = std::ldexp(1, -13), z = random.chance(0.7)
                                                             ? 0.4 + step * std::floor(64 * random.uniform())
                                                             : random.uniform(0.1, random.chance(0.3) ? 0.22 : 0.9);
@@ -323,6 +333,10 @@ Scenario layers() {
             if (random.chance(0.2)) quad.vertex[2].z += random.uniform(-0.3, 0.3);
             if (random.chance(0.15)) std::swap(quad.vertex[1], quad.vertex[3]);
             if (random.chance(0.1)) std::swap(quad.vertex[0], quad.vertex[1]);
+            if (random.chance(0.15)) {
+              for (WindowVertex& v : quad.vertex) v.z = z;
+              level = quad;
+            }
             return quad;
           })};
 }
@@ -548,6 +562,10 @@ Scenario bases() {
   golden::Prng random(19);
   const int one = 1 << o.config.depth_bits;
   for (SnappedQuad& quad : scenario.quads) {
+    // Vertex 0's attributes are not looked at.
+    for (PortNumber& number : quad.vertex[0].attribute)
+      number = {random.chance(0.5), static_cast<std::int32_t>(random.integer(-9, 6)),
+                std::uint32_t{1} << (o.config.significand_bits - 1)};
     if (!random.chance(0.3)) continue;
     const auto code = [&] { return static_cast<std::int32_t>(random.integer(-1, one + 1)); };
     std::tie(quad.base.depth_low, quad.base.depth_high) = std::minmax({code(), code()});
@@ -728,6 +746,14 @@ std::span<const Scenario> scenarios() {
       LockstepOptions o = options(config, draw.state.width);
       o.state = draw.state;
       o.stall = draw.stall;
+      if (draw.group == "den_w_zero")  // with limits that tell above from below, and neither discarded
+        for (std::size_t i = 0; i < draw.quads.size(); i += 2) {
+          QuadBase& base = draw.quads[i].base;
+          base.depth_low = static_cast<std::int32_t>(base.depth / 2);
+          base.depth_high = static_cast<std::int32_t>((base.depth + (1u << config.depth_bits)) / 2);
+          if (i % 4 == 0)
+            for (SnappedVertex& v : draw.quads[i].vertex) v.z.neg = v.z.sig != 0 && !v.z.neg;
+        }
       if (draw.group == "far_corner") return;  // its walk takes longer than all the others together
       const std::string name = before + std::string(draw.group);
       if (std::ranges::count(all, name, &Scenario::name) == 0)
