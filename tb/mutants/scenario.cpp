@@ -331,6 +331,7 @@ Scenario layers() {
                             {left + width, top + height + lean, z + step * random.uniform(), 1},
                             {left + width, top, z, 1}}};
             if (random.chance(0.2)) quad.vertex[2].z += random.uniform(-0.3, 0.3);
+            if (z < 0.22) quad.vertex[2].z -= random.uniform(0, 0.4);  // some below 0
             if (random.chance(0.15)) std::swap(quad.vertex[1], quad.vertex[3]);
             if (random.chance(0.1)) std::swap(quad.vertex[0], quad.vertex[1]);
             if (random.chance(0.15)) {
