@@ -276,9 +276,9 @@ TEST(HardwareCost, AttributeSlotsCostTheSameEach) {
                 costs[1].multiplier_bits - costs[0].multiplier_bits);
       EXPECT_EQ(costs[i].table_bits, costs[0].table_bits);
     }
-    // Four products with the weights and one with the reciprocal.
+    // Three products with the weights and one with the reciprocal.
     const int s = config.significand_bits;
-    EXPECT_EQ(costs[1].multiplier_bits - costs[0].multiplier_bits, static_cast<std::uint64_t>(5 * s * s));
+    EXPECT_EQ(costs[1].multiplier_bits - costs[0].multiplier_bits, static_cast<std::uint64_t>(4 * s * s));
     // The output register's clearing is shared out in whole bits, so adders are linear too.
     for (std::size_t i = 2; i < costs.size(); ++i)
       EXPECT_EQ(costs[i].adder_bits - costs[i - 1].adder_bits, costs[1].adder_bits - costs[0].adder_bits);
@@ -316,9 +316,14 @@ TEST(HardwareCost, TablesAreCountedPerCopy) {
         static_cast<std::uint64_t>(config.quad_id_bits + 2 * config.viewport_bits + 1 + 8 + config.depth_bits + 1 +
                                    config.attribute_slots * config.attr_out_bits() + 35) /
         36;
-    // Of a slot the terms of W, Z and the attributes at four vertices, and six squared lengths.
-    const std::uint64_t slots = static_cast<std::uint64_t>(
-        (4 * (2 + config.attribute_slots) * config.attr_port_bits() + 35) / 36 + (6 * config.length2_bits() + 35) / 36);
+    // Of a slot the terms of W and Z at four vertices and of the attributes at three; the bases, and what quad_reject
+    // says of depths: three bits and two codes; six squared lengths.
+    const auto words = [](int bits) { return static_cast<std::uint64_t>((bits + 35) / 36); };
+    const int n = config.attribute_slots;
+    const std::uint64_t slots =
+        words((2 * 4 + 3 * n) * config.attr_port_bits()) +
+        words(n * config.attr_out_bits() + config.depth_bits + 1 + 3 + 2 * (config.depth_bits + 1)) +
+        words(6 * config.length2_bits());
     EXPECT_EQ(hardware_cost(config).table_bits, 0) << s;
     EXPECT_EQ(hardware_cost(config).block_rams,
               7 * blocks(make_sqrt_table(config)) + 2 * blocks(make_recip_table(config)) + fifo + slots)

@@ -116,7 +116,11 @@ class CliStress : public Cli {
     ASSERT_EQ(report["families"].size(), names.size());
     for (const json& family : report["families"])
       for (const char* output : {"weight", "attribute", "depth"}) {
-        EXPECT_GT(family["worst"]["model"][output]["error"], 0) << family["family"] << output;
+        // A constant depth is exact.
+        if (family["family"] == "guard_band_flat" && output == std::string_view("depth"))
+          EXPECT_EQ(family["worst"]["model"][output]["error"], 0);
+        else
+          EXPECT_GT(family["worst"]["model"][output]["error"], 0) << family["family"] << output;
         EXPECT_LT(family["worst"]["model"][output]["error"], 1) << family["family"] << output;
       }
   }
@@ -324,7 +328,7 @@ TEST_F(CliStress, StepsWithoutFragmentsAreNamed) {
 }
 
 TEST_F(CliStress, FragmentsWithErrors) {
-  write("q.quads", "4 4 0.5 1 40 6 0.5 1 50 44 0.5 1 6 50 0.5 1 0.1 0.2 0.3 0.4\n");
+  write("q.quads", "4 4 0.2 1 40 6 0.4 1 50 44 0.8 1 6 50 0.6 1 0.1 0.2 0.3 0.4\n");
   const std::string line = "fragments --quads q.quads --size 64x64 --errors --out - --engine ";
   const Outcome truth = run(line + "truth"), model = run(line + "model"), single = run(line + "fp32");
   ASSERT_EQ(truth.status, 0) << truth.err;

@@ -105,8 +105,8 @@ TEST_F(View, BadOptions) {
   refuses(2, render + "--view 1,nan,2", {"--view 1,nan,2"});
   refuses(2, render + "--up w", {"--up w", "x, y or z"});
   refuses(2, render + "--light lamp", {"--light lamp", "headlight"});
-  refuses(2, render + "--save-camera box.obj", {"box.obj", "input"});
-  refuses(2, render + "--save-camera a.png", {"two outputs"});
+  refuses(2, render + "--save-camera box.obj", {"box.obj", "JSON"});
+  refuses(2, render + "--save-camera a.png", {"a.png", "JSON"});
   refuses(2, render + "--save-camera -", {"-"});
   refuses(2, "render --png a.png --scene sphere --view top", {"--view goes with --mesh"});
   refuses(2, "render --png a.png --scene sphere --save-camera c.json", {"--save-camera goes with --mesh"});
