@@ -9,9 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <tuple>
-#include <utility>
 
 namespace quadrille::tb {
 namespace {
@@ -301,8 +299,8 @@ Scenario lanes() {
 
 /// Layers over the whole viewport, some of them at an angle, a few codes apart: hidden or just not, by codes of a few
 /// steps of the depths; some hide nothing, being outside znear and zfar or partly so, culled or not all over a tile.
-/// After a level one there may be the same again, a quarter of such a code before it: seen, though their codes are
-/// alike.
+/// Then level ones before all others, each twice, the second time a quarter of a code nearer: seen, though their codes
+/// are alike.
 Scenario layers() {
   LockstepOptions o = options(hiding(), 72);  // more tiles than places
   o.state.attributes = 1;
@@ -313,14 +311,14 @@ Scenario layers() {
   o.state.scissor_x0 = 3;
   o.state.scissor_y1 = 70;
   o.stall = 0.2;
-  std::optional<WindowQuad> level;
-  return {"layers", o, drawn(o, 8, 160, [level](golden::Prng& random) mutable {
-            WindowQuad quad;
-            if (level) {
-              quad = *std::exchange(level, {});
+  constexpr int first_level = 140;
+  return {"layers", o, drawn(o, 8, 160, [n = 0, quad = WindowQuad{}](golden::Prng& random) mutable {
+            const int level = n++ - first_level;
+            if (level >= 0 && level % 2 == 1) {
               for (WindowVertex& v : quad.vertex) v.z -= std::ldexp(1, -14);
               return quad;
             }
+            quad = {};
             const double step = std::ldexp(1, -13), z = random.chance(0.7)
                                                             ? 0.4 + step * std::floor(64 * random.uniform())
                                                             : random.uniform(0.1, random.chance(0.3) ? 0.22 : 0.9);
@@ -334,10 +332,8 @@ Scenario layers() {
             if (z < 0.22) quad.vertex[2].z -= random.uniform(0, 0.4);  // some below 0
             if (random.chance(0.15)) std::swap(quad.vertex[1], quad.vertex[3]);
             if (random.chance(0.1)) std::swap(quad.vertex[0], quad.vertex[1]);
-            if (random.chance(0.15)) {
-              for (WindowVertex& v : quad.vertex) v.z = z;
-              level = quad;
-            }
+            if (level >= 0)
+              for (WindowVertex& v : quad.vertex) v.z = std::ldexp(853.4 - level, -12);
             return quad;
           })};
 }
