@@ -108,6 +108,10 @@ std::span<const ConfigKey> Config::keys() { return key_list; }
 
 const ConfigKey& Config::key(std::string_view name) { return find(name).key; }
 
+std::string_view Config::present_name(std::string_view name) {
+  return removed(name) != nullptr ? name : key(name).name;
+}
+
 const RemovedKey* Config::removed(std::string_view name) {
   const auto found = std::ranges::find(removed_keys, name, &RemovedKey::name);
   return found == removed_keys.end() ? nullptr : &*found;

@@ -76,6 +76,9 @@ struct Config {
   /// A key by its name, or by the one that it had before (rsqrt_segments_log2, rsqrt_degree); throws ConfigError for an
   /// unknown name (the nearest one is suggested) and for a removed key.
   static const ConfigKey& key(std::string_view name);
+  /// The name that a key has now: its own, but for one that had another before; of a removed key the one given. Throws
+  /// ConfigError for an unknown name.
+  static std::string_view present_name(std::string_view name);
   /// A key that was removed, by its name; else none.
   static const RemovedKey* removed(std::string_view name);
   /// What to tell a user who sets a key: "NAME = VALUE is no longer needed: …" of a removed one, else nothing.

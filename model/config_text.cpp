@@ -52,7 +52,7 @@ void apply_line(std::string_view line, Config& config, Reading& reading) {
     line.remove_prefix(1);
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
     static_cast<void>(config.get(key));  // an unknown key is the better complaint than its value
-    const std::string_view name = Config::removed(key) != nullptr ? key : Config::key(key).name;
+    const std::string_view name = Config::present_name(key);
     if (std::ranges::find(reading.keys, name) != reading.keys.end())
       throw ConfigError("key " + quoted(key) + " was set before" + (key == name ? "" : ", as " + quoted(name)));
     reading.keys.push_back(name);

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <locale>
+#include <optional>
 #include <sstream>
 
 namespace quadrille {
@@ -193,13 +194,14 @@ SnappedQuad snap_exactly(const WindowQuad& quad, std::size_t attributes, const C
   const bool bounded = std::ranges::all_of(quad.vertex, in_front);
   base.depth_high = bounded ? -1 : config.depth_above();
   base.depth_low = bounded ? config.depth_above() : -1;
+  std::array<std::optional<VertexSnapper<Integer>>, 4> snappers;
+  for (std::size_t i = 0; i < 4; ++i) naming_vertex(quad, i, [&] { snappers[i].emplace(quad.vertex[i], config); });
   const auto anchor = static_cast<std::size_t>(std::ranges::find_if(quad.vertex, in_front) - quad.vertex.begin());
-  if (anchor < 4)
-    naming_vertex(quad, anchor, [&] { base.depth = VertexSnapper<Integer>(quad.vertex[anchor], config).base_depth(); });
+  if (anchor < 4) base.depth = snappers[anchor]->base_depth();
 
   for (std::size_t i = 0; i < 4; ++i)
     naming_vertex(quad, i, [&] {
-      const VertexSnapper<Integer> snapper(quad.vertex[i], config);
+      const VertexSnapper<Integer>& snapper = *snappers[i];
       SnappedVertex& v = out.vertex[i];
       v = snapper.position();
       v.z = snapper.times_k(snapper.depth_above(base.depth));

@@ -132,7 +132,7 @@ std::vector<std::string> parse(std::string_view text, const std::string& name, C
     if (entry.first->str() != "cost") {
       set_key(entry, name, new_config);
       const std::string_view given = entry.first->str();
-      const std::string_view key = Config::removed(given) != nullptr ? given : Config::key(given).name;
+      const std::string_view key = Config::present_name(given);
       if (std::ranges::find(keys_set, key) != keys_set.end())
         throw input_error(name, line_of(entry), "key " + in_quotes(given) + " was set before, as " + in_quotes(key));
       keys_set.push_back(key);

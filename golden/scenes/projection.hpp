@@ -83,12 +83,11 @@ Vec3 direction_to_eye(const Camera& camera);
 std::vector<Vec3> smooth_normals(const Mesh& mesh);
 
 /// Faces in order. A triangle (a, b, c) becomes (a, b, c, c); a face with n > 4 corners what cut_polygon() makes of it:
-/// if convex, a fan from its first corner, as quads then (n odd) a triangle. A face in which a corner has no texture
-/// coordinate gets the unit square (0,0) (1,0) (1,1) (0,1) per primitive (a triangle: its fourth corner repeats the
-/// third); a corner without normal gets the smooth one. Normals are normalised. Throws std::invalid_argument with the
-/// face number for fewer than three corners, an index out of range, a face that cut_polygon() refuses, and with
-/// `strict` for more than four corners; without one for AttributeSet::colour when the mesh has not one colour per
-/// position.
+/// if convex, a fan from its first corner, as quads then (n odd) a triangle; so also one that it refuses. A face in
+/// which a corner has no texture coordinate gets the unit square (0,0) (1,0) (1,1) (0,1) per primitive (a triangle: its
+/// fourth corner repeats the third); a corner without normal gets the smooth one. Normals are normalised. Throws
+/// std::invalid_argument with the face number for fewer than three corners, an index out of range, and with `strict`
+/// for more than four corners; without one for AttributeSet::colour when the mesh has not one colour per position.
 Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int height,
                         const ProjectOptions& options = {});
 

@@ -128,10 +128,18 @@ Exact<Integer> exact(double value) {
   const DoubleBits bits(value);
   return {bits.neg, static_cast<Integer>(bits.m), bits.exp};
 }
+
+namespace detail {
+
+inline std::uint64_t magnitude(std::int64_t value) {
+  return value < 0 ? -static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+}
+
+}  // namespace detail
+
 template <class Integer>
 Exact<Integer> exact_integer(std::int64_t value) {
-  const std::uint64_t size = value < 0 ? -static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
-  return {value < 0, static_cast<Integer>(size), 0};
+  return {value < 0, static_cast<Integer>(detail::magnitude(value)), 0};
 }
 
 /// The binary places that numbers use, to know whether 128 bits hold what is made of them.
@@ -175,9 +183,7 @@ Exact<Integer> operator-(Exact<Integer> a, Exact<Integer> b) {
 
 template <class Integer>
 Exact<Integer> operator*(const Exact<Integer>& a, std::int64_t factor) {
-  const Exact<Integer> f = exact_integer<Integer>(factor);
-  const std::uint64_t size = factor < 0 ? -static_cast<std::uint64_t>(factor) : static_cast<std::uint64_t>(factor);
-  return {a.neg != f.neg, a.m * size, a.exp};
+  return {a.neg != (factor < 0), a.m * detail::magnitude(factor), a.exp};
 }
 
 /// |a| < |b|.
