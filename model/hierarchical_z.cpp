@@ -12,16 +12,18 @@ bool skips_hidden(const Config& config, const DrawState& state) {
 }
 
 DepthInterval depth_interval(const SnappedQuad& quad, const Config& config, const DrawState& state) {
-  const std::int32_t unknown = (std::int32_t{1} << config.hierarchical_z_bits) - 1;
+  const std::uint32_t unknown = (std::uint32_t{1} << config.hierarchical_z_bits) - 1;
   const int drop = config.depth_bits - config.hierarchical_z_bits;
-  const std::int32_t low = std::max(quad.base.depth_low, 0), high = std::max(quad.base.depth_high, 0);
-  const std::int32_t round_up = (std::int32_t{1} << drop) - 1;
+  // Unsigned: without hidden tiles a code of 30 bits beyond 1, rounded up, needs all 32 bits.
+  const auto low = static_cast<std::uint32_t>(std::max(quad.base.depth_low, 0)),
+             high = static_cast<std::uint32_t>(std::max(quad.base.depth_high, 0));
+  const std::uint32_t round_up = (std::uint32_t{1} << drop) - 1;
   DepthInterval depth;
   // 1 and beyond count as the code before all ones, which hides whatever an entry says.
-  depth.near = static_cast<std::uint32_t>(std::min(low >> drop, unknown - 1));
-  depth.far = static_cast<std::uint32_t>(std::min((high + round_up) >> drop, unknown));
+  depth.near = std::min(low >> drop, unknown - 1);
+  depth.far = std::min((high + round_up) >> drop, unknown);
   depth.lowers = is_ordinary(quad, config) && config.quadratic_frac() >= 2 * config.subpixel_bits &&
-                 depth.far != static_cast<std::uint32_t>(unknown) && DepthLimits(config, state).inside(quad.base);
+                 depth.far != unknown && DepthLimits(config, state).inside(quad.base);
   return depth;
 }
 

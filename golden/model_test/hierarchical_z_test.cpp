@@ -477,6 +477,27 @@ TEST(HierarchicalZ, NothingIsLoweredWhereWeightsMayBeNone) {
   EXPECT_GT(depth.near, 2000u);
 }
 
+/// The coarse code of the farthest corner is rounded up: a code beyond 1 needs one bit more than the widest format.
+TEST(HierarchicalZ, WhatLiesBeyondOneTeachesNothingInAnyFormat) {
+  const DrawState state = viewport(32, 32);
+  for (const int depth_bits : {8, 24, 30})
+    for (const int bits : {4, 6, 8}) {
+      const Config config = configured({{"depth_bits", depth_bits}, {"hierarchical_z_bits", bits}});
+      SnappedQuad quad = snap_quad(rectangle(0, 0, 0, 9, 9, 0.5), config, state);
+      const std::uint32_t unknown = (1u << bits) - 1;
+      quad.base.depth_low = 0;
+      quad.base.depth_high = (1 << depth_bits) + 1;
+      EXPECT_EQ(depth_interval(quad, config, state).near, 0u);
+      EXPECT_EQ(depth_interval(quad, config, state).far, unknown) << depth_bits << " bits, " << bits << " of them";
+      EXPECT_FALSE(depth_interval(quad, config, state).lowers) << depth_bits << " bits, " << bits << " of them";
+      quad.base.depth_low = quad.base.depth_high;
+      EXPECT_EQ(depth_interval(quad, config, state).near, unknown - 1);
+      quad.base.depth_low = quad.base.depth_high = 1;
+      EXPECT_EQ(depth_interval(quad, config, state).far, 1u) << "rounded up";
+      EXPECT_EQ(depth_interval(quad, config, state).near, depth_bits == bits ? 1u : 0u) << "rounded down";
+    }
+}
+
 /// Rows of tiles with depths drawn at random from a quad's interval, a depth buffer beside them: what is left out is
 /// behind what the buffer holds, and a tile that is hidden is so in all its pixels.
 TEST(MaskedDepth, NothingIsLeftOutThatTheBufferWouldTake) {
