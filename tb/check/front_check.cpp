@@ -53,11 +53,14 @@ struct GivenVertex {
   std::int64_t x, y, z, w, a;
 };
 
-/// Powers of two make ties of positions, odd numbers none; a quarter lies behind the eye or at infinity.
+/// Powers of two make ties of positions, odd numbers none; a quarter lies behind the eye or at infinity. A tenth have
+/// a depth halfway between two codes, another an attribute within half a code of the format's end.
 GivenVertex random_vertex(const Config& config, Prng& rng, bool before) {
   std::int64_t w = rng.chance(0.5) ? std::int64_t{1} << rng.below(16) : rng.integer(1, 1 << 14);
   if (!before && rng.chance(0.2)) w = -w;
   if (!before && rng.chance(0.05)) w = 0;
+  const bool depth_tie = rng.chance(0.1);
+  if (depth_tie) w = std::int64_t{1} << (config.depth_bits + 1);
   const double reach = std::ldexp(1.0, config.pos_int() + (rng.chance(0.2) ? 1 : -1)) *
                        (w == 0 ? 1024.0 : static_cast<double>(std::abs(w)));
   GivenVertex v{static_cast<std::int64_t>(rng.uniform(-reach, reach)),
@@ -65,6 +68,8 @@ GivenVertex random_vertex(const Config& config, Prng& rng, bool before) {
                 rng.chance(0.5) ? rng.integer(-2 * std::abs(w), 2 * std::abs(w)) : rng.integer(0, std::abs(w)), w, 0};
   const std::int64_t limit = std::int64_t{1} << (config.attribute_int_bits + config.attribute_frac() + code_bits);
   v.a = rng.integer(1 - limit, limit - 1);
+  if (rng.chance(0.1)) v.a = (rng.chance(0.5) ? 1 : -1) * (limit - rng.integer(1, 1 << (code_bits - 1)));
+  if (depth_tie) v.z = 2 * rng.integer(-2, (std::int64_t{1} << config.depth_bits) + 1) + 1;
   if (v.x == 0 && v.y == 0 && v.w == 0) v.x = 1;
   return v;
 }
