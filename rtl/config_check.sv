@@ -53,6 +53,10 @@ module config_check;
   `QUADRILLE_REQUIRE(quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2 >= 6 && quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2 <= 16,
       hierarchical_z_tiles_log2_must_be_6_to_16)
   `QUADRILLE_REQUIRE(quadrille_pkg::PLANE_QUADS >= 0 && quadrille_pkg::PLANE_QUADS <= 1, plane_quads_must_be_0_or_1)
+`ifdef QUADRILLE_PLANE_TOLERANCE_BITS
+  // of a tolerance that plane quads had once
+  `QUADRILLE_REQUIRE(`QUADRILLE_PLANE_TOLERANCE_BITS == 0, plane_tolerance_bits_was_removed_plane_quads_takes_exactly_plane_ones)
+`endif
   `QUADRILLE_REQUIRE(quadrille_pkg::QUAD_ID_BITS >= 8 && quadrille_pkg::QUAD_ID_BITS <= 32, quad_id_bits_must_be_8_to_32)
   // with it a position fits a dot unit's operand: T_BITS <= 32
   `QUADRILLE_REQUIRE(quadrille_pkg::VAL_BITS <= 64, a_d_and_r2_must_fit_64_bits_fewer_viewport_guard_or_fraction_bits)

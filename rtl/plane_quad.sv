@@ -2,7 +2,7 @@
 // mean value weights (mean_value_weights). Latency 2 from the quad, which vertex_assembly holds at least that long before start.
 //
 // Taken: an ordinary quad that is a parallelogram, V0 + V2 = V1 + V3 exactly, over which each value in use (k with perspective, Z with
-// depth, attributes times k_eff) is constant along one pair of opposite sides: v0 = v1 and v2 = v3, or v0 = v3 and v1 = v2, in every bit. Comparisons
+// depth, differences of attributes times k_eff, 0 in vertex 0) is constant along one pair of opposite sides: v0 = v1 and v2 = v3, or v0 = v3 and v1 = v2, in every bit. Comparisons
 // alone: sprites, text, faces of boxes seen in parallel. Not found: what is plane at an angle to the sides.
 module plane_quad #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,

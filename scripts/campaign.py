@@ -97,7 +97,7 @@ class Unit:
         self.totals, self.kinds, self.failures = Totals(), {}, []
 
     def result(self):
-        return {"sum": self.totals.sum, "worst": self.totals.worst, "kinds": self.kinds, "failures": self.failures}
+        return {"sum": self.totals.sum, "worst": self.totals.worst, "worst_value": self.totals.worst_value, "kinds": self.kinds, "failures": self.failures}
 
     def count(self, kind, fragments):
         self.kinds[kind] = self.kinds.get(kind, 0) + fragments
@@ -207,7 +207,7 @@ class Sums:
             if units.plan["units"][number][0] != phase:
                 continue
             result = units.read(number)
-            self.totals.add_sums(result["sum"], result["worst"])
+            self.totals.add_sums(result["sum"], result["worst"], result.get("worst_value", 0))
             self.failures += result["failures"]
             self.units += 1
             for kind, fragments in result["kinds"].items():

@@ -55,16 +55,12 @@ seed=100  # draw states in which every family has a fragment
     echo "--stress $family --count 80 --size 1600x16 --limit-fragments 1500 --draw-state random:$((++seed))"
     echo "--stress $family --count 80 --size 16x1600 --limit-fragments 1500 --draw-state random:$((++seed))"
   done
-  echo "--corner face_plane --size 64x64"
-  echo "--corner flat --no-depth --size 64x64"
-  echo "--corner z_limits --znear 0.25 --zfar 0.75 --size 64x64"
-  echo "--corner minus_zero --size 64x64"
-  echo "--corner two_corner --size 64x64"
-  echo "--corner two_edge --no-perspective --size 64x64"
-  echo "--corner tall --size 192x704 --limit-fragments 4000"
-  echo "--corner burst --stall 0.95 --size 64x64"
-  echo "--corner extreme --limit-fragments 8000 --size 64x64"
-  echo "--corner far_corner --size 4096x4096 --limit-fragments 3000"
+  (cd scripts && python3 -B -c '
+from report.lockstep import CORNERS
+for group, needs in CORNERS.items():
+    stall = ["--stall", "0.95"] if group == "burst" else []
+    if "--set" not in needs:  # of the default configuration
+        print("--corner", group, "--limit-fragments", 8000, *([] if "--size" in needs else ["--size", "64x64"]), *needs, *stall)')
 } | xargs -P "$(nproc)" -L 1 "${draw[@]}" || status=1
 echo "Toggles: $SECONDS s"
 

@@ -19,6 +19,7 @@ sys.path.insert(0, HERE)
 import soak  # noqa: E402
 from report import units  # noqa: E402
 from report.files import InputError  # noqa: E402
+from report.lockstep import CORNERS, FAMILIES  # noqa: E402
 
 # Stands for the program: reports about made-up fragments, whatever the threads, with a fault where a word says so; waits or dies where asked.
 STUB = """#!{python} -SE
@@ -44,7 +45,7 @@ if counted and os.environ.get("STUB_DIES", "") in words:
 if counted and os.environ.get("STUB_SILENT", "") in words:
     sys.exit(int(os.environ["STUB_STATUS"]))
 wrong = counted and os.environ.get("STUB_FAULT", "") in words
-print(json.dumps({{"bound": {{"applies": True}}, "reference_mismatches": 0, "beyond_bound": 0, "fragments": int(digest[:3], 16), "fragments_all_passes": 2 * int(digest[:3], 16), "cycles_all_passes": int(digest[:4], 16),
+print(json.dumps({{"bound": {{"applies": True, "attribute_over_bound": 0, "depth_over_bound": 0}}, "reference_mismatches": 0, "beyond_bound": 0, "fragments": int(digest[:3], 16), "fragments_all_passes": 2 * int(digest[:3], 16), "cycles_all_passes": int(digest[:4], 16),
     "compared_bits": int(digest[:5], 16), "mismatches": 7 if wrong else 0, "cycle_mismatches": 0, "fragment_hash": digest[:16],
     "worst": {{"error_over_bound": int(digest[:2], 16) / 512}}, "model_alone": {{"ok": True}}, "complete": True, "draw_state": "--cull back --no-depth",
     "counts": dict.fromkeys(["eye_crossing", "near_edge", "near_vertex", "tiny", "at_depth_limit"], 20000), "counters": {{"tiles_hidden": 500}}}}))
@@ -312,6 +313,14 @@ class Units(unittest.TestCase):
 
 class Program(unittest.TestCase):
     PROGRAM = ""
+
+    def test_every_corner_group_is_drawn(self):
+        listed = subprocess.run([self.PROGRAM, "scenes", "--corner"], capture_output=True, text=True, check=True).stdout
+        self.assertEqual([line.split()[0] for line in listed.split("\n\n")[0].splitlines()], list(CORNERS))
+
+    def test_every_family_is_drawn(self):
+        listed = subprocess.run([self.PROGRAM, "scenes", "--stress"], capture_output=True, text=True, check=True).stdout
+        self.assertEqual([line.split()[0] for line in listed.split("\n\n")[0].splitlines()], FAMILIES)
 
     def test_lockstep_of_a_few_units(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -170,7 +170,7 @@ TYPED_TEST(PaperFloat, SnappedAndGivenQuadsAgree) {
     ASSERT_EQ(s.visible, g.visible);
     for (int i = 0; i < 4; ++i) {
       ASSERT_NEAR(s.lambda[i], g.lambda[i], tolerance);
-      ASSERT_NEAR(s.attribute[i], g.attribute[i], 80 * (tolerance + 9 * u));  // |a_i| <= 9
+      ASSERT_NEAR(s.attribute[i], g.attribute[i], 72 * (tolerance + 9 * u));  // four weights of either side, |a_i| <= 9
     }
     ASSERT_NEAR(s.z, g.z, 2 * bound.z);
   }

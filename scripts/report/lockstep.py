@@ -22,6 +22,7 @@ CORNERS = {
     "face_plane": [], "flat": ["--no-depth"], "den_w_zero": ["--set", "significand_bits=12"], "negative_r2": ["--set", "quadratic_frac_bits=3"],
     "z_limits": ["--znear", "0.25", "--zfar", "0.75"], "minus_zero": [], "two_corner": [], "two_edge": ["--no-perspective"],
     "tall": ["--size", "192x704"], "burst": [], "extreme": [], "far_corner": ["--size", "4096x4096"],
+    "constant_depth": ["--znear", "0.25", "--zfar", "0.75"], "one_corner": [], "far_base": [], "ties": [], "saturation": [],
 }
 # Tiles are hidden where a draw asks for it: every second one with a depth test. (Plane quads are looked for and never found: weights as
 # attributes are not plane. tb/lockstep/cosim_test.cpp draws some.)
@@ -160,7 +161,7 @@ class Totals:
 
     def __init__(self):
         self.sum = dict.fromkeys(["runs", "fragments", "passes", "cycles", "bits", *FAULTS], 0)
-        self.worst = 0.0
+        self.worst, self.worst_value = 0.0, 0.0
 
     def add(self, report):
         exact = report["bound"]["applies"]  # with dropped bits of D and r^2 nothing is claimed about the truth
@@ -172,16 +173,18 @@ class Totals:
             self.sum[key] += value
         if exact:
             self.worst = max(self.worst, report.get("worst", {}).get("error_over_bound", 0))
+            self.worst_value = max(self.worst_value, report["bound"]["attribute_over_bound"], report["bound"]["depth_over_bound"])
 
-    def add_sums(self, sums, worst):
+    def add_sums(self, sums, worst, worst_value):
         """Those of another."""
         for key, value in sums.items():
             self.sum[key] += value
-        self.worst = max(self.worst, worst)
+        self.worst, self.worst_value = max(self.worst, worst), max(self.worst_value, worst_value)
 
     def print(self, what):
         print(f"{what}: {self.sum['fragments']} fragments, {self.sum['cycles']} cycles, {self.sum['bits']} bits compared")
-        print("  " + ", ".join(f"{self.sum[key]} {name}" for key, name in FAULTS.items()) + f"; worst weight {100 * self.worst:.1f} % of the bound")
+        print("  " + ", ".join(f"{self.sum[key]} {name}" for key, name in FAULTS.items()) + f"; of its bound the worst weight "
+              f"{100 * self.worst:.1f} %, the worst attribute or depth {100 * self.worst_value:.1f} %")
 
     def failures(self, what):
         return [f"{what}: {self.sum[key]} {name}" for key, name in FAULTS.items() if self.sum[key]]

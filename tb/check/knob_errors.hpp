@@ -26,8 +26,8 @@ enum class KnobBody { model, paper_float, fp32, shader, rtl };
 /// those of the engines of `quadrille fragments`.
 inline constexpr std::array<std::string_view, 5> knob_body_names{"model", "float", "fp32", "shader", "rtl"};
 
-/// How far attributes and window z may be from the truth at one pixel: their tolerances (judged_quad.hpp) and a unit
-/// of the output, which is truncated.
+/// How far attributes and window z may be from the truth at one pixel: their tolerances (judged_quad.hpp) and half
+/// a unit of the output, which is rounded.
 struct AllowedErrors {
   std::array<double, 4> weight{};
   std::array<double, max_attribute_slots> attribute{};

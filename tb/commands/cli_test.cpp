@@ -267,7 +267,7 @@ TEST_F(Cli, Reports) {
   };
   fields("render --scene sphere --size 32x32 --png a.png", {"quads", "fragments", "undefined", "wall_seconds"});
   fields("fragments --scene sphere --size 32x32 --out a.csv", {"quads", "fragments", "undefined", "wall_seconds"});
-  fields("config --set significand_bits=12", {"keys", "derived"});
+  fields("config --set significand_bits=12", {"keys", "derived", "bounds"});
   fields("bench --no-rtl --repeat 1 --fragments 1000 --size 64x64 --quad-size 16", {"speed", "quads", "threads"});
   const json scenes = json::parse(run("scenes --json").out);
   ASSERT_TRUE(scenes.is_array());

@@ -1,8 +1,9 @@
-// quadrille config: every key and every derived width of a configuration.
+// quadrille config: every key, derived width and error bound of a configuration.
 #include "tb/commands/commands.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/written_file.hpp"
 
+#include "golden/analysis/error_bound.hpp"
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/config_file.hpp"
 #include "golden/io/json_report.hpp"
@@ -12,8 +13,11 @@
 #include "tb/support/output.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace quadrille::cli {
 namespace {
@@ -36,18 +40,53 @@ std::string padded(std::string text, int width) {
   return text;
 }
 
+std::string number(double value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+struct NamedBound {
+  std::string name;
+  double value;
+  std::string meaning;
+};
+
+/// How far a result may be from exact arithmetic on the same snapped quad, and what snapping takes of the given values.
+std::vector<NamedBound> bounds(const Config& config) {
+  const double s_bits = std::ldexp(1.0, -config.significand_bits);
+  const ErrorBound weight = bound_lambda(config);
+  return {
+      {"lambda", 8 * s_bits,
+       "weights 1 to 3: the rule 2^-(s-3); " +
+           (weight.proved ? "proved is " + number(weight.value) : "not proved: " + weight.reason)},
+      {"c", value_bound_factor(config), "attributes, depth, weight 0: c 2^-(s-3) spread + half a code"},
+      {"c_of_cut_w", value_bound_factor(config, true), "the same where some W of more than S bits is divided by"},
+      {"attribute_code", std::ldexp(0.5, -config.attribute_frac()),
+       "half a code of an attribute; snapping of its base"},
+      {"depth_code", std::ldexp(0.5, -config.depth_bits), "half a code of depth; snapping of its base"},
+      {"snapped_difference", s_bits, "snapping of a difference to the base, relative"},
+      {"snapped_k", s_bits, "snapping of k, relative"},
+      {"snapped_position", std::ldexp(0.5, -config.subpixel_bits), "snapping of an ordinary vertex, pixels"},
+  };
+}
+
 std::string text_listing(const Config& config) {
-  std::string text = padded("key", 23) + padded("value", 7) + padded("default", 9) + padded("range", 9) +
+  std::string text = padded("key", 27) + padded("value", 7) + padded("default", 9) + padded("range", 9) +
                      padded("unit", 9) + "meaning\n";
   for (const ConfigKey& key : Config::keys()) {
     const int value = config.get(key.name);
-    text += padded(std::string(key.name), 23) + padded(value_text(value), 7) + padded(value_text(key.standard), 9) +
+    text += padded(std::string(key.name), 27) + padded(value_text(value), 7) + padded(value_text(key.standard), 9) +
             padded(std::to_string(key.minimum) + "-" + std::to_string(key.maximum), 9) +
             padded(std::string(key.unit), 9) + std::string(key.meaning) + (value != key.standard ? " *" : "") + "\n";
   }
-  text += "\n" + padded("derived", 23) + padded("value", 7) + "reason\n";
+  text += "\n" + padded("derived", 27) + padded("value", 7) + "reason\n";
   for (const DerivedWidth& width : config.derived())
-    text += padded(width.name, 23) + padded(std::to_string(width.value), 7) + width.reason + "\n";
+    text += padded(width.name, 27) + padded(std::to_string(width.value), 7) + width.reason + "\n";
+  text += "\n" + padded("bound", 23) + padded("value", 11) + "of\n";
+  for (const auto& [name, value, meaning] : bounds(config)) {
+    text += padded(name, 23) + padded(number(value), 11) + meaning + "\n";
+  }
   return text;
 }
 
@@ -120,6 +159,8 @@ int list_config(const ConfigOptions& options, const std::vector<std::string>& ar
     json["derived"] = nlohmann::ordered_json::array();
     for (const DerivedWidth& width : config.derived())
       json["derived"].push_back({{"name", width.name}, {"value", width.value}, {"reason", width.reason}});
+    for (const auto& [name, value, meaning] : bounds(config))
+      json["bounds"].push_back({{"name", name}, {"value", value}, {"meaning", meaning}});
     golden::save_json(options.common.json, json);
   }
   CostWeights weights;

@@ -555,6 +555,9 @@ class CosimRun {
     json["bound"] = {{"lambda_max", weight_bound(config_)},
                      {"applies", bound_applies()},
                      {"held", bound_applies() && c.compared > 0 && c.within_bound()},
+                     {"value_factor", value_bound_factor(config_)},
+                     {"attribute_over_bound", c.attribute.max},
+                     {"depth_over_bound", c.depth.max},
                      {"exempt_fragments", c.bound_exempt}};
     if (c.worst.ratio >= 0) {
       json["worst"] = {
@@ -706,8 +709,12 @@ class CosimRun {
     if (!bound_applies())
       std::fprintf(out, "    bound              none: quadratic_frac_bits drops bits of D and R^2\n");
     else
-      std::fprintf(out, "    bound              %9.2e  %s, worst %.1f %% of it\n", weight_bound(config_),
-                   c.within_bound() ? "held" : "EXCEEDED", 100 * std::max(0.0, c.worst.ratio));
+      std::fprintf(
+          out,
+          "    bound              %9.2e  %s; worst weight %.1f %%, attribute %.1f %%, depth %.1f %% of theirs; "
+          "c = %.3f\n",
+          weight_bound(config_), c.within_bound() ? "held" : "EXCEEDED", 100 * std::max(0.0, c.worst.ratio),
+          100 * c.attribute.max, 100 * c.depth.max, value_bound_factor(config_));
     if (r.limits_checked > 0)
       std::fprintf(out, "    regression limits  %s\n", r.beyond_limits.empty() ? "held" : "EXCEEDED");
     const auto print = [&](std::string_view form) { std::fputs(filled(form, json["counts"]).c_str(), out); };
@@ -735,8 +742,7 @@ class CosimRun {
           r.name.c_str(), static_cast<unsigned long long>(r.check.beyond_bound), r.check.worst.place.quad,
           r.check.worst.place.x, r.check.worst.place.y, r.check.worst.error, r.check.worst.bound);
     if (r.check.beyond_attribute || r.check.beyond_depth)
-      std::fprintf(stderr,
-                   "quadrille: %s: %llu attributes and %llu depths are further off than the weights' bound allows\n",
+      std::fprintf(stderr, "quadrille: %s: %llu attributes and %llu depths are further off than their bound allows\n",
                    r.name.c_str(), static_cast<unsigned long long>(r.check.beyond_attribute),
                    static_cast<unsigned long long>(r.check.beyond_depth));
     for (const std::string& text : r.beyond_limits)

@@ -409,7 +409,7 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
       "golden/scenes/README.md,\n"
       "and in the JSON.\n\n"
       "Errors are those against exact arithmetic on the same snapped quads, in units of what the bound allows: a\n"
-      "weight 2^-(s-3), attributes and depth what follows from it. Bodies: model; float and fp32, the paper's\n"
+      "weight 1 to 3 2^-(s-3); weight 0, attributes and depth c 2^-(s-3) of their spread. Bodies: model; float and fp32, the paper's\n"
       "formulas as printed in double and single precision; shader, on OpenGL; rtl, which must equal the model.\n"
       "In the table: near, the model's largest error of a weight at the pixels near the special case; jump, how far\n"
       "an error of a weight, an attribute or depth of the model changes at one pixel from any step to the special\n"

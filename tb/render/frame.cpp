@@ -26,8 +26,12 @@ Vec3 normalised(const Vec3& v) {
   return length > 0 ? Vec3{v[0] / length, v[1] / length, v[2] / length} : Vec3{0, 0, 1};
 }
 
-/// In [0, 1] for any finite coordinate; 1 stays 1.
-double wrapped(double c) { return c >= 0 && c <= 1 ? c : c - std::floor(c); }
+/// In [0, 1] for any finite coordinate; 1 stays 1. Less than a step of 8 bits beyond an end is that end: an attribute
+/// may pass its corners' by the machine's bound.
+double wrapped(double c) {
+  constexpr double step = 1.0 / 256;
+  return c > -step && c < 1 + step ? std::clamp(c, 0.0, 1.0) : c - std::floor(c);
+}
 
 /// Phong's model with one distant light, both sides lit alike. Directions of unit length.
 Vec3 phong(Vec3 n, const Lighting& lighting) {

@@ -76,6 +76,28 @@ int contrast(const golden::Image8& picture, std::size_t a, std::size_t b) {
   return largest;
 }
 
+/// An attribute may pass its corners' by the machine's bound: beside an end it is that end, else it wraps.
+TEST(ShadeFrame, CoordinatesNearAnEndDoNotWrap) {
+  ShadeSettings settings;
+  settings.shade = "uv";
+  settings.slots.uv = 0;
+  for (const auto& [u, red] : {std::pair{-0x1p-15, 0.0},
+                               {1 + 0x1p-15, 1.0},
+                               {0.0, 0.0},
+                               {1.0, 1.0},
+                               {0.25, 0.25},
+                               {1.25, 0.25},
+                               {-0.25, 0.75},
+                               {2.0, 0.0}}) {
+    FrameBuffer frame(5, 4, true);
+    EngineSample sample = sample_of(0, 0.5);
+    sample.attribute[0] = u;
+    frame.add(std::span(&sample, 1));
+    const golden::FrameImage image = shade_frame(frame, settings);
+    EXPECT_EQ(image.r[image.index(3, 2)], static_cast<float>(red)) << u;
+  }
+}
+
 TEST(ShadeFrame, EveryQuadStandsOutFromWhatIsNotDrawn) {
   constexpr int side = 300;
   FrameBuffer frame(side, side, false);
