@@ -218,7 +218,7 @@ TEST_P(HiddenTiles, LockstepWithClearsAndFlushesAtAnyTime) {
   LockstepOptions options;
   options.config = GetParam().config();
   std::uint64_t wiping = 0, wiping_with_clears = 0;
-  for (const Draw& draw : make_draws(options.config, GetParam().width, GetParam().height, 12)) {
+  for (const Draw& draw : make_draws(options.config, GetParam().width, GetParam().height, 5)) {
     options.state = draw.state;
     options.stall = 0.2;
     options.gap = 0.7;
