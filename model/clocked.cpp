@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <bit>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace quadrille {
@@ -486,9 +487,8 @@ struct ClockedModel::Impl {
     sent = {};
   }
 
-  bool busy() const {
-    return assembly.full || assembly.count != 0 || in_use != 0 || !fragments.empty() || hidden.wiping > 0;
-  }
+  bool quads_under_way() const { return assembly.full || assembly.count != 0 || in_use != 0 || !fragments.empty(); }
+  bool busy() const { return quads_under_way() || hidden.wiping > 0; }
 
   /// performance_counters: what this clock does, from the state before its edge.
   void count(bool starting, bool taking, bool dropping, bool push_tile, bool walk_moves) {
@@ -709,6 +709,7 @@ struct ClockedModel::Impl {
     const bool dropping = setup.drops();
     const bool dropping_vertices = assembly.drops();
     const bool accept = in.vertex_valid && hidden.wiping == 0 && (!assembly.full || starting || dropping_vertices);
+    const bool clearing = in.clear_hidden && !busy();
     std::uint32_t free_slots = 0;
     if (stage(last_stage).front().end) free_slots |= 1u << stage(last_stage).front().slot;
     if (dropping) free_slots |= 1u << setup.dropped().slot;
@@ -743,7 +744,7 @@ struct ClockedModel::Impl {
       ring_write = behind(ring_write);
     }
     if (walk_moves) walk.clock();
-    hidden.clock(in.clear_hidden, context.config.hierarchical_z_bits != 0);
+    hidden.clock(clearing, context.config.hierarchical_z_bits != 0);
     if (taking) {
       const SetupResult& quad = setup.result.setup;
       slots[quad.slot].constants = QuadConstants(quad);
@@ -769,7 +770,9 @@ struct ClockedModel::Impl {
       assembly.full = false;
     }
     if (starting || dropping_vertices) ++assembly.number;
-    if (accept) {
+    if (in.flush) {
+      assembly.count = 0;
+    } else if (accept) {
       if (assembly.count == 0) {
         assembly.quad.id = in.vertex.id;
         assembly.quad.base = in.vertex.base;
@@ -822,7 +825,10 @@ ClockedOutputs ClockedModel::comb() const {
   return out;
 }
 
+bool ClockedModel::quads_under_way() const { return impl_->quads_under_way(); }
+
 void ClockedModel::set_state(const DrawState& state) {
+  if (impl_->quads_under_way()) throw std::logic_error("the draw state cannot change while quads are under way");
   impl_->count_pixels(impl_->counters);  // by the old state's sums
   impl_->sent = {};
   impl_->context = PipelineContext(Config(impl_->context.config), state);

@@ -23,7 +23,8 @@ struct ClockedInputs {
   bool reset = false;  ///< rst_ni = 0
   bool vertex_valid = false;
   bool fragment_ready = false;
-  bool clear_hidden = false;  ///< while not busy: the depth buffer is cleared
+  bool clear_hidden = false;  ///< the depth buffer is cleared; ignored while busy
+  bool flush = false;         ///< discards the beats of a quad that is not complete, that of this clock among them
   VertexBeat vertex;          ///< the beat, when vertex_valid
 };
 
@@ -87,7 +88,9 @@ class ClockedModel {
   /// What the clocks since reset counted, whether the configuration has counters in hardware or not.
   PerformanceCounters counters() const;
 
-  /// From this clock on another draw state, while not busy; what is hidden stays so.
+  /// From a quad's first beat to its last fragment; busy() of the outputs is also while hidden tiles are wiped.
+  bool quads_under_way() const;
+  /// From this clock on another draw state; what is hidden stays so. Throws std::logic_error while quads are under way.
   void set_state(const DrawState& state);
 
  private:

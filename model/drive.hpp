@@ -32,7 +32,7 @@ std::uint64_t drive(Machine& machine, Stimulus& stimulus, Look&& look) {
 }
 
 /// The clocked model as a machine for drive(), after reset. Of a stimulus it also wants ready() of the fragment port,
-/// changed() of the beat() on offer.
+/// changed() of the beat() on offer; clear_hidden() and flush() where it has them.
 class DrivenModel {
  public:
   DrivenModel(const Config& config, const DrawState& state, Probes probes = Probes::without_pixels)
@@ -46,6 +46,10 @@ class DrivenModel {
   ClockedOutputs settle(const Stimulus& stimulus) {
     inputs_.vertex_valid = stimulus.valid();
     inputs_.fragment_ready = stimulus.ready();
+    if constexpr (requires { stimulus.flush(); }) {
+      inputs_.clear_hidden = stimulus.clear_hidden();
+      inputs_.flush = stimulus.flush();
+    }
     if (stimulus.changed() && stimulus.valid()) inputs_.vertex = stimulus.beat();
     return model_.comb();
   }

@@ -119,10 +119,11 @@ module hidden_blocks #(
   logic [STATE-1:0] word_state;
   logic [H-1:0] state_far, state_masked, far, masked;
   logic [TILES-1:0] state_mask, mask;
-  logic known, whole, joins;
+  logic known, whole, joins, again_q1;
 
   assign {word_tag, word_epoch, word_state} = word_q1;
   assign known = word_tag == tag_q1 && word_epoch == epoch_i;
+  assign again_q1 = learn_q3 && place_q1 == place_q3;
   assign state = again_q2 ? before_q3 : state_q2;
   assign {state_far, state_masked, state_mask} = state;
   assign far = hidden_q2 ? near_next_i : far_i;
@@ -137,14 +138,14 @@ module hidden_blocks #(
 
   always_ff @(posedge clk_i) begin
     if (go_i) begin
-      if (learn_q3 && place_q1 == place_q3) state_q2 <= before_q3;
+      if (again_q1) state_q2 <= before_q3;
       else state_q2 <= known ? word_state : {UNKNOWN, (H + TILES)'(0)};
       before_q3 <= joins ? next : state;
     end
   end
 
   // ---- Memory ---------------------------------------------------------------------------------------------------------------
-  // A word that is written while it is read is not looked at, but before_q3.
+  // A word that is written while it is read is not looked at, but before_q3 (asserted).
   (* no_rw_check *) logic [WORD-1:0] word_mem[0:(1<<PLACES)-1];
   logic write;
   logic [INDEX-1:0] wipe_index, write_index;
@@ -209,8 +210,12 @@ module hidden_blocks #(
   assign unused = ^{first_x, first_y, end_x, end_y, learn_x, learn_y, wipe_place_i};
 
 `ifndef SYNTHESIS
+  logic written_q1;  // while word_q1 was read
+
   always_ff @(posedge clk_i) begin
+    if (go_i) written_q1 <= write && write_place == place;
     if (rst_ni) begin
+      assert (!(go_i && learn_i && written_q1) || again_q1);
       assert (!wipe_i || !learn_q2);
       assert (!(learn_i && learn_q2 && place_q1 == place_q2) || tag_q1 == tag_q2);
     end

@@ -21,7 +21,7 @@ module hierarchical_z #(
 ) (
     input logic clk_i,
     input logic rst_ni,
-    input logic clear_i,  // while the machine is not busy
+    input logic clear_i,  // never while the machine is busy
     output logic ready_o,
     output logic [PLACE-1:0] wipe_place_o,  // wiped in this clock, where not ready
     output logic [EPOCH-1:0] epoch_o,

@@ -126,7 +126,7 @@ module quad_slots #(
   localparam int WORD = 1 + PE + S;
   localparam int SETS = 3 + N;
   localparam int BLEND = (TERMS - 4) * WORD;
-  // Block RAM: a slot that is read is in use, so it is never the one that is written.
+  // Block RAM: a slot that a pixel reads is in use, so it is never the one that is written (asserted in quadrille).
   (* ram_style = "block", no_rw_check *) logic [BLEND-1:0] blend_q[0:SLOTS-1];
   logic [BLEND-1:0] write_blend, blend_word;
 

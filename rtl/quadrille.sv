@@ -4,13 +4,15 @@
 //                             \____ vertex_products ____ tile_context __/
 //
 // Number formats, ports and clocks: README.md. Both streams are valid/ready: valid never depends on ready, payload is stable while
-// valid and not ready. state_i is static while busy_o. The pixel pipeline never waits: pixel_emit counts the
-// places of the fragment FIFO. clear_hidden_i, while not busy, goes with a clear of the depth buffer (hierarchical_z).
+// valid and not ready. state_i is static while quads are under way (asserted). The pixel pipeline never waits: pixel_emit counts the
+// places of the fragment FIFO. clear_hidden_i goes with a clear of the depth buffer (hierarchical_z) and is ignored while busy_o.
+// flush_i, in any clock, discards the beats of a quad that is not complete, that of the same clock among them, and nothing else.
 module quadrille (
     input logic clk_i,
     input logic rst_ni,
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
     input logic clear_hidden_i,
+    input logic flush_i,
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
@@ -114,6 +116,7 @@ module quadrille (
       .vertex_i,
       .vertex_valid_i(vertex_valid_i && depths_ready),
       .vertex_ready_o(assembly_ready),
+      .flush_i,
       .start_i(start),
       .drop_i(drop_vertices),
       .depth_on_i(depth_on),
@@ -184,7 +187,7 @@ module quadrille (
   logic [4*W-1:0] setup_w;
 
   assign drop_vertices = full && state.skip[1] && (empty || behind || outside_depth);
-  assign start = full && setup_ready && slot_available;
+  assign start = full && !drop_vertices && setup_ready && slot_available;
   assign busy_o = assembly_busy || slots_busy || fragments_busy || !depths_ready;
 
   quad_setup u_setup (
@@ -470,12 +473,6 @@ module quadrille (
   );
 
   // ---- Hidden tiles -------------------------------------------------------------------------------------------------------
-`ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
-    if (rst_ni) assert (!clear_hidden_i || !busy_o);
-  end
-`endif
-
   logic [quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2-1:0] wipe_place;
   logic [quadrille_pkg::HIDDEN_EPOCH_BITS-1:0] epoch;
 
@@ -483,7 +480,7 @@ module quadrille (
     hierarchical_z u_hidden (
         .clk_i,
         .rst_ni,
-        .clear_i(clear_hidden_i),
+        .clear_i(clear_hidden_i && !busy_o),
         .ready_o(depths_ready),
         .wipe_place_o(wipe_place),
         .epoch_o(epoch),
@@ -969,4 +966,30 @@ module quadrille (
       lane_valid
     };
   end
+
+`ifndef SYNTHESIS
+  localparam int LATENCY = quadrille_pkg::LATENCY;
+  localparam int LENGTH2_READ = quadrille_pkg::FORWARD_DIFFERENCE_STAGES - 2;  // a read of quad_slots goes with the pixel in this register
+  localparam int BLEND_READ = quadrille_pkg::WEIGHT_STAGE - 2;
+  localparam int BASE_READ = LATENCY - 6;
+  logic [LATENCY-1:0] pixel_at;  // some lane has a pixel in the register
+  logic [quadrille_pkg::STATE_BITS-1:0] state_q;
+
+  always_comb begin
+    pixel_at = '0;
+    for (int g = 0; g < P; g++) pixel_at |= lane_valid[g*LATENCY+:LATENCY];
+  end
+
+  always_ff @(posedge clk_i) begin
+    state_q <= state_i;
+    if (rst_ni) begin
+      assert (!(assembly_busy || slots_busy || fragments_busy) || state_i == state_q);
+      assert (!drop_vertices || !setup_ready);  // a quad leaves in its first clock, or is not dropped: setup is ready in its third
+      // no_rw_check in quad_slots: what a pixel reads is not written in that clock.
+      assert (!start || !pixel_at[BLEND_READ] || blend_slot != alloc_slot);
+      assert (!start || !pixel_at[BASE_READ] || base_slot != alloc_slot);
+      assert (!take || !pixel_at[LENGTH2_READ] || length2_slot != setup_slot);
+    end
+  end
+`endif
 endmodule

@@ -1,5 +1,5 @@
 // Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i or drop_i clears it, in whose clock the
-// next quad's first beat is taken.
+// next quad's first beat is taken. flush_i discards the beats of a quad of which fewer than four came before, and one that comes with it.
 //
 // vertex_ready_o depends on registers alone, not on valid. The quad's id, bases and depth codes are those of v0.
 // Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X and Y, kept up with each beat; and
@@ -22,6 +22,7 @@ module vertex_assembly #(
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
+    input logic flush_i,
     input logic start_i,
     input logic drop_i,
     input logic depth_on_i,
@@ -94,8 +95,9 @@ module vertex_assembly #(
       count_q <= 2'd0;
       full_q <= 1'b0;
     end else begin
-      if (accept) count_q <= count_q + 2'd1;
-      if (accept && count_q == 2'd3) full_q <= 1'b1;
+      if (flush_i) count_q <= 2'd0;
+      else if (accept) count_q <= count_q + 2'd1;
+      if (accept && count_q == 2'd3 && !flush_i) full_q <= 1'b1;
       else if (start_i || drop_i) full_q <= 1'b0;
     end
   end

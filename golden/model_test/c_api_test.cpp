@@ -242,7 +242,7 @@ TEST_P(CApi, ClockedIsTheClockedModelInEveryClock) {
   ASSERT_EQ(quadrille_clocked_push(clocked_, 100, vertices_.data(), given_.size()), QUADRILLE_OK) << error();
   golden::Prng random(11);
   std::vector<Fragment> expected;
-  std::size_t beat = 0, stalled = 0;
+  std::size_t beat = 0, stalled = 0, flushed = 0;
   std::uint64_t cycle = 0;
   std::array<std::array<std::uint32_t, QUADRILLE_VERTEX_WORDS>, 4> beats{};
   std::array<double, 16> positions{};
@@ -297,16 +297,28 @@ TEST_P(CApi, ClockedIsTheClockedModelInEveryClock) {
     if (now.fragment_valid && inputs.fragment_ready)
       now.for_each_fragment([&](const Fragment& f) { expected.push_back(f); });
     stalled += now.fragment_valid && !inputs.fragment_ready;
-    beat += inputs.vertex_valid && now.vertex_ready;
+    inputs.flush = random.below(40) == 0;
+    inputs.clear_hidden = now.busy && random.below(4) == 0;  // ignored; the queue's clock() would refuse it
+    const bool taken = inputs.vertex_valid && now.vertex_ready;
+    if (inputs.flush && (taken || beat % 4 != 0)) {
+      beat += 4 - beat % 4;  // the queue's quad is gone with its beats
+      ++flushed;
+    } else {
+      beat += taken;
+    }
     ASSERT_EQ(quadrille_clocked_clock(clocked_, 0u | (inputs.vertex_valid ? +QUADRILLE_VERTEX_VALID : 0) |
-                                                    (inputs.fragment_ready ? +QUADRILLE_FRAGMENT_READY : 0)),
+                                                    (inputs.fragment_ready ? +QUADRILLE_FRAGMENT_READY : 0) |
+                                                    (inputs.flush ? +QUADRILLE_FLUSH : 0)),
               QUADRILLE_OK);
-    ASSERT_EQ(quadrille_clocked_clock_ports(by_ports, 0, 0, inputs.vertex_valid, vertex.data(), inputs.fragment_ready),
+    ASSERT_EQ(quadrille_clocked_flush_port(by_ports, inputs.flush), QUADRILLE_OK);
+    ASSERT_EQ(quadrille_clocked_clock_ports(by_ports, 0, inputs.clear_hidden, inputs.vertex_valid, vertex.data(),
+                                            inputs.fragment_ready),
               QUADRILLE_OK)
         << error();
     model.clock(inputs);
   }
   EXPECT_GT(stalled, 100u);
+  EXPECT_GT(flushed, 5u);
   ASSERT_GT(expected.size(), 1000u);
   expect_same(take_all(clocked_, quadrille_clocked_pending, quadrille_clocked_take), expected);
   std::size_t waiting = 1;
@@ -322,6 +334,43 @@ TEST_P(CApi, ClockedIsTheClockedModelInEveryClock) {
   }
   EXPECT_EQ(index, counter_count);
   quadrille_clocked_destroy(by_ports);
+}
+
+/// Beats of a quad that is not complete keep the machine busy until a flush; what follows is drawn as if they had not
+/// come. A quad that is complete stays.
+TEST_P(CApi, AFlushDiscardsAnIncompleteQuadAlone) {
+  const auto clock = [&](std::uint32_t inputs, int clocks) {
+    for (int i = 0; i < clocks; ++i) ASSERT_EQ(quadrille_clocked_clock(clocked_, inputs), QUADRILLE_OK) << error();
+  };
+  const auto busy = [&] {
+    quadrille_outputs outputs;
+    EXPECT_EQ(quadrille_clocked_outputs(clocked_, &outputs), QUADRILLE_OK);
+    return outputs.busy != 0;
+  };
+  const std::array<quadrille_vertex, 4> square{
+      {{8, 8, 0.5, 1, {1}}, {8, 20, 0.5, 1, {2}}, {20, 20, 0.5, 1, {}}, {20, 8, 0.5, 1, {}}}};
+  for (int beats = 1; beats < 4; ++beats) {
+    ASSERT_EQ(quadrille_clocked_push(clocked_, 7, square.data(), 1), QUADRILLE_OK) << error();
+    clock(QUADRILLE_VERTEX_VALID, beats);
+    clock(QUADRILLE_FRAGMENT_READY, 2000);
+    EXPECT_TRUE(busy());
+    clock(QUADRILLE_FLUSH | QUADRILLE_FRAGMENT_READY, 1);
+    EXPECT_FALSE(busy());
+    std::uint64_t clocks = 1;
+    ASSERT_EQ(quadrille_clocked_run(clocked_, 1000, &clocks), QUADRILLE_OK);
+    EXPECT_EQ(clocks, 0u) << "the quad is gone from the queue";
+  }
+  ASSERT_EQ(quadrille_untimed_draw(untimed_, 100, square.data(), 1), QUADRILLE_OK) << error();
+  ASSERT_EQ(quadrille_clocked_push(clocked_, 100, square.data(), 1), QUADRILLE_OK) << error();
+  clock(QUADRILLE_VERTEX_VALID, 4);
+  clock(QUADRILLE_FLUSH, 1);
+  ASSERT_EQ(quadrille_clocked_run(clocked_, 1u << 20, nullptr), QUADRILLE_OK);
+  const auto clocked = take_all(clocked_, quadrille_clocked_pending, quadrille_clocked_take);
+  const auto untimed = take_all(untimed_, quadrille_untimed_pending, quadrille_untimed_take);
+  ASSERT_EQ(untimed.size(), 144u);
+  ASSERT_EQ(clocked.size(), untimed.size());
+  for (std::size_t i = 0; i < clocked.size(); ++i)
+    ASSERT_EQ(std::memcmp(&clocked[i], &untimed[i], sizeof clocked[i]), 0) << i;
 }
 
 TEST_P(CApi, ARunGivesWhatTheUntimedModelDraws) {
@@ -450,7 +499,7 @@ TEST_F(CApiErrors, StatesChangeWhileIdleAlone) {
   ASSERT_EQ(quadrille_clocked_run(clocked_, 20, nullptr), QUADRILLE_OK);
   expect_error(quadrille_clocked_set_state(clocked_, &state_), QUADRILLE_BUSY, "busy");
   expect_error(quadrille_clocked_clock(clocked_, QUADRILLE_CLEAR_HIDDEN), QUADRILLE_BUSY, "hidden");
-  expect_error(quadrille_clocked_clock(clocked_, 16), QUADRILLE_BAD_ARGUMENT, "inputs");
+  expect_error(quadrille_clocked_clock(clocked_, 32), QUADRILLE_BAD_ARGUMENT, "inputs");
   ASSERT_EQ(quadrille_clocked_run(clocked_, 1u << 20, nullptr), QUADRILLE_OK);
   ASSERT_EQ(quadrille_clocked_set_state(clocked_, &state_), QUADRILLE_OK) << error();
   ASSERT_EQ(quadrille_clocked_clock(clocked_, QUADRILLE_CLEAR_HIDDEN), QUADRILLE_OK) << error();

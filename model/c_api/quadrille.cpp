@@ -257,7 +257,8 @@ struct quadrille_clocked {
   bool idle() const { return queue.empty() && !model.comb().busy; }
 
   void set_state(const quadrille::DrawState& s) {
-    api::require(idle(), QUADRILLE_BUSY, "the draw state cannot change while the machine is busy or quads are queued");
+    api::require(queue.empty() && !model.quads_under_way(), QUADRILLE_BUSY,
+                 "the draw state cannot change while the machine is busy or quads are queued");
     model.set_state(s);
     state = s;
   }
@@ -270,6 +271,7 @@ struct quadrille_clocked {
     inputs.vertex_valid = (given & QUADRILLE_VERTEX_VALID) != 0 && !queue.empty();
     inputs.fragment_ready = (given & QUADRILLE_FRAGMENT_READY) != 0;
     inputs.clear_hidden = (given & QUADRILLE_CLEAR_HIDDEN) != 0;
+    inputs.flush = (given & QUADRILLE_FLUSH) != 0;
     if (inputs.vertex_valid) inputs.vertex = quadrille::beat_of(queue.front(), beat);
     if (outputs.fragment_valid && inputs.fragment_ready && !inputs.reset)
       outputs.for_each_fragment([&](const quadrille::Fragment& f) { waiting.add(f); });
@@ -278,7 +280,10 @@ struct quadrille_clocked {
     if (inputs.reset) {
       queue.clear();
       beat = 0;
-    } else if (taken && ++beat == 4) {
+      return;
+    }
+    beat += taken ? 1 : 0;
+    if (beat == 4 || (inputs.flush && beat != 0)) {
       queue.pop_front();
       beat = 0;
     }
@@ -290,7 +295,8 @@ struct quadrille_clocked {
   quadrille::ClockedModel model;
   quadrille::ClockedInputs inputs;
   std::deque<quadrille::SnappedQuad> queue;
-  std::size_t beat = 0;  ///< of the first quad, the next to be taken
+  std::size_t beat = 0;        ///< of the first quad, the next to be taken
+  bool flush_at_port = false;  ///< in the next clock port by port
   api::Waiting waiting;
 };
 
@@ -503,7 +509,7 @@ quadrille_status quadrille_clocked_outputs(const quadrille_clocked* machine, qua
 quadrille_status quadrille_clocked_clock(quadrille_clocked* machine, uint32_t inputs) {
   return api::guarded([&] {
     api::require_pointers("machine", machine);
-    api::require((inputs & ~15u) == 0, QUADRILLE_BAD_ARGUMENT, "unknown bits of inputs");
+    api::require((inputs & ~31u) == 0, QUADRILLE_BAD_ARGUMENT, "unknown bits of inputs");
     machine->clock(inputs);
   });
 }
@@ -595,23 +601,30 @@ quadrille_status quadrille_clocked_output_ports(const quadrille_clocked* machine
   });
 }
 
+quadrille_status quadrille_clocked_flush_port(quadrille_clocked* machine, int32_t flush) {
+  return api::guarded([&] {
+    api::require_pointers("machine", machine);
+    machine->flush_at_port = flush != 0;
+  });
+}
+
 quadrille_status quadrille_clocked_clock_ports(quadrille_clocked* machine, int32_t reset, int32_t clear_hidden,
                                                int32_t vertex_valid, const uint32_t* vertex, int32_t fragment_ready) {
   return api::guarded([&] {
     api::require_pointers("machine, vertex", machine, vertex);
-    api::require(clear_hidden == 0 || !machine->model.comb().busy, QUADRILLE_BUSY,
-                 "hidden tiles cannot be cleared while the machine is busy");
     quadrille::ClockedInputs inputs;
     inputs.reset = reset != 0;
     inputs.clear_hidden = clear_hidden != 0;
     inputs.vertex_valid = vertex_valid != 0;
     inputs.fragment_ready = fragment_ready != 0;
+    inputs.flush = machine->flush_at_port;
     if (inputs.vertex_valid) {
       const quadrille::Record record = quadrille::Record::from_words(vertex, machine->vertex_bits);
       quadrille::visit(inputs.vertex, machine->config, quadrille::RecordUnpacker(record));
       api::check_vertex(inputs.vertex.vertex, machine->config, machine->config.attribute_slots);
     }
     machine->model.clock(inputs);
+    machine->flush_at_port = false;
   });
 }
 

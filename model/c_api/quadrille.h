@@ -144,7 +144,7 @@ typedef struct quadrille_clocked quadrille_clocked;
 /* As quadrille_untimed_create(), after a reset and idle: with hierarchical_z_bits its places are wiped. */
 QUADRILLE_API quadrille_status quadrille_clocked_create(const char* config, quadrille_clocked** machine);
 QUADRILLE_API void quadrille_clocked_destroy(quadrille_clocked* machine); /* NULL: nothing */
-/* While not busy and with an empty queue, else QUADRILLE_BUSY; what is hidden stays so. */
+/* With an empty queue and no quad under way, else QUADRILLE_BUSY; what is hidden stays so. */
 QUADRILLE_API quadrille_status quadrille_clocked_set_state(quadrille_clocked* machine,
                                                            const quadrille_draw_state* state);
 /* Appends quads to the queue; all or, after an error, none of them. */
@@ -164,7 +164,8 @@ enum {
   QUADRILLE_RESET = 1,
   QUADRILLE_VERTEX_VALID = 2,   /* the next beat of the queue is on offer, if there is one */
   QUADRILLE_FRAGMENT_READY = 4, /* what is on offer at the fragment port is accepted */
-  QUADRILLE_CLEAR_HIDDEN = 8    /* with a clear of the depth buffer; QUADRILLE_BUSY while the machine is */
+  QUADRILLE_CLEAR_HIDDEN = 8,   /* with a clear of the depth buffer; QUADRILLE_BUSY while the machine is */
+  QUADRILLE_FLUSH = 16          /* a quad of which some beats were taken, and not all before this clock, is discarded */
 };
 /* One clock edge. Reset empties the queue and keeps fragments that wait to be taken. */
 QUADRILLE_API quadrille_status quadrille_clocked_clock(quadrille_clocked* machine, uint32_t inputs);
@@ -205,7 +206,11 @@ QUADRILLE_API quadrille_status quadrille_clocked_state_port(quadrille_clocked* m
 QUADRILLE_API quadrille_status quadrille_clocked_output_ports(const quadrille_clocked* machine, int32_t* vertex_ready,
                                                               int32_t* fragment_valid, int32_t* busy,
                                                               int32_t* fragment_mask, uint32_t* fragment);
-/* The clock edge. `vertex` is looked at when vertex_valid alone. */
+/* flush_i of the next quadrille_clocked_clock_ports(), which takes it back: beats of a quad that is not complete before
+ * that clock are discarded, and one that is taken in it. */
+QUADRILLE_API quadrille_status quadrille_clocked_flush_port(quadrille_clocked* machine, int32_t flush);
+/* The clock edge. `vertex` is looked at when vertex_valid alone; clear_hidden is ignored while busy, as the RTL does.
+ */
 QUADRILLE_API quadrille_status quadrille_clocked_clock_ports(quadrille_clocked* machine, int32_t reset,
                                                              int32_t clear_hidden, int32_t vertex_valid,
                                                              const uint32_t* vertex, int32_t fragment_ready);

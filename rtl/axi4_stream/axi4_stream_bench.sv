@@ -1,5 +1,6 @@
 // Self-checking bench of quadrille_axi4_stream: plays the draws of a machine suite of golden vectors twice, first with every interface
-// open in each clock, then with pauses of the masters and backpressure of the slave at random. Compares every fragment, their order and
+// open in each clock, then with pauses of the masters and backpressure of the slave at random, and of every draw but each fourth one, two or three
+// beats of a quad that does not come. Compares every fragment, their order and
 // number (lane 0 of a beat first), TKEEP and TLAST, that TVALID and payload stay until TREADY, and in four-state simulators that no bit is unknown.
 //
 // Plusargs: +set=DIRECTORY of the suite, +draws= +beats= +fragments=N lines of its states, stimulus and response, at most LINES.
@@ -46,9 +47,11 @@ module axi4_stream_bench;
   logic paused = 1'b0;  // the second pass
   logic [31:0] lots = 32'd1;  // xorshift
   int state = 0, beat = 0, draw = 0, number = 0;  // next state and vertex, draw and fragment that are expected
+  logic [1:0] over = 2'd0;  // beats behind the draw's quads, of a quad that is not complete, that are still to come
   logic state_held = 1'b0, vertex_held = 1'b0;  // offered and not taken: stays
   logic [16+VERTEX-1:0] stimulus;
   logic [15:0] next_draw;  // of the beat after it
+  logic last_beat;
   logic state_tvalid, state_tready, vertex_tvalid, vertex_tready, vertex_tlast;
   logic fragment_tvalid, fragment_tready, fragment_tlast;
   logic [FRAGMENT_TDATA-1:0] fragment_tdata;
@@ -62,9 +65,10 @@ module axi4_stream_bench;
 
   assign stimulus = stimuli[beat];
   assign next_draw = 16'(stimuli[beat+1] >> VERTEX);
+  assign last_beat = beat + 1 == beats || next_draw != stimulus[VERTEX+:16];
   assign state_tvalid = rst_n && state < draws && (!paused || state_held || lots[1:0] == 2'd0);
   assign vertex_tvalid = rst_n && beat < beats && (!paused || vertex_held || lots[2]);
-  assign vertex_tlast = beat + 1 == beats || next_draw != stimulus[VERTEX+:16];
+  assign vertex_tlast = last_beat && (over == 2'd1 || (over == 2'd0 && (!paused || stimulus[VERTEX+:2] == 2'd0)));
   assign fragment_tready = rst_n && (!paused || lots[4:3] == 2'd0);
 
   quadrille_axi4_stream u_dut (  // rubbish in the padding, and everywhere while not valid
@@ -117,7 +121,10 @@ module axi4_stream_bench;
       if (state_tvalid && state_tready) state <= state + 1;
       if (vertex_tvalid && vertex_tready) begin
         if (stimulus[VERTEX+:16] != draw[15:0] || state != draw + 1) mismatch("a vertex is taken before its draw");
-        beat <= beat + 1;
+        // The last beat of a draw is sent again so many times, as any beat.
+        if (last_beat && !vertex_tlast) over <= over == 2'd0 ? stimulus[VERTEX+:2] : over - 2'd1;
+        else over <= 2'd0;
+        if (!last_beat || vertex_tlast) beat <= beat + 1;
       end
 
       waiting_q <= fragment_tvalid && !fragment_tready;

@@ -6,7 +6,8 @@
 //                      TDATA 0) with TLAST, which ends the draw
 //
 // TDATA holds a record (README.md section 3) at its low end, each lane's padded with zeros to whole bytes; padding that comes in is not read. The
-// state of the next draw is taken behind the null beat. A packet of vertices has whole quads: an unfinished one never ends its draw.
+// state of the next draw is taken behind the null beat. A packet of vertices that ends within a quad draws all but that quad: its beats
+// are discarded (flush_i).
 // Every TVALID comes from registers and waits for no TREADY; TREADY of the vertices does not wait for TVALID.
 module quadrille_axi4_stream #(
     localparam int STATE_BYTES = (quadrille_pkg::STATE_BITS + 7) / 8,
@@ -71,7 +72,8 @@ module quadrille_axi4_stream #(
       .clk_i(aclk),
       .rst_ni(aresetn),
       .state_i(state_q),
-      .clear_hidden_i(clear_q && !busy && step_q == VERTICES),
+      .clear_hidden_i(clear_q && step_q == VERTICES),
+      .flush_i(step_q == DRAIN),
       .vertex_i(s_axis_vertex_tdata[quadrille_pkg::VERTEX_BITS-1:0]),
       .vertex_valid_i(s_axis_vertex_tvalid && vertex_open),
       .vertex_ready_o(vertex_ready),
@@ -97,16 +99,6 @@ module quadrille_axi4_stream #(
   assign unused = ^{s_axis_state_tdata, s_axis_vertex_tdata, unused_counter};
 
 `ifndef SYNTHESIS
-  logic [1:0] corner_q;
-
-  always_ff @(posedge aclk) begin
-    if (!aresetn || step_q == STATE) begin
-      corner_q <= 2'd0;
-    end else if (s_axis_vertex_tvalid && s_axis_vertex_tready) begin
-      corner_q <= corner_q + 2'd1;
-      assert (!s_axis_vertex_tlast || corner_q == 2'd3);  // a packet has whole quads
-    end
-    if (aresetn) assert (step_q != LAST || !fragment_valid);
-  end
+  always_ff @(posedge aclk) if (aresetn) assert (step_q != LAST || !fragment_valid);
 `endif
 endmodule

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Simulates the machine between AXI4-Stream interfaces on the kept golden vectors, with and without backpressure; nothing but rtl/ and
-# those vectors is needed. Then with a fault in a copy of the wrapper, which the bench must find.
+# those vectors is needed. Then with each of two faults in a copy of the wrapper, which the bench must find.
 #   rtl/axi4_stream/run.sh [verilator|icarus] [PIXELS_PER_CLOCK]     the fragments are the same with 1, 2 and 4 pixels a clock
-# Exit status: 0 all agree and the fault was found, 1 otherwise, 2 usage, 3 a missing tool.
+# Exit status: 0 all agree and the faults were found, 1 otherwise, 2 usage, 3 a missing tool.
 set -euo pipefail
 simulator=${1:-verilator} lanes=${2:-1}
 case $simulator in
@@ -34,9 +34,9 @@ build() {
   esac >"$log" 2>&1 || { tail -25 "$log" >&2; echo "the bench does not build" >&2; exit 1; }
 }
 
-# run NAME: the status is the bench's. ($fatal ends in abort(), which the shell would report.)
+# run NAME [FAULT]: the status is the bench's. ($fatal ends in abort(), which the shell would report.)
 run() {
-  local command=("$work/$1" "${plusargs[@]}")
+  local command=("$work/$1" "${plusargs[@]}" ${2:+"+$2"})
   [ $simulator = verilator ] || command=(vvp -N "${command[@]}")
   { "${command[@]}" >"$work/$1.out" 2>&1; } 2>/dev/null
 }
@@ -48,16 +48,24 @@ if ! run bench || [ "$(grep -c '^axi4_stream: .*, 0 mismatches$' "$work/bench.ou
 fi
 grep '^axi4_stream:' "$work/bench.out"
 
-# The fault: a draw ends when its last vertex was taken, not when the machine is idle.
-sed 's/DRAIN: if (!busy/DRAIN: if ((busy || !busy)/' "$here/quadrille_axi4_stream.sv" >"$work/quadrille_axi4_stream.sv"
-if cmp -s "$here/quadrille_axi4_stream.sv" "$work/quadrille_axi4_stream.sv"; then
-  echo "the fault is not in the copy of the wrapper" >&2
+# The faults, chosen as the bench runs: a draw ends when its last vertex was taken, not when the machine is idle; no flush behind it.
+sed -e 's/DRAIN: if (!busy/DRAIN: if (($test$plusargs("early_end") != 0 || !busy)/' \
+  -e 's/\.flush_i(step_q == DRAIN)/.flush_i(step_q == DRAIN \&\& $test$plusargs("no_flush") == 0)/' \
+  "$here/quadrille_axi4_stream.sv" >"$work/quadrille_axi4_stream.sv"
+if [ "$(diff "$here/quadrille_axi4_stream.sv" "$work/quadrille_axi4_stream.sv" | grep -c '^>')" != 2 ]; then
+  echo "the faults are not in the copy of the wrapper" >&2
   exit 1
 fi
 build broken "$work/quadrille_axi4_stream.sv"
-if run broken || ! grep -q '^axi4_stream: fragment' "$work/broken.out"; then
-  cat "$work/broken.out" >&2
-  echo "the fault was not found" >&2
-  exit 1
-fi
-echo "with a fault: $(grep '^axi4_stream: fragment' "$work/broken.out")"
+for fault in early_end no_flush; do
+  case $fault in
+    early_end) seen='^axi4_stream: fragment' ;;
+    no_flush) seen='nothing moves in draw' ;;
+  esac
+  if run broken $fault || ! grep -q "$seen" "$work/broken.out"; then
+    cat "$work/broken.out" >&2
+    echo "the fault $fault was not found" >&2
+    exit 1
+  fi
+  echo "with the fault $fault: $(grep -m 1 "$seen" "$work/broken.out")"
+done

@@ -45,14 +45,15 @@ class Device {
   /// Reset input, active or not; as every input it takes effect at the next settle().
   virtual void set_reset(bool active) = 0;
 
-  /// The packed state_t. To be changed only while the machine is not busy.
+  /// The packed state_t. To be changed only while no quad is under way: the RTL asserts it.
   virtual void set_state(std::span<const std::uint32_t> words) = 0;
 
-  /// The packed vertex_t of the beat that is offered. It must stay as it is until the beat was taken.
+  /// The packed vertex_t of the beat that is offered. It must stay as it is until the beat was taken, or a flush.
   virtual void set_vertex(std::span<const std::uint32_t> words) = 0;
 
-  /// clear_hidden_i, at first not active. Only while the machine is not busy.
+  /// clear_hidden_i and flush_i, at first not active.
   virtual void set_clear_hidden(bool active) = 0;
+  virtual void set_flush(bool active) = 0;
 
   /// vertex_valid_i and fragment_ready_i.
   virtual void set_handshake(bool vertex_valid, bool fragment_ready) = 0;

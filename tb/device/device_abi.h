@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-enum { quadrille_device_abi_version = 4, quadrille_probe_count = 9, quadrille_most_lanes = 4 };
+enum { quadrille_device_abi_version = 5, quadrille_probe_count = 9, quadrille_most_lanes = 4 };
 
 /* Status of a function that failed because the waveform cannot be written, on a full disk say; else it is 1. */
 enum { quadrille_no_waveform = 2 };
@@ -52,6 +52,7 @@ typedef struct {
   void (*set_state)(quadrille_device*, const uint32_t* words);
   void (*set_vertex)(quadrille_device*, const uint32_t* words);
   void (*set_clear_hidden)(quadrille_device*, int active);
+  void (*set_flush)(quadrille_device*, int active);
   void (*set_handshake)(quadrille_device*, int vertex_valid, int fragment_ready);
 
   /* Evaluates with the clock low; outputs then belong to the present inputs. */

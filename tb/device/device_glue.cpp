@@ -199,6 +199,7 @@ quadrille_device* create(uint64_t seed) {
     device->top = std::make_unique<Vquadrille>(device->context.get(), "quadrille");
     Vquadrille& top = *device->top;
     top.clear_hidden_i = 0;
+    top.flush_i = 0;
     quadrille_sample& s = device->sample;
     constexpr uint32_t lanes = QUADRILLE_WIDTH_fragment_mask;
     static_assert(lanes <= quadrille_most_lanes);
@@ -311,6 +312,7 @@ const quadrille_device_table table = {
     .set_state = [](quadrille_device* d, const uint32_t* words) { assign(d->top->state_i, words); },
     .set_vertex = [](quadrille_device* d, const uint32_t* words) { assign(d->top->vertex_i, words); },
     .set_clear_hidden = [](quadrille_device* d, int active) { d->top->clear_hidden_i = active ? 1 : 0; },
+    .set_flush = [](quadrille_device* d, int active) { d->top->flush_i = active ? 1 : 0; },
     .set_handshake =
         [](quadrille_device* d, int vertex_valid, int fragment_ready) {
           d->top->vertex_valid_i = static_cast<CData>(vertex_valid);

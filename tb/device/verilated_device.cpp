@@ -99,6 +99,7 @@ void VerilatedDevice::set_vertex(std::span<const std::uint32_t> words) {
   impl_->table->set_vertex(impl_->device, words.data());
 }
 void VerilatedDevice::set_clear_hidden(bool active) { impl_->table->set_clear_hidden(impl_->device, active ? 1 : 0); }
+void VerilatedDevice::set_flush(bool active) { impl_->table->set_flush(impl_->device, active ? 1 : 0); }
 
 void VerilatedDevice::set_handshake(bool vertex_valid, bool fragment_ready) {
   impl_->table->set_handshake(impl_->device, vertex_valid, fragment_ready);

@@ -26,6 +26,7 @@ class VerilatedDevice final : public Device {
   void set_state(std::span<const std::uint32_t> words) override;
   void set_vertex(std::span<const std::uint32_t> words) override;
   void set_clear_hidden(bool active) override;
+  void set_flush(bool active) override;
   void set_handshake(bool vertex_valid, bool fragment_ready) override;
   void settle() override;
   const DeviceSample& sample() override;

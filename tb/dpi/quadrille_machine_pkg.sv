@@ -40,7 +40,12 @@ package quadrille_machine_pkg;
     output int fragment_mask,
     output fragment_port_t fragment
   );
-  // The edge.
+  // flush_i of the next edge alone.
+  import "DPI-C" function int quadrille_clocked_flush_port(
+    input chandle machine,
+    input int flush
+  );
+  // The edge. clear_hidden is ignored while busy, as in the RTL.
   import "DPI-C" function int quadrille_clocked_clock_ports(
     input chandle machine,
     input int reset,

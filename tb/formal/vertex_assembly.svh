@@ -1,10 +1,13 @@
   // vertex_assembly: four accepted beats are a quad, each with its own vertex, all of its fields and its W as a significand number among them (of the
-  // first vertex no attributes), and id, bases and corner codes of the first beat; the quad is stable until it is taken or dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock. Of the
+  // first vertex no attributes), and id, bases and corner codes of the first beat; the quad is stable until it is taken or dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock. flush_i discards
+  // the beats of a quad that is not full, one that comes with it among them, and nothing of a full one. The judgements of a quad do not change while it is
+  // held: so quad_setup, which is ready in a quad's third clock at the earliest, never starts one that is dropped, which leaves in its first. Of the
   // beats so far: least and greatest X and Y are those of some vertex and none is beyond; ordinary_o if and only if every W is ONE; behind_o, a
   // judgement of quad_reject, if and only if none is positive. (empty_o: proof range_empty; depth_o and depth_limits_o: proof quad_reject; the interval:
   // proof depth_interval.)
   // By induction, with one vertex of the four chosen freely and kept.
-  // Assumed: reset at the start and no more; start or drop only of a full quad (quadrille: start and drop_vertices have full in them).
+  // Assumed: reset at the start and no more; start or drop only of a full quad (quadrille: start and drop_vertices have full in them); the draw state does
+  // not change (quadrille asserts it).
   logic started_q = 1'b0;
   always_ff @(posedge clk_i) started_q <= 1'b1;
   always_comb assume (rst_ni == started_q);
@@ -17,17 +20,24 @@
   logic [W-1:0] kept_w;
   logic [OF_QUAD-1:0] of_quad_q;
   logic have;
-  logic [2:0] after_leave;
+  logic stays_q;
+  logic [2:0] judged_q;
+  localparam int STATE = 1 + 2 * (DB + 1) + 4 * (V + 1);
+  logic [STATE-1:0] state_q;
+  logic [2:0] after_leave;  // full, and not taken in this clock: 4
 
   assign after_leave = (start_i || drop_i) ? 3'd0 : held_q;
   assign have = held_q > {1'b0, which};
   assign kept_w = kept_q[2*(PE+S)+1+ATTR+:W];
 
   always_ff @(posedge clk_i) begin
+    stays_q <= rst_ni && full_o && !(start_i || drop_i);
+    judged_q <= {empty_o, behind_o, depth_o};
+    state_q <= {depth_on_i, znear_i, zfar_i, scissor_x0_i, scissor_y0_i, scissor_x1_i, scissor_y1_i};
     if (!rst_ni) begin
       held_q <= '0;
     end else begin
-      held_q <= after_leave + 3'(accept);
+      held_q <= (flush_i && after_leave != 3'd4) ? 3'd0 : after_leave + 3'(accept);
       if (accept && after_leave == 3'd0) begin
         of_quad_q <= {vertex.id, vertex.base_attr, vertex.base_depth, vertex.depth_low, vertex.depth_high};
       end
@@ -84,6 +94,7 @@
   always_comb begin
     if (rst_ni) begin
       assume (!(start_i || drop_i) || full_o);
+      assume ({depth_on_i, znear_i, zfar_i, scissor_x0_i, scissor_y0_i, scissor_x1_i, scissor_y1_i} == state_q);
       assert (held_q <= 3'd4);
       assert (full_o == (held_q == 3'd4));
       assert (busy_o == (held_q != 3'd0));
@@ -93,6 +104,7 @@
       assert (held_q == 3'd0 || {id_o, base_attr_o, base_depth_o, depth_low_q, depth_high_q} == of_quad_q);
       assert (held_q == 3'd0 || (is_low_x != '0 && is_high_x != '0 && is_low_y != '0 && is_high_y != '0));
       assert (inside == '1);
+      assert (!stays_q || {empty_o, behind_o, depth_o} == judged_q);
       assert (held_q == 3'd0 || ordinary_o == (ones_q == held_q));
       assert (held_q == 3'd0 || behind_o == (positive_q == 3'd0));
       // Invariants

@@ -1,11 +1,13 @@
 #include "tb/lockstep/driven_device.hpp"
 
+#include <stdexcept>
 #include <vector>
 
 namespace quadrille::tb {
 
 PortWaits recorded_waits(std::span<const SnappedQuad> quads, const LockstepOptions& o, std::uint64_t clocks,
                          std::uint64_t beats) {
+  if (o.flush != 0) throw std::invalid_argument("waits are not recorded of a run with flushes");
   Stimulus stimulus(quads, o);
   PortWaits waits;
   for (std::uint64_t clock = 0; clock < clocks; ++clock, stimulus.stalls.advance())
@@ -22,6 +24,8 @@ DrivenDevice::DrivenDevice(Device& device, const LockstepOptions& o) : device_(d
   const std::vector<std::uint32_t> state = pack_state(o.state, o.config);
   device_.set_state(state);
   device_.set_handshake(false, false);
+  device_.set_clear_hidden(false);
+  device_.set_flush(false);
   device_.set_reset(true);
   for (int i = 0; i < reset_clocks; ++i) {
     device_.settle();

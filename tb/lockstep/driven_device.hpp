@@ -11,24 +11,31 @@
 
 namespace quadrille::tb {
 
-/// What drives both input ports: of quads and options alone, so that two of them that saw the same beats taken are
+/// What drives the inputs: of quads and options alone, so that two of them that saw the same beats taken are
 /// alike. Both must outlive it.
 struct Stimulus {
   VertexDriver vertices;
   ReadyDriver stalls;
+  PulseDriver clears, flushes;
 
   Stimulus(std::span<const SnappedQuad> quads, const LockstepOptions& o)
       : vertices(quads, o.config, o.state.attributes, o.seed, o.gap, o.waits.gap_beats),
-        stalls(o.seed, o.stall, o.waits.stall_clocks) {}
+        stalls(o.seed, o.stall, o.waits.stall_clocks),
+        clears(o.seed, 7, o.clear, "clear"),
+        flushes(o.seed, 8, o.flush, "flush") {}
 
   bool done() const { return vertices.done(); }
   bool valid() const { return vertices.valid(); }
   bool ready() const { return stalls.ready(); }
   bool changed() const { return vertices.changed(); }
+  bool clear_hidden() const { return clears.high(); }
+  bool flush() const { return flushes.high(); }
   const VertexBeat& beat() const { return vertices.beat(); }
   void advance(bool taken) {
-    vertices.advance(taken);
+    vertices.advance(taken, flush());
     stalls.advance();
+    clears.advance();
+    flushes.advance();
   }
 };
 
@@ -45,6 +52,8 @@ class DrivenDevice {
   const DeviceSample& settle(const Stimulus& stimulus) {
     if (stimulus.changed()) device_.set_vertex(stimulus.vertices.words());
     device_.set_handshake(stimulus.valid(), stimulus.ready());
+    device_.set_clear_hidden(stimulus.clear_hidden());
+    device_.set_flush(stimulus.flush());
     device_.settle();
     return device_.sample();
   }

@@ -109,12 +109,22 @@ std::int64_t VertexDriver::any_code(int bits) {
   return rubbish_.integer(-limit, limit - 1);
 }
 
-void VertexDriver::advance(bool taken) {
+void VertexDriver::advance(bool taken, bool flush) {
   changed_ = false;
+  if (flush && (taken || next_ % 4 != 0)) {
+    next_ -= next_ % 4;
+    offer();
+    return;
+  }
   if (valid_ && !taken) return;
   if (taken) ++next_;
   if (done() && !valid_) return;  // idle after the last beat: the rubbish stays
   offer();
+}
+
+PulseDriver::PulseDriver(std::uint64_t seed, std::uint64_t stream, double chance, const char* name)
+    : random_(seed, stream), chance_(probability(chance, name)) {
+  advance();
 }
 
 ReadyDriver::ReadyDriver(std::uint64_t seed, double stall, std::span<const std::uint64_t> listed)

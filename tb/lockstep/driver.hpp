@@ -37,8 +37,9 @@ class VertexDriver {
     return quads_.empty() ? 1.0 : static_cast<double>(next_) / static_cast<double>(4 * quads_.size());
   }
 
-  /// After the clock edge; `taken`: the beat on offer was accepted by it.
-  void advance(bool taken);
+  /// After the clock edge; `taken`: the beat on offer was accepted by it. `flush`: beats of its quad are gone, and the
+  /// next on offer is the quad's first.
+  void advance(bool taken, bool flush = false);
 
  private:
   bool waits();
@@ -61,6 +62,20 @@ class VertexDriver {
   VertexBeat beat_;
   std::vector<std::uint64_t> packed_;
   std::vector<std::uint32_t> words_;
+};
+
+/// An input that is high in each clock with a probability of its own.
+class PulseDriver {
+ public:
+  /// Throws std::invalid_argument for a chance outside [0, 1), which `name` has.
+  PulseDriver(std::uint64_t seed, std::uint64_t stream, double chance, const char* name);
+  bool high() const { return high_; }
+  void advance() { high_ = chance_ != 0 && random_.chance(chance_); }
+
+ private:
+  golden::Prng random_;
+  double chance_;
+  bool high_ = false;
 };
 
 /// fragment_ready_i, low in each clock with probability `stall`, or in those listed.

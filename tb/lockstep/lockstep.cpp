@@ -140,6 +140,7 @@ class TracedLater : public Device {
   void set_state(std::span<const std::uint32_t> words) override { device_.set_state(words); }
   void set_vertex(std::span<const std::uint32_t> words) override { device_.set_vertex(words); }
   void set_clear_hidden(bool active) override { device_.set_clear_hidden(active); }
+  void set_flush(bool active) override { device_.set_flush(active); }
   void set_handshake(bool vertex_valid, bool fragment_ready) override {
     device_.set_handshake(vertex_valid, fragment_ready);
   }

@@ -30,6 +30,8 @@ struct LockstepOptions {
   double stall = 0;                        ///< probability per clock that fragment_ready is low; in [0, 1)
   double gap = 0;                          ///< probability per clock that vertex_valid is low before a beat; in [0, 1)
   PortWaits waits;                         ///< these instead; of a port that has some the chance must be 0
+  double clear = 0;                        ///< probability per clock, busy or not, that clear_hidden is high; in [0, 1)
+  double flush = 0;                        ///< the same of flush: the driver begins a quad anew of which beats are gone
   std::optional<std::string> trace;        ///< FST waveform file
   std::uint64_t trace_from = 0;            ///< of run_lockstep(): the clock in which it begins
   std::uint64_t limit_fragments = 0;       ///< end after so many fragments; 0: no limit

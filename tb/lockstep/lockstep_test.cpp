@@ -39,7 +39,8 @@ class ModelDevice : public Device {
   void set_vertex(std::span<const std::uint32_t> words) override {
     visit(inputs_.vertex, config_, RecordUnpacker(Record::from_words(words.data(), vertex_.bits())));
   }
-  void set_clear_hidden(bool) override {}
+  void set_clear_hidden(bool active) override { inputs_.clear_hidden = active; }
+  void set_flush(bool active) override { inputs_.flush = active; }
   void set_handshake(bool vertex_valid, bool fragment_ready) override {
     inputs_.vertex_valid = vertex_valid;
     inputs_.fragment_ready = fragment_ready;

@@ -338,6 +338,17 @@ Scenario layers() {
           })};
 }
 
+/// The same while clears come that must be ignored, for they come while the machine is busy, but for a few, and flushes
+/// that begin quads anew.
+Scenario flushes_and_clears() {
+  Scenario scenario = layers();
+  scenario.name = "flushes and clears";
+  scenario.options.gap = 0.2;
+  scenario.options.clear = 0.1;
+  scenario.options.flush = 0.1;
+  return scenario;
+}
+
 /// Rectangles over some blocks of tiles, the borders of many half a tile from a block's: of a few depths, so that some
 /// are as far as what is before them; `near_together` of fewer, with codes between them that margins keep apart.
 Scenario block_layers(const std::string& name, bool near_together) {
@@ -763,6 +774,7 @@ std::span<const Scenario> scenarios() {
     for (Scenario& s : all) s.options.state.skip &= ~std::uint32_t{skip_operands};
     all.push_back(held("held", exact(), 2));
     all.push_back(held("held, four lanes", four_lanes(), 1));  // counted
+    all.push_back(flushes_and_clears());
     return all;
   }();
   return list;

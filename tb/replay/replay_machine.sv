@@ -83,6 +83,7 @@ module replay_machine;
       .rst_ni(rst_n),
       .state_i(state),
       .clear_hidden_i(clear),
+      .flush_i(1'b0),
       .vertex_i(vertex),
       .vertex_valid_i(vertex_valid),
       .vertex_ready_o(vertex_ready),
