@@ -49,7 +49,15 @@ class DrivenModel {
     if (stimulus.changed() && stimulus.valid()) inputs_.vertex = stimulus.beat();
     return model_.comb();
   }
-  void clock() { model_.clock(inputs_); }
+  void clock() {
+    model_.clock(inputs_);
+    inputs_.clear_hidden = false;
+  }
+  /// The next draw's state, while not busy; with `clear` clear_hidden is active in the clock that follows.
+  void next_draw(const DrawState& state, bool clear) {
+    model_.set_state(state);
+    inputs_.clear_hidden = clear;
+  }
   /// Clocks until the places of hidden tiles are wiped: at once without them.
   void wait_idle() {
     while (model_.comb().busy) model_.clock(inputs_);
