@@ -53,7 +53,8 @@ void plane(Batch& b) {
                                       {x + vx + 0.5, y + vy + 0.5, 0, 1}}};
     // Constant along 01 and 23, or along 03 and 12: the one side's depth is the base's.
     const bool along_first = b.rng.chance(0.5);
-    const std::array<std::size_t, 2> other = along_first ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{1, 2};
+    const std::array<std::size_t, 2> other =
+        along_first ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{1, 2};
     const double base = std::ldexp(b.integer(3, 5), -3), step = b.rng.sign() * std::ldexp(1.0, -b.integer(3, 7));
     for (WindowVertex& v : quad) v.z = base;
     for (const std::size_t i : other) quad[i].z = base + step;
@@ -89,11 +90,13 @@ void plane(Batch& b) {
 }
 
 std::array<double, 4> plane_values(Batch& b) {
-  const double unit = std::ldexp(1.0, -b.config.attribute_frac()), step = b.rng.sign() * std::ldexp(1.0, -b.integer(1, 6));
+  const double unit = std::ldexp(1.0, -b.config.attribute_frac()),
+               step = b.rng.sign() * std::ldexp(1.0, -b.integer(1, 6));
   std::array<double, 4> values{};
   values.fill(std::ldexp(b.integer(-3, 3), -3));
   const bool along_first = b.rng.chance(0.5);
-  const std::array<std::size_t, 2> other = along_first ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{1, 2};
+  const std::array<std::size_t, 2> other =
+      along_first ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{1, 2};
   for (const std::size_t i : other) values[i] += step;
   const std::size_t one = other[b.rng.below(2)];
   const std::uint64_t kind = b.rng.below(16);

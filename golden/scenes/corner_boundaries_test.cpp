@@ -23,7 +23,8 @@ TEST(CornerBoundaries, SidesOfBoxesAtPixelCentres) {
   int empty = 0, homogeneous = 0;
   const CornerDraw draw = draw_of(config, CornerGroup::box);
   std::set<std::uint32_t> covered;
-  for_each_pixel(draw, config, [&](const SnappedQuad& q, const TileEntry&, const PixelTrace&) { covered.insert(q.id); });
+  for_each_pixel(draw, config,
+                 [&](const SnappedQuad& q, const TileEntry&, const PixelTrace&) { covered.insert(q.id); });
   for (const SnappedQuad& quad : draw.quads) {
     if (!is_ordinary(quad, config)) {
       ++homogeneous;
@@ -70,9 +71,8 @@ TEST(CornerBoundaries, PlaneButForOneBit) {
         exponent += w.z.sig != 0 && std::ranges::any_of(v, [&](const SnappedVertex& u) {
                       return u.z.sig == w.z.sig && u.z.neg == w.z.neg && u.z.exp == w.z.exp + 1;
                     });
-      code += std::ranges::count_if(v, [&](const SnappedVertex& w) {
-                return w.z.sig != 0 && w.z.exp == -config.depth_bits;
-              }) == 1;
+      code += std::ranges::count_if(
+                  v, [&](const SnappedVertex& w) { return w.z.sig != 0 && w.z.exp == -config.depth_bits; }) == 1;
       position += std::abs(v[0].x + v[2].x - v[1].x - v[3].x) + std::abs(v[0].y + v[2].y - v[1].y - v[3].y) ==
                   1 << config.homogeneous_frac_bits;
       other_k += std::ranges::any_of(v, [&](const SnappedVertex& w) { return w.k.exp != v[0].k.exp; });
@@ -93,7 +93,8 @@ TEST(CornerBoundaries, CoarseDepthCodes) {
   for (const int bits : {9, 12}) {
     config.set("hierarchical_z_bits", bits);
     const CornerDraw draw = draw_of(config, CornerGroup::coarse_depth);
-    const std::int64_t coarse = std::int64_t{1} << (config.depth_bits - bits), last = std::int64_t{1} << config.depth_bits;
+    const std::int64_t coarse = std::int64_t{1} << (config.depth_bits - bits),
+                       last = std::int64_t{1} << config.depth_bits;
     std::map<std::int64_t, int> apart;
     std::set<std::int64_t> ends;
     for (const SnappedQuad& quad : draw.quads)

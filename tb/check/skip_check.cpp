@@ -33,7 +33,8 @@ std::vector<Variant> variants(const DrawState& state) {
   std::vector<Variant> list{{others, "without a skip"}};
   for (std::uint32_t bit = 1; bit <= skip_default; bit <<= 1)
     if ((skip_default & bit) != 0)
-      list.push_back({others | bit, std::string("with skip ") + skip_names[static_cast<std::size_t>(std::countr_zero(bit))] + " alone"});
+      list.push_back({others | bit, std::string("with skip ") +
+                                        skip_names[static_cast<std::size_t>(std::countr_zero(bit))] + " alone"});
   list.push_back({others | (state.skip & skip_default), "with the skips of the draw"});
   return list;
 }

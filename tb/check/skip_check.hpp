@@ -29,13 +29,14 @@ class SkipCheck {
 
   /// A fragment that the machine drew; its quad is a position in the draw.
   void fragment(const Fragment& fragment);
-  /// Draws the first `quads` of `snapped` on the queue's threads; `complete`: the machine drew all of them to their end.
+  /// Draws the first `quads` of `snapped` on the queue's threads; `complete`: the machine drew all of them to their
+  /// end.
   SkipResult compare(std::span<const SnappedQuad> snapped, std::size_t quads, bool complete, WorkQueue& queue) const;
 
  private:
   Config config_;
   DrawState state_;
-  bool hides_;  ///< the machine leaves out what is hidden: its list is another
+  bool hides_;                        ///< the machine leaves out what is hidden: its list is another
   std::vector<std::uint64_t> drawn_;  ///< a hash for each quad
   std::size_t last_ = 0;
 };

@@ -44,7 +44,7 @@ struct CosimOptions {
   InputOptions input;
   double stall = 0, gap = 0, shrink_seconds = ShrinkOptions{}.seconds;
   std::uint64_t limit_fragments = 0;
-  int attributes = 0;  ///< in use per pass; 0: all slots
+  int attributes = 0;       ///< in use per pass; 0: all slots
   std::uint64_t draws = 0;  ///< each input is cut into so many; 0: it is one
   std::string battery;      ///< groups of the battery, or all
   std::string waits, stall_clocks, gap_beats, draw_state, trace, shrink, out, png, texture, shade, rtl;
@@ -74,7 +74,7 @@ struct InputResult {
   std::optional<std::string> first_divergence;
   std::uint64_t fragment_hash = 0;
   CheckResult check;
-  SkipResult skips;  ///< draws with and without the skips
+  SkipResult skips;                        ///< draws with and without the skips
   std::uint64_t limits_checked = 0;        ///< inputs that have regression limits
   std::vector<std::string> beyond_limits;  ///< what is beyond them, in words
 
@@ -274,16 +274,19 @@ class CosimRun {
       if (group.ok()) continue;
       if (failed == nullptr) failed = &group;
       complain(group.result);
-      if (!group.error.empty()) std::fprintf(stderr, "quadrille: %s: %s\n", group.group.name.c_str(), group.error.c_str());
+      if (!group.error.empty())
+        std::fprintf(stderr, "quadrille: %s: %s\n", group.group.name.c_str(), group.error.c_str());
       if (group.model && !group.model->ok())
         std::fprintf(stderr, "quadrille: %s: the model alone: %s\n", group.group.name.c_str(),
                      group.model->fault().c_str());
     }
     if (failed != nullptr) {
-      std::string command = "quadrille cosim --battery " + failed->group.name + " --seed " + std::to_string(options_.common.seed);
+      std::string command =
+          "quadrille cosim --battery " + failed->group.name + " --seed " + std::to_string(options_.common.seed);
       if (!options_.rtl.empty()) command += " --rtl " + one(options_.rtl);
       std::fprintf(stderr, "quadrille: the first group that fails, alone:\n  %s\n", command.c_str());
-      if (!options_.no_shrink && failed->run->failed_) failed->run->shrink_first_failure({failed->result}, failed->model.value_or(ModelCheck{}));
+      if (!options_.no_shrink && failed->run->failed_)
+        failed->run->shrink_first_failure({failed->result}, failed->model.value_or(ModelCheck{}));
     }
     return ok ? exit_ok : exit_mismatch;
   }
@@ -407,8 +410,9 @@ class CosimRun {
           !common.settings.empty() || !common.config_file.empty() || !options_.state.spelled().empty() ||
           !options_.draw_state.empty() || options_.attributes > 0 || !options_.out.empty() || !options_.png.empty() ||
           !options_.trace.empty())
-        throw UsageError("--battery has inputs, configurations and draw states of its own; it takes --rtl, --seed, "
-                         "--threads, --json, --shrink and --quiet");
+        throw UsageError(
+            "--battery has inputs, configurations and draw states of its own; it takes --rtl, --seed, "
+            "--threads, --json, --shrink and --quiet");
     }
     if (options_.draws > 0) {
       const std::string given = options_.state.spelled() + (options_.attributes > 0 ? " --attributes" : "") +
@@ -652,8 +656,8 @@ class CosimRun {
   }
 
   void run_pass(const DrawInput& input, const DrawState& draw_state, const Pass& pass, std::size_t number,
-                std::size_t weight_passes, FrameBuffer* frame, std::vector<EngineSample>& samples,
-                InputResult& result, const DrawPlace* place = nullptr) {
+                std::size_t weight_passes, FrameBuffer* frame, std::vector<EngineSample>& samples, InputResult& result,
+                const DrawPlace* place = nullptr) {
     const bool first = number == 0;
     DrawState state = draw_state;
     state.attributes = static_cast<int>(pass.columns.size());
@@ -730,7 +734,8 @@ class CosimRun {
     if (!result.first_divergence) result.first_divergence = report.first_divergence;
     if (!first) check.compared = 0;  // the same fragments again
     result.check.merge(check);
-    if (place != nullptr && !skips.first.empty()) skips.first = "draw " + std::to_string(place->number) + ": " + skips.first;
+    if (place != nullptr && !skips.first.empty())
+      skips.first = "draw " + std::to_string(place->number) + ": " + skips.first;
     result.skips.merge(skips);
     if (!first) return;
 
@@ -932,7 +937,8 @@ class CosimRun {
     if (const std::string state = r.state + r.attributes; !state.empty())
       std::fprintf(out, "  draw state    %s\n", state.c_str());
     if (r.draws > 0)
-      print("  draws          {draws} in one machine, each in a state of its own; {clears} clears, {resets} resets\n", json);
+      print("  draws          {draws} in one machine, each in a state of its own; {clears} clears, {resets} resets\n",
+            json);
     print("  lockstep       {quads_drawn} quads, {fragments} fragments, {cycles_rtl} cycles", json);
     std::fputs(r.complete ? "\n" : " (ended early)\n", out);
     if (r.left_out != 0)
@@ -1041,7 +1047,7 @@ class CosimRun {
   const CosimOptions options_;
   const std::vector<std::string> arguments_;
   const Config config_;
-  tb::PortWaits waits_;               ///< listed
+  tb::PortWaits waits_;  ///< listed
   tb::WaitKind pattern_ = tb::WaitKind::chance;
   std::optional<FailedPass> failed_;  ///< the first of all inputs
 };
@@ -1093,9 +1099,10 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->excludes("--stall", "--gap", "--stall-clocks", "--gap-beats");
   CLI::Option* const battery =
       command
-          ->add_option("--battery", options->battery,
-                       "Run the groups of draws that a developer of the RTL runs after a change (3 minutes), all of them "
-                       "or GROUP, MACHINE or INPUT of MACHINE.INPUT")
+          ->add_option(
+              "--battery", options->battery,
+              "Run the groups of draws that a developer of the RTL runs after a change (3 minutes), all of them "
+              "or GROUP, MACHINE or INPUT of MACHINE.INPUT")
           ->expected(0, 1)
           ->type_name("[GROUP]");
   command

@@ -163,7 +163,8 @@ std::vector<PlannedDraw> layers(const Config& config, std::uint64_t seed) {
     const double z = rng.chance(0.5) ? 0.02 + 0.9 * rng.uniform() : 0.4 + step * static_cast<double>(rng.below(40));
     const double lean = rng.chance(0.3) ? rng.uniform(-9, 9) : 0;
     quad.id = i;
-    quad.vertex = {{{x, y + lean, z, 1}, {x, y + h, z + step, 1}, {x + w, y + h, z + step * rng.uniform(), 1}, {x + w, y, z, 1}}};
+    quad.vertex = {
+        {{x, y + lean, z, 1}, {x, y + h, z + step, 1}, {x + w, y + h, z + step * rng.uniform(), 1}, {x + w, y, z, 1}}};
     if (rng.chance(0.15)) quad.vertex[2].z += rng.uniform(-0.3, 0.3);
     if (rng.chance(0.1)) std::swap(quad.vertex[1], quad.vertex[3]);
     for (auto& attribute : quad.attribute)
@@ -198,8 +199,9 @@ std::vector<PlannedDraw> far_scissors(const Config& config, std::uint64_t seed) 
   golden::Prng rng(seed, stream + 4);
   std::vector<PlannedDraw> draws;
   const int size = std::min(1 << config.viewport_bits, 128 * config.tile());
-  const std::array kinds{golden::StressFamily::huge, golden::StressFamily::eye_crossing, golden::StressFamily::w_zero,
-                         golden::StressFamily::long_span, golden::StressFamily::any_w, golden::StressFamily::general};
+  const std::array kinds{golden::StressFamily::huge,   golden::StressFamily::eye_crossing,
+                         golden::StressFamily::w_zero, golden::StressFamily::long_span,
+                         golden::StressFamily::any_w,  golden::StressFamily::general};
   for (const golden::StressFamily family : kinds) {
     PlannedDraw draw;
     DrawState state = tb::small_state(config, size);
@@ -208,7 +210,8 @@ std::vector<PlannedDraw> far_scissors(const Config& config, std::uint64_t seed) 
     state = random_state(config, state, draw.quads, rng);
     const auto part = [&](int& first, int& last) {
       const int length = std::min(size, 1 + static_cast<int>(rng.below(40)));
-      first = rng.chance(0.3) ? size - length : static_cast<int>(rng.below(static_cast<std::uint64_t>(size - length + 1)));
+      first =
+          rng.chance(0.3) ? size - length : static_cast<int>(rng.below(static_cast<std::uint64_t>(size - length + 1)));
       last = first + length;
     };
     part(state.scissor_x0, state.scissor_x1);
@@ -231,11 +234,30 @@ std::vector<Machine> machines() {
        {"significand_bits=12", "attribute_slots=3", "pixels_per_clock=4", "viewport_bits=8", "hierarchical_z_bits=12",
         "hierarchical_z_tiles_log2=6", "performance_counters=1"}},
       {"odd",
-       {"viewport_bits=9", "guard_bits=1", "subpixel_bits=5", "homogeneous_frac_bits=9", "quadratic_frac_bits=23",
-        "significand_bits=15", "notch_exact=0", "sqrt_degree=1", "recip_degree=1", "align_guard_bits=1",
-        "attribute_slots=3", "attribute_int_bits=5", "attribute_frac_bits=19", "depth_bits=17", "tile_log2=2",
-        "pixels_per_clock=2", "dot_units=4", "quad_slots_log2=1", "tile_slots_log2=1", "stamp_fifo_log2=1",
-        "hierarchical_z_bits=9", "hierarchical_z_tiles_log2=7", "plane_quads=1", "quad_id_bits=13",
+       {"viewport_bits=9",
+        "guard_bits=1",
+        "subpixel_bits=5",
+        "homogeneous_frac_bits=9",
+        "quadratic_frac_bits=23",
+        "significand_bits=15",
+        "notch_exact=0",
+        "sqrt_degree=1",
+        "recip_degree=1",
+        "align_guard_bits=1",
+        "attribute_slots=3",
+        "attribute_int_bits=5",
+        "attribute_frac_bits=19",
+        "depth_bits=17",
+        "tile_log2=2",
+        "pixels_per_clock=2",
+        "dot_units=4",
+        "quad_slots_log2=1",
+        "tile_slots_log2=1",
+        "stamp_fifo_log2=1",
+        "hierarchical_z_bits=9",
+        "hierarchical_z_tiles_log2=7",
+        "plane_quads=1",
+        "quad_id_bits=13",
         "performance_counters=1"}},
       {"default", {}},
       {"plane",
@@ -243,8 +265,8 @@ std::vector<Machine> machines() {
         "hierarchical_z_bits=12", "hierarchical_z_tiles_log2=6", "viewport_bits=8", "tile_log2=2",
         "performance_counters=1"}},
       {"wide",
-       {"significand_bits=24", "attribute_slots=8", "depth_bits=30", "tile_log2=4", "dot_units=4",
-        "stamp_fifo_log2=5", "tile_slots_log2=4", "hierarchical_z_bits=16", "hierarchical_z_tiles_log2=9"}},
+       {"significand_bits=24", "attribute_slots=8", "depth_bits=30", "tile_log2=4", "dot_units=4", "stamp_fifo_log2=5",
+        "tile_slots_log2=4", "hierarchical_z_bits=16", "hierarchical_z_tiles_log2=9"}},
   };
 }
 
@@ -271,7 +293,8 @@ std::vector<BatteryGroup> battery_groups() {
   std::vector<BatteryGroup> groups;
   for (const Input& input : inputs)
     for (const Machine& machine : machines()) {
-      const bool hides = std::ranges::any_of(machine.settings, [](const std::string& s) { return s.starts_with("hierarchical_z_bits"); });
+      const bool hides = std::ranges::any_of(machine.settings,
+                                             [](const std::string& s) { return s.starts_with("hierarchical_z_bits"); });
       if (input.draws == layers && !hides) continue;
       groups.push_back({std::string(machine.name) + "." + input.name, input.holds, machine.settings, input.draws});
     }

@@ -17,9 +17,9 @@ struct PlannedDraw {
   std::vector<WindowQuad> quads;     ///< of port quads, ids alone
   std::vector<SnappedQuad> at_port;  ///< what the port gets in their place; empty: the quads snapped
   DrawState state;
-  bool reset = false;     ///< before it, whatever the machine is doing
-  bool power_on = false;  ///< before it: another machine, whose registers hold random bits from `seed`
-  unsigned clears = 0;   ///< of what is hidden, before it
+  bool reset = false;       ///< before it, whatever the machine is doing
+  bool power_on = false;    ///< before it: another machine, whose registers hold random bits from `seed`
+  unsigned clears = 0;      ///< of what is hidden, before it
   std::uint64_t limit = 0;  ///< the draw is cut off after so many fragments, and a reset follows; 0: it is complete
   std::uint64_t seed = 1;   ///< of its waits
   tb::WaitKind waits = tb::WaitKind::chance;

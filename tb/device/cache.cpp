@@ -176,7 +176,8 @@ class LockFile {
 std::string checksum(const fs::path& file) {
   std::string text(fs::file_size(file), '\0');
   std::ifstream in(file, std::ios::binary);
-  if (!in.read(text.data(), static_cast<std::streamsize>(text.size()))) throw SystemError("cannot read " + file.string());
+  if (!in.read(text.data(), static_cast<std::streamsize>(text.size())))
+    throw SystemError("cannot read " + file.string());
   constexpr std::uint64_t prime = 0x9e3779b97f4a7c15u;
   std::uint64_t hash = text.size();
   for (std::size_t at = 0; at < text.size(); at += sizeof(std::uint64_t)) {
@@ -315,8 +316,8 @@ CacheEntry cached(const std::string& name, const std::string& description,
     const std::string why = damage(found.path_);
     if (why.empty()) return true;
     found.lock_.reset();
-    BuildNotice::say("what the cache has of " + description + " is damaged, and is built again: " +
-                     (found.path_ / "").string() + ": " + why);
+    BuildNotice::say("what the cache has of " + description +
+                     " is damaged, and is built again: " + (found.path_ / "").string() + ": " + why);
     if (!remove_unused(found.path_) && fs::exists(found.path_))
       throw SystemError("the damaged entry " + found.path_.string() +
                         " of the cache cannot be removed: another program uses it, or the cache cannot be written");

@@ -176,9 +176,7 @@ VerilateOptions build_options(const LockstepOptions& o, bool probes) {
 Probes probes_of(const LockstepOptions& o) { return o.probes ? Probes::all : Probes::without_pixels; }
 
 /// A waveform and the counters of the RTL end where the run does.
-bool has_thread(const LockstepOptions& o) {
-  return o.threads > 1 && !o.trace && o.config.performance_counters == 0;
-}
+bool has_thread(const LockstepOptions& o) { return o.threads > 1 && !o.trace && o.config.performance_counters == 0; }
 
 /// One draw of both machines, as `model` is: after reset, or as the draw before left it.
 LockstepReport run_both(Device& device, DrivenModel& model, Scoreboard& scoreboard, std::span<const SnappedQuad> quads,
@@ -260,8 +258,8 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
 struct LockstepSession::Impl {
   std::unique_ptr<VerilatedDevice> owned;
   Device& device;
-  std::optional<DrivenModel> model;       ///< none: the next draw begins with a reset
-  std::optional<Scoreboard> scoreboard;   ///< of the draw before
+  std::optional<DrivenModel> model;      ///< none: the next draw begins with a reset
+  std::optional<Scoreboard> scoreboard;  ///< of the draw before
 
   Impl(std::unique_ptr<VerilatedDevice> made, Device& given) : owned(std::move(made)), device(given) {}
 

@@ -14,17 +14,18 @@ namespace {
 class Session : public testing::TestWithParam<unsigned> {
  protected:
   Session() {
-    for (const auto& [key, value] :
-         {std::pair{"significand_bits", 12}, {"viewport_bits", 7}, {"attribute_slots", 1}, {"hierarchical_z_bits", 10},
-          {"hierarchical_z_tiles_log2", 6}})
+    for (const auto& [key, value] : {std::pair{"significand_bits", 12},
+                                     {"viewport_bits", 7},
+                                     {"attribute_slots", 1},
+                                     {"hierarchical_z_bits", 10},
+                                     {"hierarchical_z_tiles_log2", 6}})
       options.config.set(key, value);
     options.state = small_state(options.config);
     options.state.skip |= skip_hidden;
     options.stall = 0.2;
     options.threads = GetParam();
     for (std::uint64_t d = 0; d < 8; ++d) {
-      DrawState state = d % 2 == 0 ? options.state
-                                   : golden::random_draw_state(options.config, 48, 48, {}, d);
+      DrawState state = d % 2 == 0 ? options.state : golden::random_draw_state(options.config, 48, 48, {}, d);
       state.skip |= state.depth ? skip_hidden : 0u;
       states.push_back(state);
       quads.push_back(random_quads(options.config, state, d / 3, 25));  // some come again
