@@ -171,9 +171,12 @@ class Unit:
             if rng.random() < 0.25:
                 width, height = height, width
         stall, gap = rng.choice([0, 0.1, 0.5, 0.9, 0.95]), rng.choice([0, 0.1, 0.5, 0.9])
+        # What a chance hardly meets: bursts, waits nearly always, the same number of clocks again and again.
+        waits = ["--waits", rng.choice(["bursts", "sparse", "locked", "mixed"])] if stall == 0.1 else \
+            ["--stall", str(stall), "--gap", str(gap)]
         limit = (600 if stall >= 0.9 else 2_000) * (1 if plan["form"] else 4)
         report = self.cosim([*source, "--size", f"{width}x{height}", "--draw-state", f"random:{rng.randint(1, 10**9)}",
-                             "--seed", str(plan["seed"] + number), "--stall", str(stall), "--gap", str(gap),
+                             "--seed", str(plan["seed"] + number), *waits,
                              "--limit-fragments", str(limit), "--no-snapping-error", *rng.choice(plan["configurations"])], may_be_empty=True)
         if report is None:
             return

@@ -54,6 +54,13 @@ void far_base(Batch& b);
 void ties(Batch& b);
 void saturation(Batch& b);
 
+// The groups about exact boundaries: corner_boundaries.cpp.
+void box(Batch& b);
+void plane(Batch& b);
+void coarse_depth(Batch& b);
+void far_depth(Batch& b);
+std::array<double, 4> plane_values(Batch& b);
+
 /// The values of one attribute at the corners of a group's quad.
 std::array<double, 4> corner_values(CornerGroup group, Batch& b, std::size_t quad);
 

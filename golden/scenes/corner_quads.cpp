@@ -13,7 +13,7 @@
 namespace quadrille::golden {
 namespace {
 
-constexpr std::array<CornerGroupInfo, 17> table{{
+constexpr std::array<CornerGroupInfo, 21> table{{
     {CornerGroup::face_plane, "face_plane",
      "every combination of signs of the determinants d_012, d_023, d_123, d_013, zero included: the eye in the plane "
      "of a face",
@@ -60,6 +60,17 @@ constexpr std::array<CornerGroupInfo, 17> table{{
     {CornerGroup::ties, "ties", "corners at pixel centres half a code from the base's grid, above and below", "depth"},
     {CornerGroup::saturation, "saturation",
      "quotients beyond the format and sums beyond it, in either direction, which the port alone can give", "depth"},
+    {CornerGroup::box, "box",
+     "rectangles with sides at pixel centres and one unit of the grid beside them, at borders of tiles too", ""},
+    {CornerGroup::plane, "plane",
+     "parallelograms with plane values, or plane but for a sign, a code or a factor of two at one corner",
+     "plane_quads, skip plane"},
+    {CornerGroup::coarse_depth, "coarse_depth",
+     "layers over whole tiles with depths at coarse codes of hierarchical_z_bits and one code beside them",
+     "hierarchical_z_bits, skip hidden"},
+    {CornerGroup::far_depth, "far_depth",
+     "corners beyond the guard band or behind the eye, depth codes at znear and zfar and on one side of them",
+     "depth, znear > 0"},
 }};
 
 using LatticeQuad = std::array<LatticePoint, 4>;
@@ -347,6 +358,14 @@ void fill(CornerGroup group, Batch& b) {
       return ties(b);
     case CornerGroup::saturation:
       return saturation(b);
+    case CornerGroup::box:
+      return box(b);
+    case CornerGroup::plane:
+      return plane(b);
+    case CornerGroup::coarse_depth:
+      return coarse_depth(b);
+    case CornerGroup::far_depth:
+      return far_depth(b);
   }
 }
 
@@ -388,6 +407,9 @@ std::vector<CornerDraw> corner_draws(const Config& config, std::uint64_t seed) {
     state.attributes = 1 + static_cast<int>(info.group) % config.attribute_slots;
     if (info.group == CornerGroup::z_limits) state.znear = 0.25, state.zfar = 0.75;
     if (info.group == CornerGroup::constant_depth) state.znear = 0.5;
+    if (info.group == CornerGroup::far_depth) state.znear = 0.25, state.zfar = 0.5;
+    if (info.group == CornerGroup::plane && config.plane_quads != 0) state.skip |= skip_plane;
+    if (info.group == CornerGroup::coarse_depth && config.hierarchical_z_bits != 0) state.skip |= skip_hidden;
     if (info.group == CornerGroup::flat) state.depth = false;
     if (info.group == CornerGroup::two_edge) state.perspective = false;
     if (info.group == CornerGroup::tall) {

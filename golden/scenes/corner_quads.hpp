@@ -30,6 +30,10 @@ enum class CornerGroup {
   far_base,
   ties,
   saturation,
+  box,
+  plane,
+  coarse_depth,
+  far_depth,
 };
 
 struct CornerGroupInfo {
@@ -45,9 +49,9 @@ std::span<const CornerGroupInfo> corner_groups();
 CornerGroup parse_corner_group(std::string_view name);
 
 /// The quads of a group, ids 0, 1, 2 …, with `attributes` attributes per vertex. They lie in the upper left 32 pixels
-/// of the viewport, on its whole height (`tall`) or at its end (`far_corner`); z_limits and constant_depth take znear
-/// and zfar from the state. Snapping them with this configuration is exact in x, y and w. The same arguments give the
-/// same bits everywhere.
+/// of the viewport (`box` 40), on its whole height (`tall`), at its end (`far_corner`) or reach beyond it
+/// (`far_depth`); z_limits, constant_depth and far_depth take znear and zfar from the state. Snapping them with this
+/// configuration is exact in x, y and w. The same arguments give the same bits everywhere.
 std::vector<WindowQuad> make_corner(CornerGroup group, const Config& config, const DrawState& state, std::uint64_t seed,
                                     int attributes);
 

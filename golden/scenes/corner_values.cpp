@@ -137,6 +137,8 @@ std::array<double, 4> corner_values(CornerGroup group, Batch& b, std::size_t qua
       values[0] = value_of(b, base);
       break;
     }
+    case CornerGroup::plane:
+      return plane_values(b);
     default:
       for (double& v : values) v = std::ldexp(b.rng.uniform(-0.99, 0.99), b.config.attribute_int_bits);
   }

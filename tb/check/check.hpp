@@ -167,8 +167,9 @@ class FragmentChecker {
     Config config;
     DrawState state;  ///< of the pass
     Pass pass;
-    bool first_pass = true;  ///< also check coverage and count
-    bool snapping = true;    ///< also compare with the given quads
+    bool first_pass = true;          ///< also check coverage and count
+    bool snapping = true;            ///< also compare with the given quads
+    HiddenDepths* depths = nullptr;  ///< of earlier draws in the same machine, which go on; must outlive the checker
   };
 
   /// `given` and `snapped` (numbered by position) must outlive the checker.

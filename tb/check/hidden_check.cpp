@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace quadrille::cli {
 namespace {
@@ -14,13 +13,13 @@ DrawState with_nothing_hidden(DrawState state) {
 
 }  // namespace
 
-HiddenCheck::HiddenCheck(const Config& config, const DrawState& state)
+HiddenCheck::HiddenCheck(const Config& config, const DrawState& state, HiddenDepths* before)
     : width_(state.width),
       height_(state.height),
       depth_bits_(config.depth_bits),
       everything_(config, with_nothing_hidden(state)),
-      depth_(static_cast<std::size_t>(state.width) * static_cast<std::size_t>(state.height),
-             std::numeric_limits<std::uint32_t>::max()) {}
+      own_(before == nullptr ? state.width : 0, before == nullptr ? state.height : 0),
+      depth_(before == nullptr ? own_ : *before) {}
 
 void HiddenCheck::fragment(const Fragment& fragment) { drawn_.push_back(fragment); }
 
@@ -35,24 +34,24 @@ std::optional<HiddenCheck::Fault> HiddenCheck::quad_done(const SnappedQuad& quad
         continue;
       }
       ++left_out_;
-      const std::uint32_t nearest = at(f.x, f.y);
+      const std::uint32_t nearest = depth_.at(f.x, f.y);
       if (!fault && f.depth < nearest)
         fault = Fault{f.x, f.y,
                       "left out with depth code " + std::to_string(f.depth) + ", but the depth buffer holds " +
-                          (nearest == std::numeric_limits<std::uint32_t>::max() ? "nothing" : std::to_string(nearest))};
+                          (nearest == HiddenDepths::nothing ? "nothing" : std::to_string(nearest))};
     }
   });
   if (!fault && next != drawn_.end())
     fault = Fault{next->x, next->y, "drawn, but not with nothing hidden, or out of order"};
   for (const Fragment& f : drawn_)
-    if (f.x < width_ && f.y < height_) at(f.x, f.y) = std::min(at(f.x, f.y), f.depth);
+    if (f.x < width_ && f.y < height_) depth_.at(f.x, f.y) = std::min(depth_.at(f.x, f.y), f.depth);
   drawn_.clear();
   return fault;
 }
 
 bool HiddenCheck::may_refuse(int x, int y, double z, double tolerance) const {
   // A code is the nearest one.
-  return std::ldexp(z + tolerance, depth_bits_) + 0.5 >= depth_[static_cast<std::size_t>(y * width_ + x)];
+  return std::ldexp(z + tolerance, depth_bits_) + 0.5 >= depth_.at(x, y);
 }
 
 }  // namespace quadrille::cli

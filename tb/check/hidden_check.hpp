@@ -12,10 +12,27 @@
 
 namespace quadrille::cli {
 
-/// Follows one draw, quad by quad, with a depth buffer (LESS, cleared at first) of what the machine drew.
+/// The codes in a depth buffer (LESS) of what a machine drew since a clear.
+class HiddenDepths {
+ public:
+  HiddenDepths(int width, int height)
+      : codes_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), nothing), width_(width) {}
+  void clear() { codes_.assign(codes_.size(), nothing); }
+  std::uint32_t& at(int x, int y) { return codes_[static_cast<std::size_t>(y * width_ + x)]; }
+  std::uint32_t at(int x, int y) const { return codes_[static_cast<std::size_t>(y * width_ + x)]; }
+
+  static constexpr std::uint32_t nothing = ~std::uint32_t{0};
+
+ private:
+  std::vector<std::uint32_t> codes_;
+  int width_;
+};
+
+/// Follows one draw, quad by quad, with a depth buffer of what the machine drew.
 class HiddenCheck {
  public:
-  HiddenCheck(const Config& config, const DrawState& state);
+  /// `before`: what earlier draws left in the depth buffer, which goes on and must outlive this; null: nothing.
+  HiddenCheck(const Config& config, const DrawState& state, HiddenDepths* before = nullptr);
 
   /// A fragment of the quad that is being drawn.
   void fragment(const Fragment& fragment);
@@ -34,11 +51,10 @@ class HiddenCheck {
   std::uint64_t left_out() const { return left_out_; }
 
  private:
-  std::uint32_t& at(int x, int y) { return depth_[static_cast<std::size_t>(y * width_ + x)]; }
-
   int width_, height_, depth_bits_;
   UntimedModel everything_;
-  std::vector<std::uint32_t> depth_;
+  HiddenDepths own_;
+  HiddenDepths& depth_;
   std::vector<Fragment> drawn_;
   std::uint64_t left_out_ = 0;
 };

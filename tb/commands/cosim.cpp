@@ -1,5 +1,7 @@
 // quadrille cosim: the RTL and its model in lockstep on real quads, the fragments compared with the truth as they come.
 #include "tb/commands/commands.hpp"
+#include "tb/commands/cosim_battery.hpp"
+#include "tb/commands/cosim_draws.hpp"
 #include "tb/commands/cosim_shrink.hpp"
 #include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"
@@ -7,11 +9,13 @@
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/scenes/random_state.hpp"
+#include "model/hierarchical_z.hpp"
 #include "model/quad_reject.hpp"
 #include "model/snap.hpp"
 #include "tb/check/check.hpp"
 #include "tb/check/error_limits.hpp"
 #include "tb/check/model_check.hpp"
+#include "tb/check/skip_check.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/input.hpp"
@@ -28,6 +32,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 namespace quadrille::cli {
@@ -39,9 +44,11 @@ struct CosimOptions {
   InputOptions input;
   double stall = 0, gap = 0, shrink_seconds = ShrinkOptions{}.seconds;
   std::uint64_t limit_fragments = 0;
-  int attributes = 0;  ///< in use per pass; 0: all slots
-  std::string stall_clocks, gap_beats, draw_state, trace, shrink, out, png, texture, shade, rtl;
-  bool no_snapping = false, no_alone = false, no_shrink = false;
+  int attributes = 0;       ///< in use per pass; 0: all slots
+  std::uint64_t draws = 0;  ///< each input is cut into so many; 0: it is one
+  std::string battery;      ///< groups of the battery, or all
+  std::string waits, stall_clocks, gap_beats, draw_state, trace, shrink, out, png, texture, shade, rtl;
+  bool no_snapping = false, no_alone = false, no_shrink = false, compare_skips = true;
 };
 
 constexpr std::uint64_t alone_fragments = 200'000;  ///< enough to time the RTL alone
@@ -56,6 +63,7 @@ struct InputResult {
   std::uint64_t passes = 0, fragments = 0, pixels = 0, mismatches = 0, cycles_rtl = 0, cycles_model = 0,
                 cycle_mismatches = 0, compared_bits = 0;
   std::uint64_t pass_cycles = 0, pass_fragments = 0;  ///< of all passes
+  std::uint64_t draws = 0, clears = 0, resets = 0;    ///< with --draws
   std::uint64_t at_depth_limit = 0;  ///< fragments whose depth is exactly znear or zfar (where not 0 and 1)
   std::uint64_t left_out = 0, left_out_empty = 0, left_out_behind = 0, left_out_depth = 0, left_out_line = 0,
                 left_out_culled = 0, left_out_outside = 0;  ///< quads, by QuadReject
@@ -66,11 +74,12 @@ struct InputResult {
   std::optional<std::string> first_divergence;
   std::uint64_t fragment_hash = 0;
   CheckResult check;
+  SkipResult skips;                        ///< draws with and without the skips
   std::uint64_t limits_checked = 0;        ///< inputs that have regression limits
   std::vector<std::string> beyond_limits;  ///< what is beyond them, in words
 
   bool lockstep_ok() const { return mismatches == 0 && cycle_mismatches == 0; }
-  bool ok() const { return lockstep_ok() && check.ok() && beyond_limits.empty(); }
+  bool ok() const { return lockstep_ok() && check.ok() && skips.differences == 0 && beyond_limits.empty(); }
 };
 
 using Metric = Counter<InputResult>;
@@ -91,7 +100,10 @@ constexpr Metric cycle_metrics[]{{"cycles_all_passes", &InputResult::pass_cycles
                                  {"cycles_model", &InputResult::cycles_model},
                                  {"cycle_mismatches", &InputResult::cycle_mismatches},
                                  {"compared_bits", &InputResult::compared_bits},
-                                 {"covered_pixels", &InputResult::pixels}};
+                                 {"covered_pixels", &InputResult::pixels},
+                                 {"draws", &InputResult::draws},
+                                 {"clears", &InputResult::clears},
+                                 {"resets", &InputResult::resets}};
 constexpr Metric count_metrics[]{
     {"eye_crossing_quads", &InputResult::eye_crossing_quads}, {"homogeneous_quads", &InputResult::homogeneous_quads},
     {"antipodal_quads", &InputResult::antipodal_quads},       {"tiny_quads", &InputResult::tiny_quads},
@@ -119,6 +131,7 @@ void merge(InputResult& sum, const InputResult& part) {
   if (!sum.first_divergence && part.first_divergence) sum.first_divergence = part.name + ": " + *part.first_divergence;
   sum.fragment_hash = sum.fragment_hash * 0x100000001b3u ^ part.fragment_hash;
   sum.check.merge(part.check);
+  sum.skips.merge(part.skips);
   sum.limits_checked += part.limits_checked;
   for (const std::string& text : part.beyond_limits) sum.beyond_limits.push_back(part.name + ": " + text);
 }
@@ -136,6 +149,15 @@ std::string filled(std::string_view form, const nlohmann::ordered_json& report) 
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
+/// The machine that a draw of several goes on in.
+struct DrawPlace {
+  const PlannedDraw& draw;
+  std::size_t number;  ///< of the draw, from 1
+  tb::LockstepSession& session;
+  HiddenDepths& depths;
+  PerformanceCounters& counters;  ///< since the reset
+};
+
 class CosimRun {
  public:
   CosimRun(const CosimOptions& options, std::vector<std::string> arguments)
@@ -144,7 +166,7 @@ class CosimRun {
   int run() {
     check_options();
     try {
-      return run_inputs();
+      return options_.battery.empty() ? run_inputs() : run_battery();
     } catch (const tb::VerilateError& error) {
       if (options_.rtl.empty()) throw;
       throw UsageError("--rtl " + options_.rtl + ": " + error.what());  // the user's sources
@@ -156,6 +178,141 @@ class CosimRun {
   }
 
  private:
+  /// A group of the battery and what came of it.
+  struct GroupRun {
+    BatteryGroup group;
+    std::unique_ptr<CosimRun> run;
+    InputResult result;
+    std::optional<ModelCheck> model;  ///< of the first group of a configuration
+    bool done = false;
+    std::string error;
+
+    bool ok() const { return error.empty() && result.ok() && (!model || model->ok()); }
+  };
+
+  static std::unique_ptr<CosimRun> run_of(const BatteryGroup& group, CosimOptions options) {
+    options.common.settings = group.settings;
+    options.common.threads = 1;
+    options.common.quiet = true;
+    options.no_snapping = true;
+    return std::make_unique<CosimRun>(options, std::vector<std::string>{});
+  }
+
+  std::vector<GroupRun> chosen_groups() const {
+    std::vector<GroupRun> runs;
+    std::string names;
+    for (BatteryGroup& group : battery_groups()) {
+      names += " " + group.name;
+      const std::string& wanted = options_.battery;
+      if (wanted != "all" && group.name != wanted && !group.name.starts_with(wanted + ".") &&
+          !group.name.ends_with("." + wanted))
+        continue;
+      runs.push_back({});
+      runs.back().run = run_of(group, options_);
+      runs.back().group = std::move(group);
+    }
+    if (runs.empty()) throw UsageError("--battery " + options_.battery + ": no such group; the groups are" + names);
+    return runs;
+  }
+
+  /// One group, its functions of the model with the first of its configuration.
+  void run_group(GroupRun& group, bool with_functions) const {
+    CosimRun& run = *group.run;
+    group.result.name = group.group.name;
+    try {
+      DrawInput input;
+      input.name = group.group.name;
+      input.attributes = run.config_.attribute_slots;
+      const tb::Stopwatch start;
+      run.run_draws(input, group.group.draws(run.config_, options_.common.seed), group.result);
+      group.result.seconds = start.seconds();
+      if (with_functions) group.model = check_model(run.config_);
+    } catch (const tb::WatchdogError& error) {
+      group.error = error.what();
+    }
+  }
+
+  int run_battery() {
+    const tb::Stopwatch start;
+    std::vector<GroupRun> groups = chosen_groups();
+    std::vector<std::vector<std::string>> built;
+    for (const GroupRun& group : groups) {  // one after the other: each build takes all processors
+      if (std::ranges::find(built, group.group.settings) != built.end()) continue;
+      built.push_back(group.group.settings);
+      tb::simulator_in_lockstep(group.run->lockstep_options({}));
+    }
+    const double building = start.seconds();
+
+    std::FILE* const text = options_.common.text();
+    if (text) std::fprintf(text, "%-20s %6s %7s %10s %10s  %s\n", "group", "draws", "quads", "fragments", "cycles", "");
+    std::mutex mutex;
+    std::size_t printed = 0;
+    bool ok = true;
+    WorkQueue queue(options_.common.thread_count() - 1, groups.size());
+    built.clear();
+    for (GroupRun& group : groups) {
+      const bool first = std::ranges::find(built, group.group.settings) == built.end();
+      if (first) built.push_back(group.group.settings);
+      queue.push([&, first] {
+        run_group(group, first);
+        const std::lock_guard lock(mutex);
+        group.done = true;
+        for (; printed < groups.size() && groups[printed].done; ++printed) {  // in order, whoever was faster
+          ok = ok && groups[printed].ok();
+          if (text) print_group(text, groups[printed]);
+        }
+      });
+    }
+    queue.drain();
+    if (text)
+      std::fprintf(text, "\n%s: %zu groups, seed %llu, %.1f s (%.1f s for building)\n", ok ? "OK" : "FAILED",
+                   groups.size(), static_cast<unsigned long long>(options_.common.seed), start.seconds(), building);
+    if (!options_.common.json.empty()) golden::save_json(options_.common.json, battery_report(groups, ok));
+    std::fflush(stdout);
+    const GroupRun* failed = nullptr;
+    for (const GroupRun& group : groups) {
+      if (group.ok()) continue;
+      if (failed == nullptr) failed = &group;
+      complain(group.result);
+      if (!group.error.empty())
+        std::fprintf(stderr, "quadrille: %s: %s\n", group.group.name.c_str(), group.error.c_str());
+      if (group.model && !group.model->ok())
+        std::fprintf(stderr, "quadrille: %s: the model alone: %s\n", group.group.name.c_str(),
+                     group.model->fault().c_str());
+    }
+    if (failed != nullptr) {
+      std::string command =
+          "quadrille cosim --battery " + failed->group.name + " --seed " + std::to_string(options_.common.seed);
+      if (!options_.rtl.empty()) command += " --rtl " + one(options_.rtl);
+      std::fprintf(stderr, "quadrille: the first group that fails, alone:\n  %s\n", command.c_str());
+      if (!options_.no_shrink && failed->run->failed_)
+        failed->run->shrink_first_failure({failed->result}, failed->model.value_or(ModelCheck{}));
+    }
+    return ok ? exit_ok : exit_mismatch;
+  }
+
+  static void print_group(std::FILE* text, const GroupRun& group) {
+    const InputResult& r = group.result;
+    std::fprintf(text, "%-20s %6llu %7llu %10llu %10llu  %s\n", group.group.name.c_str(),
+                 static_cast<unsigned long long>(r.draws), static_cast<unsigned long long>(r.quads_drawn),
+                 static_cast<unsigned long long>(r.fragments), static_cast<unsigned long long>(r.cycles_rtl),
+                 group.ok() ? "ok" : "FAILED");
+    std::fflush(text);
+  }
+
+  nlohmann::ordered_json battery_report(const std::vector<GroupRun>& groups, bool ok) const {
+    nlohmann::ordered_json json = golden::begin_report(config_, options_.common.seed, arguments_);
+    json["ok"] = ok;
+    for (const GroupRun& group : groups) {
+      nlohmann::ordered_json one = group.run->result_json(group.result);
+      one["settings"] = group.group.settings;
+      one["ok"] = group.ok();
+      if (!group.error.empty()) one["error"] = group.error;
+      json["groups"].push_back(std::move(one));
+    }
+    return json;
+  }
+
   int run_inputs() {
     std::vector<InputOptions> inputs = list_inputs();
     std::vector<InputResult> results;
@@ -188,12 +345,15 @@ class CosimRun {
     std::fflush(stdout);
     if (!failed_) {  // the draw itself is right
       const bool limits = std::ranges::any_of(results, [](const InputResult& r) { return !r.beyond_limits.empty(); });
-      const char* const why = limits        ? "errors are beyond their regression limits, which are of the whole draw"
+      const bool skips = std::ranges::any_of(results, [](const InputResult& r) { return r.skips.differences > 0; });
+      const char* const why = skips         ? "the machine draws this input right; with other skips it does not"
+                              : limits      ? "errors are beyond their regression limits, which are of the whole draw"
                               : !model.ok() ? "the model alone failed, which draws nothing of this input"
                                             : "there is no fragment";
       std::fprintf(stderr, "quadrille: nothing to shrink: %s\n", why);
       return;
     }
+    if (failed_->at_port) return;
     try {
       shrink_failed_pass(*failed_, {shrunk_file(), options_.shrink_seconds}, options_.common);
     } catch (const std::exception& error) {  // the run has failed and is reported, whatever becomes of this
@@ -227,6 +387,11 @@ class CosimRun {
     } catch (const std::invalid_argument& error) {
       throw UsageError(std::string("--gap-beats ") + error.what());
     }
+    try {
+      if (!options_.waits.empty()) pattern_ = tb::parse_wait_kind(options_.waits);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(std::string("--waits ") + error.what());
+    }
     probability("--stall", options_.stall);
     probability("--gap", options_.gap);
     if (options_.attributes > config_.attribute_slots)
@@ -238,6 +403,22 @@ class CosimRun {
                                 (options_.attributes > 0 ? " --attributes " + std::to_string(options_.attributes) : "");
       if (!given.empty())
         throw UsageError("--draw-state " + options_.draw_state + " draws what" + given + " sets; give one of them");
+    }
+    if (!options_.battery.empty()) {
+      const CommonOptions& common = options_.common;
+      if (inputs_given(options_.input) > 0 || options_.draws > 0 || options_.limit_fragments > 0 ||
+          !common.settings.empty() || !common.config_file.empty() || !options_.state.spelled().empty() ||
+          !options_.draw_state.empty() || options_.attributes > 0 || !options_.out.empty() || !options_.png.empty() ||
+          !options_.trace.empty())
+        throw UsageError(
+            "--battery has inputs, configurations and draw states of its own; it takes --rtl, --seed, "
+            "--threads, --json, --shrink and --quiet");
+    }
+    if (options_.draws > 0) {
+      const std::string given = options_.state.spelled() + (options_.attributes > 0 ? " --attributes" : "") +
+                                (options_.draw_state.empty() ? "" : " --draw-state") +
+                                (options_.out.empty() ? "" : " --out") + (options_.png.empty() ? "" : " --png");
+      if (!given.empty()) throw UsageError("--draws draws the state of each draw and no picture; leave out" + given);
     }
     std::vector<std::string> read = options_.input.files();
     read.insert(read.end(), {options_.common.config_file, options_.texture});
@@ -311,6 +492,13 @@ class CosimRun {
     result.fan_primitives = input.fan_primitives;
     result.skipped_lines = input.skipped_lines;
 
+    if (options_.draws > 0) {
+      run_draws(input,
+                plan_draws(input.quads, options_.draws, config_, state.width, state.height, options_.common.seed),
+                result);
+      result.seconds = start.seconds();
+      return result;
+    }
     std::unique_ptr<FrameBuffer> frame;
     ShadeSettings shading;
     if (!options_.out.empty() || !options_.png.empty()) {
@@ -349,6 +537,80 @@ class CosimRun {
     return result;
   }
 
+  /// Several draws of one machine, each in one of its passes.
+  void run_draws(const DrawInput& input, const std::vector<PlannedDraw>& draws, InputResult& result) {
+    if (draws.empty()) return;
+    int width = 0, height = 0;  // of the depth buffer, where there is one
+    for (const PlannedDraw& draw : draws)
+      if (skips_hidden(config_, draw.state)) {
+        width = std::max(width, draw.state.width);
+        height = std::max(height, draw.state.height);
+      }
+    tb::LockstepOptions lockstep = lockstep_options(draws.front().state);
+    PartialFile trace(options_.trace);
+    if (trace.active()) lockstep.trace = trace.path();
+    const tb::Simulator simulator = tb::simulator_in_lockstep(lockstep);
+    std::optional<tb::LockstepSession> session;
+    HiddenDepths depths(width, height);
+    PerformanceCounters counters;
+    bool fresh = true;  // a power-on or reset comes before the draw
+    for (std::size_t d = 0; d < draws.size(); ++d) {
+      const PlannedDraw& draw = draws[d];
+      if (d == 0 || draw.power_on) {
+        if (d > 0) lockstep.seed = draw.seed;
+        session.emplace(simulator, lockstep);
+        fresh = true;
+      } else if (draw.reset || draws[d - 1].limit > 0) {
+        session->reset();
+        fresh = true;
+        ++result.resets;
+      }
+      if (fresh) counters = {};
+      if (fresh || draw.clears > 0) depths.clear();
+      ++result.draws;
+      result.clears += fresh ? 0 : draw.clears;
+      fresh = false;
+      DrawInput part;
+      part.name = input.name;
+      part.quads_file = input.quads_file;
+      part.quads = draw.quads;
+      const DrawPlace place{draw, d + 1, *session, depths, counters};
+      std::vector<EngineSample> samples;
+      const Pass pass = pass_of(input, draw, d);
+      run_pass(part, draw.state, pass, 0, 1, nullptr, samples, result, &place);
+      if (!failed_ && !(result.lockstep_ok() && result.check.faults() == 0)) {
+        failed_ = failed_pass(part, draw.state, draw.state.attributes, pass, 0, result.lockstep_ok());
+        failed_->input += ", draw " + std::to_string(d + 1);
+        failed_->at_port = !draw.at_port.empty();
+        set_place(place, failed_->lockstep);
+      }
+      if (!result.lockstep_ok()) break;  // both sides are apart
+    }
+    result.passes = 1;
+    if (trace.active()) trace.commit();
+  }
+
+  /// What the attributes of a draw are: those that the port gets, or one of the input's passes.
+  static Pass pass_of(const DrawInput& input, const PlannedDraw& draw, std::size_t number) {
+    if (!draw.at_port.empty()) {
+      Pass pass;
+      for (int j = 0; j < draw.state.attributes; ++j) pass.columns.push_back(4 + j);
+      return pass;
+    }
+    const std::vector<Pass> passes = plan_judged_passes(input.attributes, draw.state.attributes);
+    return passes[number % passes.size()];
+  }
+
+  /// What a draw of several has of its own.
+  void set_place(const DrawPlace& place, tb::LockstepOptions& lockstep) const {
+    lockstep.seed = place.draw.seed;
+    if (place.draw.limit > 0) lockstep.limit_fragments = place.draw.limit;
+    if (!options_.waits.empty() || lockstep.stall > 0 || lockstep.gap > 0 || !lockstep.waits.empty()) return;
+    lockstep.pattern = place.draw.waits;
+    lockstep.stall = place.draw.stall;
+    lockstep.gap = place.draw.gap;
+  }
+
   tb::LockstepOptions lockstep_options(const DrawState& state) const {
     tb::LockstepOptions lockstep;
     lockstep.config = config_;
@@ -357,6 +619,7 @@ class CosimRun {
     lockstep.stall = options_.stall;
     lockstep.gap = options_.gap;
     lockstep.waits = waits_;
+    lockstep.pattern = pattern_;
     lockstep.limit_fragments = options_.limit_fragments;
     lockstep.source = options_.rtl;
     lockstep.probes = !std::filesystem::is_regular_file(options_.rtl);  // one file has none: ports alone are compared
@@ -393,44 +656,59 @@ class CosimRun {
   }
 
   void run_pass(const DrawInput& input, const DrawState& draw_state, const Pass& pass, std::size_t number,
-                std::size_t weight_passes, FrameBuffer* frame, std::vector<EngineSample>& samples,
-                InputResult& result) {
+                std::size_t weight_passes, FrameBuffer* frame, std::vector<EngineSample>& samples, InputResult& result,
+                const DrawPlace* place = nullptr) {
     const bool first = number == 0;
     DrawState state = draw_state;
     state.attributes = static_cast<int>(pass.columns.size());
     std::vector<SnappedQuad> snapped;
     snapped.reserve(input.quads.size());
     try {
-      for (std::size_t i = 0; i < input.quads.size(); ++i)
+      if (place != nullptr) snapped = place->draw.at_port;
+      for (std::size_t i = snapped.size(); i < input.quads.size(); ++i)
         snapped.push_back(snap_as(pass_quad(input.quads[i], pass), static_cast<std::uint32_t>(i), config_, state));
     } catch (const SnapError& error) {
       throw UsageError(describe(error, input));
     }
 
     tb::LockstepOptions lockstep = lockstep_options(state);
-    PartialFile trace(first ? options_.trace : std::string{});
+    PartialFile trace(first && place == nullptr ? options_.trace : std::string{});
     if (trace.active()) lockstep.trace = trace.path();
+    if (place != nullptr) set_place(*place, lockstep);
+    if (place != nullptr && !options_.trace.empty()) lockstep.threads = 1;  // the session has the waveform
     Progress progress(input.name + (first ? "" : ", attributes"), 1000, options_.common.show_progress());
     lockstep.progress = [&](double part) { progress.set(static_cast<std::uint64_t>(part * 1000)); };
 
     const unsigned threads = options_.common.thread_count();
     WorkQueue queue(judging_threads(threads), std::size_t{16} * threads);
-    const FragmentChecker::Settings check_settings = checker_settings(state, pass, first);
+    FragmentChecker::Settings check_settings = checker_settings(state, pass, first);
+    if (place != nullptr) {
+      check_settings.depths = &place->depths;
+      check_settings.snapping = check_settings.snapping && place->draw.at_port.empty();
+    }
     FragmentChecker checker(check_settings, input.quads, snapped, queue);
 
     std::size_t position = 0;
     const std::uint32_t znear = depth_code(state.znear, config_), zfar = depth_code(state.zfar, config_);
-    const tb::LockstepReport report = tb::run_lockstep(snapped, lockstep, [&](const Fragment& fragment) {
+    const bool compare_skips = options_.compare_skips && first;
+    SkipCheck skip_check(config_, state, compare_skips ? snapped.size() : 0);
+    const tb::FragmentSink sink = [&](const Fragment& fragment) {
       checker.fragment(fragment);
+      if (compare_skips) skip_check.fragment(fragment);
       if (first && state.depth)
         result.at_depth_limit +=
             (state.znear > 0 && fragment.depth == znear) || (state.zfar < 1 && fragment.depth == zfar);
       if (frame && fragment.quad < input.quads.size() && fragment.x < state.width && fragment.y < state.height)
         picture(fragment, pass, number, weight_passes, input, *frame, samples, position);
-    });
+    };
+    tb::LockstepReport report = place == nullptr ? tb::run_lockstep(snapped, lockstep, sink)
+                                                 : place->session.draw(snapped, lockstep, place->draw.clears, sink);
     const tb::Stopwatch drawn;
     checker.finish(report.complete);
     queue.drain();
+    SkipResult skips;
+    if (compare_skips && report.agreed())
+      skips = skip_check.compare(snapped, static_cast<std::size_t>(report.quads), report.complete, queue);
     const double seconds = report.wall_seconds + drawn.seconds();  // without building the RTL
     progress.finish();
     if (trace.active()) trace.commit();
@@ -445,20 +723,30 @@ class CosimRun {
     result.pass_cycles += report.cycles_rtl;
     result.pass_fragments += report.fragments;
     result.loop_seconds += seconds;
-    if (!result.first_divergence) result.first_divergence = report.first_divergence;
     CheckResult check = checker.result();
+    if (place != nullptr) {
+      const std::string name = "draw " + std::to_string(place->number) + ": ";
+      if (report.first_divergence) report.first_divergence = name + *report.first_divergence;
+      if (check.first.any) check.first.text = name + check.first.text;
+      const PerformanceCounters all = std::exchange(place->counters, report.counters);
+      for (std::size_t i = 0; i < counter_count; ++i) report.counters.value[i] -= all.value[i];
+    }
+    if (!result.first_divergence) result.first_divergence = report.first_divergence;
     if (!first) check.compared = 0;  // the same fragments again
     result.check.merge(check);
+    if (place != nullptr && !skips.first.empty())
+      skips.first = "draw " + std::to_string(place->number) + ": " + skips.first;
+    result.skips.merge(skips);
     if (!first) return;
 
-    result.quads_drawn = report.quads;
-    result.fragments = report.fragments;
-    result.pixels = report.pixels;
-    result.cycles_rtl = report.cycles_rtl;
-    result.cycles_model = report.cycles_model;
-    result.counters = report.counters;
-    result.fragment_hash = report.fragment_hash;
-    result.complete = report.complete;
+    result.quads_drawn += report.quads;
+    result.fragments += report.fragments;
+    result.pixels += report.pixels;
+    result.cycles_rtl += report.cycles_rtl;
+    result.cycles_model += report.cycles_model;
+    result.counters += report.counters;
+    result.fragment_hash = result.fragment_hash * 0x100000001b3u ^ report.fragment_hash;
+    result.complete = result.complete && (report.complete || (place != nullptr && place->draw.limit > 0));
     for (std::size_t i = 0; i < report.quads; ++i) {
       result.eye_crossing_quads += is_eye_crossing(snapped[i]) ? 1 : 0;
       result.homogeneous_quads += is_ordinary(snapped[i], config_) ? 0 : 1;
@@ -473,7 +761,7 @@ class CosimRun {
       result.left_out_culled += reject == QuadReject::culled;
       result.left_out_outside += reject == QuadReject::outside;
     }
-    if (!options_.no_alone && report.agreed()) time_alone(snapped, lockstep, report, result);
+    if (!options_.no_alone && report.agreed() && place == nullptr) time_alone(snapped, lockstep, report, result);
   }
 
   /// The RTL without probes and comparison, on the same quads; its fragments must be the same ones.
@@ -568,6 +856,8 @@ class CosimRun {
     }
     put_counters(json["counts"], r, count_metrics);
     put_counters(json["counts"], c, fragment_counters);
+    json["skips"] = {{"compared", r.skips.compared}, {"quads_that_differ", r.skips.differences}};
+    if (r.skips.differences > 0) json["skips"]["first"] = r.skips.first;
     json["counters"] = counters_json(r.counters);
     json["regression"] = {{"inputs_with_limits", r.limits_checked}, {"beyond", r.beyond_limits}};
     if (r.first_divergence) json["first_divergence"] = *r.first_divergence;
@@ -649,6 +939,9 @@ class CosimRun {
                  options_.gap, summary(config_).c_str());
     if (const std::string state = r.state + r.attributes; !state.empty())
       std::fprintf(out, "  draw state    %s\n", state.c_str());
+    if (r.draws > 0)
+      print("  draws          {draws} in one machine, each in a state of its own; {clears} clears, {resets} resets\n",
+            json);
     print("  lockstep       {quads_drawn} quads, {fragments} fragments, {cycles_rtl} cycles", json);
     std::fputs(r.complete ? "\n" : " (ended early)\n", out);
     if (r.left_out != 0)
@@ -671,6 +964,10 @@ class CosimRun {
       std::fprintf(out, "  coverage       %llu fragments against the truth",
                    static_cast<unsigned long long>(c.compared));
     print(", {reference_mismatches} differ\n", json);
+    if (r.skips.compared > 0)
+      std::fprintf(out, "  skips          %llu fragments of draws with other skips, %llu quads differ\n",
+                   static_cast<unsigned long long>(r.skips.compared),
+                   static_cast<unsigned long long>(r.skips.differences));
     if (c.tolerated_depth + c.tolerated_visible > 0)
       print(
           "                 tolerated, either being right: {tolerated_depth} within a depth's bound of a limit that "
@@ -745,6 +1042,9 @@ class CosimRun {
       std::fprintf(stderr, "quadrille: %s: %llu attributes and %llu depths are further off than their bound allows\n",
                    r.name.c_str(), static_cast<unsigned long long>(r.check.beyond_attribute),
                    static_cast<unsigned long long>(r.check.beyond_depth));
+    if (r.skips.differences > 0)
+      std::fprintf(stderr, "quadrille: %s: a skip changes the fragments of %llu quads; the first: %s\n", r.name.c_str(),
+                   static_cast<unsigned long long>(r.skips.differences), r.skips.first.c_str());
     for (const std::string& text : r.beyond_limits)
       std::fprintf(stderr, "quadrille: %s: beyond its regression limit: %s\n", r.name.c_str(), text.c_str());
     if (r.check.compared == 0) std::fprintf(stderr, "quadrille: %s: no fragments compared\n", r.name.c_str());
@@ -753,7 +1053,8 @@ class CosimRun {
   const CosimOptions options_;
   const std::vector<std::string> arguments_;
   const Config config_;
-  tb::PortWaits waits_;               ///< listed
+  tb::PortWaits waits_;  ///< listed
+  tb::WaitKind pattern_ = tb::WaitKind::chance;
   std::optional<FailedPass> failed_;  ///< the first of all inputs
 };
 
@@ -797,6 +1098,27 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->type_name("LIST")
       ->excludes("--gap");
   command
+      ->add_option("--waits", options->waits,
+                   "Pattern of stalls and gaps: bursts, sparse (nearly always), locked (a fixed number of clocks for a "
+                   "while) or mixed (all in turn)")
+      ->type_name("PATTERN")
+      ->excludes("--stall", "--gap", "--stall-clocks", "--gap-beats");
+  CLI::Option* const battery =
+      command
+          ->add_option(
+              "--battery", options->battery,
+              "Run the groups of draws that a developer of the RTL runs after a change (3 minutes), all of them "
+              "or GROUP, MACHINE or INPUT of MACHINE.INPUT")
+          ->expected(0, 1)
+          ->type_name("[GROUP]");
+  command
+      ->add_option("--draws", options->draws,
+                   "Cut each input into N draws of one machine. Draw states, stalls and gaps are drawn from the seed, "
+                   "and clears and resets between draws")
+      ->check(whole_number())
+      ->type_name("N")
+      ->excludes("--stall-clocks", "--gap-beats");
+  command
       ->add_option("--attributes", options->attributes,
                    "Attributes in use in one pass; fewer of them make more passes. Default: attribute_slots")
       ->check(CLI::Range(1, max_attribute_slots))
@@ -838,9 +1160,12 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->add_option("--rtl", options->rtl,
                    "Verilog instead of the project's: a directory, or one file, of which the ports alone are compared")
       ->type_name("PATH");
+  command->add_flag("--compare-skips,!--no-compare-skips", options->compare_skips,
+                    "Compare draws with and without each skip that must not change a fragment. Default: yes");
   command->add_flag("--no-snapping-error", options->no_snapping, "Do not measure the error of snapping (quicker)");
   command->add_flag("--no-alone", options->no_alone, "Do not time the RTL alone");
-  command->callback([options, &invocation] {
+  command->callback([options, battery, &invocation] {
+    if (battery->count() > 0 && options->battery.empty()) options->battery = "all";
     invocation.run = [options, &invocation] { return CosimRun(*options, invocation.arguments).run(); };
   });
 }

@@ -75,6 +75,7 @@ class FailedPassRuns {
     o.stall = draw.waits ? 0 : draw.stall;
     o.gap = draw.waits ? 0 : draw.gap;
     o.waits = draw.waits.value_or(tb::PortWaits{});
+    if (draw.waits || draw.stall > 0 || draw.gap > 0) o.pattern = tb::WaitKind::chance;  // else: the run that failed
     return o;
   }
 

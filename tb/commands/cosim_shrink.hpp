@@ -19,6 +19,7 @@ struct FailedPass {
   FragmentChecker::Settings check;
   int slots = 0;             ///< attributes in use per pass
   bool lockstep_ok = false;  ///< the truth alone differs
+  bool at_port = false;      ///< the port got other quads than these: nothing to shrink
 };
 
 struct ShrinkOptions {

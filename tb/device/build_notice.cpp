@@ -28,6 +28,10 @@ BuildNotice::~BuildNotice() {
 
 void BuildNotice::silence() { silent = true; }
 
+void BuildNotice::say(const std::string& text) {
+  if (!silent) std::fprintf(stderr, "quadrille: %s\n", text.c_str());
+}
+
 double BuildNotice::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }

@@ -27,6 +27,9 @@ class BuildNotice {
   void waiting(long pid);
   void finished();
 
+  /// A line by itself.
+  static void say(const std::string& text);
+
   /// No program of this process says anything from now on (--quiet).
   static void silence();
 

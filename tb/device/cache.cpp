@@ -2,6 +2,7 @@
 
 #include "golden/io/interrupt.hpp"
 #include "golden/io/temporary.hpp"
+#include "tb/device/build_notice.hpp"
 #include "tb/support/environment_error.hpp"
 
 #include <fcntl.h>
@@ -12,11 +13,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -28,6 +31,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* description_file = "description.txt";
+constexpr const char* checksum_file = "checksums.txt";
 
 std::string variable(const char* name) {
   const char* text = std::getenv(name);
@@ -168,6 +172,52 @@ class LockFile {
   const fs::path path_;
 };
 
+/// 64 bits over a file's bytes, and their number: quick, for it is looked at before every use.
+std::string checksum(const fs::path& file) {
+  std::string text(fs::file_size(file), '\0');
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(text.data(), static_cast<std::streamsize>(text.size())))
+    throw SystemError("cannot read " + file.string());
+  constexpr std::uint64_t prime = 0x9e3779b97f4a7c15u;
+  std::uint64_t hash = text.size();
+  for (std::size_t at = 0; at < text.size(); at += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, text.data() + at, std::min(sizeof word, text.size() - at));
+    hash = (hash ^ word) * prime;
+    hash ^= hash >> 32;
+  }
+  char line[64];
+  std::snprintf(line, sizeof line, "%016llx %zu", static_cast<unsigned long long>(hash), text.size());
+  return line;
+}
+
+/// A line for each file of an entry: checksum, bytes, name.
+std::string checksums(const fs::path& entry) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& file : fs::recursive_directory_iterator(entry))
+    if (file.is_regular_file() && file.path().filename() != checksum_file) files.push_back(file.path());
+  std::sort(files.begin(), files.end());
+  std::string text;
+  for (const fs::path& file : files) text += checksum(file) + " " + file.lexically_relative(entry).string() + "\n";
+  return text;
+}
+
+/// Why an entry is not what was built; empty: it is.
+std::string damage(const fs::path& entry) {
+  try {
+    if (!fs::exists(entry / checksum_file)) return "it has no checksums";
+    const std::string kept = read_text(entry / checksum_file), found = checksums(entry);
+    if (kept == found) return {};
+    std::istringstream lines(found);
+    for (std::string line; std::getline(lines, line);)
+      if (kept.find(line + "\n") == kept.npos)
+        return line.substr(line.find(' ', line.find(' ') + 1) + 1) + " has other bytes than were written";
+    return "a file is missing";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
 void trim(const fs::path& cache) {
   const std::uintmax_t limit = cache_limit();
   if (limit == 0) return;
@@ -261,20 +311,33 @@ CacheEntry cached(const std::string& name, const std::string& description,
     if (std::optional<Locked> lock = use(found.path_)) found.lock_ = std::make_shared<const Locked>(std::move(*lock));
     return found.lock_ != nullptr;
   };
-  if (in_use()) return found;
+  // What is damaged goes, out of the hands of this process first.
+  const auto good = [&] {
+    const std::string why = damage(found.path_);
+    if (why.empty()) return true;
+    found.lock_.reset();
+    BuildNotice::say("what the cache has of " + description +
+                     " is damaged, and is built again: " + (found.path_ / "").string() + ": " + why);
+    if (!remove_unused(found.path_) && fs::exists(found.path_))
+      throw SystemError("the damaged entry " + found.path_.string() +
+                        " of the cache cannot be removed: another program uses it, or the cache cannot be written");
+    return false;
+  };
+  if (in_use() && good()) return found;
 
   const fs::path cache = writable_cache_directory();
   cache_limit();  // refused before the work
   const fs::path lock_file = cache / (name + ".lock");
   const Locked building = lock_for_building(lock_file, waiting);
   const LockFile file(lock_file);
-  if (in_use()) return found;  // another process was faster
+  if (in_use() && good()) return found;  // another process was faster
   sweep_locks(cache);
   try {
     do {  // again, should somebody remove it before it is in use
       golden::Temporary work(cache, golden::Temporary::Kind::folder);
       build(work.path());
       write_text(work.path() / description_file, description + "\n");
+      write_text(work.path() / checksum_file, checksums(work.path()));
       work.publish(found.path_);
     } while (!in_use());
   } catch (const std::system_error& error) {

@@ -4,6 +4,7 @@
 // entry is a directory whose name is a hash over everything that decides its contents. It is built beside its place
 // under a lock and renamed into it, so several programs may ask for one at the same time. Who builds or uses an entry
 // holds a lock on its directory, so nobody removes it meanwhile. A cache that cannot be written serves what it has.
+// A file of checksums lies in each entry. They are checked before the entry is used: a damaged entry is built again.
 #pragma once
 
 #include <chrono>
@@ -53,8 +54,9 @@ class CacheEntry {
 
 /// Entry `name`. When the cache has none, `build(directory)` fills an empty directory; afterwards the entries that were
 /// not used for longest go until the cache is within its limit. `description`, a line, says what it is. `waiting(pid)`
-/// is called every second while another process (or thread) builds it. Throws what `build` throws, and SystemError
-/// when the cache cannot be written.
+/// is called every second while another process (or thread) builds it. An entry whose files are not those that were
+/// built is reported on standard error and built again. Throws what `build` throws, and SystemError when the cache
+/// cannot be written, or a damaged entry cannot be replaced.
 CacheEntry cached(const std::string& name, const std::string& description,
                   const std::function<void(const std::filesystem::path&)>& build,
                   const std::function<void(long)>& waiting = {});

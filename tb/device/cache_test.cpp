@@ -67,6 +67,48 @@ TEST_F(Cache, BuildsOnceAndLeavesNothingElse) {
   EXPECT_EQ(names(), std::vector<std::string>{"kind-1"});
 }
 
+/// What was damaged is said and built again, and then serves.
+TEST_F(Cache, ADamagedEntryIsBuiltAgain) {
+  const fs::path data = entry("kind-1", 10).path() / "data", sums = directory / "kind-1" / "checksums.txt";
+  const struct {
+    const char* what;
+    std::function<void()> damage;
+    const char* said;
+  } cases[]{
+      {"truncated", [&] { fs::resize_file(data, 10 * 1024 - 1); }, "data has other bytes"},
+      {"empty", [&] { fs::resize_file(data, 0); }, "data has other bytes"},
+      {"a bit flipped", [&] { std::fstream(data, std::ios::in | std::ios::out).seekp(10 * 1024 - 1).put('x' ^ 0x40); },
+       "data has other bytes"},
+      {"a byte more", [&] { std::ofstream(data, std::ios::app) << '\0'; }, "data has other bytes"},
+      {"removed", [&] { fs::remove(data); }, "a file is missing"},
+      {"a file more", [&] { std::ofstream(directory / "kind-1" / "more") << 1; }, "more has other bytes"},
+      {"no checksums", [&] { fs::remove(sums); }, "it has no checksums"},
+      {"checksums of nothing", [&] { fs::resize_file(sums, 0); }, "has other bytes"},
+  };
+  for (int count = 1; const auto& c : cases) {
+    c.damage();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(entry("kind-1", 10).path(), directory / "kind-1") << c.what;
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("what kind-1 is is damaged, and is built again"), said.npos) << c.what << ": " << said;
+    EXPECT_NE(said.find(c.said), said.npos) << c.what << ": " << said;
+    EXPECT_EQ(built, ++count) << c.what;
+    EXPECT_EQ(read_text(data), std::string(10 * 1024, 'x')) << c.what;
+    entry("kind-1", 10);
+    EXPECT_EQ(built, count) << c.what << ", then served";
+  }
+}
+
+/// Nobody builds under the hands of whoever uses it.
+TEST_F(Cache, ADamagedEntryInUseIsRefused) {
+  const CacheEntry held = entry("kind-1");
+  fs::resize_file(held.path() / "data", 1);
+  testing::internal::CaptureStderr();
+  EXPECT_THROW(entry("kind-1"), SystemError);
+  testing::internal::GetCapturedStderr();
+  EXPECT_EQ(built, 1);
+}
+
 TEST_F(Cache, ServesWhatItHasWhenItCannotBeWritten) {
   entry("kind-1");
   const auto before = fs::last_write_time(directory / "kind-1");

@@ -19,8 +19,8 @@ struct Stimulus {
   PulseDriver clears, flushes;
 
   Stimulus(std::span<const SnappedQuad> quads, const LockstepOptions& o)
-      : vertices(quads, o.config, o.state.attributes, o.seed, o.gap, o.waits.gap_beats),
-        stalls(o.seed, o.stall, o.waits.stall_clocks),
+      : vertices(quads, o.config, o.state.attributes, o.seed, o.gap, o.waits.gap_beats, o.pattern),
+        stalls(o.seed, o.stall, o.waits.stall_clocks, o.pattern),
         clears(o.seed, 7, o.clear, "clear"),
         flushes(o.seed, 8, o.flush, "flush") {}
 
@@ -44,7 +44,7 @@ struct Stimulus {
 PortWaits recorded_waits(std::span<const SnappedQuad> quads, const LockstepOptions& o, std::uint64_t clocks,
                          std::uint64_t beats);
 
-/// The device as a machine for drive(), after reset.
+/// The device as a machine for drive(): after reset or, with LockstepOptions::go_on, as the draw before left it.
 class DrivenDevice {
  public:
   DrivenDevice(Device& device, const LockstepOptions& o);
@@ -52,15 +52,19 @@ class DrivenDevice {
   const DeviceSample& settle(const Stimulus& stimulus) {
     if (stimulus.changed()) device_.set_vertex(stimulus.vertices.words());
     device_.set_handshake(stimulus.valid(), stimulus.ready());
-    device_.set_clear_hidden(stimulus.clear_hidden());
+    device_.set_clear_hidden(clear_ || stimulus.clear_hidden());
     device_.set_flush(stimulus.flush());
     device_.settle();
     return device_.sample();
   }
-  void clock() { device_.clock(); }
+  void clock() {
+    device_.clock();
+    clear_ = false;
+  }
 
  private:
   Device& device_;
+  bool clear_;  ///< clear_hidden_i in this clock
 };
 
 }  // namespace quadrille::tb

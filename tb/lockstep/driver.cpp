@@ -32,13 +32,15 @@ std::span<const std::uint64_t> checked_list(std::span<const std::uint64_t> liste
 }  // namespace
 
 VertexDriver::VertexDriver(std::span<const SnappedQuad> quads, const Config& config, int attributes, std::uint64_t seed,
-                           double gap, std::span<const std::uint64_t> listed)
+                           double gap, std::span<const std::uint64_t> listed, WaitKind pattern)
     : quads_(quads),
       config_(config),
       attributes_(attributes),
       random_(seed, 1),
       rubbish_(seed, 4),
       gap_(probability(gap, "gap")),
+      kind_(listed.empty() ? pattern : WaitKind::chance),
+      pattern_(pattern, WaitPattern::Port::input, seed),
       listed_(checked_list(listed, gap, "gap", true)),
       width_(vertex_layout(config).bits()),
       packed_(static_cast<std::size_t>((width_ + 63) / 64)),
@@ -53,8 +55,9 @@ VertexDriver::VertexDriver(std::span<const SnappedQuad> quads, const Config& con
 }
 
 bool VertexDriver::waits() {
-  if (listed_.empty()) return gap_ > 0 && random_.chance(gap_);
+  if (listed_.empty() && kind_ == WaitKind::chance) return gap_ > 0 && random_.chance(gap_);
   random_.uniform();  // as the chance would: the rubbish that follows is that of the run with chances
+  if (kind_ != WaitKind::chance) return pattern_.next();
   if (next_listed_ == listed_.size() || listed_[next_listed_] != next_) return false;
   ++next_listed_;
   return true;
@@ -127,8 +130,12 @@ PulseDriver::PulseDriver(std::uint64_t seed, std::uint64_t stream, double chance
   advance();
 }
 
-ReadyDriver::ReadyDriver(std::uint64_t seed, double stall, std::span<const std::uint64_t> listed)
-    : random_(seed, 2), stall_(probability(stall, "stall")), listed_(checked_list(listed, stall, "stall", false)) {
+ReadyDriver::ReadyDriver(std::uint64_t seed, double stall, std::span<const std::uint64_t> listed, WaitKind pattern)
+    : random_(seed, 2),
+      stall_(probability(stall, "stall")),
+      kind_(listed.empty() ? pattern : WaitKind::chance),
+      pattern_(pattern, WaitPattern::Port::output, seed),
+      listed_(checked_list(listed, stall, "stall", false)) {
   advance();
 }
 

@@ -5,6 +5,7 @@
 #include "model/config.hpp"
 #include "model/records.hpp"
 #include "model/support/prng.hpp"
+#include "tb/lockstep/wait_pattern.hpp"
 
 #include <cstdint>
 #include <span>
@@ -21,9 +22,10 @@ class VertexDriver {
  public:
   /// `attributes`: slots in use. `listed`: PortWaits::gap_beats, which must outlive it, in the place of `gap`; those
   /// that the chance would have drawn give the same signals bit by bit, rubbish included. Throws std::invalid_argument
-  /// for a gap outside [0, 1), both, a list that does not ascend or a quad id that does not fit the port.
+  /// for a gap outside [0, 1), both, a list that does not ascend or a quad id that does not fit the port. A `pattern`
+  /// of another kind draws the waits in the place of `gap`.
   VertexDriver(std::span<const SnappedQuad> quads, const Config& config, int attributes, std::uint64_t seed, double gap,
-               std::span<const std::uint64_t> listed = {});
+               std::span<const std::uint64_t> listed = {}, WaitKind pattern = WaitKind::chance);
 
   bool done() const { return next_ == 4 * quads_.size(); }
   bool valid() const { return valid_; }
@@ -54,6 +56,8 @@ class VertexDriver {
   golden::Prng random_;
   golden::Prng rubbish_;  ///< inside a beat; apart from random_, so that the gaps depend on the seed alone
   double gap_;
+  WaitKind kind_;
+  WaitPattern pattern_;
   std::span<const std::uint64_t> listed_;
   std::size_t next_listed_ = 0;
   int width_;
@@ -83,11 +87,13 @@ class ReadyDriver {
  public:
   /// `listed`: PortWaits::stall_clocks, which must outlive it, in the place of `stall`. Throws std::invalid_argument
   /// for a stall outside [0, 1), both, or a list that does not ascend.
-  ReadyDriver(std::uint64_t seed, double stall, std::span<const std::uint64_t> listed = {});
+  ReadyDriver(std::uint64_t seed, double stall, std::span<const std::uint64_t> listed = {},
+              WaitKind pattern = WaitKind::chance);
   bool ready() const { return ready_; }
   void advance() {
-    const bool low = listed_.empty() ? stall_ != 0 && random_.chance(stall_)
-                                     : next_listed_ < listed_.size() && listed_[next_listed_] == clock_;
+    const bool low = kind_ != WaitKind::chance ? pattern_.next()
+                     : listed_.empty()         ? stall_ != 0 && random_.chance(stall_)
+                                               : next_listed_ < listed_.size() && listed_[next_listed_] == clock_;
     next_listed_ += low ? 1 : 0;
     ++clock_;
     ready_ = !low;
@@ -96,6 +102,8 @@ class ReadyDriver {
  private:
   golden::Prng random_;
   double stall_;
+  WaitKind kind_;
+  WaitPattern pattern_;
   std::span<const std::uint64_t> listed_;
   std::size_t next_listed_ = 0;
   std::uint64_t clock_ = 0;  ///< that comes next

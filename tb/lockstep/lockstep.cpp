@@ -48,8 +48,8 @@ template <class DeviceSide>
 class DrivenPair {
  public:
   /// `cycle` counts the clocks, for whoever catches what the device throws.
-  DrivenPair(DeviceSide& device, const LockstepOptions& o, std::uint64_t& cycle)
-      : device_(device), model_(o.config, o.state, o.probes ? Probes::all : Probes::without_pixels), cycle_(cycle) {}
+  DrivenPair(DeviceSide& device, DrivenModel& model, std::uint64_t& cycle)
+      : device_(device), model_(model), cycle_(cycle) {}
 
   struct Outputs {
     const DeviceSample& actual;
@@ -69,7 +69,7 @@ class DrivenPair {
 
  private:
   DeviceSide& device_;
-  DrivenModel model_;
+  DrivenModel& model_;
   std::uint64_t& cycle_;
 };
 
@@ -174,12 +174,15 @@ VerilateOptions build_options(const LockstepOptions& o, bool probes) {
   return build;
 }
 
-}  // namespace
+Probes probes_of(const LockstepOptions& o) { return o.probes ? Probes::all : Probes::without_pixels; }
 
-LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, const LockstepOptions& o,
-                            const FragmentSink& sink) {
+/// A waveform and the counters of the RTL end where the run does.
+bool has_thread(const LockstepOptions& o) { return o.threads > 1 && !o.trace && o.config.performance_counters == 0; }
+
+/// One draw of both machines, as `model` is: after reset, or as the draw before left it.
+LockstepReport run_both(Device& device, DrivenModel& model, Scoreboard& scoreboard, std::span<const SnappedQuad> quads,
+                        const LockstepOptions& o, const FragmentSink& sink) {
   Run run(quads, o, sink);
-  Scoreboard scoreboard(o.config, quads, o.probes, o.seed);
   LockstepReport report;
   std::uint64_t clocks = 0, differing_clocks = 0;
   const auto look = [&](std::uint64_t cycle, const auto& out, bool taken) {
@@ -199,7 +202,7 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
     const bool model_idle = run.stimulus.done() && !expected.busy, rtl_idle = run.stimulus.done() && !actual.busy;
     if (!model_idle) report.cycles_model = cycle + 1;
     if (!rtl_idle) report.cycles_rtl = cycle + 1;
-    report.complete = model_idle && rtl_idle;
+    report.complete = model_idle && rtl_idle && !(o.clear_hidden && cycle == 0);
     if (report.complete) return false;
     if (!verdict.timing || !verdict.payload) {
       ++differing_clocks;
@@ -215,13 +218,12 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
   };
   try {
     const auto run_pair = [&](auto& side) {
-      DrivenPair pair(side, o, clocks);
+      DrivenPair pair(side, model, clocks);
       const std::uint64_t end = drive(pair, run.stimulus, look);
       report.counters = pair.counters();
       return end;
     };
-    // A waveform and the counters of the RTL end where the run does.
-    if (o.threads > 1 && !o.trace && o.config.performance_counters == 0) {
+    if (has_thread(o)) {
       DeviceAhead side(device, quads, o);
       run_pair(side);
     } else {
@@ -243,6 +245,70 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
   report.boundaries = scoreboard.counts();
   for (const BoundaryCount& count : report.boundaries) report.compared_bits += count.bits;
   return report;
+}
+
+}  // namespace
+
+LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, const LockstepOptions& o,
+                            const FragmentSink& sink) {
+  DrivenModel model(o.config, o.state, probes_of(o));
+  Scoreboard scoreboard(o.config, quads, o.probes, o.seed);
+  return run_both(device, model, scoreboard, quads, o, sink);
+}
+
+struct LockstepSession::Impl {
+  std::unique_ptr<VerilatedDevice> owned;
+  Device& device;
+  std::optional<DrivenModel> model;      ///< none: the next draw begins with a reset
+  std::optional<Scoreboard> scoreboard;  ///< of the draw before
+
+  Impl(std::unique_ptr<VerilatedDevice> made, Device& given) : owned(std::move(made)), device(given) {}
+
+  LockstepReport draw(std::span<const SnappedQuad> quads, LockstepOptions o, bool clear, const FragmentSink& sink) {
+    o.go_on = model.has_value();
+    o.clear_hidden = o.go_on && clear;
+    Scoreboard board(o.config, quads, o.probes, o.seed);
+    if (o.go_on) {
+      model->next_draw(o.state, o.clear_hidden);
+      board.follows(*scoreboard);
+    } else {
+      model.emplace(o.config, o.state, probes_of(o));
+    }
+    const LockstepReport report = run_both(device, *model, board, quads, o, sink);
+    if (has_thread(o)) model->clock();  // the device was a clock ahead; both are idle
+    scoreboard.emplace(board);
+    return report;
+  }
+};
+
+LockstepSession::LockstepSession(const Simulator& simulator, const LockstepOptions& o) {
+  auto device = std::make_unique<VerilatedDevice>(simulator, o.config, o.seed);
+  if (o.trace) device->open_trace(*o.trace);
+  Device& machine = *device;
+  impl_ = std::make_unique<Impl>(std::move(device), machine);
+}
+
+LockstepSession::LockstepSession(Device& device, const LockstepOptions&)
+    : impl_(std::make_unique<Impl>(nullptr, device)) {}
+
+LockstepSession::~LockstepSession() {
+  if (impl_->owned) impl_->owned->close_trace();
+}
+
+LockstepReport LockstepSession::draw(std::span<const SnappedQuad> quads, LockstepOptions o, unsigned clears,
+                                     const FragmentSink& sink) {
+  for (; clears > 1 && impl_->model; --clears) {
+    LockstepOptions alone = o;
+    alone.threads = 1;  // a few clocks
+    alone.progress = nullptr;
+    if (LockstepReport report = impl_->draw({}, alone, true, {}); !report.agreed()) return report;
+  }
+  return impl_->draw(quads, std::move(o), clears > 0, sink);
+}
+
+void LockstepSession::reset() {
+  impl_->model.reset();
+  impl_->scoreboard.reset();
 }
 
 Simulator simulator_in_lockstep(const LockstepOptions& o) { return verilate(o.config, build_options(o, o.probes)); }

@@ -11,10 +11,12 @@
 #include "tb/lockstep/monitor.hpp"
 #include "tb/lockstep/port_waits.hpp"
 #include "tb/lockstep/scoreboard.hpp"
+#include "tb/lockstep/wait_pattern.hpp"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -32,6 +34,7 @@ struct LockstepOptions {
   PortWaits waits;                         ///< these instead; of a port that has some the chance must be 0
   double clear = 0;                        ///< probability per clock, busy or not, that clear_hidden is high; in [0, 1)
   double flush = 0;                        ///< the same of flush: the driver begins a quad anew of which beats are gone
+  WaitKind pattern = WaitKind::chance;     ///< another kind: what draws the waits of a port that has none of these
   std::optional<std::string> trace;        ///< FST waveform file
   std::uint64_t trace_from = 0;            ///< of run_lockstep(): the clock in which it begins
   std::uint64_t limit_fragments = 0;       ///< end after so many fragments; 0: no limit
@@ -43,6 +46,8 @@ struct LockstepOptions {
   std::filesystem::path source;          ///< RTL instead of the project's: directory, or one Verilog file
   int optimise = 2;                      ///< see VerilateOptions
   unsigned threads = 1;                  ///< 2 and more: the device has one of its own; the report is the same
+  bool go_on = false;                    ///< no reset before it (LockstepSession sets this)
+  bool clear_hidden = false;             ///< with go_on: clear_hidden_i in the first clock
 };
 
 /// Neither side did anything for so long that the run was given up.
@@ -85,6 +90,27 @@ LockstepReport run_lockstep(const Simulator& simulator, std::span<const SnappedQ
 /// The same with a device that exists already (its probes must be there when options.probes is set).
 LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, const LockstepOptions& options,
                             const FragmentSink& sink = {});
+
+/// Draws one after the other in one machine: registers, memories and what is hidden stay from draw to draw.
+class LockstepSession {
+ public:
+  /// All draws must ask for the same machine. A waveform of the options is of all of them.
+  LockstepSession(const Simulator& simulator, const LockstepOptions& options);
+  /// With a device that exists already and must outlive it.
+  LockstepSession(Device& device, const LockstepOptions& options);
+  ~LockstepSession();
+
+  /// As run_lockstep(); the first draw, and the one that follows reset(), begins with a reset, any other with `clears`
+  /// clears of what is hidden, the last of them in the first clock of the draw. Counters are those since the reset.
+  LockstepReport draw(std::span<const SnappedQuad> quads, LockstepOptions options, unsigned clears,
+                      const FragmentSink& sink = {});
+  /// The next draw begins with a reset: whatever the machine is doing, where a limit ended the draw before.
+  void reset();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /// One side alone.
 struct AloneRun {

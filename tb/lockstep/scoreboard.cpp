@@ -34,6 +34,13 @@ Scoreboard::Scoreboard(const Config& config, std::span<const SnappedQuad> quads,
   packed_.resize(room);
 }
 
+void Scoreboard::follows(const Scoreboard& before) {
+  quads_before_ = before.quads_before_ + before.quads_.size();
+  quad_of_slot_ = before.quad_of_slot_;
+  ring_ = before.ring_;
+  ring_write_ = before.ring_write_;
+}
+
 std::string Scoreboard::where(const Place& place) const {
   std::string text = "cycle " + std::to_string(cycle_);
   if (place.quad != nullptr) text += ", quad " + std::to_string(place.quad->id);

@@ -28,6 +28,9 @@ class Scoreboard {
   /// `probes`: compare the boundaries setup to sum too. `quads` (for messages) must outlive the scoreboard.
   Scoreboard(const Config& config, std::span<const SnappedQuad> quads, bool probes, std::uint64_t seed);
 
+  /// The draw follows that of `before` in one machine: slots and ring pointers go on.
+  void follows(const Scoreboard& before);
+
   struct Verdict {
     bool timing = true;    ///< every valid, ready, busy and mask agrees
     bool payload = true;   ///< every payload agrees
@@ -69,11 +72,16 @@ class Scoreboard {
   void payload_differs(Boundary b, const std::uint32_t* actual, const Place& place);
   std::string where(const Place& place) const;
   int lane_to_name(std::size_t lane) const { return config_.pixels_per_clock > 1 ? static_cast<int>(lane) : -1; }
-  const SnappedQuad* quad_at(std::size_t ordinal) const { return ordinal < quads_.size() ? &quads_[ordinal] : nullptr; }
+  /// Of a quad of an earlier draw nothing is known.
+  const SnappedQuad* quad_at(std::size_t ordinal) const {
+    return ordinal >= quads_before_ && ordinal - quads_before_ < quads_.size() ? &quads_[ordinal - quads_before_]
+                                                                               : nullptr;
+  }
   void follow(const ClockedProbes& probes);
 
   const Config config_;
   std::span<const SnappedQuad> quads_;
+  std::size_t quads_before_ = 0;  ///< of earlier draws since the reset
   bool probes_;
   std::uint64_t seed_;
   std::size_t lanes_;

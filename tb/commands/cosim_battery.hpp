@@ -1,0 +1,26 @@
+// cosim --battery: groups of draws that between them reach every part of the machine, for whoever has changed the RTL.
+#pragma once
+
+#include "tb/commands/cosim_draws.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quadrille::cli {
+
+/// Draws of one machine. Every group is complete: no limit of fragments cuts off what its last draws are about.
+struct BatteryGroup {
+  std::string name;                   ///< CONFIGURATION.INPUT
+  std::string_view holds;             ///< what is drawn, in words
+  std::vector<std::string> settings;  ///< of the configuration, "key=value"
+  std::function<std::vector<PlannedDraw>(const Config&, std::uint64_t seed)> draws;
+};
+
+/// In the order in which they run: those that see most come first.
+std::vector<BatteryGroup> battery_groups();
+
+}  // namespace quadrille::cli
