@@ -1,5 +1,6 @@
 #include "model/clocked.hpp"
 
+#include "model/draw_state.hpp"
 #include "model/latency.hpp"
 #include "model/masked_depth.hpp"
 #include "model/pixel_pipeline.hpp"
@@ -797,6 +798,7 @@ struct ClockedModel::Impl {
 
 ClockedModel::ClockedModel(const Config& config, const DrawState& state, Probes probes) {
   config.validate();
+  check_draw_state(state, config);
   impl_ = std::make_unique<Impl>(config, state, probes);
 }
 ClockedModel::~ClockedModel() = default;
@@ -823,6 +825,7 @@ ClockedOutputs ClockedModel::comb() const {
 }
 
 void ClockedModel::set_state(const DrawState& state) {
+  check_draw_state(state, impl_->context.config);
   impl_->count_pixels(impl_->counters);  // by the old state's sums
   impl_->sent = {};
   impl_->context = PipelineContext(Config(impl_->context.config), state);

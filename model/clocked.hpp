@@ -75,6 +75,7 @@ enum class Probes { without_pixels, all };
 
 class ClockedModel {
  public:
+  /// Throws ConfigError, or DrawStateError for a state that the configuration cannot have (draw_state.hpp).
   ClockedModel(const Config& config, const DrawState& state, Probes probes = Probes::without_pixels);
   ~ClockedModel();
   ClockedModel(ClockedModel&&) noexcept;
@@ -87,7 +88,8 @@ class ClockedModel {
   /// What the clocks since reset counted, whether the configuration has counters in hardware or not.
   PerformanceCounters counters() const;
 
-  /// From this clock on another draw state, while not busy; what is hidden stays so.
+  /// From this clock on another draw state, while not busy; what is hidden stays so. Throws DrawStateError, and nothing
+  /// has changed.
   void set_state(const DrawState& state);
 
  private:

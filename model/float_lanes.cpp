@@ -23,7 +23,7 @@ double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint6
 
 /// Whether a square of pixels may be covered by a face, by the signs that its functions can take there: bits 0 to 4 the
 /// face's own sign of E01 E12 E23 E30 E20, bit 5 the other one of E20.
-const std::array<bool, 64> may_face = [] {
+constexpr std::array<bool, 64> may_face = [] {
   std::array<bool, 64> table{};
   for (std::uint32_t n = 0; n < 64; ++n) {
     SignWords<std::uint32_t> e[5];

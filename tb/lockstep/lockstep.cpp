@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
+#include <system_error>
 
 namespace quadrille::tb {
 
@@ -220,9 +222,13 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
       return end;
     };
     // A waveform and the counters of the RTL end where the run does.
-    if (o.threads > 1 && !o.trace && o.config.performance_counters == 0) {
-      DeviceAhead side(device, quads, o);
-      run_pair(side);
+    std::optional<DeviceAhead> ahead;
+    if (o.threads > 1 && !o.trace && o.config.performance_counters == 0) try {
+        ahead.emplace(device, quads, o);
+      } catch (const std::system_error&) {  // no thread to be had: both in this one
+      }
+    if (ahead) {
+      run_pair(*ahead);
     } else {
       DrivenDevice side(device, o);
       const std::uint64_t end = run_pair(side);
