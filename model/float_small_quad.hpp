@@ -210,8 +210,8 @@ void walk_small(const FloatLanes::Format& format, const SmallQuad& quad, SmallWa
   const auto may_cover = [&](__m256i at, const Reach& r) {
     const auto signs = [](__m256i v) { return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(v))) & 31; };
     const unsigned negative = signs(_mm256_add_epi32(at, r.least)), positive = signs(_mm256_sub_epi32(r.greatest, at));
-    return (format.cull != Cull::back && may_face[positive | (negative & 16) << 1]) ||
-           (format.cull != Cull::front && may_face[negative | (positive & 16) << 1]);
+    return (format.cull != Cull::back && (format.may_face >> (positive | (negative & 16) << 1) & 1) != 0) ||
+           (format.cull != Cull::front && (format.may_face >> (negative | (positive & 16) << 1) & 1) != 0);
   };
   constexpr int tile = 1 << SmallQuad::tile_log2;
   const __m256i block = load(quad.value);

@@ -28,8 +28,8 @@ using InsidePlaces = PlaceWords<std::uint32_t>;
 /// Always inlined: code for several instruction sets calls it, and of a copy of its own the linker would keep one for
 /// all of them.
 template <class Word>
-[[gnu::always_inline]] inline constexpr PlaceWords<Word> inside_expression(const SignWords<Word> (&e)[5],
-                                                                           unsigned visible, Cull cull) {
+[[gnu::always_inline]] inline PlaceWords<Word> inside_expression(const SignWords<Word> (&e)[5], unsigned visible,
+                                                                 Cull cull) {
   const auto clause = [&](int bit, Word places) { return (visible >> bit & 1) != 0 ? places : 0; };
   const Word back1 = e[4].positive & e[0].positive & e[1].positive & (e[2].positive | e[3].positive);
   const Word back2 = e[4].negative & e[2].positive & e[3].positive & (e[0].positive | e[1].positive);

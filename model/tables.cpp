@@ -118,19 +118,21 @@ Table make_sqrt_table(const Config& config) {
   Table table = empty_table(config.sqrt_segments(), config);
   const std::uint64_t n = std::uint64_t{1} << table.segments_log2;
   for (int octave = 0; octave < 2; ++octave)
-    for (std::uint64_t i = 0; i < n; ++i)
-      table.entries.push_back(
-          make_entry(root_coefficients(n + i, table.segments_log2 - octave, config.sqrt_degree, unit_bits(config)),
-                     root_bias_units, config, "sqrt_segments_log2"));
+    for (std::uint64_t i = 0; i < n; ++i) {
+      const int shift = table.segments_log2 - octave;
+      const Coefficients a = root_coefficients(n + i, shift, config.sqrt_degree, unit_bits(config));
+      table.entries.push_back(make_entry(a, root_bias_units, config, "sqrt_segments_log2"));
+    }
   return table;
 }
 
 Table make_recip_table(const Config& config) {
   Table table = empty_table(config.recip_segments(), config);
   const std::uint64_t n = std::uint64_t{1} << table.segments_log2;
-  for (std::uint64_t i = 0; i < n; ++i)
-    table.entries.push_back(make_entry(recip_coefficients(n, i, config.recip_degree, unit_bits(config)),
-                                       recip_bias_units, config, "recip_segments_log2"));
+  for (std::uint64_t i = 0; i < n; ++i) {
+    const Coefficients a = recip_coefficients(n, i, config.recip_degree, unit_bits(config));
+    table.entries.push_back(make_entry(a, recip_bias_units, config, "recip_segments_log2"));
+  }
   return table;
 }
 
