@@ -89,7 +89,7 @@ TEST(EarlyDraw, IsTheSameAsLater) {
     EXPECT_EQ(early.untimed[i], later.untimed[i]);
   }
   EXPECT_EQ(early.clocked, later.clocked);
-  EXPECT_EQ(early, later);
+  EXPECT_TRUE(early == later);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 
   scripts/check_objects.py LIBRARY.a...
 
-An object with AVX code has no weak function outside the namespace of its target: of several copies the linker keeps one,
-and a processor without AVX must not run into it. No object initialises anything when the program starts: an earlier object
-may already draw.
+An object with AVX code has no weak function outside the namespace of its target: of several copies the linker keeps
+one, and a processor without AVX must not run into it. No object initialises anything when the program starts: another
+one, initialised earlier, may draw.
 """
 import collections
 import os
@@ -36,7 +36,7 @@ def members(library, *command):
 
 
 def initialises(code):
-    """Whether what runs at the start is more than that of <iostream>, which headers of others include: ten instructions."""
+    """Whether the start does more than that of <iostream> (ten instructions), which others' headers include."""
     start, instructions, calls = False, 0, []
     for line in code:
         if header := re.fullmatch(r"[0-9a-f]+ <(.*)>:", line):
@@ -64,7 +64,7 @@ def main():
                 if avx and match[1] == "W" and not TARGET.search(match[2]):
                     wrong.append(f"{place}: weak beside code for AVX: {match[2]}")
                 if "_GLOBAL__sub_I" in match[2] and ".cold" not in match[2] and initialises(code[member]):
-                    wrong.append(f"{place}: an object is initialised when the program starts; make it constexpr or constinit")
+                    wrong.append(f"{place}: initialises an object at the start; make it constexpr or constinit")
     if wrong:
         sys.exit("\n".join(wrong))
     if not objects or not with_avx:

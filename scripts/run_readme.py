@@ -3,13 +3,13 @@
 
   scripts/run_readme.py BUILD-FOLDER [README...] --left-out N
 
-Without names: every README.md of the tree. Each has a clone and a shell of its own, from the clone's top folder. In a block
-with a `$ ` in front of a line only such lines are commands; the others are what they print. A comment before a block says
-what is done in its place:
+Without names: every README.md of the tree. Each has a clone and a shell of its own, from the clone's top folder.
+In a block with a `$ ` in front of a line only such lines are commands; the others are what they print.
+A comment before a block says what is done in its place:
   <!-- long: COMMAND -->   more than 60 s: COMMAND, with smaller parameters, is run
   <!-- not run: REASON -->   nothing
-The clone has the working tree as it is. Its build folder has links to what BUILD-FOLDER has, so that nothing is compiled
-twice; scripts/setup.sh takes a program that is a link as built. N is the number of commands that are not run.
+The clone has the working tree as it is. Its build folder has links to what BUILD-FOLDER has, so that nothing is
+compiled twice; scripts/setup.sh takes a program that is a link as built. N is the number of commands that are not run.
 """
 import argparse
 import os
@@ -95,8 +95,8 @@ def run_commands(readme, commands, folder, log):
     script.write_text("\n".join([*lines, "__mark end", ""]), encoding="utf-8")
     marks.touch()
     with log.open("wb") as out:
-        shell = subprocess.Popen(["bash", str(script)], cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT,
-                                 start_new_session=True)
+        shell = subprocess.Popen(["bash", str(script)], cwd=folder, stdin=subprocess.DEVNULL, stdout=out,
+                                 stderr=subprocess.STDOUT, start_new_session=True)
         while shell.poll() is None:
             if time.time() - marks.stat().st_mtime > LIMIT:
                 os.killpg(shell.pid, signal.SIGTERM)
@@ -106,16 +106,20 @@ def run_commands(readme, commands, folder, log):
     if not begun or begun[-1][0] != "end":
         text = log.read_text(encoding="utf-8", errors="replace")
         command = commands[len(begun) - 1][0] if begun else "bash"
-        fail(f"{readme}: `{command}` ended with status {shell.returncode} (limit {LIMIT} s); its last lines:\n{text[-3000:]}")
+        fail(f"{readme}: `{command}` ended with status {shell.returncode} (limit {LIMIT} s); its last lines:\n"
+             f"{text[-3000:]}")
     times = [float(at) for _, at in begun]
     return [end - start for start, end in zip(times, times[1:])]
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="run_readme.py", formatter_class=argparse.RawDescriptionHelpFormatter, description=__doc__)
+    parser = argparse.ArgumentParser(prog="run_readme.py", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", metavar="BUILD-FOLDER", type=pathlib.Path, help="has the program quadrille")
-    parser.add_argument("readmes", metavar="README", nargs="*", type=pathlib.Path, help="default: every README.md of the tree")
-    parser.add_argument("--left-out", metavar="N", type=int, required=True, help="commands that are not run: as many as this, or the test fails")
+    parser.add_argument("readmes", metavar="README", nargs="*", type=pathlib.Path,
+                        help="default: every README.md of the tree")
+    parser.add_argument("--left-out", metavar="N", type=int, required=True,
+                        help="commands that are not run: as many as this, or the test fails")
     options = parser.parse_args()
     build = options.build.resolve()
     if not (build / "quadrille").exists():

@@ -304,7 +304,8 @@ TEST_F(GoldenCli, StatesAndStimuliOutOfRangeAreRefused) {
   };
   Outcome outcome = verify_with("machine", "states");
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("states.hex:1: draw state: attributes 15: from 0 to 4 (attribute_slots)"), std::string::npos)
+  EXPECT_NE(outcome.err.find("states.hex:1: draw state: attributes 15: from 0 to 4 (attribute_slots)"),
+            std::string::npos)
       << outcome.err;
   outcome = verify_with("depth", "stimulus");
   EXPECT_EQ(outcome.status, 1);
