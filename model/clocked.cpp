@@ -1,5 +1,6 @@
 #include "model/clocked.hpp"
 
+#include "model/draw_state.hpp"
 #include "model/latency.hpp"
 #include "model/masked_depth.hpp"
 #include "model/pixel_pipeline.hpp"
@@ -800,6 +801,7 @@ struct ClockedModel::Impl {
 
 ClockedModel::ClockedModel(const Config& config, const DrawState& state, Probes probes) {
   config.validate();
+  check_draw_state(state, config);
   impl_ = std::make_unique<Impl>(config, state, probes);
 }
 ClockedModel::~ClockedModel() = default;
@@ -829,6 +831,7 @@ bool ClockedModel::quads_under_way() const { return impl_->quads_under_way(); }
 
 void ClockedModel::set_state(const DrawState& state) {
   if (impl_->quads_under_way()) throw std::logic_error("the draw state cannot change while quads are under way");
+  check_draw_state(state, impl_->context.config);
   impl_->count_pixels(impl_->counters);  // by the old state's sums
   impl_->sent = {};
   impl_->context = PipelineContext(Config(impl_->context.config), state);

@@ -76,6 +76,7 @@ enum class Probes { without_pixels, all };
 
 class ClockedModel {
  public:
+  /// Throws ConfigError, or DrawStateError for a state that the configuration cannot have (draw_state.hpp).
   ClockedModel(const Config& config, const DrawState& state, Probes probes = Probes::without_pixels);
   ~ClockedModel();
   ClockedModel(ClockedModel&&) noexcept;
@@ -90,7 +91,8 @@ class ClockedModel {
 
   /// From a quad's first beat to its last fragment; busy() of the outputs is also while hidden tiles are wiped.
   bool quads_under_way() const;
-  /// From this clock on another draw state; what is hidden stays so. Throws std::logic_error while quads are under way.
+  /// From this clock on another draw state; what is hidden stays so. Throws std::logic_error while quads are under way,
+  /// DrawStateError for one that is refused, and nothing has changed.
   void set_state(const DrawState& state);
 
  private:

@@ -21,18 +21,15 @@ constexpr int largest_exponent = 30, least_difference = -90;
 
 double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
 
-/// Whether a square of pixels may be covered by a face, by the signs that its functions can take there: bits 0 to 4 the
-/// face's own sign of E01 E12 E23 E30 E20, bit 5 the other one of E20.
-const std::array<bool, 64> may_face = [] {
-  std::array<bool, 64> table{};
-  for (std::uint32_t n = 0; n < 64; ++n) {
-    SignWords<std::uint32_t> e[5];
-    for (std::uint32_t k = 0; k < 5; ++k) e[k].positive = n >> k & 1;
-    e[4].negative = n >> 5;
-    table[n] = inside_expression(e, 0xf, Cull::front).back != 0;
-  }
-  return table;
-}();
+/// FloatLanes::Format::may_face: all combinations of signs at once.
+std::uint64_t may_face() {
+  constexpr std::uint64_t bit[6]{0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc, 0xf0f0f0f0f0f0f0f0,
+                                 0xff00ff00ff00ff00, 0xffff0000ffff0000, 0xffffffff00000000};
+  SignWords<std::uint64_t> e[5];
+  for (std::size_t k = 0; k < 5; ++k) e[k].positive = bit[k];
+  e[4].negative = bit[5];
+  return inside_expression(e, 0xf, Cull::front).back;
+}
 
 /// The largest float that is not above the integer; 0 of a negative one.
 float at_most(std::int64_t value) {
@@ -187,6 +184,7 @@ FloatLanes::FloatLanes(const PipelineContext& c)
   small_ = val_bits_ - 2 * config.homogeneous_frac_bits <= 53 && qdrop_ <= 2 * config.homogeneous_frac_bits &&
            config.tile_log2 == SmallQuad::tile_log2 && (c.state.skip & skip_tiles) != 0 &&
            (c.state.skip & skip_quads) != 0;
+  format_.may_face = may_face();
   format_.sqrt = FloatTable(c.sqrt_table, 1);
   format_.recip = FloatTable(c.recip_table, 0);
 }

@@ -192,6 +192,9 @@ class FloatLanes {
     bool perspective = true;
     int frac = 0, homogeneous_frac_bits = 0, subpixel_bits = 0;
     FloatTable sqrt, recip;
+    /// Bit n: a square of pixels may be covered by a face whose functions can have there the signs n. Bits 0 to 4 of n:
+    /// the face's own sign of E01 E12 E23 E30 E20, bit 5: the other one of E20.
+    std::uint64_t may_face = 0;
   };
 
  private:

@@ -386,6 +386,7 @@ TEST(FloatLanes, PlainAndLanesLeaveOutTheSame) {
     DrawState s = random_state(rng, c);
     s.skip |= skip_plane;
     if (rng.chance(0.8)) s.skip |= skip_hidden;
+    s = with_possible_skips(s, c);
     std::vector<SnappedQuad> list;
     for (int i = 0; i < 40; ++i) {
       const SnappedQuad quad = random_quad(rng, c, 3);

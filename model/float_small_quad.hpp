@@ -2,13 +2,13 @@
 // behind float_cover.hpp. The four vertices are the lanes. What quad_setup, quad_reject and tile_walk do, for quads so
 // small that 32 bits hold their functions; everything in double is an exact integer, or one times a power of two.
 
-/// Four numbers of the port, the first vertex's given, as a column; false when one does not fit.
-inline bool port_column(const FloatLanes::Format& format, const PortNumber& first, FloatColumnOf what,
-                        FloatColumn& out) {
+/// Four numbers of the port, `place` bytes from the begin of each vertex, as a column; false when one does not fit.
+inline bool port_column(const FloatLanes::Format& format, const SnappedQuad& quad, std::size_t place,
+                        FloatColumnOf what, FloatColumn& out) {
   // Vertex by vertex {what is before it, neg, exp, sig}: behind the last number of the last vertex there is nothing.
   static_assert(sizeof(PortNumber) == 12 && offsetof(PortNumber, neg) == 0 && offsetof(PortNumber, exp) == 4 &&
                 offsetof(PortNumber, sig) == 8 && offsetof(SnappedVertex, k) >= 4);
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(&first) - 4;
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(quad.vertex.data()) + (place - 4);
   const auto vertex = [bytes](std::size_t i) {
     return _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes + i * sizeof(SnappedVertex)));
   };
@@ -47,17 +47,17 @@ inline bool port_column(const FloatLanes::Format& format, const PortNumber& firs
 
 /// The numbers of a small quad, all four w being 1.
 inline bool small_columns(const FloatLanes::Format& format, const SnappedQuad& quad, FloatQuad& out) {
-  const SnappedVertex& v = quad.vertex[0];
   using Of = FloatColumnOf;
   bool fit = float_codes(format, quad.base, out);
   out.sum_z = false;
   if (format.depth && quad.base.depth_low != quad.base.depth_high) {
-    fit = fit && port_column(format, v.z, Of::depth, out.z);
+    fit = fit && port_column(format, quad, offsetof(SnappedVertex, z), Of::depth, out.z);
     out.sum_z = out.z.any;
   }
   out.sum_k = false;
   for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) {
-    fit = fit && port_column(format, v.attribute[j], Of::attribute, out.b[j]);
+    fit = fit && port_column(format, quad, offsetof(SnappedVertex, attribute) + j * sizeof(PortNumber), Of::attribute,
+                             out.b[j]);
     out.sum_b[j] = out.b[j].any;
     out.sum_k |= out.sum_b[j];
   }
@@ -67,7 +67,8 @@ inline bool small_columns(const FloatLanes::Format& format, const SnappedQuad& q
   ones.align.fill(static_cast<float>(1 << (23 - format.prec)));
   out.w = ones;
   out.k = ones;
-  if (format.perspective && out.sum_k) fit = fit && port_column(format, v.k, Of::weight, out.k);
+  if (format.perspective && out.sum_k)
+    fit = fit && port_column(format, quad, offsetof(SnappedVertex, k), Of::weight, out.k);
   const float k0 = out.k.positive[0];
   const bool same_k = k0 == out.k.positive[1] && k0 == out.k.positive[2] && k0 == out.k.positive[3] &&
                       (std::bit_cast<std::uint32_t>(k0) & 0x7fffff) == 0;
@@ -209,8 +210,8 @@ void walk_small(const FloatLanes::Format& format, const SmallQuad& quad, SmallWa
   const auto may_cover = [&](__m256i at, const Reach& r) {
     const auto signs = [](__m256i v) { return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(v))) & 31; };
     const unsigned negative = signs(_mm256_add_epi32(at, r.least)), positive = signs(_mm256_sub_epi32(r.greatest, at));
-    return (format.cull != Cull::back && may_face[positive | (negative & 16) << 1]) ||
-           (format.cull != Cull::front && may_face[negative | (positive & 16) << 1]);
+    return (format.cull != Cull::back && (format.may_face >> (positive | (negative & 16) << 1) & 1) != 0) ||
+           (format.cull != Cull::front && (format.may_face >> (negative | (positive & 16) << 1) & 1) != 0);
   };
   constexpr int tile = 1 << SmallQuad::tile_log2;
   const __m256i block = load(quad.value);

@@ -24,8 +24,12 @@ struct PlaceWords {
 using InsidePlaces = PlaceWords<std::uint32_t>;
 
 /// e: edges 01 12 23 30 and the diagonal 20. `visible` masks the clauses (SetupResult::visible).
+///
+/// Always inlined: code for several instruction sets calls it, and of a copy of its own the linker would keep one for
+/// all of them.
 template <class Word>
-PlaceWords<Word> inside_expression(const SignWords<Word> (&e)[5], unsigned visible, Cull cull) {
+[[gnu::always_inline]] inline PlaceWords<Word> inside_expression(const SignWords<Word> (&e)[5], unsigned visible,
+                                                                 Cull cull) {
   const auto clause = [&](int bit, Word places) { return (visible >> bit & 1) != 0 ? places : 0; };
   const Word back1 = e[4].positive & e[0].positive & e[1].positive & (e[2].positive | e[3].positive);
   const Word back2 = e[4].negative & e[2].positive & e[3].positive & (e[0].positive | e[1].positive);

@@ -18,8 +18,9 @@ LaneTarget best() {
   return *std::find_if(compiled.rbegin(), compiled.rend(), [](LaneTarget target) { return can_run(target); });
 }
 
-/// Before this is initialised it reads as the baseline, whose bits are the same.
-std::atomic<LaneTarget> in_use = best();
+/// Found by the first one who asks, which may be the initialisation of another object.
+constexpr LaneTarget unknown = static_cast<LaneTarget>(-1);
+constinit std::atomic<LaneTarget> in_use = unknown;
 
 }  // namespace
 
@@ -38,7 +39,13 @@ bool can_run(LaneTarget target) {
   return target == LaneTarget::baseline;
 }
 
-LaneTarget lane_target() { return in_use.load(std::memory_order_relaxed); }
+LaneTarget lane_target() {
+  const LaneTarget chosen = in_use.load(std::memory_order_relaxed);
+  if (chosen != unknown) return chosen;
+  LaneTarget expected = unknown;
+  in_use.compare_exchange_strong(expected, best());  // who chose meanwhile is heard
+  return in_use.load(std::memory_order_relaxed);
+}
 
 void set_lane_target(LaneTarget target) {
   if (!can_run(target))

@@ -4,7 +4,7 @@
 
 namespace quadrille {
 
-const std::array<CounterInfo, counter_count> counter_info{{
+constinit const std::array<CounterInfo, counter_count> counter_info{{
     {"clocks", "clocks since reset"},
     {"quads", "quads that left vertex_assembly, for setup or left out"},
     {"quads_empty", "left out: no pixel centre of the scissor in the bounding box"},

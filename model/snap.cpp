@@ -230,6 +230,13 @@ SnapError::SnapError(std::uint32_t quad_id, int vertex_index, const std::string&
       vertex(vertex_index) {}
 
 SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawState& state) {
+  // A configuration is checked with its first quad, not with each.
+  thread_local std::optional<Config> checked;
+  if (checked != config) {
+    checked.reset();
+    config.validate();
+    checked = config;
+  }
   if (config.quad_id_bits < 32 && quad.id >> config.quad_id_bits)
     throw SnapError(quad.id, 0, "the quad id does not fit quad_id_bits = " + std::to_string(config.quad_id_bits));
   std::size_t attributes = 0;

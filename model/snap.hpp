@@ -25,8 +25,8 @@ struct SnapError : std::runtime_error {
 /// nearest. Differences times k (before rounding) have S significant bits; an attribute equal to vertex 0's has 0. Ties
 /// go to even; corner depths round halves up, as znear and zfar do (rtl/README.md section 3).
 ///
-/// Throws SnapError for NaN, infinity, (0,0,0), magnitudes outside 2^±80 and attributes that do not fit
-/// attribute_int_bits.
+/// Throws ConfigError for a configuration that cannot be built, SnapError for NaN, infinity, (0,0,0), magnitudes
+/// outside 2^±80 and attributes that do not fit attribute_int_bits.
 SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawState& state);
 
 /// All four W are exactly 1: the machine's narrow case.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/config.hpp"
+#include "model/draw_state.hpp"
 #include "model/records.hpp"
 
 #include <array>
@@ -107,8 +108,5 @@ struct PixelTrace {
 
 /// The boundaries that have probes, in the order of the data's way, and the fragment port.
 enum class Boundary { setup, tile, stamp, diff, norm, sqrt, ratio, weight, sum, fragment };
-
-/// Window z as the port has it: depth_bits fraction bits (rounding in draw_state.cpp).
-std::uint32_t depth_code(double z, const Config& c);
 
 }  // namespace quadrille

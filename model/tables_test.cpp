@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -159,6 +161,38 @@ TEST(Tables, CoefficientsFitAndThePackageHoldsThem) {
         }
       }
     }
+}
+
+/// Every table that a configuration can have, by the hash (FNV-1a of 64 bits) of all its coefficients, as they were
+/// made in extended precision at first: integers give the same, on every platform and in every rounding mode.
+TEST(Tables, AllAreTheSameAsInExtendedPrecision) {
+  std::uint64_t hash = 14695981039346656037u, entries = 0;
+  const auto add = [&](const Table& table) {
+    for (const TableEntry& e : table.entries)
+      for (const std::uint32_t c : {e.c0, e.c1, e.c2}) hash = (hash ^ c) * 1099511628211u;
+    entries += table.entries.size();
+  };
+  for (int s = 8; s <= 26; ++s)
+    for (int degree = 1; degree <= 2; ++degree)
+      for (int segments = 2; segments <= std::min(14, s - 2); ++segments) {
+        Config c = config_for(s, degree);
+        c.sqrt_segments_log2 = c.recip_segments_log2 = segments == 2 ? -1 : segments;
+        add(make_sqrt_table(c));
+        add(make_recip_table(c));
+      }
+  EXPECT_EQ(entries, 2475712u);
+  EXPECT_EQ(hash, 0x8bb00252ca9e4cc4u);
+}
+
+TEST(Tables, TheCallersRoundingModeDoesNotMatter) {
+  const Config c = config_for(24, 2);
+  const std::string nearest = tables_package(c);
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(mode);
+    const std::string other = tables_package(c);
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(other, nearest) << "mode " << mode;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "model/untimed.hpp"
 
 #include "model/covered_pixels.hpp"
+#include "model/draw_state.hpp"
 #include "model/float_lanes.hpp"
 #include "model/masked_depth.hpp"
 #include "model/pixel_lanes.hpp"
@@ -290,6 +291,7 @@ struct UntimedModel::Impl {
 
 UntimedModel::UntimedModel(const Config& config, const DrawState& state, PixelEngine engine) {
   config.validate();
+  check_draw_state(state, config);
   impl_ = std::make_unique<Impl>(config, state, engine);
 }
 UntimedModel::~UntimedModel() = default;
@@ -301,6 +303,7 @@ const LanePixels& UntimedModel::lane_pixels() const { return impl_->by_lane; }
 
 void UntimedModel::set_state(const DrawState& state) {
   const Config config = impl_->context.config;
+  check_draw_state(state, config);
   impl_->context = PipelineContext(config, state);
   impl_->tables = LaneTables(impl_->context);
   impl_->floats = FloatLanes(impl_->context);

@@ -43,6 +43,7 @@ enum class PixelEngine { plain, lanes };
 
 class UntimedModel {
  public:
+  /// Throws ConfigError, or DrawStateError for a state that the configuration cannot have (draw_state.hpp).
   UntimedModel(const Config& config, const DrawState& state, PixelEngine engine = PixelEngine::lanes);
   ~UntimedModel();
   UntimedModel(UntimedModel&&) noexcept;
@@ -55,7 +56,7 @@ class UntimedModel {
   const DrawStats& stats() const;
   const LanePixels& lane_pixels() const;
 
-  /// From here on another draw state: what is hidden stays so.
+  /// From here on another draw state: what is hidden stays so. Throws DrawStateError, and nothing has changed.
   void set_state(const DrawState& state);
   /// Forgets what is hidden, with a clear of the depth buffer.
   void clear_hidden();

@@ -125,6 +125,12 @@ $sample || expect 0 "" "the machine among them" grep -E "^$machine: [1-9][0-9]* 
 expect 0 "" "sqrt as gates" grep -E "^sqrt \(netlist\): [1-9][0-9]* vectors, 0 mismatches" "$work/icarus"
 expect 0 "^$machine: [0-9]+ vectors, 0 mismatches" "all suites under Verilator" $replay "$set" verilator
 
+# ---- Without the program: default widths have their tables in rtl/, others need it ----
+expect 0 "^sqrt: [1-9][0-9]* vectors, 0 mismatches" "default widths without the program" env QUADRILLE=/nowhere/quadrille $replay "$set" icarus --suite sqrt
+"$QUADRILLE" golden generate --level 1 --limit 50 --out "$work/narrow" --quiet --suite sqrt --set significand_bits=12
+expect 0 "^sqrt: [1-9][0-9]* vectors, 0 mismatches" "other widths with it" $replay "$work/narrow" icarus
+expect 3 "no program /nowhere/quadrille, which makes the tables of sqrt" "other widths without the program" env QUADRILLE=/nowhere/quadrille $replay "$work/narrow" icarus
+
 # ---- Hidden tiles: wiped behind reset, cleared between draws ----
 "$QUADRILLE" golden generate --level 1 --limit 300 --out "$work/hidden" --quiet --suite machine --set significand_bits=10 --set attribute_slots=1 \
   --set hierarchical_z_bits=10 --set hierarchical_z_tiles_log2=6

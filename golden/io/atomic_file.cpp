@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <iostream>
 #include <system_error>
 
 namespace quadrille::golden {
@@ -56,9 +55,7 @@ AtomicFile::AtomicFile(std::string path, Dash dash) : path_(std::move(path)), ta
   if (path_ == "-") {
     if (dash == Dash::refused)
       throw InputError("-: this format cannot go to standard output; the name of a file is expected");
-    // Text that went through the C and C++ streams must come before ours.
-    std::cout.flush();
-    std::fflush(stdout);
+    std::fflush(stdout);  // text that went through the stream, std::cout's too, must come before ours
     path_ = "standard output";
     fd_ = STDOUT_FILENO;
     return;

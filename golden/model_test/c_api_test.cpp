@@ -6,6 +6,7 @@
 #include "model/c_api/quadrille.h"
 #include "model/clocked.hpp"
 #include "model/config_text.hpp"
+#include "model/draw_state.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
@@ -467,11 +468,140 @@ TEST_F(CApiErrors, DrawStates) {
   refused(QUADRILLE_BAD_STATE, "attributes");
   state_.skip = 64;
   refused(QUADRILLE_BAD_STATE, "skip");
+  state_.attributes = 9;
+  refused(QUADRILLE_BAD_STATE, "attribute_slots");
+  state_.height = 0;
+  refused(QUADRILLE_BAD_STATE, "viewport");
+  state_.scissor_x0 = side;
+  state_.scissor_x1 = side - 1;
+  refused(QUADRILLE_BAD_STATE, "X0 must not exceed X1");
   state_.skip |= QUADRILLE_SKIP_HIDDEN;
   refused(QUADRILLE_BAD_STATE, "hierarchical_z_bits");
   state_.skip |= QUADRILLE_SKIP_PLANE;
   refused(QUADRILLE_BAD_STATE, "plane_quads");
-  expect_error(quadrille_draw_state_init(&state_, sizeof state_ - 8, 1, 1), QUADRILLE_BAD_ARGUMENT, "sizeof");
+}
+
+/// Every size that an older header may have had: what lies behind is not read, and is as quadrille_draw_state_init()
+/// sets it. A struct of a newer header counts if what this library does not know is 0.
+class CApiSizes : public CApiErrors {
+ protected:
+  using Bytes = std::vector<std::uint64_t>;  ///< aligned as the struct is
+
+  static constexpr std::size_t ends[] = {12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 56, 64};
+
+  /// The first `size` bytes of a state in memory that ends with them, as far as eight bytes allow.
+  static Bytes cut(const quadrille_draw_state& state, std::size_t size) {
+    Bytes bytes((size + 7) / 8, ~std::uint64_t{0});
+    std::memcpy(bytes.data(), &state, std::min(size, sizeof state));
+    const auto said = static_cast<std::uint32_t>(size);
+    std::memcpy(bytes.data(), &said, sizeof said);
+    return bytes;
+  }
+  static const quadrille_draw_state* as_state(const Bytes& bytes) {
+    return reinterpret_cast<const quadrille_draw_state*>(bytes.data());
+  }
+
+  /// What both machines draw with the state that they have.
+  std::array<std::vector<quadrille_fragment>, 2> drawn() {
+    std::array<std::vector<quadrille_fragment>, 2> out;
+    std::array<quadrille_vertex, 8> quads{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      quadrille_vertex& v = quads[i];
+      v = vertices_[i];
+      v.z = i < 2 ? 0.125 : 0.625;  // cut by znear and zfar
+      for (int a = 0; a < 8; ++a) v.attribute[a] = i == 2 ? 1 + a : -a;
+      if (i == 2) v.x *= 2, v.y *= 2, v.z *= 2, v.w = 2;
+      quads[7 - i] = v;  // the other face
+    }
+    std::size_t count = 0;
+    EXPECT_EQ(quadrille_untimed_draw(untimed_, 0, quads.data(), 2), QUADRILLE_OK) << error();
+    EXPECT_EQ(quadrille_untimed_pending(untimed_, &count), QUADRILLE_OK);
+    out[0].resize(count);
+    EXPECT_EQ(quadrille_untimed_take(untimed_, out[0].data(), count, &count), QUADRILLE_OK);
+    EXPECT_EQ(quadrille_clocked_push(clocked_, 0, quads.data(), 2), QUADRILLE_OK) << error();
+    EXPECT_EQ(quadrille_clocked_run(clocked_, 1u << 20, nullptr), QUADRILLE_OK);
+    EXPECT_EQ(quadrille_clocked_pending(clocked_, &count), QUADRILLE_OK);
+    out[1].resize(count);
+    EXPECT_EQ(quadrille_clocked_take(clocked_, out[1].data(), count, &count), QUADRILLE_OK);
+    return out;
+  }
+  static bool same(const std::vector<quadrille_fragment>& a, const std::vector<quadrille_fragment>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
+  }
+};
+
+TEST_F(CApiSizes, OlderOnesHaveTheDefaultsOfWhatTheyLack) {
+  quadrille_draw_state other = state_;
+  other.width = 60, other.height = 52;
+  other.scissor_x0 = 10, other.scissor_y0 = 11, other.scissor_x1 = 35, other.scissor_y1 = 36;
+  other.cull = QUADRILLE_CULL_BACK, other.perspective = 0, other.depth = 1, other.attributes = 2, other.skip = 0;
+  other.znear = 0.25, other.zfar = 0.5;
+  std::array<std::vector<quadrille_fragment>, 2> before{};
+  std::size_t changes = 0;
+  for (const std::size_t size : ends) {
+    SCOPED_TRACE(size);
+    const Bytes bytes = cut(other, size);
+    ASSERT_EQ(quadrille_untimed_set_state(untimed_, as_state(bytes)), QUADRILLE_OK) << error();
+    ASSERT_EQ(quadrille_clocked_set_state(clocked_, as_state(bytes)), QUADRILLE_OK) << error();
+    const auto actual = drawn();
+    quadrille_draw_state whole{};
+    ASSERT_EQ(quadrille_draw_state_init(&whole, sizeof whole, other.width, other.height), QUADRILLE_OK);
+    std::memcpy(&whole, &other, size);
+    ASSERT_EQ(quadrille_untimed_set_state(untimed_, &whole), QUADRILLE_OK) << error();
+    ASSERT_EQ(quadrille_clocked_set_state(clocked_, &whole), QUADRILLE_OK) << error();
+    const auto expected = drawn();
+    for (std::size_t machine = 0; machine < 2; ++machine) {
+      EXPECT_FALSE(actual[machine].empty());
+      EXPECT_TRUE(same(actual[machine], expected[machine]));
+    }
+    changes += !same(actual[0], before[0]);
+    before = actual;
+  }
+  EXPECT_EQ(changes, 10u) << "of twelve sizes; those that end with `depth` and `skip` add nothing to be seen";
+
+  // init writes what the caller has room for and no more.
+  for (const std::size_t size : ends) {
+    Bytes bytes(16, 0x5555555555555555u);
+    auto* const state = reinterpret_cast<quadrille_draw_state*>(bytes.data());
+    ASSERT_EQ(quadrille_draw_state_init(state, size, side, side), QUADRILLE_OK) << error();
+    EXPECT_EQ(state->size, size);
+    quadrille_draw_state good = state_;
+    good.size = static_cast<std::uint32_t>(size);
+    EXPECT_EQ(std::memcmp(bytes.data(), &good, size), 0);
+    const auto* const all = reinterpret_cast<const unsigned char*>(bytes.data());
+    EXPECT_TRUE(std::all_of(all + size, all + 128, [](unsigned char byte) { return byte == 0x55; })) << size;
+  }
+}
+
+TEST_F(CApiSizes, AttributesThatAnOlderOneLacksAreThoseOfTheConfiguration) {
+  quadrille_untimed* one = nullptr;
+  ASSERT_EQ(quadrille_untimed_create("attribute_slots=1", &one), QUADRILLE_OK);
+  const Bytes bytes = cut(state_, 40);
+  EXPECT_EQ(quadrille_untimed_set_state(one, as_state(bytes)), QUADRILLE_OK) << error();
+  quadrille_untimed_destroy(one);
+}
+
+TEST_F(CApiSizes, NewerOnesMayNotSetWhatIsUnknown) {
+  for (const std::size_t size : {72u, 128u, 1024u}) {
+    Bytes bytes(size / 8, 0);
+    std::memcpy(bytes.data(), &state_, sizeof state_);
+    const auto said = static_cast<std::uint32_t>(size);
+    std::memcpy(bytes.data(), &said, sizeof said);
+    EXPECT_EQ(quadrille_untimed_set_state(untimed_, as_state(bytes)), QUADRILLE_OK) << error();
+    bytes.back() = 1;
+    expect_error(quadrille_untimed_set_state(untimed_, as_state(bytes)), QUADRILLE_BAD_ARGUMENT, "older");
+    expect_error(quadrille_clocked_set_state(clocked_, as_state(bytes)), QUADRILLE_BAD_ARGUMENT, "older");
+    ASSERT_EQ(quadrille_draw_state_init(reinterpret_cast<quadrille_draw_state*>(bytes.data()), size, side, side),
+              QUADRILLE_OK);
+    EXPECT_EQ(bytes.back(), 0u);
+  }
+  for (const std::size_t size : {0u, 4u, 8u, 11u, 13u, 46u, 52u, 60u, 63u, 65u, 68u, 1032u, 0xfffffff8u}) {
+    quadrille_draw_state bad = state_;
+    bad.size = static_cast<std::uint32_t>(size);
+    expect_error(quadrille_untimed_set_state(untimed_, &bad), QUADRILLE_BAD_ARGUMENT, "sizeof");
+    expect_error(quadrille_clocked_set_state(clocked_, &bad), QUADRILLE_BAD_ARGUMENT, "sizeof");
+    expect_error(quadrille_draw_state_init(&bad, size, side, side), QUADRILLE_BAD_ARGUMENT, "sizeof");
+  }
 }
 
 TEST_F(CApiErrors, VerticesDrawNothingOfTheirCall) {
@@ -548,6 +678,26 @@ TEST_F(CApiErrors, PortsThatNoMachineMayBeGiven) {
   std::array<std::uint32_t, QUADRILLE_STATE_WORDS> state;
   state.fill(0xffffffffu);
   expect_error(quadrille_clocked_state_port(clocked_, state.data()), QUADRILLE_BAD_STATE, "draw state");
+  // Each field by itself, as DPI gives it.
+  const RecordLayout state_fields = state_layout(Config());
+  const std::vector<std::uint32_t> good_state = tb::pack_state(draw_state_for(Config(), 512, 512), Config());
+  const auto state_with = [&](const char* field, std::uint64_t value) {
+    Record record = Record::from_words(good_state.data(), state_fields.bits());
+    record.set(state_fields.field(field, -1), value);
+    std::array<std::uint32_t, QUADRILLE_STATE_WORDS> words{};
+    for (int at = 0; at < state_fields.bits(); at += 32)
+      words[static_cast<std::size_t>(at / 32)] =
+          static_cast<std::uint32_t>(record.get(at, std::min(32, state_fields.bits() - at)));
+    return quadrille_clocked_state_port(clocked_, words.data());
+  };
+  expect_error(state_with("attributes", 5), QUADRILLE_BAD_STATE, "attribute_slots");
+  expect_error(state_with("attributes", 9), QUADRILLE_BAD_STATE, "attribute_slots");
+  expect_error(state_with("cull", 3), QUADRILLE_BAD_STATE, "cull");
+  expect_error(state_with("scissor_x0", 513), QUADRILLE_BAD_STATE, "X0 must not exceed X1");
+  expect_error(state_with("scissor_y1", 4097), QUADRILLE_BAD_STATE, "viewport");
+  expect_error(state_with("zfar", (1u << 24) + 1), QUADRILLE_BAD_STATE, "zfar <= 1");
+  expect_error(state_with("skip", 32 + 1), QUADRILLE_BAD_STATE, "plane_quads");
+  expect_error(state_with("attributes", 3), QUADRILLE_BUSY, "busy");
   std::uint64_t value = 0;
   expect_error(quadrille_clocked_counter(clocked_, "nothing", &value), QUADRILLE_BAD_ARGUMENT, "\"nothing\"");
   expect_error(quadrille_untimed_counter(untimed_, "nothing", &value), QUADRILLE_BAD_ARGUMENT, "\"nothing\"");

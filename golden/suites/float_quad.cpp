@@ -12,7 +12,7 @@ using namespace floating;
 
 namespace {
 
-const VectorOutcome undefined{VectorOutcome::Kind::undefined, {}, false};
+VectorOutcome undefined() { return {VectorOutcome::Kind::undefined, {}, false}; }
 
 }  // namespace
 
@@ -110,7 +110,7 @@ VectorOutcome FloatQuad::check(const Fragment& g) const {
 
   const VectorOutcome shape = judge.outcome();
   if (shape.kind == VectorOutcome::Kind::mismatch) return shape;
-  VectorOutcome values = is.corners + is.edges > 0 ? undefined : check_values(g);
+  VectorOutcome values = is.corners + is.edges > 0 ? undefined() : check_values(g);
   if (values.kind == VectorOutcome::Kind::match) return shape;
   values.compared = true;  // the shape was
   return values;
@@ -125,9 +125,9 @@ VectorOutcome FloatQuad::check(const Fragment& g) const {
 /// follow. Where that is above the machine's own tolerance double has no answer.
 VectorOutcome FloatQuad::check_values(const Fragment& g) const {
   // Dropped bits of D and r² that ordinary vertices have leave the machine without a bound.
-  if (config_.quadratic_frac() < 2 * config_.subpixel_bits) return undefined;
+  if (config_.quadratic_frac() < 2 * config_.subpixel_bits) return undefined();
   const golden::PaperFp64Quad::Pixel p = paper_.interpolate(g.x, g.y);
-  if (!p.defined) return undefined;
+  if (!p.defined) return undefined();
 
   constexpr double epsilon = 0x1p-52;
   std::array<double, 4> ds{}, dt{}, dmu{};
@@ -137,7 +137,7 @@ VectorOutcome FloatQuad::check_values(const Fragment& g) const {
     const std::size_t j = (i + 1) % 4;
     const double ri = std::fabs(p.r[i]), rj = std::fabs(p.r[j]), area = std::fabs(p.area[i]);
     const double da = ds[i] * rj + ds[j] * ri + 2 * epsilon * ri * rj;
-    if (ds[i] > ri / 16 || da > area / 16) return undefined;
+    if (ds[i] > ri / 16 || da > area / 16) return undefined();
     dt[i] = 3 * da * (1 + std::fabs(p.t[i])) / area;
   }
   for (std::size_t i = 0; i < 4; ++i) {
@@ -153,7 +153,7 @@ VectorOutcome FloatQuad::check_values(const Fragment& g) const {
   Judge judge;
   if (hull_) {
     // In front of the eye where sum(M W) > 0, that is sum(lambda / w) > 0.
-    if (std::fabs(sum_mu) <= 2 * bound * size_mu + 2 * error_mu) return undefined;
+    if (std::fabs(sum_mu) <= 2 * bound * size_mu + 2 * error_mu) return undefined();
     if (!(p.sum_inverse_w > 0)) judge.differs("x: the pixel is behind the eye");
   }
 

@@ -7,6 +7,7 @@
 #include "golden/scenes/stress.hpp"
 #include "golden/suites/machine_run.hpp"
 #include "model/boundaries.hpp"
+#include "model/draw_state.hpp"
 #include "model/latency.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
@@ -375,11 +376,13 @@ std::vector<MachineDraw> read_draws(const SuiteReader& reader) {
     DrawState& s = draws.emplace_back().state = state.state;
     s.znear = std::ldexp(static_cast<double>(state.znear), -config.depth_bits);
     s.zfar = std::ldexp(static_cast<double>(state.zfar), -config.depth_bits);
-    const int side = 1 << config.viewport_bits;
-    s.width = s.scissor_x1;  // the machine knows the scissor rectangle only
-    s.height = s.scissor_y1;
-    if (s.scissor_x1 > side || s.scissor_y1 > side || s.attributes > config.attribute_slots || s.cull > Cull::back)
-      refuse("states", draws.size() - 1, "a state that the machine does not have");
+    s.width = std::max(1, s.scissor_x1);  // the machine knows the scissor rectangle only
+    s.height = std::max(1, s.scissor_y1);
+    try {
+      check_draw_state(s, config);
+    } catch (const DrawStateError& error) {
+      refuse("states", draws.size() - 1, error.what());
+    }
   }
   std::uint64_t line = 0;
   std::uint32_t beat = 0, last_draw = 0;

@@ -83,6 +83,21 @@ class StageUnderTest {
   RecordLayout stimulus_, response_;
 };
 
+/// What a stage may be given, field by field: a stimulus of somebody else's set or program is looked at first.
+class StimulusCheck {
+ public:
+  explicit StimulusCheck(const StageUnderTest& stage);
+  /// "attributes = 15; the stage can be given 0..4"; empty of a stimulus that the stage can be given.
+  std::string fault(const Record& stimulus) const;
+
+ private:
+  struct Field {
+    RecordField field;
+    FieldRange range;
+  };
+  std::vector<Field> fields_;
+};
+
 /// A stage suite: see Suite.
 class StageSuite : public Suite {
  public:

@@ -165,6 +165,37 @@ TEST(StageSuites, StimuliKeepTheirContract) {
     }
 }
 
+/// A stimulus from elsewhere with one field out of its range is named, not computed: 15 attributes would index past an
+/// array of eight.
+TEST(StageSuites, StimuliOutOfRangeAreNamed) {
+  std::size_t refused = 0;
+  for (const std::string& name : stage_names()) {
+    SCOPED_TRACE(name);
+    const auto stage = stage_suite(name).stage(Config{});
+    const StimulusCheck check(*stage);
+    GenerateOptions options;
+    options.limit = 300;
+    const StageSuite::Stimuli stimuli = stage_suite(name).stimuli(options);
+    for (const auto* list : {&stimuli.corner, &stimuli.random, &stimuli.realistic})
+      for (const Record& stimulus : *list) ASSERT_EQ(check.fault(stimulus), "") << stimulus.to_hex();
+    for (const RecordField& f : stage->stimulus_layout().fields()) {
+      const FieldRange range = stage->range(f);
+      const int bits = f.is_signed ? f.width - 1 : f.width;
+      if (bits >= 63 || range.hi >= (std::int64_t{1} << bits) - 1) continue;  // the field holds nothing larger
+      if (f.name.ends_with("exp") && range.hi < 1) continue;                  // 0 and 1 are always accepted
+      Record stimulus = stimuli.corner.front();
+      stimulus.set(f, static_cast<std::uint64_t>(range.hi + 1));
+      EXPECT_EQ(check.fault(stimulus).find(f.label() + " = "), 0u) << f.label() << ": " << check.fault(stimulus);
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 20u);
+  const auto depth = stage_suite("depth").stage(Config{});
+  Record stimulus = stage_suite("depth").stimuli({}).corner.front();
+  stimulus.set(depth->stimulus_layout().field("attributes", -1), 15);
+  EXPECT_EQ(StimulusCheck(*depth).fault(stimulus), "attributes = 0xf (15); the stage can be given 0..4");
+}
+
 TEST(StageSuites, CornersOfEveryFieldOccur) {
   for (const std::string& name : stage_names()) {
     SCOPED_TRACE(name);

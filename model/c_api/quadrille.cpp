@@ -5,13 +5,16 @@
 #include "model/boundaries.hpp"
 #include "model/clocked.hpp"
 #include "model/config_text.hpp"
+#include "model/draw_state.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <cstring>
 #include <deque>
 #include <exception>
 #include <limits>
@@ -30,15 +33,13 @@ static_assert(+QUADRILLE_SKIP_TILES == +skip_tiles && +QUADRILLE_SKIP_QUADS == +
               +QUADRILLE_SKIP_HIDDEN == +skip_hidden && +QUADRILLE_SKIP_WALK == +skip_walk &&
               +QUADRILLE_SKIP_OPERANDS == +skip_operands && +QUADRILLE_SKIP_PLANE == +skip_plane);
 
-constexpr std::uint32_t every_skip = skip_default | skip_hidden | skip_plane;
-
 struct Failure {
   quadrille_status status;
   std::string text;
 };
 
 /// Held without allocation: an error of memory has its words too.
-thread_local std::array<char, 1024> last_error{};
+constinit thread_local std::array<char, 1024> last_error{};
 
 quadrille_status failed(quadrille_status status, const char* text) noexcept {
   std::snprintf(last_error.data(), last_error.size(), "%s", text);
@@ -57,6 +58,8 @@ quadrille_status guarded(F&& body) noexcept {
     return failed(QUADRILLE_BAD_CONFIG, e.what());
   } catch (const SnapError& e) {
     return failed(QUADRILLE_BAD_VERTEX, e.what());
+  } catch (const DrawStateError& e) {
+    return failed(QUADRILLE_BAD_STATE, e.what());
   } catch (const std::exception& e) {
     return failed(QUADRILLE_FAILED, e.what());
   } catch (...) {
@@ -84,53 +87,62 @@ Config config_of(const char* text) {
 
 // ---- Draw states ----
 
-void check_state(const DrawState& s, const Config& c) {
-  const auto refuse = [](const std::string& text) { throw Failure{QUADRILLE_BAD_STATE, "draw state: " + text}; };
-  const int side = 1 << c.viewport_bits;
-  if (s.width < 1 || s.height < 1 || s.width > side || s.height > side)
-    refuse("the viewport " + std::to_string(s.width) + "x" + std::to_string(s.height) + " is not from 1x1 to " +
-           std::to_string(side) + "x" + std::to_string(side) + " (viewport_bits)");
-  if (s.scissor_x0 < 0 || s.scissor_y0 < 0 || s.scissor_x0 > s.scissor_x1 || s.scissor_y0 > s.scissor_y1 ||
-      s.scissor_x1 > s.width || s.scissor_y1 > s.height)
-    refuse("the scissor must lie inside the viewport, x0 <= x1 and y0 <= y1");
-  if (s.cull > Cull::back) refuse("cull must be 0, 1 or 2");
-  if (!(s.znear >= 0 && s.znear <= s.zfar && s.zfar <= 1)) refuse("0 <= znear <= zfar <= 1 is required");
-  if (s.attributes < 0 || s.attributes > c.attribute_slots)
-    refuse(std::to_string(s.attributes) + " attributes; the configuration has " + std::to_string(c.attribute_slots) +
-           " (attribute_slots)");
-  if ((s.skip & ~every_skip) != 0) refuse("unknown bits of skip");
-  if ((s.skip & skip_hidden) != 0 && (c.hierarchical_z_bits == 0 || !s.depth))
-    refuse("QUADRILLE_SKIP_HIDDEN needs depth, and hierarchical_z_bits in the configuration");
-  if ((s.skip & skip_plane) != 0 && c.plane_quads == 0)
-    refuse("QUADRILLE_SKIP_PLANE needs plane_quads in the configuration");
+DrawState default_state(const Config& config) {
+  const int side = std::min(512, 1 << config.viewport_bits);
+  return draw_state_for(config, side, side);
 }
 
-DrawState default_state(const Config& config) {
-  DrawState state;
-  state.width = state.height = state.scissor_x1 = state.scissor_y1 = std::min(512, 1 << config.viewport_bits);
-  state.attributes = std::min(4, config.attribute_slots);
-  return state;
+quadrille_draw_state c_state_of(const DrawState& s) {
+  return {sizeof(quadrille_draw_state),
+          s.width,
+          s.height,
+          s.scissor_x0,
+          s.scissor_y0,
+          s.scissor_x1,
+          s.scissor_y1,
+          static_cast<std::int32_t>(s.cull),
+          s.perspective,
+          s.depth,
+          s.attributes,
+          s.skip,
+          s.znear,
+          s.zfar};
+}
+
+/// Bytes of a caller's struct that this library has, all or those before a member that the caller's header lacks;
+/// throws where a member would be cut.
+std::size_t known_size(std::size_t size) {
+  constexpr std::size_t first = offsetof(quadrille_draw_state, height) + sizeof(std::int32_t),
+                        reals = offsetof(quadrille_draw_state, znear), largest = 1024;
+  const bool ends_a_member = size >= first && (size <= reals ? size % 4 == 0 : size % 8 == 0);
+  require(ends_a_member && size <= largest, QUADRILLE_BAD_ARGUMENT,
+          "draw state: size is not sizeof(quadrille_draw_state) of this header or an older one; "
+          "quadrille_draw_state_init() sets it");
+  return std::min(size, sizeof(quadrille_draw_state));
 }
 
 DrawState checked_state(const quadrille_draw_state& given, const Config& config) {
-  require(given.size >= sizeof(quadrille_draw_state), QUADRILLE_BAD_ARGUMENT,
-          "draw state: size is not sizeof(quadrille_draw_state); quadrille_draw_state_init() sets it");
-  require(given.cull >= 0 && given.cull <= 2, QUADRILLE_BAD_STATE, "draw state: cull must be 0, 1 or 2");
+  const std::size_t known = known_size(given.size);
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(&given);
+  require(std::all_of(bytes + known, bytes + given.size, [](unsigned char byte) { return byte == 0; }),
+          QUADRILLE_BAD_ARGUMENT, "draw state: a member is set that this library does not have: it is older");
+  quadrille_draw_state all = c_state_of(draw_state_for(config, given.width, given.height));
+  std::memcpy(&all, bytes, known);
+  require(all.cull >= 0 && all.cull <= 2, QUADRILLE_BAD_STATE, "draw state: cull must be 0, 1 or 2");
   DrawState state;
-  state.width = given.width;
-  state.height = given.height;
-  state.scissor_x0 = given.scissor_x0;
-  state.scissor_y0 = given.scissor_y0;
-  state.scissor_x1 = given.scissor_x1;
-  state.scissor_y1 = given.scissor_y1;
-  state.cull = static_cast<Cull>(given.cull);
-  state.perspective = given.perspective != 0;
-  state.depth = given.depth != 0;
-  state.znear = given.znear;
-  state.zfar = given.zfar;
-  state.attributes = given.attributes;
-  state.skip = given.skip;
-  check_state(state, config);
+  state.width = all.width;
+  state.height = all.height;
+  state.scissor_x0 = all.scissor_x0;
+  state.scissor_y0 = all.scissor_y0;
+  state.scissor_x1 = all.scissor_x1;
+  state.scissor_y1 = all.scissor_y1;
+  state.cull = static_cast<Cull>(all.cull);
+  state.perspective = all.perspective != 0;
+  state.depth = all.depth != 0;
+  state.znear = all.znear;
+  state.zfar = all.zfar;
+  state.attributes = all.attributes;
+  state.skip = all.skip;
   return state;
 }
 
@@ -257,6 +269,7 @@ struct quadrille_clocked {
   bool idle() const { return queue.empty() && !model.comb().busy; }
 
   void set_state(const quadrille::DrawState& s) {
+    check_draw_state(s, config);
     api::require(queue.empty() && !model.quads_under_way(), QUADRILLE_BUSY,
                  "the draw state cannot change while the machine is busy or quads are queued");
     model.set_state(s);
@@ -392,23 +405,14 @@ quadrille_status quadrille_config_value(const char* config, const char* name, in
 quadrille_status quadrille_draw_state_init(quadrille_draw_state* state, size_t size, int32_t width, int32_t height) {
   return api::guarded([&] {
     api::require_pointers("state", state);
-    api::require(size == sizeof(quadrille_draw_state), QUADRILLE_BAD_ARGUMENT,
-                 "size is not sizeof(quadrille_draw_state) of this library: compile with its header");
-    const quadrille::DrawState s;
-    *state = {static_cast<std::uint32_t>(size),
-              width,
-              height,
-              0,
-              0,
-              width,
-              height,
-              QUADRILLE_CULL_NONE,
-              s.perspective,
-              s.depth,
-              s.attributes,
-              s.skip,
-              s.znear,
-              s.zfar};
+    const std::size_t known = api::known_size(size);
+    quadrille::DrawState s;
+    s.width = s.scissor_x1 = width;
+    s.height = s.scissor_y1 = height;
+    quadrille_draw_state all = api::c_state_of(s);
+    all.size = static_cast<std::uint32_t>(size);
+    std::memset(state, 0, size);
+    std::memcpy(state, &all, known);
   });
 }
 
@@ -582,7 +586,6 @@ quadrille_status quadrille_clocked_state_port(quadrille_clocked* machine, const 
     s.width = s.height = 1 << machine->config.viewport_bits;
     s.znear = std::ldexp(znear, -machine->config.depth_bits);
     s.zfar = std::ldexp(zfar, -machine->config.depth_bits);
-    api::check_state(s, machine->config);
     machine->set_state(s);
   });
 }

@@ -10,7 +10,7 @@
  * out.
  *
  * Binary compatibility: structs only change with QUADRILLE_ABI, which the name of the shared library follows;
- * quadrille_draw_state may grow at its end and says how long it is.
+ * quadrille_draw_state may grow at its end and says how long it is. An older, shorter one is accepted.
  */
 #ifndef QUADRILLE_H
 #define QUADRILLE_H
@@ -78,6 +78,9 @@ enum {
   QUADRILLE_SKIP_PLANE = 32
 };
 
+/* `size` may be that of an older header, whose struct ends behind any member from `height` on: the members that it
+ * lacks are as quadrille_draw_state_init() sets them, and attributes as many of the four as the configuration has. Of a
+ * newer header the bytes behind this library's members must be 0. */
 typedef struct quadrille_draw_state {
   uint32_t size;                                          /* sizeof(quadrille_draw_state) of the caller */
   int32_t width, height;                                  /* viewport, at most 2^viewport_bits each */
@@ -105,7 +108,7 @@ QUADRILLE_API const char* quadrille_last_error(void);
 QUADRILLE_API quadrille_status quadrille_config_value(const char* config, const char* name, int32_t* value);
 
 /* A draw state for a viewport of that size: all of it drawn, four attributes, depth, perspective, every skip that keeps
- * the list of fragments. `size`: sizeof(quadrille_draw_state). */
+ * the list of fragments. `size`: sizeof(quadrille_draw_state) of the caller; so many bytes are written. */
 QUADRILLE_API quadrille_status quadrille_draw_state_init(quadrille_draw_state* state, size_t size, int32_t width,
                                                          int32_t height);
 

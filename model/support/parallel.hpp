@@ -1,6 +1,7 @@
 // Work in numbered units on several threads. In both forms what comes out does not depend on the number of threads,
 // provided that a unit's result depends on its number alone; the calling thread returns when no unit is running; with
-// one thread or one unit everything happens on the calling thread.
+// one thread or one unit everything happens on the calling thread. Where the system refuses threads, those that it
+// gave do the work, or the calling thread.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +18,18 @@
 
 namespace quadrille {
 
+/// Up to `count` threads that run work(i), i from 0: fewer, or none, when the system refuses more. Those that run are
+/// in `threads`, also when this throws.
+template <class Work>
+void start_threads(std::vector<std::thread>& threads, std::size_t count, const Work& work) {
+  threads.reserve(threads.size() + count);
+  for (std::size_t i = 0; i < count; ++i) try {
+      threads.emplace_back(work, i);
+    } catch (const std::exception&) {  // a limit of threads or of memory
+      return;
+    }
+}
+
 /// Calls body(unit, thread) for every unit from 0; thread is below max(threads, 1) and no two calls of one thread
 /// overlap. `progress` (may be empty) gets the number of finished units on the calling thread now and then. The first
 /// exception, from either, ends the call after the running units and is rethrown.
@@ -29,10 +42,10 @@ void run_units(std::size_t units, unsigned threads, const std::function<void(std
 template <class Produce, class Consume>
 void ordered_parallel(std::size_t units, unsigned threads, Produce&& produce, Consume&& consume) {
   using Result = decltype(produce(std::size_t{0}));
-  if (threads <= 1 || units <= 1) {
+  const auto all_here = [&] {
     for (std::size_t unit = 0; unit < units; ++unit) consume(unit, produce(unit));
-    return;
-  }
+  };
+  if (threads <= 1 || units <= 1) return all_here();
   struct Slot {
     std::optional<Result> result;
     std::exception_ptr error;
@@ -44,7 +57,7 @@ void ordered_parallel(std::size_t units, unsigned threads, Produce&& produce, Co
   bool stop = false;
   const std::size_t window = std::size_t{4} * threads;
 
-  auto work = [&] {
+  const auto work = [&](std::size_t /*thread*/) {
     for (;;) {
       std::size_t unit;
       {
@@ -78,7 +91,8 @@ void ordered_parallel(std::size_t units, unsigned threads, Produce&& produce, Co
       for (std::thread& thread : threads) thread.join();
     }
   } joiner{{}, mutex, room, stop};
-  for (unsigned i = 0; i < std::min<std::size_t>(threads, units); ++i) joiner.threads.emplace_back(work);
+  start_threads(joiner.threads, std::min<std::size_t>(threads, units), work);
+  if (joiner.threads.empty()) return all_here();
 
   for (std::size_t unit = 0; unit < units; ++unit) {
     Slot slot;

@@ -1,5 +1,7 @@
 #include "model/support/parallel.hpp"
 
+#include "model/support/refused_threads.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -126,6 +128,46 @@ TEST(ParallelFor, EveryUnitOnceAndExceptions) {
     for (const auto& count : runs) EXPECT_EQ(count, 1);
     parallel_for(0, threads, [](std::size_t) { FAIL(); });
     EXPECT_THROW(parallel_for(9, threads, [](std::size_t) { throw std::runtime_error("a unit"); }), std::runtime_error);
+  }
+}
+
+// ---- Fewer threads than wanted ----
+
+TEST(RefusedThreads, RunUnitsDoesAllWithThoseThatItGets) {
+  for (const int given : {0, 1, 2}) {
+    const ThreadLimit limit(given);
+    std::array<std::atomic<int>, 100> runs{};
+    std::size_t finished = 0;
+    const auto caller = std::this_thread::get_id();
+    run_units(
+        runs.size(), 5,
+        [&](std::size_t unit, unsigned thread) {
+          EXPECT_LT(thread, static_cast<unsigned>(std::max(given, 1)));
+          EXPECT_EQ(std::this_thread::get_id() == caller, given == 0);
+          ++runs[unit];
+        },
+        [&](std::size_t done) { finished = done; });
+    for (const auto& count : runs) EXPECT_EQ(count, 1);
+    EXPECT_LE(finished, runs.size());
+    EXPECT_EQ(limit.refused(), 1) << "of five threads the first that is refused is the last one asked for";
+    EXPECT_THROW(run_units(9, 5, [](std::size_t, unsigned) { throw std::runtime_error("a unit"); }),
+                 std::runtime_error);
+  }
+}
+
+TEST(RefusedThreads, OrderedParallelGivesAllInOrder) {
+  for (const int given : {0, 1, 2}) {
+    const ThreadLimit limit(given);
+    std::vector<std::size_t> consumed;
+    ordered_parallel(
+        100, 5, [](std::size_t unit) { return unit * unit; },
+        [&](std::size_t unit, std::size_t square) {
+          EXPECT_EQ(square, unit * unit);
+          consumed.push_back(unit);
+        });
+    ASSERT_EQ(consumed.size(), 100u);
+    EXPECT_TRUE(std::ranges::is_sorted(consumed));
+    EXPECT_EQ(limit.refused(), 1);
   }
 }
 

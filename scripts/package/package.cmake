@@ -7,6 +7,7 @@
 set(model_headers
   clocked.hpp
   config.hpp
+  draw_state.hpp
   drive.hpp
   fragment_arrays.hpp
   lane_target.hpp

@@ -186,7 +186,7 @@ class SkipBench {
   DrawState state_of(const SkipScene& scene, std::size_t set) const {
     DrawState state = scene.state;
     state.skip = sets_[set].skips;
-    return state;
+    return with_possible_skips(state, sets_[set].config);  // a scene may have no depth
   }
 
   /// Clocks on all threads, then times with nothing beside them.

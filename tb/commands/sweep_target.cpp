@@ -59,7 +59,7 @@ std::vector<Family> make_families(const TargetSearch& search) {
     family.input.quads = golden::make_stress(info.family, family_quads, search.seed, 1, state.width, state.height);
     std::uint64_t fragments = 0;
     const Config config;
-    UntimedModel model(config, state);
+    UntimedModel model(config, with_possible_skips(state, config));
     while (family.count < family.input.quads.size() && fragments < family_fragments)
       model.draw_arrays(snap_quad(family.input.quads[family.count++], config, state),
                         [&](const FragmentArrays& drawn) { fragments += drawn.size; });

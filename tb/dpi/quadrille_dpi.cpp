@@ -30,16 +30,14 @@ struct Failure {
   std::string text;
 };
 
-thread_local std::string last_error;
+constinit thread_local std::string last_error;
 
-/// A stage with the legal values of its stimulus' fields.
+/// A stage and what it may be given.
 struct Entry {
-  explicit Entry(std::unique_ptr<const StageUnderTest> s) : stage(std::move(s)) {
-    for (const RecordField& field : stage->stimulus_layout().fields()) ranges.push_back(stage->range(field));
-  }
+  explicit Entry(std::unique_ptr<const StageUnderTest> s) : stage(std::move(s)), check(*stage) {}
 
   std::unique_ptr<const StageUnderTest> stage;
-  std::vector<FieldRange> ranges;
+  StimulusCheck check;
 };
 
 /// One configuration and its stages by suite; constant once it is made.
@@ -122,18 +120,9 @@ Record record_from(const std::uint32_t* words, int bits, std::string_view suite)
 void respond(const void* model, std::string_view suite, const std::uint32_t* stimulus, std::uint32_t* response) {
   std::fill_n(response, record_words, 0);
   const Entry& entry = entry_of(checked(model), suite);
-  const std::vector<RecordField>& fields = entry.stage->stimulus_layout().fields();
   const Record in = record_from(stimulus, entry.stage->stimulus_layout().bits(), suite);
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    const std::int64_t value = fields[i].is_signed || fields[i].width == 64
-                                   ? in.get_signed(fields[i])
-                                   : static_cast<std::int64_t>(in.get(fields[i]));
-    const FieldRange& range = entry.ranges[i];
-    if (!range.contains(value))
-      throw Failure{bad_stimulus, "suite " + quoted(suite) + ": " + fields[i].label() + " = " +
-                                      describe(in, fields[i]) + "; the stage can be given " + std::to_string(range.lo) +
-                                      ".." + std::to_string(range.hi) + (range.or_zero ? " or 0" : "")};
-  }
+  if (const std::string fault = entry.check.fault(in); !fault.empty())
+    throw Failure{bad_stimulus, "suite " + quoted(suite) + ": " + fault};
   const Record out = entry.stage->respond(in);
   for (int i = 0; 32 * i < out.bits(); ++i)
     response[i] = static_cast<std::uint32_t>(out.get(32 * i, std::min(32, out.bits() - 32 * i)));

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
+#include <system_error>
 
 namespace quadrille::tb {
 
@@ -223,9 +225,14 @@ LockstepReport run_both(Device& device, DrivenModel& model, Scoreboard& scoreboa
       report.counters = pair.counters();
       return end;
     };
-    if (has_thread(o)) {
-      DeviceAhead side(device, quads, o);
-      run_pair(side);
+    std::optional<DeviceAhead> ahead;
+    if (has_thread(o)) try {
+        ahead.emplace(device, quads, o);
+      } catch (const std::system_error&) {  // no thread to be had: both in this one
+      }
+    if (ahead) {
+      run_pair(*ahead);
+      model.clock();  // as the device has, which is ahead
     } else {
       DrivenDevice side(device, o);
       const std::uint64_t end = run_pair(side);
@@ -275,7 +282,6 @@ struct LockstepSession::Impl {
       model.emplace(o.config, o.state, probes_of(o));
     }
     const LockstepReport report = run_both(device, *model, board, quads, o, sink);
-    if (has_thread(o)) model->clock();  // the device was a clock ahead; both are idle
     scoreboard.emplace(board);
     return report;
   }

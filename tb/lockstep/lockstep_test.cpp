@@ -6,6 +6,7 @@
 #include "model/bit_vector.hpp"
 #include "model/clocked.hpp"
 #include "model/quad_reject.hpp"
+#include "model/support/refused_threads.hpp"
 #include "tb/lockstep/driven_device.hpp"
 #include "tb/lockstep/model_device.hpp"
 
@@ -260,6 +261,17 @@ TEST_P(Lockstep, LateDifference) {
   ASSERT_TRUE(report.first_divergence);
   EXPECT_EQ(report.first_divergence->find("cycle " + std::to_string(at) + ", busy"), 0u) << *report.first_divergence;
   EXPECT_EQ(report.fragment_hash, whole.fragment_hash);
+}
+
+/// Where the system refuses the device's thread, both run in one, with the same report.
+TEST_P(Lockstep, WithoutAThreadForTheDevice) {
+  const LockstepReport whole = run({});
+  const ThreadLimit limit(0);
+  const LockstepReport report = run({});
+  EXPECT_EQ(limit.refused(), options.threads > 1 ? 1 : 0);
+  EXPECT_TRUE(report.agreed());
+  EXPECT_EQ(report.fragment_hash, whole.fragment_hash);
+  EXPECT_EQ(report.cycles_rtl, whole.cycles_rtl);
 }
 
 TEST_P(Lockstep, DeviceThatNeverEndsIsGivenUp) {

@@ -41,7 +41,7 @@ DEFAULT_COUNT, DEFAULT_SEED = 330, 1
 OTHER_RTL = {"config_check.sv"}
 # Not the machine: reading and writing of configurations, a processor's instructions and which there are, what the bench reads.
 OTHER_MODEL = {"config.cpp", "config.hpp", "config_text.cpp", "config_text.hpp", "lane_target.cpp", "lane_target.hpp", "each_lane_target.hpp",
-               "bit_vector.cpp", "bit_vector.hpp", "fields.hpp", "record.cpp", "record.hpp", "drive.hpp", "tables.hpp", "boundaries.cpp", "boundaries.hpp",
+               "bit_vector.cpp", "bit_vector.hpp", "draw_state.cpp", "draw_state.hpp", "fields.hpp", "record.cpp", "record.hpp", "drive.hpp", "tables.hpp", "boundaries.cpp", "boundaries.hpp",
                "float_avx2.hpp", "float_avx512.hpp", "slow_snap.hpp"}
 # A model's file without a twin of its name.
 TWINS = {"significand.hpp": ("fp_sum", "fp_multiply", "fp_raw_product", "fp_normalise", "fp_product", "fp_add", "fp_term"),

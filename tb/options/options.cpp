@@ -2,6 +2,7 @@
 
 #include "golden/io/config_file.hpp"
 #include "model/config_text.hpp"
+#include "model/draw_state.hpp"
 #include "tb/device/build_notice.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/options/command_line.hpp"
@@ -54,9 +55,9 @@ std::string larger_viewport(const Config& config, int pixels) {
   return "";
 }
 
-const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
+constinit const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
 // In the order of SkipBit's bits.
-const std::array<std::string, 6> skip_names{"tiles", "quads", "hidden", "walk", "operands", "plane"};
+constinit const std::array<std::string, 6> skip_names{"tiles", "quads", "hidden", "walk", "operands", "plane"};
 
 /// all, none, or names with commas between. `hidden` is among all where the machine can and there is a depth test: the
 /// pictures of this program are drawn as that skip asks for. `plane`, where the machine can.
@@ -239,20 +240,23 @@ DrawState StateOptions::state(const CommonOptions& common, const Config& config)
       edge[i] = parse<int>(rest.substr(0, comma), "--scissor " + scissor);
       rest.remove_prefix(std::min(rest.size(), comma + 1));
     }
-    if (edge[0] > edge[2] || edge[1] > edge[3])
-      throw UsageError("--scissor " + scissor + ": X0 must not exceed X1, nor Y0 exceed Y1 (left, top, right, bottom)");
-    if (edge[0] < 0 || edge[1] < 0 || edge[2] > state.width || edge[3] > state.height)
-      throw UsageError("--scissor " + scissor + ": the rectangle must lie inside the viewport " + common.size);
     state.scissor_x0 = edge[0], state.scissor_y0 = edge[1], state.scissor_x1 = edge[2], state.scissor_y1 = edge[3];
   }
   state.cull = static_cast<Cull>(choose("--cull value", cull, {cull_names.begin(), cull_names.end()}));
   state.perspective = !no_perspective;
   state.depth = !no_depth;
-  if (!(znear >= 0 && znear <= zfar && zfar <= 1))
-    throw UsageError("--znear, --zfar: 0 <= znear <= zfar <= 1 is required");
   state.znear = znear;
   state.zfar = zfar;
   state.skip = parse_skips(skip, config, state.depth);
+  DrawState checked = state;
+  checked.attributes = 0;  // whoever draws says how many
+  try {
+    check_draw_state(checked, config);
+  } catch (const DrawStateError& error) {
+    if (error.field == "scissor") throw UsageError("--scissor " + scissor + ": " + error.rule);
+    if (error.field == "znear..zfar") throw UsageError("--znear, --zfar: " + error.rule);
+    throw UsageError(error.what());
+  }
   return state;
 }
 

@@ -4,6 +4,7 @@ A build (one wrapper or the machine, one configuration) serves every suite of it
 """
 import argparse
 import concurrent.futures
+import functools
 import json
 import os
 import re
@@ -20,6 +21,8 @@ BENCHES = os.path.join(ROOT, "tb", "replay")
 IN_TREE = os.path.exists(os.path.join(ROOT, "CMakeLists.txt"))
 PROGRAM = os.path.normpath(os.path.join(ROOT, "build/release/quadrille" if IN_TREE else "../../bin/quadrille"))
 FORMAT = 2
+# The tables of the default widths; those of others the program makes.
+TABLES = os.path.join(ROOT, "rtl", "default_tables", "quadrille_tables_pkg.sv")
 # Gate netlists that are quick to make and to simulate; others on request (--suite).
 NETLISTS = ("sqrt", "reciprocal")
 # Their inputs enter at different stages; the manifest's latency counts from the last, the wrapper's from the first.
@@ -192,6 +195,21 @@ class Suite:
         return "; ".join(text[:4])
 
 
+@functools.cache
+def kept_tables():
+    """The keys that the kept tables were made for."""
+    try:
+        with open(TABLES, encoding="ascii") as text:
+            return {key.lower(): int(value) for key, value in re.findall(r"localparam int (\w+) = (\d+);", text.read())}
+    except OSError:
+        return {}
+
+
+def has_kept_tables(suite):
+    keys = kept_tables()
+    return bool(keys) and all(suite.config.get(key) == value for key, value in keys.items())
+
+
 # ---- Builds --------------------------------------------------------------------------------------------------------------------
 
 
@@ -228,13 +246,7 @@ class Build:
     def sources(self):
         """Tables, packages first, then modules, then the wrapper."""
         os.makedirs(self.directory)
-        tables = os.path.join(self.directory, "quadrille_tables_pkg.sv")
-        command = [self.options.quadrille, "config", "--quiet", "--emit-tables", tables]
-        for key, value in self.suites[0].config.items():
-            command += ["--set", f"{key}={value}"]
-        result = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        if result.returncode != 0:
-            raise InputError(f"{self.suites[0].directory}/manifest.json: {result.stdout.strip()}")
+        tables = TABLES if has_kept_tables(self.suites[0]) else self.make_tables()
         rtl = sorted(os.path.join(self.options.rtl, name) for name in os.listdir(self.options.rtl) if name.endswith(".sv"))
         packages = [path for path in rtl if path.endswith("_pkg.sv")]
         files = packages + [tables] + [path for path in rtl if not path.endswith("_pkg.sv")]
@@ -243,6 +255,16 @@ class Build:
             with open(os.path.join(self.directory, "replay_fields.svh"), "w", encoding="ascii") as header:
                 header.write(self.suites[0].fields_header())
         return files
+
+    def make_tables(self):
+        tables = os.path.join(self.directory, "quadrille_tables_pkg.sv")
+        command = [self.options.quadrille, "config", "--quiet", "--emit-tables", tables]
+        for key, value in self.suites[0].config.items():
+            command += ["--set", f"{key}={value}"]
+        result = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if result.returncode != 0:
+            raise InputError(f"{self.suites[0].directory}/manifest.json: {result.stdout.strip()}")
+        return tables
 
     def defines(self):
         keys = [f"-DQUADRILLE_{key.upper()}={value}" for key, value in self.suites[0].config.items()]
@@ -379,8 +401,10 @@ def main():
     try:
         suites, skipped = select(options)
         require(TOOLS[options.simulator] + (TOOLS["netlist"] if options.netlist else ()))
-        if shutil.which(options.quadrille) is None:
-            raise MissingTool(f"no program {options.quadrille}: build it (scripts/test.sh) or name it in $QUADRILLE")
+        others = [suite.name for suite in suites if not has_kept_tables(suite)]
+        if others and shutil.which(options.quadrille) is None:
+            raise MissingTool(f"no program {options.quadrille}, which makes the tables of {others[0]}: its widths are not the default ones. "
+                              "Build it (scripts/cosim.sh) or name it in $QUADRILLE")
         if not os.path.exists(os.path.join(options.rtl, "quadrille_pkg.sv")):
             raise InputError(f"{options.rtl}: no RTL there")
         for name in skipped:

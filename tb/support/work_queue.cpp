@@ -1,11 +1,13 @@
 #include "tb/support/work_queue.hpp"
 
+#include "model/support/parallel.hpp"
+
 #include <utility>
 
 namespace quadrille::cli {
 
 WorkQueue::WorkQueue(unsigned threads, std::size_t capacity) : capacity_(capacity) {
-  for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  start_threads(threads_, threads, [this](std::size_t) { work(); });
 }
 
 WorkQueue::~WorkQueue() {

@@ -1,4 +1,5 @@
-// A bounded queue of jobs for reference threads. When it is full, or without threads, the one who pushes does the job.
+// A bounded queue of jobs for reference threads. When it is full, or without threads (none wanted, or the system
+// refuses them), the one who pushes does the job.
 #pragma once
 
 #include <condition_variable>

@@ -251,7 +251,7 @@ struct Evaluator::Impl {
   std::uint64_t clocks(const Config& config) const {
     tb::LockstepOptions options;
     options.config = widest_port(config);
-    options.state = input.state;
+    options.state = with_possible_skips(input.state, options.config);
     options.config.attribute_slots = 1;
     options.state.attributes = 0;
     // Snapped anew: the quads kept by positions have bases of another configuration's formats.

@@ -112,7 +112,7 @@ Slow slow_path(const SweepInput& input, const Config& given_config) {
 
   for (const std::vector<std::size_t>& pass : passes) {
     const bool decides = !planes || &pass == passes.data();
-    DrawState state = input.state;
+    DrawState state = with_possible_skips(input.state, c);
     state.attributes = static_cast<int>(pass.size());
     for (std::size_t q = 0; q < input.quads.size(); ++q) {
       WindowQuad quad = input.quads[q];
