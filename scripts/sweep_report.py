@@ -96,7 +96,7 @@ def answer(sweep):
         judged = target["column"].split("_")[0]
         cells = ["–" if target[kind] is None else f"{target[kind]:.4g}, {100 * target[kind] / target['limit']:.0f} %" for kind in ("arithmetic", "snapping", "total")]
         lines.append([escape(target["given"]), *(f"<b>{cell}</b>" if kind == judged else cell for kind, cell in zip(("arithmetic", "snapping", "total"), cells)),
-                      escape(target["verdict"])])
+                      f"<b class='bad'>{escape(target['verdict'])}</b>" if target["in_the_way"] else escape(target["verdict"])])
     parts = web.table(["target", "arithmetic error", "snapping error", "total error", ""], lines)
     return (f"<section id='answer'><h2>Answer</h2>{''.join(f'<p>{line}</p>' for line in said)}{sweep_plots.points_table(sweep, named)}"
             f"<p>The parts of the error of row {found['row']} on this input, and their share of the target; bold: what the target judges.</p>{parts}</section>")
