@@ -18,7 +18,7 @@ try:
     from report import sweep_plots, web
     from report.files import InputError, read_report, reading, write_files
     from report.plot import escape
-    from report.sweep import Sweep, error_title
+    from report.sweep import SYNTH_TARGETS, Sweep, error_title
 except ImportError as missing:
     print(f"sweep_report.py: {missing}; install with: apt-get install python3-matplotlib python3-plotly "
           f"(this is {sys.executable}, Debian's is /usr/bin/python3)", file=sys.stderr)
@@ -26,7 +26,7 @@ except ImportError as missing:
 
 # More points than this make the page slow; the rest is in the PNG and in points.csv.
 INTERACTIVE_POINTS = 2500
-PLOTS = ("error_bits", "error_cost", "sensitivity", "error_map", "run_time", "synthesis")
+PLOTS = ("error_cost", "error_bits", "sensitivity", "error_map", "run_time", "synthesis")
 BENCH_FIELDS = ("input", "kind", "engine", "fragments", "seconds_per_fragment", "lambda_max", "lambda_p999", "lambda_rms", "attribute_max",
                 "depth_max", "undefined", "missing")
 KINDS = {"full": "full grid: every combination of the axes", "one_at_a_time": "one key at a time around the base configuration",
@@ -44,7 +44,7 @@ what any hardware with this position format would do.</li>
 in [0, 1].</li>
 <li>All errors are absolute. Axes of errors are in powers of two: one less in the exponent is one bit more. 2<sup>−8</sup> is about half an 8-bit colour
 step, 2<sup>−16</sup> about 1.5·10<sup>−5</sup>.</li>
-<li><b>Cost</b> is an estimate in 4-input LUTs, from the number of flip-flops, multiplier, adder and table bits.</li>
+<li><b>Cost</b> is COST</li>
 <li>Point at a mark to see its configuration; click it to keep the details and the command that prints its worst fragment. Drag to zoom, double-click to
 reset.</li>
 </ul>"""
@@ -54,14 +54,61 @@ def auto(value):
     return "auto" if value == -1 else str(value)
 
 
+def cost_sentence(sweep):
+    """What the weights in use make of the cost."""
+    weights, blocks = sweep.manifest["cost_weights"], ("dsp", "block_ram")
+    bits = [f"{weights[name]:g} for a bit of {what}" for name, what in
+            (("adder", "adders"), ("multiplier", "multipliers (product of the operands' widths)"), ("table", "tables"), ("join", "sums that join DSP blocks"),
+             ("state", "registers and memories")) if weights[name] > 0]
+    left_out = [{"dsp": "DSP blocks", "block_ram": "block RAMs"}[name] for name in blocks if not weights[name] > 0]
+    return (f"an estimate for {SYNTH_TARGETS[sweep.manifest['synthesis']['target']]}: {escape(sweep.cost)}. LUTs have 4 inputs, and count "
+            f"{', '.join(bits) or 'nothing'}." + (f" The weights count no {' and no '.join(left_out)}." if left_out else ""))
+
+
+def answer(sweep):
+    """What the reader came for: the winner and where it stands beside the target, or the knees; what these take."""
+    if sweep.search is None:
+        named = [("knee", i) for i in sweep.knees] + ([("base", sweep.base)] if sweep.base in sweep.ok else [])
+        said = f"No knee: {escape(sweep.no_knee)}." if sweep.no_knee else "Knees of the front: where more cost starts to buy less accuracy."
+        return f"<section id='answer'><h2>Answer</h2><p>{said}</p>{sweep_plots.points_table(sweep, named) if named else ''}</section>"
+    found, named, said = sweep.search, [], []
+    for target in sweep.targets:
+        said.append(f"Target <b>{escape(target['given'])}</b>: {error_title(target['column'])}, at most {target['limit']:.4g}.")
+    if sweep.winner is None:
+        said.append(f"<b class='bad'>No point meets {'it' if len(sweep.targets) == 1 else 'them'} on this input.</b>")
+        named = [(f"closest to the target, {found['closest']['error_over_target']:.4g} times it", sweep.index[found["closest"]["row"]])]
+    else:
+        named = [(sweep_plots.WINNER, sweep.winner)]
+        if sweep.confirmed is not None:
+            named.append((sweep_plots.CONFIRMED, sweep.confirmed))
+            silent = [family["family"] for family in found["families"] if not family["measured"]]
+            if silent:
+                said.append(f"Confirmed on {len(found['families']) - len(silent)} of {len(found['families'])} stress families; the target is not measured "
+                            f"on {', '.join(silent)}.")
+        elif "confirm_closest" in found:
+            said.append("<b class='bad'>No point meets it on all stress families as well.</b>")
+            named.append((f"closest on the stress families, {found['confirm_closest']['error_over_target']:.4g} times the target",
+                          sweep.index[found["confirm_closest"]["row"]]))
+        else:
+            said.append("The winner was not tried on the stress families.")
+    lines = []
+    for target in sweep.targets:
+        judged = target["column"].split("_")[0]
+        cells = ["–" if target[kind] is None else f"{target[kind]:.4g}, {100 * target[kind] / target['limit']:.0f} %" for kind in ("arithmetic", "snapping", "total")]
+        lines.append([escape(target["given"]), *(f"<b>{cell}</b>" if kind == judged else cell for kind, cell in zip(("arithmetic", "snapping", "total"), cells)),
+                      f"<b class='bad'>{escape(target['verdict'])}</b>" if target["in_the_way"] else escape(target["verdict"])])
+    parts = web.table(["target", "arithmetic error", "snapping error", "total error", ""], lines)
+    return (f"<section id='answer'><h2>Answer</h2>{''.join(f'<p>{line}</p>' for line in said)}{sweep_plots.points_table(sweep, named)}"
+            f"<p>The parts of the error of row {found['row']} on this input, and their share of the target; bold: what the target judges.</p>{parts}</section>")
+
+
 def introduction(sweep):
     m = sweep.manifest
     axes = "<br>".join(f"<code>{key}</code>: {', '.join(map(auto, values))}" for key, values in sweep.axes.items())
-    weights = ", ".join(f"{name} {value:g}" for name, value in m["cost_weights"].items())
     facts = {"Input": escape(m["input"]), "Size": f"{sweep.size[0]}×{sweep.size[1]} pixels", "Kind": KINDS[m["kind"]], "Axes": axes,
              "Points": f"{len(sweep.rows):,}, of which {len(sweep.refused):,} refused",
              "Fragments of the base": "–" if sweep.base is None else f"{sweep.value['fragments'][sweep.base]:,.0f}",
-             "Objective": error_title(sweep.objective), "Cost weights, LUTs a bit": weights, "Seed": m["seed"], "Version": escape(m["version"]),
+             "Objective": error_title(sweep.objective), "Cost": escape(sweep.cost), "Seed": m["seed"], "Version": escape(m["version"]),
              "Command": f"<code>{escape(m['command'])}</code>"}
     rows = "".join(f"<tr><th>{name}</th><td>{text}</td></tr>" for name, text in facts.items())
     config = web.table(["key", "value"], [[f"<code>{key}</code>", f"auto ({sweep.base_config[key]})" if value == -1 else value]
@@ -86,24 +133,18 @@ def cosim(sweep):
 
 
 def search(sweep):
-    found = sweep.manifest["search"]
+    found = sweep.search
 
-    def point(row):
-        if row is None:
-            return "none"
-        i = sweep.index[row]
-        return f"row {row}, cost {sweep.value['cost'][i]:,.0f}: {', '.join(sweep.words(i))}"
+    def times(value):
+        return "–" if value is None else f"{value:.4g}"
 
-    lines = [["target", ", ".join(escape(target["given"]) for target in found["targets"])],
-             ["cheapest point that meets it on this input", point(found["winner"])],
-             ["confirmed on all stress families", point(found["confirmed"])],
-             ["evaluations", f"{found['evaluations']} of {sweep.manifest['grid_points']:,} points"]]
-    lines += [[title, f"{point(found[name]['row'])}, {found[name]['error_over_target']:.4g} × the target"] for name, title in
-              (("closest", "closest to the target"), ("confirm_closest", "closest on the stress families")) if name in found]
-    text = "<p>The cheapest configuration that meets the error target, without evaluating the whole grid.</p>" + web.table(["", ""], lines)
-    families = [[family["family"], f"{family['error_over_target']:.4g}", f"{family['fragments']:,}", f"<code>{escape(family['worst'])}</code>"]
-                for family in found.get("families", ())]
-    return text + ("<h3>On the stress families</h3>" + web.table(["family", "error / target", "fragments", "worst fragment"], families) if families else "")
+    text = (f"<p>The search looks for the cheapest configuration that meets the target without evaluating the whole grid: it evaluated {found['evaluations']} of "
+            f"{sweep.manifest['grid_points']:,} points. Of these, row {found['closest']['row']} is the closest to the target, with "
+            f"{times(found['closest']['error_over_target'])} times it.</p>")
+    families = [[family["family"], times(family["error_over_target"]), times(family["total_over_target"]), f"{family['fragments']:,}",
+                 f"<code>{escape(family['worst'])}</code>"] for family in found.get("families", ())]
+    head = ["family", "error / target", "total error / target", "fragments", "worst fragment"]
+    return text + (f"<h3>On the stress families</h3>{web.table(head, families)}" if families else "")
 
 
 def work(sweep):
@@ -128,15 +169,16 @@ def render(sweep, bench):
     """The files of the report by name."""
     sample = sweep.ok[::-(-len(sweep.ok) // INTERACTIVE_POINTS)]
     page = web.Page(f"Sweep of {escape(sweep.manifest['input'])}: error against hardware cost", sweep.rows, set(sample))
-    for plot in (sweep_plots.error_against_bits(sweep), sweep_plots.error_against_cost(sweep, len(sample)), sweep_plots.sensitivity(sweep),
+    for plot in (sweep_plots.error_against_cost(sweep, len(sample)), sweep_plots.error_against_bits(sweep), sweep_plots.sensitivity(sweep),
                  sweep_plots.error_map(sweep), sweep_plots.run_time(bench), sweep_plots.synthesis(sweep)):
         if plot:
             page.add_plot(plot)
     page.add("cosim", "Co-simulated points", cosim(sweep))
-    if "search" in sweep.manifest:
+    if sweep.search:
         page.add("search", "Search", search(sweep))
     page.add("counters", "Work done", work(sweep))
-    return page.files | {"report.html": page.html(introduction(sweep), READING, details(sweep, page.points))}
+    return page.files | {"report.html": page.html(answer(sweep), introduction(sweep), READING.replace("COST", cost_sentence(sweep)),
+                                                details(sweep, page.points))}
 
 
 def read_bench(path):

@@ -37,6 +37,8 @@ SWEEPS = {  # attribute_frac_bits below significand_bits is refused
     "one": ["--one-at-a-time", "--axis", "significand_bits=8:26:2", "--axis", "sqrt_segments_log2=3,8,auto", "--axis", "attribute_frac_bits=16,22",
             "--axis", "notch_exact=1"],
     "outside": ["--axis", "significand_bits=8,12", "--axis", "align_guard_bits=0,3"],
+    "logic": ["--axis", "significand_bits=8,12", "--synth-target", "ecp5-nodsp"],
+    "flat": ["--axis", "significand_bits=18:26:2", "--objective", "total"],
     "search": ["--axis", "significand_bits=8:20:2", "--axis", "align_guard_bits=0,2", "--target-error", "lambda=2^-9", "--no-confirm"]}
 WORK = tempfile.mkdtemp()
 unittest.addModuleCleanup(shutil.rmtree, WORK)
@@ -155,6 +157,7 @@ class ReportTest(unittest.TestCase):
                 self.assertAlmostEqual(x / rows.drawn[row]["cost"], 1, places=4)
             self.assertEqual(drawn["base configuration"]["customdata"], [rows.manifest["error_map_row"]])
             self.assertEqual("knee of the front" in drawn, column == rows.manifest["objective"])
+        self.assertGreater(len(rows.manifest["knees"]), 0)
         self.assertEqual(traces(figures[0])["knee of the front"]["customdata"], rows.manifest["knees"])
 
     def test_bits(self):
@@ -250,18 +253,73 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(traces(figures["error_bits"][0])["arithmetic, max"]["customdata"], bits["weights λ′"]["customdata"])
         self.assertIn("base configuration", embedded(html, "points")["words"][0])
 
-    def test_base_outside_the_grid(self):
-        rows, html = Rows("outside"), page("outside")
-        self.assertIn("The base configuration is not a point of this sweep, so each panel shows margins", html)
-        least = traces(embedded(html, "figures")["sensitivity-0"][0])["least error of λ′"]
-        for s, y in zip(least["x"], least["y"]):
-            self.assertAlmostEqual(2 ** y / min(p["arithmetic_lambda_max"] for p in rows.drawn.values() if p["significand_bits"] == s), 1, places=4)
+    def test_sensitivity_is_of_one_key_alone(self):
+        """Without the base no point shows one key alone; with it, only points that differ in that key alone are drawn."""
+        self.assertIn("so no two of its points show one key alone", page("outside"))
+        self.assertFalse([name for name in embedded(page("outside"), "figures") if name.startswith("sensitivity")])
+        self.assertNotIn("sensitivity.png", os.listdir(os.path.join(WORK, "outside", "report")))
+        rows, figures = Rows("full"), embedded(page("full"), "figures")
+        base, drawn = rows.drawn[rows.manifest["error_map_row"]], 0
+        follow = {"significand_bits": {"sqrt_segments_log2", "recip_segments_log2", "attribute_frac_bits"}}  # automatic keys
+        for name, chosen in figures.items():
+            if not name.startswith("sensitivity-"):
+                continue
+            key = chosen[0]["layout"]["xaxis"]["title"]["text"]
+            for row in traces(chosen[0])["weights λ′"]["customdata"]:
+                changed = {name for name in rows.manifest["config"] if rows.drawn[row][name] != base[name]}
+                self.assertLessEqual(changed, {key} | follow.get(key, set()), (key, row))
+                drawn += 1
+        self.assertGreater(drawn, 5)
 
-    def test_search(self):
+    def test_the_answer_is_first(self):
+        """Target line and winner before all else, with the parts of its error and what it takes."""
         rows, html = Rows("search"), page("search")
-        winner = rows.drawn[rows.manifest["search"]["winner"]]
-        self.assertIn(f"significand_bits = {winner['significand_bits']:.0f}, align_guard_bits = {winner['align_guard_bits']:.0f}</td>", html)
-        self.assertIn("lambda=2^-9", html)
+        found = rows.manifest["search"]
+        winner, target = rows.drawn[found["winner"]], found["targets"][0]
+        places = [html.index(f"<section id='{name}'>") for name in ("answer", "error_cost", "error_bits")]
+        self.assertEqual(places, sorted(places))
+        self.assertLess(places[1], html.index("class='facts'"))
+        self.assertLess(places[1], html.index("How to read this"))
+        answer = html[places[0]:places[1]]
+        self.assertIn("Target <b>lambda=2^-9</b>: arithmetic error of weights λ′, max, at most 0.001953.", answer)
+        self.assertIn(f"<td>{found['winner']}</td><td>significand_bits = {winner['significand_bits']:.0f}, align_guard_bits = "
+                      f"{winner['align_guard_bits']:.0f}</td>", answer)
+        for column in ("cost", "luts", "flip_flops", "dsps", "block_rams"):
+            self.assertIn(f"<td>{winner[column]:,.0f}</td>", answer, column)
+        self.assertIn(f"<td>{winner['fragments'] / winner['cycles']:.3f}</td>", answer)
+        self.assertIn(target["verdict"], answer)
+        self.assertIn(f"<b>{winner['arithmetic_lambda_max']:.4g}, {100 * winner['arithmetic_lambda_max'] * 512:.0f} %</b>", answer)
+        self.assertIn(f"<td>{winner['snapping_lambda_max']:.4g}, {100 * winner['snapping_lambda_max'] * 512:.0f} %</td>", answer)
+        self.assertIn("was not tried on the stress families", answer)
+        figure = embedded(html, "figures")["error_cost"][0]
+        self.assertEqual([(shape["y0"], shape["y1"]) for shape in figure["layout"]["shapes"]], [(-9, -9)])
+        self.assertEqual([note["text"] for note in figure["layout"]["annotations"]], ["target lambda=2^-9"])
+        low, high = figure["layout"]["yaxis"]["range"]
+        self.assertTrue(low < -9 < high)
+        self.assertEqual(traces(figure)["cheapest that meets the target"]["customdata"], [found["winner"]])
+        closest = min(rows.drawn, key=lambda row: abs(math.log2(rows.drawn[row]["arithmetic_lambda_max"]) + 9))
+        self.assertIn(f"row {closest} is the closest to the target", html)
+
+    def test_a_flat_front_has_no_knee(self):
+        rows, html = Rows("flat"), page("flat")
+        self.assertEqual(rows.manifest["knees"], [])
+        answer = html[html.index("<section id='answer'>"):html.index("<section id='error_cost'>")]
+        self.assertIn("No knee: the front is flat", answer)
+        self.assertIn("<td>base</td>", answer)
+        self.assertIn("Knees of the front", page("full"))
+
+    def test_the_sentence_on_cost_follows_the_weights(self):
+        for name, said, unsaid in (("full", ("LUTs + 536 a DSP block + 402 a block RAM", "Lattice ECP5 with DSP blocks", "0.841 for a bit of sums"),
+                                    ("a bit of multipliers", "count no")),
+                                   ("logic", ("LUTs + 402 a block RAM", "multipliers in logic", "2.73 for a bit of multipliers", "count no DSP blocks"),
+                                    ("a DSP block", "a bit of sums"))):
+            html = page(name)
+            sentence = re.search("<li><b>Cost</b> is (.*?)</li>", html)[1]
+            for words in said:
+                self.assertIn(words, sentence)
+            for words in unsaid:
+                self.assertNotIn(words, sentence)
+            self.assertEqual(embedded(html, "figures")["error_cost"][0]["layout"]["xaxis"]["title"]["text"], f"cost: {said[0]}")
 
     def test_error_map_keeps_the_worst_pixel(self):
         sweep = self.copy("outside")

@@ -33,6 +33,7 @@ class Axis:
     ticks: str = "plain"  # plain; whole: whole numbers only; log2: exponents of two; count: 100k; seconds: logarithmic
     mark: float = None  # a dotted line at this value
     mark_text: str = ""
+    limits: tuple = ()  # (value, text) of dashed lines that must be in sight
 
 
 @dataclass

@@ -55,6 +55,10 @@ def scale(axis, described, bins):
     if described.mark is not None:
         line = axis.axes.axvline if axis.axis_name == "x" else axis.axes.axhline
         line(described.mark, color="#555555", linewidth=1, linestyle=":", zorder=2)
+    for value, text in described.limits:
+        (axis.axes.axvline if axis.axis_name == "x" else axis.axes.axhline)(value, color=plot.RED, linewidth=1.5, linestyle="--", zorder=2)
+        axis.axes.annotate(label(text), (0.99, value), xycoords=("axes fraction", "data"), xytext=(0, 3), textcoords="offset points", fontsize=9,
+                           color=plot.RED, horizontalalignment="right")
     if described.mark is not None and described.mark_text:
         axis.axes.annotate(described.mark_text, (0.01, described.mark), xycoords=("axes fraction", "data"), xytext=(0, 3),
                            textcoords="offset points", fontsize=9)

@@ -64,6 +64,13 @@ class Sweep:
             if len(self.rows) != self.manifest["points"]:
                 raise ValueError(f"points is {self.manifest['points']}, but points.csv has {len(self.rows)}")
             self.front, self.knees = ([self.index[row] for row in self.manifest[name]] for name in ("front", "knees"))
+            self.no_knee, self.cost, self.search = self.manifest["no_knee"], self.manifest["cost"], self.manifest.get("search")
+            self.targets, self.winner, self.confirmed = [], None, None
+            if self.search:
+                self.targets = self.search["targets"]
+                self.winner, self.confirmed = (None if row is None else self.index[row] for row in (self.search["winner"], self.search["confirmed"]))
+            if not {target["column"] for target in self.targets} <= set(self.errors):
+                raise ValueError("a target of search is no error column")
         self._find_one_key()
         with reading(path("error_map.npy"), writer), open(path("error_map.npy"), "rb") as file:
             self.map = np.load(file, allow_pickle=False).astype(np.float64)

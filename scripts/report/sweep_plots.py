@@ -1,5 +1,6 @@
 """The plots of a sweep: which points, which axes, and what is said about them."""
 import math
+import re
 
 import numpy as np
 
@@ -11,6 +12,8 @@ from report.web import table
 STATISTIC_STYLE = {"max": (BLUE, "circle"), "p999": (ORANGE, "square"), "rms": (GREEN, "triangle-up")}
 QUANTITY_STYLE = {"lambda": (BLUE, "circle"), "attribute": (ORANGE, "square"), "depth": (GREEN, "triangle-up"), "colour": (RED, "diamond")}
 ENGINE_COLOUR = {"fp32": ORANGE, "fp64": SKY, "truth": BLACK, "model-plain": GREEN, "model": BLUE, "model-clocked": RED, "rtl": PURPLE}
+WINNER, CONFIRMED = "cheapest that meets the target", "confirmed on the stress families"
+TAKES = ("cost", "luts", "flip_flops", "dsps", "block_rams", "fragments_per_clock")
 KIND_SYMBOLS = ("circle", "square", "triangle-up", "diamond", "cross", "x")
 
 
@@ -74,12 +77,17 @@ def pareto_front(points, cost, error):
     return front
 
 
+def cost_title(sweep):
+    return f"cost: {sweep.cost}"
+
+
 def error_against_cost(sweep, shown):
     cost = sweep.value["cost"]
 
     def figure(column):
         error, points = sweep.value[column], sweep.finite(column, sweep.ok)
-        scale = ErrorAxis(error[points])
+        targets = [target for target in sweep.targets if target["column"] == column]
+        scale = ErrorAxis(error[points], [target["limit"] for target in targets])
         front = sweep.front if column == sweep.objective else pareto_front(points, cost, error)
 
         def marks(name, chosen, colour, symbol, size, line="", **more):
@@ -89,17 +97,23 @@ def error_against_cost(sweep, shown):
                   marks("Pareto front", front, BLUE, "circle", 8, "solid")]
         if column == sweep.objective:
             series.append(marks("knee of the front", sweep.knees, GREEN, "star", 15, outline=True))
-        if sweep.base in points:
-            series.append(marks("base configuration", [sweep.base], RED, "diamond", 12, outline=True))
+        for name, i, colour, symbol, size in (("base configuration", sweep.base, RED, "diamond", 12), (WINNER, sweep.winner, ORANGE, "star", 17),
+                                              (CONFIRMED, sweep.confirmed, PURPLE, "cross", 14)):
+            if i in points:
+                series.append(marks(name, [i], colour, symbol, size, outline=True))
         kind = column.split("_")[0]
-        return Figure([Panel(Axis(COST, around(cost[points]), "count"), scale.axis(error_title(column)),
-                             [s for s in series if s.x])], error_title(column), scale.note(), f"{kind} error", (column, "cost"))
+        y = scale.axis(error_title(column))
+        y.limits = tuple((math.log2(target["limit"]), f"target {escape(target['given'])}") for target in targets)
+        return Figure([Panel(Axis(cost_title(sweep), around(cost[points]), "count"), y, [s for s in series if s.x])], error_title(column), scale.note(),
+                      f"{kind} error", (column, *TAKES))
 
-    columns = [name for name in sweep.errors if not name.endswith("_mean") or name == sweep.objective]
-    columns.sort(key=lambda name: (name != sweep.objective, not name.startswith("arithmetic")))
+    first = [sweep.objective, *(target["column"] for target in sweep.targets)]
+    columns = [name for name in sweep.errors if not name.endswith("_mean") or name in first]
+    columns.sort(key=lambda name: (first.index(name) if name in first else len(first), not name.startswith("arithmetic")))
     figures = [figure(column) for column in columns if sweep.finite(column, sweep.ok)]
     caption = (f"{len(sweep.ok):,} points drawn, {len(sweep.refused):,} refused (impossible or unable to draw this input, not shown). "
-               f"The front of {error_title(sweep.objective)} has {len(sweep.front)} points, {len(sweep.knees)} of them knees: where more cost starts to buy less. ")
+               f"The front of {error_title(sweep.objective)} has {len(sweep.front)} points. ")
+    caption += f"No knee: {escape(sweep.no_knee)}. " if sweep.no_knee else "Its knees are where more cost starts to buy less. "
     if sweep.base is None:
         caption += "The base configuration is not a point of this sweep. "
     if shown < len(sweep.ok):
@@ -110,21 +124,35 @@ def error_against_cost(sweep, shown):
                 extra=front_table(sweep) + refused_table(sweep))
 
 
-def front_table(sweep):
+def points_table(sweep, named):
+    """(what, point) of a few points: their errors, cost and what the target takes."""
+    total = re.sub("^[a-z]+", "total", sweep.objective)
+    errors = list(dict.fromkeys([sweep.objective, total]))
     luts = dict(zip(sweep.synth["point"], sweep.synth["luts"])) if sweep.synth else {}
-    lines = []
-    for i in sweep.front:
-        marks = ["knee"] * (i in sweep.knees) + ["base"] * (i == sweep.base)
-        lines.append([sweep.rows[i], ", ".join(sweep.words(i)), power(sweep.value[sweep.objective][i]), f"{sweep.value['cost'][i]:,.0f}",
-                      count(luts.get(i, math.nan)), ", ".join(marks)])
-    return "<h3>The Pareto front</h3>" + table(
-        ["row", "configuration", error_title(sweep.objective), "cost", "LUTs synthesized", "mark"], lines)
+    head = ["", "row", "configuration", *map(error_title, errors), "cost", "LUT", "FF", "DSP", "BRAM", "pixels per clock"]
+    lines = [[what, sweep.rows[i], ", ".join(sweep.words(i)), *(power(sweep.value[column][i]) for column in errors),
+              *(count(sweep.value[column][i]) for column in TAKES[:-1]), rate(sweep.value[TAKES[-1]][i])] for what, i in named]
+    if luts:
+        head.append("LUTs synthesized")
+        for line, (_, i) in zip(lines, named):
+            line.append(count(luts.get(i, math.nan)))
+    return table(head, lines)
+
+
+def front_table(sweep):
+    marks = {i: ", ".join(["knee"] * (i in sweep.knees) + ["base"] * (i == sweep.base) + ["cheapest that meets"] * (i == sweep.winner) +
+                          ["confirmed"] * (i == sweep.confirmed)) for i in sweep.front}
+    return "<h3>The Pareto front</h3>" + points_table(sweep, [(marks[i], i) for i in sweep.front])
 
 
 def refused_table(sweep):
     reasons = [sweep.text["reason"][i] for i in sweep.refused]
     lines = [[f"{reasons.count(reason):,}", escape(reason)] for reason in sorted(set(reasons), key=lambda r: (-reasons.count(r), r))]
     return f"<details><summary>{len(reasons):,} refused points and why</summary>{table(['points', 'rule'], lines)}</details>" if lines else ""
+
+
+def rate(value):
+    return f"{value:.3f}" if math.isfinite(value) else "–"
 
 
 def count(value):
@@ -138,58 +166,43 @@ def ratio(values, name):
 
 
 def sensitivity(sweep):
-    """One figure a key: errors and cost of the points that differ from the base in it alone or, without a base, of all with that value."""
-    single, cost = sweep.base is not None, sweep.value["cost"]
+    """One figure a key, of the points that differ from the base in it alone."""
+    title, intro = "Sensitivity to each key", "How far one key alone moves the errors (above) and the cost (below)."
+    if sweep.base is None:
+        return Plot("sensitivity", title, intro, "The base configuration is not a point of this sweep, so no two of its points show one key alone against it. "
+                    "<code>quadrille sweep --one-at-a-time</code> with the same axes draws this plot. ")
+    cost = sweep.value["cost"]
     errors = {f"arithmetic_{q}_max": (QUANTITIES[q], *style) for q, style in QUANTITY_STYLE.items()}
-    used = sorted({i for points in sweep.one_key.values() for i in points if i in sweep.ok}) if single else sweep.ok
+    used = sorted({i for points in sweep.one_key.values() for i in points if i in sweep.ok})
     scale = ErrorAxis(*(sweep.value[column][used] for column in (*errors, "snapping_lambda_max")))
-    reference = cost[sweep.base] if single else cost[sweep.ok].min()
+    reference = cost[sweep.base]
     cost_axis = Axis("cost ratio", around(cost[used] / reference, 0.1))
     figures, constant = [], []
-
-    def alone(key, points):
+    for key in sweep.axes:
+        every = [float(sweep.value[key][i]) for i in sweep.one_key[key]]
+        if len(set(every)) < 2:
+            constant.append(key)
+            continue
+        points = [i for i in sweep.one_key[key] if i in sweep.ok]
         x = sweep.value[key][points].tolist()
         upper = [Series(name, x, scale(sweep.value[column][points]), colour, symbol, size=6, points=points)
                  for column, (name, colour, symbol) in errors.items()]
         upper.append(Series("snapping, weights λ′", x, scale(sweep.value["snapping_lambda_max"][points]), PURPLE, "x", "dot", 6, points))
-        return upper, [Series("cost", x, (cost[points] / reference).tolist(), BLACK, size=5, points=points)]
-
-    def margins(key, points):
-        upper, lower, values = [], [], sorted({sweep.value[key][i] for i in points})
-        groups = [[i for i in points if sweep.value[key][i] == value] for value in values]
-        for name, pick, symbol, dash in (("least", np.nanmin, "circle", "solid"), ("median", np.nanmedian, "circle-open", "dash")):
-            error = [float(pick(sweep.value["arithmetic_lambda_max"][group])) for group in groups]
-            price = [float(pick(cost[group])) for group in groups]
-            upper.append(Series(f"{name} error of λ′", values, scale(error), BLUE, symbol, dash, 6,
-                                text=[f"{key} = {v:g}, {name}: {power(e)}" for v, e in zip(values, error)]))
-            lower.append(Series(f"{name} cost", values, [p / reference for p in price], BLACK, symbol, dash, 5,
-                                text=[f"{key} = {v:g}, {name} cost: {p:,.0f}" for v, p in zip(values, price)]))
-        return upper, lower
-
-    for key in sweep.axes:
-        points = sweep.one_key[key] if single else sweep.ok + sweep.refused
-        every = [float(sweep.value[key][i]) for i in points]
-        if len(set(every)) < 2:
-            constant.append(key)
-            continue
-        upper, lower = (alone if single else margins)(key, [i for i in points if i in sweep.ok])
+        lower = [Series("cost", x, (cost[points] / reference).tolist(), BLACK, size=5, points=points)]
         change = f"{ratio([2 ** y for y in upper[0].y if y > scale.low], 'error of λ′')}, {ratio(lower[0].y, 'cost')}"
-        refused = [i for i in points if i in sweep.refused]
-        if single and refused:
+        refused = [i for i in sweep.one_key[key] if i in sweep.refused]
+        if refused:
             upper.append(Series("refused", sweep.value[key][refused].tolist(), [scale.low + 0.4] * len(refused), BLACK, "circle-open", "", 8,
                                 text=[f"refused: {escape(sweep.text['reason'][i])}" for i in refused]))
         base = sweep.base_config[key]
-        x = Axis(key, around(every, 0.08), "whole", base if min(every) <= base <= max(every) else None)
-        figures.append(Figure([Panel(x, scale.axis("error, max"), upper, 2), Panel(x, cost_axis, lower)], key, change,
+        axis = Axis(key, around(every, 0.08), "whole", base if min(every) <= base <= max(every) else None)
+        figures.append(Figure([Panel(axis, scale.axis("error, max"), upper, 2), Panel(axis, cost_axis, lower)], key, change,
                               columns=("arithmetic_lambda_max", "cost"), height=330))
     caption = ("Each panel varies one key, the rest stays as in the base configuration (dotted vertical line). Cost is relative to the base. "
-               if single else
-               "The base configuration is not a point of this sweep, so each panel shows margins: for each value the least (filled) and the median "
-               "(open, dashed) over all points with that value, for the arithmetic error of λ′, max; cost relative to the cheapest point. ")
-    caption += "All panels have the same vertical scales. " + scale.note()
+               "All panels have the same vertical scales. " + scale.note())
     if constant:
         caption += f"No panel, since only one value is a point of its own: {', '.join(constant)}. "
-    return Plot("sensitivity", "Sensitivity to each key", "How far one key alone moves the errors (above) and the cost (below).", caption, figures, True)
+    return Plot("sensitivity", title, intro, caption, figures, True)
 
 
 def error_map(sweep):
@@ -269,7 +282,6 @@ def run_time(bench):
         f"<p class='note'>Measured by <code>{escape(bench['command'])}</code></p>")
 
 
-COST = "cost estimate in 4-input LUTs, DSP blocks at their price"
 SYNTH_TITLES = {"luts": "LUTs", "flip_flops": "flip-flops", "dsps": "DSPs", "block_rams": "block RAMs", "longest_path": "longest path, cells",
                 "area_um2": "area, µm²", "nand2": "area, NAND2", "mhz": "MHz", "cost_luts": "LUTs estimated",
                 "cost_dsps": "DSPs estimated", "cost": "cost"}

@@ -22,11 +22,11 @@ def short(value):
     return float(f"{value:.6g}") if math.isfinite(value) else None
 
 
-def dotted(axis, value):
+def across(axis, value, colour="#555555", width=1, dash="dot"):
     """A line across the figure at a value of an axis, "x" or "y"."""
     other = "y" if axis == "x" else "x"
     return {"type": "line", f"{axis}0": value, f"{axis}1": value, f"{other}ref": "paper", f"{other}0": 0, f"{other}1": 1, "layer": "below",
-            "line": {"color": "#555555", "width": 1, "dash": "dot"}}
+            "line": {"color": colour, "width": width, "dash": dash}}
 
 
 def axis_layout(axis):
@@ -93,9 +93,13 @@ def figure_data(figure, page, legend=True):
         data += [heatmap(panel.image)] if panel.image else []
         data += [trace(s, page, legend) | {"yaxis": name} for s in panel.series]
         if panel.y.mark is not None:
-            layout["shapes"].append(dotted("y", panel.y.mark))
+            layout["shapes"].append(across("y", panel.y.mark))
             layout["annotations"].append({"text": panel.y.mark_text, "x": 0, "xref": "paper", "xanchor": "left", "y": panel.y.mark,
                                           "yanchor": "bottom", "showarrow": False})
+        for value, text in panel.y.limits:
+            layout["shapes"].append(across("y", value, plot.RED, 2, "dash"))
+            layout["annotations"].append({"text": text, "x": 1, "xref": "paper", "xanchor": "right", "y": value, "yanchor": "bottom",
+                                          "showarrow": False, "font": {"color": plot.RED}})
         if panel.image:  # square pixels
             layout["yaxis"] |= {"scaleanchor": "x", "constrain": "domain", "showgrid": False}
             layout |= {"plot_bgcolor": "#d4d4d4", "showlegend": False, "margin": layout["margin"] | {"t": 36}}  # the tool bar is there
@@ -103,7 +107,7 @@ def figure_data(figure, page, legend=True):
     if x.ticks == "whole":  # plotly has no whole-number ticks
         layout["xaxis"]["dtick"] = next(step for step in (1, 2, 5, 10) if (x.range[1] - x.range[0]) / step <= 12 or step == 10)
     if x.mark is not None:
-        layout["shapes"].append(dotted("x", x.mark))
+        layout["shapes"].append(across("x", x.mark))
     return {"data": data, "layout": layout, "columns": figure.columns}
 
 
@@ -165,13 +169,13 @@ class Page:
             link = f" <a class='screen' href='{name}.png'>PNG</a>"
         self.add(name, described.title, "".join([*out, f"<p class='caption'>{described.caption}{link}</p>{described.extra}"]))
 
-    def html(self, introduction, reading, details):
-        """The page; `details`: what it shows of its points."""
+    def html(self, answer, introduction, reading, details):
+        """The page: the answer and the first section, then what it is about and the rest; `details`: what it shows of its points."""
         with open(os.path.join(HERE, "page.css"), encoding="utf-8") as style, open(os.path.join(HERE, "page.js"), encoding="utf-8") as script:
             return (f"<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><meta name='viewport' content='width=device-width, initial-scale=1'>"
                     f"<meta http-equiv='Content-Security-Policy' content=\"{POLICY}\"><link rel='icon' href='data:,'><title>{self.title}</title>"
                     f"<style>{style.read()}</style><noscript><style>.static{{display:block}}</style></noscript></head>\n"
-                    f"<body><h1>{self.title}</h1>{introduction}<nav>{' '.join(self.links)}</nav>{reading}{''.join(self.body)}"
+                    f"<body><h1>{self.title}</h1>{answer}<nav>{' '.join(self.links)}</nav>{self.body[0]}{introduction}{reading}{''.join(self.body[1:])}"
                     f"{script_json('points', details)}{script_json('figures', self.figures)}"
                     f"<script>{get_plotlyjs()}</script>\n<script>{script.read()}</script></body></html>\n").encode()
 

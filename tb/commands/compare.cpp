@@ -68,9 +68,12 @@ struct Scene {
   ShadeSettings shading;
 };
 
+/// `width` and `height` may be another size than that of the options. A scene or mesh is then projected anew; quads
+/// that were never an object in space are made for the size of the options and scaled to the other.
 Scene load_scene(const CompareOptions& options, int width, int height) {
   CommonOptions common = options.common;
-  common.size = std::to_string(width) + "x" + std::to_string(height);
+  const bool projected = !options.input.scene.empty() || !options.input.mesh.empty();
+  if (projected) common.size = std::to_string(width) + "x" + std::to_string(height);
   Scene scene;
   scene.settings.config = common.config();
   scene.settings.state = options.state.state(common, scene.settings.config);
@@ -78,6 +81,16 @@ Scene load_scene(const CompareOptions& options, int width, int height) {
   scene.settings.snap = false;
   scene.input = load_input(options.input, shade_of(options.shade, options.texture), scene.settings.state,
                            scene.settings.config, common.seed);
+  if (!projected) {
+    const auto [given_width, given_height] = common.viewport(scene.settings.config);
+    for (WindowQuad& quad : scene.input.quads)
+      for (WindowVertex& v : quad.vertex) {
+        v.x *= static_cast<double>(width) / given_width;
+        v.y *= static_cast<double>(height) / given_height;
+      }
+    common.size = std::to_string(width) + "x" + std::to_string(height);
+    scene.settings.state = options.state.state(common, scene.settings.config);
+  }
   adjust_state(scene.input, scene.settings.state);
   scene.shading.shade = scene.input.shade;
   scene.shading.slots = shade_slots(scene.input.shade, scene.input);
@@ -254,7 +267,9 @@ class Compare {
     if (options_.out.empty()) throw UsageError("--out DIR is needed");
     if (fs::exists(options_.out) && !fs::is_directory(options_.out))
       throw UsageError("--out " + options_.out + ": is a file; a directory is wanted");
-    if (inputs_given(options_.input) != 1) throw UsageError("one input is needed: --scene NAME or --mesh F.obj");
+    if (inputs_given(options_.input) != 1)
+      throw UsageError(
+          "one input is needed: --scene NAME, --mesh F.obj, --quads F.quads, --stress FAMILY or --corner GROUP");
     if (options_.methods.empty()) throw UsageError("--methods: no method is named");
     method_name("--reference", options_.reference);
     std::set<std::string> seen;
@@ -520,12 +535,16 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
                   "  quadrille compare --scene fig10_convex --out fig10\n"
                   "  quadrille compare --scene phong_mesh --methods split02,split13,refine:20,mvc --wireframe --out "
                   "fig11\n"
-                  "  quadrille compare --mesh spot.obj --methods split02,mvc --shade uv --plot --out spot");
+                  "  quadrille compare --mesh spot.obj --methods split02,mvc --shade uv --plot --out spot\n"
+                  "  quadrille compare --quads some.quads --out some");
   const auto options = std::make_shared<CompareOptions>();
-  options->input.add_to(*command, false);
+  options->input.add_to(*command);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  command->add_option("--methods", options->methods, "Methods, in the order of the columns; default: all")
+  command
+      ->add_option("--methods", options->methods,
+                   "Methods, in the order of the columns; default: all, but for quads without an object in space "
+                   "adaptive and affine")
       ->delimiter(',')
       ->type_name("A,B,…");
   writes_folder(command->add_option("--out", options->out, "Directory for what is written; made if it is not there"));
@@ -554,11 +573,13 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] {
       if (options->methods.empty()) {
+        const bool object_space = !options->input.scene.empty() || !options->input.mesh.empty();
         std::string_view rest = default_methods;
         while (!rest.empty()) {
           const std::size_t comma = std::min(rest.find(','), rest.size());
-          options->methods.emplace_back(rest.substr(0, comma));
+          const std::string method(rest.substr(0, comma));
           rest.remove_prefix(std::min(rest.size(), comma + 1));
+          if (object_space || !methods::make_method(method)->needs_object_space()) options->methods.push_back(method);
         }
       }
       return Compare(*options, invocation.arguments).run();

@@ -202,12 +202,40 @@ TEST_F(CompareCli, MeshesAndRenderByMethod) {
   EXPECT_GT(fs::file_size(file("m.exr")), 1000u);
 }
 
+/// Quads that were never an object in space. Expected values by hand: the square's centre is a pixel's; there mean
+/// value coordinates give 0, 1, 0, 1 at the corners 1/2, and the diagonal of split02, whose ends have 0, gives 0.
+TEST_F(CompareCli, QuadsOfAFile) {
+  write("small.quads", "4 4 0.5 1  37 4 0.5 1  37 37 0.5 1  4 37 0.5 1  0 1 0 1\n");
+  write("large.quads", "8 8 0.5 1  74 8 0.5 1  74 74 0.5 1  8 74 0.5 1  0 1 0 1\n");
+  const json small = table("--quads small.quads --size 48x48 --crease-sizes 48,96", "small");
+  EXPECT_EQ(small.at("methods").size(), 10u) << "all but adaptive and affine";
+  EXPECT_EQ(row(small, "split02").at("covered"), 33 * 33);
+  EXPECT_NEAR(row(small, "split02").at("truth_max").get<double>(), 0.5, 1e-12);
+  EXPECT_LT(row(small, "mvc").at("truth_max").get<double>(), 1e-12);
+  // At another size the same picture, scaled.
+  const json large = table("--quads large.quads --size 96x96 --crease-sizes 96 --methods split02", "large");
+  const double crease = row(small, "split02").at("crease02_96").get<double>();
+  EXPECT_GT(crease, 0.5);
+  EXPECT_NEAR(crease, row(large, "split02").at("crease02_96").get<double>(), 1e-9);
+  // What looks at an object in space is refused by name; the plot leaves it out.
+  refuses(2, "compare --quads small.quads --size 48x48 --methods mvc,affine --out r", {"affine", "object space"});
+  EXPECT_FALSE(fs::exists(file("r")));
+}
+
+/// Families and corner groups, with vertices behind the eye and at infinity.
+TEST_F(CompareCli, FamiliesAndCornerGroups) {
+  for (const std::string input : {"--stress eye_crossing --count 3", "--stress any_w --count 3", "--corner face_plane"}) {
+    const json report = table(input + " --size 32x32 --methods split02,mvc --crease-sizes 32", "f");
+    EXPECT_GT(row(report, "mvc").at("covered"), 20) << input;
+    EXPECT_LT(row(report, "mvc").at("truth_rms").get<double>(), 1e-6) << input;
+  }
+}
+
 TEST_F(CompareCli, BadInput) {
   std::string many;  // sixteen methods that differ
   for (int n = 1; n <= 16; ++n) many += (n > 1 ? ",refine:" : "refine:") + std::to_string(n);
   refuses(2, "compare --scene fig1_flat", {"--out"});
-  refuses(2, "compare --out d", {"--scene NAME or --mesh F.obj"});
-  refuses(2, "compare --stress general --out d", {"--stress"});
+  refuses(2, "compare --out d", {"--scene NAME, --mesh F.obj, --quads F.quads"});
   refuses(2, "compare --scene fig1_flat --out d --methods mvc,splt02", {"splt02", "did you mean \"split02\""});
   refuses(2, "compare --scene fig1_flat --out d --methods mvc,mvc", {"mvc", "twice"});
   refuses(2, "compare --scene fig1_flat --out d --methods refine:20,refine", {"refine", "twice"});

@@ -48,8 +48,14 @@ const std::vector<Curve>& curves() {
 
 void write_plot(const DrawInput& input, const EngineSettings& settings, const std::string& directory,
                 const CommonOptions& common, const std::vector<std::string>& arguments, int repeats) {
+  const bool object_space = input.corners.size() == input.quads.size();
+  std::vector<Curve> drawn;
   std::size_t total = 1;
-  for (const Curve& curve : curves()) total += curve.knobs.size();
+  for (const Curve& curve : curves()) {
+    if (!object_space && methods::make_method(curve.method)->needs_object_space()) continue;
+    total += curve.knobs.size();
+    drawn.push_back(curve);
+  }
   Progress progress("plot " + input.name, total, common.show_progress());
   const compare::AttributeImage reference = attribute_image(draw_method(plot_reference, input, settings), input);
   std::uint64_t done = 0;
@@ -59,7 +65,7 @@ void write_plot(const DrawInput& input, const EngineSettings& settings, const st
   json["size"] = std::to_string(settings.state.width) + "x" + std::to_string(settings.state.height);
   json["reference"] = plot_reference;
   json["curves"] = nlohmann::ordered_json::array();
-  for (const Curve& curve : curves()) {
+  for (const Curve& curve : drawn) {
     nlohmann::ordered_json points = nlohmann::ordered_json::array();
     for (const std::string& knob : curve.knobs) {
       progress.set(++done, curve.method);

@@ -8,10 +8,12 @@
 #include "golden/io/fragment_csv.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/text_input.hpp"
+#include "golden/methods/method.hpp"
 #include "model/snap.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
+#include "tb/render/method_engine.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -32,7 +34,7 @@ struct FragmentsOptions {
   StateOptions state;
   InputOptions input;
   EngineOptions engine;
-  std::string out, pixel, shade;
+  std::string out, pixel, shade, method;
   std::int64_t quad = -1;
   bool errors = false;
 };
@@ -54,6 +56,11 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   const tb::Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
   if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
+  if (!options.method.empty()) {
+    golden::methods::make_method(options.method);  // an unknown one is refused before the input is read
+    if (options.errors) throw UsageError("--errors with --method: the bound is on the machine's errors");
+    settings.snap = false;
+  }
   if (options.errors && !settings.snap)
     throw UsageError("--errors with --snap off: the bound is on errors against the truth on snapped quads");
   if (options.errors && settings.config.qdrop() != 0)
@@ -69,7 +76,12 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
     if (static_cast<std::uint64_t>(options.quad) >= input.quads.size())
       throw UsageError("--quad " + std::to_string(options.quad) + ": " + input.name + " has " +
                        std::to_string(input.quads.size()) + " quads, counted from 0");
-    input.quads = {input.quads[static_cast<std::size_t>(options.quad)]};
+    const auto only = static_cast<std::size_t>(options.quad);
+    if (input.corners.size() == input.quads.size()) {
+      input.corners = {input.corners[only]};
+      input.textures = {input.textures[only]};
+    }
+    input.quads = {input.quads[only]};
   }
   std::pair<int, int> pixel{-1, -1};
   if (!options.pixel.empty()) pixel = parse_pixel(options.pixel, settings.state);
@@ -82,7 +94,9 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   std::uint64_t undefined = 0;
   try {
     Progress progress("fragments of " + input.name, input.quads.size(), options.common.show_progress());
-    make_engine(settings)->draw(input.quads, input.attributes, true, [&](std::span<const EngineSample> samples) {
+    const std::unique_ptr<Engine> engine =
+        options.method.empty() ? make_engine(settings) : make_method_engine(options.method, input, settings);
+    engine->draw(input.quads, input.attributes, true, [&](std::span<const EngineSample> samples) {
       for (const EngineSample& sample : samples) {
         if (!wanted(sample)) continue;
         if (options.errors) kept.push_back(sample);
@@ -108,13 +122,15 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   else
     golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
 
+  const std::string& drawn_by = options.method.empty() ? options.engine.engine : options.method;
   const double seconds = start.seconds();
   std::optional<PerformanceCounters> counters;
-  if (reports_counters(options.common)) counters = count_draw(settings, input.quads, input.attributes);
+  if (options.method.empty() && reports_counters(options.common))
+    counters = count_draw(settings, input.quads, input.attributes);
   if (!options.common.json.empty()) {
     nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
     json["input"] = input.name;
-    json["engine"] = options.engine.engine;
+    json[options.method.empty() ? "engine" : "method"] = drawn_by;
     json["snap"] = settings.snap;
     json["quads"] = input.quads.size();
     json["fragments"] = rows.size();
@@ -124,8 +140,8 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
     golden::save_json(options.common.json, json);
   }
   if (std::FILE* text = options.common.text(); text && options.out != "-") {
-    std::fprintf(text, "%s by %s: %zu quads, %zu fragments", input.name.c_str(), options.engine.engine.c_str(),
-                 input.quads.size(), rows.size());
+    std::fprintf(text, "%s by %s: %zu quads, %zu fragments", input.name.c_str(), drawn_by.c_str(), input.quads.size(),
+                 rows.size());
     if (undefined) std::fprintf(text, ", %llu undefined", static_cast<unsigned long long>(undefined));
     std::fprintf(text, ", %.2f s\n", seconds);
     if (counters) print_counters(text, *counters, "of the clocked model");
@@ -150,12 +166,20 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
       "  quadrille fragments --quads some.quads --out some.csv\n"
       "  quadrille fragments --engine truth --snap off --scene bowtie --size 64x64 --out -\n"
       "  quadrille fragments --engine rtl --mesh pawn.obj --quad 17 --out pawn17.csv\n"
+      "  quadrille fragments --method split02 --scene fig10_convex --size 64x64 --out split.csv\n"
       "  quadrille fragments --engine fp32 --scene bowtie --size 64x64 --pixel 20,20 --errors --out -");
   const auto options = std::make_shared<FragmentsOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
   options->state.add_to(*command);
   options->engine.add_to(*command, true);
+  command
+      ->add_option(
+          "--method", options->method,
+          "A method of the papers instead of an engine, on the quads as given; `quadrille compare --help` lists them")
+      ->type_name("METHOD")
+      ->excludes("--engine")
+      ->excludes("--snap");
   writes_file(*command, command->add_option("--out", options->out, "The table; - is standard output"), "csv");
   command->add_option("--quad", options->quad, "Only the quad at this position, counted from 0")
       ->type_name("N")

@@ -4,7 +4,10 @@
 #include <sys/stat.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdlib>
+#include <sstream>
+#include <vector>
 
 namespace {
 
@@ -232,6 +235,47 @@ TEST_F(Cli, BadRtlIsAnInputError) {
   write("bad.v", "module quadrille(input clk\n");
   refuses(2, "cosim --scene bowtie --rtl bad.v", {"--rtl bad.v: ", "bad.v:", "syntax error"});
   EXPECT_EQ(run("cosim --scene bowtie --rtl bad.v", "PATH=/nowhere").status, 3);
+}
+
+/// A method instead of an engine, on every kind of input. Expected by hand: split02 draws a square from 0 to 16 as the
+/// triangles 0 1 2 and 0 2 3, each with its barycentric coordinates.
+TEST_F(Cli, FragmentsByAMethod) {
+  write("square.quads", "0 0 0.5 1  16 0 0.5 1  16 16 0.5 1  0 16 0.5 1\n");
+  const std::string fragments = "fragments --method split02 --size 16x16 --quiet --out - ";
+  const Outcome outcome = run(fragments + "--quads square.quads --json f.json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  std::string line;
+  std::getline(lines, line);
+  int rows = 0;
+  for (; std::getline(lines, line); ++rows) {
+    std::istringstream cells(line);
+    std::vector<double> v;
+    for (std::string cell; std::getline(cells, cell, ',');) v.push_back(std::strtod(cell.c_str(), nullptr));
+    ASSERT_GE(v.size(), 9u);
+    const double x = (v[1] + 0.5) / 16, y = (v[2] + 0.5) / 16;
+    const std::array<double, 4> wanted = x >= y ? std::array{1 - x, x - y, y, 0.0} : std::array{1 - y, 0.0, x, y - x};
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(v[5 + i], wanted[i], 1e-14) << line;
+  }
+  EXPECT_EQ(rows, 16 * 16);
+  const json report = json::parse(read(file("f.json")));
+  EXPECT_EQ(report.at("method"), "split02");
+  EXPECT_FALSE(report.contains("engine"));
+  // One quad of a mesh for a method that looks at the object: the same as that quad among all.
+  write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0.3\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n");
+  const std::string adaptive = "fragments --method adaptive --mesh m.obj --size 48x48 --quiet --out ";
+  ASSERT_EQ(run(adaptive + "all.csv").status, 0);
+  ASSERT_EQ(run(adaptive + "one.csv --quad 1").status, 0);
+  const std::string all = read(file("all.csv")), one = read(file("one.csv"));
+  const std::size_t first = one.find("\n1,");
+  ASSERT_NE(first, std::string::npos);
+  ASSERT_NE(all.find("\n1,"), std::string::npos);
+  EXPECT_EQ(all.substr(all.find("\n1,")), one.substr(first));
+  for (const char* input : {"--scene bowtie", "--stress eye_crossing --count 3", "--corner face_plane"})
+    EXPECT_EQ(run(fragments + input).status, 0) << input;
+  refuses(2, fragments + "--quads square.quads --errors", {"--errors", "--method"});
+  refuses(2, fragments + "--quads square.quads --engine truth", {"--method"});
+  refuses(2, "fragments --method splt02 --quads square.quads --out -", {"splt02", "did you mean \"split02\""});
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "golden/io/npy.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/commands/sweep_cosim.hpp"
+#include "tb/commands/sweep_parts.hpp"
+#include "tb/commands/sweep_summary.hpp"
 #include "tb/commands/sweep_target.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/command_line.hpp"
@@ -152,10 +154,11 @@ class SweepRun {
       throw UsageError("--shard " + options_.shards.shard + ": the grid has " + std::to_string(grid_.size()) +
                        " points; at most so many shards have some each");
     if (options_.exhaustive && options_.targets.empty()) throw UsageError("--exhaustive goes with --target-error");
-    weights_ = sweep::weights_of(tb::parse_synthesis_target(options_.synth_target));
+    synth_target_ = tb::parse_synthesis_target(options_.synth_target);
+    weights_ = sweep::weights_of(synth_target_);
     if (!options_.common.config_file.empty()) golden::load_cost_weights(options_.common.config_file, weights_);
     for (const std::string& target : options_.targets) targets_.push_back(parse_target(target));
-    objective_ = !options_.objective.empty() ? sweep::parse_error_column(options_.objective, sweep::ErrorKind::total)
+    objective_ = !options_.objective.empty() ? sweep::parse_error_column(options_.objective)
                  : !targets_.empty()         ? targets_.front().column
                                              : sweep::ErrorColumn{};
 
@@ -303,6 +306,7 @@ class SweepRun {
     std::uint64_t steps = 0;
     search.targets = targets_;
     search.state = input_.state;
+    search.state_options = options_.state.spelled();
     search.seed = options_.common.seed;
     search.threads = options_.common.thread_count();
     search.confirm = !options_.no_confirm;
@@ -316,6 +320,24 @@ class SweepRun {
       return store.results().at(row);
     };
     target_ = search_target(search);
+    find_parts(evaluator, store);
+  }
+
+  /// Where the answer stands beside each target.
+  void find_parts(sweep::Evaluator& evaluator, const sweep::Store& store) {
+    const std::size_t row = answer_row(*target_);
+    const auto found = store.results().find(row);
+    if (found == store.results().end()) return;  // nothing could be evaluated
+    const Config config = grid_.point(row).config;
+    const auto evaluate = [&](std::span<const Config> configs) {
+      std::vector<sweep::PointResult> results(configs.size());
+      evaluator.evaluate(configs, [&](const sweep::Batch& batch) {
+        for (std::size_t i = 0; i < batch.points.size(); ++i) results[batch.points[i]] = batch.results[i];
+      });
+      return results;
+    };
+    for (const ErrorTarget& target : targets_)
+      parts_.push_back(target_parts(target, config, found->second, ordinary_(config), input_.state, evaluate));
   }
 
   // ---- what follows from the results ----
@@ -347,7 +369,7 @@ class SweepRun {
         [&](std::size_t i) {
           sweep::PointRow& point = rows_[i];
           if (!point.result.refused.empty()) return 0;
-          sweep::complete_row(point, weights_, ordinary_(point.config), input_.state.perspective);
+          sweep::complete_row(point, weights_, ordinary_(point.config), input_.state.perspective, synth_target_);
           if (point.result.worst.any) point.worst = worst_command(point.config, point.result.worst);
           return 0;
         },
@@ -362,12 +384,19 @@ class SweepRun {
       rows_[i].pareto = true;
       front_.push_back(rows_[i].row);
     }
-    for (const std::size_t i : sweep::knees(points, front, knee_count)) knees_.push_back(rows_[i].row);
+    if (rows_.size() < grid_.size()) {  // a bend of what happened to be evaluated says nothing of the grid
+      const auto evaluated = std::ranges::count_if(rows_, [](const auto& row) { return row.result.refused.empty(); });
+      no_knee_ = "the search evaluated " + std::to_string(evaluated) + " of " + std::to_string(grid_.size()) +
+                 " points, so the front is of these alone";
+      return;
+    }
+    const sweep::Knees found = sweep::knees(points, front, knee_count);
+    for (const std::size_t i : found.points) knees_.push_back(rows_[i].row);
+    no_knee_ = found.none;
   }
 
-  const sweep::PointRow& row_of(std::size_t row) const {
-    return *std::ranges::lower_bound(rows_, row, {}, &sweep::PointRow::row);
-  }
+  SweepSummary findings() const { return {grid_, rows_, front_, knees_, no_knee_, objective_, weights_}; }
+  const sweep::PointRow& row_of(std::size_t row) const { return findings().row_of(row); }
 
   void simulate_and_synthesise(sweep::Store& store) {
     std::vector<std::size_t> good;
@@ -397,7 +426,7 @@ class SweepRun {
     const tb::Stopwatch start;
     Progress progress("synthesis of " + std::to_string(synthesis.size()) + " points", synthesis.size(),
                       options_.common.show_progress());
-    synthesis_ = sweep::synthesise(synthesis, tb::parse_synthesis_target(options_.synth_target), weights_, threads,
+    synthesis_ = sweep::synthesise(synthesis, synth_target_, weights_, threads,
                                    [&](std::size_t done, std::size_t) { progress.set(done); });
     if (!synthesis.empty()) store.add_timing({"synthesis", synthesis.size(), start.seconds()});
     std::vector<double> estimates, measured;
@@ -432,6 +461,8 @@ class SweepRun {
     json["objective"] = objective_.name();
     json["front"] = front_;
     json["knees"] = knees_;
+    json["no_knee"] = no_knee_.empty() ? Json(nullptr) : Json(no_knee_);
+    json["cost"] = cost_words(weights_);
     json["cost_weights"] = {{"state", weights_.state},
                             {"multiplier", weights_.multiplier},
                             {"adder", weights_.adder},
@@ -441,7 +472,11 @@ class SweepRun {
                             {"block_ram", weights_.block_ram}};
     if (performance_) json["performance_counters"] = counters_json(*performance_);
     json["error_map_row"] = map_row < grid_.size() ? Json(map_row) : Json(nullptr);
-    if (target_) json["search"] = to_json(*target_, targets_);
+    if (target_) {
+      json["search"] = to_json(*target_);
+      json["search"]["row"] = answer_row(*target_);
+      for (const TargetParts& parts : parts_) json["search"]["targets"].push_back(to_json(parts));
+    }
     json["synthesis"] = {{"points", synthesis_.size()},
                          {"target", options_.synth_target},
                          {"rank_correlation", std::isnan(correlation_) ? Json(nullptr) : Json(correlation_)}};
@@ -492,17 +527,6 @@ class SweepRun {
     return std::ranges::any_of(rows_, [](const sweep::PointRow& row) { return row.result.fragments > 0; });
   }
 
-  /// The values of the keys that the sweep varies.
-  std::string varied(const Config& config) const {
-    std::string text;
-    for (const sweep::Axis& axis : grid_.axes()) {
-      const int value = config.resolved(axis.key);
-      if (grid_.kind() == sweep::Grid::Kind::one_at_a_time && value == base_.resolved(axis.key)) continue;
-      text += (text.empty() ? "" : " ") + axis.key + "=" + std::to_string(value);
-    }
-    return text.empty() ? "the base" : text;
-  }
-
   void print(std::FILE* out, double evaluation_seconds, double seconds) const {
     const auto refused =
         std::ranges::count_if(rows_, [](const sweep::PointRow& r) { return !r.result.refused.empty(); });
@@ -512,23 +536,20 @@ class SweepRun {
                  static_cast<unsigned long long>(options_.common.seed), summary(base_).c_str(), rows_.size(),
                  rows_.size() < grid_.size() ? (" of " + std::to_string(grid_.size())).c_str() : "", evaluation_seconds,
                  static_cast<std::size_t>(refused), seconds);
-    std::fprintf(out, "Pareto front of cost against %s (* knee)\n", objective_.name().c_str());
-    std::fprintf(out, "  %6s %10s %11s %9s  %s\n", "row", "cost", "error", "= 2^", "");
-    for (const std::size_t row : front_) {
-      const sweep::PointRow& point = row_of(row);
-      const double error = objective_.value(point.result);
-      std::fprintf(out, "%s %6zu %10.0f %11.3e %9.2f  %s\n", std::ranges::count(knees_, row) ? "*" : " ", row,
-                   point.scalar_cost, error, std::log2(error), varied(point.config).c_str());
-    }
+    print_front(out, findings());
     for (const CosimRow& row : cosim_)
       if (!row.ok())
         std::fprintf(stderr, "quadrille: co-simulation of row %zu (%s) failed: %s\n", row.row,
-                     varied(row_of(row.row).config).c_str(),
+                     varied(grid_, row_of(row.row).config).c_str(),
                      row.fragments == 0 ? "no fragments" : row.first_difference.c_str());
     if (!cosim_.empty())
       std::fprintf(out, "\nco-simulated %zu points (%s): %s\n", cosim_.size(),
                    options_.cosim.empty() ? "default, knees and corners" : options_.cosim.c_str(),
-                   cosim_ok() ? "no difference" : "DIFFERENCES");
+                   !cosim_ok()                     ? "DIFFERENCES"
+                   : options_.cosim_fragments == 0 ? "no difference"
+                                                   : ("no difference in the first " +
+                                                      std::to_string(options_.cosim_fragments) + " fragments of each")
+                                                         .c_str());
     if (!synthesis_.empty()) {
       std::fprintf(out, "synthesised %zu points for %s; rank correlation of estimated cost and %s ", synthesis_.size(),
                    options_.synth_target.c_str(), options_.synth_target == "cells" ? "area" : "LUTs");
@@ -537,69 +558,17 @@ class SweepRun {
       else
         std::fprintf(out, "%.3f\n", correlation_);
     }
-    print_planes(out);
+    if (asks_for_planes()) print_planes(out, findings(), (input_.state.skip & skip_plane) == 0, plane_scene);
     if (performance_) {
       std::fputc('\n', out);
       print_counters(out, *performance_, "of the base, by the clocked model");
     }
-    if (target_) print_target(out);
+    if (target_) print_target(out, findings(), *target_, parts_, draw_.name, !options_.no_confirm);
     std::error_code far;  // from the working directory where that is possible
     const std::filesystem::path report = tb::scripts_directory() / "sweep_report.py",
                                 near = std::filesystem::relative(report, far);
     std::fprintf(out, "\n%s/points.csv, manifest.json; %s %s draws them\n", options_.out.c_str(),
                  (far || near.native().starts_with("..") ? report : near).c_str(), options_.out.c_str());
-  }
-
-  /// What an axis of plane_quads does, a line a point.
-  void print_planes(std::FILE* out) const {
-    if (!asks_for_planes()) return;
-    constexpr std::size_t most = 40;
-    std::fprintf(out, "\nquads with areas for weights (plane_quads), errors against mean values\n");
-    std::fprintf(out, "  %6s %7s %12s %12s %10s  %s\n", "row", "share", "attribute", "depth", "cost", "");
-    std::size_t lines = 0;
-    bool taken = false;
-    const auto error = [&](const sweep::PointResult& result, sweep::Quantity quantity) {
-      const double value = sweep::ErrorColumn{sweep::ErrorKind::arithmetic, quantity}.value(result);
-      char text[16] = "-";
-      if (value > 0) std::snprintf(text, sizeof text, "2^%.2f", std::log2(value));
-      return std::string(text);
-    };
-    for (const sweep::PointRow& point : rows_) {
-      if (!point.result.refused.empty()) continue;
-      taken = taken || point.result.plane_quads != 0;
-      if (++lines > most) continue;
-      std::fprintf(out, "  %6zu %6.1f%% %12s %12s %10.0f  %s\n", point.row, 100 * sweep::plane_share(point.result),
-                   error(point.result, sweep::Quantity::attribute).c_str(),
-                   error(point.result, sweep::Quantity::depth).c_str(), point.scalar_cost,
-                   varied(point.config).c_str());
-    }
-    if (lines > most) std::fprintf(out, "  and %zu more: points.csv\n", lines - most);
-    if (!taken)
-      std::fprintf(out, "  no quad of this input is taken%s; %s has such\n",
-                   (input_.state.skip & skip_plane) == 0 ? ", as --skip says" : "", plane_scene);
-  }
-
-  void print_target(std::FILE* out) const {
-    const TargetResult& t = *target_;
-    std::string wanted;
-    for (const ErrorTarget& target : targets_) wanted += (wanted.empty() ? "" : ", ") + target.text;
-    const auto describe = [&](std::size_t row) {
-      const sweep::PointRow& point = row_of(row);
-      char cost[32];
-      std::snprintf(cost, sizeof cost, "%.0f", point.scalar_cost);
-      return "row " + std::to_string(row) + ", cost " + cost + ": " + varied(point.config);
-    };
-    std::fprintf(out, "\ntarget %s: %zu evaluations\n", wanted.c_str(), t.evaluations);
-    if (t.winner) std::fprintf(out, "  cheapest on %s:  %s\n", draw_.name.c_str(), describe(*t.winner).c_str());
-    if (t.confirmed)
-      std::fprintf(out, "  confirmed on all stress families:  %s\n",
-                   t.confirmed == t.winner ? "the same" : describe(*t.confirmed).c_str());
-    const auto worst = std::max_element(
-        t.families.begin(), t.families.end(),
-        [](const FamilyCheck& a, const FamilyCheck& b) { return std::fmax(a.miss, 0) < std::fmax(b.miss, 0); });
-    if (worst != t.families.end())
-      std::fprintf(out, "  worst input: family %s, %.0f %% of the target; its worst weight:\n    %s\n",
-                   worst->family.c_str(), 100 * worst->miss, worst->worst.c_str());
   }
 
   int status() const {
@@ -623,7 +592,14 @@ class SweepRun {
     if (target_ && !target_->winner) {
       std::fprintf(stderr,
                    "quadrille: no point of the grid meets the target; the closest, row %zu (%s), has %.3g times it\n",
-                   target_->closest_row, varied(row_of(target_->closest_row).config).c_str(), target_->closest);
+                   target_->closest_row, varied(grid_, row_of(target_->closest_row).config).c_str(), target_->closest);
+      return exit_mismatch;
+    }
+    if (target_ && !options_.no_confirm && !target_->confirmed && std::isnan(target_->confirm_closest)) {
+      std::fprintf(stderr,
+                   "quadrille: no stress family measures every target, so nothing confirms row %zu; --no-confirm asks "
+                   "for the input alone\n",
+                   *target_->winner);
       return exit_mismatch;
     }
     if (target_ && !options_.no_confirm && !target_->confirmed) {
@@ -631,7 +607,7 @@ class SweepRun {
                    "quadrille: no point of the grid meets the target on the input and on all stress families; the "
                    "closest of those "
                    "that meet it on the input, row %zu (%s), has %.3g times it\n",
-                   target_->confirm_closest_row, varied(row_of(target_->confirm_closest_row).config).c_str(),
+                   target_->confirm_closest_row, varied(grid_, row_of(target_->confirm_closest_row).config).c_str(),
                    target_->confirm_closest);
       return exit_mismatch;
     }
@@ -643,6 +619,7 @@ class SweepRun {
   const Config base_;
   const sweep::Grid grid_;
   const Shard shard_;
+  tb::SynthesisTarget synth_target_{};
   CostWeights weights_;
   std::vector<ErrorTarget> targets_;
   sweep::ErrorColumn objective_;
@@ -652,10 +629,12 @@ class SweepRun {
   std::map<std::size_t, std::string> refused_;  ///< rows that were not evaluated
   std::vector<sweep::PointRow> rows_;           ///< rising
   std::vector<std::size_t> front_, knees_;
+  std::string no_knee_;
   std::vector<CosimRow> cosim_;
   std::vector<sweep::SynthesisRow> synthesis_;
   double correlation_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<TargetResult> target_;
+  std::vector<TargetParts> parts_;                  ///< of answer_row(), a target each
   std::optional<PerformanceCounters> performance_;  ///< of the base configuration
   sweep::OrdinaryInput ordinary_{input_};
 };
@@ -706,9 +685,9 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
   command
       ->add_option(
           "--objective", options->objective,
-          "Error of the Pareto front and its knees: total (snapping + arithmetic, of the weights: the default), "
-          "arithmetic, snapping, a quantity such as colour (its total), or a column of points.csv; with "
-          "--target-error its first column unless given")
+          "Error of the Pareto front and its knees: arithmetic (of the weights: the default), snapping, total (their "
+          "sum), a quantity such as colour (its arithmetic error), or a column of points.csv; with --target-error its "
+          "first column unless given")
       ->type_name("ERROR");
   command
       ->add_option("--cosim", options->cosim,

@@ -1,59 +1,14 @@
 // quadrille sweep as a user runs it: files, determinism, going on after an interruption, targets, bad input.
-#include "tb/commands/cli_fixture.hpp"
-
-#include <nlohmann/json.hpp>
+#include "tb/commands/sweep_fixture.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <sstream>
 
 namespace {
 
 using namespace quadrille::cli_test;
-using nlohmann::json;
-
-using Table = std::vector<std::map<std::string, std::string>>;
-
-/// A CSV file whose quoted cells hold no line breaks.
-Table table(const fs::path& file) {
-  std::ifstream in(file);
-  std::vector<std::string> names;
-  Table rows;
-  for (std::string line; std::getline(in, line);) {
-    std::vector<std::string> cells{""};
-    bool quoted = false;
-    for (const char c : line) {
-      if (c == '"')
-        quoted = !quoted;
-      else if (c == ',' && !quoted)
-        cells.emplace_back();
-      else
-        cells.back() += c;
-    }
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    EXPECT_EQ(cells.size(), names.size());
-    auto& row = rows.emplace_back();
-    for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = cells[i];
-  }
-  return rows;
-}
-
-class SweepCli : public Cli {
- protected:
-  static constexpr const char* small = " --scene fig10_concave --size 48x48 --cosim none ";
-  /// How often each stage was executed.
-  std::map<std::string, int> settings(const std::string& directory) const {
-    std::map<std::string, int> out;
-    for (const auto& row : table(file(directory) / "stages.csv")) out[row.at("stage")] = std::stoi(row.at("settings"));
-    return out;
-  }
-  json manifest(const std::string& directory) const { return json::parse(read(file(directory) / "manifest.json")); }
-};
 
 TEST_F(SweepCli, FullGridInOrder) {
   const Outcome outcome = run("sweep" + std::string(small) +
@@ -235,28 +190,6 @@ TEST_F(SweepCli, AKeyOnAnAxisIsTheKeyBySet) {
   }
 }
 
-TEST_F(SweepCli, TargetsAreSearched) {
-  const std::string grid = std::string(small) + "--axis significand_bits=8:26 --axis align_guard_bits=0:3 ";
-  const Outcome found = run("sweep --target-error lambda=2^-12" + grid + "--no-confirm --out t");
-  ASSERT_EQ(found.status, 0) << found.err;
-  const json search = manifest("t").at("search");
-  ASSERT_EQ(run("sweep --target-error lambda=2^-12 --exhaustive" + grid + "--no-confirm --out e").status, 0);
-  EXPECT_EQ(search.at("winner"), manifest("e").at("search").at("winner"));
-  EXPECT_LT(search.at("evaluations"), 40);
-  EXPECT_EQ(manifest("e").at("search").at("evaluations"), 76);
-  // The rows that the search evaluated are those of the whole grid.
-  std::map<std::string, std::string> whole;
-  for (const auto& row : table(file("e") / "points.csv")) whole[row.at("row")] = row.at("arithmetic_lambda_max");
-  EXPECT_EQ(whole.size(), 76u);
-  for (const auto& row : table(file("t") / "points.csv"))
-    EXPECT_EQ(row.at("arithmetic_lambda_max"), whole.at(row.at("row")));
-
-  const Outcome unreachable = run("sweep --target-error lambda=2^-40" + grid + "--no-confirm --out u");
-  EXPECT_EQ(unreachable.status, 1);
-  EXPECT_NE(unreachable.err.find("no point of the grid meets the target; the closest, row"), std::string::npos)
-      << unreachable.err;
-}
-
 TEST_F(SweepCli, AFinishedSweepCanBeAskedForMore) {
   const std::string sweep = "sweep" + std::string(small) + "--axis significand_bits=10:18:4 --out m ";
   ASSERT_EQ(run(sweep).status, 0);
@@ -264,7 +197,7 @@ TEST_F(SweepCli, AFinishedSweepCanBeAskedForMore) {
   write("w.toml", "[cost]\nmultiplier = 1000\n");
   ASSERT_EQ(run(sweep + "--objective colour --config w.toml --json j.json").status, 0);
   const json after = manifest("m");
-  EXPECT_EQ(after.at("objective"), "total_colour_max");
+  EXPECT_EQ(after.at("objective"), "arithmetic_colour_max");
   EXPECT_EQ(after.at("cost_weights").at("multiplier"), 1000);
   EXPECT_EQ(read(file("m") / "stages.csv"), stages);
   EXPECT_EQ(json::parse(read(file("j.json"))), after);
@@ -275,7 +208,7 @@ TEST_F(SweepCli, AFinishedSweepCanBeAskedForMore) {
   EXPECT_EQ(run(missed).status, 1);
 }
 
-TEST_F(SweepCli, TheObjectiveIsTheTotalErrorUnlessAsked) {
+TEST_F(SweepCli, TheObjectiveIsTheArithmeticErrorUnlessAsked) {
   const std::string sweep =
       "sweep --scene phong_mesh --size 96x96 --cosim none --no-cycles --axis subpixel_bits=2,4,8 "
       "--axis significand_bits=10:22:4 --out k ";
@@ -284,6 +217,7 @@ TEST_F(SweepCli, TheObjectiveIsTheTotalErrorUnlessAsked) {
     const json m = manifest("k");
     EXPECT_EQ(m.at("objective"), objective);
     EXPECT_GE(m.at("knees").size(), 1u);
+    EXPECT_TRUE(m.at("no_knee").is_null());
     const Table rows = table(file("k") / "points.csv");
     std::size_t coarse = 0;
     for (const std::size_t row : m.at("knees")) coarse += rows.at(row).at("subpixel_bits") == "2" ? 1 : 0;
@@ -292,8 +226,11 @@ TEST_F(SweepCli, TheObjectiveIsTheTotalErrorUnlessAsked) {
                 std::stod(row.at("snapping_lambda_max")) + std::stod(row.at("arithmetic_lambda_max")));
     return coarse;
   };
-  EXPECT_EQ(coarse_knees("", "total_lambda_max"), 0u);
-  EXPECT_GE(coarse_knees("--objective arithmetic", "arithmetic_lambda_max"), 1u) << "a quarter of a pixel costs least";
+  EXPECT_EQ(coarse_knees("--objective total", "total_lambda_max"), 0u);
+  EXPECT_GE(coarse_knees("", "arithmetic_lambda_max"), 1u) << "a quarter of a pixel costs least";
+  // The front says the total beside the arithmetic error, which does not see the coarse grid.
+  const Outcome printed = run(sweep);
+  EXPECT_NE(printed.out.find(" total "), std::string::npos) << printed.out;
   // A target without a kind is one of arithmetic error, which the grid meets; the total it does not.
   const std::string target =
       "sweep --scene phong_mesh --size 96x96 --cosim none --no-cycles --no-confirm --axis "
@@ -301,6 +238,57 @@ TEST_F(SweepCli, TheObjectiveIsTheTotalErrorUnlessAsked) {
   EXPECT_EQ(run(target + "lambda=2^-14 --out a").status, 0);
   EXPECT_EQ(manifest("a").at("objective"), "arithmetic_lambda_max");
   EXPECT_EQ(run(target + "total_lambda_max=2^-14 --out t").status, 1);
+}
+
+/// Snapping is the same with every width of the arithmetic, so the total hardly falls: a knee there would be of noise.
+TEST_F(SweepCli, AFlatFrontHasNoKnee) {
+  const std::string sweep =
+      "sweep --scene sphere --size 64x64 --cosim none --no-cycles --axis significand_bits=16:26:2 --out f ";
+  const Outcome flat = run(sweep + "--objective total");
+  ASSERT_EQ(flat.status, 0) << flat.err;
+  const json m = manifest("f");
+  ASSERT_GE(m.at("front").size(), 3u);
+  EXPECT_EQ(m.at("knees").size(), 0u);
+  EXPECT_NE(m.at("no_knee").get<std::string>().find("flat"), std::string::npos);
+  EXPECT_NE(flat.out.find("No knee: " + m.at("no_knee").get<std::string>()), std::string::npos) << flat.out;
+  EXPECT_EQ(flat.out.find("\n* "), std::string::npos) << flat.out;
+  // The arithmetic error halves with every bit.
+  EXPECT_EQ(run(sweep).out.find("flat"), std::string::npos);
+  EXPECT_EQ(manifest("f").at("objective"), "arithmetic_lambda_max");
+}
+
+TEST_F(SweepCli, WhatAPointTakes) {
+  const Outcome outcome = run("sweep" + std::string(small) + "--axis pixels_per_clock=1,4 --out p");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json weights = manifest("p").at("cost_weights");
+  const Table rows = table(file("p") / "points.csv");
+  ASSERT_EQ(rows.size(), 2u);
+  for (const auto& row : rows) {
+    const auto value = [&](const char* name) { return std::stod(row.at(name)); };
+    EXPECT_NEAR(value("cost"),
+                value("luts") + weights.at("dsp").get<double>() * value("dsps") +
+                    weights.at("block_ram").get<double>() * value("block_rams"),
+                1e-6);
+    EXPECT_EQ(value("flip_flops"), value("state_bits") - value("memory_bits"));
+    EXPECT_EQ(value("fragments_per_clock"), value("fragments") / value("cycles"));
+    EXPECT_GT(value("fragments_per_clock"), 0.05);
+  }
+  // What is printed of the cheaper one, which is on the front.
+  char wanted[200];
+  std::snprintf(wanted, sizeof wanted, " %8.0f %7s %5s %5s %8.3f  pixels_per_clock=1", std::stod(rows[0].at("luts")),
+                rows[0].at("flip_flops").c_str(), rows[0].at("dsps").c_str(), rows[0].at("block_rams").c_str(),
+                std::stod(rows[0].at("fragments_per_clock")));
+  EXPECT_NE(outcome.out.find(wanted), std::string::npos) << wanted << "\n" << outcome.out;
+  for (const char* name : {" LUT ", " FF ", " DSP ", " BRAM ", "px/clock", "cost = LUTs + 536 a DSP block"})
+    EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
+  // Multipliers in logic: no block, and the sentence on cost has none.
+  const Outcome logic =
+      run("sweep" + std::string(small) + "--axis pixels_per_clock=1 --no-cycles --synth-target ecp5-nodsp --out n");
+  EXPECT_NE(logic.out.find("cost = LUTs + 402 a block RAM"), std::string::npos) << logic.out;
+  const auto row = table(file("n") / "points.csv").at(0);
+  EXPECT_EQ(row.at("dsps"), "0");
+  EXPECT_EQ(row.at("fragments_per_clock"), "");
+  EXPECT_GT(std::stod(row.at("luts")), std::stod(rows[0].at("luts")) * 1.5);
 }
 
 TEST_F(SweepCli, SampledErrorsAreBelowProvedBounds) {
@@ -344,18 +332,6 @@ TEST_F(SweepCli, AnAxisOfPlaneQuads) {
   ASSERT_EQ(refused.status, 0) << refused.err;
   for (const auto& row : table(file("b") / "points.csv")) EXPECT_EQ(row.at("quads_plane"), "0");
   EXPECT_NE(refused.out.find("no quad of this input is taken, as --skip says"), std::string::npos) << refused.out;
-}
-
-TEST_F(SweepCli, UnconfirmedTargetsSayHowClose) {
-  const Outcome outcome = run(
-      "sweep --target-error colour=0.5/255 --target-error depth=2^-16 --size 64x64 --scene sphere --cosim none --axis "
-      "significand_bits=12:26:2 --axis depth_bits=16:28:4 --out c");
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.err.find("stress families; the closest"), std::string::npos) << outcome.err;
-  const json search = manifest("c").at("search");
-  EXPECT_TRUE(search.at("confirmed").is_null());
-  EXPECT_FALSE(search.at("winner").is_null());
-  EXPECT_GT(search.at("confirm_closest").at("error_over_target"), 1);
 }
 
 TEST_F(SweepCli, NothingMeasuredIsSaid) {

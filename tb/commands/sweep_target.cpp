@@ -78,7 +78,7 @@ ErrorTarget parse_target(const std::string& text) {
   ErrorTarget target;
   target.text = text;
   try {
-    target.column = sweep::parse_error_column(text.substr(0, equals), sweep::ErrorKind::arithmetic);
+    target.column = sweep::parse_error_column(text.substr(0, equals));
   } catch (const ConfigError& error) {
     throw UsageError("--target-error " + text + ": " + error.what());
   }
@@ -120,8 +120,7 @@ class Search {
       for (std::size_t i = 0; i < points_.size(); ++i) input_miss(i);
     const sweep::SearchResult first = find();
     result.evaluations = missed_.size();
-    result.closest = first.closest;
-    if (!points_.empty()) result.closest_row = search_.rows[first.closest_point];
+    find_closest(result);
     if (!first.winner) return result;
     result.winner = search_.rows[*first.winner];
     if (search_.confirm) confirm(*first.winner, result);
@@ -132,6 +131,19 @@ class Search {
   sweep::SearchResult find() {
     return sweep::cheapest_meeting(
         points_, [&](std::size_t i) { return miss(i); }, sweep::sampled_slack, idle_keys_);
+  }
+
+  /// By the ratio: half the target is as far from it as twice. An error of 0 or none is as far as can be.
+  void find_closest(TargetResult& result) const {
+    double least = std::numeric_limits<double>::infinity();
+    result.closest = least;
+    for (const auto& [point, miss] : missed_) {
+      const double distance = std::fabs(std::log2(miss));
+      if (!(distance < least) && !(std::isinf(least) && miss < result.closest)) continue;
+      least = distance;
+      result.closest = miss;
+      result.closest_row = search_.rows[point];
+    }
   }
 
   double input_miss(std::size_t point) {
@@ -174,20 +186,32 @@ class Search {
     return worst;
   }
 
+  double family_total(std::size_t family, std::size_t point) {
+    double worst = std::numeric_limits<double>::quiet_NaN();
+    for (const ErrorTarget& target : search_.targets) {
+      const sweep::ErrorColumn total{sweep::ErrorKind::total, target.column.quantity, target.column.statistic};
+      worst = std::fmax(worst, total.value(on_family(family, point)) / target.limit);
+    }
+    return worst;
+  }
+
   std::vector<FamilyCheck> check_families(std::size_t point) {
     std::vector<FamilyCheck> checks;
     for (std::size_t f = 0; f < families_.size(); ++f) {
       const sweep::PointResult& result = on_family(f, point);
-      FamilyCheck check{families_[f].name, family_miss(f, point), {}, {}, result.fragments};
-      for (const ErrorTarget& target : search_.targets)
-        if (target.column.value(result) / target.limit == check.miss) check.target = target.text;
+      FamilyCheck check{families_[f].name, family_miss(f, point), family_total(f, point), {}, {}, result.fragments};
+      for (const ErrorTarget& target : search_.targets) {
+        const double miss = target.column.value(result) / target.limit;
+        if (miss == check.miss) check.target = target.text;
+        check.measured = check.measured && !std::isnan(miss);
+      }
       if (result.worst.any)
         check.worst = "quadrille fragments --engine model --stress " + families_[f].name + " --count " +
                       std::to_string(family_quads) + spelled(points_[point].config) + " --size " +
                       std::to_string(families_[f].input.state.width) + "x" +
                       std::to_string(families_[f].input.state.height) + " --seed " + std::to_string(search_.seed) +
-                      " --quad " + std::to_string(result.worst.index) + " --pixel " + std::to_string(result.worst.x) +
-                      "," + std::to_string(result.worst.y) + " --out -";
+                      search_.state_options + " --quad " + std::to_string(result.worst.index) + " --pixel " +
+                      std::to_string(result.worst.x) + "," + std::to_string(result.worst.y) + " --out -";
       checks.push_back(std::move(check));
     }
     return checks;
@@ -203,6 +227,12 @@ class Search {
       const auto worst = std::max_element(checks.begin(), checks.end(), [](const FamilyCheck& a, const FamilyCheck& b) {
         return std::fmax(a.miss, 0.0) < std::fmax(b.miss, 0.0);
       });
+      if (std::ranges::none_of(checks, &FamilyCheck::measured)) {  // nothing speaks against it, and nothing for it
+        result.families = checks;
+        result.confirm_closest = std::numeric_limits<double>::quiet_NaN();
+        result.confirm_closest_row = search_.rows[candidate];
+        break;
+      }
       const bool met = !(worst->miss > 1);
       if (result.families.empty() || met) result.families = checks;
       if (met) {
@@ -213,7 +243,10 @@ class Search {
       closest_ = std::numeric_limits<double>::infinity();  // of what met fewer families nothing is known
       const sweep::SearchResult next = find();
       if (!next.winner) {
+        // The search saw only the families that refuted a winner; what is said of the point is of all.
         result.confirm_closest = closest_;
+        for (std::size_t f = 0; f < families_.size(); ++f)
+          result.confirm_closest = std::fmax(result.confirm_closest, family_miss(f, closest_point_));
         result.confirm_closest_row = search_.rows[closest_point_];
         break;
       }
@@ -247,12 +280,17 @@ nlohmann::ordered_json row_or_null(const std::optional<std::size_t>& row) {
 
 }  // namespace
 
+std::vector<std::string> unmeasured(const TargetResult& result) {
+  std::vector<std::string> names;
+  for (const FamilyCheck& check : result.families)
+    if (!check.measured) names.push_back(check.family);
+  return names;
+}
+
 TargetResult search_target(const TargetSearch& search) { return Search(search).run(); }
 
-nlohmann::ordered_json to_json(const TargetResult& result, std::span<const ErrorTarget> targets) {
+nlohmann::ordered_json to_json(const TargetResult& result) {
   nlohmann::ordered_json json;
-  for (const ErrorTarget& target : targets)
-    json["targets"].push_back({{"given", target.text}, {"column", target.column.name()}, {"limit", target.limit}});
   json["winner"] = row_or_null(result.winner);
   json["confirmed"] = row_or_null(result.confirmed);
   json["evaluations"] = result.evaluations;
@@ -263,8 +301,10 @@ nlohmann::ordered_json to_json(const TargetResult& result, std::span<const Error
   for (const FamilyCheck& check : result.families)
     json["families"].push_back({{"family", check.family},
                                 {"error_over_target", check.miss},
+                                {"total_over_target", check.total},
                                 {"target", check.target},
                                 {"fragments", check.fragments},
+                                {"measured", check.measured},
                                 {"worst", check.worst}});
   return json;
 }

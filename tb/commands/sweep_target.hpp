@@ -38,7 +38,8 @@ struct TargetSearch {
   std::vector<ErrorTarget> targets;
   /// Evaluates the configuration at a position of `rows` on the input of the sweep.
   std::function<sweep::PointResult(std::size_t)> evaluate;
-  DrawState state;  ///< of the draw; the families are drawn with it on a viewport of at most 256x256
+  DrawState state;            ///< of the draw; the families are drawn with it on a viewport of at most 256x256
+  std::string state_options;  ///< that draw with `state`, for the commands that are printed
   std::uint64_t seed = 1;
   unsigned threads = 1;
   bool confirm = true;
@@ -49,26 +50,36 @@ struct TargetSearch {
 /// How a configuration does on one stress family.
 struct FamilyCheck {
   std::string family;
-  double miss = 0;  ///< error / limit; NaN: not measured there
+  double miss = 0;   ///< error / limit; NaN: not measured there
+  double total = 0;  ///< the same of the total error, whatever the target judges
   std::string target;
   std::string worst;  ///< a command that prints the fragment with the worst weights
   std::uint64_t fragments = 0;
+  bool measured = true;  ///< every target's quantity is there
 };
 
 struct TargetResult {
   std::optional<std::size_t> winner;     ///< row of the cheapest point that meets the targets on the input
-  std::optional<std::size_t> confirmed;  ///< row of the cheapest that meets them on the families too
+  std::optional<std::size_t> confirmed;  ///< row of the cheapest that meets them on the families that measure them too
   std::size_t evaluations = 0;           ///< on the input, until the winner was known
   std::size_t confirm_evaluations = 0;   ///< further points, because a family refuted a winner
-  double closest = 0;                    ///< smallest miss on the input
+  double closest = 0;                    ///< of the points evaluated on the input, the miss nearest to 1, as a ratio
   std::size_t closest_row = 0;
   std::vector<FamilyCheck> families;  ///< of the confirmed point, or of the winner when none was confirmed
-  double confirm_closest = 0;         ///< smallest miss over input and families, when none was confirmed
+  double confirm_closest = 0;         ///< when none was confirmed: the point nearest to it, its miss over all families
   std::size_t confirm_closest_row = 0;
 };
 
+/// Families that say nothing of some target: depth is off, no such fragment, or the configuration cannot draw them.
+std::vector<std::string> unmeasured(const TargetResult& result);
+
+/// The row that answers the search: confirmed, else the winner, else the closest.
+inline std::size_t answer_row(const TargetResult& result) {
+  return result.confirmed ? *result.confirmed : result.winner ? *result.winner : result.closest_row;
+}
+
 TargetResult search_target(const TargetSearch& search);
 
-nlohmann::ordered_json to_json(const TargetResult& result, std::span<const ErrorTarget> targets);
+nlohmann::ordered_json to_json(const TargetResult& result);
 
 }  // namespace quadrille::cli

@@ -292,7 +292,7 @@ double probability(const char* name, double value) {
   return value;
 }
 
-void InputOptions::add_to(CLI::App& app, bool any) {
+void InputOptions::add_to(CLI::App& app) {
   constexpr const char* group = "Input";
   app.add_option("--scene", scene, "Built-in scene; `quadrille scenes` lists them")->type_name("NAME")->group(group);
   app.add_option("--mesh", mesh, "Polygon mesh (Wavefront OBJ)")->type_name("F.obj")->group(group);
@@ -314,20 +314,18 @@ void InputOptions::add_to(CLI::App& app, bool any) {
       app.add_option("--save-camera", save_camera, "Write the camera of --mesh; --camera reads it and draws the same"),
       "json")
       ->group(group);
-  if (any) {
-    app.add_option("--quads", quads, "Quads in homogeneous window coordinates")->type_name("F.quads")->group(group);
-    app.add_option("--stress", stress, "Random quads of a stress family, such as general or eye_crossing")
-        ->type_name("FAMILY")
-        ->group(group);
-    app.add_option("--count", count, "Quads of --stress")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 10'000'000))
-        ->group(group);
-    app.add_option("--corner", corner, "Directed quads of a rare case; `quadrille scenes --corner` lists them")
-        ->type_name("GROUP")
-        ->group(group);
-  }
+  app.add_option("--quads", quads, "Quads in homogeneous window coordinates")->type_name("F.quads")->group(group);
+  app.add_option("--stress", stress, "Random quads of a stress family, such as general or eye_crossing")
+      ->type_name("FAMILY")
+      ->group(group);
+  app.add_option("--count", count, "Quads of --stress")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10'000'000))
+      ->group(group);
+  app.add_option("--corner", corner, "Directed quads of a rare case; `quadrille scenes --corner` lists them")
+      ->type_name("GROUP")
+      ->group(group);
   app.add_flag("--strict", strict, "Refuse faces with more than four corners instead of cutting them up")->group(group);
 }
 

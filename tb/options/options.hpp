@@ -77,8 +77,7 @@ struct InputOptions {
   /// The files among them.
   std::vector<std::string> files() const { return {mesh, camera, quads}; }
 
-  /// `any` false: for a command that needs object space (no --quads, --stress, --count, --corner).
-  void add_to(CLI::App& app, bool any = true);
+  void add_to(CLI::App& app);
   /// --light, for a command that draws pictures.
   void add_light_to(CLI::App& app);
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
@@ -64,15 +65,17 @@ std::vector<std::size_t> pareto_front(std::span<const CostError> points) {
   return front;
 }
 
-std::vector<std::size_t> knees(std::span<const CostError> points, std::span<const std::size_t> front,
-                               std::size_t count) {
+Knees knees(std::span<const CostError> points, std::span<const std::size_t> front, std::size_t count) {
   std::vector<Place> curve;
   for (const std::size_t i : front) {
     const Place p{std::log(points[i].cost), std::log(points[i].error), i};
     if (std::isfinite(p.x) && std::isfinite(p.y)) curve.push_back(p);
   }
-  if (curve.size() < 3) return {};
+  if (count == 0) return {};
+  if (curve.size() < 3) return {{}, "the front has fewer than three points with an error above 0"};
   const Place first = curve.front(), last = curve.back();  // x rises, y falls
+  if (first.y - last.y < std::numbers::ln2)
+    return {{}, "the front is flat: from its cheapest to its dearest point the error falls by less than one bit"};
   for (Place& p : curve) {
     p.x = to_unit(p.x, first.x, last.x);
     p.y = to_unit(p.y, last.y, first.y);
@@ -96,8 +99,10 @@ std::vector<std::size_t> knees(std::span<const CostError> points, std::span<cons
     }
     line.insert(std::ranges::upper_bound(line, chosen), chosen);
   }
-  std::vector<std::size_t> result;
-  for (std::size_t k = 1; k + 1 < line.size(); ++k) result.push_back(hull[line[k]].point);
+  Knees result;
+  for (std::size_t k = 1; k + 1 < line.size(); ++k) result.points.push_back(hull[line[k]].point);
+  if (result.points.empty())
+    result.none = "the front bends nowhere: its dear end gains as much accuracy for more cost as its cheap end";
   return result;
 }
 

@@ -66,8 +66,12 @@ std::vector<CostError> from_logarithms(std::initializer_list<std::pair<double, d
 }
 
 Positions knees_of(const std::vector<CostError>& points, std::size_t count) {
-  return knees(points, pareto_front(points), count);
+  const Knees found = knees(points, pareto_front(points), count);
+  EXPECT_EQ(found.none.empty(), count == 0 || !found.points.empty()) << "why there is none is said";
+  return found.points;
 }
+
+std::string why_none(const std::vector<CostError>& points) { return knees(points, pareto_front(points), 3).none; }
 
 TEST(Knees, ByHand) {
   // Scaled to the unit square: (0, 1) (0.1, 0.3) (0.5, 0.2) (0.6, 0.05) (1, 0). Distances from the chord x + y = 1,
@@ -102,6 +106,21 @@ TEST(Knees, NeverTheEndsAndNoneOnAStraightLine) {
   EXPECT_EQ(knees_of(from_logarithms({{0, 0}, {1, -1}}), 3), Positions{});
   EXPECT_EQ(knees_of(from_logarithms({{0, 0}, {1, -3}, {2, -6}, {3, -9}}), 3), Positions{});
   EXPECT_EQ(knees_of(from_logarithms({{0, 0}, {1, -1}, {2, -5}}), 3), Positions{}) << "bends the other way";
+}
+
+TEST(Knees, NoneOnAFlatFront) {
+  // One shape, in the unit square (0, 1) (0.1, 0.3) (0.6, 0.05) (1, 0), over a fall of h bits.
+  const auto falling = [](double h) { return from_logarithms({{0, 0}, {1, -0.7 * h}, {6, -0.95 * h}, {10, -h}}); };
+  EXPECT_EQ(knees_of(falling(1.01), 3), (Positions{1, 2}));
+  EXPECT_EQ(knees_of(falling(0.99), 3), Positions{});
+  EXPECT_NE(why_none(falling(0.99)).find("flat"), std::string::npos);
+  EXPECT_NE(why_none(from_logarithms({{0, 0}, {1, -9}})).find("fewer than three"), std::string::npos);
+  EXPECT_NE(why_none(from_logarithms({{0, 0}, {1, -1}, {2, -5}})).find("bends nowhere"), std::string::npos);
+  EXPECT_EQ(why_none(falling(20)), "");
+  // The default sweep's front of total errors, in which snapping of 3.98e-3 hides all else.
+  const std::vector<CostError> hidden{{94492, 3.994e-3},  {107593, 3.9935e-3}, {205829, 3.989e-3}, {210029, 3.987e-3},
+                                      {212100, 3.986e-3}, {217049, 3.984e-3},  {218290, 3.9839e-3}};
+  EXPECT_EQ(knees_of(hidden, 3), Positions{});
 }
 
 TEST(Knees, PositionsAreThoseOfThePoints) {

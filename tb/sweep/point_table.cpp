@@ -16,7 +16,7 @@
 namespace quadrille::sweep {
 namespace {
 
-constexpr std::array<std::string_view, 3> kinds{"snapping", "arithmetic", "total"};  // by ErrorKind
+constexpr const auto& kinds = error_kind_names;
 
 struct Statistic {
   std::string_view name, meaning;
@@ -124,15 +124,18 @@ std::vector<PointColumn> make_columns() {
                   {"plane_share", "1", "quads_plane of quads"},
                   {"plane_fragments", "fragments", "of quads_plane"},
                   {"cost", "LUTs", "scalar cost"},
+                  {"luts", "LUTs", "of the cost those that are no block, estimated"},
+                  {"flip_flops", "", "estimated"},
+                  {"dsps", "blocks", "multipliers of 18 x 18 bits; 0 where the target has none"},
+                  {"block_rams", "blocks", "memories of 18 Kbit; 0 where the target has none"},
                   {"state_bits", "bits", "registers and memories"},
                   {"multiplier_bits", "bits^2", "sum over multipliers of operand widths' products"},
                   {"adder_bits", "bits", "adders, comparators, shifter stages, small memories"},
                   {"table_bits", "bits", "sqrt and reciprocal tables in logic"},
-                  {"dsps", "blocks", "multipliers of 18 x 18 bits, where the target has them"},
                   {"join_bits", "bits", "adders that join those of one multiplier"},
                   {"memory_bits", "bits", "of state_bits those in memories, where the target has them"},
-                  {"block_rams", "blocks", "memories of 18 Kbit, where the target has them"},
                   {"cycles", "clocks", "the whole draw without stalls"},
+                  {"fragments_per_clock", "1", "fragments of cycles"},
                   {"pareto", "", "1 on the front of cost against the objective"},
                   {"worst_error", "1", "largest arithmetic error of a weight"},
                   {"worst", "", "a command that prints that fragment"}});
@@ -141,10 +144,20 @@ std::vector<PointColumn> make_columns() {
 
 }  // namespace
 
-void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool perspective) {
+Resources resources_of(const HardwareCost& cost, const CostWeights& weights, tb::SynthesisTarget target) {
+  const bool memories = target != tb::SynthesisTarget::cells;
+  return {.luts = lut_cost(cost, weights),
+          .flip_flops = cost.state_bits - (memories ? cost.memory_bits : 0),
+          .dsps = target == tb::SynthesisTarget::ecp5 ? cost.dsps : 0,
+          .block_rams = memories ? cost.block_rams : 0};
+}
+
+void complete_row(PointRow& row, const CostWeights& weights, bool ordinary, bool perspective,
+                  tb::SynthesisTarget target) {
   const ErrorBound none{std::numeric_limits<double>::infinity(), false, {}};
   row.cost = hardware_cost(row.config);
   row.scalar_cost = scalar_cost(row.cost, weights);
+  row.resources = resources_of(row.cost, weights, target);
   const Proofs proofs = proofs_of(row.config);
   row.bound_lambda = ordinary || perspective ? proofs.lambda : none;
   row.bound_attribute = ordinary || perspective ? proofs.attribute.at(row.result.attribute_spread) : none;
@@ -176,12 +189,17 @@ double ErrorColumn::value(const PointResult& result) const {
   return sum;
 }
 
+double fragments_per_clock(const PointResult& result) {
+  return result.cycles == 0 ? std::numeric_limits<double>::quiet_NaN()
+                            : static_cast<double>(result.fragments) / static_cast<double>(result.cycles);
+}
+
 double plane_share(const PointResult& result) {
   return result.quads == 0 ? std::numeric_limits<double>::quiet_NaN()
                            : static_cast<double>(result.plane_quads) / static_cast<double>(result.quads);
 }
 
-ErrorColumn parse_error_column(std::string_view name, ErrorKind standard) {
+ErrorColumn parse_error_column(std::string_view name) {
   std::optional<ErrorColumn> found;
   std::vector<std::string> known;
   const auto offer = [&](const std::string& candidate, const ErrorColumn& column) {
@@ -189,7 +207,7 @@ ErrorColumn parse_error_column(std::string_view name, ErrorKind standard) {
     known.push_back(candidate);
   };
   for (std::size_t q = 0; q < quantity_names.size(); ++q)
-    offer(std::string(quantity_names[q]), {standard, static_cast<Quantity>(q), &ErrorSummary::max});
+    offer(std::string(quantity_names[q]), {ErrorKind::arithmetic, static_cast<Quantity>(q), &ErrorSummary::max});
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const auto kind = static_cast<ErrorKind>(k);
     offer(std::string(kinds[k]), {kind, Quantity::lambda, &ErrorSummary::max});
@@ -239,10 +257,13 @@ std::string point_table(std::span<const PointRow> rows) {
       cells.push_back(csv_number(plane_share(r)));
       cells.push_back(std::to_string(r.plane_fragments));
       cells.push_back(csv_number(p.scalar_cost));
-      for (const std::uint64_t bits : {p.cost.state_bits, p.cost.multiplier_bits, p.cost.adder_bits, p.cost.table_bits,
-                                       p.cost.dsps, p.cost.join_bits, p.cost.memory_bits, p.cost.block_rams})
-        cells.push_back(std::to_string(bits));
+      cells.push_back(csv_number(p.resources.luts));
+      for (const std::uint64_t count :
+           {p.resources.flip_flops, p.resources.dsps, p.resources.block_rams, p.cost.state_bits, p.cost.multiplier_bits,
+            p.cost.adder_bits, p.cost.table_bits, p.cost.join_bits, p.cost.memory_bits})
+        cells.push_back(std::to_string(count));
       cells.push_back(r.cycles > 0 ? std::to_string(r.cycles) : std::string());
+      cells.push_back(csv_number(fragments_per_clock(r)));
       cells.push_back(p.pareto ? "1" : "0");
       cells.push_back(r.worst.any ? csv_number(r.worst.error) : std::string());
       cells.push_back(cli::csv_cell(p.worst));
