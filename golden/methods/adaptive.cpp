@@ -51,9 +51,10 @@ double projected_area(const std::array<WindowVertex, 4>& vertex, const View& vie
   return std::abs(twice) / 2;
 }
 
-/// Figure 11; `area` is infinite where it is not tested.
-template <class Emit>
-void subdivide_part(const SubQuad& part, double area, int level, double threshold, Emit& emit) {
+/// Figure 11; `area` is infinite where it is not tested. Parts that `skip` names are left out.
+template <class Skip, class Emit>
+void subdivide_part(const SubQuad& part, double area, int level, double threshold, Skip& skip, Emit& emit) {
+  if (skip(part)) return;
   if (area < adaptive_area || level == adaptive_levels ||
       (is_parallelogram(part.object, threshold) && is_parallelogram(part.texture, threshold / 10)))
     return emit(part);
@@ -61,15 +62,17 @@ void subdivide_part(const SubQuad& part, double area, int level, double threshol
   const auto object = quarter(part.object);
   const auto texture = quarter(part.texture);
   for (std::size_t i = 0; i < 4; ++i)
-    subdivide_part(SubQuad{corner[i], object[i], texture[i]}, area / 4, level + 1, threshold, emit);
+    subdivide_part(SubQuad{corner[i], object[i], texture[i]}, area / 4, level + 1, threshold, skip, emit);
 }
 
-template <class Emit>
-void subdivide_quad(const Quad& quad, const View& view, double threshold, Emit&& emit) {
+constexpr auto no_part = [](const SubQuad&) { return false; };
+
+template <class Skip, class Emit>
+void subdivide_quad(const Quad& quad, const View& view, double threshold, Skip&& skip, Emit&& emit) {
   const SubQuad whole{weighted_corners(quad), quad.object, quad.texture};
   if (is_triangle(quad)) return emit(whole);
   const double area = off_plane(quad.object) > planar ? HUGE_VAL : projected_area(quad.vertex, view);
-  subdivide_part(whole, area, 0, threshold, emit);
+  subdivide_part(whole, area, 0, threshold, skip, emit);
 }
 
 /// Vertices of an emitted quad strictly inside an edge of another. Parts share an edge only where one is the other
@@ -112,7 +115,11 @@ class Adaptive final : public Method {
   bool needs_object_space() const override { return true; }
 
   void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
-    subdivide_quad(quad, view, threshold_, [&](const SubQuad& part) { draw_split02(part.corner, view, out); });
+    const auto unseen = [&](const SubQuad& part) {
+      const auto& c = part.corner;
+      return out_of_view({c[0].vertex, c[1].vertex, c[2].vertex, c[3].vertex}, view);
+    };
+    subdivide_quad(quad, view, threshold_, unseen, [&](const SubQuad& part) { draw_split02(part.corner, view, out); });
   }
 
   Census census(std::span<const Quad> quads, const View& view) const override {
@@ -121,7 +128,7 @@ class Adaptive final : public Method {
     TVertices t_vertices;
     for (const Quad& quad : quads) {
       const std::uint64_t triangles = is_triangle(quad) ? 1 : 2;
-      subdivide_quad(quad, view, threshold_, [&](const SubQuad& part) {
+      subdivide_quad(quad, view, threshold_, no_part, [&](const SubQuad& part) {
         ++census.emitted_quads;
         census.triangles += triangles;
         t_vertices.add(part.object);
@@ -134,7 +141,7 @@ class Adaptive final : public Method {
   /// The sub-quads, not their diagonals.
   std::vector<std::vector<WindowVertex>> wireframe(const Quad& quad, const View& view) const override {
     std::vector<std::vector<WindowVertex>> parts;
-    subdivide_quad(quad, view, threshold_, [&](const SubQuad& part) {
+    subdivide_quad(quad, view, threshold_, no_part, [&](const SubQuad& part) {
       const auto& c = part.corner;
       parts.push_back({c[0].vertex, c[1].vertex, c[2].vertex, c[3].vertex});
     });
@@ -149,7 +156,7 @@ class Adaptive final : public Method {
 
 std::vector<SubQuad> subdivide(const Quad& quad, const View& view, double threshold) {
   std::vector<SubQuad> parts;
-  subdivide_quad(quad, view, threshold, [&](const SubQuad& part) { parts.push_back(part); });
+  subdivide_quad(quad, view, threshold, no_part, [&](const SubQuad& part) { parts.push_back(part); });
   return parts;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "golden/methods/method.hpp"
+#include "golden/reference/coverage_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,15 +38,10 @@ struct PixelVector {
   }
 };
 
-/// Half-open pixel rectangle that holds every covered pixel of the view.
-struct PixelBox {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
-
 /// Empty where no convex combination of the vertices is both in front of the eye and in the view; otherwise the whole
 /// view where a vertex has w <= 0.
 template <std::size_t N>
-PixelBox pixel_box(const std::array<WindowVertex, N>& vertex, const View& view) {
+PixelRect pixel_box(const std::array<WindowVertex, N>& vertex, const View& view) {
   const auto all = [&](auto&& outside) { return std::ranges::all_of(vertex, outside); };
   if (all([](const WindowVertex& v) { return v.w <= 0; }) || all([](const WindowVertex& v) { return v.x <= 0; }) ||
       all([](const WindowVertex& v) { return v.y <= 0; }) ||
@@ -69,6 +65,37 @@ PixelBox pixel_box(const std::array<WindowVertex, N>& vertex, const View& view) 
   return {low(x0, view.width), low(y0, view.height), high(x1, view.width), high(y1, view.height)};
 }
 
+/// No point of the quad, nor of any part of it, is in front of the eye and in the view. Where some w are positive and
+/// some are not, nothing is said: parts are rounded.
+inline bool out_of_view(const std::array<WindowVertex, 4>& vertex, const View& view) {
+  const auto behind = std::ranges::count_if(vertex, [](const WindowVertex& v) { return !(v.w > 0); });
+  return behind == 4 ? std::ranges::all_of(vertex, [](const WindowVertex& v) { return v.w <= 0; })
+                     : behind == 0 && pixel_box(vertex, view).empty();
+}
+
+/// Calls visit(x, y) for pixels of the view, row by row, every one that the triangle or quad covers in front of the eye
+/// (of quads, `anywhere`) among them.
+template <std::size_t N, class Visit>
+void for_each_pixel(const std::array<WindowVertex, N>& vertex, const View& view, CoverageRows::Eye eye, Visit&& visit) {
+  const PixelRect box = pixel_box(vertex, view);
+  constexpr std::int64_t few = 256;  // pixels, which are looked at in less time than rows are found
+  if (box.empty() || std::int64_t{box.x1 - box.x0} * (box.y1 - box.y0) <= few) {
+    for (int y = box.y0; y < box.y1; ++y)
+      for (int x = box.x0; x < box.x1; ++x) visit(x, y);
+    return;
+  }
+  std::array<CoverageRows::Vertex, 4> corner;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const WindowVertex& v = vertex[std::min(i, N - 1)];  // a triangle repeats its last corner
+    corner[i] = {v.x, v.y, v.w};
+  }
+  const CoverageRows rows(corner, 0.5, box, eye);
+  for (int y = rows.bounds().y0; y < rows.bounds().y1; ++y) {
+    const PixelSpan row = rows.row(y);
+    for (int x = row.x0; x < row.x1; ++x) visit(x, y);
+  }
+}
+
 /// What a triangle's pixel gets: barycentric coordinates of the triangle in space (b) and on the screen (c); both sum
 /// to 1.
 struct TrianglePixel {
@@ -83,31 +110,27 @@ struct TrianglePixel {
 /// leave one out.
 template <class Visit>
 void raster_triangle(const std::array<WindowVertex, 3>& vertex, const View& view, Visit&& visit) {
-  const PixelBox box = pixel_box(vertex, view);
-  for (int y = box.y0; y < box.y1; ++y) {
-    const double py = y + 0.5;
-    for (int x = box.x0; x < box.x1; ++x) {
-      const double px = x + 0.5;
-      const PixelVector s0(vertex[0], px, py), s1(vertex[1], px, py), s2(vertex[2], px, py);
-      const int sign = side(s1, s2);
-      if (sign == 0 || side(s2, s0) != sign || side(s0, s1) != sign) continue;
-      TrianglePixel pixel{x, y, sign < 0, {cross(s1, s2), cross(s2, s0), cross(s0, s1)}, {}, 0};
-      // p times the determinant is sum(E_i V_i): the sum of w's share of it tells front from behind.
-      double sum = 0, sum_w = 0, sum_z = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        sum += pixel.space[i];
-        sum_w += pixel.space[i] * vertex[i].w;
-        sum_z += pixel.space[i] * vertex[i].z;
-      }
-      if (sum == 0 || !(sum_w / sum > 0)) continue;
-      for (std::size_t i = 0; i < 3; ++i) {
-        pixel.screen[i] = pixel.space[i] * vertex[i].w / sum_w;
-        pixel.space[i] /= sum;
-      }
-      pixel.z = sum_z / sum_w;
-      visit(static_cast<const TrianglePixel&>(pixel));
+  for_each_pixel(vertex, view, CoverageRows::Eye::in_front, [&](int x, int y) {
+    const double px = x + 0.5, py = y + 0.5;
+    const PixelVector s0(vertex[0], px, py), s1(vertex[1], px, py), s2(vertex[2], px, py);
+    const int sign = side(s1, s2);
+    if (sign == 0 || side(s2, s0) != sign || side(s0, s1) != sign) return;
+    TrianglePixel pixel{x, y, sign < 0, {cross(s1, s2), cross(s2, s0), cross(s0, s1)}, {}, 0};
+    // p times the determinant is sum(E_i V_i): the sum of w's share of it tells front from behind.
+    double sum = 0, sum_w = 0, sum_z = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum += pixel.space[i];
+      sum_w += pixel.space[i] * vertex[i].w;
+      sum_z += pixel.space[i] * vertex[i].z;
     }
-  }
+    if (sum == 0 || !(sum_w / sum > 0)) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+      pixel.screen[i] = pixel.space[i] * vertex[i].w / sum_w;
+      pixel.space[i] /= sum;
+    }
+    pixel.z = sum_z / sum_w;
+    visit(static_cast<const TrianglePixel&>(pixel));
+  });
 }
 
 }  // namespace quadrille::golden::methods

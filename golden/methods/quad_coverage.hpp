@@ -23,13 +23,10 @@ inline int quad_orientation(const std::array<WindowVertex, 4>& vertex, double x,
 /// Calls visit(x, y, front) for every pixel of the view whose centre the quad covers, behind the eye too.
 template <class Visit>
 void raster_quad(const std::array<WindowVertex, 4>& vertex, const View& view, Visit&& visit) {
-  const PixelBox box = pixel_box(vertex, view);
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      const int orientation = quad_orientation(vertex, x + 0.5, y + 0.5);
-      if (orientation != 0) visit(x, y, orientation < 0);
-    }
-  }
+  for_each_pixel(vertex, view, CoverageRows::Eye::anywhere, [&](int x, int y) {
+    const int orientation = quad_orientation(vertex, x + 0.5, y + 0.5);
+    if (orientation != 0) visit(x, y, orientation < 0);
+  });
 }
 
 /// Nothing of the quad is behind the eye: every covered pixel is visible.

@@ -14,6 +14,7 @@ class Refine final : public Method {
   std::string name() const override { return "refine:" + std::to_string(n_); }
 
   void draw(const Quad& quad, const View& view, std::vector<MethodSample>& out) const override {
+    if (out_of_view(quad.vertex, view)) return;
     for_each_cell(quad, [&](const std::array<WeightedVertex, 4>& corner) { draw_split02(corner, view, out); });
   }
 

@@ -46,6 +46,7 @@ PaperQuad<Real>::PaperQuad(const SnappedQuad& quad, const Config& config, const 
       a_[a][i] = perspective_ ? value * inverse_w_[i] : value;
     }
   }
+  find_rows(draw);
 }
 
 template <class Real>
@@ -69,6 +70,14 @@ PaperQuad<Real>::PaperQuad(const WindowQuad& quad, const DrawState& draw)
       a_[a][i] = perspective_ ? value / w : value;
     }
   }
+  find_rows(draw);
+}
+
+template <class Real>
+void PaperQuad<Real>::find_rows(const DrawState& draw) {
+  std::array<CoverageRows::Vertex, 4> vertex;
+  for (std::size_t i = 0; i < 4; ++i) vertex[i] = {x_[i], y_[i], w_[i]};
+  rows_ = {vertex, centre_, scissor_of(draw), CoverageRows::Eye::anywhere};
 }
 
 /// Membership: expression (12) on homogeneous edge functions; true, false, or neither for an all-zero edge.

@@ -2,6 +2,7 @@
 // gains.
 #pragma once
 
+#include "golden/reference/coverage_rows.hpp"
 #include "golden/reference/sample.hpp"
 #include "model/config.hpp"
 #include "model/records.hpp"
@@ -46,10 +47,14 @@ class PaperQuad {
   /// flag_on_edge, on_vertex, two_edge and two_corner are what Real sees; eye_in_hull is always false.
   ReferenceSample sample(int px, int py) const;
 
+  /// Every covered pixel of the scissor lies in them, behind the eye too: `undefined` says nothing of the eye.
+  const CoverageRows& rows() const { return rows_; }
+
   /// The pseudo-code alone, covered or not: what a fragment costs.
   Pixel interpolate(int px, int py) const;
 
  private:
+  void find_rows(const DrawState& draw);
   void cover(int px, int py, ReferenceSample& out) const;
 
   std::array<double, 4> x_{}, y_{}, w_{};         ///< homogeneous position, for coverage
@@ -60,6 +65,7 @@ class PaperQuad {
   int attributes_ = 0;
   bool perspective_ = true;
   bool homogeneous_ = false;
+  CoverageRows rows_;
 };
 
 extern template class PaperQuad<float>;

@@ -274,21 +274,8 @@ void refuse_vertex(std::uint32_t quad, int vertex, const char* why) {
   throw std::invalid_argument("quad " + std::to_string(quad) + ", vertex " + std::to_string(vertex) + ": " + why);
 }
 
-PixelRect scissor_of(const DrawState& draw) {
-  return {draw.scissor_x0, draw.scissor_y0, draw.scissor_x1, draw.scissor_y1};
-}
-
-PixelRect meet(const PixelRect& a, const PixelRect& b) {
-  PixelRect out{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-  return out.empty() ? PixelRect{} : out;
-}
-
-/// Half-open range of pixels whose centres x satisfy low - 1 <= x <= high + 1: one pixel to spare for rounding.
-PixelRect around(double low_x, double low_y, double high_x, double high_y) {
-  const auto whole = [](double v) { return static_cast<int>(std::clamp(v, -1e9, 1e9)); };
-  return {whole(std::floor(low_x) - 1), whole(std::floor(low_y) - 1), whole(std::ceil(high_x) + 2),
-          whole(std::ceil(high_y) + 2)};
-}
+/// With the eye in the hull visibility is not that of a triangle.
+CoverageRows::Eye eye_of(bool in_hull) { return in_hull ? CoverageRows::Eye::anywhere : CoverageRows::Eye::in_front; }
 
 }  // namespace
 
@@ -329,8 +316,7 @@ TruthQuad::TruthQuad(const SnappedQuad& quad, const Config& config, const DrawSt
   const int frac = config.frac();
   const std::int32_t one = std::int32_t{1} << frac;
   Exact g;
-  std::int64_t low_x = std::numeric_limits<std::int64_t>::max(), low_y = low_x;
-  std::int64_t high_x = std::numeric_limits<std::int64_t>::min(), high_y = high_x;
+  std::array<CoverageRows::Vertex, 4> vertex;
   for (int i = 0; i < 4; ++i) {
     const SnappedVertex& v = quad.vertex[i];
     if (v.x == 0 && v.y == 0 && v.w == 0) refuse_vertex(quad.id, i, "(0, 0, 0) is no point");
@@ -338,10 +324,7 @@ TruthQuad::TruthQuad(const SnappedQuad& quad, const Config& config, const DrawSt
     g.y[i] = v.y;
     g.w[i] = v.w;
     homogeneous_ = homogeneous_ || v.w != one;
-    low_x = std::min(low_x, g.x[i]);
-    low_y = std::min(low_y, g.y[i]);
-    high_x = std::max(high_x, g.x[i]);
-    high_y = std::max(high_y, g.y[i]);
+    vertex[i] = {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.w)};
     exact_.w[i] = std::ldexp(static_cast<double>(v.w), -frac);
     exact_.k[i] = port_value(v.k, config.significand_bits);
     exact_.z[i] = port_value(v.z, config.significand_bits);
@@ -366,19 +349,14 @@ TruthQuad::TruthQuad(const SnappedQuad& quad, const Config& config, const DrawSt
   }
   set_lanes(x, y, w, g.eye_in_hull);
   unit_w_ = !homogeneous_;
-  bounds_ = meet(scissor_of(draw), scissor_of(draw));
-  if (!homogeneous_) {
-    // Right shifts round down: first centre at or after the low side, last at or before the high side.
-    const auto down = [&](std::int64_t v) { return static_cast<int>(v >> frac); };
-    bounds_ = meet(bounds_, {-down(-low_x), -down(-low_y), down(high_x) + 1, down(high_y) + 1});
-  }
+  rows_ = {vertex, 0, scissor_of(draw), eye_of(g.eye_in_hull)};
 }
 
 TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
     : attributes_(draw.attributes), perspective_(draw.perspective), unit_w_(true) {
   check_draw(draw);
   Rounded g;
-  double low_x = std::numeric_limits<double>::infinity(), low_y = low_x, high_x = -low_x, high_y = -low_x;
+  std::array<CoverageRows::Vertex, 4> vertex;
   for (int i = 0; i < 4; ++i) {
     const WindowVertex& v = quad.vertex[i];
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w)) {
@@ -398,12 +376,7 @@ TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
       const double value = a < static_cast<int>(quad.attribute[i].size()) ? quad.attribute[i][a] : 0.0;
       exact_.b[a][i] = perspective_ ? static_cast<__float128>(value) : w * value;
     }
-    if (v.w > 0) {
-      low_x = std::min(low_x, v.x / v.w - 0.5);
-      low_y = std::min(low_y, v.y / v.w - 0.5);
-      high_x = std::max(high_x, v.x / v.w - 0.5);
-      high_y = std::max(high_y, v.y / v.w - 0.5);
-    }
+    vertex[i] = {v.x, v.y, v.w};
   }
   g.finish();
   geometry_ = g;
@@ -417,8 +390,7 @@ TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
     w[i] = v.w;
   }
   set_lanes(x, y, w, g.eye_in_hull);
-  bounds_ = meet(scissor_of(draw), scissor_of(draw));
-  if (!homogeneous_) bounds_ = meet(bounds_, around(low_x, low_y, high_x, high_y));
+  rows_ = {vertex, 0.5, scissor_of(draw), eye_of(g.eye_in_hull)};
 }
 
 void TruthQuad::set_lanes(const std::array<detail::TwoDoubles, 4>& x, const std::array<detail::TwoDoubles, 4>& y,

@@ -3,6 +3,7 @@
 // floating point behind them. No epsilon decides anything here.
 #pragma once
 
+#include "golden/reference/coverage_rows.hpp"
 #include "golden/reference/sample.hpp"
 #include "golden/reference/truth_lanes.hpp"
 #include "model/config.hpp"
@@ -18,14 +19,6 @@
 #include <vector>
 
 namespace quadrille::golden {
-
-/// Half-open rectangle of pixels: x0 <= x < x1, y0 <= y < y1; empty when x0 >= x1 or y0 >= y1.
-struct PixelRect {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-
-  bool empty() const { return x0 >= x1 || y0 >= y1; }
-  friend bool operator==(const PixelRect&, const PixelRect&) = default;
-};
 
 /// A pixel by its column and row.
 struct PixelPlace {
@@ -136,9 +129,10 @@ class TruthQuad {
   /// pixels as listed at sample()).
   std::array<__float128, 4> homogeneous_weights(int px, int py) const;
 
-  /// Contains every covered pixel of the scissor; the whole scissor when a vertex is not ordinary (snapped: W is not 1;
-  /// as given: w <= 0).
-  PixelRect bounds() const { return bounds_; }
+  /// Every pixel of the scissor that is covered and visible lies in them; of a quad with the eye in its hull every
+  /// covered one.
+  const CoverageRows& rows() const { return rows_; }
+  PixelRect bounds() const { return rows_.bounds(); }
 
  private:
   using Exact = detail::TruthGeometry<std::int64_t, __int128>;
@@ -155,7 +149,7 @@ class TruthQuad {
   /// Added to the quotients: 0 of a quad as given, which has no corner codes either.
   std::array<double, max_attribute_slots> base_attribute_{};
   double base_z_ = 0, z_low_ = -std::numeric_limits<double>::infinity(), z_high_ = -z_low_;
-  PixelRect bounds_;
+  CoverageRows rows_;
 
   /// Sets lanes_, given S's coefficients.
   void set_lanes(const std::array<detail::TwoDoubles, 4>& x, const std::array<detail::TwoDoubles, 4>& y,

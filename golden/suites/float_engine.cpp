@@ -64,11 +64,13 @@ void check_complete(VerifyResult& total, const SuiteReader& reader, const std::v
       for (auto same = std::ranges::adjacent_find(list); same != list.end();
            same = std::adjacent_find(same + 1, list.end()))
         add(quad, static_cast<int>(*same & 0xffff), static_cast<int>(*same >> 16), "a second fragment");
-      for (int y = state.scissor_y0; y < state.scissor_y1; ++y)
-        for (int x = state.scissor_x0; x < state.scissor_x1; ++x)
+      for (int y = real.rows().bounds().y0; y < real.rows().bounds().y1; ++y) {
+        const golden::PixelSpan row = real.rows().row(y);
+        for (int x = row.x0; x < row.x1; ++x)
           if (real.must_draw(x, y) &&
               !std::ranges::binary_search(list, static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x)))
             add(quad, x, y, "no fragment");
+      }
     }
     return missing;
   };

@@ -28,10 +28,6 @@ FloatQuad::FloatQuad(const SnappedQuad& quad, const Config& config, const DrawSt
     const double w = std::ldexp(static_cast<double>(v.w), -config.frac());
     homogeneous_ = homogeneous_ || w != 1;
     behind_ = behind_ || w <= 0;
-    const double x = std::ldexp(static_cast<double>(v.x), -config.frac()),
-                 y = std::ldexp(static_cast<double>(v.y), -config.frac());
-    lowest_ = {std::min(lowest_[0], x), std::min(lowest_[1], y)};
-    highest_ = {std::max(highest_[0], x), std::max(highest_[1], y)};
     place_[i] = (std::fabs(static_cast<double>(v.x)) + std::fabs(static_cast<double>(v.y))) /
                 std::fabs(static_cast<double>(v.w));
     k_over_w_[i] = golden::port_value(v.k, s) / w;
@@ -43,7 +39,6 @@ FloatQuad::FloatQuad(const SnappedQuad& quad, const Config& config, const DrawSt
 
 bool FloatQuad::must_draw(int x, int y) const {
   if (hull_ || !visible_decided_) return false;
-  if (!homogeneous_ && (x < lowest_[0] || x > highest_[0] || y < lowest_[1] || y > highest_[1])) return false;
   // No depth is beyond the corners'.
   if (state_.depth && (quad_.base.depth_low < std::int64_t{depth_code(state_.znear, config_)} ||
                        quad_.base.depth_high > std::int64_t{depth_code(state_.zfar, config_)}))

@@ -21,6 +21,8 @@ class FloatQuad {
   /// The machine draws this pixel of the scissor, as far as that is certain without weights: not where visibility is
   /// decided by pixel or z near its limits.
   bool must_draw(int x, int y) const;
+  /// Of the scissor; outside of them it draws nothing.
+  const golden::CoverageRows& rows() const { return paper_.rows(); }
 
  private:
   VectorOutcome check_values(const Fragment& fragment) const;
@@ -31,7 +33,6 @@ class FloatQuad {
   golden::PaperFp64Quad paper_;
   unsigned visible_ = 0;
   bool visible_decided_ = true, homogeneous_ = false, hull_ = false, behind_ = false;
-  std::array<double, 2> lowest_{HUGE_VAL, HUGE_VAL}, highest_{-HUGE_VAL, -HUGE_VAL};  ///< X, Y of the vertices
   std::array<double, 4> place_{}, k_over_w_{}, z_over_w_{};
   std::array<std::array<double, 4>, max_attribute_slots> b_over_w_{};
 };

@@ -560,10 +560,11 @@ void FragmentChecker::cover(std::size_t first, const std::vector<std::vector<std
         differs(static_cast<int>(drawn[i] & 0xffff), static_cast<int>(drawn[i] >> 16), "drawn twice");
 
     const Reference reference(*this, index);
-    const golden::PixelRect bounds = reference.truth().bounds();
+    const golden::PixelRect bounds = reference.truth().bounds();  // what is drawn beyond, compare() finds
     std::size_t next = 0;
     for (int y = std::max(y0, bounds.y0); y < std::min(y1, bounds.y1); ++y) {
-      for (int x = bounds.x0; x < bounds.x1; ++x) {
+      const golden::PixelSpan row = reference.truth().rows().row(y);
+      for (int x = row.x0; x < row.x1; ++x) {
         const std::uint32_t pixel = static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
         while (next < drawn.size() && drawn[next] < pixel) ++next;
         if (next < drawn.size() && drawn[next] == pixel) continue;  // compare() judges what was drawn

@@ -352,7 +352,10 @@ class PeerBench {
     shader.load(vertices);
     for (std::size_t q = 0; q < snapped.size(); ++q) {
       const golden::TruthQuad truth(snapped[q], config, state);
-      const golden::PixelRect b = truth.bounds();
+      // What the shader draws too much is counted: of vertices that are far or behind the eye it may be anywhere.
+      const bool near = std::ranges::all_of(
+          snapped[q].vertex, [&](const SnappedVertex& v) { return v.w == std::int32_t{1} << config.frac(); });
+      const golden::PixelRect b = near ? truth.bounds() : golden::scissor_of(state);
       if (b.empty()) continue;
       const tb::ShaderRect rect{b.x0, b.y0, b.x1, b.y1};
       shader.clear(rect);

@@ -137,7 +137,7 @@ class SpeedBench {
     return m;
   }
 
-  /// Coverage and sample of every pixel of the quads' bounds, round about `limit` fragments.
+  /// Coverage and sample of every pixel of the quads' rows, round about `limit` fragments.
   template <class Quad>
   Measure reference(std::uint64_t limit) const {
     Measure m;
@@ -146,9 +146,10 @@ class SpeedBench {
     while (m.fragments < limit) {
       for (const SnappedQuad& snapped : snapped_) {
         const Quad quad(snapped, config_, state_);
-        const golden::PixelRect bounds = golden::TruthQuad(snapped, config_, state_).bounds();
+        const golden::PixelRect& bounds = quad.rows().bounds();
         for (int y = bounds.y0; y < bounds.y1; ++y) {
-          for (int x = bounds.x0; x < bounds.x1; ++x) {
+          const golden::PixelSpan row = quad.rows().row(y);
+          for (int x = row.x0; x < row.x1; ++x) {
             const golden::ReferenceSample sample = quad.sample(x, y);
             if (!sample.covered) continue;
             ++m.fragments;

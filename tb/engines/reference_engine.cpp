@@ -40,7 +40,9 @@ class ReferenceEngine final : public Engine {
     std::optional<TruthQuad> truth;
     std::optional<PaperFp64Quad> paper;
     std::optional<PaperFp32Quad> single;
-    PixelRect bounds;
+
+    const golden::CoverageRows& rows() const { return truth ? truth->rows() : single ? single->rows() : paper->rows(); }
+    const PixelRect& bounds() const { return rows().bounds(); }
   };
   /// Rows of one quad, or several small quads.
   struct Unit {
@@ -52,16 +54,14 @@ class ReferenceEngine final : public Engine {
     Prepared result;
     const Config config = snapping_config(settings_.config, state.attributes);
     const SnappedQuad snapped = snap_as(quad, 0, config, state);  // refuses what no engine draws, also when not used
-    const TruthQuad truth = settings_.snap ? TruthQuad(snapped, config, state) : TruthQuad(quad, state);
-    result.bounds = truth.bounds();
-    const auto emplace = [&](auto& paper) {
+    const auto emplace = [&](auto& body) {
       if (settings_.snap)
-        paper.emplace(snapped, config, state);
+        body.emplace(snapped, config, state);
       else
-        paper.emplace(quad, state);
+        body.emplace(quad, state);
     };
     if (settings_.kind == EngineKind::truth)
-      result.truth.emplace(truth);
+      emplace(result.truth);
     else if (settings_.kind == EngineKind::paper_single)
       emplace(result.single);
     else
@@ -86,7 +86,7 @@ class ReferenceEngine final : public Engine {
 
     std::vector<Unit> units;
     for (std::size_t i = 0; i < prepared.size();) {
-      const PixelRect& b = prepared[i].bounds;
+      const PixelRect& b = prepared[i].bounds();
       if (const int width = b.x1 - b.x0;
           !b.empty() && static_cast<std::int64_t>(width) * (b.y1 - b.y0) > pixels_per_unit) {
         const int rows = std::max(1, pixels_per_unit / width);
@@ -97,7 +97,7 @@ class ReferenceEngine final : public Engine {
       std::int64_t area = 0;
       Unit unit{i, i, 0, state.height};
       while (i < prepared.size()) {
-        const PixelRect& r = prepared[i].bounds;
+        const PixelRect& r = prepared[i].bounds();
         const std::int64_t more = r.empty() ? 0 : std::int64_t{r.x1 - r.x0} * (r.y1 - r.y0);
         if (area + more > pixels_per_unit) break;
         area += more;
@@ -122,8 +122,10 @@ class ReferenceEngine final : public Engine {
 
   void draw_rows(const Prepared& quad, const WindowQuad& given, std::uint32_t index, const Unit& unit,
                  const DrawState& state, std::vector<EngineSample>& out) const {
-    for (int y = std::max(unit.y0, quad.bounds.y0); y < std::min(unit.y1, quad.bounds.y1); ++y) {
-      for (int x = quad.bounds.x0; x < quad.bounds.x1; ++x) {
+    const PixelRect& bounds = quad.bounds();
+    for (int y = std::max(unit.y0, bounds.y0); y < std::min(unit.y1, bounds.y1); ++y) {
+      const golden::PixelSpan row = quad.rows().row(y);
+      for (int x = row.x0; x < row.x1; ++x) {
         if (quad.truth) {
           const golden::Coverage coverage = quad.truth->cover(x, y);
           if (!coverage.covered || !coverage.visible) continue;

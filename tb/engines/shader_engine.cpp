@@ -23,25 +23,37 @@ class ShaderEngine final : public Engine {
     for (std::size_t first = 0; first < quads.size(); first += quads_at_a_time) {
       const std::size_t last = std::min(quads.size(), first + quads_at_a_time);
       tb::ShaderQuads vertices(attributes);
-      std::vector<tb::ShaderRect> bounds;
+      std::vector<Place> places;
       for (std::size_t i = first; i < last; ++i) {
         const SnappedQuad snapped = snap_as(quads[i], 0, config, state);  // refuses what no engine draws
         if (settings_.snap) {
           vertices.add(snapped, config, state.perspective);
-          bounds.push_back(around(golden::TruthQuad(snapped, config, state).bounds(), state));
+          places.push_back(place_of(golden::TruthQuad(snapped, config, state).rows(), state));
         } else {
           vertices.add(quads[i]);
-          bounds.push_back(around(golden::TruthQuad(quads[i], state).bounds(), state));
+          places.push_back(place_of(golden::TruthQuad(quads[i], state).rows(), state));
         }
+        places.back().far = std::ranges::any_of(
+            snapped.vertex, [&](const SnappedVertex& v) { return v.w != std::int32_t{1} << config.frac(); });
       }
       shader.load(vertices);
       for (std::size_t i = first; i < last; ++i) {
-        const tb::ShaderRect& rect = bounds[i - first];
-        if (rect.x0 >= rect.x1 || rect.y0 >= rect.y1) continue;
-        shader.clear(rect);
-        shader.draw(i - first, 1);
-        const std::vector<EngineSample> samples =
-            samples_of(shader.read(rect), rect, static_cast<std::uint32_t>(i), quads[i].id, weights, attributes);
+        const Place& place = places[i - first];
+        if (!place.far && is_empty(place.rect)) continue;
+        const auto read = [&](const tb::ShaderRect& rect) {
+          return samples_of(shader.read(rect), rect, static_cast<std::uint32_t>(i), quads[i].id, weights, attributes);
+        };
+        shader.clear(place.rect);
+        const std::uint64_t fragments = shader.count(i - first, 1);
+        if (fragments == 0) continue;
+        std::vector<EngineSample> samples;
+        if (!is_empty(place.rect)) samples = read(place.rect);
+        if (place.far && samples.size() < fragments) {
+          const tb::ShaderRect all{state.scissor_x0, state.scissor_y0, state.scissor_x1, state.scissor_y1};
+          shader.clear(all);
+          shader.draw(i - first, 1);
+          samples = read(all);
+        }
         if (!samples.empty()) sink(samples);
       }
     }
@@ -58,11 +70,21 @@ class ShaderEngine final : public Engine {
     return {.state = draw_state(attributes), .weights = weights, .snapped = settings_.snap};
   }
 
+  struct Place {
+    tb::ShaderRect rect;
+    /// A vertex is beyond the guard band or not before the eye: what OpenGL makes of that in single precision may be
+    /// elsewhere. Then fragments that the rectangle does not show (or two at a pixel) have the whole picture read.
+    bool far = false;
+  };
+
+  static bool is_empty(const tb::ShaderRect& rect) { return rect.x0 >= rect.x1 || rect.y0 >= rect.y1; }
+
   /// The implementation's own grid of positions may move an edge over the next pixel centre.
-  static tb::ShaderRect around(const golden::PixelRect& bounds, const DrawState& state) {
+  static Place place_of(const golden::CoverageRows& rows, const DrawState& state) {
+    const golden::PixelRect& bounds = rows.bounds();
     if (bounds.empty()) return {};
-    return {std::max(state.scissor_x0, bounds.x0 - 1), std::max(state.scissor_y0, bounds.y0 - 1),
-            std::min(state.scissor_x1, bounds.x1 + 1), std::min(state.scissor_y1, bounds.y1 + 1)};
+    return {{std::max(state.scissor_x0, bounds.x0 - 1), std::max(state.scissor_y0, bounds.y0 - 1),
+             std::min(state.scissor_x1, bounds.x1 + 1), std::min(state.scissor_y1, bounds.y1 + 1)}};
   }
 
   static std::vector<EngineSample> samples_of(std::span<const tb::ShaderPixel> pixels, const tb::ShaderRect& rect,

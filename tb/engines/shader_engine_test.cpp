@@ -162,8 +162,11 @@ Agreement compare(const std::string& name, tb::PaperShader& shader, const DrawSt
     const golden::PaperFp64Quad paper(snapped, config, state);
     tb::ShaderQuads quads(attributes);
     quads.add(snapped, config, state.perspective);
-    // One pixel more than the exact rule has.
-    const golden::PixelRect bounds = golden::TruthQuad(snapped, config, state).bounds();
+    // One pixel more than the exact rule has; everywhere with vertices that are far or behind the eye.
+    const bool near = std::ranges::all_of(
+        snapped.vertex, [&](const SnappedVertex& v) { return v.w == std::int32_t{1} << config.frac(); });
+    const golden::PixelRect bounds =
+        near ? golden::TruthQuad(snapped, config, state).bounds() : golden::scissor_of(state);
     if (bounds.empty()) continue;
     const tb::ShaderRect rect{std::max(0, bounds.x0 - 1), std::max(0, bounds.y0 - 1), std::min(size, bounds.x1 + 1),
                               std::min(size, bounds.y1 + 1)};
