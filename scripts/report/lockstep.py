@@ -22,7 +22,10 @@ CORNERS = {
     "face_plane": [], "flat": ["--no-depth"], "den_w_zero": ["--set", "significand_bits=12"], "negative_r2": ["--set", "quadratic_frac_bits=3"],
     "z_limits": ["--znear", "0.25", "--zfar", "0.75"], "minus_zero": [], "two_corner": [], "two_edge": ["--no-perspective"],
     "tall": ["--size", "192x704"], "burst": [], "extreme": [], "far_corner": ["--size", "4096x4096"],
-    "constant_depth": ["--znear", "0.25", "--zfar", "0.75"], "one_corner": [], "far_base": [], "ties": [], "saturation": [],
+    "constant_depth": ["--znear", "0.25", "--zfar", "0.75"], "one_corner": [], "far_base": [], "ties": [], "saturation": [], "box": [],
+    "plane": ["--set", "plane_quads=1", "--skip", "all"],
+    "coarse_depth": ["--set", "hierarchical_z_bits=12", "--set", "hierarchical_z_tiles_log2=8", "--skip", "all"],
+    "far_depth": ["--znear", "0.25", "--zfar", "0.75"],
 }
 # Tiles are hidden where a draw asks for it: every second one with a depth test. (Plane quads are looked for and never found: weights as
 # attributes are not plane. tb/lockstep/cosim_test.cpp draws some.)
