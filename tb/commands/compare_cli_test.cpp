@@ -224,7 +224,8 @@ TEST_F(CompareCli, QuadsOfAFile) {
 
 /// Families and corner groups, with vertices behind the eye and at infinity.
 TEST_F(CompareCli, FamiliesAndCornerGroups) {
-  for (const std::string input : {"--stress eye_crossing --count 3", "--stress any_w --count 3", "--corner face_plane"}) {
+  for (const std::string input :
+       {"--stress eye_crossing --count 3", "--stress any_w --count 3", "--corner face_plane"}) {
     const json report = table(input + " --size 32x32 --methods split02,mvc --crease-sizes 32", "f");
     EXPECT_GT(row(report, "mvc").at("covered"), 20) << input;
     EXPECT_LT(row(report, "mvc").at("truth_rms").get<double>(), 1e-6) << input;

@@ -542,14 +542,13 @@ class SweepRun {
         std::fprintf(stderr, "quadrille: co-simulation of row %zu (%s) failed: %s\n", row.row,
                      varied(grid_, row_of(row.row).config).c_str(),
                      row.fragments == 0 ? "no fragments" : row.first_difference.c_str());
-    if (!cosim_.empty())
+    if (!cosim_.empty()) {
+      std::string found = cosim_ok() ? "no difference" : "DIFFERENCES";
+      if (cosim_ok() && !std::ranges::all_of(cosim_, &CosimRow::complete))
+        found += " in the first " + std::to_string(options_.cosim_fragments) + " fragments of each";
       std::fprintf(out, "\nco-simulated %zu points (%s): %s\n", cosim_.size(),
-                   options_.cosim.empty() ? "default, knees and corners" : options_.cosim.c_str(),
-                   !cosim_ok()                     ? "DIFFERENCES"
-                   : options_.cosim_fragments == 0 ? "no difference"
-                                                   : ("no difference in the first " +
-                                                      std::to_string(options_.cosim_fragments) + " fragments of each")
-                                                         .c_str());
+                   options_.cosim.empty() ? "default, knees and corners" : options_.cosim.c_str(), found.c_str());
+    }
     if (!synthesis_.empty()) {
       std::fprintf(out, "synthesised %zu points for %s; rank correlation of estimated cost and %s ", synthesis_.size(),
                    options_.synth_target.c_str(), options_.synth_target == "cells" ? "area" : "LUTs");

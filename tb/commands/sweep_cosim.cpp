@@ -43,6 +43,7 @@ CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> q
   row.mismatches = report.mismatches;
   row.cycle_mismatches = report.cycle_mismatches;
   row.seconds = report.wall_seconds;
+  row.complete = report.complete;
   if (report.first_divergence) row.first_difference = *report.first_divergence;
   // With truncated D and r² singular pixels are decided approximately, and their flags may differ from the truth's.
   if (point.config.qdrop() == 0) {

@@ -28,6 +28,7 @@ struct CosimRow {
   std::uint64_t cycle_mismatches = 0;
   std::string first_difference;
   double seconds = 0;
+  bool complete = true;  ///< the whole draw, not ended by the limit
 
   bool ok() const { return fragments > 0 && mismatches == 0 && cycle_mismatches == 0; }
 };

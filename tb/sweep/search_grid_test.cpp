@@ -54,8 +54,7 @@ void check_what_the_search_assumes(const std::vector<Config>& configs, const std
       if (!same && !same_but_for_exact_products) continue;
       for (const char* statistic : {"max", "rms", "mean", "p999"})
         for (const char* quantity : {"lambda", "attribute", "depth", "colour"}) {
-          const ErrorColumn column =
-              parse_error_column(std::string("arithmetic_") + quantity + "_" + statistic);
+          const ErrorColumn column = parse_error_column(std::string("arithmetic_") + quantity + "_" + statistic);
           const double difference = std::fabs(column.value(results[i]) - column.value(results[j]));
           if (column.quantity == Quantity::depth && a.depth_bits != b.depth_bits) continue;
           ASSERT_EQ(difference, 0) << column.name() << " of points " << i << " and " << j;
