@@ -40,7 +40,7 @@ class ModelDevice : public Device {
     visit(inputs_.vertex, config_, RecordUnpacker(Record::from_words(words.data(), vertex_.bits())));
   }
   void set_clear_hidden(bool active) override { inputs_.clear_hidden = active; }
-  void set_flush(bool active) override { inputs_.flush = active; }
+  void set_flush(bool active) override { inputs_.flush = active && !ignores_flush; }
   void set_handshake(bool vertex_valid, bool fragment_ready) override {
     inputs_.vertex_valid = vertex_valid;
     inputs_.fragment_ready = fragment_ready;
@@ -101,6 +101,7 @@ class ModelDevice : public Device {
   }
   std::size_t wrong_counter = counter_count;  ///< one too many
   std::uint64_t stops_at_edge = ~std::uint64_t{0};
+  bool ignores_flush = false;
 
  private:
   Config config_;
@@ -157,6 +158,20 @@ TEST_P(Lockstep, AgreesWithItself) {
   EXPECT_EQ(alone.fragment_hash, report.fragment_hash);
   EXPECT_EQ(alone.fragments, report.fragments);
   EXPECT_EQ(alone.cycles, report.cycles_model);
+}
+
+TEST_P(Lockstep, FlushesReachBothSides) {
+  const LockstepReport without = run({});
+  options.flush = 0.2;
+  options.clear = 0.2;
+  const LockstepReport flushed = run({});
+  EXPECT_TRUE(flushed.agreed() && flushed.complete) << flushed.first_divergence.value_or("");
+  EXPECT_EQ(flushed.quads, quads.size());
+  EXPECT_EQ(flushed.fragment_hash, without.fragment_hash);
+  EXPECT_GT(flushed.cycles_model, without.cycles_model);
+  ModelDevice device(options.config, options.state);
+  device.ignores_flush = true;
+  EXPECT_FALSE(run_lockstep(device, quads, options).agreed());
 }
 
 /// The lanes of the port change when fragments leave, not which, nor their order.
