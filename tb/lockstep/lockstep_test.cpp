@@ -65,6 +65,20 @@ TEST_P(Lockstep, AgreesWithItself) {
   EXPECT_EQ(alone.cycles, report.cycles_model);
 }
 
+TEST_P(Lockstep, FlushesReachBothSides) {
+  const LockstepReport without = run({});
+  options.flush = 0.2;
+  options.clear = 0.2;
+  const LockstepReport flushed = run({});
+  EXPECT_TRUE(flushed.agreed() && flushed.complete) << flushed.first_divergence.value_or("");
+  EXPECT_EQ(flushed.quads, quads.size());
+  EXPECT_EQ(flushed.fragment_hash, without.fragment_hash);
+  EXPECT_GT(flushed.cycles_model, without.cycles_model);
+  ModelDevice device(options.config, options.state);
+  device.ignores_flush = true;
+  EXPECT_FALSE(run_lockstep(device, quads, options).agreed());
+}
+
 /// The lanes of the port change when fragments leave, not which, nor their order.
 TEST_P(Lockstep, TheSameFragmentsInEveryNumberOfLanes) {
   const LockstepReport one = run({});

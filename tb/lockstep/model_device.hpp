@@ -43,7 +43,7 @@ class ModelDevice : public Device {
     visit(inputs_.vertex, config_, RecordUnpacker(Record::from_words(words.data(), vertex_.bits())));
   }
   void set_clear_hidden(bool active) override { inputs_.clear_hidden = active && takes_clears; }
-  void set_flush(bool active) override { inputs_.flush = active; }
+  void set_flush(bool active) override { inputs_.flush = active && !ignores_flush; }
   void set_handshake(bool vertex_valid, bool fragment_ready) override {
     inputs_.vertex_valid = vertex_valid;
     inputs_.fragment_ready = fragment_ready;
@@ -105,7 +105,7 @@ class ModelDevice : public Device {
   std::size_t wrong_counter = counter_count;  ///< one too many
   std::uint64_t stops_at_edge = ~std::uint64_t{0};
   std::vector<DrawState> states;  ///< that it knows by their bits; another changes nothing
-  bool takes_clears = true;
+  bool takes_clears = true, ignores_flush = false;
 
  private:
   Config config_;
