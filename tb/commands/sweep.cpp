@@ -507,9 +507,9 @@ class SweepRun {
     golden::write_file(store.file("stages.csv"), stage_table(store), refused);
 
     if (!options_.no_cycles && evaluator.refusal(base_).empty())
-      performance_ = count_draw(
-          {.config = base_, .state = with_possible_skips(input_.state, base_), .seed = options_.common.seed},
-          input_.quads, input_.attributes);
+      performance_ =
+          count_draw({.config = base_, .state = with_possible_skips(input_.state, base_), .seed = options_.common.seed},
+                     input_.quads, input_.attributes);
     const std::vector<float> map = evaluator.error_map(base_);
     golden::save_npy(store.file("error_map.npy"), map, input_.state.width, input_.state.height);
     const Json json = manifest(sweep::base_row(grid_));
