@@ -34,9 +34,12 @@ void box(Batch& b) {
     const double high = b.rng.chance(0.5) ? side_at(b, bottom) : y + b.integer(0, 2);
     b.quads.push_back(rectangle(x, y, wide, high, b.rng.uniform(0.1, 0.9)));
     if (count % 4 == 1) std::swap(b.quads.back()[1], b.quads.back()[3]);
-    if (count % 4 == 2)  // the same, but without a bounding box
+    std::array<WindowVertex, 4>& quad = b.quads.back();
+    if (count % 4 == 2)  // the same without a bounding box: it ends beyond the guard band
+      quad[2].x = quad[3].x = std::ldexp(1.0, b.config.pos_int() + 1);
+    if (count % 4 == 3)
       for (const std::size_t i : {1, 2}) {
-        WindowVertex& v = b.quads.back()[i];
+        WindowVertex& v = quad[i];
         v = {v.x / 2, v.y / 2, v.z / 2, 0.5};
       }
   }
@@ -120,7 +123,8 @@ void coarse_depth(Batch& b) {
     const double code = std::clamp(middle + b.integer(-2, 2), 0.0, last) * coarse + b.integer(-1, 1);
     const double z = code_depth(b, code);
     // From tile to tile, of which a few are covered whole.
-    const int x = tile * b.integer(0, 2), y = tile * b.integer(0, 2);
+    const int half = b.rng.chance(0.4) ? tile / 2 : 0;  // two of which make one
+    const int x = tile * b.integer(0, 2) + half, y = tile * b.integer(0, 2);
     std::array<WindowVertex, 4> quad = rectangle(x, y, x + tile * b.integer(1, 3), y + tile * b.integer(1, 3), z);
     if (count % 5 == 4) quad[2].z += code_depth(b, coarse * b.integer(-1, 1) + b.integer(-1, 1));
     if (count % 7 == 6) quad[2].x -= b.integer(1, tile);  // part of a tile
@@ -144,9 +148,10 @@ void far_depth(Batch& b) {
       }
     }
     // On one side of the limit and at it, or on both.
-    const int side = b.integer(-1, 1);
+    const int side = b.integer(-1, 1), nearest = b.integer(0, 1);
     for (WindowVertex& v : quad) {
-      const int apart = b.rng.chance(0.25) ? 1 << b.integer(2, std::max(2, b.config.depth_bits - 4)) : b.integer(0, 1);
+      const int apart =
+          b.rng.chance(0.25) ? 1 << b.integer(2, std::max(2, b.config.depth_bits - 4)) : nearest + b.integer(0, 1);
       v.z = code_depth(b, limit + (side == 0 ? b.rng.sign() : side) * apart) * v.w;
     }
     if (count % 4 == 3) {

@@ -108,7 +108,7 @@ TEST(CornerBoundaries, CoarseDepthCodes) {
     UntimedModel model(config, draw.state);
     for (const SnappedQuad& quad : draw.quads) model.draw(quad, [](std::span<const Fragment>) {});
     EXPECT_GT(model.stats().tiles_hidden, 40u);
-    EXPECT_GT(model.stats().tiles_masked, 5u);
+    EXPECT_GT(model.stats().tiles_masked, 0u);
     EXPECT_GT(model.stats().fragments, 4000u);
   }
 }

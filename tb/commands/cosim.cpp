@@ -692,7 +692,15 @@ class CosimRun {
     const std::uint32_t znear = depth_code(state.znear, config_), zfar = depth_code(state.zfar, config_);
     const bool compare_skips = options_.compare_skips && first;
     SkipCheck skip_check(config_, state, compare_skips ? snapped.size() : 0);
-    const tb::FragmentSink sink = [&](const Fragment& fragment) {
+    const std::uint32_t id_bits = place != nullptr ? place->draw.id_bits : 0;
+    std::vector<SnappedQuad> sent;  // under other ids, where the draw has some
+    if (id_bits != 0) {
+      sent = snapped;
+      for (SnappedQuad& quad : sent) quad.id ^= id_bits;
+    }
+    const tb::FragmentSink sink = [&](const Fragment& given) {
+      Fragment fragment = given;
+      fragment.quad ^= id_bits;
       checker.fragment(fragment);
       if (compare_skips) skip_check.fragment(fragment);
       if (first && state.depth)
@@ -701,8 +709,9 @@ class CosimRun {
       if (frame && fragment.quad < input.quads.size() && fragment.x < state.width && fragment.y < state.height)
         picture(fragment, pass, number, weight_passes, input, *frame, samples, position);
     };
-    tb::LockstepReport report = place == nullptr ? tb::run_lockstep(snapped, lockstep, sink)
-                                                 : place->session.draw(snapped, lockstep, place->draw.clears, sink);
+    tb::LockstepReport report =
+        place == nullptr ? tb::run_lockstep(snapped, lockstep, sink)
+                         : place->session.draw(id_bits != 0 ? sent : snapped, lockstep, place->draw.clears, sink);
     const tb::Stopwatch drawn;
     checker.finish(report.complete);
     queue.drain();

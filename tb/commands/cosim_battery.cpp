@@ -30,7 +30,9 @@ PlannedDraw port_draw(std::vector<SnappedQuad> quads, const DrawState& state) {
 }
 
 /// Waits in turn, and what comes before the draw: a clear, a reset, another power-on.
-void place(PlannedDraw& draw, std::size_t number, std::uint64_t seed) {
+void place(PlannedDraw& draw, std::size_t number, const Config& config, std::uint64_t seed) {
+  draw.id_bits =
+      static_cast<std::uint32_t>(golden::Prng(seed + number, stream + 9).next() >> (64 - config.quad_id_bits));
   draw.seed = seed + number;
   draw.waits = static_cast<tb::WaitKind>(number % tb::wait_kind_names().size());
   if (draw.waits == tb::WaitKind::chance && number % 2 == 1) draw.stall = 0.5, draw.gap = 0.1;
@@ -40,7 +42,7 @@ void place(PlannedDraw& draw, std::size_t number, std::uint64_t seed) {
 DrawState random_state(const Config& config, const DrawState& state, std::span<const WindowQuad> quads,
                        golden::Prng& rng) {
   DrawState drawn = golden::random_draw_state(config, state.width, state.height, quads, rng.next());
-  if (config.hierarchical_z_bits != 0 && drawn.depth && rng.chance(0.5)) drawn.skip |= skip_hidden;
+  if (config.hierarchical_z_bits != 0 && rng.chance(0.5)) drawn.skip |= skip_hidden;  // without depth it does nothing
   return drawn;
 }
 
@@ -49,7 +51,7 @@ std::vector<PlannedDraw> corners(const Config& config, std::uint64_t seed) {
   std::vector<PlannedDraw> draws;
   for (golden::CornerDraw& corner : golden::corner_draws(config, seed)) {
     PlannedDraw draw = port_draw(std::move(corner.quads), corner.state);
-    place(draw, draws.size(), seed);
+    place(draw, draws.size(), config, seed);
     if (corner.stall > 0) {
       draw.waits = tb::WaitKind::chance;
       draw.stall = corner.stall;
@@ -74,7 +76,7 @@ std::vector<PlannedDraw> varied_corners(const Config& config, std::uint64_t seed
       state.zfar = corner.state.zfar;
     }
     PlannedDraw draw = port_draw(std::move(corner.quads), state);
-    place(draw, draws.size() + 2, seed);
+    place(draw, draws.size() + 2, config, seed);
     draw.clears = static_cast<unsigned>(rng.below(2));
     draws.push_back(std::move(draw));
   }
@@ -87,10 +89,14 @@ std::vector<PlannedDraw> random_draws(const Config& config, std::uint64_t seed) 
   std::vector<PlannedDraw> draws;
   constexpr std::size_t count = 16;
   for (std::size_t d = 0; d < count; ++d) {
-    const DrawState base = tb::small_state(config, 24 + static_cast<int>(rng.below(40)));
+    DrawState base = tb::small_state(config, 24 + static_cast<int>(rng.below(40)));
+    if (d % 5 == 3) {  // a few pixels
+      base.width = base.scissor_x1 = 1 + static_cast<int>(rng.below(9));
+      base.height = base.scissor_y1 = 1 + static_cast<int>(rng.below(9));
+    }
     const DrawState state = d % 4 == 0 ? base : random_state(config, base, {}, rng);
     PlannedDraw draw = port_draw(tb::random_quads(config, state, seed + d, 30), state);
-    place(draw, d, seed);
+    place(draw, d, config, seed);
     draw.power_on = d % 4 == 2;
     draw.reset = d % 4 == 1;
     if (d % 4 == 0) draw.limit = 1 + rng.below(300);  // a reset in the middle
@@ -141,7 +147,7 @@ std::vector<PlannedDraw> families(const Config& config, std::uint64_t seed) {
         golden::make_stress_without_weights(family.family, 8, seed, state.width, state.height, config.attribute_slots),
         config, state);
     draw.state = draws.size() % 3 == 0 ? state : random_state(config, state, draw.quads, rng);
-    place(draw, draws.size(), seed);
+    place(draw, draws.size(), config, seed);
     draws.push_back(std::move(draw));
   }
   return draws;
@@ -209,7 +215,7 @@ std::vector<PlannedDraw> far_scissors(const Config& config, std::uint64_t seed) 
                            config, state);
     state = random_state(config, state, draw.quads, rng);
     const auto part = [&](int& first, int& last) {
-      const int length = std::min(size, 1 + static_cast<int>(rng.below(40)));
+      const int length = rng.chance(0.1) ? 0 : std::min(size, 1 + static_cast<int>(rng.below(40)));
       first =
           rng.chance(0.3) ? size - length : static_cast<int>(rng.below(static_cast<std::uint64_t>(size - length + 1)));
       last = first + length;
@@ -217,7 +223,7 @@ std::vector<PlannedDraw> far_scissors(const Config& config, std::uint64_t seed) 
     part(state.scissor_x0, state.scissor_x1);
     part(state.scissor_y0, state.scissor_y1);
     draw.state = state;
-    place(draw, draws.size(), seed);
+    place(draw, draws.size(), config, seed);
     draws.push_back(std::move(draw));
   }
   return draws;
@@ -277,8 +283,8 @@ struct Input {
 };
 
 constexpr Input inputs[]{
-    {"corners", "every corner group in the state that it needs", corners},
     {"random", "quads of all kinds after power-on, reset and other draws", random_draws},
+    {"corners", "every corner group in the state that it needs", corners},
     {"layers", "hidden tiles through draws, clears and epochs", layers},
     {"varied", "corner groups in draw states at random", varied_corners},
     {"families", "every stress family in draw states at random", families},

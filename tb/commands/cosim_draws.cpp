@@ -32,6 +32,11 @@ DrawState draw_state(const Config& config, int width, int height, std::span<cons
   return state;
 }
 
+/// Any bits of an id.
+std::uint32_t random_id_bits(const Config& config, golden::Prng& rng) {
+  return static_cast<std::uint32_t>(rng.next() >> (64 - config.quad_id_bits));
+}
+
 unsigned random_clears(const Config& config, golden::Prng& rng) {
   const std::uint64_t kind = rng.below(8);
   if (config.hierarchical_z_bits == 0) return kind < 2 ? 1 : 0;
@@ -60,6 +65,7 @@ std::vector<PlannedDraw> plan_draws(std::span<const WindowQuad> quads, std::size
     draw.state = draw_state(config, width, height, draw.quads, rng);
     draw.reset = reset;
     draw.clears = d == 0 || reset ? 0 : random_clears(config, rng);
+    draw.id_bits = random_id_bits(config, rng);
     draw.seed = seed + d;
     draw.waits = static_cast<tb::WaitKind>(rng.below(tb::wait_kind_names().size()));
     reset = rng.chance(0.15);

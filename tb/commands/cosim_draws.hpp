@@ -17,11 +17,12 @@ struct PlannedDraw {
   std::vector<WindowQuad> quads;     ///< of port quads, ids alone
   std::vector<SnappedQuad> at_port;  ///< what the port gets in their place; empty: the quads snapped
   DrawState state;
-  bool reset = false;       ///< before it, whatever the machine is doing
-  bool power_on = false;    ///< before it: another machine, whose registers hold random bits from `seed`
-  unsigned clears = 0;      ///< of what is hidden, before it
-  std::uint64_t limit = 0;  ///< the draw is cut off after so many fragments, and a reset follows; 0: it is complete
-  std::uint64_t seed = 1;   ///< of its waits
+  bool reset = false;         ///< before it, whatever the machine is doing
+  bool power_on = false;      ///< before it: another machine, whose registers hold random bits from `seed`
+  unsigned clears = 0;        ///< of what is hidden, before it
+  std::uint64_t limit = 0;    ///< the draw is cut off after so many fragments, and a reset follows; 0: it is complete
+  std::uint32_t id_bits = 0;  ///< flipped in the position of each quad: the id that the port gets
+  std::uint64_t seed = 1;     ///< of its waits
   tb::WaitKind waits = tb::WaitKind::chance;
   double stall = 0, gap = 0;  ///< chances of waits
 };

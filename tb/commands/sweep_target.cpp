@@ -1,6 +1,7 @@
 #include "tb/commands/sweep_target.hpp"
 
 #include "golden/scenes/stress.hpp"
+#include "model/draw_state.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/options/options.hpp"

@@ -1,6 +1,7 @@
 // Draws one after the other in one machine: what is kept between them, clears, resets in the middle of a draw.
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/random_state.hpp"
+#include "model/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/lockstep/model_device.hpp"
@@ -29,6 +30,11 @@ class Session : public testing::TestWithParam<unsigned> {
       state.skip |= state.depth ? skip_hidden : 0u;
       states.push_back(state);
       quads.push_back(random_quads(options.config, state, d / 3, 25));  // some come again
+      WindowQuad wall;                                                  // before many of them
+      wall.id = 100;
+      wall.vertex = {{{-6, -6, 0.3, 1}, {-6, 60, 0.3, 1}, {60, 60, 0.3, 1}, {60, -6, 0.3, 1}}};
+      for (auto& attribute : wall.attribute) attribute = {0.5};
+      quads.back().push_back(snap_quad(wall, options.config, state));
     }
   }
   /// Before draw d.

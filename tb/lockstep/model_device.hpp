@@ -100,6 +100,7 @@ class ModelDevice : public Device {
     if (!inputs_.reset) ++cycle_;
   }
   std::uint32_t counter(std::size_t index) override {
+    if (index >= counter_count) return 0;
     return static_cast<std::uint32_t>(model_.counters().value[index]) + (index == wrong_counter ? 1 : 0);
   }
   std::size_t wrong_counter = counter_count;  ///< one too many

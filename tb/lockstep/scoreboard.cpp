@@ -200,13 +200,15 @@ Scoreboard::Verdict Scoreboard::compare(std::uint64_t cycle, const ClockedOutput
 
 void Scoreboard::compare_counters(std::uint64_t cycle, const PerformanceCounters& expected, Device& actual) {
   cycle_ = cycle;
-  for (std::size_t i = 0; i < counter_count; ++i) {
-    const auto wanted = static_cast<std::uint32_t>(expected.value[i]);
+  constexpr std::size_t indices = std::bit_ceil(counter_count);  // those behind the last one read 0
+  for (std::size_t i = 0; i < indices; ++i) {
+    const auto wanted = i < counter_count ? static_cast<std::uint32_t>(expected.value[i]) : 0;
     const std::uint32_t got = actual.counter(i);
     if (got == wanted) continue;
     ++mismatches_;
     if (!first_)
-      first_ = where({}) + ", performance counter " + std::string(counter_info[i].name) + ": expected " +
+      first_ = where({}) + ", performance counter " +
+               (i < counter_count ? std::string(counter_info[i].name) : std::to_string(i)) + ": expected " +
                std::to_string(wanted) + ", actual " + std::to_string(got) + "; seed " + std::to_string(seed_);
   }
 }
