@@ -149,8 +149,8 @@ class VertexSnapper {
   SnappedVertex out_;
 };
 
-/// The binary places of vertices and attributes lie so close together that 128 bits hold what is made of them.
-bool all_narrow(const WindowQuad& quad, const Config& config) {
+/// The binary places of vertices and attributes lie so close together that so many bits hold what is made of them.
+bool all_fit(int bits, const WindowQuad& quad, const Config& config) {
   for (std::size_t i = 0; i < 4; ++i) {
     const WindowVertex& v = quad.vertex[i];
     NumberSpan position, depth, values;
@@ -159,7 +159,7 @@ bool all_narrow(const WindowQuad& quad, const Config& config) {
     depth.add(v.w, config.depth_bits);
     values.add(1.0, config.attribute_frac());
     for (const double a : quad.attribute[i]) values.add(a);
-    if (!position.narrow() || !depth.narrow() || !values.narrow()) return false;
+    if (!position.fits(bits) || !depth.fits(bits) || !values.fits(bits)) return false;
   }
   return true;
 }
@@ -248,8 +248,9 @@ SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawSt
       for (std::size_t j = 0; j < count; ++j) check_attribute(quad.attribute[i][j], j, config);
     });
   }
-  return all_narrow(quad, config) ? snap_exactly<NarrowInteger>(quad, attributes, config, state)
-                                  : snap_exactly<WideInteger>(quad, attributes, config, state);
+  if (all_fit(128, quad, config)) return snap_exactly<NarrowInteger>(quad, attributes, config, state);
+  if (all_fit(256, quad, config)) return snap_exactly<MiddleInteger>(quad, attributes, config, state);
+  return snap_exactly<WideInteger>(quad, attributes, config, state);
 }
 
 bool is_ordinary(const SnappedQuad& quad, const Config& config) {

@@ -143,12 +143,12 @@ TEST(SnapExactly, RandomQuads) {
   EXPECT_GT(homogeneous, drawn / 4);
 }
 
-/// Numbers 2^0 to 2^100 apart, of all 53 bits, alike at all four vertices: up to where 128 bits hold what is made of
-/// them, and beyond.
-TEST(SnapExactly, BothLengthsOfIntegers) {
+/// Numbers 2^0 to 2^240 apart, of all 53 bits, alike at all four vertices: up to where 128 bits hold what is made of
+/// them, then 256, and beyond.
+TEST(SnapExactly, EveryLengthOfIntegers) {
   Prng rng(14);
   const Config c;
-  for (int apart = 0; apart <= 100; ++apart)
+  for (int apart = 0; apart <= 240; ++apart)
     for (int n = 0; n < 6; ++n) {
       DrawState state;
       state.perspective = n % 3 != 0;

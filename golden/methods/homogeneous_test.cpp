@@ -1,9 +1,16 @@
 // Edge functions and the triangle rasterizer: exact signs, the tie rule, where nothing can be visible.
 #include "golden/methods/homogeneous.hpp"
 
+#include "golden/methods/adaptive.hpp"
+#include "golden/methods/quad_coverage.hpp"
+#include "golden/scenes/stress.hpp"
 #include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
+
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace quadrille::golden::methods {
 namespace {
@@ -69,7 +76,7 @@ TEST(EdgeFunction, OnAnEdgeTheSignIsThatOfANearbyPoint) {
 
 TEST(PixelBox, HoldsPixelCentres) {
   const auto box = [](const std::array<WindowVertex, 3>& v) {
-    const PixelBox b = pixel_box(v, view64);
+    const PixelRect b = pixel_box(v, view64);
     return std::array<int, 4>{b.x0, b.y0, b.x1, b.y1};
   };
   using Box = std::array<int, 4>;
@@ -84,6 +91,69 @@ TEST(PixelBox, HoldsPixelCentres) {
   EXPECT_EQ(box({{{7, 70, 0, 1}, {3, -30, 0, -1}, {9, 130, 0, 2}}}), Box{});
   // Not so where one vertex is not beyond the side.
   EXPECT_EQ(box({{{70, 3, 0, 1}, {-70, 9, 0, -1}, {130, 7, 0, 2}}}), (Box{0, 0, 64, 64}));
+}
+
+using Pixels = std::set<std::pair<int, int>>;
+
+/// Every pixel of the view by the same edge functions.
+Pixels triangle_by_scan(const std::array<WindowVertex, 3>& v, const View& view) {
+  Pixels out;
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const PixelVector a(v[0], x + 0.5, y + 0.5), b(v[1], x + 0.5, y + 0.5), c(v[2], x + 0.5, y + 0.5);
+      const int sign = side(b, c);
+      if (sign == 0 || side(c, a) != sign || side(a, b) != sign) continue;
+      const std::array<double, 3> e{cross(b, c), cross(c, a), cross(a, b)};
+      const double sum = e[0] + e[1] + e[2], sum_w = e[0] * v[0].w + e[1] * v[1].w + e[2] * v[2].w;
+      if (sum != 0 && sum_w / sum > 0) out.insert({x, y});
+    }
+  }
+  return out;
+}
+
+/// What is drawn is what a scan of the whole view draws: in front of the eye, through it, behind it, far away, thin.
+TEST(RasterRows, LoseNoPixelOfTheFamilies) {
+  std::size_t pixels = 0, behind = 0, out_of_sight = 0;
+  for (const StressFamilyInfo& family : stress_families()) {
+    for (const WindowQuad& made : make_stress(family.family, 6, 5, 1, 64, 64, 0)) {
+      for (const double shift : {0.0, 3e5}) {
+        std::array<WindowVertex, 4> vertex = made.vertex;
+        for (WindowVertex& v : vertex) v.x += shift * std::abs(v.w);
+        for (const bool mirrored : {false, true}) {
+          if (mirrored)
+            for (WindowVertex& v : vertex) v.x = -v.x, v.y = -v.y, v.w = -v.w;
+          const auto& [a, b, c, d] = vertex;
+          for (const std::array<WindowVertex, 3>& triangle : {std::array{a, b, c}, {a, c, d}, {b, c, d}}) {
+            Pixels drawn;
+            raster_triangle(triangle, view64, [&](const TrianglePixel& p) { drawn.insert({p.x, p.y}); });
+            ASSERT_EQ(drawn, triangle_by_scan(triangle, view64)) << family.name << " " << made.id;
+            pixels += drawn.size();
+          }
+          Pixels drawn, expected;
+          raster_quad(vertex, view64, [&](int x, int y, bool) { drawn.insert({x, y}); });
+          const PixelRect box = pixel_box(vertex, view64);
+          for (int y = box.y0; y < box.y1; ++y)
+            for (int x = box.x0; x < box.x1; ++x)
+              if (quad_orientation(vertex, x + 0.5, y + 0.5) != 0) expected.insert({x, y});
+          ASSERT_EQ(drawn, expected) << family.name << " " << made.id;
+          pixels += drawn.size();
+          behind += std::ranges::all_of(vertex, [](const WindowVertex& v) { return v.w < 0; }) ? 1 : 0;
+
+          // Parts of a quad that is out of view draw nothing either.
+          if (!out_of_view(vertex, view64)) continue;
+          ++out_of_sight;
+          Quad quad{.vertex = vertex};
+          quad.object = {{{0, 0, 0}, {1, 0, 0}, {1.1, 1, 0.3}, {0, 0.8, 0}}};
+          std::vector<MethodSample> samples;
+          for (const SubQuad& part : subdivide(quad, view64, 0.1)) draw_split02(part.corner, view64, samples);
+          ASSERT_TRUE(samples.empty()) << family.name << " " << made.id;
+        }
+      }
+    }
+  }
+  EXPECT_GT(pixels, 100'000u);
+  EXPECT_GT(behind, 100u);
+  EXPECT_GT(out_of_sight, 200u);
 }
 
 }  // namespace

@@ -238,13 +238,6 @@ bool w_sum_vanishes(const detail::TruthGeometry<Coord, Product>& g, const Weight
 }
 
 template <class Coord, class Product>
-bool in_front(const detail::TruthGeometry<Coord, Product>& g, const Weights<__float128>& weights,
-              const std::array<__float128, 4>& k, const std::array<__float128, 4>& w) {
-  if (w_sum_vanishes(g, weights)) return false;
-  return sign_of(inner(weights.m, k)) * sign_of(inner(weights.m, w)) > 0;
-}
-
-template <class Coord, class Product>
 Coverage cover_pixel(const detail::TruthGeometry<Coord, Product>& g, const PixelEdges<Coord, Product>& p,
                      bool homogeneous, int& clause) {
   Coverage out;
@@ -428,7 +421,7 @@ Coverage TruthQuad::cover(int px, int py) const {
         const PixelEdges p(g, px, py);
         int clause = 0;
         Coverage out = cover_pixel(g, p, homogeneous_, clause);
-        if (out.covered && out.eye_in_hull) out.visible = in_front(g, weights_at(p, crossing()), exact_.k, exact_.w);
+        if (out.covered && out.eye_in_hull) out.visible = sample(px, py).visible;
         return out;
       },
       geometry_);

@@ -2,7 +2,8 @@
 // neither the platform nor the caller's rounding mode shows in a result.
 //
 // Each function is a template over the integer that holds a magnitude: 128 bits where the numbers lie so close together
-// that all fits (NumberSpan says so, nearly always), WideInteger else.
+// that all fits (NumberSpan says so, nearly always), 256 for numbers beside what sines and cosines leave of 0, else
+// 2,560.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +15,20 @@
 
 namespace quadrille {
 
-/// A non-negative integer of 2,560 bits: what differences and products of doubles from 2^-1074 to 2^80 need.
-class WideInteger {
+/// A non-negative integer of 64 `words` bits.
+template <std::size_t words>
+class LongInteger {
  public:
-  constexpr WideInteger() = default;
-  constexpr explicit WideInteger(std::uint64_t value) { word_[0] = value; }
+  constexpr LongInteger() = default;
+  constexpr explicit LongInteger(std::uint64_t value) { word_[0] = value; }
 
   int bit_length() const {
     for (std::size_t i = words; i-- > 0;)
       if (word_[i] != 0) return static_cast<int>(64 * i) + static_cast<int>(std::bit_width(word_[i]));
     return 0;
   }
-  WideInteger operator<<(int bits) const {
-    WideInteger out;
+  LongInteger operator<<(int bits) const {
+    LongInteger out;
     const auto whole = static_cast<std::size_t>(bits / 64);
     const int part = bits % 64;
     for (std::size_t i = words; i-- > whole;) {
@@ -35,8 +37,8 @@ class WideInteger {
     }
     return out;
   }
-  WideInteger operator-(const WideInteger& less) const {
-    WideInteger out;
+  LongInteger operator-(const LongInteger& less) const {
+    LongInteger out;
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < words; ++i) {
       const auto difference = static_cast<unsigned __int128>(word_[i]) - less.word_[i] - borrow;
@@ -45,8 +47,8 @@ class WideInteger {
     }
     return out;
   }
-  WideInteger operator+(const WideInteger& more) const {
-    WideInteger out;
+  LongInteger operator+(const LongInteger& more) const {
+    LongInteger out;
     unsigned __int128 carry = 0;
     for (std::size_t i = 0; i < words; ++i) {
       carry += static_cast<unsigned __int128>(word_[i]) + more.word_[i];
@@ -55,8 +57,8 @@ class WideInteger {
     }
     return out;
   }
-  WideInteger operator*(std::uint64_t factor) const {
-    WideInteger out;
+  LongInteger operator*(std::uint64_t factor) const {
+    LongInteger out;
     unsigned __int128 carry = 0;
     for (std::size_t i = 0; i < words; ++i) {
       carry += static_cast<unsigned __int128>(word_[i]) * factor;
@@ -65,25 +67,30 @@ class WideInteger {
     }
     return out;
   }
-  friend std::strong_ordering operator<=>(const WideInteger& a, const WideInteger& b) {
+  friend std::strong_ordering operator<=>(const LongInteger& a, const LongInteger& b) {
     for (std::size_t i = words; i-- > 0;)
       if (a.word_[i] != b.word_[i]) return a.word_[i] <=> b.word_[i];
     return std::strong_ordering::equal;
   }
-  friend bool operator==(const WideInteger&, const WideInteger&) = default;
+  friend bool operator==(const LongInteger&, const LongInteger&) = default;
 
  private:
-  static constexpr std::size_t words = 40;
   std::array<std::uint64_t, words> word_{};
 };
 
+/// What differences and products of doubles from 2^-1074 to 2^80 need.
+using WideInteger = LongInteger<40>;
+using MiddleInteger = LongInteger<4>;
 using NarrowInteger = unsigned __int128;
 
 inline int bit_length(NarrowInteger value) {
   const auto high = static_cast<std::uint64_t>(value >> 64);
   return static_cast<int>(high != 0 ? 64 + std::bit_width(high) : std::bit_width(static_cast<std::uint64_t>(value)));
 }
-inline int bit_length(const WideInteger& value) { return value.bit_length(); }
+template <std::size_t words>
+int bit_length(const LongInteger<words>& value) {
+  return value.bit_length();
+}
 
 /// (-1)^neg m 2^exp.
 template <class Integer>
@@ -152,8 +159,9 @@ class NumberSpan {
     high_ = std::max(high_, bits.exp + static_cast<int>(std::bit_width(bits.m)));
     low_ = std::min(low_, bits.exp - below);
   }
-  /// Differences of the numbers, a product of one with an integer below 2^32, and quotient_floor() below 2^35 fit.
-  bool narrow() const { return high_ - low_ <= 88; }
+  /// Differences of the numbers, a product of one with an integer below 2^32, and quotient_floor() below 2^35 fit into
+  /// so many bits.
+  bool fits(int bits) const { return high_ - low_ <= bits - 40; }
 
  private:
   int high_ = -5000, low_ = 5000;
@@ -205,15 +213,16 @@ inline Floor divide(NarrowInteger n, NarrowInteger d) {
   const NarrowInteger q = n / d;
   return {static_cast<std::uint64_t>(q), q * d != n};
 }
-inline Floor divide(WideInteger n, const WideInteger& d) {
+template <std::size_t words>
+Floor divide(LongInteger<words> n, const LongInteger<words>& d) {
   Floor out;
   for (int bit = n.bit_length() - d.bit_length(); bit >= 0; --bit) {
-    const WideInteger part = d << bit;
+    const LongInteger<words> part = d << bit;
     if (n < part) continue;
     n = n - part;
     out.whole |= std::uint64_t{1} << bit;
   }
-  out.rest = n != WideInteger{};
+  out.rest = n != LongInteger<words>{};
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/check/check.hpp"
+#include "tb/commands/bench_cliffs.hpp"
 #include "tb/commands/bench_error.hpp"
 #include "tb/commands/bench_peers.hpp"
 #include "tb/commands/bench_skips.hpp"
@@ -30,7 +31,7 @@ struct BenchOptions {
   std::optional<int> repeat;
   std::uint64_t limit_fragments = 16'000;
   std::string pictures;
-  bool error = false, skips = false, peers = false;
+  bool error = false, skips = false, peers = false, cliffs = false;
 };
 
 constexpr int speed_repeat = 5, error_repeat = 3;
@@ -287,7 +288,13 @@ class ErrorCommand {
   std::vector<Input> inputs_;
 };
 
-int bench(BenchOptions& options, bool size_given, const std::vector<std::string>& arguments) {
+int bench(BenchOptions& options, bool size_given, bool fragments_given, const std::vector<std::string>& arguments) {
+  if (options.cliffs) {
+    CliffBenchOptions cliffs{options.speed.common};
+    cliffs.repeat = options.repeat.value_or(cliffs.repeat);
+    if (fragments_given) cliffs.fragments = options.speed.fragments;
+    return run_cliff_bench(cliffs, arguments);
+  }
   if (options.peers) {
     if (!size_given) options.speed.common.size = peers_size;
     return run_peer_bench(
@@ -327,6 +334,9 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       "mixture where quads differ, beside them each alone and a legend; the EXR has the numbers of each in a\n"
       "layer (skip.hidden, say). Exit status 1: a skip that must keep the list of fragments changed it.\n\n"
       "With --peers: CPU time, one thread each, model and shader in turn; scripts/peers_plot.py draws the JSON.\n\n"
+      "With --cliffs: CPU time of one thread for a fragment, divided by the engine's least, on every family and\n"
+      "scene, on a mesh from within and from outside, at significand_bits 8 to 26, in viewports of 64 to 4096.\n"
+      "What is above 8, and why: tb/commands/README.md.\n\n"
       "Examples:\n"
       "  quadrille bench\n"
       "  quadrille bench --no-rtl --set significand_bits=24 --json bench.json\n"
@@ -334,6 +344,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       "  quadrille bench --skips --json skips.json --pictures skips\n"
       "  quadrille bench --peers --json peers.json\n"
       "  quadrille bench --skips --mesh pawn.obj --size 512x512\n"
+      "  quadrille bench --cliffs --json cliffs.json\n"
       "  quadrille bench --error --stress sliver --count 200 --verbose");
   const auto options = std::make_shared<BenchOptions>();
   SpeedOptions& speed = options->speed;
@@ -355,6 +366,14 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
                      "of quads, error against time. --size is 1920x1080 unless it is given")
           ->excludes(error)
           ->excludes(skips);
+  CLI::Option* cliffs =
+      command
+          ->add_flag("--cliffs", options->cliffs,
+                     "Where an engine takes longer for a fragment than elsewhere: over families, scenes, views, widths "
+                     "and viewports")
+          ->excludes(error)
+          ->excludes(skips)
+          ->excludes(peers);
   writes_folder(
       command->add_option(
           "--pictures", options->pictures,
@@ -362,7 +381,9 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       ->needs(skips);
   options->input.add_to(*command);
   speed.common.add_to(*command);
-  command->add_option("--repeat", options->repeat, "Runs of each; default 5, with --error or --skips 3, with --peers 9")
+  command
+      ->add_option("--repeat", options->repeat,
+                   "Runs of each; default 5, with --error, --skips or --cliffs 3, with --peers 9")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   command->add_option("--quad-size", speed.quad_size, "Size of the mesh's quads in pixels")
@@ -371,15 +392,18 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str()
       ->excludes(error)
       ->excludes(skips)
-      ->excludes(peers);
-  command
-      ->add_option("--fragments", speed.fragments,
-                   "Fragments of the model per run, with --peers of a point; slower bodies get a part of that")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40))
-      ->capture_default_str()
-      ->excludes(error)
-      ->excludes(skips);
+      ->excludes(peers)
+      ->excludes(cliffs);
+  CLI::Option* fragments =
+      command
+          ->add_option("--fragments", speed.fragments,
+                       "Fragments of the model per run, with --peers of a point, with --cliffs of an input (default "
+                       "20000); slower bodies get a part of that")
+          ->type_name("N")
+          ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40))
+          ->capture_default_str()
+          ->excludes(error)
+          ->excludes(skips);
   command
       ->add_option("--limit-fragments", options->limit_fragments,
                    "With --error: draw the quads of an input in order until there are so many fragments and 16 quads; "
@@ -395,16 +419,19 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
           "Instruction set of the model's lanes: baseline, v3 or v4 (x86-64); default the best that the processor has")
       ->type_name("NAME");
   command->add_flag("--no-rtl", speed.no_rtl, "Leave the RTL out (no Verilator needed)");
-  const CLI::Option* size = command->get_option("--size");
+  CLI::Option* size = command->get_option("--size");
+  size->excludes(cliffs);
   std::vector<const CLI::Option*> of_input;
   for (const char* input : {"--scene", "--mesh", "--camera", "--view", "--up", "--save-camera", "--quads", "--stress",
                             "--count", "--corner", "--strict"})
     of_input.push_back(command->get_option(input));
-  command->callback([options, size, of_input, &invocation] {
+  command->callback([options, size, fragments, of_input, &invocation] {
     if (!options->error && !options->skips)
       for (const CLI::Option* input : of_input)
         if (input->count() != 0) throw UsageError(input->get_name() + " goes with --error or --skips");
-    invocation.run = [options, size, &invocation] { return bench(*options, size->count() != 0, invocation.arguments); };
+    invocation.run = [options, size, fragments, &invocation] {
+      return bench(*options, size->count() != 0, fragments->count() != 0, invocation.arguments);
+    };
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -172,6 +173,57 @@ TEST_F(Cli, BenchPeersReports) {
   EXPECT_EQ(bits.size(), 15u);
   EXPECT_EQ(*bits.begin(), 12);
   EXPECT_EQ(*bits.rbegin(), 26);
+}
+
+TEST_F(Cli, BenchCliffsRefuses) {
+  refuses(2, "bench --cliffs --error", {"--cliffs", "--error"});
+  refuses(2, "bench --cliffs --skips", {"--cliffs", "--skips"});
+  refuses(2, "bench --cliffs --peers", {"--cliffs", "--peers"});
+  refuses(2, "bench --cliffs --size 64x64", {"--size", "--cliffs"});
+  refuses(2, "bench --cliffs --scene sphere", {"--scene", "--error"});
+  refuses(2, "bench --cliffs --json nowhere/c.json", {"nowhere"});
+}
+
+/// Every load and engine is there, each engine has a best, and all draw the same numbers of fragments. Not the times.
+TEST_F(Cli, BenchCliffsReports) {
+  const Outcome outcome = run("bench --cliffs --fragments 1000 --repeat 1 --json -");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  std::map<std::string, int> rows, best;
+  std::set<int> bits, sides;
+  for (const json& row : report["cliffs"]) {
+    const std::string series = row["series"];
+    ++rows[series];
+    if (series == "width") bits.insert(row["significand_bits"].get<int>());
+    if (series == "viewport") sides.insert(row["side"].get<int>());
+    EXPECT_EQ(row["engines"].size(), report["engines"].size()) << row;
+    const double fragments = row["fragments"];
+    EXPECT_GT(fragments, 0) << row;
+    for (const auto& [engine, cost] : row["engines"].items()) {
+      if (cost.is_null()) continue;
+      EXPECT_GT(cost["cpu_seconds"], 0) << row;
+      const double drawn = cost["fragments"], ratio = cost["of_best"];
+      if (engine == "model" || engine == "clocked" || engine == "judge") {
+        EXPECT_EQ(drawn, fragments) << engine << row;
+      }
+      if (engine == "truth" || engine == "float") {
+        EXPECT_NEAR(drawn / fragments, 1, 0.05) << engine << row;
+      }
+      if (drawn >= 64) {
+        EXPECT_GE(ratio, 1) << engine << row;
+        best[engine] += ratio == 1;
+      }
+    }
+  }
+  EXPECT_EQ(rows["family"], 22);
+  EXPECT_GT(rows["scene"], 60);
+  EXPECT_EQ(rows["view"], 2);
+  EXPECT_EQ(rows["width"], 10);
+  EXPECT_EQ(rows["viewport"], 4 * 6);
+  EXPECT_EQ(bits, (std::set<int>{8, 10, 12, 14, 16, 18, 20, 22, 24, 26}));
+  EXPECT_EQ(sides, (std::set<int>{64, 256, 1024, 4096}));
+  for (const char* engine : {"model", "clocked", "judge", "truth", "float", "fp32", "mvc", "split02", "refine:20"})
+    EXPECT_EQ(best[engine], 1) << engine;
 }
 
 TEST_F(Cli, BenchErrorReports) {

@@ -126,10 +126,6 @@ class ReferenceEngine final : public Engine {
     for (int y = std::max(unit.y0, bounds.y0); y < std::min(unit.y1, bounds.y1); ++y) {
       const golden::PixelSpan row = quad.rows().row(y);
       for (int x = row.x0; x < row.x1; ++x) {
-        if (quad.truth) {
-          const golden::Coverage coverage = quad.truth->cover(x, y);
-          if (!coverage.covered || !coverage.visible) continue;
-        }
         const ReferenceSample s = quad.truth    ? quad.truth->sample(x, y)
                                   : quad.single ? quad.single->sample(x, y)
                                                 : quad.paper->sample(x, y);
