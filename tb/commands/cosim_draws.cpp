@@ -9,7 +9,7 @@ namespace quadrille::cli {
 
 namespace {
 
-constexpr std::uint64_t stream = 210;
+constexpr std::uint64_t draws_stream = 210;
 
 /// The quads of draw d of `count`.
 std::span<const WindowQuad> group(std::span<const WindowQuad> quads, std::size_t d, std::size_t count) {
@@ -51,7 +51,7 @@ unsigned random_clears(const Config& config, golden::Prng& rng) {
 
 std::vector<PlannedDraw> plan_draws(std::span<const WindowQuad> quads, std::size_t count, const Config& config,
                                     int width, int height, std::uint64_t seed) {
-  golden::Prng rng(seed, stream);
+  golden::Prng rng(seed, draws_stream);
   std::vector<PlannedDraw> draws;
   if (quads.empty()) return draws;
   bool reset = false;
