@@ -5,10 +5,12 @@
   scripts/synthesis_test.py PROGRAM --tools    on small units with Yosys and OpenSTA: a minute"""
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.dont_write_bytecode = True
 import timing  # noqa: E402
@@ -164,7 +166,10 @@ class Errors(unittest.TestCase):
         with tempfile.TemporaryDirectory() as empty:
             self.fails(3, "apt-get install yosys", "size.py", path=empty)
             self.fails(3, "apt-get install opensta", "timing.py", "normalise", path=empty)
-            self.fails(3, "no nextpnr-ecp5 on PATH", "timing.py", "normalise", "--target", "ecp5", path=empty)
+            copy = shutil.copytree(HERE, os.path.join(empty, "scripts"))  # whose build/ has no nextpnr
+            with unittest.mock.patch.dict(os.environ, PIP_NO_INDEX="1"):
+                self.fails(3, "a Python package index is needed", os.path.join(copy, "timing.py"), "normalise", "--target", "ecp5", path=empty)
+            self.assertFalse(os.path.exists(os.path.join(empty, "build", "nextpnr")))
             self.fails(3, "build the program", "size.py", "--quadrille", os.path.join(empty, "absent"))
 
     def test_bad_input(self):

@@ -8,9 +8,9 @@
 
 Standard cells (--target cells, the default): Yosys maps onto the OSU 0.18 um library (typical, 1.8 V, 25 C) and buffers what drives more
 than ten inputs, OpenSTA finds the slowest path. Wires have no load, so the figures compare designs; they promise no chip. Memories
-become flip-flops. ECP5 (--target ecp5, also done when no target is given and nextpnr-ecp5 is on PATH): Yosys' synth_ecp5 with DSP
-blocks, then nextpnr-ecp5 on the smallest of LFE5U-25F, -45F and -85F that is large enough. Ports count as registers: a path starts at
-an input and ends at an output as it does at a register.
+become flip-flops. ECP5 (--target ecp5): Yosys' synth_ecp5 with DSP blocks, then nextpnr-ecp5 on the smallest of LFE5U-25F, -45F and -85F
+that is large enough; where none is on PATH, the build for Python is installed under build/ (30 MB). Ports count as registers: a path
+starts at an input and ends at an output as it does at a register.
 
 Exit status: 1 a tool failed, or the unit fits no device; 2 usage; 3 a missing tool, with the command that installs it."""
 import argparse
@@ -39,7 +39,7 @@ def main():
     parser.add_argument("unit", metavar="UNIT", help="a module of rtl/; quadrille is the whole machine")
     synthesis.add_arguments(parser)
     parser.add_argument("-P", dest="parameters", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the unit")
-    parser.add_argument("--target", choices=["cells", "ecp5"], help="default: cells, and ecp5 where nextpnr-ecp5 is on PATH")
+    parser.add_argument("--target", choices=["cells", "ecp5"], default="cells", help="default: %(default)s")
     parser.add_argument("--seed", action="append", type=int, metavar="N", help="of nextpnr; given several times, the median counts (default: 1)")
     parser.add_argument("--speed", choices=["6", "7", "8"], default="6", help="speed grade of the ECP5 (default: %(default)s)")
     parser.add_argument("--path", action="store_true", help="print the slowest path cell by cell")
@@ -61,20 +61,19 @@ def measure(args):
         if not re.fullmatch(r"\w+=-?\d+", text):
             raise synthesis.InputError(f"-P {text}: expected NAME=VALUE, such as TERMS=4")
         parameters.append(text.split("="))
-    nextpnr = synthesis.optional_tool("nextpnr-ecp5")
-    if args.target == "ecp5" and not nextpnr:
-        raise synthesis.ToolMissing("no nextpnr-ecp5 on PATH; Debian 12 has no package of it: build it from its sources with Project Trellis")
-    if args.target != "ecp5":
+    if args.target == "ecp5":
+        nextpnr = synthesis.find_nextpnr()
+    else:
         sta = synthesis.find_tool("sta", "opensta", packages=PACKAGES)
         if not os.path.exists(LIBERTY):
             raise synthesis.ToolMissing(f"no {LIBERTY}; install with: apt-get install {PACKAGES}")
     with tempfile.TemporaryDirectory() as work:
         machine = synthesis.Machine(args, work)
         result = {"unit": args.unit, "parameters": dict(parameters)}
-        if args.target != "ecp5":
-            result |= cells(machine, sta, args, parameters)
-        if args.target == "ecp5" or (args.target is None and nextpnr and args.unit != "quadrille"):
+        if args.target == "ecp5":
             result["ecp5"] = place_and_route(machine, nextpnr, args, parameters)
+        else:
+            result |= cells(machine, sta, args, parameters)
     return result
 
 

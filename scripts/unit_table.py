@@ -8,7 +8,7 @@ other configurations. Latencies and widths are evaluated from rtl/quadrille_pkg.
                                                instantiates, and that latencies are those of model/latency.hpp and add up; no tools needed
   scripts/unit_table.py --update               writes the table
   scripts/unit_table.py --measure size         sizes of the default configuration anew (Yosys, minutes)
-  scripts/unit_table.py --measure UNIT ...     clocks anew: place and route with seeds 1 to 3 (nextpnr-ecp5 on PATH); --seed N for others;
+  scripts/unit_table.py --measure UNIT ...     clocks anew: place and route with seeds 1 to 3 (nextpnr-ecp5); --seed N for others;
                                                of a unit that the default configuration has not (`keys` in the list) its size too
 
 Exit status: 1 a check or a tool failed, 2 usage or input, 3 a missing tool."""

