@@ -179,5 +179,56 @@ TEST_F(MachineSet, WrongBeatsAreFound) {
   }
 }
 
+/// A copy of a suite with a field of the first record of a role changed, under right hashes.
+SuiteReader with_field(const SuiteReader& whole, const std::string& directory, const GenerateOptions& options,
+                       const std::string& changed, const char* field, std::uint64_t value) {
+  {
+    SetWriter writer(directory, {1, 1, options.config, options.limit}, false);
+    writer.add(whole.info(), [&](SuiteWriter& out) {
+      out.set_count("vectors", whole.lines("response"));
+      for (const std::string& role : whole.roles()) {
+        out.add_record(role, whole.layout(role));
+        std::uint64_t line = 0;
+        for (Record record : whole.read(role, 0, whole.lines(role))) {
+          if (role == changed && ++line == 1) record.set(whole.layout(role).field(field), value);
+          out.write(role, record);
+        }
+      }
+    });
+    writer.commit(false);
+  }
+  return SetReader(directory).suite(whole.info().name);
+}
+
+// States of somebody else's set are those of the model's check, and a stage is given nothing out of range.
+TEST_F(MachineSet, StatesAndStimuliThatNoMachineHasAreNamed) {
+  GenerateOptions options;
+  options.limit = 40;
+  const SuiteReader machine = generate("machine", options), depth = generate("depth", options);
+  const auto states = [&](const char* field, std::uint64_t value) {
+    try {
+      read_draws(with_field(machine, path(field), options, "states", field, value));
+    } catch (const golden::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  for (const auto& [field, value, words] : {std::tuple{"attributes", 9u, "attributes 9: from 0 to 4 (attribute_slots)"},
+                                            {"cull", 3u, "cull 3: 0 (none), 1 (front) or 2 (back)"},
+                                            {"scissor_x0", 4000u, "X0 must not exceed X1"},
+                                            {"scissor_y1", 5000u, "from 1x1 to 4096x4096 (viewport_bits)"},
+                                            {"zfar", (1u << 24) + 1, "0 <= znear <= zfar <= 1"},
+                                            {"skip", 64u, "only bits of 63 have a meaning"}}) {
+    const std::string error = states(field, value);
+    EXPECT_NE(error.find("states.hex:1: draw state: "), std::string::npos) << field << ": " << error;
+    EXPECT_NE(error.find(words), std::string::npos) << error;
+  }
+  const SuiteReader wrong = with_field(depth, path("wrong_depth"), options, "stimulus", "attributes", 15);
+  const VerifyResult result = find_suite("depth").verify(wrong, 1);
+  EXPECT_EQ(result.mismatches, 1u);
+  EXPECT_NE(result.first_difference.find("attributes = 0xf (15); the stage can be given 0..4"), std::string::npos)
+      << result.first_difference;
+}
+
 }  // namespace
 }  // namespace quadrille::vectors
