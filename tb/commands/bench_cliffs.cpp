@@ -96,6 +96,8 @@ Subject engine_subject(EngineKind kind, const char* what, std::size_t most_quads
 Subject method_subject(const char* name) {
   return {name, "method of the papers", [name](const Load& load) -> Draw {
             const std::shared_ptr<const golden::methods::Method> method = golden::methods::make_method(name);
+            // They draw all of the view.
+            if (load.state.scissor_x0 > 0 || load.state.scissor_x1 < load.state.width) return nullptr;
             if (method->needs_object_space() && load.input.corners.size() != load.input.quads.size()) return nullptr;
             return [method, &load, quads = method_quads(load.input, name), view = method_view(load.state)](bool all) {
               std::uint64_t samples = 0;
