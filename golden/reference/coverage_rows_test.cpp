@@ -183,6 +183,27 @@ TEST(CoverageRows, AreTight) {
   for (const int y : {0, 1, 500, 998}) EXPECT_LE(thin.row(y).size(), 3) << y;
 }
 
+/// A row of a triangle has at most a pixel more on either side than is covered, and none where none is.
+TEST(CoverageRows, OfATriangleAreItsOwn) {
+  test::Random random(12);
+  const DrawState state = viewport(64);
+  int rows = 0;
+  for (int n = 0; n < 300; ++n) {
+    SnappedQuad quad = n % 3 == 0 ? test::random_any_w(random, 60) : test::random_ordinary(random, 60);
+    quad.vertex[3] = quad.vertex[2];
+    const TruthQuad truth(quad, config, state);
+    if (truth.cover(0, 0).eye_in_hull) continue;
+    for (int y = truth.bounds().y0; y < truth.bounds().y1; ++y) {
+      int covered = 0;
+      for (int x = 0; x < state.width; ++x) covered += truth.cover(x, y).visible ? 1 : 0;
+      if (truth.bounds().x1 - truth.bounds().x0 <= 8) continue;  // all of a narrow box is looked at
+      ++rows;
+      ASSERT_LE(truth.rows().row(y).size(), covered + 2) << "triangle " << n << ", row " << y;
+    }
+  }
+  EXPECT_GT(rows, 2'000);
+}
+
 /// Pixels that are looked at for a fragment, from within a mesh and from outside.
 TEST(CoverageRows, AMeshTakesNoMoreLooksFromWithin) {
   constexpr int side = 40, size = 128;

@@ -398,7 +398,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       command
           ->add_option("--fragments", speed.fragments,
                        "Fragments of the model per run, with --peers of a point, with --cliffs of an input (default "
-                       "20000); slower bodies get a part of that")
+                       "10000); slower bodies get a part of that")
           ->type_name("N")
           ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40))
           ->capture_default_str()

@@ -13,6 +13,9 @@ namespace {
 
 using nlohmann::json;
 
+/// All loads by all engines: half a minute.
+class CliBenchWhole : public Cli {};
+
 constexpr const char* good_quad = "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n";
 
 TEST_F(Cli, BenchErrorRefuses) {
@@ -185,8 +188,10 @@ TEST_F(Cli, BenchCliffsRefuses) {
 }
 
 /// Every load and engine is there, each engine has a best, and all draw the same numbers of fragments. Not the times.
-TEST_F(Cli, BenchCliffsReports) {
-  const Outcome outcome = run("bench --cliffs --fragments 1000 --repeat 1 --json -");
+TEST_F(CliBenchWhole, CliffsOfEveryLoadAndEngine) {
+  // Without the shader, whose start takes longer than all else.
+  const Outcome outcome =
+      run("bench --cliffs --fragments 1000 --repeat 1 --json -", "__EGL_VENDOR_LIBRARY_DIRS=/nonexistent");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json report = json::parse(outcome.out);
   std::map<std::string, int> rows, best;
@@ -206,10 +211,11 @@ TEST_F(Cli, BenchCliffsReports) {
       if (engine == "model" || engine == "clocked" || engine == "judge") {
         EXPECT_EQ(drawn, fragments) << engine << row;
       }
-      if (engine == "truth" || engine == "float") {
+      if (engine == "truth") {
         EXPECT_NEAR(drawn / fragments, 1, 0.05) << engine << row;
       }
-      if (drawn >= 64) {
+      EXPECT_GT(cost["of_expected"], 0) << row;
+      if (drawn >= 500) {
         EXPECT_GE(ratio, 1) << engine << row;
         best[engine] += ratio == 1;
       }

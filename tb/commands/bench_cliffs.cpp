@@ -33,13 +33,14 @@ constexpr std::array<const char*, 6> viewport_families{"general", "sliver",     
                                                        "reflex",  "eye_crossing", "long_span"};
 constexpr int terrain_side = 60;
 constexpr int least_bits = 8, most_bits = 26;  ///< significand_bits
-constexpr std::uint64_t family_quads = 2000;
+constexpr std::uint64_t family_quads = 800;
 constexpr int scissor_side = 128;                     ///< of quads that cover most of any viewport
 constexpr const char* setup_scene = "subpixel_mesh";  ///< 75 quads a fragment: what setting up a quad takes
 constexpr double shortest_run = 2e-3;                 ///< seconds of a measurement; quicker draws are repeated
 constexpr double most_seconds = 0.2;                  ///< of all runs of an engine on a load
-constexpr double cliff = 8;                           ///< ratios above are marked
-constexpr std::uint64_t least_samples = 1000;         ///< of a draw that may be an engine's best
+constexpr std::uint64_t every_one = std::numeric_limits<std::uint64_t>::max();
+constexpr double cliff = 8;                   ///< ratios above are marked
+constexpr std::uint64_t least_samples = 500;  ///< of a draw that may be an engine's best
 
 /// What is drawn: a row of the table.
 struct Load {
@@ -54,6 +55,7 @@ struct Load {
 struct Cost {
   std::uint64_t samples = 0;
   double seconds = 0;
+  std::size_t quads = 0;
 
   double ns() const { return samples == 0 ? NAN : 1e9 * seconds / static_cast<double>(samples); }
 };
@@ -65,6 +67,7 @@ using Draw = std::function<std::uint64_t(bool)>;
 struct Subject {
   std::string name, what;
   std::function<Draw(const Load&)> prepare;
+  std::size_t most_quads = std::numeric_limits<std::size_t>::max();  ///< of a load, the first ones
 };
 
 std::uint64_t draw_by(Engine& engine, std::span<const WindowQuad> quads) {
@@ -73,22 +76,28 @@ std::uint64_t draw_by(Engine& engine, std::span<const WindowQuad> quads) {
   return samples;
 }
 
-Subject engine_subject(EngineKind kind, const char* what) {
-  return {std::string(engine_name(kind)), what, [kind](const Load& load) {
+constexpr std::size_t every_quad = std::numeric_limits<std::size_t>::max();
+
+Subject engine_subject(EngineKind kind, const char* what, std::size_t most_quads = every_quad) {
+  return {std::string(engine_name(kind)), what,
+          [kind, most_quads](const Load& load) {
             EngineSettings settings;
             settings.kind = kind;
             settings.config = load.config;
             settings.state = load.state;
-            return [settings, &load](bool all) {
-              return draw_by(*make_engine(settings),
-                             std::span(load.input.quads).first(all ? load.input.quads.size() : 0));
+            return [settings, most_quads, &load](bool all) {
+              const std::span<const WindowQuad> quads(load.input.quads);
+              return draw_by(*make_engine(settings), quads.first(all ? std::min(most_quads, quads.size()) : 0));
             };
-          }};
+          },
+          most_quads};
 }
 
 Subject method_subject(const char* name) {
   return {name, "method of the papers", [name](const Load& load) -> Draw {
             const std::shared_ptr<const golden::methods::Method> method = golden::methods::make_method(name);
+            // They draw all of the view.
+            if (load.state.scissor_x0 > 0 || load.state.scissor_x1 < load.state.width) return nullptr;
             if (method->needs_object_space() && load.input.corners.size() != load.input.quads.size()) return nullptr;
             return [method, &load, quads = method_quads(load.input, name), view = method_view(load.state)](bool all) {
               std::uint64_t samples = 0;
@@ -167,7 +176,7 @@ std::vector<Subject> subjects() {
                             engine_subject(EngineKind::truth, "truth"),
                             engine_subject(EngineKind::paper_float, "the paper's formulas in double precision"),
                             engine_subject(EngineKind::paper_single, "in single precision")};
-  if (has_shader()) list.push_back(engine_subject(EngineKind::shader, "the papers' shader on OpenGL"));
+  if (has_shader()) list.push_back(engine_subject(EngineKind::shader, "the papers' shader on OpenGL", 40));
   for (const char* method : {"mvc", "split02", "twofold", "bilinear", "hybrid", "refine:20", "adaptive"})
     list.push_back(method_subject(method));
   return list;
@@ -231,7 +240,7 @@ class CliffBench {
       load.input.quads = std::move(p.quads);
       load.input.corners = std::move(p.corners);
       load.input.textures = std::move(p.textures);
-      count(load, std::numeric_limits<std::uint64_t>::max());
+      count(load, every_one, every_one);
       loads_.push_back(std::move(load));
     }
     for (int bits = least_bits; bits <= most_bits; bits += 2) {
@@ -248,14 +257,16 @@ class CliffBench {
           state.scissor_x0 = state.scissor_y0 = (side - scissor_side) / 2;
           state.scissor_x1 = state.scissor_y1 = (side + scissor_side) / 2;
         }
-        add(std::move(load));
+        add(load);
       }
   }
 
   /// Without quads that have more than their share of fragments, until there are enough. What has few is drawn several
   /// times, so that what a draw takes as a whole does not count.
-  void add(Load load) {
-    count(load, std::max<std::uint64_t>(1, options_.fragments / 5));
+  void add(const Load& given) {
+    Load load = given;
+    count(load, options_.fragments / 5, options_.fragments);
+    if (load.fragments == 0) count(load = given, every_one, options_.fragments);
     DrawInput& input = load.input;
     const std::size_t quads = input.quads.size();
     const bool meshes = input.corners.size() == quads;
@@ -270,19 +281,21 @@ class CliffBench {
     loads_.push_back(std::move(load));
   }
 
-  void count(Load& load, std::uint64_t most) const {
+  /// Keeps quads of at most `most` fragments until there are `enough`.
+  void count(Load& load, std::uint64_t most, std::uint64_t enough) const {
     check_quad_count(load.input.quads.size(), load.config);
     const Snapped snapped(load);
     UntimedModel model(load.config, snapped.state);
     DrawInput& input = load.input;
     const bool meshes = input.corners.size() == input.quads.size();
     std::size_t kept = 0;
+    std::uint64_t looked_at = 0;
     for (std::size_t i = 0; i < snapped.quads.size(); ++i) {
-      if (most != std::numeric_limits<std::uint64_t>::max() && load.fragments >= options_.fragments) break;
+      if (load.fragments >= enough || looked_at / 20 >= enough) break;
       std::uint64_t fragments = 0;
       model.draw_arrays(snapped.quads[i], [&](const FragmentArrays& some) { fragments += some.size; });
-      // A scene of large quads alone has its first one.
-      if (fragments > most && (load.fragments > 0 || i + 1 < snapped.quads.size())) continue;
+      looked_at += fragments;
+      if (fragments > most) continue;
       load.fragments += fragments;
       std::swap(input.quads[kept], input.quads[i]);
       if (meshes) std::swap(input.corners[kept], input.corners[i]), std::swap(input.textures[kept], input.textures[i]);
@@ -305,7 +318,7 @@ class CliffBench {
     const Draw draw = subject.prepare(load);
     if (!draw) return {};
     const auto quickest = [&](bool all) {
-      Cost cost{0, std::numeric_limits<double>::infinity()};
+      Cost cost{0, std::numeric_limits<double>::infinity(), 0};
       const tb::CpuStopwatch whole;
       for (int n = 0; n < options_.repeat && (n == 0 || whole.seconds() < most_seconds); ++n) {
         const tb::CpuStopwatch stopwatch;
@@ -318,6 +331,7 @@ class CliffBench {
     };
     Cost cost = quickest(true);
     cost.seconds = std::max(cost.seconds - quickest(false).seconds, 0.0);
+    cost.quads = std::min(subject.most_quads, load.input.quads.size());
     return cost;
   }
 
@@ -333,7 +347,7 @@ class CliffBench {
   double setup(std::size_t subject) const {
     for (std::size_t l = 0; l < loads_.size(); ++l)
       if (loads_[l].name == setup_scene)
-        return costs_[l][subject].seconds / static_cast<double>(loads_[l].input.quads.size());
+        return costs_[l][subject].seconds / static_cast<double>(costs_[l][subject].quads);
     return 0;
   }
 
@@ -341,7 +355,7 @@ class CliffBench {
   double of_expected(std::size_t load, std::size_t subject) const {
     const Cost& cost = costs_[load][subject];
     return cost.seconds / (1e-9 * best(subject) * static_cast<double>(cost.samples) +
-                           setup(subject) * static_cast<double>(loads_[load].input.quads.size()));
+                           setup(subject) * static_cast<double>(cost.quads));
   }
 
   void print(std::FILE* text) const {
@@ -389,6 +403,7 @@ class CliffBench {
         const Cost& cost = costs_[l][s];
         nlohmann::ordered_json& entry = row["engines"][subjects_[s].name];
         if (cost.samples == 0) continue;
+        entry["quads"] = cost.quads;
         entry["fragments"] = cost.samples;
         entry["cpu_seconds"] = cost.seconds;
         entry["of_best"] = cost.ns() / best(s);

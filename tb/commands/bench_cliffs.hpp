@@ -12,7 +12,7 @@ namespace quadrille::cli {
 struct CliffBenchOptions {
   CommonOptions common;
   int repeat = 3;                    ///< the quickest counts
-  std::uint64_t fragments = 20'000;  ///< of an input, about; quads of more than a fifth of them are left out
+  std::uint64_t fragments = 10'000;  ///< of an input, about; quads of more than a fifth of them are left out
 };
 
 /// Returns the exit status: 1 when an engine drew nothing at all.
