@@ -605,8 +605,6 @@ class CosimRun {
   void set_place(const DrawPlace& place, tb::LockstepOptions& lockstep) const {
     lockstep.seed = place.draw.seed;
     if (place.draw.limit > 0) lockstep.limit_fragments = place.draw.limit;
-    // Every register that needs a reset has it in the first clock.
-    lockstep.reset_clocks = 1 + static_cast<int>(place.draw.seed % 3);
     if (!options_.waits.empty() || lockstep.stall > 0 || lockstep.gap > 0 || !lockstep.waits.empty()) return;
     lockstep.pattern = place.draw.waits;
     lockstep.stall = place.draw.stall;

@@ -120,6 +120,9 @@ std::vector<PlannedDraw> power_on_draws(const Config& config, std::uint64_t seed
   return draws;
 }
 
+/// Of a stress family, which has four weights besides.
+int attributes_of(const Config& config) { return std::min(config.attribute_slots, 4); }
+
 /// Of those that snapping takes.
 std::vector<WindowQuad> that_snap(std::vector<WindowQuad> quads, const Config& config, const DrawState& state) {
   std::erase_if(quads, [&](const WindowQuad& quad) {
@@ -144,7 +147,7 @@ std::vector<PlannedDraw> families(const Config& config, std::uint64_t seed) {
     state.height = state.scissor_y1 = 27;  // no multiple of a tile
     PlannedDraw draw;
     draw.quads = that_snap(
-        golden::make_stress_without_weights(family.family, 8, seed, state.width, state.height, config.attribute_slots),
+        golden::make_stress_without_weights(family.family, 8, seed, state.width, state.height, attributes_of(config)),
         config, state);
     draw.state = draws.size() % 3 == 0 ? state : random_state(config, state, draw.quads, rng);
     place(draw, draws.size(), config, seed);
@@ -198,7 +201,7 @@ std::vector<PlannedDraw> phases(const Config& config, std::uint64_t seed) {
       DrawState state = tb::small_state(config, 16);
       state.skip = skip;
       draw.quads = that_snap(
-          golden::make_stress_without_weights(family, 40, seed, state.width, state.height, config.attribute_slots),
+          golden::make_stress_without_weights(family, 40, seed, state.width, state.height, attributes_of(config)),
           config, state);
       draw.state = state;
       draw.waits = draws.size() % 2 == 0 ? tb::WaitKind::locked : tb::WaitKind::sparse;
@@ -220,7 +223,7 @@ std::vector<PlannedDraw> far_scissors(const Config& config, std::uint64_t seed) 
   for (const golden::StressFamily family : kinds) {
     PlannedDraw draw;
     DrawState state = tb::small_state(config, size);
-    draw.quads = that_snap(golden::make_stress_without_weights(family, 8, seed, size, size, config.attribute_slots),
+    draw.quads = that_snap(golden::make_stress_without_weights(family, 8, seed, size, size, attributes_of(config)),
                            config, state);
     state = random_state(config, state, draw.quads, rng);
     const auto part = [&](int& first, int& last) {

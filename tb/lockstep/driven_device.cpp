@@ -19,13 +19,14 @@ PortWaits recorded_waits(std::span<const SnappedQuad> quads, const LockstepOptio
 
 DrivenDevice::DrivenDevice(Device& device, const LockstepOptions& o)
     : device_(device), clear_(o.go_on && o.clear_hidden) {
+  constexpr int reset_clocks = 4;
   const std::vector<std::uint32_t> state = pack_state(o.state, o.config);
   device_.set_state(state);
   if (o.go_on) return;
   device_.set_clear_hidden(false);
   device_.set_handshake(false, false);
   device_.set_reset(true);
-  for (int i = 0; i < o.reset_clocks; ++i) {
+  for (int i = 0; i < reset_clocks; ++i) {
     device_.settle();
     device_.clock();
   }

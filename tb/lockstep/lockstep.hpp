@@ -44,7 +44,6 @@ struct LockstepOptions {
   std::filesystem::path source;          ///< RTL instead of the project's: directory, or one Verilog file
   int optimise = 2;                      ///< see VerilateOptions
   unsigned threads = 1;                  ///< 2 and more: the device has one of its own; the report is the same
-  int reset_clocks = 4;                  ///< how long the reset before it lasts
   bool go_on = false;                    ///< no reset before it (LockstepSession sets this)
   bool clear_hidden = false;             ///< with go_on: clear_hidden_i in the first clock
 };
