@@ -162,6 +162,14 @@ void change_at_port(CornerGroup group, Batch& b, SnappedQuad& quad) {
       for (SnappedVertex& v : quad.vertex) beyond(v.attribute[j]);
     if (kind == 1)  // the sum
       base.attribute[j] = (b.rng.chance(0.5) ? 1 : -1) * b.config.attribute_limit();
+    if (kind == 2) {  // the sum by a code or two, or not: one difference for all corners
+      base.attribute[j] = ((quad.id & 4) != 0 ? 1 : -1) * b.config.attribute_limit();
+      PortNumber difference;
+      difference.neg = (quad.id & 1) != 0;
+      difference.exp = static_cast<std::int32_t>(quad.id >> 1 & 1) - b.config.attribute_frac();
+      difference.sig = std::uint32_t{1} << (b.config.significand_bits - 1);
+      for (std::size_t i = 1; i < 4; ++i) quad.vertex[i].attribute[j] = difference;
+    }
   }
   const std::uint64_t kind = b.rng.below(3);
   if (kind == 0)

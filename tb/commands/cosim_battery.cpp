@@ -120,6 +120,9 @@ std::vector<PlannedDraw> power_on_draws(const Config& config, std::uint64_t seed
   return draws;
 }
 
+/// Of a stress family, which has four weights besides.
+int attributes_of(const Config& config) { return std::min(config.attribute_slots, 4); }
+
 /// Of those that snapping takes.
 std::vector<WindowQuad> that_snap(std::vector<WindowQuad> quads, const Config& config, const DrawState& state) {
   std::erase_if(quads, [&](const WindowQuad& quad) {
@@ -144,7 +147,7 @@ std::vector<PlannedDraw> families(const Config& config, std::uint64_t seed) {
     state.height = state.scissor_y1 = 27;  // no multiple of a tile
     PlannedDraw draw;
     draw.quads = that_snap(
-        golden::make_stress_without_weights(family.family, 8, seed, state.width, state.height, config.attribute_slots),
+        golden::make_stress_without_weights(family.family, 8, seed, state.width, state.height, attributes_of(config)),
         config, state);
     draw.state = draws.size() % 3 == 0 ? state : random_state(config, state, draw.quads, rng);
     place(draw, draws.size(), config, seed);
@@ -153,31 +156,40 @@ std::vector<PlannedDraw> families(const Config& config, std::uint64_t seed) {
   return draws;
 }
 
-/// Layers, nearer and farther, over much of the viewport: hidden tiles through draws, clears, epochs and resets.
+/// A wall over all of the viewport in two parts, which meet within tiles, and quads behind it and before it: hidden
+/// tiles, masks and blocks through draws, clears, epochs and resets.
 std::vector<PlannedDraw> layers(const Config& config, std::uint64_t seed) {
   if (config.hierarchical_z_bits == 0) return {};
   golden::Prng rng(seed, stream + 3);
-  const int width = std::min(168, 1 << config.viewport_bits), height = 44;
-  std::vector<WindowQuad> quads;
+  // More than a block of tiles in both directions, and no whole number of tiles.
+  const int tile = config.tile(), most = 1 << config.viewport_bits;
+  const int width = std::min(17 * tile + 2, most), height = std::min(9 * tile + 3, most);
+  const std::size_t count = tile > 8 ? 10 : 30, each = 12;
   const double step = std::ldexp(1, -std::min(config.hierarchical_z_bits, 12));
-  for (std::uint32_t i = 0; i < 220; ++i) {
+  std::vector<WindowQuad> quads;
+  const auto add = [&](double x0, double x1, double x2, double x3, double top, double bottom, double z, double lean) {
     WindowQuad quad;
-    double x = rng.uniform() * width * 0.8 - 8, y = rng.uniform() * height * 0.7 - 6;
-    double w = 8 + rng.uniform() * width * 0.6, h = 8 + rng.uniform() * height;
-    if (rng.chance(0.4)) x = -8, w = width + 16;
-    if (rng.chance(0.5)) y = -6, h = height + 12;
-    const double z = rng.chance(0.5) ? 0.02 + 0.9 * rng.uniform() : 0.4 + step * static_cast<double>(rng.below(40));
-    const double lean = rng.chance(0.3) ? rng.uniform(-9, 9) : 0;
-    quad.id = i;
-    quad.vertex = {
-        {{x, y + lean, z, 1}, {x, y + h, z + step, 1}, {x + w, y + h, z + step * rng.uniform(), 1}, {x + w, y, z, 1}}};
-    if (rng.chance(0.15)) quad.vertex[2].z += rng.uniform(-0.3, 0.3);
-    if (rng.chance(0.1)) std::swap(quad.vertex[1], quad.vertex[3]);
+    quad.id = static_cast<std::uint32_t>(quads.size());
+    quad.vertex = {{{x0, top, z, 1}, {x1, bottom, z + lean, 1}, {x2, bottom, z + lean, 1}, {x3, top, z, 1}}};
+    if (rng.chance(0.15)) std::swap(quad.vertex[1], quad.vertex[3]);
     for (auto& attribute : quad.attribute)
       for (int j = 0; j < config.attribute_slots; ++j) attribute.push_back(rng.uniform(-1, 1));
     quads.push_back(std::move(quad));
+  };
+  for (std::size_t d = 0; d < count; ++d) {
+    const double wall = rng.uniform(0.1, 0.5), a = rng.uniform(0, width), b = a + rng.uniform(-tile, tile);
+    add(-4, -4, b, a, -4, height + 4, wall, rng.chance(0.5) ? 0 : step);
+    add(a, b, width + 4, width + 4, -4, height + 4, wall + (rng.chance(0.5) ? 0 : 2 * step), 0);
+    for (std::size_t i = 2; i < each; ++i) {
+      const double x = rng.uniform(-tile, width), y = rng.uniform(-tile, height);
+      const double w = rng.uniform(tile, width), h = rng.uniform(tile, height);
+      const double z = rng.chance(0.3)   ? wall + step * static_cast<double>(rng.integer(-3, 3))
+                       : rng.chance(0.8) ? rng.uniform(wall, 0.95)
+                                         : rng.uniform(0.02, wall);
+      add(x, x + rng.uniform(-4, 4), x + w, x + w, y, y + h, z, rng.chance(0.3) ? rng.uniform(-0.1, 0.1) : 0);
+    }
   }
-  return plan_draws(quads, 24, config, width, height, seed);
+  return plan_draws(quads, count, config, width, height, seed);
 }
 
 /// Quads that take setup long and pixels few, at every distance from one another.
@@ -189,7 +201,7 @@ std::vector<PlannedDraw> phases(const Config& config, std::uint64_t seed) {
       DrawState state = tb::small_state(config, 16);
       state.skip = skip;
       draw.quads = that_snap(
-          golden::make_stress_without_weights(family, 40, seed, state.width, state.height, config.attribute_slots),
+          golden::make_stress_without_weights(family, 40, seed, state.width, state.height, attributes_of(config)),
           config, state);
       draw.state = state;
       draw.waits = draws.size() % 2 == 0 ? tb::WaitKind::locked : tb::WaitKind::sparse;
@@ -211,7 +223,7 @@ std::vector<PlannedDraw> far_scissors(const Config& config, std::uint64_t seed) 
   for (const golden::StressFamily family : kinds) {
     PlannedDraw draw;
     DrawState state = tb::small_state(config, size);
-    draw.quads = that_snap(golden::make_stress_without_weights(family, 8, seed, size, size, config.attribute_slots),
+    draw.quads = that_snap(golden::make_stress_without_weights(family, 8, seed, size, size, attributes_of(config)),
                            config, state);
     state = random_state(config, state, draw.quads, rng);
     const auto part = [&](int& first, int& last) {

@@ -42,7 +42,7 @@ TEST(CosimDraws, ClearsResetsAndStates) {
     std::set<unsigned> clears;
     int resets = 0, cut = 0, hidden = 0, again_after_half = 0;
     std::set<tb::WaitKind> waits;
-    for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
       for (const PlannedDraw& draw : plan_draws(quads, 20, hiding(tiles_log2), 64, 64, seed)) {
         clears.insert(draw.clears);
         resets += draw.reset;
@@ -52,10 +52,10 @@ TEST(CosimDraws, ClearsResetsAndStates) {
         again_after_half += draw.clears == 1u << (tiles_log2 - 5) && draw.quads.size() > 20;
       }
     EXPECT_EQ(clears, (std::set<unsigned>{0, 1, 2, 1u << (tiles_log2 - 5)}));
-    EXPECT_GT(resets, 5);
-    EXPECT_GT(cut, 2);
-    EXPECT_GT(hidden, 40);
-    EXPECT_GT(again_after_half, 3) << "what half of the epochs ago was drawn is drawn again";
+    EXPECT_GT(resets, 20);
+    EXPECT_GT(cut, 10);
+    EXPECT_GT(hidden, 160);
+    EXPECT_GT(again_after_half, 12) << "what half of the epochs ago was drawn is drawn again";
     EXPECT_EQ(waits.size(), 5u);
   }
 }

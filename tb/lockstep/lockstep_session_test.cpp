@@ -34,7 +34,7 @@ class Session : public testing::TestWithParam<unsigned> {
       wall.id = 100;
       wall.vertex = {{{-6, -6, 0.3, 1}, {-6, 60, 0.3, 1}, {60, 60, 0.3, 1}, {60, -6, 0.3, 1}}};
       for (auto& attribute : wall.attribute) attribute = {0.5};
-      quads.back().push_back(snap_quad(wall, options.config, state));
+      quads.back().insert(quads.back().begin() + 5, snap_quad(wall, options.config, state));
     }
   }
   /// Before draw d.
