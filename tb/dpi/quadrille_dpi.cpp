@@ -30,7 +30,7 @@ struct Failure {
   std::string text;
 };
 
-constinit thread_local std::string last_error;
+thread_local std::string last_error;
 
 /// A stage and what it may be given.
 struct Entry {
