@@ -22,6 +22,7 @@ set(golden_headers
   analysis/hardware_cost.hpp
   methods/method.hpp
   reference/exact_coverage.hpp
+  reference/coverage_rows.hpp
   reference/paper_float.hpp
   reference/sample.hpp
   reference/truth.hpp
