@@ -87,7 +87,7 @@ std::vector<PlannedDraw> varied_corners(const Config& config, std::uint64_t seed
 std::vector<PlannedDraw> random_draws(const Config& config, std::uint64_t seed) {
   golden::Prng rng(seed, stream + 1);
   std::vector<PlannedDraw> draws;
-  constexpr std::size_t count = 16;
+  constexpr std::size_t count = 48;
   for (std::size_t d = 0; d < count; ++d) {
     DrawState base = tb::small_state(config, 24 + static_cast<int>(rng.below(40)));
     if (d % 5 == 3) {  // a few pixels
@@ -108,7 +108,7 @@ std::vector<PlannedDraw> random_draws(const Config& config, std::uint64_t seed) 
 /// The state of registers before reset, by many seeds.
 std::vector<PlannedDraw> power_on_draws(const Config& config, std::uint64_t seed) {
   std::vector<PlannedDraw> draws;
-  for (std::size_t d = 0; d < 12; ++d) {
+  for (std::size_t d = 0; d < 24; ++d) {
     DrawState state = tb::small_state(config, 20);
     if (config.hierarchical_z_bits != 0) state.skip |= skip_hidden;
     if (config.plane_quads != 0) state.skip |= skip_plane;
@@ -142,13 +142,14 @@ std::vector<WindowQuad> that_snap(std::vector<WindowQuad> quads, const Config& c
 std::vector<PlannedDraw> families(const Config& config, std::uint64_t seed) {
   golden::Prng rng(seed, stream + 2);
   std::vector<PlannedDraw> draws;
-  for (const golden::StressFamilyInfo& family : golden::stress_families()) {
+  for (std::size_t n = 0; n < 3 * golden::stress_families().size(); ++n) {
+    const golden::StressFamilyInfo& family = golden::stress_families()[n % golden::stress_families().size()];
     DrawState state = tb::small_state(config, 40);
     state.height = state.scissor_y1 = 27;  // no multiple of a tile
     PlannedDraw draw;
-    draw.quads = that_snap(
-        golden::make_stress_without_weights(family.family, 8, seed, state.width, state.height, attributes_of(config)),
-        config, state);
+    draw.quads = that_snap(golden::make_stress_without_weights(family.family, 8, seed + n, state.width, state.height,
+                                                               attributes_of(config)),
+                           config, state);
     draw.state = draws.size() % 3 == 0 ? state : random_state(config, state, draw.quads, rng);
     place(draw, draws.size(), config, seed);
     draws.push_back(std::move(draw));
@@ -201,7 +202,7 @@ std::vector<PlannedDraw> phases(const Config& config, std::uint64_t seed) {
       DrawState state = tb::small_state(config, 16);
       state.skip = skip;
       draw.quads = that_snap(
-          golden::make_stress_without_weights(family, 40, seed, state.width, state.height, attributes_of(config)),
+          golden::make_stress_without_weights(family, 100, seed, state.width, state.height, attributes_of(config)),
           config, state);
       draw.state = state;
       draw.waits = draws.size() % 2 == 0 ? tb::WaitKind::locked : tb::WaitKind::sparse;
@@ -220,10 +221,11 @@ std::vector<PlannedDraw> far_scissors(const Config& config, std::uint64_t seed) 
   const std::array kinds{golden::StressFamily::huge,   golden::StressFamily::eye_crossing,
                          golden::StressFamily::w_zero, golden::StressFamily::long_span,
                          golden::StressFamily::any_w,  golden::StressFamily::general};
-  for (const golden::StressFamily family : kinds) {
+  for (std::size_t n = 0; n < 3 * kinds.size(); ++n) {
+    const golden::StressFamily family = kinds[n % kinds.size()];
     PlannedDraw draw;
     DrawState state = tb::small_state(config, size);
-    draw.quads = that_snap(golden::make_stress_without_weights(family, 8, seed, size, size, attributes_of(config)),
+    draw.quads = that_snap(golden::make_stress_without_weights(family, 8, seed + n, size, size, attributes_of(config)),
                            config, state);
     state = random_state(config, state, draw.quads, rng);
     const auto part = [&](int& first, int& last) {
@@ -256,7 +258,7 @@ std::vector<Machine> machines() {
         "guard_bits=1",
         "subpixel_bits=5",
         "homogeneous_frac_bits=9",
-        "quadratic_frac_bits=23",
+        "quadratic_frac_bits=10",
         "significand_bits=15",
         "notch_exact=0",
         "sqrt_degree=1",
