@@ -419,8 +419,11 @@ class FragmentChecker::FragmentJudge {
         continue;
       }
       const bool at_limit = std::abs(code) == format.largest_code();
-      const bool beyond = std::fabs(wanted) - tolerance >= format.limit();  // whatever the errors are
-      const bool clamped = at_limit && std::fabs(wanted) + tolerance >= format.limit() && (wanted < 0) == (code < 0);
+      // Counted from the base, where the limit is exact: far from zero a tolerance is less than the last bit of
+      // `wanted`.
+      const double sign = wanted < 0 ? -1 : 1, outside = sign * above - (format.limit() - sign * base_value);
+      const bool beyond = outside >= tolerance;  // whatever the errors are
+      const bool clamped = at_limit && outside + tolerance >= 0 && (wanted < 0) == (code < 0);
       may_saturate = may_saturate || clamped;
       must_saturate = must_saturate || beyond;
       const bool holds = beyond ? clamped : clamped || format.may_stand_for(code - base, above, tolerance);

@@ -604,6 +604,7 @@ class CosimRun {
   /// What a draw of several has of its own.
   void set_place(const DrawPlace& place, tb::LockstepOptions& lockstep) const {
     lockstep.seed = place.draw.seed;
+    lockstep.flush = place.draw.flush;
     if (place.draw.limit > 0) lockstep.limit_fragments = place.draw.limit;
     if (!options_.waits.empty() || lockstep.stall > 0 || lockstep.gap > 0 || !lockstep.waits.empty()) return;
     lockstep.pattern = place.draw.waits;

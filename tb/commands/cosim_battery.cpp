@@ -34,6 +34,7 @@ void place(PlannedDraw& draw, std::size_t number, const Config& config, std::uin
   draw.id_bits =
       static_cast<std::uint32_t>(golden::Prng(seed + number, stream + 9).next() >> (64 - config.quad_id_bits));
   draw.seed = seed + number;
+  draw.flush = flush_chance(number);
   draw.waits = static_cast<tb::WaitKind>(number % tb::wait_kind_names().size());
   if (draw.waits == tb::WaitKind::chance && number % 2 == 1) draw.stall = 0.5, draw.gap = 0.1;
   draw.clears = 1;

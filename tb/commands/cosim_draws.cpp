@@ -49,6 +49,9 @@ unsigned random_clears(const Config& config, golden::Prng& rng) {
 
 }  // namespace
 
+// Rare: a quad that comes a beat in 33 clocks must get through.
+double flush_chance(std::size_t draw) { return draw % 3 == 1 ? 0.01 : 0; }
+
 std::vector<PlannedDraw> plan_draws(std::span<const WindowQuad> quads, std::size_t count, const Config& config,
                                     int width, int height, std::uint64_t seed) {
   golden::Prng rng(seed, draws_stream);
@@ -67,6 +70,7 @@ std::vector<PlannedDraw> plan_draws(std::span<const WindowQuad> quads, std::size
     draw.clears = d == 0 || reset ? 0 : random_clears(config, rng);
     draw.id_bits = random_id_bits(config, rng);
     draw.seed = seed + d;
+    draw.flush = flush_chance(d);
     draw.waits = static_cast<tb::WaitKind>(rng.below(tb::wait_kind_names().size()));
     reset = rng.chance(0.15);
     if (reset && d + 1 < count && rng.chance(0.7)) draw.limit = 1 + rng.below(200);

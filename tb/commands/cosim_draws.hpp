@@ -25,7 +25,11 @@ struct PlannedDraw {
   std::uint64_t seed = 1;     ///< of its waits
   tb::WaitKind waits = tb::WaitKind::chance;
   double stall = 0, gap = 0;  ///< chances of waits
+  double flush = 0;           ///< chance per clock that an incomplete quad is discarded, which comes again
 };
+
+/// PlannedDraw::flush of draw number `draw`: a third of them have flushes.
+double flush_chance(std::size_t draw);
 
 /// `count` draws of the quads, in order; of an input with fewer quads some come again. About half of the draws begin
 /// with the quads of an earlier one: what a machine keeps of those must not hide them after a clear. Draw states are

@@ -181,9 +181,9 @@ Probes probes_of(const LockstepOptions& o) { return o.probes ? Probes::all : Pro
 /// A waveform and the counters of the RTL end where the run does.
 bool has_thread(const LockstepOptions& o) { return o.threads > 1 && !o.trace && o.config.performance_counters == 0; }
 
-/// One draw of both machines, as `model` is: after reset, or as the draw before left it.
+/// One draw of both machines, as `model` is: after reset, or as the draw before left it. `another` may follow.
 LockstepReport run_both(Device& device, DrivenModel& model, Scoreboard& scoreboard, std::span<const SnappedQuad> quads,
-                        const LockstepOptions& o, const FragmentSink& sink) {
+                        const LockstepOptions& o, const FragmentSink& sink, bool another) {
   Run run(quads, o, sink);
   LockstepReport report;
   std::uint64_t clocks = 0, differing_clocks = 0;
@@ -230,13 +230,15 @@ LockstepReport run_both(Device& device, DrivenModel& model, Scoreboard& scoreboa
         ahead.emplace(device, quads, o);
       } catch (const std::system_error&) {  // no thread to be had: both in this one
       }
+    // Before another draw both take the edge of the last clock, which a device ahead has taken.
     if (ahead) {
       run_pair(*ahead);
-      model.clock();  // as the device has, which is ahead
+      if (another) model.clock();
     } else {
       DrivenDevice side(device, o);
       const std::uint64_t end = run_pair(side);
       if (o.config.performance_counters != 0) scoreboard.compare_counters(end, report.counters, device);
+      if (another) side.clock(), model.clock();
     }
   } catch (const DeviceError& stop) {
     scoreboard.device_stopped(clocks, stop.what());
@@ -260,7 +262,7 @@ LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, 
                             const FragmentSink& sink) {
   DrivenModel model(o.config, o.state, probes_of(o));
   Scoreboard scoreboard(o.config, quads, o.probes, o.seed);
-  return run_both(device, model, scoreboard, quads, o, sink);
+  return run_both(device, model, scoreboard, quads, o, sink, false);
 }
 
 struct LockstepSession::Impl {
@@ -281,7 +283,7 @@ struct LockstepSession::Impl {
     } else {
       model.emplace(o.config, o.state, probes_of(o));
     }
-    const LockstepReport report = run_both(device, *model, board, quads, o, sink);
+    const LockstepReport report = run_both(device, *model, board, quads, o, sink, true);
     scoreboard.emplace(board);
     return report;
   }
