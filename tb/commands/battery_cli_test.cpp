@@ -59,17 +59,7 @@ TEST_F(CliDraws, PatternsOfWaits) {
   EXPECT_EQ(off["fragment_hash"], none["fragment_hash"]);
 }
 
-class CliBattery : public Cli {
- protected:
-  /// The project's RTL in the folder rtl, with a fault.
-  void spoil(const std::string& unit, const std::string& right, const std::string& wrong) const {
-    fs::copy(fs::path(QUADRILLE_SOURCE_DIR) / "rtl", file("rtl"), fs::copy_options::recursive);
-    std::string text = read(file("rtl/" + unit));
-    ASSERT_NE(text.find(right), std::string::npos);
-    text.replace(text.find(right), right.size(), wrong);
-    write("rtl/" + unit, text);
-  }
-};
+class CliBattery : public Cli {};
 
 /// Every group on the RTL as it is.
 TEST_F(CliBattery, AllGroupsPass) {

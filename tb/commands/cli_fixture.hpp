@@ -44,6 +44,15 @@ class Cli : public testing::Test {
     return file(name).string();
   }
 
+  /// The project's RTL in the folder rtl, with a fault.
+  void spoil(const std::string& unit, const std::string& right, const std::string& wrong) const {
+    fs::copy(fs::path(QUADRILLE_SOURCE_DIR) / "rtl", file("rtl"), fs::copy_options::recursive);
+    std::string text = read(file("rtl/" + unit));
+    ASSERT_NE(text.find(right), std::string::npos);
+    text.replace(text.find(right), right.size(), wrong);
+    write("rtl/" + unit, text);
+  }
+
   /// `arguments` as a shell line, `environment` before the program.
   Outcome run(const std::string& arguments, const std::string& environment = {}) const {
     const std::string out = file("stdout").string(), err = file("stderr").string();

@@ -12,14 +12,6 @@ using namespace quadrille::cli_test;
 
 class CliShrink : public Cli {
  protected:
-  /// The project's RTL in the folder rtl, with a fault.
-  void spoil(const std::string& unit, const std::string& right, const std::string& wrong) const {
-    fs::copy(fs::path(QUADRILLE_SOURCE_DIR) / "rtl", file("rtl"), fs::copy_options::recursive);
-    std::string text = read(file("rtl/" + unit));
-    ASSERT_NE(text.find(right), std::string::npos);
-    text.replace(text.find(right), right.size(), wrong);
-    write("rtl/" + unit, text);
-  }
   /// The command that a failed run prints, without the program's name.
   static std::string command_of(const Outcome& outcome) {
     const std::size_t line = outcome.err.find("\n  quadrille cosim --quads ");
