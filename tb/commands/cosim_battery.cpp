@@ -4,6 +4,7 @@
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/draw_state.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 
@@ -43,8 +44,8 @@ void place(PlannedDraw& draw, std::size_t number, const Config& config, std::uin
 DrawState random_state(const Config& config, const DrawState& state, std::span<const WindowQuad> quads,
                        golden::Prng& rng) {
   DrawState drawn = golden::random_draw_state(config, state.width, state.height, quads, rng.next());
-  if (config.hierarchical_z_bits != 0 && rng.chance(0.5)) drawn.skip |= skip_hidden;  // without depth it does nothing
-  return drawn;
+  if (config.hierarchical_z_bits != 0 && rng.chance(0.5)) drawn.skip |= skip_hidden;
+  return with_possible_skips(drawn, config);
 }
 
 /// Every corner group in the state that it needs.
@@ -76,7 +77,7 @@ std::vector<PlannedDraw> varied_corners(const Config& config, std::uint64_t seed
       state.znear = corner.state.znear;
       state.zfar = corner.state.zfar;
     }
-    PlannedDraw draw = port_draw(std::move(corner.quads), state);
+    PlannedDraw draw = port_draw(std::move(corner.quads), with_possible_skips(state, config));
     place(draw, draws.size() + 2, config, seed);
     draw.clears = static_cast<unsigned>(rng.below(2));
     draws.push_back(std::move(draw));
