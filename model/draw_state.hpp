@@ -4,9 +4,11 @@
 #include "model/config.hpp"
 #include "model/records.hpp"
 
+#include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace quadrille {
 
@@ -30,6 +32,9 @@ DrawState draw_state_for(const Config& config, int width, int height);
 
 /// The state without what it asks to skip and this configuration cannot: of one that serves several configurations.
 DrawState with_possible_skips(DrawState state, const Config& config);
+
+/// Of the bits of DrawState::skip, from the lowest on.
+inline constexpr std::array<std::string_view, 6> skip_names{"tiles", "quads", "hidden", "walk", "operands", "plane"};
 
 /// Window z as the port has it: depth_bits fraction bits.
 std::uint32_t depth_code(double z, const Config& config);

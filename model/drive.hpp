@@ -46,23 +46,15 @@ class DrivenModel {
   ClockedOutputs settle(const Stimulus& stimulus) {
     inputs_.vertex_valid = stimulus.valid();
     inputs_.fragment_ready = stimulus.ready();
-    inputs_.clear_hidden = clear_;
     if constexpr (requires { stimulus.flush(); }) {
-      inputs_.clear_hidden |= stimulus.clear_hidden();
+      inputs_.clear_hidden = stimulus.clear_hidden();
       inputs_.flush = stimulus.flush();
     }
     if (stimulus.changed() && stimulus.valid()) inputs_.vertex = stimulus.beat();
     return model_.comb();
   }
-  void clock() {
-    model_.clock(inputs_);
-    clear_ = false;
-  }
-  /// The next draw's state, while not busy; with `clear` clear_hidden is active in the clock that follows.
-  void next_draw(const DrawState& state, bool clear) {
-    model_.set_state(state);
-    clear_ = clear;
-  }
+  void clock() { model_.clock(inputs_); }
+  void set_state(const DrawState& state) { model_.set_state(state); }
   /// Clocks until the places of hidden tiles are wiped: at once without them.
   void wait_idle() {
     while (model_.comb().busy) model_.clock(inputs_);
@@ -72,7 +64,6 @@ class DrivenModel {
  private:
   ClockedModel model_;
   ClockedInputs inputs_;
-  bool clear_ = false;
 };
 
 /// The beats of a list of quads, four each, on offer without a gap; every fragment is taken.

@@ -1,5 +1,6 @@
 #include "golden/scenes/random_quads.hpp"
 
+#include "model/draw_state.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 
@@ -133,10 +134,8 @@ void change_at_port(golden::Prng& random, SnappedQuad& quad, const Config& confi
 }  // namespace
 
 DrawState small_state(const Config& config, int edge) {
-  DrawState state;
-  state.width = state.height = state.scissor_x1 = state.scissor_y1 = std::min(edge, 1 << config.viewport_bits);
-  state.attributes = std::min(4, config.attribute_slots);
-  return state;
+  const int side = std::min(edge, 1 << config.viewport_bits);
+  return draw_state_for(config, side, side);
 }
 
 std::vector<SnappedQuad> random_quads(const Config& config, const DrawState& state, std::uint64_t seed, int count) {

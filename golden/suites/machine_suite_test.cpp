@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 namespace quadrille::vectors {
@@ -148,40 +149,10 @@ TEST_F(MachineSet, EvenTheSmallestHasAFragment) {
   }
 }
 
-// Wrong clocks of beats under right hashes.
-TEST_F(MachineSet, WrongBeatsAreFound) {
-  GenerateOptions options;
-  options.limit = 40;
-  const SuiteReader whole = generate("stress_bowtie", options);
-  for (const char* field : {"draw", "clock", "clock_stalled"}) {
-    SCOPED_TRACE(field);
-    {
-      SetWriter writer(path(field), {1, 1, options.config, options.limit}, false);
-      writer.add(whole.info(), [&](SuiteWriter& out) {
-        out.set_count("vectors", whole.lines("response"));
-        for (const std::string& role : whole.roles()) {
-          out.add_record(role, whole.layout(role));
-          std::uint64_t line = 0;
-          for (Record record : whole.read(role, 0, whole.lines(role))) {
-            const RecordField* const damaged =
-                role == "beats" && ++line == 3 ? &whole.layout(role).field(field) : nullptr;
-            if (damaged != nullptr) record.set(*damaged, record.get(*damaged) ^ 1);
-            out.write(role, record);
-          }
-        }
-      });
-      writer.commit(false);
-    }
-    const VerifyResult result = find_suite("stress_bowtie").verify(SetReader(path(field)).suite("stress_bowtie"), 1);
-    EXPECT_EQ(result.mismatches, 1u);
-    EXPECT_NE(result.first_difference.find(std::string("beats.hex:3: ") + field), std::string::npos)
-        << result.first_difference;
-  }
-}
-
-/// A copy of a suite with a field of the first record of a role changed, under right hashes.
-SuiteReader with_field(const SuiteReader& whole, const std::string& directory, const GenerateOptions& options,
-                       const std::string& changed, const char* field, std::uint64_t value) {
+/// A copy of a suite in which a record of a role, by its line, is changed, under right hashes.
+SuiteReader with_record(const SuiteReader& whole, const std::string& directory, const GenerateOptions& options,
+                        const std::string& changed, std::uint64_t changed_line,
+                        const std::function<void(Record&, const RecordLayout&)>& change) {
   {
     SetWriter writer(directory, {1, 1, options.config, options.limit}, false);
     writer.add(whole.info(), [&](SuiteWriter& out) {
@@ -190,7 +161,7 @@ SuiteReader with_field(const SuiteReader& whole, const std::string& directory, c
         out.add_record(role, whole.layout(role));
         std::uint64_t line = 0;
         for (Record record : whole.read(role, 0, whole.lines(role))) {
-          if (role == changed && ++line == 1) record.set(whole.layout(role).field(field), value);
+          if (role == changed && ++line == changed_line) change(record, whole.layout(role));
           out.write(role, record);
         }
       }
@@ -200,14 +171,35 @@ SuiteReader with_field(const SuiteReader& whole, const std::string& directory, c
   return SetReader(directory).suite(whole.info().name);
 }
 
+TEST_F(MachineSet, WrongBeatsAreFound) {
+  GenerateOptions options;
+  options.limit = 40;
+  const SuiteReader whole = generate("stress_bowtie", options);
+  for (const char* field : {"draw", "clock", "clock_stalled"}) {
+    SCOPED_TRACE(field);
+    const SuiteReader wrong =
+        with_record(whole, path(field), options, "beats", 3, [&](Record& record, const RecordLayout& layout) {
+          record.set(layout.field(field), record.get(layout.field(field)) ^ 1);
+        });
+    const VerifyResult result = find_suite("stress_bowtie").verify(wrong, 1);
+    EXPECT_EQ(result.mismatches, 1u);
+    EXPECT_NE(result.first_difference.find(std::string("beats.hex:3: ") + field), std::string::npos)
+        << result.first_difference;
+  }
+}
+
 // States of somebody else's set are those of the model's check, and a stage is given nothing out of range.
 TEST_F(MachineSet, StatesAndStimuliThatNoMachineHasAreNamed) {
   GenerateOptions options;
   options.limit = 40;
   const SuiteReader machine = generate("machine", options), depth = generate("depth", options);
+  const auto with_field = [&](const SuiteReader& whole, const char* role, const char* field, std::uint64_t value) {
+    return with_record(whole, path(std::string(role) + field), options, role, 1,
+                       [&](Record& record, const RecordLayout& layout) { record.set(layout.field(field), value); });
+  };
   const auto states = [&](const char* field, std::uint64_t value) {
     try {
-      read_draws(with_field(machine, path(field), options, "states", field, value));
+      read_draws(with_field(machine, "states", field, value));
     } catch (const golden::InputError& error) {
       return std::string(error.what());
     }
@@ -223,7 +215,7 @@ TEST_F(MachineSet, StatesAndStimuliThatNoMachineHasAreNamed) {
     EXPECT_NE(error.find("states.hex:1: draw state: "), std::string::npos) << field << ": " << error;
     EXPECT_NE(error.find(words), std::string::npos) << error;
   }
-  const SuiteReader wrong = with_field(depth, path("wrong_depth"), options, "stimulus", "attributes", 15);
+  const SuiteReader wrong = with_field(depth, "stimulus", "attributes", 15);
   const VerifyResult result = find_suite("depth").verify(wrong, 1);
   EXPECT_EQ(result.mismatches, 1u);
   EXPECT_NE(result.first_difference.find("attributes = 0xf (15); the stage can be given 0..4"), std::string::npos)

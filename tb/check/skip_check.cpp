@@ -1,5 +1,6 @@
 #include "tb/check/skip_check.hpp"
 
+#include "model/draw_state.hpp"
 #include "model/hierarchical_z.hpp"
 #include "model/untimed.hpp"
 
@@ -12,7 +13,6 @@ namespace quadrille::cli {
 namespace {
 
 constexpr std::size_t quads_per_job = 64;
-constexpr std::array<const char*, 6> skip_names{"tiles", "quads", "hidden", "walk", "operands", "plane"};
 
 std::uint64_t mixed(std::uint64_t hash, const Fragment& f) {
   const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29; };
@@ -33,8 +33,9 @@ std::vector<Variant> variants(const DrawState& state) {
   std::vector<Variant> list{{others, "without a skip"}};
   for (std::uint32_t bit = 1; bit <= skip_default; bit <<= 1)
     if ((skip_default & bit) != 0)
-      list.push_back({others | bit, std::string("with skip ") +
-                                        skip_names[static_cast<std::size_t>(std::countr_zero(bit))] + " alone"});
+      list.push_back(
+          {others | bit,
+           "with skip " + std::string(skip_names[static_cast<std::size_t>(std::countr_zero(bit))]) + " alone"});
   list.push_back({others | (state.skip & skip_default), "with the skips of the draw"});
   return list;
 }

@@ -3,6 +3,7 @@
 #include "golden/io/json_report.hpp"
 #include "golden/scenes/projection.hpp"
 #include "golden/scenes/terrain.hpp"
+#include "model/draw_state.hpp"
 #include "model/untimed.hpp"
 #include "tb/check/check.hpp"
 #include "tb/commands/bench_timing.hpp"
@@ -63,11 +64,13 @@ struct Cost {
 /// Draws a load once, or nothing of it, and says how many fragments came out.
 using Draw = std::function<std::uint64_t(bool)>;
 
+constexpr std::size_t every_quad = std::numeric_limits<std::size_t>::max();
+
 /// A column. No draw: the engine cannot draw this load.
 struct Subject {
   std::string name, what;
   std::function<Draw(const Load&)> prepare;
-  std::size_t most_quads = std::numeric_limits<std::size_t>::max();  ///< of a load, the first ones
+  std::size_t most_quads = every_quad;  ///< of a load, the first ones
 };
 
 std::uint64_t draw_by(Engine& engine, std::span<const WindowQuad> quads) {
@@ -75,8 +78,6 @@ std::uint64_t draw_by(Engine& engine, std::span<const WindowQuad> quads) {
   engine.draw(quads, 0, true, [&](std::span<const EngineSample> some) { samples += some.size(); });
   return samples;
 }
-
-constexpr std::size_t every_quad = std::numeric_limits<std::size_t>::max();
 
 Subject engine_subject(EngineKind kind, const char* what, std::size_t most_quads = every_quad) {
   return {std::string(engine_name(kind)), what,
@@ -202,15 +203,9 @@ class CliffBench {
   }
 
  private:
-  DrawState viewport(int side) const {
-    DrawState state;
-    state.width = state.height = state.scissor_x1 = state.scissor_y1 = side;
-    return state;
-  }
-
   Load load_of(const char* series, const std::string& name, const InputOptions& input, int side,
                const Config& config) const {
-    Load load{series, name, {}, viewport(side), config};
+    Load load{series, name, {}, draw_state_for(config, side, side), config};
     load.input = load_input(input, "", load.state, config, options_.common.seed);
     adjust_state(load.input, load.state);
     return load;
@@ -233,7 +228,11 @@ class CliffBench {
         add(load_of("scene", name, input, plain_side, config_));
       }
     for (const bool inside : {false, true}) {
-      Load load{"view", inside ? "terrain, from within" : "terrain, from outside", {}, viewport(view_side), config_};
+      Load load{"view",
+                inside ? "terrain, from within" : "terrain, from outside",
+                {},
+                draw_state_for(config_, view_side, view_side),
+                config_};
       golden::Projection p =
           golden::project_mesh(golden::terrain_mesh(terrain_side), golden::terrain_camera(terrain_side, inside),
                                view_side, view_side, {golden::AttributeSet::none});

@@ -2,6 +2,7 @@
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
+#include "model/draw_state.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
@@ -110,9 +111,9 @@ std::vector<SkipSet> skip_sets(const Config& config) {
   std::vector<SkipSet> sets{{"none", 0, config}};
   Config machine = config;
   std::uint32_t all = 0;
-  for (std::size_t i = 0; i < known_skips().size(); ++i) {
+  for (std::size_t i = 0; i < skip_names.size(); ++i) {
     const std::uint32_t skip = 1u << i;
-    sets.push_back({known_skips()[i], skip, able(config, skip)});
+    sets.push_back({std::string(skip_names[i]), skip, able(config, skip)});
     machine = able(machine, skip);
     all |= skip;
   }

@@ -9,6 +9,7 @@
 #include "golden/io/json_report.hpp"
 #include "model/boundaries.hpp"
 #include "model/tables.hpp"
+#include "tb/check/judged_quad.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 
@@ -57,7 +58,7 @@ std::vector<NamedBound> bounds(const Config& config) {
   const double s_bits = std::ldexp(1.0, -config.significand_bits);
   const ErrorBound weight = bound_lambda(config);
   return {
-      {"lambda", 8 * s_bits,
+      {"lambda", weight_bound(config),
        "weights 1 to 3: the rule 2^-(s-3); " +
            (weight.proved ? "proved is " + number(weight.value) : "not proved: " + weight.reason)},
       {"c", value_bound_factor(config), "attributes, depth, weight 0: c 2^-(s-3) spread + half a code"},

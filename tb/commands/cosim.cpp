@@ -738,14 +738,13 @@ class CosimRun {
       const std::string name = "draw " + std::to_string(place->number) + ": ";
       if (report.first_divergence) report.first_divergence = name + *report.first_divergence;
       if (check.first.any) check.first.text = name + check.first.text;
+      if (!skips.first.empty()) skips.first = name + skips.first;
       const PerformanceCounters all = std::exchange(place->counters, report.counters);
       for (std::size_t i = 0; i < counter_count; ++i) report.counters.value[i] -= all.value[i];
     }
     if (!result.first_divergence) result.first_divergence = report.first_divergence;
     if (!first) check.compared = 0;  // the same fragments again
     result.check.merge(check);
-    if (place != nullptr && !skips.first.empty())
-      skips.first = "draw " + std::to_string(place->number) + ": " + skips.first;
     result.skips.merge(skips);
     if (!first) return;
 

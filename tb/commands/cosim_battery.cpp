@@ -32,8 +32,8 @@ PlannedDraw port_draw(std::vector<SnappedQuad> quads, const DrawState& state) {
 
 /// Waits in turn, and what comes before the draw: a clear, a reset, another power-on.
 void place(PlannedDraw& draw, std::size_t number, const Config& config, std::uint64_t seed) {
-  draw.id_bits =
-      static_cast<std::uint32_t>(golden::Prng(seed + number, stream + 9).next() >> (64 - config.quad_id_bits));
+  golden::Prng rng(seed + number, stream + 9);
+  draw.id_bits = random_id_bits(config, rng);
   draw.seed = seed + number;
   draw.flush = flush_chance(number);
   draw.waits = static_cast<tb::WaitKind>(number % tb::wait_kind_names().size());
@@ -294,19 +294,12 @@ std::vector<Machine> machines() {
 
 struct Input {
   const char* name;
-  std::string_view holds;
   std::vector<PlannedDraw> (*draws)(const Config&, std::uint64_t seed);
 };
 
 constexpr Input inputs[]{
-    {"random", "quads of all kinds after power-on, reset and other draws", random_draws},
-    {"corners", "every corner group in the state that it needs", corners},
-    {"layers", "hidden tiles through draws, clears and epochs", layers},
-    {"varied", "corner groups in draw states at random", varied_corners},
-    {"families", "every stress family in draw states at random", families},
-    {"phases", "long setups at every distance from one another", phases},
-    {"power", "registers before reset, by many seeds", power_on_draws},
-    {"scissors", "a small scissor in a large viewport", far_scissors},
+    {"random", random_draws}, {"corners", corners}, {"layers", layers},        {"varied", varied_corners},
+    {"families", families},   {"phases", phases},   {"power", power_on_draws}, {"scissors", far_scissors},
 };
 
 }  // namespace
@@ -318,7 +311,7 @@ std::vector<BatteryGroup> battery_groups() {
       const bool hides = std::ranges::any_of(machine.settings,
                                              [](const std::string& s) { return s.starts_with("hierarchical_z_bits"); });
       if (input.draws == layers && !hides) continue;
-      groups.push_back({std::string(machine.name) + "." + input.name, input.holds, machine.settings, input.draws});
+      groups.push_back({std::string(machine.name) + "." + input.name, machine.settings, input.draws});
     }
   return groups;
 }

@@ -7,7 +7,6 @@
 #include <functional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace quadrille::cli {
@@ -15,7 +14,6 @@ namespace quadrille::cli {
 /// Draws of one machine. Every group is complete: no limit of fragments cuts off what its last draws are about.
 struct BatteryGroup {
   std::string name;                   ///< CONFIGURATION.INPUT
-  std::string_view holds;             ///< what is drawn, in words
   std::vector<std::string> settings;  ///< of the configuration, "key=value"
   std::function<std::vector<PlannedDraw>(const Config&, std::uint64_t seed)> draws;
 };

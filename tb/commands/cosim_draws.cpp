@@ -1,7 +1,7 @@
 #include "tb/commands/cosim_draws.hpp"
 
 #include "golden/scenes/random_state.hpp"
-#include "model/support/prng.hpp"
+#include "model/draw_state.hpp"
 
 #include <algorithm>
 
@@ -22,19 +22,12 @@ DrawState draw_state(const Config& config, int width, int height, std::span<cons
                      golden::Prng& rng) {
   DrawState state = golden::random_draw_state(config, width, height, quads, rng.next());
   if (rng.chance(0.35)) {  // nothing in the way: all of the viewport, nothing culled or cut
-    const DrawState drawn = state;
-    state = {};
-    state.width = state.scissor_x1 = width;
-    state.height = state.scissor_y1 = height;
-    state.attributes = drawn.attributes;
+    const int attributes = state.attributes;
+    state = draw_state_for(config, width, height);
+    state.attributes = attributes;
   }
   if (config.hierarchical_z_bits != 0 && state.depth && rng.chance(0.7)) state.skip |= skip_hidden;
   return state;
-}
-
-/// Any bits of an id.
-std::uint32_t random_id_bits(const Config& config, golden::Prng& rng) {
-  return static_cast<std::uint32_t>(rng.next() >> (64 - config.quad_id_bits));
 }
 
 unsigned random_clears(const Config& config, golden::Prng& rng) {
@@ -48,6 +41,10 @@ unsigned random_clears(const Config& config, golden::Prng& rng) {
 }
 
 }  // namespace
+
+std::uint32_t random_id_bits(const Config& config, golden::Prng& rng) {
+  return static_cast<std::uint32_t>(rng.next() >> (64 - config.quad_id_bits));
+}
 
 // Rare: a quad that comes a beat in 33 clocks must get through.
 double flush_chance(std::size_t draw) { return draw % 3 == 1 ? 0.01 : 0; }

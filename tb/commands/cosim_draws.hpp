@@ -4,6 +4,7 @@
 
 #include "model/config.hpp"
 #include "model/records.hpp"
+#include "model/support/prng.hpp"
 #include "tb/lockstep/wait_pattern.hpp"
 
 #include <cstddef>
@@ -27,6 +28,9 @@ struct PlannedDraw {
   double stall = 0, gap = 0;  ///< chances of waits
   double flush = 0;           ///< chance per clock that an incomplete quad is discarded, which comes again
 };
+
+/// PlannedDraw::id_bits: any bits of an id.
+std::uint32_t random_id_bits(const Config& config, golden::Prng& rng);
 
 /// PlannedDraw::flush of draw number `draw`: a third of them have flushes.
 double flush_chance(std::size_t draw);

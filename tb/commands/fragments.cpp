@@ -173,13 +173,7 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
   options->common.add_to(*command);
   options->state.add_to(*command);
   options->engine.add_to(*command, true);
-  command
-      ->add_option(
-          "--method", options->method,
-          "A method of the papers instead of an engine, on the quads as given; `quadrille compare --help` lists them")
-      ->type_name("METHOD")
-      ->excludes("--engine")
-      ->excludes("--snap");
+  add_method_option(*command, options->method);
   writes_file(*command, command->add_option("--out", options->out, "The table; - is standard output"), "csv");
   command->add_option("--quad", options->quad, "Only the quad at this position, counted from 0")
       ->type_name("N")

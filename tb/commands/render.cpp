@@ -156,13 +156,7 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
   options->common.add_to(*command);
   options->state.add_to(*command);
   options->engine.add_to(*command);
-  command
-      ->add_option(
-          "--method", options->method,
-          "A method of the papers instead of an engine, on the quads as given; `quadrille compare --help` lists them")
-      ->type_name("METHOD")
-      ->excludes("--engine")
-      ->excludes("--snap");
+  add_method_option(*command, options->method);
   writes_file(*command, command->add_option("--out", options->out, "Picture with depth, weights, ids and errors"),
               "exr");
   writes_file(*command, command->add_option("--png", options->png, "Picture to look at"), "png");

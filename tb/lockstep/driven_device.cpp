@@ -19,13 +19,11 @@ PortWaits recorded_waits(std::span<const SnappedQuad> quads, const LockstepOptio
   return waits;
 }
 
-DrivenDevice::DrivenDevice(Device& device, const LockstepOptions& o)
-    : device_(device), clear_(o.go_on && o.clear_hidden) {
+DrivenDevice::DrivenDevice(Device& device, const LockstepOptions& o) : device_(device) {
   constexpr int reset_clocks = 4;
   const std::vector<std::uint32_t> state = pack_state(o.state, o.config);
   device_.set_state(state);
   if (o.go_on) return;
-  device_.set_clear_hidden(false);
   device_.set_handshake(false, false);
   device_.set_clear_hidden(false);
   device_.set_flush(false);

@@ -17,18 +17,20 @@ struct Stimulus {
   VertexDriver vertices;
   ReadyDriver stalls;
   PulseDriver clears, flushes;
+  bool clear_first;  ///< in the first clock whatever `clears` says
 
   Stimulus(std::span<const SnappedQuad> quads, const LockstepOptions& o)
       : vertices(quads, o.config, o.state.attributes, o.seed, o.gap, o.waits.gap_beats, o.pattern),
         stalls(o.seed, o.stall, o.waits.stall_clocks, o.pattern),
         clears(o.seed, 7, o.clear, "clear"),
-        flushes(o.seed, 8, o.flush, "flush") {}
+        flushes(o.seed, 8, o.flush, "flush"),
+        clear_first(o.clear_hidden) {}
 
   bool done() const { return vertices.done(); }
   bool valid() const { return vertices.valid(); }
   bool ready() const { return stalls.ready(); }
   bool changed() const { return vertices.changed(); }
-  bool clear_hidden() const { return clears.high(); }
+  bool clear_hidden() const { return clear_first || clears.high(); }
   bool flush() const { return flushes.high(); }
   const VertexBeat& beat() const { return vertices.beat(); }
   void advance(bool taken) {
@@ -36,6 +38,7 @@ struct Stimulus {
     stalls.advance();
     clears.advance();
     flushes.advance();
+    clear_first = false;
   }
 };
 
@@ -52,19 +55,15 @@ class DrivenDevice {
   const DeviceSample& settle(const Stimulus& stimulus) {
     if (stimulus.changed()) device_.set_vertex(stimulus.vertices.words());
     device_.set_handshake(stimulus.valid(), stimulus.ready());
-    device_.set_clear_hidden(clear_ || stimulus.clear_hidden());
+    device_.set_clear_hidden(stimulus.clear_hidden());
     device_.set_flush(stimulus.flush());
     device_.settle();
     return device_.sample();
   }
-  void clock() {
-    device_.clock();
-    clear_ = false;
-  }
+  void clock() { device_.clock(); }
 
  private:
   Device& device_;
-  bool clear_;  ///< clear_hidden_i in this clock
 };
 
 }  // namespace quadrille::tb

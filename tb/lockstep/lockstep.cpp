@@ -278,7 +278,7 @@ struct LockstepSession::Impl {
     o.clear_hidden = o.go_on && clear;
     Scoreboard board(o.config, quads, o.probes, o.seed);
     if (o.go_on) {
-      model->next_draw(o.state, o.clear_hidden);
+      model->set_state(o.state);
       board.follows(*scoreboard);
     } else {
       model.emplace(o.config, o.state, probes_of(o));

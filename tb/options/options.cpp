@@ -56,8 +56,6 @@ std::string larger_viewport(const Config& config, int pixels) {
 }
 
 constinit const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
-// In the order of SkipBit's bits.
-constinit const std::array<std::string, 6> skip_names{"tiles", "quads", "hidden", "walk", "operands", "plane"};
 
 /// all, none, or names with commas between. `hidden` is among all where the machine can and there is a depth test: the
 /// pictures of this program are drawn as that skip asks for. `plane`, where the machine can.
@@ -66,11 +64,11 @@ std::uint32_t parse_skips(std::string_view list, const Config& config, bool dept
   const bool can_plane = config.plane_quads != 0;
   if (list == "all") return skip_default | (can_hide && depth ? skip_hidden : 0u) | (can_plane ? skip_plane : 0u);
   if (list == "none") return 0;
+  const std::vector<std::string> names(skip_names.begin(), skip_names.end());
   std::uint32_t skips = 0;
   while (true) {
     const std::size_t comma = std::min(list.find(','), list.size());
-    skips |= 1u << choose("--skip value (all, none, or names with commas between)", list.substr(0, comma),
-                          {skip_names.begin(), skip_names.end()});
+    skips |= 1u << choose("--skip value (all, none, or names with commas between)", list.substr(0, comma), names);
     if ((skips & skip_hidden) != 0 && !can_hide)
       throw UsageError(
           "--skip hidden: this configuration holds no depths of tiles; --set hierarchical_z_bits=12 for example");
@@ -88,7 +86,7 @@ std::string skips_text(std::uint32_t skips) {
   if (skips == 0) return "none";
   std::string text;
   for (std::size_t i = 0; i < skip_names.size(); ++i)
-    if ((skips >> i & 1) != 0) text += (text.empty() ? "" : ",") + skip_names[i];
+    if ((skips >> i & 1) != 0) text += (text.empty() ? "" : ",") + std::string(skip_names[i]);
   return text;
 }
 
@@ -100,8 +98,6 @@ std::string number(double value) {
 }
 
 }  // namespace
-
-std::span<const std::string> known_skips() { return skip_names; }
 
 CLI::Validator whole_number(std::uint64_t most) {
   return CLI::Validator(
@@ -352,6 +348,15 @@ void EngineOptions::add_to(CLI::App& app, bool fp32) {
       ->capture_default_str();
   app.add_option("--stall", stall, "rtl: probability per clock that the output is not ready")->type_name("P");
   app.add_option("--gap", gap, "rtl: probability per clock that no vertex is offered")->type_name("P");
+}
+
+void add_method_option(CLI::App& app, std::string& method) {
+  app.add_option(
+         "--method", method,
+         "A method of the papers instead of an engine, on the quads as given; `quadrille compare --help` lists them")
+      ->type_name("METHOD")
+      ->excludes("--engine")
+      ->excludes("--snap");
 }
 
 EngineSettings EngineOptions::settings(const CommonOptions& common, const StateOptions& state) const {

@@ -48,9 +48,6 @@ struct CommonOptions {
   std::FILE* text() const;
 };
 
-/// Names of the skips, in the order of SkipBit's bits.
-std::span<const std::string> known_skips();
-
 /// --cull --no-perspective --no-depth --znear --zfar --scissor --skip
 struct StateOptions {
   std::string cull = "none";
@@ -96,6 +93,9 @@ struct EngineOptions {
   /// Checked; throws UsageError where the engine and --snap do not go together.
   EngineSettings settings(const CommonOptions& common, const StateOptions& state) const;
 };
+
+/// --method in the place of an engine; after EngineOptions::add_to().
+void add_method_option(CLI::App& app, std::string& method);
 
 /// The keys that differ from their defaults as a command line gives them, " --set key=value" each.
 std::string spelled(const Config& config);
