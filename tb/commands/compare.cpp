@@ -239,6 +239,7 @@ class Compare {
     std::vector<Scene> sized;
     CompareOptions at_size = options_;
     at_size.input.save_camera.clear();  // it is that of the pictures
+    at_size.state.scissor.clear();      // so is this; a crease belongs to a whole quad
     for (const int size : sizes) sized.push_back(load_scene(at_size, scaled(width_, size), scaled(height_, size)));
     for (std::size_t m = 0; m < options_.methods.size(); ++m)
       add_jumps(options_.methods[m], sizes, sized, rows[m], [&] { progress.set(++done, options_.methods[m]); });

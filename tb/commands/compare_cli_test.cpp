@@ -93,6 +93,18 @@ TEST_F(CompareCli, CreaseOfASplitStaysAndOfMeanValueCoordinatesHalves) {
   EXPECT_LT(split02.at("crease13_512"), 0.1 * split13.at("crease13_512").get<double>());
 }
 
+// The scissor is of the picture's size, which creases are not measured at.
+TEST_F(CompareCli, CreasesAreOfWholeQuads) {
+  const std::string arguments = "--scene fig10_convex --size 64x64 --methods split02 --crease-sizes 32,64";
+  json whole = row(table(arguments), "split02");
+  json part = row(table(arguments + " --scissor 5,5,50,50", "e"), "split02");
+  EXPECT_GT(whole.at("covered"), part.at("covered"));
+  for (const char* crease : {"crease02_32", "crease02_64"}) {
+    EXPECT_GT(whole.at(crease), 0);
+    EXPECT_EQ(whole.at(crease), part.at(crease)) << crease;
+  }
+}
+
 TEST_F(CompareCli, AgainstTheTruthAndTheReference) {
   const json report = table("--scene sphere --size 96x96 --methods mvc,hybrid,split02,projective,affine,refine:20");
   EXPECT_LT(row(report, "mvc").at("truth_max"), 1e-9);
