@@ -5,8 +5,7 @@
 set -euo pipefail
 caller=$PWD
 source "$(dirname "$0")/setup.sh"
-install_packages
-build release quadrille
+set_up_core
 if [ $# -eq 0 ]; then
   set -- --scene sphere --stall 0.1 --gap 0.1 --png build/cosim.png --out build/cosim.exr --json build/cosim.json
 else

@@ -13,7 +13,7 @@ esac
 source "$(dirname "$0")/setup.sh"
 folder=$root/build/coverage
 if [ "${1:-}" = --judge ]; then exec scripts/coverage.py "$folder" "$folder/rtl_counts"; fi
-install_packages
+install_packages "${packages[@]}"
 
 # Test programs beside the unit tests. What takes long and comes again to the same lines stays out: mutants, syntheses, sweeps, campaigns, of the
 # commands those that sweep or time.
@@ -21,7 +21,7 @@ programs=(cosim_test hidden_tiles_test exhaustive_test error_bound_test)
 # A file without room takes gcov's counters too; the cache names these simulators otherwise and is not limited.
 commands='-CliShrink.*:CliStressWhole.*:SweepCli.*:Cli.BenchPeersReports:CliCosim.WaveformWithoutRoom:CliCosim.TheCacheIsListedAndCleared'
 cmake --preset coverage >/dev/null
-cmake --build --preset coverage -j "$(nproc)" --target quadrille unit_tests cli_test golden_stages "${programs[@]}"
+cmake --build --preset coverage -j "$(nproc)" --target quadrille quadrille-studies unit_tests cli_test studies_cli_test golden_stages "${programs[@]}"
 echo "Build: $SECONDS s"
 
 # Simulators of this build count and are of no use to another.
@@ -36,7 +36,9 @@ run -L '^unit$' -E '^(sweep|fuzz)_test$'
 run -R "^($(IFS='|'; echo "${programs[*]}"))\$"
 "$folder/tb/lockstep/cosim_test" --gtest_filter='Cosim.PlaneQuads*' --gtest_brief=1 || status=1  # plane quads in lockstep
 "$folder/golden/suites/golden_stages" 1 >/dev/null || status=1
-"$folder/tb/commands/cli_test" --gtest_filter="$commands" --gtest_brief=1 || status=1
+for test in commands/cli_test studies/studies_cli_test; do
+  "$folder/tb/$test" --gtest_filter="$commands" --gtest_brief=1 || status=1
+done
 echo "Tests: $SECONDS s"
 
 # Toggles, of one machine: the default widths and every unit that the default configuration leaves out. Its simulator is thirty times the code of

@@ -36,8 +36,7 @@ done
 each=$((seconds / ${#targets[@]}))
 [ "$each" -gt 0 ] && [ "$jobs" -gt 0 ] || usage "$seconds s for ${#targets[@]} targets in $jobs processes: at least a second for each is expected"
 
-packages+=(clang libclang-rt-14-dev)
-install_packages
+install_packages "${packages[@]}" clang libclang-rt-14-dev
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz -j "$(nproc)" --target $(printf 'fuzz_%s ' "${targets[@]}")
 

@@ -30,11 +30,11 @@ python3 tb/mutants/generate_mutants.py /dev/null ${draw[@]+"${draw[@]}"} || exit
 mkdir -p build
 exec {lock}>build/.mutate.lock
 flock "$lock"  # of several at a time, such as an array's tasks, one sets up and builds, and the others find it done
-install_packages
 if [ ${#draw[@]} -eq 0 ]; then
-  build release mutate
+  set_up mutate
   folder=build/release
 else
+  install_packages "${packages[@]}"
   folder=build/mutate  # another draw has its own copies: those of the tests stay as they are
   cmake -S . -B $folder -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADRILLE_MUTATE_OPTIONS="${draw[*]}" >/dev/null
   cmake --build $folder --target mutate -j "$(nproc)"

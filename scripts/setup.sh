@@ -1,15 +1,21 @@
-# Sourced by the other scripts: installs what is missing, configures and builds the release preset.
-# Works on a bare Debian 12: as root, through sudo, or by printing the one line to run.
+#!/usr/bin/env bash
+# Sets up what the other scripts need: packages, configuration, build. Works on a bare Debian 12: as root, through sudo,
+# or by printing the one line to run. Sourced by the others; run by itself it builds the programs with the studies.
 
+set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
+core_packages=(
+  g++ cmake ninja-build verilator   # the build, and simulators on demand
+  libopenexr-dev libpng-dev zlib1g-dev libssl-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
+)
 packages=(
-  g++ make cmake ninja-build   # the build, and simulators on demand; make builds those of the replay benches
-  verilator yosys iverilog     # RTL simulation, synthesis and round trip, replay of golden vectors
+  "${core_packages[@]}"
+  make yosys iverilog          # replay of golden vectors, synthesis and round trip
   z3                           # scripts/prove.py
   opensta qflow-tech-osu018    # scripts/timing.py: static timing, and the standard cells that it times
-  libgtest-dev librapidcheck-dev libopenexr-dev libpng-dev zlib1g-dev libssl-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
+  libgtest-dev librapidcheck-dev
   pkg-config libcairo2-dev fonts-dejavu-core   # contact sheets of quadrille compare
   libegl1-mesa-dev libgl1-mesa-dri libepoxy-dev   # the engine shader: OpenGL without a window, in software
   clang-format                 # the format test
@@ -17,9 +23,10 @@ packages=(
   python3-numpy                # the example of the library in Python
 )
 
+# install_packages PACKAGE...
 install_packages() {
   local missing=() p
-  for p in "${packages[@]}"; do
+  for p in "$@"; do
     [ "$(dpkg-query -W -f='${db:Status-Status}' "$p" 2>/dev/null)" = installed ] || missing+=("$p")
   done
   [ ${#missing[@]} -eq 0 ] && return
@@ -38,10 +45,33 @@ install_packages() {
   "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" || exit 3
 }
 
-# build PRESET [TARGET]. A program that is a link was built elsewhere: scripts/run_readme.py gives its clones one.
-build() {
-  [ ! -L "$root/build/$1/quadrille" ] || return 0
-  cmake --preset "$1" >"$root/.configure.log" 2>&1 || { cat "$root/.configure.log" >&2; exit 1; }
+# configure_and_build OPTION... -- TARGET...: build/release, without targets all of it; options are those of cmake.
+# A program that is a link was built elsewhere: scripts/run_readme.py gives its clones one.
+configure_and_build() {
+  local options=()
+  [ ! -L "$root/build/release/quadrille" ] || return 0
+  while [ "$1" != -- ]; do
+    options+=("$1")
+    shift
+  done
+  shift
+  cmake --preset release ${options[@]+"${options[@]}"} >"$root/.configure.log" 2>&1 || { cat "$root/.configure.log" >&2; exit 1; }
   rm -f "$root/.configure.log"
-  cmake --build --preset "$1" -j "$(nproc)" ${2:+--target "$2"}
+  cmake --build --preset release -j "$(nproc)" ${1:+--target "$@"}
 }
+
+# The main job alone. What a build folder was configured for before, it stays.
+set_up_core() {
+  local options=(-DQUADRILLE_BUILD_STUDIES=OFF -DQUADRILLE_BUILD_TESTS=OFF)
+  [ ! -e "$root/build/release/CMakeCache.txt" ] || options=()
+  install_packages "${core_packages[@]}"
+  configure_and_build ${options[@]+"${options[@]}"} -- quadrille
+}
+
+# set_up TARGET...: all packages, and these targets; without any everything.
+set_up() {
+  install_packages "${packages[@]}"
+  configure_and_build -DQUADRILLE_BUILD_STUDIES=ON -DQUADRILLE_BUILD_TESTS=ON -- "$@"
+}
+
+[ "${BASH_SOURCE[0]}" != "$0" ] || set_up quadrille quadrille-studies

@@ -4,7 +4,6 @@
 set -euo pipefail
 caller=$PWD
 source "$(dirname "$0")/setup.sh"
-install_packages
-build release quadrille
+set_up quadrille quadrille-studies
 cd "$caller"  # file names are the caller's
 exec "$root/scripts/soak.py" --quadrille "$root/build/release/quadrille" "$@"

@@ -15,8 +15,7 @@ case "${1:-}" in
   *) tier="" select=() ;;
 esac
 [[ -n $tier && $# -gt 0 ]] && shift
-install_packages
-build release
+set_up
 echo "${tier:+Tier $tier. }Build: $SECONDS s"
 export QUADRILLE_TEST_SEED=${QUADRILLE_TEST_SEED:-1}
 mkdir -p build/release/Testing

@@ -1,4 +1,4 @@
-// The program `quadrille`: commands, and what ends them.
+// The programs `quadrille` and `quadrille-studies`: commands, and what ends them.
 #include "golden/io/error.hpp"
 #include "golden/io/interrupt.hpp"
 #include "golden/io/json_report.hpp"
@@ -15,10 +15,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <system_error>
@@ -83,12 +88,10 @@ int run(int argc, char** argv) {
   add_fragments_command(app, invocation);
   add_config_command(app, invocation);
   add_scenes_command(app, invocation);
-  add_bench_command(app, invocation);
   add_sweep_command(app, invocation);
   add_golden_command(app, invocation);
-  add_compare_command(app, invocation);
-  add_stress_command(app, invocation);
   add_cache_command(app, invocation);
+  add_study_commands(app, invocation);
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands({})) {
     command->set_version_flag("--version", version)->group("Common options");
@@ -105,6 +108,16 @@ int run(int argc, char** argv) {
   return invocation.run();
 }
 
+/// The same command line by the program of the studies, which stands beside this one. Returns when there is none.
+int run_studies(char** argv, const std::string& what) {
+  std::error_code error;
+  const std::filesystem::path studies =
+      std::filesystem::read_symlink("/proc/self/exe", error).replace_filename("quadrille-studies");
+  execv(studies.c_str(), argv);
+  return fail(exit_environment, what + " is not built: " + studies.string() + ": " + std::strerror(errno) +
+                                    "; scripts/setup.sh builds it");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -116,6 +129,8 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return fail(exit_usage, "standard output cannot be written");
     return status;
+  } catch (const StudyNeeded& needed) {
+    return run_studies(argv, needed.what());
   } catch (const UsageError& error) {
     return fail(exit_usage, error.what());
   } catch (const golden::InputError& error) {

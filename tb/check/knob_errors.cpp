@@ -112,7 +112,7 @@ class Meter {
   void expect_quad(std::span<const EngineSample> drawn) {
     const std::uint32_t index = drawn.front().index;
     const JudgedQuad quad(snapped_[index], snapping_, bounds_, state_);
-    const ErrorLimits limits(quad, config_, state_);
+    const ErrorBounds limits(quad, config_, state_);
     std::vector<golden::PixelPlace> pixels;
     for (const EngineSample& sample : drawn) pixels.push_back({sample.x, sample.y});
     std::vector<ReferenceSample> truths(pixels.size());
@@ -201,7 +201,7 @@ std::string first_difference(std::span<const EngineSample> model, std::span<cons
 
 }  // namespace
 
-ErrorLimits::ErrorLimits(const JudgedQuad& quad, const Config& config, const DrawState& state)
+ErrorBounds::ErrorBounds(const JudgedQuad& quad, const Config& config, const DrawState& state)
     : quad_(quad),
       attributes_(static_cast<std::size_t>(state.attributes)),
       attribute_code_(attribute_format(config).unit() / 2),
@@ -219,7 +219,7 @@ ErrorLimits::ErrorLimits(const JudgedQuad& quad, const Config& config, const Dra
     fixed_.attribute[a] = quad.attribute_tolerance(a, 0, 0) + attribute_code_;
 }
 
-AllowedErrors ErrorLimits::at(const ReferenceSample& truth, int x, int y) const {
+AllowedErrors ErrorBounds::at(const ReferenceSample& truth, int x, int y) const {
   AllowedErrors allowed = fixed_;
   for (std::size_t a = 0; quad_.may_cancel() && a < attributes_; ++a)
     allowed.attribute[a] = quad_.attribute_tolerance(a, x, y) + attribute_code_;
@@ -228,7 +228,7 @@ AllowedErrors ErrorLimits::at(const ReferenceSample& truth, int x, int y) const 
 }
 
 /// JudgedQuad::depth_tolerance with M_i = lambda_i / k_i, up to a common factor.
-double ErrorLimits::depth(const ReferenceSample& truth) const {
+double ErrorBounds::depth(const ReferenceSample& truth) const {
   double above = 0, below = 0, sum = 0, sum_z = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double mw = truth.lambda[i] * w_[i], mz = truth.lambda[i] * z_[i];

@@ -35,10 +35,10 @@ struct AllowedErrors {
 };
 /// Of one quad, of the attributes that `state` has in use. With perspective they come of the truth's weights in double,
 /// not of 113-bit ones as JudgedQuad's: the same numbers but for rounding.
-class ErrorLimits {
+class ErrorBounds {
  public:
   /// `quad` must outlive this.
-  ErrorLimits(const JudgedQuad& quad, const Config& config, const DrawState& state);
+  ErrorBounds(const JudgedQuad& quad, const Config& config, const DrawState& state);
 
   /// `truth` is that of the pixel.
   AllowedErrors at(const golden::ReferenceSample& truth, int x, int y) const;
@@ -54,7 +54,7 @@ class ErrorLimits {
   AllowedErrors fixed_;                 ///< of weights and attributes, where the pixel does not matter
 };
 
-/// The largest error of one output, as a part of what ErrorLimits allow.
+/// The largest error of one output, as a part of what ErrorBounds allow.
 struct LargestError {
   double part = 0;
   Place place;

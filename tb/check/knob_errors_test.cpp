@@ -131,7 +131,7 @@ TEST(KnobErrors, ToleranceOfDepth) {
     for (const WindowQuad& given : golden::make_stress_without_weights(family, 60, 3, 64, 64, 1)) {
       const SnappedQuad snapped = snap_as(given, 0, config, state);
       const JudgedQuad quad(snapped, config, bounds, state);
-      const ErrorLimits limits(quad, config, state);
+      const ErrorBounds limits(quad, config, state);
       for (int y = 0; y < 64; y += 3)
         for (int x = 0; x < 64; x += 3) {
           const golden::ReferenceSample truth = quad.truth().sample(x, y);

@@ -54,10 +54,11 @@ class Cli : public testing::Test {
   }
 
   /// `arguments` as a shell line, `environment` before the program.
-  Outcome run(const std::string& arguments, const std::string& environment = {}) const {
+  Outcome run(const std::string& arguments, const std::string& environment = {},
+              const std::string& program = QUADRILLE_PROGRAM) const {
     const std::string out = file("stdout").string(), err = file("stderr").string();
-    const std::string line = "cd '" + directory_.string() + "' && " + environment + " '" QUADRILLE_PROGRAM "' " +
-                             arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
+    const std::string line = "cd '" + directory_.string() + "' && " + environment + " '" + program + "' " + arguments +
+                             " >'" + out + "' 2>'" + err + "' </dev/null";
     const int status = std::system(line.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
   }

@@ -18,7 +18,8 @@ using nlohmann::json;
 constexpr const char* good_quad = "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n";
 
 TEST_F(Cli, HelpAndVersion) {
-  for (const char* command : {"", "cosim", "render", "fragments", "config", "scenes", "bench", "sweep"}) {
+  for (const char* command : {"", "cosim", "render", "fragments", "config", "scenes", "sweep", "golden", "cache",
+                              "bench", "compare", "stress"}) {
     const Outcome help = run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_NE(help.out.find("Examples:"), std::string::npos) << command;
@@ -26,6 +27,25 @@ TEST_F(Cli, HelpAndVersion) {
     EXPECT_EQ(version.status, 0) << command;
     EXPECT_EQ(version.out.rfind("quadrille ", 0), 0u) << command;
   }
+}
+
+// The core alone says what it lacks; beside the studies it hands over to them.
+TEST_F(Cli, StudiesThatAreNotBuilt) {
+  fs::copy_file(QUADRILLE_PROGRAM, file("core"));
+  for (const auto& [command, lacking] :
+       {std::pair{"compare --help", "the command compare"},
+        {"bench", "the command bench"},
+        {"stress --count 1", "the command stress"},
+        {"render --method mvc --scene sphere --png a.png", "--method mvc"},
+        {"fragments --engine shader --scene sphere --out a.csv", "the engine shader"}}) {
+    const Outcome outcome = run(command, "", file("core").string());
+    EXPECT_EQ(outcome.status, 3) << command;
+    EXPECT_EQ(outcome.out, "") << command;
+    EXPECT_EQ(outcome.err.rfind("quadrille: " + std::string(lacking) + " is not built: ", 0), 0u) << outcome.err;
+    EXPECT_NE(outcome.err.find("scripts/setup.sh"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(file("a.png")) || fs::exists(file("a.csv")));
+  }
+  EXPECT_EQ(run("render --scene bowtie --size 32x32 --png a.png", "", file("core").string()).status, 0);
 }
 
 /// Of EGL nothing but the dispatcher: as on a machine without a driver.

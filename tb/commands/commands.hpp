@@ -10,12 +10,18 @@ void add_render_command(CLI::App& app, Invocation& invocation);
 void add_fragments_command(CLI::App& app, Invocation& invocation);
 void add_config_command(CLI::App& app, Invocation& invocation);
 void add_scenes_command(CLI::App& app, Invocation& invocation);
-void add_bench_command(CLI::App& app, Invocation& invocation);
 void add_sweep_command(CLI::App& app, Invocation& invocation);
-void add_compare_command(CLI::App& app, Invocation& invocation);
 void add_golden_command(CLI::App& app, Invocation& invocation);
-void add_stress_command(CLI::App& app, Invocation& invocation);
 void add_cache_command(CLI::App& app, Invocation& invocation);
 void add_golden_diff_command(CLI::App& golden, Invocation& invocation);  ///< below the command golden
+
+/// The commands of the studies. Two programs have the same main(): quadrille-studies adds these (tb/studies/),
+/// quadrille names that throw StudyNeeded when run (absent_studies.cpp), upon which main() calls the other program.
+void add_study_commands(CLI::App& app, Invocation& invocation);
+inline constexpr const char* bench_description =
+    "Speeds of model, references, RTL and lockstep in one run, as ratios; --error: errors beside them";
+inline constexpr const char* compare_description = "The papers' methods side by side: pictures, errors, creases";
+inline constexpr const char* stress_description =
+    "Errors against a knob, towards every special case, of the model, the paper's formulas and others";
 
 }  // namespace quadrille::cli

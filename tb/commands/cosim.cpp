@@ -6,6 +6,7 @@
 #include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"
 
+#include "golden/analysis/error_bound.hpp"
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/scenes/random_state.hpp"

@@ -8,12 +8,10 @@
 #include "golden/io/fragment_csv.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/text_input.hpp"
-#include "golden/methods/method.hpp"
 #include "model/snap.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
-#include "tb/render/method_engine.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -52,12 +50,13 @@ std::pair<int, int> parse_pixel(const std::string& text, const DrawState& state)
   return {x, y};
 }
 
-int fragments(const FragmentsOptions& options, const std::vector<std::string>& arguments) {
+int fragments(const FragmentsOptions& options, const Invocation& invocation) {
   const tb::Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
   if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
+  MethodEngineMaker make_method_engine;
   if (!options.method.empty()) {
-    golden::methods::make_method(options.method);  // an unknown one is refused before the input is read
+    make_method_engine = invocation.method(options.method);
     if (options.errors) throw UsageError("--errors with --method: the bound is on the machine's errors");
     settings.snap = false;
   }
@@ -95,7 +94,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   try {
     Progress progress("fragments of " + input.name, input.quads.size(), options.common.show_progress());
     const std::unique_ptr<Engine> engine =
-        options.method.empty() ? make_engine(settings) : make_method_engine(options.method, input, settings);
+        options.method.empty() ? make_engine(settings) : make_method_engine(input, settings);
     engine->draw(input.quads, input.attributes, true, [&](std::span<const EngineSample> samples) {
       for (const EngineSample& sample : samples) {
         if (!wanted(sample)) continue;
@@ -128,7 +127,7 @@ int fragments(const FragmentsOptions& options, const std::vector<std::string>& a
   if (options.method.empty() && reports_counters(options.common))
     counters = count_draw(settings, input.quads, input.attributes);
   if (!options.common.json.empty()) {
-    nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
+    nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, invocation.arguments);
     json["input"] = input.name;
     json[options.method.empty() ? "engine" : "method"] = drawn_by;
     json["snap"] = settings.snap;
@@ -185,9 +184,8 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
       ->add_option("--shade", options->shade,
                    "Attributes of a scene or mesh: uv, texture, normal, planes, colour; default: what suits the input")
       ->type_name("MODE");
-  command->callback([options, &invocation] {
-    invocation.run = [options, &invocation] { return fragments(*options, invocation.arguments); };
-  });
+  command->callback(
+      [options, &invocation] { invocation.run = [options, &invocation] { return fragments(*options, invocation); }; });
 }
 
 }  // namespace quadrille::cli

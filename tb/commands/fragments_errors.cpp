@@ -38,7 +38,7 @@ std::string fragment_errors_csv(std::span<const WindowQuad> quads, int attribute
   std::string out = "quad,x,y,value,drawn,truth,error,of_bound\n";
   std::optional<SnappedQuad> snapped;
   std::optional<JudgedQuad> quad;
-  std::optional<ErrorLimits> limits;
+  std::optional<ErrorBounds> limits;
   std::uint32_t current = 0;
   for (const auto& [where, pixel] : pixels) {
     const auto [index, y, x] = where;

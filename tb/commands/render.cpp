@@ -5,12 +5,10 @@
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
-#include "golden/methods/method.hpp"
 #include "model/snap.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
 #include "tb/render/frame.hpp"
-#include "tb/render/method_engine.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -34,11 +32,12 @@ struct RenderOptions {
   bool no_error = false;
 };
 
-int render(const RenderOptions& options, const std::vector<std::string>& arguments) {
+int render(const RenderOptions& options, const Invocation& invocation) {
   const tb::Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
+  MethodEngineMaker make_method_engine;
   if (!options.method.empty()) {
-    golden::methods::make_method(options.method);  // an unknown one is refused before the input is read
+    make_method_engine = invocation.method(options.method);
     settings.snap = false;
   }
   if (options.out.empty() && options.png.empty()) throw UsageError("--out F.exr or --png F.png (or both) is needed");
@@ -62,7 +61,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   try {
     Progress progress("render " + input.name, input.quads.size(), options.common.show_progress());
     const std::unique_ptr<Engine> engine =
-        options.method.empty() ? make_engine(settings) : make_method_engine(options.method, input, settings);
+        options.method.empty() ? make_engine(settings) : make_method_engine(input, settings);
     engine->draw(input.quads, input.attributes, true, [&](std::span<const EngineSample> samples) {
       frame.add(samples);
       progress.set(samples.back().index + 1);
@@ -93,7 +92,7 @@ int render(const RenderOptions& options, const std::vector<std::string>& argumen
   }
 
   if (!options.common.json.empty()) {
-    nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, arguments);
+    nlohmann::ordered_json json = golden::begin_report(settings.config, options.common.seed, invocation.arguments);
     json["input"] = input.name;
     json[options.method.empty() ? "engine" : "method"] = drawn_by;
     json["shade"] = input.shade;
@@ -168,9 +167,8 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
       ->type_name("F.png");
   options->input.add_light_to(*command);
   command->add_flag("--no-error", options->no_error, "Leave the error layers out (quicker)");
-  command->callback([options, &invocation] {
-    invocation.run = [options, &invocation] { return render(*options, invocation.arguments); };
-  });
+  command->callback(
+      [options, &invocation] { invocation.run = [options, &invocation] { return render(*options, invocation); }; });
 }
 
 }  // namespace quadrille::cli

@@ -8,6 +8,7 @@
 #include "golden/io/interrupt.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/npy.hpp"
+#include "model/draw_state.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/commands/sweep_cosim.hpp"
 #include "tb/commands/sweep_parts.hpp"

@@ -3,7 +3,6 @@
 #include "model/snap.hpp"
 #include "tb/engines/machine_engine.hpp"
 #include "tb/engines/reference_engine.hpp"
-#include "tb/engines/shader_engine.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 
@@ -15,6 +14,8 @@ namespace quadrille::cli {
 namespace {
 
 constexpr std::array<std::string_view, 6> names{"rtl", "model", "float", "shader", "truth", "fp32"};
+
+constinit EngineMaker shader_maker = nullptr;
 
 }  // namespace
 
@@ -32,7 +33,8 @@ std::unique_ptr<Engine> make_engine(const EngineSettings& settings) {
     case EngineKind::model:
       return make_model_engine(settings);
     case EngineKind::shader:
-      return make_shader_engine(settings);
+      if (shader_maker == nullptr) throw StudyNeeded("the engine shader");
+      return shader_maker(settings);
     case EngineKind::paper_float:
     case EngineKind::paper_single:
     case EngineKind::truth:
@@ -40,6 +42,8 @@ std::unique_ptr<Engine> make_engine(const EngineSettings& settings) {
   }
   throw std::logic_error("engine kind");
 }
+
+void set_shader_engine(EngineMaker maker) { shader_maker = maker; }
 
 std::vector<Pass> plan_passes(int attributes, bool weights, int slots) {
   std::vector<int> columns;

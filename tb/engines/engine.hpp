@@ -60,7 +60,11 @@ class Engine {
   virtual void draw(std::span<const WindowQuad> quads, int attributes, bool weights, const SampleSink& sink) = 0;
 };
 
+/// Throws StudyNeeded for the engine `shader` unless set_shader_engine() was called.
 std::unique_ptr<Engine> make_engine(const EngineSettings& settings);
+/// What makes the engine `shader`. The program of the studies sets it at its start.
+using EngineMaker = std::unique_ptr<Engine> (*)(const EngineSettings&);
+void set_shader_engine(EngineMaker maker);
 
 /// One draw of the machine: which columns its attribute slots carry. Columns 0-3 are the weights, column 4 + j
 /// attribute j.

@@ -5,10 +5,12 @@
 #include "model/config.hpp"
 #include "model/records.hpp"
 #include "tb/engines/engine.hpp"
+#include "tb/support/errors.hpp"
 
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,10 +22,19 @@ class App;
 
 namespace quadrille::cli {
 
+struct DrawInput;
+
+/// Makes an engine of one of the papers' methods, to draw the quads of that input, which must outlive the engine.
+using MethodEngineMaker = std::function<std::unique_ptr<Engine>(const DrawInput&, const EngineSettings&)>;
+
 /// What main() hands to the commands and gets back.
 struct Invocation {
   std::vector<std::string> arguments;  ///< as typed, for reports
   std::function<int()> run;            ///< set by the command that was chosen; returns the exit status
+  /// The maker for --method, from the studies. Throws UsageError for an unknown name, StudyNeeded without the studies.
+  std::function<MethodEngineMaker(const std::string& name)> method = [](const std::string& name) -> MethodEngineMaker {
+    throw StudyNeeded("--method " + name);
+  };
 };
 
 /// --config --set --size --seed --threads --json --quiet --verbose

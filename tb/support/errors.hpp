@@ -17,4 +17,9 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What was asked for belongs to the studies, and this program is the core.
+struct StudyNeeded : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace quadrille::cli

@@ -1,4 +1,4 @@
-#include "tb/render/skip_picture.hpp"
+#include "tb/studies/skip_picture.hpp"
 
 #include "model/covered_pixels.hpp"
 #include "model/hierarchical_z.hpp"

@@ -1,6 +1,6 @@
-#include "tb/render/method_timing.hpp"
+#include "tb/studies/method_timing.hpp"
 
-#include "tb/render/method_engine.hpp"
+#include "tb/studies/method_engine.hpp"
 #include "tb/support/stopwatch.hpp"
 
 #include <algorithm>

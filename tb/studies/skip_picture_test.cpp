@@ -1,5 +1,5 @@
 // Which tiles the picture of the skips counts, of squares whose boxes are known.
-#include "tb/render/skip_picture.hpp"
+#include "tb/studies/skip_picture.hpp"
 
 #include "model/snap.hpp"
 

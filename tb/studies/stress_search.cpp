@@ -1,4 +1,4 @@
-#include "tb/commands/stress_search.hpp"
+#include "tb/studies/stress_search.hpp"
 
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/json_report.hpp"
@@ -7,10 +7,10 @@
 #include "model/support/parallel.hpp"
 #include "tb/check/family_search.hpp"
 #include "tb/check/worst_quads.hpp"
-#include "tb/commands/stress_report.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
+#include "tb/studies/stress_report.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"

@@ -1,4 +1,4 @@
-#include "tb/render/method_engine.hpp"
+#include "tb/studies/method_engine.hpp"
 
 #include "model/support/parallel.hpp"
 #include "tb/support/errors.hpp"

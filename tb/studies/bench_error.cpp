@@ -1,12 +1,12 @@
-#include "tb/commands/bench_error.hpp"
+#include "tb/studies/bench_error.hpp"
 
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/check/check.hpp"
-#include "tb/commands/bench_timing.hpp"
 #include "tb/lockstep/lockstep.hpp"
+#include "tb/studies/bench_timing.hpp"
 #include "tb/support/stopwatch.hpp"
 
 #include <algorithm>

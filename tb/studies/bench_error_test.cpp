@@ -1,5 +1,5 @@
 // What `bench --error` counts, on quads whose counts follow by hand, and that it finds faults put into a machine.
-#include "tb/commands/bench_error.hpp"
+#include "tb/studies/bench_error.hpp"
 
 #include <gtest/gtest.h>
 

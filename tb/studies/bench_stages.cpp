@@ -1,9 +1,9 @@
-#include "tb/commands/bench_stages.hpp"
+#include "tb/studies/bench_stages.hpp"
 
 #include "model/float_lanes.hpp"
 #include "model/quad_setup.hpp"
 #include "model/untimed.hpp"
-#include "tb/commands/bench_timing.hpp"
+#include "tb/studies/bench_timing.hpp"
 
 #include <vector>
 

@@ -4,16 +4,17 @@
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/check/check.hpp"
-#include "tb/commands/bench_cliffs.hpp"
-#include "tb/commands/bench_error.hpp"
-#include "tb/commands/bench_peers.hpp"
-#include "tb/commands/bench_skips.hpp"
-#include "tb/commands/bench_speed.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
+#include "tb/studies/bench_cliffs.hpp"
+#include "tb/studies/bench_error.hpp"
+#include "tb/studies/bench_peers.hpp"
+#include "tb/studies/bench_skips.hpp"
+#include "tb/studies/bench_speed.hpp"
+#include "tb/studies/studies.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
@@ -318,8 +319,7 @@ int bench(BenchOptions& options, bool size_given, bool fragments_given, const st
 }  // namespace
 
 void add_bench_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand(
-      "bench", "Speeds of model, references, RTL and lockstep in one run, as ratios; --error: errors beside them");
+  CLI::App* command = app.add_subcommand("bench", bench_description);
   command->footer(
       "Without --error all draw the same mesh, one after the other and that several times; the median counts.\n\n"
       "With --error: run time per fragment and errors against exact arithmetic on the same snapped quads, of the\n"

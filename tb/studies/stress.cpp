@@ -7,12 +7,13 @@
 #include "model/support/parallel.hpp"
 #include "tb/check/knob_errors.hpp"
 #include "tb/commands/commands.hpp"
-#include "tb/commands/stress_report.hpp"
-#include "tb/commands/stress_search.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/shard.hpp"
 #include "tb/options/written_file.hpp"
+#include "tb/studies/stress_report.hpp"
+#include "tb/studies/stress_search.hpp"
+#include "tb/studies/studies.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -400,8 +401,7 @@ class StressCommand {
 }  // namespace
 
 void add_stress_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand(
-      "stress", "Errors against a knob, towards every special case, of the model, the paper's formulas and others");
+  CLI::App* command = app.add_subcommand("stress", stress_description);
   command->footer(
       "Stress families take the knobs 2^-6 to 2^6 (those whose knob scales nothing, 1), quads at random.\n"
       "Approaches walk quads towards a special case: knob k is a distance of 2^-k from it, on either side (of long\n"

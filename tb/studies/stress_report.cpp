@@ -1,4 +1,4 @@
-#include "tb/commands/stress_report.hpp"
+#include "tb/studies/stress_report.hpp"
 
 #include "golden/io/error.hpp"
 #include "golden/io/json_report.hpp"

@@ -1,4 +1,4 @@
-#include "tb/engines/shader_engine.hpp"
+#include "tb/shader/shader_engine.hpp"
 
 #include "golden/reference/truth.hpp"
 #include "tb/shader/paper_shader.hpp"

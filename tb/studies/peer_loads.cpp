@@ -1,4 +1,4 @@
-#include "tb/commands/peer_loads.hpp"
+#include "tb/studies/peer_loads.hpp"
 
 #include "golden/scenes/projection.hpp"
 

@@ -1,4 +1,4 @@
-#include "tb/commands/bench_speed.hpp"
+#include "tb/studies/bench_speed.hpp"
 
 #include "golden/io/json_report.hpp"
 #include "golden/reference/paper_float.hpp"
@@ -9,9 +9,9 @@
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
 #include "tb/check/check.hpp"
-#include "tb/commands/bench_timing.hpp"
 #include "tb/commands/counters_report.hpp"
 #include "tb/lockstep/lockstep.hpp"
+#include "tb/studies/bench_timing.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/progress.hpp"
 #include "tb/support/stopwatch.hpp"

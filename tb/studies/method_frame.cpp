@@ -1,7 +1,7 @@
-#include "tb/render/method_frame.hpp"
+#include "tb/studies/method_frame.hpp"
 
 #include "model/snap.hpp"
-#include "tb/render/method_engine.hpp"
+#include "tb/studies/method_engine.hpp"
 #include "tb/support/errors.hpp"
 
 #include <array>

@@ -1,4 +1,6 @@
 // quadrille compare: the methods of the papers on one input, as pictures and as a table.
+#include "tb/studies/studies.hpp"
+
 #include "tb/commands/commands.hpp"
 
 #include "golden/io/atomic_file.hpp"
@@ -6,7 +8,6 @@
 #include "golden/io/image_diff.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/methods/method.hpp"
-#include "tb/commands/compare_plot.hpp"
 #include "tb/compare/creases.hpp"
 #include "tb/compare/crop.hpp"
 #include "tb/compare/frame_error.hpp"
@@ -16,9 +17,10 @@
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
 #include "tb/render/frame.hpp"
-#include "tb/render/method_engine.hpp"
-#include "tb/render/method_frame.hpp"
-#include "tb/render/method_timing.hpp"
+#include "tb/studies/compare_plot.hpp"
+#include "tb/studies/method_engine.hpp"
+#include "tb/studies/method_frame.hpp"
+#include "tb/studies/method_timing.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -526,7 +528,7 @@ std::string method_list() {
 }  // namespace
 
 void add_compare_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("compare", "The papers' methods side by side: pictures, errors, creases");
+  CLI::App* command = app.add_subcommand("compare", compare_description);
   command->footer(method_list() +
                   "\nWrites sheet.png (methods in columns), METHOD.exr, table.json, table.csv and table.md into DIR. A "
                   "crease is the\nlargest change of an attribute's slope from pixel to pixel within 4 pixels of the "

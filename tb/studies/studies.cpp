@@ -1,0 +1,24 @@
+// What makes of main() the program of the studies.
+#include "tb/studies/studies.hpp"
+
+#include "golden/methods/method.hpp"
+#include "tb/commands/commands.hpp"
+#include "tb/shader/shader_engine.hpp"
+#include "tb/studies/method_engine.hpp"
+
+namespace quadrille::cli {
+
+void add_study_commands(CLI::App& app, Invocation& invocation) {
+  add_bench_command(app, invocation);
+  add_compare_command(app, invocation);
+  add_stress_command(app, invocation);
+  set_shader_engine(make_shader_engine);
+  invocation.method = [](const std::string& name) -> MethodEngineMaker {
+    golden::methods::make_method(name);  // an unknown one is refused before the input is read
+    return [name](const DrawInput& input, const EngineSettings& settings) {
+      return make_method_engine(name, input, settings);
+    };
+  };
+}
+
+}  // namespace quadrille::cli
