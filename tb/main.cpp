@@ -27,6 +27,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -66,6 +67,19 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error, const std::
   return fail(exit_usage, text + "; see `" + place + " --help`");
 }
 
+/// The commands of the studies in the core: names, upon which main() calls the other program.
+void name_studies(CLI::App& app, Invocation& invocation) {
+  for (const auto& [name, description] :
+       {std::pair{"bench", bench_description}, {"compare", compare_description}, {"stress", stress_description}}) {
+    CLI::App* command = app.add_subcommand(name, description);
+    command->set_help_flag();  // that of the other program
+    command->prefix_command();
+    command->callback([name = std::string(name), &invocation] {
+      invocation.run = [name]() -> int { throw StudyNeeded("the command " + name); };
+    });
+  }
+}
+
 int run(int argc, char** argv) {
   Invocation invocation;
   invocation.arguments.assign(argv, argv + argc);
@@ -91,7 +105,10 @@ int run(int argc, char** argv) {
   add_sweep_command(app, invocation);
   add_golden_command(app, invocation);
   add_cache_command(app, invocation);
-  add_study_commands(app, invocation);
+  if (add_studies != nullptr)
+    add_studies(app, invocation);
+  else
+    name_studies(app, invocation);
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands({})) {
     command->set_version_flag("--version", version)->group("Common options");

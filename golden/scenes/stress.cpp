@@ -16,8 +16,7 @@
 namespace quadrille::golden {
 namespace {
 
-using Point = WindowPoint;
-using Points = std::array<Point, 4>;
+using Points = std::array<WindowPoint, 4>;
 using Weights = std::array<double, 4>;
 using Numbers = RecordedNumbers;
 using Vertices = std::array<WindowVertex, 4>;
@@ -25,7 +24,7 @@ using Vertices = std::array<WindowVertex, 4>;
 constexpr Weights ones{1, 1, 1, 1};
 
 /// Steps between pixel centres along which an edge meets many of them.
-constexpr std::array<Point, 12> lattice_steps{
+constexpr std::array<WindowPoint, 12> lattice_steps{
     {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 1}, {1, 2}, {-1, 2}, {-2, 1}, {-1, 0}, {0, -1}, {3, 1}, {1, -3}}};
 
 /// What every generator works with. Draws come in program order, never two in one function call.
@@ -40,31 +39,31 @@ struct Batch {
   double extent() const { return std::min(width, height); }
 };
 
-Point random_point(Numbers& rng, double x0, double y0, double x1, double y1) {
+WindowPoint random_point(Numbers& rng, double x0, double y0, double x1, double y1) {
   const double x = rng.uniform(x0, x1);
   const double y = rng.uniform(y0, y1);
   return {x, y};
 }
 
 /// A place for something of this size, inside the viewport where it fits.
-Point place(Batch& b, double size) {
+WindowPoint place(Batch& b, double size) {
   const double mx = std::min(size, b.width * 1.0) / 2, my = std::min(size, b.height * 1.0) / 2;
   return random_point(b.rng, mx, my, b.width - mx, b.height - my);
 }
 
-Point centre_of_pixel(Point p) { return {std::floor(p.x) + 0.5, std::floor(p.y) + 0.5}; }
+WindowPoint centre_of_pixel(WindowPoint p) { return {std::floor(p.x) + 0.5, std::floor(p.y) + 0.5}; }
 
-Points random_corners(Batch& b, Point centre, double size) {
+Points random_corners(Batch& b, WindowPoint centre, double size) {
   Points p;
-  for (Point& q : p)
+  for (WindowPoint& q : p)
     q = random_point(b.rng, centre.x - size / 2, centre.y - size / 2, centre.x + size / 2, centre.y + size / 2);
   return p;
 }
 
 /// An angle's direction without sine: a point of the square's outline, normalised.
-Point random_direction(Numbers& rng) {
+WindowPoint random_direction(Numbers& rng) {
   const double s = rng.uniform(-1, 1);
-  const Point p = rng.chance(0.5) ? Point{s, rng.sign()} : Point{rng.sign(), s};
+  const WindowPoint p = rng.chance(0.5) ? WindowPoint{s, rng.sign()} : WindowPoint{rng.sign(), s};
   return 1 / std::sqrt(p.x * p.x + p.y * p.y) * p;
 }
 
@@ -84,7 +83,9 @@ void turn(Numbers& rng, Vertices& v) {
 }
 
 /// A vertex of a family in front of the eye, at a window depth of its own.
-WindowVertex ordinary(Numbers& rng, Point p, double w) { return {p.x * w, p.y * w, rng.uniform(0.1, 0.9) * w, w}; }
+WindowVertex ordinary(Numbers& rng, WindowPoint p, double w) {
+  return {p.x * w, p.y * w, rng.uniform(0.1, 0.9) * w, w};
+}
 
 void emit(Batch& b, const Points& p, const Weights& w = ones) {
   Vertices v;
@@ -143,13 +144,13 @@ bool holds_eye(const Vertices& v) {
 
 void general(Batch& b) {
   const double size = b.extent() * b.knob * b.rng.log2_spread(-6, -0.5);
-  const Point centre = place(b, size);
+  const WindowPoint centre = place(b, size);
   emit(b, random_corners(b, centre, size));
 }
 
 void perspective(Batch& b) {
   const double size = b.extent() * b.rng.log2_spread(-4, -0.25);
-  const Point centre = place(b, size);
+  const WindowPoint centre = place(b, size);
   const Points p = random_corners(b, centre, size);
   const double ratio_log2 = std::min(6.643856 * b.knob, 40.0);  // log2 of 100
   Weights w;
@@ -163,11 +164,11 @@ void perspective(Batch& b) {
 
 /// A vertex with the given w that projects near the viewport; with w = 0 a direction of that order.
 WindowVertex anywhere(Batch& b, double w, double reach) {
-  const Point p =
+  const WindowPoint p =
       random_point(b.rng, -reach * b.width, -reach * b.height, (1 + reach) * b.width, (1 + reach) * b.height);
   if (w != 0) return {p.x * w, p.y * w, 0, w};
   const double length = b.extent() * b.rng.log2_spread(-2, 2);
-  const Point d = length * random_direction(b.rng);
+  const WindowPoint d = length * random_direction(b.rng);
   return {d.x, d.y, 0, 0};
 }
 
@@ -199,11 +200,11 @@ void any_w(Batch& b) {
 Points lattice_polygon(Batch& b) {
   const double reach = std::max(4.0, b.extent() / 12);
   const auto step = [&] {
-    const Point direction = lattice_steps[b.rng.below(lattice_steps.size())];
+    const WindowPoint direction = lattice_steps[b.rng.below(lattice_steps.size())];
     return static_cast<double>(b.rng.integer(2, static_cast<std::int64_t>(reach))) * direction;
   };
   Points p;
-  const Point a = step(), c = step();
+  const WindowPoint a = step(), c = step();
   p[0] = centre_of_pixel(place(b, 3 * reach));
   p[1] = p[0] + a;
   p[2] = p[1] + c;
@@ -214,18 +215,18 @@ Points lattice_polygon(Batch& b) {
 /// Edges along x + y and x − y through pixel centres whose corners may lie between them.
 Points lattice_diamond(Batch& b) {
   const std::int64_t reach = static_cast<std::int64_t>(std::max(6.0, b.extent() / 6));
-  const Point o = centre_of_pixel(place(b, static_cast<double>(reach)));
+  const WindowPoint o = centre_of_pixel(place(b, static_cast<double>(reach)));
   const double k = static_cast<double>(b.rng.integer(3, reach));
   const double m = static_cast<double>(b.rng.integer(3, reach));
   const double shift = b.rng.chance(0.5) ? 0.5 : 0.0;
-  const Point c{o.x + shift, o.y + shift};
+  const WindowPoint c{o.x + shift, o.y + shift};
   return {{c, {c.x + k / 2, c.y + k / 2}, {c.x + k / 2 - m / 2, c.y + k / 2 + m / 2}, {c.x - m / 2, c.y + m / 2}}};
 }
 
 /// Two opposite edges along a row (or column) of pixel centres, corners at a quarter pixel.
 Points lattice_trapezoid(Batch& b) {
   const double reach = std::max(8.0, b.extent() / 4);
-  const Point o = centre_of_pixel(place(b, reach));
+  const WindowPoint o = centre_of_pixel(place(b, reach));
   const double depth = static_cast<double>(b.rng.integer(2, static_cast<std::int64_t>(reach)));
   const auto quarter = [&](double lo, double hi) { return std::floor(b.rng.uniform(lo, hi)) + 0.25; };
   Points p;
@@ -234,7 +235,7 @@ Points lattice_trapezoid(Batch& b) {
   p[2] = {o.x + quarter(1, reach / 2), o.y + depth};
   p[3] = {o.x + quarter(-reach / 2, -1), o.y + depth};
   if (b.rng.chance(0.5)) {
-    for (Point& q : p) q = o + Point{q.y - o.y, q.x - o.x};
+    for (WindowPoint& q : p) q = o + WindowPoint{q.y - o.y, q.x - o.x};
   }
   return p;
 }
@@ -253,7 +254,7 @@ Points lattice_quad(Batch& b) {
 void near_edge(Batch& b) {
   Points p = lattice_quad(b);
   const double reach = b.knob * 0x1p-4 * 0.7;  // in each axis, so that the distance stays below knob/16 px
-  for (Point& q : p) q = q + random_point(b.rng, -reach, -reach, reach, reach);
+  for (WindowPoint& q : p) q = q + random_point(b.rng, -reach, -reach, reach, reach);
   emit(b, p, exact_weights(b.rng));
 }
 
@@ -265,16 +266,16 @@ void on_edge(Batch& b) {
 /// Distinct corners at pixel centres within a square.
 Points lattice_corners(Batch& b, double size) {
   const std::int64_t n = std::max<std::int64_t>(2, static_cast<std::int64_t>(size));
-  const Point o = centre_of_pixel(place(b, size));
+  const WindowPoint o = centre_of_pixel(place(b, size));
   Points p;
   for (std::size_t i = 0; i < 4; ++i) {
     bool fresh = false;
     while (!fresh) {
       const double x = static_cast<double>(b.rng.integer(-n / 2, n / 2)),
                    y = static_cast<double>(b.rng.integer(-n / 2, n / 2));
-      p[i] = o + Point{x, y};
+      p[i] = o + WindowPoint{x, y};
       fresh = std::none_of(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(i),
-                           [&](Point q) { return q.x == p[i].x && q.y == p[i].y; });
+                           [&](WindowPoint q) { return q.x == p[i].x && q.y == p[i].y; });
     }
   }
   return p;
@@ -282,8 +283,8 @@ Points lattice_corners(Batch& b, double size) {
 
 void near_vertex(Batch& b) {
   Points p = lattice_corners(b, b.rng.log2_spread(2, 5));
-  for (Point& q : p) {
-    const Point direction = random_direction(b.rng);
+  for (WindowPoint& q : p) {
+    const WindowPoint direction = random_direction(b.rng);
     q = q + std::min(1.0, b.knob * b.rng.log2_spread(-9, -1)) * direction;
   }
   emit(b, p, exact_weights(b.rng));
@@ -298,14 +299,14 @@ void on_vertex(Batch& b) {
 void sliver(Batch& b) {
   const double length = b.extent() * b.rng.log2_spread(-4, -0.25);
   const double thickness = b.knob * b.rng.log2_spread(-6, 0);
-  const Point o = place(b, length), along = random_direction(b.rng);
-  const Point across{-along.y, along.x};
+  const WindowPoint o = place(b, length), along = random_direction(b.rng);
+  const WindowPoint across{-along.y, along.x};
   const auto corner = [&](double s) {
     const double jitter = b.rng.uniform(-0.1, 0.1);
     const double off = b.rng.uniform(0, 0.5);
     return o + length * (s + jitter) * along + (s > 0 ? thickness * off : -thickness * off) * across;
   };
-  const Point p0 = corner(-0.4), p2 = corner(0.4);
+  const WindowPoint p0 = corner(-0.4), p2 = corner(0.4);
   const double side = b.rng.uniform(0.5, 1);
   Points p{{p0, p0 + length * 0.8 * along - thickness * side * across, p2, p2 - length * 0.8 * along}};
   if (b.rng.chance(0.25)) p[3] = p[0] + length * 0x1p-5 * along;  // nearly a triangle
@@ -328,11 +329,11 @@ void collapsed_edge(Batch& b) {
 
 void straight_corner(Batch& b) {
   const double size = b.extent() * b.rng.log2_spread(-5, -1);
-  const Point o = place(b, size);
+  const WindowPoint o = place(b, size);
   Points p;
   const auto even = [&] {  // a multiple of 1/32 px, so that points at eighths of an edge are on the 1/256 px grid
-    const Point q = random_point(b.rng, -size / 2, -size / 2, size / 2, size / 2);
-    return Point{std::floor((o.x + q.x) * 32) / 32, std::floor((o.y + q.y) * 32) / 32};
+    const WindowPoint q = random_point(b.rng, -size / 2, -size / 2, size / 2, size / 2);
+    return WindowPoint{std::floor((o.x + q.x) * 32) / 32, std::floor((o.y + q.y) * 32) / 32};
   };
   p[0] = even();
   p[2] = even();
@@ -354,8 +355,8 @@ void reflex(Batch& b) {
   const double width = std::min(length, b.knob * b.rng.log2_spread(-2, 4));
   const double behind = b.rng.log2_spread(0, 5);
   const double skew = b.rng.uniform(0.4, 1.6);
-  const Point tip = place(b, 2 * length), along = random_direction(b.rng);
-  const Point across{-along.y, along.x};
+  const WindowPoint tip = place(b, 2 * length), along = random_direction(b.rng);
+  const WindowPoint across{-along.y, along.x};
   Points p;
   p[0] = centre_of_pixel(tip) + random_point(b.rng, -0.5, -0.5, 0.5, 0.5);
   p[1] = p[0] + length * along + width / 2 * across;
@@ -368,9 +369,9 @@ void bowtie(Batch& b) {
   const double size = b.extent() * b.rng.log2_spread(-5, -1.5);
   Points p;
   const bool exact = b.rng.chance(0.5);
-  const Point c = exact ? centre_of_pixel(place(b, 2 * size)) : place(b, 2 * size);
+  const WindowPoint c = exact ? centre_of_pixel(place(b, 2 * size)) : place(b, 2 * size);
   const auto arm = [&] {
-    Point d = random_point(b.rng, -size / 2, -size / 2, size / 2, size / 2);
+    WindowPoint d = random_point(b.rng, -size / 2, -size / 2, size / 2, size / 2);
     // Exactly crossing: arms of whole pixels and a ratio that is a power of two.
     if (exact) d = {2 * std::floor(d.x / 2 + 0.5) + (std::abs(d.x) < 1 ? 2 : 0), 2 * std::floor(d.y / 2 + 0.5)};
     return d;
@@ -378,7 +379,7 @@ void bowtie(Batch& b) {
   const auto ratio = [&] {
     return exact ? std::ldexp(1.0, static_cast<int>(b.rng.integer(-1, 1))) : b.rng.uniform(0.25, 2);
   };
-  Point a = arm(), d = arm();
+  WindowPoint a = arm(), d = arm();
   const double area = a.x * d.y - a.y * d.x;
   if (area == 0) d = {-a.y, a.x};
   const double s = ratio(), t = ratio();
@@ -392,7 +393,7 @@ void bowtie(Batch& b) {
 
 void tiny(Batch& b) {
   const double size = b.knob * b.rng.uniform(0.5, 4);
-  const Point centre = place(b, size);
+  const WindowPoint centre = place(b, size);
   Points p = random_corners(b, centre, size);
   if (b.rng.chance(0.6)) {  // one corner in each quarter of the square, so that more of them cover a pixel
     for (std::size_t i = 0; i < 4; ++i) {
@@ -405,13 +406,13 @@ void tiny(Batch& b) {
 
 void huge(Batch& b) {
   emit_visible(b, 3, [&] {
-    const Point target = place(b, 0);
+    const WindowPoint target = place(b, 0);
     Vertices v;
     const std::size_t farthest = b.rng.below(4);
     for (std::size_t i = 0; i < 4; ++i) {
-      const Point direction = random_direction(b.rng);
+      const WindowPoint direction = random_direction(b.rng);
       const double distance = i == farthest ? b.knob * b.rng.log2_spread(17, 24) : b.rng.log2_spread(6, 20);
-      const Point p = target + distance * direction;
+      const WindowPoint p = target + distance * direction;
       v[i] = {p.x, p.y, 0, 1};
     }
     return v;
@@ -478,15 +479,15 @@ void shared_edge(Batch& b) {
   const bool lattice = b.rng.chance(0.5);
   const int cells = static_cast<int>(b.rng.integer(3, 10));
   const double step = std::min(b.extent() / (cells + 1), b.knob * b.rng.log2_spread(2, 5));
-  const Point o = place(b, step * cells);
+  const WindowPoint o = place(b, step * cells);
   std::array<std::vector<WindowVertex>, 2> rows;
   const bool turned = b.rng.chance(0.5);
   const double lean = b.rng.uniform(-0.5, 0.5);
   for (int i = 0; i <= cells; ++i) {
     for (int j = 0; j < 2; ++j) {
-      const Point jitter = random_point(b.rng, -0.4, -0.4, 0.4, 0.4);
-      Point p{step * (i - cells / 2.0 + jitter.x), step * (j - 0.5 + jitter.y * 0.8) + lean * step * i};
-      p = o + (turned ? Point{p.y, p.x} : p);
+      const WindowPoint jitter = random_point(b.rng, -0.4, -0.4, 0.4, 0.4);
+      WindowPoint p{step * (i - cells / 2.0 + jitter.x), step * (j - 0.5 + jitter.y * 0.8) + lean * step * i};
+      p = o + (turned ? WindowPoint{p.y, p.x} : p);
       p = lattice ? centre_of_pixel(p) : snap256(p);
       const double w = std::ldexp(1.0, static_cast<int>(b.rng.integer(-1, 1)));
       rows[static_cast<std::size_t>(j)].push_back(ordinary(b.rng, p, w));
@@ -501,8 +502,8 @@ void shared_edge(Batch& b) {
 void shared_vertex(Batch& b) {
   const int spokes = 2 * static_cast<int>(b.rng.integer(3, 8));
   const double radius = std::min(b.extent() / 2, b.knob * b.rng.log2_spread(2, 6));
-  const Point o = place(b, 2 * radius);
-  const Point c = b.rng.chance(0.5) ? centre_of_pixel(o) : snap256(o);
+  const WindowPoint o = place(b, 2 * radius);
+  const WindowPoint c = b.rng.chance(0.5) ? centre_of_pixel(o) : snap256(o);
   const WindowVertex hub = ordinary(b.rng, c, std::ldexp(1.0, static_cast<int>(b.rng.integer(-1, 1))));
   std::vector<WindowVertex> ring;
   for (int i = 0; i < spokes; ++i) {
@@ -510,9 +511,9 @@ void shared_vertex(Batch& b) {
     const double s = 8.0 * (i + b.rng.uniform(0.1, 0.9)) / spokes;
     const int side = static_cast<int>(s / 2);
     const double f = s - 2 * side - 1;
-    const std::array<Point, 4> outline{{{f, -1}, {1, f}, {-f, 1}, {-1, -f}}};
+    const std::array<WindowPoint, 4> outline{{{f, -1}, {1, f}, {-f, 1}, {-1, -f}}};
     const double reach = radius * b.rng.uniform(0.4, 1);
-    const Point p = snap256(c + reach * outline[static_cast<std::size_t>(side)]);
+    const WindowPoint p = snap256(c + reach * outline[static_cast<std::size_t>(side)]);
     const double w = std::ldexp(1.0, static_cast<int>(b.rng.integer(-1, 1)));
     ring.push_back(ordinary(b.rng, p, w));
   }
@@ -523,13 +524,13 @@ void shared_vertex(Batch& b) {
 /// All corners on one screen line, with w of one sign or of both: the quad's plane holds the eye.
 void coplanar(Batch& b) {
   const double size = b.extent() / 2;
-  const Point o = centre_of_pixel(place(b, size));
-  const Point direction = lattice_steps[b.rng.below(lattice_steps.size())];
+  const WindowPoint o = centre_of_pixel(place(b, size));
+  const WindowPoint direction = lattice_steps[b.rng.below(lattice_steps.size())];
   Vertices v;
   const bool mixed = b.rng.chance(0.33), bent = b.rng.chance(0.5);
   for (WindowVertex& q : v) {
     const double along = std::floor(b.rng.uniform(-size / 4, size / 4) * 32) / 32;
-    Point p = o + along * direction;  // exact, so that the four points are exactly collinear
+    WindowPoint p = o + along * direction;  // exact, so that the four points are exactly collinear
     if (bent) {
       const double reach = b.knob * 0x1p-8;
       p = p + random_point(b.rng, -reach, -reach, reach, reach);
@@ -557,7 +558,7 @@ void long_span(Batch& b) {
             {along + margin, right},
             {along + margin, right + thickness * taper},
             {-margin, left + thickness}}};
-  for (Point& q : p) q = vertical ? Point{q.y, q.x} : q;
+  for (WindowPoint& q : p) q = vertical ? WindowPoint{q.y, q.x} : q;
   Weights w = ones;
   if (b.rng.chance(0.5)) {
     w[0] = w[3] = b.rng.log2_spread(-3, 3);

@@ -15,9 +15,9 @@ void add_golden_command(CLI::App& app, Invocation& invocation);
 void add_cache_command(CLI::App& app, Invocation& invocation);
 void add_golden_diff_command(CLI::App& golden, Invocation& invocation);  ///< below the command golden
 
-/// The commands of the studies. Two programs have the same main(): quadrille-studies adds these (tb/studies/),
-/// quadrille names that throw StudyNeeded when run (absent_studies.cpp), upon which main() calls the other program.
-void add_study_commands(CLI::App& app, Invocation& invocation);
+/// Adds the commands of the studies and sets what else they bring; null in the core (no_studies.cpp). The program
+/// quadrille-studies has the same main().
+extern void (*const add_studies)(CLI::App& app, Invocation& invocation);
 inline constexpr const char* bench_description =
     "Speeds of model, references, RTL and lockstep in one run, as ratios; --error: errors beside them";
 inline constexpr const char* compare_description = "The papers' methods side by side: pictures, errors, creases";

@@ -8,7 +8,9 @@
 
 namespace quadrille::cli {
 
-void add_study_commands(CLI::App& app, Invocation& invocation) {
+namespace {
+
+void add(CLI::App& app, Invocation& invocation) {
   add_bench_command(app, invocation);
   add_compare_command(app, invocation);
   add_stress_command(app, invocation);
@@ -20,5 +22,9 @@ void add_study_commands(CLI::App& app, Invocation& invocation) {
     };
   };
 }
+
+}  // namespace
+
+void (*const add_studies)(CLI::App& app, Invocation& invocation) = add;
 
 }  // namespace quadrille::cli

@@ -1,0 +1,8 @@
+// The core program is without the studies.
+#include "tb/commands/commands.hpp"
+
+namespace quadrille::cli {
+
+void (*const add_studies)(CLI::App& app, Invocation& invocation) = nullptr;
+
+}  // namespace quadrille::cli
