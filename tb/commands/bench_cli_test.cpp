@@ -246,8 +246,10 @@ TEST_F(Cli, BenchErrorReports) {
   };
   const json entries = errors("--stress general --count 30 --threads 1");
   for (const json& entry : entries) {
-    EXPECT_EQ(entry.contains("counters"), entry["engine"] == "model-clocked");
-    EXPECT_EQ(entry.value("/counters/quads"_json_pointer, 30), 30);
+    if (entry["engine"] == "model-clocked")
+      EXPECT_EQ(entry.at("counters").at("quads"), 30);
+    else
+      EXPECT_FALSE(entry.contains("counters")) << entry;
   }
   std::set<std::string> engines;
   for (const json& entry : entries) {
