@@ -277,6 +277,7 @@ TEST_F(Cli, BenchErrorWithNothingDefinedOrNothingDrawn) {
   const Outcome triangle = run("bench --error --no-rtl --repeat 1 --quads triangle.quads --json -");
   ASSERT_EQ(triangle.status, 0) << triangle.err;
   const json report = json::parse(triangle.out);
+  EXPECT_EQ(report.at("error").size(), 6u);  // engines
   for (const json& entry : report.at("error")) {
     const bool paper = entry["engine"] == "fp32" || entry["engine"] == "fp64";
     EXPECT_EQ(entry["lambda_max"].is_null(), paper) << entry;
