@@ -17,7 +17,7 @@ install_packages "${packages[@]}"
 
 # Test programs beside the unit tests. What takes long and comes again to the same lines stays out: mutants, syntheses, sweeps, campaigns, of the
 # commands those that sweep or time.
-programs=(cosim_test hidden_tiles_test exhaustive_test error_bound_test)
+programs=(cosim_test hidden_tiles_test exhaustive_test)
 # A file without room takes gcov's counters too; the cache names these simulators otherwise and is not limited.
 commands='-CliShrink.*:CliStressWhole.*:SweepCli.*:Cli.BenchPeersReports:CliCosim.WaveformWithoutRoom:CliCosim.TheCacheIsListedAndCleared'
 cmake --preset coverage >/dev/null

@@ -22,7 +22,7 @@ mkdir -p build/release/Testing
 report=$root/build/release/Testing/run.xml log=$root/build/release/Testing/run.log
 rm -f "$report"
 status=0
-ctest --test-dir build/release --output-on-failure --no-tests=error --no-label-summary --output-junit "$report" -j "$(nproc)" \
+ctest --test-dir build/release --output-on-failure --no-tests=error --no-label-summary --output-junit "$report" --test-output-size-passed 1000000 -j "$(nproc)" \
   ${select[@]+"${select[@]}"} "$@" 2>&1 | tee "$log" || status=$?
 scripts/test_summary.py build/release "$report" || { [ "$status" -ne 0 ] || status=1; }
 # What the tests of the lanes could run here: a clone that the processor lacks is not tested.

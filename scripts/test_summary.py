@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a run of the tests took: the ten slowest entries, and those whose time limit is too near.
+"""What a run of the tests took: the ten slowest entries, those whose time limit is too near, and the tests that were skipped.
 
   scripts/test_summary.py BUILD_DIRECTORY REPORT.xml     (ctest --output-junit REPORT.xml)
 
@@ -7,6 +7,7 @@ On an idle machine no entry may take more than a fifth of its limit, so that a s
 nothing. Exit status: 0, or 1 when no entry was run.
 """
 import json
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree
@@ -21,6 +22,12 @@ def entries(report):
     except (OSError, xml.etree.ElementTree.ParseError):
         return []
     return sorted(((float(case.get("time", 0)), case.get("name")) for case in cases if case.get("status") in ("run", "fail")), reverse=True)
+
+
+def skipped(report):
+    """{test: reason} of the tests that GoogleTest says it skipped, whatever entry ran them."""
+    output = "\n".join(text.text or "" for text in xml.etree.ElementTree.parse(report).getroot().iter("system-out"))
+    return {test: reason.strip() for reason, test in re.findall(r": Skipped\n(.*?)\[  SKIPPED \] (\S+) \(", output, re.DOTALL)}
 
 
 def limits(description):
@@ -46,6 +53,8 @@ def main():
         return 1
     listing = subprocess.run(["ctest", "--test-dir", sys.argv[1], "--show-only=json-v1"], check=True, stdout=subprocess.PIPE, text=True).stdout
     print("\n" + "\n".join(summary(times, limits(json.loads(listing)))))
+    tests = skipped(sys.argv[2])
+    print(f"{len(tests)} tests skipped" + "".join(f"\n  {test}: {reason}" for test, reason in sorted(tests.items())))
     return 0
 
 

@@ -35,6 +35,13 @@ class Summary(unittest.TestCase):
         self.assertEqual(test_summary.summary([(20.0, "a"), (20.0, "b")], limits)[-1].split()[-1], "b")
         self.assertIn("a took 20.1 of 100 s", test_summary.summary([(20.1, "a")], limits)[-1])
 
+    def test_skipped_tests_are_named_once(self):
+        output = "[ RUN      ] A.b\nf.cpp:3: Skipped\nno disk\n\n[  SKIPPED ] A.b (0 ms)\n[       OK ] A.c (0 ms)\n[  SKIPPED ] 1 test, listed below:\n[  SKIPPED ] A.b\n"
+        with tempfile.TemporaryDirectory() as directory:
+            case = f'<testcase name="t" time="1" status="run"><system-out>{output}</system-out></testcase>'
+            self.assertEqual(test_summary.skipped(report(directory, f"<testsuite>{case}{case}</testsuite>")), {"A.b": "no disk"})
+            self.assertEqual(test_summary.skipped(report(directory, "<testsuite/>")), {})
+
     def test_no_report_is_no_run(self):
         with tempfile.TemporaryDirectory() as directory:
             self.assertEqual(test_summary.entries(os.path.join(directory, "none.xml")), [])

@@ -108,6 +108,12 @@ TEST(Camera, TextGivesTheSameCameraBack) {
   EXPECT_EQ(parse_camera(camera_text(camera), "c").matrix, camera.matrix);
 }
 
+TEST(Camera, DeepNestingIsRefused) {
+  const std::string deep = "{\"eye\": " + std::string(1'000'000, '[');
+  for (const std::string& text : {deep, deep + std::string(1'000'000, ']') + "}"})
+    expect_input_error([&] { parse_camera(text, "file"); }, "file:1", {});
+}
+
 TEST_F(InDirectory, CameraFileErrors) {
   expect_input_error([&] { load_camera(path("absent.json")); }, path("absent.json"), {"No such file", "camera"});
   EXPECT_EQ(load_camera(write("good.json", look_at())).fovy, 45);

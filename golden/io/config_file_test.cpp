@@ -164,6 +164,16 @@ TEST(ConfigFile, TextGivesTheSameConfigurationBack) {
   }
 }
 
+/// Texts that would use up the stack or the memory of a reader.
+TEST(ConfigFile, DeepNestingIsRefused) {
+  Config config;
+  std::string dotted = "a";
+  for (int i = 0; i < 2000; ++i) dotted += ".a";
+  for (const std::string& text :
+       {"a = " + std::string(1'000'000, '['), "a = 1\n[" + std::string(100'000, 'x') + "]", dotted + " = 1"})
+    expect_input_error([&] { parse_config(text, "file", config); }, "file:1", {});
+}
+
 TEST_F(InDirectory, CostWeightsFileErrors) {
   CostWeights weights;
   expect_input_error([&] { load_cost_weights(path("absent"), weights); }, path("absent"), {"No such file", "TOML"});

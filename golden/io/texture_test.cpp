@@ -2,7 +2,6 @@
 
 #include "golden/io/test_support.hpp"
 
-#include <fstream>
 #include <limits>
 
 namespace quadrille::golden {
@@ -46,14 +45,6 @@ TEST(Texture, AnyNumberIsSafe) {
   }
   const Texture single(Image8{1, 1, {1, 2, 3, 4}});
   EXPECT_DOUBLE_EQ(single.sample(0.3, -7.7)[2], 3 / 255.0);
-}
-
-TEST(Texture, ReadsTheSharedPictures) {
-  const std::string directory = QUADRILLE_SOURCE_DIR "/../shared/meshes/";
-  if (!std::ifstream(directory + "spot_texture.png")) GTEST_SKIP() << "no shared meshes beside the source";
-  EXPECT_EQ(load_png(directory + "materialx_grid.png").width, 640);
-  const Image8 spot = load_png(directory + "spot_texture.png");
-  EXPECT_EQ(spot.rgba.size(), 4u * static_cast<std::size_t>(spot.width * spot.height));
 }
 
 }  // namespace

@@ -291,16 +291,16 @@ TEST_F(SweepCli, WhatAPointTakes) {
   EXPECT_GT(std::stod(row.at("luts")), std::stod(rows[0].at("luts")) * 1.5);
 }
 
+/// Each row's bounds lie above its own errors. Where W may be of any sign there is no bound of depth.
 TEST_F(SweepCli, SampledErrorsAreBelowProvedBounds) {
-  for (const char* family : {"general", "perspective", "any_w", "eye_in_hull", "eye_crossing", "reflex", "huge"}) {
-    const std::string out = std::string("b_") + family;
-    ASSERT_EQ(run(std::string("sweep --size 96x96 --count 8 --cosim none --no-cycles --axis significand_bits=8:26:6 "
-                              "--axis align_guard_bits=0,2 --axis notch_exact=0,1 --stress ") +
-                  family + " --out " + out)
+  std::size_t proved = 0;
+  for (const std::string family : {"general", "any_w"}) {
+    ASSERT_EQ(run("sweep --size 96x96 --count 8 --cosim none --no-cycles --axis significand_bits=8:26:6 --axis "
+                  "align_guard_bits=0,2 --axis notch_exact=0,1 --stress " +
+                  family + " --out " + family)
                   .status,
               0);
-    std::size_t proved = 0;
-    for (const auto& row : table(file(out) / "points.csv"))
+    for (const auto& row : table(file(family) / "points.csv"))
       for (const std::string quantity : {"lambda", "attribute", "depth"}) {
         const std::string& kind = row.at("bound_" + quantity + "_kind");
         EXPECT_EQ(kind == "none", row.at("bound_" + quantity).empty());
@@ -309,8 +309,8 @@ TEST_F(SweepCli, SampledErrorsAreBelowProvedBounds) {
         EXPECT_LE(std::stod(row.at("arithmetic_" + quantity + "_max")), std::stod(row.at("bound_" + quantity)))
             << family << " " << quantity << " row " << row.at("row");
       }
-    EXPECT_GE(proved, 16u) << family;  // weights and attributes with the cure
   }
+  EXPECT_EQ(proved, 16u * (3 + 2));
 }
 
 TEST_F(SweepCli, AnAxisOfPlaneQuads) {
@@ -330,7 +330,9 @@ TEST_F(SweepCli, AnAxisOfPlaneQuads) {
 
   const Outcome refused = run(command + "--skip none --out b");
   ASSERT_EQ(refused.status, 0) << refused.err;
-  for (const auto& row : table(file("b") / "points.csv")) EXPECT_EQ(row.at("quads_plane"), "0");
+  const Table without = table(file("b") / "points.csv");
+  ASSERT_EQ(without.size(), 2u);
+  for (const auto& row : without) EXPECT_EQ(row.at("quads_plane"), "0");
   EXPECT_NE(refused.out.find("no quad of this input is taken, as --skip says"), std::string::npos) << refused.out;
 }
 

@@ -23,8 +23,9 @@ TEST_F(SweepCli, TargetsAreSearched) {
   std::map<std::string, std::string> whole;
   for (const auto& row : table(file("e") / "points.csv")) whole[row.at("row")] = row.at("arithmetic_lambda_max");
   EXPECT_EQ(whole.size(), 76u);
-  for (const auto& row : table(file("t") / "points.csv"))
-    EXPECT_EQ(row.at("arithmetic_lambda_max"), whole.at(row.at("row")));
+  const Table evaluated = table(file("t") / "points.csv");
+  EXPECT_EQ(evaluated.size(), search.at("evaluations"));
+  for (const auto& row : evaluated) EXPECT_EQ(row.at("arithmetic_lambda_max"), whole.at(row.at("row")));
 
   const Outcome unreachable = run("sweep --target-error lambda=2^-40" + grid + "--no-confirm --out u");
   EXPECT_EQ(unreachable.status, 1);

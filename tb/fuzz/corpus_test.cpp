@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace quadrille::fuzz {
@@ -32,11 +33,16 @@ std::map<std::string, Bytes> corpus(const Target& target) {
   return files;
 }
 
-/// A byte other, gone, twice, or that of another file; or a double with another exponent.
+/// What readers of text have a special case for.
+constexpr std::string_view tokens[]{
+    "nan", "-inf", "1e999", "1e-400", "99999999999999999999", "-1", "//", "\\\n", "\r", "#", "\"", "'''", "[[[[", "]",
+    "{",   "}",    "=",     "\xff"};
+
+/// A byte other, gone, twice, or that of another file; a double with another exponent; a token more.
 Bytes damaged(Bytes bytes, const Bytes& other, golden::Prng& prng) {
   for (std::uint64_t n = 1 + prng.below(4); n > 0 && !bytes.empty(); --n) {
     const auto at = static_cast<std::ptrdiff_t>(prng.below(bytes.size()));
-    switch (prng.below(5)) {
+    switch (prng.below(6)) {
       case 0:
         bytes[static_cast<std::size_t>(at)] ^= static_cast<std::uint8_t>(1u << prng.below(8));
         break;
@@ -49,6 +55,11 @@ Bytes damaged(Bytes bytes, const Bytes& other, golden::Prng& prng) {
       case 3:
         bytes.insert(bytes.begin() + at, bytes[static_cast<std::size_t>(at)]);
         break;
+      case 4: {
+        const std::string_view token = tokens[prng.below(std::size(tokens))];
+        bytes.insert(bytes.begin() + at, token.begin(), token.end());
+        break;
+      }
       default:
         if (other.empty()) break;
         const std::size_t from = prng.below(other.size());
@@ -74,12 +85,11 @@ TEST_P(FuzzTarget, Corpus) {
 }
 
 TEST_P(FuzzTarget, DamagedCorpus) {
-  constexpr int inputs = 400;
   const std::map<std::string, Bytes> files = corpus(GetParam());
   ASSERT_FALSE(files.empty());
   golden::Prng prng(1);
   int refused = 0;
-  for (int i = 0; i < inputs; ++i) {
+  for (int i = 0; i < GetParam().damaged; ++i) {
     const auto file = std::next(files.begin(), static_cast<std::ptrdiff_t>(prng.below(files.size())));
     const auto other = std::next(files.begin(), static_cast<std::ptrdiff_t>(prng.below(files.size())));
     const Bytes bytes = damaged(file->second, other->second, prng);

@@ -22,6 +22,7 @@ struct Target {
   std::string_view what;
   Outcome (*run)(std::span<const std::uint8_t> input);
   std::string_view corpus;  ///< folder below the project's, with those inside it
+  int damaged;              ///< inputs of the test with damage: more where none goes through a file
   std::string_view file{};  ///< name of its files; empty: all
 };
 

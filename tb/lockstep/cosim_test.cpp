@@ -274,7 +274,8 @@ TEST_P(Configuration, LockstepOnCornerQuads) {
   options.config = GetParam().config();
   VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
   std::uint64_t total = 0;
-  for (const golden::CornerDraw& draw : golden::corner_draws(options.config, 11)) {
+  // Another seed than that of the mutants' scenarios (tb/mutants), which the machine without a fault draws too.
+  for (const golden::CornerDraw& draw : golden::corner_draws(options.config, 12)) {
     options.state = draw.state;
     options.stall = draw.stall;
     options.gap = 0;

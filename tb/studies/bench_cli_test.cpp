@@ -246,8 +246,10 @@ TEST_F(Cli, BenchErrorReports) {
   };
   const json entries = errors("--stress general --count 30 --threads 1");
   for (const json& entry : entries) {
-    EXPECT_EQ(entry.contains("counters"), entry["engine"] == "model-clocked");
-    EXPECT_EQ(entry.value("/counters/quads"_json_pointer, 30), 30);
+    if (entry["engine"] == "model-clocked")
+      EXPECT_EQ(entry.at("counters").at("quads"), 30);
+    else
+      EXPECT_FALSE(entry.contains("counters")) << entry;
   }
   std::set<std::string> engines;
   for (const json& entry : entries) {
@@ -275,6 +277,7 @@ TEST_F(Cli, BenchErrorWithNothingDefinedOrNothingDrawn) {
   const Outcome triangle = run("bench --error --no-rtl --repeat 1 --quads triangle.quads --json -");
   ASSERT_EQ(triangle.status, 0) << triangle.err;
   const json report = json::parse(triangle.out);
+  EXPECT_EQ(report.at("error").size(), 6u);  // engines
   for (const json& entry : report.at("error")) {
     const bool paper = entry["engine"] == "fp32" || entry["engine"] == "fp64";
     EXPECT_EQ(entry["lambda_max"].is_null(), paper) << entry;

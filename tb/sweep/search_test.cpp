@@ -1,9 +1,12 @@
 // The search against full evaluation, on error landscapes made up for the purpose.
 #include "tb/sweep/search.hpp"
 
+#include "golden/scenes/stress.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
+#include "tb/device/verilate.hpp"
+#include "tb/sweep/evaluator.hpp"
 #include "tb/sweep/grid.hpp"
 
 #include <gtest/gtest.h>
@@ -24,43 +27,6 @@ namespace quadrille::sweep {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Known {
-  const char* key;
-  bool affects;
-  int direction;
-};
-
-// From the meaning of each key in rtl/README.md.
-constexpr Known known[] = {
-    {"viewport_bits", true, 0},  // the guard band's edge, where vertices become homogeneous
-    {"guard_bits", true, 0},     // the same
-    {"subpixel_bits", true, 0},  // other positions: another input to the arithmetic
-    {"homogeneous_frac_bits", true, 0},
-    {"quadratic_frac_bits", true, 1},
-    {"significand_bits", true, 1},
-    {"notch_exact", false, 0},  // flag 6 alone
-    {"sqrt_segments_log2", true, 1},
-    {"sqrt_degree", true, 1},
-    {"recip_segments_log2", true, 1},
-    {"recip_degree", true, 1},
-    {"align_guard_bits", true, 1},
-    {"attribute_slots", false, 0},    // errors are measured whatever it is
-    {"attribute_int_bits", true, 1},  // fewer refused or clamped
-    {"attribute_frac_bits", true, 1},
-    {"depth_bits", true, 1},
-    {"tile_log2", true, 0},  // the origin that truncated D and r² are stepped from
-    {"pixels_per_clock", false, 0},
-    {"dot_units", false, 0},
-    {"quad_slots_log2", false, 0},  // time only
-    {"tile_slots_log2", false, 0},
-    {"stamp_fifo_log2", false, 0},
-    {"hierarchical_z_bits", false, 0},  // every tile is drawn
-    {"hierarchical_z_tiles_log2", false, 0},
-    {"plane_quads", true, 0},   // errors of taken quads are others
-    {"quad_id_bits", true, 1},  // fewer refused
-    {"performance_counters", false, 0},
-};
 
 Config configured(std::initializer_list<std::pair<const char*, int>> values) {
   Config c;
@@ -87,9 +53,8 @@ double hashed(std::uint64_t seed, const std::vector<int>& values) {
 /// The values that errors may depend on, "auto" replaced.
 std::vector<int> error_values(const Config& c) {
   std::vector<int> values;
-  for (const Known& k : known) {
-    if (k.affects) values.push_back(resolved(c).get(k.key));
-  }
+  for (const ConfigKey& key : Config::keys())
+    if (affects_error(key.name)) values.push_back(resolved(c).get(key.name));
   return values;
 }
 
@@ -137,16 +102,7 @@ std::string refusal(const auto& action) {
   return "";
 }
 
-TEST(ErrorDirection, OfEveryKey) {
-  std::size_t i = 0;
-  for (const ConfigKey& key : Config::keys()) {
-    ASSERT_LT(i, std::size(known));
-    ASSERT_EQ(key.name, known[i].key);
-    EXPECT_EQ(affects_error(key.name), known[i].affects) << key.name;
-    EXPECT_EQ(error_direction(key.name), known[i].direction) << key.name;
-    ++i;
-  }
-  EXPECT_EQ(i, std::size(known));
+TEST(ErrorDirection, NamesTheNearestKey) {
   EXPECT_NE(refusal([] { (void)error_direction("significant_bits"); }).find("significand_bits"), std::string::npos);
   EXPECT_NE(refusal([] { (void)affects_error("significant_bits"); }).find("significand_bits"), std::string::npos);
 }
@@ -161,12 +117,12 @@ std::vector<std::vector<std::int64_t>> drawn(const Config& config) {
   UntimedModel model(config, state);
   for (std::uint32_t id = 0; id < 6; ++id) {
     WindowQuad quad;
-    quad.id = id;
+    quad.id = 1000 * id;  // refused where ids have few bits, as the attributes are
     for (WindowVertex& v : quad.vertex) {
       const double w = id % 2 != 0 ? random.uniform(0.2, 1) : 1;
       v = {random.uniform(0, 64) * w, random.uniform(0, 64) * w, random.uniform(0, 1) * w, w};
     }
-    for (auto& list : quad.attribute) list.push_back(random.uniform(-1, 1));
+    for (auto& list : quad.attribute) list.push_back(random.uniform(-100, 100));
     model.draw(snap_quad(quad, config, state), [&](std::span<const Fragment> list) {
       for (const Fragment& f : list) fragments.push_back({f.quad, f.x, f.y, f.depth, f.attribute[0]});
     });
@@ -223,6 +179,11 @@ TEST(NowhereBetter, ComparesResolvedValues) {
   // Other positions are another input, either way.
   EXPECT_FALSE(worse({{"subpixel_bits", 7}, {"quadratic_frac_bits", 8}}, {{"quadratic_frac_bits", 8}}));
   EXPECT_FALSE(worse({{"quadratic_frac_bits", 8}}, {{"subpixel_bits", 7}, {"quadratic_frac_bits", 8}}));
+  // So is what decides which quads are homogeneous, and how these are rounded.
+  for (const auto& [key, value] : {std::pair("viewport_bits", 11), {"guard_bits", 1}, {"homogeneous_frac_bits", 6}}) {
+    EXPECT_FALSE(worse({{key, value}}, {})) << key;
+    EXPECT_FALSE(worse({}, {{key, value}})) << key;
+  }
   // No effect at all.
   EXPECT_TRUE(worse({{"stamp_fifo_log2", 5}, {"attribute_slots", 8}}, {}));
   // Exact D and r² are as good as any tile size, truncated ones only as their own.
@@ -231,6 +192,38 @@ TEST(NowhereBetter, ComparesResolvedValues) {
   EXPECT_TRUE(worse({{"tile_log2", 4}, {"quadratic_frac_bits", 9}}, {{"tile_log2", 2}}));
   EXPECT_FALSE(worse({{"tile_log2", 4}, {"quadratic_frac_bits", 9}}, {{"quadratic_frac_bits", 9}}));
   EXPECT_FALSE(worse({{"quadratic_frac_bits", 9}}, {{"tile_log2", 4}, {"quadratic_frac_bits", 9}}));
+}
+
+/// Measured: of each key its least and its largest value.
+TEST(NowhereBetter, ErrorsAreNoSmaller) {
+  SweepInput input;
+  input.state.width = input.state.height = input.state.scissor_x1 = input.state.scissor_y1 = 96;
+  input.attributes = 1;
+  input.quads = golden::make_stress(golden::StressFamily::perspective, 60, 1, 1, 96, 96, 1);
+  std::vector<Config> machines{Config()};
+  for (const ConfigKey& key : Config::keys())
+    for (const int value : {key.minimum, key.maximum}) {
+      Config c;
+      c.set(key.name, value);
+      if (refusal([&] { c.validate(); }).empty()) machines.push_back(c);
+    }
+  Evaluator::Settings settings;
+  settings.cycles = false;
+  std::vector<PointResult> results(machines.size());
+  Evaluator(input, settings).evaluate(machines, [&](const Batch& batch) {
+    for (std::size_t i = 0; i < batch.points.size(); ++i) results[batch.points[i]] = batch.results[i];
+  });
+  std::size_t ordered = 0;
+  for (std::size_t a = 0; a < machines.size(); ++a)
+    for (std::size_t b = 0; b < machines.size(); ++b) {
+      if (!nowhere_better(machines[a], machines[b]) || !results[a].refused.empty()) continue;
+      const std::string names = tb::summary(machines[a]) + " and " + tb::summary(machines[b]);
+      EXPECT_EQ(results[b].refused, "") << names;
+      for (std::size_t q = 0; q < results[a].arithmetic.size(); ++q)
+        EXPECT_LE(results[b].arithmetic[q].max, sampled_slack * results[a].arithmetic[q].max) << names << ", " << q;
+      ordered += !nowhere_better(machines[b], machines[a]);
+    }
+  EXPECT_GT(ordered, 300u);
 }
 
 std::vector<SearchPoint> significands(std::initializer_list<std::pair<int, double>> bits_and_cost) {
@@ -348,7 +341,8 @@ TEST(CheapestMeeting, AsFullEvaluationOnAThousandPoints) {
 class Landscape {
  public:
   Landscape(golden::Prng& random, double noise) : seed_(random.next()), noise_(noise) {
-    for (const Known& k : known) terms_.push_back({k, random.log2_spread(-4, 4), random.uniform(0, 1)});
+    for (const ConfigKey& key : Config::keys())
+      terms_.push_back({key.name, random.log2_spread(-4, 4), random.uniform(0, 1)});
   }
 
   double error(const Config& given) const {
@@ -357,12 +351,12 @@ class Landscape {
     double sum = 0;
     std::vector<int> values, place;
     for (const Term& t : terms_) {
-      if (!t.key.affects) continue;
-      const int v = c.get(t.key.key);
-      const bool tile = std::string(t.key.key) == "tile_log2";
+      if (!affects_error(t.key)) continue;
+      const int v = c.get(t.key), direction = error_direction(t.key);
+      const bool tile = t.key == "tile_log2";
       values.push_back(tile && exact ? 0 : v);
-      if (t.key.direction == 1) sum += t.weight * std::exp2(-t.rate * v);
-      if (t.key.direction == 0 && !tile) place.push_back(v);
+      if (direction == 1) sum += t.weight * std::exp2(-t.rate * v);
+      if (direction == 0 && !tile) place.push_back(v);
     }
     if (!exact) sum *= 1 + hashed(seed_, {c.tile_log2});
     return sum * (1 + 9 * hashed(seed_ + 1, place)) * (1 + (noise_ - 1) * hashed(seed_ + 2, values));
@@ -370,7 +364,7 @@ class Landscape {
 
  private:
   struct Term {
-    Known key;
+    std::string_view key;
     double weight, rate;
   };
   std::uint64_t seed_;
