@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a run of the tests took: the ten slowest entries, those whose time limit is too near, and the tests that were skipped.
+"""What a run of the tests took: the ten slowest entries, those whose time limit is too near, the tests that were skipped, and what only --full runs.
 
   scripts/test_summary.py BUILD_DIRECTORY REPORT.xml     (ctest --output-junit REPORT.xml)
 
@@ -30,6 +30,33 @@ def skipped(report):
     return {test: reason.strip() for reason, test in re.findall(r": Skipped\n(.*?)\[  SKIPPED \] (\S+) \(", output, re.DOTALL)}
 
 
+def left_out(description, report):
+    """Lines: how many cases of the test programs, and which other entries, --full runs and this run did not."""
+    cases, others = {}, set()  # program -> number; names
+    for test in description["tests"]:
+        labels = next((p["value"] for p in test.get("properties", []) if p["name"] == "LABELS"), [])
+        command = test.get("command", [])
+        if "sample" in labels or not command:
+            continue
+        if any(argument.startswith("--gtest_filter=") for argument in command):
+            program = command[0].rsplit("/", 1)[-1]
+            cases[program] = cases.get(program, 0) + 1
+        else:
+            others.add(test["name"])
+    for case in xml.etree.ElementTree.parse(report).getroot().iter("testcase"):
+        others.discard(case.get("name"))
+        output = "\n".join(text.text or "" for text in case.iter("system-out"))
+        if ran := re.search(r"\[={10}\] (\d+) tests? from \d+ test suites? ran", output):
+            program = case.get("name").removesuffix("_quick")
+            if program in cases:
+                cases[program] -= int(ran[1])
+    cases = {program: n for program, n in cases.items() if n > 0}
+    if not cases and not others:
+        return []
+    return [f"Left out, for --full: {sum(cases.values())} cases ({', '.join(f'{n} of {program}' for program, n in sorted(cases.items()))})",
+            f"  and {len(others)} other entries ({', '.join(sorted(others))})"]
+
+
 def limits(description):
     """{name: seconds} of `ctest --show-only=json-v1`."""
     return {test["name"]: p["value"] for test in description["tests"] for p in test.get("properties", []) if p["name"] == "TIMEOUT"}
@@ -52,7 +79,8 @@ def main():
         print("no test was run", file=sys.stderr)
         return 1
     listing = subprocess.run(["ctest", "--test-dir", sys.argv[1], "--show-only=json-v1"], check=True, stdout=subprocess.PIPE, text=True).stdout
-    print("\n" + "\n".join(summary(times, limits(json.loads(listing)))))
+    description = json.loads(listing)
+    print("\n" + "\n".join(summary(times, limits(description)) + left_out(description, sys.argv[2])))
     tests = skipped(sys.argv[2])
     print(f"{len(tests)} tests skipped" + "".join(f"\n  {test}: {reason}" for test, reason in sorted(tests.items())))
     return 0

@@ -42,6 +42,20 @@ class Summary(unittest.TestCase):
             self.assertEqual(test_summary.skipped(report(directory, f"<testsuite>{case}{case}</testsuite>")), {"A.b": "no disk"})
             self.assertEqual(test_summary.skipped(report(directory, "<testsuite/>")), {})
 
+    def test_what_full_alone_runs(self):
+        def entry(name, *command, labels=()):
+            return {"name": name, "command": list(command), "properties": [{"name": "LABELS", "value": list(labels)}]}
+
+        tests = [entry(f"A.{n}", "/b/a_test", f"--gtest_filter=A.{n}") for n in "xyz"] + [entry("a_test", "/b/a_test", "--gtest_filter=*x", labels=["sample", "default"])]
+        tests += [entry("B.x", "/b/b_test", "--gtest_filter=B.x"), entry("proofs", "prove.py"), entry("format", "format.sh", labels=["default"])]
+        output = "[==========] 2 tests from 1 test suite ran. (3 ms total)"
+        with tempfile.TemporaryDirectory() as directory:
+            path = report(directory, f'<testsuite><testcase name="a_test" status="run"><system-out>{output}</system-out></testcase><testcase name="format" status="run"/></testsuite>')
+            lines = test_summary.left_out({"tests": tests}, path)
+            self.assertEqual(test_summary.left_out({"tests": []}, path), [])
+        self.assertIn("2 cases (1 of a_test, 1 of b_test)", lines[0])
+        self.assertIn("1 other entries (proofs)", lines[1])
+
     def test_no_report_is_no_run(self):
         with tempfile.TemporaryDirectory() as directory:
             self.assertEqual(test_summary.entries(os.path.join(directory, "none.xml")), [])
