@@ -14,9 +14,9 @@
 //  - Numbers scale: D, A and r² of a quad times one power of 4 give M times a power of two, and quotients that are the
 //    same. So the quad is drawn about one unit large, and root_ratio's `balanced` is left out.
 //  - A and r² are functions value + gx dx + gy dy (+ dx² + dy²) in doubles, 2 D follows from three of r² and lengths:
-//  every
-//    part is a multiple of the same last place, 53 bits wide at most (FloatLanes::take), so that nothing is rounded. No
-//    sum is -0: of a number and its opposite the unit makes +0, and the first one is of value, which is no -0.
+//    every part is a multiple of the same last place, 53 bits wide at most (FloatLanes::take), so that nothing is
+//    rounded. No sum is -0: of a number and its opposite the unit makes +0, and the first one is of value, which is no
+//    -0.
 //  - Areas for weights are |A|, cut, as they are: M <= 4, and no product of three.
 //  - Range: u, v, r <= 4, M <= 2^12; those functions are far from the smallest double. Products of three can
 //    go below 2^-126 and become 0. Where the sums of M k and of M W are at least 2^-26, their E is at least -30, a term

@@ -35,7 +35,6 @@ HardwareCost operator*(int instances, const HardwareCost& cost) {
 }
 
 // ---- What the counts are made of
-// --------------------------------------------------------------------------------------
 
 HardwareCost state(int bits) { return {.state_bits = u(bits)}; }
 /// One partial product bit for each pair of operand bits; blocks of 18 × 18, which factors of one bit do not take.
@@ -122,7 +121,6 @@ HardwareCost small_multiply(int factor, int number) {
 }
 
 // ---- Modules that others instantiate
-// ----------------------------------------------------------------------------------
 
 /// The widths that formulas use, under their names in rtl/quadrille_pkg.sv.
 struct Widths {
@@ -270,7 +268,6 @@ HardwareCost fixed_point(const Widths& w, int integer_bits, int fraction_bits) {
 }
 
 // ---- The front
-// ----------------------------------------------------------------------------------------------------------
 
 /// The corners' codes against znear and zfar; the narrower of both intervals; no w above 0 so far.
 HardwareCost quad_reject(const Widths& w) {
@@ -425,7 +422,6 @@ HardwareCost pixel_emit(const Widths& w) {
 }
 
 // ---- The pixel pipeline
-// ------------------------------------------------------------------------------------------------
 
 /// What the pixels of a clock have in common.
 HardwareCost pixel_pipeline(const Widths& w) {
@@ -556,7 +552,6 @@ HardwareCost fragment_fifo(const Widths& w) {
 }
 
 // ---- What is there by a key
-// --------------------------------------------------------------------------------------------
 
 /// Codes of depth and where they are kept: hierarchical_z_bits, hierarchical_z_tiles_log2.
 struct HiddenWidths {

@@ -21,8 +21,8 @@ namespace quadrille::golden {
 /// were off, which is ignored.
 std::vector<std::string> load_config(const std::string& path, Config& config);
 
-/// Sets weights of the hardware cost from the table [cost] of such a file: state, multiplier, adder, table, in LUTs a
-/// bit, each a number from 0 to max_cost_weight. Weights that the file does not name keep their value. The rest of the
+/// Sets weights of the hardware cost (the fields of CostWeights) from the table [cost] of such a file, each a number
+/// from 0 to max_cost_weight. Weights that the file does not name keep their value. The rest of the
 /// file is checked as by load_config(), with the same errors; `weights` is then unchanged.
 void load_cost_weights(const std::string& path, CostWeights& weights);
 

@@ -11,8 +11,8 @@
 namespace quadrille::golden {
 
 /// Writes float channels R G B A Z L0 L1 L2 L3, uint `quad` and a float `error.<name>` for each error layer, `<name>`
-/// for each other one. Uncompressed and without time stamps: the bytes depend on the values alone. Throws InputError
-/// when writing fails; an older file then stays.
+/// for each other one. Lossless (PIZ), without time stamps: the bytes depend on the values and OpenEXR's version.
+/// Throws InputError when writing fails; an older file then stays.
 void save_exr(const std::string& path, const FrameImage& frame);
 
 /// Channels by name, width × height values each, rows from the top; half-precision channels become float.
