@@ -711,6 +711,7 @@ class CosimRun {
       if (frame && fragment.quad < input.quads.size() && fragment.x < state.width && fragment.y < state.height)
         picture(fragment, pass, number, weight_passes, input, *frame, samples, position);
     };
+    if (first && place == nullptr && !options_.no_alone) tb::build_simulators(lockstep);
     tb::LockstepReport report =
         place == nullptr ? tb::run_lockstep(snapped, lockstep, sink)
                          : place->session.draw(id_bits != 0 ? sent : snapped, lockstep, place->draw.clears, sink);

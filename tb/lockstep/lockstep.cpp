@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <future>
 #include <optional>
 #include <system_error>
 
@@ -341,6 +342,12 @@ LockstepReport run_lockstep(const Simulator& simulator, std::span<const SnappedQ
 }
 
 Simulator simulator_alone(const LockstepOptions& o) { return verilate(o.config, build_options(o, false)); }
+
+void build_simulators(const LockstepOptions& o) {
+  std::future<Simulator> alone = std::async(std::launch::async, [&] { return simulator_alone(o); });
+  simulator_in_lockstep(o);
+  alone.get();
+}
 
 AloneRun run_rtl_alone(const Simulator& simulator, std::span<const SnappedQuad> quads, const LockstepOptions& o,
                        const FragmentSink& sink) {

@@ -127,6 +127,8 @@ AloneRun run_rtl_alone(std::span<const SnappedQuad> quads, const LockstepOptions
 
 /// The same in two steps, for many runs of one machine: finding a simulator in the cache takes longer than a short run.
 Simulator simulator_alone(const LockstepOptions& options);
+/// Both simulators, that of run_lockstep() and that of run_rtl_alone(), in parallel: most of a build is one process.
+void build_simulators(const LockstepOptions& options);
 AloneRun run_rtl_alone(const Simulator& simulator, std::span<const SnappedQuad> quads, const LockstepOptions& options,
                        const FragmentSink& sink = {});
 
