@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Fails when a folder includes what lies above it, or when folders include each other in a circle.
+"""Fails when a folder includes what lies above it, when folders include each other in a circle, or when one name stands for two classes.
 
     scripts/check_layers.py [ROOT]      default: the source tree
 
 Every folder of model/, golden/ and tb/ that holds C++ sources is a node, and an #include "…" of another folder's file
 an edge; tests count like everything else. model/ may include model/ only, golden/ also golden/, tb/ everything. Prints
 the folders from the lowest up, each with what it includes; status 1 and the guilty lines otherwise.
+
+Two classes of one name in one namespace are undefined behaviour in a program that links both, and no compiler sees it.
 """
 import pathlib
 import re
@@ -37,6 +39,31 @@ def includes(root):
     return edges
 
 
+def classes(root):
+    """Qualified name -> "file:line" of every class, struct, union and enum that a header or a named namespace defines."""
+    places = {}
+    token = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])*\'|\bnamespace\s*([\w:]*)\s*\{'
+                       r'|(?<!enum )\b(?:class|struct|union|enum(?: class| struct)?)\s+(\w+(?:::\w+)*)[^;{}()=<>]*\{|[{}]|\n', re.DOTALL)
+    for layer in LAYERS:
+        for path in sorted((root / layer).rglob("*")):
+            if path.suffix not in SUFFIXES or path.stem.endswith("_absent"):  # those stand in for others, never beside them
+                continue
+            scopes, line = [], 1  # None: unnamed, or a body
+            for match in token.finditer(path.read_text()):
+                line += match[0].count("\n")
+                if match[0].startswith("namespace"):
+                    scopes.append(match[1] or None)
+                elif match[2]:
+                    if scopes and None not in scopes:  # without a namespace: included within one
+                        places.setdefault("::".join([*scopes, match[2]]), []).append(f"{path.relative_to(root)}:{line}")
+                    scopes.append(match[2])
+                elif match[0] == "{":
+                    scopes.append(None)
+                elif match[0] == "}" and scopes:
+                    scopes.pop()
+    return places
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     edges = includes(root)
@@ -48,6 +75,11 @@ def main():
               if LAYERS.index(used.parts[0]) > LAYERS.index(user.parts[0]) for line in lines]
     if faults:
         print("includes of a higher layer (model < golden < tb):", *faults, sep="\n  ")
+
+    places = classes(root)
+    twice = [f"{name}: {', '.join(where)}" for name, where in sorted(places.items()) if len(where) > 1]
+    if twice or not places:
+        print("classes of one name in one namespace:", *twice, sep="\n  ")
 
     # Take away the folders that include nothing that is left; what cannot be taken away holds a circle.
     order, left = [], dict(below)
@@ -66,11 +98,11 @@ def main():
                 print(f"  {user} -> {used}: {edges[user, used][0]}, {len(edges[user, used])} in all")
     if not order:
         print(f"no sources below {root}")
-    if faults or left or not order:
+    if faults or twice or not places or left or not order:
         return 1
     for folder in order:
         print(f"{folder}: {', '.join(map(str, sorted(below[folder]))) or 'nothing'}")
-    print(f"{len(order)} folders, every include points down")
+    print(f"{len(order)} folders, every include points down; {len(places)} classes, each of a name of its own")
     return 0
 
 
