@@ -245,16 +245,17 @@ TEST(SynthesisByYosys, ASmallMachine) {
                                    {"tile_log2", 2}})
     point.config.set(key, value);
   const SynthesisRow row = synthesise(std::vector{point}, ecp5, ecp5_weights, 1).front();
-  // A DSP for each product of two significands: 6 of u, 6 + 3 of the ratios, 8 of weights, 3 in the attribute's sum and 4
-  // in each of 3 others, 2 quotients; two for each of the tables' nine polynomials; three for each of the setup's four products.
+  // A DSP for each product of two significands: 6 of u, 6 + 3 of the ratios, 8 of weights, 3 in the attribute's sum and
+  // 4 in each of 3 others, 2 quotients; two for each of the tables' nine polynomials; three for each of the setup's
+  // four products.
   EXPECT_EQ(row.size.dsps, 6u + 9u + 8u + 3u + 3u * 4u + 2u + 2u * 9u + 3u * 4u);
   EXPECT_EQ(row.cost_dsps, row.size.dsps);
   // A carry chain is no shorter than its 28-bit values (T_BITS, two bits a cell), and a stage holds a few of them.
   EXPECT_GE(row.size.longest_path, 14u);
   EXPECT_LE(row.size.longest_path, 200u);
   // Blocks of 36 bits: the slots' words for interpolation, three sets of four numbers of 18 bits (216), and six squared
-  // lengths of 32 (192); bases and limits, 32 + 25 + 2 × 26 bits (109); the fragments' FIFO, of one attribute with fewer
-  // than 4 × 36 bits.
+  // lengths of 32 (192); bases and limits, 32 + 25 + 2 × 26 bits (109); the fragments' FIFO, of one attribute with
+  // fewer than 4 × 36 bits.
   EXPECT_GT(*row.size.block_rams, 6u + 6u + 4u);
   EXPECT_LE(*row.size.block_rams, 6u + 6u + 4u + 4u);
   // The smallest of the configurations that the estimate is fitted to: 2 to 3 % too low.
