@@ -5,6 +5,7 @@
 #include "golden/scenes/scenes.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/shader/paper_shader.hpp"
+#include "tb/shader/shader_engine.hpp"
 #include "tb/support/environment_error.hpp"
 
 #include <gtest/gtest.h>
@@ -232,7 +233,7 @@ TEST(Shader, WithoutOpenGlSaysWhatIsMissing) {
   EngineSettings settings;
   settings.kind = EngineKind::shader;
   try {
-    make_engine(settings);
+    make_shader_engine(settings);
     FAIL() << "an engine without OpenGL";
   } catch (const tb::EnvironmentError& error) {
     EXPECT_NE(std::string(error.what()).find("libepoxy-dev"), std::string::npos) << error.what();
@@ -357,7 +358,7 @@ TEST_F(OpenGl, TheEngineGivesEveryFragmentOfEveryQuad) {
     std::vector<EngineSample> samples;
     settings.kind = EngineKind::shader;
     settings.snap = snap;
-    make_engine(settings)->draw(quads, 5, true, [&](std::span<const EngineSample> some) {
+    make_shader_engine(settings)->draw(quads, 5, true, [&](std::span<const EngineSample> some) {
       samples.insert(samples.end(), some.begin(), some.end());
     });
     ASSERT_EQ(samples.size(), 2u * 15 * 10);
@@ -381,12 +382,12 @@ TEST_F(OpenGl, TheEngineGivesEveryFragmentOfEveryQuad) {
 
   settings.state.cull = Cull::back;
   std::size_t drawn = 0;
-  make_engine(settings)->draw(quads, 0, false, [&](std::span<const EngineSample> some) {
+  make_shader_engine(settings)->draw(quads, 0, false, [&](std::span<const EngineSample> some) {
     for (const EngineSample& s : some) drawn += s.front ? 1 : 1000;
   });
   EXPECT_EQ(drawn, 150u);
   settings.state.znear = 0.5;
-  make_engine(settings)->draw(quads, 0, false, [&](std::span<const EngineSample>) { FAIL() << "nearer than znear"; });
+  make_shader_engine(settings)->draw(quads, 0, false, [&](std::span<const EngineSample>) { FAIL() << "nearer than znear"; });
 }
 
 }  // namespace
