@@ -168,7 +168,7 @@ class Drawing(unittest.TestCase):
                 self.assertIn(f"{folder}/sheet.png", page.images)
                 # The command on the page is the one that the program says it was given.
                 command = json.loads(self.read(folder, "table.json"))["command"]
-                self.assertIn(f"<pre>{figures.html.escape(command)}</pre>", content)
+                self.assertIn(f"<pre>{figures.escape(command)}</pre>", content)
         self.assertEqual(self.files(), sorted(wanted))
         for link in page.links + page.images:
             self.assertNotRegex(link, r"^(\w+:|/)")
