@@ -1,5 +1,6 @@
 """HTML of the scripts that write a page: one frame, one style, one kind of table."""
 import html
+import math
 import os
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -7,6 +8,13 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 def escape(value):
     return html.escape(str(value))
+
+
+def power(value):
+    """1.526e-05 = 2^−16.00, as HTML."""
+    if math.isnan(value):
+        return "–"
+    return f"{value:.4g} = 2<sup>{math.log2(value):.2f}</sup>".replace("-", "−").replace(" ", "\u00a0") if 0 < value < math.inf else f"{value:g}"
 
 
 def table(head, lines):

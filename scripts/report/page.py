@@ -12,16 +12,12 @@ with plot.package("python3-plotly"):
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 HEAD = (f"<meta http-equiv='Content-Security-Policy' content=\"{POLICY}\"><link rel='icon' href='data:,'>"
         "<noscript><style>.static{display:block !important}</style></noscript>")
-SHAPES = {"circle": "<circle cx='12' cy='8' r='4.5'/>", "square": "<rect x='8' y='4' width='8' height='8'/>",
-          "triangle-up": "<path d='M12 2.5 17 12H7z'/>", "diamond": "<path d='M12 2 18 8 12 14 6 8z'/>",
-          "x": "<path d='M8 4 16 12M16 4 8 12' stroke-width='3'/>", "circle-open": "<circle cx='12' cy='8' r='4.5' fill='white' stroke-width='2'/>"}
+GLYPHS = {"circle": "●", "square": "■", "triangle-up": "▲", "diamond": "◆", "x": "✖", "circle-open": "○"}
 
 
 def key(series):
     """A legend's entry for small multiples."""
-    line = "<path d='M0 8H24' stroke-width='1.5'/>" if series.line else ""
-    return (f"<span class='key'><svg width='24' height='16' fill='{series.colour}' stroke='{series.colour}' aria-hidden='true'>{line}"
-            f"{SHAPES[series.symbol]}</svg>{series.name}</span>")
+    return f"<span class='key'><span style='color:{series.colour}'>{GLYPHS[series.symbol]}</span> {series.name}</span>"
 
 
 def script_json(name, value):

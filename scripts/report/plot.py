@@ -27,7 +27,7 @@ with package("python3-matplotlib"):
     import numpy as np
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as Drawing
-    from matplotlib.ticker import EngFormatter, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+    from matplotlib.ticker import EngFormatter, LogLocator, MaxNLocator, NullFormatter
     from PIL import Image as Picture  # matplotlib needs it, too
 
 # Okabe and Ito's palette, distinct under the common kinds of colour blindness, and a grey and three dark colours that stay apart from it.
@@ -41,7 +41,6 @@ ENGINES = {"fp32": (RED, "square"), "fp64": (SKY, "triangle-up"), "float": (SKY,
 FONT = "DejaVu Sans"
 DPI = 110
 MAP_EDGE = 512
-
 matplotlib.rcdefaults()  # a matplotlibrc must not change the bytes
 matplotlib.rcParams.update({"font.family": FONT, "font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
                             "grid.color": GRID, "grid.linewidth": 0.6, "axes.axisbelow": True, "legend.fontsize": 9.5, "legend.frameon": False,
@@ -49,7 +48,6 @@ matplotlib.rcParams.update({"font.family": FONT, "font.size": 10, "axes.spines.t
 
 
 # ---- what a plot shows ----------------------------------------------------------------------------------------------------------------
-
 
 @dataclass
 class Series:
@@ -147,13 +145,6 @@ def around(values, margin=0.05):
     return [low - margin, high + margin]
 
 
-def power(value):
-    """1.526e-05 = 2^−16.00, as HTML."""
-    if math.isnan(value):
-        return "–"
-    return f"{value:.4g} = 2<sup>{math.log2(value):.2f}</sup>".replace("-", "−").replace(" ", "\u00a0") if 0 < value < math.inf else f"{value:g}"
-
-
 def seconds(value):
     for unit, letter in ((1, "s"), (1e-3, "ms"), (1e-6, "µs")):
         if value >= unit * 0.9995:
@@ -166,6 +157,7 @@ def seconds(value):
 SYMBOLS = {"circle": "o", "square": "s", "triangle-up": "^", "triangle-down": "v", "triangle-left": "<", "triangle-right": ">", "diamond": "D",
            "star": "*", "x": "X", "cross": "P", "pentagon": "p", "x-thin": "x", "cross-thin": "+", "arrow-up": 6, "arrow-down": 7, "": ""}
 LINES = {"solid": "-", "dash": "--", "dot": ":", "": ""}
+FORMATS = {"seconds": lambda value, _: seconds(value), "log2": lambda value, _: f"$2^{{{value:g}}}$", "count": lambda value, _: EngFormatter(sep="").format_eng(value)}
 
 
 def new_figure(width, height):
@@ -221,8 +213,8 @@ def legend(drawn, columns=0):
 
 def scale(axis, described, bins=9):
     """Range, ticks, lines and labels of a matplotlib axis."""
-    axes, horizontal, ticks = axis.axes, axis.axis_name == "x", described.ticks
-    line = axes.axvline if horizontal else axes.axhline
+    axes, ticks = axis.axes, described.ticks
+    line = axes.axvline if axis.axis_name == "x" else axes.axhline
     axis.set_label_text(label(described.title))
     if ticks in ("log", "seconds"):
         axes.set(**{f"{axis.axis_name}scale": "log"})
@@ -234,12 +226,8 @@ def scale(axis, described, bins=9):
         axis.set_minor_formatter(NullFormatter())
     else:
         axis.set_major_locator(MaxNLocator(bins, integer=ticks in ("whole", "log2"), steps=[1, 2, 5, 10]))
-    if ticks == "seconds":
-        axis.set_major_formatter(FuncFormatter(lambda value, _: seconds(value)))
-    if ticks == "log2":
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{value:g}}}$"))
-    if ticks == "count":
-        axis.set_major_formatter(EngFormatter(sep=""))
+    if ticks in FORMATS:
+        axis.set_major_formatter(FORMATS[ticks])
     if described.range:
         axes.set(**{f"{axis.axis_name}lim": described.range})
     if described.mark is not None:
@@ -279,11 +267,10 @@ def picture(described):
     columns = min(3, len(figures))
     lines = -(-len(figures) // columns)
     image = figures[0].panels[0].image
-    size = (6.6, 6)
+    size = (4.1 * columns, 3.3 * lines) if described.multiples else (6.6, 6)
     if image:
-        rows, width = np.shape(image.values)
-        size = (9, min(9.6, max(3, 8 * rows / width + 0.9)))
-    drawn = new_figure(*((4.1 * columns, 3.3 * lines) if described.multiples else size))
+        size = (9, min(9.6, max(3, 8 * len(image.values) / len(image.values[0]) + 0.9)))
+    drawn = new_figure(*size)
     cells = drawn.add_gridspec(lines, columns)
     for n, figure in enumerate(figures):
         inner = cells[n].subgridspec(len(figure.panels), 1, height_ratios=[panel.weight for panel in figure.panels])
@@ -291,7 +278,8 @@ def picture(described):
             axes = drawn.add_subplot(place)
             draw(axes, panel, *((7, 5) if described.multiples else ()))
             if panel is figure.panels[0]:
-                axes.set_title(label(f"{figure.title}\n{figure.note}" if described.multiples else described.title), fontsize=9 if described.multiples else 11)
+                title, size = (f"{figure.title}\n{figure.note}", 9) if described.multiples else (described.title, 11)
+                axes.set_title(label(title), fontsize=size)
             if panel is not figure.panels[-1]:
                 axes.tick_params(labelbottom=False)
             if described.multiples:
@@ -329,13 +317,13 @@ def short(value):
     return float(f"{value:.6g}") if math.isfinite(value) else None
 
 
-def add_line(layout, axis, value, text="", colour=INK, width=1, dash="dot", right=False):
-    """A line across the figure at a value of an axis, "x" or "y", and what it says."""
+def add_line(layout, axis, value, text="", colour=INK, width=1, dash="dot", right=0):
+    """A line across the figure at a value of an axis, "x" or "y", and what it says, on the left or right."""
     other = "y" if axis == "x" else "x"
-    layout["shapes"].append({"type": "line", f"{axis}0": value, f"{axis}1": value, f"{other}ref": "paper", f"{other}0": 0, f"{other}1": 1, "layer": "below",
+    layout["shapes"].append({"type": "line", f"{axis}0": value, f"{axis}1": value, f"{other}ref": "paper", f"{other}0": 0, f"{other}1": 1,
                              "line": {"color": colour, "width": width, "dash": dash}})
     if text:
-        layout["annotations"].append({"text": text, "x": int(right), "xref": "paper", "xanchor": "right" if right else "left", "y": value,
+        layout["annotations"].append({"text": text, "x": right, "xref": "paper", "xanchor": "right" if right else "left", "y": value,
                                       "yanchor": "bottom", "showarrow": False, "font": {"color": colour}})
 
 
@@ -401,7 +389,7 @@ def page_figure(figure, page, legend=True):
         if panel.y.mark is not None:
             add_line(layout, "y", panel.y.mark, panel.y.mark_text)
         for value, text in panel.y.limits:
-            add_line(layout, "y", value, text, RED, 2, "dash", right=True)
+            add_line(layout, "y", value, text, RED, 2, "dash", right=1)
         if panel.image:  # square pixels
             layout["yaxis"] |= {"scaleanchor": "x", "constrain": "domain", "showgrid": False}
             layout |= {"plot_bgcolor": "#d4d4d4", "showlegend": False, "margin": layout["margin"] | {"t": 36}}  # the tool bar is there

@@ -4,9 +4,8 @@ import re
 
 import numpy as np
 
-from report.markup import escape, table
-from report.plot import (BLACK, BLUE, ENGINES, GREEN, GREY, INK, ORANGE, PINK, RED, Axis, ErrorAxis, Figure, Image, Panel, Plot, Series, around, power,
-                         seconds)
+from report.markup import escape, power, table
+from report.plot import (BLACK, BLUE, ENGINES, GREEN, GREY, INK, ORANGE, PINK, RED, Axis, ErrorAxis, Figure, Image, Panel, Plot, Series, around, seconds)
 from report.sweep import QUANTITIES, STATISTICS, SYNTH_TARGETS, error_title
 
 STATISTIC_STYLE = {"max": (BLUE, "circle"), "p999": (ORANGE, "square"), "rms": (GREEN, "triangle-up")}
