@@ -245,7 +245,7 @@ def draw_series(axes, s, **style):
     axes.plot(s.x, s.y, **{
         "color": s.colour, "label": label(s.name) if s.legend else None, "linestyle": LINES[s.line], "linewidth": 1.4, "alpha": 0.5 if s.background else 1,
         "marker": SYMBOLS[name], "markersize": 0.72 * s.size, "markerfacecolor": "none" if hollow else s.colour,
-        "markeredgecolor": BLACK if s.outline else s.colour, "markeredgewidth": 1.2 if s.outline or hollow else 1,
+        "markeredgecolor": BLACK if s.outline else s.colour, "markeredgewidth": 0 if s.background else 1.2 if s.outline or hollow else 1,
         "zorder": 1 if s.background else 3} | style)
 
 
@@ -256,7 +256,7 @@ def draw(axes, panel, x_bins=9, y_bins=8):
         axes.set_facecolor("#d4d4d4")
         axes.grid(False)
         shown = axes.imshow(panel.image.values, cmap="cividis", vmin=panel.image.low, vmax=panel.image.high, interpolation="nearest", zorder=1)
-        scale(axes.figure.colorbar(shown, ax=axes, fraction=0.04, pad=0.03).ax.yaxis, Axis(panel.image.title, ticks="log2"))
+        scale(axes.figure.colorbar(shown, ax=axes, fraction=0.04, pad=0.03, aspect=30).ax.yaxis, Axis(panel.image.title, ticks="log2"))
     scale(axes.xaxis, panel.x, x_bins)
     scale(axes.yaxis, panel.y, y_bins)
 
@@ -305,7 +305,6 @@ def program(doc, writer, check, draw_report):
         print(f"{os.path.basename(name)}: {error}", file=sys.stderr)
         return 2
     return 0
-
 
 # ---- plotly.js ------------------------------------------------------------------------------------------------------------------------
 
