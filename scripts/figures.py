@@ -10,7 +10,6 @@ are drawn aside and moved into place when all of them are done, the page last. E
 input error; DIR keeps what it had then.
 """
 import argparse
-import html
 import json
 import os
 import re
@@ -25,6 +24,7 @@ from dataclasses import dataclass, field
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report.files import InputError, write_files  # noqa: E402
+from report.markup import document, escape, table  # noqa: E402
 from report.program import INSTALLED, PROGRAM, ROOT  # noqa: E402
 
 TABLE = os.path.join(ROOT, "scripts", "figures.toml")
@@ -124,22 +124,9 @@ def move_into_place(figures, source, out):
 
 # ---- page -----------------------------------------------------------------------------------------------------------------------------
 
-STYLE = """
-:root { color-scheme: light; }
-body { font: 16px/1.5 "DejaVu Sans", Verdana, Arial, sans-serif; color: #1a1a1a; background: #fff; max-width: 1400px; margin: 0 auto; padding: 1.5em; }
-h1 { font-size: 1.7em; } h2 { margin-top: 2em; border-bottom: 2px solid #0072b2; } h3 { margin: 2em 0 .3em; }
-p, li { max-width: 60em; } nav ul { columns: 2; padding-left: 1.2em; } nav li { break-inside: avoid; }
-section.sheet { margin: 1.2em 0 1.8em; } section.sheet img { max-width: 100%; height: auto; border: 1px solid #bbb; display: block; }
-dl { display: grid; grid-template-columns: max-content 1fr; gap: .2em 1em; margin: .4em 0; } dt { font-weight: bold; } dd { margin: 0; max-width: 56em; }
-pre { background: #f1f3f5; padding: .5em .8em; white-space: pre-wrap; font-size: .82em; margin: .5em 0; } code { font-family: "DejaVu Sans Mono", monospace; font-size: .9em; }
-table { border-collapse: collapse; font-size: .85em; margin: .5em 0; } th, td { padding: .15em .8em; border-bottom: 1px solid #ddd; text-align: right; }
-th:first-child, td:first-child, th:last-child, td:last-child { text-align: left; } .links { font-size: .85em; }
-"""
-
-
 def text(value):
     """Plain text with `code` as HTML."""
-    return re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(value.strip()))
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(value.strip()))
 
 
 def number(value):
@@ -157,82 +144,64 @@ def remarks(row):
     return ", ".join(f"{count:,} {what}" for count, what in counts if count) or "–"
 
 
-def numbers(table):
+def numbers(report):
     """The key numbers of table.json: differences, creases at the picture's size, what was set up."""
-    size = table["crease_sizes"][-1]
-    heads = ["method", "pixels", f"max from {table['reference']}", "max from exact mean value", "crease 0–2", "crease 1–3", "quads", "triangles", "remarks"]
-    rows = [[html.escape(row["method"]), f"{row['covered']:,}", number(row["reference_max"]), number(row["truth_max"]), number(row[f"crease02_{size}"]),
-             number(row[f"crease13_{size}"]), f"{row['emitted_quads']:,}", f"{row['triangles']:,}", remarks(row)] for row in table["methods"]]
-    head = "".join(f"<th>{cell}</th>" for cell in heads)
-    body = "\n".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
-    return f"<table>\n<tr>{head}</tr>\n{body}\n</table>"
+    size = report["crease_sizes"][-1]
+    heads = ["method", "pixels", f"max from {report['reference']}", "max from exact mean value", "crease 0–2", "crease 1–3", "quads", "triangles", "remarks"]
+    return table(heads, [
+        [escape(row["method"]), f"{row['covered']:,}", number(row["reference_max"]), number(row["truth_max"]), number(row[f"crease02_{size}"]),
+         number(row[f"crease13_{size}"]), f"{row['emitted_quads']:,}", f"{row['triangles']:,}", remarks(row)] for row in report["methods"]])
+
+
+def facts(*lines):
+    return "<dl>" + "".join(f"<dt>{name}</dt><dd>{said}</dd>" for name, said in lines) + "</dl>\n"
 
 
 def sheet_section(figure, sheet, size, directory):
     folder = figure.folder(sheet)
     with open(os.path.join(directory, folder, "table.json"), encoding="utf-8") as file:
-        table = json.load(file)
+        report = json.load(file)
     width, height = png_size(os.path.join(directory, folder, "sheet.png"))
-    methods = ", ".join(f"<code>{html.escape(method)}</code>" for method in sheet.methods)
     caption = f"<p>{text(sheet.caption)}</p>\n" if sheet.caption else ""
     names = ["sheet.png", "table.json", "table.csv", "table.md"]
     names += sorted(name for name in os.listdir(os.path.join(directory, folder)) if name.endswith(".exr"))
-    links = " · ".join(f'<a href="{folder}/{name}">{name}</a>' for name in names)
-    alternative = html.escape(f"{sheet.scene}: {', '.join(sheet.methods)}")
-    return f"""<section class="sheet" id="{figure.name}-{sheet.name}">
-{caption}<dl><dt>Scene</dt><dd><code>{sheet.scene}</code></dd><dt>Methods</dt><dd>{methods}</dd></dl>
-<a href="{folder}/sheet.png"><img src="{folder}/sheet.png" width="{width}" height="{height}" alt="{alternative}"></a>
-{numbers(table)}
-<pre>{html.escape(shlex.join(["quadrille", *sheet.command(folder, size)]))}</pre>
-<p class="links">{links}</p>
-</section>"""
+    links = " · ".join(f"<a href='{folder}/{name}'>{name}</a>" for name in names)
+    alternative = escape(f"{sheet.scene}: {', '.join(sheet.methods)}")
+    methods = ", ".join(f"<code>{escape(method)}</code>" for method in sheet.methods)
+    return (f"<section class='sheet' id='{figure.name}-{sheet.name}'>\n{caption}{facts(('Scene', f'<code>{sheet.scene}</code>'), ('Methods', methods))}"
+            f"<a href='{folder}/sheet.png'><img src='{folder}/sheet.png' width='{width}' height='{height}' alt='{alternative}'></a>\n{numbers(report)}"
+            f"<pre>{escape(shlex.join(['quadrille', *sheet.command(folder, size)]))}</pre>\n<p class='note'>{links}</p>\n</section>\n")
 
 
 def figure_article(figure, size, directory):
-    sheets = "\n".join(sheet_section(figure, sheet, size, directory) for sheet in figure.sheet)
-    return f"""<article id="{figure.name}">
-<h3>{text(figure.number)}: {text(figure.title)}</h3>
-<dl><dt>The paper’s figure</dt><dd>{text(figure.shows)}</dd><dt>Look for</dt><dd>{text(figure.look)}</dd></dl>
-{sheets}
-</article>"""
+    sheets = "".join(sheet_section(figure, sheet, size, directory) for sheet in figure.sheet)
+    said = facts(("The paper’s figure", text(figure.shows)), ("Look for", text(figure.look)))
+    return (f"<article id='{figure.name}'>\n<h3>{text(figure.number)}: {text(figure.title)}</h3>\n"
+            f"{said}{sheets}</article>\n")
 
 
-def page(papers, figures, size, directory):
-    contents, chapters = [], []
-    for paper in papers:
-        own = [figure for figure in figures if figure.paper == paper.key]
-        if not own:
-            continue
-        items = "\n".join(f'<li><a href="#{figure.name}">{text(figure.number)}: {text(figure.title)}</a></li>' for figure in own)
-        contents.append(f'<h4><a href="#{paper.key}">{text(paper.title)}</a></h4>\n<ul>\n{items}\n</ul>')
-        where = f' (<code>{html.escape(paper.link)}</code>)' if paper.link else ""
-        chapters.append(f'<h2 id="{paper.key}">{text(paper.title)}</h2>\n<p>{text(paper.source)}{where}</p>\n' +
-                        "\n".join(figure_article(figure, size, directory) for figure in own))
-    nav, body = "\n".join(contents), "\n".join(chapters)
-    return f"""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<title>Figures of the papers</title>
-<style>{STYLE}</style>
-</head>
-<body>
-<h1>Figures of the papers</h1>
-<p>The papers’ figures of rendered quads, drawn again by <code>quadrille compare</code>: one column for each method. The first row of a sheet is the picture, the
-second the difference of the attributes from <code>refine:20</code> (20 × 20 bilinear refinement), the third the difference from exact mean value coordinates
-(mean value coordinates of the whole quad with 113-bit significands). A click on a sheet opens it in full size.</p>
+INTRODUCTION = """<p>The papers’ figures of rendered quads, drawn again by <code>quadrille compare</code>: one column for each method. The first row of a
+sheet is the picture, the second the difference of the attributes from <code>refine:20</code> (20 × 20 bilinear refinement), the third the difference
+from exact mean value coordinates (mean value coordinates of the whole quad with 113-bit significands). A click on a sheet opens it in full size.</p>
 <p>In the tables, a crease is the largest change of an attribute’s slope from one pixel to the next, in attribute per picture side, within 4
 pixels of the middle half of a quad’s diagonal; a smooth method has a small one that halves when the picture doubles, a split keeps its own.
 Differences are of attributes: (u, v), colour or normal. Quads and triangles are what the method sets up. The commands write relative to the
 folder of this page.</p>
-<nav>
-{nav}
-</nav>
-{body}
-</body>
-</html>
 """
+
+
+def page(papers, figures, size, directory):
+    contents, chapters = "", ""
+    for paper in papers:
+        own = [figure for figure in figures if figure.paper == paper.key]
+        if not own:
+            continue
+        items = "".join(f"<li><a href='#{figure.name}'>{text(figure.number)}: {text(figure.title)}</a></li>\n" for figure in own)
+        contents += f"<h4><a href='#{paper.key}'>{text(paper.title)}</a></h4>\n<ul class='contents'>\n{items}</ul>\n"
+        where = f" (<code>{escape(paper.link)}</code>)" if paper.link else ""
+        chapters += f"<h2 id='{paper.key}'>{text(paper.title)}</h2>\n<p>{text(paper.source)}{where}</p>\n"
+        chapters += "".join(figure_article(figure, size, directory) for figure in own)
+    return document("Figures of the papers", f"{INTRODUCTION}<nav>{contents}</nav>\n{chapters}")
 
 
 # ---- program --------------------------------------------------------------------------------------------------------------------------
@@ -269,7 +238,7 @@ def main():
             draw(os.path.abspath(args.quadrille), figures, args.size, args.keep_exr, aside)
             content = page(papers, figures, args.size, aside)
             move_into_place(figures, aside, out)
-        write_files(out, {"index.html": content.encode()})
+        write_files(out, {"index.html": content})
     except (InputError, OSError) as error:
         print(f"figures.py: {error}", file=sys.stderr)
         return 2

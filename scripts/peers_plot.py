@@ -8,169 +8,95 @@ cost of a fragment over the number of quads. All axes are logarithmic; numbers b
 usage, input or output error, 3 a Python package is missing. Needs Debian's python3-matplotlib.
 """
 import math
-import os
 import sys
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report.figure import new_figure, png  # noqa: E402
-from report.files import InputError, number, read_report, reading, write_files  # noqa: E402
+from report import plot  # noqa: E402
+from report.files import expect, is_amount, is_error, is_number, is_text  # noqa: E402
 
-# Okabe and Ito's palette, and a marker for each engine.
-STYLE = {"model": ("#0072B2", "o"), "shader": ("#D55E00", "s"), "float": ("#56B4E9", "^"), "truth": ("#000000", "*"), "rtl": ("#CC79A7", "D")}
-CLOCKS = ("#009E73", "v")
-POINT_NUMBERS = ("pixels", "quads", "fragments", "model_seconds", "shader_seconds", "clocked_fragments", "clocks")
-SLOPES = {"size_slopes": ("small", "large"), "number_slopes": ("all", "many")}
+ENGINES = ("model", "shader", "float", "truth", "rtl")
+POINT = dict.fromkeys(("pixels", "quads", "fragments", "model_seconds", "shader_seconds", "clocked_fragments", "clocks"), is_amount)
+SLOPE = {"model": is_number, "shader": is_number}
+ERROR = {"engine": ENGINES.__contains__, "input": is_text, "seconds_per_fragment": is_amount, "lambda_max": is_error, "significand_bits": is_error}
+SHAPE = {"sizes": [POINT], "numbers": [POINT], "size_slopes": {"small": SLOPE, "large": SLOPE}, "number_slopes": {"many": SLOPE}, "errors": [ERROR],
+         "renderer": is_text, "lanes": is_text, "command": is_text}
 FLOOR = 1e-17  # where an error of exactly 0 is drawn
 
 
 def check(report):
-    """Throws KeyError, TypeError or ValueError where drawing would stumble."""
-    for series in ("sizes", "numbers"):
-        if not report[series]:
-            raise ValueError(f"{series} is empty")
-        for point in report[series]:
-            for key in POINT_NUMBERS:
-                number(point, key, 0)
-    for series, parts in SLOPES.items():
-        for part in parts:
-            for engine in ("model", "shader"):
-                if not isinstance(report[series][part][engine], (int, float)):
-                    raise ValueError(f"{series} {part} {engine} is no number")
+    expect(report, SHAPE)
     for entry in report["errors"]:
-        if entry["engine"] not in STYLE:
-            raise ValueError(f"unknown engine {entry['engine']!r}")
-        number(entry, "seconds_per_fragment", 0)
-        if entry["lambda_max"] is not None:
-            number(entry, "lambda_max", 0)
-        if entry["engine"] == "model":
-            number(entry, "significand_bits", 0)
-    for key in ("renderer", "lanes", "command"):
-        if not isinstance(report[key], str):
-            raise ValueError(f"{key} is not text")
+        if entry["engine"] == "model" and entry["significand_bits"] is None:
+            raise ValueError("significand_bits is None of model")
 
 
-def read(path):
-    with reading(path, "`quadrille bench --peers --json FILE`"):
-        report = read_report(path)
-        check(report)
-        return report
-
-
-def signed_figure(report, width, height):
-    figure = new_figure(width, height)
-    figure.text(0.01, 0.01, f"shader: {report['renderer']}; model: lanes {report['lanes']}; CPU time, one thread each", fontsize=8,
-                color="#555555", parse_math=False)
+def sign(figure, report):
+    plot.caption(figure, f"shader: {report['renderer']}; model: lanes {report['lanes']}; CPU time, one thread each")
     return figure
-
-
-def grid(axes):
-    axes.grid(True, which="major", color="#dddddd", linewidth=0.7)
-    axes.set_axisbelow(True)
 
 
 def draw_errors(report):
     """A panel for each input."""
     inputs = list(dict.fromkeys(entry["input"] for entry in report["errors"]))
-    columns = min(3, max(1, len(inputs)))
-    rows = max(1, math.ceil(len(inputs) / columns))
-    figure = signed_figure(report, 4.6 * columns, 3.5 * rows + 0.9)
-    figure.subplots_adjust(left=0.06, right=0.985, top=1 - 0.75 / (3.5 * rows + 0.9), bottom=0.85 / (3.5 * rows + 0.9), wspace=0.2, hspace=0.3)
-    drawn = [entry for entry in report["errors"] if entry["lambda_max"] is not None]
-    times = [entry["seconds_per_fragment"] * 1e9 for entry in drawn if entry["seconds_per_fragment"] > 0] or [1]
+    figure, panels = plot.new_panels(len(inputs), 3, 4.2, 3.4)
+    drawn = [entry for entry in report["errors"] if entry["lambda_max"] is not None and entry["seconds_per_fragment"] > 0]
+    times = [entry["seconds_per_fragment"] for entry in drawn] or [1]
     highest = max([entry["lambda_max"] for entry in drawn] + [1e-6])
-    handles = {}
-    for index, name in enumerate(inputs):
-        axes = figure.add_subplot(rows, columns, index + 1)
-        axes.set(xscale="log", yscale="log", xlim=(min(times) / 2, max(times) * 2), ylim=(FLOOR / 10, highest * 30))
-        for engine, (colour, marker) in STYLE.items():
-            own = [entry for entry in drawn if entry["input"] == name and entry["engine"] == engine and entry["seconds_per_fragment"] > 0]
+    decades = range(-15, math.ceil(math.log10(highest)) + 2, 3)
+    for axes, name in zip(panels, inputs):
+        plot.scale(axes.xaxis, plot.Axis("time per fragment", [min(times) / 4, max(times) * 2], "seconds"))
+        axes.set(yscale="log", ylim=(FLOOR / 10, highest * 30), ylabel="largest error of a weight")
+        axes.set_title(name, parse_math=False)
+        axes.set_yticks([FLOOR, *(10.0 ** n for n in decades)], ["exact", *(f"$10^{{{n}}}$" for n in decades)])
+        for engine in ENGINES:
+            own = [entry for entry in drawn if entry["input"] == name and entry["engine"] == engine]
             own.sort(key=lambda entry: entry["significand_bits"] or 0)
             if not own:
                 continue
-            places = [(entry["seconds_per_fragment"] * 1e9, max(entry["lambda_max"], FLOOR)) for entry in own]
-            line, = axes.plot(*zip(*places), linestyle="-" if len(own) > 1 else "", color=colour, marker=marker, markersize=5 if engine == "model" else 8,
-                              linewidth=1)
-            handles.setdefault(engine, line)
-            ends = {own[0]["significand_bits"]: places[0], own[-1]["significand_bits"]: places[-1]} if engine == "model" else {}
-            for bits, place in ends.items():
-                axes.annotate(f"s = {bits}", place, textcoords="offset points", xytext=(-8, 0), fontsize=8, color=colour, ha="right", va="center")
-            if engine == "shader":
-                lost = sum(own[0].get(key, 0) for key in ("undefined", "missing", "extra"))
-                if lost:
-                    axes.annotate(f"{lost:,} not compared", places[0], textcoords="offset points", xytext=(0, 8), fontsize=8, color=colour, ha="center")
-        axes.set_title(name, fontsize=10, parse_math=False)
-        axes.set_yticks([FLOOR] + [10.0 ** n for n in range(-15, int(math.ceil(math.log10(highest))) + 2, 3)])
-        axes.set_yticklabels(["exact"] + [f"$10^{{{n}}}$" for n in range(-15, int(math.ceil(math.log10(highest))) + 2, 3)])
-        grid(axes)
-        if index % columns == 0:
-            axes.set_ylabel("largest error of a weight")
-        if index + columns >= len(inputs):
-            axes.set_xlabel("ns per fragment")
-    figure.legend(handles.values(), handles.keys(), loc="upper center", ncol=len(STYLE), frameon=False)
-    return png(figure)
+            colour, symbol = plot.ENGINES[engine]
+            places = [(entry["seconds_per_fragment"], max(entry["lambda_max"], FLOOR)) for entry in own]
+            plot.draw_series(axes, plot.Series(engine, *zip(*places), colour, symbol, "solid" if len(own) > 1 else "", 7 if engine == "model" else 11))
+            for entry, place in [(own[0], places[0]), (own[-1], places[-1])][:len(own)] if engine == "model" else ():
+                plot.note(axes, f"s = {entry['significand_bits']}", place, (-6, 0), color=colour, ha="right", va="center")
+            lost = sum(own[0].get(key, 0) for key in ("undefined", "missing", "extra"))
+            if engine == "shader" and lost:
+                plot.note(axes, f"{lost:,} not compared", places[0], (8, 0), color=colour, va="center")
+    plot.legend(figure, len(ENGINES))
+    return sign(figure, report)
 
 
 def draw_series(report, series, abscissa, label, slopes):
-    """Two panels: nanoseconds per fragment of model and shader, clocks per fragment of the RTL."""
-    figure = signed_figure(report, 12, 5)
-    figure.subplots_adjust(left=0.065, right=0.985, top=0.93, bottom=0.16, wspace=0.17)
-    points = [point for point in report[series] if point["fragments"] > 0]
-    axes = figure.add_subplot(1, 2, 1)
-    for engine in ("model", "shader"):
-        colour, marker = STYLE[engine]
-        axes.plot([point[abscissa] for point in points], [point[f"{engine}_seconds"] / point["fragments"] * 1e9 for point in points],
-                  color=colour, marker=marker, label=f"{engine} ({slopes(engine)})")
-    axes.set_ylabel("ns of CPU per fragment")
-    clocks = figure.add_subplot(1, 2, 2)
-    clocked = [point for point in report[series] if point["clocked_fragments"] > 0]
-    colour, marker = CLOCKS
-    clocks.plot([point[abscissa] for point in clocked], [point["clocks"] / point["clocked_fragments"] for point in clocked], color=colour,
-                marker=marker, label=f"RTL, counted by the clocked model{slopes('clocks')}")
-    clocks.set_ylabel("clocks per fragment")
-    for panel in (axes, clocks):
-        panel.set(xscale="log", yscale="log", xlabel=label)
-        # A decade at least, so that what is level looks level.
-        low, high = panel.get_ylim()
+    """Two panels: nanoseconds per fragment of model and shader, clocks per fragment of the RTL; slopes(engine) is said of each."""
+    figure, panels = plot.new_panels(2, 2, 6, 4.6)
+    for axes, title, ticks, lines in (
+            (panels[0], "CPU time per fragment", "seconds", {engine: (f"{engine}_seconds", "fragments", engine) for engine in ("model", "shader")}),
+            (panels[1], "clocks per fragment", "log", {"model-clocked": ("clocks", "clocked_fragments", "RTL, by the clocked model")})):
+        for engine, (amount, fragments, name) in lines.items():
+            points = [point for point in report[series] if point[fragments] > 0]
+            said = slopes("clocks" if amount == "clocks" else engine)
+            plot.draw_series(axes, plot.Series(f"{name}{said}", [point[abscissa] for point in points],
+                                               [point[amount] / point[fragments] for point in points], *plot.ENGINES[engine], size=9))
+        axes.set_yscale("log")
+        low, high = axes.get_ylim()
         middle, half = math.sqrt(low * high), max(math.sqrt(high / low), 10 ** 0.5)
-        panel.set_ylim(middle / half, middle * half)
-        grid(panel)
-        panel.legend(frameon=False, fontsize=9)
-    return png(figure)
+        plot.scale(axes.xaxis, plot.Axis(label, ticks="log"))
+        # A decade at least, so that what is level looks level.
+        plot.scale(axes.yaxis, plot.Axis(title, [middle / half, middle * half], ticks))
+        axes.legend(loc="lower left", bbox_to_anchor=(0, 1))
+    return sign(figure, report)
 
 
-def size_slopes(report):
-    small, large = (report["size_slopes"][part] for part in SLOPES["size_slopes"])
+def draw_all(report):
+    def size(engine):
+        small, large = (report["size_slopes"][part] for part in ("small", "large"))
+        return f": slope {small[engine]:.2f} up to 64 px, {large[engine]:.2f} from 4,096 px" if engine in small and engine in large else ""
 
-    def text(engine):
-        found = f"slope {small[engine]:.2f} up to 64 px, {large[engine]:.2f} from 4,096 px" if engine in small and engine in large else ""
-        return f"; {found}" if engine == "clocks" and found else found
-    return text
+    def number(engine):
+        return "" if engine == "clocks" else f": slope of the time {report['number_slopes']['many'][engine]:.3f} from 1,000 quads"
 
-
-def number_slopes(report):
-    def text(engine):
-        if engine == "clocks":
-            return ""
-        return f"slope of the time {report['number_slopes']['many'][engine]:.3f} from 1,000 quads"
-    return text
-
-
-def main():
-    if len(sys.argv) not in (2, 3) or sys.argv[1].startswith("-"):
-        print(__doc__, file=sys.stderr)
-        return 0 if sys.argv[1:] in (["--help"], ["-h"]) else 2
-    try:
-        report = read(sys.argv[1])
-        directory = sys.argv[2] if len(sys.argv) == 3 else os.path.dirname(os.path.abspath(sys.argv[1]))
-        write_files(directory, {
-            "peers_error.png": draw_errors(report),
-            "peers_size.png": draw_series(report, "sizes", "pixels", "pixels of a quad", size_slopes(report)),
-            "peers_number.png": draw_series(report, "numbers", "quads", "quads of 64 pixels", number_slopes(report))})
-    except InputError as error:
-        print(f"peers_plot.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+    return {"peers_error.png": draw_errors(report), "peers_size.png": draw_series(report, "sizes", "pixels", "pixels of a quad", size),
+            "peers_number.png": draw_series(report, "numbers", "quads", "quads of 64 pixels", number)}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(plot.program(__doc__, "`quadrille bench --peers --json FILE`", check, draw_all))

@@ -14,21 +14,18 @@ import os
 import sys
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-try:
-    from report import sweep_plots, web
-    from report.files import InputError, read_report, reading, write_files
-    from report.plot import escape
-    from report.sweep import SYNTH_TARGETS, Sweep, error_title
-except ImportError as missing:
-    print(f"sweep_report.py: {missing}; install with: apt-get install python3-matplotlib python3-plotly "
-          f"(this is {sys.executable}, Debian's is /usr/bin/python3)", file=sys.stderr)
-    sys.exit(3)
+from report import plot, sweep_plots  # noqa: E402 (first: it says what is missing)
+from report.files import InputError, expect, is_amount, is_error, is_text, read_report, reading, write_files  # noqa: E402
+from report.markup import escape, table  # noqa: E402
+from report.page import Page  # noqa: E402
+from report.sweep import SYNTH_TARGETS, Sweep, error_title  # noqa: E402
 
 # More points than this make the page slow; the rest is in the PNG and in points.csv.
 INTERACTIVE_POINTS = 2500
 PLOTS = ("error_cost", "error_bits", "sensitivity", "error_map", "run_time", "synthesis")
-BENCH_FIELDS = ("input", "kind", "engine", "fragments", "seconds_per_fragment", "lambda_max", "lambda_p999", "lambda_rms", "attribute_max",
-                "depth_max", "undefined", "missing")
+BENCH = {"command": is_text, "error": [{"input": is_text, "kind": is_text, "engine": sweep_plots.BENCH_ENGINES.__contains__} |
+                                      dict.fromkeys(("fragments", "seconds_per_fragment", "undefined", "missing"), is_amount) |
+                                      dict.fromkeys(sweep_plots.BENCH_ERRORS, is_error)]}
 KINDS = {"full": "full grid: every combination of the axes", "one_at_a_time": "one key at a time around the base configuration",
          "search": "search: only the points that the search needed"}
 
@@ -97,7 +94,7 @@ def answer(sweep):
         cells = ["–" if target[kind] is None else f"{target[kind]:.4g}, {100 * target[kind] / target['limit']:.0f} %" for kind in ("arithmetic", "snapping", "total")]
         lines.append([escape(target["given"]), *(f"<b>{cell}</b>" if kind == judged else cell for kind, cell in zip(("arithmetic", "snapping", "total"), cells)),
                       f"<b class='bad'>{escape(target['verdict'])}</b>" if target["in_the_way"] else escape(target["verdict"])])
-    parts = web.table(["target", "arithmetic error", "snapping error", "total error", ""], lines)
+    parts = table(["target", "arithmetic error", "snapping error", "total error", ""], lines)
     return (f"<section id='answer'><h2>Answer</h2>{''.join(f'<p>{line}</p>' for line in said)}{sweep_plots.points_table(sweep, named)}"
             f"<p>The parts of the error of row {found['row']} on this input, and their share of the target; bold: what the target judges.</p>{parts}</section>")
 
@@ -111,7 +108,7 @@ def introduction(sweep):
              "Objective": error_title(sweep.objective), "Cost": escape(sweep.cost), "Seed": m["seed"], "Version": escape(m["version"]),
              "Command": f"<code>{escape(m['command'])}</code>"}
     rows = "".join(f"<tr><th>{name}</th><td>{text}</td></tr>" for name, text in facts.items())
-    config = web.table(["key", "value"], [[f"<code>{key}</code>", f"auto ({sweep.base_config[key]})" if value == -1 else value]
+    config = table(["key", "value"], [[f"<code>{key}</code>", f"auto ({sweep.base_config[key]})" if value == -1 else value]
                                           for key, value in m["config"].items()])
     return (f"<table class='facts'><tbody>{rows}</tbody></table><details><summary>Base configuration ({len(m['config'])} keys; the defaults unless "
             f"the command changes them)</summary>{config}</details>")
@@ -126,7 +123,7 @@ def cosim(sweep):
         return f"<b class='bad'>{value:g}</b>" if value else "0"
 
     c = sweep.cosim
-    return text + web.table(
+    return text + table(
         ["row", "configuration", "why", "fragments", "clocks", "mismatches", "cycle mismatches", "first difference"],
         [[c["row"][n], ", ".join(sweep.words(i)), escape(c["why"][n]), f"{c['fragments'][n]:,.0f}", f"{c['cycles'][n]:,.0f}", bad(c["mismatches"][n]),
           bad(c["cycle_mismatches"][n]), escape(c["first_difference"][n]) or "–"] for n, i in enumerate(c["point"])])
@@ -144,7 +141,7 @@ def search(sweep):
     families = [[family["family"], times(family["error_over_target"]), times(family["total_over_target"]), f"{family['fragments']:,}",
                  f"<code>{escape(family['worst'])}</code>"] for family in found.get("families", ())]
     head = ["family", "error / target", "total error / target", "fragments", "worst fragment"]
-    return text + (f"<h3>On the stress families</h3>{web.table(head, families)}" if families else "")
+    return text + (f"<h3>On the stress families</h3>{table(head, families)}" if families else "")
 
 
 def work(sweep):
@@ -152,7 +149,7 @@ def work(sweep):
              for stage, settings, fragments in sweep.stages]
     return ("<p>Configurations that agree up to a stage share its results, so a stage runs once for each of its distinct settings rather than once for "
             f"each of the {len(sweep.ok):,} points.</p>" +
-            web.table(["stage", "distinct settings", "fragments (cycles: clocks)", "points per setting"], lines))
+            table(["stage", "distinct settings", "fragments (cycles: clocks)", "points per setting"], lines))
 
 
 def details(sweep, points):
@@ -162,17 +159,16 @@ def details(sweep, points):
               for name, unit in sweep.columns.items() if name in sweep.value and name not in sweep.base_config}
     return {"row": [sweep.rows[i] for i in points], "titles": titles, "errors": [*sweep.errors, "bound_lambda", "bound_attribute", "bound_depth", "worst_error"],
             "words": [sweep.words(i) for i in points], "worst": [sweep.text["worst"][i] for i in points],
-            "values": {name: [web.short(sweep.value[name][i]) for i in points] for name in titles}}
+            "values": {name: [plot.short(sweep.value[name][i]) for i in points] for name in titles}}
 
 
 def render(sweep, bench):
     """The files of the report by name."""
     sample = sweep.ok[::-(-len(sweep.ok) // INTERACTIVE_POINTS)]
-    page = web.Page(f"Sweep of {escape(sweep.manifest['input'])}: error against hardware cost", sweep.rows, set(sample))
-    for plot in (sweep_plots.error_against_cost(sweep, len(sample)), sweep_plots.error_against_bits(sweep), sweep_plots.sensitivity(sweep),
-                 sweep_plots.error_map(sweep), sweep_plots.run_time(bench), sweep_plots.synthesis(sweep)):
-        if plot:
-            page.add_plot(plot)
+    page = Page(f"Sweep of {escape(sweep.manifest['input'])}: error against hardware cost", sweep.rows, set(sample))
+    for described in (sweep_plots.error_against_cost(sweep, len(sample)), sweep_plots.error_against_bits(sweep), sweep_plots.sensitivity(sweep),
+                      sweep_plots.error_map(sweep), sweep_plots.run_time(bench), sweep_plots.synthesis(sweep)):
+        page.add_plot(described)
     page.add("cosim", "Co-simulated points", cosim(sweep))
     if sweep.search:
         page.add("search", "Search", search(sweep))
@@ -184,10 +180,7 @@ def render(sweep, bench):
 def read_bench(path):
     with reading(path, "`quadrille bench --error --json FILE`"):
         bench = read_report(path)
-        for entry in bench["error"]:
-            absent = [name for name in BENCH_FIELDS if name not in entry]
-            if absent or entry["engine"] not in sweep_plots.ENGINE_COLOUR:
-                raise ValueError(f"a measurement without {absent[0]}" if absent else f"unknown engine {entry['engine']}")
+        expect(bench, BENCH)
         return bench
 
 

@@ -131,19 +131,20 @@ def instances():
 
 
 def print_table(results):
-    base = results["none"]
-    names = list(results)
+    names, base = list(results), results["none"]
+
+    def line(title, bits, counts):
+        print(f"{title:24} {bits:>8}" + "".join(f" {counts[name]:16}" for name in names)
+              + "".join(f" {ratio(counts[name], counts['none']):>14}" for name in names[1:]))
+
     print(f"{'':24} {'bits':>8}" + "".join(f" {'--skip ' + name:>16}" for name in names) + "".join(f" {name + ' of none':>14}" for name in names[1:]))
-    print(f"{'clocks':24} {'':8}" + "".join(f" {results[name]['cycles']:16}" for name in names)
-          + "".join(f" {ratio(results[name]['cycles'], base['cycles']):>14}" for name in names[1:]))
+    line("clocks", "", {name: results[name]["cycles"] for name in names})
     units = sorted(base["units"], key=lambda unit: -base["units"][unit]["toggles"])
-    count = lambda name, unit: results[name]["units"].get(unit, {"toggles": 0})["toggles"]  # noqa: E731
+    toggles = {unit: {name: results[name]["units"].get(unit, {"toggles": 0})["toggles"] for name in names} for unit in units}
     for unit in units:
-        print(f"{unit:24} {base['units'][unit]['bits']:8}" + "".join(f" {count(name, unit):16}" for name in names)
-              + "".join(f" {ratio(count(name, unit), count('none', unit)):>14}" for name in names[1:]))
-    total = {name: sum(unit["toggles"] for unit in results[name]["units"].values()) for name in names}
-    print(f"{'all toggles':24} {sum(unit['bits'] for unit in base['units'].values()):8}" + "".join(f" {total[name]:16}" for name in names)
-          + "".join(f" {ratio(total[name], total['none']):>14}" for name in names[1:]))
+        line(unit, base["units"][unit]["bits"], toggles[unit])
+    line("all toggles", sum(unit["bits"] for unit in base["units"].values()),
+         {name: sum(unit["toggles"] for unit in results[name]["units"].values()) for name in names})
 
 
 def ratio(a, b):

@@ -4,14 +4,15 @@ import re
 
 import numpy as np
 
-from report.plot import (BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, Axis, ErrorAxis, Figure, Image, Panel, Plot, Series, around, escape, power,
-                         seconds)
+from report.markup import escape, power, table
+from report.plot import (BLACK, BLUE, ENGINES, GREEN, GREY, INK, ORANGE, PINK, RED, Axis, ErrorAxis, Figure, Image, Panel, Plot, Series, around, seconds)
 from report.sweep import QUANTITIES, STATISTICS, SYNTH_TARGETS, error_title
-from report.web import table
 
 STATISTIC_STYLE = {"max": (BLUE, "circle"), "p999": (ORANGE, "square"), "rms": (GREEN, "triangle-up")}
 QUANTITY_STYLE = {"lambda": (BLUE, "circle"), "attribute": (ORANGE, "square"), "depth": (GREEN, "triangle-up"), "colour": (RED, "diamond")}
-ENGINE_COLOUR = {"fp32": ORANGE, "fp64": SKY, "truth": BLACK, "model-plain": GREEN, "model": BLUE, "model-clocked": RED, "rtl": PURPLE}
+BENCH_ENGINES = ("fp32", "fp64", "truth", "model-plain", "model", "model-clocked", "rtl")
+BENCH_ERRORS = {"lambda_max": "weights λ′, max", "lambda_p999": "weights λ′, 99.9th percentile", "lambda_rms": "weights λ′, RMS",
+                "attribute_max": "attributes, max", "depth_max": "window depth, max"}
 WINNER, CONFIRMED = "cheapest that meets the target", "confirmed on the stress families"
 TAKES = ("cost", "luts", "flip_flops", "dsps", "block_rams", "fragments_per_clock")
 KIND_SYMBOLS = ("circle", "square", "triangle-up", "diamond", "cross", "x")
@@ -39,7 +40,7 @@ def error_against_bits(sweep):
         series.append(Series(f"all points, {STATISTICS[column.split('_')[2]]}", (bits[points] + shift).tolist(), scale(sweep.value[column][points]),
                              colour, symbol, "", 4, points, legend=False, background=True))
     best = " (best)" if spread and not single else ""
-    for column, (colour, symbol), dash in zip(columns, [*STATISTIC_STYLE.values(), (PURPLE, "x")], ("solid", "solid", "solid", "dot")):
+    for column, (colour, symbol), dash in zip(columns, [*STATISTIC_STYLE.values(), (PINK, "x")], ("solid", "solid", "solid", "dot")):
         kind, _, statistic = column.split("_")
         points = line(column, sweep.ok)
         series.append(Series(f"{kind}, {STATISTICS[statistic]}{best}", bits[points].tolist(), scale(sweep.value[column][points]), colour, symbol, dash, 8,
@@ -96,9 +97,9 @@ def error_against_cost(sweep, shown):
         series = [marks("dominated", sorted(set(points) - set(front)), GREY, "circle", 5, background=True),
                   marks("Pareto front", front, BLUE, "circle", 8, "solid")]
         if column == sweep.objective:
-            series.append(marks("knee of the front", sweep.knees, GREEN, "star", 15, outline=True))
-        for name, i, colour, symbol, size in (("base configuration", sweep.base, RED, "diamond", 12), (WINNER, sweep.winner, ORANGE, "star", 17),
-                                              (CONFIRMED, sweep.confirmed, PURPLE, "cross", 14)):
+            series.append(marks("knee of the front", sweep.knees, GREEN, "star", 20, outline=True))
+        for name, i, colour, symbol, size in (("base configuration", sweep.base, RED, "diamond", 12), (WINNER, sweep.winner, ORANGE, "star", 24),
+                                              (CONFIRMED, sweep.confirmed, PINK, "cross", 14)):
             if i in points:
                 series.append(marks(name, [i], colour, symbol, size, outline=True))
         kind = column.split("_")[0]
@@ -187,7 +188,7 @@ def sensitivity(sweep):
         x = sweep.value[key][points].tolist()
         upper = [Series(name, x, scale(sweep.value[column][points]), colour, symbol, size=6, points=points)
                  for column, (name, colour, symbol) in errors.items()]
-        upper.append(Series("snapping, weights λ′", x, scale(sweep.value["snapping_lambda_max"][points]), PURPLE, "x", "dot", 6, points))
+        upper.append(Series("snapping, weights λ′", x, scale(sweep.value["snapping_lambda_max"][points]), PINK, "x", "dot", 6, points))
         lower = [Series("cost", x, (cost[points] / reference).tolist(), BLACK, size=5, points=points)]
         change = f"{ratio([2 ** y for y in upper[0].y if y > scale.low], 'error of λ′')}, {ratio(lower[0].y, 'cost')}"
         refused = [i for i in sweep.one_key[key] if i in sweep.refused]
@@ -234,15 +235,12 @@ def run_time(bench):
         return Plot("run_time", "Run time against error", intro, "Not measured here. <code>quadrille bench --error --json bench.json</code>, then "
                     "<code>sweep_report.py DIR --bench bench.json</code> adds this plot.")
     entries = bench["error"]
-    engines = [engine for engine in ENGINE_COLOUR if any(entry["engine"] == engine for entry in entries)]
+    engines = [engine for engine in BENCH_ENGINES if any(entry["engine"] == engine for entry in entries)]
     symbol = dict(zip(sorted({entry["kind"] for entry in entries}), KIND_SYMBOLS))
-    columns = {"lambda_max": "weights λ′, max", "lambda_p999": "weights λ′, 99.9th percentile", "lambda_rms": "weights λ′, RMS",
-               "attribute_max": "attributes, max", "depth_max": "window depth, max"}
-
     def hover(entry):
         lines = [f"<b>{entry['engine']}</b>, {entry['kind']} {escape(entry['input'])}",
                  f"{seconds(entry['seconds_per_fragment'])} per fragment, {entry['fragments']:,} fragments"]
-        lines += [f"{title}: {power(math.nan if entry[column] is None else entry[column])}" for column, title in columns.items()]
+        lines += [f"{title}: {power(math.nan if entry[column] is None else entry[column])}" for column, title in BENCH_ERRORS.items()]
         return "<br>".join([*lines, f"undefined (NaN) {entry['undefined']:,}, missing {entry['missing']:,} fragments"])
 
     def figure(column):
@@ -250,7 +248,7 @@ def run_time(bench):
         scale = ErrorAxis([entry[column] for entry in drawn])
         small, stars = [], []
         for engine in engines:
-            own, colour = [entry for entry in drawn if entry["engine"] == engine], ENGINE_COLOUR[engine]
+            own, colour = [entry for entry in drawn if entry["engine"] == engine], ENGINES[engine][0]
             if not own:
                 continue
             for kind in symbol:
@@ -261,10 +259,10 @@ def run_time(bench):
             text = (f"<b>{engine}, worst of {len(own)} inputs</b>: {escape(worst['input'])}<br>{power(worst[column])}<br>"
                     f"median {seconds(x)} per fragment")
             stars.append(Series(engine, [x], scale([worst[column]]), colour, "star", "", 20, text=[text], outline=True))
-        legend = [Series(f"input: {kind}", [math.nan], [math.nan], "#555555", mark, "", 8) for kind, mark in symbol.items()]
+        legend = [Series(f"input: {kind}", [math.nan], [math.nan], INK, mark, "", 8) for kind, mark in symbol.items()]
         times = [entry["seconds_per_fragment"] for entry in drawn] or [1]
         x = Axis("time per fragment", [min(times) / 2, max(times) * 2], "seconds")
-        return Figure([Panel(x, scale.axis(f"error of {columns[column]}"), small + stars + legend)], columns[column], group="error")
+        return Figure([Panel(x, scale.axis(f"error of {BENCH_ERRORS[column]}"), small + stars + legend)], BENCH_ERRORS[column], group="error")
 
     lines = []
     for engine in engines:
@@ -277,7 +275,7 @@ def run_time(bench):
     caption += f"Error exactly 0 (bottom line): {', '.join(exact)}. " if exact else ""
     left_out = sum(entry["lambda_max"] is None for entry in entries)
     caption += f"Not drawn, since the error is not a finite number: {left_out} of {len(entries)} measurements. " if left_out else ""
-    return Plot("run_time", "Run time against error", intro, caption, [figure(column) for column in columns], extra=table(
+    return Plot("run_time", "Run time against error", intro, caption, [figure(column) for column in BENCH_ERRORS], extra=table(
         ["engine", "time per fragment, median", "worst error of λ′", "on input", "undefined", "missing"], lines) +
         f"<p class='note'>Measured by <code>{escape(bench['command'])}</code></p>")
 
