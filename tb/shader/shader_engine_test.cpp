@@ -1,11 +1,11 @@
 // The shader on OpenGL against the same formulas in double: every number within what GLSL's precision allows.
+#include "tb/shader/shader_engine.hpp"
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/shader/paper_shader.hpp"
-#include "tb/shader/shader_engine.hpp"
 #include "tb/support/environment_error.hpp"
 
 #include <gtest/gtest.h>
@@ -387,7 +387,8 @@ TEST_F(OpenGl, TheEngineGivesEveryFragmentOfEveryQuad) {
   });
   EXPECT_EQ(drawn, 150u);
   settings.state.znear = 0.5;
-  make_shader_engine(settings)->draw(quads, 0, false, [&](std::span<const EngineSample>) { FAIL() << "nearer than znear"; });
+  make_shader_engine(settings)->draw(quads, 0, false,
+                                     [&](std::span<const EngineSample>) { FAIL() << "nearer than znear"; });
 }
 
 }  // namespace
