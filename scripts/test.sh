@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Sets everything up and runs a tier of the tests (README.md says what each covers):
-#   scripts/test.sh --quick     at most a minute once built
-#   scripts/test.sh             the default, also CI's: every area, at most 10 minutes from an empty clone
-#   scripts/test.sh --full      everything, at most an hour
+#   scripts/test.sh --quick     some two minutes once built (aim one)
+#   scripts/test.sh             the default, also CI's: every area, some 17 minutes from an empty clone (aim 10)
+#   scripts/test.sh --full      everything, aim an hour
 # Times are of an idle 2-core machine. Other arguments go to ctest, over all entries: scripts/test.sh -R Lockstep, scripts/test.sh -L model;
 # after a tier they narrow it: scripts/test.sh --quick -L model.
 set -euo pipefail
