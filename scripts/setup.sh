@@ -45,33 +45,29 @@ install_packages() {
   "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" || exit 3
 }
 
-# configure_and_build OPTION... -- TARGET...: build/release, without targets all of it; options are those of cmake.
+# configure_and_build OPTIONS TARGET...: build/release, without targets all of it; OPTIONS are cmake's, one word.
 # A program that is a link was built elsewhere: scripts/run_readme.py gives its clones one.
 configure_and_build() {
-  local options=()
-  [ ! -L "$root/build/release/quadrille" ] || return 0
-  while [ "$1" != -- ]; do
-    options+=("$1")
-    shift
-  done
+  local options=$1
   shift
-  cmake --preset release ${options[@]+"${options[@]}"} >"$root/.configure.log" 2>&1 || { cat "$root/.configure.log" >&2; exit 1; }
+  [ ! -L "$root/build/release/quadrille" ] || return 0
+  cmake --preset release $options >"$root/.configure.log" 2>&1 || { cat "$root/.configure.log" >&2; exit 1; }
   rm -f "$root/.configure.log"
   cmake --build --preset release -j "$(nproc)" ${1:+--target "$@"}
 }
 
 # The main job alone. What a build folder was configured for before, it stays.
 set_up_core() {
-  local options=(-DQUADRILLE_BUILD_STUDIES=OFF -DQUADRILLE_BUILD_TESTS=OFF)
-  [ ! -e "$root/build/release/CMakeCache.txt" ] || options=()
+  local options="-DQUADRILLE_BUILD_STUDIES=OFF -DQUADRILLE_BUILD_TESTS=OFF"
+  [ ! -e "$root/build/release/CMakeCache.txt" ] || options=""
   install_packages "${core_packages[@]}"
-  configure_and_build ${options[@]+"${options[@]}"} -- quadrille
+  configure_and_build "$options" quadrille
 }
 
 # set_up TARGET...: all packages, and these targets; without any everything.
 set_up() {
   install_packages "${packages[@]}"
-  configure_and_build -DQUADRILLE_BUILD_STUDIES=ON -DQUADRILLE_BUILD_TESTS=ON -- "$@"
+  configure_and_build "-DQUADRILLE_BUILD_STUDIES=ON -DQUADRILLE_BUILD_TESTS=ON" "$@"
 }
 
 [ "${BASH_SOURCE[0]}" != "$0" ] || set_up quadrille quadrille-studies

@@ -711,10 +711,12 @@ class CosimRun {
       if (frame && fragment.quad < input.quads.size() && fragment.x < state.width && fragment.y < state.height)
         picture(fragment, pass, number, weight_passes, input, *frame, samples, position);
     };
-    if (first && place == nullptr && !options_.no_alone) tb::build_simulators(lockstep);
+    std::optional<tb::Simulators> simulators;
+    if (first && place == nullptr && !options_.no_alone) simulators = tb::build_simulators(lockstep);
     tb::LockstepReport report =
-        place == nullptr ? tb::run_lockstep(snapped, lockstep, sink)
-                         : place->session.draw(id_bits != 0 ? sent : snapped, lockstep, place->draw.clears, sink);
+        simulators         ? tb::run_lockstep(simulators->in_lockstep, snapped, lockstep, sink)
+        : place == nullptr ? tb::run_lockstep(snapped, lockstep, sink)
+                           : place->session.draw(id_bits != 0 ? sent : snapped, lockstep, place->draw.clears, sink);
     const tb::Stopwatch drawn;
     checker.finish(report.complete);
     queue.drain();
@@ -772,17 +774,17 @@ class CosimRun {
       result.left_out_culled += reject == QuadReject::culled;
       result.left_out_outside += reject == QuadReject::outside;
     }
-    if (!options_.no_alone && report.agreed() && place == nullptr) time_alone(snapped, lockstep, report, result);
+    if (simulators && report.agreed()) time_alone(simulators->alone, snapped, lockstep, report, result);
   }
 
   /// The RTL without probes and comparison, on the same quads; its fragments must be the same ones.
-  static void time_alone(std::span<const SnappedQuad> snapped, tb::LockstepOptions options,
-                         const tb::LockstepReport& lockstep, InputResult& result) {
+  static void time_alone(const tb::Simulator& simulator, std::span<const SnappedQuad> snapped,
+                         tb::LockstepOptions options, const tb::LockstepReport& lockstep, InputResult& result) {
     options.trace.reset();
     options.progress = nullptr;
     const bool whole = options.limit_fragments == 0 && lockstep.fragments <= alone_fragments;
     if (!whole) options.limit_fragments = std::min(alone_fragments, std::max<std::uint64_t>(1, lockstep.fragments));
-    const tb::AloneRun alone = tb::run_rtl_alone(snapped, options);
+    const tb::AloneRun alone = tb::run_rtl_alone(simulator, snapped, options);
     result.alone_cycles = alone.cycles;
     result.alone_seconds = alone.seconds;
     if (whole && alone.fragment_hash != lockstep.fragment_hash) {

@@ -12,6 +12,7 @@
 #include <future>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 namespace quadrille::tb {
 
@@ -343,10 +344,12 @@ LockstepReport run_lockstep(const Simulator& simulator, std::span<const SnappedQ
 
 Simulator simulator_alone(const LockstepOptions& o) { return verilate(o.config, build_options(o, false)); }
 
-void build_simulators(const LockstepOptions& o) {
-  std::future<Simulator> alone = std::async(std::launch::async, [&] { return simulator_alone(o); });
-  simulator_in_lockstep(o);
-  alone.get();
+Simulators build_simulators(const LockstepOptions& o) {
+  LockstepOptions untraced = o;
+  untraced.trace.reset();
+  std::future<Simulator> alone = std::async(std::launch::async, [&] { return simulator_alone(untraced); });
+  Simulator in_lockstep = simulator_in_lockstep(o);
+  return {std::move(in_lockstep), alone.get()};
 }
 
 AloneRun run_rtl_alone(const Simulator& simulator, std::span<const SnappedQuad> quads, const LockstepOptions& o,

@@ -127,10 +127,14 @@ AloneRun run_rtl_alone(std::span<const SnappedQuad> quads, const LockstepOptions
 
 /// The same in two steps, for many runs of one machine: finding a simulator in the cache takes longer than a short run.
 Simulator simulator_alone(const LockstepOptions& options);
-/// Both simulators, that of run_lockstep() and that of run_rtl_alone(), in parallel: most of a build is one process.
-void build_simulators(const LockstepOptions& options);
 AloneRun run_rtl_alone(const Simulator& simulator, std::span<const SnappedQuad> quads, const LockstepOptions& options,
                        const FragmentSink& sink = {});
+
+/// Both simulators, built in parallel, for most of a build is one process; the one alone without waveforms.
+struct Simulators {
+  Simulator in_lockstep, alone;
+};
+Simulators build_simulators(const LockstepOptions& options);
 
 /// The clocked model without the RTL.
 AloneRun run_clocked_model_alone(std::span<const SnappedQuad> quads, const LockstepOptions& options,
