@@ -112,4 +112,12 @@ std::optional<int> config_number(const Config& config, std::string_view name) {
   return {};
 }
 
+std::string changed_keys(const Config& config, std::string_view before) {
+  std::string text;
+  for (const ConfigKey& key : Config::keys())
+    if (const int value = config.get(key.name); value != key.standard)
+      text += std::string(before) + std::string(key.name) + "=" + std::to_string(value);
+  return text;
+}
+
 }  // namespace quadrille

@@ -5,6 +5,7 @@
 #include "model/config.hpp"
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace quadrille {
@@ -23,5 +24,8 @@ void apply_config_text(std::string_view text, Config& config);
 /// A number of a configuration by name: a key (auto resolved) or, in upper case, a derived width; nothing if there is
 /// no such name.
 std::optional<int> config_number(const Config& config, std::string_view name);
+
+/// The keys that differ from their defaults, `before` + "key=value" each.
+std::string changed_keys(const Config& config, std::string_view before);
 
 }  // namespace quadrille

@@ -256,12 +256,12 @@ double below(Wide v) {
 double above(Wide v) { return 0 - below(-v); }
 
 /// Binary exponents of a positive magnitude: floor(log2) of its least and largest value.
-struct Exponents {
+struct ExponentRange {
   int lo = 0, hi = 0;
 };
 /// A product truncated to S bits: the carry may add one, and truncation never falls below a power of two.
-Exponents operator*(Exponents a, Exponents b) { return {a.lo + b.lo, a.hi + b.hi + 1}; }
-Exponents hull(Exponents a, Exponents b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+ExponentRange operator*(ExponentRange a, ExponentRange b) { return {a.lo + b.lo, a.hi + b.hi + 1}; }
+ExponentRange hull(ExponentRange a, ExponentRange b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 
 int log2_of(Wide v) {
   int p = -1;
@@ -275,7 +275,7 @@ class RangeList {
     const bool fits = is_signed ? low >= -power(bits - 1) && high < power(bits - 1) : low >= 0 && high < power(bits);
     proof_.signals.push_back({std::move(name), below(low), above(high), bits, is_signed, fits});
   }
-  void add_exponent(const std::string& name, Exponents e, int bits) {
+  void add_exponent(const std::string& name, ExponentRange e, int bits) {
     add("exponent of " + name, e.lo, e.hi, bits);
     // pixel_lanes carries the same number as a double, exactly: normal, products of 2 S <= 52 bits included.
     const bool fits = e.lo >= -1022 && e.hi <= 1023;
@@ -375,11 +375,11 @@ void prove_tables(const Config& c, const ProofWidths& w, RangeList& list) {
 }
 
 /// A sum of positive terms.
-Exponents sum(Exponents a, int log2_terms) { return {a.lo, a.hi + 1 + log2_terms}; }
+ExponentRange sum(ExponentRange a, int log2_terms) { return {a.lo, a.hi + 1 + log2_terms}; }
 
 /// Up to u, in units of D's and r²'s least bit.
 struct FrontExponents {
-  Exponents a, d, r2, root, u;
+  ExponentRange a, d, r2, root, u;
 
   FrontExponents(const Config& c, const FrontRange& front)
       : a{-c.qdrop(), log2_of(front.a) - c.qdrop()},
@@ -391,18 +391,18 @@ struct FrontExponents {
 
 /// What the weights of a regular pixel go through, from A, u in units of D's and r²'s least bit.
 struct RegularExponents {
-  Exponents product;        ///< z = u u'
-  Exponents fraction;       ///< numerator and denominator of a ratio as they come: u, v, s = sqrt(z), v' u, v s
-  Exponents factor;         ///< the same in balance
-  Exponents first, weight;  ///< x y, and M = x y z
+  ExponentRange product;        ///< z = u u'
+  ExponentRange fraction;       ///< numerator and denominator of a ratio as they come: u, v, s = sqrt(z), v' u, v s
+  ExponentRange factor;         ///< the same in balance
+  ExponentRange first, weight;  ///< x y, and M = x y z
 
   /// With v <= 2^slack u the ratios lie between 1 and its largest value, that of one whose terms both cancel:
   /// (v'/v) sqrt(u/u') = (v'/sqrt(u')) (sqrt(u)/v) <= 2^slack sqrt(u') sqrt(u) / v. |A| <= r r' <= u, but for bits that
   /// were dropped: r² of `dropped` + 1 units at most may be stored as 1. Two roundings are less than 2.
-  RegularExponents(Exponents v, Exponents u, Wide dropped) {
+  RegularExponents(ExponentRange v, ExponentRange u, Wide dropped) {
     const int slack = dropped > 0 ? log2_of(dropped + 1) + 1 : 0;
     product = u * u;
-    const Exponents root{product.lo / 2, product.hi / 2};
+    const ExponentRange root{product.lo / 2, product.hi / 2};
     fraction = hull(hull(hull(v, u), root), hull(v * u, v * root));
     const int reach = std::max(u.hi - v.lo, v.hi - u.lo) + slack + 2;
     factor = {-(reach + 1) / 2, (reach + 1) / 2};
@@ -414,14 +414,14 @@ struct RegularExponents {
 void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& front, RangeList& list) {
   const int prec = c.prec_bits(), e = w.exponent;
   // A sum whose terms may cancel keeps at least the least bit of its window.
-  const auto cancelling = [&](Exponents a, int log2_terms) { return Exponents{a.lo - prec, a.hi + 1 + log2_terms}; };
+  const auto cancelling = [&](ExponentRange a, int log2_terms) { return ExponentRange{a.lo - prec, a.hi + 1 + log2_terms}; };
 
   // What snapping lets through: |x|, |y|, |w| <= 2^80, one of them >= 2^-80, |z| <= 2^80, |a| < 2^int_bits. Half a
   // pixel and the guard band enlarge the first by a factor of 2 and reduce the second by 2^-(POS_INT+1). A difference
   // to a base (times w, for z) may be twice as large.
-  const Exponents k{-82, 81 + c.pos_int()}, weight{-c.frac(), 0};
+  const ExponentRange k{-82, 81 + c.pos_int()}, weight{-c.frac(), 0};
   const int underflow = -(1 << (Config::port_exp_bits - 1));  // below, snapping gives zero
-  const Exponents z{underflow, k.hi + 82}, b{underflow, k.hi + c.attribute_int_bits + 1};
+  const ExponentRange z{underflow, k.hi + 82}, b{underflow, k.hi + c.attribute_int_bits + 1};
   list.add("exponent of k", k.lo, k.hi, w.port_exponent);
   list.add("exponent of Z", z.lo, z.hi, w.port_exponent);
   list.add("exponent of b", b.lo, b.hi, w.port_exponent);
@@ -438,21 +438,21 @@ void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& fr
   list.add_exponent("u u'", regular.product, e);
   list.add_exponent("fraction of M", regular.fraction, e);
   list.add_exponent("factors of M", regular.factor, e);
-  const Exponents k_eff = hull(k, weight);
-  const Exponents denominator = cancelling(root * k_eff, 1);
+  const ExponentRange k_eff = hull(k, weight);
+  const ExponentRange denominator = cancelling(root * k_eff, 1);
   list.add_exponent("N of an edge", denominator, e);
-  const Exponents singular = hull(sum(root * denominator, 1), hull(k_eff, {0, 0}));
+  const ExponentRange singular = hull(sum(root * denominator, 1), hull(k_eff, {0, 0}));
   list.add_exponent("first product of M", hull(regular.first, singular), e);
-  const Exponents m = hull(regular.weight, singular);
+  const ExponentRange m = hull(regular.weight, singular);
   list.add_exponent("M", m, e);
 
-  const Exponents den_k = cancelling(m * k_eff, 2), den_w = cancelling(m * weight, 2);
-  const Exponents num_z = cancelling(m * z, 2), num_a = cancelling(m * b, 2);
+  const ExponentRange den_k = cancelling(m * k_eff, 2), den_w = cancelling(m * weight, 2);
+  const ExponentRange num_z = cancelling(m * z, 2), num_a = cancelling(m * b, 2);
   list.add_exponent("Σ M·k", den_k, e);
   list.add_exponent("Σ M·W", den_w, e);
   list.add_exponent("Σ M·Z", num_z, e);
   list.add_exponent("Σ M·b", num_a, e);
-  const auto inverse = [](Exponents x) { return Exponents{-x.hi - 1, -x.lo}; };
+  const auto inverse = [](ExponentRange x) { return ExponentRange{-x.hi - 1, -x.lo}; };
   list.add_exponent("1 / Σ M·k", inverse(den_k), e);
   list.add_exponent("1 / Σ M·W", inverse(den_w), e);
   list.add_exponent("attribute before the fixed point", num_a * inverse(den_k), e);
@@ -511,7 +511,7 @@ RangeProof prove_regular_range(const Config& config) {
   const RegularExponents regular(e.a, e.u, front.dropped);
   RangeProof proof;
   // `degree` of a square of pixels: the least bits are 2^-quadratic_frac of it.
-  const auto add = [&](const char* signal, Exponents v, int degree) {
+  const auto add = [&](const char* signal, ExponentRange v, int degree) {
     const double low = v.lo - degree * config.quadratic_frac(), high = v.hi - degree * config.quadratic_frac();
     const bool fits = low >= -regular_exponent_limit && high < regular_exponent_limit;
     proof.signals.push_back({signal, low, high, 0, true, fits});
@@ -519,7 +519,7 @@ RangeProof prove_regular_range(const Config& config) {
   add("A, D, r²", hull(hull(e.a, e.d), e.r2), 1);
   add("u", e.u, 1);
   add("u u'", regular.product, 2);
-  add("v u, v s", hull(e.a * e.u, e.a * Exponents{regular.product.lo / 2, regular.product.hi / 2}), 2);
+  add("v u, v s", hull(e.a * e.u, e.a * ExponentRange{regular.product.lo / 2, regular.product.hi / 2}), 2);
   add("factors of M", regular.factor, 0);
   add("first product of M", regular.first, 0);
   add("M", regular.weight, 0);

@@ -498,7 +498,7 @@ TEST(TableErrors, HoldForEveryArgument) {
       }
 }
 
-/// Largest |Δλ'| in units of 2^-s that tb/campaign/hill_climb has found: README.md, "Measured".
+/// Largest |Δλ'| in units of 2^-s that `quadrille stress --search --leave` has found: README.md, "Measured".
 TEST(ErrorBound, LiesAboveWhatHillClimbingFindsAndNotFar) {
   const std::pair<int, double> found[] = {{8, 4.64}, {12, 4.51}, {18, 4.21}, {24, 4.31}, {26, 4.41}};
   for (const auto& [s, units] : found) {

@@ -201,7 +201,7 @@ Vec3 direction_to_eye(const Camera& camera) {
   return dot(line, {m[8], m[9], m[10]}) * m[15] > 0 ? Vec3{-line[0], -line[1], -line[2]} : line;
 }
 
-Camera frame_mesh(const Mesh& mesh, int width, int height, const View& view) {
+Camera frame_mesh(const Mesh& mesh, int width, int height, const Viewpoint& view) {
   check_size(width, height);
   const Sides sides = sides_of(view.up);
   Vec3 from{};

@@ -63,7 +63,7 @@ struct Sides {
 Sides sides_of(const Vec3& up);
 
 /// From where an automatic camera looks, in the mesh's space; neither needs unit length.
-struct View {
+struct Viewpoint {
   Vec3 up{0, 1, 0};
   std::optional<Vec3> from;  ///< from the mesh to the eye; none: 0.5 right + 0.4 up + front
 };
@@ -73,7 +73,7 @@ inline constexpr double auto_frame_fovy = 35;  ///< degrees, vertical
 /// vertex of a face fits the narrower field of view with 5 % to spare, near and far likewise. Seen straight from the
 /// top the front is at the picture's bottom edge, from the bottom at its top edge. Throws std::invalid_argument for a
 /// direction that is zero or not finite.
-Camera frame_mesh(const Mesh& mesh, int width, int height, const View& view = {});
+Camera frame_mesh(const Mesh& mesh, int width, int height, const Viewpoint& view = {});
 
 /// Unit vector from what a camera looks at to the eye, in the mesh's space, at the middle of the picture.
 Vec3 direction_to_eye(const Camera& camera);

@@ -1,11 +1,13 @@
 // The regression limits of tb/check/error_limits.json: measures the stress families with several seeds (untimed model
-// against the truth), and writes limits around what it found, or tells which seeds are beyond those that are recorded.
+// against the truth), climbs out of each for the worst weight, and writes limits around what it found, or tells which
+// seeds are beyond those that are recorded.
 //
 //   error_limits                           one seed against the recorded limits; status 1 when an error is beyond them
-//   error_limits --seeds 24 --record F     sets the limits of the families; F's other contents stay
+//   error_limits --seeds 24 --record F     sets the limits; those of other widths stay
 //
 // Headroom: the interval of means over the seeds is widened by --headroom percent of its width at either end, that of
-// the largest errors, which scatter with a longer tail, by twice as much.
+// the largest errors, which scatter with a longer tail, by twice as much; that of the climbs' worst upward by its
+// width.
 #include "tb/campaign/campaign_options.hpp"
 
 #include "golden/io/atomic_file.hpp"
@@ -13,6 +15,7 @@
 #include "model/support/parallel.hpp"
 #include "tb/check/error_limits.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace quadrille::campaign {
@@ -82,6 +85,24 @@ int run(int argc, char** argv) {
           std::printf("  seed %llu: %s\n", static_cast<unsigned long long>(first + (i - f * seeds)), fault.c_str());
       }
     }
+    std::vector<double> climbs(families.size() * seeds);
+    parallel_for(climbs.size(), options.threads(), [&](std::size_t i) {
+      climbs[i] = cli::limit_climb(families[i / seeds].family, s, first + i % seeds);
+    });
+    std::vector<double> worst(seeds, -1);
+    for (std::size_t i = 0; i < climbs.size(); ++i) {
+      if (climbs[i] < 0) {
+        std::printf("s %2d %s: no climb met a drawn pixel\n", s, std::string(families[i / seeds].name).c_str());
+        return 1;
+      }
+      worst[i % seeds] = std::max(worst[i % seeds], climbs[i]);
+    }
+    const auto [lowest, highest] = std::ranges::minmax(worst);
+    std::printf("s %2d climbs: worst weight %.3f-%.3f of 2^-s\n", s, lowest, highest);
+    if (!file.empty())
+      limits.set_climb(s, cli::LimitRange::around(worst, headroom).high());
+    else if (highest > limits.climb(s))
+      ++beyond, std::printf("  beyond the limit of %.4g\n", limits.climb(s));
     std::fflush(stdout);
   }
   if (!file.empty()) {

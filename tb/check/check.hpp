@@ -5,7 +5,7 @@
 #include "model/records.hpp"
 #include "tb/check/hidden_check.hpp"
 #include "tb/check/judged_quad.hpp"
-#include "tb/engines/engine.hpp"
+#include "tb/passes/pass.hpp"
 #include "tb/support/error_stats.hpp"
 #include "tb/support/work_queue.hpp"
 

@@ -1,6 +1,7 @@
 #include "tb/check/error_limits.hpp"
 
 #include "tb/check/error_limits_data.hpp"
+#include "tb/check/family_search.hpp"
 #include "tb/check/judge.hpp"
 
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace quadrille::cli {
@@ -57,9 +59,9 @@ void ErrorLimits::set(golden::StressFamily family, int significand_bits, const s
 }
 
 std::string ErrorLimits::text() const {
-  std::string out = "{\n \"hill_climb\": {";
+  std::string out = "{\n \"climb\": {";
   const char* comma = "";
-  for (const auto& [bits, units] : hill_climb_) {
+  for (const auto& [bits, units] : climb_) {
     out += comma + ('"' + std::to_string(bits)) + "\": " + nlohmann::json(rounded(units, true)).dump();
     comma = ", ";
   }
@@ -86,8 +88,7 @@ ErrorLimits ErrorLimits::parse(std::string_view text) {
   ErrorLimits out;
   try {
     const auto json = nlohmann::json::parse(text);
-    for (const auto& [bits, units] : json.at("hill_climb").items())
-      out.hill_climb_[std::stoi(bits)] = units.get<double>();
+    for (const auto& [bits, units] : json.at("climb").items()) out.climb_[std::stoi(bits)] = units.get<double>();
     for (const auto& [name, widths] : json.at("families").items())
       for (const auto& [bits, outputs] : widths.items()) {
         Family& limits = out.families_[name][std::stoi(bits)];
@@ -115,9 +116,9 @@ const ErrorLimits::Family* ErrorLimits::find(std::string_view family, int signif
   return limits == widths->second.end() ? nullptr : &limits->second;
 }
 
-double ErrorLimits::hill_climb(int significand_bits) const {
-  const auto limit = hill_climb_.find(significand_bits);
-  return limit == hill_climb_.end() ? std::numeric_limits<double>::infinity() : limit->second;
+double ErrorLimits::climb(int significand_bits) const {
+  const auto limit = climb_.find(significand_bits);
+  return limit == climb_.end() ? std::numeric_limits<double>::infinity() : limit->second;
 }
 
 std::size_t limit_quads(golden::StressFamily family) {
@@ -147,6 +148,18 @@ CheckResult judge_limit_draw(golden::StressFamily family, int significand_bits, 
   const std::vector<WindowQuad> quads =
       golden::make_stress_without_weights(family, limit_quads(family), seed, limit_extent, limit_extent, attributes);
   return judge_untimed(quads, attributes, config, state, engine);
+}
+
+double limit_climb(golden::StressFamily family, int significand_bits, std::uint64_t seed) {
+  FamilySearch search;
+  search.family = family;
+  search.config.set("significand_bits", significand_bits);
+  search.width = search.height = 512;
+  search.evaluations = 10'000;
+  search.seed = seed;
+  search.leave = true;
+  const std::optional<FamilySummit> worst = worst_of_family(search);
+  return worst ? worst->units : -1;
 }
 
 bool limits_apply(const Config& config, const DrawState& state, golden::StressFamily family, std::size_t quads) {

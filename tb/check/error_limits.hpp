@@ -27,6 +27,10 @@ inline constexpr int limit_extent = 64;
 /// Draws that with the untimed model and compares it with the truth.
 CheckResult judge_limit_draw(golden::StressFamily family, int significand_bits, std::uint64_t seed, PixelEngine engine);
 
+/// The worst weight, in units of 2^-s, that short climbs out of a family find in the default configuration; −1: nothing
+/// was drawn.
+double limit_climb(golden::StressFamily family, int significand_bits, std::uint64_t seed);
+
 /// Errors of one draw, as parts of what the bound allows each of them (RelativeErrors).
 struct MeasuredErrors {
   static constexpr std::array<std::string_view, 3> outputs{"weight", "attribute", "depth"};
@@ -67,8 +71,8 @@ class ErrorLimits {
   /// largest errors, which scatter with a longer tail. Throws std::invalid_argument for fewer than two.
   void set(golden::StressFamily family, int significand_bits, const std::vector<MeasuredErrors>& draws,
            double headroom);
-  /// `units`: the largest error that hill climbing may find at this width, in units of 2^-s.
-  void set_hill_climb(int significand_bits, double units) { hill_climb_[significand_bits] = units; }
+  /// `units`: the largest error that limit_climb() may find at this width, in units of 2^-s.
+  void set_climb(int significand_bits, double units) { climb_[significand_bits] = units; }
   /// The file: a line for each family and width, sorted; for each output the largest error and the ends of the mean's
   /// interval.
   std::string text() const;
@@ -76,11 +80,11 @@ class ErrorLimits {
   /// Nothing for a family or width without limits.
   const Family* find(std::string_view family, int significand_bits) const;
   /// Infinity for a width without one.
-  double hill_climb(int significand_bits) const;
+  double climb(int significand_bits) const;
 
  private:
   std::map<std::string, std::map<int, Family>, std::less<>> families_;
-  std::map<int, double> hill_climb_;
+  std::map<int, double> climb_;
 };
 
 /// Whether the limits are about such a draw of a family.

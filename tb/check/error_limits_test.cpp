@@ -56,12 +56,12 @@ TEST(ErrorLimits, WithoutHeadroomHoldWhatTheyWereSetFrom) {
 
 TEST(ErrorLimits, SurviveTheFile) {
   ErrorLimits limits = around({draw(0.5, 0.01), draw(0.4, 0.03)}, 1);
-  limits.set_hill_climb(18, 3.5);
+  limits.set_climb(18, 3.5);
   const std::string text = limits.text();
   const ErrorLimits read = ErrorLimits::parse(text);
   EXPECT_EQ(read.text(), text);
-  EXPECT_EQ(read.hill_climb(18), 3.5);
-  EXPECT_TRUE(std::isinf(read.hill_climb(20)));
+  EXPECT_EQ(read.climb(18), 3.5);
+  EXPECT_TRUE(std::isinf(read.climb(20)));
   EXPECT_THROW(ErrorLimits::parse("{\"families\": {\"reflex\": {\"18\": {}}}}"), std::runtime_error);
   EXPECT_THROW(ErrorLimits::parse("nonsense"), std::runtime_error);
 }
@@ -79,7 +79,7 @@ TEST(ErrorLimits, AreRecordedAndTighterThanTheBound) {
       // A mean of weights 1 to 3 is known to half a unit of 2^-s, of which the bound has 8; of 30 quads no better.
       EXPECT_LT(limits->mean[0].high() - limits->mean[0].low(), 0.5 / 8) << info.name << ", s = " << s;
     }
-  for (const int s : {12, 18, 24}) EXPECT_LT(ErrorLimits::recorded().hill_climb(s), 6) << "of 8 units";
+  for (const int s : {12, 18, 24}) EXPECT_LT(ErrorLimits::recorded().climb(s), 6) << "of 8 units";
 }
 
 TEST(ErrorLimits, AreForTheirDrawAlone) {

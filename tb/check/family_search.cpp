@@ -2,6 +2,7 @@
 
 #include "model/support/prng.hpp"
 #include "tb/check/climb.hpp"
+#include "tb/check/vertex_moves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,10 @@ class Search {
   }
 
   FamilyCandidate changed(FamilyCandidate c) {
+    if (search_.leave) {
+      move_vertices(c.quad, c.at, search_.output, search_.width, search_.height, rng_);
+      return c;
+    }
     bool drawn = false;
     for (std::uint64_t changes = 1 + rng_.below(3); changes > 0; --changes) {
       switch (rng_.below(8)) {
@@ -174,6 +179,17 @@ std::vector<FamilySummit> search_family(const FamilySearch& search) {
   return search_family(search, [&](const FamilyCandidate& c) {
     return errors.measure(quad_for(c.quad, search.output), c.at.x, c.at.y);
   });
+}
+
+std::optional<FamilySummit> worst_of_family(const FamilySearch& search) {
+  std::optional<FamilySummit> worst;
+  PixelErrors errors(search.config, search_state(search.width, search.height), search.output);
+  for (FamilySummit& summit : search_family(search)) {
+    const FamilyCandidate& c = summit.candidate;
+    summit.units = errors.judge(quad_for(c.quad, search.output), c.at.x, c.at.y).units;
+    if (summit.units >= 0 && (!worst || summit.units > worst->units)) worst = std::move(summit);
+  }
+  return worst;
 }
 
 }  // namespace quadrille::cli

@@ -79,6 +79,28 @@ TEST(FamilySearch, StaysWithinTheFamilyAndTheEvaluations) {
   EXPECT_GT(knobs, 100u);
 }
 
+TEST(FamilySearch, LeavesTheFamilyWhenTold) {
+  const auto centre = [](double p) { return p - std::floor(p) == 0.5; };
+  for (const Output output : {Output::weight, Output::attribute, Output::depth}) {
+    FamilySearch search = search_of(golden::StressFamily::on_vertex, output, 3'000, 4);
+    search.leave = true;
+    std::uint64_t seen = 0, drawn_off = 0, moved_off = 0, beyond = 0;
+    search_family(search, [&](const FamilyCandidate& c) {
+      const bool off = std::ranges::any_of(
+          c.quad.vertex, [&](const WindowVertex& v) { return !centre(v.x / v.w) || !centre(v.y / v.w); });
+      // An eighth is drawn by the family, the rest climbs.
+      (++seen <= 3'000 / 8 ? drawn_off : moved_off) += off;
+      beyond += c.at.x < 0 || c.at.x >= 64 || c.at.y < 0 || c.at.y >= 64;
+      for (const std::vector<double>& a : c.quad.attribute) beyond += a.size() != 1 || std::fabs(a[0]) > 1;
+      return static_cast<double>(seen % 1000);
+    });
+    EXPECT_EQ(seen, 3'000u);
+    EXPECT_EQ(drawn_off, 0u);
+    EXPECT_GT(moved_off, 1'000u);
+    EXPECT_EQ(beyond, 0u);
+  }
+}
+
 TEST(FamilySearch, FollowsFromItsArguments) {
   const auto fingerprint = [](golden::StressFamily family, Output output, std::uint64_t seed) {
     double sum = 0;

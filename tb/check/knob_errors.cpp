@@ -5,6 +5,7 @@
 #include "model/snap.hpp"
 #include "tb/check/judge.hpp"
 #include "tb/check/judged_quad.hpp"
+#include "tb/engines/engine.hpp"
 
 #include <algorithm>
 #include <cmath>

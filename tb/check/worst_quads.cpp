@@ -3,9 +3,9 @@
 #include "golden/io/error.hpp"
 #include "golden/io/quads_file.hpp"
 #include "golden/io/text_input.hpp"
+#include "model/config_text.hpp"
 #include "tb/check/family_search.hpp"
 #include "tb/check/judge.hpp"
-#include "tb/device/verilate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -143,7 +143,7 @@ std::string WorstQuads::text() const {
   out.append(found_by_key).append(found_by).append("\n");
   out.append(size_key).append(std::to_string(width) + "x" + std::to_string(height)).append("\n");
   out.pop_back();  // the line's end: each key begins with one
-  out += tb::changed_keys(config, "\n" + std::string(set_key)) + "\n";
+  out += changed_keys(config, "\n" + std::string(set_key)) + "\n";
   for (const WorstQuad& worst : quads) out += "# " + record_text(worst) + "\n" + golden::quad_text(worst.quad) + "\n";
   return out;
 }

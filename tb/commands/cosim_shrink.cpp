@@ -3,7 +3,7 @@
 #include "golden/io/json_report.hpp"
 #include "golden/io/quads_file.hpp"
 #include "model/snap.hpp"
-#include "tb/check/shrink.hpp"
+#include "tb/lockstep/shrink.hpp"
 #include "tb/lockstep/driven_device.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"

@@ -9,7 +9,7 @@ namespace {
 
 using namespace quadrille::cli_test;
 
-class View : public Cli {
+class ViewOptions : public Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
@@ -43,7 +43,7 @@ class View : public Cli {
   }
 };
 
-TEST_F(View, NoSideIsDark) {
+TEST_F(ViewOptions, NoSideIsDark) {
   for (const char* view : {"front", "back", "left", "right", "top", "bottom", "-z", "+x", "1,-2,-0.5"})
     for (const char* up : {"y", "z", "-z", "x", "0.1,1,0.3"})
       EXPECT_GT(look(std::string("--view ") + view + " --up " + up).brightest, 150) << view << " " << up;
@@ -57,7 +57,7 @@ TEST_F(View, NoSideIsDark) {
   EXPECT_LT(look("--camera behind.json --light z").brightest, 40);
 }
 
-TEST_F(View, SidesAreWhatTheySay) {
+TEST_F(ViewOptions, SidesAreWhatTheySay) {
   // Up is y: from the front 4 wide (the foot) and 2 high, from the right 4 wide, from the top 4 wide and 4 high.
   const Seen front = look("--view front"), right = look("--view right"), top = look("--view top");
   EXPECT_GT(front.width(), front.height() * 3 / 2);
@@ -69,7 +69,7 @@ TEST_F(View, SidesAreWhatTheySay) {
   EXPECT_EQ(look("--view z").width(), front.width());
 }
 
-TEST_F(View, ASavedCameraDrawsTheSameBytes) {
+TEST_F(ViewOptions, ASavedCameraDrawsTheSameBytes) {
   for (const char* view : {"", "--view -z", "--view top --up z", "--view 1,2,-3 --up 0.1,0,1"}) {
     SCOPED_TRACE(view);
     const std::string size = " --mesh box.obj --size 80x60 --quiet ";
@@ -81,7 +81,7 @@ TEST_F(View, ASavedCameraDrawsTheSameBytes) {
   }
 }
 
-TEST_F(View, EveryCommandThatTakesAMesh) {
+TEST_F(ViewOptions, EveryCommandThatTakesAMesh) {
   const std::string view = " --mesh box.obj --view back --up z --save-camera ";
   ASSERT_EQ(run("render --size 48x48 --png r.png --quiet" + view + "render.json").status, 0);
   ASSERT_EQ(run("fragments --size 48x48 --out f.csv --quiet" + view + "fragments.json").status, 0);
@@ -97,7 +97,7 @@ TEST_F(View, EveryCommandThatTakesAMesh) {
   EXPECT_NE(points.find("--mesh box.obj --view back --up z"), std::string::npos);
 }
 
-TEST_F(View, BadOptions) {
+TEST_F(ViewOptions, BadOptions) {
   const std::string render = "render --png a.png --mesh box.obj ";
   refuses(2, render + "--view behind", {"--view behind", "back", "X,Y,Z"});
   refuses(2, render + "--view 0,0,0", {"--view 0,0,0"});

@@ -1,5 +1,6 @@
 #include "tb/device/verilate.hpp"
 
+#include "model/config_text.hpp"
 #include "model/tables.hpp"
 #include "tb/device/build_notice.hpp"
 #include "tb/support/environment_error.hpp"
@@ -330,14 +331,6 @@ std::vector<std::string> key_defines(const Config& config) {
     defines.push_back(define + "=" + std::to_string(config.get(key.name)));
   }
   return defines;
-}
-
-std::string changed_keys(const Config& config, std::string_view before) {
-  std::string text;
-  for (const ConfigKey& key : Config::keys())
-    if (const int value = config.get(key.name); value != key.standard)
-      text += std::string(before) + std::string(key.name) + "=" + std::to_string(value);
-  return text;
 }
 
 std::string summary(const Config& config) {

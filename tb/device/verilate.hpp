@@ -47,9 +47,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options = {});
 /// The arguments -DQUADRILLE_<KEY>=value for every key of the configuration (-1, automatic, is passed on as it is).
 std::vector<std::string> key_defines(const Config& config);
 
-/// The keys that differ from their defaults, `before` + "key=value" each.
-std::string changed_keys(const Config& config, std::string_view before);
-/// The same for people, "key=value key=value", or "default".
+/// The keys that differ from their defaults, for people: "key=value key=value", or "default".
 std::string summary(const Config& config);
 
 }  // namespace quadrille::tb

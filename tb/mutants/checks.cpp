@@ -3,6 +3,7 @@
 #include "golden/io/temporary.hpp"
 #include "golden/suites/float_engine.hpp"
 #include "golden/suites/suite.hpp"
+#include "model/config_text.hpp"
 #include "model/untimed.hpp"
 #include "tb/check/error_limits.hpp"
 #include "tb/check/function_check.hpp"

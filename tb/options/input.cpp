@@ -74,8 +74,8 @@ golden::Vec3 parse_direction(const std::string& option, const std::string& text,
 }
 
 /// --up and --view.
-golden::View parse_view(const InputOptions& options) {
-  golden::View view;
+golden::Viewpoint parse_view(const InputOptions& options) {
+  golden::Viewpoint view;
   if (!options.up.empty()) view.up = parse_direction("--up", options.up);
   const golden::Sides sides = golden::sides_of(view.up);
   const auto opposite = [](const golden::Vec3& v) { return golden::Vec3{-v[0], -v[1], -v[2]}; };

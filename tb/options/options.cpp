@@ -377,7 +377,7 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
   return s;
 }
 
-std::string spelled(const Config& config) { return tb::changed_keys(config, " --set "); }
+std::string spelled(const Config& config) { return changed_keys(config, " --set "); }
 
 std::string summary(const Config& config) { return tb::summary(config); }
 

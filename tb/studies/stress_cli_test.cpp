@@ -360,6 +360,7 @@ TEST_F(Cli, StressSearchRefuses) {
   refuses(2, "stress --search --evaluations 0", {"--evaluations"});
   refuses(2, "stress --search --evaluations -5", {"--evaluations"});
   refuses(2, "stress --evaluations 5", {"--search"});
+  refuses(2, "stress --leave", {"--search"});
   refuses(2, "stress --keep found.quads", {"--keep", "--search"});
   refuses(2, "stress --search --csv t.csv", {"--csv"});
   refuses(2, "stress --search --shard 0/2", {"--shard"});

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 namespace quadrille::cli {
 namespace {
@@ -84,25 +85,6 @@ int finish(const CommonOptions& common, const std::string& keep, const WorstQuad
   return faults.empty() ? exit_ok : exit_mismatch;
 }
 
-/// The end of a search: the climb that the verdict finds worst.
-struct Found {
-  WorstQuad worst;
-  double knob = 1;
-  bool any = false;
-};
-
-Found search_one(const FamilySearch& search) {
-  Found found;
-  PixelErrors errors(search.config, search_state(search.width, search.height), search.output);
-  for (const FamilySummit& summit : search_family(search)) {
-    const FamilyCandidate& c = summit.candidate;
-    const double units = errors.judge(quad_for(c.quad, search.output), c.at.x, c.at.y).units;
-    if (units < 0 || (found.any && units <= found.worst.units)) continue;
-    found = {{search.family, search.output, units, c.at, c.quad}, c.drawing.knob, true};
-  }
-  return found;
-}
-
 }  // namespace
 
 void StressSearchOptions::add_to(CLI::App& app) {
@@ -114,6 +96,7 @@ void StressSearchOptions::add_to(CLI::App& app) {
       ->capture_default_str()
       ->group(group)
       ->needs(one);
+  app.add_flag("--leave", leave, "Climb by moving vertices, out of the family's shape")->group(group)->needs(one);
   CLI::Option* replay = app.add_option("--kept", kept, "Check the quads of such a file, errors too")
                             ->type_name("F.quads")
                             ->group(group)
@@ -144,9 +127,10 @@ int search_stress(const CommonOptions& common, const std::string& list, const St
   kept.config = config;
   kept.width = width;
   kept.height = height;
-  kept.found_by = "quadrille stress --search --evaluations " + std::to_string(options.evaluations) + " --seed " +
-                  std::to_string(common.seed) + " --size " + std::to_string(width) + "x" + std::to_string(height) +
-                  spelled(config) + (list.empty() ? "" : " --families " + list);
+  kept.found_by = "quadrille stress --search --evaluations " + std::to_string(options.evaluations) +
+                  (options.leave ? " --leave" : "") + " --seed " + std::to_string(common.seed) + " --size " +
+                  std::to_string(width) + "x" + std::to_string(height) + spelled(config) +
+                  (list.empty() ? "" : " --families " + list);
   Json report = golden::begin_report(config, common.seed, std::vector<std::string>{});
   report["command"] = report["title"] = kept.found_by;
   report["bound"] = bound_units;
@@ -165,23 +149,26 @@ int search_stress(const CommonOptions& common, const std::string& list, const St
         search.height = height;
         search.evaluations = options.evaluations;
         search.seed = common.seed;
-        return search_one(search);
+        search.leave = options.leave;
+        return worst_of_family(search);
       },
-      [&](std::size_t i, Found&& found) {
+      [&](std::size_t i, std::optional<FamilySummit>&& found) {
         const std::string family(golden::stress_family_name(families[i / output_names.size()]));
         const auto output = static_cast<Output>(i % output_names.size());
         progress.set(i + 1, family);
-        if (!found.any) {
+        if (!found) {
           report["worst"].push_back({{"family", family}, {"output", name_of(output)}, {"units", -1.0}});
           faults.push_back(family + " " + std::string(name_of(output)) +
                            ": nothing was drawn, so nothing was shown; give more --evaluations than " +
                            std::to_string(options.evaluations));
           return;
         }
-        found.worst.quad.id = static_cast<std::uint32_t>(kept.quads.size());
-        kept.quads.push_back(found.worst);
-        Json row = row_of(kept, found.worst, found.worst.units);
-        row["knob"] = found.knob;
+        const FamilyCandidate& c = found->candidate;
+        WorstQuad worst{families[i / output_names.size()], output, found->units, c.at, c.quad};
+        worst.quad.id = static_cast<std::uint32_t>(kept.quads.size());
+        Json row = row_of(kept, worst, worst.units);
+        row["knob"] = c.drawing.knob;
+        kept.quads.push_back(std::move(worst));
         report["worst"].push_back(std::move(row));
       });
   progress.finish();

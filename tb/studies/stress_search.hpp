@@ -8,9 +8,9 @@
 
 namespace quadrille::cli {
 
-/// --search --evaluations --keep --kept
+/// --search --evaluations --leave --keep --kept
 struct StressSearchOptions {
-  bool search = false;
+  bool search = false, leave = false;
   std::uint64_t evaluations = 20'000;
   std::string keep, kept;
 

@@ -1,4 +1,4 @@
-#include "tb/check/shrink.hpp"
+#include "tb/lockstep/shrink.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Draws whose fault is known: what must be left is, and nothing else.
-#include "tb/check/shrink.hpp"
+#include "tb/lockstep/shrink.hpp"
 
 #include "model/support/prng.hpp"
 
