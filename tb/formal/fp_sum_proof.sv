@@ -1,4 +1,4 @@
-// fp_sum of two terms behind its fp_terms is fp_sum of rtl/SPEC.md, Numbers,, for all signs and all pairs of products.
+// fp_sum of two terms behind its fp_terms is fp_sum of rtl/SPEC.md, Numbers, for all signs and all pairs of products.
 // Assumed: the factors are significand numbers, and the exponents of the products stay in EXP_BITS (numbers do).
 module fp_sum_proof #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
