@@ -1,7 +1,7 @@
-// Every boundary of the machine, described once: its fields in the order of the packed struct (rtl/README.md sections 3
+// Every boundary of the machine, described once: its fields in the order of the packed struct (rtl/SPEC.md, Probes,
 // and 6), most significant first, with width, sign, fraction bits, unit and meaning. From these lists come what the
 // co-simulation compares and names, the records of the golden vectors (hex and manifest) and with them the DPI structs
-// and the ports of the replay benches, and the tables of rtl/README.md. fields.hpp says what a list is.
+// and the ports of the replay benches, and the table of rtl/README.md. fields.hpp says what a list is.
 #pragma once
 
 #include "model/config.hpp"
@@ -312,7 +312,7 @@ struct BoundaryDescription {
   int bits = 0;
   std::vector<BoundaryField> fields;  ///< the most significant first, elements of interleaved arrays together
 };
-/// The structs of rtl/README.md sections 3 and 6.
+/// The structs of rtl/README.md, Ports, and rtl/SPEC.md, Probes.
 std::vector<BoundaryDescription> describe_ports(const Config& config);
 std::vector<BoundaryDescription> describe_probes(const Config& config);
 

@@ -134,7 +134,7 @@ TEST(Layout, NamesTheFirstDifference) {
   }
 }
 
-// Bits of the default configuration, added up by hand from section 6 of rtl/README.md: VAL = QVAL = 63, GRAD = QGRAD =
+// Bits of the default configuration, added up by hand by rtl/SPEC.md: VAL = QVAL = 63, GRAD = QGRAD =
 // 48, QCURV = 32, LENGTH2 = 64, TC = 10, S = 18, EXP = 12, four slots.
 TEST(Boundaries, HaveTheirBits) {
   const std::vector<std::pair<Boundary, int>> bits{{Boundary::setup, 3 + 4 * 10 + 6 + 6 * (63 + 48 + 48) + 6 * 64},

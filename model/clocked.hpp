@@ -1,5 +1,5 @@
 // The clocked shell: predicts valid, ready and every payload of the RTL on every clock. It holds control state only;
-// every bit of arithmetic comes from the pure functions of the stage files. See rtl/README.md sections 4 to 6.
+// every bit of arithmetic comes from the pure functions of the stage files. See rtl/SPEC.md.
 //
 // Use, once per clock:  comb() -> outputs  (any number of times; changes nothing),  then  clock(inputs).
 #pragma once

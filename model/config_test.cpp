@@ -1,4 +1,4 @@
-// The configuration: ranges, automatic values and refusals as the table of rtl/README.md states them.
+// The configuration: ranges, automatic values and refusals as the table of README.md states them.
 #include "model/config.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ struct Row {
   int standard, minimum, maximum;  ///< standard -1: automatic
 };
 
-// rtl/README.md section 1, key by key.
+// README.md, Configuration, key by key.
 constexpr Row table[] = {
     {"viewport_bits", 12, 6, 14},
     {"guard_bits", 3, 1, 4},
@@ -172,7 +172,7 @@ TEST(Config, ResolvedValuesReplaceAuto) {
 }
 
 TEST(Config, DerivedWidthsOfTheDefault) {
-  // rtl/README.md section 1 for viewport 12, guard 3, 8 + 7 fraction bits, S = 18, G = 2.
+  // rtl/SPEC.md, Widths, for viewport 12, guard 3, 8 + 7 fraction bits, S = 18, G = 2.
   const Config c;
   ASSERT_NO_THROW(c.validate());
   EXPECT_EQ(c.pos_int(), 15);

@@ -12,7 +12,7 @@
 
 namespace quadrille {
 
-/// A width or a number of fraction bits, with what rtl/README.md section 1 calls it (nullptr: it is the same in every
+/// A width or a number of fraction bits, with what rtl/SPEC.md calls it (nullptr: it is the same in every
 /// configuration).
 struct Bits {
   constexpr Bits(int v, const char* s = nullptr) : value(v), symbol(s) {}

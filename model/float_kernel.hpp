@@ -1,6 +1,6 @@
 // The code of float_lanes.cpp, included there once for each instruction set, inside a namespace of its own.
 //
-// Why the bits are the machine's (rtl/README.md section 2), with the unit rounding toward zero and what is too small
+// Why the bits are the machine's (rtl/SPEC.md, Numbers), with the unit rounding toward zero and what is too small
 // for a normal number going to zero:
 //  - A product of two S-bit numbers is cut to 24 bits by the unit, then to S by `cut`: the same as cutting it to S.
 //  - fp_sum cuts each term at the quantum 2^(E - PREC_BITS), E the largest sum of two factors' exponents. C = 2^(E -

@@ -81,7 +81,7 @@ void sqrt_blocks(std::span<const NormalisedLanes> in, int s, const LaneTable& ta
 void ratio_blocks(std::span<const NormalisedLanes> in, const SqrtLanes* root, int s, int g, RatioLanes* out);
 void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in, int s, int g, const LaneTable& table,
                    WeightLanes* out);
-/// Areas in the place of mean value weights (rtl/README.md section 5, Plane quads): of quads that take them.
+/// Areas in the place of mean value weights (rtl/SPEC.md, Plane quads): of quads that take them.
 void area_blocks(std::span<const DifferenceLanes> signs, const NormalisedLanes* in, WeightLanes* out);
 /// quad[n]: position in `values` of block n's quad. num_z is left out (0) without `depth`.
 void interpolate_blocks(std::span<const WeightLanes> in, const std::uint32_t* quad, const QuadColumns* values,

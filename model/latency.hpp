@@ -1,5 +1,5 @@
 // Clocks that the units of the pixel pipeline take, and the registers at the boundaries between them: the
-// figures of rtl/quadrille_pkg.sv under the same names, from the specification (rtl/README.md section 5).
+// figures of rtl/quadrille_pkg.sv under the same names, from the specification (rtl/SPEC.md, Pixel pipeline).
 //
 // The model computes a pixel whole at its emission; these say when each boundary shows it.
 #pragma once

@@ -1,5 +1,5 @@
 // The pixel pipeline as pure functions, one per RTL module, in the order in which a pixel meets them. Formats and
-// truncations: rtl/README.md sections 2 and 5. Each function fills its part of PixelTrace from the parts before.
+// truncations: rtl/SPEC.md. Each function fills its part of PixelTrace from the parts before.
 //
 // This is the plain integer form, the oracle of the quick one (untimed model).
 #pragma once
@@ -56,7 +56,7 @@ void forward_difference_column(PixelTrace& p, const TileRow& row, const QuadCons
 inline void forward_difference(PixelTrace& p, const TileEntry& tile, const QuadConstants& quad, int dx, int row) {
   forward_difference_column(p, forward_difference_row(tile, quad, row), quad, dx);
 }
-/// S-bit significands of A, D, r² and the singular class (rtl/README.md section 5, in its priority).
+/// S-bit significands of A, D, r² and the singular class (rtl/SPEC.md, singular_class, in its priority).
 void normalise(PixelTrace& p, const PipelineContext& c);
 /// r_i = sqrt(r_i²), faithful.
 void sqrt_stage(PixelTrace& p, const PipelineContext& c);

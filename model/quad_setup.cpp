@@ -42,7 +42,7 @@ PixelSpan pixel_range(const std::array<std::int64_t, 4>& v, int frac, int scisso
           static_cast<int>(std::min<std::int64_t>(last, scissor_hi - 1))};
 }
 
-/// Eye inside the tetrahedron of the four vertices (or on its boundary): rtl/README.md section 4.
+/// Eye inside the tetrahedron of the four vertices (or on its boundary): rtl/SPEC.md, quad_setup.
 bool eye_in_hull(Wide d012, Wide d023, Wide d123, Wide d013) {
   const std::array<int, 4> s{sign(d123), -sign(d023), sign(d013), -sign(d012)};
   const bool any_positive = std::any_of(s.begin(), s.end(), [](int v) { return v > 0; });

@@ -19,7 +19,7 @@ struct TileRange {
 };
 TileRange bounding_tiles(const SnappedQuad& quad, const Config& config, const DrawState& state);
 
-// Clocks: rtl/README.md section 4. `pairs` of dot units.
+// Clocks: rtl/SPEC.md, quad_setup. `pairs` of dot units.
 /// Steps of a quad, one a clock.
 int quad_setup_steps(bool homogeneous, int pairs, const DrawState& state);
 /// From the last step until all results are there; with two pairs the reach of the last edge is a clock behind.

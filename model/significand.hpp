@@ -1,4 +1,4 @@
-// Arithmetic on significand numbers (rtl/README.md section 2): fp_multiply, fp_sum and their helpers. Everything
+// Arithmetic on significand numbers (rtl/SPEC.md, Numbers): fp_multiply, fp_sum and their helpers. Everything
 // truncates toward zero; this is the only place where the machine rounds behind the exact front.
 #pragma once
 

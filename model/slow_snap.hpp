@@ -1,4 +1,4 @@
-// For tests: what snap_quad must give, from rtl/README.md section 3 step by step in sums, products and comparisons of
+// For tests: what snap_quad must give, from rtl/SPEC.md, Snapping, step by step in sums, products and comparisons of
 // numbers m 2^e of any length. A quotient is found bit by bit. Nothing of the model's arithmetic is used.
 #pragma once
 

@@ -23,7 +23,7 @@ struct SnapError : std::runtime_error {
 ///
 /// Base of an attribute: vertex 0's, to nearest. Base of depth: z of the first vertex with w > 0, clamped to [0, 1], to
 /// nearest. Differences times k (before rounding) have S significant bits; an attribute equal to vertex 0's has 0. Ties
-/// go to even; corner depths round halves up, as znear and zfar do (rtl/README.md section 3).
+/// go to even; corner depths round halves up, as znear and zfar do (rtl/SPEC.md, Snapping).
 ///
 /// Throws ConfigError for a configuration that cannot be built, SnapError for NaN, infinity, (0,0,0), magnitudes
 /// outside 2^±80 and attributes that do not fit attribute_int_bits.

@@ -11,7 +11,7 @@ struct StampMasks {
 };
 
 /// Exact. `entry` is the ring entry, `row` 0..TILE-1. Source: Hormann & Tarini expression (12); ties as
-/// rtl/README.md section 4.
+/// rtl/SPEC.md.
 StampMasks stamp_coverage(const TileEntry& entry, const QuadConstants& quad, int row, const Config& config,
                           const DrawState& state);
 

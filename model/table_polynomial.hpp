@@ -8,7 +8,7 @@
 
 namespace quadrille {
 
-/// y = c0 ∓ (c1 - c2·dx)·dx (+ for `rising`) with truncations as in rtl/README.md section 2; dx has table.rest_bits
+/// y = c0 ∓ (c1 - c2·dx)·dx (+ for `rising`) with truncations as in rtl/SPEC.md, Numbers; dx has table.rest_bits
 /// bits. Result: S bits with the top bit set, value y / 2^S in [1/2, 1).
 inline std::uint32_t table_polynomial(const TableEntry& e, std::uint32_t dx, int rest_bits, int s,
                                       bool rising = false) {

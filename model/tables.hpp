@@ -10,7 +10,7 @@
 namespace quadrille {
 
 /// One segment: y = c0 - (c1 - c2·dx)·dx, of the root c0 + (c1 - c2·dx)·dx, in units 2^-(S + table_guard); see
-/// rtl/README.md section 2.
+/// rtl/SPEC.md, Numbers.
 struct TableEntry {
   std::uint32_t c0 = 0, c1 = 0, c2 = 0;
 };

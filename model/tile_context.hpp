@@ -10,7 +10,7 @@ namespace quadrille {
 /// quad the squared distances alone, the rest 0.
 std::array<QuadraticForm, quadratic_count> tile_context(const QuadConstants& quad, int x, int y, int drop);
 
-// Clocks: rtl/README.md section 4. Step 0 moves an ordinary quad's vertices to the tile, the next are its squares.
+// Clocks: rtl/SPEC.md. Step 0 moves an ordinary quad's vertices to the tile, the next are its squares.
 // `pairs` of dot units.
 /// From a step until its result is in the ring.
 inline constexpr int tile_context_result_clocks = 6;

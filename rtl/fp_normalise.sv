@@ -1,4 +1,4 @@
-// fp_from_magnitude of README.md section 2: an unsigned integer becomes a significand number. Latency FP_NORMALISE_STAGES (2): the long
+// fp_from_magnitude of SPEC.md, Numbers: an unsigned integer becomes a significand number. Latency FP_NORMALISE_STAGES (2): the long
 // shifts, then the short ones; one per clock. Combinational with REGISTERED = 0.
 //
 // The last register is written in clocks with active_i, else it holds: what stands behind it does not switch.

@@ -1,5 +1,5 @@
-// Hidden blocks: of blocks of 8x8 tiles of the viewport's grid, bounds that no depth of theirs exceeds in the depth buffer (README.md,
-// "hidden_blocks"), looked at while tile_walk tests a block, and learned from what hierarchical_z says of each tile under test.
+// Hidden blocks: of blocks of 8x8 tiles of the viewport's grid, bounds that no depth of theirs exceeds in the depth buffer (SPEC.md,
+// hidden_blocks), looked at while tile_walk tests a block, and learned from what hierarchical_z says of each tile under test.
 //
 // A block of the walk begins at any tile and so lies over up to four blocks of the grid. They are read at once, from four banks by the
 // lowest bit of a block's column and row: what two neighbours have in common never is that bit. hidden_o says in the clock after the test

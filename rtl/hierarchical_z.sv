@@ -1,4 +1,4 @@
-// Hidden tiles: a memory of bounds that no depth of a tile exceeds in the depth buffer (README.md, "hierarchical_z"), looked at while
+// Hidden tiles: a memory of bounds that no depth of a tile exceeds in the depth buffer (SPEC.md, hierarchical_z), looked at while
 // tile_walk tests a tile.
 //
 // The tile that is tested in a clock (column_i, row_i, from the quad's first) is read then; in the next, in which the walk knows the signs

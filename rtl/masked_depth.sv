@@ -1,5 +1,5 @@
 // Masked depth: for each tile two bounds that depths in the depth buffer do not exceed, one for all of the tile and a nearer one for the
-// pixels in a mask (README.md, "masked_depth"), looked at and lowered by stamp_coverage.
+// pixels in a mask (SPEC.md, masked_depth), looked at and lowered by stamp_coverage.
 //
 // An entry is read when its tile leaves coverage's tag register (load_i), and judged beside the context register. Its rows go with
 // coverage's: a row's covered pixels come two clocks after it is issued, and are written the clock after that; what holds for the tile is

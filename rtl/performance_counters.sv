@@ -1,5 +1,5 @@
 // What the machine did since reset: quads by what became of them, blocks and tiles, rows and stamps, pixels and fragments, products by unit,
-// and clocks by what bound them. README.md section 9 says which clock counts what. Read by index; a counter wraps around at 2^COUNTER_BITS.
+// and clocks by what bound them. SPEC.md says which clock counts what. Read by index; a counter wraps around at 2^COUNTER_BITS.
 //
 // All inputs are of this clock; what they say is counted at its end, but for norm_active_i, norm_plane_i and sum_active_i, which are of operands
 // on their way to the units that make products of them. Nothing of the machine depends on value_o.

@@ -2,7 +2,7 @@
 // what the pixels of a clock have in common: their row, their quad and its data. Never waits.
 //
 // Register n is written n clocks after the pixel enters the pipeline. The boundaries between units have the registers
-// quadrille_pkg::DIFF_STAGE to FRAGMENT_STAGE, and signals are named after the boundary that they cross (README.md section 5).
+// quadrille_pkg::DIFF_STAGE to FRAGMENT_STAGE, and signals are named after the boundary that they cross (SPEC.md, Pixel pipeline).
 module pixel_lane #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,

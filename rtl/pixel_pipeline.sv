@@ -3,7 +3,7 @@
 // The pixels of a clock are of one row of one tile. What they have in common is here: that row's values, the slot index, which travels
 // with them, and what is read from the slot bank by it, one register before its users; all else is in pixel_lane.
 // Register n is written n clocks after the pixels enter. The boundaries between units have the registers quadrille_pkg::DIFF_STAGE to
-// FRAGMENT_STAGE (README.md section 5). An end beat (end, no lane valid) travels with the pixels; at the last register it releases its slot.
+// FRAGMENT_STAGE (SPEC.md, Pixel pipeline). An end beat (end, no lane valid) travels with the pixels; at the last register it releases its slot.
 module pixel_pipeline #(
     localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,

@@ -1,5 +1,5 @@
 // Setup of one quad: origin tile, 6 linear functions (value at the origin, first differences), squared lengths of its sides and
-// diagonals, visibility of the clauses. README.md section 4 has the clocks: two for the bounding box, while vertex_assembly holds the
+// diagonals, visibility of the clauses. SPEC.md has the clocks: two for the bounding box, while vertex_assembly holds the
 // quad; start; then a step a clock, in which every pair of dot units has a job: 6 steps or, of a homogeneous quad, 40; with two pairs 3 or 24.
 // Half of a homogeneous quad's ask whether it misses the scissor (separate_i; else 20 or 11 steps).
 //

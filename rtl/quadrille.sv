@@ -3,7 +3,7 @@
 //     vertex_assembly -> quad_setup -> tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit -> pixel_pipeline -> fragment_fifo
 //                             \____ vertex_products ____ tile_context __/
 //
-// Number formats, ports and clocks: README.md. Both streams are valid/ready: valid never depends on ready, payload is stable while
+// Ports: README.md; number formats and clocks: SPEC.md. Both streams are valid/ready: valid never depends on ready, payload is stable while
 // valid and not ready. state_i is static while quads are under way (asserted). The pixel pipeline never waits: pixel_emit counts the
 // places of the fragment FIFO. clear_hidden_i goes with a clear of the depth buffer (hierarchical_z) and is ignored while busy_o.
 // flush_i, in any clock, discards the beats of a quad that is not complete, that of the same clock among them, and nothing else.

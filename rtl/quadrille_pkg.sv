@@ -1,7 +1,7 @@
 // Widths, number formats and port structs of Quadrille: the only place where a width is computed.
 //
 // Every configuration key is a macro QUADRILLE_<KEY> (set with -D), with its default here. -1 asks for the automatic value
-// where README.md section 1 gives one. Every derived width stands once, with its reason. All are `verilator public` so that
+// where SPEC.md, Widths, gives one. Every derived width stands once, with its reason. All are `verilator public` so that
 // the C++ model reads back the very numbers that the RTL was built with.
 `ifndef QUADRILLE_VIEWPORT_BITS
 `define QUADRILLE_VIEWPORT_BITS 12
@@ -165,7 +165,7 @@ package quadrille_pkg;
   localparam int RISE_BITS /*verilator public*/ = T_BITS + 1;
   // signed exponents inside: numbers of the port, weights, sums and a quotient of two sums stay within +-2^10, a bit to spare
   localparam int EXP_BITS /*verilator public*/ = 12;
-  // of a regular pixel's weights: |exponent| (README.md section 5; proved in golden/analysis)
+  // of a regular pixel's weights: |exponent| (SPEC.md, mean_value_weights; proved in golden/analysis)
   localparam int WEIGHT_EXP_LIMIT = 120;
   // signed exponents of k, Z, b at the port
   localparam int PORT_EXP_BITS /*verilator public*/ = 9;
@@ -259,7 +259,7 @@ package quadrille_pkg;
   localparam int CLASS_FLAGS = CLASS_BITS - CLASS_NOTCH;  // what a fragment shows: those and the notch
   localparam int CLASS_OVERRIDES = CLASS_BITS - CLASS_TWO_EDGE;  // at its upper end: one of them is set where the pixel is not regular
 
-  // ---- Latency of the pixel pipeline (README.md section 5, model/latency.hpp) ----------------------------------------------
+  // ---- Latency of the pixel pipeline (SPEC.md, model/latency.hpp) ----------------------------------------------
   // Clocks from a unit's inputs to its outputs.
   localparam int FORWARD_DIFFERENCE_ROW_STAGES /*verilator public*/ = 1;
   localparam int FORWARD_DIFFERENCE_COLUMN_STAGES /*verilator public*/ = 2;  // column, bend
@@ -294,7 +294,7 @@ package quadrille_pkg;
   // the pipeline, 2 through the FIFO, 2 until the count of free places knows)
   localparam int FRAGMENT_FIFO_LOG2 /*verilator public*/ = $clog2(LATENCY + 7);
 
-  // ---- Ports: flat vectors, whose fields README.md section 3 gives; the structs are declared where they are read -----------
+  // ---- Ports: flat vectors, whose fields README.md gives; the structs are declared where they are read -----------
   // id, X, Y, W, k, Z, attributes; the quad's bases of attributes and depth, its corners' least and greatest depth
   localparam int VERTEX_BITS /*verilator public*/ =
       QUAD_ID_BITS + 2 * T_BITS + W_BITS + (PORT_EXP_BITS + SIGNIFICAND_BITS) + ATTR_PORT_BITS + ATTRIBUTE_SLOTS * ATTR_PORT_BITS +
@@ -325,7 +325,7 @@ package quadrille_pkg;
   endfunction
 
   // ---- Products of significands, 2 SIGNIFICAND_BITS wide and, but for 0, with a one in the upper two places --------------------
-  // fp_multiply of README.md section 2: {exponent, significand} of the product truncated; exp: sum of the factors' exponents.
+  // fp_multiply of SPEC.md: {exponent, significand} of the product truncated; exp: sum of the factors' exponents.
   function automatic logic [EXP_BITS+SIGNIFICAND_BITS-1:0] truncated_product(input logic [EXP_BITS-1:0] exp,
                                                                              input logic [2*SIGNIFICAND_BITS-1:0] product, input logic nonzero);
     truncated_product = {

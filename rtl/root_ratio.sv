@@ -10,7 +10,7 @@
 // own_i is the one of m, v_near that the case needs. Latency SQRT_STAGES + PRODUCT_STAGES + 1.
 //
 // Both then move by one power of two, to exponents that are opposite but for one: a ratio of 2^e has num near 2^(e/2) and den near
-// 2^(-e/2), and beside a zero the other is in [1, 2). So no product of three of them leaves 2^+-120 (README.md section 5), and the
+// 2^(-e/2), and beside a zero the other is in [1, 2). So no product of three of them leaves 2^+-120 (SPEC.md), and the
 // move is common to all weights.
 module root_ratio #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,

@@ -2,8 +2,8 @@
 // + dx gx + dy gy + q (dx^2 + dy^2), each without its QDROP lowest bits, written into the tile's entry of the ring as they come.
 //
 // Ordinary quad: the four squared distances, gx = -2 X ONE, gy = -2 Y ONE, q = ONE^2; 3 clocks a tile. Homogeneous quad: all ten, in three
-// words of the ring (quadrille_pkg: PART_*), 29 clocks a tile. With two pairs of dot units 2 and 19: in a step each has a job. README.md
-// section 4 has the steps. The multipliers are those of vertex_products; a step with jobs here takes the clock from the setup.
+// words of the ring (quadrille_pkg: PART_*), 29 clocks a tile. With two pairs of dot units 2 and 19: in a step each has a job. SPEC.md
+// has the steps. The multipliers are those of vertex_products; a step with jobs here takes the clock from the setup.
 //
 // An entry is complete, in the order of the pushes, VERTEX_PRODUCT_CLOCKS after its last step (complete_o). An end entry has no step
 // of its own but waits its turn.

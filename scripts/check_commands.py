@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every `quadrille` command and script that a README.md quotes is there: subcommands, options, configuration keys, scenes, files.
+"""Every `quadrille` command and script that a Markdown page quotes is there: subcommands, options, configuration keys, scenes, files.
 
   scripts/check_commands.py PATH_TO_QUADRILLE [FOLDER]      (a part of the test `readme`; default: the source tree)
 """
@@ -65,7 +65,7 @@ def main():
     keys = set(json.loads(output("config", "--json", "-"))["config"])
     scenes = {scene["name"] for scene in json.loads(output("scenes", "--json"))}
     count, wrong = 0, []
-    for path in sorted(FOLDER.rglob("README.md")):
+    for path in sorted(FOLDER.rglob("*.md")):
         if "build" in path.relative_to(FOLDER).parts:
             continue
         text = path.read_text(encoding="utf-8")
@@ -78,7 +78,7 @@ def main():
     if wrong:
         sys.exit("\n".join(dict.fromkeys(wrong)))
     if not count:
-        sys.exit(f"{FOLDER}: no README.md quotes a command")
+        sys.exit(f"{FOLDER}: no page quotes a command")
     print(f"{count} quoted commands are known")
 
 

@@ -107,7 +107,7 @@ class UnitTable(unittest.TestCase):
     def test_evaluates_what_the_package_says(self):
         for expression, value in (("7 / 2 + $clog2(9)", 7), ("(FRAC < 0) ? 1 : (FRAC > 99) ? 2 : FRAC", 15), ("2 * ((FRAC == 15) ? 3 : 4)", 6), ("1 << TILE_LOG2", 8)):
             self.assertEqual(self.package.value(expression, {}), value, expression)
-        for name, value in (("VAL_BITS", 63), ("SQRT_SEGMENTS_LOG2", 5), ("STAMP_PLACES", 12)):  # README.md section 1 by hand
+        for name, value in (("VAL_BITS", 63), ("SQRT_SEGMENTS_LOG2", 5), ("STAMP_PLACES", 12)):  # SPEC.md by hand
             self.assertEqual(self.package.constants[name], value, name)
 
     def test_counts_the_bits_of_ports(self):

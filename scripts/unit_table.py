@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The table of the machine's units in rtl/README.md section 8: what, bits, latency, LUT, FF, DSP, BRAM, MHz, and the whole.
+"""The table of the machine's units in rtl/MEASUREMENTS.md: bits, latency, LUT, FF, DSP, BRAM, MHz, and the whole.
 
 rtl/units.toml lists the units, rtl/units_measured.json has what size.py and timing.py gave, golden/analysis/synthesised.csv the whole in
 other configurations. Latencies and widths are evaluated from rtl/quadrille_pkg.sv, bits counted from the units' ports.
 
-  scripts/unit_table.py                        checks that the README has this table, that the list has every unit that the machine
+  scripts/unit_table.py                        checks that the page has this table, that the list has every unit that the machine
                                                instantiates, and that latencies are those of model/latency.hpp and add up; no tools needed
   scripts/unit_table.py --update               writes the table
   scripts/unit_table.py --measure size         sizes of the default configuration anew (Yosys, minutes)
@@ -27,7 +27,7 @@ from report.files import InputError, write_files  # noqa: E402
 from report.program import PROGRAM, ROOT  # noqa: E402
 
 RTL = os.path.join(ROOT, "rtl")
-LIST, MEASURED, README = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json", "README.md"))
+LIST, MEASURED, PAGE = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json", "MEASUREMENTS.md"))
 CONFIGURATIONS = os.path.join(ROOT, "golden/analysis/synthesised.csv")
 BEGIN, END = "<!-- scripts/unit_table.py -->\n", "<!-- end -->\n"
 SIZES = {"lut": "luts", "ff": "flip_flops", "dsp": "dsps", "bram": "block_rams"}  # here -> in size.py's report
@@ -51,15 +51,15 @@ def main():
             print(f"unit_table.py: {fault}", file=sys.stderr)
         if faults:
             return 1
-        old = read_text(README)
+        old = read_text(PAGE)
         if old.count(BEGIN) != 1:
-            raise InputError(f"{README}: no line {BEGIN.strip()}, or several")
+            raise InputError(f"{PAGE}: no line {BEGIN.strip()}, or several")
         head, rest = old.split(BEGIN)
         new = head + BEGIN + table(units, package) + rest[rest.index(END):]
         if args.update:
-            write_files(RTL, {"README.md": new.encode()})
+            write_files(RTL, {"MEASUREMENTS.md": new.encode()})
         elif old != new:
-            print("unit_table.py: rtl/README.md: the table is not what its data give; run scripts/unit_table.py --update", file=sys.stderr)
+            print("unit_table.py: rtl/MEASUREMENTS.md: the table is not what its data give; run scripts/unit_table.py --update", file=sys.stderr)
             return 1
     except (OSError, InputError, tomllib.TOMLDecodeError, KeyError) as error:
         print(f"unit_table.py: {error}", file=sys.stderr)
@@ -75,7 +75,7 @@ def read_text(path):
 def read_units():
     units = tomllib.loads(read_text(LIST))["unit"]
     for unit in units:
-        if missing := {"name", "what", "format", "latency"} - unit.keys():
+        if missing := {"name", "latency"} - unit.keys():
             raise InputError(f"{LIST}: unit {unit.get('name', '')}: no {', '.join(sorted(missing))}")
     return units
 
@@ -169,18 +169,15 @@ def faults_of(units, package):
 
 def table(units, package):
     measured = json.loads(read_text(MEASURED))
-    lines = ["| unit | what | bits | latency | instances | LUT | FF | DSP | BRAM | MHz |", "|---|---|---|---|---|---|---|---|---|---|"]
+    lines = ["| unit | bits | latency | instances | LUT | FF | DSP | BRAM | MHz |", "|---|---|---|---|---|---|---|---|---|"]
     for unit in units:
         inputs, outputs = package.ports(unit["name"], unit.get("parameters", {}))
-        text = {key: re.sub(r"\{(\w+)\}", lambda match: str(package.constants[match.group(1)]), unit[key]) for key in ("what", "format")}
         clock = measured["clock"].get(unit["name"])
         size = measured["size"].get(unit["name"]) or (clock or {}).get("size")
-        lines.append(row(f"`{unit['name']}`", text["what"], f"{inputs:,} → {outputs:,}: {text['format']}", latency(unit["latency"], package),
+        lines.append(row(f"`{unit['name']}`", f"{inputs:,} → {outputs:,}", latency(unit["latency"], package),
                          f"{size['instances']}" if size else "1", *(f"{size[key]:,}" if size else "" for key in SIZES), mhz(clock)))
     for name, title in (("the rest", "the rest"), ("all", "the whole")):
-        lines.append(row(title, "", "", package.constants["LATENCY"] if name == "all" else "", "", *(f"{measured['size'][name][key]:,}" for key in SIZES), ""))
-    first = measured["first"]
-    lines.append(row("as first built", first["what"], "", first["latency"], "", *(f"{first[key]:,}" if key in first else "" for key in SIZES), first["mhz"]))
+        lines.append(row(title, "", package.constants["LATENCY"] if name == "all" else "", "", *(f"{measured['size'][name][key]:,}" for key in SIZES), ""))
     return "\n".join(lines) + "\n\n" + configurations()
 
 
@@ -200,12 +197,14 @@ def mhz(clock):
 
 
 def configurations():
-    """The whole at S = 12, 18, 24 with 1 and 4 attributes."""
+    """The whole at S = 12, 18, 24 with 1 and 4 attributes, but for the default's."""
     lines = ["| significand bits | attributes | LUT | FF | DSP | BRAM |", "|---|---|---|---|---|---|"]
     rows = list(csv.DictReader(line for line in read_text(CONFIGURATIONS).splitlines() if not line.startswith("#")))
     found = {row["configuration"]: row for row in rows if row["target"] == "ecp5"}
     for bits in (12, 18, 24):
         for slots, keys in ((1, " attribute_slots=1"), (4, "")):
+            if (bits, slots) == (18, 4):
+                continue
             what = found[f"significand_bits={bits}{keys}"]
             lines.append(row(bits, slots, *(f"{int(what[column]):,}" if what[column] else "–" for column in SIZES.values())))
     return "\n".join(lines) + "\n"

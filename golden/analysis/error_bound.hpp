@@ -12,7 +12,7 @@ namespace quadrille {
 
 /// One signal with the interval of its values and the width that the configuration gives it.
 struct SignalRange {
-  std::string signal;        ///< as in rtl/README.md, e.g. "A", "D", "gx of r²", "exponent of M"
+  std::string signal;        ///< as in rtl/SPEC.md, e.g. "A", "D", "gx of r²", "exponent of M"
   double low = 0, high = 0;  ///< in units of the signal's least bit, rounded outward
   int bits = 0;              ///< width; signed when `is_signed`
   bool is_signed = true;

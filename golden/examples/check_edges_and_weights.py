@@ -148,7 +148,7 @@ def magnitude(a):
 
 
 def root(suite, number):
-    """The square root of a number by the table of golden/README.md, as rtl/README.md section 2 reads it."""
+    """The square root of a number by the table of golden/README.md, as rtl/SPEC.md, Numbers, reads it."""
     if not number[2]:
         return ZERO
     from tables import table  # which takes Suite from here

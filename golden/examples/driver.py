@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A driver's arithmetic: a quad in floating point becomes the four beats of the port, as rtl/README.md section 3 says, in exact fractions.
+"""A driver's arithmetic: a quad in floating point becomes the four beats of the port, as rtl/SPEC.md, Snapping, says, in exact fractions.
 
   quadrille config --json config.json
   golden/examples/driver.py config.json <F.quads

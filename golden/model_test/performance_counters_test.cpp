@@ -110,9 +110,9 @@ TEST(PerformanceCounters, NamesAreThoseOfTheEnumeration) {
 }
 
 TEST(PerformanceCounters, TheSpecificationListsThem) {
-  std::ifstream readme(QUADRILLE_RTL_README);
+  std::ifstream spec(QUADRILLE_RTL_SPEC);
   std::size_t next = 0;
-  for (std::string line; std::getline(readme, line);) {
+  for (std::string line; std::getline(spec, line);) {
     if (next == counter_count) break;
     const std::string row = "| " + std::to_string(next) + " | `" + std::string(counter_info[next].name) + "` | " +
                             std::string(counter_info[next].meaning) + " |";
@@ -138,7 +138,7 @@ TEST(PerformanceCounters, ASquareOfSixtyFourPixels) {
   EXPECT_EQ(c[products_vertex_products], 4u * (6 + 2 * 64));
 }
 
-// What Yosys made of the multipliers of 18 bits (README.md of rtl/, section 8): a DSP block each.
+// What Yosys made of the multipliers of 18 bits (rtl/MEASUREMENTS.md): a DSP block each.
 TEST(PerformanceCounters, ProductsOfAPixelAreTheDspBlocksOfItsUnits) {
   const PerformanceCounters c = count({square(0, 0, 8)});
   EXPECT_EQ(c[products_sqrt], 64u * 8);

@@ -384,7 +384,7 @@ bool signs_allow_a_pixel(const SetupResult& setup, const DrawState& state) {
 }
 
 /// Quads with the eye in their hull are walked in full. How many cover nothing, and how many of these the signs at the
-/// scissor's corners would leave out; they never would one that covers a pixel. rtl/README.md section 4 has the
+/// scissor's corners would leave out; they never would one that covers a pixel. rtl/REJECTED.md has the
 /// figures.
 void quads_around_the_eye(int count) {
   constexpr int size = 4096;

@@ -112,7 +112,7 @@ inline Visibility visibility(const SnappedQuad& quad, const Config& config) {
   return out;
 }
 
-/// Flags that a pixel's exact integers give, rtl/README.md section 5.
+/// Flags that a pixel's exact integers give, rtl/SPEC.md, fragment_output.
 struct SingularClass {
   int corners = 0, edges = 0;
   std::array<bool, 4> corner{}, edge{};

@@ -1,6 +1,6 @@
 // Golden vectors against floating point: every response evaluated from its stimulus by the mathematics of the stage in
 // long double, without the functions of the model, and held against the stage's bound. Integers and signs are exact
-// wherever long double holds them; significand numbers must lie where truncations as in rtl/README.md section 2 can
+// wherever long double holds them; significand numbers must lie where truncations as in rtl/SPEC.md, Numbers, can
 // leave them. Clocks (of fragments and of beats) and stall patterns are not looked at: only the clocked model and the
 // RTL have them.
 #pragma once

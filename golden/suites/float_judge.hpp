@@ -83,7 +83,7 @@ inline Span magnitude(Span v) {
   return {0, std::max(-v.lo, v.hi)};
 }
 
-/// What a configuration loses where, rtl/README.md section 2.
+/// What a configuration loses where, rtl/SPEC.md, Widths.
 struct Losses {
   explicit Losses(const Config& c)
       : s(c.significand_bits), unit(ldexpl(1, -(s - 1))), grain(ldexpl(1, -c.prec_bits())) {

@@ -388,7 +388,7 @@ void ratios(Judge& judge, const Vector& t) {
 }
 
 /// M_i = sqrt of the product of q over the pairs without i, up to a common power of two, q = r r' + D of an edge, r r'
-/// - D of a diagonal (rtl/README.md section 5). Of pairs without a corner in common only the ratio of the q matters:
+/// - D of a diagonal (rtl/SPEC.md). Of pairs without a corner in common only the ratio of the q matters:
 /// sqrt(q'/q) with q = u, or v²/u where its terms cancel. Truncations of u u', of the two products where both cancel,
 /// and of the two that make M; the table's error in each root. Corners are exact.
 void weights(Judge& judge, const Vector& t) {

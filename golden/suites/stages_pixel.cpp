@@ -9,7 +9,7 @@
 namespace quadrille::vectors {
 namespace {
 
-// ---- Exponents that occur (rtl/README.md section 1, EXP_BITS) ----
+// ---- Exponents that occur (rtl/SPEC.md, Numbers) ----
 
 struct Exponents {
   int a_lo, a_hi;      ///< A: its bit 0 is 2^-QDROP beside D's

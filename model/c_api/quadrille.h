@@ -178,7 +178,7 @@ QUADRILLE_API quadrille_status quadrille_clocked_run(quadrille_clocked* machine,
 QUADRILLE_API quadrille_status quadrille_clocked_pending(const quadrille_clocked* machine, size_t* fragments);
 QUADRILLE_API quadrille_status quadrille_clocked_take(quadrille_clocked* machine, quadrille_fragment* fragments,
                                                       size_t capacity, size_t* taken);
-/* The performance counters since reset, by the names of `rtl/README.md` section 9; in 64 bits, whether the
+/* The performance counters since reset, by the names in `rtl/SPEC.md`; in 64 bits, whether the
  * configuration has them in hardware or not. */
 QUADRILLE_API const char* quadrille_clocked_counter_name(uint32_t index);
 QUADRILLE_API quadrille_status quadrille_clocked_counter(const quadrille_clocked* machine, const char* name,

@@ -5,7 +5,7 @@
 //     m_axis_fragment  fragment_o, TKEEP ones in the bytes of the lanes that have a fragment, at least one; then one null beat (TKEEP and
 //                      TDATA 0) with TLAST, which ends the draw
 //
-// TDATA holds a record (README.md section 3) at its low end, each lane's padded with zeros to whole bytes; padding that comes in is not read. The
+// TDATA holds a record (rtl/README.md, Ports) at its low end, each lane's padded with zeros to whole bytes; padding that comes in is not read. The
 // state of the next draw is taken behind the null beat. A packet of vertices that ends within a quad draws all but that quad: its beats
 // are discarded (flush_i).
 // Every TVALID comes from registers and waits for no TREADY; TREADY of the vertices does not wait for TVALID.

@@ -1,4 +1,4 @@
-// Exact numbers m * 2^e in 127 bits and the truncations of rtl/README.md section 2, written for the oracle from that
+// Exact numbers m * 2^e in 127 bits and the truncations of rtl/SPEC.md, Numbers, written for the oracle from that
 // page alone; nothing of the model's arithmetic is used.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Everything there is, at small widths, against exact integers: every quad of a small grid with w of -1, 0 and 1, every
-// pair of operands of the arithmetic, every argument of the tables. The oracles are written from rtl/README.md and use
+// pair of operands of the arithmetic, every argument of the tables. The oracles are written from rtl/SPEC.md and use
 // nothing of the model.
 #include "golden/model_test/both_ways.hpp"
 #include "golden/reference/exact_coverage.hpp"
@@ -65,7 +65,7 @@ bool origin_in_hull(const std::array<Vector, 4>& v) {
   return std::ranges::all_of(parts, [&](std::int64_t p) { return whole > 0 ? p > 0 : p < 0; });
 }
 
-/// Flags of a covered pixel (rtl/README.md sections 4 and 5), from the vertices relative to it.
+/// Flags of a covered pixel (rtl/SPEC.md), from the vertices relative to it.
 unsigned flags_of(const std::array<Vector, 4>& v, int x, int y, bool homogeneous) {
   constexpr std::array<std::array<std::size_t, 2>, 5> edges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}}};
   std::array<std::int64_t, 4> rx{}, ry{};

@@ -1,5 +1,5 @@
 // Snapping, quad_setup, the walk's and the tiles' functions, those of a pixel and the codes of znear and zfar against
-// exact integers (rtl/README.md sections 3 and 4).
+// exact integers (rtl/SPEC.md).
 #include "model/covered_pixels.hpp"
 #include "model/pixel_pipeline.hpp"
 #include "model/quad_setup.hpp"

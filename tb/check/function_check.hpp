@@ -38,7 +38,7 @@ struct FunctionReport {
 FunctionReport check_functions(const Config& config);
 
 /// How far a table's result may be from the exact value, in units of 2^-3 of its last bit: what follows from its layout
-/// (rtl/README.md section 2 and tables.hpp) for any coefficients that are rounded to nearest. Throws nothing.
+/// (rtl/SPEC.md, Numbers, and tables.hpp) for any coefficients that are rounded to nearest. Throws nothing.
 struct TableLimit {
   double below = 0, above = 0;
 };

@@ -1,5 +1,5 @@
 // One quad with its truths, and how far the machine may be from them: the bounds of golden/analysis, and the pixels at
-// which the machine's result is exact by its specification (rtl/README.md sections 2 and 5).
+// which the machine's result is exact by its specification (rtl/SPEC.md).
 #pragma once
 
 #include "golden/reference/truth.hpp"

@@ -1,5 +1,5 @@
 // The stages behind the front, normalise to fragment_output, each on what the stage before gave: every bit by
-// rtl/README.md section 5 in exact numbers. The tables' own values are taken as they come (arithmetic_check.cpp judges
+// rtl/SPEC.md in exact numbers. The tables' own values are taken as they come (arithmetic_check.cpp judges
 // them).
 #include "model/pixel_pipeline.hpp"
 #include "model/support/prng.hpp"
@@ -129,7 +129,7 @@ class StageCheck {
     return p;
   }
 
-  /// A, D, r² and the class, as section 5 defines them.
+  /// A, D, r² and the class, as rtl/SPEC.md defines them.
   void derive(Pixel& p) const {
     PixelTrace& t = p.trace;
     const int drop = config_.qdrop();

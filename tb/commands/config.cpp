@@ -113,7 +113,7 @@ std::string symbol(const Bits& bits, bool symbols) {
   return symbols && bits.symbol != nullptr ? bits.symbol : std::to_string(bits.value);
 }
 
-/// The fields of ports or probes: of this configuration, or as Markdown by the names of rtl/README.md section 1.
+/// The fields of ports or probes: of this configuration, or as Markdown by the names of rtl/SPEC.md, Widths.
 std::string boundary_listing(const std::string& which, const Config& given, bool markdown) {
   // In the tables the number of attributes is N: one that no other array has as its length.
   constexpr int n = 5;

@@ -33,7 +33,7 @@ DrawState draw_state(const Config& config, int width, int height, std::span<cons
 unsigned random_clears(const Config& config, golden::Prng& rng) {
   const std::uint64_t kind = rng.below(8);
   if (config.hierarchical_z_bits == 0) return kind < 2 ? 1 : 0;
-  constexpr int section_log2 = 4;  // rtl/README.md, "hierarchical_z": epochs
+  constexpr int section_log2 = 4;  // rtl/SPEC.md, hierarchical_z: epochs
   const int epoch_bits = config.hierarchical_z_tiles_log2 - section_log2;
   // Half of the epochs: what is there comes back where the highest bit is not looked at; all: where none is.
   if (kind < 2) return 1u << std::max(0, epoch_bits - 1);

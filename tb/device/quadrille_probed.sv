@@ -1,4 +1,4 @@
-// The machine with probes: what crosses each boundary between its units, as outputs (rtl/README.md section 6). Verilator's alone: they are
+// The machine with probes: what crosses each boundary between its units, as outputs (rtl/SPEC.md, Probes). Verilator's alone: they are
 // taken out of the machine by hierarchical reference, so that rtl/ has no port and no register for them.
 //
 // probe_<name>_valid_o: the boundary carries a beat in this clock: setup when the walk takes a quad, tile when coverage may see it first,

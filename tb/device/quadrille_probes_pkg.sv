@@ -1,5 +1,5 @@
 // What crosses the boundaries between the machine's units: a packed struct for each, first member most significant. The fields are told in
-// rtl/README.md section 6, the C++ twins are the layouts of model/boundaries.hpp; widths are compared when a simulator is loaded.
+// rtl/SPEC.md, Probes; the C++ twins are the layouts of model/boundaries.hpp; widths are compared when a simulator is loaded.
 package quadrille_probes_pkg;
   import quadrille_pkg::*;
 

@@ -15,7 +15,7 @@
 namespace quadrille::tb {
 
 struct VerilateOptions {
-  bool probes = true;      ///< outputs at the stage boundaries (rtl/README.md section 6)
+  bool probes = true;      ///< outputs at the stage boundaries (rtl/SPEC.md, Probes)
   bool trace = false;      ///< FST waveforms
   bool assertions = true;  ///< --assert
   int optimise = 2;        ///< g++ -O level of the simulated clock; 0-3

@@ -54,7 +54,7 @@ package quadrille_machine_pkg;
     input vertex_port_t vertex,
     input int fragment_ready
   );
-  // A performance counter by name (rtl/README.md section 9).
+  // A performance counter by name (rtl/SPEC.md, Performance counters).
   import "DPI-C" function int quadrille_clocked_counter(
     input chandle machine,
     input string name,

@@ -1,4 +1,4 @@
-// Edge function of the edge from i to j at the pixel at the origin, and its sign with ties, from the vertices as rtl/README.md section 4 has them.
+// Edge function of the edge from i to j at the pixel at the origin, and its sign with ties, from the vertices as rtl/SPEC.md, quad_setup, has them.
 module edge_signs #(
     parameter int C = 4,  // bits of a coordinate, signed
     localparam int BITS = 2 * C + 3

@@ -1,5 +1,5 @@
-// fp_add behind two products is fp_sum of rtl/README.md section 2 without signs, for all pairs of products.
-// Assumed: the factors are significand numbers, and the exponents of the products stay in EXP_BITS (numbers do: section 1).
+// fp_add behind two products is fp_sum of rtl/SPEC.md, Numbers, without signs, for all pairs of products.
+// Assumed: the factors are significand numbers, and the exponents of the products stay in EXP_BITS (numbers do).
 module fp_add_proof #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,

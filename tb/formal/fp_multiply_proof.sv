@@ -1,4 +1,4 @@
-// fp_multiply is fp_multiply of rtl/README.md section 2, for all pairs of numbers.
+// fp_multiply is fp_multiply of rtl/SPEC.md, Numbers, for all pairs of numbers.
 // Assumed: the factors are significand numbers: the top bit is set, or significand and exponent are 0.
 module fp_multiply_proof #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,

@@ -1,4 +1,4 @@
-// fp_normalise is fp_from_magnitude of rtl/README.md section 2, for all magnitudes and biases; and holds its result while not active.
+// fp_normalise is fp_from_magnitude of rtl/SPEC.md, Numbers, for all magnitudes and biases; and holds its result while not active.
 module fp_normalise_proof #(
     parameter int WIDTH = 63,
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,

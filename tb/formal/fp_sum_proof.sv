@@ -1,5 +1,5 @@
-// fp_sum of two terms behind its fp_terms is fp_sum of rtl/README.md section 2, for all signs and all pairs of products.
-// Assumed: the factors are significand numbers, and the exponents of the products stay in EXP_BITS (numbers do: section 1).
+// fp_sum of two terms behind its fp_terms is fp_sum of rtl/SPEC.md, Numbers, for all signs and all pairs of products.
+// Assumed: the factors are significand numbers, and the exponents of the products stay in EXP_BITS (numbers do).
 module fp_sum_proof #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,

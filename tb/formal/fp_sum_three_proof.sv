@@ -1,4 +1,4 @@
-// fp_sum of three terms is fp_sum of four of which one is zero: the rule of rtl/README.md section 2 says nothing of how many terms there are.
+// fp_sum of three terms is fp_sum of four of which one is zero: the rule of rtl/SPEC.md, Numbers, says nothing of how many terms there are.
 // Assumed: ranks and terms are those of fp_term (proof fp_products), of exponents that stay in EXP_BITS.
 module fp_sum_three_proof #(
     parameter int ZERO = 3,  // the one of the four that is zero

@@ -1,4 +1,4 @@
-// A sum of two products as rtl/README.md section 2 has it, in integers wide enough for each step; for the proofs of fp_sum and fp_add.
+// A sum of two products as rtl/SPEC.md, Numbers, has it, in integers wide enough for each step; for the proofs of fp_sum and fp_add.
 // Defines m (the magnitude), e (the exponent of the largest term), negative, and the result exp_spec, sig_spec.
 localparam int G = quadrille_pkg::ALIGN_GUARD_BITS;
 localparam int WIDE = 2 * S + 4;

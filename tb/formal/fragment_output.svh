@@ -1,4 +1,4 @@
-  // fragment_output: rtl/README.md's rule for what leaves, in integers with bits to spare, of whatever the products' fixed point gives. Attribute: base and
+  // fragment_output: rtl/SPEC.md's rule for what leaves, in integers with bits to spare, of whatever the products' fixed point gives. Attribute: base and
   // quotient, rounded to nearest, halves away from zero; clamped to +-(2^(INT+FRAC)-1), flag 7 if it was. Depth: likewise, clamped to least and greatest;
   // discarded beyond those that cut, or if the quad is outside. Behind the eye nothing of a quad is drawn whose hull holds it.
   // From any contents of all registers, the latency on. Products and fixed point are left out (`cut`): their outputs are anything.

@@ -1,4 +1,4 @@
-// normalise is fp_from_int of rtl/README.md section 2: sign and fp_from_magnitude of |value| with BIAS, for all values; with CLAMP a negative one counts
+// normalise is fp_from_int of rtl/SPEC.md, Numbers: sign and fp_from_magnitude of |value| with BIAS, for all values; with CLAMP a negative one counts
 // as 0. Held while not active.
 module normalise_proof #(
     parameter int WIDTH = 20,

@@ -1,4 +1,4 @@
-// Edge functions and determinants of a quad with vertices (X, Y, W), as rtl/README.md section 4 has them. For the proofs of visibility.
+// Edge functions and determinants of a quad with vertices (X, Y, W), as rtl/SPEC.md, quad_setup, has them. For the proofs of visibility.
 // All numbers have BITS bits, vertices too: of narrower ones the solver would not know two sides of an identity for one polynomial.
 module quad_products #(
     parameter int BITS = quadrille_pkg::DET_BITS

@@ -1,4 +1,4 @@
-// table_polynomial is poly of rtl/README.md section 2 in integers that neither wrap nor lose a sign, clamped to significands, for all words and dx.
+// table_polynomial is poly of rtl/SPEC.md, Numbers, in integers that neither wrap nor lose a sign, clamped to significands, for all words and dx.
 // Assumed of the table (`quadrille config --emit-tables` makes such): C1 is not below the inner product, and C0 +- t0 is in C0's S + 4 bits.
 module table_polynomial_proof #(
     parameter int SEGMENTS_LOG2 = 3,

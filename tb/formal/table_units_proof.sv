@@ -1,4 +1,4 @@
-// reciprocal and sqrt of the default machine, with its tables: zero, powers of two and of four, exponents and signs as rtl/README.md section 2 has
+// reciprocal and sqrt of the default machine, with its tables: zero, powers of two and of four, exponents and signs as rtl/SPEC.md, Numbers, has
 // them, and every other result a significand number: its top bit set. For all numbers.
 // Assumed: the argument is a significand number.
 module table_units_proof #(

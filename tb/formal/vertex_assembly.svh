@@ -50,7 +50,7 @@
     end
   end
 
-  // The chosen vertex at the outputs; and of its W, fp_from_magnitude of rtl/README.md section 2
+  // The chosen vertex at the outputs; and of its W, fp_from_magnitude of rtl/SPEC.md, Numbers
   logic w_neg_there;
   logic [PE-1:0] w_exp_there, w_exp_spec;
   logic [S-1:0] w_sig_there, w_sig_spec;

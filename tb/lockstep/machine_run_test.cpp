@@ -11,7 +11,7 @@ namespace quadrille::tb {
 namespace {
 
 TEST(MachineRun, FirstFragmentOfOneQuad) {
-  // Four beats in clocks 0-3, the start in 4, then rtl/README.md section 4: PREP, RUN 0-7, DRAIN 2, DONE, and the walk.
+  // Four beats in clocks 0-3, the start in 4, then rtl/SPEC.md: PREP, RUN 0-7, DRAIN 2, DONE, and the walk.
   // The test bench's run of the same quad, which lockstep compares with the RTL, takes as many clocks in all.
   const Config config;
   DrawState state = small_state(config);
