@@ -75,7 +75,7 @@ module hierarchical_z #(
   always_ff @(posedge clk_i) begin
     start_q1 <= start_i;
     start_slot_q1 <= start_slot_i;
-    if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, on_i ? near_i : H'(0), far_i};
+    if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, near_i, far_i};
     if (take_i) begin
       {lowers_q, near_q, far_q} <= interval_q[take_slot_i];
       tile_x0_q <= tile_x0_i;
@@ -123,7 +123,7 @@ module hierarchical_z #(
   assign epoch_o = epoch_q;
   assign {word_tag, word_epoch, word_far} = word_q1;
   assign known = word_tag == tag_q1 && word_epoch == epoch_q;
-  assign hidden_o = known && near_q >= word_far;
+  assign hidden_o = on_i && known && near_q >= word_far;
   assign lower = tested_i && covered_i && whole_q1 && lowers_q && !(known && word_far <= far_q);
   assign write_place = wiping_q ? wipe_q : place_q1;
   assign write_word = {tag_q1, epoch_q, wiping_q ? {H{1'b1}} : far_q};
@@ -153,10 +153,12 @@ module hierarchical_z #(
   end
 
   // ---- Blocks of tiles ------------------------------------------------------------------------------------------------------
-  logic learn;
+  logic learn, block_behind;
   logic [H-1:0] near_next_q;  // what a hidden tile teaches is behind near: a quad hides nothing of itself
 
   assign learn = tested_i && (hidden_o || (covered_i && whole_q1 && lowers_q));
+
+  assign block_hidden_o = on_i && block_behind;
 
   always_ff @(posedge clk_i) near_next_q <= near_q + H'(1);
 
@@ -173,7 +175,7 @@ module hierarchical_z #(
       .last_column_i(block_last_column_i),
       .last_row_i(block_last_row_i),
       .near_i(near_q),
-      .hidden_o(block_hidden_o),
+      .hidden_o(block_behind),
       .learn_x_i(tile_x),
       .learn_y_i(tile_y),
       .learn_i(learn),

@@ -64,7 +64,7 @@ module masked_depth #(
   always_ff @(posedge clk_i) begin
     start_q1 <= start_i;
     start_slot_q1 <= start_slot_i;
-    if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, on_i ? near_i : H'(0), far_i};
+    if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, near_i, far_i};
   end
 
   // ---- The tile in the tag register -----------------------------------------------------------------------------------------
@@ -140,8 +140,8 @@ module masked_depth #(
       place_r <= place_c;
       tag_r <= tag_c;
       last_row_r <= last_row_c;
-      hidden_o <= known && near_c >= bounds_far;
-      masked_hidden_q <= known && near_c >= bounds_masked;
+      hidden_o <= on_i && known && near_c >= bounds_far;
+      masked_hidden_q <= on_i && known && near_c >= bounds_masked;
       useful_q <= useful;
       no_mask_q <= !known || bounds_masked == UNKNOWN;
       five_masked_q <= {1'b0, bounds_masked, 2'b00} + (H + 3)'(bounds_masked);

@@ -102,6 +102,22 @@ std::vector<Draw> make_draws(const Config& config, int width, int height, std::s
     }
     draws.push_back(std::move(draw));
   }
+  // Depths of code 0, which hide any quad, and then draws in which none is to be hidden.
+  for (int d = 0; d < 3; ++d) {
+    WindowQuad quad;
+    const double w = width, h = height, z = d == 0 ? 0 : 0.5;
+    quad.vertex = {{{0, 0, z, 1}, {0, h, z, 1}, {w, h, z, 1}, {w, 0, z, 1}}};
+    for (auto& attribute : quad.attribute) attribute = {0.5};
+    Draw draw;
+    draw.state.width = draw.state.scissor_x1 = width;
+    draw.state.height = draw.state.scissor_y1 = height;
+    draw.state.attributes = 1;
+    draw.state.depth = d != 2;
+    if (d == 0) draw.state.skip |= skip_hidden;
+    draw.clear = d == 0;
+    draw.quads.push_back(snap_quad(quad, config, draw.state));
+    draws.push_back(std::move(draw));
+  }
   return draws;
 }
 
