@@ -1,7 +1,9 @@
 #include "tb/device/verilate.hpp"
 
+#include "model/boundaries.hpp"
 #include "model/tables.hpp"
 #include "tb/device/build_notice.hpp"
+#include "tb/device/probes.hpp"
 #include "tb/support/environment_error.hpp"
 #include "tb/support/process.hpp"
 #include "tb/support/source_paths.hpp"
@@ -232,7 +234,13 @@ std::string device_constants(const fs::path& generated) {
       list << "    {\"" << name << "\", static_cast<int32_t>(Vquadrille_quadrille_pkg::" << name << ")},\n";
     }
   }
-  text << "const quadrille_constant quadrille_constants[] = {\n" << list.str() << "    {nullptr, 0}};\n";
+  text << "const quadrille_constant quadrille_constants[] = {\n"
+       << list.str() << "    {nullptr, 0}};\n"
+       << "#define QUADRILLE_FOR_EACH_PROBE(f)";
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Boundary::fragment); ++i)
+    text << " f(" << i << ", " << boundary_name(static_cast<Boundary>(i)) << ", "
+         << (has_lanes(static_cast<Boundary>(i)) ? "lanes" : "1") << ")";
+  text << "\n";
   return text.str();
 }
 
@@ -245,9 +253,7 @@ std::vector<fs::path> sources_of(const VerilateOptions& options) {
   } else {
     sources = {options.source};
   }
-  if (options.probes)
-    for (const char* file : {"quadrille_probes_pkg.sv", "quadrille_probed.sv"})
-      sources.push_back(glue_directory() / file);
+  if (options.probes) sources.push_back(glue_directory() / "quadrille_probed.sv");
   sources.insert(sources.end(), options.extra.begin(), options.extra.end());
   return sources;
 }
@@ -353,7 +359,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
   const bool one_file = !options.source.empty() && !fs::is_directory(options.source);
   if (one_file && options.probes)
     throw std::invalid_argument("a machine in one file has no probes: they name the modules and packages of rtl/");
-  const std::string tables = one_file ? "" : tables_package(config);
+  const std::string tables = one_file ? "" : tables_package(config), probes = options.probes ? probes_header() : "";
 
   // 1. Everything that decides the result.
   Fingerprint key;
@@ -362,6 +368,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
   key.add(tools.compiler_version);
   for (const std::string& define : key_defines(config)) key.add(define);
   key.add(tables);
+  key.add(probes);
   for (const fs::path& source : sources) key.add_file(source);
   for (const char* file : {"device_glue.cpp", "device_abi.h", "device_print.h", "device_trace.h"})
     key.add_file(glue / file);
@@ -401,6 +408,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
       write_text(work / "quadrille_tables_pkg.sv", tables);
       command.push_back("quadrille_tables_pkg.sv");
     }
+    if (options.probes) write_text(work / "quadrille_probes_pkg.svh", probes);
     for (const std::string& source : source_arguments(sources, work)) command.push_back(source);
     if (run_watched(
             command, work, log, [](std::string_view) {}, [&] { notice.tick(); }) != 0)
