@@ -62,6 +62,10 @@ std::string shrunk_file(const CosimOptions& options) {
   return name + ".quads";
 }
 
+/// By QuadReject.
+constexpr MetricKey left_out[quad_reject_count]{"left_out",      "left_out_empty",  "left_out_behind", "left_out_depth",
+                                                "left_out_line", "left_out_culled", "left_out_outside"};
+
 /// What is counted of the quads that a draw's first pass has drawn.
 void count_quads(std::span<const SnappedQuad> drawn, const Config& config, const DrawState& state,
                  InputResult& result) {
@@ -70,14 +74,10 @@ void count_quads(std::span<const SnappedQuad> drawn, const Config& config, const
     result["homogeneous_quads"] += !is_ordinary(quad, config);
     result["antipodal_quads"] += has_antipodal_edge(quad);
     result["tiny_quads"] += is_tiny(quad, config);
-    const QuadReject reject = quad_reject(quad, config, state);
-    result["left_out"] += reject != QuadReject::none;
-    result["left_out_empty"] += reject == QuadReject::empty;
-    result["left_out_behind"] += reject == QuadReject::behind;
-    result["left_out_depth"] += reject == QuadReject::depth;
-    result["left_out_line"] += reject == QuadReject::line;
-    result["left_out_culled"] += reject == QuadReject::culled;
-    result["left_out_outside"] += reject == QuadReject::outside;
+    if (const QuadReject reject = quad_reject(quad, config, state); reject != QuadReject::none) {
+      ++result["left_out"];
+      ++result[left_out[static_cast<std::size_t>(reject)]];
+    }
   }
 }
 

@@ -3,13 +3,13 @@
 #include "model/boundaries.hpp"
 #include "model/tables.hpp"
 #include "tb/device/build_notice.hpp"
+#include "tb/device/ninja_file.hpp"
 #include "tb/device/probes.hpp"
 #include "tb/support/environment_error.hpp"
 #include "tb/support/process.hpp"
 #include "tb/support/source_paths.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <mutex>
@@ -74,76 +74,6 @@ struct Tools {
   throw VerilateError(what + "; log " + kept.string() + ", which ends:\n" + tail_of(kept, 25));
 }
 
-std::string shell_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-/// A build.ninja of objects and one shared object of them, in a directory of its own.
-class NinjaFile {
- public:
-  NinjaFile(const Tools& tools, const std::vector<std::string>& flags) {
-    std::string compiler = shell_quoted(tools.compiler);
-    try {
-      compiler = shell_quoted(find_program("ccache", "ccache").string()) + " " + compiler;
-    } catch (const EnvironmentError&) {  // does without
-    }
-    text_ << "rule compile\n  command = " << value(compiler);
-    for (const std::string& flag : flags) text_ << ' ' << value(shell_quoted(flag));
-    text_ << " $flags -c $in -o $out\nrule link\n  command = " << value(shell_quoted(tools.compiler))
-          << " -shared -fPIC -Wl,-Bsymbolic -Wl,--no-undefined -o $out $in -lpthread -latomic $libraries\n";
-  }
-
-  /// `flags`: its own ones, quoted for the shell.
-  void object(const std::string& name, const fs::path& source, const std::string& flags) {
-    text_ << "build " << path(name) << ": compile " << path(source.string()) << "\n  flags = " << value(flags) << '\n';
-    objects_.push_back(name);
-  }
-  void link(const std::string& name, const std::vector<fs::path>& further, const std::string& libraries) {
-    text_ << "build " << path(name) << ": link";
-    for (const std::string& object : objects_) text_ << ' ' << path(object);
-    for (const fs::path& object : further) text_ << ' ' << path(object.string());
-    text_ << "\n  libraries = " << libraries << '\n';
-    ++steps_;
-  }
-  std::size_t steps() const { return objects_.size() + steps_; }
-
-  /// Runs Ninja in `directory`; `before` of the notice's steps are done. Returns its exit status.
-  int run(const fs::path& directory, const fs::path& log, unsigned jobs, BuildNotice& notice,
-          std::size_t before) const {
-    write_text(directory / "build.ninja", text_.str());
-    const std::vector<std::string> command{find_program("ninja", "ninja-build"), "-j", std::to_string(jobs)};
-    const std::size_t total = before + steps();
-    return run_watched(
-        command, directory, log,
-        [&](std::string_view line) {  // "[3/5] …" with the status that Ninja shows of itself
-          unsigned number = 0;
-          if (std::sscanf(std::string(line).c_str(), "[%u/", &number) == 1) notice.done(before + number, total);
-        },
-        [&] { notice.tick(); });
-  }
-
- private:
-  static std::string value(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) escaped += c == '$' ? std::string("$$") : std::string(1, c);
-    return escaped;
-  }
-  static std::string path(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-      if (c == '$' || c == ' ' || c == ':') escaped += '$';
-      escaped += c;
-    }
-    return escaped;
-  }
-
-  std::ostringstream text_;
-  std::vector<std::string> objects_;
-  std::size_t steps_ = 0;
-};
-
 /// Flags of everything that is compiled with Verilator's headers.
 std::vector<std::string> common_flags(const fs::path& include, bool trace) {
   return {"-fPIC",
@@ -185,7 +115,7 @@ Runtime runtime(const Tools& tools, const fs::path& include, const fs::path& glu
   result.entry = cached(
       name, trace ? "Verilator's run time with waveforms" : "Verilator's run time",
       [&](const fs::path& work) {
-        NinjaFile ninja(tools, flags);
+        NinjaFile ninja(tools.compiler, flags);
         for (const std::string& stem : stems)
           ninja.object(
               stem + ".o", include / (stem + ".cpp"),
@@ -422,7 +352,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
     flags.insert(flags.end(), {"-std=c++20", "-Iverilated", "-I" + glue.string(),
                                options.trace ? "-DQUADRILLE_TRACE=1" : "-DQUADRILLE_TRACE=0",
                                options.probes ? "-DQUADRILLE_PROBES=1" : "-DQUADRILLE_NO_PROBES=1"});
-    NinjaFile ninja(tools, flags);
+    NinjaFile ninja(tools.compiler, flags);
     for (const std::string& group : write_groups(work, generated))
       ninja.object(group + ".o", group + ".cpp",
                    group.starts_with("slow") ? "-O0"
