@@ -1,7 +1,8 @@
-// Every boundary of the machine, described once: its fields in the order of the packed struct (rtl/SPEC.md, Probes,
-// and 6), most significant first, with width, sign, fraction bits, unit and meaning. From these lists come what the
-// co-simulation compares and names, the records of the golden vectors (hex and manifest) and with them the DPI structs
-// and the ports of the replay benches, and the table of rtl/README.md. fields.hpp says what a list is.
+// Every boundary of the machine, described once: its fields in the order of the packed struct (rtl/README.md, Ports;
+// rtl/SPEC.md, Probes), most significant first, with width, sign, fraction bits, unit and meaning. From these lists
+// come what the co-simulation compares and names, its probes (tb/device/probes), the records of the golden vectors (hex
+// and manifest) and with them the DPI structs and the ports of the replay benches, and the table of rtl/README.md.
+// fields.hpp says what a list is.
 #pragma once
 
 #include "model/config.hpp"
@@ -176,7 +177,7 @@ void visit(Record& g, const Config& c, F&& f) {
 template <class Record, class F>
 requires std::same_as<std::remove_const_t<Record>, SetupResult>
 void visit(Record& r, const Config& c, F&& f) {
-  f(plain("slot", slot_bits(c), "slot of the quad"), -1, r.slot);
+  f(plain("slot", slot_bits(c), "slot of the quad").at("setup_slot"), -1, r.slot);
   f(plain("tile_x0", tc_bits(c), "first tile column", "tiles"), -1, r.tile_x0);
   f(plain("tile_y0", tc_bits(c), "first tile row", "tiles"), -1, r.tile_y0);
   f(plain("tiles_x", tc_bits(c), "tile columns, 0 for an empty bounding box", "tiles"), -1, r.tiles_x);
@@ -186,13 +187,14 @@ void visit(Record& r, const Config& c, F&& f) {
   f(plain("visible", 4, "clauses that may be drawn; bit 0: first +, 1: second +, 2: first -, 3: second -"), -1,
     r.visible);
   visit_array(
-      f, linear_value(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].value; });
+      f, linear_value(c).at("setup_lin_value"),
+      linear_count, [&](std::size_t i) -> auto& { return r.linear[i].value; });
   visit_array(
-      f, linear_gx(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gx; });
+      f, linear_gx(c).at("setup_lin_gx"), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gx; });
   visit_array(
-      f, linear_gy(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gy; });
+      f, linear_gy(c).at("setup_lin_gy"), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gy; });
   visit_array(
-      f, squared_length(c), linear_count, [&](std::size_t i) -> auto& { return r.length2[i]; });
+      f, squared_length(c).at("setup_length2"), linear_count, [&](std::size_t i) -> auto& { return r.length2[i]; });
 }
 
 template <class Record, class F>
@@ -217,8 +219,8 @@ void visit(Record& t, const Config& c, F&& f) {
 template <class Record, class F>
 requires std::same_as<std::remove_const_t<Record>, StampEntry>
 void visit(Record& s, const Config& c, F&& f) {
-  f(plain("end_token", 1, "the quad has no further stamp; the masks are 0"), -1, s.end);
-  f(plain("tile_ptr", {c.ring_log2() + 1, "TILE_SLOTS_LOG2+2"}, "entry of the tile ring"), -1, s.tile_ptr);
+  f(plain("end_token", 1, "the quad has no further stamp; the masks are 0").at("push_end"), -1, s.end);
+  f(plain("tile_ptr", {c.ring_log2() + 1, "TILE_SLOTS_LOG2+2"}, "entry of the tile ring").at("ptr"), -1, s.tile_ptr);
   f(plain("row", tile_log2(c), "row in the tile", "px"), -1, s.row);
   f(plain("mask", tile_bits(c), "covered pixels, bit dx"), -1, s.mask);
   f(plain("front", tile_bits(c), "of these, front faces"), -1, s.front);
@@ -242,39 +244,46 @@ requires std::same_as<std::remove_const_t<Record>, PixelTrace>
 void visit(Record& p, Boundary b, const Config& c, F&& f) {
   switch (b) {
     case Boundary::diff:
-      f(plain("slot", slot_bits(c), "slot of the quad"), -1, p.slot);
-      f(plain("x", viewport_bits(c), "column", "px"), -1, p.x);
-      f(plain("y", viewport_bits(c), "row", "px"), -1, p.y);
-      f(plain("front", 1, "front face"), -1, p.front);
-      f(plain("tie", 1, "coverage was decided by the tie rule"), -1, p.tie);
+      f(plain("slot", slot_bits(c), "slot of the quad").at("u_quadrille.u_pipeline.diff_tag.slot"), -1, p.slot);
+      f(plain("x", viewport_bits(c), "column", "px")
+            .at("{u_quadrille.u_pipeline.diff_tag.tile_x, `QUADRILLE_LANE.diff_tag[2+:TILE_LOG2]}"),
+        -1, p.x);
+      f(plain("y", viewport_bits(c), "row", "px").at("u_quadrille.u_pipeline.diff_tag.y"), -1, p.y);
+      f(plain("front", 1, "front face").at("tag[1]"), -1, p.front);
+      f(plain("tie", 1, "coverage was decided by the tie rule").at("tag[0]"), -1, p.tie);
       visit_exact(p, c, f);
       break;
     case Boundary::norm:
-      f(plain("two_corner", 1, "two or more r2 are at most 0"), -1, p.two_corner);
-      f(plain("on_vertex", 1, "one r2 is"), -1, p.on_vertex);
-      f(plain("two_edge", 1, "no r2 is, and two or more edges have A = 0 and D < 0"), -1, p.two_edge);
-      f(plain("on_edge", 1, "one edge has"), -1, p.on_edge);
+      f(plain("two_corner", 1, "two or more r2 are at most 0").at("class[CLASS_BITS-1]"), -1, p.two_corner);
+      f(plain("on_vertex", 1, "one r2 is").at("class[CLASS_BITS-2]"), -1, p.on_vertex);
+      f(plain("two_edge", 1, "no r2 is, and two or more edges have A = 0 and D < 0").at("class[CLASS_BITS-3]"), -1,
+        p.two_edge);
+      f(plain("on_edge", 1, "one edge has").at("class[CLASS_BITS-4]"), -1, p.on_edge);
       visit_numbers(
-          f, signed_numbers("a_neg", "a_exp", "a_sig", c, "A in units of 2^-QUADRATIC_FRAC px^2"),
+          f,
+          signed_numbers("a_neg", "a_exp", "a_sig", c, "A in units of 2^-QUADRATIC_FRAC px^2")
+              .while_active("norm_active"),
           6, [&](std::size_t i) -> auto& { return p.a_fp[i]; });
       visit_numbers(
-          f, signed_numbers("d_neg", "d_exp", "d_sig", c, "D in the same units"),
+          f, signed_numbers("d_neg", "d_exp", "d_sig", c, "D in the same units").while_active("distance_active"),
           6, [&](std::size_t i) -> auto& { return p.d_fp[i]; });
       visit_numbers(
-          f, magnitudes("r2_exp", "r2_sig", c, "r2 in the same units"),
+          f, magnitudes("r2_exp", "r2_sig", c, "r2 in the same units").while_active("distance_active"),
           4, [&](std::size_t i) -> auto& { return p.r2_fp[i]; });
       break;
     case Boundary::sqrt:
       visit_numbers(
-          f, magnitudes("exp", "sig", c, "r = r2^(1/2); of 0: 0"),
+          f, magnitudes("exp", "sig", c, "r = r2^(1/2); of 0: 0").while_active("root_active"),
           4, [&](std::size_t i) -> auto& { return p.root[i]; });
       break;
     case Boundary::ratio:
       visit_numbers(
-          f, magnitudes("u_exp", "u_sig", c, "u = r r' + |D|, pairs 01 12 23 30 20 13"),
+          f, magnitudes("u_exp", "u_sig", c, "u = r r' + |D|, pairs 01 12 23 30 20 13").while_active("ratio_active"),
           6, [&](std::size_t i) -> auto& { return p.u[i]; });
       visit_numbers(
-          f, magnitudes("v_exp", "v_sig", c, "v = |A|: |tan of half the angle| = v/u, of D < 0 u/v"),
+          f,
+          magnitudes("v_exp", "v_sig", c, "v = |A|: |tan of half the angle| = v/u, of D < 0 u/v")
+              .while_active("ratio_v_active"),
           6, [&](std::size_t i) -> auto& { return p.v[i]; });
       break;
     case Boundary::weight:
@@ -284,11 +293,13 @@ void visit(Record& p, Boundary b, const Config& c, F&& f) {
       break;
     case Boundary::sum:
       visit_numbers(
-          f, signed_numbers("attr_neg", "attr_exp", "attr_sig", c, "sum of M b of an attribute, corners 1 to 3"),
+          f,
+          signed_numbers("attr_neg", "attr_exp", "attr_sig", c, "sum of M b of an attribute, corners 1 to 3")
+              .from_element(3),
           c.attribute_slots, [&](std::size_t i) -> auto& { return p.num_a[i]; });
-      visit_number(f, signed_numbers("z_neg", "z_exp", "z_sig", c, "sum of M Z"), p.num_z);
-      visit_number(f, signed_numbers("den_k_neg", "den_k_exp", "den_k_sig", c, "sum of M k"), p.den_k);
-      visit_number(f, signed_numbers("den_w_neg", "den_w_exp", "den_w_sig", c, "sum of M W"), p.den_w);
+      visit_number(f, signed_numbers("z_neg", "z_exp", "z_sig", c, "sum of M Z").from_element(2), p.num_z);
+      visit_number(f, signed_numbers("den_k_neg", "den_k_exp", "den_k_sig", c, "sum of M k").from_element(0), p.den_k);
+      visit_number(f, signed_numbers("den_w_neg", "den_w_exp", "den_w_sig", c, "sum of M W").from_element(1), p.den_w);
       break;
     default:
       break;
@@ -298,6 +309,8 @@ void visit(Record& p, Boundary b, const Config& c, F&& f) {
 // ---- Layouts ----
 
 const char* boundary_name(Boundary b);
+/// Each lane of the port has one of its own: the pixels' and the fragments'.
+constexpr bool has_lanes(Boundary b) { return b >= Boundary::diff; }
 RecordLayout boundary_layout(Boundary b, const Config& config);
 RecordLayout vertex_layout(const Config& config);
 RecordLayout state_layout(const Config& config);
@@ -312,6 +325,8 @@ struct BoundaryDescription {
   int bits = 0;
   std::vector<BoundaryField> fields;  ///< the most significant first, elements of interleaved arrays together
 };
+/// Attribute slots that no other array has as its length, for tables in which that is N.
+inline constexpr int slots_of_tables = 5;
 /// The structs of rtl/README.md, Ports, and rtl/SPEC.md, Probes.
 std::vector<BoundaryDescription> describe_ports(const Config& config);
 std::vector<BoundaryDescription> describe_probes(const Config& config);

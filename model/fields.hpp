@@ -30,6 +30,17 @@ struct FieldType {
   std::optional<Bits> fraction_bits{};
   const char* unit = "";
   const char* meaning = "";
+  // Where a probe finds it (tb/device/probes.cpp).
+  const char* signal = nullptr;  ///< of the RTL, in its boundary's scope unless it has a dot; nullptr: the name
+  const char* active = nullptr;  ///< a wire: while it is low the probe shows 0
+  int element = -1;              ///< its first element of the array `signal`; -1: all of it
+
+  /// The same field, found there.
+  constexpr FieldType at(const char* where) const {
+    FieldType type = *this;
+    type.signal = where;
+    return type;
+  }
 };
 
 /// An unsigned field.
@@ -149,10 +160,35 @@ struct FpType {
   const char *neg, *exp, *sig;
   Bits exp_bits, significand_bits;
   const char* meaning;
+  // As FieldType's; with an element the arrays are neg, exp and sig.
+  const char* active = nullptr;
+  int element = -1;
 
-  FieldType neg_type() const { return plain(neg, 1, "sign of the number that sig holds"); }
-  FieldType exp_type() const { return {exp, exp_bits, true, {}, "log2", "exponent of the number that sig holds"}; }
-  FieldType sig_type() const { return {sig, significand_bits, false, Bits{significand_bits - 1, "S−1"}, "1", meaning}; }
+  FieldType neg_type() const { return found("neg", plain(neg, 1, "sign of the number that sig holds")); }
+  FieldType exp_type() const {
+    return found("exp", {exp, exp_bits, true, {}, "log2", "exponent of the number that sig holds"});
+  }
+  FieldType sig_type() const {
+    return found("sig", {sig, significand_bits, false, Bits{significand_bits - 1, "S−1"}, "1", meaning});
+  }
+  FpType while_active(const char* wire) const {
+    FpType type = *this;
+    type.active = wire;
+    return type;
+  }
+  FpType from_element(int first) const {
+    FpType type = *this;
+    type.element = first;
+    return type;
+  }
+
+ private:
+  FieldType found(const char* array, FieldType type) const {
+    if (element >= 0) type.signal = array;
+    type.active = active;
+    type.element = element;
+    return type;
+  }
 };
 
 /// Arrays of signs, exponents and significands of `count` numbers (PipelineFloat or PortNumber).

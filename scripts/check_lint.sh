@@ -7,6 +7,7 @@ cd "$(dirname "$0")/../rtl"
 tables=$(mktemp -d)
 trap 'rm -rf "$tables"' EXIT
 count=0
+"$quadrille" config --boundaries sv >"$tables/quadrille_probes_pkg.svh"
 lint() {
   local sets=() defines=()
   for kv in "$@"; do
@@ -17,8 +18,7 @@ lint() {
   "$quadrille" config --quiet "${sets[@]}" --emit-tables "$tables/quadrille_tables_pkg.sv" >/dev/null
   local machine=(quadrille_pkg.sv "$tables/quadrille_tables_pkg.sv" $(ls ./*.sv | grep -v _pkg.sv))
   verilator --lint-only -Wall "${defines[@]}" --top-module quadrille "${machine[@]}"
-  verilator --lint-only -Wall "${defines[@]}" --top-module quadrille_probed "${machine[@]}" \
-    ../tb/device/quadrille_probes_pkg.sv ../tb/device/quadrille_probed.sv
+  verilator --lint-only -Wall "${defines[@]}" --top-module quadrille_probed -I"$tables" "${machine[@]}" ../tb/device/quadrille_probed.sv
   count=$((count + 1))
 }
 lint significand_bits=18

@@ -101,7 +101,7 @@ void QuantityErrors::merge(const QuantityErrors& other) {
 bool CheckResult::ok() const { return compared > 0 && faults() == 0; }
 
 void CheckResult::merge(const CheckResult& other) {
-  add_counters(*this, other, check_counters);
+  for (const CheckCounter& counter : check_counters) this->*counter.value += other.*counter.value;
   weight.merge(other.weight);
   attribute.merge(other.attribute);
   depth.merge(other.depth);

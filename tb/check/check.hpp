@@ -5,6 +5,7 @@
 #include "model/records.hpp"
 #include "tb/check/hidden_check.hpp"
 #include "tb/check/judged_quad.hpp"
+#include "tb/check/metric.hpp"
 #include "tb/passes/pass.hpp"
 #include "tb/support/error_stats.hpp"
 #include "tb/support/work_queue.hpp"
@@ -16,7 +17,6 @@
 #include <mutex>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace quadrille::cli {
@@ -56,33 +56,17 @@ struct RelativeErrors {
   }
 };
 
-/// What was found; merging does not depend on the order. Every counter stands in check_counters.
+/// What was found; merging does not depend on the order. check_counters says what each counter is.
 struct CheckResult {
-  std::uint64_t compared = 0;  ///< fragments compared with the truth
-  std::uint64_t mismatches =
-      0;  ///< pixels that the machine drew and the truth does not, or the reverse, or with other flags or facing
-  std::uint64_t beyond_bound = 0;      ///< fragments with a weight beyond its bound
-  std::uint64_t beyond_attribute = 0;  ///< with an attribute beyond its bound, or saturated wrongly
-  std::uint64_t beyond_depth = 0;      ///< the same of window z
+  std::uint64_t compared = 0, mismatches = 0, beyond_bound = 0, beyond_attribute = 0, beyond_depth = 0,
+                coverage_flips = 0, tolerated_visible = 0, tolerated_depth = 0, hidden = 0, discarded = 0,
+                bound_exempt = 0, eye_crossing = 0, homogeneous = 0, on_edge = 0, on_vertex = 0, two_corner = 0,
+                two_edge = 0, tie = 0, notch = 0, saturated = 0, near_edge = 0, near_vertex = 0, tiny = 0;
 
   RelativeErrors weight, attribute, depth;
 
   QuantityErrors arithmetic;  ///< the machine against the truth on snapped quads
   QuantityErrors snapping;    ///< the truth on snapped against the truth on given quads
-
-  // Legitimate differences.
-  std::uint64_t coverage_flips = 0;     ///< drawn pixels that the given, unsnapped quad does not cover
-  std::uint64_t tolerated_visible = 0;  ///< eye in the hull and |sum(M w)| below the bound: either answer is right
-  /// Window z within its bound of znear or zfar, of quads that the limit cuts: drawn or not, either is right.
-  std::uint64_t tolerated_depth = 0;
-  std::uint64_t hidden = 0;     ///< covered pixels rightly left out: the depth buffer refuses them
-  std::uint64_t discarded = 0;  ///< covered pixels rightly discarded by window z
-  std::uint64_t bound_exempt =
-      0;  ///< fragments with a value that no bound speaks of: sum(M W) cancels to what the weights' errors leave of it
-
-  // What the fragments were.
-  std::uint64_t eye_crossing = 0, homogeneous = 0, on_edge = 0, on_vertex = 0, two_corner = 0, two_edge = 0, tie = 0,
-                notch = 0, saturated = 0, near_edge = 0, near_vertex = 0, tiny = 0;
 
   /// The fragment nearest to (or farthest beyond) the bound.
   struct Worst {
@@ -105,45 +89,77 @@ struct CheckResult {
   bool ok() const;
 };
 
-/// A counter and its key in a JSON report. Counters merge by adding.
-template <class Owner>
-struct Counter {
-  const char* key;
-  std::uint64_t Owner::*value;
+struct CheckCounter : Metric {
+  std::uint64_t CheckResult::*value;
 };
 
 /// Every counter of a check: faults, then what the fragments were and legitimate differences, then how much was seen.
-inline constexpr Counter<CheckResult> check_counters[]{{"reference_mismatches", &CheckResult::mismatches},
-                                                       {"beyond_bound", &CheckResult::beyond_bound},
-                                                       {"beyond_attribute", &CheckResult::beyond_attribute},
-                                                       {"beyond_depth", &CheckResult::beyond_depth},
+inline constexpr CheckCounter check_counters[]{
+    {{"reference_mismatches", MetricGroup::faults, "pixels",
+      "drawn by the machine and not by the truth, or the reverse, or with other flags or facing", MetricLine::reference,
+      ", {reference_mismatches} differ\n"},
+     &CheckResult::mismatches},
+    {{"beyond_bound", MetricGroup::faults, "fragments", "with a weight beyond its bound"}, &CheckResult::beyond_bound},
+    {{"beyond_attribute", MetricGroup::faults, "fragments", "with an attribute beyond its bound, or saturated wrongly"},
+     &CheckResult::beyond_attribute},
+    {{"beyond_depth", MetricGroup::faults, "fragments", "with window z beyond its bound"}, &CheckResult::beyond_depth},
 
-                                                       {"eye_crossing", &CheckResult::eye_crossing},
-                                                       {"homogeneous", &CheckResult::homogeneous},
-                                                       {"on_edge", &CheckResult::on_edge},
-                                                       {"on_vertex", &CheckResult::on_vertex},
-                                                       {"two_corner", &CheckResult::two_corner},
-                                                       {"two_edge", &CheckResult::two_edge},
-                                                       {"tie", &CheckResult::tie},
-                                                       {"near_edge", &CheckResult::near_edge},
-                                                       {"near_vertex", &CheckResult::near_vertex},
-                                                       {"tiny", &CheckResult::tiny},
-                                                       {"notch", &CheckResult::notch},
-                                                       {"saturated", &CheckResult::saturated},
-                                                       {"hidden", &CheckResult::hidden},
-                                                       {"discarded", &CheckResult::discarded},
-                                                       {"coverage_flips", &CheckResult::coverage_flips},
-                                                       {"tolerated_visible", &CheckResult::tolerated_visible},
-                                                       {"tolerated_depth", &CheckResult::tolerated_depth},
+    {{"eye_crossing", MetricGroup::counts, "fragments", "of quads with vertices before and behind the eye",
+      MetricLine::fragments, "\n  fragments of   eye-crossing quads {eye_crossing} ({eye_crossing_quads} quads), "},
+     &CheckResult::eye_crossing},
+    {{"homogeneous", MetricGroup::counts, "fragments", "of quads with some w other than 1"}, &CheckResult::homogeneous},
+    {{"on_edge", MetricGroup::counts, "fragments", "on one edge", MetricLine::singular,
+      "                 on an edge {on_edge}, "},
+     &CheckResult::on_edge},
+    {{"on_vertex", MetricGroup::counts, "fragments", "on one vertex", MetricLine::singular, "a vertex {on_vertex}, "},
+     &CheckResult::on_vertex},
+    {{"two_corner", MetricGroup::counts, "fragments", "on two corners", MetricLine::singular,
+      "two corners {two_corner}, "},
+     &CheckResult::two_corner},
+    {{"two_edge", MetricGroup::counts, "fragments", "on two edges", MetricLine::singular, "two edges {two_edge}, "},
+     &CheckResult::two_edge},
+    {{"tie", MetricGroup::counts, "fragments", "decided by the tie rule", MetricLine::singular, "ties {tie}\n"},
+     &CheckResult::tie},
+    {{"near_edge", MetricGroup::counts, "fragments", "within 1/16 px of an edge", MetricLine::near,
+      "                 within 1/16 px of an edge {near_edge}, "},
+     &CheckResult::near_edge},
+    {{"near_vertex", MetricGroup::counts, "fragments", "within 1 px of a vertex", MetricLine::near,
+      "within 1 px of a vertex {near_vertex}\n"},
+     &CheckResult::near_vertex},
+    {{"tiny", MetricGroup::counts, "fragments", "of quads under 4 px", MetricLine::fragments,
+      "under-4-px quads {tiny}\n"},
+     &CheckResult::tiny},
+    {{"notch", MetricGroup::counts, "fragments", "where an edge turns backward", MetricLine::verbose,
+      "                 notches {notch}, "},
+     &CheckResult::notch},
+    {{"saturated", MetricGroup::counts, "fragments", "with an attribute clamped to its format", MetricLine::verbose,
+      "saturated {saturated}, "},
+     &CheckResult::saturated},
+    {{"hidden", MetricGroup::counts, "pixels", "covered and rightly left out: the depth buffer refuses them"},
+     &CheckResult::hidden},
+    {{"discarded", MetricGroup::counts, "pixels", "covered and rightly discarded by window z", MetricLine::verbose,
+      "discarded by z {discarded}, "},
+     &CheckResult::discarded},
+    {{"coverage_flips", MetricGroup::counts, "pixels", "drawn that the given, unsnapped quad does not cover",
+      MetricLine::verbose, "moved by snapping {coverage_flips}\n"},
+     &CheckResult::coverage_flips},
+    {{"tolerated_visible", MetricGroup::counts, "pixels",
+      "with the eye in the hull and a sum of M W within its bound of 0: drawn or not, either is right",
+      MetricLine::tolerated_visible,
+      "                 {tolerated_visible} with the eye in the hull and a sum of M W within its bound of 0\n"},
+     &CheckResult::tolerated_visible},
+    {{"tolerated_depth", MetricGroup::counts, "pixels",
+      "with window z within its bound of a limit that cuts the quad: drawn or not, either is right",
+      MetricLine::tolerated_depth,
+      "                 tolerated, either being right: {tolerated_depth} within a depth's bound of a limit that cuts "
+      "the quad,\n"},
+     &CheckResult::tolerated_depth},
 
-                                                       {"compared", &CheckResult::compared},
-                                                       {"exempt_fragments", &CheckResult::bound_exempt}};
-inline constexpr std::span fault_counters(check_counters, 4), fragment_counters(check_counters + 4, 17);
-
-template <class Owner>
-void add_counters(Owner& sum, const Owner& part, std::span<const Counter<std::type_identity_t<Owner>>> counters) {
-  for (const Counter<Owner>& counter : counters) sum.*counter.value += part.*counter.value;
-}
+    {{"compared", MetricGroup::none, "fragments", "compared with the truth"}, &CheckResult::compared},
+    {{"exempt_fragments", MetricGroup::none, "fragments",
+      "with a value that no bound speaks of: sum(M W) cancels to what the weights' errors leave of it"},
+     &CheckResult::bound_exempt}};
+inline constexpr std::span fault_counters(check_counters, 4);
 
 /// Facts about a snapped quad that the counters need.
 bool is_eye_crossing(const SnappedQuad& quad);

@@ -10,6 +10,7 @@
 #include "model/boundaries.hpp"
 #include "model/tables.hpp"
 #include "tb/check/judged_quad.hpp"
+#include "tb/device/probes.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 
@@ -115,10 +116,9 @@ std::string symbol(const Bits& bits, bool symbols) {
 
 /// The fields of ports or probes: of this configuration, or as Markdown by the names of rtl/SPEC.md, Widths.
 std::string boundary_listing(const std::string& which, const Config& given, bool markdown) {
-  // In the tables the number of attributes is N: one that no other array has as its length.
-  constexpr int n = 5;
   Config config = given;
-  if (markdown) config.attribute_slots = n;
+  if (markdown) config.attribute_slots = slots_of_tables;
+  if (which == "sv") return tb::probes_header();
   std::string text;
   for (const auto& [name, bits, fields] : which == "ports" ? describe_ports(config) : describe_probes(config)) {
     text += text.empty() ? "" : "\n";
@@ -126,8 +126,9 @@ std::string boundary_listing(const std::string& which, const Config& given, bool
                      : padded(name, 13) + padded("bits", 18) + padded("fraction", 10) + padded("unit", 8) +
                            "meaning (" + std::to_string(bits) + " bits)\n";
     for (const auto& [type, count] : fields) {
-      const std::string width = (count == 0 ? "" : (markdown && count == n ? "N" : std::to_string(count)) + " × ") +
-                                symbol(type.width, markdown) + (type.is_signed ? ", signed" : "");
+      const std::string width =
+          (count == 0 ? "" : (markdown && count == slots_of_tables ? "N" : std::to_string(count)) + " × ") +
+          symbol(type.width, markdown) + (type.is_signed ? ", signed" : "");
       const std::string fraction = type.fraction_bits ? symbol(*type.fraction_bits, markdown) : "";
       if (markdown)
         text += "| `" + std::string(type.name) + "` | " + width + " | " + fraction + " | " + type.unit + " | " +
@@ -200,9 +201,10 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
   auto* boundaries =
       command
           ->add_option("--boundaries", options->boundaries,
-                       "Instead list the fields of the machine's ports or probes, most significant first")
-          ->type_name("ports|probes")
-          ->check(CLI::IsMember({"ports", "probes"}));
+                       "Instead list the fields of the machine's ports or probes, most significant first; sv: the "
+                       "probes' structs and connections that quadrille_probed.sv includes")
+          ->type_name("ports|probes|sv")
+          ->check(CLI::IsMember({"ports", "probes", "sv"}));
   auto* markdown = command->add_flag("--markdown", options->markdown, "The listing as Markdown tables");
   command->add_flag("--toml", options->toml, "The configuration as a file that --config reads")
       ->excludes(markdown)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tb/commands/cosim_draws.hpp"
+#include "tb/commands/cosim_options.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -20,5 +21,8 @@ struct BatteryGroup {
 
 /// In the order in which they run: those that see most come first.
 std::vector<BatteryGroup> battery_groups();
+
+/// Runs them, or those that --battery names; the exit status.
+int run_battery(const CosimOptions& options, const Config& config, const std::vector<std::string>& arguments);
 
 }  // namespace quadrille::cli

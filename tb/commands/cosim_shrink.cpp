@@ -123,8 +123,6 @@ class FailedPassRuns {
   tb::LockstepReport report_;
 };
 
-std::string quoted(const std::string& argument) { return golden::command_line(std::span(&argument, 1)); }
-
 std::string command_of(const FailingDraw& draw, const FailedPass& failed, const ShrinkOptions& options,
                        const CommonOptions& common) {
   std::string command = "quadrille cosim --quads " + quoted(options.quads);
@@ -152,6 +150,8 @@ std::string counted(std::size_t count, const char* thing) {
 }
 
 }  // namespace
+
+std::string quoted(const std::string& argument) { return golden::command_line(std::span(&argument, 1)); }
 
 void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, const CommonOptions& common) {
   const tb::LockstepOptions& lockstep = failed.lockstep;

@@ -27,6 +27,9 @@ struct ShrinkOptions {
   double seconds = 60;  ///< after which the search ends with what it has
 };
 
+/// The argument as a shell wants it.
+std::string quoted(const std::string& argument);
+
 /// Shrinks, writes both files and says on standard error what is left, the command and the waveform.
 void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, const CommonOptions& common);
 

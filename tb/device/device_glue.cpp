@@ -27,7 +27,7 @@ thread_local int quadrille_trace_error = 0;  // set by device_trace.h
 #include <string>
 #include <vector>
 
-#include "device_constants.inc"  // includes the package's header and defines quadrille_constants[]
+#include "device_constants.inc"  // widths, quadrille_constants[], QUADRILLE_FOR_EACH_PROBE(f): f(index, name, lanes)
 
 namespace {
 
@@ -175,11 +175,6 @@ struct quadrille_device {
   }
 };
 
-// f(index, name) for every boundary, in the order of quadrille_sample::probe.
-constexpr int first_pixel_probe = 3;  // it and those behind it have lanes
-#define QUADRILLE_FOR_EACH_PROBE(f) \
-  f(0, setup) f(1, tile) f(2, stamp) f(3, diff) f(4, norm) f(5, sqrt) f(6, ratio) f(7, weight) f(8, sum)
-
 namespace {
 
 quadrille_device* create(uint64_t seed) {
@@ -205,9 +200,8 @@ quadrille_device* create(uint64_t seed) {
     static_assert(lanes <= quadrille_most_lanes);
     bind(top.fragment_o, QUADRILLE_WIDTH_fragment, lanes, s.fragment_width, s.fragment_words, device->fragment_copy);
 #ifdef QUADRILLE_PROBES
-#define QUADRILLE_BIND(i, name)                                                                             \
-  bind(top.probe_##name##_o, QUADRILLE_WIDTH_##name, (i) < first_pixel_probe ? 1 : lanes, s.probe[i].width, \
-       s.probe[i].words, device->probe_copy[i]);
+#define QUADRILLE_BIND(i, name, lanes) \
+  bind(top.probe_##name##_o, QUADRILLE_WIDTH_##name, lanes, s.probe[i].width, s.probe[i].words, device->probe_copy[i]);
     QUADRILLE_FOR_EACH_PROBE(QUADRILLE_BIND)
 #undef QUADRILLE_BIND
 #endif
@@ -265,7 +259,7 @@ const quadrille_sample* sample(quadrille_device* d) {
   s.busy = top.busy_o;
   refresh(top.fragment_o, d->fragment_copy);
 #ifdef QUADRILLE_PROBES
-#define QUADRILLE_REFRESH(i, name)               \
+#define QUADRILLE_REFRESH(i, name, lanes)        \
   s.probe[i].valid = top.probe_##name##_valid_o; \
   refresh(top.probe_##name##_o, d->probe_copy[i]);
   QUADRILLE_FOR_EACH_PROBE(QUADRILLE_REFRESH)

@@ -1,14 +1,16 @@
 #include "tb/device/verilate.hpp"
 
+#include "model/boundaries.hpp"
 #include "model/config_text.hpp"
 #include "model/tables.hpp"
 #include "tb/device/build_notice.hpp"
+#include "tb/device/ninja_file.hpp"
+#include "tb/device/probes.hpp"
 #include "tb/support/environment_error.hpp"
 #include "tb/support/process.hpp"
 #include "tb/support/source_paths.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <mutex>
@@ -73,76 +75,6 @@ struct Tools {
   throw VerilateError(what + "; log " + kept.string() + ", which ends:\n" + tail_of(kept, 25));
 }
 
-std::string shell_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-/// A build.ninja of objects and one shared object of them, in a directory of its own.
-class NinjaFile {
- public:
-  NinjaFile(const Tools& tools, const std::vector<std::string>& flags) {
-    std::string compiler = shell_quoted(tools.compiler);
-    try {
-      compiler = shell_quoted(find_program("ccache", "ccache").string()) + " " + compiler;
-    } catch (const EnvironmentError&) {  // does without
-    }
-    text_ << "rule compile\n  command = " << value(compiler);
-    for (const std::string& flag : flags) text_ << ' ' << value(shell_quoted(flag));
-    text_ << " $flags -c $in -o $out\nrule link\n  command = " << value(shell_quoted(tools.compiler))
-          << " -shared -fPIC -Wl,-Bsymbolic -Wl,--no-undefined -o $out $in -lpthread -latomic $libraries\n";
-  }
-
-  /// `flags`: its own ones, quoted for the shell.
-  void object(const std::string& name, const fs::path& source, const std::string& flags) {
-    text_ << "build " << path(name) << ": compile " << path(source.string()) << "\n  flags = " << value(flags) << '\n';
-    objects_.push_back(name);
-  }
-  void link(const std::string& name, const std::vector<fs::path>& further, const std::string& libraries) {
-    text_ << "build " << path(name) << ": link";
-    for (const std::string& object : objects_) text_ << ' ' << path(object);
-    for (const fs::path& object : further) text_ << ' ' << path(object.string());
-    text_ << "\n  libraries = " << libraries << '\n';
-    ++steps_;
-  }
-  std::size_t steps() const { return objects_.size() + steps_; }
-
-  /// Runs Ninja in `directory`; `before` of the notice's steps are done. Returns its exit status.
-  int run(const fs::path& directory, const fs::path& log, unsigned jobs, BuildNotice& notice,
-          std::size_t before) const {
-    write_text(directory / "build.ninja", text_.str());
-    const std::vector<std::string> command{find_program("ninja", "ninja-build"), "-j", std::to_string(jobs)};
-    const std::size_t total = before + steps();
-    return run_watched(
-        command, directory, log,
-        [&](std::string_view line) {  // "[3/5] …" with the status that Ninja shows of itself
-          unsigned number = 0;
-          if (std::sscanf(std::string(line).c_str(), "[%u/", &number) == 1) notice.done(before + number, total);
-        },
-        [&] { notice.tick(); });
-  }
-
- private:
-  static std::string value(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) escaped += c == '$' ? std::string("$$") : std::string(1, c);
-    return escaped;
-  }
-  static std::string path(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-      if (c == '$' || c == ' ' || c == ':') escaped += '$';
-      escaped += c;
-    }
-    return escaped;
-  }
-
-  std::ostringstream text_;
-  std::vector<std::string> objects_;
-  std::size_t steps_ = 0;
-};
-
 /// Flags of everything that is compiled with Verilator's headers.
 std::vector<std::string> common_flags(const fs::path& include, bool trace) {
   return {"-fPIC",
@@ -184,7 +116,7 @@ Runtime runtime(const Tools& tools, const fs::path& include, const fs::path& glu
   result.entry = cached(
       name, trace ? "Verilator's run time with waveforms" : "Verilator's run time",
       [&](const fs::path& work) {
-        NinjaFile ninja(tools, flags);
+        NinjaFile ninja(tools.compiler, flags);
         for (const std::string& stem : stems)
           ninja.object(
               stem + ".o", include / (stem + ".cpp"),
@@ -233,7 +165,13 @@ std::string device_constants(const fs::path& generated) {
       list << "    {\"" << name << "\", static_cast<int32_t>(Vquadrille_quadrille_pkg::" << name << ")},\n";
     }
   }
-  text << "const quadrille_constant quadrille_constants[] = {\n" << list.str() << "    {nullptr, 0}};\n";
+  text << "const quadrille_constant quadrille_constants[] = {\n"
+       << list.str() << "    {nullptr, 0}};\n"
+       << "#define QUADRILLE_FOR_EACH_PROBE(f)";
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Boundary::fragment); ++i)
+    text << " f(" << i << ", " << boundary_name(static_cast<Boundary>(i)) << ", "
+         << (has_lanes(static_cast<Boundary>(i)) ? "lanes" : "1") << ")";
+  text << "\n";
   return text.str();
 }
 
@@ -246,9 +184,7 @@ std::vector<fs::path> sources_of(const VerilateOptions& options) {
   } else {
     sources = {options.source};
   }
-  if (options.probes)
-    for (const char* file : {"quadrille_probes_pkg.sv", "quadrille_probed.sv"})
-      sources.push_back(glue_directory() / file);
+  if (options.probes) sources.push_back(glue_directory() / "quadrille_probed.sv");
   sources.insert(sources.end(), options.extra.begin(), options.extra.end());
   return sources;
 }
@@ -346,7 +282,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
   const bool one_file = !options.source.empty() && !fs::is_directory(options.source);
   if (one_file && options.probes)
     throw std::invalid_argument("a machine in one file has no probes: they name the modules and packages of rtl/");
-  const std::string tables = one_file ? "" : tables_package(config);
+  const std::string tables = one_file ? "" : tables_package(config), probes = options.probes ? probes_header() : "";
 
   // 1. Everything that decides the result.
   Fingerprint key;
@@ -355,6 +291,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
   key.add(tools.compiler_version);
   for (const std::string& define : key_defines(config)) key.add(define);
   key.add(tables);
+  key.add(probes);
   for (const fs::path& source : sources) key.add_file(source);
   for (const char* file : {"device_glue.cpp", "device_abi.h", "device_print.h", "device_trace.h"})
     key.add_file(glue / file);
@@ -394,6 +331,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
       write_text(work / "quadrille_tables_pkg.sv", tables);
       command.push_back("quadrille_tables_pkg.sv");
     }
+    if (options.probes) write_text(work / "quadrille_probes_pkg.svh", probes);
     for (const std::string& source : source_arguments(sources, work)) command.push_back(source);
     if (run_watched(
             command, work, log, [](std::string_view) {}, [&] { notice.tick(); }) != 0)
@@ -407,7 +345,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
     flags.insert(flags.end(), {"-std=c++20", "-Iverilated", "-I" + glue.string(),
                                options.trace ? "-DQUADRILLE_TRACE=1" : "-DQUADRILLE_TRACE=0",
                                options.probes ? "-DQUADRILLE_PROBES=1" : "-DQUADRILLE_NO_PROBES=1"});
-    NinjaFile ninja(tools, flags);
+    NinjaFile ninja(tools.compiler, flags);
     for (const std::string& group : write_groups(work, generated))
       ninja.object(group + ".o", group + ".cpp",
                    group.starts_with("slow") ? "-O0"

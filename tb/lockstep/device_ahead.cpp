@@ -8,9 +8,8 @@ namespace quadrille::tb {
 
 namespace {
 
-/// Boundaries in front of the pixels have one lane.
 std::size_t lanes_of(std::size_t boundary, std::size_t lanes) {
-  return boundary < static_cast<std::size_t>(Boundary::diff) ? 1 : lanes;
+  return has_lanes(static_cast<Boundary>(boundary)) ? lanes : 1;
 }
 
 }  // namespace

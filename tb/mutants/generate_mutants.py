@@ -48,12 +48,12 @@ TWINS = {"significand.hpp": ("fp_sum", "fp_multiply", "fp_raw_product", "fp_norm
          "quad_setup.cpp": ("quad_setup", "bounding_range", "range_empty", "eye_in_hull"), "tile_walk.cpp": ("tile_walk", "edge_reach"),
          "weight_factors.cpp": ("weight_factors", "factor_products", "ratio_products", "mean_value_weights", "singular_class"),
          "interpolate.cpp": ("interpolate",), "pixel_pipeline.cpp": ("pixel_lane", "denominator_operands"),
-         "fragment_output.cpp": ("fragment_output", "fixed_point"), "clocked.cpp": (), "performance_counters.cpp": ("performance_counters",),
+         "fragment_output.cpp": ("fragment_output", "fixed_point"), "performance_counters.cpp": ("performance_counters",),
          "forward_difference.cpp": ("forward_difference_column", "forward_difference_row", "law_of_cosines"),
          "normalise.cpp": ("normalise", "fp_normalise"), "quad_reject.cpp": ("quad_reject",),
          "hierarchical_z.cpp": ("hierarchical_z", "depth_interval")}
 # Of the lanes and the untimed model there is no RTL. A change of the clocks, in both, is another machine, not a fault: nothing but the twin says when something happens.
-CLOCKS = {"clocked.cpp", "clocked.hpp", "latency.hpp", "performance_counters.cpp", "performance_counters.hpp", "boundaries.cpp", "boundaries.hpp"}
+CLOCKS = {"clocked", "clocked.hpp", "latency.hpp", "performance_counters.cpp", "performance_counters.hpp", "boundaries.cpp", "boundaries.hpp"}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -535,7 +535,7 @@ class Cpp:
 
 def files(side):
     suffixes, other = ({".sv"}, OTHER_RTL) if side == "rtl" else ({".cpp", ".hpp"}, OTHER_MODEL)
-    for path in sorted((ROOT / side).iterdir()):
+    for path in sorted([*(ROOT / side).iterdir(), *(ROOT / side / "clocked").glob("*")]):
         if path.suffix in suffixes and path.name not in other and not path.stem.endswith("_test"):
             yield path
 
@@ -544,7 +544,7 @@ def candidates(side):
     """{file: [Change]}"""
     found = {}
     for path in files(side):
-        file = f"{side}/{path.name}"
+        file = str(path.relative_to(ROOT))
         reader = Verilog if side == "rtl" else Cpp
         found[file] = [c for c in reader(file, path.read_text()).find() if not left_out(c)]
     return found

@@ -174,10 +174,10 @@ def main():
         sys.exit(f"tb/mutants/mutants.toml: {error}")
     stale = [f"no file {file}" for file in found if not (ROOT / file).exists()]
     left_out = []
-    for path in sorted((ROOT / side).iterdir()):
+    for path in sorted([*(ROOT / side).iterdir(), *(ROOT / side / "clocked").glob("*")]):
         if path.suffix not in SUFFIXES[side] or path.stem.endswith("_test"):
             continue
-        file = f"{side}/{path.name}"
+        file = str(path.relative_to(ROOT))
         text = mutate(path.read_text(), file, found.get(file, {}), places.get(file, []), side, stale, left_out)
         if side == "model":
             write(out / file, '#include "model/selected_mutant.hpp"\n' + text if file in found or file in places else text)

@@ -1,0 +1,109 @@
+#include "tb/commands/cosim_options.hpp"
+
+#include "tb/support/errors.hpp"
+#include "tb/support/output.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <stdexcept>
+
+namespace quadrille::cli {
+namespace {
+
+/// parse(text), {} of an option that was not given.
+template <class Parse>
+auto parsed_option(const char* option, const std::string& text, Parse&& parse) {
+  try {
+    return text.empty() ? decltype(parse(text)){} : parse(text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string(option) + " " + error.what());
+  }
+}
+
+bool holds_verilog(const std::string& directory) {
+  return std::ranges::any_of(std::filesystem::directory_iterator(directory),
+                             [](const auto& entry) { return entry.path().extension() == ".sv"; });
+}
+
+}  // namespace
+
+void CosimOptions::check(const Config& config) const {
+  parsed_option("--stall-clocks", stall_clocks, tb::parse_stall_clocks);
+  parsed_option("--gap-beats", gap_beats, tb::parse_gap_beats);
+  parsed_option("--waits", waits, tb::parse_wait_kind);
+  probability("--stall", stall);
+  probability("--gap", gap);
+  if (attributes > config.attribute_slots)
+    throw UsageError("--attributes " + std::to_string(attributes) + ": attribute_slots is " +
+                     std::to_string(config.attribute_slots));
+  if (!draw_state.empty()) {
+    drawn_state_seed();
+    const std::string given = state.spelled() + (attributes > 0 ? " --attributes " + std::to_string(attributes) : "");
+    if (!given.empty())
+      throw UsageError("--draw-state " + draw_state + " draws what" + given + " sets; give one of them");
+  }
+  if (!battery.empty()) {
+    if (inputs_given(input) > 0 || draws > 0 || limit_fragments > 0 || !common.settings.empty() ||
+        !common.config_file.empty() || !state.spelled().empty() || !draw_state.empty() || attributes > 0 ||
+        !out.empty() || !png.empty() || !trace.empty())
+      throw UsageError(
+          "--battery has inputs, configurations and draw states of its own; it takes --rtl, --seed, "
+          "--threads, --json, --shrink and --quiet");
+  }
+  if (draws > 0) {
+    const std::string given = state.spelled() + (attributes > 0 ? " --attributes" : "") +
+                              (draw_state.empty() ? "" : " --draw-state") + (out.empty() ? "" : " --out") +
+                              (png.empty() ? "" : " --png");
+    if (!given.empty()) throw UsageError("--draws draws the state of each draw and no picture; leave out" + given);
+  }
+  std::vector<std::string> read = input.files();
+  read.insert(read.end(), {common.config_file, texture});
+  check_outputs({trace, shrink, out, png, input.save_camera, common.json}, read);
+  if (!rtl.empty() && !std::filesystem::exists(rtl)) throw UsageError("--rtl " + rtl + ": no such file or directory");
+  if (std::filesystem::is_directory(rtl) && !holds_verilog(rtl))
+    throw UsageError("--rtl " + rtl + ": no SystemVerilog file (*.sv) is in this directory");
+  if (all_scenes() && (!out.empty() || !png.empty() || !trace.empty()))
+    throw UsageError("--out, --png and --trace are for one input, not for all scenes");
+}
+
+std::uint64_t CosimOptions::drawn_state_seed() const {
+  const std::string& text = draw_state;
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  std::uint64_t seed = common.seed;
+  const char *first = text.data() + colon + 1, *last = text.data() + text.size();
+  const bool good = colon == text.size() || (first != last && std::from_chars(first, last, seed).ptr == last);
+  if (text.substr(0, colon) != "random" || !good)
+    throw UsageError("--draw-state " + text + ": expected random or random:SEED");
+  return seed;
+}
+
+std::vector<InputOptions> CosimOptions::inputs() const {
+  if (!all_scenes()) return {input};
+  if (inputs_given(input) > 1) throw UsageError("--scene all goes with no other input");
+  std::vector<InputOptions> list;
+  for (const std::string& name : scene_names()) {
+    list.push_back(input);
+    list.back().scene = name;
+  }
+  return list;
+}
+
+tb::LockstepOptions CosimOptions::lockstep(const Config& config, const DrawState& draw) const {
+  tb::LockstepOptions lockstep;
+  lockstep.config = config;
+  lockstep.state = draw;
+  lockstep.seed = common.seed;
+  lockstep.stall = stall;
+  lockstep.gap = gap;
+  lockstep.waits = {parsed_option("--stall-clocks", stall_clocks, tb::parse_stall_clocks),
+                    parsed_option("--gap-beats", gap_beats, tb::parse_gap_beats)};
+  lockstep.pattern = parsed_option("--waits", waits, tb::parse_wait_kind);
+  lockstep.limit_fragments = limit_fragments;
+  lockstep.source = rtl;
+  lockstep.probes = !std::filesystem::is_regular_file(rtl);  // one file has none: ports alone are compared
+  lockstep.threads = common.thread_count();
+  return lockstep;
+}
+
+}  // namespace quadrille::cli
