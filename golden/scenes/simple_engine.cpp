@@ -1,16 +1,19 @@
 #include "golden/scenes/simple_engine.hpp"
 
+#include "golden/reference/regular_weights.hpp"
+
 #include <cmath>
 
 namespace quadrille::golden {
 
 std::optional<SimpleSample> simple_sample(const std::array<WindowVertex, 4>& quad, double x, double y) {
-  std::array<double, 4> sx{}, sy{}, r{}, a{}, t{}, m{};
+  std::array<double, 4> sx{}, sy{}, r{}, rho{}, a{}, d{}, both{};
   for (std::size_t i = 0; i < 4; ++i) {
     sx[i] = quad[i].x - quad[i].w * x;
     sy[i] = quad[i].y - quad[i].w * y;
     r[i] = std::sqrt(sx[i] * sx[i] + sy[i] * sy[i]);
     if (r[i] == 0) return std::nullopt;
+    rho[i] = 1 / r[i];
   }
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = (i + 1) & 3;
@@ -27,13 +30,13 @@ std::optional<SimpleSample> simple_sample(const std::array<WindowVertex, 4>& qua
 
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = (i + 1) & 3;
-    const double rr = r[i] * r[j], d = sx[i] * sx[j] + sy[i] * sy[j];
-    t[i] = d < 0 ? (rr - d) / a[i] : a[i] / (rr + d);
-    if (!std::isfinite(t[i])) return std::nullopt;
+    both[i] = r[i] * r[j];
+    d[i] = sx[i] * sx[j] + sy[i] * sy[j];
+    if (d[i] < 0 && a[i] == 0) return std::nullopt;
   }
+  const std::array<double, 4> m = RegularWeights<double>(both, d, a, rho).m;
   double sum = 0, sum_w = 0, sum_z = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    m[i] = (t[(i + 3) & 3] + t[i]) / r[i];
     sum += m[i];
     sum_w += m[i] * quad[i].w;
     sum_z += m[i] * quad[i].z;
