@@ -24,7 +24,8 @@ namespace {
 
 VectorOutcome outcome(std::string fault) {
   if (fault.empty()) return {};
-  return {VectorOutcome::Kind::mismatch, std::move(fault) + " is not what exact arithmetic gives"};
+  if (fault.find("expected") == std::string::npos) fault += " is not what exact arithmetic gives";
+  return {VectorOutcome::Kind::mismatch, std::move(fault)};
 }
 
 /// What the stages of one configuration are judged with.
