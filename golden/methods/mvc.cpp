@@ -2,7 +2,7 @@
 #include "golden/methods/builders.hpp"
 #include "golden/methods/mean_value.hpp"
 #include "golden/methods/quad_coverage.hpp"
-#include "golden/reference/regular_weights.hpp"
+#include "golden/scenes/regular_weights.hpp"
 
 #include <cmath>
 

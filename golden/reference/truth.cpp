@@ -2,7 +2,7 @@
 
 #include "golden/reference/float128.hpp"
 #include "golden/reference/port_number.hpp"
-#include "golden/reference/regular_weights.hpp"
+#include "golden/scenes/regular_weights.hpp"
 
 #include <algorithm>
 #include <bit>

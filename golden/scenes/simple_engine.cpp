@@ -1,6 +1,6 @@
 #include "golden/scenes/simple_engine.hpp"
 
-#include "golden/reference/regular_weights.hpp"
+#include "golden/scenes/regular_weights.hpp"
 
 #include <cmath>
 

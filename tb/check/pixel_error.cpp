@@ -1,8 +1,8 @@
 #include "tb/check/pixel_error.hpp"
 
 #include "golden/reference/port_number.hpp"
-#include "golden/reference/regular_weights.hpp"
 #include "golden/reference/truth.hpp"
+#include "golden/scenes/regular_weights.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/stamp_coverage.hpp"
