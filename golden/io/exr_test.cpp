@@ -100,15 +100,6 @@ TEST_F(ExrTest, RefusesDamagedFiles) {
     const std::string file = write("cut", good.substr(0, size));
     expect_input_error([&] { load_exr(file); }, file, {});
   }
-  std::mt19937 random(5);
-  for (int i = 0; i < 500; ++i) {
-    std::string bytes = good;
-    bytes[random() % 700] = static_cast<char>(random());  // header and line table
-    try {
-      load_exr(write("mutated", bytes));
-    } catch (const InputError&) {
-    }
-  }
 }
 
 }  // namespace

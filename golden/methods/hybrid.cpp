@@ -4,6 +4,7 @@
 // the listing sums in single precision too, so that the listing's own values are off by an ulp or so more.
 #include "golden/methods/builders.hpp"
 #include "golden/methods/homogeneous.hpp"
+#include "golden/reference/paper_float.hpp"
 
 #include <cmath>
 
@@ -67,18 +68,13 @@ class FragmentProgram {
       px = 2 * (px - 0) / width_ - 1;
       py = 2 * ((height_ - py) - 0) / height_ - 1;
     }
-    std::array<float, 4> sx{}, sy{}, r{}, t{}, u{};
+    std::array<float, 4> sx{}, sy{}, signs{};
     for (std::size_t i = 0; i < 4; ++i) {
       sx[i] = x_[i] - px;
       sy[i] = y_[i] - py;
-      r[i] = std::sqrt(sx[i] * sx[i] + sy[i] * sy[i]) * sign(w_[i]);
+      signs[i] = sign(w_[i]);
     }
-    for (std::size_t previous = 3, i = 0; i < 4; previous = i++) {
-      const float area = sx[previous] * sy[i] - sy[previous] * sx[i];
-      const float dot = sx[previous] * sx[i] + sy[previous] * sy[i];
-      t[previous] = guards(form_) && std::abs(area) < 1e-6f ? 0 : (r[previous] * r[i] - dot) / area;
-    }
-    for (std::size_t previous = 3, i = 0; i < 4; previous = i++) u[i] = (t[previous] + t[i]) / r[i];
+    std::array<float, 4> u = PaperWeights<float>(sx, sy, signs, guards(form_) ? 1e-6f : 0).mu;
     const float sum = u[0] + u[1] + u[2] + u[3];
     for (float& v : u) v /= sum;
     return u;

@@ -2,6 +2,7 @@
 #include "golden/methods/builders.hpp"
 #include "golden/methods/mean_value.hpp"
 #include "golden/methods/quad_coverage.hpp"
+#include "golden/scenes/regular_weights.hpp"
 
 #include <cmath>
 
@@ -63,19 +64,17 @@ std::array<double, 4> mean_value_weights(const std::array<WindowVertex, 4>& vert
     return m;
   }
 
-  // A_i has the sign that coverage sees, so that no weight of a covered point gets the other one beside an edge.
-  // Cosine c and sine s of the angle between S_i and S_{i+1} give t_i = n_i / d_i with n and d in [-1, 2].
-  std::array<double, 4> rho{}, n{}, d{};
+  // Cosine and sine of the angle between S_i and S_{i+1}. The sine has the sign that coverage sees, so that no weight
+  // of a covered point gets the other one beside an edge.
+  std::array<double, 4> rho{}, cosine{}, sine{};
   std::array<std::size_t, 2> edge{};
   std::size_t edges = 0;
   for (std::size_t i = 0; i < 4; ++i) rho[i] = 1 / std::sqrt(sx[i] * sx[i] + sy[i] * sy[i]);
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = next(i);
-    const double c = (sx[i] * sx[j] + sy[i] * sy[j]) * (rho[i] * rho[j]);
-    const double s = difference_of_products(sx[i], sy[j], sy[i], sx[j]) * (rho[i] * rho[j]);
-    n[i] = c < 0 ? 1 - c : s;
-    d[i] = c < 0 ? s : 1 + c;
-    if (s == 0 && c < 0 && edges < 2) edge[edges++] = i;
+    cosine[i] = (sx[i] * sx[j] + sy[i] * sy[j]) * (rho[i] * rho[j]);
+    sine[i] = difference_of_products(sx[i], sy[j], sy[i], sx[j]) * (rho[i] * rho[j]);
+    if (sine[i] == 0 && cosine[i] < 0 && edges < 2) edge[edges++] = i;
   }
   if (edges == 2) {
     // Along edge i the weights are as rho_i share_i : rho_{i+1} share_{i+1}.
@@ -86,11 +85,7 @@ std::array<double, 4> mean_value_weights(const std::array<WindowVertex, 4>& vert
     }
     return m;
   }
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t before = (i + 3) & 3;
-    m[i] = (n[before] * d[i] + n[i] * d[before]) * (d[next(i)] * d[(i + 2) & 3]) * rho[i];
-  }
-  return m;
+  return RegularWeights<double>({1, 1, 1, 1}, cosine, sine, rho).m;
 }
 
 bool in_front(const std::array<double, 4>& m, const std::array<WindowVertex, 4>& vertex) {

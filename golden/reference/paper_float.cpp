@@ -108,7 +108,6 @@ void PaperQuad<Real>::cover(int px, int py, ReferenceSample& out) const {
 
 template <class Real>
 typename PaperQuad<Real>::Pixel PaperQuad<Real>::interpolate(int px, int py) const {
-  Pixel p;
   const auto x = static_cast<Real>(px + centre_), y = static_cast<Real>(py + centre_);
 
   // The pseudo-code, line by line.
@@ -117,13 +116,7 @@ typename PaperQuad<Real>::Pixel PaperQuad<Real>::interpolate(int px, int py) con
     sx[i] = vx_[i] - x;
     sy[i] = vy_[i] - y;
   }
-  for (int i = 0; i < 4; ++i) {
-    p.area[i] = sx[i] * sy[next(i)] - sy[i] * sx[next(i)];
-    p.dot[i] = sx[i] * sx[next(i)] + sy[i] * sy[next(i)];
-    p.r[i] = std::sqrt(sx[i] * sx[i] + sy[i] * sy[i]) * w_sign_[i];
-  }
-  for (int i = 0; i < 4; ++i) p.t[i] = (p.r[i] * p.r[next(i)] - p.dot[i]) / p.area[i];
-  for (int i = 0; i < 4; ++i) p.mu[i] = (p.t[previous(i)] + p.t[i]) / p.r[i];
+  Pixel p{PaperWeights<Real>(sx, sy, w_sign_)};
   p.sum_mu = p.mu[0] + p.mu[1] + p.mu[2] + p.mu[3];
   for (int i = 0; i < 4; ++i) lambda[i] = p.mu[i] / p.sum_mu;
 

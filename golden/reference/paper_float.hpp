@@ -8,8 +8,30 @@
 #include "model/records.hpp"
 
 #include <array>
+#include <cmath>
 
 namespace quadrille::golden {
+
+/// The weights at a pixel as printed: s_i = v_i minus the pixel, and sign(w_i).
+template <class Real>
+struct PaperWeights {
+  std::array<Real, 4> area{}, dot{}, r{}, t{}, mu{};
+
+  PaperWeights() = default;
+  /// t_i counts as 0 where |A_i| < least_area, as a published program has it.
+  PaperWeights(const std::array<Real, 4>& sx, const std::array<Real, 4>& sy, const std::array<Real, 4>& w_sign,
+               Real least_area = 0) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t next = (i + 1) % 4;
+      area[i] = sx[i] * sy[next] - sy[i] * sx[next];
+      dot[i] = sx[i] * sx[next] + sy[i] * sy[next];
+      r[i] = std::sqrt(sx[i] * sx[i] + sy[i] * sy[i]) * w_sign[i];
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+      t[i] = std::abs(area[i]) < least_area ? 0 : (r[i] * r[(i + 1) % 4] - dot[i]) / area[i];
+    for (std::size_t i = 0; i < 4; ++i) mu[i] = (t[(i + 3) % 4] + t[i]) / r[i];
+  }
+};
 
 /// One quad by the pseudo-code of Hormann & Tarini (2004), section 4.2, with Real = double or float:
 /// v_i = (x_i/w_i, y_i/w_i), r_i = |s_i| sign(w_i), t_i = (r_i r_{i+1} - D_i) / A_i, mu_i = (t_{i-1} + t_i) / r_i,
@@ -27,8 +49,7 @@ template <class Real>
 class PaperQuad {
  public:
   /// What the pseudo-code computes at one pixel.
-  struct Pixel {
-    std::array<Real, 4> area{}, dot{}, r{}, t{}, mu{};
+  struct Pixel : PaperWeights<Real> {
     Real sum_mu = 0, sum_inverse_w = 0;  ///< sum(mu); sum(lambda / w)
     std::array<Real, 4> lambda{};        ///< of eq. (10); without perspective of eq. (7)
     Real z = 0;

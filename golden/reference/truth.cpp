@@ -2,6 +2,7 @@
 
 #include "golden/reference/float128.hpp"
 #include "golden/reference/port_number.hpp"
+#include "golden/scenes/regular_weights.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -201,26 +202,15 @@ Weights<Number> weights_at(const PixelEdges<Coord, Product>& p, const std::array
   }
   if (edges == 1) out.singular = Singular::one_edge;
 
-  // t_i = n_i / d_i by whichever of the two equal forms has no cancellation.
-  std::array<Number, 4> n, d;
+  std::array<Number, 4> both, area;
   for (int i = 0; i < 4; ++i) {
-    const auto area = static_cast<Number>(p.e[i]);
-    const Number both = length[i] * length[(i + 1) & 3];
-    if (dot[i] < 0) {
-      n[i] = both - dot[i];
-      d[i] = area;
-    } else {
-      n[i] = area;
-      d[i] = both + dot[i];
-    }
+    area[i] = static_cast<Number>(p.e[i]);
+    both[i] = length[i] * length[(i + 1) & 3];
   }
-  // T_i = t_i d_0 d_1 d_2 d_3, M_i = (T_{i-1} + T_i) rho_i: no division, and exact on an edge through the pixel, where
-  // d_i = 0.
-  const Number d01 = d[0] * d[1], d23 = d[2] * d[3];
-  const std::array<Number, 4> t{n[0] * d[1] * d23, n[1] * d[0] * d23, n[2] * d[3] * d01, n[3] * d[2] * d01};
+  const RegularWeights<Number> regular(both, dot, area, rho);
+  out.m = regular.m;
   for (int i = 0; i < 4; ++i) {
-    const Number left = t[(i + 3) & 3], right = t[i];
-    out.m[i] = (left + right) * rho[i];
+    const Number left = regular.left[i], right = regular.right[i];
     // Where a term is 0 either branch gives the same.
     const bool cancels = negative(left) != negative(right);
     out.spread[i] = magnitude(cancels ? (left - right) * rho[i] : out.m[i]);
@@ -439,6 +429,10 @@ namespace {
 /// Certain: the terms of a sum are within 72 spread_i 2^-64. With |sum(M k)| >= sum(spread |k|) / 56 that is 2^-52 of
 /// the sum, so the weights are as good as doubles. sum(M w) may cancel more, by 900, where it is within 2^-48 of
 /// itself: a machine's own error there grows by the same factor. No sign is in doubt.
+///
+/// What it gains: without it the truth of all scenes and stress families takes 4.2 times as long. The lanes leave
+/// pixels of quads with the eye in their hull (6.6 times), with any w (5.7) and of collapsed edges (4.6); most scenes
+/// have none.
 template <class Number, class Coord, class Product>
 bool weigh(const detail::TruthGeometry<Coord, Product>& g, const PixelEdges<Coord, Product>& p,
            const detail::VertexValues<Number>& v, bool perspective, bool unit_w, int attributes, ReferenceSample& out) {

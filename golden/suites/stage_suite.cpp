@@ -258,17 +258,23 @@ void StageSuite::require(const SuiteReader& reader) const {
       {{"vectors", lines}, {"corner", units.corners()}, {"random", units.randoms()}, {"realistic", lines - made}});
 }
 
-VerifyResult StageSuite::verify(const SuiteReader& reader, unsigned threads) const {
+VerifyResult StageSuite::check(const SuiteReader& reader, unsigned threads, const Check& check) const {
   const auto stage = make_(reader.set().config);
   require_layout(reader, "stimulus", stage->stimulus_layout());
   require_layout(reader, "response", stage->response_layout());
-  const StimulusCheck check(*stage);
-  return check_vectors(reader, threads, [&](const Record& stimulus, const Record& expected) {
-    if (const std::string fault = check.fault(stimulus); !fault.empty())
+  const StimulusCheck legal(*stage);
+  return check_vectors(reader, threads, [&](const Record& stimulus, const Record& response) {
+    if (const std::string fault = legal.fault(stimulus); !fault.empty())
       return VectorOutcome{VectorOutcome::Kind::mismatch, "no stimulus of this stage: " + fault};
-    const Record actual = stage->respond(stimulus);
+    return check(*stage, stimulus, response);
+  });
+}
+
+VerifyResult StageSuite::verify(const SuiteReader& reader, unsigned threads) const {
+  return check(reader, threads, [](const StageUnderTest& stage, const Record& stimulus, const Record& expected) {
+    const Record actual = stage.respond(stimulus);
     if (actual == expected) return VectorOutcome{};
-    return VectorOutcome{VectorOutcome::Kind::mismatch, first_difference(stage->response_layout(), expected, actual)};
+    return VectorOutcome{VectorOutcome::Kind::mismatch, first_difference(stage.response_layout(), expected, actual)};
   });
 }
 

@@ -111,6 +111,10 @@ class StageSuite : public Suite {
   VerifyResult verify(const SuiteReader& reader, unsigned threads) const override;
   void require(const SuiteReader& reader) const override;
 
+  /// check_vectors() of this suite's records; a stimulus that the stage cannot be given is a mismatch.
+  using Check = std::function<VectorOutcome(const StageUnderTest&, const Record& stimulus, const Record& response)>;
+  VerifyResult check(const SuiteReader& reader, unsigned threads, const Check& check) const;
+
   /// The stimuli of a generation in order, with the number of each kind, without writing anything.
   struct Stimuli {
     std::vector<Record> corner, random, realistic;

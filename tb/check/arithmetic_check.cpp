@@ -1,11 +1,10 @@
 // fp_from_signed, fp_multiply, fp_sum, sqrt, reciprocal against exact integers.
-#include "model/reciprocal.hpp"
-#include "model/significand.hpp"
-#include "model/sqrt.hpp"
+#include "golden/reference/float128.hpp"
 #include "model/support/prng.hpp"
-#include "tb/check/exact_number.hpp"
 #include "tb/check/function_tally.hpp"
+#include "tb/check/stage_judge.hpp"
 
+#include <bit>
 #include <cmath>
 #include <cstdio>
 
@@ -119,56 +118,37 @@ struct Limits {
 
 void check_sqrt(const Config& config, const SignificandFormat& f, Prng& rng, FunctionTally& tally) {
   const Table table = make_sqrt_table(config);
-  const Limits limit(sqrt_limit(config));
+  const TableLimit limit = sqrt_limit(config);
   const std::uint32_t half = 1u << (f.s - 1);
-  const auto attempt = [&](std::uint32_t sig, int exponent) {
-    const PipelineFloat a{false, exponent, sig}, r = fp_sqrt(a, table, f);
-    const int octave = exponent & 1, whole = (exponent - octave) / 2;
-    // sig 2^octave = x 2^(S-1), 1 <= x < 4; the result is t 2^(whole-(S-1)) with t = sqrt(x) 2^(S-1): t^2 = sig
-    // 2^(octave+S-1).
-    bool right = !r.neg && r.exp == whole && r.sig >> (f.s - 1) == 1;
-    if (sig == half && octave == 0) right = right && r.sig == half;
-    const Wide square = Wide{sig} << (octave + f.s - 1 + 16);
-    const Wide low = (Wide{r.sig} << 8) - limit.above, high = (Wide{r.sig} << 8) + limit.below;
-    right = right && low * low <= square && square <= high * high;
-    tally.expect(right, [&] { return "of " + text(a) + " gives " + text(r); });
+  const auto attempt = [&](const PipelineFloat& a) {
+    const PipelineFloat r = fp_sqrt(a, table, f);
+    tally.expect(is_sqrt(a, r, limit, f.s), [&] { return "of " + text(a) + " gives " + text(r); });
   };
   for_each_argument(f.s, table.rest_bits, rng, [&](std::uint32_t sig) {
-    attempt(sig, 0);
-    attempt(sig, 1);
+    attempt({false, 0, sig});
+    attempt({false, 1, sig});
   });
   for (int exponent = -301; exponent <= 301; ++exponent) {
-    attempt(half, exponent);
-    attempt(half + static_cast<std::uint32_t>(rng.below(half)), exponent);
+    attempt({false, exponent, half});
+    attempt({false, exponent, half + static_cast<std::uint32_t>(rng.below(half))});
   }
-  tally.expect(fp_sqrt({}, table, f) == PipelineFloat{}, [] { return std::string("of zero is not zero"); });
+  attempt({});
 }
 
 void check_reciprocal(const Config& config, const SignificandFormat& f, Prng& rng, FunctionTally& tally) {
   const Table table = make_recip_table(config);
-  const Limits limit(reciprocal_limit(config));
+  const TableLimit limit = reciprocal_limit(config);
   const std::uint32_t half = 1u << (f.s - 1);
-  const auto attempt = [&](std::uint32_t sig, int exponent, bool neg) {
-    const PipelineFloat a{neg, exponent, sig}, r = reciprocal(a, table, f);
-    bool right = r.neg == neg;
-    if (sig == half) {
-      right = right && r.sig == half && r.exp == -exponent;
-    } else {
-      // sig = x 2^(S-1), 1 < x < 2; the result is y 2^(-exponent-1) with y = 2/x, in last bits y 2^(S-1) = t: t sig =
-      // 2^(2S-1).
-      right = right && r.exp == -exponent - 1 && r.sig >> (f.s - 1) == 1;
-      const Wide whole = Wide{1} << (2 * f.s - 1 + 8);
-      right = right && ((Wide{r.sig} << 8) - limit.above) * sig <= whole &&
-              whole <= ((Wide{r.sig} << 8) + limit.below) * sig;
-    }
-    tally.expect(right, [&] { return "of " + text(a) + " gives " + text(r); });
+  const auto attempt = [&](const PipelineFloat& a) {
+    const PipelineFloat r = reciprocal(a, table, f);
+    tally.expect(is_reciprocal(a, r, limit, f.s), [&] { return "of " + text(a) + " gives " + text(r); });
   };
-  for_each_argument(f.s, table.rest_bits, rng, [&](std::uint32_t sig) { attempt(sig, 0, false); });
+  for_each_argument(f.s, table.rest_bits, rng, [&](std::uint32_t sig) { attempt({false, 0, sig}); });
   for (int exponent = -301; exponent <= 301; ++exponent) {
-    attempt(half, exponent, rng.chance(0.5));
-    attempt(half + static_cast<std::uint32_t>(rng.below(half)), exponent, rng.chance(0.5));
+    attempt({rng.chance(0.5), exponent, half});
+    attempt({rng.chance(0.5), exponent, half + static_cast<std::uint32_t>(rng.below(half))});
   }
-  tally.expect(reciprocal({}, table, f) == PipelineFloat{}, [] { return std::string("of zero is not zero"); });
+  attempt({});
 }
 
 /// A segment's polynomial interpolates in Chebyshev points, so it misses by `miss` (of the function's values) at most.
@@ -192,6 +172,62 @@ TableLimit sqrt_limit(const Config& config) {
 TableLimit reciprocal_limit(const Config& config) {
   const double h = std::ldexp(1.0, -config.recip_segments());
   return table_limit(config, config.recip_degree == 2 ? h * h * h / 32 : h * h / 8, config.recip_degree, 3);
+}
+
+bool is_sqrt(const PipelineFloat& a, const PipelineFloat& r, const TableLimit& limit, int s) {
+  if (a.sig == 0) return r == PipelineFloat{};
+  const int octave = a.exp & 1, whole = (a.exp - octave) / 2;
+  if (r.neg || r.exp != whole || r.sig >> (s - 1) != 1) return false;
+  // At a power of four the result is C0 truncated, exactly while the table misses by less than the half that C0 has.
+  if (std::has_single_bit(a.sig) && octave == 0 && limit.above < 9.5 && r.sig != a.sig) return false;
+  // sig 2^octave = x 2^(S-1), 1 <= x < 4; the result is t 2^(whole-(S-1)) with t = sqrt(x) 2^(S-1): t^2 = sig
+  // 2^(octave+S-1).
+  const Limits limits(limit);
+  const Wide square = Wide{a.sig} << (octave + s - 1 + 16);
+  const Wide low = (Wide{r.sig} << 8) - limits.above, high = (Wide{r.sig} << 8) + limits.below;
+  return low * low <= square && square <= high * high;
+}
+
+bool is_reciprocal(const PipelineFloat& a, const PipelineFloat& r, const TableLimit& limit, int s) {
+  if (a.sig == 0) return r == PipelineFloat{};
+  if (std::has_single_bit(a.sig)) return r == PipelineFloat{a.neg, -a.exp, a.sig};
+  if (r.neg != a.neg || r.exp != -a.exp - 1 || r.sig >> (s - 1) != 1) return false;
+  // sig = x 2^(S-1), 1 < x < 2; the result is y 2^(-exponent-1) with y = 2/x, in last bits y 2^(S-1) = t: t sig =
+  // 2^(2S-1).
+  const Limits limits(limit);
+  const Wide whole = Wide{1} << (2 * s - 1 + 8);
+  return ((Wide{r.sig} << 8) - limits.above) * a.sig <= whole && whole <= ((Wide{r.sig} << 8) + limits.below) * a.sig;
+}
+
+std::string table_fault(bool sqrt, const Config& config, std::size_t index, const TableEntry& entry) {
+  const std::size_t segments = std::size_t{1} << (sqrt ? config.sqrt_segments() : config.recip_segments());
+  const bool quadratic = (sqrt ? config.sqrt_degree : config.recip_degree) == 2;
+  const __float128 h = (index < segments ? 1.0 : 2.0) / static_cast<double>(segments);
+  const __float128 x0 = (index < segments ? 1 : 2) + h * static_cast<double>(index % segments);
+  // In units of 2^-(S+3), at the Chebyshev points 1/2 - c, 1/2, 1/2 + c; the line goes through the outer two.
+  const double unit = std::ldexp(1.0, config.significand_bits + Config::table_guard);
+  const auto at = [&](__float128 u) {
+    const __float128 x = x0 + h * u, r = golden::rsqrt(x);
+    return unit * (sqrt ? x * r / 2 : r * r);
+  };
+  const __float128 three = 3, two = 2, c = quadratic ? three * golden::rsqrt(three) / 4 : two * golden::rsqrt(two) / 4;
+  const __float128 low = at(0.5 - c), middle = at(0.5), high = at(0.5 + c), slope = (high - low) / (2 * c);
+  const __float128 a2 = quadratic ? (high - 2 * middle + low) / (2 * c * c) : 0, a1 = slope - a2,
+                   a0 = (quadratic ? middle : (low + high) / 2) - slope / 2 + a2 / 4;
+  const double sign = sqrt ? 1 : -1;
+  struct Coefficient {
+    const char* name;
+    std::uint32_t actual;
+    __float128 exact;
+  };
+  // To nearest, ties apart: the program's own root ends more than 30 bits below them.
+  for (const auto& [name, actual, exact] : {Coefficient{"c0", entry.c0, a0 + (sqrt ? 4 : 3)},
+                                            Coefficient{"c1", entry.c1, sign * a1},
+                                            {"c2", entry.c2, -sign * a2}})
+    if (const auto off = static_cast<double>(exact - actual); std::fabs(off) > 0.5 + 0x1p-20)
+      return std::string(name) + ": expected " + std::to_string(std::llround(static_cast<double>(exact))) +
+             ", actual " + std::to_string(actual);
+  return "";
 }
 
 void check_arithmetic(const Config& config, std::vector<FunctionResult>& results) {

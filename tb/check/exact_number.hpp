@@ -82,4 +82,13 @@ bool is(const Float& v, const Number& wanted, int s) {
   return shift >= 0 ? (Wide{v.sig} << shift) == m : Wide{v.sig} == m << -shift;
 }
 
+/// This number cut to S bits.
+inline PipelineFloat float_of(const Number& v, int s) {
+  const Number r = cut(v, s);
+  if (r.zero()) return {};
+  const int exponent = r.exponent(), shift = exponent - (s - 1) - r.e;
+  const Wide m = magnitude(r.m);
+  return {r.m < 0, exponent, static_cast<std::uint32_t>(shift >= 0 ? m >> shift : m << -shift)};
+}
+
 }  // namespace quadrille::cli::exact

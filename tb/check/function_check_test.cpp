@@ -75,6 +75,7 @@ TEST(FunctionCheck, PassesOtherConfigurations) {
   expect_passes(configured({{"significand_bits", 12}, {"sqrt_segments_log2", 5}, {"recip_segments_log2", 6}}),
                 "finer tables");
   expect_passes(configured({{"sqrt_segments_log2", 4}, {"recip_segments_log2", 4}}), "coarser tables");
+  expect_passes(configured({{"sqrt_segments_log2", 3}, {"recip_segments_log2", 3}}), "the coarsest tables");
   expect_passes(configured({{"quadratic_frac_bits", 12}, {"depth_bits", 16}}), "dropped bits");
   expect_passes(configured({{"viewport_bits", 6},
                             {"guard_bits", 1},

@@ -2,6 +2,7 @@
 
 #include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
+#include "golden/scenes/regular_weights.hpp"
 #include "model/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/stamp_coverage.hpp"
@@ -66,30 +67,29 @@ PixelErrors::PixelErrors(const Config& config, const DrawState& state, Output ou
 std::optional<PixelErrors::QuickTruth> PixelErrors::quick_truth(const SnappedQuad& q, int px, int py) const {
   using Wide = __int128;
   std::int64_t x[4], y[4];
-  long double length[4];
+  std::array<long double, 4> length, rho, both, dots, areas;
   for (std::size_t i = 0; i < 4; ++i) {
     x[i] = q.vertex[i].x - std::int64_t{q.vertex[i].w} * px;
     y[i] = q.vertex[i].y - std::int64_t{q.vertex[i].w} * py;
     const Wide r2 = static_cast<Wide>(x[i]) * x[i] + static_cast<Wide>(y[i]) * y[i];
     if (r2 == 0) return std::nullopt;
     length[i] = std::sqrt(static_cast<long double>(r2));
+    rho[i] = 1 / length[i];
   }
-  long double t[4];
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = (i + 1) & 3;
     const Wide a = static_cast<Wide>(x[i]) * y[j] - static_cast<Wide>(y[i]) * x[j];
     const Wide d = static_cast<Wide>(x[i]) * x[j] + static_cast<Wide>(y[i]) * y[j];
-    const long double area = static_cast<long double>(a), dot = static_cast<long double>(d),
-                      both = length[i] * length[j];
     if (d < 0 && a == 0) return std::nullopt;
-    t[i] = d < 0 ? (both - dot) / area : area / (both + dot);
+    areas[i] = static_cast<long double>(a);
+    dots[i] = static_cast<long double>(d);
+    both[i] = length[i] * length[j];
   }
+  const std::array<long double, 4> m = golden::RegularWeights<long double>(both, dots, areas, rho).m;
   const auto port = [&](const PortNumber& number) { return golden::port_value(number, config_.significand_bits); };
   QuickTruth truth;
-  std::array<long double, 4> m;
   long double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    m[i] = (t[(i + 3) & 3] + t[i]) / length[i];
     truth.lambda[i] = m[i] * static_cast<long double>(port(q.vertex[i].k));
     sum += truth.lambda[i];
   }

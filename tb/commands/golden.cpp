@@ -1,10 +1,10 @@
 // quadrille golden: sets of golden vectors, generated and verified (diff is in golden_diff.cpp).
 #include "golden/io/error.hpp"
 #include "golden/io/json_report.hpp"
-#include "golden/suites/float_engine.hpp"
 #include "golden/suites/input_suite.hpp"
 #include "golden/suites/suite.hpp"
 #include "model/snap.hpp"
+#include "tb/check/verify_exact.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/golden_rtl.hpp"
 #include "tb/options/command_line.hpp"
@@ -237,7 +237,7 @@ struct VerifyEngine {
 constexpr VerifyEngine engines[] = {
     {"model",
      [](const Suite& suite, const SuiteReader& reader, unsigned threads) { return suite.verify(reader, threads); }},
-    {"float", verify_float},
+    {"float", verify_exact},
     {"rtl", nullptr},
 };
 
@@ -298,14 +298,13 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
       result.first_difference = suite.picture_difference(reader);
       result.mismatches = !result.first_difference.empty();
     }
-    compared += result.vectors - result.uncompared;
+    compared += result.vectors;
     ok = ok && result.ok();
     list.push_back(
         {{"suite", name},
          {"vectors", result.vectors},
          {"mismatches", result.mismatches},
          {"undefined", result.undefined},
-         {"uncompared", result.uncompared},
          {"first_difference",
           result.first_difference.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(result.first_difference)},
          {"seconds", start.seconds()}});
@@ -398,10 +397,10 @@ void add_verify(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("verify", "Check a set: hashes, then every response recomputed");
   command->footer(
       "Hashes and manifests of the whole set are always checked, responses and pictures of the chosen suites. The\n"
-      "engine float has no clocks; a vector of which it cannot decide every field counts as undefined, and what it "
-      "can\n"
-      "is compared. Exit status: 0 every vector agrees, 1 a vector or a picture differs, or of a suite nothing was\n"
-      "compared, 2 the set is damaged.\n\n"
+      "engine float judges stages by exact integers and fragments by the truth, without clocks; a vector of which it\n"
+      "cannot decide every field counts as undefined, and what it can is compared. Exit status: 0 every vector\n"
+      "agrees, 1 a vector or a picture differs, or of a suite nothing was compared, 2 the set is damaged, or no judge\n"
+      "knows a suite.\n\n"
       "Examples:\n"
       "  quadrille golden verify vectors\n"
       "  quadrille golden verify vectors --suite weights --json -");

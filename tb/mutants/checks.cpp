@@ -1,13 +1,13 @@
 #include "tb/mutants/checks.hpp"
 
 #include "golden/io/temporary.hpp"
-#include "golden/suites/float_engine.hpp"
 #include "golden/suites/suite.hpp"
 #include "model/config_text.hpp"
 #include "model/untimed.hpp"
 #include "tb/check/error_limits.hpp"
 #include "tb/check/function_check.hpp"
 #include "tb/check/judge.hpp"
+#include "tb/check/verify_exact.hpp"
 #include "tb/device/verilated_device.hpp"
 
 #include <algorithm>
@@ -166,7 +166,7 @@ Found float_vectors(const Scenario*) {
     writer.add(suite->info(), [&](vectors::SuiteWriter& out) { suite->write(out, generation); });
   writer.commit(true);
   return verified(directory, [](const vectors::Suite& suite, const vectors::SuiteReader& reader) {
-    return vectors::verify_float(suite, reader, 1);
+    return cli::verify_exact(suite, reader, 1);
   });
 }
 
