@@ -4,47 +4,45 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace quadrille {
 namespace {
 
 struct Row {
-  const char* key;
+  std::string key;
   int standard, minimum, maximum;  ///< standard -1: automatic
 };
 
-// rtl/README.md section 1, key by key.
-constexpr Row table[] = {
-    {"viewport_bits", 12, 6, 14},
-    {"guard_bits", 3, 1, 4},
-    {"subpixel_bits", 8, 2, 8},
-    {"homogeneous_frac_bits", 7, 4, 10},
-    {"quadratic_frac_bits", -1, 0, 36},  // 2·FRAC at most; the key alone can only be held to the largest of these
-    {"significand_bits", 18, 8, 26},
-    {"notch_exact", 1, 0, 1},
-    {"sqrt_segments_log2", -1, 3, 14},
-    {"sqrt_degree", 2, 1, 2},
-    {"recip_segments_log2", -1, 3, 14},
-    {"recip_degree", 2, 1, 2},
-    {"align_guard_bits", 2, 0, 6},
-    {"attribute_slots", 4, 1, 8},
-    {"attribute_int_bits", 7, 1, 15},
-    {"attribute_frac_bits", -1, 8, 30},
-    {"depth_bits", 24, 8, 30},
-    {"tile_log2", 3, 2, 4},
-    {"pixels_per_clock", 1, 1, 4},
-    {"dot_units", 2, 2, 4},
-    {"quad_slots_log2", 3, 1, 4},
-    {"tile_slots_log2", 2, 1, 4},
-    {"stamp_fifo_log2", 3, 1, 5},
-    {"hierarchical_z_bits", 0, 0, 16},
-    {"hierarchical_z_tiles_log2", 12, 6, 16},
-    {"plane_quads", 0, 0, 1},
-    {"quad_id_bits", 24, 8, 32},
-    {"performance_counters", 0, 0, 1},
-};
+/// rtl/README.md section 1, key by key: | `KEY` … | default | range or values | ….
+const std::vector<Row>& table() {
+  static const std::vector<Row> rows = [] {
+    std::vector<Row> list;
+    std::ifstream in(QUADRILLE_SOURCE_DIR "/rtl/README.md");
+    const std::regex form(R"(\| `([A-Z0-9_]+)`.*? \| (\d*)([^|]*) \| (\d+|S)(?:–|, )(?:[^|]*(?:–|, ))?([^|]+) \|.*)");
+    // s is at least 8; alone a key can only be held to the largest of 2·FRAC.
+    const auto number = [](const std::string& text) {
+      return text == "S" ? 8 : text == "2·FRAC" ? 36 : std::stoi(text);
+    };
+    bool inside = false;
+    for (std::string line; std::getline(in, line) && !(inside && line.empty());) {
+      inside = inside || line.starts_with("| key (upper case");
+      std::smatch match;
+      if (!inside || !std::regex_match(line, match, form)) continue;
+      std::string key = match[1];
+      for (char& c : key) c = static_cast<char>(std::tolower(c));
+      const bool automatic = match[2].length() == 0 || match[3].length() != 0;
+      list.push_back({key, automatic ? -1 : std::stoi(match[2]), number(match[4]), number(match[5])});
+    }
+    return list;
+  }();
+  return rows;
+}
 
 std::string refusal(const auto& action) {
   try {
@@ -64,16 +62,16 @@ std::string refusal_of(std::initializer_list<std::pair<const char*, int>> values
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Config, KeysAreThoseOfTheTable) {
-  ASSERT_EQ(Config::keys().size(), std::size(table));
+  ASSERT_EQ(Config::keys().size(), table().size());
   EXPECT_LE(Config::keys().size(), 32u);
   std::set<std::string_view> names;
   for (const ConfigKey& k : Config::keys()) {
     names.insert(k.name);
     EXPECT_FALSE(k.meaning.empty()) << k.name;
   }
-  EXPECT_EQ(names.size(), std::size(table));
-  for (const Row& row : table) {
-    const auto found = std::ranges::find(Config::keys(), std::string_view(row.key), &ConfigKey::name);
+  EXPECT_EQ(names.size(), table().size());
+  for (const Row& row : table()) {
+    const auto found = std::ranges::find(Config::keys(), row.key, &ConfigKey::name);
     ASSERT_NE(found, Config::keys().end()) << row.key;
     EXPECT_EQ(found->standard, row.standard) << row.key;
     EXPECT_EQ(found->minimum, row.minimum) << row.key;
@@ -83,7 +81,7 @@ TEST(Config, KeysAreThoseOfTheTable) {
 }
 
 TEST(Config, SetAndGetOverTheWholeRange) {
-  for (const Row& row : table) {
+  for (const Row& row : table()) {
     Config c;
     for (int v = row.minimum; v <= row.maximum; ++v) {
       ASSERT_NO_THROW(c.set(row.key, v)) << row.key << " = " << v;
