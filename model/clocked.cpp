@@ -475,7 +475,7 @@ struct ClockedModel::Impl {
     ring_write = ring_complete = ring_tail = 0;
     completed = false;
     coverage = {};
-    coverage.room = stamp_places(context.config) - context.config.stamp_reserve;
+    coverage.room = stamp_places(context.config);
     stamps.clear();
     first = true;
     part = 0;

@@ -41,7 +41,6 @@ KEY(quad_slots_log2, 1, 4, 3, "log2", none, none, clocks | area, "1:4",
     "quads in flight between setup and their last fragment")
 KEY(tile_slots_log2, 1, 4, 2, "log2", none, none, clocks | area, "1:4", "tile contexts in flight")
 KEY(stamp_fifo_log2, 1, 5, 3, "log2", none, none, clocks | area, "1:5", "covered stamps that may wait")
-KEY(stamp_reserve, 0, 4, 0, "", none, none, clocks | added, "0:4", "places of the stamp FIFO that are not used")
 KEY(hierarchical_z_bits, 0, 16, 0, "bits", none, none, clocks | area, "0,8,12,16",
     "fraction bits of a tile's farthest depth; 0: no hidden tiles")
 KEY(hierarchical_z_tiles_log2, 6, 16, 12, "log2", none, none, clocks | area, "8:14:2",

@@ -45,7 +45,6 @@ module config_check;
   `QUADRILLE_REQUIRE(quadrille_pkg::QUAD_SLOTS_LOG2 >= 1 && quadrille_pkg::QUAD_SLOTS_LOG2 <= 4, quad_slots_log2_must_be_1_to_4)
   `QUADRILLE_REQUIRE(quadrille_pkg::TILE_SLOTS_LOG2 >= 1 && quadrille_pkg::TILE_SLOTS_LOG2 <= 4, tile_slots_log2_must_be_1_to_4)
   `QUADRILLE_REQUIRE(quadrille_pkg::STAMP_FIFO_LOG2 >= 1 && quadrille_pkg::STAMP_FIFO_LOG2 <= 5, stamp_fifo_log2_must_be_1_to_5)
-  `QUADRILLE_REQUIRE(quadrille_pkg::STAMP_RESERVE >= 0 && quadrille_pkg::STAMP_RESERVE <= 4, stamp_reserve_must_be_0_to_4)
   `QUADRILLE_REQUIRE(quadrille_pkg::PERFORMANCE_COUNTERS >= 0 && quadrille_pkg::PERFORMANCE_COUNTERS <= 1,
       performance_counters_must_be_0_or_1)
   `QUADRILLE_REQUIRE(quadrille_pkg::HIERARCHICAL_Z_BITS == 0 || (quadrille_pkg::HIERARCHICAL_Z_BITS >= 4 && quadrille_pkg::HIERARCHICAL_Z_BITS <= 16),

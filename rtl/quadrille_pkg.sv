@@ -75,9 +75,6 @@
 `ifndef QUADRILLE_STAMP_FIFO_LOG2
 `define QUADRILLE_STAMP_FIFO_LOG2 3
 `endif
-`ifndef QUADRILLE_STAMP_RESERVE
-`define QUADRILLE_STAMP_RESERVE 0
-`endif
 `ifndef QUADRILLE_PERFORMANCE_COUNTERS
 `define QUADRILLE_PERFORMANCE_COUNTERS 0
 `endif
@@ -115,7 +112,6 @@ package quadrille_pkg;
   localparam int QUAD_SLOTS_LOG2 /*verilator public*/ = `QUADRILLE_QUAD_SLOTS_LOG2;
   localparam int TILE_SLOTS_LOG2 /*verilator public*/ = `QUADRILLE_TILE_SLOTS_LOG2;
   localparam int STAMP_FIFO_LOG2 /*verilator public*/ = `QUADRILLE_STAMP_FIFO_LOG2;
-  localparam int STAMP_RESERVE /*verilator public*/ = `QUADRILLE_STAMP_RESERVE;
   localparam int HIERARCHICAL_Z_BITS /*verilator public*/ = `QUADRILLE_HIERARCHICAL_Z_BITS;
   localparam int HIERARCHICAL_Z_TILES_LOG2 /*verilator public*/ = `QUADRILLE_HIERARCHICAL_Z_TILES_LOG2;
   localparam int PLANE_QUADS /*verilator public*/ = `QUADRILLE_PLANE_QUADS;

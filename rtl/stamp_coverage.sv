@@ -107,7 +107,7 @@ module stamp_coverage #(
       context_valid_q <= 1'b0;
       rows_valid_q <= 1'b0;
       freed_q <= 1'b0;
-      room_q <= ROOM'(PLACES - quadrille_pkg::STAMP_RESERVE);
+      room_q <= ROOM'(PLACES);
     end else begin
       if (fetch_o) fetch_q <= fetch_q + (fetch_homogeneous_i ? PARTS : (RING + 1)'(1));
       if (load_o) load_q <= load_q + (homogeneous_i ? PARTS : (RING + 1)'(1));
