@@ -14,57 +14,17 @@ struct Entry {
   int Config::*member;
 };
 
-constexpr std::array entries{
-    Entry{{"viewport_bits", 6, 14, 12, "bits", "pixel x and y lie in [0, 2^viewport_bits)"}, &Config::viewport_bits},
-    Entry{{"guard_bits", 1, 4, 3, "bits", "guard band: |X| <= 2^(viewport_bits + guard_bits) pixels"},
-          &Config::guard_bits},
-    Entry{{"subpixel_bits", 2, 8, 8, "bits", "fraction bits of an ordinary vertex position"}, &Config::subpixel_bits},
-    Entry{{"homogeneous_frac_bits", 4, 10, 7, "bits", "further fraction bits of a homogeneous vertex"},
-          &Config::homogeneous_frac_bits},
-    Entry{{"quadratic_frac_bits", 0, 36, -1, "bits",
-           "kept fraction bits of D and r²; auto: all, 2·(subpixel + homogeneous)"},
-          &Config::quadratic_frac_bits},
-    Entry{{"significand_bits", 8, 26, 18, "bits",
-           "s: bits of every multiplier operand after normalisation, tables included"},
-          &Config::significand_bits},
-    Entry{{"notch_exact", 0, 1, 1, "", "flag 6 where neighbouring A differ in sign"}, &Config::notch_exact},
-    Entry{{"sqrt_segments_log2", 3, 14, -1, "log2",
-           "sqrt table segments per octave; auto: ceil((s-4)/3), degree 1 ceil(s/2), at least 3"},
-          &Config::sqrt_segments_log2},
-    Entry{{"sqrt_degree", 1, 2, 2, "", "polynomial degree of the sqrt table"}, &Config::sqrt_degree},
-    Entry{{"recip_segments_log2", 3, 14, -1, "log2",
-           "reciprocal table segments; auto: ceil((s-2)/3), degree 1 ceil((s+1)/2), at least 3"},
-          &Config::recip_segments_log2},
-    Entry{{"recip_degree", 1, 2, 2, "", "polynomial degree of the reciprocal table"}, &Config::recip_degree},
-    Entry{{"align_guard_bits", 0, 6, 2, "bits", "fraction bits kept below the s bits of the largest term of a sum"},
-          &Config::align_guard_bits},
-    Entry{{"attribute_slots", 1, 8, 4, "", "attributes per vertex at the port"}, &Config::attribute_slots},
-    Entry{{"attribute_int_bits", 1, 15, 7, "bits", "integer bits of an output attribute, sign apart"},
-          &Config::attribute_int_bits},
-    Entry{{"attribute_frac_bits", 8, 30, -1, "bits",
-           "fraction bits of an output attribute, at least s; auto: 24, or s + 2 if that is more"},
-          &Config::attribute_frac_bits},
-    Entry{{"depth_bits", 8, 30, 24, "bits", "fraction bits of window z"}, &Config::depth_bits},
-    Entry{{"tile_log2", 2, 4, 3, "log2 px", "tile edge, also the width of a stamp; a block is 8x8 tiles"},
-          &Config::tile_log2},
-    Entry{{"pixels_per_clock", 1, Config::most_pixels_per_clock, 1, "",
-           "lanes of the fragment port: 1, 2 or 4 pixels of a row"},
-          &Config::pixels_per_clock},
-    Entry{{"dot_units", 2, 4, 2, "", "multiplier pairs of setup and tile contexts: 2 or 4"}, &Config::dot_units},
-    Entry{{"quad_slots_log2", 1, 4, 3, "log2", "quads in flight between setup and their last fragment"},
-          &Config::quad_slots_log2},
-    Entry{{"tile_slots_log2", 1, 4, 2, "log2", "tile contexts in flight"}, &Config::tile_slots_log2},
-    Entry{{"stamp_fifo_log2", 1, 5, 3, "log2", "covered stamps that may wait"}, &Config::stamp_fifo_log2},
-    Entry{{"hierarchical_z_bits", 0, 16, 0, "bits", "fraction bits of a tile's farthest depth; 0: no hidden tiles"},
-          &Config::hierarchical_z_bits},
-    Entry{{"hierarchical_z_tiles_log2", 6, 16, 12, "log2", "tiles whose farthest depth is held"},
-          &Config::hierarchical_z_tiles_log2},
-    Entry{{"plane_quads", 0, 1, 0, "", "exactly plane quads take areas for weights; 0: no hardware for them"},
-          &Config::plane_quads},
-    Entry{{"quad_id_bits", 8, 32, 24, "bits", "width of the quad id"}, &Config::quad_id_bits},
-    Entry{{"performance_counters", 0, 1, 0, "", "counters of what the machine did; 0: no hardware for them"},
-          &Config::performance_counters},
-};
+constexpr auto entries = [] {
+  using enum ConfigKey::Trait;
+  return std::array{
+#define KEY(name, minimum, maximum, standard, unit, stage, errors, traits, axis, meaning)                           \
+  Entry{{#name, minimum, maximum, standard, unit, ConfigKey::Stage::stage, ConfigKey::Errors::errors, traits, axis, \
+         meaning},                                                                                                  \
+        &Config::name},
+#include "model/config_keys.h"
+#undef KEY
+  };
+}();
 
 static_assert(entries.size() <= Config::most_keys);
 

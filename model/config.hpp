@@ -1,5 +1,6 @@
-// The configuration: every width of the machine, from one list. C++ reads it at run time; the RTL gets the same keys as
-// macros QUADRILLE_<KEY> (rtl/quadrille_pkg.sv) and derives its widths itself; a test proves both sides equal.
+// The configuration: every width of the machine, from one list (config_keys.h). C++ reads it at run time; the RTL gets
+// the same keys as macros QUADRILLE_<KEY> (rtl/quadrille_pkg.sv) and derives its widths itself; a test proves both
+// sides equal.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +18,30 @@ struct ConfigError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One key of the configuration, for listings, sweeps and error messages.
+/// One key of the configuration with everything that listings, sweeps, searches and files need to know of it.
 struct ConfigKey {
+  /// Where its value first shows in the numbers of a fragment, in the order of the machine. `ratios` includes the
+  /// weights, `reciprocal` the output; none: nowhere.
+  enum class Stage { positions, differences, normalise, sqrt, ratios, interpolate, reciprocal, plane, none };
+  /// none: no number and no flag of a fragment depends on it, nor which quads are refused (flag 6 apart, which is
+  /// notch_exact). ordered: with more of it errors are no larger, up to noise, and no more is refused. unordered: two
+  /// values do not rule each other out; all keys that move snapped positions, since where the input lies decides which
+  /// errors it meets.
+  enum class Errors { none, ordered, unordered };
+  /// clocks: of some draw, without stalls. proofs: of bounds and ranges (golden/analysis). added: after the kept golden
+  /// vectors were made, so that a manifest names it only where it is not at its default.
+  enum Trait : unsigned { nothing = 0, clocks = 1, area = 2, proofs = 4, added = 8 };
+
   std::string_view name;
   int minimum, maximum, standard;  ///< standard -1: derived ("auto")
-  std::string_view unit, meaning;
+  std::string_view unit;
+  Stage stage;
+  Errors errors;
+  unsigned traits;
+  std::string_view axis;  ///< values that a sweep tries where none are named
+  std::string_view meaning;
+
+  constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
 };
 
 /// A key that there is no more. Old files and scripts may set it to the value with which nothing of it was there.
@@ -41,33 +61,9 @@ struct DerivedWidth {
 
 struct Config {
   // Keys, as given; -1 = auto where the key allows it. Read the resolved values below the line.
-  int viewport_bits = 12;
-  int guard_bits = 3;
-  int subpixel_bits = 8;
-  int homogeneous_frac_bits = 7;
-  int quadratic_frac_bits = -1;
-  int significand_bits = 18;
-  int notch_exact = 1;
-  int sqrt_segments_log2 = -1;
-  int sqrt_degree = 2;
-  int recip_segments_log2 = -1;
-  int recip_degree = 2;
-  int align_guard_bits = 2;
-  int attribute_slots = 4;
-  int attribute_int_bits = 7;
-  int attribute_frac_bits = -1;
-  int depth_bits = 24;
-  int tile_log2 = 3;
-  int pixels_per_clock = 1;
-  int dot_units = 2;
-  int quad_slots_log2 = 3;
-  int tile_slots_log2 = 2;
-  int stamp_fifo_log2 = 3;
-  int hierarchical_z_bits = 0;
-  int hierarchical_z_tiles_log2 = 12;
-  int plane_quads = 0;
-  int quad_id_bits = 24;
-  int performance_counters = 0;
+#define KEY(name, minimum, maximum, standard, ...) int name = standard;
+#include "model/config_keys.h"
+#undef KEY
 
   /// At most so many keys: what a user is asked to look through.
   static constexpr std::size_t most_keys = 32;

@@ -4,14 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace quadrille {
 namespace {
 
 struct Row {
-  const char* key;
+  std::string_view key;
   int standard, minimum, maximum;  ///< standard -1: automatic
 };
 
@@ -73,7 +75,7 @@ TEST(Config, KeysAreThoseOfTheTable) {
   }
   EXPECT_EQ(names.size(), std::size(table));
   for (const Row& row : table) {
-    const auto found = std::ranges::find(Config::keys(), std::string_view(row.key), &ConfigKey::name);
+    const auto found = std::ranges::find(Config::keys(), row.key, &ConfigKey::name);
     ASSERT_NE(found, Config::keys().end()) << row.key;
     EXPECT_EQ(found->standard, row.standard) << row.key;
     EXPECT_EQ(found->minimum, row.minimum) << row.key;
@@ -94,7 +96,7 @@ TEST(Config, SetAndGetOverTheWholeRange) {
       if (v >= row.minimum && v <= row.maximum) continue;
       if (v == -1 && row.standard == -1) continue;
       const std::string what = refusal([&] { c.set(row.key, v); });
-      EXPECT_TRUE(contains(what, row.key)) << row.key << " = " << v << ": " << what;
+      EXPECT_TRUE(contains(what, std::string(row.key))) << row.key << " = " << v << ": " << what;
       EXPECT_TRUE(contains(what, std::to_string(row.maximum))) << what;
       EXPECT_EQ(c, before) << "a refused value changed the configuration";
     }

@@ -3,20 +3,22 @@
 #include "model/latency.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 
 namespace quadrille {
 
+namespace {
+
+constexpr std::array fields{
+    &HardwareCost::state_bits, &HardwareCost::multiplier_bits, &HardwareCost::adder_bits,  &HardwareCost::table_bits,
+    &HardwareCost::dsps,       &HardwareCost::join_bits,       &HardwareCost::memory_bits, &HardwareCost::block_rams};
+
+}  // namespace
+
 HardwareCost& HardwareCost::operator+=(const HardwareCost& other) {
-  state_bits += other.state_bits;
-  multiplier_bits += other.multiplier_bits;
-  adder_bits += other.adder_bits;
-  table_bits += other.table_bits;
-  dsps += other.dsps;
-  join_bits += other.join_bits;
-  memory_bits += other.memory_bits;
-  block_rams += other.block_rams;
+  for (const auto field : fields) this->*field += other.*field;
   return *this;
 }
 
@@ -28,10 +30,9 @@ Bits u(int width) { return static_cast<Bits>(width); }
 
 HardwareCost operator+(HardwareCost a, const HardwareCost& b) { return a += b; }
 
-HardwareCost operator*(int instances, const HardwareCost& cost) {
-  const Bits n = u(instances);
-  return {n * cost.state_bits, n * cost.multiplier_bits, n * cost.adder_bits,  n * cost.table_bits,
-          n * cost.dsps,       n * cost.join_bits,       n * cost.memory_bits, n * cost.block_rams};
+HardwareCost operator*(int instances, HardwareCost cost) {
+  for (const auto field : fields) cost.*field *= u(instances);
+  return cost;
 }
 
 // ---- What the counts are made of

@@ -202,30 +202,29 @@ TEST(HardwareCost, ScalarCostWeighsEachResource) {
 }
 
 TEST(HardwareCost, AWiderKeyNeverCostsLess) {
-  // Not here: segments and degree of the tables, which trade multipliers for words; notch_exact, which is one gate.
-  for (const char* key : {"viewport_bits", "guard_bits", "subpixel_bits", "homogeneous_frac_bits",
-                          "quadratic_frac_bits", "significand_bits", "align_guard_bits", "attribute_slots",
-                          "attribute_int_bits", "attribute_frac_bits", "depth_bits", "tile_log2", "quad_slots_log2",
-                          "tile_slots_log2", "stamp_fifo_log2", "quad_id_bits", "pixels_per_clock", "dot_units"}) {
+  for (const ConfigKey& key : Config::keys()) {
+    // Segments and degree of the tables trade multipliers for words; hidden tiles are held where there are any.
+    if (key.stage == ConfigKey::Stage::sqrt || key.stage == ConfigKey::Stage::reciprocal || !key.has(ConfigKey::area) ||
+        key.name == "hierarchical_z_tiles_log2")
+      continue;
     int steps = 0;
     for (const Config& base : bases()) {
-      const auto range = std::ranges::find(Config::keys(), std::string_view(key), &ConfigKey::name);
       double before = 0;
-      for (int value = range->minimum; value <= range->maximum; ++value) {
+      for (int value = key.minimum; value <= key.maximum; ++value) {
         Config config = base;
-        config.set(key, value);
+        config.set(key.name, value);
         try {
           config.validate();
         } catch (const ConfigError&) {
           continue;
         }
         const double cost = scalar(config);
-        EXPECT_GT(cost, before) << key << " = " << value;
+        EXPECT_GT(cost, before) << key.name << " = " << value;
         before = cost;
         ++steps;
       }
     }
-    EXPECT_GE(steps, 8) << key;
+    EXPECT_GE(steps, 8) << key.name;
   }
 }
 

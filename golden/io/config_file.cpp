@@ -91,6 +91,12 @@ constexpr std::array weight_keys{
     WeightKey{"block_ram", &CostWeights::block_ram},
 };
 
+std::string weight_names() {
+  std::string names;
+  for (const WeightKey& weight : weight_keys) names.append(names.empty() ? "" : ", ").append(weight.key);
+  return names;
+}
+
 void set_weight(const Entry& entry, const std::string& name, CostWeights& weights) {
   const std::string key(entry.first->str());
   const toml::node& node = *entry.second;
@@ -98,8 +104,7 @@ void set_weight(const Entry& entry, const std::string& name, CostWeights& weight
   const auto* found = std::find_if(weight_keys.begin(), weight_keys.end(), [&](const auto& w) { return w.key == key; });
   if (found == weight_keys.end()) {
     throw failure("unknown key " + in_quotes(key) + " in the table [cost]" +
-                  did_you_mean(key, weight_keys, &WeightKey::key) +
-                  " (state, multiplier, adder, table, dsp, join, block_ram)");
+                  did_you_mean(key, weight_keys, &WeightKey::key) + " (" + weight_names() + ")");
   }
   const std::string wanted =
       "; a number from 0 to " + std::to_string(static_cast<long>(max_cost_weight)) + " is expected, LUTs a bit";
@@ -143,7 +148,7 @@ std::vector<std::string> parse(std::string_view text, const std::string& name, C
     } else {
       throw input_error(name, line_of(entry),
                         "key \"cost\" holds " + std::string(type_name(entry.second->type())) +
-                            "; a table [cost] with state, multiplier, adder, table, dsp, join, block_ram is expected");
+                            "; a table [cost] with " + weight_names() + " is expected");
     }
   }
   config = new_config;

@@ -146,6 +146,12 @@ void require_format(const std::string& file, const Json& manifest) {
                           std::to_string(format_version) + " (golden/CONVERTING.md)");
 }
 
+Json resolved_values(const Config& config) {
+  Json values = Json::object();
+  for (const ConfigKey& key : Config::keys()) values[std::string(key.name)] = config.resolved(key.name);
+  return values;
+}
+
 /// Level, seed, configuration: what set and suites share. `suites`: what the command has behind them.
 SetInfo read_set_info(const std::string& file, const Json& manifest, std::string& suites) {
   SetInfo info;
@@ -166,7 +172,11 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
   } catch (const ConfigError& error) {
     throw input_error(file, 0, "config: " + golden::printable(error.what()));
   }
-  if (config != config_json(info.config)) throw input_error(file, 0, "config does not hold every key, in order");
+  // A key that the set does not name came later: it has its default.
+  Json stated = resolved_values(info.config);
+  for (const ConfigKey& key : Config::keys())
+    if (!config.contains(key.name)) stated.erase(key.name);
+  if (config != stated) throw input_error(file, 0, "config does not hold its keys in order");
   if (object_member(file, manifest, "derived") != derived_json(info.config))
     throw input_error(file, 0, "\"derived\" does not follow from \"config\"");
 
@@ -180,7 +190,7 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
   named.level = info.level;
   named.seed = info.seed;
   const std::string spelled = set_command(named);
-  if (!command.starts_with(spelled) || config_json(named.config) != config)
+  if (!command.starts_with(spelled) || resolved_values(named.config) != resolved_values(info.config))
     throw input_error(file, 0, "\"command\" does not generate this level, seed and configuration");
   suites = command.substr(spelled.size());
   return named;
@@ -329,8 +339,12 @@ Json to_json(const RecordLayout& layout) {
 }
 
 Json config_json(const Config& config) {
-  Json values = Json::object();
-  for (const ConfigKey& key : Config::keys()) values[std::string(key.name)] = config.resolved(key.name);
+  Json values = resolved_values(config);
+  for (const ConfigKey& key : Config::keys()) {
+    Config standard = config;
+    standard.set(key.name, key.standard);
+    if (key.has(ConfigKey::added) && resolved_values(standard) == resolved_values(config)) values.erase(key.name);
+  }
   return values;
 }
 

@@ -49,7 +49,7 @@ std::string set_command(const SetInfo& info);
 
 nlohmann::ordered_json to_json(const RecordLayout& layout);
 
-/// The values of a configuration, resolved, and its derived widths.
+/// The values of a configuration, resolved (ConfigKey::added says which are left out), and its derived widths.
 nlohmann::ordered_json config_json(const Config& config);
 nlohmann::ordered_json derived_json(const Config& config);
 

@@ -175,6 +175,9 @@ TEST_F(Set, DamageOfManifestsIsNamed) {
   EXPECT_EQ(with("\"significand_bits\": 18", "\"significand_bits\": 19").find(set + ": "), 0u);
   EXPECT_EQ(with("\"significand_bits\": 18", "\"significand_bits\": 99").find(set + ": config: "), 0u);
   EXPECT_EQ(with("\"significand_bits\"", "\"significant_bits\"").find(set + ": config: unknown configuration key"), 0u);
+  EXPECT_EQ(with("\"tile_slots_log2\": 2,\n    \"stamp_fifo_log2\": 3",
+                 "\"stamp_fifo_log2\": 3,\n    \"tile_slots_log2\": 2"),
+            set + ": config does not hold its keys in order");
   const std::string other = set + ": \"command\" does not generate this level, seed and configuration";
   EXPECT_EQ(with("\"seed\": 1", "\"seed\": 3"), other);
   EXPECT_EQ(with("--seed 1", "--seed 01"), other);
@@ -201,6 +204,25 @@ TEST_F(Set, DamageOfManifestsIsNamed) {
   fs::remove(set);
   EXPECT_NE(complaint().find(set), std::string::npos);
   EXPECT_NE(golden::input_error_of([&] { check(path("nowhere")); }).find("is no directory"), std::string::npos);
+}
+
+// A key that was added later is not in a set made before: it has its default.
+TEST_F(Set, KeysThatItDoesNotNameHaveTheirDefaults) {
+  const auto without = [&](const std::string& key) {
+    for (const char* file : {"sqrt", "coverage", "depth"}) {
+      const std::string manifest = "set/" + std::string(file) + "/manifest.json";
+      replace_text(manifest, key, "");
+      sign(file);
+    }
+    replace_text("set/manifest.json", key, "");
+  };
+  without("    \"stamp_fifo_log2\": 3,\n");
+  EXPECT_GT(check(path("set")), 0u);
+  EXPECT_EQ(SetReader(path("set")).info().config, Config());
+  EXPECT_NO_THROW(require_known(SetReader(path("set")).suite("sqrt")));
+  // Not where one of them names it.
+  replace_text("set/manifest.json", "    \"tile_slots_log2\": 2,\n", "");
+  EXPECT_EQ(complaint(), path("set/manifest.json") + ": \"config\" differs from that of suite sqrt");
 }
 
 // A set whose hashes are right but whose contents are not: what someone else's generator may write.

@@ -7,6 +7,7 @@
 set(model_headers
   clocked.hpp
   config.hpp
+  config_keys.h
   draw_state.hpp
   drive.hpp
   fragment_arrays.hpp

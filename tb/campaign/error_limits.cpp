@@ -59,13 +59,13 @@ int run(int argc, char** argv) {
       }
       std::printf("s %2d %-16s %8llu fragments;", s, std::string(families[f].name).c_str(),
                   static_cast<unsigned long long>(fragments));
-      for (std::size_t o = 0; o < MeasuredErrors::outputs.size(); ++o) {
+      for (std::size_t o = 0; o < tb::output_names.size(); ++o) {
         std::vector<double> max, mean;
         for (const MeasuredErrors& m : measured) max.push_back(m.max[o]), mean.push_back(m.mean[o]);
         const auto [low_max, high_max] = std::ranges::minmax(max);
         const auto [low_mean, high_mean] = std::ranges::minmax(mean);
-        std::printf(" %s max %.3f-%.3f mean %+.4f..%+.4f", std::string(MeasuredErrors::outputs[o]).c_str(), low_max,
-                    high_max, low_mean, high_mean);
+        std::printf(" %s max %.3f-%.3f mean %+.4f..%+.4f", std::string(tb::output_names[o]).c_str(), low_max, high_max,
+                    low_mean, high_mean);
       }
       std::printf("\n");
       if (!file.empty()) {

@@ -7,6 +7,7 @@
 #include "model/config.hpp"
 #include "model/untimed.hpp"
 #include "tb/check/check.hpp"
+#include "tb/support/outputs.hpp"
 
 #include <array>
 #include <cstddef>
@@ -33,8 +34,7 @@ double limit_climb(golden::StressFamily family, int significand_bits, std::uint6
 
 /// Errors of one draw, as parts of what the bound allows each of them (RelativeErrors).
 struct MeasuredErrors {
-  static constexpr std::array<std::string_view, 3> outputs{"weight", "attribute", "depth"};
-  std::array<double, 3> max{}, mean{};
+  std::array<double, tb::output_names.size()> max{}, mean{};
 
   explicit MeasuredErrors(const CheckResult& result);
 };
@@ -59,7 +59,7 @@ class ErrorLimits {
  public:
   /// Of one family at one width. A largest error below `max` is no fault, a mean on either side of `mean` is.
   struct Family {
-    std::array<LimitRange, 3> max, mean;
+    std::array<LimitRange, tb::output_names.size()> max, mean;
   };
 
   /// The file in the source tree as it was when the program was built (error_limits.json).

@@ -76,7 +76,8 @@ class Meter {
   }
 
   /// The body's errors to `out`; those of every pixel to `series`, if there is one.
-  void compare(KnobBody body, std::vector<EngineSample> samples, KnobErrors& out, PixelSeries* series = nullptr) const {
+  void compare(EngineKind body, std::vector<EngineSample> samples, KnobErrors& out,
+               PixelSeries* series = nullptr) const {
     const auto place_of = [](const EngineSample& s) { return std::tuple(s.index, int{s.y}, int{s.x}); };
     std::ranges::sort(samples, {}, place_of);
     for (const Expected& e : expected_) {
@@ -91,7 +92,7 @@ class Meter {
 
   /// The paper's formulas at the same pixels.
   template <class Quad>
-  void compare_paper(KnobBody body, KnobErrors& out) const {
+  void compare_paper(EngineKind body, KnobErrors& out) const {
     std::optional<Quad> quad;
     std::uint32_t current = 0;
     for (const Expected& e : expected_) {
@@ -135,12 +136,12 @@ class Meter {
 
   /// To the sum over all pixels and to that over those near the case.
   template <class Change>
-  static void change(KnobBody body, const Expected& e, KnobErrors& out, const Change& what) {
-    what(out.body[static_cast<std::size_t>(body)]);
-    if (e.near_case) what(out.near_case[static_cast<std::size_t>(body)]);
+  static void change(EngineKind body, const Expected& e, KnobErrors& out, const Change& what) {
+    what(out.body[body]);
+    if (e.near_case) what(out.near_case[body]);
   }
 
-  void lose(KnobBody body, const Expected& e, bool missing, KnobErrors& out) const {
+  void lose(EngineKind body, const Expected& e, bool missing, KnobErrors& out) const {
     change(body, e, out, [&](BodyErrors& errors) {
       if (errors.pixels_lost() == 0) errors.lost = e.place;
       ++(missing ? errors.missing : errors.undefined);
@@ -148,7 +149,7 @@ class Meter {
   }
 
   template <class Sample>
-  void add(KnobBody body, const Expected& e, const Sample& s, KnobErrors& out, PixelSeries* series) const {
+  void add(EngineKind body, const Expected& e, const Sample& s, KnobErrors& out, PixelSeries* series) const {
     std::array<double, 4 + max_attribute_slots + 1> errors{};
     const auto attributes = static_cast<std::size_t>(attributes_);
     const std::size_t count = 4 + attributes + 1;
@@ -259,15 +260,15 @@ KnobErrors measure_knob(std::span<const WindowQuad> quads, std::span<const golde
   Meter meter(quads, places, attributes, config, state);
   const std::vector<EngineSample> model = meter.draw(EngineKind::model);
   meter.expect(model);
-  const auto wanted = [&](KnobBody body) { return (bodies >> static_cast<unsigned>(body) & 1) != 0; };
-  meter.compare(KnobBody::model, model, out, &out.model);
-  if (wanted(KnobBody::paper_float)) meter.compare_paper<golden::PaperFp64Quad>(KnobBody::paper_float, out);
-  if (wanted(KnobBody::fp32)) meter.compare_paper<golden::PaperFp32Quad>(KnobBody::fp32, out);
-  if (wanted(KnobBody::shader)) meter.compare(KnobBody::shader, meter.draw(EngineKind::shader), out);
-  if (wanted(KnobBody::rtl)) {
+  const auto wanted = [&](EngineKind body) { return (bodies >> static_cast<unsigned>(body) & 1) != 0; };
+  meter.compare(EngineKind::model, model, out, &out.model);
+  if (wanted(EngineKind::paper_float)) meter.compare_paper<golden::PaperFp64Quad>(EngineKind::paper_float, out);
+  if (wanted(EngineKind::paper_single)) meter.compare_paper<golden::PaperFp32Quad>(EngineKind::paper_single, out);
+  if (wanted(EngineKind::shader)) meter.compare(EngineKind::shader, meter.draw(EngineKind::shader), out);
+  if (wanted(EngineKind::rtl)) {
     const std::vector<EngineSample> rtl = meter.draw(EngineKind::rtl);
     out.difference = first_difference(model, rtl);
-    meter.compare(KnobBody::rtl, rtl, out);
+    meter.compare(EngineKind::rtl, rtl, out);
   }
   return out;
 }

@@ -21,10 +21,9 @@ namespace quadrille::cli {
 
 class JudgedQuad;
 
-enum class KnobBody { model, paper_float, fp32, shader, rtl };
-/// `float`: the paper's formulas as printed in double precision, `fp32` the same in single precision. The names are
-/// those of the engines of `quadrille fragments`.
-inline constexpr std::array<std::string_view, 5> knob_body_names{"model", "float", "fp32", "shader", "rtl"};
+/// The bodies of `quadrille stress`, in the order of its report.
+inline constexpr std::array knob_engines{EngineKind::model, EngineKind::paper_float, EngineKind::paper_single,
+                                         EngineKind::shader, EngineKind::rtl};
 
 /// How far attributes and window z may be from the truth at one pixel: their tolerances (judged_quad.hpp) and half
 /// a unit of the output, which is rounded.
@@ -87,14 +86,14 @@ struct PixelSeries {
 
 struct KnobErrors {
   CheckResult verdict;  ///< of the model (judge.hpp), all its draws
-  std::array<BodyErrors, knob_body_names.size()> body;
-  std::array<BodyErrors, knob_body_names.size()> near_case;  ///< of the pixels near the special case alone
+  PerEngine<BodyErrors> body;
+  PerEngine<BodyErrors> near_case;  ///< of the pixels near the special case alone
   PixelSeries model;
   std::string difference;  ///< where the RTL differs from the model first
 };
 
-/// Draws the quads with the model and the bodies of `bodies`, each bit a KnobBody. `places`: of each quad the place of
-/// its special case, or none. Throws SnapError for a quad that cannot be drawn, and what the engines throw. The
+/// Draws the quads with the model and the bodies of `bodies`, each bit an EngineKind. `places`: of each quad the place
+/// of its special case, or none. Throws SnapError for a quad that cannot be drawn, and what the engines throw. The
 /// configuration must keep all bits of D and R² (else no bound is claimed).
 KnobErrors measure_knob(std::span<const WindowQuad> quads, std::span<const golden::ApproachPlace> places,
                         int attributes, const Config& config, const DrawState& state, unsigned bodies);

@@ -15,7 +15,7 @@ namespace quadrille::cli {
 namespace {
 
 constexpr unsigned paper =
-    1u << static_cast<unsigned>(KnobBody::paper_float) | 1u << static_cast<unsigned>(KnobBody::fp32);
+    1u << static_cast<unsigned>(EngineKind::paper_float) | 1u << static_cast<unsigned>(EngineKind::paper_single);
 
 DrawState draw_state(int extent) {
   DrawState state;
@@ -25,7 +25,7 @@ DrawState draw_state(int extent) {
 
 double weight(const BodyErrors& errors) { return errors.of(Output::weight).part; }
 
-const BodyErrors& of(const KnobErrors& errors, KnobBody body) { return errors.body[static_cast<std::size_t>(body)]; }
+const BodyErrors& of(const KnobErrors& errors, EngineKind body) { return errors.body[body]; }
 
 /// A corner at the pixel: the machine is exact, the paper's formulas divide by zero.
 TEST(KnobErrors, ACornerAtAPixel) {
@@ -37,16 +37,16 @@ TEST(KnobErrors, ACornerAtAPixel) {
   }
   const KnobErrors errors = measure_knob(std::span(&quad, 1), {}, 1, Config{}, draw_state(8), paper);
   EXPECT_TRUE(errors.verdict.ok());
-  const BodyErrors& model = of(errors, KnobBody::model);
+  const BodyErrors& model = of(errors, EngineKind::model);
   EXPECT_EQ(model.fragments, 1u);
   for (const LargestError& error : model.largest) EXPECT_EQ(error.part, 0);
-  for (const KnobBody body : {KnobBody::paper_float, KnobBody::fp32}) {
+  for (const EngineKind body : {EngineKind::paper_float, EngineKind::paper_single}) {
     EXPECT_EQ(of(errors, body).fragments, 0u);
     EXPECT_EQ(of(errors, body).undefined, 1u);
     EXPECT_EQ(of(errors, body).lost.x, 0);
     EXPECT_EQ(of(errors, body).lost.y, 0);
   }
-  EXPECT_EQ(of(errors, KnobBody::rtl).fragments + of(errors, KnobBody::rtl).missing, 0u);
+  EXPECT_EQ(of(errors, EngineKind::rtl).fragments + of(errors, EngineKind::rtl).missing, 0u);
 }
 
 /// The model's largest weight error is the judge's, found at the same pixel; the paper's formulas in double precision
@@ -54,7 +54,7 @@ TEST(KnobErrors, ACornerAtAPixel) {
 TEST(KnobErrors, AgreeWithTheJudge) {
   const auto quads = golden::make_stress_without_weights(golden::StressFamily::perspective, 12, 5, 64, 64, 2);
   const KnobErrors errors = measure_knob(quads, {}, 2, Config{}, draw_state(64), paper);
-  const BodyErrors& model = of(errors, KnobBody::model);
+  const BodyErrors& model = of(errors, EngineKind::model);
   EXPECT_TRUE(errors.verdict.ok());
   const LargestError& largest = model.of(Output::weight);
   EXPECT_EQ(largest.part, errors.verdict.worst.ratio);
@@ -68,11 +68,11 @@ TEST(KnobErrors, AgreeWithTheJudge) {
   EXPECT_EQ(errors.model.errors.size(), model.fragments * (4 + 2 + 1));
   EXPECT_GT(weight(model), 0.05);
   EXPECT_EQ(model.beyond, 0u);
-  EXPECT_LT(weight(of(errors, KnobBody::paper_float)), 1e-3);
-  EXPECT_GT(weight(of(errors, KnobBody::fp32)), weight(of(errors, KnobBody::paper_float)));
-  EXPECT_EQ(
-      of(errors, KnobBody::fp32).fragments + of(errors, KnobBody::fp32).undefined + of(errors, KnobBody::fp32).missing,
-      model.fragments);
+  EXPECT_LT(weight(of(errors, EngineKind::paper_float)), 1e-3);
+  EXPECT_GT(weight(of(errors, EngineKind::paper_single)), weight(of(errors, EngineKind::paper_float)));
+  EXPECT_EQ(of(errors, EngineKind::paper_single).fragments + of(errors, EngineKind::paper_single).undefined +
+                of(errors, EngineKind::paper_single).missing,
+            model.fragments);
 }
 
 /// Two corners at one place: the paper's formulas divide by zero at every pixel, the machine does not notice; a pixel
@@ -83,11 +83,11 @@ TEST(KnobErrors, TheFormulasFailWhereAnEdgeCollapses) {
              equal = golden::make_approach(approach, 8, 0, 12, 1, 1);
   const KnobErrors before = measure_knob(apart, {}, 1, Config{}, draw_state(64), paper),
                    after = measure_knob(equal, {}, 1, Config{}, draw_state(64), paper);
-  EXPECT_GT(of(before, KnobBody::fp32).fragments, 100u);
-  const BodyErrors& model = of(after, KnobBody::model);
+  EXPECT_GT(of(before, EngineKind::paper_single).fragments, 100u);
+  const BodyErrors& model = of(after, EngineKind::model);
   EXPECT_GT(model.fragments, 100u);
   EXPECT_LT(weight(model), 1);
-  for (const KnobBody body : {KnobBody::paper_float, KnobBody::fp32}) {
+  for (const EngineKind body : {EngineKind::paper_float, EngineKind::paper_single}) {
     EXPECT_EQ(of(after, body).fragments, 0u);
     EXPECT_EQ(of(after, body).undefined + of(after, body).missing, model.fragments);
   }
@@ -107,17 +107,17 @@ TEST(KnobErrors, NearTheCase) {
     ++near_pixels;
     for (std::size_t v = 0; v < 4; ++v) largest = std::max(largest, std::fabs(errors.model.errors[i * 6 + v]));
   }
-  const BodyErrors& model = errors.near_case[0];
+  const BodyErrors& model = errors.near_case[EngineKind::model];
   EXPECT_GT(near_pixels, 3u);
   EXPECT_EQ(model.fragments, near_pixels);
-  EXPECT_LT(near_pixels, errors.body[0].fragments);
+  EXPECT_LT(near_pixels, errors.body[EngineKind::model].fragments);
   EXPECT_EQ(static_cast<float>(weight(model)), largest);
-  const BodyErrors& single = errors.near_case[static_cast<std::size_t>(KnobBody::fp32)];
+  const BodyErrors& single = errors.near_case[EngineKind::paper_single];
   EXPECT_EQ(single.fragments + single.pixels_lost(), near_pixels);
 
   const KnobErrors nowhere = measure_knob(quads, {}, 1, Config{}, draw_state(64), paper);
-  EXPECT_EQ(nowhere.near_case[0].fragments, 0u);
-  EXPECT_EQ(weight(nowhere.body[0]), weight(errors.body[0]));
+  EXPECT_EQ(nowhere.near_case[EngineKind::model].fragments, 0u);
+  EXPECT_EQ(weight(nowhere.body[EngineKind::model]), weight(errors.body[EngineKind::model]));
 }
 
 /// The quick tolerance of depth is the judge's, with vertices behind the eye too.
@@ -155,11 +155,11 @@ TEST(KnobErrors, ToleranceOfDepth) {
 TEST(KnobErrors, BeyondTheBound) {
   const auto quads = golden::make_approach(*golden::find_approach("edge_length"), 8, 1, 12, 1, 1);
   const KnobErrors errors = measure_knob(quads, {}, 1, Config{}, draw_state(64), paper);
-  const BodyErrors& single = of(errors, KnobBody::fp32);
+  const BodyErrors& single = of(errors, EngineKind::paper_single);
   EXPECT_GT(weight(single), 1);
   EXPECT_GE(single.beyond, 1u);
   EXPECT_LE(single.beyond, single.fragments);
-  EXPECT_EQ(of(errors, KnobBody::model).beyond, 0u);
+  EXPECT_EQ(of(errors, EngineKind::model).beyond, 0u);
 }
 
 TEST(KnobErrors, Jump) {

@@ -6,6 +6,7 @@
 #include "model/records.hpp"
 #include "model/untimed.hpp"
 #include "tb/check/judged_quad.hpp"
+#include "tb/support/outputs.hpp"
 
 #include <array>
 #include <optional>
@@ -21,8 +22,8 @@ struct PixelAlone {
 PixelAlone pixel_alone(const SnappedQuad& quad, const Config& config, const DrawState& state,
                        const PipelineContext& context, int x, int y);
 
-enum class Output { weight, attribute, depth };
-inline constexpr std::array<std::string_view, 3> output_names{"weight", "attribute", "depth"};
+using tb::Output;
+using tb::output_names;
 
 /// What the bound allows, in units of 2^-s of weights 1 to 3. Of weight 0, attributes and depth a unit is an eighth of
 /// what their bound allows them at the pixel (judged_quad.hpp), and the error begins where the output's rounding ends:

@@ -347,6 +347,7 @@ TEST_F(Cli, TablesGoToAFile) {
   EXPECT_NE(read(file("a.sv")).find("package quadrille_tables_pkg"), std::string::npos);
   const Outcome markdown = run("config --markdown");
   EXPECT_NE(markdown.out.find("| `significand_bits` | 18 |"), std::string::npos);
+  EXPECT_NE(read(QUADRILLE_SOURCE_DIR "/model/README.md").find(markdown.out), std::string::npos);
 }
 
 TEST_F(Cli, ConfigurationGoesToAFileAndBack) {

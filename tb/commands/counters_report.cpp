@@ -34,7 +34,7 @@ void print_counters(std::FILE* out, const PerformanceCounters& counters, std::st
 
 std::optional<PerformanceCounters> count_draw(const EngineSettings& settings, std::span<const WindowQuad> quads,
                                               int attributes) {
-  if (settings.kind != EngineKind::model && settings.kind != EngineKind::rtl) return std::nullopt;
+  if (!engine_info(settings.kind).machine) return std::nullopt;
   const Pass pass = plan_passes(attributes, true, settings.config).front();
   tb::LockstepOptions options;
   options.config = settings.config;

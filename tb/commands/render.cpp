@@ -72,7 +72,7 @@ int render(const RenderOptions& options, const Invocation& invocation) {
 
   golden::FrameImage image = shade_frame(frame, shading);
   const std::string& drawn_by = options.method.empty() ? options.engine.engine : options.method;
-  if (drawn_by != engine_name(EngineKind::truth) && !options.no_error &&
+  if (drawn_by != engine_info(EngineKind::truth).name && !options.no_error &&
       (!options.out.empty() || !options.common.json.empty()))
     add_error_layers(frame, input.quads, settings.config, settings.state, settings.snap, settings.threads, image);
   if (!options.out.empty()) golden::save_exr(options.out, image);

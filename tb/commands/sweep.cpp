@@ -175,9 +175,9 @@ class SweepRun {
     input_.quads = draw_.quads;
     input_.attributes = draw_.attributes;
     for (const sweep::ErrorColumn& column : measured_columns()) {
-      if (column.quantity == sweep::Quantity::depth && !input_.state.depth)
+      if (column.output == sweep::Output::depth && !input_.state.depth)
         throw UsageError(column.name() + ": depth is not measured with --no-depth");
-      if (column.quantity == sweep::Quantity::attribute && input_.attributes == 0)
+      if (column.output == sweep::Output::attribute && input_.attributes == 0)
         throw UsageError(column.name() + ": " + draw_.name + " has no attributes");
     }
     // What cannot be understood is refused before the work, not after.

@@ -301,13 +301,13 @@ TEST_F(SweepCli, SampledErrorsAreBelowProvedBounds) {
                   .status,
               0);
     for (const auto& row : table(file(family) / "points.csv"))
-      for (const std::string quantity : {"lambda", "attribute", "depth"}) {
-        const std::string& kind = row.at("bound_" + quantity + "_kind");
-        EXPECT_EQ(kind == "none", row.at("bound_" + quantity).empty());
+      for (const std::string output : {"lambda", "attribute", "depth"}) {
+        const std::string& kind = row.at("bound_" + output + "_kind");
+        EXPECT_EQ(kind == "none", row.at("bound_" + output).empty());
         if (kind != "proved") continue;
         ++proved;
-        EXPECT_LE(std::stod(row.at("arithmetic_" + quantity + "_max")), std::stod(row.at("bound_" + quantity)))
-            << family << " " << quantity << " row " << row.at("row");
+        EXPECT_LE(std::stod(row.at("arithmetic_" + output + "_max")), std::stod(row.at("bound_" + output)))
+            << family << " " << output << " row " << row.at("row");
       }
   }
   EXPECT_EQ(proved, 16u * (3 + 2));

@@ -13,7 +13,7 @@ namespace quadrille::cli {
 namespace {
 
 using sweep::ErrorKind;
-using sweep::Quantity;
+using sweep::Output;
 
 constexpr double worth_saying = 0.9;  ///< of the part before: a key that lowers it by less is no remedy
 
@@ -25,8 +25,8 @@ std::string number(const char* format, double value) {
 
 std::string_view kind_name(ErrorKind kind) { return sweep::error_kind_names[static_cast<std::size_t>(kind)]; }
 
-/// Keys that a part of a quantity's error may depend on, the most likely first.
-std::vector<std::string_view> candidate_keys(ErrorKind part, Quantity quantity, bool ordinary) {
+/// Keys that a part of an output's error may depend on, the most likely first.
+std::vector<std::string_view> candidate_keys(ErrorKind part, Output output, bool ordinary) {
   constexpr std::array<std::string_view, 5> of_snapping{"subpixel_bits", "homogeneous_frac_bits", "significand_bits",
                                                         "attribute_frac_bits", "depth_bits"};
   constexpr std::array<std::string_view, 7> of_arithmetic{
@@ -37,7 +37,7 @@ std::vector<std::string_view> candidate_keys(ErrorKind part, Quantity quantity, 
     keys.assign(of_snapping.begin(), of_snapping.end());
   else
     keys.assign(of_arithmetic.begin(), of_arithmetic.end());
-  std::vector<std::string_view> idle = sweep::idle_keys(std::span(&quantity, 1));
+  std::vector<std::string_view> idle = sweep::idle_keys(std::span(&output, 1));
   if (ordinary) idle.emplace_back("homogeneous_frac_bits");  // no vertex uses those bits
   std::erase_if(keys, [&](std::string_view key) { return std::ranges::find(idle, key) != idle.end(); });
   return keys;
@@ -80,7 +80,7 @@ std::string change(const Config& from, const Config& to) {
 TargetParts target_parts(const ErrorTarget& target, const Config& config, const sweep::PointResult& result,
                          bool ordinary, const DrawState& state, const EvaluateAll& evaluate) {
   const auto error = [&](ErrorKind kind, const sweep::PointResult& of) {
-    return sweep::ErrorColumn{kind, target.column.quantity, target.column.statistic}.value(of);
+    return sweep::ErrorColumn{kind, target.column.output, target.column.statistic}.value(of);
   };
   TargetParts parts{.target = target,
                     .arithmetic = error(ErrorKind::arithmetic, result),
@@ -95,7 +95,7 @@ TargetParts target_parts(const ErrorTarget& target, const Config& config, const 
 
   std::vector<Config> tried;
   std::vector<std::string_view> keys;
-  for (const std::string_view key : candidate_keys(part, target.column.quantity, ordinary)) {
+  for (const std::string_view key : candidate_keys(part, target.column.output, ordinary)) {
     if (const std::optional<Config> more = one_more(config, key, state)) {
       tried.push_back(*more);
       keys.push_back(key);
@@ -129,7 +129,7 @@ std::string verdict(const TargetParts& parts) {
     return "The total error meets " + given + " too: " + number("%.0f %%", 100 * ratio) + " of it.";
   const std::string part(kind_name(*parts.in_the_way));
   std::string text = "The total error is " + number("%.3g", ratio) + " times " + given;
-  if (parts.target.column.quantity == Quantity::colour)
+  if (parts.target.column.output == Output::colour)
     text += ", " + number("%.2g", parts.total * 255) + " steps of 8 bits";
   text += ". The " + part + " error is in the way";
   if (parts.remedy)

@@ -85,8 +85,8 @@ void print_planes(std::FILE* out, const SweepSummary& summary, bool skipped, con
   std::fprintf(out, "  %6s %7s %12s %12s %10s  %s\n", "row", "share", "attribute", "depth", "cost", "");
   std::size_t lines = 0;
   bool taken = false;
-  const auto error = [&](const sweep::PointResult& result, sweep::Quantity quantity) {
-    const double value = sweep::ErrorColumn{sweep::ErrorKind::arithmetic, quantity}.value(result);
+  const auto error = [&](const sweep::PointResult& result, sweep::Output output) {
+    const double value = sweep::ErrorColumn{sweep::ErrorKind::arithmetic, output}.value(result);
     return value > 0 ? exponent(value) : std::string("-");
   };
   for (const sweep::PointRow& point : summary.rows) {
@@ -94,8 +94,8 @@ void print_planes(std::FILE* out, const SweepSummary& summary, bool skipped, con
     taken = taken || point.result.plane_quads != 0;
     if (++lines > most) continue;
     std::fprintf(out, "  %6zu %6.1f%% %12s %12s %10.0f  %s\n", point.row, 100 * sweep::plane_share(point.result),
-                 error(point.result, sweep::Quantity::attribute).c_str(),
-                 error(point.result, sweep::Quantity::depth).c_str(), point.scalar_cost,
+                 error(point.result, sweep::Output::attribute).c_str(),
+                 error(point.result, sweep::Output::depth).c_str(), point.scalar_cost,
                  varied(summary.grid, point.config).c_str());
   }
   if (lines > most) std::fprintf(out, "  and %zu more: points.csv\n", lines - most);

@@ -110,8 +110,8 @@ class Search {
   explicit Search(const TargetSearch& search) : search_(search) {
     for (std::size_t i = 0; i < search.configs.size(); ++i)
       points_.push_back({search.configs[i], search.costs[i], search.ordinary[i]});
-    std::vector<sweep::Quantity> measured;
-    for (const ErrorTarget& target : search.targets) measured.push_back(target.column.quantity);
+    std::vector<sweep::Output> measured;
+    for (const ErrorTarget& target : search.targets) measured.push_back(target.column.output);
     idle_keys_ = sweep::idle_keys(measured);
   }
 
@@ -155,7 +155,7 @@ class Search {
   }
 
   /// Over the input and the families that have refuted a winner; no more than is needed to know that it is above 1. A
-  /// family that does not have a quantity says nothing.
+  /// family that does not have an output says nothing.
   double miss(std::size_t point) {
     double worst = input_miss(point);
     if (!(worst <= 1)) return worst;
@@ -190,7 +190,7 @@ class Search {
   double family_total(std::size_t family, std::size_t point) {
     double worst = std::numeric_limits<double>::quiet_NaN();
     for (const ErrorTarget& target : search_.targets) {
-      const sweep::ErrorColumn total{sweep::ErrorKind::total, target.column.quantity, target.column.statistic};
+      const sweep::ErrorColumn total{sweep::ErrorKind::total, target.column.output, target.column.statistic};
       worst = std::fmax(worst, total.value(on_family(family, point)) / target.limit);
     }
     return worst;

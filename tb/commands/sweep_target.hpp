@@ -55,7 +55,7 @@ struct FamilyCheck {
   std::string target;
   std::string worst;  ///< a command that prints the fragment with the worst weights
   std::uint64_t fragments = 0;
-  bool measured = true;  ///< every target's quantity is there
+  bool measured = true;  ///< every target's output is there
 };
 
 struct TargetResult {

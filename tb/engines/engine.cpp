@@ -11,18 +11,19 @@
 namespace quadrille::cli {
 namespace {
 
-constexpr std::array<std::string_view, 6> names{"rtl", "model", "float", "shader", "truth", "fp32"};
-
 constinit EngineMaker shader_maker = nullptr;
 
 }  // namespace
 
-EngineKind engine_kind(std::string_view name, bool single) {
-  const std::vector<std::string> choices(names.begin(), names.end() - (single ? 0 : 1));
-  return static_cast<EngineKind>(choose("engine", name, choices));
+std::vector<std::string> engine_choices(bool single) {
+  std::vector<std::string> names;
+  for (const EngineInfo& engine : std::span(engine_table).first(single ? 6 : 5)) names.emplace_back(engine.name);
+  return names;
 }
 
-std::string_view engine_name(EngineKind kind) { return names[static_cast<std::size_t>(kind)]; }
+EngineKind engine_kind(std::string_view name, bool single) {
+  return static_cast<EngineKind>(choose("engine", name, engine_choices(single)));
+}
 
 std::unique_ptr<Engine> make_engine(const EngineSettings& settings) {
   switch (settings.kind) {
@@ -37,6 +38,9 @@ std::unique_ptr<Engine> make_engine(const EngineSettings& settings) {
     case EngineKind::paper_single:
     case EngineKind::truth:
       return make_reference_engine(settings);
+    case EngineKind::model_plain:
+    case EngineKind::model_clocked:
+      break;
   }
   throw std::logic_error("engine kind");
 }

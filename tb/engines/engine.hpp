@@ -16,12 +16,33 @@
 
 namespace quadrille::cli {
 
-enum class EngineKind { rtl, model, paper_float, shader, truth, paper_single };
+/// All that draws, the last two in `bench --error` alone.
+enum class EngineKind { rtl, model, paper_float, shader, truth, paper_single, model_plain, model_clocked };
+struct EngineInfo {
+  std::string_view name, help;
+  bool machine = false;  ///< every bit is that of the machine
+};
+inline constexpr std::array<EngineInfo, 8> engine_table{{{"rtl", "the RTL under Verilator", true},
+                                                         {"model", "the untimed model", true},
+                                                         {"float", "the paper's formulas in double precision"},
+                                                         {"shader", "the papers' shader in single precision on OpenGL"},
+                                                         {"truth", "exact arithmetic"},
+                                                         {"fp32", "the paper's formulas in single precision"},
+                                                         {"model-plain", "the untimed model with plain integers", true},
+                                                         {"model-clocked", "the clocked model alone", true}}};
+constexpr const EngineInfo& engine_info(EngineKind kind) { return engine_table[static_cast<std::size_t>(kind)]; }
 
-/// "rtl", "model", "float", "shader", "truth"; with `single` also "fp32", the paper's formulas in single precision on
-/// the processor. Throws UsageError with the choices for any other name.
+/// One T for each.
+template <class T>
+struct PerEngine : std::array<T, engine_table.size()> {
+  T& operator[](EngineKind kind) { return this->data()[static_cast<std::size_t>(kind)]; }
+  const T& operator[](EngineKind kind) const { return this->data()[static_cast<std::size_t>(kind)]; }
+};
+
+/// Names of the choices of --engine: of all that make_engine() makes; fp32 where `single`.
+std::vector<std::string> engine_choices(bool single);
+/// Throws UsageError with these for any other name.
 EngineKind engine_kind(std::string_view name, bool single = false);
-std::string_view engine_name(EngineKind kind);
 
 /// Bit of a written flags column beyond FragmentFlag: the numbers are not to be used (float, fp32 and shader).
 inline constexpr std::uint32_t flag_undefined = 256;

@@ -335,12 +335,10 @@ void InputOptions::add_light_to(CLI::App& app) {
 
 void EngineOptions::add_to(CLI::App& app, bool fp32) {
   single = fp32;
-  app.add_option("--engine", engine,
-                 std::string("rtl, model, float (the paper's formulas in double), ") +
-                     (fp32 ? "fp32 (the same in single precision), " : "") +
-                     "shader (the paper's shader in fp32 on OpenGL) or truth")
-      ->type_name("ENGINE")
-      ->capture_default_str();
+  std::string help;
+  for (const std::string& name : engine_choices(fp32))
+    help += (help.empty() ? "" : ", ") + name + " (" + std::string(engine_info(engine_kind(name, fp32)).help) + ")";
+  app.add_option("--engine", engine, help)->type_name("ENGINE")->capture_default_str();
   app.add_option("--snap", snap,
                  std::string("on or off: float, ") + (fp32 ? "fp32, " : "") +
                      "shader and truth draw the snapped or the given quads")
@@ -371,8 +369,7 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
   s.gap = probability("--gap", gap);
   if (s.kind != EngineKind::rtl && (stall != 0 || gap != 0))
     throw UsageError("--stall and --gap are for --engine rtl; " + engine + " has no clock");
-  const bool machine = s.kind == EngineKind::rtl || s.kind == EngineKind::model;
-  if (machine && !s.snap)
+  if (engine_info(s.kind).machine && !s.snap)
     throw UsageError("--snap off is for the engines float, shader and truth; the machine takes snapped quads only");
   return s;
 }

@@ -97,12 +97,12 @@ class ErrorCommand {
     std::string name;
     std::unique_ptr<ErrorBench> bench;
 
-    const BodyResult& result(Body body) const { return bench->result(body); }
+    const BodyResult& result(EngineKind body) const { return bench->result(body); }
   };
 
-  std::vector<Body> bodies() const {
-    std::vector<Body> list{Body::fp32, Body::fp64, Body::truth, Body::model_plain, Body::model, Body::model_clocked};
-    if (!options_.speed.no_rtl) list.push_back(Body::rtl);
+  std::vector<EngineKind> bodies() const {
+    std::vector<EngineKind> list(error_engines.begin(), error_engines.end());
+    if (options_.speed.no_rtl) list.pop_back();
     return list;
   }
 
@@ -173,8 +173,8 @@ class ErrorCommand {
     std::fprintf(text, "%-24s %9s %8s %9s %8s %8s %9s %8s %8s %6s %6s %6s\n", "", "fragments", "fp32", "undefined",
                  "missed", "fp64", "undefined", "missed", "machine", "single", "double", "one");
     for (const Input& input : inputs_) {
-      const BodyResult &fp32 = input.result(Body::fp32), &fp64 = input.result(Body::fp64),
-                       &model = input.result(Body::model);
+      const BodyResult &fp32 = input.result(EngineKind::paper_single), &fp64 = input.result(EngineKind::paper_float),
+                       &model = input.result(EngineKind::model);
       const LanePixels& lanes = model.lanes;
       const double pixels = std::max(1.0, static_cast<double>(lanes.single + lanes.wide + lanes.plain));
       const auto share = [pixels](std::uint64_t of) { return 100 * static_cast<double>(of) / pixels; };
@@ -191,7 +191,7 @@ class ErrorCommand {
       std::fprintf(text, "\n%s %s: %zu quads\n%-14s %9s %9s %9s %12s %9s %9s %9s %11s\n", input.kind,
                    input.name.c_str(), input.bench->quads(), "", "lambda", "p99.9", "rms", "attribute", "depth",
                    "undefined", "missed", "ns/fragment");
-      for (const Body body : bodies()) {
+      for (const EngineKind body : bodies()) {
         const BodyResult& r = input.result(body);
         std::fprintf(text, "%-14s %9.2e %9.2e %9.2e %12.2e %9.2e %9llu %9llu %11.1f\n", name(body), r.lambda.max(),
                      r.lambda.p999(), r.lambda.rms(), r.attribute.max(), r.depth.max(), count(r.undefined),
@@ -205,8 +205,8 @@ class ErrorCommand {
         text,
         "\nOver all inputs; times on one core, median of %d interleaved runs\n\n%-14s %11s %12s %12s  %-24s %9s %9s\n",
         repeat_, "", "ns/fragment", "of the model", "worst weight", "", "undefined", "missed");
-    const double base = seconds_per_fragment(Body::model);
-    for (const Body body : bodies()) {
+    const double base = seconds_per_fragment(EngineKind::model);
+    for (const EngineKind body : bodies()) {
       const Input* worst = &inputs_.front();
       std::uint64_t undefined = 0, missing = 0;
       for (const Input& input : inputs_) {
@@ -223,16 +223,16 @@ class ErrorCommand {
                    count(missing));
     }
     PerformanceCounters counters;
-    for (const Input& input : inputs_) counters += input.result(Body::model_clocked).counters;
+    for (const Input& input : inputs_) counters += input.result(EngineKind::model_clocked).counters;
     std::fputc('\n', text);
     print_counters(text, counters, "of the clocked model, over all inputs");
   }
 
   /// Of all inputs, each with its fragments.
-  double seconds_per_fragment(Body body) const {
+  double seconds_per_fragment(EngineKind body) const {
     double seconds = 0, fragments = 0;
     for (const Input& input : inputs_) {
-      const auto n = static_cast<double>(input.result(Body::model).fragments);
+      const auto n = static_cast<double>(input.result(EngineKind::model).fragments);
       seconds += n * input.result(body).seconds_per_fragment;
       fragments += n;
     }
@@ -247,7 +247,7 @@ class ErrorCommand {
     json["weight_bound"] = weight_bound(config_);
     json["error"] = nlohmann::ordered_json::array();
     for (const Input& input : inputs_) {
-      for (const Body body : bodies()) {
+      for (const EngineKind body : bodies()) {
         const BodyResult& r = input.result(body);
         nlohmann::ordered_json entry;
         entry["input"] = input.name;
@@ -262,9 +262,9 @@ class ErrorCommand {
         entry["depth_max"] = or_null(r.depth, r.depth.max());
         entry["undefined"] = r.undefined;
         entry["missing"] = r.missing;
-        if (body == Body::model)
+        if (body == EngineKind::model)
           entry["pixels_by_lane"] = {{"single", r.lanes.single}, {"double", r.lanes.wide}, {"one", r.lanes.plain}};
-        if (body == Body::model_clocked) entry["counters"] = counters_json(r.counters);
+        if (body == EngineKind::model_clocked) entry["counters"] = counters_json(r.counters);
         json["error"].push_back(std::move(entry));
       }
     }
@@ -277,7 +277,10 @@ class ErrorCommand {
     return json;
   }
 
-  static const char* name(Body body) { return body_names[static_cast<std::size_t>(body)].data(); }
+  /// Beside fp32, float is fp64 here.
+  static const char* name(EngineKind body) {
+    return body == EngineKind::paper_float ? "fp64" : engine_info(body).name.data();
+  }
   static unsigned long long count(std::uint64_t n) { return n; }
 
   const BenchOptions& options_;

@@ -79,8 +79,9 @@ std::uint64_t draw_by(Engine& engine, std::span<const WindowQuad> quads) {
   return samples;
 }
 
-Subject engine_subject(EngineKind kind, const char* what, std::size_t most_quads = every_quad) {
-  return {std::string(engine_name(kind)), what,
+Subject engine_subject(EngineKind kind, std::size_t most_quads = every_quad) {
+  const EngineInfo& engine = engine_info(kind);
+  return {std::string(engine.name), std::string(engine.help),
           [kind, most_quads](const Load& load) {
             EngineSettings settings;
             settings.kind = kind;
@@ -171,13 +172,13 @@ bool has_shader() {
 }
 
 std::vector<Subject> subjects() {
-  std::vector<Subject> list{engine_subject(EngineKind::model, "untimed model"),
+  std::vector<Subject> list{engine_subject(EngineKind::model),
                             {"clocked", "clocked model", clocked},
                             {"judge", "the model's fragments judged as cosim does", judged},
-                            engine_subject(EngineKind::truth, "truth"),
-                            engine_subject(EngineKind::paper_float, "the paper's formulas in double precision"),
-                            engine_subject(EngineKind::paper_single, "in single precision")};
-  if (has_shader()) list.push_back(engine_subject(EngineKind::shader, "the papers' shader on OpenGL", 40));
+                            engine_subject(EngineKind::truth),
+                            engine_subject(EngineKind::paper_float),
+                            engine_subject(EngineKind::paper_single)};
+  if (has_shader()) list.push_back(engine_subject(EngineKind::shader, 40));
   for (const char* method : {"mvc", "split02", "twofold", "bilinear", "hybrid", "refine:20", "adaptive"})
     list.push_back(method_subject(method));
   return list;

@@ -34,7 +34,12 @@ tb::LockstepOptions alone(const Config& config, const DrawState& state) {
   return options;
 }
 
-PixelEngine pixel_engine(Body body) { return body == Body::model_plain ? PixelEngine::plain : PixelEngine::lanes; }
+/// What the others must equal first.
+constexpr std::array machines{EngineKind::model, EngineKind::model_plain, EngineKind::model_clocked, EngineKind::rtl};
+
+PixelEngine pixel_engine(EngineKind body) {
+  return body == EngineKind::model_plain ? PixelEngine::plain : PixelEngine::lanes;
+}
 
 std::string text_of(const Fragment& fragment) {
   char text[96];
@@ -87,22 +92,22 @@ std::string complaint(const CheckResult& result) {
 
 }  // namespace
 
-std::vector<Fragment> draw_body(Body body, std::span<const SnappedQuad> quads, const Config& config,
+std::vector<Fragment> draw_body(EngineKind body, std::span<const SnappedQuad> quads, const Config& config,
                                 const DrawState& state) {
   std::vector<Fragment> fragments;
   const tb::FragmentSink sink = [&](const Fragment& fragment) { fragments.push_back(fragment); };
   switch (body) {
-    case Body::model:
-    case Body::model_plain: {
+    case EngineKind::model:
+    case EngineKind::model_plain: {
       UntimedModel model(config, state, pixel_engine(body));
       for (const SnappedQuad& quad : quads)
         model.draw(quad, [&](std::span<const Fragment> f) { fragments.insert(fragments.end(), f.begin(), f.end()); });
       return fragments;
     }
-    case Body::model_clocked:
+    case EngineKind::model_clocked:
       tb::run_clocked_model_alone(quads, alone(config, state), sink);
       return fragments;
-    case Body::rtl:
+    case EngineKind::rtl:
       tb::run_rtl_alone(quads, alone(config, state), sink);
       return fragments;
     default:
@@ -170,8 +175,8 @@ void ErrorBench::compare_machine() {
   std::size_t weight_passes = 0;
   const std::vector<Pass> passes = plan_judged_passes(attributes_, settings_.config.attribute_slots, &weight_passes);
 
-  std::array<CheckResult, body_names.size()> checks;
-  std::array<bool, body_names.size()> told{};
+  PerEngine<CheckResult> checks;
+  PerEngine<bool> told{};
   for (std::size_t p = 0; p < passes.size(); ++p) {
     const std::vector<SnappedQuad> snapped = snap(passes[p]);
     FragmentChecker::Settings check_settings;
@@ -189,36 +194,34 @@ void ErrorBench::compare_machine() {
 
     std::vector<Fragment> expected;
     CheckResult of_model;
-    for (const Body body : machine_bodies) {
+    for (const EngineKind body : machines) {
       if (!has(body)) continue;
-      const auto b = static_cast<std::size_t>(body);
       const std::vector<Fragment> actual = settings_.draw(body, snapped, settings_.config, pass_state(passes[p]));
-      if (body == Body::model) {
+      if (body == EngineKind::model) {
         expected = actual;
         of_model = check(expected);
       }
       const std::string difference = first_difference(expected, actual);
-      if (!difference.empty() && !told[b]) {
-        told[b] = true;
-        failures_.push_back(std::string(body_names[b]) + " differs from model: " + difference +
+      if (!difference.empty() && !told[body]) {
+        told[body] = true;
+        failures_.push_back(std::string(engine_info(body).name) + " differs from model: " + difference +
                             (p < weight_passes ? " (weights)" : " (attributes)"));
       }
-      checks[b].merge(difference.empty() ? of_model : check(actual));
+      checks[body].merge(difference.empty() ? of_model : check(actual));
     }
   }
 
-  for (const Body body : machine_bodies) {
+  for (const EngineKind body : machines) {
     if (!has(body)) continue;
-    const auto b = static_cast<std::size_t>(body);
-    const CheckResult& found = checks[b];
-    BodyResult& r = filled(body);
+    const CheckResult& found = checks[body];
+    BodyResult& r = results_[body];
     r.fragments = found.compared;
     r.missing = found.mismatches;
     r.lambda = found.arithmetic.lambda;
     r.attribute = found.arithmetic.attribute;
     r.depth = found.arithmetic.depth;
     if (const std::string text = complaint(found); !text.empty())
-      failures_.push_back(std::string(body_names[b]) + ": " + text);
+      failures_.push_back(std::string(engine_info(body).name) + ": " + text);
   }
 }
 
@@ -250,41 +253,41 @@ void ErrorBench::compare_paper() {
     const ReferenceSample truth = quad->truth.sample(pixel.x, pixel.y);
     // Drawn by the model all the same: tolerated where sum(M w) is near 0, or z near the ends of its interval.
     if (!truth.covered || !truth.visible || !in_depth(truth, state)) continue;
-    ++filled(Body::truth).fragments;
-    add_errors(truth, truth, state, quad->exempt, filled(Body::truth));
-    add_sample(quad->fp32.sample(pixel.x, pixel.y), truth, state, quad->exempt, filled(Body::fp32));
-    add_sample(quad->fp64.sample(pixel.x, pixel.y), truth, state, quad->exempt, filled(Body::fp64));
+    ++results_[EngineKind::truth].fragments;
+    add_errors(truth, truth, state, quad->exempt, results_[EngineKind::truth]);
+    add_sample(quad->fp32.sample(pixel.x, pixel.y), truth, state, quad->exempt, results_[EngineKind::paper_single]);
+    add_sample(quad->fp64.sample(pixel.x, pixel.y), truth, state, quad->exempt, results_[EngineKind::paper_float]);
   }
 }
 
 void ErrorBench::time(int repeat) {
-  std::array<std::vector<double>, body_names.size()> seconds;
+  PerEngine<std::vector<double>> seconds;
   for (int round = 0; round < repeat; ++round) {
-    for (std::size_t b = 0; b < body_names.size(); ++b) {
-      if (!has(static_cast<Body>(b)) || timed_pixels_ == 0) continue;
+    for (const EngineKind body : error_engines) {
+      if (!has(body) || timed_pixels_ == 0) continue;
       Run sum;
       while (sum.seconds < shortest_run) {
-        const Run run = run_once(static_cast<Body>(b));
+        const Run run = run_once(body);
         sum.fragments += run.fragments;
         sum.seconds += run.seconds;
-        results_[b].counters = run.counters;
-        results_[b].lanes = run.lanes;
+        results_[body].counters = run.counters;
+        results_[body].lanes = run.lanes;
       }
-      seconds[b].push_back(sum.seconds / static_cast<double>(sum.fragments));
+      seconds[body].push_back(sum.seconds / static_cast<double>(sum.fragments));
     }
   }
-  for (std::size_t b = 0; b < body_names.size(); ++b)
-    if (!seconds[b].empty()) results_[b].seconds_per_fragment = median(std::move(seconds[b]));
+  for (const EngineKind body : error_engines)
+    if (!seconds[body].empty()) results_[body].seconds_per_fragment = median(std::move(seconds[body]));
 }
 
-ErrorBench::Run ErrorBench::run_once(Body body) const {
+ErrorBench::Run ErrorBench::run_once(EngineKind body) const {
   // The functions are not inlined, so that nothing of their results is left out.
   switch (body) {
-    case Body::fp32:
+    case EngineKind::paper_single:
       return run_reference<PaperFp32Quad>(1, [](const auto& quad, int x, int y) { quad.interpolate(x, y); });
-    case Body::fp64:
+    case EngineKind::paper_float:
       return run_reference<PaperFp64Quad>(1, [](const auto& quad, int x, int y) { quad.interpolate(x, y); });
-    case Body::truth:
+    case EngineKind::truth:
       return run_reference<TruthQuad>(std::max<std::size_t>(1, timed_pixels_ / truth_samples),
                                       [](const auto& quad, int x, int y) { quad.sample(x, y); });
     default:
@@ -292,11 +295,12 @@ ErrorBench::Run ErrorBench::run_once(Body body) const {
   }
 }
 
-ErrorBench::Run ErrorBench::run_machine(Body body) const {
+ErrorBench::Run ErrorBench::run_machine(EngineKind body) const {
   const DrawState state = pass_state(first_pass_);
-  if (body == Body::model_clocked || body == Body::rtl) {
-    const tb::AloneRun run = body == Body::rtl ? tb::run_rtl_alone(timed_, alone(settings_.config, state))
-                                               : tb::run_clocked_model_alone(timed_, alone(settings_.config, state));
+  if (body == EngineKind::model_clocked || body == EngineKind::rtl) {
+    const tb::AloneRun run = body == EngineKind::rtl
+                                 ? tb::run_rtl_alone(timed_, alone(settings_.config, state))
+                                 : tb::run_clocked_model_alone(timed_, alone(settings_.config, state));
     return {run.fragments, run.seconds, run.counters, {}};
   }
   UntimedModel model(settings_.config, state, pixel_engine(body));

@@ -19,10 +19,10 @@
 
 namespace quadrille::cli {
 
-enum class Body { fp32, fp64, truth, model_plain, model, model_clocked, rtl };
-inline constexpr std::array<std::string_view, 7> body_names{"fp32",  "fp64",          "truth", "model-plain",
-                                                            "model", "model-clocked", "rtl"};
-inline constexpr std::array<Body, 4> machine_bodies{Body::model, Body::model_plain, Body::model_clocked, Body::rtl};
+/// The bodies of `bench --error`, in the order of its report.
+inline constexpr std::array error_engines{EngineKind::paper_single, EngineKind::paper_float, EngineKind::truth,
+                                          EngineKind::model_plain,  EngineKind::model,       EngineKind::model_clocked,
+                                          EngineKind::rtl};
 
 /// One body on one input.
 struct BodyResult {
@@ -46,8 +46,8 @@ struct BodyResult {
 
 /// The fragments of one draw of a machine, in its order.
 using DrawBody =
-    std::function<std::vector<Fragment>(Body, std::span<const SnappedQuad>, const Config&, const DrawState&)>;
-std::vector<Fragment> draw_body(Body body, std::span<const SnappedQuad> quads, const Config& config,
+    std::function<std::vector<Fragment>(EngineKind, std::span<const SnappedQuad>, const Config&, const DrawState&)>;
+std::vector<Fragment> draw_body(EngineKind body, std::span<const SnappedQuad> quads, const Config& config,
                                 const DrawState& state);
 
 /// Where two draws differ first, for a person; empty when they are equal.
@@ -80,8 +80,8 @@ class ErrorBench {
   void time(int repeat);
 
   std::size_t quads() const { return quads_.size(); }
-  const BodyResult& result(Body body) const { return results_[static_cast<std::size_t>(body)]; }
-  bool has(Body body) const { return body != Body::rtl || settings_.rtl; }
+  const BodyResult& result(EngineKind body) const { return results_[body]; }
+  bool has(EngineKind body) const { return body != EngineKind::rtl || settings_.rtl; }
   /// What must not be: a bound exceeded, machines that differ, no fragments. Empty when all is well.
   const std::vector<std::string>& failures() const { return failures_; }
 
@@ -97,14 +97,13 @@ class ErrorBench {
     LanePixels lanes{};              ///< of the untimed one
   };
 
-  BodyResult& filled(Body body) { return results_[static_cast<std::size_t>(body)]; }
   DrawState pass_state(const Pass& pass) const;
   std::vector<SnappedQuad> snap(const Pass& pass) const;
   void choose_quads(std::span<const WindowQuad> quads);
   void compare_machine();
   void compare_paper();
-  Run run_once(Body body) const;
-  Run run_machine(Body body) const;
+  Run run_once(EngineKind body) const;
+  Run run_machine(EngineKind body) const;
   template <class Quad, class Visit>
   Run run_reference(std::size_t stride, Visit&& visit) const;
 
@@ -115,7 +114,7 @@ class ErrorBench {
   std::vector<SnappedQuad> timed_;  ///< for the first pass
   std::vector<Pixel> pixels_;       ///< of all quads, in the order of the model
   std::size_t timed_pixels_ = 0;    ///< of them, those of timed_
-  std::array<BodyResult, body_names.size()> results_{};
+  PerEngine<BodyResult> results_{};
   std::vector<std::string> failures_;
 };
 

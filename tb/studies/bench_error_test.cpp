@@ -36,8 +36,9 @@ class ErrorBenchTest : public testing::Test {
 
   /// `fault` changes what one body draws, in the first draw.
   template <class Fault>
-  void break_body(Body broken, Fault fault) {
-    settings_.draw = [=](Body body, std::span<const SnappedQuad> quads, const Config& config, const DrawState& state) {
+  void break_body(EngineKind broken, Fault fault) {
+    settings_.draw = [=](EngineKind body, std::span<const SnappedQuad> quads, const Config& config,
+                         const DrawState& state) {
       std::vector<Fragment> fragments = draw_body(body, quads, config, state);
       if (body == broken) fault(fragments);
       return fragments;
@@ -47,12 +48,12 @@ class ErrorBenchTest : public testing::Test {
   ErrorBench::Settings settings_;
 };
 
-constexpr Body own_machines[] = {Body::model, Body::model_plain, Body::model_clocked};
+constexpr EngineKind own_machines[] = {EngineKind::model, EngineKind::model_plain, EngineKind::model_clocked};
 
 TEST_F(ErrorBenchTest, CountsOfASquare) {
   const ErrorBench bench = compare({square(0.5, 5)}, 5);  // more attributes than the machine has slots
   EXPECT_TRUE(bench.failures().empty()) << bench.failures().front();
-  for (const Body body : own_machines) {
+  for (const EngineKind body : own_machines) {
     const BodyResult& r = bench.result(body);
     EXPECT_EQ(r.fragments, square_fragments);
     EXPECT_EQ(r.undefined + r.missing, 0u);
@@ -60,7 +61,7 @@ TEST_F(ErrorBenchTest, CountsOfASquare) {
     EXPECT_GT(r.lambda.max(), 0);
     EXPECT_LT(r.lambda.max(), 0x1p-15);
   }
-  for (const Body body : {Body::fp32, Body::fp64}) {
+  for (const EngineKind body : {EngineKind::paper_single, EngineKind::paper_float}) {
     const BodyResult& r = bench.result(body);
     EXPECT_EQ(r.fragments, square_fragments);
     EXPECT_EQ(r.undefined, square_on_edge);
@@ -68,26 +69,27 @@ TEST_F(ErrorBenchTest, CountsOfASquare) {
     for (const tb::ErrorStats* stats : {&r.lambda, &r.attribute, &r.depth})
       EXPECT_EQ(stats->count(), square_fragments - square_on_edge);
     // Some ulps times |v|^2/|A| <= 2 * 20^2 / 16 one pixel from an edge, and not those of the other precision.
-    const double ulp = body == Body::fp32 ? 0x1p-23 : 0x1p-52;
+    const double ulp = body == EngineKind::paper_single ? 0x1p-23 : 0x1p-52;
     EXPECT_GT(r.lambda.max(), ulp / 16);
     EXPECT_LT(r.lambda.max(), ulp * 0x1p10);
     EXPECT_LT(r.depth.max(), ulp * 0x1p10);
     EXPECT_GT(r.attribute.max(), 0);
     EXPECT_LT(r.attribute.max(), ulp * 0x1p10);
   }
-  const BodyResult& truth = bench.result(Body::truth);
+  const BodyResult& truth = bench.result(EngineKind::truth);
   EXPECT_EQ(truth.fragments, square_fragments);
   EXPECT_EQ(truth.lambda.count(), square_fragments);
   EXPECT_EQ(truth.lambda.max() + truth.attribute.max() + truth.depth.max(), 0);
-  EXPECT_FALSE(bench.has(Body::rtl));
-  EXPECT_EQ(bench.result(Body::rtl).fragments, 0u);
+  EXPECT_FALSE(bench.has(EngineKind::rtl));
+  EXPECT_EQ(bench.result(EngineKind::rtl).fragments, 0u);
 }
 
 TEST_F(ErrorBenchTest, WithoutAttributesOrDepthTheyHaveNoErrors) {
   settings_.state.depth = false;
   const ErrorBench bench = compare({square()});
   EXPECT_TRUE(bench.failures().empty());
-  for (const Body body : {Body::fp32, Body::fp64, Body::truth, Body::model}) {
+  for (const EngineKind body :
+       {EngineKind::paper_single, EngineKind::paper_float, EngineKind::truth, EngineKind::model}) {
     EXPECT_EQ(bench.result(body).attribute.count(), 0u);
     EXPECT_EQ(bench.result(body).depth.count(), 0u);
     EXPECT_GT(bench.result(body).lambda.count(), 0u);
@@ -98,11 +100,11 @@ TEST_F(ErrorBenchTest, DepthRoundedOutOfItsIntervalIsMissing) {
   // z = 1 = zfar at every corner: sum(lambda) rounds to more than 1 now and then, in either precision.
   const ErrorBench bench = compare({square(1)});
   EXPECT_TRUE(bench.failures().empty());
-  for (const Body body : {Body::fp32, Body::fp64}) {
+  for (const EngineKind body : {EngineKind::paper_single, EngineKind::paper_float}) {
     const BodyResult& r = bench.result(body);
     EXPECT_GT(r.missing, 0u);
     EXPECT_LT(r.missing, square_fragments / 2);
-    EXPECT_EQ(r.fragments, bench.result(Body::model).fragments);  // which lacks some itself, and may
+    EXPECT_EQ(r.fragments, bench.result(EngineKind::model).fragments);  // which lacks some itself, and may
     EXPECT_EQ(r.undefined + r.missing + r.lambda.count(), r.fragments);
   }
 }
@@ -114,7 +116,8 @@ TEST_F(ErrorBenchTest, AVertexBehindTheEyeWithoutPerspectiveHasNoWeightErrors) {
   const ErrorBench flat = compare({quad}, 1);
   settings_.state.perspective = true;
   const ErrorBench deep = compare({quad}, 1);
-  for (const Body body : {Body::fp32, Body::fp64, Body::truth, Body::model}) {
+  for (const EngineKind body :
+       {EngineKind::paper_single, EngineKind::paper_float, EngineKind::truth, EngineKind::model}) {
     EXPECT_GT(flat.result(body).fragments, 0u);
     EXPECT_EQ(flat.result(body).lambda.count(), 0u);
     EXPECT_EQ(flat.result(body).attribute.count(), 0u);
@@ -130,8 +133,8 @@ TEST_F(ErrorBenchTest, DrawsQuadsUntilThereIsEnough) {
   settings_.limit_fragments = 5000;  // 19.5 squares
   const ErrorBench bench = compare(quads);
   EXPECT_EQ(bench.quads(), 20u);
-  EXPECT_EQ(bench.result(Body::model).fragments, 20 * square_fragments);
-  EXPECT_EQ(bench.result(Body::fp32).undefined, 20 * square_on_edge);
+  EXPECT_EQ(bench.result(EngineKind::model).fragments, 20 * square_fragments);
+  EXPECT_EQ(bench.result(EngineKind::paper_single).undefined, 20 * square_on_edge);
 }
 
 TEST_F(ErrorBenchTest, NoFragmentsIsAFailure) {
@@ -143,35 +146,35 @@ TEST_F(ErrorBenchTest, NoFragmentsIsAFailure) {
 }
 
 TEST_F(ErrorBenchTest, MachinesThatDifferAreAFailure) {
-  break_body(Body::model_clocked, [](std::vector<Fragment>& fragments) { fragments[7].attribute[3] ^= 1; });
+  break_body(EngineKind::model_clocked, [](std::vector<Fragment>& fragments) { fragments[7].attribute[3] ^= 1; });
   const ErrorBench bench = compare({square()});
   ASSERT_EQ(bench.failures().size(), 1u);  // one bit is within the bound
   EXPECT_EQ(bench.failures().front().rfind("model-clocked differs from model: fragment 7 (", 0), 0u);
-  EXPECT_EQ(bench.result(Body::model_clocked).fragments, square_fragments);
+  EXPECT_EQ(bench.result(EngineKind::model_clocked).fragments, square_fragments);
 }
 
 TEST_F(ErrorBenchTest, AMissingPixelIsAFailure) {
-  break_body(Body::model_plain, [](std::vector<Fragment>& fragments) { fragments.pop_back(); });
+  break_body(EngineKind::model_plain, [](std::vector<Fragment>& fragments) { fragments.pop_back(); });
   const ErrorBench bench = compare({square()});
   ASSERT_EQ(bench.failures().size(), 2u);
   EXPECT_NE(bench.failures()[0].find("model-plain differs from model: fragment 255"), std::string::npos);
   EXPECT_NE(bench.failures()[1].find("model-plain: 1 pixels that differ from the truth"), std::string::npos);
-  EXPECT_EQ(bench.result(Body::model_plain).missing, 1u);
-  EXPECT_EQ(bench.result(Body::model).missing, 0u);
+  EXPECT_EQ(bench.result(EngineKind::model_plain).missing, 1u);
+  EXPECT_EQ(bench.result(EngineKind::model).missing, 0u);
 }
 
 TEST_F(ErrorBenchTest, AWeightBeyondTheBoundIsAFailure) {
   // Twice the bound of 2^-(s-3).
   const int shift = settings_.config.attribute_frac() - settings_.config.significand_bits + 4;
-  break_body(Body::model, [=](std::vector<Fragment>& f) { f[100].attribute[0] += std::int64_t{1} << shift; });
+  break_body(EngineKind::model, [=](std::vector<Fragment>& f) { f[100].attribute[0] += std::int64_t{1} << shift; });
   const ErrorBench bench = compare({square()});
   const auto says = [&](const std::string& text) {
     return std::any_of(bench.failures().begin(), bench.failures().end(),
                        [&](const std::string& failure) { return failure == text; });
   };
   EXPECT_TRUE(says("model: 1 weights beyond the bound"));
-  EXPECT_NEAR(bench.result(Body::model).lambda.max(), 0x1p-14, 0x1p-16);
-  EXPECT_LT(bench.result(Body::model_plain).lambda.max(), 0x1p-15);
+  EXPECT_NEAR(bench.result(EngineKind::model).lambda.max(), 0x1p-14, 0x1p-16);
+  EXPECT_LT(bench.result(EngineKind::model_plain).lambda.max(), 0x1p-15);
 }
 
 TEST_F(ErrorBenchTest, NamesTheFirstDifference) {
@@ -189,12 +192,13 @@ TEST_F(ErrorBenchTest, TimesEveryBody) {
   ErrorBench bench(settings_, std::vector<WindowQuad>(2, square()), 0);
   bench.compare();
   bench.time(1);
-  for (const Body body : {Body::fp32, Body::fp64, Body::truth, Body::model_plain, Body::model, Body::model_clocked}) {
+  for (const EngineKind body : {EngineKind::paper_single, EngineKind::paper_float, EngineKind::truth,
+                                EngineKind::model_plain, EngineKind::model, EngineKind::model_clocked}) {
     EXPECT_GT(bench.result(body).seconds_per_fragment, 1e-10);
     EXPECT_LT(bench.result(body).seconds_per_fragment, 1e-2);
     EXPECT_GT(bench.result(body).fragments, 0u) << "the errors stay";
   }
-  EXPECT_EQ(bench.result(Body::rtl).seconds_per_fragment, 0);
+  EXPECT_EQ(bench.result(EngineKind::rtl).seconds_per_fragment, 0);
 }
 
 }  // namespace

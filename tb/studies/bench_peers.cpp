@@ -317,19 +317,17 @@ class PeerBench {
       settings.limit_fragments = std::min(error_fragments, options_.fragments);
       settings.rtl = own && !options_.no_rtl;
       if (!own)  // the other machines are not asked for
-        settings.draw = [](Body, std::span<const SnappedQuad> quads, const Config& config, const DrawState& draw) {
-          return draw_body(Body::model, quads, config, draw);
-        };
+        settings.draw = [](EngineKind, std::span<const SnappedQuad> quads, const Config& config,
+                           const DrawState& draw) { return draw_body(EngineKind::model, quads, config, draw); };
       ErrorBench bench(settings, input.quads, 0);
       bench.compare();
       if (!bench.failures().empty()) throw std::runtime_error(std::string(of.name) + ": " + bench.failures().front());
       bench.time(own ? series_repeat : 1);
-      for (const Body body : {Body::model, Body::fp64, Body::truth, Body::rtl}) {
-        if (!bench.has(body) || (!own && body != Body::model)) continue;
-        const bool machine = body == Body::model || body == Body::rtl;
-        errors_.push_back({of.kind, of.name,
-                           body == Body::fp64 ? "float" : std::string(body_names[static_cast<std::size_t>(body)]),
-                           machine ? settings.config.significand_bits : 0, bench.result(body)});
+      for (const EngineKind body : {EngineKind::model, EngineKind::paper_float, EngineKind::truth, EngineKind::rtl}) {
+        if (!bench.has(body) || (!own && body != EngineKind::model)) continue;
+        const EngineInfo& engine = engine_info(body);
+        errors_.push_back({of.kind, of.name, std::string(engine.name),
+                           engine.machine ? settings.config.significand_bits : 0, bench.result(body)});
       }
       if (own) compare_shader(of, std::span(input.quads).first(bench.quads()), state);
     }

@@ -94,15 +94,15 @@ class StressCommand {
   }
 
  private:
-  static constexpr std::size_t bodies = knob_body_names.size();
-
   void choose_bodies() {
-    const std::vector<std::string> all(knob_body_names.begin(), knob_body_names.end());
-    for (const std::string& name : names_in_list(options_.engines)) bodies_ |= 1u << choose("engine", name, all);
-    bodies_ |= 1u << static_cast<unsigned>(KnobBody::model);
+    std::vector<std::string> all;
+    for (const EngineKind body : knob_engines) all.emplace_back(engine_info(body).name);
+    bodies_ = 1u << static_cast<unsigned>(EngineKind::model);
+    for (const std::string& name : names_in_list(options_.engines))
+      bodies_ |= 1u << static_cast<unsigned>(knob_engines[choose("engine", name, all)]);
   }
 
-  bool has(std::size_t body) const { return (bodies_ >> body & 1) != 0; }
+  bool has(EngineKind body) const { return (bodies_ >> static_cast<unsigned>(body) & 1) != 0; }
 
   void choose_series() {
     std::vector<std::string> all = stress_names();
@@ -189,7 +189,7 @@ class StressCommand {
 
   /// Simulators and OpenGL contexts stay in this thread.
   unsigned threads() const {
-    const bool alone = has(static_cast<std::size_t>(KnobBody::shader)) || has(static_cast<std::size_t>(KnobBody::rtl));
+    const bool alone = has(EngineKind::shader) || has(EngineKind::rtl);
     return alone ? 1 : common_.thread_count();
   }
 
@@ -218,10 +218,10 @@ class StressCommand {
   }
 
   struct Summary {
-    std::array<BodyErrors, bodies> body;
-    std::array<std::array<std::size_t, output_names.size()>, bodies> worst{};  ///< the step of each largest error
-    std::array<std::size_t, bodies> lost{};                                    ///< and of the first pixel lost
-    std::optional<ErrorJump> jump;                                             ///< of approaches
+    PerEngine<BodyErrors> body;
+    PerEngine<std::array<std::size_t, output_names.size()>> worst{};  ///< the step of each largest error
+    PerEngine<std::size_t> lost{};                                    ///< and of the first pixel lost
+    std::optional<ErrorJump> jump;                                    ///< of approaches
     bool between_sides = false;  ///< at the same distance: there is no special case, or it draws nothing
     std::vector<std::string> faults;
   };
@@ -236,7 +236,7 @@ class StressCommand {
     const std::span<KnobErrors> results = std::span(results_).subspan(first);
     for (std::size_t i = first; i < results_.size(); ++i) {
       const KnobErrors& r = results_[i];
-      for (std::size_t b = 0; b < bodies; ++b) {
+      for (const EngineKind b : knob_engines) {
         for (std::size_t o = 0; o < output_names.size(); ++o)
           if (r.body[b].largest[o].part > sum.body[b].largest[o].part) sum.worst[b][o] = i;
         if (sum.body[b].pixels_lost() == 0) sum.lost[b] = i;
@@ -248,14 +248,16 @@ class StressCommand {
       }
       if (!r.difference.empty()) fault(place(steps_[i]) + ": " + r.difference);
       // Without such a pixel the step says nothing about the case. That the case itself has none may be what it is.
-      if (s.approach && steps_[i].side != 0 && r.near_case[0].fragments == 0)
+      if (s.approach && steps_[i].side != 0 && r.near_case[EngineKind::model].fragments == 0)
         fault(place(steps_[i]) + ": no fragment near the special case of any quad; give more --count than " +
               std::to_string(options_.count));
     }
-    if (sum.body[0].fragments == 0) fault("nothing was drawn");
+    const BodyErrors& model = sum.body[EngineKind::model];
+    if (model.fragments == 0) fault("nothing was drawn");
     for (std::size_t o = 0; o < output_names.size(); ++o)
-      if (sum.body[0].largest[o].part > 1)
-        fault("largest error of " + std::string(output_names[o]) + " beyond the bound: " + reproduce(sum, 0, o));
+      if (model.largest[o].part > 1)
+        fault("largest error of " + std::string(output_names[o]) +
+              " beyond the bound: " + reproduce(sum, EngineKind::model, o));
     if (s.approach && jumps(steps_[first])) judge_jump(std::span(steps_).subspan(first), results, sum);
     for (std::size_t o = 0; sum.jump && o < output_names.size(); ++o)
       if (sum.jump->largest[o] > 2)  // two errors within the bound, of either sign
@@ -291,13 +293,13 @@ class StressCommand {
   }
 
   /// The command that draws the pixel of the step by the body, with its errors.
-  std::string reproduce(std::size_t step, std::size_t body, const Place& at, bool attributes) const {
+  std::string reproduce(std::size_t step, EngineKind body, const Place& at, bool attributes) const {
     const DrawState& state = series_[steps_[step].series].state;
     WindowQuad quad = quads_of(steps_[step])[at.index];
     if (!attributes) quad.attribute = {};
-    return reproduce_pixel(quad, config_, state.width, state.height, at.x, at.y, knob_body_names[body]);
+    return reproduce_pixel(quad, config_, state.width, state.height, at.x, at.y, engine_info(body).name);
   }
-  std::string reproduce(const Summary& sum, std::size_t body, std::size_t output) const {
+  std::string reproduce(const Summary& sum, EngineKind body, std::size_t output) const {
     return reproduce(sum.worst[body][output], body, sum.body[body].largest[output].place,
                      static_cast<Output>(output) == Output::attribute);
   }
@@ -307,7 +309,7 @@ class StressCommand {
   }
 
   /// Of each output the largest error, and the first pixel that is undefined or missing.
-  nlohmann::ordered_json worst_json(const Summary& sum, std::size_t body) const {
+  nlohmann::ordered_json worst_json(const Summary& sum, EngineKind body) const {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     const BodyErrors& errors = sum.body[body];
     for (std::size_t o = 0; errors.fragments != 0 && o < output_names.size(); ++o) {
@@ -361,21 +363,21 @@ class StressCommand {
           if (s.jump->pixels != 0) largest = s.jump->largest[o];
         }
       }
-      for (std::size_t b = 0; b < bodies; ++b)
-        if (has(b)) entry["worst"][std::string(knob_body_names[b])] = worst_json(s, b);
+      for (const EngineKind b : knob_engines)
+        if (has(b)) entry["worst"][std::string(engine_info(b).name)] = worst_json(s, b);
       entry["faults"] = s.faults;
       faults.insert(faults.end(), s.faults.begin(), s.faults.end());
       json["families"].push_back(std::move(entry));
     }
     json["errors"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < steps_.size(); ++i)
-      for (std::size_t b = 0; b < bodies; ++b) {
+      for (const EngineKind b : knob_engines) {
         if (!has(b)) continue;
         nlohmann::ordered_json entry;
         entry["family"] = series_[steps_[i].series].name;
         entry["knob"] = steps_[i].knob;
         entry["side"] = steps_[i].side;
-        entry["engine"] = knob_body_names[b];
+        entry["engine"] = engine_info(b).name;
         add_errors(entry, results_[i].body[b]);
         nlohmann::ordered_json& near_case = entry["near"];
         if (series_[steps_[i].series].approach) add_errors(near_case, results_[i].near_case[b]);

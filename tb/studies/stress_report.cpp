@@ -227,8 +227,9 @@ void print_stress(std::FILE* text, const Json& report) {
   Config config;
   for (const auto& [key, value] : report["config"].items()) config.set(key, value.get<int>());
   std::vector<std::string> bodies;  // the model first
-  for (const std::string_view name : knob_body_names)
-    if (std::ranges::any_of(report["errors"], [&](const Json& e) { return e["engine"] == name; }))
+  for (const EngineKind body : knob_engines)
+    if (const std::string_view name = engine_info(body).name;
+        std::ranges::any_of(report["errors"], [&](const Json& e) { return e["engine"] == name; }))
       bodies.emplace_back(name);
   std::map<std::pair<std::string, std::string>, BodyErrors> sums;
   std::map<std::string, double> near_weight;  // of the model

@@ -307,7 +307,7 @@ struct Evaluator::Impl {
         if (part) totals.merge(StageTree::totals(*part, leaf.leaf));
       PointResult result;
       result.fragments = totals.fragments;
-      for (std::size_t q = 0; q < quantity_names.size(); ++q) {
+      for (std::size_t q = 0; q < outputs.size(); ++q) {
         result.snapping[q] = summary(port.snapping()[q]);
         result.arithmetic[q] = summary(totals.arithmetic[q]);
       }
@@ -333,9 +333,8 @@ struct Evaluator::Impl {
 };
 
 bool OrdinaryInput::operator()(const Config& config) {
-  const std::array keys{config.viewport_bits, config.guard_bits, config.subpixel_bits, config.homogeneous_frac_bits};
   const std::lock_guard lock(mutex_);
-  const auto [found, unknown] = known_.try_emplace(keys, false);
+  const auto [found, unknown] = known_.try_emplace(level_key(config, Level::positions), false);
   if (unknown) {
     DrawState state = input_.state;
     state.attributes = 0;

@@ -8,6 +8,7 @@
 #include "model/config.hpp"
 #include "model/records.hpp"
 #include "tb/sweep/point_result.hpp"
+#include "tb/sweep/stage_keys.hpp"
 
 #include <array>
 #include <cstddef>
@@ -41,26 +42,24 @@ class OrdinaryInput {
  private:
   const SweepInput& input_;
   std::mutex mutex_;
-  std::map<std::array<int, 4>, bool> known_;  ///< by the keys of the placement
+  std::map<LevelKey, bool> known_;
 };
 
-/// The stages in the order of the machine, with the keys that enter there (resolved values count, so "auto" and its
-/// value are one setting).
+/// The stages in the order of the machine; ConfigKey::Stage says which keys enter where (resolved values count, so
+/// "auto" and its value are one setting).
 enum class Stage {
   given_truth,  ///< truth on the quads as given: once per input
-  snap_truth,   ///< truth (unnormalised weights, coverage) on snapped positions: viewport_bits guard_bits
-                ///< subpixel_bits homogeneous_frac_bits
-  difference,   ///< snapping, setup, traversal, forward differences: quadratic_frac_bits tile_log2
-  normalise,    ///< significand_bits
-  sqrt,         ///< sqrt_segments_log2 sqrt_degree
-  ratios,       ///< align_guard_bits
+  snap_truth,   ///< truth (unnormalised weights, coverage) on snapped positions
+  difference,   ///< snapping, setup, traversal, forward differences
+  normalise,
+  sqrt,
+  ratios,
   weights,      ///< no key
-  interpolate,  ///< the sums, all columns at once: attribute_int_bits attribute_frac_bits depth_bits, for what is
-                ///< summed are differences to a base in the output's format
-  reciprocal,   ///< recip_segments_log2 recip_degree
-  output,       ///< no key
-  areas,        ///< plane_quads: what of taken quads is drawn with areas for weights, from the weights to the output
-  cycles,       ///< the clocked model alone: positions, and stage_keys.hpp
+  interpolate,  ///< the sums, all columns at once, of differences to a base in the output's format
+  reciprocal,
+  output,  ///< no key
+  areas,   ///< what of plane quads is drawn with areas for weights, from the weights to the output
+  cycles,  ///< the clocked model alone: positions, and cycles_key()
 };
 inline constexpr std::size_t stage_count = 12;
 inline constexpr std::array<std::string_view, stage_count> stage_names{

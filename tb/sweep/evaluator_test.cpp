@@ -184,14 +184,14 @@ Slow slow_path(const SweepInput& input, const Config& given_config) {
   const auto in_interval = [&](const Values& v) {
     return !input.state.depth || (v.z >= input.state.znear && v.z <= input.state.zfar);
   };
-  const auto quantity = [&](std::size_t column) {
-    return static_cast<std::size_t>(column < 4             ? Quantity::lambda
-                                    : column < columns - 3 ? Quantity::attribute
-                                                           : Quantity::colour);
+  const auto output = [&](std::size_t column) {
+    return static_cast<std::size_t>(column < 4             ? Output::weight
+                                    : column < columns - 3 ? Output::attribute
+                                                           : Output::colour);
   };
   const auto add = [&](std::array<std::vector<double>, 4>& to, const Values& a, const Values& b) {
-    for (std::size_t j = 0; j < columns; ++j) to[quantity(j)].push_back(std::fabs(a.column[j] - b.column[j]));
-    if (input.state.depth) to[static_cast<std::size_t>(Quantity::depth)].push_back(std::fabs(a.z - b.z));
+    for (std::size_t j = 0; j < columns; ++j) to[output(j)].push_back(std::fabs(a.column[j] - b.column[j]));
+    if (input.state.depth) to[static_cast<std::size_t>(Output::depth)].push_back(std::fabs(a.z - b.z));
     out.z_condition = std::max({out.z_condition, a.z_condition, b.z_condition});
   };
 
@@ -255,8 +255,8 @@ void expect_slow(const PointResult& got, const Slow& want) {
   EXPECT_NEAR(static_cast<double>(got.colour_codes), static_cast<double>(want.colour_codes),
               static_cast<double>(want.colour_ties));
   for (std::size_t q = 0; q < 4; ++q) {
-    const std::string name(quantity_names[q]);
-    const double condition = static_cast<Quantity>(q) == Quantity::depth ? want.z_condition : 1;
+    const std::string name(outputs[q].column);
+    const double condition = static_cast<Output>(q) == Output::depth ? want.z_condition : 1;
     expect_summary(got.arithmetic[q], want.arithmetic[q], condition, "arithmetic " + name);
     expect_summary(got.snapping[q], want.snapping[q], condition, "snapping " + name);
   }
@@ -429,7 +429,7 @@ TEST(Evaluator, PlaneQuadsAreThoseOfTheSlowPath) {
         expect_slow(got, slow_path(input, c));
         EXPECT_EQ(got.plane_quads, on != 0 ? 15u : 0u);
         // Within the bound of mean values; attributes of this input are below 2.
-        EXPECT_LE(got.arithmetic[static_cast<std::size_t>(Quantity::attribute)].max, bound_attribute(c, 2).value);
+        EXPECT_LE(got.arithmetic[static_cast<std::size_t>(Output::attribute)].max, bound_attribute(c, 2).value);
       }
   }
   // The draw may refuse.
@@ -480,8 +480,8 @@ TEST(Evaluator, AFragmentOfAPlaneQuadIsTheModels) {
       ASSERT_EQ(got.fragments, 1u);
       ASSERT_EQ(got.plane_fragments, taken ? 1u : 0u);
       // A unit in the last place of either format is 9e-7 and 6e-8.
-      ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Quantity::attribute)].max, attribute, 1e-13);
-      ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Quantity::depth)].max,
+      ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Output::attribute)].max, attribute, 1e-13);
+      ASSERT_NEAR(got.arithmetic[static_cast<std::size_t>(Output::depth)].max,
                   std::fabs(std::ldexp(f.depth, -c.depth_bits) - s.z), 1e-13);
       (taken ? taken_fragments : other_fragments)++;
     }

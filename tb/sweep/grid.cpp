@@ -77,12 +77,6 @@ std::uint64_t saturating_multiply(std::uint64_t a, std::uint64_t b) {
   return b != 0 && a > most / b ? most : a * b;
 }
 
-std::vector<Axis> parse_axes(std::initializer_list<const char*> texts) {
-  std::vector<Axis> axes;
-  for (const char* text : texts) axes.push_back(parse_axis(text));
-  return axes;
-}
-
 }  // namespace
 
 Axis parse_axis(const std::string& text) {
@@ -162,39 +156,15 @@ GridPoint Grid::point(std::uint64_t row) const {
 }
 
 std::vector<Axis> default_axes() {
-  // Larger positions than these and those of the default configuration do not fit VAL_BITS one at a time.
-  return parse_axes({"viewport_bits=10:12",
-                     "guard_bits=1:3",
-                     "subpixel_bits=2:8",
-                     "homogeneous_frac_bits=4:7",
-                     "quadratic_frac_bits=0:28:4,auto",
-                     "significand_bits=8:26",
-                     "notch_exact=0,1",
-                     "sqrt_segments_log2=3:10,auto",
-                     "sqrt_degree=1,2",
-                     "recip_segments_log2=3:10,auto",
-                     "recip_degree=1,2",
-                     "align_guard_bits=0:6",
-                     "attribute_slots=1,2,4,8",
-                     "attribute_int_bits=1:4",
-                     "attribute_frac_bits=18:26:2,auto",
-                     "depth_bits=16:28:4",
-                     "tile_log2=2:4",
-                     "pixels_per_clock=1,2,4",
-                     "dot_units=2,4",
-                     "quad_slots_log2=1:4",
-                     "tile_slots_log2=1:4",
-                     "stamp_fifo_log2=1:5",
-                     "hierarchical_z_bits=0,8,12,16",
-                     "hierarchical_z_tiles_log2=8:14:2",
-                     "plane_quads=0,1",
-                     "quad_id_bits=16,24,32",
-                     "performance_counters=0,1"});
+  std::vector<Axis> axes;
+  for (const ConfigKey& key : Config::keys())
+    axes.push_back(parse_axis(std::string(key.name) + "=" + std::string(key.axis)));
+  return axes;
 }
 
 std::vector<Axis> thousand_point_axes() {
-  return parse_axes(
-      {"significand_bits=8:26:2", "quadratic_frac_bits=6:30:6", "align_guard_bits=0:4", "depth_bits=16:28:4"});
+  return {parse_axis("significand_bits=8:26:2"), parse_axis("quadratic_frac_bits=6:30:6"),
+          parse_axis("align_guard_bits=0:4"), parse_axis("depth_bits=16:28:4")};
 }
 
 }  // namespace quadrille::sweep

@@ -1,22 +1,21 @@
 // What a sweep knows about one configuration on one input.
 #pragma once
 
+#include "tb/support/outputs.hpp"
+
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 namespace quadrille::sweep {
 
-/// What errors are measured of. lambda: the weights λ' (unit 1). attribute: the input's own attributes (their units).
-/// depth: window z (unit 1). colour: three 8-bit test channels in [0, 1], the corners of the quad coloured
-/// v0 (1, 0, 1), v1 (1, 1, 0), v2 (0, 1, 1), v3 (0, 0, 0): R runs across the quad, G along it, B is a saddle.
-enum class Quantity { lambda, attribute, depth, colour };
-inline constexpr std::array<std::string_view, 4> quantity_names{"lambda", "attribute", "depth", "colour"};
+using tb::Output;
+using tb::outputs;
+
+/// Colours of a quad's corners v0 to v3, channels in [0, 1]: R runs across the quad, G along it, B is a saddle.
 inline constexpr std::array<std::array<double, 3>, 4> corner_colour{{{1, 0, 1}, {1, 1, 0}, {0, 1, 1}, {0, 0, 0}}};
 
-/// Absolute errors over fragments and all components of a quantity. Arithmetic: fragments that the machine draws and
+/// Absolute errors over fragments and all components of an output. Arithmetic: fragments that the machine draws and
 /// that exact arithmetic on the same snapped quad sees in front of the eye. Snapping: pixels that exact arithmetic
 /// draws on the snapped as on the given quad. Neither counts quads with a vertex behind the eye drawn without
 /// perspective, whose weights may cancel without limit. count 0: not measured (depth off, no attributes).
@@ -35,8 +34,8 @@ struct WorstPixel {
 
 struct PointResult {
   std::string refused;  ///< not empty: the configuration cannot draw this input, for this reason; the rest is unset
-  std::uint64_t fragments = 0;                       ///< drawn by the machine
-  std::array<ErrorSummary, 4> snapping, arithmetic;  ///< by Quantity
+  std::uint64_t fragments = 0;                                    ///< drawn by the machine
+  std::array<ErrorSummary, outputs.size()> snapping, arithmetic;  ///< by Output
   // Pixels of a quad; "draws": covers, visible, not culled, window z in the interval.
   std::uint64_t coverage_gained = 0;  ///< drawn though exact arithmetic on the given, unsnapped quad does not
   std::uint64_t coverage_lost = 0;    ///< that exact arithmetic on the given quad draws, not drawn

@@ -27,18 +27,9 @@ constexpr std::array<Statistic, 4> statistics{{{"max", "largest", &ErrorSummary:
                                                {"rms", "root mean square of the", &ErrorSummary::rms},
                                                {"mean", "mean of the", &ErrorSummary::mean}}};
 
-std::string error_name(std::size_t kind, std::size_t quantity, std::size_t statistic) {
-  return std::string(kinds[kind]) + "_" + std::string(quantity_names[quantity]) + "_" +
+std::string error_name(std::size_t kind, std::size_t output, std::size_t statistic) {
+  return std::string(kinds[kind]) + "_" + std::string(outputs[output].column) + "_" +
          std::string(statistics[statistic].name);
-}
-
-/// Keys without a signal or a rounding of their own.
-bool is_idle_in_proofs(std::string_view key) {
-  constexpr std::array<std::string_view, 10> idle{
-      "pixels_per_clock",          "dot_units",    "quad_slots_log2",      "tile_slots_log2",
-      "stamp_fifo_log2",           "quad_id_bits", "performance_counters", "hierarchical_z_bits",
-      "hierarchical_z_tiles_log2", "plane_quads"};
-  return std::ranges::find(idle, key) != idle.end();
 }
 
 /// A bound of values at their corners' spread: proportional to it, but for half a code.
@@ -66,7 +57,7 @@ Proofs proofs_of(const Config& config) {
   static std::map<std::vector<int>, Proofs> known;
   std::vector<int> values;
   for (const ConfigKey& key : Config::keys())
-    values.push_back(is_idle_in_proofs(key.name) ? 0 : config.resolved(key.name));
+    if (key.has(ConfigKey::proofs)) values.push_back(config.resolved(key.name));
   {
     const std::lock_guard lock(mutex);
     if (const auto found = known.find(values); found != known.end()) return found->second;
@@ -98,15 +89,13 @@ std::vector<PointColumn> make_columns() {
     columns.push_back({std::string(key.name), std::string(key.unit), std::string(key.meaning)});
   columns.push_back({"fragments", "", "drawn by the machine"});
   for (std::size_t kind = 0; kind < kinds.size(); ++kind)
-    for (std::size_t q = 0; q < quantity_names.size(); ++q)
+    for (std::size_t q = 0; q < outputs.size(); ++q)
       for (std::size_t s = 0; s < statistics.size(); ++s)
-        columns.push_back(
-            {error_name(kind, q, s), q == 1 ? "the attributes'" : "1",
-             std::string(statistics[s].meaning) + " absolute " + std::string(kinds[kind]) + " error of " +
-                 std::array{"the weights", "the input's attributes", "window z", "three colour channels"}[q] +
-                 (kind == 2 ? ": snapping + arithmetic" : "")});
-  for (const char* quantity : {"lambda", "attribute", "depth"}) {
-    const std::string name = std::string("bound_") + quantity;
+        columns.push_back({error_name(kind, q, s), std::string(outputs[q].unit),
+                           std::string(statistics[s].meaning) + " absolute " + std::string(kinds[kind]) + " error of " +
+                               std::string(outputs[q].meaning) + (kind == 2 ? ": snapping + arithmetic" : "")});
+  for (std::size_t q = 0; q < tb::output_names.size(); ++q) {
+    const std::string name = "bound_" + std::string(outputs[q].column);
     columns.push_back({name, "1", "bound of the arithmetic error by analysis"});
     columns.push_back({name + "_kind", "", "proved, estimated, or none: no bound holds for this input"});
   }
@@ -174,7 +163,7 @@ const std::vector<PointColumn>& point_columns() {
 std::string ErrorColumn::name() const {
   std::size_t s = 0;
   while (statistics[s].member != statistic) ++s;
-  return error_name(static_cast<std::size_t>(kind), static_cast<std::size_t>(quantity), s);
+  return error_name(static_cast<std::size_t>(kind), static_cast<std::size_t>(output), s);
 }
 
 double ErrorColumn::value(const PointResult& result) const {
@@ -182,7 +171,7 @@ double ErrorColumn::value(const PointResult& result) const {
   for (const auto& [part, errors] :
        {std::pair{ErrorKind::snapping, &result.snapping}, std::pair{ErrorKind::arithmetic, &result.arithmetic}}) {
     if (kind != part && kind != ErrorKind::total) continue;
-    const ErrorSummary& summary = (*errors)[static_cast<std::size_t>(quantity)];
+    const ErrorSummary& summary = (*errors)[static_cast<std::size_t>(output)];
     if (!result.refused.empty() || summary.count == 0) return std::numeric_limits<double>::quiet_NaN();
     sum += summary.*statistic;
   }
@@ -206,14 +195,14 @@ ErrorColumn parse_error_column(std::string_view name) {
     if (name == candidate) found = column;
     known.push_back(candidate);
   };
-  for (std::size_t q = 0; q < quantity_names.size(); ++q)
-    offer(std::string(quantity_names[q]), {ErrorKind::arithmetic, static_cast<Quantity>(q), &ErrorSummary::max});
+  for (std::size_t q = 0; q < outputs.size(); ++q)
+    offer(std::string(outputs[q].column), {ErrorKind::arithmetic, static_cast<Output>(q), &ErrorSummary::max});
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const auto kind = static_cast<ErrorKind>(k);
-    offer(std::string(kinds[k]), {kind, Quantity::lambda, &ErrorSummary::max});
-    for (std::size_t q = 0; q < quantity_names.size(); ++q)
+    offer(std::string(kinds[k]), {kind, Output::weight, &ErrorSummary::max});
+    for (std::size_t q = 0; q < outputs.size(); ++q)
       for (std::size_t s = 0; s < statistics.size(); ++s)
-        offer(error_name(k, q, s), {kind, static_cast<Quantity>(q), statistics[s].member});
+        offer(error_name(k, q, s), {kind, static_cast<Output>(q), statistics[s].member});
   }
   if (found) return *found;
   throw ConfigError("unknown error \"" + std::string(name) + "\"" + did_you_mean(name, known) +
@@ -240,10 +229,10 @@ std::string point_table(std::span<const PointRow> rows) {
     if (ok) {
       cells.push_back(std::to_string(r.fragments));
       for (std::size_t kind = 0; kind < kinds.size(); ++kind)
-        for (std::size_t q = 0; q < quantity_names.size(); ++q)
+        for (std::size_t q = 0; q < outputs.size(); ++q)
           for (const Statistic& statistic : statistics)
             cells.push_back(csv_number(
-                ErrorColumn{static_cast<ErrorKind>(kind), static_cast<Quantity>(q), statistic.member}.value(r)));
+                ErrorColumn{static_cast<ErrorKind>(kind), static_cast<Output>(q), statistic.member}.value(r)));
       for (const ErrorBound* bound : {&p.bound_lambda, &p.bound_attribute, &p.bound_depth}) {
         cells.push_back(std::isfinite(bound->value) ? csv_number(bound->value) : std::string());
         cells.push_back(!std::isfinite(bound->value) ? "none" : bound->proved ? "proved" : "estimated");

@@ -61,11 +61,11 @@ inline constexpr std::array<std::string_view, 3> error_kind_names{"snapping", "a
 /// An error of a result by the name of its column, such as "arithmetic_lambda_max".
 struct ErrorColumn {
   ErrorKind kind = ErrorKind::arithmetic;
-  Quantity quantity = Quantity::lambda;
+  Output output = Output::weight;
   double ErrorSummary::*statistic = &ErrorSummary::max;
 
   std::string name() const;
-  /// NaN where the point was refused or the quantity (of a total: either part) was not measured.
+  /// NaN where the point was refused or the output (of a total: either part) was not measured.
   double value(const PointResult& result) const;
 };
 /// Fragments of a clock over the whole draw without stalls; NaN where clocks were not counted.
@@ -73,7 +73,7 @@ double fragments_per_clock(const PointResult& result);
 /// plane_quads of quads; NaN without any.
 double plane_share(const PointResult& result);
 
-/// A column, a quantity ("depth": its largest arithmetic error) or a kind ("total": the largest of the weights). Throws
+/// A column, an output ("depth": its largest arithmetic error) or a kind ("total": the largest of the weights). Throws
 /// ConfigError naming the nearest of these.
 ErrorColumn parse_error_column(std::string_view name);
 

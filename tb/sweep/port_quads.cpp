@@ -126,7 +126,7 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
       spread_.merge(spread_of(truth_[positions.quad[block]], columns, input.state.perspective));
   for (const std::vector<SingularPixel>& list : singular) singular_.insert(singular_.end(), list.begin(), list.end());
 
-  std::vector<QuantityStats> parts(std::max(1u, threads));
+  std::vector<OutputStats> parts(std::max(1u, threads));
   run_units(units_of(positions.blocks(), truths_per_unit), threads, [&](std::size_t unit, unsigned thread) {
     const std::size_t first = unit * truths_per_unit;
     const std::size_t count = std::min(truths_per_unit, positions.blocks() - first);
@@ -134,22 +134,22 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
     std::vector<LaneReals> values(count * stride);
     std::vector<std::uint8_t> draws(count), measured(count);
     truth(input, positions, first, count, values.data(), draws.data(), measured.data());
-    QuantityStats& stats = parts[thread];
-    const auto add = [&](Quantity quantity, double error) { stats[static_cast<std::size_t>(quantity)].add(error); };
+    OutputStats& stats = parts[thread];
+    const auto add = [&](Output output, double error) { stats[static_cast<std::size_t>(output)].add(error); };
     for (std::size_t n = 0; n < count; ++n)
       for (unsigned rest = draws[n] & measured[n] & positions.given[first + n]; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
         const double* wanted = given.values(positions.given_at[first + n][lane]);
         const auto error = [&](std::size_t value) { return values[n * stride + value][lane] - wanted[value]; };
-        if (input.state.depth) add(Quantity::depth, error(0));
+        if (input.state.depth) add(Output::depth, error(0));
         for (std::size_t j = 0; j < columns.count(); ++j)
-          add(j < Columns::first_attribute ? Quantity::lambda
-              : j < columns.first_colour() ? Quantity::attribute
-                                           : Quantity::colour,
+          add(j < Columns::first_attribute ? Output::weight
+              : j < columns.first_colour() ? Output::attribute
+                                           : Output::colour,
               error(1 + j));
       }
   });
-  for (const QuantityStats& part : parts)
+  for (const OutputStats& part : parts)
     for (std::size_t q = 0; q < part.size(); ++q) snapping_[q].merge(part[q]);
 }
 

@@ -13,8 +13,8 @@
 
 namespace quadrille::sweep {
 
-/// Errors by Quantity.
-using QuantityStats = std::array<tb::ErrorStats, quantity_names.size()>;
+/// Errors by Output.
+using OutputStats = std::array<tb::ErrorStats, outputs.size()>;
 
 /// A quad's numbers at the port as exact arithmetic sees them (W is not cut to S bits): bases, and differences to them.
 struct TruthNumbers {
@@ -45,7 +45,7 @@ class PortQuads {
   const QuadColumns* machine() const { return machine_.data(); }
   const QuadData& quad_data(std::size_t quad) const { return data_[quad]; }
   /// Truth on the snapped quads against truth on the given ones, at pixels that both draw.
-  const QuantityStats& snapping() const { return snapping_; }
+  const OutputStats& snapping() const { return snapping_; }
   const Spread& spread() const { return spread_; }
   std::size_t bytes() const;
 
@@ -74,7 +74,7 @@ class PortQuads {
   std::vector<TruthNumbers> truth_;
   std::vector<SingularPixel> singular_;  ///< by block
   double znear_, zfar_;                  ///< as the machine's codes
-  QuantityStats snapping_;
+  OutputStats snapping_;
   Spread spread_;
 };
 

@@ -15,51 +15,7 @@
 namespace quadrille::sweep {
 namespace {
 
-enum class Effect { none, larger_is_better, unordered };
-
-struct KeyEffect {
-  std::string_view key;
-  Effect effect;
-};
-
-/// Where the input lies decides which errors it meets, so keys that move snapped positions are unordered. Keys that
-/// only decide whether the input can be drawn are ordered: what a width refuses, a smaller one refuses.
-/// A key that is not named is unordered: its values do not rule each other out.
-constexpr std::array key_effects{
-    KeyEffect{"viewport_bits", Effect::unordered},
-    KeyEffect{"guard_bits", Effect::unordered},
-    KeyEffect{"subpixel_bits", Effect::unordered},
-    KeyEffect{"homogeneous_frac_bits", Effect::unordered},
-    KeyEffect{"quadratic_frac_bits", Effect::larger_is_better},
-    KeyEffect{"significand_bits", Effect::larger_is_better},
-    KeyEffect{"notch_exact", Effect::none},  // flag 6 alone
-    KeyEffect{"sqrt_segments_log2", Effect::larger_is_better},
-    KeyEffect{"sqrt_degree", Effect::larger_is_better},
-    KeyEffect{"recip_segments_log2", Effect::larger_is_better},
-    KeyEffect{"recip_degree", Effect::larger_is_better},
-    KeyEffect{"align_guard_bits", Effect::larger_is_better},
-    KeyEffect{"attribute_slots", Effect::none},
-    KeyEffect{"attribute_int_bits", Effect::larger_is_better},  // attributes that are refused or clamped
-    KeyEffect{"attribute_frac_bits", Effect::larger_is_better},
-    KeyEffect{"depth_bits", Effect::larger_is_better},
-    KeyEffect{"tile_log2", Effect::unordered},  // the origins of inexact D and r²; see abilities()
-    KeyEffect{"pixels_per_clock", Effect::none},
-    KeyEffect{"dot_units", Effect::none},
-    KeyEffect{"quad_slots_log2", Effect::none},
-    KeyEffect{"tile_slots_log2", Effect::none},
-    KeyEffect{"stamp_fifo_log2", Effect::none},
-    KeyEffect{"hierarchical_z_bits", Effect::none},  // the sweep draws every tile
-    KeyEffect{"hierarchical_z_tiles_log2", Effect::none},
-    KeyEffect{"plane_quads", Effect::unordered},          // errors of taken quads are others, larger or smaller
-    KeyEffect{"quad_id_bits", Effect::larger_is_better},  // ids that are refused
-    KeyEffect{"performance_counters", Effect::none},
-};
-
-Effect effect_of(std::string_view key) {
-  Config().get(key);  // an unknown key: names the nearest
-  const auto named = std::ranges::find(key_effects, key, &KeyEffect::key);
-  return named == key_effects.end() ? Effect::unordered : named->effect;
-}
+using Errors = ConfigKey::Errors;
 
 /// What a machine can do, such that it is nowhere better than another if no element is larger. An unordered key has two
 /// elements, its value and the negative: only equal values are then nowhere better. All values fit: they are below 127.
@@ -77,18 +33,16 @@ Abilities abilities(const Config& config, bool ordinary, std::span<const std::st
   const bool takes_quads = config.plane_quads != 0 && std::ranges::find(idle_keys, "plane_quads") == idle_keys.end();
   Abilities result;
   for (std::size_t i = 0; i < Config::keys().size(); ++i) {
-    const std::string_view key = Config::keys()[i].name;
-    const Effect effect = effect_of(key);
-    if (effect == Effect::none || std::ranges::find(idle_keys, key) != idle_keys.end()) continue;
-    const auto value = static_cast<std::int8_t>(config.resolved(key));
+    const ConfigKey& key = Config::keys()[i];
+    if (key.errors == Errors::none || std::ranges::find(idle_keys, key.name) != idle_keys.end()) continue;
+    const auto value = static_cast<std::int8_t>(config.resolved(key.name));
     result.of[2 * i] = value;
-    if (effect == Effect::unordered) result.of[2 * i + 1] = static_cast<std::int8_t>(-value);
+    if (key.errors == Errors::unordered) result.of[2 * i + 1] = static_cast<std::int8_t>(-value);
     // Exact D and r² are the same from every origin.
-    if (key == "tile_log2" && exact_quadratics) result.of[2 * i] = result.of[2 * i + 1] = exact;
-    if (key == "quadratic_frac_bits" && exact_quadratics && ordinary) result.of[2 * i] = exact;
+    if (key.name == "tile_log2" && exact_quadratics) result.of[2 * i] = result.of[2 * i + 1] = exact;
+    if (key.name == "quadratic_frac_bits" && exact_quadratics && ordinary) result.of[2 * i] = exact;
     // Which quads are plane depends on the port's numbers.
-    if (takes_quads && (key == "significand_bits" || key == "attribute_int_bits" || key == "attribute_frac_bits" ||
-                        key == "depth_bits"))
+    if (takes_quads && (key.stage == ConfigKey::Stage::normalise || key.stage == ConfigKey::Stage::interpolate))
       result.of[2 * i + 1] = static_cast<std::int8_t>(-value);
   }
   return result;
@@ -145,16 +99,12 @@ std::size_t most_telling(const std::vector<Candidate>& candidates) {
 
 }  // namespace
 
-bool affects_error(std::string_view key) { return effect_of(key) != Effect::none; }
-
-int error_direction(std::string_view key) { return effect_of(key) == Effect::larger_is_better ? 1 : 0; }
-
-std::vector<std::string_view> idle_keys(std::span<const Quantity> measured) {
-  const auto depths = static_cast<std::size_t>(std::ranges::count(measured, Quantity::depth));
+std::vector<std::string_view> idle_keys(std::span<const Output> measured) {
+  const auto depths = static_cast<std::size_t>(std::ranges::count(measured, Output::depth));
   std::vector<std::string_view> keys;
   if (depths == 0) keys.emplace_back("depth_bits");
   if (depths == measured.size()) keys.emplace_back("attribute_frac_bits");
-  const auto attributes = static_cast<std::size_t>(std::ranges::count(measured, Quantity::attribute));
+  const auto attributes = static_cast<std::size_t>(std::ranges::count(measured, Output::attribute));
   if (depths + attributes == 0) keys.emplace_back("plane_quads");  // weights and colours keep mean values
   return keys;
 }

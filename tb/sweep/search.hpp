@@ -26,15 +26,6 @@
 
 namespace quadrille::sweep {
 
-/// Whether errors, or whether the input can be drawn at all, may depend on a key. Throws ConfigError for an unknown
-/// key.
-bool affects_error(std::string_view key);
-
-/// +1: a larger (resolved) value never makes errors larger, up to noise; −1: the reverse; 0: no effect
-/// (affects_error()), or no order is known and points with different values do not rule each other out. Throws
-/// ConfigError for an unknown key.
-int error_direction(std::string_view key);
-
 /// Whether `a` is not better than `b` in any key that acts on errors: errors of `a` are at least those of `b`, up to
 /// noise. Compares resolved values.
 bool nowhere_better(const Config& a, const Config& b);
@@ -63,6 +54,6 @@ SearchResult cheapest_meeting(std::span<const SearchPoint> points, const std::fu
 inline constexpr double sampled_slack = 1.5;
 
 /// Keys that cannot change errors of these quantities.
-std::vector<std::string_view> idle_keys(std::span<const Quantity> measured);
+std::vector<std::string_view> idle_keys(std::span<const Output> measured);
 
 }  // namespace quadrille::sweep

@@ -53,10 +53,10 @@ void check_what_the_search_assumes(const std::vector<Config>& configs, const std
                                                b.quadratic_frac() >= 16;
       if (!same && !same_but_for_exact_products) continue;
       for (const char* statistic : {"max", "rms", "mean", "p999"})
-        for (const char* quantity : {"lambda", "attribute", "depth", "colour"}) {
-          const ErrorColumn column = parse_error_column(std::string("arithmetic_") + quantity + "_" + statistic);
+        for (const char* output : {"lambda", "attribute", "depth", "colour"}) {
+          const ErrorColumn column = parse_error_column(std::string("arithmetic_") + output + "_" + statistic);
           const double difference = std::fabs(column.value(results[i]) - column.value(results[j]));
-          if (column.quantity == Quantity::depth && a.depth_bits != b.depth_bits) continue;
+          if (column.output == Output::depth && a.depth_bits != b.depth_bits) continue;
           ASSERT_EQ(difference, 0) << column.name() << " of points " << i << " and " << j;
         }
     }
@@ -94,7 +94,7 @@ void compare(const char* what, const SweepInput& input) {
     std::ranges::stable_sort(by_cost, {}, [&](std::size_t i) { return points[i].cost; });
     for (const char* name : {"lambda", "attribute", "depth", "colour", "arithmetic_lambda_p999"}) {
       const ErrorColumn column = parse_error_column(name);
-      const std::vector<std::string_view> idle = idle_keys(std::span(&column.quantity, 1));
+      const std::vector<std::string_view> idle = idle_keys(std::span(&column.output, 1));
       const auto error = [&](std::size_t i) { return column.value(results[i]); };
       // Targets at every level that the grid has, just met and just missed.
       std::vector<double> levels;

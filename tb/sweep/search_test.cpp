@@ -54,7 +54,7 @@ double hashed(std::uint64_t seed, const std::vector<int>& values) {
 std::vector<int> error_values(const Config& c) {
   std::vector<int> values;
   for (const ConfigKey& key : Config::keys())
-    if (affects_error(key.name)) values.push_back(resolved(c).get(key.name));
+    if (key.errors != ConfigKey::Errors::none) values.push_back(resolved(c).get(key.name));
   return values;
 }
 
@@ -100,58 +100,6 @@ std::string refusal(const auto& action) {
     return e.what();
   }
   return "";
-}
-
-TEST(ErrorDirection, NamesTheNearestKey) {
-  EXPECT_NE(refusal([] { (void)error_direction("significant_bits"); }).find("significand_bits"), std::string::npos);
-  EXPECT_NE(refusal([] { (void)affects_error("significant_bits"); }).find("significand_bits"), std::string::npos);
-}
-
-/// What the machine draws, sorted: the order of tiles is not of interest.
-std::vector<std::vector<std::int64_t>> drawn(const Config& config) {
-  DrawState state;
-  state.width = state.height = state.scissor_x1 = state.scissor_y1 = 64;
-  state.attributes = 1;
-  golden::Prng random(7);
-  std::vector<std::vector<std::int64_t>> fragments;
-  UntimedModel model(config, state);
-  for (std::uint32_t id = 0; id < 6; ++id) {
-    WindowQuad quad;
-    quad.id = 1000 * id;  // refused where ids have few bits, as the attributes are
-    for (WindowVertex& v : quad.vertex) {
-      const double w = id % 2 != 0 ? random.uniform(0.2, 1) : 1;
-      v = {random.uniform(0, 64) * w, random.uniform(0, 64) * w, random.uniform(0, 1) * w, w};
-    }
-    for (auto& list : quad.attribute) list.push_back(random.uniform(-100, 100));
-    model.draw(snap_quad(quad, config, state), [&](std::span<const Fragment> list) {
-      for (const Fragment& f : list) fragments.push_back({f.quad, f.x, f.y, f.depth, f.attribute[0]});
-    });
-  }
-  std::ranges::sort(fragments);
-  return fragments;
-}
-
-TEST(ErrorDirection, KeysWithoutEffectLeaveEveryFragmentAsItIs) {
-  const auto expected = drawn(Config());
-  ASSERT_GT(expected.size(), 1000u);
-  for (const ConfigKey& key : Config::keys()) {
-    if (affects_error(key.name)) continue;
-    for (int v = key.minimum; v <= key.maximum; ++v) {
-      Config c;
-      c.set(key.name, v);
-      try {
-        c.validate();
-      } catch (const ConfigError&) {
-        continue;  // no such machine: three dot units
-      }
-      EXPECT_EQ(drawn(c), expected) << key.name << " = " << v;
-    }
-  }
-  // Tiles begin where D and r² begin, which only shows when these are truncated.
-  EXPECT_EQ(drawn(configured({{"tile_log2", 2}})), expected);
-  EXPECT_EQ(drawn(configured({{"tile_log2", 4}})), expected);
-  EXPECT_NE(drawn(configured({{"tile_log2", 2}, {"quadratic_frac_bits", 6}})),
-            drawn(configured({{"tile_log2", 4}, {"quadratic_frac_bits", 6}})));
 }
 
 TEST(NowhereBetter, ComparesResolvedValues) {
@@ -342,7 +290,7 @@ class Landscape {
  public:
   Landscape(golden::Prng& random, double noise) : seed_(random.next()), noise_(noise) {
     for (const ConfigKey& key : Config::keys())
-      terms_.push_back({key.name, random.log2_spread(-4, 4), random.uniform(0, 1)});
+      terms_.push_back({&key, random.log2_spread(-4, 4), random.uniform(0, 1)});
   }
 
   double error(const Config& given) const {
@@ -351,12 +299,12 @@ class Landscape {
     double sum = 0;
     std::vector<int> values, place;
     for (const Term& t : terms_) {
-      if (!affects_error(t.key)) continue;
-      const int v = c.get(t.key), direction = error_direction(t.key);
-      const bool tile = t.key == "tile_log2";
+      if (t.key->errors == ConfigKey::Errors::none) continue;
+      const int v = c.get(t.key->name);
+      const bool tile = t.key->name == "tile_log2";
       values.push_back(tile && exact ? 0 : v);
-      if (direction == 1) sum += t.weight * std::exp2(-t.rate * v);
-      if (direction == 0 && !tile) place.push_back(v);
+      if (t.key->errors == ConfigKey::Errors::ordered) sum += t.weight * std::exp2(-t.rate * v);
+      if (t.key->errors == ConfigKey::Errors::unordered && !tile) place.push_back(v);
     }
     if (!exact) sum *= 1 + hashed(seed_, {c.tile_log2});
     return sum * (1 + 9 * hashed(seed_ + 1, place)) * (1 + (noise_ - 1) * hashed(seed_ + 2, values));
@@ -364,7 +312,7 @@ class Landscape {
 
  private:
   struct Term {
-    std::string_view key;
+    const ConfigKey* key;
     double weight, rate;
   };
   std::uint64_t seed_;

@@ -4,18 +4,17 @@
 #include "model/config.hpp"
 #include "model/records.hpp"
 
-#include <string_view>
+#include <cstddef>
 #include <vector>
 
 namespace quadrille::sweep {
 
 /// Levels of the tree of configurations, from the root. Those before `normalise` are computed for the whole input and
-/// kept; `ratios` includes the weights, `reciprocal` the output.
-enum class Level { positions, differences, normalise, sqrt, ratios, interpolate, reciprocal, plane };
-inline constexpr std::size_t level_count = 8;
+/// kept.
+using Level = ConfigKey::Stage;
+inline constexpr auto level_count = static_cast<std::size_t>(Level::none);
 
-/// Resolved values of the keys that enter at one level, in the order of Config::keys(). A key that stage_keys.cpp does
-/// not name enters at the first level: points that differ in it share nothing.
+/// Resolved values of the keys that enter at one level, in the order of Config::keys().
 using LevelKey = std::vector<int>;
 LevelKey level_key(const Config& config, Level level);
 
@@ -23,8 +22,8 @@ LevelKey level_key(const Config& config, Level level);
 /// attributes and depth are codes of.
 LevelKey port_key(const Config& config);
 
-/// What the clocks of a draw depend on: the values of all keys, 0 for those that change no clock. depth_bits counts
-/// where quads are left out by their depths. Plane quads change no clock.
+/// What the clocks of a draw depend on: the values of the keys that move clocks. depth_bits counts where quads are left
+/// out by their depths. hierarchical_z_bits counts though a sweep hides nothing: its unit is in the way of every quad.
 using CyclesKey = std::vector<int>;
 CyclesKey cycles_key(const Config& config, const DrawState& state);
 

@@ -271,7 +271,7 @@ std::vector<StageTree::Run> StageTree::area_runs(const NormaliseNode& normalise,
 void StageTree::compare(LeafTotals& leaf, const PlaneQuads* areas, const Truth& exact, std::size_t first,
                         std::size_t count, const Scratch& t, std::span<float> map) const {
   const std::size_t columns = columns_.count();
-  const auto stats = [&](Quantity q) -> tb::ErrorStats& { return leaf.arithmetic[static_cast<std::size_t>(q)]; };
+  const auto stats = [&](Output q) -> tb::ErrorStats& { return leaf.arithmetic[static_cast<std::size_t>(q)]; };
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t block = first + n;
     const unsigned used = (1u << positions_->count[block]) - 1;
@@ -295,19 +295,19 @@ void StageTree::compare(LeafTotals& leaf, const PlaneQuads* areas, const Truth& 
       for (unsigned rest = measured; rest != 0; rest &= rest - 1)
         to.add(error[static_cast<std::size_t>(std::countr_zero(rest))]);
     };
-    if (input_.state.depth) add(stats(Quantity::depth), own[0].v - truth[0]);
+    if (input_.state.depth) add(stats(Output::depth), own[0].v - truth[0]);
     LaneReals largest{};
     for (std::size_t j = 0; j < Columns::first_attribute; ++j) {
       const LaneReals error = magnitude(value[1 + j].v - truth[1 + j]);
       largest = error > largest ? error : largest;
-      add(stats(Quantity::lambda), error);
+      add(stats(Output::weight), error);
     }
     for (std::size_t j = Columns::first_attribute; j < columns_.first_colour(); ++j)
-      add(stats(Quantity::attribute), own[1 + j].v - truth[1 + j]);
+      add(stats(Output::attribute), own[1 + j].v - truth[1 + j]);
     LaneIntegers codes{};  // −1 per channel that differs
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const std::size_t j = columns_.first_colour() + channel;
-      add(stats(Quantity::colour), value[1 + j].v - truth[1 + j]);
+      add(stats(Output::colour), value[1 + j].v - truth[1 + j]);
       codes += colour_code(value[1 + j].v) != exact.codes[3 * n + channel];
     }
     for (unsigned rest = measured; rest != 0; rest &= rest - 1) {

@@ -19,7 +19,7 @@ namespace quadrille::sweep {
 struct LeafTotals {
   std::uint64_t fragments = 0, drawn_as_given = 0, discard_differs = 0, colour_codes = 0, saturated = 0;
   std::uint64_t plane_fragments = 0;  ///< drawn with areas for weights
-  QuantityStats arithmetic;
+  OutputStats arithmetic;
   WorstPixel worst;
 
   void merge(const LeafTotals& other);
