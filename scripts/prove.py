@@ -206,8 +206,10 @@ def main():
     os.nice(10)
 
     if args.faults:
-        tasks = []
-        for fault in registry.registry().values():
+        tasks, known = [], registry.registry()
+        if unknown := set(args.record) - set(known):
+            raise BadList(f"no fault {', '.join(sorted(unknown))}")
+        for fault in known.values():
             for proof in proofs:
                 if fault.name in args.record and any(edit.file == "rtl/" + name for edit in fault.edits for name in files(proof)) \
                         or not args.record and proof["name"] in fault.caught.get("proofs", ()):
@@ -237,8 +239,10 @@ def main():
                 print(f"| {proof['name']} | {proof['kind']} | {proof['depth']} | {text} | {seconds:.1f} | {'proved' if good else 'NOT PROVED: ' + where} |", flush=True)
     if args.record:
         record = registry.read_record()
+        tried = {proof["name"] for proof, _, _ in tasks}
         for name, by in found.items():
-            record[name] = record.get(name, {}) | {"proofs": by}
+            entry = record.setdefault(name, {})
+            entry["proofs"] = sorted({*by, *(p for p in entry.get("proofs", ()) if p not in tried)})
         registry.write_record(record)
         bad = sum(not by for by in found.values())
     print(f"{len(tasks) - bad} of {len(tasks)} {'faults found' if args.faults else 'proved'}")
