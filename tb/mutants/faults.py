@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """The one registry of faults, and what caught each.
 
-    tb/mutants/faults.py replays [COUNT]            those that replayed vectors catch, or so many drawn by $QUADRILLE_TEST_SEED, a line each:
-                                                    name, suite, set and simulator
-    tb/mutants/faults.py put NAME RTL               puts a fault into a copy of rtl/
+    tb/mutants/faults.py replays COUNT       so many that replayed vectors catch, drawn by $QUADRILLE_TEST_SEED (0: all),
+                                             a line each: name, suite, set and simulator
+    tb/mutants/faults.py put NAME RTL        puts a fault into a copy of rtl/
     tb/mutants/faults.py replayed NAME "SUITE SET SIMULATOR"      adds such a line to the record
 
-faults.toml is written by hand, generated.json was drawn once; README.md says what an entry has. caught_by.json is written by scripts alone.
+faults.toml is written by hand, generated.json was drawn once; README.md says what an entry has. caught_by.json is
+written by scripts alone.
 """
 import dataclasses
 import functools
@@ -58,7 +59,8 @@ class Edit:
         """The number of the line, the line, and as it becomes."""
         start, end = self.span(text)
         first, last = text.rfind("\n", 0, start) + 1, (text + "\n").index("\n", end)
-        return text.count("\n", 0, start) + 1, text[first:last].strip(), (text[first:start] + self.replace + text[end:last]).strip()
+        changed = text[first:start] + self.replace + text[end:last]
+        return text.count("\n", 0, start) + 1, text[first:last].strip(), changed.strip()
 
 
 @dataclasses.dataclass(frozen=True)
@@ -73,7 +75,7 @@ class Fault:
 
     @functools.cached_property
     def number(self):
-        """Selects it in the copies: FNV-1a of the name, 30 bits and never 0, so that an entry more leaves the copies of others as they are."""
+        """Selects it in the copies: FNV-1a of the name, 30 bits and never 0. An entry more leaves those of others alone."""
         value = 0x811C9DC5
         for byte in self.name.encode():
             value = (value ^ byte) * 0x01000193 & 0xFFFFFFFF
@@ -130,9 +132,9 @@ def pick(items, count, seed=None, key=str):
 def main():
     faults = registry()
     match sys.argv[1:]:
-        case ["replays", *count]:
+        case ["replays", count]:
             lines = [f"{name} {replay}" for name, fault in faults.items() for replay in fault.caught.get("replays", ())]
-            print("\n".join(pick(lines, int(*count))))
+            print("\n".join(pick(lines, int(count))))
         case ["put", name, folder]:
             put(faults[name], folder)
         case ["replayed", name, replay]:

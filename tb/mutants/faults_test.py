@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of the registry of faults: every entry fits the sources and has been recorded; texts that do not fit are refused."""
+"""Tests of the registry of faults: every entry fits the sources and is recorded; texts that do not fit are refused."""
 import collections
 import sys
 import unittest
@@ -30,10 +30,12 @@ class Registry(unittest.TestCase):
     def test_entries(self):
         for fault in FAULTS.values():
             rtl, model = fault.of("rtl"), fault.of("model")
-            self.assertTrue({"rtl": rtl and not model, "model": model and not rtl, "common": model}[fault.side], f"{fault.name}: files are not of its side")
+            fits = {"rtl": rtl and not model, "model": model and not rtl, "common": model}[fault.side]
+            self.assertTrue(fits, f"{fault.name}: files are not of its side")
             caught = any(fault.caught.get(key) for key in ("checks", "proofs", "replays"))
             self.assertTrue(fault.equivalent or caught, f"{fault.name}: has not been recorded (README.md)")
-            self.assertFalse(fault.equivalent and "checks" in fault.caught, f"{fault.name}: is called equivalent, yet a check sees it")
+            seen = "checks" in fault.caught
+            self.assertFalse(fault.equivalent and seen, f"{fault.name}: is called equivalent, yet a check sees it")
             self.assertTrue(not fault.equivalent or len(fault.equivalent) > 20, f"{fault.name}: no argument")
         self.assertEqual(set(read_record()) - set(FAULTS), set())
         self.assertEqual(len({fault.number for fault in FAULTS.values()}), len(FAULTS))
@@ -42,8 +44,8 @@ class Registry(unittest.TestCase):
         """A unit without a fault is one whose checks nothing is said of."""
         by_hand = collections.Counter(f.side for f in FAULTS.values() if not f.generated and "checks" in f.caught)
         self.assertTrue(by_hand["rtl"] >= 190 and by_hand["model"] >= 17 and by_hand["common"] >= 108, by_hand)
-        classes = {side: {f.fault_class for f in FAULTS.values() if f.generated and f.side == side} for side in ("rtl", "model", "common")}
-        self.assertEqual([len(c) for c in classes.values()], [9, 7, 7])
+        classes = {(f.side, f.fault_class) for f in FAULTS.values() if f.generated}
+        self.assertEqual(collections.Counter(side for side, _ in classes), {"rtl": 9, "model": 7, "common": 7})
         self.assertEqual(sum(f.generated for f in FAULTS.values()), 330)
         # Without: constants of elaboration, and a shift register without an operator.
         units = {f"rtl/{path.name}" for path in (ROOT / "rtl").glob("*.sv")} - {"rtl/config_check.sv"}
@@ -65,12 +67,13 @@ class Reader(unittest.TestCase):
                 Edit.read(["f", search, "d"]).put(self.TEXT)
 
     def test_spans(self):
-        """One in another is selectable in what is left; those that overlap otherwise, and a statement for an expression, are refused."""
+        """One in another is selectable in what is left. Those that overlap otherwise are refused."""
         top = Place(0, len(self.TEXT), True)
         add(top, Place(7, 13, True, [(1, "")]))
         add(top, Place(11, 12, False, [(2, "d")]))
+        selected = "::quadrille::selected_mutant =="
         self.assertEqual(selectable(self.TEXT, top, "model"),
-                         "a = b;\nif (::quadrille::selected_mutant == 1) {  } else { c = ((::quadrille::selected_mutant == 2) ? (d) : (b)); }\n")
+                         f"a = b;\nif ({selected} 1) {{  }} else {{ c = (({selected} 2) ? (d) : (b)); }}\n")
         with self.assertRaisesRegex(ValueError, "overlaps"):
             add(top, Place(5, 9, False, [(3, "")]))
         with self.assertRaisesRegex(ValueError, "expression replaces a statement"):
