@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Proves properties of the RTL with Yosys' SMT back end and z3: each proof of tb/formal/proofs.toml, a line of a table for each.
 
-    scripts/prove.py [--only NAME]... [--tier default] [--faults] [--list]
+    scripts/prove.py [--only NAME]... [--tier default] [--list]
+    scripts/prove.py --faults [--only NAME]... [--tier default] [--count N] [--record FAULT]...
 
 Kinds of proof (tb/formal/README.md):
   induction  holds always: base case from reset over `depth` clocks, then any state in which it held for `depth` clocks leads to one where it does
@@ -9,7 +10,9 @@ Kinds of proof (tb/formal/README.md):
   bounded    holds for `depth` clocks from reset
 A proof by induction with `bounded` has a line more in the tier all: so many clocks from reset, whatever the induction says.
 
---faults: every fault of a proof, put into a copy of the RTL, must give a counterexample that starts from reset (pipeline: from any contents).
+--faults: every fault of the registry (tb/mutants/faults.py) that a proof is recorded to find, put into a copy of the RTL, must give a counterexample
+that starts from reset (pipeline: from any contents). --count: so many, drawn by $QUADRILLE_TEST_SEED. --record FAULT: this one instead, by each
+proof of its files; those that find it are written down.
 Exit status: 0 all proved (all faults found), 1 not, 2 usage, 3 a tool is missing."""
 import argparse
 import concurrent.futures
@@ -22,6 +25,10 @@ import sys
 import tempfile
 import time
 import tomllib
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tb", "mutants"))
+import faults as registry  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FORMAL = os.path.join(ROOT, "tb", "formal")
@@ -46,8 +53,8 @@ def load():
     with open(os.path.join(FORMAL, "proofs.toml"), "rb") as file:
         proofs = tomllib.load(file)["proof"]
     for proof in proofs:
-        if proof["kind"] not in KINDS or not proof["faults"]:
-            raise BadList(f"{proof['name']}: kind is one of {', '.join(KINDS)}, and at least one fault")
+        if proof["kind"] not in KINDS:
+            raise BadList(f"{proof['name']}: kind is one of {', '.join(KINDS)}")
         if "inside" not in proof and "harness" not in proof:
             raise BadList(f"{proof['name']}: has neither harness nor inside")
     if len({proof["name"] for proof in proofs}) != len(proofs):
@@ -67,23 +74,24 @@ def run(command, work, limit):
         return process.returncode, output
 
 
+def files(proof):
+    return ["quadrille_pkg.sv", *proof.get("rtl", [])]
+
+
 def sources(proof, fault, work):
     """Copies of the files of a proof, fault and checker in them; the checker goes before the end of its module, as a bind would (Yosys has none)."""
-    names = ["quadrille_pkg.sv", *proof.get("rtl", [])]
+    names = files(proof)
     for name in names:
         text = read(os.path.join(ROOT, "rtl", name))
         base = os.path.basename(name)
-        if fault and fault["file"] == name:
-            if text.count(fault["search"]) != fault.get("count", 1):
-                raise BadList(f"{proof['name']}: {name} has `{fault['search']}` {text.count(fault['search'])} times")
-            text = text.replace(fault["search"], fault["replace"])
+        for edit in fault.edits if fault else ():
+            if edit.file == "rtl/" + name:
+                text = edit.put(text)
         if "inside" in proof and base == proof["top"] + ".sv":
             end = text.rindex("endmodule")
             text = text[:end] + read(os.path.join(FORMAL, proof["inside"])) + text[end:]
         with open(os.path.join(work, base), "w", encoding="utf-8") as file:
             file.write(text)
-    if fault and fault["file"] not in names:
-        raise BadList(f"{proof['name']}: the fault's file {fault['file']} is not among its own")
     if "harness" in proof:
         for name in (proof["harness"], *proof.get("includes", [])):
             shutil.copy(os.path.join(FORMAL, name), work)
@@ -146,7 +154,7 @@ def prove_bounded(proof, limit):
 def find_fault(proof, fault, limit):
     with tempfile.TemporaryDirectory(prefix="prove-") as work:
         elaborate(proof, fault, work, limit)
-        proved, where = solve(bounded(proof, fault.get("depth", proof["depth"])), work, limit)
+        proved, where = solve(bounded(proof, proof.get("fault_depth", proof["depth"])), work, limit)
         return not proved, where or "no counterexample"
 
 
@@ -177,6 +185,8 @@ def main():
     parser.add_argument("--only", action="append", metavar="NAME", help="this proof; may be repeated")
     parser.add_argument("--tier", choices=("default", "all"), default="all", help="default: the proofs of seconds")
     parser.add_argument("--faults", action="store_true", help="the faults instead of the proofs")
+    parser.add_argument("--count", type=int, default=0, metavar="N", help="so many faults")
+    parser.add_argument("--record", action="append", default=[], metavar="FAULT", help="this fault; may be repeated")
     parser.add_argument("--limit", type=int, default=900, metavar="SECONDS", help="of wall clock for a run of a tool (900)")
     parser.add_argument("-j", "--jobs", type=int, default=1, metavar="N", help="at once (1)")
     args = parser.parse_args()
@@ -196,8 +206,18 @@ def main():
     os.nice(10)
 
     if args.faults:
-        tasks = [(proof, f"{fault['search'].strip()} -> {fault['replace'].strip()}", lambda p=proof, f=fault: find_fault(p, f, args.limit))
-                 for proof in proofs for fault in proof["faults"]]
+        tasks, known = [], registry.registry()
+        if unknown := set(args.record) - set(known):
+            raise BadList(f"no fault {', '.join(sorted(unknown))}")
+        for fault in known.values():
+            for proof in proofs:
+                if fault.name in args.record and any(edit.file == "rtl/" + name for edit in fault.edits for name in files(proof)) \
+                        or not args.record and proof["name"] in fault.caught.get("proofs", ()):
+                    tasks.append((proof, fault.name, lambda p=proof, f=fault: find_fault(p, f, args.limit)))
+        for proof in () if args.record else proofs:
+            if not any(proof is task[0] for task in tasks):
+                raise BadList(f"{proof['name']}: no fault is recorded that it finds")
+        tasks = registry.pick(tasks, args.count, key=lambda task: f"{task[0]['name']} {task[1]}")
         print("| proof | fault | counterexample to | s | |\n|---|---|---|---|---|")
     else:
         tasks = []
@@ -206,15 +226,25 @@ def main():
             if "bounded" in proof and args.tier == "all":
                 tasks.append((proof | {"kind": "bounded", "depth": proof["bounded"]}, proof["assumptions"], lambda p=proof: prove_bounded(p, args.limit)))
         print("| proof | kind | depth | assumed | s | |\n|---|---|---|---|---|---|")
-    bad = 0
+    bad, found = 0, {name: [] for name in args.record}
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         for (proof, text, _), (good, where, seconds) in zip(tasks, pool.map(lambda task: attempt(task[2]), tasks)):
             bad += not good
+            if good and args.record:
+                found[text].append(proof["name"])
             text = text.replace("|", "\\|").replace("\n", " ")
             if args.faults:
                 print(f"| {proof['name']} | `{text}` | {where} | {seconds:.1f} | {'found' if good else 'NOT FOUND'} |", flush=True)
             else:
                 print(f"| {proof['name']} | {proof['kind']} | {proof['depth']} | {text} | {seconds:.1f} | {'proved' if good else 'NOT PROVED: ' + where} |", flush=True)
+    if args.record:
+        record = registry.read_record()
+        tried = {proof["name"] for proof, _, _ in tasks}
+        for name, by in found.items():
+            entry = record.setdefault(name, {})
+            entry["proofs"] = sorted({*by, *(p for p in entry.get("proofs", ()) if p not in tried)})
+        registry.write_record(record)
+        bad = sum(not by for by in found.values())
     print(f"{len(tasks) - bad} of {len(tasks)} {'faults found' if args.faults else 'proved'}")
     return 1 if bad else 0
 
@@ -222,6 +252,6 @@ def main():
 if __name__ == "__main__":
     try:
         sys.exit(main())
-    except BadList as error:
+    except (BadList, ValueError) as error:
         print(f"prove.py: {error}", file=sys.stderr)
         sys.exit(2)

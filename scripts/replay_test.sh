@@ -14,7 +14,7 @@ cd "$(dirname "$0")/.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-set=${2:-$work/set}
+set=${2:-$work/small}
 machine=stress_reflex  # the suite that stands for the machine
 if [ $# -lt 2 ]; then
   suites=()
@@ -117,9 +117,9 @@ replay=scripts/replay.sh
 tool=icarus  # the quick one to build
 
 # ---- An intact set ----
-intact=()
-if $sample; then intact=(--suite sqrt --suite coverage); fi
-expect 0 "^sqrt: [0-9]+ vectors, 0 mismatches" "an intact set under Icarus" $replay "$set" icarus --netlist ${intact[@]+"${intact[@]}"}
+few=()
+if $sample; then few=(--suite sqrt --suite coverage); fi
+expect 0 "^sqrt: [0-9]+ vectors, 0 mismatches" "an intact set under Icarus" $replay "$set" icarus --netlist ${few[@]+"${few[@]}"}
 cp "$work/out" "$work/icarus"
 $sample || expect 0 "" "the machine among them" grep -E "^$machine: [1-9][0-9]* vectors, 0 mismatches" "$work/icarus"
 expect 0 "" "sqrt as gates" grep -E "^sqrt \(netlist\): [1-9][0-9]* vectors, 0 mismatches" "$work/icarus"
@@ -268,69 +268,27 @@ changelog 1 "version 1 is not larger than version 2" "a smaller version" "| 1 | 
 changelog 1 "does not say what changed" "no words" "| 2 | | \`$hash\` |" '| 1 | first | `0123` |'
 changelog 1 "has no line" "no lines"
 
-# ---- Faulty RTL: suite, file, line as it is, as it becomes ----
-fault() {
+# ---- Faulty RTL: the faults that replays are recorded to catch, of the tier by default eight, drawn ----
+# intact SET SUITE SIMULATOR OPTIONS...: a set beside the small one, and that the RTL agrees with it.
+intact() {
+  "$QUADRILLE" golden generate --level 1 --out "$work/$1" --quiet --suite "$2" "${@:4}"
+  expect 0 "^$2: [0-9]+ vectors, 0 mismatches" "$2: the set $1" $replay "$work/$1" "$3" --suite "$2"
+}
+intact dropped tile_context $tool --limit 150 --set quadratic_frac_bits=12  # bits that are dropped, each coefficient by itself
+$sample || intact lanes $machine verilator --limit 150 --set pixels_per_clock=4  # a fault that one lane cannot show
+intact many depth $tool --limit 6000  # what few vectors show
+[ "$set" = "$work/small" ] || ln -s "$(realpath "$set")" "$work/small"
+count=0
+if $sample; then count=8; fi
+mapfile -t faults < <(tb/mutants/faults.py replays $count)
+[ ${#faults[@]} -gt 5 ] || { echo "no faults are recorded" >&2; exit 1; }
+for fault in "${faults[@]}"; do
+  read -r name suite from simulator <<<"$fault"
   rm -rf "$work/rtl"
   cp -r rtl "$work/rtl"
-  python3 - "$work/rtl/$2" "$3" "$4" <<'PYTHON'
-import sys
-
-path, old, new = sys.argv[1:]
-with open(path, encoding="utf-8") as file:
-    text = file.read()
-if text.count(old) != 1:
-    sys.exit(f"{path}: {old!r} occurs {text.count(old)} times")
-with open(path, "w", encoding="utf-8") as file:
-    file.write(text.replace(old, new))
-PYTHON
-  expect 1 "^$1: (first difference|FAILED)" "$1: $2: ${4# }" $replay "$set" "${5:-$tool}" --suite "$1" --rtl "$work/rtl"
-}
-fault setup vertex_products.sv "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_y};" "{a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_x};"
-fault setup vertex_products.sv "subtract0 = kind == quadrille_pkg::EDGE ||" "subtract0 ="
-fault tile_context tile_context.sv "T'(offset_x_o) << FRAC" "T'(offset_x_o[TILE_LOG2+2:0]) << FRAC"
-fault tile_context tile_context.sv "GRAD'(\$signed(early_x)) << (FRAC + 1)" "GRAD'(\$signed(early_x)) << FRAC"
-fault tile_context tile_context.sv "4'd2, 4'd8: late_lanes" "4'd2, 4'd9: late_lanes"
-fault tile_context tile_context.sv "PRODUCT = 6'd3 + 6'(CLOCKS)" "PRODUCT = 6'd2 + 6'(CLOCKS)" # before the first vertices have moved
-fault tile_context vertex_products.sv "DOT'(offset_y)" "DOT'(offset_x)"
-fault tile_context vertex_products.sv "{a0, b0, c0, d0} = {x_i, w_j, w_i, x_j};" "{a0, b0, c0, d0} = {x_i, w_j, w_j, x_i};"
-# Bits that are dropped, each coefficient by itself.
-dropped=$work/dropped
-"$QUADRILLE" golden generate --level 1 --limit 150 --out "$dropped" --quiet --suite tile_context --set quadratic_frac_bits=12
-expect 0 "^tile_context: [0-9]+ vectors, 0 mismatches" "tile_context with dropped bits" $replay "$dropped" $tool
-set=$dropped fault tile_context tile_context.sv "QVAL'((late_dot ? dot : square) >> QDROP)" "QVAL'(((late_dot ? dot : square) + ((OUT'(1) << QDROP) >> 1)) >> QDROP)"
-set=$dropped fault tile_context tile_context.sv "QGRAD'(exact_x >> QDROP)" "QGRAD'(0) - QGRAD'(minus_x >> QDROP)"
-set=$dropped fault tile_context tile_context.sv "QCURV'(q >> QDROP)" "QCURV'((q + ((CURV'(1) << QDROP) >> 1)) >> QDROP)"
-# Several pixels a clock: the whole machine, whose fault one lane cannot show.
-if ! $sample; then
-  lanes=$work/lanes
-  "$QUADRILLE" golden generate --level 1 --limit 150 --out "$lanes" --quiet --suite $machine --set pixels_per_clock=4
-  expect 0 "^$machine: [0-9]+ vectors, 0 mismatches" "four lanes" $replay "$lanes" verilator
-  set=$lanes fault $machine pixel_pipeline.sv "dx_i[g*TILE_LOG2+:TILE_LOG2]" "dx_i[(P-1-g)*TILE_LOG2+:TILE_LOG2]" verilator
-fi
-fault coverage inside_expression.sv "(pos2 | pos3)" "(pos2 & pos3)"
-fault forward_difference offset_digits.sv "row_square + dx_square" "row_square + row_square"
-fault forward_difference law_of_cosines.sv "twice[TWICE-1:1]" "QVAL'(sum_q >> 1) - QVAL'(length2_i >> 1)" # rounds otherwise
-fault forward_difference law_of_cosines.sv "homogeneous_i ? exact_i" "1'b1 ? exact_i"
-fault normalise normalise.sv "E'(BIAS)" "E'(BIAS + 1)"
-fault normalise singular_class.sv "a_zero && d_i[g*QVAL+QVAL-1]" "a_zero && !d_i[g*QVAL+QVAL-1]"
-fault sqrt sqrt.sv "SQRT_STAGES - 1" "SQRT_STAGES - 2"
-fault reciprocal reciprocal.sv "E'(0) - exp_i : ~exp_i" "E'(0) - exp_i : -exp_i"
-fault ratios mean_value_ratios.sv "rr_rank_q <= rr_rank" "rr_rank_q <= rr_rank + RANK'(1)"
-fault weights factor_products.sv "late_neighbours && late_corner == 2'(g)" "1'b0"
-fault interpolation interpolate.sv "E'(\$signed(term_exp_i[(FIRST+c)*PE+:PE]))" "E'(term_exp_i[(FIRST+c)*PE+:PE])"
-fault interpolation interpolate.sv "V = 4 - CORNERS + c" "V = c" # attributes with the weights of corners 0 to 2
-fault depth fragment_output.sv "{Z_SUM'(base_depth_i), 1'b1}" "{Z_SUM'(base_depth_i), 1'b0}" # rounds otherwise
-fault depth fragment_output.sv "{SUM'(\$signed(base_attr_i[g*AO+:AO])), 1'b1}" "{SUM'(\$signed(base_attr_i[g*AO+:AO])), 1'b0}"
-fault depth quad_reject.sv "near_cuts_q ? znear_i : low_i[DB:0]" "low_i[DB:0]"
-# What few vectors show.
-many=$work/many
-"$QUADRILLE" golden generate --level 1 --limit 6000 --out "$many" --quiet --suite depth
-expect 0 "^depth: [0-9]+ vectors, 0 mismatches" "many vectors of depth" $replay "$many" $tool
-set=$many fault depth fragment_output.sv "overflow[g] <= used && (too_large || least)" "overflow[g] <= used && too_large"
-set=$many fault depth fragment_output.sv "late_z_neg && !w_zero" "late_z_neg"
-set=$many fault depth quad_reject.sv "outside_q <= \$signed(high_i) < \$signed(znear)" "outside_q <= \$signed(high_i) <= \$signed(znear)"
-fault $machine quadrille.sv "full && !drop_vertices && setup_ready && slot_available" "full && !drop_vertices && setup_ready && !slots_busy" # clocks alone
-fault $machine quadrille.sv "full && !drop_vertices && setup_ready && slot_available" "full && !drop_vertices && setup_ready && !slots_busy" verilator
+  tb/mutants/faults.py put "$name" "$work/rtl"
+  expect 1 "^$suite: (first difference|FAILED)" "$fault" $replay "$work/$from" "$simulator" --suite "$suite" --rtl "$work/rtl"
+done
 
 echo "$checked expectations"
 [ "$failures" -eq 0 ] || { echo "$failures failed" >&2; exit 1; }

@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace quadrille::tb {
 namespace {
@@ -37,18 +38,33 @@ Found lockstep(const Scenario* s) {
   }
 }
 
-// ---- the RTL's own assertions ----
+// ---- the RTL alone: its own assertions, and what it draws ----
 
-Found assertions(const Scenario* s) {
+/// A run of one scenario, which two checks look at: it is made once for a fault.
+struct RtlRun {
+  std::vector<Fragment> fragments;
+  Found assertion, hang;
+};
+std::map<const Scenario*, RtlRun> rtl_runs;
+
+RtlRun& rtl_alone(const Scenario& s) {
+  static int fault = 0;
+  if (const int selected = selected_in_rtl(); std::exchange(fault, selected) != selected) rtl_runs.clear();
+  const auto [place, made] = rtl_runs.try_emplace(&s);
+  RtlRun& run = place->second;
+  if (!made) return run;
   try {
-    run_rtl_alone(simulator_of(s->options.config), s->quads, s->options);
-    return {};
+    run_rtl_alone(simulator_of(s.options.config), s.quads, s.options,
+                  [&](const Fragment& f) { run.fragments.push_back(f); });
   } catch (const DeviceError& stop) {
-    return stop.what();
-  } catch (const WatchdogError&) {  // no assertion
-    return {};
+    run.assertion = stop.what();
+  } catch (const WatchdogError& hang) {
+    run.hang = hang.what();
   }
+  return run;
 }
+
+Found assertions(const Scenario* s) { return rtl_alone(*s).assertion; }
 
 // ---- fragments against the truth ----
 
@@ -78,18 +94,16 @@ Found truth_of_rtl(const Scenario* s) {
   settings.state = s->options.state;
   for (int j = 0; j < settings.state.attributes; ++j) settings.pass.columns.push_back(4 + j);
   settings.snapping = false;
-  try {
-    return said(cli::check_here(settings, names, s->quads,
-                                [&](const FragmentSink& sink) {
-                                  run_rtl_alone(simulator_of(s->options.config), s->quads, s->options, sink);
-                                  return true;
-                                }),
-                s->invisible);
-  } catch (const DeviceError&) {  // that is the assertions' finding
-    return {};
-  } catch (const WatchdogError& hang) {
-    return hang.what();
-  }
+  const RtlRun run = std::move(rtl_alone(*s));
+  rtl_runs.erase(s);             // it is the last to look
+  if (run.assertion) return {};  // that is the assertions' finding
+  if (run.hang) return run.hang;
+  return said(cli::check_here(settings, names, s->quads,
+                              [&](const FragmentSink& sink) {
+                                std::ranges::for_each(run.fragments, sink);
+                                return true;
+                              }),
+              s->invisible);
 }
 
 // ---- the model's functions against exact arithmetic ----

@@ -19,7 +19,7 @@ struct Finding {
 
 /// One check. It runs on the machine as it is selected (mutant_list.hpp); without a fault it finds nothing.
 struct CheckInfo {
-  std::string name;  ///< as in `caught_by`
+  std::string name;  ///< as in the record
   bool sees_rtl;     ///< looks at the RTL; the others look at the model alone
   bool by_scenario;  ///< looks at one scenario at a time
   /// The scenario is null for a check that has none.

@@ -1,8 +1,6 @@
-// The faults of mutants.toml and the switch that selects one of them.
+// The faults of the registry (faults.py) and the switch that selects one of them.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -16,18 +14,18 @@ struct Mutant {
   std::string name, fault_class;
   Side side = Side::rtl;
   bool in_rtl = false, in_model = false;  ///< where it has an edit; a common one may leave the RTL's to the imagination
-  int number = 0;                         ///< of the switch; never 0
-  std::vector<std::string> caught_by;     ///< the checks that see it, in the order of all_checks(); recorded
-  std::optional<std::string> scenario;    ///< in which it is found soonest
-  std::optional<std::string> equivalent;  ///< why no input shows it
+  bool generated = false;
+  int number = 0;  ///< of the switch; never 0
+  std::vector<std::string>
+      checks;            ///< that see it, in the order of all_checks(); of a generated one the first of model_checks()
+  std::string scenario;  ///< in which it is found soonest
+  std::string equivalent;  ///< why no input shows it; else empty
 
   friend std::ostream& operator<<(std::ostream& out, const Mutant& m) { return out << m.name; }
 };
 
-/// All entries in the order of the file. Throws std::runtime_error for an entry that is not as README.md says.
+/// All that are built into the copies, in the order of the registry; select_mutants.py wrote the list.
 std::vector<Mutant> read_mutants();
-/// An entry of the list that generate_mutants.py writes.
-Mutant generated_mutant(const nlohmann::ordered_json& entry);
 
 /// A fault that is on while this lives, in the RTL made meanwhile, in the model, or in both. One at a time, and no
 /// other thread may use the machine.
@@ -39,6 +37,8 @@ class Selected {
   Selected& operator=(const Selected&) = delete;
 };
 
+/// The number of the fault that is on in the RTL, 0: none.
+int selected_in_rtl();
 /// Whether a fault is on.
 bool anything_selected();
 

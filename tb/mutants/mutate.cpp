@@ -1,14 +1,13 @@
-// Puts generated mutants (generate_mutants.py) through the checks, each in a process of its own, until one sees it.
-// Prints a line of JSON for each mutant, in the order of the list; scripts/mutate.sh makes the table of it.
+// Puts generated mutants through the checks, each in a process of its own, until one sees it. Prints a line of JSON for
+// each mutant, in the order of the list; report_mutants.py makes the table of it.
 //
-//   mutate [--file F] [--class C] [--name N] [--sample N --seed S] [--jobs J] [--limit SECONDS] [--only NAMES_FILE]
-//   [--tests-alone]
+//   mutate [--only NAMES_FILE] [--jobs J] [--limit SECONDS] [--afresh]
 //
 // A mutant of the RTL is compared with the model in lockstep. One of the model is too, and then goes through the checks
 // that see the model alone. One of both alike goes through these only: that the RTL errs alike hides it from lockstep,
 // which is proved where the list has an edit of the RTL too, by a lockstep with both faults on that shows nothing. A
-// check that takes longer than --limit seconds in one scenario is ended: the fault is found, as hung.
-#include "model/support/prng.hpp"
+// check that takes longer than --limit seconds in one scenario is ended: the fault is found, as hung. What the record
+// says is looked at first, unless --afresh.
 #include "tb/mutants/checks.hpp"
 #include "tb/mutants/model_tests.hpp"
 #include "tb/support/environment_error.hpp"
@@ -80,14 +79,26 @@ bool finds_anywhere(int to, const CheckInfo& check) {
   return std::ranges::any_of(every_scenario(), [&](const Scenario* s) { return finds(to, check, s); });
 }
 
-void look_with_tests(int to) {
+bool finds_with_tests(int to) {
   const auto begins = [&](const std::string& test) { say(to, {{"check", own_tests}, {"where", test}}); };
-  if (const auto failed = failing_test(begins))
-    say(to, {{"killed", own_tests}, {"where", failed->name}, {"how", "difference"}, {"what", failed->what}});
+  const auto failed = failing_test(begins);
+  if (failed) say(to, {{"killed", own_tests}, {"where", failed->name}, {"how", "difference"}, {"what", failed->what}});
+  return failed.has_value();
+}
+
+/// The check that the record names, in the scenario that it names.
+bool finds_as_recorded(int to, const Mutant& mutant) {
+  if (mutant.checks.empty()) return false;
+  if (mutant.checks.front() == own_tests) return finds_with_tests(to);
+  const auto check = std::ranges::find(all_checks(), mutant.checks.front(), &CheckInfo::name);
+  if (check == all_checks().end()) return false;  // a lockstep of both, which has crashed before
+  if (!check->by_scenario) return finds(to, *check, nullptr);
+  return std::ranges::any_of(every_scenario(),
+                             [&](const Scenario* s) { return s->name == mutant.scenario && finds(to, *check, s); });
 }
 
 /// The checks on one mutant, in the child.
-void look(int to, const Mutant& mutant) {
+void look(int to, const Mutant& mutant, bool afresh) {
   const CheckInfo& lockstep = check_named("lockstep");
   if (mutant.side == Mutant::Side::common && mutant.in_rtl) {
     const Selected both(mutant, true, true);
@@ -105,11 +116,12 @@ void look(int to, const Mutant& mutant) {
   }
   const bool rtl = mutant.side == Mutant::Side::rtl;
   const Selected selected(mutant, rtl, !rtl);
+  if (!afresh && finds_as_recorded(to, mutant)) return;
   if (mutant.side != Mutant::Side::common && finds_anywhere(to, lockstep)) return;
   if (rtl) return;  // what agrees with the model in every clock is as good as that
   for (const std::string_view name : model_checks)
     if (finds_anywhere(to, check_named(name))) return;
-  look_with_tests(to);
+  finds_with_tests(to);
 }
 
 /// A child that looks at a mutant.
@@ -123,7 +135,7 @@ struct Run {
   bool twin_undecided = false;
 };
 
-Run start(std::size_t index, const Mutant& mutant, bool tests_alone) {
+Run start(std::size_t index, const Mutant& mutant, bool afresh) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   std::fflush(nullptr);
@@ -133,12 +145,7 @@ Run start(std::size_t index, const Mutant& mutant, bool tests_alone) {
     close(ends[0]);
     std::freopen("/dev/null", "w", stderr);
     std::freopen("/dev/null", "w", stdout);
-    if (tests_alone) {
-      const Selected selected(mutant, false, true);
-      look_with_tests(ends[1]);
-    } else {
-      look(ends[1], mutant);
-    }
+    look(ends[1], mutant, afresh);
     say(ends[1], {{"done", true}});
     _exit(0);
   }
@@ -188,11 +195,6 @@ Json finish(Run& run, const Mutant& mutant, bool too_long) {
   return result;
 }
 
-std::vector<Json> read_list(const std::string& file) {
-  std::ifstream in(file);
-  return Json::parse(in).get<std::vector<Json>>();
-}
-
 std::set<std::string> lines_of(const std::string& file) {
   std::set<std::string> lines;
   std::ifstream in(file);
@@ -202,55 +204,32 @@ std::set<std::string> lines_of(const std::string& file) {
 
 int run(int argc, char** argv) {
   CLI::App app("Puts generated mutants through the checks");
-  std::string side, file, fault_class, name, only;
-  std::uint64_t count = 0, seed = 1;
+  std::string only;
   unsigned jobs = 1;
   double limit = 60;
-  bool tests_alone = false;
-  app.add_option("--side", side, "only of this side: rtl, model, common");
-  app.add_option("--file", file, "only of this file");
-  app.add_option("--class", fault_class, "only of this class");
-  app.add_option("--name", name, "only this one");
-  app.add_option("--only", only, "only those named in this file, a line each");
-  app.add_option("--sample", count, "so many, drawn by the seed; 0: all");
-  app.add_option("--seed", seed, "of the sample");
+  bool afresh = false;
+  app.add_option("--only", only, "those named in this file, a line each");
   app.add_option("--jobs", jobs, "at a time")->check(CLI::Range(1, 64));
-  app.add_flag("--tests-alone", tests_alone, "only the model's own tests, for what no other check saw");
   app.add_option("--limit", limit, "seconds after which a check of one scenario hangs");
+  app.add_flag("--afresh", afresh, "without looking at what the record says first");
   CLI11_PARSE(app, argc, argv);
 
-  std::set<std::string> left_out = lines_of(QUADRILLE_MUTANT_RTL ".left_out");
-  left_out.merge(lines_of(QUADRILLE_MUTANT_TREE ".left_out"));
-  const std::set<std::string> names = only.empty() ? std::set<std::string>() : lines_of(only);
-  std::vector<Mutant> mutants;
-  for (const Json& entry : read_list(QUADRILLE_GENERATED_MUTANTS)) {
-    const std::string& its_name = entry["name"].get_ref<const std::string&>();
-    const std::string its_file = entry["file"];
-    const bool chosen = (side.empty() || entry["side"] == side) &&
-                        (file.empty() || its_file == file || its_file.ends_with("/" + file)) &&
-                        (fault_class.empty() || entry["class"] == fault_class) && (name.empty() || its_name == name) &&
-                        (only.empty() || names.contains(its_name));
-    if (chosen && !left_out.contains(its_name)) mutants.push_back(generated_mutant(entry));
-  }
-  if (count != 0) {
-    golden::Prng random(seed);
-    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(count, mutants.size()));
-    for (std::size_t i = 0; i < size; ++i) std::swap(mutants[i], mutants[i + random.below(mutants.size() - i)]);
-    mutants.resize(size);
-  }
+  const std::set<std::string> names = lines_of(only);
+  std::vector<Mutant> mutants = read_mutants();
+  std::erase_if(mutants, [&](const Mutant& m) { return only.empty() ? !m.generated : !names.contains(m.name); });
   if (mutants.empty()) {
     std::fprintf(stderr, "mutate: no mutant is so\n");
     return 2;
   }
 
-  for (const Scenario* s : tests_alone ? std::vector<const Scenario*>() : every_scenario())
+  for (const Scenario* s : every_scenario())
     simulator_of(s->options.config);  // built and loaded with no fault selected
   std::map<std::size_t, Json> results;
   std::vector<Run> runs;
   std::size_t next = 0, printed = 0;
   while (printed < mutants.size()) {
     while (runs.size() < jobs && next < mutants.size()) {
-      runs.push_back(start(next, mutants[next], tests_alone));
+      runs.push_back(start(next, mutants[next], afresh));
       ++next;
     }
     std::vector<pollfd> ready;

@@ -17,10 +17,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 STUB = """#!{python} -SE
 import json, os, sys, time
 words = dict(zip(sys.argv[1::2], sys.argv[2::2]))
-mutants = json.load(open(os.path.join(os.path.dirname(sys.argv[0]), "generated.json")))
-only = set(open(words["--only"]).read().split()) if "--only" in words else None
+mutants = json.load(open(os.path.join(os.path.dirname(sys.argv[0]), "faults.json")))
+only = set(open(words["--only"]).read().split())
 for number, m in enumerate(mutants):
-    if (only is None or m["name"] in only) and words.get("--side", m["side"]) == m["side"] and m["name"] != "left":
+    if m["name"] in only:
         if m["name"] == os.environ.get("STUB_STOPS"):
             sys.exit(3)
         if m["name"] == os.environ.get("STUB_WAITS"):
@@ -41,10 +41,12 @@ class Report(unittest.TestCase):
         stub = self.build / "mutate"
         stub.write_text(STUB.format(python=sys.executable))
         stub.chmod(0o755)
-        mutants = [{"name": f"m{i}", "side": "model" if i % 3 else "rtl", "class": "operator", "file": "model/x.cpp", "text": f"a{i}", "mutated": f"b{i}",
-                    "edit": [{"file": "model/x.cpp", "line": i, "text": f"a{i}", "mutated": f"b{i}"}]} for i in range(11)]
-        (self.build / "generated.json").write_text(json.dumps([*mutants, mutants[0] | {"name": "left"}]))
-        (self.build / "rtl.left_out").write_text("left\n")
+        (self.build / "x.cpp").write_text("".join(f"a{i};\n" for i in range(12)))
+        self.list([{"name": f"m{i}", "side": "model" if i % 3 else "rtl", "class": "operator", "file": "model/x.cpp", "generated": True, "equivalent": "",
+                    "checks": ["truth"], "edits": [[str(self.build / "x.cpp"), f"«a{i}»;", f"b{i}"]]} for i in range(11)])
+
+    def list(self, mutants):
+        (self.build / "faults.json").write_text(json.dumps([*mutants, mutants[0] | {"name": "by_hand", "generated": False}]))
 
     def report(self, *arguments, status=0, survives="", **environment):
         result = subprocess.run([sys.executable, str(HERE / "report_mutants.py"), *map(str, arguments)], capture_output=True, text=True,
@@ -97,7 +99,7 @@ class Report(unittest.TestCase):
         for number in (signal.SIGKILL, signal.SIGTERM):
             (self.build / "looked").unlink()
             command = [sys.executable, str(HERE / "report_mutants.py"), self.build, "--shard", "1/2", "--side", "model", "--json", part]
-            with subprocess.Popen(command, env={**os.environ, "STUB_WAITS": "m7"}, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as process:
+            with subprocess.Popen(command, env={**os.environ, "STUB_WAITS": "m8"}, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as process:
                 for line in process.stderr:
                     if " m5: " in line:
                         break
@@ -105,10 +107,10 @@ class Report(unittest.TestCase):
                 process.send_signal(number)
                 process.wait(timeout=30)
                 self.assertLess(time.monotonic() - began, 10)
-            self.assertEqual(self.looked(), ["m1", "m5"])
+            self.assertEqual(self.looked(), ["m2", "m5"])
             self.assertFalse(part.exists())
             self.report(self.build, "--shard", "1/2", "--side", "model", "--json", part)
-            self.assertEqual(self.looked(), ["m1", "m5", "m7"])
+            self.assertEqual(self.looked(), ["m2", "m5", "m8"])
             self.assertEqual(part.read_bytes(), one.read_bytes())
             part.unlink()
 
@@ -129,7 +131,6 @@ class Report(unittest.TestCase):
             (tree / "scripts").mkdir(parents=True, exist_ok=True)
             shutil.copy(HERE.parents[1] / "scripts" / script, tree / "scripts" / script)
         (tree / "tb/mutants").mkdir(parents=True)
-        (tree / "tb/mutants/generate_mutants.py").write_text("")
         (tree / "tb/mutants/report_mutants.py").write_text("#!/bin/sh\necho report >>log; sleep 1; echo over >>log\n")
         (tree / "tb/mutants/report_mutants.py").chmod(0o755)
         tools.mkdir()
@@ -148,7 +149,7 @@ class Report(unittest.TestCase):
 
     def test_survivors_fail(self):
         part = self.build / "part.json"
-        self.assertIn("SURVIVES m4\nmodel/x.cpp:4\n-   a4", self.report(self.build, "--json", part, status=1, survives="m4").stdout)
+        self.assertIn(f"SURVIVES m4\n{self.build}/x.cpp:5\n-   a4;\n+   b4;", self.report(self.build, "--json", part, status=1, survives="m4").stdout)
         self.assertIn("SURVIVES m4", self.report("--from", part, status=1).stdout)
 
     def test_what_does_not_go_together(self):
@@ -162,7 +163,27 @@ class Report(unittest.TestCase):
         self.assertIn("text.json: is not what --json keeps", self.report("--from", part, text, status=1).stderr)
         self.assertIn("no such", self.report("--from", self.build / "none", status=1).stderr.lower())
         self.report(self.build, "--shard", "3/3", status=2)
-        self.report(self.build, "--shard", "0/2", "--sample", "3", status=2)
+        self.report("--from", part, "--shard", "0/2", status=2)
+
+    def test_not_as_recorded(self):
+        mutants = json.loads((self.build / "faults.json").read_text())[:2]
+        self.list([mutants[0] | {"checks": ["lockstep"]}, mutants[1] | {"equivalent": "As is said.", "checks": []}])
+        printed = self.report(self.build, status=1).stdout
+        self.assertIn("m0: recorded as seen by lockstep, now: truth, bowtie: difference", printed)
+        self.assertIn("m1: argued equivalent, now: truth, bowtie: difference", printed)
+        self.report(self.build, "--name", "m1", survives="m1")
+
+    def test_a_draw(self):
+        def drawn(*options):
+            (self.build / "looked").unlink(missing_ok=True)
+            self.report(self.build, *options)
+            return self.looked()
+
+        self.assertEqual(len(drawn("--count", 3, "--side", "rtl")), 3)
+        self.assertEqual([int(name[1:]) % 3 == 0 for name in drawn("--count", 8, "--seed", 2)].count(True), 4)
+        self.assertEqual(drawn("--count", 4, "--seed", 3), drawn("--count", 4, "--seed", 3))
+        self.assertGreater(len({tuple(drawn("--count", 4, "--seed", seed)) for seed in range(4)}), 1)
+        self.assertEqual(drawn("--file", "x.cpp", "--side", "rtl"), ["m0", "m3", "m6", "m9"])
 
 
 if __name__ == "__main__":

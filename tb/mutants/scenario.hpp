@@ -17,7 +17,7 @@ struct Scenario {
   bool again = false;  ///< lockstep draws it twice in one machine, with a reset between: what it keeps shows
 };
 
-/// Those that mutants.toml records. The same in every process, of few configurations: each takes a simulator.
+/// Those that the record names. The same in every process, of few configurations: each takes a simulator.
 std::span<const Scenario> scenarios();
 /// Those that a generated mutant goes through after them, each made for what none of the others showed.
 std::span<const Scenario> further_scenarios();

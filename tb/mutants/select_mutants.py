@@ -1,20 +1,16 @@
 #!/usr/bin/env python3
-"""Copies rtl/ or model/ with every fault of mutants.toml built in, each off until it is selected at run time.
+"""Copies rtl/ and model/ with every fault that is selectable (faults.py) built in, each off until it is selected at run time.
 
-    tb/mutants/select_mutants.py rtl|model OUTPUT_DIR GENERATED     rtl: *.sv; model: a tree to put before the sources' include path
+    tb/mutants/select_mutants.py OUTPUT_DIR     rtl/*.sv; tree/model/, to put before the sources' include path; faults.json, the list of those built in
 
-and those of GENERATED, which generate_mutants.py wrote: expressions by their place instead of by their text.
-
-`search` occurs exactly once in `file`, else the mutant is left out and OUTPUT_DIR.stale says so: rewriting a module must not break
-the build; a test reads that file. In the copy it becomes what the selected mutant says:
+The text that an edit replaces becomes what the selected fault says:
 
     an expression        ((selected == N) ? (replace) : (search))
     assign x = e;        the same of the right side, when `replace` assigns to the same x
     statements           if (selected == N) … else …; both end with a semicolon or a brace
 
-Mutants of one span chain, a span within another is selectable in what is left of that one, and spans that overlap otherwise are stale too
-(a generated one is left out of the copies, and mutate.cpp told so by GENERATED.left_out). N is the FNV-1a hash of the name, so that an entry more leaves
-the copies of the others, and what was built of them, as they are. Number 0 is no fault.
+Faults of one span chain, a span within another is selectable in what is left of that one. An edit that does not fit is left out, so that rewriting
+a module does not break the build: faults_test.py says which. Number 0 is no fault.
 
 RTL: the variable is quadrille_mutant_pkg::selected, read from the environment ($QUADRILLE_MUTANT) when a machine is made.
 Model: quadrille::selected_mutant, an int of the program that links the copies.
@@ -25,9 +21,11 @@ import json
 import pathlib
 import re
 import sys
-import tomllib
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+from faults import ROOT, registry  # noqa: E402
+
+LIBRARIES = {"support", "c_api", "examples"}  # folders of model/ without the machine
 SUFFIXES = {"rtl": {".sv"}, "model": {".cpp", ".hpp"}}
 ASSIGN = re.compile(r"assign\s+([^=]+?)\s*=\s*(.*);", re.DOTALL)
 
@@ -45,14 +43,6 @@ extern int selected_mutant;
 """
 
 
-def number(name):
-    """FNV-1a of the name, 30 bits and never 0; mutant_list.cpp computes the same."""
-    value = 0x811C9DC5
-    for byte in name.encode():
-        value = (value ^ byte) * 0x01000193 & 0xFFFFFFFF
-    return value & 0x3FFFFFFF | 0x20000000
-
-
 def is_statement(text):
     return text.endswith(";") or text.endswith("}") and ";" in text
 
@@ -63,32 +53,38 @@ class Place:
     start: int
     end: int
     statement: bool
-    mutants: list  # (name, replace)
-    generated: bool
+    faults: list = dataclasses.field(default_factory=list)  # (number, replace)
     inner: list = dataclasses.field(default_factory=list)  # the places within it
 
+    @property
+    def span(self):
+        return self.start, self.end, self.statement
 
-def place_of(search, at, mutants):
-    """`search` at `at`, of an assign its right side, with the replacements of all its mutants, [(name, replace)]."""
-    assign = ASSIGN.fullmatch(search)
+    def holds(self, other):
+        return self.start <= other.start and other.end <= self.end
+
+
+def place_of(fault, edit, text):
+    """Where an edit is selected: of an assign its right side."""
+    start, end = edit.span(text)
+    assign, other = ASSIGN.fullmatch(edit.search), ASSIGN.fullmatch(edit.replace)
     if assign:
-        others = [(name, ASSIGN.fullmatch(replace)) for name, replace in mutants]
-        if any(not other or other[1] != assign[1] for _, other in others):
+        if not other or other[1] != assign[1]:
             raise ValueError("replaces an assign by something else")
-        return Place(at + assign.start(2), at + assign.end(2), False, [(name, other[2]) for name, other in others], False)
-    if any(is_statement(search) != (is_statement(replace) or not replace) for _, replace in mutants):
+        return Place(start + assign.start(2), start + assign.end(2), False, [(fault.number, other[2])])
+    statement = is_statement(edit.search)
+    if statement != (is_statement(edit.replace) or not edit.replace):
         raise ValueError("an expression replaces a statement, or the reverse")
-    return Place(at, at + len(search), is_statement(search), list(mutants), False)
+    return Place(start, end, statement, [(fault.number, edit.replace)])
 
 
 def selectable(text, place, side):
-    """The text of a place with all its mutants, and those of the places within it."""
+    """The text of a place with all its faults, and those of the places within it."""
     selected = "quadrille_mutant_pkg::selected" if side == "rtl" else "::quadrille::selected_mutant"
     new = text[place.start:place.end]
     for inner in sorted(place.inner, key=lambda p: p.start, reverse=True):
         new = new[:inner.start - place.start] + selectable(text, inner, side) + new[inner.end - place.start:]
-    for name, replace in place.mutants:
-        n = number(name)
+    for n, replace in place.faults:
         if not place.statement:
             new = f"(({selected} == {n}) ? ({replace}) : ({new}))"
         elif side == "rtl":
@@ -98,102 +94,62 @@ def selectable(text, place, side):
     return new
 
 
-def edits(side, generated):
-    """{file: {search: [(name, replace)]}} of mutants.toml, and {file: [Place]} of the generated ones."""
-    with open(ROOT / "tb/mutants/mutants.toml", "rb") as file:
-        entries = tomllib.load(file)["mutant"]
-    numbers = {}
-    found, places = {}, {}
-    for entry in entries + generated:
-        name = entry["name"]
-        if numbers.setdefault(number(name), name) != name:
-            raise ValueError(f"{name} and {numbers[number(name)]} have the same number; rename one")
-        if sum(other["name"] == name for other in entries) > 1:
-            raise ValueError(f"{name}: two entries have this name")
-        for edit in entry.get("edit", [entry]):
-            file = edit["file"]
-            if file.split("/")[0] != side:
-                continue
-            if "start" in edit:
-                places.setdefault(file, []).append(Place(edit["start"], edit["end"], False, [(name, edit["replace"])], True))
-            else:
-                found.setdefault(file, {}).setdefault(edit["search"], []).append((name, edit["replace"]))
-    return found, places
+def add(top, place):
+    outer = top
+    while inner := next((p for p in outer.inner if p.holds(place)), None):
+        outer = inner
+        if outer.span == place.span:
+            outer.faults += place.faults
+            return
+    place.inner = [p for p in outer.inner if place.holds(p)]
+    outer.inner = [p for p in outer.inner if not place.holds(p)]
+    if any(p.start < place.end and place.start < p.end for p in outer.inner):
+        raise ValueError("overlaps another fault's text without being within it")
+    outer.inner.append(place)
 
 
-def mutate(text, file, spans, generated, side, stale, left_out):
-    """The text with the mutants of every span and of every generated place; what does not fit goes to `stale`, of the latter to `left_out`."""
-    places = []
-    for search, mutants in spans.items():
-        names = ", ".join(name for name, _ in mutants)
-        if text.count(search) != 1:
-            stale.append(f"{names}: the text to replace occurs {text.count(search)} times in {file}, not once")
+def copies(side, faults):
+    """{file: its text with the faults}, and what does not fit."""
+    edits, found, wrong = {}, {}, []
+    for fault in faults:
+        for edit in fault.edits:
+            if edit.file.startswith(side + "/"):
+                edits.setdefault(edit.file, []).append((fault, edit))
+    for path in sorted((ROOT / side).rglob("*.*") if side == "model" else (ROOT / side).glob("*.*")):
+        if path.suffix not in SUFFIXES[side] or path.stem.endswith("_test") or path.parent.name in LIBRARIES:
             continue
-        try:
-            places.append(place_of(search, text.index(search), mutants))
-        except ValueError as error:
-            stale.append(f"{names}: {error}")
-    top = Place(0, len(text), True, [], False)
-    for place in places + generated:
-        outer = top
-        while True:
-            inner = next((p for p in outer.inner if p.start <= place.start and place.end <= p.end), None)
-            if inner is None:
-                break
-            outer = inner
-            if (inner.start, inner.end, inner.statement) == (place.start, place.end, place.statement):
-                break
-        if (outer.start, outer.end, outer.statement) == (place.start, place.end, place.statement) and outer is not top:
-            outer.mutants += place.mutants
-            continue
-        within = [p for p in outer.inner if place.start <= p.start and p.end <= place.end]
-        if any(p.start < place.end and place.start < p.end for p in outer.inner if p not in within):
-            names = ", ".join(name for name, _ in place.mutants)
-            if place.generated:
-                left_out += [name for name, _ in place.mutants]
-            else:
-                stale.append(f"{names}: overlaps another mutant's text in {file} without being within it")
-            continue
-        outer.inner = [p for p in outer.inner if p not in within] + [place]
-        place.inner = within
-    return selectable(text, top, side)
+        file, text = str(path.relative_to(ROOT)), path.read_text()
+        top = Place(0, len(text), True)
+        here = edits.pop(file, [])
+        for fault, edit in here:
+            try:
+                add(top, place_of(fault, edit, text))
+            except ValueError as error:
+                wrong.append(f"{fault.name}: {edit.file}: {error}")
+        found[file] = ('#include "model/selected_mutant.hpp"\n' if here and side == "model" else "") + selectable(text, top, side)
+    return found, wrong + [f"no file {file}" for file in edits]
 
 
 def write(path, text):
-    if path.exists() and path.read_text() == text:
-        return
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text)
+    if not path.exists() or path.read_text() != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
 
 
 def main():
-    side, out, list_file = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-    try:
-        found, places = edits(side, json.loads(list_file.read_text()))
-    except ValueError as error:
-        sys.exit(f"tb/mutants/mutants.toml: {error}")
-    stale = [f"no file {file}" for file in found if not (ROOT / file).exists()]
-    left_out = []
-    for path in sorted([*(ROOT / side).iterdir(), *(ROOT / side / "clocked").glob("*")]):
-        if path.suffix not in SUFFIXES[side] or path.stem.endswith("_test"):
-            continue
-        file = str(path.relative_to(ROOT))
-        text = mutate(path.read_text(), file, found.get(file, {}), places.get(file, []), side, stale, left_out)
-        if side == "model":
-            write(out / file, '#include "model/selected_mutant.hpp"\n' + text if file in found or file in places else text)
-        else:
-            write(out / path.name, text)
-    if side == "rtl":
-        for old in out.glob("*.sv"):
-            if not (ROOT / "rtl" / old.name).exists() and old.name != "quadrille_mutant_pkg.sv":
-                old.unlink()
-        write(out / "quadrille_mutant_pkg.sv", RTL_PACKAGE)
-    else:
-        write(out / "model/selected_mutant.hpp", MODEL_HEADER)
-    write(out.with_name(out.name + ".stale"), "".join(line + "\n" for line in stale))
-    write(out.with_name(out.name + ".left_out"), "".join(name + "\n" for name in left_out))
-    return 0
+    out = pathlib.Path(sys.argv[1])
+    faults = [fault for fault in registry().values() if fault.selectable]
+    written = {out / "rtl/quadrille_mutant_pkg.sv": RTL_PACKAGE, out / "tree/model/selected_mutant.hpp": MODEL_HEADER}
+    for side, folder in (("rtl", out), ("model", out / "tree")):
+        written |= {folder / file: text for file, text in copies(side, faults)[0].items()}
+    for old in {*out.rglob("rtl/*.sv"), *out.rglob("tree/model/*.?pp")} - set(written):
+        old.unlink()
+    entries = [{"name": f.name, "number": f.number, "class": f.fault_class, "side": f.side, "file": f.edits[0].file, "rtl": f.of("rtl"), "model": f.of("model"),
+                "generated": f.generated, "equivalent": f.equivalent, "checks": f.caught.get("checks", []), "scenario": f.caught.get("scenario", ""),
+                "edits": [[e.file, e.marked, e.replace] for e in f.edits]} for f in faults]
+    for path, text in (written | {out / "faults.json": json.dumps(entries, indent=1) + "\n"}).items():
+        write(path, text)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
