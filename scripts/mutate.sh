@@ -7,7 +7,7 @@
 #   scripts/mutate.sh --file F          those of one file: all that --count allows
 #   scripts/mutate.sh --class C         those of one class: operator constant width sign index enable reset priority comparison
 #   scripts/mutate.sh --jobs J          so many at a time (all processors)
-#   scripts/mutate.sh --json FILE       keeps the results; stopped, the same command goes on (FILE.part)
+#   scripts/mutate.sh --json FILE       keeps the results; stopped, the same command goes on (folder FILE.part)
 #   scripts/mutate.sh --shard I/N --json PART      every N-th mutant, on one of N machines
 #   tb/mutants/report_mutants.py --from PART… --json FILE      puts kept results together and prints the table
 # Exit status: 0 each is seen by a check or argued equivalent in tb/mutants/equivalent.toml, 1 not, 2 usage, 3 a tool is missing.
