@@ -15,7 +15,7 @@ import sys
 
 sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report import plot, sweep_plots  # noqa: E402 (first: it says what is missing)
-from report.files import InputError, expect, is_amount, is_error, is_text, read_report, reading, write_files  # noqa: E402
+from report.files import InputError, read_report, reading, write_files  # noqa: E402
 from report.markup import escape, table  # noqa: E402
 from report.page import Page  # noqa: E402
 from report.sweep import SYNTH_TARGETS, Sweep, error_title  # noqa: E402
@@ -23,9 +23,6 @@ from report.sweep import SYNTH_TARGETS, Sweep, error_title  # noqa: E402
 # More points than this make the page slow; the rest is in the PNG and in points.csv.
 INTERACTIVE_POINTS = 2500
 PLOTS = ("error_cost", "error_bits", "sensitivity", "error_map", "run_time", "synthesis")
-BENCH = {"command": is_text, "error": [{"input": is_text, "kind": is_text, "engine": sweep_plots.BENCH_ENGINES.__contains__} |
-                                      dict.fromkeys(("fragments", "seconds_per_fragment", "undefined", "missing"), is_amount) |
-                                      dict.fromkeys(sweep_plots.BENCH_ERRORS, is_error)]}
 KINDS = {"full": "full grid: every combination of the axes", "one_at_a_time": "one key at a time around the base configuration",
          "search": "search: only the points that the search needed"}
 
@@ -163,11 +160,11 @@ def details(sweep, points):
 
 
 def render(sweep, bench):
-    """The files of the report by name."""
+    """The files of the report by name. `bench`: the plot of run times."""
     sample = sweep.ok[::-(-len(sweep.ok) // INTERACTIVE_POINTS)]
     page = Page(f"Sweep of {escape(sweep.manifest['input'])}: error against hardware cost", sweep.rows, set(sample))
     for described in (sweep_plots.error_against_cost(sweep, len(sample)), sweep_plots.error_against_bits(sweep), sweep_plots.sensitivity(sweep),
-                      sweep_plots.error_map(sweep), sweep_plots.run_time(bench), sweep_plots.synthesis(sweep)):
+                      sweep_plots.error_map(sweep), bench, sweep_plots.synthesis(sweep)):
         page.add_plot(described)
     page.add("cosim", "Co-simulated points", cosim(sweep))
     if sweep.search:
@@ -175,13 +172,6 @@ def render(sweep, bench):
     page.add("counters", "Work done", work(sweep))
     return page.files | {"report.html": page.html(answer(sweep), introduction(sweep), READING.replace("COST", cost_sentence(sweep)),
                                                 details(sweep, page.points))}
-
-
-def read_bench(path):
-    with reading(path, "`quadrille bench --error --json FILE`"):
-        bench = read_report(path)
-        expect(bench, BENCH)
-        return bench
 
 
 def main():
@@ -192,7 +182,10 @@ def main():
     args = parser.parse_args()
     out = args.out or os.path.join(args.directory, "report")
     try:
-        files = render(Sweep(args.directory), read_bench(args.bench) if args.bench else None)
+        sweep, bench = Sweep(args.directory), None
+        with reading(args.bench, "`quadrille bench --error --json FILE`"):
+            bench = sweep_plots.run_time(read_report(args.bench) if args.bench else None)
+        files = render(sweep, bench)
         write_files(out, files)
     except InputError as error:
         print(f"sweep_report.py: {error}", file=sys.stderr)

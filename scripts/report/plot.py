@@ -288,18 +288,15 @@ def picture(described):
     return png(drawn, bool(image))
 
 
-def program(doc, writer, check, draw_report):
-    """The whole of a script that draws a report: FILE [DIR]. `check` throws KeyError, TypeError or ValueError where drawing would stumble,
-    `draw_report` gives figures by file name. Returns the exit status."""
+def program(doc, writer, draw_report):
+    """The whole of a script that draws a report: FILE [DIR]. `draw_report` gives figures by file name. Returns the exit status."""
     name, *given = sys.argv
     if len(given) not in (1, 2) or given[0].startswith("-"):
         print(doc, file=sys.stderr)
         return 0 if given in (["--help"], ["-h"]) else 2
     try:
         with reading(given[0], writer):
-            report = read_report(given[0])
-            check(report)
-        files = {file: png(drawn) for file, drawn in draw_report(report).items()}
+            files = {file: png(drawn) for file, drawn in draw_report(read_report(given[0])).items()}
         write_files(given[1] if len(given) == 2 else os.path.dirname(os.path.abspath(given[0])), files)
     except InputError as error:
         print(f"{os.path.basename(name)}: {error}", file=sys.stderr)
