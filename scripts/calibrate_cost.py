@@ -24,7 +24,6 @@ import subprocess
 import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 try:
     import numpy as np
 except ImportError as missing:

@@ -44,66 +44,21 @@ refuses() {
 "$quadrille" config --quiet --emit-tables "$work/tables.sv" >/dev/null
 tools=(verilator yosys icarus)
 passes config_check "$work/tables.sv"
-# A rule, and settings that break it first.
-while read -r rule settings; do
-  # shellcheck disable=SC2086
-  refuses "$rule" config_check "$work/tables.sv" $settings
-done <<'RULES'
-viewport_bits_must_be_6_to_14 VIEWPORT_BITS=5
-viewport_bits_must_be_6_to_14 VIEWPORT_BITS=15
-guard_bits_must_be_1_to_4 GUARD_BITS=0
-guard_bits_must_be_1_to_4 GUARD_BITS=5
-subpixel_bits_must_be_2_to_8 SUBPIXEL_BITS=1
-subpixel_bits_must_be_2_to_8 SUBPIXEL_BITS=9
-homogeneous_frac_bits_must_be_4_to_10 HOMOGENEOUS_FRAC_BITS=3
-homogeneous_frac_bits_must_be_4_to_10 HOMOGENEOUS_FRAC_BITS=11
+# A rule, and settings that break it first: as listed, and of every other key just outside the program's range.
+cat >"$work/rules" <<'RULES'
 quadratic_frac_bits_must_be_at_most_twice_the_fraction_bits QUADRATIC_FRAC_BITS=31
-significand_bits_must_be_8_to_26 SIGNIFICAND_BITS=7
-significand_bits_must_be_8_to_26 SIGNIFICAND_BITS=99
-notch_exact_must_be_0_or_1 NOTCH_EXACT=2
-notch_exact_must_be_0_or_1 NOTCH_EXACT=-1
 sqrt_segments_log2_must_be_at_least_3_and_below_significand_bits SQRT_SEGMENTS_LOG2=2
 sqrt_segments_log2_must_be_at_least_3_and_below_significand_bits SQRT_SEGMENTS_LOG2=18
 recip_segments_log2_must_be_at_least_3_and_below_significand_bits RECIP_SEGMENTS_LOG2=2
 recip_segments_log2_must_be_at_least_3_and_below_significand_bits RECIP_SEGMENTS_LOG2=18
-sqrt_degree_must_be_1_or_2 SQRT_DEGREE=0
-sqrt_degree_must_be_1_or_2 SQRT_DEGREE=3
-recip_degree_must_be_1_or_2 RECIP_DEGREE=0
-recip_degree_must_be_1_or_2 RECIP_DEGREE=3
-align_guard_bits_must_be_0_to_6 ALIGN_GUARD_BITS=-1
-align_guard_bits_must_be_0_to_6 ALIGN_GUARD_BITS=7
-attribute_slots_must_be_1_to_8 ATTRIBUTE_SLOTS=0
-attribute_slots_must_be_1_to_8 ATTRIBUTE_SLOTS=9
-attribute_int_bits_must_be_1_to_15 ATTRIBUTE_INT_BITS=0
-attribute_int_bits_must_be_1_to_15 ATTRIBUTE_INT_BITS=16
 attribute_frac_bits_must_be_significand_bits_to_30 ATTRIBUTE_FRAC_BITS=17
 attribute_frac_bits_must_be_significand_bits_to_30 ATTRIBUTE_FRAC_BITS=31
-depth_bits_must_be_8_to_30 DEPTH_BITS=7
-depth_bits_must_be_8_to_30 DEPTH_BITS=31
-tile_log2_must_be_2_to_4 TILE_LOG2=1
-tile_log2_must_be_2_to_4 TILE_LOG2=5
 pixels_per_clock_must_be_1_2_or_4 PIXELS_PER_CLOCK=3
-dot_units_must_be_2_or_4 DOT_UNITS=1
 dot_units_must_be_2_or_4 DOT_UNITS=3
-dot_units_must_be_2_or_4 DOT_UNITS=8
 hierarchical_z_bits_must_be_0_or_4_to_16 HIERARCHICAL_Z_BITS=3
 hierarchical_z_bits_must_be_0_or_4_to_16 HIERARCHICAL_Z_BITS=17
 hierarchical_z_bits_must_be_at_most_depth_bits HIERARCHICAL_Z_BITS=12 DEPTH_BITS=10
-hierarchical_z_tiles_log2_must_be_6_to_16 HIERARCHICAL_Z_TILES_LOG2=5
-hierarchical_z_tiles_log2_must_be_6_to_16 HIERARCHICAL_Z_TILES_LOG2=17
-plane_quads_must_be_0_or_1 PLANE_QUADS=2
 plane_tolerance_bits_was_removed_plane_quads_takes_exactly_plane_ones PLANE_TOLERANCE_BITS=31
-plane_quads_must_be_0_or_1 PLANE_QUADS=-1
-quad_slots_log2_must_be_1_to_4 QUAD_SLOTS_LOG2=0
-quad_slots_log2_must_be_1_to_4 QUAD_SLOTS_LOG2=5
-tile_slots_log2_must_be_1_to_4 TILE_SLOTS_LOG2=0
-tile_slots_log2_must_be_1_to_4 TILE_SLOTS_LOG2=5
-stamp_fifo_log2_must_be_1_to_5 STAMP_FIFO_LOG2=0
-stamp_fifo_log2_must_be_1_to_5 STAMP_FIFO_LOG2=6
-performance_counters_must_be_0_or_1 PERFORMANCE_COUNTERS=-1
-performance_counters_must_be_0_or_1 PERFORMANCE_COUNTERS=2
-quad_id_bits_must_be_8_to_32 QUAD_ID_BITS=7
-quad_id_bits_must_be_8_to_32 QUAD_ID_BITS=33
 a_d_and_r2_must_fit_64_bits_fewer_viewport_guard_or_fraction_bits HOMOGENEOUS_FRAC_BITS=10
 a_block_over_the_edge_of_the_viewport_must_not_overflow_smaller_tile_log2_or_more_guard_bits VIEWPORT_BITS=6 GUARD_BITS=1 TILE_LOG2=3
 tables_must_be_of_this_significand_bits SIGNIFICAND_BITS=12
@@ -112,6 +67,18 @@ tables_must_be_of_this_sqrt_degree SQRT_DEGREE=1 SQRT_SEGMENTS_LOG2=5
 tables_must_be_of_this_recip_segments_log2 RECIP_SEGMENTS_LOG2=7
 tables_must_be_of_this_recip_degree RECIP_DEGREE=1 RECIP_SEGMENTS_LOG2=6
 RULES
+"$quadrille" config --json - | python3 -c '
+import json, sys
+listed = open(sys.argv[1]).read()
+for key in json.load(sys.stdin)["keys"]:
+    name, low, high = key["name"], key["minimum"], key["maximum"]
+    between = "to" if high > low + 1 else "or"
+    for value in (low - 1, high + 1) if name + "_must_be_" not in listed else ():
+        print(f"{name}_must_be_{low}_{between}_{high} {name.upper()}={value}")' "$work/rules" >"$work/ranges"
+while read -r rule settings; do
+  # shellcheck disable=SC2086
+  refuses "$rule" config_check "$work/tables.sv" $settings
+done < <(cat "$work/rules" "$work/ranges")
 
 # No rule without a case.
 missing=$(grep -oE '[a-z][a-z0-9_]+_[a-z0-9_]+\)$' config_check.sv | tr -d ')' | sort -u | grep -vxFf "$work/seen" || true)

@@ -10,7 +10,6 @@ Needs Debian's python3-matplotlib.
 import math
 import sys
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report import plot  # noqa: E402
 
 from matplotlib.path import Path  # noqa: E402

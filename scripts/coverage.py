@@ -4,7 +4,7 @@
   scripts/coverage.py BUILD_DIRECTORY RTL_COUNTS [--out DIR] [--exceptions FILE] [--list N]
 
 BUILD_DIRECTORY has gcov's notes and counters, RTL_COUNTS the files that the simulators wrote (Verilator's coverage points, one file for each device).
-DIR (default BUILD_DIRECTORY/coverage) gets coverage.json and coverage.info (lcov). What counts as covered, the floors and the list of exceptions are
+DIR (default BUILD_DIRECTORY/coverage) gets coverage.json. What counts as covered, the floors and the list of exceptions are
 described in scripts/README.md. Exit status: 0 floors held and exceptions right, 1 not, 2 usage or input error, 3 gcov is missing.
 """
 import argparse
@@ -19,7 +19,6 @@ import subprocess
 import sys
 import tomllib
 
-sys.dont_write_bytecode = True
 from report.files import InputError, write_files  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -309,26 +308,13 @@ def holes(counts, excused, total):
 
 def report(counts, excused, total, wrong, below, missing):
     """coverage.json."""
-    files = {file: {"totals": {kind: dict(zip(("covered", "excused", "all"), total[file][kind])) for kind in KINDS},
-                    "uncovered_lines": sorted(number for number, n in points["lines"].items() if n == 0),
-                    "uncovered_branches": sorted({point[0] for point, n in points["branches"].items() if n == 0}),
-                    "untoggled": sorted(point[1] for point, n in points["toggles"].items() if n == 0)} for file, points in sorted(counts.files.items())}
-    exceptions = [{"file": file, "kind": kind, "point": point if isinstance(point, int) else list(point), "why": why}
-                  for (file, kind, point), why in sorted(excused.items(), key=str)]
-    return {"schema_version": 1, "folders": {folder: {kind: dict(zip(("covered", "excused", "all"), total[folder][kind])) for kind in KINDS}
-                                             for folder in FLOORS if folder in total},
-            "floors": FLOORS, "below_floor": below, "wrong_exceptions": wrong, "files_without_counts": missing, "files": files, "exceptions": exceptions}
+    def named(entry):
+        return {kind: dict(zip(("covered", "excused", "all"), entry[kind])) for kind in KINDS}
 
-
-def lcov(counts, root):
-    """The lines and branches for lcov's readers."""
-    out = []
-    for file, points in sorted(counts.files.items()):
-        out += ["TN:", f"SF:{os.path.join(root, file)}"]
-        out += [f"DA:{number},{n}" for number, n in sorted(points["lines"].items())]
-        out += [f"BRDA:{point[0]},{point[1]},{point[2]},{n}" for point, n in sorted(points["branches"].items(), key=str)]
-        out += ["end_of_record"]
-    return "\n".join(out) + "\n"
+    gone = {file: {kind: sorted({str(point) for point, n in found.items() if n == 0 and (file, kind, point) not in excused}) for kind, found in points.items()}
+            for file, points in sorted(counts.files.items())}
+    return {"schema_version": 1, "folders": {folder: named(total[folder]) for folder in FLOORS if folder in total}, "floors": FLOORS, "below_floor": below,
+            "wrong_exceptions": wrong, "files_without_counts": missing, "files": {file: {"totals": named(total[file]), "uncovered": gone[file]} for file in gone}}
 
 
 def present_files(root):
@@ -359,8 +345,7 @@ def judge(counts, root, exceptions, out, most=40):
     print(f"{len(exceptions)} exceptions, for {len(excused)} points")
     for line in [*(f"no counts of {file}" for file in missing), *(f"exception: {line}" for line in wrong), *(f"below the floor: {line}" for line in below)]:
         print(line)
-    write_files(out, {"coverage.json": (json.dumps(report(counts, excused, total, wrong, below, missing), indent=1) + "\n").encode(),
-                      "coverage.info": lcov(counts, root).encode()})
+    write_files(out, {"coverage.json": (json.dumps(report(counts, excused, total, wrong, below, missing), indent=1) + "\n").encode()})
     return not (below or wrong or missing)
 
 

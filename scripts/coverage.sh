@@ -2,7 +2,7 @@
 # Builds with counters, runs the tests that reach most, merges gcov's and Verilator's counts and holds them to floors (README.md, Coverage).
 #   scripts/coverage.sh            lines and branches of model, golden and RTL, toggles of the RTL; 20 minutes
 #   scripts/coverage.sh --judge    judges again what the last run counted: after a change of coverage.toml
-# What is printed is in build/coverage/coverage/coverage.json too; coverage.info there is for lcov's readers.
+# What is printed is in build/coverage/coverage/coverage.json too.
 # Exit status: 0 floors held and exceptions right, 1 not, or a test failed, 2 usage, 3 a tool is missing.
 set -euo pipefail
 case "${1:-}" in

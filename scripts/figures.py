@@ -22,7 +22,6 @@ import tempfile
 import tomllib
 from dataclasses import dataclass, field
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report.files import InputError, write_files  # noqa: E402
 from report.markup import document, escape, table  # noqa: E402
 from report.program import INSTALLED, PROGRAM, ROOT  # noqa: E402

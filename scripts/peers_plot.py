@@ -10,7 +10,6 @@ usage, input or output error, 3 a Python package is missing. Needs Debian's pyth
 import math
 import sys
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report import plot  # noqa: E402
 
 ENGINES = ("model", "shader", "float", "truth", "rtl")

@@ -28,7 +28,6 @@ import tempfile
 import time
 import tomllib
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report.children import CHILDREN, Lost, MissingTool, Stopped, processors  # noqa: E402
 from report.files import InputError, read_json, write_files  # noqa: E402
 from report.program import PROGRAM, ROOT  # noqa: E402

@@ -14,7 +14,6 @@ import tempfile
 import time
 import unittest
 
-sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import run_long  # noqa: E402

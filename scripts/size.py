@@ -11,7 +11,6 @@ import argparse
 import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report import synthesis  # noqa: E402
 
 TARGETS = {"ecp5": True, "ecp5-nodsp": False}  # with DSP blocks?

@@ -13,7 +13,6 @@ python3-matplotlib.
 import math
 import sys
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report import plot  # noqa: E402
 
 DRAWN = ("rtl", "model", "shader", "fp32", "float")  # the RTL equals the model: a wide line below it

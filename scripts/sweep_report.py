@@ -13,7 +13,6 @@ import contextlib
 import os
 import sys
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report import plot, sweep_plots  # noqa: E402 (first: it says what is missing)
 from report.files import InputError, read_report, reading, write_files  # noqa: E402
 from report.markup import escape, table  # noqa: E402

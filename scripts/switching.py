@@ -21,7 +21,6 @@ import subprocess
 import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report.files import InputError, write_files  # noqa: E402
 from report.program import PROGRAM, ROOT  # noqa: E402
 

@@ -12,7 +12,6 @@ import tempfile
 import unittest
 import unittest.mock
 
-sys.dont_write_bytecode = True
 import timing  # noqa: E402
 import unit_table  # noqa: E402
 from report import synthesis  # noqa: E402

@@ -21,7 +21,6 @@ import statistics
 import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report import synthesis  # noqa: E402
 
 LIBERTY = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib"

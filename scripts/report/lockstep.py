@@ -2,7 +2,6 @@
 import collections
 import concurrent.futures
 import glob
-import json
 import os
 import random
 import shlex

@@ -21,7 +21,6 @@ import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
 import run_long  # noqa: E402
 from report.children import MissingTool, NoReport, json_report  # noqa: E402
