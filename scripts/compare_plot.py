@@ -8,9 +8,9 @@ is missing.
 Needs Debian's python3-matplotlib.
 """
 import math
-import sys
 
-from report import plot  # noqa: E402
+from report import plot
+from report.program import end
 
 from matplotlib.path import Path  # noqa: E402
 from matplotlib.transforms import Bbox  # noqa: E402
@@ -183,4 +183,4 @@ def draw_all(report):
 
 
 if __name__ == "__main__":
-    sys.exit(plot.program(__doc__, "`quadrille compare --plot`", draw_all))
+    end(lambda: plot.program(__doc__, "`quadrille compare --plot`", draw_all))

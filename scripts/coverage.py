@@ -7,21 +7,20 @@ BUILD_DIRECTORY has gcov's notes and counters, RTL_COUNTS the files that the sim
 DIR (default BUILD_DIRECTORY/coverage) gets coverage.json. What counts as covered, the floors and the list of exceptions are
 described in scripts/README.md. Exit status: 0 floors held and exceptions right, 1 not, 2 usage or input error, 3 gcov is missing.
 """
-import argparse
 import collections
 import concurrent.futures
 import fnmatch
 import json
 import os
+import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import tomllib
 
-from report.files import InputError, write_files  # noqa: E402
+from report.files import InputError, MissingTool, write_files
+from report.program import ROOT, end, options
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 EXCEPTIONS = os.path.join(ROOT, "scripts/coverage.toml")
 KINDS = ("lines", "branches", "toggles")
 # Per cent of what there is, exceptions counted as not covered.
@@ -350,7 +349,7 @@ def judge(counts, root, exceptions, out, most=40):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("build")
     parser.add_argument("rtl_counts")
     parser.add_argument("--out")
@@ -358,25 +357,18 @@ def main():
     parser.add_argument("--list", type=int, default=40, metavar="N", help="signals to name for each file (default 40)")
     arguments = parser.parse_args()
     if shutil.which("gcov") is None:
-        print("gcov is missing; on Debian: apt-get install g++", file=sys.stderr)
-        return 3
-    try:
-        exceptions = read_exceptions(arguments.exceptions)
-        counts = Counts()
-        build = os.path.realpath(arguments.build)
-        for one in run_gcov(build):
-            add_gcov(counts, one, build, os.path.realpath(ROOT))
-        names = sorted(name for name in os.listdir(arguments.rtl_counts) if name.startswith("rtl-")) if os.path.isdir(arguments.rtl_counts) else []
-        simulators = Verilator(counts, os.path.realpath(ROOT))
-        for name in names:  # part-*: of a process that was killed while it wrote
-            with open(os.path.join(arguments.rtl_counts, name), encoding="utf-8") as file:
-                simulators.add(file.read())
-        simulators.finish()
-        return 0 if judge(counts, os.path.realpath(ROOT), exceptions, arguments.out or os.path.join(build, "coverage"), arguments.list) else 1
-    except InputError as error:
-        print(error, file=sys.stderr)
-        return 2
+        raise MissingTool("gcov is missing; on Debian: apt-get install g++")
+    exceptions = read_exceptions(arguments.exceptions)
+    counts = Counts()
+    root, build = os.path.realpath(ROOT), os.path.realpath(arguments.build)
+    for one in run_gcov(build):
+        add_gcov(counts, one, build, root)
+    simulators = Verilator(counts, root)
+    for path in sorted(pathlib.Path(arguments.rtl_counts).glob("rtl-*")):  # part-*: of a process that was killed while it wrote
+        simulators.add(path.read_text(encoding="utf-8"))
+    simulators.finish()
+    return 0 if judge(counts, root, exceptions, arguments.out or os.path.join(build, "coverage"), arguments.list) else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main)

@@ -8,9 +8,9 @@ cost of a fragment over the number of quads. All axes are logarithmic; numbers b
 usage, input or output error, 3 a Python package is missing. Needs Debian's python3-matplotlib.
 """
 import math
-import sys
 
-from report import plot  # noqa: E402
+from report import plot
+from report.program import end
 
 ENGINES = ("model", "shader", "float", "truth", "rtl")
 FLOOR = 1e-17  # where an error of exactly 0 is drawn
@@ -85,4 +85,4 @@ def draw_all(report):
 
 
 if __name__ == "__main__":
-    sys.exit(plot.program(__doc__, "`quadrille bench --peers --json FILE`", draw_all))
+    end(lambda: plot.program(__doc__, "`quadrille bench --peers --json FILE`", draw_all))

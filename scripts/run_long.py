@@ -28,9 +28,9 @@ import tempfile
 import time
 import tomllib
 
-from report.children import CHILDREN, Lost, MissingTool, Stopped, processors  # noqa: E402
+from report.children import CHILDREN, Lost, Stopped, processors  # noqa: E402
 from report.files import InputError, read_json, write_files  # noqa: E402
-from report.program import PROGRAM, ROOT  # noqa: E402
+from report.program import PROGRAM, ROOT, options  # noqa: E402
 
 sys.path.append(ROOT)  # kinds of plans are modules of scripts/ and of the tree
 PLANS = pathlib.Path(__file__).resolve().parent / "plans"
@@ -326,7 +326,7 @@ def do(work):
             return 0 if work.report(runs_of([units.directory])) and whole else 1
     except InputError as error:
         print(f"{work.table['name']}: {error}", file=sys.stderr)
-        return 3 if isinstance(error, MissingTool) else 2
+        return error.status
     except Stopped:
         print("stopped" + ("; what was done is kept, the same command goes on" if args.out else ""), file=sys.stderr)
         return 130
@@ -335,7 +335,7 @@ def do(work):
 def main(name, arguments):
     table = read_plan(name)
     kind = importlib.import_module(table["kind"]).Kind
-    parser = argparse.ArgumentParser(prog=f"{table['name']}", description=f"{table['about']}\n\n{__doc__}", formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(f"{table['about']}\n\n{__doc__}", prog=table["name"])
     common_options(parser, table)
     kind.options(parser, table)
     args = parser.parse_args(arguments)

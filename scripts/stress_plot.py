@@ -11,9 +11,9 @@ changes nothing share a panel. Exit status: 0 done, 2 usage, input or output err
 python3-matplotlib.
 """
 import math
-import sys
 
-from report import plot  # noqa: E402
+from report import plot
+from report.program import end
 
 DRAWN = ("rtl", "model", "shader", "fp32", "float")  # the RTL equals the model: a wide line below it
 LEGEND = ("model", "rtl", "float", "fp32", "shader")
@@ -165,4 +165,4 @@ def draw_all(report):
 
 
 if __name__ == "__main__":
-    sys.exit(plot.program(__doc__, "`quadrille stress --json FILE`", draw_all))
+    end(lambda: plot.program(__doc__, "`quadrille stress --json FILE`", draw_all))

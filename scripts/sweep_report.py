@@ -8,15 +8,14 @@
 The same input gives the same bytes. Exit status: 0 done, 2 usage or input error (nothing is written), 3 a Python package is missing.
 Needs Debian's python3-matplotlib and python3-plotly.
 """
-import argparse
 import contextlib
 import os
-import sys
 
 from report import plot, sweep_plots  # noqa: E402 (first: it says what is missing)
-from report.files import InputError, read_report, reading, write_files  # noqa: E402
+from report.files import read_report, reading, write_files  # noqa: E402
 from report.markup import escape, table  # noqa: E402
 from report.page import Page  # noqa: E402
+from report.program import end, options  # noqa: E402
 from report.sweep import SYNTH_TARGETS, Sweep, error_title  # noqa: E402
 
 # More points than this make the page slow; the rest is in the PNG and in points.csv.
@@ -174,28 +173,22 @@ def render(sweep, bench):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("directory", metavar="DIR", help="what `quadrille sweep` wrote")
     parser.add_argument("--bench", metavar="FILE", help="JSON of `quadrille bench --error`")
     parser.add_argument("--out", metavar="OUTDIR", help="where the report goes (default: DIR/report)")
     args = parser.parse_args()
     out = args.out or os.path.join(args.directory, "report")
-    try:
-        sweep, bench = Sweep(args.directory), None
-        with reading(args.bench, "`quadrille bench --error --json FILE`"):
-            bench = sweep_plots.run_time(read_report(args.bench) if args.bench else None)
-        files = render(sweep, bench)
-        write_files(out, files)
-    except InputError as error:
-        print(f"sweep_report.py: {error}", file=sys.stderr)
-        return 2
+    with reading(args.bench, "`quadrille bench --error --json FILE`"):
+        bench = sweep_plots.run_time(read_report(args.bench) if args.bench else None)
+    files = render(Sweep(args.directory), bench)
+    write_files(out, files)
     for name in PLOTS:  # of an older report
         if f"{name}.png" not in files:
             with contextlib.suppress(FileNotFoundError):
                 os.remove(os.path.join(out, f"{name}.png"))
     print(f"{os.path.join(out, 'report.html')}: {len(files['report.html']) / 1e6:.1f} MB, {len(files) - 1} PNG files beside it")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main)

@@ -22,6 +22,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import sweep_report  # noqa: E402
 from report import sweep_plots  # noqa: E402
+from report.program import end  # noqa: E402
 from report.sweep import resolved  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
@@ -37,7 +38,10 @@ def call(*arguments):
     """The script in this process: (status, what it printed as errors)."""
     with contextlib.redirect_stderr(io.StringIO()) as stderr, contextlib.redirect_stdout(io.StringIO()), \
             unittest.mock.patch.object(sys, "argv", ["sweep_report.py", *map(str, arguments)]):
-        return sweep_report.main(), stderr.getvalue()
+        try:
+            end(sweep_report.main)
+        except SystemExit as status:
+            return status.code or 0, stderr.getvalue()
 
 
 def setUpModule():

@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 
-from report.files import InputError
+from report.files import InputError, MissingTool
 
 OUTSIDE = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGKILL)  # no fault of the program ends it with these
 KILL_AFTER = 5  # seconds
@@ -24,10 +24,6 @@ class Lost(Exception):
 
 class NoReport(Exception):
     """The program ended without a report where one was due; the message says how, the same on every machine."""
-
-
-class MissingTool(InputError):
-    """The program says that one is missing: exit status 3."""
 
 
 class Children:

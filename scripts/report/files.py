@@ -6,8 +6,19 @@ import math
 import os
 
 
-class InputError(Exception):
+class Failed(Exception):
+    """What was to be done failed: exit status 1."""
+    status = 1
+
+
+class InputError(Failed):
     """Bad input or output: the message names the file and what would be right."""
+    status = 2
+
+
+class MissingTool(InputError):
+    """A fault of the environment."""
+    status = 3
 
 
 @contextlib.contextmanager
@@ -65,6 +76,11 @@ def numbers(name, cells):
         except ValueError:
             raise ValueError(f"line {line}: {name} is '{cell}', not a number") from None
     return values
+
+
+def write_text(path, text):
+    """A file, whole or not at all."""
+    write_files(os.path.dirname(os.path.abspath(path)), {os.path.basename(path): text.encode()})
 
 
 def write_files(directory, files):

@@ -9,7 +9,6 @@ BUILD_DIR is tb/mutants of a build. A mutant that no check sees must be argued e
 as changed; one that is there must be seen by none, and its line must still exist. An entry with `open` instead says which check is missing.
 With --json each result is kept in the folder FILE.part as it comes: the same command goes on there after it was stopped.
 Exit status: 0 every mutant is seen or argued equivalent (in a --sample: or open); 1 one is not, or a shard is missing; 2 usage; 3 the checks did not run."""
-import argparse
 import collections
 import hashlib
 import json
@@ -23,8 +22,9 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path.insert(0, str(ROOT / "scripts"))
 import run_long  # noqa: E402
-from report.children import MissingTool, NoReport, json_report  # noqa: E402
-from report.files import InputError, write_files  # noqa: E402
+from report.children import NoReport, json_report  # noqa: E402
+from report.files import InputError, MissingTool, write_text  # noqa: E402
+from report.program import options  # noqa: E402
 SIDES = {"rtl": "RTL", "model": "model", "common": "both alike"}
 CLASSES = ("operator", "constant", "width", "sign", "index", "enable", "reset", "priority", "comparison")
 # Of lockstep, how a mutant of the RTL showed: `differs` is a bit or a clock.
@@ -106,7 +106,7 @@ def report(mutants, by_file):
 def judge(arguments, drawn, mutants, sample=0):
     """Keeps and prints what came of the mutants; whether none survives. `drawn`: how many there are to be; None: those."""
     if arguments.json:
-        write_files(str(arguments.json.parent), {arguments.json.name: (json.dumps({"drawn": drawn, "mutants": mutants}, indent=1) + "\n").encode()})
+        write_text(arguments.json, json.dumps({"drawn": drawn, "mutants": mutants}, indent=1) + "\n")
     entries, faults = equivalents()
     survivors = 0
     for m in mutants:
@@ -200,7 +200,7 @@ def put_together(files):
 def main():
     if "--from" not in sys.argv:
         return run_long.main("mutation", sys.argv[1:])
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("--from", dest="kept", type=pathlib.Path, nargs="+", required=True)
     parser.add_argument("--json", type=pathlib.Path)
     parser.add_argument("--quiet", action="store_true")
