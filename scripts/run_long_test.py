@@ -23,7 +23,7 @@ from report.files import InputError  # noqa: E402
 # Stands for the program: reports about made-up fragments, whatever threads, stalls and gaps; of commands in parts writes which part. A fault,
 # an end or a wait where the environment names a word of the command.
 STUB = """#!{python} -SE
-import hashlib, json, os, sys, time
+import hashlib, json, os, signal, sys, time
 words = sys.argv[1:]
 at = lambda name: os.environ.get(name, "nothing") in words
 with open(os.path.join(os.path.dirname(sys.argv[0]), "log"), "a") as log:
@@ -35,7 +35,13 @@ if words[0] == "scenes":
                       (["general", "tiny", "w_zero"] if "--stress" in words else ["z_limits", "box"] if "--corner" in words else ["sphere", "bowtie"])]))
     sys.exit(0)
 counted = "--quiet" in words and ("--json" in words or "--out" in words)  # not one that builds a simulator
+def told(*_):
+    open(os.path.join(os.path.dirname(sys.argv[0]), "told"), "w")
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    os.kill(os.getpid(), signal.SIGTERM)
 if counted and at("STUB_WAITS"):
+    signal.signal(signal.SIGTERM, told)
+    open(os.path.join(os.path.dirname(sys.argv[0]), "waits"), "w")
     time.sleep(60)
 if counted and at("STUB_DIES"):
     os.kill(os.getpid(), int(os.environ["STUB_SIGNAL"]))
@@ -107,7 +113,7 @@ class WithStub(unittest.TestCase):
     def stopped(self, out, number, *words, **environment):
         """What a run says that is sent a signal when three units are done and others wait."""
         with subprocess.Popen(self.command(out, *words), env={**os.environ, **environment}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-            while process.poll() is None and len(list((self.folder / out).rglob("units/*.json"))) < 3:
+            while process.poll() is None and not ((self.folder / "waits").exists() and len(list((self.folder / out).rglob("units/*.json"))) >= 3):
                 time.sleep(0.02)
             began = time.monotonic()
             process.send_signal(number)
@@ -138,15 +144,18 @@ class Runs(WithStub):
         self.assertNotEqual(one["units/00000000.json"], self.files("other")["units/00000000.json"])
 
     def test_a_signal_ends_it_at_once_and_loses_nothing_done(self):
-        self.run_plan("one", "--units", 20)
+        self.run_plan("one", "--units", 24)
         for number, status in ((signal.SIGTERM, 130), (signal.SIGINT, 130), (signal.SIGKILL, -9)):
             out = number.name
-            found, error = self.stopped(out, number, "--units", 20, "--jobs", 3, STUB_WAITS="bowtie")
+            found, error = self.stopped(out, number, "--units", 24, "--jobs", 3, STUB_WAITS="bowtie")
             self.assertEqual(found, status)
             self.assertEqual("stopped; what was done is kept" in error, status == 130)
-            self.assertLess(len(self.done(out)), 20)
+            self.assertEqual((self.folder / "told").exists(), status == 130)  # children end by themselves before they are killed
+            for name in ("told", "waits"):
+                (self.folder / name).unlink(missing_ok=True)
+            self.assertLess(len(self.done(out)), 24)
             kept = {path: path.stat().st_mtime_ns for path in (self.folder / out / "units").glob("[0-9]*")}
-            self.run_plan(out, "--units", 20)
+            self.run_plan(out, "--units", 24)
             self.assertEqual(kept, {path: path.stat().st_mtime_ns for path in kept})  # not done again
             self.assertEqual(self.files("one"), self.files(out))
 
