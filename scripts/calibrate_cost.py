@@ -14,7 +14,6 @@ configurations that the fit has not seen: each fitted row by the fit to the othe
 
 The fitted weights are printed as the table [cost] of a configuration file. Exit status: 1 a check or a synthesis failed, 2 usage or
 input, 3 a missing tool."""
-import argparse
 import csv
 import itertools
 import json
@@ -24,7 +23,6 @@ import subprocess
 import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 try:
     import numpy as np
 except ImportError as missing:
@@ -32,8 +30,8 @@ except ImportError as missing:
           file=sys.stderr)
     sys.exit(3)
 
-from report.files import InputError, write_files  # noqa: E402
-from report.program import PROGRAM, ROOT  # noqa: E402
+from report.files import InputError, write_text  # noqa: E402
+from report.program import PROGRAM, ROOT, end, options  # noqa: E402
 
 FIGURES = os.path.join(ROOT, "golden/analysis/synthesised.csv")
 COLUMNS = ["target", "use", "luts", "flip_flops", "dsps", "block_rams", "configuration"]
@@ -48,7 +46,7 @@ GOOD_RANK = 0.95
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("--target", choices=FITTED, help="default: each of which there are figures")
     parser.add_argument("--figures", default=FIGURES, metavar="FILE", help="default: %(default)s")
     parser.add_argument("--check", action="store_true", help="compare with the program's weights and demand good ranks")
@@ -61,9 +59,8 @@ def main():
         rows = read(args.figures)
         for row in rows:
             row |= resources(args.quadrille, row["configuration"])
-    except (OSError, InputError) as error:
-        print(f"calibrate_cost.py: {error}", file=sys.stderr)
-        return 2
+    except OSError as error:
+        raise InputError(error) from None
     faults, weights = [], {}
     for target, (fitted, taken) in FITTED.items():
         mine = [row for row in rows if row["target"] == target]
@@ -71,8 +68,7 @@ def main():
             continue
         seen = [row for row in mine if row["use"] == "fit"]
         if len(seen) <= len(fitted):
-            print(f"calibrate_cost.py: {args.figures}: {len(seen)} rows to fit for {target}; more than {len(fitted)} are needed", file=sys.stderr)
-            return 2
+            raise InputError(f"{args.figures}: {len(seen)} rows to fit for {target}; more than {len(fitted)} are needed")
         known = {"state": STATE} | ({name: weights[taken[0]][name] for name in taken[1]} if taken else {})
         weights[target] = fit(seen, fitted, known)
         if args.target in (None, target):
@@ -159,7 +155,7 @@ def synthesise(args):
             sys.exit(done.returncode)
         row |= {column: json.loads(done.stdout)[column] for column in COUNTS}
         text = "".join([*head, ",".join(COLUMNS) + "\n", *(",".join(str(r[column]) for column in COLUMNS) + "\n" for r in rows)])
-        write_files(os.path.dirname(os.path.abspath(args.figures)), {os.path.basename(args.figures): text.encode()})
+        write_text(args.figures, text)
 
 
 def resources(program, configuration):
@@ -211,4 +207,4 @@ def spearman(a, b):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main)

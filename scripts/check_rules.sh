@@ -44,18 +44,8 @@ refuses() {
 "$quadrille" config --quiet --emit-tables "$work/tables.sv" >/dev/null
 tools=(verilator yosys icarus)
 passes config_check "$work/tables.sv"
-# The range of a key, as the model has it, is broken by one less and by one more.
-while read -r key least most; do
-  rule=$(grep -oE "\b${key}_must_be_${least}_(to|or)_$most\b" config_check.sv) || continue
-  for value in $((least - 1)) $((most + 1)); do
-    refuses "$rule" config_check "$work/tables.sv" "${key^^}=$value"
-  done
-done < <("$quadrille" config --markdown | sed -nE 's/^\| `([a-z0-9_]+)` \| [^|]* \| ([0-9]+)–([0-9]+) .*/\1 \2 \3/p')
-# Of the others a rule, and settings that break it first.
-while read -r rule settings; do
-  # shellcheck disable=SC2086
-  refuses "$rule" config_check "$work/tables.sv" $settings
-done <<'RULES'
+# A rule, and settings that break it first: as listed, and of every other key just outside the program's range.
+cat >"$work/rules" <<'RULES'
 quadratic_frac_bits_must_be_at_most_twice_the_fraction_bits QUADRATIC_FRAC_BITS=31
 sqrt_segments_log2_must_be_at_least_3_and_below_significand_bits SQRT_SEGMENTS_LOG2=2
 sqrt_segments_log2_must_be_at_least_3_and_below_significand_bits SQRT_SEGMENTS_LOG2=18
@@ -65,7 +55,6 @@ attribute_frac_bits_must_be_significand_bits_to_30 ATTRIBUTE_FRAC_BITS=17
 attribute_frac_bits_must_be_significand_bits_to_30 ATTRIBUTE_FRAC_BITS=31
 pixels_per_clock_must_be_1_2_or_4 PIXELS_PER_CLOCK=3
 dot_units_must_be_2_or_4 DOT_UNITS=3
-dot_units_must_be_2_or_4 DOT_UNITS=8
 hierarchical_z_bits_must_be_0_or_4_to_16 HIERARCHICAL_Z_BITS=3
 hierarchical_z_bits_must_be_0_or_4_to_16 HIERARCHICAL_Z_BITS=17
 hierarchical_z_bits_must_be_at_most_depth_bits HIERARCHICAL_Z_BITS=12 DEPTH_BITS=10
@@ -78,6 +67,18 @@ tables_must_be_of_this_sqrt_degree SQRT_DEGREE=1 SQRT_SEGMENTS_LOG2=5
 tables_must_be_of_this_recip_segments_log2 RECIP_SEGMENTS_LOG2=7
 tables_must_be_of_this_recip_degree RECIP_DEGREE=1 RECIP_SEGMENTS_LOG2=6
 RULES
+"$quadrille" config --json - | python3 -c '
+import json, sys
+listed = open(sys.argv[1]).read()
+for key in json.load(sys.stdin)["keys"]:
+    name, low, high = key["name"], key["minimum"], key["maximum"]
+    between = "to" if high > low + 1 else "or"
+    for value in (low - 1, high + 1) if name + "_must_be_" not in listed else ():
+        print(f"{name}_must_be_{low}_{between}_{high} {name.upper()}={value}")' "$work/rules" >"$work/ranges"
+while read -r rule settings; do
+  # shellcheck disable=SC2086
+  refuses "$rule" config_check "$work/tables.sv" $settings
+done < <(cat "$work/rules" "$work/ranges")
 
 # No rule without a case.
 missing=$(grep -oE '[a-z][a-z0-9_]+_[a-z0-9_]+\)$' config_check.sv | tr -d ')' | sort -u | grep -vxFf "$work/seen" || true)

@@ -4,25 +4,23 @@
   scripts/coverage.py BUILD_DIRECTORY RTL_COUNTS [--out DIR] [--exceptions FILE] [--list N]
 
 BUILD_DIRECTORY has gcov's notes and counters, RTL_COUNTS the files that the simulators wrote (Verilator's coverage points, one file for each device).
-DIR (default BUILD_DIRECTORY/coverage) gets coverage.json and coverage.info (lcov). What counts as covered, the floors and the list of exceptions are
+DIR (default BUILD_DIRECTORY/coverage) gets coverage.json. What counts as covered, the floors and the list of exceptions are
 described in scripts/README.md. Exit status: 0 floors held and exceptions right, 1 not, 2 usage or input error, 3 gcov is missing.
 """
-import argparse
 import collections
 import concurrent.futures
 import fnmatch
 import json
 import os
+import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import tomllib
 
-sys.dont_write_bytecode = True
-from report.files import InputError, write_files  # noqa: E402
+from report.files import InputError, MissingTool, write_files
+from report.program import ROOT, end, options
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 EXCEPTIONS = os.path.join(ROOT, "scripts/coverage.toml")
 KINDS = ("lines", "branches", "toggles")
 # Per cent of what there is, exceptions counted as not covered.
@@ -309,26 +307,13 @@ def holes(counts, excused, total):
 
 def report(counts, excused, total, wrong, below, missing):
     """coverage.json."""
-    files = {file: {"totals": {kind: dict(zip(("covered", "excused", "all"), total[file][kind])) for kind in KINDS},
-                    "uncovered_lines": sorted(number for number, n in points["lines"].items() if n == 0),
-                    "uncovered_branches": sorted({point[0] for point, n in points["branches"].items() if n == 0}),
-                    "untoggled": sorted(point[1] for point, n in points["toggles"].items() if n == 0)} for file, points in sorted(counts.files.items())}
-    exceptions = [{"file": file, "kind": kind, "point": point if isinstance(point, int) else list(point), "why": why}
-                  for (file, kind, point), why in sorted(excused.items(), key=str)]
-    return {"schema_version": 1, "folders": {folder: {kind: dict(zip(("covered", "excused", "all"), total[folder][kind])) for kind in KINDS}
-                                             for folder in FLOORS if folder in total},
-            "floors": FLOORS, "below_floor": below, "wrong_exceptions": wrong, "files_without_counts": missing, "files": files, "exceptions": exceptions}
+    def named(entry):
+        return {kind: dict(zip(("covered", "excused", "all"), entry[kind])) for kind in KINDS}
 
-
-def lcov(counts, root):
-    """The lines and branches for lcov's readers."""
-    out = []
-    for file, points in sorted(counts.files.items()):
-        out += ["TN:", f"SF:{os.path.join(root, file)}"]
-        out += [f"DA:{number},{n}" for number, n in sorted(points["lines"].items())]
-        out += [f"BRDA:{point[0]},{point[1]},{point[2]},{n}" for point, n in sorted(points["branches"].items(), key=str)]
-        out += ["end_of_record"]
-    return "\n".join(out) + "\n"
+    gone = {file: {kind: sorted({str(point) for point, n in found.items() if n == 0 and (file, kind, point) not in excused}) for kind, found in points.items()}
+            for file, points in sorted(counts.files.items())}
+    return {"schema_version": 1, "folders": {folder: named(total[folder]) for folder in FLOORS if folder in total}, "floors": FLOORS, "below_floor": below,
+            "wrong_exceptions": wrong, "files_without_counts": missing, "files": {file: {"totals": named(total[file]), "uncovered": gone[file]} for file in gone}}
 
 
 def present_files(root):
@@ -359,13 +344,12 @@ def judge(counts, root, exceptions, out, most=40):
     print(f"{len(exceptions)} exceptions, for {len(excused)} points")
     for line in [*(f"no counts of {file}" for file in missing), *(f"exception: {line}" for line in wrong), *(f"below the floor: {line}" for line in below)]:
         print(line)
-    write_files(out, {"coverage.json": (json.dumps(report(counts, excused, total, wrong, below, missing), indent=1) + "\n").encode(),
-                      "coverage.info": lcov(counts, root).encode()})
+    write_files(out, {"coverage.json": (json.dumps(report(counts, excused, total, wrong, below, missing), indent=1) + "\n").encode()})
     return not (below or wrong or missing)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("build")
     parser.add_argument("rtl_counts")
     parser.add_argument("--out")
@@ -373,25 +357,18 @@ def main():
     parser.add_argument("--list", type=int, default=40, metavar="N", help="signals to name for each file (default 40)")
     arguments = parser.parse_args()
     if shutil.which("gcov") is None:
-        print("gcov is missing; on Debian: apt-get install g++", file=sys.stderr)
-        return 3
-    try:
-        exceptions = read_exceptions(arguments.exceptions)
-        counts = Counts()
-        build = os.path.realpath(arguments.build)
-        for one in run_gcov(build):
-            add_gcov(counts, one, build, os.path.realpath(ROOT))
-        names = sorted(name for name in os.listdir(arguments.rtl_counts) if name.startswith("rtl-")) if os.path.isdir(arguments.rtl_counts) else []
-        simulators = Verilator(counts, os.path.realpath(ROOT))
-        for name in names:  # part-*: of a process that was killed while it wrote
-            with open(os.path.join(arguments.rtl_counts, name), encoding="utf-8") as file:
-                simulators.add(file.read())
-        simulators.finish()
-        return 0 if judge(counts, os.path.realpath(ROOT), exceptions, arguments.out or os.path.join(build, "coverage"), arguments.list) else 1
-    except InputError as error:
-        print(error, file=sys.stderr)
-        return 2
+        raise MissingTool("gcov is missing; on Debian: apt-get install g++")
+    exceptions = read_exceptions(arguments.exceptions)
+    counts = Counts()
+    root, build = os.path.realpath(ROOT), os.path.realpath(arguments.build)
+    for one in run_gcov(build):
+        add_gcov(counts, one, build, root)
+    simulators = Verilator(counts, root)
+    for path in sorted(pathlib.Path(arguments.rtl_counts).glob("rtl-*")):  # part-*: of a process that was killed while it wrote
+        simulators.add(path.read_text(encoding="utf-8"))
+    simulators.finish()
+    return 0 if judge(counts, root, exceptions, arguments.out or os.path.join(build, "coverage"), arguments.list) else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main)

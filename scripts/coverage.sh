@@ -2,7 +2,7 @@
 # Builds with counters, runs the tests that reach most, merges gcov's and Verilator's counts and holds them to floors (README.md, Coverage).
 #   scripts/coverage.sh            lines and branches of model, golden and RTL, toggles of the RTL; 20 minutes
 #   scripts/coverage.sh --judge    judges again what the last run counted: after a change of coverage.toml
-# What is printed is in build/coverage/coverage/coverage.json too; coverage.info there is for lcov's readers.
+# What is printed is in build/coverage/coverage/coverage.json too.
 # Exit status: 0 floors held and exceptions right, 1 not, or a test failed, 2 usage, 3 a tool is missing.
 set -euo pipefail
 case "${1:-}" in
@@ -57,12 +57,12 @@ seed=100  # draw states in which every family has a fragment
     echo "--stress $family --count 80 --size 1600x16 --limit-fragments 1500 --draw-state random:$((++seed))"
     echo "--stress $family --count 80 --size 16x1600 --limit-fragments 1500 --draw-state random:$((++seed))"
   done
-  (cd scripts && python3 -B -c '
-from report.lockstep import CORNERS
-for group, needs in CORNERS.items():
-    stall = ["--stall", "0.95"] if group == "burst" else []
-    if "--set" not in needs:  # of the default configuration
-        print("--corner", group, "--limit-fragments", 8000, *([] if "--size" in needs else ["--size", "64x64"]), *needs, *stall)')
+  python3 -c '
+import json, sys, tomllib
+needs = tomllib.load(open("scripts/plans/campaign.toml", "rb"))["phase"]["corner"]["needs"] | {"burst": "--stall 0.95"}
+for group, needed in ((entry["name"], needs.get(entry["name"], "")) for entry in json.load(sys.stdin)):
+    if "--set" not in needed:  # of the default configuration
+        print("--corner", group, "--limit-fragments 8000", needed, "" if "--size" in needed else "--size 64x64")' < <("$folder/quadrille" scenes --corner --json)
 } | xargs -P "$(nproc)" -L 1 "${draw[@]}" || status=1
 echo "Toggles: $SECONDS s"
 

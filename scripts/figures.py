@@ -22,17 +22,12 @@ import tempfile
 import tomllib
 from dataclasses import dataclass, field
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report.files import InputError, write_files  # noqa: E402
+from report.files import Failed, InputError, write_files  # noqa: E402
 from report.markup import document, escape, table  # noqa: E402
-from report.program import INSTALLED, PROGRAM, ROOT  # noqa: E402
+from report.program import INSTALLED, PROGRAM, ROOT, end, options  # noqa: E402
 
 TABLE = os.path.join(ROOT, "scripts", "figures.toml")
 OUT = "figures" if INSTALLED else os.path.join(ROOT, "build/figures")
-
-
-class CommandError(Exception):
-    """A command that failed: the message is the command and its status."""
 
 
 @dataclass
@@ -109,7 +104,7 @@ def draw(quadrille, figures, size, keep_exr, directory):
         except OSError as error:
             raise InputError(f"{quadrille}: {error.strerror}; build the target quadrille, or use scripts/figures.sh") from None
         if status != 0:
-            raise CommandError(f"{shlex.join([quadrille, *command])}: exit status {status}")
+            raise Failed(f"{shlex.join([quadrille, *command])}: exit status {status}")
         if not keep_exr:
             for name in os.listdir(os.path.join(directory, folder)):
                 if name.endswith(".exr"):
@@ -222,32 +217,27 @@ def size_of(argument):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("--quadrille", metavar="PATH", default=PROGRAM, help="the program")
     parser.add_argument("--out", metavar="DIR", default=OUT, help="default build/figures, installed ./figures")
     parser.add_argument("--only", metavar="NAME", nargs="+", action="extend", default=[], help="figures, by their names in figures.toml")
     parser.add_argument("--size", metavar="WxH", type=size_of, default="512x512", help="viewport in pixels, default 512x512")
     parser.add_argument("--keep-exr", action="store_true", help="keep METHOD.exr of every sheet, 7 MB each at 512x512")
     args = parser.parse_args()
+    papers, figures = read_table()
+    figures = chosen(figures, args.only)
+    out = os.path.abspath(args.out)
     try:
-        papers, figures = read_table()
-        figures = chosen(figures, args.only)
-        out = os.path.abspath(args.out)
         os.makedirs(out, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=out, prefix=".figures-") as aside:
             draw(os.path.abspath(args.quadrille), figures, args.size, args.keep_exr, aside)
             content = page(papers, figures, args.size, aside)
             move_into_place(figures, aside, out)
-        write_files(out, {"index.html": content})
-    except (InputError, OSError) as error:
-        print(f"figures.py: {error}", file=sys.stderr)
-        return 2
-    except CommandError as error:
-        print(f"figures.py: {error}", file=sys.stderr)
-        return 1
+    except OSError as error:
+        raise InputError(error) from None
+    write_files(out, {"index.html": content})
     print(f"{os.path.join(out, 'index.html')}: {len(figures)} figures", file=sys.stderr)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main)

@@ -16,8 +16,10 @@ cmake --build "$build" -j "$(nproc)" --target golden_stages
 find "$build" -name '*.gcda' -delete
 "$build/golden/suites/golden_stages" "$level"
 
-python3 - "$build" <<'PYTHON'
-import json, pathlib, subprocess, sys
+PYTHONPATH=scripts python3 -B - "$build" <<'PYTHON'
+import os, sys
+
+import coverage
 
 stages = {f"model/{name}" for name in (
     "snap.cpp", "quad_setup.cpp", "tile_context.cpp", "stamp_coverage.cpp", "forward_difference.cpp", "normalise.cpp", "sqrt.hpp", "reciprocal.hpp",
@@ -50,48 +52,26 @@ def reason_of(name, source):
     return None
 
 
-root = pathlib.Path.cwd()
-taken = {}  # (file, line) -> branch counts of each object that holds the line: one line may be compiled into many
-lines = {}
-for data in pathlib.Path(sys.argv[1]).rglob("*.gcda"):
-    report = subprocess.run(["gcov", "--json-format", "--stdout", "--branch-probabilities", str(data)], check=True,
-                            capture_output=True, text=True).stdout
-    for text in report.splitlines():
-        for file in json.loads(text)["files"]:
-            path = pathlib.Path(file["file"])
-            name = str(path.relative_to(root)) if path.is_relative_to(root) else str(path)
-            if name not in stages:
-                continue
-            for line in file["lines"]:
-                key = (name, line["line_number"])
-                lines[key] = lines.get(key, 0) + line["count"]
-                counts = tuple(b["count"] for b in line["branches"] if not b["throw"])
-                # Copies of a line with the same number of branches are the same code.
-                old = taken.setdefault(key, {}).get(len(counts), [0] * len(counts))
-                taken[key][len(counts)] = [a + b for a, b in zip(old, counts)]
-missing = branches = excused = 0
-for key in sorted(taken):
-    source = pathlib.Path(key[0]).read_text().splitlines()[key[1] - 1].strip()
-    if source == "}" or "catch (" in source:  # landing pads of exceptions
-        continue
-    gone = []
-    if lines[key] == 0:
-        gone.append("never executed")
-    else:
-        for counts in taken[key].values():
-            if len(counts) > 1:
-                branches += len(counts)
-                gone += [f"branch {i} of {len(counts)} never taken" for i, count in enumerate(counts) if count == 0]
-    reason = reason_of(key[0], source)
-    for what in gone:
-        print(f"{key[0]}:{key[1]}: {what}{f' (cannot be: {reason})' if reason else ''}: {source}")
-    if reason:
-        excused += len(gone)
-    else:
-        missing += len(gone)
-seen = {key[0] for key in taken}
-if seen != stages:
-    sys.exit(f"no counters of {sorted(stages - seen)}")
-print(f"{branches} branches in {len(lines)} lines of {len(stages)} files; {missing} not taken, {excused} cannot be")
+root, build, counts = os.getcwd(), os.path.realpath(sys.argv[1]), coverage.Counts()
+for report in coverage.run_gcov(build):
+    coverage.add_gcov(counts, report, build, root)
+sources = coverage.Sources(root)
+coverage.without_closing_lines(counts, sources)
+missing = branches = excused = lines = 0
+for file in sorted(stages):
+    points = counts.files.get(file) or sys.exit(f"no counters of {file}")
+    lines += len(points["lines"])
+    branches += sum(points["lines"][line] > 0 for line, *_ in points["branches"])
+    gone = [(line, "never executed") for line, count in points["lines"].items() if count == 0]
+    gone += [(line, f"branch {i} of {n} never taken") for (line, n, i), count in points["branches"].items() if count == 0 < points["lines"][line]]
+    for number, what in sorted(gone):
+        source = sources.line(file, number)
+        if "catch (" in source:  # landing pads of exceptions
+            continue
+        reason = reason_of(file, source)
+        print(f"{file}:{number}: {what}{f' (cannot be: {reason})' if reason else ''}: {source}")
+        excused += reason is not None
+        missing += reason is None
+print(f"{branches} branches in {lines} lines of {len(stages)} files; {missing} not taken, {excused} cannot be")
 sys.exit(1 if missing else 0)
 PYTHON

@@ -52,15 +52,3 @@ scripts/replay.sh "$kept" verilator
 scripts/replay.sh "$kept" icarus
 scripts/replay.sh "$kept" icarus --netlist --suite sqrt --suite reciprocal
 "$QUADRILLE" golden verify "$kept" --engine rtl --suite reciprocal --quiet
-
-# The example bench of a stranger (golden/examples/README.md), under both simulators.
-bench=$(mktemp -d)
-trap 'rm -rf "$bench" "${work:-}"' EXIT
-"$QUADRILLE" config --quiet --emit-tables "$bench/tables.sv"
-vectors=$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["counts"]["vectors"])' "$kept/sqrt/manifest.json")
-run=(+dir="$kept/sqrt" +vectors="$vectors")
-verilator --binary -Wno-fatal --top-module sqrt_bench --Mdir "$bench/obj" rtl/quadrille_pkg.sv "$bench/tables.sv" -y rtl golden/examples/sqrt_bench.sv \
-  >"$bench/log" 2>&1 || { cat "$bench/log" >&2; exit 1; }
-"$bench/obj/Vsqrt_bench" "${run[@]}"
-iverilog -g2012 -o "$bench/sqrt" rtl/quadrille_pkg.sv "$bench/tables.sv" rtl/sqrt.sv rtl/table_polynomial.sv rtl/delay_line.sv golden/examples/sqrt_bench.sv
-vvp -N "$bench/sqrt" "${run[@]}"

@@ -7,7 +7,7 @@
 #   scripts/mutate.sh --file F          those of one file
 #   scripts/mutate.sh --class C         those of one class: operator constant width sign index enable reset priority comparison
 #   scripts/mutate.sh --jobs J          so many at a time (all processors)
-#   scripts/mutate.sh --json FILE       keeps the results; stopped, the same command goes on (FILE.part)
+#   scripts/mutate.sh --json FILE       keeps the results; stopped, the same command goes on (folder FILE.part)
 #   scripts/mutate.sh --shard I/N --json PART      every N-th mutant, on one of N machines
 #   scripts/mutate.sh --record          every check from the first on; what saw each is written down in tb/mutants/caught_by.json
 #   tb/mutants/report_mutants.py --from PART… --json FILE      puts kept results together and prints the table

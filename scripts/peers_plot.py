@@ -8,26 +8,12 @@ cost of a fragment over the number of quads. All axes are logarithmic; numbers b
 usage, input or output error, 3 a Python package is missing. Needs Debian's python3-matplotlib.
 """
 import math
-import sys
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report import plot  # noqa: E402
-from report.files import expect, is_amount, is_error, is_number, is_text  # noqa: E402
+from report import plot
+from report.program import end
 
 ENGINES = ("model", "shader", "float", "truth", "rtl")
-POINT = dict.fromkeys(("pixels", "quads", "fragments", "model_seconds", "shader_seconds", "clocked_fragments", "clocks"), is_amount)
-SLOPE = {"model": is_number, "shader": is_number}
-ERROR = {"engine": ENGINES.__contains__, "input": is_text, "seconds_per_fragment": is_amount, "lambda_max": is_error, "significand_bits": is_error}
-SHAPE = {"sizes": [POINT], "numbers": [POINT], "size_slopes": {"small": SLOPE, "large": SLOPE}, "number_slopes": {"many": SLOPE}, "errors": [ERROR],
-         "renderer": is_text, "lanes": is_text, "command": is_text}
 FLOOR = 1e-17  # where an error of exactly 0 is drawn
-
-
-def check(report):
-    expect(report, SHAPE)
-    for entry in report["errors"]:
-        if entry["engine"] == "model" and entry["significand_bits"] is None:
-            raise ValueError("significand_bits is None of model")
 
 
 def sign(figure, report):
@@ -99,4 +85,4 @@ def draw_all(report):
 
 
 if __name__ == "__main__":
-    sys.exit(plot.program(__doc__, "`quadrille bench --peers --json FILE`", check, draw_all))
+    end(lambda: plot.program(__doc__, "`quadrille bench --peers --json FILE`", draw_all))

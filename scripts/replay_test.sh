@@ -47,22 +47,17 @@ damage() {
   rm -rf "$work/bad"
   cp -r "$set" "$work/bad"
   python3 - "$work/bad/$1" "$2" <<'PYTHON'
-import hashlib
-import json
-import os
-import sys
+import hashlib, json, os, pathlib, sys
 
-suite, script = sys.argv[1:]
+suite, script = pathlib.Path(sys.argv[1]), sys.argv[2]
 
 
 def read(name):
-    with open(f"{suite}/{name}", encoding="ascii") as file:
-        return file.read().splitlines()
+    return (suite / name).read_text().splitlines()
 
 
 def write(name, lines):
-    with open(f"{suite}/{name}", "w", encoding="ascii") as file:
-        file.write("".join(line + "\n" for line in lines))
+    (suite / name).write_text("".join(line + "\n" for line in lines))
 
 
 def flip(name, line, bit):
@@ -72,41 +67,32 @@ def flip(name, line, bit):
     write(name, lines)
 
 
+def manifest(change, folder=suite):
+    path = folder / "manifest.json"
+    value = json.loads(path.read_text())
+    change(value)
+    path.write_text(json.dumps(value, indent=2, ensure_ascii=False) + "\n")
+
+
 def lines_in_manifest(name, change):
-    with open(f"{suite}/manifest.json", encoding="utf-8") as file:
-        manifest = json.load(file)
-    manifest["files"][name]["lines"] += change
-    with open(f"{suite}/manifest.json", "w", encoding="utf-8") as file:
-        json.dump(manifest, file)
+    manifest(lambda value: value["files"][name].update(lines=value["files"][name]["lines"] + change))
 
 
 def bits(record):
-    with open(f"{suite}/manifest.json", encoding="utf-8") as file:
-        return json.load(file)["records"][record]["bits"]
+    return json.loads((suite / "manifest.json").read_text())["records"][record]["bits"]
 
 
 def sign(**counts):
     """Makes sizes, hashes and counts right again, as if the set had been generated so."""
-    def dump(name, value):
-        with open(name, "w", encoding="utf-8") as file:
-            file.write(json.dumps(value, indent=2, ensure_ascii=False) + "\n")
+    def renew(value):
+        value["counts"].update(counts)
+        for name, entry in value["files"].items():
+            data = (suite / name).read_bytes()
+            entry.update({"sha256": hashlib.sha256(data).hexdigest(), "bytes": len(data)} | ({"lines": data.count(b"\n")} if "lines" in entry else {}))
 
-    with open(f"{suite}/manifest.json", encoding="utf-8") as file:
-        manifest = json.load(file)
-    for name, entry in manifest["files"].items():
-        with open(f"{suite}/{name}", "rb") as file:
-            data = file.read()
-        entry.update(sha256=hashlib.sha256(data).hexdigest(), bytes=len(data))
-        if "lines" in entry:
-            entry["lines"] = data.count(b"\n")
-    manifest["counts"].update(counts)
-    dump(f"{suite}/manifest.json", manifest)
-    top = os.path.join(os.path.dirname(suite), "manifest.json")
-    with open(top, encoding="utf-8") as file:
-        manifest = json.load(file)
-    with open(f"{suite}/manifest.json", "rb") as file:
-        manifest["suites"][os.path.basename(suite)]["sha256"] = hashlib.sha256(file.read()).hexdigest()
-    dump(top, manifest)
+    manifest(renew)
+    whole = hashlib.sha256((suite / "manifest.json").read_bytes()).hexdigest()
+    manifest(lambda value: value["suites"][suite.name].update(sha256=whole), suite.parent)
 
 
 exec(script)

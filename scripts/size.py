@@ -7,33 +7,26 @@
 LUT counts LUT4 + 2 CCU2C (two bits of a carry chain each) + 6 DPR16X4 (16 words of four bits: four hold them, two go to the write
 port), DSP counts MULT18X18D, BRAM DP16KD. A row has every instance of its unit, with what they instantiate. The longest path is counted
 in cells: LUT4, CCU2C, a DSP, a read of a memory. Exit status: 1 synthesis failed, 2 usage, 3 no Yosys."""
-import argparse
-import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report import synthesis  # noqa: E402
+from report import synthesis
+from report.program import end, options
 
 TARGETS = {"ecp5": True, "ecp5-nodsp": False}  # with DSP blocks?
 JSON_NAMES = {"LUT": "luts", "FF": "flip_flops", "DSP": "dsps", "BRAM": "block_rams"}
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     synthesis.add_arguments(parser)
     parser.add_argument("--target", choices=TARGETS, default="ecp5")
     args = parser.parse_intermixed_args()
-    try:
-        with tempfile.TemporaryDirectory() as work:
-            rows, path = synthesis.ecp5(synthesis.Machine(args, work), TARGETS[args.target])
-        synthesis.write_json(args.json, as_json(args.target, rows, path))
-    except tuple(synthesis.STATUS) as error:
-        print(f"size.py: {error}", file=sys.stderr)
-        return synthesis.STATUS[type(error)]
+    with tempfile.TemporaryDirectory() as work:
+        rows, path = synthesis.ecp5(synthesis.Machine(args, work), TARGETS[args.target])
+    synthesis.write_json(args.json, as_json(args.target, rows, path))
     if args.json != "-" and not args.quiet:
         print_table(rows)
         print(f"longest path: {path} cells")
-    return 0
 
 
 def as_json(target, rows, path):
@@ -48,4 +41,4 @@ def print_table(rows):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main)

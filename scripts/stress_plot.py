@@ -11,11 +11,9 @@ changes nothing share a panel. Exit status: 0 done, 2 usage, input or output err
 python3-matplotlib.
 """
 import math
-import sys
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report import plot  # noqa: E402
-from report.files import expect, is_amount, is_error, is_number, is_text  # noqa: E402
+from report import plot
+from report.program import end
 
 DRAWN = ("rtl", "model", "shader", "fp32", "float")  # the RTL equals the model: a wide line below it
 LEGEND = ("model", "rtl", "float", "fp32", "shader")
@@ -26,22 +24,6 @@ COLUMNS = 4
 GAP = 1.6                # from the last knob to the limit, in knobs
 NO_KNOB = "nothing"      # the knob of a family in which it changes nothing
 SHARED = "families without a knob"
-ERRORS = dict.fromkeys(("fragments", "undefined", "missing"), is_amount) | dict.fromkeys(OUTPUTS, is_error)
-SHAPE = {"families": [dict.fromkeys(("family", "kind", "knob"), is_text) | {"exponent": (-1, 1).__contains__}],
-         "errors": [ERRORS | {"engine": DRAWN.__contains__, "side": (-1, 0, 1).__contains__, "knob": is_number}],
-         "weight_bound": is_amount, "command": is_text}
-
-
-def check(report):
-    expect(report, SHAPE)
-    kinds = {family["family"]: family["kind"] for family in report["families"]}
-    for entry in report["errors"]:
-        if entry["family"] not in kinds:
-            raise ValueError(f"unknown family {entry['family']!r}")
-        if (entry["near"] is None) == (kinds[entry["family"]] == "approach"):
-            raise ValueError(f"near is {entry['near']!r} of {entry['family']}")
-        if entry["near"] is not None:
-            expect(entry["near"], ERRORS)
 
 
 def main_errors(entry):
@@ -183,4 +165,4 @@ def draw_all(report):
 
 
 if __name__ == "__main__":
-    sys.exit(plot.program(__doc__, "`quadrille stress --json FILE`", check, draw_all))
+    end(lambda: plot.program(__doc__, "`quadrille stress --json FILE`", draw_all))

@@ -8,24 +8,19 @@
 The same input gives the same bytes. Exit status: 0 done, 2 usage or input error (nothing is written), 3 a Python package is missing.
 Needs Debian's python3-matplotlib and python3-plotly.
 """
-import argparse
 import contextlib
 import os
-import sys
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
 from report import plot, sweep_plots  # noqa: E402 (first: it says what is missing)
-from report.files import InputError, expect, is_amount, is_error, is_text, read_report, reading, write_files  # noqa: E402
+from report.files import read_report, reading, write_files  # noqa: E402
 from report.markup import escape, table  # noqa: E402
 from report.page import Page  # noqa: E402
+from report.program import end, options  # noqa: E402
 from report.sweep import SYNTH_TARGETS, Sweep, error_title  # noqa: E402
 
 # More points than this make the page slow; the rest is in the PNG and in points.csv.
 INTERACTIVE_POINTS = 2500
 PLOTS = ("error_cost", "error_bits", "sensitivity", "error_map", "run_time", "synthesis")
-BENCH = {"command": is_text, "error": [{"input": is_text, "kind": is_text, "engine": sweep_plots.BENCH_ENGINES.__contains__} |
-                                      dict.fromkeys(("fragments", "seconds_per_fragment", "undefined", "missing"), is_amount) |
-                                      dict.fromkeys(sweep_plots.BENCH_ERRORS, is_error)]}
 KINDS = {"full": "full grid: every combination of the axes", "one_at_a_time": "one key at a time around the base configuration",
          "search": "search: only the points that the search needed"}
 
@@ -163,11 +158,11 @@ def details(sweep, points):
 
 
 def render(sweep, bench):
-    """The files of the report by name."""
+    """The files of the report by name. `bench`: the plot of run times."""
     sample = sweep.ok[::-(-len(sweep.ok) // INTERACTIVE_POINTS)]
     page = Page(f"Sweep of {escape(sweep.manifest['input'])}: error against hardware cost", sweep.rows, set(sample))
     for described in (sweep_plots.error_against_cost(sweep, len(sample)), sweep_plots.error_against_bits(sweep), sweep_plots.sensitivity(sweep),
-                      sweep_plots.error_map(sweep), sweep_plots.run_time(bench), sweep_plots.synthesis(sweep)):
+                      sweep_plots.error_map(sweep), bench, sweep_plots.synthesis(sweep)):
         page.add_plot(described)
     page.add("cosim", "Co-simulated points", cosim(sweep))
     if sweep.search:
@@ -177,33 +172,23 @@ def render(sweep, bench):
                                                 details(sweep, page.points))}
 
 
-def read_bench(path):
-    with reading(path, "`quadrille bench --error --json FILE`"):
-        bench = read_report(path)
-        expect(bench, BENCH)
-        return bench
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("directory", metavar="DIR", help="what `quadrille sweep` wrote")
     parser.add_argument("--bench", metavar="FILE", help="JSON of `quadrille bench --error`")
     parser.add_argument("--out", metavar="OUTDIR", help="where the report goes (default: DIR/report)")
     args = parser.parse_args()
     out = args.out or os.path.join(args.directory, "report")
-    try:
-        files = render(Sweep(args.directory), read_bench(args.bench) if args.bench else None)
-        write_files(out, files)
-    except InputError as error:
-        print(f"sweep_report.py: {error}", file=sys.stderr)
-        return 2
+    with reading(args.bench, "`quadrille bench --error --json FILE`"):
+        bench = sweep_plots.run_time(read_report(args.bench) if args.bench else None)
+    files = render(Sweep(args.directory), bench)
+    write_files(out, files)
     for name in PLOTS:  # of an older report
         if f"{name}.png" not in files:
             with contextlib.suppress(FileNotFoundError):
                 os.remove(os.path.join(out, f"{name}.png"))
     print(f"{os.path.join(out, 'report.html')}: {len(files['report.html']) / 1e6:.1f} MB, {len(files) - 1} PNG files beside it")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main)

@@ -12,25 +12,22 @@ at most once a clock edge: glitches of gates are not in it, nor is capacitance. 
 Memories above 32 words are not in a waveform.
 
 Exit status: 1 a run failed, 2 usage or input, 3 a missing tool."""
-import argparse
 import json
 import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report.files import InputError, write_files  # noqa: E402
-from report.program import PROGRAM, ROOT  # noqa: E402
+from report.files import Failed, InputError, MissingTool, write_text
+from report.program import PROGRAM, ROOT, end, options
 
 RESET_END = 8  # tb/README.md: what a message calls cycle n is at time 8 + 2n
 READER = ("fstapi.c", "fastlz.c", "lz4.c")  # of Verilator
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program")
     parser.add_argument("--skip", action="append", metavar="LIST", help="compared with none, as cosim takes it (default: all)")
     parser.add_argument("--json", metavar="F.json", help="write the counts")
@@ -45,16 +42,12 @@ def main():
         results = {skip: measure(args, skip, reader, work) for skip in runs}
     print_table(results)
     if args.json:
-        report = {"command": [*args.cosim], "runs": results}
-        write_files(os.path.dirname(os.path.abspath(args.json)),
-                    {os.path.basename(args.json): (json.dumps(report, indent=2) + "\n").encode()})
-    return 0
+        write_text(args.json, json.dumps({"command": args.cosim, "runs": results}, indent=2) + "\n")
 
 
 def tool(name):
     if shutil.which(name) is None:
-        print(f"switching.py: missing: {name}", file=sys.stderr)
-        sys.exit(3)
+        raise MissingTool(f"missing: {name}")
     return name
 
 
@@ -62,8 +55,7 @@ def reader_source():
     root = subprocess.run([tool("verilator"), "--getenv", "VERILATOR_ROOT"], capture_output=True, text=True, check=True).stdout.strip()
     include = os.path.join(root or "/usr/share/verilator", "include", "gtkwave")
     if not os.path.isfile(os.path.join(include, READER[0])):
-        print(f"switching.py: missing: {include}/{READER[0]}", file=sys.stderr)
-        sys.exit(3)
+        raise MissingTool(f"missing: {include}/{READER[0]}")
     return include
 
 
@@ -83,9 +75,7 @@ def build_reader(work):
 def run(command):
     result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if result.returncode != 0:
-        sys.stderr.write(result.stderr)
-        print(f"switching.py: {command[0]} failed with status {result.returncode}", file=sys.stderr)
-        sys.exit(result.returncode if result.returncode in (2, 3) else 1)
+        raise {2: InputError, 3: MissingTool}.get(result.returncode, Failed)(f"{result.stderr}{command[0]} failed with status {result.returncode}")
     return result.stdout
 
 
@@ -152,8 +142,4 @@ def ratio(a, b):
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except InputError as error:
-        print(f"switching.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    end(main)

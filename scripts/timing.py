@@ -13,16 +13,15 @@ that is large enough; where none is on PATH, the build for Python is installed u
 starts at an input and ends at an output as it does at a register.
 
 Exit status: 1 a tool failed, or the unit fits no device; 2 usage; 3 a missing tool, with the command that installs it."""
-import argparse
 import json
 import os
 import re
 import statistics
-import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report import synthesis  # noqa: E402
+from report import synthesis
+from report.files import Failed, InputError, MissingTool
+from report.program import end, options
 
 LIBERTY = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib"
 PACKAGES = "opensta qflow-tech-osu018"
@@ -35,7 +34,7 @@ DEVICES = {"25k": (24_288, 28, 56), "45k": (43_848, 72, 108), "85k": (83_640, 15
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("unit", metavar="UNIT", help="a module of rtl/; quadrille is the whole machine")
     synthesis.add_arguments(parser)
     parser.add_argument("-P", dest="parameters", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the unit")
@@ -44,29 +43,24 @@ def main():
     parser.add_argument("--speed", choices=["6", "7", "8"], default="6", help="speed grade of the ECP5 (default: %(default)s)")
     parser.add_argument("--path", action="store_true", help="print the slowest path cell by cell")
     args = parser.parse_intermixed_args()
-    try:
-        result = measure(args)
-    except tuple(synthesis.STATUS) as error:
-        print(f"timing.py: {error}", file=sys.stderr)
-        return synthesis.STATUS[type(error)]
+    result = measure(args)
     synthesis.write_json(args.json, result)
     if args.json != "-" and not args.quiet:
         print_result(result, args.path)
-    return 0
 
 
 def measure(args):
     parameters = []
     for text in args.parameters:
         if not re.fullmatch(r"\w+=-?\d+", text):
-            raise synthesis.InputError(f"-P {text}: expected NAME=VALUE, such as TERMS=4")
+            raise InputError(f"-P {text}: expected NAME=VALUE, such as TERMS=4")
         parameters.append(text.split("="))
     if args.target == "ecp5":
         nextpnr = synthesis.find_nextpnr()
     else:
         sta = synthesis.find_tool("sta", "opensta", packages=PACKAGES)
         if not os.path.exists(LIBERTY):
-            raise synthesis.ToolMissing(f"no {LIBERTY}; install with: apt-get install {PACKAGES}")
+            raise MissingTool(f"no {LIBERTY}; install with: apt-get install {PACKAGES}")
     with tempfile.TemporaryDirectory() as work:
         machine = synthesis.Machine(args, work)
         result = {"unit": args.unit, "parameters": dict(parameters)}
@@ -116,13 +110,13 @@ exit
 """)
     text = synthesis.run([sta, "-no_splash", "-exit", "timing.tcl"], machine.work, "timing.log")
     if error := re.search(r"^Error: .*$", text, re.M):  # it goes on with what it understood
-        raise synthesis.SynthesisFailed(f"OpenSTA does not read the netlist: {error.group()}")
+        raise Failed(f"OpenSTA does not read the netlist: {error.group()}")
     path = SlowestPath(text, Netlist(netlist.splitlines(keepends=True), machine.modules), args.unit)
     cells_of = synthesis.statistics(os.path.join(machine.work, "stat.txt"))
     top = next((name for name in cells_of if name == args.unit or re.search(rf"\\{args.unit}(\\|$)", name)), args.unit)
     flip_flops = synthesis.size_of(cells_of, top, {"FF": {cell: 1 for module in cells_of.values() for cell in module if cell.startswith("DFF")}})["FF"]
     if not areas:
-        raise synthesis.SynthesisFailed("Yosys gave no area")
+        raise Failed("Yosys gave no area")
     area = float(areas[-1])
     return {"area_um2": area, "nand2": round(area / NAND2_AREA, 1), "flip_flops": flip_flops,
             "ns": path.length, "mhz": round(1000 / path.length, 1), "critical_path": path.text(), "path": path.steps}
@@ -176,7 +170,7 @@ class SlowestPath:
     def __init__(self, text, netlist, unit):
         slack = re.search(r"^ *(-?[\d.]+) +slack \(", text, re.M)
         if not slack:
-            raise synthesis.SynthesisFailed("OpenSTA found no path:\n" + "\n".join(text.splitlines()[-15:]))
+            raise Failed("OpenSTA found no path:\n" + "\n".join(text.splitlines()[-15:]))
         self.length = round(PERIOD - float(slack.group(1)), 4)
         self.steps = []
         top = next((name for name in netlist.instances if netlist.unit_of(name) == unit), unit)
@@ -229,7 +223,7 @@ tee -q -o placed.txt stat
     device = next((name for name, has in DEVICES.items()
                    if all(size[what] <= limit for what, limit in zip(("LUT", "DSP", "BRAM"), has))), None)
     if device is None:
-        raise synthesis.SynthesisFailed(f"{args.unit} takes {size['LUT']:,} LUT, {size['DSP']} DSP, {size['BRAM']} BRAM; the largest device, LFE5U-85F, "
+        raise Failed(f"{args.unit} takes {size['LUT']:,} LUT, {size['DSP']} DSP, {size['BRAM']} BRAM; the largest device, LFE5U-85F, "
                                         "has {:,}, {} and {}".format(*DEVICES["85k"]))
     clocks, slowest = [], ""
     for seed in args.seed or [1]:
@@ -238,7 +232,7 @@ tee -q -o placed.txt stat
                              machine.work, "nextpnr.log")
         found = re.findall(r"Max frequency for clock\s+'[^']*':\s+([\d.]+) MHz", text)
         if not found:
-            raise synthesis.SynthesisFailed("nextpnr-ecp5 gave no clock:\n" + "\n".join(text.splitlines()[-10:]))
+            raise Failed("nextpnr-ecp5 gave no clock:\n" + "\n".join(text.splitlines()[-10:]))
         clocks.append(float(found[-1]))
         # Max frequency is an `Info` or, below --freq, a `Warning`.
         slowest = re.split("Critical path report for cross-domain|Max frequency", text[text.rfind("Critical path report for clock"):])[0]
@@ -297,4 +291,4 @@ def print_result(result, with_path):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main)

@@ -12,7 +12,6 @@ other configurations. Latencies and widths are evaluated from rtl/quadrille_pkg.
                                                of a unit that the default configuration has not (`keys` in the list) its size too
 
 Exit status: 1 a check or a tool failed, 2 usage or input, 3 a missing tool."""
-import argparse
 import csv
 import json
 import os
@@ -22,9 +21,8 @@ import subprocess
 import sys
 import tomllib
 
-sys.dont_write_bytecode = True  # the folder may be a source tree or an installation
-from report.files import InputError, write_files  # noqa: E402
-from report.program import PROGRAM, ROOT  # noqa: E402
+from report.files import InputError, write_files
+from report.program import PROGRAM, ROOT, end, options
 
 RTL = os.path.join(ROOT, "rtl")
 LIST, MEASURED, PAGE = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json", "MEASUREMENTS.md"))
@@ -35,7 +33,7 @@ SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options(__doc__)
     parser.add_argument("--update", action="store_true", help="write the table")
     parser.add_argument("--measure", nargs="+", metavar="WHAT", help="size, or units whose clock is wanted")
     parser.add_argument("--seed", action="append", type=int, metavar="N", help="of nextpnr with --measure (default: 1, 2, 3)")
@@ -61,9 +59,8 @@ def main():
         elif old != new:
             print("unit_table.py: rtl/MEASUREMENTS.md: the table is not what its data give; run scripts/unit_table.py --update", file=sys.stderr)
             return 1
-    except (OSError, InputError, tomllib.TOMLDecodeError, KeyError) as error:
-        print(f"unit_table.py: {error}", file=sys.stderr)
-        return 2
+    except (OSError, tomllib.TOMLDecodeError, KeyError) as error:
+        raise InputError(error) from None
     return 0
 
 
@@ -244,4 +241,4 @@ def run(command):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main)

@@ -6,8 +6,19 @@ import math
 import os
 
 
-class InputError(Exception):
+class Failed(Exception):
+    """What was to be done failed: exit status 1."""
+    status = 1
+
+
+class InputError(Failed):
     """Bad input or output: the message names the file and what would be right."""
+    status = 2
+
+
+class MissingTool(InputError):
+    """A fault of the environment."""
+    status = 3
 
 
 @contextlib.contextmanager
@@ -19,7 +30,7 @@ def reading(path, writer):
         raise InputError(f"{path}: {error.strerror or error}; {writer} writes it") from None
     except KeyError as error:
         raise InputError(f"{path}: no {error}; {writer} writes it") from None
-    except (ValueError, TypeError, AttributeError, EOFError, RecursionError, csv.Error) as error:
+    except (ValueError, TypeError, IndexError, AttributeError, EOFError, RecursionError, csv.Error) as error:
         raise InputError(f"{path}: {error}; {writer} writes it") from None
 
 
@@ -56,37 +67,6 @@ def read_columns(path, required):
     return {name: [line[i] for line in lines] for i, name in enumerate(head)}
 
 
-def is_text(value):
-    return isinstance(value, str)
-
-
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
-
-
-def is_amount(value):
-    return is_number(value) and value >= 0
-
-
-def is_error(value):
-    """None: it is undefined everywhere."""
-    return value is None or is_amount(value)
-
-
-def expect(value, shape, name="the report"):
-    """Throws KeyError, TypeError or ValueError unless `value` is of a shape: by key, [that of each entry], or what accepts it."""
-    if isinstance(shape, dict):
-        for key, inner in shape.items():
-            expect(value[key], inner, key)
-    elif isinstance(shape, list):
-        if not value:
-            raise ValueError(f"{name} is empty")
-        for entry in value:
-            expect(entry, shape[0], name)
-    elif not shape(value):
-        raise ValueError(f"{name} is {value!r}")
-
-
 def numbers(name, cells):
     """Doubles; NaN where a cell is empty."""
     values = []
@@ -96,6 +76,11 @@ def numbers(name, cells):
         except ValueError:
             raise ValueError(f"line {line}: {name} is '{cell}', not a number") from None
     return values
+
+
+def write_text(path, text):
+    """A file, whole or not at all."""
+    write_files(os.path.dirname(os.path.abspath(path)), {os.path.basename(path): text.encode()})
 
 
 def write_files(directory, files):

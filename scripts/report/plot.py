@@ -8,7 +8,7 @@ import re
 import sys
 from dataclasses import dataclass, field
 
-from report.files import InputError, read_report, reading, write_files
+from report.files import read_report, reading, write_files
 
 
 @contextlib.contextmanager
@@ -288,23 +288,17 @@ def picture(described):
     return png(drawn, bool(image))
 
 
-def program(doc, writer, check, draw_report):
-    """The whole of a script that draws a report: FILE [DIR]. `check` throws KeyError, TypeError or ValueError where drawing would stumble,
-    `draw_report` gives figures by file name. Returns the exit status."""
-    name, *given = sys.argv
+def program(doc, writer, draw_report):
+    """The whole of a script that draws a report: FILE [DIR]. `draw_report` gives figures by file name. Returns the exit status."""
+    given = sys.argv[1:]
     if len(given) not in (1, 2) or given[0].startswith("-"):
         print(doc, file=sys.stderr)
         return 0 if given in (["--help"], ["-h"]) else 2
-    try:
-        with reading(given[0], writer):
-            report = read_report(given[0])
-            check(report)
-        files = {file: png(drawn) for file, drawn in draw_report(report).items()}
-        write_files(given[1] if len(given) == 2 else os.path.dirname(os.path.abspath(given[0])), files)
-    except InputError as error:
-        print(f"{os.path.basename(name)}: {error}", file=sys.stderr)
-        return 2
+    with reading(given[0], writer):
+        files = {file: png(drawn) for file, drawn in draw_report(read_report(given[0])).items()}
+    write_files(given[1] if len(given) == 2 else os.path.dirname(os.path.abspath(given[0])), files)
     return 0
+
 
 # ---- plotly.js ------------------------------------------------------------------------------------------------------------------------
 

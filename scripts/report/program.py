@@ -1,6 +1,23 @@
-"""The program and the data that belong to these scripts, in a source tree or installed (PREFIX/share/quadrille)."""
+"""The program and the data that belong to these scripts, in a source tree or installed (PREFIX/share/quadrille); how a script begins and ends."""
+import argparse
 import os
+import sys
+
+from report.files import Failed
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 INSTALLED = not os.path.exists(os.path.join(ROOT, "CMakeLists.txt"))
 PROGRAM = os.path.normpath(os.path.join(ROOT, "../../bin/quadrille" if INSTALLED else "build/release/quadrille"))
+
+
+def options(doc, **more):
+    return argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter, **more)
+
+
+def end(main):
+    """Ends the script with the status that `main` returns, or with that of its exception and the message."""
+    try:
+        sys.exit(main())
+    except Failed as error:
+        print(f"{os.path.basename(sys.argv[0])}: {error}", file=sys.stderr)
+        sys.exit(error.status)

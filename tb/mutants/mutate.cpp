@@ -22,9 +22,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -195,28 +193,20 @@ Json finish(Run& run, const Mutant& mutant, bool too_long) {
   return result;
 }
 
-std::set<std::string> lines_of(const std::string& file) {
-  std::set<std::string> lines;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) lines.insert(line);
-  return lines;
-}
-
 int run(int argc, char** argv) {
   CLI::App app("Puts generated mutants through the checks");
-  std::string only;
+  std::vector<std::string> names;
   unsigned jobs = 1;
   double limit = 60;
   bool afresh = false;
-  app.add_option("--only", only, "those named in this file, a line each");
+  app.add_option("--name", names, "these; else all");
   app.add_option("--jobs", jobs, "at a time")->check(CLI::Range(1, 64));
   app.add_option("--limit", limit, "seconds after which a check of one scenario hangs");
   app.add_flag("--afresh", afresh, "without looking at what the record says first");
   CLI11_PARSE(app, argc, argv);
 
-  const std::set<std::string> names = lines_of(only);
   std::vector<Mutant> mutants = read_mutants();
-  std::erase_if(mutants, [&](const Mutant& m) { return only.empty() ? !m.generated : !names.contains(m.name); });
+  std::erase_if(mutants, [&](const Mutant& m) { return names.empty() ? !m.generated : std::ranges::find(names, m.name) == names.end(); });
   if (mutants.empty()) {
     std::fprintf(stderr, "mutate: no mutant is so\n");
     return 2;

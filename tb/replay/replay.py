@@ -5,7 +5,6 @@ A build (one wrapper or the machine, one configuration) serves every suite of it
 import argparse
 import concurrent.futures
 import functools
-import json
 import os
 import re
 import shutil
@@ -15,11 +14,11 @@ import sys
 import tempfile
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-BENCHES = os.path.join(ROOT, "tb", "replay")
-# Installed, ROOT is PREFIX/share/quadrille.
-IN_TREE = os.path.exists(os.path.join(ROOT, "CMakeLists.txt"))
-PROGRAM = os.path.normpath(os.path.join(ROOT, "build/release/quadrille" if IN_TREE else "../../bin/quadrille"))
+BENCHES = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(BENCHES, "../../scripts"))
+from report.files import InputError, MissingTool, read_json  # noqa: E402
+from report.program import PROGRAM, ROOT  # noqa: E402
+
 FORMAT = 2
 # The tables of the default widths; those of others the program makes.
 TABLES = os.path.join(ROOT, "rtl", "default_tables", "quadrille_tables_pkg.sv")
@@ -35,14 +34,6 @@ PACKAGES = {"verilator": "verilator", "iverilog": "iverilog", "vvp": "iverilog",
 TOOLS = {"verilator": ("verilator", "make", "g++"), "icarus": ("iverilog", "vvp"), "netlist": ("yosys", "iverilog", "vvp")}
 
 
-class InputError(Exception):
-    """The set cannot be replayed: status 2."""
-
-
-class MissingTool(Exception):
-    """Status 3."""
-
-
 class BuildError(Exception):
     """The RTL does not build with this set's widths: status 1."""
 
@@ -54,8 +45,7 @@ def load_json(path):
     try:
         if not stat.S_ISREG(os.lstat(path).st_mode):
             raise InputError(f"{path}: not a regular file")
-        with open(path, encoding="utf-8") as file:
-            value = json.load(file)
+        value = read_json(path)
     except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{path}: {error}") from None
     if not isinstance(value, dict):
@@ -422,10 +412,7 @@ def main():
                 print("\n".join(text), flush=True)
     except InputError as error:
         print(f"replay: {error}", file=sys.stderr)
-        return 2
-    except MissingTool as error:
-        print(f"replay: {error}", file=sys.stderr)
-        return 3
+        return error.status
     print(f"{len(runs)} suites under {options.simulator}, {failed} failed, {time.monotonic() - begin:.1f} s")
     return 1 if failed else 0
 
