@@ -470,9 +470,6 @@ TEST(TileWalk, CoversWhatExpressionTwelveCovers) {
           ASSERT_TRUE(p.first >= 0 && p.first < span && p.second >= 0 && p.second < span);
     }
   }
-  std::printf("%llu pixels checked, %llu covered, %llu of them ties; tiles entered %d, without the skip %d\n",
-              static_cast<unsigned long long>(checked), static_cast<unsigned long long>(covered),
-              static_cast<unsigned long long>(ties), tiles_with, tiles_without);
   EXPECT_GT(covered, 100000u);
   EXPECT_GT(ties, 1000u);
   EXPECT_GT(fronts, 10000u);
@@ -511,8 +508,6 @@ TEST(TileWalk, TheSmallestTrianglesAreDrawn) {
       }
     smallest += covered != before;
   }
-  std::printf("%llu pixels of %llu quads covered\n", static_cast<unsigned long long>(covered),
-              static_cast<unsigned long long>(smallest));
   EXPECT_GT(smallest, 100u);
 }
 

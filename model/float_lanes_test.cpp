@@ -219,8 +219,6 @@ TEST(FloatLanes, PlainAndLanesAreOne) {
     saturated += plain.stats().saturated;
     discarded += plain.stats().pixels - plain.stats().fragments;
   }
-  std::printf("%llu quads taken, %llu fragments\n", static_cast<unsigned long long>(quads),
-              static_cast<unsigned long long>(fragments));
   EXPECT_GT(fragments, 200'000u);
   EXPECT_GT(on_edge, 20u);
   EXPECT_GT(on_vertex, 20u);
@@ -409,10 +407,6 @@ TEST(FloatLanes, PlainAndLanesLeaveOutTheSame) {
     on_edge += plain.stats().on_edge;
     corners += plain.stats().on_vertex + plain.stats().two_corner;
   }
-  std::printf("%llu plane quads, %llu pixels; hidden %llu tiles, %llu blocks, %llu by masks\n",
-              static_cast<unsigned long long>(plane), static_cast<unsigned long long>(pixels),
-              static_cast<unsigned long long>(tiles_hidden), static_cast<unsigned long long>(blocks_hidden),
-              static_cast<unsigned long long>(tiles_masked));
   EXPECT_GT(plane, 1000u);
   EXPECT_GT(pixels, 100'000u);
   EXPECT_GT(tiles_hidden, 500u);

@@ -9,8 +9,8 @@
 namespace quadrille {
 
 // Targets beyond the baseline are chosen by GCC's pragmas, function by function; what another compiler builds has the
-// baseline alone.
-#if defined(__x86_64__) && !defined(__clang__)
+// baseline alone, and so has the short build with sanitizers.
+#if defined(__x86_64__) && !defined(__clang__) && !defined(QUADRILLE_BASELINE_LANES)
 #define QUADRILLE_LANE_TARGETS
 #endif
 

@@ -116,7 +116,6 @@ TEST(Snap, GuardBandCrossingIsSmooth) {
       worst[outside] = std::max(worst[outside], std::fabs(distance));
     }
   }
-  std::printf("largest edge error at the guard band: %.2e px inside, %.2e px outside\n", worst[0], worst[1]);
   EXPECT_LE(worst[0], largest_error);
   EXPECT_LE(worst[1], largest_error);
   EXPECT_GT(worst[1], 0);

@@ -49,6 +49,9 @@ for target in "${targets[@]}"; do
   if [ "$target" = manifest ]; then  # those of the kept golden vectors
     kept=$logs/kept
     for file in golden/vectors/kept/*/manifest.json; do install -D "$file" "$kept/$(basename "$(dirname "$file")").json"; done
+  elif [ "$target" = records ]; then
+    kept=$logs/kept
+    install -D golden/vectors/kept/sqrt/response.hex "$kept/sqrt.hex"
   fi
   pids=()
   for ((job = 0; job < jobs; ++job)); do

@@ -118,9 +118,9 @@ expect 0 "^sqrt: [1-9][0-9]* vectors, 0 mismatches" "other widths with it" $repl
 expect 3 "no program /nowhere/quadrille, which makes the tables of sqrt" "other widths without the program" env QUADRILLE=/nowhere/quadrille $replay "$work/narrow" icarus
 
 # ---- Hidden tiles: wiped behind reset, cleared between draws ----
-"$QUADRILLE" golden generate --level 1 --limit 300 --out "$work/hidden" --quiet --suite machine --set significand_bits=10 --set attribute_slots=1 \
+$sample || "$QUADRILLE" golden generate --level 1 --limit 300 --out "$work/hidden" --quiet --suite machine --set significand_bits=10 --set attribute_slots=1 \
   --set hierarchical_z_bits=10 --set hierarchical_z_tiles_log2=6
-expect 0 "^machine: [1-9][0-9]* vectors, 0 mismatches" "hidden tiles under Icarus" $replay "$work/hidden" icarus
+$sample || expect 0 "^machine: [1-9][0-9]* vectors, 0 mismatches" "hidden tiles under Icarus" $replay "$work/hidden" icarus
 
 # ---- Damaged vectors ----
 for simulator in icarus verilator; do

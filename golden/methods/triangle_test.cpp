@@ -52,10 +52,6 @@ struct ExactTriangle {
     return area() != 0 && edge(0, px, py) >= 0 && edge(1, px, py) >= 0 && edge(2, px, py) >= 0;
   }
   double square_pixels(std::int64_t value) const { return std::ldexp(static_cast<double>(value), -2 * fraction); }
-  double length(std::size_t i) const {
-    const std::size_t j = (i + 1) % 3;
-    return std::ldexp(std::hypot(x[j] - x[i], y[j] - y[i]), -fraction);
-  }
 };
 
 /// Up to a quarter of the view outside of it on every side; every fourth is small, every fourth thin.
@@ -267,8 +263,7 @@ double misjudged_below(int x, int y, int bits, int fraction) {
 }
 
 struct Misjudged {
-  std::size_t exactly = 0, added = 0, missing = 0;
-  double farthest = 0;  ///< from the nearest edge's line, pixels
+  std::size_t added = 0, missing = 0;
 };
 
 /// The pixels of random triangles, vertices with `fraction` bits, against exact edge functions.
@@ -284,18 +279,12 @@ Misjudged misjudged(int triangles, int bits, int fraction) {
         const bool got = next != drawn.end() && *next == Pixel{x, y};
         if (got) ++next;
         const bool expected = t.inside(x, y);
-        out.exactly += expected ? 1 : 0;
         if (got == expected) continue;
         ++(got ? out.added : out.missing);
-        double nearest = HUGE_VAL;
         bool explained = false;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double e = std::abs(t.square_pixels(t.edge(k, x, y)));
-          explained |= e < misjudged_below(x, y, bits, fraction);
-          if (t.length(k) > 0) nearest = std::min(nearest, e / t.length(k));
-        }
+        for (std::size_t k = 0; k < 3; ++k)
+          explained |= std::abs(t.square_pixels(t.edge(k, x, y))) < misjudged_below(x, y, bits, fraction);
         EXPECT_TRUE(explained) << "pixel " << x << ", " << y << " with " << bits << " bits";
-        out.farthest = std::max(out.farthest, nearest);
       }
     }
     EXPECT_TRUE(next == drawn.end());
@@ -309,12 +298,6 @@ TEST(LectureCoverage, DifferencesFromExactShrinkWithTheBits) {
     std::array<std::size_t, last + 1> wrong{};
     for (int bits = 1; bits <= last; ++bits) {
       const Misjudged m = misjudged(triangles, bits, fraction);
-      if (bits == 1) {
-        std::printf("%d triangles, %zu pixels exactly, vertices in units of 2^-%d pixel\n", triangles, m.exactly,
-                    fraction);
-        std::printf("bits  added missing  farthest from an edge (pixels)\n");
-      }
-      std::printf("%4d %6zu %7zu  %.2g\n", bits, m.added, m.missing, m.farthest);
       wrong[static_cast<std::size_t>(bits)] = m.added + m.missing;
       if (bits == 4) {
         EXPECT_GT(m.added, 0u);

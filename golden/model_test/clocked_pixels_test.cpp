@@ -114,9 +114,6 @@ TEST(ClockedPixels, LanesGiveThoseOfThePlainPipeline) {
     }
     ++seed;
   }
-  std::printf("%llu fragments, %llu singular, %llu homogeneous; %llu discarded pixels\n",
-              static_cast<unsigned long long>(all.fragments), static_cast<unsigned long long>(all.singular),
-              static_cast<unsigned long long>(all.homogeneous), static_cast<unsigned long long>(all.discarded));
   EXPECT_GT(all.fragments, 20'000u);
   EXPECT_GT(all.singular, 100u);
   EXPECT_GT(all.homogeneous, 500u);

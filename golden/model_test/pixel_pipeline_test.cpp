@@ -548,9 +548,6 @@ TEST(PixelPipeline, EndsFollowTheirDefinitions) {
           }
       }
     }
-  std::printf(
-      "%d pixels: general %d, on edge %d, two edges %d, corner %d, two corners %d; discarded %d, saturated %d\n",
-      pixels, classes[0], classes[1], classes[2], classes[3], classes[4], discarded, saturated);
   for (const int n : classes) EXPECT_GT(n, 0);
   EXPECT_GT(exact_with_drop, 30);  // quads
   EXPECT_GT(discarded, 100);
@@ -626,7 +623,6 @@ TEST(TinyWidths, AllQuadsOfASmallGrid) {
       exhaustive(4, false, s == 8 ? 1 : 7, c, fragments);
       if (HasFailure()) return;
     }
-  std::printf("%llu fragments\n", static_cast<unsigned long long>(fragments));
   EXPECT_GT(fragments, 100'000u);
 }
 
@@ -639,7 +635,6 @@ TEST(TinyWidths, HomogeneousQuadsOfASmallGrid) {
   c.significand_bits = 8;
   c.validate();
   exhaustive(3, true, 5, c, fragments);
-  std::printf("%llu fragments\n", static_cast<unsigned long long>(fragments));
   EXPECT_GT(fragments, 10'000u);
 }
 

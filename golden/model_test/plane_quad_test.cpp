@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 namespace quadrille {
@@ -171,11 +170,6 @@ TEST(PlaneQuad, IsDrawnWithinTheBound) {
       }
       // The bound of a weight, 2^-(S-3), on the range of a value.
       const double unit = std::ldexp(1, -bits);
-      std::printf(
-          "S = %d, perspective %d: %llu of 300 quads taken, %llu pixels, %llu at corners, attribute %.2f, depth %.2f "
-          "units of 2^-S\n",
-          bits, perspective, static_cast<unsigned long long>(taken), static_cast<unsigned long long>(pixels),
-          static_cast<unsigned long long>(corners), worst / unit, worst_z / unit);
       EXPECT_EQ(taken, 300u);
       EXPECT_GT(pixels, 20'000u);
       EXPECT_GT(corners, 0u);

@@ -41,7 +41,6 @@ void grid(std::uint64_t stride) {
     add(total, both.rejected());
   }
   print("grid", total);
-  std::printf("%llu quads have fragments\n", static_cast<unsigned long long>(drawn));
   for (const QuadReject r : {QuadReject::behind, QuadReject::line, QuadReject::culled})
     EXPECT_GT(total[static_cast<std::size_t>(r)], 100u) << reject_reasons[static_cast<std::size_t>(r)];
   EXPECT_GE(total[0], drawn);

@@ -236,8 +236,6 @@ TEST(CoverageRows, AMeshTakesNoMoreLooksFromWithin) {
     EXPECT_GT(fragments, 4'000u) << inside;
     EXPECT_EQ(behind > 500, inside);
     const auto per_fragment = [&](std::uint64_t n) { return static_cast<double>(n) / static_cast<double>(fragments); };
-    std::printf("%s: %llu fragments, looks for each: truth %.2f, float %.2f\n", inside ? "within" : "outside",
-                static_cast<unsigned long long>(fragments), per_fragment(truth_looks), per_fragment(paper_looks));
     return Work{per_fragment(truth_looks), per_fragment(paper_looks)};
   };
   const Work within = work_of(true), outside = work_of(false);

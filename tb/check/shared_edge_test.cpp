@@ -137,12 +137,6 @@ TEST(SharedEdges, BothQuadsAreWithinTheirBounds) {
                                                           mesh.vertices[static_cast<std::size_t>(ends.second)]))
               measure_edge({&snapped[cells[0]], &snapped[cells[1]]}, config, state, context, bounds, at, jumps);
       }
-      std::printf(
-          "s = %d, depth 0.998 +- %.2g, attribute 100 +- %.2g: %zu pixels on shared edges; depth jumps by %lld codes "
-          "at "
-          "most, %.2f of both bounds, the attribute by %lld codes, %.2f of both\n",
-          s, spread * 0.002, spread, jumps.pixels, static_cast<long long>(jumps.depth), jumps.depth_part,
-          static_cast<long long>(jumps.attribute), jumps.attribute_part);
       EXPECT_GT(jumps.pixels, 200u);
       // Snapping adds what differences are rounded by on either side, 2^-s of the spread.
       EXPECT_LE(jumps.depth_part, 1);

@@ -143,7 +143,7 @@ TEST_F(SweepCli, TheClosestIsTheClosest) {
 TEST_F(SweepCli, UnconfirmedTargetsSayHowClose) {
   const Outcome outcome = run(
       "sweep --target-error colour=0.5/255 --target-error depth=2^-16 --size 64x64 --scene sphere --cosim none --axis "
-      "significand_bits=12:26:2 --axis depth_bits=16:28:4 --out c");
+      "significand_bits=12,26 --axis depth_bits=16,28 --out c");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("stress families; the closest"), std::string::npos) << outcome.err;
   const json search = manifest("c").at("search");

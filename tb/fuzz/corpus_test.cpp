@@ -99,7 +99,5 @@ TEST_P(FuzzTarget, DamagedCorpus) {
   EXPECT_GT(refused, 0);
 }
 
-TEST(FuzzTargets, UnknownNames) { EXPECT_THROW(target_named("nothing"), std::invalid_argument); }
-
 }  // namespace
 }  // namespace quadrille::fuzz

@@ -26,8 +26,7 @@ struct Target {
   std::string_view file{};  ///< name of its files; empty: all
 };
 
+/// Of reader_targets.cpp, or of any_quad_target.cpp: a program links one of them.
 std::span<const Target> targets();
-/// Throws std::invalid_argument.
-const Target& target_named(std::string_view name);
 
 }  // namespace quadrille::fuzz

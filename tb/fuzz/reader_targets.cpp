@@ -8,10 +8,8 @@
 #include "golden/io/temporary.hpp"
 #include "golden/suites/manifest.hpp"
 #include "golden/suites/sha256.hpp"
-#include "golden/suites/suite.hpp"
 #include "model/config_text.hpp"
 #include "tb/fuzz/fuzz_target.hpp"
-#include "tb/fuzz/run_targets.hpp"
 #include "tb/sweep/store.hpp"
 
 #include <zlib.h>
@@ -63,7 +61,8 @@ class InputFile {
   std::filesystem::path path_;
 };
 
-}  // namespace
+// Readers of texts and files: an InputError (or ConfigError) that names the place, or a value that survives being
+// written and read, where there is a writer.
 
 Outcome read_obj(std::span<const std::uint8_t> input) {
   return outcome_of("file", [&] { golden::parse_obj(text_of(input), "file"); });
@@ -140,24 +139,26 @@ Outcome read_manifest(std::span<const std::uint8_t> input) {
   return to_its_end ? Outcome::accepted : outcome;
 }
 
+/// response.hex of a sealed set of vectors of sqrt: refused with the line, or all of it is read.
 Outcome read_records(std::span<const std::uint8_t> input) {
-  // A set of one suite, whose responses are the input: sealed, so that hashes do not keep it from the reader.
+  // A set of one kept suite, whose responses are the input: sealed, so that hashes do not keep it from the reader.
+  static const vectors::SetReader kept(QUADRILLE_SOURCE_DIR "/golden/vectors/kept");
+  static const vectors::SuiteReader suite = kept.suite("sqrt");
   const golden::Temporary folder(std::filesystem::temp_directory_path(), golden::Temporary::Kind::folder);
   const std::filesystem::path set = folder.path() / "set";
-  vectors::GenerateOptions generation;
-  generation.limit = 4;
-  const vectors::Suite& suite = vectors::find_suite("sqrt");
-  vectors::SetWriter writer(set, {generation.level, generation.seed, generation.config, generation.limit, {}}, false);
-  writer.add(suite.info(), [&](vectors::SuiteWriter& out) { suite.write(out, generation); });
+  vectors::SetWriter writer(set, kept.info(), false);
+  writer.copy(suite);
   writer.commit(false);
   write(set / "sqrt" / "response.hex", text_of(input));
   return outcome_of(set.string(), [&] {
     vectors::seal_set(set);
     const vectors::SuiteReader reader = vectors::SetReader(set).suite("sqrt");
-    require(suite.verify(reader, 1).vectors == reader.lines("response"), "not every record was compared");
+    const std::uint64_t lines = reader.lines("response");
+    require(reader.read("response", 0, lines).size() == lines, "not every record was read");
   });
 }
 
+/// Lines of a sweep's journal behind its first, without their check sums.
 Outcome read_journal(std::span<const std::uint8_t> input) {
   // Each line of the input as a line of the journal, with its check sum.
   const golden::Temporary folder(std::filesystem::temp_directory_path(), golden::Temporary::Kind::folder);
@@ -176,5 +177,22 @@ Outcome read_journal(std::span<const std::uint8_t> input) {
     require(store.results().empty() || !store.timings().empty(), "results of no batch");
   });
 }
+
+constexpr Target list[]{
+    {"camera", "camera files", read_camera, "tb/fuzz/corpus/camera", 4000},
+    {"config", "configuration files with costs", read_config, "tb/fuzz/corpus/config", 4000},
+    {"config_text", "configurations of the C interface", read_config_text, "tb/fuzz/corpus/config_text", 4000},
+    {"exr", "OpenEXR pictures", read_exr, "tb/fuzz/corpus/exr", 400},
+    {"journal", "journals of sweeps", read_journal, "tb/fuzz/corpus/journal", 400},
+    {"manifest", "manifests of golden vectors", read_manifest, "golden/vectors/kept", 400, "manifest.json"},
+    {"obj", "meshes", read_obj, "tb/fuzz/corpus/obj", 4000},
+    {"png", "PNG pictures", read_png, "tb/fuzz/corpus/png", 400},
+    {"quads", "files of quads", read_quads, "tb/fuzz/corpus/quads", 4000},
+    {"records", "records of golden vectors", read_records, "golden/vectors/kept/sqrt", 400, "response.hex"},
+};
+
+}  // namespace
+
+std::span<const Target> targets() { return list; }
 
 }  // namespace quadrille::fuzz

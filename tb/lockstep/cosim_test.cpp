@@ -150,7 +150,6 @@ TEST_P(Configuration, LockstepUnderEveryStallPattern) {
   EXPECT_EQ(flags, options.config.notch_exact != 0 ? 0xffu : 0xffu & ~flag_notch)
       << "a flag that never occurs is not tested";
   RecordProperty("fragments", std::to_string(total));
-  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
 }
 
 // Layers in front of much: tiles are hidden, and the counters say how many.
@@ -270,7 +269,6 @@ TEST_P(Configuration, LockstepInEveryDrawState) {
     total += report.fragments;
   }
   EXPECT_GT(total, 5000u);
-  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
 }
 
 TEST_P(Configuration, LockstepOnCornerQuads) {
@@ -289,7 +287,6 @@ TEST_P(Configuration, LockstepOnCornerQuads) {
     total += report.fragments;
   }
   EXPECT_GT(total, 5000u);
-  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
 }
 
 TEST_P(Configuration, LockstepInRandomDrawStates) {
@@ -319,7 +316,6 @@ TEST_P(Configuration, LockstepInRandomDrawStates) {
     total += report.fragments;
   }
   EXPECT_GT(total, 10000u);
-  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
 }
 
 /// Homogeneous quads, ordinary ones between, with scissors whose first tile is far from the screen's in both axes: the
@@ -374,7 +370,6 @@ TEST_P(Configuration, LockstepInScissorsFarFromTheFirstTile) {
   EXPECT_GT(total, 10000u);
   EXPECT_GT(approached, 8u);
   EXPECT_GT(from_the_right, 3u);
-  std::printf("matched %llu fragments\n", static_cast<unsigned long long>(total));
 }
 
 /// Quads that are left out, for every reason, between others: while slots are free and while they are not.

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <vector>
 
 namespace quadrille::tb {
@@ -37,8 +36,6 @@ void grid(std::uint64_t first, std::uint64_t stride) {
     clocks += report.cycles_rtl;
     quads.clear();
   }
-  std::printf("%llu quads, %llu fragments, %llu clocks\n", static_cast<unsigned long long>(drawn),
-              static_cast<unsigned long long>(fragments), static_cast<unsigned long long>(clocks));
   EXPECT_EQ(drawn, (all - first + stride - 1) / stride);
   EXPECT_GT(fragments, drawn);
 }

@@ -17,7 +17,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdio>
 
 namespace quadrille::tb {
 namespace {
@@ -224,9 +223,6 @@ TEST_P(HiddenTiles, LockstepThroughDrawsAndClears) {
     const std::vector<Fragment> drawn = lockstep(device, config, draws, stall, gap, stats);
     ASSERT_TRUE(drawn == expected) << drawn.size() << " fragments of " << expected.size() << ", stall " << stall;
   }
-  std::printf("%zu fragments, %llu tiles and %llu blocks hidden\n", expected.size(),
-              static_cast<unsigned long long>(stats.tiles_hidden),
-              static_cast<unsigned long long>(stats.blocks_hidden));
 }
 
 /// Clears and flushes at any time. Most clears come while the machine is busy; some wipe. Flushes change no fragment.

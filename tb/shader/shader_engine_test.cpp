@@ -264,10 +264,6 @@ TEST_F(OpenGl, TheShaderAgreesWithTheFormulasInDouble) {
     }
   }
   EXPECT_GT(all.compared, 100'000u);
-  std::printf("compared %llu, undefined %llu, float alone %llu, shader alone %llu, worst error over tolerance %.3f\n",
-              static_cast<unsigned long long>(all.compared), static_cast<unsigned long long>(all.undefined),
-              static_cast<unsigned long long>(all.only_float), static_cast<unsigned long long>(all.only_shader),
-              all.worst);
 }
 
 std::string replaced(std::string text, const std::string& search, const std::string& by) {

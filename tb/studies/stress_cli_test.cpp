@@ -193,12 +193,12 @@ TEST_F(CliStress, Reports) {
 
 TEST_F(CliStress, EveryCommandShowsItsError) {
   const Outcome outcome =
-      run("stress --families eye_in_hull,edge_distance,crossing --count 2 --json - --engines " + paper_bodies);
+      run("stress --families eye_in_hull,edge_distance --count 2 --json - --engines " + paper_bodies);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json report = json::parse(outcome.out);
   const std::map<std::string, int> commands = check_commands(report);
   EXPECT_EQ(commands.size(), QUADRILLE_OPENGL_FOUND ? 4u : 3u);
-  for (const auto& [body, count] : commands) EXPECT_GE(count, 9) << body;
+  for (const auto& [body, count] : commands) EXPECT_GE(count, 6) << body;
 }
 
 TEST_F(CliStressRtl, EveryCommandShowsItsError) {
@@ -207,13 +207,13 @@ TEST_F(CliStressRtl, EveryCommandShowsItsError) {
   EXPECT_EQ(check_commands(json::parse(outcome.out)), (std::map<std::string, int>{{"model", 3}, {"rtl", 3}}));
 }
 
-/// Every second approach at every width, the others at the next: half a minute of CPU otherwise. Two quads a step: the
-/// edge of one has its pixel inside on one side alone.
+/// A quarter of the approaches at every width, the next at the next. Two quads a step: the edge of one has its pixel
+/// inside on one side alone.
 TEST_F(CliStressWidths, ApproachesInTurn) {
   const std::vector<std::string> all = approaches();
   for (int bits = 8; bits <= 26; ++bits) {
     std::vector<std::string> names;
-    for (std::size_t i = static_cast<std::size_t>(bits) % 2; i < all.size(); i += 2) names.push_back(all[i]);
+    for (std::size_t i = static_cast<std::size_t>(bits) % 4; i < all.size(); i += 4) names.push_back(all[i]);
     check_approaches(names, bits, 2);
   }
 }

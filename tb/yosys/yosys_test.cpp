@@ -34,7 +34,6 @@ TEST(Yosys, ItsVerilogPassesCosimulation) {
     EXPECT_TRUE(report.agreed()) << report.first_divergence.value_or("");
     EXPECT_TRUE(report.complete);
     EXPECT_GT(report.fragments, 1000u);
-    std::printf("matched %llu fragments\n", static_cast<unsigned long long>(report.fragments));
     return report;
   };
   // A built-in scene, then every corner of the machine.
