@@ -4,7 +4,7 @@
 //   the stage at which it enters, what it does to errors, what else it moves (all of ConfigKey);
 //   the values that `quadrille sweep` tries of it where no axis is named: each can be built around the default;
 //   what it is.
-// golden/model_test/key_traits_test.cpp holds every trait to what the machine does.
+// model/key_traits_test.cpp holds every trait to what the machine does.
 KEY(viewport_bits, 6, 14, 12, "bits", positions, unordered, clocks | area | proofs, "10:12",
     "pixel x and y lie in [0, 2^viewport_bits)")
 KEY(guard_bits, 1, 4, 3, "bits", positions, unordered, clocks | area | proofs, "1:3",

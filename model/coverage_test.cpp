@@ -1,10 +1,10 @@
 // quad_setup, tile_walk, tile_context and stamp_coverage against the vertices themselves, in 128-bit integers: every
 // form at every kind of pixel, expression (12) over the whole viewport, every pixel once.
 #include "model/boundaries.hpp"
-#include "model/pixel_pipeline.hpp"
-#include "model/quad_setup.hpp"
-#include "model/stamp_coverage.hpp"
-#include "model/tile_context.hpp"
+#include "model/pixel/pixel_pipeline.hpp"
+#include "model/front/quad_setup.hpp"
+#include "model/front/stamp_coverage.hpp"
+#include "model/front/tile_context.hpp"
 
 #include "model/support/prng.hpp"
 

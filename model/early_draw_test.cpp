@@ -2,7 +2,7 @@
 // use may wait to be initialised.
 #include "model/clocked.hpp"
 #include "model/config_text.hpp"
-#include "model/each_lane_target.hpp"
+#include "model/fast/each_lane_target.hpp"
 #include "model/snap.hpp"
 #include "model/tables.hpp"
 #include "model/untimed.hpp"

@@ -1,8 +1,8 @@
 // The lanes' code as compiled for each instruction set that this processor has: every stage of lane_stages.hpp against
 // the plain pipeline. (pixel_pipeline_test.cpp does the same with pixel_lanes.)
 #include "model/lane_target.hpp"
-#include "model/each_lane_target.hpp"
-#include "model/lane_stages.hpp"
+#include "model/fast/each_lane_target.hpp"
+#include "model/fast/lane_stages.hpp"
 
 #include "model/support/prng.hpp"
 

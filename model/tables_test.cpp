@@ -1,8 +1,8 @@
 // The sqrt and reciprocal tables over their whole domain, judged by exact integer comparisons.
 #include "model/tables.hpp"
 
-#include "model/reciprocal.hpp"
-#include "model/sqrt.hpp"
+#include "model/pixel/reciprocal.hpp"
+#include "model/pixel/sqrt.hpp"
 
 #include <gtest/gtest.h>
 
@@ -87,7 +87,7 @@ void print(const char* name, const Config& c, int segments, int degree, const Fi
 
 class TableAtWidth : public testing::TestWithParam<int> {};
 
-/// The contract of model/sqrt.hpp and model/reciprocal.hpp: below 1 ulp with the automatic segments, for every S.
+/// The contract of model/pixel/sqrt.hpp and model/pixel/reciprocal.hpp: below 1 ulp with the automatic segments, for every S.
 TEST_P(TableAtWidth, FaithfulWithAutomaticSegments) {
   const int s = GetParam();
   const Config c = config_for(s, 2);

@@ -1,13 +1,13 @@
 #include "model/untimed.hpp"
 
-#include "model/covered_pixels.hpp"
+#include "model/front/covered_pixels.hpp"
 #include "model/draw_state.hpp"
-#include "model/float_lanes.hpp"
-#include "model/masked_depth.hpp"
-#include "model/pixel_lanes.hpp"
-#include "model/quad_reject.hpp"
-#include "model/quad_setup.hpp"
-#include "model/tile_context.hpp"
+#include "model/fast/float_lanes.hpp"
+#include "model/skips/masked_depth.hpp"
+#include "model/fast/pixel_lanes.hpp"
+#include "model/front/quad_reject.hpp"
+#include "model/front/quad_setup.hpp"
+#include "model/front/tile_context.hpp"
 
 #include <algorithm>
 #include <array>

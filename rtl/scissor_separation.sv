@@ -1,5 +1,5 @@
 // Which of the two triangles of expression (12) cannot meet the scissor rectangle: separated_o, bit 0: 012, bit 1: 023. For a homogeneous
-// quad, which has no bounding box. model/scissor_separation.hpp says why this is nearly all that misses.
+// quad, which has no bounding box. model/skips/scissor_separation.hpp says why this is nearly all that misses.
 //
 // Two kinds of evidence, as the results of vertex_products come. side_i: of a vertex (pair p of the units: of vertex vertex_i + p) the signs of
 // X - W x, Y - W y at the scissor's near corner (x0, y0), or its far one (x1, y1): a side separates when all vertices of the triangle

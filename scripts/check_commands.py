@@ -72,7 +72,7 @@ def main():
         for words in quoted(text):
             count += 1
             wrong += [f"{path}: `quadrille {' '.join(words)}`: {fault}" for fault in faults(list(words), keys, scenes)]
-        for script in re.findall(r"(?<![\w./])(?:scripts|golden/examples|tb/dpi)/[\w/]+\.(?:sh|py)\b", text):
+        for script in re.findall(r"(?<![\w./])(?:scripts|golden/examples|tb/verify/dpi)/[\w/]+\.(?:sh|py)\b", text):
             count += 1
             wrong += [] if (ROOT / script).exists() else [f"{path}: no {script}"]
     if wrong:

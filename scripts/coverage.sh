@@ -35,7 +35,7 @@ run() { ctest --test-dir "$folder" --output-on-failure --no-tests=error --no-lab
 run -L '^unit$' -E '^(sweep|fuzz)_test$'
 run -R "^($(IFS='|'; echo "${programs[*]}"))\$"
 "$folder/tb/lockstep/cosim_test" --gtest_filter='Cosim.PlaneQuads*' --gtest_brief=1 || status=1  # plane quads in lockstep
-"$folder/golden/suites/golden_stages" 1 >/dev/null || status=1
+"$folder/golden/vectors/golden_stages" 1 >/dev/null || status=1
 for test in commands/cli_test studies/studies_cli_test; do
   "$folder/tb/$test" --gtest_filter="$commands" --gtest_brief=1 || status=1
 done

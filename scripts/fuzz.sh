@@ -2,14 +2,14 @@
 # Sets everything up and fuzzes the readers of files, and the machine with any four vertices, under Clang's libFuzzer with
 # AddressSanitizer and UndefinedBehaviorSanitizer. What it finds worth keeping stays in build/fuzz_corpus, where a later run goes on.
 #   scripts/fuzz.sh --hours 2                  all targets, one after the other, two hours together
-#   scripts/fuzz.sh --seconds 60 any_quad obj  these alone; tb/fuzz/README.md lists them
+#   scripts/fuzz.sh --seconds 60 any_quad obj  these alone; tb/verify/fuzz/README.md lists them
 # Options: --seed N (default 1), --jobs N processes of a target (default: one a processor).
 # Exit status: 1 a target found something, its input is named; 2 usage; 3 a missing package.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
 
 usage() { echo "fuzz.sh: $1" >&2; exit 2; }
-known=$(sed -n 's/^  foreach(target \(.*\))$/\1/p' tb/fuzz/CMakeLists.txt)
+known=$(sed -n 's/^  foreach(target \(.*\))$/\1/p' tb/verify/fuzz/CMakeLists.txt)
 seconds="" seed=1 jobs=$(nproc) targets=()
 while [ $# -gt 0 ]; do
   case "$1" in
@@ -43,7 +43,7 @@ cmake --build --preset fuzz -j "$(nproc)" --target $(printf 'fuzz_%s ' "${target
 status=0
 for target in "${targets[@]}"; do
   found=build/fuzz_corpus/$target logs=build/fuzz_logs/$target
-  kept=tb/fuzz/corpus/$target
+  kept=tb/verify/fuzz/corpus/$target
   rm -rf "$logs"
   mkdir -p "$found" "$logs"
   if [ "$target" = manifest ]; then  # those of the kept golden vectors
@@ -55,7 +55,7 @@ for target in "${targets[@]}"; do
   fi
   pids=()
   for ((job = 0; job < jobs; ++job)); do
-    build/fuzz/tb/fuzz/fuzz_"$target" -max_total_time="$each" -timeout=60 -reload=1 -seed=$((seed + job)) -artifact_prefix="$logs/" -print_final_stats=1 "$found" "$kept" \
+    build/fuzz/tb/verify/fuzz/fuzz_"$target" -max_total_time="$each" -timeout=60 -reload=1 -seed=$((seed + job)) -artifact_prefix="$logs/" -print_final_stats=1 "$found" "$kept" \
       >"$logs/$job.log" 2>&1 &
     pids+=($!)
   done
@@ -67,7 +67,7 @@ for target in "${targets[@]}"; do
     status=1
     echo "FAILED: $target: $(grep -hE 'what\(\)|SUMMARY|ERROR' "$logs"/*.log | head -3 | paste -sd' ')" >&2
     for input in "$logs"/crash-* "$logs"/timeout-* "$logs"/oom-* "$logs"/leak-*; do
-      [ -e "$input" ] && echo "  build/fuzz/tb/fuzz/fuzz_$target $input" >&2
+      [ -e "$input" ] && echo "  build/fuzz/tb/verify/fuzz/fuzz_$target $input" >&2
     done
   fi
 done

@@ -14,7 +14,7 @@ cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS="--coverage -O
 rm -f "$build.log"
 cmake --build "$build" -j "$(nproc)" --target golden_stages
 find "$build" -name '*.gcda' -delete
-"$build/golden/suites/golden_stages" "$level"
+"$build/golden/vectors/golden_stages" "$level"
 
 PYTHONPATH=scripts python3 -B - "$build" <<'PYTHON'
 import os, sys
@@ -27,10 +27,10 @@ stages = {f"model/{name}" for name in (
     "fragment_output.cpp")}
 # (file, piece of the source line): why no stimulus gets there in the default configuration.
 unreachable = {
-    ("model/fragment_output.cpp", "shift >= 0 ? r.p << shift"): "2S - 2 = 34 exceeds the bits of either output format",
-    ("model/fragment_output.cpp", "p.valid && !discard"): "a bubble of the pipeline is no vector",
-    ("model/normalise.cpp", "c.config.notch_exact &&"): "a constant of the configuration",
-    ("model/quad_setup.cpp", "int quad_setup_steps"): "clocks, not values",
+    ("model/pixel/fragment_output.cpp", "shift >= 0 ? r.p << shift"): "2S - 2 = 34 exceeds the bits of either output format",
+    ("model/pixel/fragment_output.cpp", "p.valid && !discard"): "a bubble of the pipeline is no vector",
+    ("model/pixel/normalise.cpp", "c.config.notch_exact &&"): "a constant of the configuration",
+    ("model/front/quad_setup.cpp", "int quad_setup_steps"): "clocks, not values",
     ("model/snap.cpp", "a product with k is too large"): "k is below 2^96 and z at most 2^80; the port reaches 2^256",
     ("model/snap.cpp", "extent == 0"): "w = 0 here leaves x and y as given, which are not both 0",
     ("model/snap.cpp", "quad_id_bits"): "ids belong to quads; the suite snaps vertices",

@@ -19,7 +19,7 @@ cmake -DCMAKE_INSTALL_PREFIX="$work/program" -P "$work/partial/cmake_install.cma
   { cat "$work/log" >&2; fail "installing the program alone failed"; }
 
 # Whatever was built is there.
-[ ! -e "$build/tb/dpi/libquadrille_dpi.so" ] || [ -n "$(find "$work/all" -name libquadrille_dpi.so)" ] ||
+[ ! -e "$build/tb/verify/dpi/libquadrille_dpi.so" ] || [ -n "$(find "$work/all" -name libquadrille_dpi.so)" ] ||
   fail "libquadrille_dpi.so was built but not installed"
 [ -z "$(find "$work/program" -name libquadrille_dpi.so)" ] || fail "a library was installed that was not built"
 

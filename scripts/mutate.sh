@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Puts the generated faults of RTL and model, one build with each selected at run time, through the checks (tb/mutants/README.md): a table of
+# Puts the generated faults of RTL and model, one build with each selected at run time, through the checks (tb/verify/faults/README.md): a table of
 # which check sees how many, and every survivor with file, line and change.
 #   scripts/mutate.sh                   all 330
 #   scripts/mutate.sh --count N         so many, drawn by the seed, half of them in the RTL
@@ -9,8 +9,8 @@
 #   scripts/mutate.sh --jobs J          so many at a time (all processors)
 #   scripts/mutate.sh --json FILE       keeps the results; stopped, the same command goes on (folder FILE.part)
 #   scripts/mutate.sh --shard I/N --json PART      every N-th mutant, on one of N machines
-#   scripts/mutate.sh --record          every check from the first on; what saw each is written down in tb/mutants/caught_by.json
-#   tb/mutants/report_mutants.py --from PART… --json FILE      puts kept results together and prints the table
+#   scripts/mutate.sh --record          every check from the first on; what saw each is written down in tb/verify/faults/caught_by.json
+#   tb/verify/faults/report_mutants.py --from PART… --json FILE      puts kept results together and prints the table
 # Exit status: 0 each is seen by a check or argued equivalent, 1 not, 2 usage, 3 a tool is missing.
 set -euo pipefail
 case "${1:-}" in -h | --help) sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;; esac
@@ -32,4 +32,4 @@ exec {lock}>build/.mutate.lock
 flock "$lock"  # of several at a time, such as an array's tasks, one sets up and builds, and the others find it done
 set_up mutate
 exec {lock}>&-
-exec tb/mutants/report_mutants.py build/release/tb/mutants ${report[@]+"${report[@]}"}
+exec tb/verify/faults/report_mutants.py build/release/tb/verify/faults ${report[@]+"${report[@]}"}

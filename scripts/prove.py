@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Proves properties of the RTL with Yosys' SMT back end and z3: each proof of tb/formal/proofs.toml, a line of a table for each.
+"""Proves properties of the RTL with Yosys' SMT back end and z3: each proof of tb/verify/formal/proofs.toml, a line of a table for each.
 
     scripts/prove.py [--only NAME]... [--tier default] [--list]
     scripts/prove.py --faults [--only NAME]... [--tier default] [--count N] [--record FAULT]...
 
-Kinds of proof (tb/formal/README.md):
+Kinds of proof (tb/verify/formal/README.md):
   induction  holds always: base case from reset over `depth` clocks, then any state in which it held for `depth` clocks leads to one where it does
   pipeline   holds always: from any contents of all registers, `depth` clocks on, when what was in them has left
   bounded    holds for `depth` clocks from reset
 A proof by induction with `bounded` has a line more in the tier all: so many clocks from reset, whatever the induction says.
 
---faults: every fault of the registry (tb/mutants/faults.py) that a proof is recorded to find, put into a copy of the RTL, must give a counterexample
+--faults: every fault of the registry (tb/verify/faults/faults.py) that a proof is recorded to find, put into a copy of the RTL, must give a counterexample
 that starts from reset (pipeline: from any contents). --count: so many, drawn by $QUADRILLE_TEST_SEED. --record FAULT: this one instead, by each
 proof of its files; those that find it are written down.
 Exit status: 0 all proved (all faults found), 1 not, 2 usage, 3 a tool is missing."""
@@ -27,11 +27,11 @@ import time
 import tomllib
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tb", "mutants"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tb", "verify", "faults"))
 import faults as registry  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-FORMAL = os.path.join(ROOT, "tb", "formal")
+FORMAL = os.path.join(ROOT, "tb", "verify", "formal")
 KINDS = ("induction", "pipeline", "bounded")
 TOOLS = {"yosys": "yosys", "yosys-smtbmc": "yosys", "z3": "z3"}
 

@@ -196,7 +196,7 @@ module device (
 endmodule
 SV
 iverilog -g2012 -s replay_stage -o "$work/stage" -DREPLAY_DUT=device -DREPLAY_STIMULUS_BITS=31 -DREPLAY_RESPONSE_BITS=31 -DREPLAY_VECTORS=1 \
-  -Itb/replay "$work/device.sv" tb/replay/replay_{valid,stage}.sv
+  -Itb/verify/replay "$work/device.sv" tb/verify/replay/replay_{valid,stage}.sv
 expect 1 "reciprocal: no vectors" "the bench itself, without vectors" \
   vvp -N "$work/stage" +suite=reciprocal +stimulus="$set/reciprocal/stimulus.hex" +response="$set/reciprocal/response.hex" +vectors=0
 
@@ -266,13 +266,13 @@ intact many depth $tool --limit 6000  # what few vectors show
 [ "$set" = "$work/small" ] || ln -s "$(realpath "$set")" "$work/small"
 count=0
 if $sample; then count=8; fi
-mapfile -t faults < <(tb/mutants/faults.py replays $count)
+mapfile -t faults < <(tb/verify/faults/faults.py replays $count)
 [ ${#faults[@]} -gt 5 ] || { echo "no faults are recorded" >&2; exit 1; }
 for fault in "${faults[@]}"; do
   read -r name suite from simulator <<<"$fault"
   rm -rf "$work/rtl"
   cp -r rtl "$work/rtl"
-  tb/mutants/faults.py put "$name" "$work/rtl"
+  tb/verify/faults/faults.py put "$name" "$work/rtl"
   expect 1 "^$suite: (first difference|FAILED)" "$fault" $replay "$work/$from" "$simulator" --suite "$suite" --rtl "$work/rtl"
 done
 

@@ -3,7 +3,7 @@
 #include "golden/scenes/approach.hpp"
 
 #include "model/config.hpp"
-#include "model/quad_setup.hpp"
+#include "model/front/quad_setup.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
 

@@ -4,9 +4,9 @@
 
 #include "golden/scenes/corner_test_support.hpp"
 #include "golden/scenes/random_quads.hpp"
-#include "model/quad_setup.hpp"
+#include "model/front/quad_setup.hpp"
 #include "model/snap.hpp"
-#include "model/tile_context.hpp"
+#include "model/front/tile_context.hpp"
 
 #include <gtest/gtest.h>
 

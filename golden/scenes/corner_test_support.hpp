@@ -2,9 +2,9 @@
 #pragma once
 
 #include "golden/scenes/corner_quads.hpp"
-#include "model/covered_pixels.hpp"
-#include "model/pixel_pipeline.hpp"
-#include "model/quad_setup.hpp"
+#include "model/front/covered_pixels.hpp"
+#include "model/pixel/pixel_pipeline.hpp"
+#include "model/front/quad_setup.hpp"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/hierarchical_z.hpp"
-#include "model/masked_depth.hpp"
+#include "model/skips/hierarchical_z.hpp"
+#include "model/skips/masked_depth.hpp"
 
 namespace quadrille::clocked {
 

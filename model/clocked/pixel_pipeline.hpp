@@ -2,8 +2,8 @@
 
 #include "model/clocked.hpp"
 #include "model/latency.hpp"
-#include "model/pixel_pipeline.hpp"
-#include "model/pixels_ahead.hpp"
+#include "model/pixel/pixel_pipeline.hpp"
+#include "model/fast/pixels_ahead.hpp"
 
 #include <array>
 #include <bit>

@@ -2,8 +2,8 @@
 
 #include "model/latency.hpp"
 #include "model/performance_counters.hpp"
-#include "model/quad_reject.hpp"
-#include "model/quad_setup.hpp"
+#include "model/front/quad_reject.hpp"
+#include "model/front/quad_setup.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/hierarchical_z.hpp"
-#include "model/pixels_ahead.hpp"
+#include "model/skips/hierarchical_z.hpp"
+#include "model/fast/pixels_ahead.hpp"
 
 #include <cstdint>
 #include <vector>

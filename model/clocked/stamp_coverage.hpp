@@ -3,7 +3,7 @@
 #include "model/clocked/hierarchical_z.hpp"
 #include "model/clocked/quad_slots.hpp"
 #include "model/clocked/tile_ring.hpp"
-#include "model/stamp_coverage.hpp"
+#include "model/front/stamp_coverage.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "model/latency.hpp"
 #include "model/stages.hpp"
-#include "model/tile_context.hpp"
+#include "model/front/tile_context.hpp"
 
 #include <array>
 

@@ -9,7 +9,7 @@
 #include "golden/io/json_report.hpp"
 #include "model/boundaries.hpp"
 #include "model/tables.hpp"
-#include "tb/check/judged_quad.hpp"
+#include "tb/judge/judged_quad.hpp"
 #include "tb/device/probes.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"

@@ -8,7 +8,7 @@
 #include "tb/options/written_file.hpp"
 
 #include "golden/io/json_report.hpp"
-#include "tb/check/model_check.hpp"
+#include "tb/judge/model_check.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/support/errors.hpp"

@@ -4,7 +4,7 @@
 #include "tb/commands/cosim_run.hpp"
 
 #include "golden/io/json_report.hpp"
-#include "tb/check/model_check.hpp"
+#include "tb/judge/model_check.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/stopwatch.hpp"

@@ -1,7 +1,7 @@
 // What `quadrille cosim` says: table, summary, complaints, JSON.
 #pragma once
 
-#include "tb/check/model_check.hpp"
+#include "tb/judge/model_check.hpp"
 #include "tb/commands/cosim_options.hpp"
 #include "tb/commands/cosim_result.hpp"
 

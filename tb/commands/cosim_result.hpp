@@ -2,9 +2,9 @@
 #pragma once
 
 #include "model/performance_counters.hpp"
-#include "tb/check/check.hpp"
-#include "tb/check/metric.hpp"
-#include "tb/check/skip_check.hpp"
+#include "tb/judge/check.hpp"
+#include "tb/judge/metric.hpp"
+#include "tb/judge/skip_check.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,10 +1,10 @@
 #include "tb/commands/cosim_run.hpp"
 
 #include "golden/scenes/random_state.hpp"
-#include "model/hierarchical_z.hpp"
-#include "model/quad_reject.hpp"
+#include "model/skips/hierarchical_z.hpp"
+#include "model/front/quad_reject.hpp"
 #include "model/snap.hpp"
-#include "tb/check/error_limits.hpp"
+#include "tb/judge/error_limits.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"

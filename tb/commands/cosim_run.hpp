@@ -1,7 +1,7 @@
 // Inputs of `quadrille cosim` drawn in lockstep and judged, one after the other.
 #pragma once
 
-#include "tb/check/model_check.hpp"
+#include "tb/judge/model_check.hpp"
 #include "tb/commands/cosim_draws.hpp"
 #include "tb/commands/cosim_options.hpp"
 #include "tb/commands/cosim_picture.hpp"

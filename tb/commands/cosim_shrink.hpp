@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/records.hpp"
-#include "tb/check/check.hpp"
+#include "tb/judge/check.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/options.hpp"
 

@@ -1,7 +1,7 @@
 #include "tb/commands/fragments_errors.hpp"
 
-#include "tb/check/judged_quad.hpp"
-#include "tb/check/knob_errors.hpp"
+#include "tb/judge/judged_quad.hpp"
+#include "tb/judge/knob_errors.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -1,10 +1,10 @@
 // quadrille golden: sets of golden vectors, generated and verified (diff is in golden_diff.cpp).
 #include "golden/io/error.hpp"
 #include "golden/io/json_report.hpp"
-#include "golden/suites/input_suite.hpp"
-#include "golden/suites/suite.hpp"
+#include "golden/vectors/input_suite.hpp"
+#include "golden/vectors/suite.hpp"
 #include "model/snap.hpp"
-#include "tb/check/verify_exact.hpp"
+#include "tb/judge/verify_exact.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/golden_rtl.hpp"
 #include "tb/options/command_line.hpp"

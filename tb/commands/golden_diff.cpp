@@ -3,7 +3,7 @@
 #include "golden/io/image_diff.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/png.hpp"
-#include "golden/suites/manifest.hpp"
+#include "golden/vectors/manifest.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/written_file.hpp"

@@ -1,7 +1,7 @@
 // The RTL as an engine of `quadrille golden verify`: the replay benches under Verilator.
 #pragma once
 
-#include "golden/suites/suite.hpp"
+#include "golden/vectors/suite.hpp"
 
 #include <map>
 #include <string>

@@ -1,8 +1,8 @@
 #include "tb/commands/sweep_cosim.hpp"
 
-#include "model/plane_quad.hpp"
+#include "model/skips/plane_quad.hpp"
 #include "model/support/parallel.hpp"
-#include "tb/check/check.hpp"
+#include "tb/judge/check.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/lockstep/lockstep.hpp"
 

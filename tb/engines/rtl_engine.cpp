@@ -1,4 +1,4 @@
-#include "model/hierarchical_z.hpp"
+#include "model/skips/hierarchical_z.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/engines/machine_engine.hpp"

@@ -3,8 +3,8 @@
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/plane_quad.hpp"
-#include "model/quad_reject.hpp"
+#include "model/skips/plane_quad.hpp"
+#include "model/front/quad_reject.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
@@ -276,7 +276,7 @@ TEST_P(Configuration, LockstepOnCornerQuads) {
   options.config = GetParam().config();
   VerilatedDevice device(options.config, VerilateOptions{}, options.seed);
   std::uint64_t total = 0;
-  // Another seed than that of the mutants' scenarios (tb/mutants), which the machine without a fault draws too.
+  // Another seed than that of the mutants' scenarios (tb/verify/faults), which the machine without a fault draws too.
   for (const golden::CornerDraw& draw : golden::corner_draws(options.config, 12)) {
     options.state = draw.state;
     options.stall = draw.stall;

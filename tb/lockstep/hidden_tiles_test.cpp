@@ -5,7 +5,7 @@
 #include "golden/scenes/stress.hpp"
 #include "model/bit_vector.hpp"
 #include "model/clocked.hpp"
-#include "model/hierarchical_z.hpp"
+#include "model/skips/hierarchical_z.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"

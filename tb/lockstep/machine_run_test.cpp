@@ -1,5 +1,5 @@
 // The clocks of the golden vectors' machine against the test bench's own run.
-#include "golden/suites/machine_run.hpp"
+#include "golden/vectors/machine_run.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "tb/lockstep/lockstep.hpp"
 

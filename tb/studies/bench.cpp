@@ -3,7 +3,7 @@
 #include "model/lane_target.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
-#include "tb/check/check.hpp"
+#include "tb/judge/check.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/counters_report.hpp"
 #include "tb/options/command_line.hpp"

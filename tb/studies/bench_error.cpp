@@ -4,7 +4,7 @@
 #include "golden/reference/truth.hpp"
 #include "model/snap.hpp"
 #include "model/untimed.hpp"
-#include "tb/check/check.hpp"
+#include "tb/judge/check.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/studies/bench_timing.hpp"
 #include "tb/support/stopwatch.hpp"

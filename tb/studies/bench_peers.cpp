@@ -7,7 +7,7 @@
 #include "model/untimed.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/input.hpp"
-#include "tb/shader/paper_shader.hpp"
+#include "tb/studies/shader/paper_shader.hpp"
 #include "tb/studies/bench_error.hpp"
 #include "tb/studies/bench_stages.hpp"
 #include "tb/studies/bench_timing.hpp"

@@ -8,7 +8,7 @@
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
-#include "tb/check/check.hpp"
+#include "tb/judge/check.hpp"
 #include "tb/commands/counters_report.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/studies/bench_timing.hpp"

@@ -1,7 +1,7 @@
 #include "tb/studies/bench_stages.hpp"
 
-#include "model/float_lanes.hpp"
-#include "model/quad_setup.hpp"
+#include "model/fast/float_lanes.hpp"
+#include "model/front/quad_setup.hpp"
 #include "model/untimed.hpp"
 #include "tb/studies/bench_timing.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "golden/io/json_report.hpp"
 #include "golden/methods/method.hpp"
-#include "tb/compare/frame_error.hpp"
+#include "tb/studies/compare/frame_error.hpp"
 #include "tb/studies/method_engine.hpp"
 #include "tb/studies/method_frame.hpp"
 #include "tb/studies/method_timing.hpp"

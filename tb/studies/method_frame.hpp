@@ -1,7 +1,7 @@
 // An input drawn by an engine or a method into a depth-tested frame, and that frame as numbers to compare.
 #pragma once
 
-#include "tb/compare/attribute_image.hpp"
+#include "tb/studies/compare/attribute_image.hpp"
 #include "tb/render/frame.hpp"
 
 #include <string>

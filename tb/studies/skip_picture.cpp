@@ -1,12 +1,12 @@
 #include "tb/studies/skip_picture.hpp"
 
-#include "model/covered_pixels.hpp"
-#include "model/hierarchical_z.hpp"
-#include "model/masked_depth.hpp"
-#include "model/quad_reject.hpp"
-#include "model/quad_setup.hpp"
-#include "model/tile_walk.hpp"
-#include "tb/compare/sheet.hpp"
+#include "model/front/covered_pixels.hpp"
+#include "model/skips/hierarchical_z.hpp"
+#include "model/skips/masked_depth.hpp"
+#include "model/front/quad_reject.hpp"
+#include "model/front/quad_setup.hpp"
+#include "model/front/tile_walk.hpp"
+#include "tb/studies/compare/sheet.hpp"
 #include "tb/render/frame.hpp"
 
 #include <algorithm>

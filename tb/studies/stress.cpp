@@ -5,7 +5,7 @@
 #include "golden/io/text_input.hpp"
 #include "golden/scenes/approach.hpp"
 #include "model/support/parallel.hpp"
-#include "tb/check/knob_errors.hpp"
+#include "tb/judge/knob_errors.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"

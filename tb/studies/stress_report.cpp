@@ -5,7 +5,7 @@
 #include "golden/io/quads_file.hpp"
 #include "golden/io/text_input.hpp"
 #include "model/config.hpp"
-#include "tb/check/knob_errors.hpp"
+#include "tb/judge/knob_errors.hpp"
 #include "tb/options/options.hpp"
 #include "tb/options/shard.hpp"
 #include "tb/support/errors.hpp"

@@ -1,6 +1,6 @@
 #include "tb/sweep/evaluator.hpp"
 
-#include "model/plane_quad.hpp"
+#include "model/skips/plane_quad.hpp"
 #include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/lockstep/lockstep.hpp"

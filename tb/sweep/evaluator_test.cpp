@@ -5,7 +5,7 @@
 #include "golden/analysis/error_bound.hpp"
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/plane_quad.hpp"
+#include "model/skips/plane_quad.hpp"
 #include "model/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"

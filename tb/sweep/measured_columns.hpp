@@ -1,7 +1,7 @@
 // The columns that a sweep measures, in one order everywhere: the four weights, the input's attributes, three colours.
 #pragma once
 
-#include "model/lane_stages.hpp"
+#include "model/fast/lane_stages.hpp"
 #include "model/snap.hpp"
 #include "tb/sweep/evaluator.hpp"
 

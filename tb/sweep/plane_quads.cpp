@@ -1,6 +1,6 @@
 #include "tb/sweep/plane_quads.hpp"
 
-#include "model/plane_quad.hpp"
+#include "model/skips/plane_quad.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/sweep/work_units.hpp"
 

@@ -16,7 +16,7 @@ class PlaneQuads {
  public:
   PlaneQuads(const SweepInput& input, const PositionData& positions, const Config& config, unsigned threads);
 
-  /// By position in the input, 1: taken (model/plane_quad.hpp), and covers a pixel.
+  /// By position in the input, 1: taken (model/skips/plane_quad.hpp), and covers a pixel.
   const std::vector<std::uint8_t>& taken() const { return taken_; }
   std::uint64_t count() const { return count_; }
   std::size_t bytes() const { return taken_.size(); }

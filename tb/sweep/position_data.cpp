@@ -1,8 +1,8 @@
 #include "tb/sweep/position_data.hpp"
 
 #include "golden/reference/truth.hpp"
-#include "model/covered_pixels.hpp"
-#include "model/quad_setup.hpp"
+#include "model/front/covered_pixels.hpp"
+#include "model/front/quad_setup.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/sweep/work_units.hpp"
 

@@ -2,7 +2,7 @@
 // alone. A key whose stage or clocks are wrong (ConfigKey) shows here.
 #include "tb/sweep/stage_keys.hpp"
 
-#include "golden/model_test/every_key_test_support.hpp"
+#include "model/every_key_test_support.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/sweep/evaluator.hpp"
 #include "tb/sweep/point_table.hpp"

@@ -1,0 +1,309 @@
+#include "model/fast/float_lanes.hpp"
+
+#include "model/lane_target.hpp"
+#include "model/skips/plane_quad.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+#ifdef QUADRILLE_LANE_TARGETS
+#include <immintrin.h>
+#endif
+
+namespace quadrille {
+namespace {
+
+/// Exponents of the port's numbers that the lanes take, of k either sign; differences below the least one count for
+/// nothing (float_kernel.hpp, range).
+constexpr int largest_exponent = 30, least_difference = -90;
+
+double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
+
+/// FloatLanes::Format::may_face: all combinations of signs at once.
+std::uint64_t may_face() {
+  constexpr std::uint64_t bit[6]{0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc, 0xf0f0f0f0f0f0f0f0,
+                                 0xff00ff00ff00ff00, 0xffff0000ffff0000, 0xffffffff00000000};
+  SignWords<std::uint64_t> e[5];
+  for (std::size_t k = 0; k < 5; ++k) e[k].positive = bit[k];
+  e[4].negative = bit[5];
+  return inside_expression(e, 0xf, Cull::front).back;
+}
+
+/// The largest float that is not above the integer; 0 of a negative one.
+float at_most(std::int64_t value) {
+  if (value <= 0) return 0;
+  const auto v = static_cast<std::uint64_t>(value);
+  const int drop = std::max(0, static_cast<int>(std::bit_width(v)) - 24);
+  return static_cast<float>(v >> drop << drop);
+}
+
+/// Below it a float has no last place above 1.
+constexpr std::int64_t single_codes = 1 << 24;
+
+/// False when the base or a limit is no code that a quad can have.
+bool float_codes(const FloatLanes::Format& format, const QuadBase& base, FloatQuad& out) {
+  const std::int32_t one = std::int32_t{1} << format.depth_bits;
+  if (format.depth) {
+    if (base.depth > static_cast<std::uint32_t>(one) || base.depth_low < -1 || base.depth_high > one + 1) return false;
+    out.depth = {static_cast<std::int32_t>(base.depth), base.depth_low, base.depth_high, at_most(single_codes)};
+  }
+  const std::int64_t limit = (std::int64_t{1} << (format.attribute_int_bits + format.attribute_frac)) - 1;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) {
+    const std::int64_t of = base.attribute[j], room = limit - std::abs(of);
+    if (room < 0) return false;
+    out.attribute[j] = {static_cast<std::int32_t>(of), static_cast<std::int32_t>(-limit),
+                        static_cast<std::int32_t>(limit), at_most(std::min(room, single_codes))};
+  }
+  return true;
+}
+
+#ifdef QUADRILLE_LANE_TARGETS
+// Each function of the kernel is compiled for the target around it.
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v3")
+namespace v3 {
+#include "model/fast/float_avx2.hpp"
+#include "model/fast/float_cover.hpp"
+#include "model/fast/float_kernel.hpp"
+#include "model/fast/float_small_quad.hpp"
+}  // namespace v3
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v4")
+namespace v4 {
+#include "model/fast/float_avx512.hpp"
+#include "model/fast/float_cover.hpp"
+#include "model/fast/float_kernel.hpp"
+#include "model/fast/float_small_quad.hpp"
+}  // namespace v4
+#pragma GCC pop_options
+
+/// Rounds toward zero and takes results below the normal numbers for 0, until it is gone.
+class TowardZero {
+ public:
+  TowardZero() : before_(_mm_getcsr()) { _mm_setcsr(_MM_MASK_MASK | _MM_ROUND_TOWARD_ZERO | _MM_FLUSH_ZERO_ON); }
+  ~TowardZero() { _mm_setcsr(before_); }
+  TowardZero(const TowardZero&) = delete;
+  TowardZero& operator=(const TowardZero&) = delete;
+
+ private:
+  unsigned before_;
+};
+#endif
+
+/// Whether the integers of polynomial() stay exact with 2^23 added.
+bool fits(const Table& table) {
+  return std::ranges::all_of(table.entries, [](const TableEntry& e) {
+    return std::max({e.c0, e.c1, e.c2}) < 1u << 23;
+  });
+}
+
+/// False when an exponent is out of range.
+bool float_column(const std::array<double, 4>& values, int prec, FloatColumnOf what, FloatColumn& out) {
+  out = {};
+  const bool differences = what != FloatColumnOf::weight;
+  bool negative = false, positive = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double v = values[i];
+    if (v == 0) continue;
+    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(v) >> 52 & 0x7ff) - 1023;
+    if (differences && exponent < least_difference) continue;
+    if (exponent > largest_exponent || (!differences && exponent < -largest_exponent)) return false;
+    (v < 0 ? out.negative : out.positive)[i] = static_cast<float>(std::fabs(v));
+    out.align[i] = std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 23 - prec + 127) << 23);
+    (v < 0 ? negative : positive) = true;
+  }
+  out.any = negative || positive;
+  out.mixed = negative && positive;
+  if (negative && !positive) {
+    std::swap(out.positive, out.negative);
+    out.flip = INT32_MIN;
+  }
+  return true;
+}
+
+bool fits(const QuadLanes::Factor& factor) {
+  return !factor || *factor == 0 || std::abs(std::ilogb(*factor)) <= largest_exponent;
+}
+
+}  // namespace
+
+FloatTable::FloatTable(const Table& table, int octave_bits)
+    : rest_bits(23 - table.segments_log2),
+      last_place(static_cast<float>(power_of_two(23 - rest_bits))),
+      offset_mask(((1u << (table.segments_log2 + octave_bits)) - 1) * static_cast<std::uint32_t>(sizeof(Entry))),
+      in_columns(table.entries.size() <= column_size) {
+  const std::size_t size = table.entries.size(), octave = octave_bits == 0 ? 0 : size / 2;
+  const auto scale = static_cast<float>(power_of_two(-rest_bits));
+  for (std::size_t i = 0; i < size; ++i) {
+    const TableEntry& e = table.entries[i ^ octave];
+    entries.push_back({static_cast<float>(e.c0 + (1u << 23)), static_cast<float>(e.c1 + (1u << 23)) * scale,
+                       static_cast<float>(e.c2) * scale * scale});
+  }
+  if (!in_columns) return;
+  for (std::size_t i = 0; i < column_size; ++i) {
+    const Entry& e = entries[i % size];
+    column[0][i] = e.c0;
+    column[1][i] = e.c1;
+    column[2][i] = e.c2;
+  }
+}
+
+FloatLanes::FloatLanes(const PipelineContext& c)
+    : config_(c.config), state_(c.state), depth_limits_(c.config, c.state) {
+  const Config& config = c.config;
+  format_.s = c.format.s;
+  format_.prec = config.prec_bits();
+  format_.attributes = c.state.attributes;
+  format_.attribute_int_bits = config.attribute_int_bits;
+  format_.attribute_frac = c.attribute_frac;
+  format_.depth_bits = config.depth_bits;
+  format_.tile_log2 = config.tile_log2;
+  format_.depth = c.state.depth;
+  format_.notch = config.notch_exact != 0;
+  format_.znear = static_cast<std::int32_t>(c.znear);
+  format_.zfar = static_cast<std::int32_t>(c.zfar);
+  format_.scissor_x0 = c.state.scissor_x0;
+  format_.scissor_y0 = c.state.scissor_y0;
+  format_.scissor_x1 = c.state.scissor_x1;
+  format_.scissor_y1 = c.state.scissor_y1;
+  format_.cull = c.state.cull;
+  format_.perspective = c.state.perspective;
+  format_.frac = frac_ = config.frac();
+  format_.homogeneous_frac_bits = config.homogeneous_frac_bits;
+  format_.subpixel_bits = config.subpixel_bits;
+  val_bits_ = config.val_bits();
+  qdrop_ = config.qdrop();
+  // The last condition: exponents are as odd in pixels as in units of the last place.
+  fits_ = c.format.s + c.format.g <= 20 && config.attribute_int_bits + c.attribute_frac <= 31 && fits(c.sqrt_table) &&
+          fits(c.recip_table) && config.quadratic_frac() % 2 == 0;
+  if (!fits_) return;
+  // Where everything has its place in a double and nothing is dropped of D, whatever the positions on their grid.
+  small_ = val_bits_ - 2 * config.homogeneous_frac_bits <= 53 && qdrop_ <= 2 * config.homogeneous_frac_bits &&
+           config.tile_log2 == SmallQuad::tile_log2 && (c.state.skip & skip_tiles) != 0 &&
+           (c.state.skip & skip_quads) != 0;
+  format_.may_face = may_face();
+  format_.sqrt = FloatTable(c.sqrt_table, 1);
+  format_.recip = FloatTable(c.recip_table, 0);
+}
+
+bool FloatLanes::usable() const { return fits_ && lane_target() != LaneTarget::baseline; }
+
+bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const {
+  if (setup.homogeneous) return false;
+  // All positions are multiples of 2^low: products of two have 2 low bits of zeros, enough for a double to hold A, r²
+  // and two of the latter's sum, and for nothing to be dropped of D.
+  std::uint64_t positions = 0;
+  std::int64_t left = setup.vertex[0].x, right = left, top = setup.vertex[0].y, bottom = top;
+  for (const RelativeVertex& v : setup.vertex) {
+    positions |= static_cast<std::uint64_t>(v.x) | static_cast<std::uint64_t>(v.y);
+    left = std::min(left, v.x);
+    right = std::max(right, v.x);
+    top = std::min(top, v.y);
+    bottom = std::max(bottom, v.y);
+  }
+  const auto extent = static_cast<std::uint64_t>(std::max(right - left, bottom - top));
+  const int low = std::min(frac_, std::countr_zero(positions));
+  if (val_bits_ - 2 * low > 53 || 2 * low < qdrop_) return false;
+
+  // Less than 1 wide, and exponents of products as float_kernel.hpp's upper_halves wants them.
+  const int scale = -(1023 - 127) / 2 - static_cast<int>(std::bit_width(extent));
+  const double last_place2 = power_of_two(2 * scale), of_pixel = power_of_two(2 * scale + frac_);
+  const double of_length2 = power_of_two(2 * scale + qdrop_);
+  for (std::size_t k = 0; k < linear_count; ++k) {
+    const LinearForm& e = setup.linear[k];
+    out.a.value[k] = static_cast<double>(e.value) * last_place2;
+    out.a.gx[k] = static_cast<double>(e.gx) * last_place2;
+    out.a.gy[k] = static_cast<double>(e.gy) * last_place2;
+    out.length2[k] = static_cast<double>(setup.length2[k]) * of_length2;
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto [x, y, w] = setup.vertex[i];
+    out.r2.value[i] = static_cast<double>(x * x + y * y) * last_place2;
+    out.r2.gx[i] = static_cast<double>(-2 * x) * of_pixel;
+    out.r2.gy[i] = static_cast<double>(-2 * y) * of_pixel;
+  }
+  out.unit2 = power_of_two(2 * (scale + frac_));
+  out.areas = data.plane;
+  out.x0 = setup.tile_x0 << format_.tile_log2;
+  out.y0 = setup.tile_y0 << format_.tile_log2;
+  const auto first = [&](std::int64_t v) { return static_cast<int>(-(-v >> frac_)); };  // ceil
+  const auto last = [&](std::int64_t v) { return static_cast<int>(v >> frac_); };       // floor
+  out.left = std::max(first(left), format_.scissor_x0 - out.x0);
+  out.right = std::min(last(right), format_.scissor_x1 - 1 - out.x0);
+  out.top = std::max(first(top), format_.scissor_y0 - out.y0);
+  out.bottom = std::min(last(bottom), format_.scissor_y1 - 1 - out.y0);
+
+  out.sum_k = values.sum_k;
+  out.sum_w = values.sum_w;
+  out.w_of_k = values.w_of_k;
+  using Of = FloatColumnOf;
+  const auto column = [&](bool wanted, const std::array<double, 4>& v, Of what, FloatColumn& to) {
+    return !wanted || float_column(v, format_.prec, what, to);
+  };
+  bool fit = float_codes(format_, data.base, out) && fits(values.w_of_k) &&
+             column(values.sum_k, values.k, Of::weight, out.k) &&
+             column(values.sum_w && !values.w_of_k, values.w, Of::weight, out.w) &&
+             column(values.sum_z, values.z, Of::depth, out.z);
+  out.sum_z = values.sum_z && out.z.any;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(format_.attributes); ++j) {
+    fit = fit && column(values.sum_b[j], values.b[j], Of::attribute, out.b[j]);
+    out.sum_b[j] = values.sum_b[j] && out.b[j].any;
+  }
+  return fit;
+}
+
+#ifdef QUADRILLE_LANE_TARGETS
+FloatLanes::TileCounts FloatLanes::cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad,
+                                         MaskedDepth* masked, PixelList& list) const {
+  return lane_target() == LaneTarget::v4 ? v4::cover(format_, bounds, corner, quad, masked, list)
+                                         : v3::cover(format_, bounds, corner, quad, masked, list);
+}
+
+std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const {
+  const auto taken = lane_target() == LaneTarget::v4 ? v4::take_small(format_, depth_limits_, quad, out, small)
+                                                     : v3::take_small(format_, depth_limits_, quad, out, small);
+  if (taken == QuadReject::none) out.areas = plane_quad(quad, config_, state_);
+  return taken;
+}
+
+void FloatLanes::walk_small(const SmallQuad& quad, SmallWalk& out) const {
+  if (lane_target() == LaneTarget::v4)
+    v4::walk_small(format_, quad, out);
+  else
+    v3::walk_small(format_, quad, out);
+}
+
+FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad& bounds, const SmallQuad& quad, SmallWalk::Tile tile,
+                                               MaskedDepth* masked, PixelList& list) const {
+  return lane_target() == LaneTarget::v4 ? v4::cover_small(format_, bounds, quad, tile.x, tile.y, masked, list)
+                                         : v3::cover_small(format_, bounds, quad, tile.x, tile.y, masked, list);
+}
+
+void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, FloatResults& out) const {
+  out.all_drawn = true;
+  out.any_plain = false;
+  out.on_edge = out.notch = out.saturated = 0;
+  const TowardZero mode;
+  if (lane_target() == LaneTarget::v4)
+    v4::draw(format_, quad, list, count, out);
+  else
+    v3::draw(format_, quad, list, count, out);
+}
+#else
+std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad&, FloatQuad&, SmallQuad&) const { return {}; }
+void FloatLanes::walk_small(const SmallQuad&, SmallWalk&) const {}
+FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad&, const SmallQuad&, SmallWalk::Tile, MaskedDepth*,
+                                               PixelList&) const {
+  return {};
+}
+FloatLanes::TileCounts FloatLanes::cover(const FloatQuad&, const TileCorner&, const QuadConstants&, MaskedDepth*,
+                                         PixelList&) const {
+  return {};
+}
+void FloatLanes::draw(const FloatQuad&, const PixelList&, int, FloatResults&) const {}
+#endif
+
+}  // namespace quadrille

@@ -1,0 +1,565 @@
+#include "model/fast/pixel_lanes.hpp"
+
+#include "model/fast/lane_stages.hpp"
+#include "model/lane_target.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+
+// The vector type is wider than some targets' registers; everything that passes it is inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace quadrille {
+namespace {
+
+using V = LaneReals;
+using I = LaneIntegers;
+
+#define LANE_INLINE [[gnu::always_inline]] inline
+#define LANE_LAMBDA __attribute__((always_inline))
+
+LANE_INLINE I bits(V v) { return (I)v; }
+LANE_INLINE V from_bits(I v) { return (V)v; }
+LANE_INLINE V splat(double v) { return V{} + v; }
+LANE_INLINE I splat(std::int64_t v) { return I{} + v; }
+LANE_INLINE V select(I m, V a, V b) { return from_bits((bits(a) & m) | (bits(b) & ~m)); }
+LANE_INLINE I select(I m, I a, I b) { return (a & m) | (b & ~m); }
+LANE_INLINE V magnitude(V v) { return from_bits(bits(v) & INT64_MAX); }
+LANE_INLINE I exponent(V v) { return ((bits(v) >> 52) & 0x7ff) - 1023; }
+LANE_INLINE V power_of_two(I e) { return from_bits((e + 1023) << 52); }
+/// Without the library call, in inner loops.
+LANE_INLINE double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::int64_t>(e + 1023) << 52); }
+
+LANE_INLINE unsigned to_mask(I m) {
+  unsigned r = 0;
+  for (int l = 0; l < lane_count; ++l) r |= static_cast<unsigned>(m[l] & 1) << l;
+  return r;
+}
+
+/// Clears what lies below 2^q.
+LANE_INLINE V truncate_at(V v, I q) {
+  const I cut = 52 - (exponent(v) - q);  // mantissa bits below 2^q
+  const I shift = cut & ~(cut >> 63);    // max(cut, 0)
+  const I mask = splat(std::int64_t{-1}) << (shift & 63);
+  return from_bits(bits(v) & mask & (cut <= 52));
+}
+
+/// Integer part of 0 <= v < 2^51.
+LANE_INLINE V integer_part(V v) {
+  const V r = (v + 0x1p52) - 0x1p52;
+  return r - select(r > v, splat(1.0), V{});
+}
+
+/// |v| for |v| < 2^63 with at least 26 leading bits right, the rest cut toward zero: exact below 2^37, else the low 10
+/// bits go, so that the conversion to 53 bits cannot round up.
+LANE_INLINE V leading_magnitude(I v) {
+  const I sign = v >> 63;
+  I m = (v ^ sign) - sign;
+  m &= ~(I(m >= (std::int64_t{1} << 37)) & 1023);
+  const V low = from_bits((m & 0xffffffff) | 0x4330000000000000) - 0x1p52;
+  const V high = from_bits((m >> 32) | 0x4530000000000000) - 0x1p84;
+  return high + low;
+}
+
+#ifdef QUADRILLE_LANE_TARGETS
+template <class Body>
+[[gnu::target("arch=x86-64-v4")]] void run_v4(const Body& body) {
+  body();
+}
+template <class Body>
+[[gnu::target("arch=x86-64-v3")]] void run_v3(const Body& body) {
+  body();
+}
+#endif
+
+/// Runs `body`, an always-inlined lambda, as compiled for the target in use.
+template <class Body>
+LANE_INLINE void on_lane_target(const Body& body) {
+#ifdef QUADRILLE_LANE_TARGETS
+  switch (lane_target()) {
+    case LaneTarget::v4:
+      return run_v4(body);
+    case LaneTarget::v3:
+      return run_v3(body);
+    case LaneTarget::baseline:
+      break;
+  }
+#endif
+  body();
+}
+
+struct LaneArithmetic {
+  I significand_mask;
+  std::int64_t prec;
+
+  LANE_INLINE LaneArithmetic(int s, int g)
+      : significand_mask(splat(static_cast<std::int64_t>(~((std::uint64_t{1} << (53 - s)) - 1)))), prec(s - 1 + g) {}
+
+  /// fp_multiply, and the truncation of every normalised result.
+  LANE_INLINE V cut(V v) const { return from_bits(bits(v) & significand_mask); }
+  LANE_INLINE V multiply(V a, V b) const { return cut(a * b); }
+
+  /// fp_sum of two raw products, neither negative.
+  LANE_INLINE V sum2(V a0, V b0, V a1, V b1) const {
+    const V p0 = a0 * b0, p1 = a1 * b1;
+    const I e0 = select(p0 != 0, exponent(a0) + exponent(b0), splat(std::int64_t{-4096}));
+    const I e1 = select(p1 != 0, exponent(a1) + exponent(b1), splat(std::int64_t{-4096}));
+    const I q = select(e0 > e1, e0, e1) - prec;
+    return cut(truncate_at(p0, q) + truncate_at(p1, q));
+  }
+
+  /// fp_sum of the raw products m_i·v_i from vertex `first` on; `exponent_m` = exponent(m).
+  template <int first = 0>
+  LANE_INLINE V sum(const V* m, const I* exponent_m, const double* v) const {
+    V p[4];
+    I largest = splat(std::int64_t{-4096});
+    for (int i = first; i < 4; ++i) {
+      p[i] = m[i] * v[i];
+      const std::int64_t ev = static_cast<std::int64_t>((std::bit_cast<std::uint64_t>(v[i]) >> 52) & 0x7ff) - 1023;
+      const I e = select(p[i] != 0, exponent_m[i] + ev, splat(std::int64_t{-4096}));
+      largest = select(e > largest, e, largest);
+    }
+    V sum{};
+    for (int i = first; i < 4; ++i) sum += truncate_at(p[i], largest - prec);
+    return cut(sum);
+  }
+};
+
+/// The polynomial of table_polynomial.hpp; `fraction` has S−1 bits. Result: integer significand.
+LANE_INLINE V polynomial(const LaneTable& table, I segment, I fraction, int s, bool rising) {
+  V c0, c1, c2;
+  for (int l = 0; l < lane_count; ++l) {
+    const LaneTable::Entry& e = table.entries[static_cast<std::size_t>(segment[l])];
+    c0[l] = e.c0;
+    c1[l] = e.c1;
+    c2[l] = e.c2;
+  }
+  const double scale = power_of_two(-table.rest_bits);
+  const V dx = from_bits((fraction & ((std::int64_t{1} << table.rest_bits) - 1)) | 0x4330000000000000) - 0x1p52;
+  const V t1 = c1 - integer_part(c2 * dx * scale);
+  const V t0 = integer_part(t1 * dx * scale);
+  V y = integer_part((rising ? c0 + t0 : c0 - t0) * (1.0 / (1 << Config::table_guard)));
+  const V low = splat(power_of_two(s - 1)), high = splat(power_of_two(s) - 1);
+  y = select(y < low, low, y);
+  return select(y > high, high, y);
+}
+
+LANE_INLINE I fraction_bits(V v, int s) { return (bits(v) >> (53 - s)) & ((std::int64_t{1} << (s - 1)) - 1); }
+
+LANE_INLINE V sqrt_lanes(V a, const LaneTable& table, int s) {
+  const I e = exponent(a);
+  const I odd = e & 1;
+  const I half = e >> 1;
+  const I fraction = fraction_bits(a, s);
+  const V y = polynomial(table, (fraction >> table.rest_bits) + (odd << table.segments_log2), fraction, s, true);
+  return y * power_of_two(half - (s - 1));
+}
+
+LANE_INLINE V recip_lanes(V a, const LaneTable& table, int s) {
+  const I e = exponent(a);
+  const I fraction = fraction_bits(a, s);
+  const V y = polynomial(table, fraction >> table.rest_bits, fraction, s, false);
+  const V regular = select(fraction == 0, power_of_two(-e), y * power_of_two(-e - s));
+  return select(a == 0, V{}, from_bits(bits(regular) | (bits(a) & INT64_MIN)));
+}
+
+// ---- the stages ----
+
+/// Stage 1. Lanes of unsigned integers, since partial sums wrap.
+LANE_INLINE void difference_stage(const TileEntry& tile, const QuadConstants& constants, const int* dx, const int* row,
+                                  DifferenceLanes& out) {
+  I x, y;
+  for (int l = 0; l < lane_count; ++l) {
+    x[l] = dx[l];
+    y[l] = row[l];
+  }
+  const I square = x * x + y * y;
+  using U = std::uint64_t __attribute__((vector_size(8 * lane_count)));
+  const auto quadratic = [&](std::size_t k) LANE_LAMBDA {
+    const QuadraticForm& f = tile.quadratic[k];
+    return I(U(U{} + static_cast<std::uint64_t>(f.value)) + U(x) * static_cast<std::uint64_t>(f.gx) +
+             U(y) * static_cast<std::uint64_t>(f.gy) + U(square) * static_cast<std::uint64_t>(f.q));
+  };
+  for (std::size_t i = 0; i < 4; ++i) out.r2[i] = quadratic(6 + i);
+  for (std::size_t k = 0; k < 6; ++k) {
+    out.a[k] =
+        I(U(U{} + static_cast<std::uint64_t>(tile.linear[k])) + U(x) * static_cast<std::uint64_t>(constants.gx[k]) +
+          U(y) * static_cast<std::uint64_t>(constants.gy[k]));
+    // The law of cosines: half of a sum that may have 65 bits, by halves.
+    const I& ri = out.r2[vertex_pair[k][0]];
+    const I& rj = out.r2[vertex_pair[k][1]];
+    const auto length2 = static_cast<std::int64_t>(constants.length2[k]);
+    const auto half = static_cast<std::int64_t>(constants.length2[k] >> 1);
+    out.d[k] = constants.homogeneous ? quadratic(k)
+                                     : (ri >> 1) + (rj >> 1) - half + (((ri & 1) + (rj & 1) - (length2 & 1)) >> 1);
+  }
+}
+
+struct SingularMasks {
+  I singular, on_edge;
+};
+
+LANE_INLINE SingularMasks singular_masks(const DifferenceLanes& p) {
+  I corner{}, edges{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    corner |= p.r2[i] <= 0;
+    edges += (p.a[i] == 0) & (p.d[i] < 0);  // −1 per edge
+  }
+  return {corner | (edges <= -2), edges == -1};
+}
+
+LANE_INLINE void normalise_stage(const DifferenceLanes& p, const LaneArithmetic& arithmetic, double a_scale,
+                                 NormalisedLanes& out) {
+  for (std::size_t k = 0; k < 6; ++k) {
+    out.a[k] = arithmetic.cut(leading_magnitude(p.a[k])) * a_scale;
+    out.d[k] = arithmetic.cut(leading_magnitude(p.d[k]));
+  }
+  for (std::size_t i = 0; i < 4; ++i) out.r2[i] = arithmetic.cut(leading_magnitude(p.r2[i]));
+}
+
+LANE_INLINE void sqrt_stage(const NormalisedLanes& p, const LaneTable& table, int s, SqrtLanes& out) {
+  for (int i = 0; i < 4; ++i) out.root[i] = sqrt_lanes(p.r2[i], table, s);
+}
+
+LANE_INLINE void ratio_stage(const NormalisedLanes& p, const SqrtLanes& r, const LaneArithmetic& arithmetic,
+                             RatioLanes& out) {
+  const V one = splat(1.0);
+  for (std::size_t k = 0; k < 6; ++k) {
+    out.u[k] = arithmetic.sum2(r.root[vertex_pair[k][0]], r.root[vertex_pair[k][1]], p.d[k], one);
+    out.v[k] = p.a[k];
+  }
+}
+
+/// Lanes in which neighbouring A have opposite signs.
+LANE_INLINE I notch_lanes(const DifferenceLanes& signs) {
+  const I* a = signs.a;
+  I any{};
+  for (int i = 0; i < 4; ++i) {
+    const int h = (i + 3) % 4;
+    any |= ((a[h] < 0) & (a[i] > 0)) | ((a[h] > 0) & (a[i] < 0));
+  }
+  return any;
+}
+
+/// sqrt(q_far / q_near) as num / den (root_ratio.hpp).
+struct RootRatioLanes {
+  V num, den;
+};
+
+LANE_INLINE RootRatioLanes root_ratio(const DifferenceLanes& signs, const RatioLanes& p, std::size_t near,
+                                      std::size_t far, const LaneArithmetic& arithmetic, const LaneTable& table,
+                                      int s) {
+  const auto cancels = [&](std::size_t k) LANE_LAMBDA { return k < 4 ? I(signs.d[k] < 0) : I(signs.d[k] >= 0); };
+  const I near_cancels = cancels(near), far_cancels = cancels(far);
+  const V root = sqrt_lanes(arithmetic.multiply(p.u[near], p.u[far]), table, s);
+  const V crossed = arithmetic.multiply(p.v[far], p.u[near]), scaled = arithmetic.multiply(p.v[near], root);
+  const V num = select(near_cancels, select(far_cancels, crossed, root), select(far_cancels, p.v[far], p.u[far]));
+  const V den = select(near_cancels, select(far_cancels, scaled, p.v[near]), root);
+  // Exponents in balance: opposite but for one, beside a zero 0.
+  const I num_used = num != 0, den_used = den != 0;
+  const I sum = (exponent(num) & num_used) + (exponent(den) & den_used);
+  const V move = power_of_two(-select(num_used & den_used, (sum + 1) >> 1, sum));
+  return {num * move, den * move};
+}
+
+LANE_INLINE void weight_stage(const DifferenceLanes& signs, const RatioLanes& p, const LaneArithmetic& arithmetic,
+                              const LaneTable& table, int s, WeightLanes& out) {
+  const RootRatioLanes a = root_ratio(signs, p, 0, 2, arithmetic, table, s);
+  const RootRatioLanes b = root_ratio(signs, p, 3, 1, arithmetic, table, s);
+  const RootRatioLanes d = root_ratio(signs, p, 4, 5, arithmetic, table, s);
+  out.m[0] = arithmetic.multiply(arithmetic.multiply(a.num, b.num), d.num);
+  out.m[1] = arithmetic.multiply(arithmetic.multiply(a.num, b.den), d.den);
+  out.m[2] = arithmetic.multiply(arithmetic.multiply(a.den, b.den), d.num);
+  out.m[3] = arithmetic.multiply(arithmetic.multiply(a.den, b.num), d.den);
+}
+
+/// Areas in the place of mean value weights (weight_factors.cpp).
+LANE_INLINE void area_stage(const DifferenceLanes& signs, const NormalisedLanes& p, WeightLanes& out) {
+  const I* a = signs.a;
+  const I negative = (a[0] < 0) | (a[1] < 0) | (a[2] < 0) | (a[3] < 0);
+  const I behind_diagonal = I(a[4] < 0) ^ negative;
+  out.m[0] = select(behind_diagonal, p.a[2], p.a[1]);
+  out.m[1] = select(behind_diagonal, V{}, p.a[4]);
+  out.m[2] = select(behind_diagonal, p.a[3], p.a[0]);
+  out.m[3] = select(behind_diagonal, p.a[4], V{});
+}
+
+/// A code below 2^51 either way, held as a double.
+LANE_INLINE I to_signed_integer(V code) { return bits(code + 0x1.8p52) - 0x4338000000000000; }
+
+/// base + num·rec as a code, the quotient rounded to nearest, halves away from zero. A quotient of 2^int_bits or more
+/// becomes one of 2^(int_bits + 2): beyond every code, of its sign.
+///
+/// A product has 2 S <= 52 bits: its sum with 1/2 fits a double from 1/2 on; below that the sum is at most 1 - 2^-53,
+/// which no rounding mode leaves. Codes have 46 bits, 48 with what is beyond.
+LANE_INLINE V sum_of_codes(V num, V rec, double base, int int_bits, int frac) {
+  const V value = num * rec, size = magnitude(value) * power_of_two(frac);
+  const I wide = size >= power_of_two(int_bits + frac);
+  const V q = integer_part(select(wide, splat(power_of_two(int_bits + 2 + frac)), size) + 0.5);
+  return base + from_bits(bits(q) | (bits(value) & INT64_MIN));
+}
+
+/// Codes, as doubles.
+struct FixedLanes {
+  V code;
+  I over;
+};
+
+LANE_INLINE FixedLanes attribute_stage(V num, V rec, std::int64_t base, int int_bits, int frac) {
+  const V sum = sum_of_codes(num, rec, static_cast<double>(base), int_bits + 1, frac);
+  const V limit = splat(power_of_two(int_bits + frac) - 1);
+  const I above = sum > limit, below = sum < -limit;
+  return {select(above, limit, select(below, -limit, sum)), above | below};
+}
+
+struct DepthLanes {
+  V code;
+  I discard;
+};
+
+LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, const QuadBase& base, int depth_bits, std::uint32_t znear,
+                                   std::uint32_t zfar) {
+  const V low = splat(static_cast<double>(base.depth_low)), high = splat(static_cast<double>(base.depth_high));
+  const V sum = sum_of_codes(num_z, rec_w, base.depth, 1, depth_bits);
+  const V at_least = select(I(sum < low), low, sum);
+  const V z = select(I(at_least > high) | I(den_w == 0), high, at_least);
+  return {select(I(z < 0), V{}, z), I(z < static_cast<double>(znear)) | I(z > static_cast<double>(zfar))};
+}
+
+}  // namespace
+
+double to_double(const PipelineFloat& v, int s) {
+  const double size = v.neg ? -static_cast<double>(v.sig) : static_cast<double>(v.sig);
+  const int exponent = v.exp - (s - 1);
+  return std::abs(exponent) < 1000 ? size * power_of_two(exponent) : std::ldexp(size, exponent);
+}
+
+namespace {
+
+bool all_zero(const std::array<double, 4>& values) { return values == std::array<double, 4>{}; }
+
+/// The factor ±2^n or 0 by which `of` gives `values`, if there is one.
+QuadLanes::Factor power_of_two_factor(const std::array<double, 4>& values, const std::array<double, 4>& of) {
+  double factor = 0;
+  for (std::size_t i = 0; i < 4 && factor == 0; ++i)
+    if (of[i] != 0) factor = values[i] / of[i];
+  constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
+  if ((std::bit_cast<std::uint64_t>(factor) & fraction) != 0) return std::nullopt;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (values[i] != of[i] * factor) return std::nullopt;
+  return factor;
+}
+
+}  // namespace
+
+QuadLanes::QuadLanes(const QuadData& quad, const PipelineContext& c) {
+  const int s = c.format.s;
+  for (std::size_t i = 0; i < 4; ++i) {
+    k[i] = to_double(quad.k[i], s);
+    w[i] = to_double(quad.w[i], s);
+    z[i] = to_double(quad.z[i], s);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) b[j][i] = to_double(quad.b[i][j], s);
+  }
+  constant_depth = quad.base.depth_low == quad.base.depth_high;
+  sum_z = c.state.depth && !constant_depth && !all_zero(z);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j)
+    sum_b[j] = !all_zero(b[j]) || std::abs(quad.base.attribute[j]) > c.config.attribute_limit();
+  if ((c.state.skip & skip_operands) == 0) return;
+  sum_k = quad.sum_k && std::ranges::any_of(sum_b, std::identity());
+  sum_w = (c.state.depth && !constant_depth) || quad.hull;
+  if (sum_k && sum_w)
+    if (const Factor factor = power_of_two_factor(w, k); factor && *factor != 0) w_of_k = factor;
+}
+
+LaneTable::LaneTable(const Table& table) : segments_log2(table.segments_log2), rest_bits(table.rest_bits) {
+  for (const TableEntry& e : table.entries)
+    entries.push_back({static_cast<double>(e.c0), static_cast<double>(e.c1), static_cast<double>(e.c2)});
+}
+
+void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, const QuadLanes& values,
+                 const PipelineContext& c, const LaneTables& tables, const int* dx, const int* row, LaneResult& out) {
+  on_lane_target([&]() LANE_LAMBDA {
+    const int s = c.format.s;
+    const LaneArithmetic arithmetic(s, c.format.g);
+
+    DifferenceLanes difference;
+    difference_stage(tile, constants, dx, row, difference);
+    const SingularMasks masks = singular_masks(difference);
+    out.singular = to_mask(masks.singular);
+    out.on_edge = to_mask(masks.on_edge);
+    NormalisedLanes normalised;
+    normalise_stage(difference, arithmetic, power_of_two(c.quadratic_bias), normalised);
+    WeightLanes weights;
+    if (quad.plane) {
+      area_stage(difference, normalised, weights);
+    } else {
+      SqrtLanes sqrt;
+      sqrt_stage(normalised, tables.sqrt, s, sqrt);
+      RatioLanes ratios;
+      ratio_stage(normalised, sqrt, arithmetic, ratios);
+      weight_stage(difference, ratios, arithmetic, tables.sqrt, s, weights);
+    }
+    out.notch = c.config.notch_exact ? to_mask(notch_lanes(difference)) & ~out.singular : 0;
+    I exponent_m[4];
+    for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);
+
+    // Sums, reciprocals, fixed point.
+    const auto sum = [&](const std::array<double, 4>& v)
+                         LANE_LAMBDA { return arithmetic.sum(weights.m, exponent_m, v.data()); };
+    V den_k{}, rec_k{}, den_w{};
+    if (values.sum_k) {
+      den_k = sum(values.k);
+      rec_k = recip_lanes(den_k, tables.recip, s);
+    }
+    if (values.w_of_k)
+      den_w = den_k * *values.w_of_k;
+    else if (values.sum_w)
+      den_w = sum(values.w);
+    I saturated{};
+    for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) {
+      if (!values.sum_b[j]) {
+        out.attribute[j].fill(quad.base.attribute[j]);
+        continue;
+      }
+      const V num = arithmetic.sum<1>(weights.m, exponent_m, values.b[j].data());
+      const FixedLanes f =
+          attribute_stage(num, rec_k, quad.base.attribute[j], c.config.attribute_int_bits, c.attribute_frac);
+      saturated |= f.over;
+      const I code = to_signed_integer(f.code);
+      for (int l = 0; l < lane_count; ++l) out.attribute[j][static_cast<std::size_t>(l)] = code[l];
+    }
+    out.saturated = to_mask(saturated);
+    I discard{};
+    if (quad.hull) discard = ~(den_w > 0);
+    if (c.state.depth) {
+      V num_z{}, rec_w{};
+      if (values.sum_z) {
+        num_z = sum(values.z);
+        rec_w = values.w_of_k ? rec_k * (1 / *values.w_of_k) : recip_lanes(den_w, tables.recip, s);
+      }
+      const DepthLanes z = depth_stage(num_z, den_w, rec_w, quad.base, c.config.depth_bits, c.znear, c.zfar);
+      discard |= z.discard;
+      const I code = to_signed_integer(z.code);
+      for (int l = 0; l < lane_count; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(code[l]);
+    } else {
+      out.depth = {};
+    }
+    out.drawn = to_mask(~discard);
+  });
+}
+
+// ---- the same stages one by one ----
+
+unsigned singular_lanes(const DifferenceLanes& d) { return to_mask(singular_masks(d).singular); }
+
+void singular_weights(const DifferenceLanes& d, std::size_t lane, const QuadData& quad, const PipelineContext& c,
+                      WeightLanes& out) {
+  PixelTrace p;
+  for (std::size_t k = 0; k < 6; ++k) {
+    p.a[k] = d.a[k][lane];
+    p.d[k] = d.d[k][lane];
+  }
+  for (std::size_t i = 0; i < 4; ++i) p.r2[i] = d.r2[i][lane];
+  normalise(p, c);
+  quadrille::sqrt_stage(p, c);
+  mean_value_ratios(p, c);
+  mean_value_weights(p, quad, c);
+  for (std::size_t i = 0; i < 4; ++i) out.m[i][lane] = to_double(p.m[i], c.format.s);
+}
+
+void normalise_blocks(std::span<const DifferenceLanes> in, int s, int quadratic_bias, NormalisedLanes* out) {
+  on_lane_target([&]() LANE_LAMBDA {
+    const LaneArithmetic arithmetic(s, 0);
+    const double a_scale = power_of_two(quadratic_bias);
+    for (std::size_t n = 0; n < in.size(); ++n) normalise_stage(in[n], arithmetic, a_scale, out[n]);
+  });
+}
+
+void sqrt_blocks(std::span<const NormalisedLanes> in, int s, const LaneTable& table, SqrtLanes* out) {
+  on_lane_target([&]() LANE_LAMBDA {
+    for (std::size_t n = 0; n < in.size(); ++n) sqrt_stage(in[n], table, s, out[n]);
+  });
+}
+
+void ratio_blocks(std::span<const NormalisedLanes> in, const SqrtLanes* root, int s, int g, RatioLanes* out) {
+  on_lane_target([&]() LANE_LAMBDA {
+    const LaneArithmetic arithmetic(s, g);
+    for (std::size_t n = 0; n < in.size(); ++n) ratio_stage(in[n], root[n], arithmetic, out[n]);
+  });
+}
+
+void weight_blocks(std::span<const DifferenceLanes> signs, const RatioLanes* in, int s, int g, const LaneTable& table,
+                   WeightLanes* out) {
+  on_lane_target([&]() LANE_LAMBDA {
+    const LaneArithmetic arithmetic(s, g);
+    for (std::size_t n = 0; n < signs.size(); ++n) weight_stage(signs[n], in[n], arithmetic, table, s, out[n]);
+  });
+}
+
+void area_blocks(std::span<const DifferenceLanes> signs, const NormalisedLanes* in, WeightLanes* out) {
+  on_lane_target([&]() LANE_LAMBDA {
+    for (std::size_t n = 0; n < signs.size(); ++n) area_stage(signs[n], in[n], out[n]);
+  });
+}
+
+void interpolate_blocks(std::span<const WeightLanes> in, const std::uint32_t* quad, const QuadColumns* values,
+                        std::size_t columns, bool depth, int s, int g, LaneColumn* sums) {
+  on_lane_target([&]() LANE_LAMBDA {
+    const LaneArithmetic arithmetic(s, g);
+    for (std::size_t n = 0; n < in.size(); ++n, sums += sums_per_block(columns)) {
+      const QuadColumns& q = values[quad[n]];
+      V m[4];
+      I exponent_m[4];
+      for (int i = 0; i < 4; ++i) {
+        m[i] = in[n].m[i];
+        exponent_m[i] = exponent(m[i]);
+      }
+      sums[0].v = arithmetic.sum(m, exponent_m, q.k.data());
+      sums[1].v = arithmetic.sum(m, exponent_m, q.w.data());
+      sums[2].v = depth ? arithmetic.sum(m, exponent_m, q.z.data()) : V{};
+      for (std::size_t j = 0; j < columns; ++j) sums[3 + j].v = arithmetic.sum<1>(m, exponent_m, q.b[j].data());
+    }
+  });
+}
+
+void reciprocal_blocks(std::size_t blocks, const LaneColumn* sums, std::size_t columns, int s, const LaneTable& table,
+                       ReciprocalLanes* out) {
+  on_lane_target([&]() LANE_LAMBDA {
+    for (std::size_t n = 0; n < blocks; ++n, sums += sums_per_block(columns)) {
+      out[n].k = recip_lanes(sums[0].v, table, s);
+      out[n].w = recip_lanes(sums[1].v, table, s);
+    }
+  });
+}
+
+void output_blocks(std::size_t blocks, const LaneColumn* sums, const ReciprocalLanes* reciprocals,
+                   const std::uint32_t* quad, const QuadColumns* quads, std::size_t columns,
+                   const LaneOutputFormat& format, LaneColumn* values, LaneMasks* masks) {
+  on_lane_target([&]() LANE_LAMBDA {
+    const double attribute_unit = power_of_two(-format.attribute_frac);
+    const double depth_unit = power_of_two(-format.depth_bits);
+    for (std::size_t n = 0; n < blocks; ++n, sums += sums_per_block(columns), values += 1 + columns) {
+      const QuadColumns& q = quads[quad[n]];
+      I discard{}, saturated{};
+      if (q.hull) discard = ~(sums[1].v > 0);
+      values[0].v = V{};
+      if (format.depth) {
+        const DepthLanes z =
+            depth_stage(sums[2].v, sums[1].v, reciprocals[n].w, q.base, format.depth_bits, format.znear, format.zfar);
+        discard |= z.discard;
+        values[0].v = z.code * depth_unit;
+      }
+      for (std::size_t j = 0; j < columns; ++j) {
+        const FixedLanes f = attribute_stage(sums[3 + j].v, reciprocals[n].k, q.attribute_base[j],
+                                             format.attribute_int_bits, format.attribute_frac);
+        saturated |= f.over;
+        values[1 + j].v = f.code * attribute_unit;
+      }
+      masks[n] = {static_cast<std::uint8_t>(to_mask(~discard)), static_cast<std::uint8_t>(to_mask(saturated))};
+    }
+  });
+}
+
+}  // namespace quadrille

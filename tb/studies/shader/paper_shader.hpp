@@ -1,0 +1,91 @@
+// Hormann and Tarini's hybrid implementation on a real OpenGL: vertex, geometry and fragment shader in fp32.
+#pragma once
+
+#include "model/config.hpp"
+#include "model/records.hpp"
+#include "tb/studies/shader/paper_shader_source.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace quadrille::tb {
+
+/// Quads as the vertex shader reads them: every number rounded to fp32 once.
+class ShaderQuads {
+ public:
+  explicit ShaderQuads(int attributes) : attributes_(attributes) {}
+  /// Snapped: relative to pixel centres at the integers; z and attributes with their bases, k_eff a and k z~.
+  void add(const SnappedQuad& quad, const Config& config, bool perspective = true);
+  /// As given, pixel centres at +0.5.
+  void add(const WindowQuad& quad);
+
+  void clear() { numbers_.clear(); }
+  std::size_t size() const;  ///< quads
+  std::span<const float> numbers() const { return numbers_; }
+
+ private:
+  int attributes_;
+  std::vector<float> numbers_;
+};
+
+/// A rectangle of pixels, y down.
+struct ShaderRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// What the shader left at a pixel.
+struct ShaderPixel {
+  bool drawn = false, front = false;
+  float z = 0;
+  std::array<float, 4> lambda{};
+  std::array<float, max_attribute_slots> attribute{};
+};
+
+/// Draws into RGBA32F targets of the viewport's size, without depth test: the last fragment of a pixel stays. Which
+/// pixels the two triangles of a quad have is the implementation's rule, of which the shader kills those outside. To be
+/// used on the thread that made it.
+class PaperShader {
+ public:
+  struct Settings {
+    DrawState state;  ///< its attributes count
+    bool weights = false;
+    bool snapped = true;       ///< which of the two forms of ShaderQuads is drawn
+    ShaderSource source = {};  ///< a test puts faults here; empty: paper_shader_source()
+  };
+  /// Throws EnvironmentError where there is no OpenGL: not in this build, or not on this machine.
+  explicit PaperShader(const Settings& settings);
+  ~PaperShader();
+  PaperShader(const PaperShader&) = delete;
+  PaperShader& operator=(const PaperShader&) = delete;
+
+  static bool in_build();
+  /// Throws as the constructor does for want of OpenGL, sooner.
+  static void require();
+
+  std::string renderer() const;
+  std::string version() const;
+
+  /// Hands the quads to OpenGL; draw() takes them from there.
+  void load(const ShaderQuads& quads);
+  /// Makes the pixels of `rect` undrawn, and waits for that.
+  void clear(const ShaderRect& rect);
+  /// Draws `count` of the loaded quads from the `first` one on, and waits until they are drawn.
+  void draw(std::size_t first, std::size_t count);
+  /// Fragments of `count` quads from the `first` one on, those that others hide too, by an occlusion query while it
+  /// draws them.
+  std::uint64_t count(std::size_t first, std::size_t count);
+  /// Reads the targets into memory, which is a part of read().
+  void fetch(const ShaderRect& rect);
+  /// The pixels of a rectangle, row by row; the span is valid until the next call.
+  std::span<const ShaderPixel> read(const ShaderRect& rect);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quadrille::tb

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Writes down which checks see which faults of faults.toml, and the tables.
+
+    tb/verify/faults/record_mutants.py PATH_TO_MUTANTS_TEST [FILTER]  runs every check on every mutant (of a GoogleTest filter), writes
+                                                                caught_by.json and the tables
+    tb/verify/faults/record_mutants.py --table                        writes the tables of tb/README.md and README.md from caught_by.json
+    tb/verify/faults/record_mutants.py --check                        fails when that would change them
+
+What is recorded is held by mutants_test: a check that begins to see a mutant, or sees it no more, fails it. Of generated ones: scripts/mutate.sh --record.
+"""
+import collections
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from faults import HERE, read_record, registry, write_record  # noqa: E402
+from report_mutants import SIDES, class_table  # noqa: E402
+# As in checks.cpp; a common fault is put through all but the first three.
+CHECKS = ("lockstep", "assertions", "truth of RTL", "truth", "limits", "functions", "lanes", "float", "kept")
+
+
+def record(program, test_filter):
+    seen = {}
+    with tempfile.TemporaryDirectory() as folder:
+        shards = os.cpu_count() or 1
+        runs = []
+        for i in range(shards):
+            report = pathlib.Path(folder) / f"report{i}.json"
+            command = [program, f"--gtest_filter={test_filter}", f"--gtest_output=json:{report}"]
+            environment = os.environ | {"GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(i)}
+            runs.append((subprocess.Popen(command, stdout=subprocess.DEVNULL, env=environment), report))
+        for run, report in runs:
+            run.wait()
+            for suite in json.loads(report.read_text())["testsuites"]:
+                for test in suite["testsuite"]:
+                    if "IsSeen/" in test["name"]:
+                        seen[test["name"].split("/")[-1]] = {c: test[c] for c in CHECKS if c in test}
+    kept = read_record()
+    for name, fault in registry().items():
+        if name not in seen or fault.equivalent:
+            continue
+        entry = {key: value for key, value in fault.caught.items() if key in ("proofs", "replays")}
+        if found := seen[name]:
+            first, where = next(iter(found.items()))
+            by_scenario = first not in ("float", "kept", "functions", "limits")
+            entry = {"checks": list(found)} | ({"scenario": where.split(": ")[0]} if by_scenario else {}) | entry
+        kept[name] = entry
+    write_record(kept)
+
+
+def recorded_table():
+    """A row for each fault class and side, a column for each check: how many of the mutants the check sees."""
+    rows = collections.defaultdict(list)
+    for fault in registry().values():
+        if "checks" in fault.caught and not fault.generated:
+            rows[fault.side, fault.fault_class].append(fault.caught["checks"])
+    lines = ["| fault in | class | mutants | " + " | ".join(CHECKS) + " |", "|---" * (3 + len(CHECKS)) + "|"]
+    for side, name in SIDES.items():
+        for fault_class in sorted(c for s, c in rows if s == side):
+            caught = rows[side, fault_class]
+            cells = []
+            for check in CHECKS:
+                blind = {"rtl": check not in CHECKS[:3], "model": check in CHECKS[1:3], "common": check in CHECKS[:3]}[side]
+                count = sum(check in checks for checks in caught)
+                cells.append("–" if blind else "all" if count == len(caught) else str(count))
+            lines.append(f"| {name} | {fault_class} | {len(caught)} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def generated_table():
+    """As report_mutants.py prints it of a run."""
+    mutants = []
+    for f in registry().values():
+        if f.generated:
+            caught = f.caught
+            result = ({"killed": caught["checks"][0], "how": caught["how"]} if "checks" in caught else {}) | {k: caught[k] for k in ("twin",) if k in caught}
+            mutants.append({"side": f.side, "class": f.fault_class, "equivalent": f.equivalent, "result": result})
+    seen = sum("killed" in m["result"] for m in mutants)
+    return f"{len(mutants)} in all: {seen} are seen, {sum(bool(m['equivalent']) for m in mutants)} are argued equivalent.\n\n{class_table(mutants)}\n"
+
+
+def write_tables(check_only):
+    for readme, mark, text in ((HERE.parents[1] / "README.md", "mutants", recorded_table()), (HERE / "README.md", "generated", generated_table())):
+        old = readme.read_text()
+        new, count = re.subn(f"(<!-- {mark} -->\n)(.*?)(<!-- end -->\n)", lambda m: m[1] + text + m[3], old, flags=re.DOTALL)
+        if count != 1:
+            sys.exit(f"{readme}: no place for the table of {mark}")
+        if check_only and old != new:
+            sys.exit(f"{readme}: the table of {mark} is not what caught_by.json says; run tb/verify/faults/record_mutants.py --table")
+        if not check_only:
+            readme.write_text(new)
+
+
+def main():
+    if sys.argv[1:] in (["--table"], ["--check"]):
+        write_tables(sys.argv[1] == "--check")
+    elif len(sys.argv) in (2, 3) and not sys.argv[1].startswith("-"):
+        record(sys.argv[1], sys.argv[2] if len(sys.argv) == 3 else "*IsSeen*")
+        write_tables(False)
+    else:
+        sys.exit(__doc__)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

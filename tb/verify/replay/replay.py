@@ -1,0 +1,421 @@
+"""Replays golden vectors against the RTL; see README.md and scripts/replay.sh.
+
+A build (one wrapper or the machine, one configuration) serves every suite of its shape; builds and runs go side by side.
+"""
+import argparse
+import concurrent.futures
+import functools
+import os
+import re
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+
+BENCHES = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(BENCHES, "../../../scripts"))
+from report.files import InputError, MissingTool, read_json  # noqa: E402
+from report.program import PROGRAM, ROOT  # noqa: E402
+
+FORMAT = 2
+# The tables of the default widths; those of others the program makes.
+TABLES = os.path.join(ROOT, "rtl", "default_tables", "quadrille_tables_pkg.sv")
+# Gate netlists that are quick to make and to simulate; others on request (--suite).
+NETLISTS = ("sqrt", "reciprocal")
+# Their inputs enter at different stages; the manifest's latency counts from the last, the wrapper's from the first.
+STAGGERED = ("ratios", "weights")
+# Kinds of suites that no bench has a device for.
+WITHOUT_RTL = ("snapping", "table")
+# A field that has the name of a wrapper's port.
+RENAMED = {"valid_o": "drawn_o"}
+PACKAGES = {"verilator": "verilator", "iverilog": "iverilog", "vvp": "iverilog", "yosys": "yosys", "make": "make", "g++": "g++"}
+TOOLS = {"verilator": ("verilator", "make", "g++"), "icarus": ("iverilog", "vvp"), "netlist": ("yosys", "iverilog", "vvp")}
+
+
+class BuildError(Exception):
+    """The RTL does not build with this set's widths: status 1."""
+
+
+# ---- The set -------------------------------------------------------------------------------------------------------------------
+
+
+def load_json(path):
+    try:
+        if not stat.S_ISREG(os.lstat(path).st_mode):
+            raise InputError(f"{path}: not a regular file")
+        value = read_json(path)
+    except (OSError, ValueError, RecursionError) as error:
+        raise InputError(f"{path}: {error}") from None
+    if not isinstance(value, dict):
+        raise InputError(f"{path}: not a JSON object")
+    if value.get("format") != FORMAT:
+        raise InputError(f"{path}: format {value.get('format')!r}, this is a replay of format {FORMAT} (golden/CONVERTING.md)")
+    return value
+
+
+def suite_names(directory):
+    suites = load_json(os.path.join(directory, "manifest.json")).get("suites")
+    if isinstance(suites, dict):
+        return list(suites)
+    if isinstance(suites, list):
+        return [suite["name"] if isinstance(suite, dict) else suite for suite in suites]
+    raise InputError(f"{directory}/manifest.json: no suites")
+
+
+class Suite:
+    """A suite's manifest, its records and the line counts of its files, which are checked here."""
+
+    def __init__(self, directory, name):
+        self.name = name
+        self.directory = os.path.abspath(os.path.join(directory, name))
+        path = os.path.join(self.directory, "manifest.json")
+        manifest = load_json(path)
+        try:
+            if manifest["suite"] != name:
+                raise InputError(f"{path}: is of the suite {manifest['suite']}")
+            self.kind = manifest["kind"]
+            self.latency = int(manifest["latency"]) if self.kind == "stage" and name not in STAGGERED else 0
+            self.config = {key: int(value) for key, value in manifest["config"].items()}
+            self.records = manifest["records"]
+            files = manifest["files"]
+            self.bits = {name: int(record["bits"]) for name, record in self.records.items()}
+            self.lines = {}
+            if self.kind not in WITHOUT_RTL:
+                for record in self.records.values():
+                    file = record["file"]
+                    self.lines[file] = self.count_lines(file, int(record["bits"]))
+                    if self.lines[file] != int(files[file]["lines"]):
+                        raise InputError(f"{self.path(file)}: {self.lines[file]} lines, the manifest says {files[file]['lines']}")
+                if self.kind == "machine":
+                    self.check_machine()
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            raise InputError(f"{path}: {type(error).__name__}: {error}") from None
+
+    def check_machine(self):
+        """What would keep the bench waiting, or leave it without expectations."""
+        if self.lines["beats.hex"] != self.lines["stimulus.hex"]:
+            raise InputError(f"{self.path('beats.hex')}: {self.lines['beats.hex']} lines, a beat each of {self.lines['stimulus.hex']} is needed")
+        with open(self.path("stalls.hex"), encoding="ascii") as file:
+            pattern = [int(line, 16) for line in file]
+        for bit, what in ((1, "offers"), (0, "takes")):
+            if not any(line >> bit & 1 for line in pattern):
+                raise InputError(f"{self.path('stalls.hex')}: the pattern never {what} anything; the machine would wait for ever")
+
+    def path(self, file):
+        return os.path.join(self.directory, file)
+
+    def count_lines(self, file, bits):
+        """Lines of a file in which each line is one record; $readmemh would take much else."""
+        digits = (bits + 3) // 4
+        good = re.compile(rb"[0-9a-f]{%d}\n" % digits)
+        try:
+            with open(self.path(file), "rb") as lines:
+                count = 0
+                for count, line in enumerate(lines, 1):
+                    if not good.fullmatch(line):
+                        raise InputError(f"{self.path(file)}:{count}: not a record of {digits} hexadecimal digits")
+        except OSError as error:
+            raise InputError(str(error)) from None
+        if count == 0:
+            raise InputError(f"{self.path(file)}: no vectors")
+        return count
+
+    def vectors(self):
+        return self.lines["response.hex"]
+
+    def bench(self):
+        """(top module, device, macros with the record widths, macros with capacities)."""
+        if self.kind == "machine":
+            widths = {"STATE_BITS": self.bits["states"], "VERTEX_BITS": self.position("stimulus", "draw"),
+                      "FRAGMENT_BITS": self.position("response", "clock_stalled"),
+                      "LANES": self.config.get("pixels_per_clock", 1)}
+            sizes = {"DRAWS": self.lines["states.hex"], "BEATS": self.lines["stimulus.hex"],
+                     "FRAGMENTS": self.lines["response.hex"], "STALLS": self.lines["stalls.hex"]}
+            return "replay_machine", "quadrille", widths, sizes
+        if self.lines["stimulus.hex"] != self.lines["response.hex"]:
+            raise InputError(f"{self.directory}: stimulus and response have different numbers of lines")
+        widths = {"STIMULUS_BITS": self.bits["stimulus"], "RESPONSE_BITS": self.bits["response"]}
+        return "replay_stage", f"replay_{self.name}", widths, {"VECTORS": self.lines["response.hex"]}
+
+    def position(self, record, name):
+        """Bits below a field of that name."""
+        return next(int(field["position"]) for field in self.records[record]["fields"] if field["name"] == name)
+
+    def fields_header(self):
+        """A signal for each field or array of a stage's records: NAME_i of the stimulus, NAME_o of the response."""
+        lines = [f"// The fields of suite {self.name}, from its manifest."]
+        names = {}
+        for record, suffix in (("stimulus", "_i"), ("response", "_o")):
+            widths = {}
+            for field in self.records[record]["fields"]:
+                if not re.fullmatch("[a-z][a-z0-9_]*", field["name"]):
+                    raise InputError(f"{self.path('manifest.json')}: a field is named {field['name']!r}; expected lower-case letters, digits, _")
+                name = RENAMED.get(field["name"] + suffix, field["name"] + suffix)
+                widths[name] = widths.get(name, 0) + int(field["width"])
+            lines += [f"  logic [{width - 1}:0] {name};" for name, width in widths.items()]
+            names[record] = ", ".join(widths)
+        return "\n".join(lines + [f"  assign {{{names['stimulus']}}} = stimulus_i;", f"  assign response_o = {{{names['response']}}};", ""])
+
+    def plusargs(self):
+        args = [f"+suite={self.name}", f"+stimulus={self.path('stimulus.hex')}", f"+response={self.path('response.hex')}"]
+        if self.kind == "machine":
+            args += [f"+states={self.path('states.hex')}", f"+taken={self.path('beats.hex')}", f"+stalls={self.path('stalls.hex')}",
+                     f"+draws={self.lines['states.hex']}", f"+beats={self.lines['stimulus.hex']}",
+                     f"+fragments={self.lines['response.hex']}", f"+pattern={self.lines['stalls.hex']}"]
+        else:
+            args += [f"+vectors={self.vectors()}", f"+latency={self.latency}"]
+        return args
+
+    def fields(self, expected, actual):
+        """The response fields in which two hex numbers differ; digits that are not 0-9a-f (unknown bits) differ from all."""
+        if not re.fullmatch("[0-9a-f]+", actual):
+            return f"unknown bits in {actual}"
+        expected, actual = int(expected, 16), int(actual, 16)
+        text = []
+        for field in self.records["response"]["fields"]:
+            width, position = int(field["width"]), int(field["position"])
+            values = [(word >> position) & ((1 << width) - 1) for word in (expected, actual)]
+            if values[0] != values[1]:
+                if field.get("signed"):
+                    values = [value - (value >> (width - 1) << width) for value in values]
+                index = f"[{field['index']}]" if field.get("index", -1) >= 0 else ""
+                text.append(f"{field['name']}{index}: expected {values[0]}, actual {values[1]}")
+        return "; ".join(text[:4])
+
+
+@functools.cache
+def kept_tables():
+    """The keys that the kept tables were made for."""
+    try:
+        with open(TABLES, encoding="ascii") as text:
+            return {key.lower(): int(value) for key, value in re.findall(r"localparam int (\w+) = (\d+);", text.read())}
+    except OSError:
+        return {}
+
+
+def has_kept_tables(suite):
+    keys = kept_tables()
+    return bool(keys) and all(suite.config.get(key) == value for key, value in keys.items())
+
+
+# ---- Builds --------------------------------------------------------------------------------------------------------------------
+
+
+def run(command, directory, log):
+    """Runs a build step; its output is the log and the result."""
+    environment = dict(os.environ)
+    if shutil.which("ccache"):  # most of a Verilator build is its own run-time library
+        environment.setdefault("OBJCACHE", "ccache")
+    with open(log, "ab") as out:
+        out.write((" ".join(command) + "\n").encode())
+        out.flush()
+        status = subprocess.run(command, cwd=directory, env=environment, stdin=subprocess.DEVNULL, stdout=out,
+                                stderr=subprocess.STDOUT).returncode
+    with open(log, encoding="utf-8", errors="replace") as text:
+        output = text.read()
+    if status != 0 or re.search(r"warning: Port \d+ .* expects|Warning: Resizing cell port", output):
+        raise BuildError("\n".join(output.splitlines()[-25:]))
+    return output
+
+
+class Build:
+    """One bench around one device in one configuration."""
+
+    def __init__(self, options, simulator, suites, directory):
+        self.options, self.simulator, self.suites, self.directory = options, simulator, suites, directory
+        self.bench, self.device, self.widths, _ = suites[0].bench()
+        self.sizes = {}
+        for suite in suites:
+            for name, size in suite.bench()[3].items():
+                self.sizes[name] = max(self.sizes.get(name, 1), size)
+        self.seconds = 0.0
+        self.error = None
+
+    def sources(self):
+        """Tables, packages first, then modules, then the wrapper."""
+        os.makedirs(self.directory)
+        tables = TABLES if has_kept_tables(self.suites[0]) else self.make_tables()
+        rtl = sorted(os.path.join(self.options.rtl, name) for name in os.listdir(self.options.rtl) if name.endswith(".sv"))
+        packages = [path for path in rtl if path.endswith("_pkg.sv")]
+        files = packages + [tables] + [path for path in rtl if not path.endswith("_pkg.sv")]
+        if self.bench == "replay_stage":
+            files += [os.path.join(BENCHES, "replay_valid.sv"), os.path.join(BENCHES, f"{self.device}.sv")]
+            with open(os.path.join(self.directory, "replay_fields.svh"), "w", encoding="ascii") as header:
+                header.write(self.suites[0].fields_header())
+        return files
+
+    def make_tables(self):
+        tables = os.path.join(self.directory, "quadrille_tables_pkg.sv")
+        command = [self.options.quadrille, "config", "--quiet", "--emit-tables", tables]
+        for key, value in self.suites[0].config.items():
+            command += ["--set", f"{key}={value}"]
+        result = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if result.returncode != 0:
+            raise InputError(f"{self.suites[0].directory}/manifest.json: {result.stdout.strip()}")
+        return tables
+
+    def defines(self):
+        keys = [f"-DQUADRILLE_{key.upper()}={value}" for key, value in self.suites[0].config.items()]
+        bench = [f"-DREPLAY_{name}={value}" for name, value in {**self.widths, **self.sizes}.items()]
+        return keys, bench + [f"-DREPLAY_DUT={self.device}"], ["-I" + BENCHES, "-I" + self.directory]
+
+    def __call__(self):
+        begin = time.monotonic()
+        try:
+            getattr(self, "build_" + self.simulator)(os.path.join(self.directory, "build.log"))
+        except BuildError as error:
+            self.error = error
+        self.seconds = time.monotonic() - begin
+        return self
+
+    def build_verilator(self, log):
+        files = self.sources()
+        keys, bench, includes = self.defines()
+        run(["verilator", "--binary", "--assert", "-Wno-fatal", "-Werror-WIDTH", "--top-module", self.bench, "-O3", "-CFLAGS", "-O1", "--build-jobs", str(self.options.jobs),
+             "--x-assign", "unique", "--Mdir", "obj", "-o", "replay", *keys, *bench, *includes, *files, os.path.join(BENCHES, self.bench + ".sv")],
+            self.directory, log)
+        self.command = [os.path.join(self.directory, "obj", "replay")]
+
+    def yosys(self, steps, log):
+        """Verilog that Yosys writes of the device, in the build directory."""
+        files = " ".join(f'"{path}"' for path in self.sources())
+        keys, bench, includes = self.defines()
+        options = " ".join(["-DSYNTHESIS=1", *keys, *(define for define in bench if "_BITS=" in define), *(f'-I "{path[2:]}"' for path in includes)])
+        script = f"read_verilog -sv {options} {files}\nhierarchy -check -top {self.device}\n{steps}\n"
+        with open(os.path.join(self.directory, "device.ys"), "w", encoding="utf-8") as file:
+            file.write(script)
+        run(["yosys", "-q", "-s", "device.ys"], self.directory, log)
+
+    def compile_icarus(self, files, log):
+        keys, bench, includes = self.defines()
+        run(["iverilog", "-g2012", "-s", self.bench, "-o", "replay.vvp", *keys, *bench, *includes, *files, os.path.join(BENCHES, self.bench + ".sv")],
+            self.directory, log)
+        self.command = ["vvp", "-N", os.path.join(self.directory, "replay.vvp")]
+
+    def build_icarus(self, log):
+        self.compile_icarus(self.sources(), log)
+
+    def build_netlist(self, log):
+        """Gates and flip-flops of Yosys' generic library, simulated with the library's own models."""
+        self.yosys(f"synth -flatten -top {self.device}\ncheck -assert\nwrite_verilog -noattr -noexpr device.v", log)
+        yosys = os.path.dirname(os.path.realpath(shutil.which("yosys")))
+        self.compile_icarus(["device.v", os.path.join(yosys, "../share/yosys/simcells.v")], log)
+
+
+# ---- Runs ----------------------------------------------------------------------------------------------------------------------
+
+
+def replay(build, suite):
+    """(matches, lines to print)."""
+    label = f"{suite.name}" + (" (netlist)" if build.simulator == "netlist" else "")
+    if build.error:
+        return False, [f"{label}: the RTL does not build for this set", str(build.error)]
+    begin = time.monotonic()
+    result = subprocess.run(build.command + suite.plusargs(), cwd=build.directory, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True, errors="replace")
+    seconds = time.monotonic() - begin
+    summary = re.search(rf"^{re.escape(suite.name)}: (\d+) vectors, (\d+) mismatches$", result.stdout, re.MULTILINE)
+    times = f"build {build.seconds:.1f} s, run {seconds:.1f} s"
+    if summary and summary.groups() == (str(suite.vectors()), "0") and result.returncode == 0:
+        clocks = re.findall(r": (\d+ clocks(?: with stalls)?)$", result.stdout, re.MULTILINE)
+        return True, [f"{label}: {summary[1]} vectors, 0 mismatches ({', '.join(clocks + [times])})"]
+    text = [f"{label}: {summary[1]} vectors, {summary[2]} mismatches ({times})" if summary else f"{label}: FAILED ({times})"]
+    text += [line for line in result.stdout.splitlines()
+             if line.startswith((suite.name + ":", "FATAL", "[")) and not (summary and line == summary[0])][:6]
+    difference = re.search(r"expected ([0-9a-fxz]+) actual ([0-9a-fxzXZ]+)", result.stdout)
+    if difference:
+        text.append(f"{label}: " + suite.fields(*(word.lower() for word in difference.groups())))
+    return False, text
+
+
+def require(tools):
+    missing = [tool for tool in tools if shutil.which(tool) is None]
+    if missing:
+        packages = " ".join(sorted({PACKAGES[tool] for tool in missing}))
+        raise MissingTool(f"missing: {', '.join(missing)}. As root: apt-get install {packages}")
+
+
+def select(options):
+    """(suites to replay, names of suites without RTL)."""
+    names = suite_names(options.directory)
+    wanted = options.suite or names
+    unknown = [name for name in wanted if name not in names]
+    if unknown:
+        raise InputError(f"{options.directory}: no suite {unknown[0]}; it has {', '.join(names)}")
+    suites = [Suite(options.directory, name) for name in dict.fromkeys(wanted)]
+    for suite in suites:
+        if suite.kind not in (*WITHOUT_RTL, "machine", "stage", "handshake"):
+            raise InputError(f"{suite.directory}/manifest.json: kind {suite.kind!r}")
+        if suite.kind in ("stage", "handshake") and not os.path.exists(os.path.join(BENCHES, f"replay_{suite.name}.sv")):
+            raise InputError(f"{suite.directory}/manifest.json: no wrapper replay_{suite.name}.sv")
+    replayed = [suite for suite in suites if suite.kind not in WITHOUT_RTL]
+    if not replayed:
+        raise InputError(f"{options.directory}: nothing to replay: {', '.join(suite.name for suite in suites)} has no RTL")
+    return replayed, [suite.name for suite in suites if suite.kind in WITHOUT_RTL]
+
+
+def plan(options, suites, work):
+    """A build for each simulator, device, shape and configuration; the machine, which takes longest, first."""
+    wanted = [(options.simulator, suite) for suite in suites]
+    if options.netlist:
+        chosen = suites if options.suite else [suite for suite in suites if suite.name in NETLISTS]
+        if not chosen:
+            raise InputError(f"--netlist: none of {', '.join(NETLISTS)} in this set; name one with --suite")
+        wanted += [("netlist", suite) for suite in chosen]
+    groups = {}
+    for simulator, suite in wanted:
+        bench, device, widths, _ = suite.bench()
+        groups.setdefault((simulator, device, *widths.values(), *sorted(suite.config.items())), []).append(suite)
+    builds = [Build(options, key[0], group, os.path.join(work, str(number))) for number, (key, group) in enumerate(groups.items())]
+    return sorted(builds, key=lambda build: build.device != "quadrille")
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        prog="replay.sh", formatter_class=argparse.RawDescriptionHelpFormatter, description="Replays golden vectors against the RTL.",
+        epilog="Exit status: 0 all agree, 1 a mismatch, 2 usage, a damaged set or nothing to replay, 3 a missing tool.\n\nExamples:\n"
+               "  scripts/replay.sh golden/vectors/kept\n  scripts/replay.sh DIR icarus --suite sqrt --netlist")
+    parser.add_argument("directory", metavar="DIR", help="a set of golden vectors")
+    parser.add_argument("simulator", nargs="?", choices=("verilator", "icarus"), default="verilator")
+    parser.add_argument("--suite", action="append", metavar="NAME", help="only this one; may be repeated")
+    parser.add_argument("--netlist", action="store_true",
+                        help=f"also the synthesized gates under Icarus: of {', '.join(NETLISTS)}, or of what --suite names")
+    parser.add_argument("--rtl", metavar="DIR", default=os.path.join(ROOT, "rtl"), help="other RTL with the same modules")
+    parser.add_argument("--jobs", type=int, metavar="N", default=os.cpu_count(), help="builds and runs side by side (default: processors)")
+    options = parser.parse_args()
+    options.rtl = os.path.abspath(options.rtl)
+    options.quadrille = os.environ.get("QUADRILLE") or PROGRAM
+    begin = time.monotonic()
+    try:
+        suites, skipped = select(options)
+        require(TOOLS[options.simulator] + (TOOLS["netlist"] if options.netlist else ()))
+        others = [suite.name for suite in suites if not has_kept_tables(suite)]
+        if others and shutil.which(options.quadrille) is None:
+            raise MissingTool(f"no program {options.quadrille}, which makes the tables of {others[0]}: its widths are not the default ones. "
+                              "Build it (scripts/cosim.sh) or name it in $QUADRILLE")
+        if not os.path.exists(os.path.join(options.rtl, "quadrille_pkg.sv")):
+            raise InputError(f"{options.rtl}: no RTL there")
+        for name in skipped:
+            print(f"{name}: no RTL, not replayed")
+        with tempfile.TemporaryDirectory(prefix="replay.") as work, concurrent.futures.ThreadPoolExecutor(max(1, options.jobs)) as pool:
+            runs = []
+            building = [pool.submit(build) for build in plan(options, suites, work)]
+            for done in concurrent.futures.as_completed(building):
+                build = done.result()
+                runs += [pool.submit(replay, build, suite) for suite in build.suites]
+            failed = 0
+            for done in concurrent.futures.as_completed(runs):
+                good, text = done.result()
+                failed += not good
+                print("\n".join(text), flush=True)
+    except InputError as error:
+        print(f"replay: {error}", file=sys.stderr)
+        return error.status
+    print(f"{len(runs)} suites under {options.simulator}, {failed} failed, {time.monotonic() - begin:.1f} s")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
