@@ -4,10 +4,10 @@
 // Use, once per clock:  comb() -> outputs  (any number of times; changes nothing),  then  clock(inputs).
 #pragma once
 
-#include "model/config.hpp"
-#include "model/performance_counters.hpp"
-#include "model/records.hpp"
-#include "model/stages.hpp"
+#include "model/port/config.hpp"
+#include "model/port/performance_counters.hpp"
+#include "model/port/records.hpp"
+#include "model/port/stages.hpp"
 
 #include <array>
 #include <memory>

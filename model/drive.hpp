@@ -3,7 +3,7 @@
 #pragma once
 
 #include "model/clocked.hpp"
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,10 @@
 // A draw from the initialisation of another object, which the linker puts before the library's: nothing that the models
 // use may wait to be initialised.
 #include "model/clocked.hpp"
-#include "model/config_text.hpp"
 #include "model/fast/each_lane_target.hpp"
-#include "model/snap.hpp"
-#include "model/tables.hpp"
+#include "model/port/config_text.hpp"
+#include "model/port/snap.hpp"
+#include "model/port/tables.hpp"
 #include "model/untimed.hpp"
 
 #include <gtest/gtest.h>

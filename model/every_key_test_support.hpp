@@ -2,7 +2,7 @@
 #pragma once
 
 #include "golden/scenes/stress.hpp"
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstddef>

@@ -5,9 +5,9 @@
 // RC_PARAMS (RapidCheck's own variable) sets the number of cases and the seed: "max_success=100000 seed=7".
 #include "golden/scenes/stress.hpp"
 #include "model/front/covered_pixels.hpp"
-#include "model/pixel/pixel_pipeline.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
+#include "model/pixel/pixel_pipeline.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 
 #include <gtest/gtest.h>

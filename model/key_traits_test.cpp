@@ -2,10 +2,10 @@
 // value shows.
 #include "golden/analysis/error_bound.hpp"
 #include "golden/analysis/hardware_cost.hpp"
-#include "model/every_key_test_support.hpp"
 #include "model/clocked.hpp"
-#include "model/draw_state.hpp"
-#include "model/snap.hpp"
+#include "model/every_key_test_support.hpp"
+#include "model/port/draw_state.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 #include "model/untimed.hpp"
 
-#include "model/front/covered_pixels.hpp"
-#include "model/draw_state.hpp"
 #include "model/fast/float_lanes.hpp"
-#include "model/skips/masked_depth.hpp"
 #include "model/fast/pixel_lanes.hpp"
+#include "model/front/covered_pixels.hpp"
 #include "model/front/quad_reject.hpp"
 #include "model/front/quad_setup.hpp"
 #include "model/front/tile_context.hpp"
+#include "model/port/draw_state.hpp"
+#include "model/skips/masked_depth.hpp"
 
 #include <algorithm>
 #include <array>

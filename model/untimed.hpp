@@ -1,9 +1,9 @@
 // The untimed model: quads in, fragments out, the RTL's bits and order without its clocks.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/fragment_arrays.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/fragment_arrays.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstdint>

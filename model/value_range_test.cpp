@@ -1,7 +1,7 @@
 // Values at the ends of their range and close together: attributes up to 2^15, all within one code, far from 0; depths
 // and limits a code apart. The engines agree, and every value lies where its corners' lie.
 #include "model/fast/each_lane_target.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 
 #include "model/support/prng.hpp"

@@ -259,7 +259,7 @@ package quadrille_pkg;
   localparam int CLASS_FLAGS = CLASS_BITS - CLASS_NOTCH;  // what a fragment shows: those and the notch
   localparam int CLASS_OVERRIDES = CLASS_BITS - CLASS_TWO_EDGE;  // at its upper end: one of them is set where the pixel is not regular
 
-  // ---- Latency of the pixel pipeline (SPEC.md, model/latency.hpp) ----------------------------------------------
+  // ---- Latency of the pixel pipeline (SPEC.md, model/port/latency.hpp) ----------------------------------------------
   // Clocks from a unit's inputs to its outputs.
   localparam int FORWARD_DIFFERENCE_ROW_STAGES /*verilator public*/ = 1;
   localparam int FORWARD_DIFFERENCE_COLUMN_STAGES /*verilator public*/ = 2;  // column, bend

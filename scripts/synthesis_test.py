@@ -121,7 +121,7 @@ class UnitTable(unittest.TestCase):
         fewer = [unit for unit in self.units if unit["name"] != "tile_walk"]
         self.assertIn("quadrille instantiates tile_walk", " ".join(unit_table.faults_of(fewer, self.package)))
         self.package.constants["FP_SUM_STAGES"] += 1
-        self.assertIn("fp_sum_stages is 6 in model/latency.hpp and 7", " ".join(unit_table.faults_of(self.units, self.package)))
+        self.assertIn("fp_sum_stages is 6 in model/port/latency.hpp and 7", " ".join(unit_table.faults_of(self.units, self.package)))
 
     def test_says_how_many_placements_there_were(self):
         self.assertEqual(unit_table.mhz({"mhz": [99.2, 120, 102.8]}), "103")

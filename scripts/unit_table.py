@@ -5,7 +5,7 @@ rtl/units.toml lists the units, rtl/units_measured.json has what size.py and tim
 other configurations. Latencies and widths are evaluated from rtl/quadrille_pkg.sv, bits counted from the units' ports.
 
   scripts/unit_table.py                        checks that the page has this table, that the list has every unit that the machine
-                                               instantiates, and that latencies are those of model/latency.hpp and add up; no tools needed
+                                               instantiates, and that latencies are those of model/port/latency.hpp and add up; no tools needed
   scripts/unit_table.py --update               writes the table
   scripts/unit_table.py --measure size         sizes of the default configuration anew (Yosys, minutes)
   scripts/unit_table.py --measure UNIT ...     clocks anew: place and route with seeds 1 to 3 (nextpnr-ecp5); --seed N for others;
@@ -143,10 +143,10 @@ def faults_of(units, package):
             if module not in listed and module not in ("config_check", "delay_line", "pixel_pipeline", "pixel_lane", "offset_digits", "radix4_digits"):
                 faults.append(f"rtl/units.toml: {top} instantiates {module}, which is not in the list")
     model = {}
-    for name, expression in re.findall(r"inline constexpr int (\w+) = ([^;]+);", without_comments(read_text(os.path.join(ROOT, "model/latency.hpp")))):
+    for name, expression in re.findall(r"inline constexpr int (\w+) = ([^;]+);", without_comments(read_text(os.path.join(ROOT, "model/port/latency.hpp")))):
         model[name] = package.value(expression, model)
         if name.upper() in package.constants and package.constants[name.upper()] != model[name]:
-            faults.append(f"{name} is {model[name]} in model/latency.hpp and {package.constants[name.upper()]} in quadrille_pkg")
+            faults.append(f"{name} is {model[name]} in model/port/latency.hpp and {package.constants[name.upper()]} in quadrille_pkg")
     on_path = sum(package.value(unit["latency"], {}) for unit in units if unit.get("on_path"))
     if on_path != package.constants["LATENCY"]:
         faults.append(f"rtl/units.toml: latencies on the path add up to {on_path}, LATENCY is {package.constants['LATENCY']}")

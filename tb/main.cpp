@@ -2,9 +2,9 @@
 #include "golden/io/error.hpp"
 #include "golden/io/interrupt.hpp"
 #include "golden/io/json_report.hpp"
-#include "model/config.hpp"
-#include "model/lane_target.hpp"
-#include "model/snap.hpp"
+#include "model/port/config.hpp"
+#include "model/port/lane_target.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/edit_distance.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/device/verilate.hpp"
@@ -33,7 +33,7 @@
 namespace {
 
 using namespace quadrille;
-using namespace quadrille::cli;
+using namespace quadrille::tb;
 
 int fail(int status, const std::string& what) {
   golden::yield_to_interrupt();

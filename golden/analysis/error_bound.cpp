@@ -1,6 +1,6 @@
 #include "golden/analysis/error_bound.hpp"
 
-#include "model/tables.hpp"
+#include "model/port/tables.hpp"
 
 #include <algorithm>
 #include <array>
@@ -414,7 +414,9 @@ struct RegularExponents {
 void prove_exponents(const Config& c, const ProofWidths& w, const FrontRange& front, RangeList& list) {
   const int prec = c.prec_bits(), e = w.exponent;
   // A sum whose terms may cancel keeps at least the least bit of its window.
-  const auto cancelling = [&](ExponentRange a, int log2_terms) { return ExponentRange{a.lo - prec, a.hi + 1 + log2_terms}; };
+  const auto cancelling = [&](ExponentRange a, int log2_terms) {
+    return ExponentRange{a.lo - prec, a.hi + 1 + log2_terms};
+  };
 
   // What snapping lets through: |x|, |y|, |w| <= 2^80, one of them >= 2^-80, |z| <= 2^80, |a| < 2^int_bits. Half a
   // pixel and the guard band enlarge the first by a factor of 2 and reduce the second by 2^-(POS_INT+1). A difference

@@ -2,8 +2,8 @@
 // that the port accepts. The derivation is in golden/analysis/README.md, "Error bound".
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <string>
 #include <vector>

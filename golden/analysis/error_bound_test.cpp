@@ -3,13 +3,13 @@
 #include "golden/analysis/error_bound.hpp"
 
 #include "golden/scenes/stress.hpp"
-#include "model/pixel/pixel_pipeline.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
-#include "model/support/prng.hpp"
 #include "model/front/tile_context.hpp"
-#include "model/untimed.hpp"
+#include "model/pixel/pixel_pipeline.hpp"
 #include "model/pixel/weight_factors.hpp"
+#include "model/port/snap.hpp"
+#include "model/support/prng.hpp"
+#include "model/untimed.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "golden/analysis/hardware_cost.hpp"
 
-#include "model/latency.hpp"
+#include "model/port/latency.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 // feature counts nothing. The RTL is the machine, this is an estimate of its size; README.md says how good it is.
 #pragma once
 
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // The cost estimate against what Yosys counted, against the tables as they are made, and in the direction of every key.
 #include "golden/analysis/hardware_cost.hpp"
 
-#include "model/tables.hpp"
+#include "model/port/tables.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "golden/analysis/hardware_cost.hpp"
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 
 #include <string>
 #include <string_view>

@@ -1,7 +1,7 @@
 // Fragments as a table.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The common frame of all JSON reports.
 #pragma once
 
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // The .quads file: quads in homogeneous window coordinates, with attributes.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <span>
 #include <string>

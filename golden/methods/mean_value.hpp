@@ -1,7 +1,7 @@
 // Mean value coordinates of a quad at one point of the screen, in homogeneous form.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "golden/scenes/mesh.hpp"
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // edge functions (Olano & Greer 1997; Hormann & Tarini 2004, expression 12).
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstdint>

@@ -9,7 +9,7 @@
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/stress.hpp"
 #include "golden/scenes/terrain.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 
 #include <gtest/gtest.h>
 

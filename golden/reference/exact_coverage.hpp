@@ -1,7 +1,7 @@
 // A second opinion on coverage and visibility of snapped quads, derived without expression (12).
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 namespace quadrille::golden {
 

@@ -4,8 +4,8 @@
 
 #include "golden/reference/coverage_rows.hpp"
 #include "golden/reference/sample.hpp"
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cmath>

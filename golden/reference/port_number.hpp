@@ -1,7 +1,7 @@
 // Numbers at the port as real values, and back.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <cmath>
 #include <cstdint>

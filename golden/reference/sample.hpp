@@ -1,7 +1,7 @@
 // What a reference says about one pixel of one quad.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstdint>

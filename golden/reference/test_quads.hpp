@@ -2,8 +2,8 @@
 #pragma once
 
 #include "golden/reference/port_number.hpp"
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include "golden/reference/coverage_rows.hpp"
 #include "golden/reference/sample.hpp"
 #include "golden/reference/truth_lanes.hpp"
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstdint>

@@ -7,7 +7,7 @@
 #include "golden/reference/test_quads.hpp"
 #include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 
 #include <gtest/gtest.h>
 

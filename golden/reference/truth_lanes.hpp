@@ -1,7 +1,7 @@
 // The truth's filter for many pixels of one quad: double-double numbers, several pixels side by side in vectors.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // and the case itself. What the stress families draw at random, these walk towards step by step.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstddef>

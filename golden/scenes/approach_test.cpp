@@ -2,9 +2,9 @@
 // are drawn there; nothing else about a quad changes on the way.
 #include "golden/scenes/approach.hpp"
 
-#include "model/config.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
+#include "model/port/config.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 
 #include <gtest/gtest.h>

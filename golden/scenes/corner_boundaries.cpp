@@ -1,7 +1,7 @@
 // Corner groups about exact boundaries: boxes at pixel centres, plane quads but for one bit, coarse depth codes and
 // depth limits of quads beyond the guard band.
 #include "golden/scenes/corner_batch.hpp"
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 
 #include <algorithm>
 #include <cmath>

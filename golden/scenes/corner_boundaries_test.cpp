@@ -1,9 +1,9 @@
 // The groups about exact boundaries hold their cases, by the snapped integers and by the pixels of the plain pipeline.
 #include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/corner_test_support.hpp"
+#include "model/port/snap.hpp"
+#include "model/port/stages.hpp"
 #include "model/skips/plane_quad.hpp"
-#include "model/snap.hpp"
-#include "model/stages.hpp"
 #include "model/untimed.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "golden/scenes/corner_batch.hpp"
 #include "golden/scenes/random_quads.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 
 #include <algorithm>
 #include <array>

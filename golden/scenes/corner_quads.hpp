@@ -2,8 +2,8 @@
 // the stress families are wide (stress.hpp), a group here is exact: its condition holds in the machine's integers.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <cstdint>
 #include <span>

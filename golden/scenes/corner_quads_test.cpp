@@ -5,8 +5,8 @@
 #include "golden/scenes/corner_test_support.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
 #include "model/front/tile_context.hpp"
+#include "model/port/snap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include "golden/scenes/corner_quads.hpp"
 #include "model/front/covered_pixels.hpp"
-#include "model/pixel/pixel_pipeline.hpp"
 #include "model/front/quad_setup.hpp"
+#include "model/pixel/pixel_pipeline.hpp"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 // Corner groups about depth and attributes: what a base, differences and corner codes have as special cases.
 #include "golden/scenes/corner_batch.hpp"
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 
 #include <algorithm>
 #include <cmath>

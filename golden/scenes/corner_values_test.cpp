@@ -2,8 +2,8 @@
 // pipeline.
 #include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/corner_test_support.hpp"
-#include "model/snap.hpp"
-#include "model/stages.hpp"
+#include "model/port/snap.hpp"
+#include "model/port/stages.hpp"
 
 #include <gtest/gtest.h>
 

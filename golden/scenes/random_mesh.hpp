@@ -1,7 +1,7 @@
 // Random planar meshes whose coverage is known beforehand: together the cells tile a rectangle exactly once.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "golden/scenes/random_quads.hpp"
 
-#include "model/draw_state.hpp"
-#include "model/snap.hpp"
+#include "model/port/draw_state.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/prng.hpp"
 
 #include <algorithm>

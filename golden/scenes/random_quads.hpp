@@ -2,8 +2,8 @@
 // families that the commands and the error bounds use.)
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 // Draw states at random, for lockstep and for the comparison with the truth.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 #include "golden/scenes/random_state.hpp"
 
 #include "golden/scenes/stress.hpp"
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "golden/scenes/mesh.hpp"
 #include "golden/scenes/procedural_texture.hpp"
 #include "golden/scenes/projection.hpp"
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <cstddef>
 #include <optional>

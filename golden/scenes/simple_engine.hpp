@@ -2,7 +2,7 @@
 // and without bounds. + − × ÷ √ only, so the answer is the same on every machine. It is no reference.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 // Stress families: quads that contain, on purpose, the conditions under which a quad rasterizer goes wrong.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Helpers of the tests in this folder: independent of the code under test.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <bit>

@@ -2,8 +2,8 @@
 
 #include "golden/io/error.hpp"
 #include "golden/vectors/stage_suite.hpp"
-#include "model/boundaries.hpp"
-#include "model/snap.hpp"
+#include "model/port/boundaries.hpp"
+#include "model/port/snap.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Draws through the clocked model, with the clock of every fragment.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <cstdint>
 #include <span>

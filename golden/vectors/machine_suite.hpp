@@ -3,7 +3,7 @@
 #pragma once
 
 #include "golden/vectors/suite.hpp"
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <functional>
 #include <memory>

@@ -4,8 +4,8 @@
 
 #include "golden/io/temporary.hpp"
 #include "golden/vectors/sha256.hpp"
-#include "model/config.hpp"
-#include "model/record.hpp"
+#include "model/port/config.hpp"
+#include "model/port/record.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 #include "golden/vectors/manifest.hpp"
 #include "golden/io/test_support.hpp"
 #include "golden/vectors/suite.hpp"
-#include "model/latency.hpp"
+#include "model/port/latency.hpp"
 #include "model/support/prng.hpp"
 
 #include <sys/stat.h>

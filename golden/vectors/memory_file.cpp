@@ -2,7 +2,7 @@
 
 #include "golden/io/error.hpp"
 #include "golden/io/text_input.hpp"
-#include "model/record.hpp"
+#include "model/port/record.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -3,7 +3,7 @@
 #include "golden/scenes/stress.hpp"
 #include "model/front/covered_pixels.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Records as bits and as digits; SHA-256 by the examples of FIPS 180.
-#include "model/record.hpp"
+#include "model/port/record.hpp"
 #include "golden/io/test_support.hpp"
 #include "golden/vectors/sha256.hpp"
 #include "model/support/prng.hpp"

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "golden/vectors/stage_suite.hpp"
-#include "model/boundaries.hpp"
+#include "model/port/boundaries.hpp"
 
 namespace quadrille::vectors {
 
 /// Lists has two static templates, stimulus(data, config, f) and response(data, config, f), that list the fields of a
-/// StageData (const or not) as model/fields.hpp says.
+/// StageData (const or not) as model/port/fields.hpp says.
 template <class Lists>
 class StageOf : public StageUnderTest {
  public:

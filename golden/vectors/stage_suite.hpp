@@ -3,8 +3,8 @@
 
 #include "golden/vectors/patterns.hpp"
 #include "golden/vectors/suite.hpp"
-#include "model/pixel/pixel_pipeline.hpp"
 #include "model/front/stamp_coverage.hpp"
+#include "model/pixel/pixel_pipeline.hpp"
 
 #include <array>
 #include <functional>

@@ -1,10 +1,10 @@
 // Snapping and the exact front of the machine.
 #include "golden/vectors/stage_of.hpp"
 #include "golden/vectors/stage_suites.hpp"
-#include "model/latency.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
 #include "model/front/tile_context.hpp"
+#include "model/port/latency.hpp"
+#include "model/port/snap.hpp"
 
 #include <algorithm>
 #include <array>

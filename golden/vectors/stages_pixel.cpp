@@ -1,7 +1,7 @@
 // The stages of a pixel from the normalisation to the fragment.
 #include "golden/vectors/stage_of.hpp"
 #include "golden/vectors/stage_suites.hpp"
-#include "model/latency.hpp"
+#include "model/port/latency.hpp"
 
 #include <algorithm>
 #include <cmath>

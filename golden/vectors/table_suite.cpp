@@ -1,7 +1,7 @@
 #include "golden/vectors/table_suite.hpp"
 
 #include "golden/io/error.hpp"
-#include "model/boundaries.hpp"
+#include "model/port/boundaries.hpp"
 
 #include <bit>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "golden/vectors/suite.hpp"
-#include "model/tables.hpp"
+#include "model/port/tables.hpp"
 
 #include <memory>
 #include <vector>

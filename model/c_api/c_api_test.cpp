@@ -1,13 +1,13 @@
 // The C interface against the C++ one, bit for bit and clock for clock, and its errors.
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/bit_vector.hpp"
-#include "model/boundaries.hpp"
 #include "model/c_api/quadrille.h"
 #include "model/clocked.hpp"
-#include "model/config_text.hpp"
-#include "model/draw_state.hpp"
-#include "model/snap.hpp"
+#include "model/port/bit_vector.hpp"
+#include "model/port/boundaries.hpp"
+#include "model/port/config_text.hpp"
+#include "model/port/draw_state.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
 

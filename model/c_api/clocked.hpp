@@ -1,8 +1,8 @@
 #pragma once
 
-#include "model/boundaries.hpp"
 #include "model/c_api/common.hpp"
 #include "model/clocked.hpp"
+#include "model/port/boundaries.hpp"
 
 struct quadrille_clocked {
   quadrille_clocked(const quadrille::Config& c, const quadrille::DrawState& s)

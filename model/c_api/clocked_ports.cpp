@@ -1,6 +1,6 @@
 // The clocked model port by port.
-#include "model/bit_vector.hpp"
 #include "model/c_api/clocked.hpp"
+#include "model/port/bit_vector.hpp"
 
 #include <cmath>
 

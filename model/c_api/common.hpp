@@ -3,9 +3,9 @@
 
 #include "model/c_api/quadrille.h"
 
-#include "model/config_text.hpp"
-#include "model/draw_state.hpp"
-#include "model/snap.hpp"
+#include "model/port/config_text.hpp"
+#include "model/port/draw_state.hpp"
+#include "model/port/snap.hpp"
 
 #include <algorithm>
 #include <array>

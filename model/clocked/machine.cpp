@@ -12,7 +12,7 @@
 #include "model/clocked/tile_ring.hpp"
 #include "model/clocked/tile_walk.hpp"
 #include "model/clocked/vertex_assembly.hpp"
-#include "model/draw_state.hpp"
+#include "model/port/draw_state.hpp"
 
 #include <stdexcept>
 

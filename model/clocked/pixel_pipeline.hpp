@@ -1,9 +1,9 @@
 #pragma once
 
 #include "model/clocked.hpp"
-#include "model/latency.hpp"
-#include "model/pixel/pixel_pipeline.hpp"
 #include "model/fast/pixels_ahead.hpp"
+#include "model/pixel/pixel_pipeline.hpp"
+#include "model/port/latency.hpp"
 
 #include <array>
 #include <bit>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "model/latency.hpp"
-#include "model/performance_counters.hpp"
 #include "model/front/quad_reject.hpp"
 #include "model/front/quad_setup.hpp"
+#include "model/port/latency.hpp"
+#include "model/port/performance_counters.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/skips/hierarchical_z.hpp"
 #include "model/fast/pixels_ahead.hpp"
+#include "model/skips/hierarchical_z.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "model/latency.hpp"
-#include "model/stages.hpp"
 #include "model/front/tile_context.hpp"
+#include "model/port/latency.hpp"
+#include "model/port/stages.hpp"
 
 #include <array>
 

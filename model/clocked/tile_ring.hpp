@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/clocked.hpp"
-#include "model/latency.hpp"
+#include "model/port/latency.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/performance_counters.hpp"
 #include "model/front/tile_walk.hpp"
+#include "model/port/performance_counters.hpp"
 
 #include <array>
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "model/clocked.hpp"
+#include "model/front/quad_reject.hpp"
 #include "model/pixel/pixel_pipeline.hpp"
 #include "model/skips/plane_quad.hpp"
-#include "model/front/quad_reject.hpp"
 
 namespace quadrille::clocked {
 

@@ -1,6 +1,6 @@
 #include "model/fast/float_lanes.hpp"
 
-#include "model/lane_target.hpp"
+#include "model/port/lane_target.hpp"
 #include "model/skips/plane_quad.hpp"
 
 #include <algorithm>

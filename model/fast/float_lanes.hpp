@@ -8,11 +8,12 @@
 // Lanes are filled with the pixels of a quad as they come, across rows and tiles.
 #pragma once
 
-#include "model/front/covered_pixels.hpp"
-#include "model/fragment_arrays.hpp"
-#include "model/skips/masked_depth.hpp"
 #include "model/fast/pixel_lanes.hpp"
+#include "model/front/covered_pixels.hpp"
 #include "model/front/quad_reject.hpp"
+#include "model/port/depth_limits.hpp"
+#include "model/port/fragment_arrays.hpp"
+#include "model/skips/masked_depth.hpp"
 
 #include <algorithm>
 #include <optional>

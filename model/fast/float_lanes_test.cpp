@@ -1,9 +1,9 @@
 // The single-precision lanes against the plain pipeline, where they fit and at the edges of where they do.
 #include "model/fast/float_lanes.hpp"
 #include "model/fast/each_lane_target.hpp"
-#include "model/skips/plane_quad.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
+#include "model/skips/plane_quad.hpp"
 #include "model/untimed.hpp"
 
 #include "model/support/prng.hpp"

@@ -1,7 +1,7 @@
 #include "model/fast/pixel_lanes.hpp"
 
 #include "model/fast/lane_stages.hpp"
-#include "model/lane_target.hpp"
+#include "model/port/lane_target.hpp"
 
 #include <algorithm>
 #include <bit>

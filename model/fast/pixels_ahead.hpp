@@ -2,9 +2,9 @@
 // one quad at a time, by the quickest lanes that the quad fits.
 #pragma once
 
-#include "model/front/covered_pixels.hpp"
 #include "model/fast/float_lanes.hpp"
 #include "model/fast/pixel_lanes.hpp"
+#include "model/front/covered_pixels.hpp"
 #include "model/pixel/pixel_pipeline.hpp"
 
 #include <array>

@@ -4,7 +4,7 @@
 #include "golden/scenes/projection.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Twin of rtl/inside_expression.sv: expression (12) of Hormann & Tarini 2004 and its negation, for many places at once.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <cstdint>
 

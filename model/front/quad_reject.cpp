@@ -1,6 +1,7 @@
 #include "model/front/quad_reject.hpp"
 
 #include "model/front/quad_setup.hpp"
+#include "model/port/depth_limits.hpp"
 
 #include <algorithm>
 

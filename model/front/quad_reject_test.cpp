@@ -1,10 +1,10 @@
 // Quads left out before their tiles are walked: the same fragments with and without, every quad of small grids and many
 // drawn around each rule's limit; and that what can be left out is.
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 
-#include "model/both_ways_test_support.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/skips/both_ways_test_support.hpp"
 #include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>

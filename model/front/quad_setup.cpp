@@ -1,7 +1,7 @@
 #include "model/front/quad_setup.hpp"
 
+#include "model/port/snap.hpp"
 #include "model/skips/scissor_separation.hpp"
-#include "model/snap.hpp"
 
 #include <algorithm>
 #include <array>

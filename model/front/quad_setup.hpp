@@ -2,7 +2,7 @@
 // sides and diagonals, visibility.
 #pragma once
 
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 
 namespace quadrille {
 

@@ -4,12 +4,12 @@
 #include "model/clocked.hpp"
 #include "model/front/covered_pixels.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
 #include "model/front/tile_context.hpp"
 #include "model/front/tile_walk.hpp"
+#include "model/port/snap.hpp"
 
-#include "model/both_ways_test_support.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/skips/both_ways_test_support.hpp"
 #include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>

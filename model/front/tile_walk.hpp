@@ -9,9 +9,9 @@
 // it are left out, in the order of the whole walk.
 #pragma once
 
-#include "model/skips/hierarchical_z.hpp"
 #include "model/front/inside_expression.hpp"
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
+#include "model/skips/hierarchical_z.hpp"
 
 #include <algorithm>
 

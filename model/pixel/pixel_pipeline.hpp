@@ -4,10 +4,10 @@
 // This is the plain integer form, the oracle of the quick one (untimed model).
 #pragma once
 
+#include "model/front/tile_walk.hpp"
 #include "model/pixel/reciprocal.hpp"
 #include "model/pixel/significand.hpp"
 #include "model/pixel/sqrt.hpp"
-#include "model/front/tile_walk.hpp"
 
 namespace quadrille {
 

@@ -5,13 +5,13 @@
 #include "model/fast/each_lane_target.hpp"
 #include "model/fast/pixel_lanes.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
 #include "model/front/tile_context.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 
-#include "model/clocked_stream_test_support.hpp"
 #include "golden/scenes/corner_quads.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/clocked/clocked_stream_test_support.hpp"
 #include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>

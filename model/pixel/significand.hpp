@@ -2,7 +2,7 @@
 // truncates toward zero; this is the only place where the machine rounds behind the exact front.
 #pragma once
 
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 
 #include <bit>
 #include <cstdint>

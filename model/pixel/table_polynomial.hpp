@@ -1,7 +1,7 @@
 // Twin of rtl/table_polynomial.sv: one segment's polynomial in integers.
 #pragma once
 
-#include "model/tables.hpp"
+#include "model/port/tables.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -8,8 +8,8 @@
 // Codes, the draw state's promise and clears are those of hierarchical_z.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/front/tile_places.hpp"
+#include "model/port/config.hpp"
+#include "model/skips/tile_places.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "model/skips/hierarchical_z.hpp"
 
-#include "model/front/quad_reject.hpp"
-#include "model/snap.hpp"
-#include "model/stages.hpp"
+#include "model/port/depth_limits.hpp"
+#include "model/port/snap.hpp"
+#include "model/port/stages.hpp"
 
 #include <algorithm>
 

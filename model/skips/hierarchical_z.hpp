@@ -13,10 +13,10 @@
 // is always right.
 #pragma once
 
-#include "model/config.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "model/skips/hidden_blocks.hpp"
-#include "model/records.hpp"
-#include "model/front/tile_places.hpp"
+#include "model/skips/tile_places.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Hidden tiles: the depth-tested picture is the same with and without, bit by bit, for every scene and stress family in
 // several orders, and for quads made so that each rule of hierarchical_z alone decides; and that what can be hidden is.
 #include "model/skips/hierarchical_z.hpp"
+#include "model/port/snap.hpp"
 #include "model/skips/hidden_blocks.hpp"
 #include "model/skips/masked_depth.hpp"
-#include "model/snap.hpp"
 #include "model/untimed.hpp"
 
 #include "golden/scenes/random_state.hpp"

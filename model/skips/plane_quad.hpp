@@ -2,8 +2,8 @@
 // ones.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 namespace quadrille {
 

@@ -3,7 +3,7 @@
 #include "model/skips/plane_quad.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
 

@@ -2,7 +2,7 @@
 // of a quad that has no bounding box because some w is not 1.
 #pragma once
 
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 
 #include <array>
 

@@ -5,13 +5,13 @@
 #include "model/front/covered_pixels.hpp"
 #include "model/front/inside_expression.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
 #include "model/front/tile_walk.hpp"
+#include "model/port/snap.hpp"
 
-#include "model/both_ways_test_support.hpp"
 #include "golden/reference/exact_coverage.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/skips/both_ways_test_support.hpp"
 #include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>

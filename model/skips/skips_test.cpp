@@ -1,13 +1,13 @@
 // Skips that keep the list of fragments: each alone and all together give every fragment of the machine that skips
 // nothing, bit by bit and in the same order, from scenes and loads with every culling, and stress families, and
 // on the clocked model under gaps and stalls.
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 
-#include "model/clocked_stream_test_support.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/clocked/clocked_stream_test_support.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,16 +6,16 @@
 # arithmetic, so that the flags of a user change no bit; public_headers.cmake refuses one that includes a header that is not here.
 set(model_headers
   clocked.hpp
-  config.hpp
-  config_keys.h
-  draw_state.hpp
   drive.hpp
-  fragment_arrays.hpp
-  lane_target.hpp
-  performance_counters.hpp
-  records.hpp
-  snap.hpp
-  stages.hpp
+  port/config.hpp
+  port/config_keys.h
+  port/draw_state.hpp
+  port/fragment_arrays.hpp
+  port/lane_target.hpp
+  port/performance_counters.hpp
+  port/records.hpp
+  port/snap.hpp
+  port/stages.hpp
   untimed.hpp)
 list(TRANSFORM model_headers PREPEND model/)
 set(golden_headers

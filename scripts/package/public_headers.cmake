@@ -1,4 +1,4 @@
-# Copies the public headers as users include them: #include "model/config.hpp" becomes "quadrille/model/config.hpp", so that they need
+# Copies the public headers as users include them: #include "model/port/config.hpp" becomes "quadrille/model/config.hpp", so that they need
 # one include directory and meet nobody else's model/. A header that is unchanged is not written.
 #   cmake -DSOURCE=DIR -DDESTINATION=DIR/quadrille "-DHEADERS=a;b" -P public_headers.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -11,7 +11,9 @@ foreach(header IN LISTS HEADERS)
       message(FATAL_ERROR "${header} is public and includes ${included}, which is not (scripts/package/package.cmake)")
     endif()
   endforeach()
-  string(REGEX REPLACE "#include \"([^\"]+)\"" "#include \"quadrille/\\1\"" text "${text}")
+  string(REGEX REPLACE "#include \"(model/)([a-z]+/)?([^\"]+)\"" "#include \"quadrille/\\1\\3\"" text "${text}")
+  string(REGEX REPLACE "#include \"golden/([^\"]+)\"" "#include \"quadrille/golden/\\1\"" text "${text}")
+  string(REGEX REPLACE "^(model/)[a-z]+/" "\\1" header "${header}")
   set(old)
   if(EXISTS "${DESTINATION}/${header}")
     file(READ "${DESTINATION}/${header}" old)

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr std::string_view failed_prefix = "failed-";
@@ -98,4 +98,4 @@ void add_cache_command(CLI::App& app, Invocation& invocation) {
   });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -3,7 +3,7 @@
 
 #include "tb/options/options.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 void add_cosim_command(CLI::App& app, Invocation& invocation);
 void add_render_command(CLI::App& app, Invocation& invocation);
@@ -24,4 +24,4 @@ inline constexpr const char* compare_description = "The papers' methods side by 
 inline constexpr const char* stress_description =
     "Errors against a knob, towards every special case, of the model, the paper's formulas and others";
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

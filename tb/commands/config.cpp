@@ -7,10 +7,10 @@
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/config_file.hpp"
 #include "golden/io/json_report.hpp"
-#include "model/boundaries.hpp"
-#include "model/tables.hpp"
-#include "tb/judge/judged_quad.hpp"
+#include "model/port/boundaries.hpp"
+#include "model/port/tables.hpp"
 #include "tb/device/probes.hpp"
+#include "tb/judge/judged_quad.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 
@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 struct ConfigOptions {
@@ -214,4 +214,4 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
   });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -8,8 +8,8 @@
 #include "tb/options/written_file.hpp"
 
 #include "golden/io/json_report.hpp"
-#include "tb/judge/model_check.hpp"
 #include "tb/device/verilate.hpp"
+#include "tb/judge/model_check.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 int run_inputs(const CosimOptions& options, const Config& config, const std::vector<std::string>& arguments) {
@@ -182,4 +182,4 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
   });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -4,15 +4,15 @@
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/random_state.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/draw_state.hpp"
-#include "model/snap.hpp"
+#include "model/port/draw_state.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/prng.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 namespace {
 
@@ -318,4 +318,4 @@ std::vector<BatteryGroup> battery_groups() {
   return groups;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

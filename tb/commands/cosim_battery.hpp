@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Draws of one machine. Every group is complete: no limit of fragments cuts off what its last draws are about.
 struct BatteryGroup {
@@ -25,4 +25,4 @@ std::vector<BatteryGroup> battery_groups();
 /// Runs them, or those that --battery names; the exit status.
 int run_battery(const CosimOptions& options, const Config& config, const std::vector<std::string>& arguments);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

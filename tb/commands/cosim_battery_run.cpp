@@ -15,7 +15,7 @@
 #include <mutex>
 #include <optional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// The command's options for a group.
@@ -164,4 +164,4 @@ int run_battery(const CosimOptions& options, const Config& config, const std::ve
   return ok ? exit_ok : exit_mismatch;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

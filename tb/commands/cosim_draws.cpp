@@ -1,11 +1,11 @@
 #include "tb/commands/cosim_draws.hpp"
 
 #include "golden/scenes/random_state.hpp"
-#include "model/draw_state.hpp"
+#include "model/port/draw_state.hpp"
 
 #include <algorithm>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::vector<PlannedDraw> plan_draws(std::span<const WindowQuad> quads, std::size
   return draws;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

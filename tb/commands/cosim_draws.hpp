@@ -2,8 +2,8 @@
 // states between them.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "model/support/prng.hpp"
 #include "tb/lockstep/wait_pattern.hpp"
 
@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct PlannedDraw {
   std::vector<WindowQuad> quads;     ///< of port quads, ids alone
@@ -42,4 +42,4 @@ double flush_chance(std::size_t draw);
 std::vector<PlannedDraw> plan_draws(std::span<const WindowQuad> quads, std::size_t count, const Config& config,
                                     int width, int height, std::uint64_t seed);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <set>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 Config hiding(int tiles_log2) {
@@ -76,4 +76,4 @@ TEST(CosimDraws, TheSeedDecides) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// parse(text), {} of an option that was not given.
@@ -106,4 +106,4 @@ tb::LockstepOptions CosimOptions::lockstep(const Config& config, const DrawState
   return lockstep;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct CosimOptions {
   CommonOptions common;
@@ -33,4 +33,4 @@ struct CosimOptions {
   tb::LockstepOptions lockstep(const Config& config, const DrawState& state) const;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 CosimPicture::CosimPicture(const CosimOptions& options, const Config& config, const DrawInput& input,
                            const DrawState& state)
@@ -63,4 +63,4 @@ void CosimPicture::save() {
   if (!options_.png.empty()) save_frame_png(options_.png, image);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

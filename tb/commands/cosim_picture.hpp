@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 class CosimPicture {
  public:
@@ -37,4 +37,4 @@ class CosimPicture {
   std::size_t position_ = 0;  ///< in samples_, of a further pass
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

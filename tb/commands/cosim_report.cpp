@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
@@ -258,4 +258,4 @@ std::string list_metrics() {
   return text;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

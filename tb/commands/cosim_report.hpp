@@ -1,9 +1,9 @@
 // What `quadrille cosim` says: table, summary, complaints, JSON.
 #pragma once
 
-#include "tb/judge/model_check.hpp"
 #include "tb/commands/cosim_options.hpp"
 #include "tb/commands/cosim_result.hpp"
+#include "tb/judge/model_check.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 class CosimReport {
  public:
@@ -40,4 +40,4 @@ void complain(const InputResult& r);
 /// --list-metrics: every number of the report's metrics as a Markdown table.
 std::string list_metrics();
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <set>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// Each kind of line, its numbers in their places.
@@ -69,4 +69,4 @@ TEST(CosimReport, AKeyIsOneMetric) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

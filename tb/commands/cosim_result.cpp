@@ -1,6 +1,6 @@
 #include "tb/commands/cosim_result.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 void InputResult::merge(const InputResult& part) {
   for (std::size_t i = 0; i < counted.size(); ++i) counted[i] += part.counted[i];
@@ -16,4 +16,4 @@ void InputResult::merge(const InputResult& part) {
   for (const std::string& text : part.beyond_limits) beyond_limits.push_back(part.name + ": " + text);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

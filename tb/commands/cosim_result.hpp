@@ -1,7 +1,7 @@
 // What came of one input of `quadrille cosim`, or of several together.
 #pragma once
 
-#include "model/performance_counters.hpp"
+#include "model/port/performance_counters.hpp"
 #include "tb/judge/check.hpp"
 #include "tb/judge/metric.hpp"
 #include "tb/judge/skip_check.hpp"
@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// All that an input counts, but for what check_counters has.
 inline constexpr Metric cosim_metrics[]{
@@ -105,4 +105,4 @@ struct InputResult {
   }
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,9 +1,9 @@
 #include "tb/commands/cosim_run.hpp"
 
 #include "golden/scenes/random_state.hpp"
-#include "model/skips/hierarchical_z.hpp"
 #include "model/front/quad_reject.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
+#include "model/skips/hierarchical_z.hpp"
 #include "tb/judge/error_limits.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -15,7 +15,7 @@
 #include <memory>
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr std::uint64_t alone_fragments = 200'000;  ///< enough to time the RTL alone
@@ -353,4 +353,4 @@ void CosimRun::shrink_failure(const std::vector<InputResult>& results, const Mod
   }
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,17 +1,17 @@
 // Inputs of `quadrille cosim` drawn in lockstep and judged, one after the other.
 #pragma once
 
-#include "tb/judge/model_check.hpp"
 #include "tb/commands/cosim_draws.hpp"
 #include "tb/commands/cosim_options.hpp"
 #include "tb/commands/cosim_picture.hpp"
 #include "tb/commands/cosim_result.hpp"
 #include "tb/commands/cosim_shrink.hpp"
+#include "tb/judge/model_check.hpp"
 
 #include <optional>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 class CosimRun {
  public:
@@ -56,4 +56,4 @@ class CosimRun {
   std::optional<FailedPass> failed_;  ///< the first of all inputs
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

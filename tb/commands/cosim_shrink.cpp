@@ -2,9 +2,9 @@
 
 #include "golden/io/json_report.hpp"
 #include "golden/io/quads_file.hpp"
-#include "model/snap.hpp"
-#include "tb/lockstep/shrink.hpp"
+#include "model/port/snap.hpp"
 #include "tb/lockstep/driven_device.hpp"
+#include "tb/lockstep/shrink.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
 #include "tb/support/stopwatch.hpp"
@@ -18,7 +18,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 namespace {
 
@@ -201,4 +201,4 @@ void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, 
   std::fputs(text.c_str(), stderr);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,7 +1,7 @@
 // A failing co-simulation shrinks itself: the least that still fails as one command line, with a waveform of its end.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 #include "tb/judge/check.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/options.hpp"
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// A pass of an input that failed, and how it was run.
 struct FailedPass {
@@ -33,4 +33,4 @@ std::string quoted(const std::string& argument);
 /// Shrinks, writes both files and says on standard error what is left, the command and the waveform.
 void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, const CommonOptions& common);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

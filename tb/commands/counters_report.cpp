@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 nlohmann::ordered_json counters_json(const PerformanceCounters& counters) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
@@ -49,4 +49,4 @@ std::optional<PerformanceCounters> count_draw(const EngineSettings& settings, st
   return tb::run_clocked_model_alone(snapped, options).counters;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,7 +1,7 @@
 // Performance counters as reports have them.
 #pragma once
 
-#include "model/performance_counters.hpp"
+#include "model/port/performance_counters.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/options.hpp"
 
@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// An object with a number for each counter, by name and in their order.
 nlohmann::ordered_json counters_json(const PerformanceCounters& counters);
@@ -29,4 +29,4 @@ inline bool reports_counters(const CommonOptions& common) { return !common.json.
 std::optional<PerformanceCounters> count_draw(const EngineSettings& settings, std::span<const WindowQuad> quads,
                                               int attributes);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

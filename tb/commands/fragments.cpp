@@ -8,7 +8,7 @@
 #include "golden/io/fragment_csv.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/text_input.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
@@ -24,7 +24,7 @@
 #include <memory>
 #include <optional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 struct FragmentsOptions {
@@ -188,4 +188,4 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
       [options, &invocation] { invocation.run = [options, &invocation] { return fragments(*options, invocation); }; });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

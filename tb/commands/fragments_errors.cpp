@@ -9,7 +9,7 @@
 #include <optional>
 #include <tuple>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 struct Pair {
@@ -78,4 +78,4 @@ std::string fragment_errors_csv(std::span<const WindowQuad> quads, int attribute
   return out;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// A row for each weight, window z and attribute: quad,x,y,value,drawn,truth,error,of_bound; reals with 17 significant
 /// digits. `drawn` holds what the engine of `settings` drew of the quads, `truth` the engine truth under the same
@@ -15,4 +15,4 @@ namespace quadrille::cli {
 std::string fragment_errors_csv(std::span<const WindowQuad> quads, int attributes, const EngineSettings& settings,
                                 std::span<const EngineSample> drawn, std::span<const EngineSample> truth);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

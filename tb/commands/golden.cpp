@@ -3,10 +3,10 @@
 #include "golden/io/json_report.hpp"
 #include "golden/vectors/input_suite.hpp"
 #include "golden/vectors/suite.hpp"
-#include "model/snap.hpp"
-#include "tb/judge/verify_exact.hpp"
+#include "model/port/snap.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/golden_rtl.hpp"
+#include "tb/judge/verify_exact.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/shard.hpp"
@@ -24,7 +24,7 @@
 #include <memory>
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using namespace vectors;
@@ -476,4 +476,4 @@ void add_golden_command(CLI::App& app, Invocation& invocation) {
   add_golden_diff_command(*command, invocation);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

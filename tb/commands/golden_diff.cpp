@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ void add_golden_diff_command(CLI::App& golden, Invocation& invocation) {
   });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ std::map<std::string, vectors::VerifyResult> replay_rtl(const std::string& direc
   return results;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Replays the suites of a set (scripts/replay.sh); suites without RTL are not in the result. Throws EnvironmentError
 /// when the script or a tool is missing, InputError when the replay cannot read the set.
 std::map<std::string, vectors::VerifyResult> replay_rtl(const std::string& directory,
                                                         const std::vector<std::string>& suites);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

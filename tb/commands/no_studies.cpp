@@ -1,8 +1,8 @@
 // The core program is without the studies.
 #include "tb/commands/commands.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 void (*const add_studies)(CLI::App& app, Invocation& invocation) = nullptr;
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

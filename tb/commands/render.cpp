@@ -5,7 +5,7 @@
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
 #include "tb/render/frame.hpp"
@@ -20,7 +20,7 @@
 #include <memory>
 #include <optional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 struct RenderOptions {
@@ -171,4 +171,4 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
       [options, &invocation] { invocation.run = [options, &invocation] { return render(*options, invocation); }; });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

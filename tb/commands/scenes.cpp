@@ -17,7 +17,7 @@
 #include <memory>
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 struct ScenesOptions {
@@ -92,4 +92,4 @@ void add_scenes_command(CLI::App& app, Invocation& invocation) {
   });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -8,7 +8,7 @@
 #include "golden/io/interrupt.hpp"
 #include "golden/io/json_report.hpp"
 #include "golden/io/npy.hpp"
-#include "model/draw_state.hpp"
+#include "model/port/draw_state.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/commands/sweep_cosim.hpp"
 #include "tb/commands/sweep_parts.hpp"
@@ -41,7 +41,7 @@
 #include <memory>
 #include <optional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -720,4 +720,4 @@ void add_sweep_command(CLI::App& app, Invocation& invocation) {
   });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -2,11 +2,11 @@
 
 #include "model/skips/plane_quad.hpp"
 #include "model/support/parallel.hpp"
-#include "tb/judge/check.hpp"
 #include "tb/engines/engine.hpp"
+#include "tb/judge/check.hpp"
 #include "tb/lockstep/lockstep.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> quads, int attributes, DrawState state,
@@ -76,4 +76,4 @@ std::vector<CosimRow> cosimulate(std::span<const CosimPoint> points, std::span<c
   return rows;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,8 +1,8 @@
 // Co-simulation of selected points of a sweep: the RTL with those widths in lockstep with the model.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct CosimPoint {
   std::size_t row = 0;
@@ -41,4 +41,4 @@ std::vector<CosimRow> cosimulate(std::span<const CosimPoint> points, std::span<c
                                  const DrawState& state, std::uint64_t limit, std::uint64_t seed, unsigned threads,
                                  const std::function<void(std::size_t)>& done);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

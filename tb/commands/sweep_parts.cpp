@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <limits>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using sweep::ErrorKind;
@@ -164,4 +164,4 @@ nlohmann::ordered_json to_json(const TargetParts& parts) {
   return json;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

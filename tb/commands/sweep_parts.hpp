@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// One key with one more bit (of a table: twice the segments), and the errors with it.
 struct Remedy {
@@ -42,4 +42,4 @@ std::string verdict(const TargetParts& parts);
 
 nlohmann::ordered_json to_json(const TargetParts& parts);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

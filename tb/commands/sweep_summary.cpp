@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 std::string format(const char* how, double value) {
@@ -147,4 +147,4 @@ void print_target(std::FILE* out, const SweepSummary& summary, const TargetResul
   }
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct SweepSummary {
   const sweep::Grid& grid;
@@ -39,4 +39,4 @@ void print_planes(std::FILE* out, const SweepSummary& summary, bool skipped, con
 void print_target(std::FILE* out, const SweepSummary& summary, const TargetResult& result,
                   std::span<const TargetParts> parts, const std::string& input, bool confirms);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,8 +1,8 @@
 #include "tb/commands/sweep_target.hpp"
 
 #include "golden/scenes/stress.hpp"
-#include "model/draw_state.hpp"
-#include "model/snap.hpp"
+#include "model/port/draw_state.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/options/options.hpp"
 #include "tb/support/errors.hpp"
@@ -15,7 +15,7 @@
 #include <map>
 #include <memory>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr int family_size = 256;  // pixels
@@ -310,4 +310,4 @@ nlohmann::ordered_json to_json(const TargetResult& result) {
   return json;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

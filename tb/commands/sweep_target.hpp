@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// An error column and the largest value that it may have.
 struct ErrorTarget {
@@ -82,4 +82,4 @@ TargetResult search_target(const TargetSearch& search);
 
 nlohmann::ordered_json to_json(const TargetResult& result);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

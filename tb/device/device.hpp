@@ -2,7 +2,7 @@
 // implementation (verilated_device.hpp); tests have others, broken on purpose.
 #pragma once
 
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 
 #include <array>
 #include <cstdint>
@@ -65,7 +65,7 @@ class Device {
   /// The outputs after settle(). Pointers in it hold until the next call of settle() or clock().
   virtual const DeviceSample& sample() = 0;
 
-  /// A performance counter by its index (model/performance_counters.hpp), after settle(); 0 without them.
+  /// A performance counter by its index (model/port/performance_counters.hpp), after settle(); 0 without them.
   virtual std::uint32_t counter(std::size_t /*index*/) { return 0; }
 
   /// The rising edge of the clock. Throws DeviceError as settle() does.

@@ -29,7 +29,7 @@ typedef struct {
   uint32_t vertex_ready, fragment_valid, fragment_mask, busy;
   uint32_t fragment_width; /* bits of a lane */
   const uint32_t* fragment_words[quadrille_most_lanes];
-  quadrille_probe probe[quadrille_probe_count]; /* by Boundary (model/stages.hpp) */
+  quadrille_probe probe[quadrille_probe_count]; /* by Boundary (model/port/stages.hpp) */
 } quadrille_sample;
 
 typedef struct {

@@ -1,6 +1,6 @@
 #include "tb/device/probes.hpp"
 
-#include "model/boundaries.hpp"
+#include "model/port/boundaries.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -76,7 +76,7 @@ std::string probes_header() {
                                                   "; \\\n  assign " + probe + "_o" + lane + " = '{" + pattern +
                                                   " \\\n  };";
   }
-  return "// Written by `quadrille config --boundaries sv` from model/boundaries.hpp. First members are most "
+  return "// Written by `quadrille config --boundaries sv` from model/port/boundaries.hpp. First members are most "
          "significant.\n"
          "package quadrille_probes_pkg;\n  import quadrille_pkg::*;\n" +
          structs +

@@ -1,4 +1,4 @@
-// The probes' side of model/boundaries.hpp in SystemVerilog.
+// The probes' side of model/port/boundaries.hpp in SystemVerilog.
 #pragma once
 
 #include <string>

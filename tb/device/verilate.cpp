@@ -1,8 +1,8 @@
 #include "tb/device/verilate.hpp"
 
-#include "model/boundaries.hpp"
-#include "model/config_text.hpp"
-#include "model/tables.hpp"
+#include "model/port/boundaries.hpp"
+#include "model/port/config_text.hpp"
+#include "model/port/tables.hpp"
 #include "tb/device/build_notice.hpp"
 #include "tb/device/ninja_file.hpp"
 #include "tb/device/probes.hpp"

@@ -3,7 +3,7 @@
 // options below, Verilator's and the compiler's version. Ninja runs the compilers, through ccache where there is one.
 #pragma once
 
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 #include "tb/device/cache.hpp"
 
 #include <filesystem>

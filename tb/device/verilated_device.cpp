@@ -1,6 +1,6 @@
 #include "tb/device/verilated_device.hpp"
 
-#include "model/bit_vector.hpp"
+#include "model/port/bit_vector.hpp"
 #include "tb/device/device_abi.h"
 #include "tb/support/environment_error.hpp"
 

@@ -1,7 +1,7 @@
 // A Verilated configuration, loaded at run time: neither the program nor the model links Verilator.
 #pragma once
 
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 #include "tb/device/device.hpp"
 #include "tb/device/verilate.hpp"
 

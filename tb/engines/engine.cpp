@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constinit EngineMaker shader_maker = nullptr;
@@ -60,4 +60,4 @@ void read_columns(const Fragment& fragment, const Pass& pass, const Config& conf
   }
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

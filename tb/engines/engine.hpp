@@ -1,8 +1,8 @@
 // The engines behind one interface: quads as given in, fragments as numbers out.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "tb/passes/pass.hpp"
 
 #include <array>
@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// All that draws, the last two in `bench --error` alone.
 enum class EngineKind { rtl, model, paper_float, shader, truth, paper_single, model_plain, model_clocked };
@@ -92,4 +92,4 @@ void set_shader_engine(EngineMaker maker);
 void read_columns(const Fragment& fragment, const Pass& pass, const Config& config, EngineSample& sample,
                   bool first = true);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -2,14 +2,14 @@
 #include "tb/engines/engine.hpp"
 
 #include "golden/scenes/stress.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "tb/support/errors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 TEST(Passes, CarryEveryColumnOnceInAsFewDrawsAsTheSlotsAllow) {
@@ -152,4 +152,4 @@ TEST(Passes, ThreadsHideTheSame) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -3,9 +3,9 @@
 
 #include "tb/engines/engine.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 std::unique_ptr<Engine> make_model_engine(const EngineSettings& settings);
 std::unique_ptr<Engine> make_rtl_engine(const EngineSettings& settings);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,5 +1,5 @@
+#include "model/port/snap.hpp"
 #include "model/skips/hierarchical_z.hpp"
-#include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
 #include "tb/engines/machine_engine.hpp"
@@ -8,7 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr std::size_t quads_per_unit = 16;
@@ -92,4 +92,4 @@ std::unique_ptr<Engine> make_model_engine(const EngineSettings& settings) {
   return std::make_unique<ModelEngine>(settings);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

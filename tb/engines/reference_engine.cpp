@@ -2,8 +2,8 @@
 
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/truth.hpp"
-#include "model/snap.hpp"
-#include "model/stages.hpp"
+#include "model/port/snap.hpp"
+#include "model/port/stages.hpp"
 #include "model/support/parallel.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using golden::PaperFp32Quad;
@@ -171,4 +171,4 @@ std::unique_ptr<Engine> make_reference_engine(const EngineSettings& settings) {
   return std::make_unique<ReferenceEngine>(settings);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -3,8 +3,8 @@
 
 #include "tb/engines/engine.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 std::unique_ptr<Engine> make_reference_engine(const EngineSettings& settings);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

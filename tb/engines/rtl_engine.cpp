@@ -1,5 +1,5 @@
+#include "model/port/snap.hpp"
 #include "model/skips/hierarchical_z.hpp"
-#include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/engines/machine_engine.hpp"
 #include "tb/lockstep/lockstep.hpp"
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr std::size_t quads_per_run = 256;
@@ -81,4 +81,4 @@ std::unique_ptr<Engine> make_rtl_engine(const EngineSettings& settings) {
   return std::make_unique<RtlEngine>(settings);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

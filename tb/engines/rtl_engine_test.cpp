@@ -9,7 +9,7 @@
 #include <ctime>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// Of this thread: what others do on the machine is not in it.
@@ -64,4 +64,4 @@ TEST(RtlEngine, TakesLessTimeThanLockstep) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

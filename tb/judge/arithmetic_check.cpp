@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using exact::Number;
@@ -243,4 +243,4 @@ void check_arithmetic(const Config& config, std::vector<FunctionResult>& results
     results.push_back(tally->result());
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -11,7 +11,7 @@
 #include <optional>
 #include <tuple>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using golden::Coverage;
@@ -621,4 +621,4 @@ CheckResult check_here(const FragmentChecker::Settings& settings, std::span<cons
   return result;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

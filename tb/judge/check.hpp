@@ -1,8 +1,8 @@
 // Fragments of the machine against the truth, as they come: coverage, singular classes, weights, attributes, depth.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "tb/judge/hidden_check.hpp"
 #include "tb/judge/judged_quad.hpp"
 #include "tb/judge/metric.hpp"
@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 using tb::ErrorStats;
 
@@ -234,4 +234,4 @@ CheckResult check_here(const FragmentChecker::Settings& settings, std::span<cons
                        std::span<const SnappedQuad> snapped,
                        const std::function<bool(const std::function<void(const Fragment&)>&)>& draw);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -2,7 +2,7 @@
 // found.
 #include "tb/judge/check.hpp"
 
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/judge/judged_quad.hpp"
 
@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 class Checker : public testing::Test {
@@ -301,4 +301,4 @@ TEST_F(Checker, FindsAPixelOfAQuadAtInfinity) {
 TEST_F(Checker, NothingComparedIsNotAPass) { EXPECT_FALSE(check({}).ok()); }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

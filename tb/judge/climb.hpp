@@ -2,7 +2,7 @@
 #pragma once
 
 #include "golden/reference/truth.hpp"
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 #include "model/support/prng.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// `Measure` gives a candidate's height, negative for one that does not count.
 template <class Candidate, class Measure>
@@ -86,4 +86,4 @@ inline golden::PixelPlace near_pixel(golden::PixelPlace from, int width, int hei
   return {x, std::clamp(from.y + static_cast<int>(rng.integer(-3, 3)), 0, height - 1)};
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// Draws on a larger viewport are about the walk and its widths, and the truth looks at every pixel.
@@ -115,4 +115,4 @@ CheckResult judge_directed(const Config& config, PixelEngine engine) {
   return sum;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

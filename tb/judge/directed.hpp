@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// The corner quads of golden/scenes, thinned where a group has many of a kind and without those on a large viewport,
 /// which are about the walk; and two more groups:
@@ -18,4 +18,4 @@ std::vector<golden::CornerDraw> directed_draws(const Config& config);
 /// All of them, every fragment judged (judge.hpp); some 0.2 s. A message begins with the draw's name.
 CheckResult judge_directed(const Config& config, PixelEngine engine = PixelEngine::plain);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

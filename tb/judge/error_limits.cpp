@@ -13,7 +13,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// Four significant digits, upward or downward: what is in the file is not tighter than what was measured.
@@ -190,4 +190,4 @@ std::vector<std::string> beyond_limits(const ErrorLimits::Family& limits, const 
   return out;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

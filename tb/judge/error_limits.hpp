@@ -4,7 +4,7 @@
 #pragma once
 
 #include "golden/scenes/stress.hpp"
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 #include "model/untimed.hpp"
 #include "tb/judge/check.hpp"
 #include "tb/support/outputs.hpp"
@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// What the limits are about: so many quads of a family (fewer where each covers much) on a square viewport, at the
 /// standard knob, in the default draw state and configuration, but for significand_bits.
@@ -93,4 +93,4 @@ bool limits_apply(const Config& config, const DrawState& state, golden::StressFa
 /// What is beyond its limit, in words; empty when nothing is. Outputs that were not measured are left out.
 std::vector<std::string> beyond_limits(const ErrorLimits::Family& limits, const CheckResult& result);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

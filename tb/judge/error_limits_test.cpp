@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// A draw with these errors at its weights, attributes and depths, and their mean.
@@ -103,4 +103,4 @@ TEST(ErrorLimits, AreForTheirDrawAlone) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -2,14 +2,14 @@
 // page alone; nothing of the model's arithmetic is used.
 #pragma once
 
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <span>
 
-namespace quadrille::cli::exact {
+namespace quadrille::tb::exact {
 
 using Wide = __int128;
 
@@ -91,4 +91,4 @@ inline PipelineFloat float_of(const Number& v, int s) {
   return {r.m < 0, exponent, static_cast<std::uint32_t>(shift >= 0 ? m >> shift : m << -shift)};
 }
 
-}  // namespace quadrille::cli::exact
+}  // namespace quadrille::tb::exact

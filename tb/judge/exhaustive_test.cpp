@@ -1,13 +1,13 @@
 // Everything there is, at small widths, against exact integers: every quad of a small grid with w of -1, 0 and 1, every
 // pair of operands of the arithmetic, every argument of the tables. The oracles are written from rtl/SPEC.md and use
 // nothing of the model.
-#include "model/both_ways_test_support.hpp"
 #include "golden/reference/exact_coverage.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/front/quad_setup.hpp"
 #include "model/pixel/reciprocal.hpp"
 #include "model/pixel/significand.hpp"
 #include "model/pixel/sqrt.hpp"
+#include "model/skips/both_ways_test_support.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/judge/check.hpp"
 #include "tb/judge/exact_number.hpp"
@@ -20,7 +20,7 @@
 #include <optional>
 #include <set>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using exact::Number;
@@ -303,4 +303,4 @@ TEST(Exhaustive, TablesBeyond20Bits) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

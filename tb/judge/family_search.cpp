@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using golden::Prng;
@@ -192,4 +192,4 @@ std::optional<FamilySummit> worst_of_family(const FamilySearch& search) {
   return worst;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -3,8 +3,8 @@
 
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "tb/judge/pixel_error.hpp"
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct FamilySearch {
   golden::StressFamily family = golden::StressFamily::general;
@@ -54,4 +54,4 @@ WindowQuad quad_for(const WindowQuad& quad, Output output);
 /// The draw state of a search: the default one of this size.
 DrawState search_state(int width, int height);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

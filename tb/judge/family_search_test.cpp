@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 FamilySearch search_of(golden::StressFamily family, Output output, std::uint64_t evaluations, std::uint64_t seed) {
@@ -154,4 +154,4 @@ TEST(FamilySearch, IsWorthMoreThanChance) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -2,7 +2,7 @@
 // codes of znear and zfar.
 #include "model/front/covered_pixels.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/prng.hpp"
 #include "tb/judge/function_tally.hpp"
 #include "tb/judge/stage_judge.hpp"
@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using exact::Wide;
@@ -233,4 +233,4 @@ void check_front(const Config& config, std::vector<FunctionResult>& results) {
   for (const FunctionTally* tally : {&snapping, &setup, &tiles, &pixels, &codes}) results.push_back(tally->result());
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

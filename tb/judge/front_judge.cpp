@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using exact::magnitude;
@@ -309,4 +309,4 @@ std::string coverage_fault(const TileEntry& tile, const QuadConstants& quad, int
   return "";
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

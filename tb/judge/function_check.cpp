@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 std::uint64_t FunctionReport::arguments() const {
   return std::accumulate(functions.begin(), functions.end(), std::uint64_t{0},
@@ -30,4 +30,4 @@ FunctionReport check_functions(const Config& config) {
   return report;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

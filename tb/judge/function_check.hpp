@@ -2,14 +2,14 @@
 // hides, and what RTL and model have wrong alike. Lockstep extends what holds of the model to the RTL.
 #pragma once
 
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// One function and what was found.
 struct FunctionResult {
@@ -45,4 +45,4 @@ struct TableLimit {
 TableLimit sqrt_limit(const Config& config);
 TableLimit reciprocal_limit(const Config& config);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

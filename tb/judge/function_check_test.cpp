@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 Config configured(std::initializer_list<std::pair<const char*, int>> settings) {
@@ -90,4 +90,4 @@ TEST(FunctionCheck, PassesOtherConfigurations) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// One function's results as they come.
 class FunctionTally {
@@ -30,4 +30,4 @@ void check_arithmetic(const Config& config, std::vector<FunctionResult>& results
 void check_pixel_stages(const Config& config, std::vector<FunctionResult>& results);  ///< normalise to fragment_output
 void check_front(const Config& config, std::vector<FunctionResult>& results);         ///< snapping, setup, limits
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

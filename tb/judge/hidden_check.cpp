@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 DrawState with_nothing_hidden(DrawState state) {
@@ -54,4 +54,4 @@ bool HiddenCheck::may_refuse(int x, int y, double z, double tolerance) const {
   return std::ldexp(z + tolerance, depth_bits_) + 0.5 >= depth_.at(x, y);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

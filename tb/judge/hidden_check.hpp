@@ -1,8 +1,8 @@
 // What a machine that leaves hidden tiles out may leave out: fragments that the depth buffer would refuse.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "model/untimed.hpp"
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// The codes in a depth buffer (LESS) of what a machine drew since a clear.
 class HiddenDepths {
@@ -59,4 +59,4 @@ class HiddenCheck {
   std::uint64_t left_out_ = 0;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

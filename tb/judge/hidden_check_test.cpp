@@ -1,14 +1,14 @@
 // The check of what a machine leaves out as hidden is itself checked.
 #include "tb/judge/hidden_check.hpp"
 
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "tb/judge/check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// One square in front of another, the nearer one first.
@@ -103,4 +103,4 @@ TEST_F(Hidden, FindsOtherFragmentsThanWithNothingHidden) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// One draw of the machine over `snapped` (ids are positions).
@@ -92,4 +92,4 @@ CheckResult judge_untimed(std::span<const SnappedQuad> quads, const Config& conf
   return sum;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -7,7 +7,7 @@
 
 #include <span>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Draws the quads (numbered by position; their ids are for messages) with the untimed model and compares every
 /// fragment with the truth: the weights in passes of their own, then the first `attributes` attributes.
@@ -21,4 +21,4 @@ CheckResult judge_untimed(std::span<const WindowQuad> quads, int attributes, con
 CheckResult judge_untimed(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
                           PixelEngine engine = PixelEngine::plain);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

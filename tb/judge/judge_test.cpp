@@ -12,7 +12,7 @@
 #include <cmath>
 #include <map>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 DrawState square(int size) {
@@ -153,4 +153,4 @@ TEST(Directed, DrawsHoldWhatTheyAreFor) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 using golden::port_value;
 
@@ -197,4 +197,4 @@ std::optional<std::int64_t> JudgedQuad::exact_depth(int corner) const {
                                   base.depth_high);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "golden/reference/truth.hpp"
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <cstdint>
 #include <optional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// The arithmetic bound |error of a weight| <= 2^-(s-3) of a configuration, weights 1 to 3.
 double weight_bound(const Config& config);
@@ -124,4 +124,4 @@ class JudgedQuad {
   std::array<double, max_attribute_slots> attribute_tolerance_{};
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -2,10 +2,10 @@
 
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/port_number.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
+#include "tb/engines/engine.hpp"
 #include "tb/judge/judge.hpp"
 #include "tb/judge/judged_quad.hpp"
-#include "tb/engines/engine.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <optional>
 #include <tuple>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using golden::ReferenceSample;
@@ -298,4 +298,4 @@ ErrorJump error_jump(const PixelSeries& from, const PixelSeries& to) {
   return jump;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

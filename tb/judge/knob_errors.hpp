@@ -17,7 +17,7 @@ namespace quadrille::golden {
 struct ReferenceSample;
 }
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 class JudgedQuad;
 
@@ -108,4 +108,4 @@ struct ErrorJump {
 /// Both with as many attributes.
 ErrorJump error_jump(const PixelSeries& from, const PixelSeries& to);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr unsigned paper =
@@ -179,4 +179,4 @@ TEST(KnobErrors, Jump) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

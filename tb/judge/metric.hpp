@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Where it is in the JSON report, in this order; `counts` is an object. none: not by itself.
 enum class MetricGroup { draw, faults, cycles, counts, none };
@@ -33,4 +33,4 @@ struct Metric {
   std::string_view shown = {};  ///< its part of the line; {key} is the number of a metric
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct ModelCheck {
   FunctionReport functions;
@@ -26,4 +26,4 @@ struct ModelCheck {
 /// the same.
 inline ModelCheck check_model(const Config& config) { return {check_functions(config), judge_directed(config)}; }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -4,16 +4,16 @@
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/regular_weights.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
 #include "model/front/stamp_coverage.hpp"
 #include "model/front/tile_context.hpp"
+#include "model/port/snap.hpp"
 #include "tb/judge/check.hpp"
 #include "tb/judge/judged_quad.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 DrawState with_output(DrawState state, Output output) {
@@ -191,4 +191,4 @@ double PixelErrors::weight(const Fragment& f, std::size_t i) const {
   return std::ldexp(static_cast<double>(f.attribute[i]), -config_.attribute_frac());
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

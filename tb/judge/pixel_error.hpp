@@ -1,9 +1,9 @@
 // The error of one quad at one pixel: what searches for the largest error climb on, and their verdict.
 #pragma once
 
-#include "model/config.hpp"
 #include "model/pixel/pixel_pipeline.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "model/untimed.hpp"
 #include "tb/judge/judged_quad.hpp"
 #include "tb/support/outputs.hpp"
@@ -12,7 +12,7 @@
 #include <optional>
 #include <string_view>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// The model's pure functions at one pixel.
 struct PixelAlone {
@@ -65,4 +65,4 @@ class PixelErrors {
   UntimedModel plain_, lanes_;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

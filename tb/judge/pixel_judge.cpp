@@ -2,7 +2,7 @@
 #include "tb/judge/judged_quad.hpp"
 #include "tb/judge/stage_judge.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 using exact::Number;
 using exact::sign_of;
@@ -193,4 +193,4 @@ std::string PixelJudge::values_fault(const Fragment& g, const Output& expected) 
   return g.depth == expected.depth ? "" : differs("depth", g.depth, expected.depth);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

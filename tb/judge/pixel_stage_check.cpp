@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using exact::Number;
@@ -284,4 +284,4 @@ void check_pixel_stages(const Config& config, std::vector<FunctionResult>& resul
     results.push_back(tally->result());
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

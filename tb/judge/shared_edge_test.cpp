@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr int extent = 96;
@@ -145,4 +145,4 @@ TEST(SharedEdges, BothQuadsAreWithinTheirBounds) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

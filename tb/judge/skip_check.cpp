@@ -1,6 +1,6 @@
 #include "tb/judge/skip_check.hpp"
 
-#include "model/draw_state.hpp"
+#include "model/port/draw_state.hpp"
 #include "model/skips/hierarchical_z.hpp"
 #include "model/untimed.hpp"
 
@@ -8,7 +8,7 @@
 #include <array>
 #include <bit>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 namespace {
 
@@ -109,4 +109,4 @@ SkipResult SkipCheck::compare(std::span<const SnappedQuad> snapped, std::size_t 
   return result;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

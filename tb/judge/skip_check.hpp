@@ -1,8 +1,8 @@
 // Skips that must not change a fragment, against draws that skip nothing.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "tb/support/work_queue.hpp"
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct SkipResult {
   std::uint64_t compared = 0;     ///< fragments of the draw that skips nothing, once for each draw compared with it
@@ -41,4 +41,4 @@ class SkipCheck {
   std::size_t last_ = 0;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

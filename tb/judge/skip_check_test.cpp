@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 struct Drawn {
@@ -83,4 +83,4 @@ TEST(SkipCheck, OfADrawThatWasCutOffTheQuadsBefore) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

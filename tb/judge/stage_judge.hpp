@@ -3,16 +3,16 @@
 // says what is wrong, or nothing.
 #pragma once
 
-#include "model/pixel/pixel_pipeline.hpp"
 #include "model/front/stamp_coverage.hpp"
 #include "model/front/tile_walk.hpp"
+#include "model/pixel/pixel_pipeline.hpp"
 #include "tb/judge/exact_number.hpp"
 #include "tb/judge/function_check.hpp"
 
 #include <optional>
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 // ---- Front ----
 
@@ -134,4 +134,4 @@ class PixelJudge {
   const int s_;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 using vectors::StageData;
 using vectors::VectorOutcome;
@@ -242,4 +242,4 @@ VerifyResult verify_exact(const vectors::Suite& suite, const vectors::SuiteReade
                        });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -7,11 +7,11 @@
 
 #include "golden/vectors/suite.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Every response of a suite. Undefined are vectors of which some field has no exact answer in 127 bits (snapping), or
 /// about whose values no bound speaks (fragments); the others are compared. Throws golden::InputError for a suite that
 /// neither judge knows, and when the records are not those of the suite.
 vectors::VerifyResult verify_exact(const vectors::Suite& suite, const vectors::SuiteReader& reader, unsigned threads);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

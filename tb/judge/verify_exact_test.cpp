@@ -8,7 +8,7 @@
 
 #include <functional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using namespace vectors;
@@ -189,4 +189,4 @@ TEST_F(VerifyExact, RefusesWhatItCannotJudge) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using golden::Prng;
@@ -91,4 +91,4 @@ void move_vertices(WindowQuad& quad, golden::PixelPlace& at, Output output, int 
   }
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

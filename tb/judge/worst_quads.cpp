@@ -3,7 +3,7 @@
 #include "golden/io/error.hpp"
 #include "golden/io/quads_file.hpp"
 #include "golden/io/text_input.hpp"
-#include "model/config_text.hpp"
+#include "model/port/config_text.hpp"
 #include "tb/judge/family_search.hpp"
 #include "tb/judge/judge.hpp"
 
@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <sstream>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using golden::input_error;
@@ -179,4 +179,4 @@ std::vector<std::string> WorstQuads::faults(const std::vector<PixelError>& now) 
   return out;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -4,14 +4,14 @@
 
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 #include "tb/judge/pixel_error.hpp"
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct WorstQuad {
   golden::StressFamily family = golden::StressFamily::general;  ///< whose code drew it
@@ -44,4 +44,4 @@ struct WorstQuads {
 /// Errors that are equal as the file has them.
 bool same_units(double recorded, double now);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -11,7 +11,7 @@
 #include <map>
 #include <set>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr std::string_view quad_line = "4 4 0.5 1 40 6 0.5 1 50 44 0.5 1 6 50 0.5 1 0.5 -0.25 1 0.125\n";
@@ -152,4 +152,4 @@ TEST_P(KeptWorstQuads, ShowAChangeOfTheArithmetic) {
 INSTANTIATE_TEST_SUITE_P(Widths, KeptWorstQuads, testing::Values(8, 12, 18, 26));
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

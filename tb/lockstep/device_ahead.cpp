@@ -1,6 +1,6 @@
 #include "tb/lockstep/device_ahead.hpp"
 
-#include "model/bit_vector.hpp"
+#include "model/port/bit_vector.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "tb/lockstep/driver.hpp"
 
-#include "model/bit_vector.hpp"
-#include "model/stages.hpp"
+#include "model/port/bit_vector.hpp"
+#include "model/port/stages.hpp"
 
 #include <cstring>
 #include <stdexcept>

@@ -2,8 +2,8 @@
 // listed.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "model/support/prng.hpp"
 #include "tb/lockstep/wait_pattern.hpp"
 

@@ -1,8 +1,8 @@
 #include "tb/lockstep/driver.hpp"
 
 #include "golden/scenes/random_quads.hpp"
-#include "model/boundaries.hpp"
-#include "model/record.hpp"
+#include "model/port/boundaries.hpp"
+#include "model/port/record.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Every quad of a small grid, with w of -1, 0 and 1, in lockstep: what tb/judge/exhaustive_test.cpp holds of the model
 // against exact integers the RTL does too, clock by clock.
-#include "model/both_ways_test_support.hpp"
+#include "model/skips/both_ways_test_support.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/lockstep.hpp"
 

@@ -3,10 +3,10 @@
 // under every pattern of stalls, and the untimed model's.
 #include "golden/scenes/random_state.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/bit_vector.hpp"
 #include "model/clocked.hpp"
+#include "model/port/bit_vector.hpp"
+#include "model/port/snap.hpp"
 #include "model/skips/hierarchical_z.hpp"
-#include "model/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
 #include "tb/device/verilated_device.hpp"

@@ -1,8 +1,8 @@
 // What a driver may do with the machine's inputs beside its beats, of RTL and model side by side: beats of a quad that
 // is not complete, flushes at any time, another draw state while quads are under way, which the RTL asserts not to be.
 #include "golden/scenes/random_quads.hpp"
-#include "model/bit_vector.hpp"
 #include "model/clocked.hpp"
+#include "model/port/bit_vector.hpp"
 #include "model/untimed.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/driver.hpp"

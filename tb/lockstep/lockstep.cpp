@@ -1,7 +1,7 @@
 #include "tb/lockstep/lockstep.hpp"
 
-#include "model/bit_vector.hpp"
 #include "model/drive.hpp"
+#include "model/port/bit_vector.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/device_ahead.hpp"
 #include "tb/lockstep/driven_device.hpp"

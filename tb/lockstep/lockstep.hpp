@@ -4,8 +4,8 @@
 // threads the RTL does its part of that some clocks ahead (device_ahead.hpp).
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "tb/device/device.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/monitor.hpp"

@@ -1,7 +1,7 @@
 // Draws one after the other in one machine: what is kept between them, clears, resets in the middle of a draw.
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/random_state.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/lockstep/model_device.hpp"

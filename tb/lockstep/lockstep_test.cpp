@@ -3,9 +3,9 @@
 #include "tb/lockstep/lockstep.hpp"
 
 #include "golden/scenes/random_quads.hpp"
-#include "model/bit_vector.hpp"
 #include "model/clocked.hpp"
 #include "model/front/quad_reject.hpp"
+#include "model/port/bit_vector.hpp"
 #include "model/support/refused_threads.hpp"
 #include "tb/lockstep/driven_device.hpp"
 #include "tb/lockstep/model_device.hpp"

@@ -1,9 +1,9 @@
 // The clocked model as a device, which tests may spoil: no Verilator needed, and the place of a fault is known.
 #pragma once
 
-#include "model/bit_vector.hpp"
 #include "model/clocked.hpp"
-#include "model/stages.hpp"
+#include "model/port/bit_vector.hpp"
+#include "model/port/stages.hpp"
 #include "tb/device/device.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "tb/lockstep/monitor.hpp"
 
-#include "model/bit_vector.hpp"
+#include "model/port/bit_vector.hpp"
 
 namespace quadrille::tb {
 

@@ -1,8 +1,8 @@
 // Watches the fragment port: counts and hashes what was handed over and passes it on.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -1,9 +1,9 @@
 // Compares the machine under test with the clocked model, clock by clock, at the ports and at every stage boundary.
 #pragma once
 
-#include "model/bit_vector.hpp"
 #include "model/clocked.hpp"
-#include "model/config.hpp"
+#include "model/port/bit_vector.hpp"
+#include "model/port/config.hpp"
 #include "tb/device/device.hpp"
 
 #include <array>

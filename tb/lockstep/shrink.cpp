@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 namespace {
 
@@ -223,4 +223,4 @@ std::optional<Shrunk> shrink(FailingDraw draw, const FailingRun& run, const Shri
   return Shrinking(std::move(draw), run, limits).run();
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

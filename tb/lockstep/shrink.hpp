@@ -1,7 +1,7 @@
 // The fewest quads, pixels, stalls and gaps of a draw that fails, which still fail.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 #include "tb/lockstep/port_waits.hpp"
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// A draw that fails: of all inputs of a co-simulation those that can be made less.
 struct FailingDraw {
@@ -51,4 +51,4 @@ struct Shrunk {
 /// the draw does not fail when it is run again.
 std::optional<Shrunk> shrink(FailingDraw draw, const FailingRun& run, const ShrinkLimits& limits = {});
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

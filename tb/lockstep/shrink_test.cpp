@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr std::uint64_t clocks = 400;  ///< of every run of these tests
@@ -285,4 +285,4 @@ TEST(Shrink, FickleFaults) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// A whole number from 0 to `most`, or refused: the library would wrap a negative one and clamp a huge one.
 CLI::Validator whole_number(std::uint64_t most = UINT64_MAX);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

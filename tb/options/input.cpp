@@ -22,7 +22,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using golden::AttributeSet;
@@ -360,4 +360,4 @@ std::string describe(const SnapError& error, const DrawInput& input) {
   return input.quads_file + ": " + error.what();
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

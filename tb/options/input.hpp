@@ -5,15 +5,15 @@
 #include "golden/scenes/mesh.hpp"
 #include "golden/scenes/procedural_texture.hpp"
 #include "golden/scenes/scenes.hpp"
-#include "model/records.hpp"
-#include "model/snap.hpp"
+#include "model/port/records.hpp"
+#include "model/port/snap.hpp"
 #include "tb/options/options.hpp"
 
 #include <array>
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// What the attributes of an input's quads are.
 enum class AttributeLayout { none, uv, normal, uv_normal, position, colour, file };
@@ -75,4 +75,4 @@ std::vector<std::string> corner_names();
 /// The text of a SnapError with the place in the file where there is one.
 std::string describe(const SnapError& error, const DrawInput& input);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

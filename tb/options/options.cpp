@@ -1,8 +1,8 @@
 #include "tb/options/options.hpp"
 
 #include "golden/io/config_file.hpp"
-#include "model/config_text.hpp"
-#include "model/draw_state.hpp"
+#include "model/port/config_text.hpp"
+#include "model/port/draw_state.hpp"
 #include "tb/device/build_notice.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/options/command_line.hpp"
@@ -21,7 +21,7 @@
 #include <thread>
 #include <tuple>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// All of `text` as a number; throws UsageError naming `what`.
@@ -378,4 +378,4 @@ std::string spelled(const Config& config) { return changed_keys(config, " --set 
 
 std::string summary(const Config& config) { return tb::summary(config); }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

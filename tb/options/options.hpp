@@ -2,8 +2,8 @@
 // which takes seconds to compile: command_line.hpp is for the files that add options.)
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/support/errors.hpp"
 
@@ -20,7 +20,7 @@ namespace CLI {
 class App;
 }
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct DrawInput;
 
@@ -114,4 +114,4 @@ std::string spelled(const Config& config);
 /// A human-readable list of the keys that differ from their defaults, "key=value key=value", or "default".
 std::string summary(const Config& config);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

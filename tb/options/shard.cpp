@@ -7,7 +7,7 @@
 #include <charconv>
 #include <string_view>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 Shard Shard::parse(const std::string& text) {
   Shard shard;
@@ -54,4 +54,4 @@ std::vector<std::string> without_outputs(std::span<const std::string> arguments)
   return kept;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

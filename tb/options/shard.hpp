@@ -11,7 +11,7 @@ namespace CLI {
 class App;
 }
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Part `index` of `count`, 0 <= index < count. The parts together are all of the work, each unit in one of them.
 struct Shard {
@@ -42,4 +42,4 @@ struct ShardOptions {
 /// that shards are merged into name their command so.
 std::vector<std::string> without_outputs(std::span<const std::string> arguments);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

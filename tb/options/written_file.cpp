@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// Endings that say what a file holds, and its name for people.
@@ -109,4 +109,4 @@ CLI::Option* writes_folder(CLI::Option* option) {
   return option->type_name("DIR")->check(validator);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Makes `option` of `command` one that writes a file in the format of `ending` (exr, png, …), which becomes its type
 /// in the help. A name that ends like another known format is refused with what would be right. Names without an
@@ -15,4 +15,4 @@ CLI::Option* writes_file(const CLI::App& command, CLI::Option* option, const std
 /// The same for a folder that is filled: a name like a file's is refused unless the folder is there already.
 CLI::Option* writes_folder(CLI::Option* option);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,12 +1,12 @@
 #include "tb/passes/pass.hpp"
 
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "tb/support/errors.hpp"
 
 #include <algorithm>
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 std::vector<Pass> plan_passes(int attributes, bool weights, int slots) {
   std::vector<int> columns;
@@ -86,4 +86,4 @@ Config snapping_config(Config config, int attributes) {
   return config;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,14 +1,14 @@
 // Draws of the machine that together give the weights and every attribute of a quad, whatever its attribute slots.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// One draw of the machine: which columns its attribute slots carry. Columns 0-3 are the weights, column 4 + j
 /// attribute j.
@@ -44,4 +44,4 @@ DrawState state_of_pass(DrawState state, const Pass& pass, bool first);
 /// same.
 Config snapping_config(Config config, int attributes);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

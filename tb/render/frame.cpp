@@ -2,7 +2,7 @@
 
 #include "golden/io/texture.hpp"
 #include "golden/reference/truth.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <memory>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using golden::Vec3;
@@ -306,4 +306,4 @@ void save_frame_png(const std::string& path, const golden::FrameImage& image) {
   golden::save_png(path, frame_picture(image), golden::PngFormat::rgb8);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

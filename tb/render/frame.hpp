@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Depth test over samples in draw order: LESS against 1 at first, so of equal depths the earlier quad stays. With
 /// depth off the later quad stays. An undefined sample (float engine) shows only where nothing else does.
@@ -87,4 +87,4 @@ void add_error_layers(const FrameBuffer& frame, std::span<const WindowQuad> quad
 golden::Image8 frame_picture(const golden::FrameImage& image);
 void save_frame_png(const std::string& path, const golden::FrameImage& image);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 EngineSample sample_of(std::uint32_t quad, double z, bool undefined = false) {
@@ -130,4 +130,4 @@ TEST(ShadeFrame, DepthStandsOutFromWhatIsNotDrawn) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

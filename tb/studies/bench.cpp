@@ -1,11 +1,11 @@
 // quadrille bench: speeds of all bodies; with --error the error of each against its run time.
 #include "golden/io/json_report.hpp"
-#include "model/lane_target.hpp"
-#include "model/snap.hpp"
+#include "model/port/lane_target.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/parallel.hpp"
-#include "tb/judge/check.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/counters_report.hpp"
+#include "tb/judge/check.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
@@ -23,7 +23,7 @@
 #include <memory>
 #include <optional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 struct BenchOptions {
@@ -438,4 +438,4 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

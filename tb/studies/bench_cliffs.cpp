@@ -3,15 +3,15 @@
 #include "golden/io/json_report.hpp"
 #include "golden/scenes/projection.hpp"
 #include "golden/scenes/terrain.hpp"
-#include "model/draw_state.hpp"
+#include "model/port/draw_state.hpp"
 #include "model/untimed.hpp"
 #include "tb/judge/check.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
-#include "tb/studies/shader/paper_shader.hpp"
 #include "tb/studies/bench_timing.hpp"
 #include "tb/studies/method_engine.hpp"
+#include "tb/studies/shader/paper_shader.hpp"
 #include "tb/support/environment_error.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -25,7 +25,7 @@
 #include <limits>
 #include <optional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr int plain_side = 128, view_side = 256;
@@ -428,4 +428,4 @@ int run_cliff_bench(const CliffBenchOptions& options, const std::vector<std::str
   return CliffBench(options, arguments).run();
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct CliffBenchOptions {
   CommonOptions common;
@@ -18,4 +18,4 @@ struct CliffBenchOptions {
 /// Returns the exit status: 1 when an engine drew nothing at all.
 int run_cliff_bench(const CliffBenchOptions& options, const std::vector<std::string>& arguments);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

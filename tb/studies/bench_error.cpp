@@ -2,7 +2,7 @@
 
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/truth.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/judge/check.hpp"
 #include "tb/lockstep/lockstep.hpp"
@@ -15,7 +15,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using golden::PaperFp32Quad;
@@ -335,4 +335,4 @@ ErrorBench::Run ErrorBench::run_reference(std::size_t stride, Visit&& visit) con
   return run;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

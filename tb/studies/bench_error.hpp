@@ -2,9 +2,9 @@
 // on the same snapped quads.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/performance_counters.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/performance_counters.hpp"
+#include "model/port/records.hpp"
 #include "model/untimed.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/support/error_stats.hpp"
@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// The bodies of `bench --error`, in the order of its report.
 inline constexpr std::array error_engines{EngineKind::paper_single, EngineKind::paper_float, EngineKind::truth,
@@ -118,4 +118,4 @@ class ErrorBench {
   std::vector<std::string> failures_;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

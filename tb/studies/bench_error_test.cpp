@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// Corners on pixel centres 16 apart. Ties count as if the centre were moved by (+eps, +eps^2): 16 x 16 pixels are
@@ -202,4 +202,4 @@ TEST_F(ErrorBenchTest, TimesEveryBody) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

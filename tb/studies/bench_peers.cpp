@@ -2,16 +2,16 @@
 
 #include "golden/io/json_report.hpp"
 #include "golden/reference/truth.hpp"
-#include "model/lane_target.hpp"
-#include "model/snap.hpp"
+#include "model/port/lane_target.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/input.hpp"
-#include "tb/studies/shader/paper_shader.hpp"
 #include "tb/studies/bench_error.hpp"
 #include "tb/studies/bench_stages.hpp"
 #include "tb/studies/bench_timing.hpp"
 #include "tb/studies/peer_loads.hpp"
+#include "tb/studies/shader/paper_shader.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/memory.hpp"
 #include "tb/support/output.hpp"
@@ -22,7 +22,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using tb::PaperShader;
@@ -594,4 +594,4 @@ int run_peer_bench(const PeerBenchOptions& options, const std::vector<std::strin
   return PeerBench(options, arguments).run();
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

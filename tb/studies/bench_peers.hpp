@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct PeerBenchOptions {
   CommonOptions common;
@@ -19,4 +19,4 @@ struct PeerBenchOptions {
 /// Returns the exit status; throws EnvironmentError where there is no OpenGL.
 int run_peer_bench(const PeerBenchOptions& options, const std::vector<std::string>& arguments);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

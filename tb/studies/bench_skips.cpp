@@ -2,8 +2,8 @@
 
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
-#include "model/draw_state.hpp"
-#include "model/snap.hpp"
+#include "model/port/draw_state.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
 #include "tb/commands/counters_report.hpp"
@@ -20,7 +20,7 @@
 #include <cstdio>
 #include <memory>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// One scene with one set of skips.
@@ -379,4 +379,4 @@ int run_skip_bench(const SkipBenchOptions& options, const std::vector<std::strin
   return SkipBench(options, arguments).run();
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct SkipBenchOptions {
   CommonOptions common;
@@ -19,4 +19,4 @@ struct SkipBenchOptions {
 /// Returns the exit status: 1 when a skip that keeps the list of fragments changed it.
 int run_skip_bench(const SkipBenchOptions& options, const std::vector<std::string>& arguments);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

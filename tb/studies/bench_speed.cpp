@@ -4,12 +4,12 @@
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/random_mesh.hpp"
-#include "model/lane_target.hpp"
-#include "model/snap.hpp"
+#include "model/port/lane_target.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
-#include "tb/judge/check.hpp"
 #include "tb/commands/counters_report.hpp"
+#include "tb/judge/check.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/studies/bench_timing.hpp"
 #include "tb/support/errors.hpp"
@@ -20,7 +20,7 @@
 #include <cmath>
 #include <functional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 struct Measure {
@@ -246,4 +246,4 @@ int run_speed_bench(const SpeedOptions& options, const std::vector<std::string>&
   return SpeedBench(options).run(arguments);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

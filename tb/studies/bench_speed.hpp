@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct SpeedOptions {
   CommonOptions common;
@@ -19,4 +19,4 @@ struct SpeedOptions {
 /// Returns the exit status.
 int run_speed_bench(const SpeedOptions& options, const std::vector<std::string>& arguments);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -11,7 +11,7 @@
 #include <x86intrin.h>
 #endif
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 std::uint64_t time_stamp() {
@@ -109,4 +109,4 @@ StageTimes time_stages(std::span<const SnappedQuad> quads, const Config& config,
   return times;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

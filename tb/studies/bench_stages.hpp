@@ -1,15 +1,15 @@
 // Where the untimed model's time goes: its stages in single-precision lanes, each measured by leaving out what follows.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Setup with what it leaves out; the walk over blocks and tiles; coverage with the list of pixels; the arithmetic of a
 /// pixel with its fragment.
@@ -25,4 +25,4 @@ struct StageTimes {
 /// Of quads drawn without hidden tiles.
 StageTimes time_stages(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state, int repeat);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

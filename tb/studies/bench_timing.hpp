@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 using tb::Stopwatch;
 
@@ -17,4 +17,4 @@ inline double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

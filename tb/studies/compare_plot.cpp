@@ -13,7 +13,7 @@
 
 #include <filesystem>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,4 +100,4 @@ void write_plot(const DrawInput& input, const EngineSettings& settings, const st
                                             (fs::path(directory) / "plot.json").string()});
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Draws the input with every method, those with a knob at several settings, and writes into `directory` plot.json
 /// (error from refine:200, null where no pixel can be compared; seconds and primitives set up) and, through
@@ -16,4 +16,4 @@ namespace quadrille::cli {
 void write_plot(const DrawInput& input, const EngineSettings& settings, const std::string& directory,
                 const CommonOptions& common, const std::vector<std::string>& arguments, int repeats);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

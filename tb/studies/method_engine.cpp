@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 namespace methods = golden::methods;
@@ -88,4 +88,4 @@ std::unique_ptr<Engine> make_method_engine(const std::string& method, const Draw
   return std::make_unique<MethodEngine>(method, input, settings);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

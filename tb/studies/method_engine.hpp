@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// The input's quads as the methods take them: with corners in object space, texture coordinates and attributes. Throws
 /// UsageError when the input has no object space (--quads, --stress) and `method` needs it.
@@ -23,4 +23,4 @@ golden::methods::View method_view(const DrawState& state);
 std::unique_ptr<Engine> make_method_engine(const std::string& method, const DrawInput& input,
                                            const EngineSettings& settings);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,12 +1,12 @@
 #include "tb/studies/method_frame.hpp"
 
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "tb/studies/method_engine.hpp"
 #include "tb/support/errors.hpp"
 
 #include <array>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 FrameBuffer draw_frame(Engine& engine, const DrawInput& input, const DrawState& state) {
   FrameBuffer frame(state.width, state.height, state.depth);
@@ -56,4 +56,4 @@ compare::AttributeImage attribute_image(const FrameBuffer& frame, const DrawInpu
   return image;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

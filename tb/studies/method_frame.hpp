@@ -1,12 +1,12 @@
 // An input drawn by an engine or a method into a depth-tested frame, and that frame as numbers to compare.
 #pragma once
 
-#include "tb/studies/compare/attribute_image.hpp"
 #include "tb/render/frame.hpp"
+#include "tb/studies/compare/attribute_image.hpp"
 
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Everything drawn, depth-tested as the state says. Throws UsageError for a quad that cannot be drawn.
 FrameBuffer draw_frame(Engine& engine, const DrawInput& input, const DrawState& state);
@@ -19,4 +19,4 @@ const char* compared_values(const DrawInput& input);
 /// Those values of what each pixel shows.
 compare::AttributeImage attribute_image(const FrameBuffer& frame, const DrawInput& input);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 MethodTime time_method(const std::string& name, const DrawInput& input, const DrawState& state, int repeats) {
   const std::unique_ptr<golden::methods::Method> method = golden::methods::make_method(name);
@@ -30,4 +30,4 @@ MethodTime time_method(const std::string& name, const DrawInput& input, const Dr
   return time;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

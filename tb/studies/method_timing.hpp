@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 struct MethodTime {
   double seconds = 0;         ///< of one draw of all quads on one thread, the quickest of the repeats
@@ -16,4 +16,4 @@ struct MethodTime {
 /// Times the method alone: no depth test, no shading, no output.
 MethodTime time_method(const std::string& method, const DrawInput& input, const DrawState& state, int repeats);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr std::array<golden::Vec2, 4> unit_square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
@@ -72,4 +72,4 @@ WindowQuad ScatteredQuads::quad(std::uint32_t i) const {
   return quad;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

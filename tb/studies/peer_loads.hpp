@@ -1,13 +1,13 @@
 // What `bench --peers` draws: quads with texture coordinates, in perspective, the same on every machine up to libm.
 #pragma once
 
-#include "model/records.hpp"
+#include "model/port/records.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 inline constexpr int peer_attributes = 2;  ///< u, v
 
@@ -31,4 +31,4 @@ class ScatteredQuads {
   int size_;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,20 +1,20 @@
 #include "tb/studies/skip_picture.hpp"
 
 #include "model/front/covered_pixels.hpp"
-#include "model/skips/hierarchical_z.hpp"
-#include "model/skips/masked_depth.hpp"
 #include "model/front/quad_reject.hpp"
 #include "model/front/quad_setup.hpp"
 #include "model/front/tile_walk.hpp"
-#include "tb/studies/compare/sheet.hpp"
+#include "model/skips/hierarchical_z.hpp"
+#include "model/skips/masked_depth.hpp"
 #include "tb/render/frame.hpp"
+#include "tb/studies/compare/sheet.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// Of the fates, in their order: grey where work was done, a hue of its own for each reason.
@@ -175,4 +175,4 @@ golden::Image8 skip_sheet(const TileFates& fates, const Config& config, const Dr
   return compare::draw_sheet(sheet, std::clamp(state.width, 192, 384));
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -3,8 +3,8 @@
 
 #include "golden/io/frame_image.hpp"
 #include "golden/io/png.hpp"
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// What became of a tile of a quad's bounding box.
 enum class TileFate : std::uint8_t {
@@ -49,4 +49,4 @@ golden::FrameImage skip_picture(const TileFates& fates, const Config& config, co
 golden::Image8 skip_sheet(const TileFates& fates, const Config& config, const DrawState& state,
                           const std::string& title);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,13 +1,13 @@
 // Which tiles the picture of the skips counts, of squares whose boxes are known.
 #include "tb/studies/skip_picture.hpp"
 
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 SnappedQuad quad(const std::array<std::array<double, 2>, 4>& points, const DrawState& state) {
@@ -110,4 +110,4 @@ TEST(SkipPicture, TilesHiddenByTwoHalves) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -5,8 +5,8 @@
 #include "golden/io/text_input.hpp"
 #include "golden/scenes/approach.hpp"
 #include "model/support/parallel.hpp"
-#include "tb/judge/knob_errors.hpp"
 #include "tb/commands/commands.hpp"
+#include "tb/judge/knob_errors.hpp"
 #include "tb/options/command_line.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/shard.hpp"
@@ -26,7 +26,7 @@
 #include <optional>
 #include <span>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 struct StressOptions {
@@ -466,4 +466,4 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
   });
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -4,7 +4,7 @@
 #include "golden/io/json_report.hpp"
 #include "golden/io/quads_file.hpp"
 #include "golden/io/text_input.hpp"
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 #include "tb/judge/knob_errors.hpp"
 #include "tb/options/options.hpp"
 #include "tb/options/shard.hpp"
@@ -16,7 +16,7 @@
 #include <fstream>
 #include <map>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -281,4 +281,4 @@ void print_stress(std::FILE* text, const Json& report) {
   for (const std::string& body : bodies) print_body(text, body, summaries[body], report["families"].size());
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -1,8 +1,8 @@
 // The report of `quadrille stress`: shards of it put together, and what is made of it, a table and text.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// "a,b" as {"a", "b"}.
 std::vector<std::string> names_in_list(const std::string& list);
@@ -31,4 +31,4 @@ std::string stress_csv(const nlohmann::ordered_json& report);
 /// A line for each family, what fails for each body, and each body's worst weight with the command that draws it.
 void print_stress(std::FILE* text, const nlohmann::ordered_json& report);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -20,7 +20,7 @@
 #include <cstdio>
 #include <optional>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -202,4 +202,4 @@ int check_kept_stress(const CommonOptions& common, const StressSearchOptions& op
   return finish(common, keeps ? options.keep : "", kept, std::move(report), kept.faults(now));
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// --search --evaluations --leave --keep --kept
 struct StressSearchOptions {
@@ -23,4 +23,4 @@ int search_stress(const CommonOptions& common, const std::string& families, cons
 
 int check_kept_stress(const CommonOptions& common, const StressSearchOptions& options);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -3,10 +3,10 @@
 
 #include "golden/methods/method.hpp"
 #include "tb/commands/commands.hpp"
-#include "tb/studies/shader/shader_engine.hpp"
 #include "tb/studies/method_engine.hpp"
+#include "tb/studies/shader/shader_engine.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 namespace {
 
@@ -27,4 +27,4 @@ void add(CLI::App& app, Invocation& invocation) {
 
 void (*const add_studies)(CLI::App& app, Invocation& invocation) = add;
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

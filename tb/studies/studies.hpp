@@ -3,10 +3,10 @@
 
 #include "tb/options/options.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 void add_bench_command(CLI::App& app, Invocation& invocation);
 void add_compare_command(CLI::App& app, Invocation& invocation);
 void add_stress_command(CLI::App& app, Invocation& invocation);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

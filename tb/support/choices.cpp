@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 std::size_t choose(std::string_view what, std::string_view name, std::span<const std::string> choices) {
   const auto found = std::find(choices.begin(), choices.end(), name);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
@@ -20,4 +20,4 @@ std::size_t choose(std::string_view what, std::string_view name, std::initialize
   return choose(what, name, list);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

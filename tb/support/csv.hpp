@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// The text as one cell: in quotes where it holds a comma, a quote or a line break.
 inline std::string csv_cell(std::string_view text) {
@@ -14,4 +14,4 @@ inline std::string csv_cell(std::string_view text) {
   return cell + "\"";
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

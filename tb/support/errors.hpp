@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 enum ExitStatus : int {
   exit_ok = 0,           ///< done and within bounds
@@ -22,4 +22,4 @@ struct StudyNeeded : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

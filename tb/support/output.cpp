@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <system_error>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
   namespace fs = std::filesystem;
@@ -60,4 +60,4 @@ void PartialFile::commit() {
   golden::output_written(path_);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

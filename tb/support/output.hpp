@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Every output of a command: must be writable (golden::require_writable; done before long work, the writing itself
 /// checks again), and is named as missing should the command be interrupted. Throws UsageError when two outputs, or an
@@ -28,4 +28,4 @@ class PartialFile {
   std::optional<golden::Temporary> folder_;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 using std::chrono::milliseconds;
@@ -91,4 +91,4 @@ void Progress::finish() {
   drawn_ = false;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

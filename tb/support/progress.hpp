@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 class Progress {
  public:
@@ -34,4 +34,4 @@ class Progress {
 std::string progress_text(const std::string& label, std::uint64_t done, std::uint64_t total, double seconds,
                           const std::string& detail, int columns, bool bar);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 TEST(ProgressText, FitsAndKeepsWhatMattersFirst) {
@@ -109,4 +109,4 @@ TEST(Progress, SaysNothingInALogAtFirst) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

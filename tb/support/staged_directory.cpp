@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 namespace fs = std::filesystem;
 
@@ -45,4 +45,4 @@ void StagedDirectory::commit(const std::vector<std::string>& stale) const {
   golden::output_written(directory_.string());
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Collects files in a hidden folder of the directory, which is made if it is not there; the folder goes when the
 /// object does, and when the process is interrupted.
@@ -29,4 +29,4 @@ class StagedDirectory {
   std::optional<golden::Temporary> folder_;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

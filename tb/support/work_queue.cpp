@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 WorkQueue::WorkQueue(unsigned threads, std::size_t capacity) : capacity_(capacity) {
   start_threads(threads_, threads, [this](std::size_t) { work(); });
@@ -70,4 +70,4 @@ void WorkQueue::drain() {
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

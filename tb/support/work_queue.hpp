@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 class WorkQueue {
  public:
@@ -39,4 +39,4 @@ class WorkQueue {
   std::vector<std::thread> threads_;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

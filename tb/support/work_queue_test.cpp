@@ -8,7 +8,7 @@
 #include <atomic>
 #include <stdexcept>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 TEST(WorkQueue, DoesAllWithTheThreadsThatItGets) {
@@ -28,4 +28,4 @@ TEST(WorkQueue, DoesAllWithTheThreadsThatItGets) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

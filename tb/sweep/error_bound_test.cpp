@@ -4,7 +4,7 @@
 #include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/stress.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "tb/sweep/evaluator.hpp"
 
+#include "model/port/snap.hpp"
 #include "model/skips/plane_quad.hpp"
-#include "model/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/support/stopwatch.hpp"

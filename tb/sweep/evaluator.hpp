@@ -5,8 +5,8 @@
 // for each of its distinct settings, whatever comes behind it.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "tb/sweep/point_result.hpp"
 #include "tb/sweep/stage_keys.hpp"
 
@@ -31,8 +31,8 @@ struct SweepInput {
   DrawState state;     ///< `attributes` in it is ignored; skip_plane: plane_quads counts; never skip_hidden
 };
 
-/// Whether every vertex of an input is ordinary (model/snap.hpp, has_ordinary_vertices) once snapped. False too where
-/// one cannot be snapped. Asks once for each placement of vertices; safe to call from several threads. Keeps a
+/// Whether every vertex of an input is ordinary (model/port/snap.hpp, has_ordinary_vertices) once snapped. False too
+/// where one cannot be snapped. Asks once for each placement of vertices; safe to call from several threads. Keeps a
 /// reference to the input.
 class OrdinaryInput {
  public:

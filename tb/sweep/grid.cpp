@@ -1,6 +1,6 @@
 #include "tb/sweep/grid.hpp"
 
-#include "model/config_text.hpp"
+#include "model/port/config_text.hpp"
 
 #include <algorithm>
 #include <charconv>

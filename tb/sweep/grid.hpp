@@ -1,7 +1,7 @@
 // The points of a sweep: axes given as text, and the configurations that they span.
 #pragma once
 
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/fast/lane_stages.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "tb/sweep/evaluator.hpp"
 
 #include <cstddef>

@@ -224,7 +224,7 @@ std::string point_table(std::span<const PointRow> rows) {
   for (const PointRow& p : rows) {
     const PointResult& r = p.result;
     const bool ok = r.refused.empty();
-    std::vector<std::string> cells{std::to_string(p.row), ok ? "ok" : "refused", cli::csv_cell(r.refused)};
+    std::vector<std::string> cells{std::to_string(p.row), ok ? "ok" : "refused", tb::csv_cell(r.refused)};
     for (const ConfigKey& key : Config::keys()) cells.push_back(std::to_string(p.config.resolved(key.name)));
     if (ok) {
       cells.push_back(std::to_string(r.fragments));
@@ -239,7 +239,7 @@ std::string point_table(std::span<const PointRow> rows) {
       }
       cells.push_back(csv_number(r.attribute_spread));
       cells.push_back(std::isfinite(r.depth_spread) ? csv_number(r.depth_spread) : std::string());
-      cells.push_back(cli::csv_cell(p.ranges));
+      cells.push_back(tb::csv_cell(p.ranges));
       for (const std::uint64_t count :
            {r.coverage_gained, r.coverage_lost, r.discard_differs, r.colour_codes, r.saturated, r.quads, r.plane_quads})
         cells.push_back(std::to_string(count));
@@ -255,7 +255,7 @@ std::string point_table(std::span<const PointRow> rows) {
       cells.push_back(csv_number(fragments_per_clock(r)));
       cells.push_back(p.pareto ? "1" : "0");
       cells.push_back(r.worst.any ? csv_number(r.worst.error) : std::string());
-      cells.push_back(cli::csv_cell(p.worst));
+      cells.push_back(tb::csv_cell(p.worst));
     }
     cells.resize(point_columns().size());
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i == 0 ? "" : ",") + cells[i];

@@ -3,7 +3,7 @@
 
 #include "golden/analysis/error_bound.hpp"
 #include "golden/analysis/hardware_cost.hpp"
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 #include "tb/sweep/point_result.hpp"
 #include "tb/yosys/yosys.hpp"
 

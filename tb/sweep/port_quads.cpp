@@ -3,7 +3,7 @@
 #include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/sweep/work_units.hpp"
 

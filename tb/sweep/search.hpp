@@ -14,7 +14,7 @@
 // better, and keys of output formats move no fragment across an end of the z interval.
 #pragma once
 
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 #include "tb/sweep/point_result.hpp"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 #include "tb/sweep/search.hpp"
 
 #include "golden/scenes/stress.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
 #include "tb/device/verilate.hpp"

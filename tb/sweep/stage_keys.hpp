@@ -1,8 +1,8 @@
 // Which setting of a configuration matters at which stage.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 
 #include <cstddef>
 #include <vector>

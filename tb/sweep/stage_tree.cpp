@@ -1,6 +1,6 @@
 #include "tb/sweep/stage_tree.hpp"
 
-#include "model/stages.hpp"
+#include "model/port/stages.hpp"
 #include "tb/sweep/work_units.hpp"
 
 #include <algorithm>

@@ -27,7 +27,7 @@ std::string synthesis_table(std::span<const SynthesisRow> rows) {
     for (const std::string& cell :
          {std::to_string(r.row), std::string(tb::synthesis_target_names[static_cast<std::size_t>(r.target)]),
           count(s.luts), std::to_string(s.flip_flops), count(s.dsps), count(s.block_rams), count(s.longest_path),
-          real(s.area_um2), real(s.nand2), real(s.mhz), cli::csv_cell(s.critical_path)})
+          real(s.area_um2), real(s.nand2), real(s.mhz), tb::csv_cell(s.critical_path)})
       text += cell + ",";
     text += csv_number(r.cost) + "," + csv_number(r.cost_luts) + "," + std::to_string(r.cost_dsps) + "\n";
   }

@@ -1,6 +1,6 @@
 #include "tb/yosys/yosys.hpp"
 
-#include "model/tables.hpp"
+#include "model/port/tables.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/support/environment_error.hpp"
 #include "tb/support/process.hpp"

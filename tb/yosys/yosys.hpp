@@ -2,7 +2,7 @@
 // full synthesis must end without a latch, and a synthesis for a target says how large a configuration really is.
 #pragma once
 
-#include "model/config.hpp"
+#include "model/port/config.hpp"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 #include "golden/scenes/random_quads.hpp"
 #include "golden/scenes/scenes.hpp"
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "tb/lockstep/lockstep.hpp"
 
 #include <gtest/gtest.h>

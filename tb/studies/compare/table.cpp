@@ -53,7 +53,7 @@ std::string table_csv(const std::vector<Row>& rows) {
     for (const auto& [key, value] : row.items()) {
       if (!first) text += ",";
       first = false;
-      text += cli::csv_cell(number(value, "%.9g"));
+      text += tb::csv_cell(number(value, "%.9g"));
     }
     text += "\n";
   }

@@ -1,8 +1,8 @@
 // Hormann and Tarini's hybrid implementation on a real OpenGL: vertex, geometry and fragment shader in fp32.
 #pragma once
 
-#include "model/config.hpp"
-#include "model/records.hpp"
+#include "model/port/config.hpp"
+#include "model/port/records.hpp"
 #include "tb/studies/shader/paper_shader_source.hpp"
 
 #include <array>

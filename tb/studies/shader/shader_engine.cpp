@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 constexpr std::size_t quads_at_a_time = 4096;
@@ -125,4 +125,4 @@ std::unique_ptr<Engine> make_shader_engine(const EngineSettings& settings) {
   return std::make_unique<ShaderEngine>(settings);
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

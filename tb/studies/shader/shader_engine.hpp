@@ -3,9 +3,9 @@
 
 #include "tb/engines/engine.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 
 /// Throws EnvironmentError where there is no OpenGL.
 std::unique_ptr<Engine> make_shader_engine(const EngineSettings& settings);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

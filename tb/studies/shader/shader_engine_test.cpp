@@ -14,7 +14,7 @@
 #include <set>
 #include <tuple>
 
-namespace quadrille::cli {
+namespace quadrille::tb {
 namespace {
 
 /// Half an ulp of fp32, relative; and what GLSL 4.50 (section 4.7.1) allows beyond correct rounding, in the same unit:
@@ -388,4 +388,4 @@ TEST_F(OpenGl, TheEngineGivesEveryFragmentOfEveryQuad) {
 }
 
 }  // namespace
-}  // namespace quadrille::cli
+}  // namespace quadrille::tb

@@ -13,8 +13,8 @@
 #include "golden/scenes/random_mesh.hpp"
 #include "model/front/covered_pixels.hpp"
 #include "model/front/quad_setup.hpp"
-#include "model/snap.hpp"
 #include "model/front/stamp_coverage.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "model/support/prng.hpp"
 

@@ -21,9 +21,9 @@
 namespace quadrille::campaign {
 namespace {
 
-using cli::CheckResult;
-using cli::ErrorLimits;
-using cli::MeasuredErrors;
+using tb::CheckResult;
+using tb::ErrorLimits;
+using tb::MeasuredErrors;
 
 int run(int argc, char** argv) {
   const Options options(argc, argv,
@@ -44,7 +44,7 @@ int run(int argc, char** argv) {
     const int s = static_cast<int>(bits);
     std::vector<CheckResult> results(families.size() * seeds);
     parallel_for(results.size(), options.threads(), [&](std::size_t i) {
-      results[i] = cli::judge_limit_draw(families[i / seeds].family, s, first + i % seeds, PixelEngine::lanes);
+      results[i] = tb::judge_limit_draw(families[i / seeds].family, s, first + i % seeds, PixelEngine::lanes);
     });
     for (std::size_t f = 0; f < families.size(); ++f) {
       std::vector<MeasuredErrors> measured;
@@ -86,9 +86,8 @@ int run(int argc, char** argv) {
       }
     }
     std::vector<double> climbs(families.size() * seeds);
-    parallel_for(climbs.size(), options.threads(), [&](std::size_t i) {
-      climbs[i] = cli::limit_climb(families[i / seeds].family, s, first + i % seeds);
-    });
+    parallel_for(climbs.size(), options.threads(),
+                 [&](std::size_t i) { climbs[i] = tb::limit_climb(families[i / seeds].family, s, first + i % seeds); });
     std::vector<double> worst(seeds, -1);
     for (std::size_t i = 0; i < climbs.size(); ++i) {
       if (climbs[i] < 0) {
@@ -100,7 +99,7 @@ int run(int argc, char** argv) {
     const auto [lowest, highest] = std::ranges::minmax(worst);
     std::printf("s %2d climbs: worst weight %.3f-%.3f of 2^-s\n", s, lowest, highest);
     if (!file.empty())
-      limits.set_climb(s, cli::LimitRange::around(worst, headroom).high());
+      limits.set_climb(s, tb::LimitRange::around(worst, headroom).high());
     else if (highest > limits.climb(s))
       ++beyond, std::printf("  beyond the limit of %.4g\n", limits.climb(s));
     std::fflush(stdout);

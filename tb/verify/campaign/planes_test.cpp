@@ -21,10 +21,10 @@
 namespace quadrille::campaign {
 namespace {
 
-using cli::EngineKind;
-using cli::EngineSample;
 using golden::PlanePair;
 using golden::PlaneView;
+using tb::EngineKind;
+using tb::EngineSample;
 
 constexpr int size = 256, small_size = 128;
 
@@ -44,13 +44,13 @@ Config of_bits(int significand_bits) {
 using Depths = std::map<std::array<int, 2>, std::array<double, 2>>;
 
 Depths draw(EngineKind kind, const Config& config, const std::vector<WindowQuad>& quads, bool snap, int edge = size) {
-  cli::EngineSettings settings;
+  tb::EngineSettings settings;
   settings.kind = kind;
   settings.config = config;
   settings.state = picture(edge);
   settings.snap = snap;
   std::map<std::array<int, 2>, std::array<std::optional<double>, 2>> found;
-  cli::make_engine(settings)->draw(quads, 0, false, [&](std::span<const EngineSample> samples) {
+  tb::make_engine(settings)->draw(quads, 0, false, [&](std::span<const EngineSample> samples) {
     for (const EngineSample& s : samples)
       if (!s.undefined) found[{s.x, s.y}][s.index] = s.z;
   });
@@ -220,12 +220,12 @@ struct Values {
 using Fragments = std::map<std::array<int, 3>, Values>;  ///< quad, x, y
 
 Fragments draw_values(EngineKind kind, const Config& config, const std::vector<WindowQuad>& quads) {
-  cli::EngineSettings settings;
+  tb::EngineSettings settings;
   settings.kind = kind;
   settings.config = config;
   settings.state = picture();
   Fragments fragments;
-  cli::make_engine(settings)->draw(quads, 3, false, [&](std::span<const EngineSample> samples) {
+  tb::make_engine(settings)->draw(quads, 3, false, [&](std::span<const EngineSample> samples) {
     for (const EngineSample& s : samples)
       fragments[{static_cast<int>(s.index), s.x, s.y}] = {{s.attribute[0], s.attribute[1], s.attribute[2]}, s.z};
   });

@@ -2,8 +2,8 @@
 // and that setup hides behind drawing.
 #include "golden/scenes/scenes.hpp"
 #include "model/drive.hpp"
-#include "model/latency.hpp"
-#include "model/snap.hpp"
+#include "model/port/latency.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
 

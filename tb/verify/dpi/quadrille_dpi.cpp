@@ -5,7 +5,7 @@
 // word, least significant word first.
 #include "golden/vectors/stage_suite.hpp"
 #include "golden/vectors/suite.hpp"
-#include "model/config_text.hpp"
+#include "model/port/config_text.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -8,9 +8,9 @@
 // which is proved where the list has an edit of the RTL too, by a lockstep with both faults on that shows nothing. A
 // check that takes longer than --limit seconds in one scenario is ended: the fault is found, as hung. What the record
 // says is looked at first, unless --afresh.
+#include "tb/support/environment_error.hpp"
 #include "tb/verify/faults/checks.hpp"
 #include "tb/verify/faults/model_tests.hpp"
-#include "tb/support/environment_error.hpp"
 
 #include <poll.h>
 #include <sys/wait.h>
@@ -206,7 +206,9 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   std::vector<Mutant> mutants = read_mutants();
-  std::erase_if(mutants, [&](const Mutant& m) { return names.empty() ? !m.generated : std::ranges::find(names, m.name) == names.end(); });
+  std::erase_if(mutants, [&](const Mutant& m) {
+    return names.empty() ? !m.generated : std::ranges::find(names, m.name) == names.end();
+  });
   if (mutants.empty()) {
     std::fprintf(stderr, "mutate: no mutant is so\n");
     return 2;

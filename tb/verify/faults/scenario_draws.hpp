@@ -1,7 +1,7 @@
 // What the scenarios are made with, and those that scenario.cpp lists from other files.
 #pragma once
 
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/support/prng.hpp"
 #include "tb/verify/faults/scenario.hpp"
 

@@ -1,4 +1,4 @@
-#include "model/snap.hpp"
+#include "model/port/snap.hpp"
 #include "model/untimed.hpp"
 #include "tb/judge/judge.hpp"
 #include "tb/verify/fuzz/fuzz_target.hpp"
@@ -74,9 +74,9 @@ std::vector<Fragment> fragments_of(const SnappedQuad& quad, const Config& config
   return fragments;
 }
 
-std::string text_of(const cli::CheckResult& result) {
+std::string text_of(const tb::CheckResult& result) {
   std::string text = result.first.text;
-  for (const auto& counter : cli::fault_counters)
+  for (const auto& counter : tb::fault_counters)
     text += std::string(" ") + counter.key + " " + std::to_string(result.*counter.value);
   return text;
 }
@@ -96,7 +96,7 @@ Outcome draw_any_quad(std::span<const std::uint8_t> input) {
     if (fragments_of(snapped, config, state, PixelEngine::plain) !=
         fragments_of(snapped, config, state, PixelEngine::lanes))
       throw Fault("the engines differ");
-    const cli::CheckResult result = cli::judge_untimed({&quad, 1}, attributes, config, state);
+    const tb::CheckResult result = tb::judge_untimed({&quad, 1}, attributes, config, state);
     if (result.faults() > 0) throw Fault(text_of(result));
   } catch (const SnapError&) {
     return Outcome::refused;

@@ -8,9 +8,9 @@
 #include "golden/io/temporary.hpp"
 #include "golden/vectors/manifest.hpp"
 #include "golden/vectors/sha256.hpp"
-#include "model/config_text.hpp"
-#include "tb/verify/fuzz/fuzz_target.hpp"
+#include "model/port/config_text.hpp"
 #include "tb/sweep/store.hpp"
+#include "tb/verify/fuzz/fuzz_target.hpp"
 
 #include <zlib.h>
 

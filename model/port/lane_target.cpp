@@ -1,0 +1,66 @@
+#include "model/port/lane_target.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <stdexcept>
+
+namespace quadrille {
+namespace {
+
+#ifdef QUADRILLE_LANE_TARGETS
+constexpr std::array compiled{LaneTarget::baseline, LaneTarget::v3, LaneTarget::v4};
+#else
+constexpr std::array compiled{LaneTarget::baseline};
+#endif
+
+LaneTarget best() {
+  return *std::find_if(compiled.rbegin(), compiled.rend(), [](LaneTarget target) { return can_run(target); });
+}
+
+/// Found by the first one who asks, which may be the initialisation of another object.
+constexpr LaneTarget unknown = static_cast<LaneTarget>(-1);
+constinit std::atomic<LaneTarget> in_use = unknown;
+
+}  // namespace
+
+std::span<const LaneTarget> lane_targets() { return compiled; }
+
+std::string_view name(LaneTarget target) {
+  constexpr std::array<std::string_view, 3> names{"baseline", "v3", "v4"};
+  return names[static_cast<std::size_t>(target)];
+}
+
+bool can_run(LaneTarget target) {
+#ifdef QUADRILLE_LANE_TARGETS
+  if (target == LaneTarget::v3) return __builtin_cpu_supports("x86-64-v3");
+  if (target == LaneTarget::v4) return __builtin_cpu_supports("x86-64-v4");
+#endif
+  return target == LaneTarget::baseline;
+}
+
+LaneTarget lane_target() {
+  const LaneTarget chosen = in_use.load(std::memory_order_relaxed);
+  if (chosen != unknown) return chosen;
+  LaneTarget expected = unknown;
+  in_use.compare_exchange_strong(expected, best());  // who chose meanwhile is heard
+  return in_use.load(std::memory_order_relaxed);
+}
+
+void set_lane_target(LaneTarget target) {
+  if (!can_run(target))
+    throw std::invalid_argument("lanes " + std::string(name(target)) +
+                                ": this processor cannot run them; the best is " + std::string(name(best())));
+  in_use = target;
+}
+
+void set_lane_target(std::string_view wanted) {
+  std::string names;
+  for (const LaneTarget target : compiled) {
+    if (name(target) == wanted) return set_lane_target(target);
+    names += (names.empty() ? "" : ", ") + std::string(name(target));
+  }
+  throw std::invalid_argument("no lanes \"" + std::string(wanted) + "\"; there are " + names);
+}
+
+}  // namespace quadrille
