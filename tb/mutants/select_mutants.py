@@ -114,10 +114,11 @@ def copies(side, faults):
         for edit in fault.edits:
             if edit.file.startswith(side + "/"):
                 edits.setdefault(edit.file, []).append((fault, edit))
-    for path in sorted((ROOT / side).iterdir()):
+    folders = {ROOT / side, *((ROOT / file).parent for file in edits)}
+    for path in sorted(path for folder in folders if folder.is_dir() for path in folder.iterdir()):
         if path.suffix not in SUFFIXES[side] or path.stem.endswith("_test"):
             continue
-        file, text = f"{side}/{path.name}", path.read_text()
+        file, text = str(path.relative_to(ROOT)), path.read_text()
         top = Place(0, len(text), True)
         here = edits.pop(file, [])
         for fault, edit in here:
@@ -141,7 +142,7 @@ def main():
     written = {out / "rtl/quadrille_mutant_pkg.sv": RTL_PACKAGE, out / "tree/model/selected_mutant.hpp": MODEL_HEADER}
     for side, folder in (("rtl", out), ("model", out / "tree")):
         written |= {folder / file: text for file, text in copies(side, faults)[0].items()}
-    for old in {*out.glob("rtl/*.sv"), *out.glob("tree/model/*.?pp")} - set(written):
+    for old in {*out.glob("rtl/**/*.sv"), *out.glob("tree/model/**/*.?pp")} - set(written):
         old.unlink()
     entries = [{"name": f.name, "number": f.number, "class": f.fault_class, "side": f.side, "file": f.edits[0].file, "rtl": f.of("rtl"), "model": f.of("model"),
                 "generated": f.generated, "equivalent": f.equivalent, "checks": f.caught.get("checks", []), "scenario": f.caught.get("scenario", ""),
