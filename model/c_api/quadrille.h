@@ -188,8 +188,8 @@ QUADRILLE_API quadrille_status quadrille_clocked_counter(const quadrille_clocked
  *
  * Ports are the vectors of
  * rtl/quadrille.sv: 32-bit words, least significant first, bits above a port are 0. Only types that DPI-C maps to, so
- * that a SystemVerilog bench imports these functions as they are (tb/verify/dpi/quadrille_machine_pkg.sv). The queue and the
- * fragments that wait have no part in it. */
+ * that a SystemVerilog bench imports these functions as they are (tb/verify/dpi/quadrille_machine_pkg.sv). The queue
+ * and the fragments that wait have no part in it. */
 
 enum {
   QUADRILLE_VERTEX_WORDS = 32,  /* vertex_i */
