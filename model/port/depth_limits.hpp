@@ -2,8 +2,8 @@
 #pragma once
 
 #include "model/port/config.hpp"
+#include "model/port/draw_state.hpp"
 #include "model/port/records.hpp"
-#include "model/port/snap.hpp"
 
 #include <cstdint>
 

@@ -72,10 +72,11 @@ std::string ErrorLimits::text() const {
     family_comma = ",";
     const char* width_comma = "";
     for (const auto& [bits, limits] : widths) {
-      nlohmann::ordered_json outputs;
+      nlohmann::ordered_json of_outputs;
       for (std::size_t i = 0; i < tb::output_names.size(); ++i)
-        outputs[std::string(tb::output_names[i])] = {limits.max[i].high(), limits.mean[i].low(), limits.mean[i].high()};
-      out += width_comma + ("\n   \"" + std::to_string(bits)) + "\": " + outputs.dump();
+        of_outputs[std::string(tb::output_names[i])] = {limits.max[i].high(), limits.mean[i].low(),
+                                                        limits.mean[i].high()};
+      out += width_comma + ("\n   \"" + std::to_string(bits)) + "\": " + of_outputs.dump();
       width_comma = ",";
     }
     out += "}";
@@ -89,10 +90,10 @@ ErrorLimits ErrorLimits::parse(std::string_view text) {
     const auto json = nlohmann::json::parse(text);
     for (const auto& [bits, units] : json.at("climb").items()) out.climb_[std::stoi(bits)] = units.get<double>();
     for (const auto& [name, widths] : json.at("families").items())
-      for (const auto& [bits, outputs] : widths.items()) {
+      for (const auto& [bits, of_outputs] : widths.items()) {
         Family& limits = out.families_[name][std::stoi(bits)];
         for (std::size_t i = 0; i < tb::output_names.size(); ++i) {
-          const auto& output = outputs.at(std::string(tb::output_names[i]));
+          const auto& output = of_outputs.at(std::string(tb::output_names[i]));
           limits.max[i] = {0, output.at(0).get<double>()};
           limits.mean[i] = {output.at(1).get<double>(), output.at(2).get<double>()};
         }

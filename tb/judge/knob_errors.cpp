@@ -3,7 +3,6 @@
 #include "golden/reference/paper_float.hpp"
 #include "golden/reference/port_number.hpp"
 #include "model/port/snap.hpp"
-#include "tb/engines/engine.hpp"
 #include "tb/judge/judge.hpp"
 #include "tb/judge/judged_quad.hpp"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "golden/scenes/approach.hpp"
+#include "tb/engines/engine.hpp"
 #include "tb/judge/check.hpp"
 #include "tb/judge/pixel_error.hpp"
 

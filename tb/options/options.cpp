@@ -376,6 +376,4 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
 
 std::string spelled(const Config& config) { return changed_keys(config, " --set "); }
 
-std::string summary(const Config& config) { return tb::summary(config); }
-
 }  // namespace quadrille::tb

@@ -4,6 +4,7 @@
 
 #include "model/port/config.hpp"
 #include "model/port/records.hpp"
+#include "tb/device/verilate.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/support/errors.hpp"
 
@@ -110,8 +111,5 @@ void add_method_option(CLI::App& app, std::string& method);
 
 /// The keys that differ from their defaults as a command line gives them, " --set key=value" each.
 std::string spelled(const Config& config);
-
-/// A human-readable list of the keys that differ from their defaults, "key=value key=value", or "default".
-std::string summary(const Config& config);
 
 }  // namespace quadrille::tb
