@@ -9,6 +9,7 @@
 #include "tb/judge/stage_judge.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -109,7 +110,7 @@ VectorOutcome depth(const Judges& j, const StageData& d) {
 
 using StageJudge = VectorOutcome (*)(const Judges&, const StageData&);
 
-const std::map<std::string_view, StageJudge> stage_judges{
+constexpr std::pair<std::string_view, StageJudge> stage_judges[]{
     {"snapping", snapping},
     {"setup", setup},
     {"tile_context", tile_context},
@@ -229,8 +230,9 @@ VerifyResult verify_exact(const vectors::Suite& suite, const vectors::SuiteReade
   }
   if (dynamic_cast<const vectors::MachineSuite*>(&suite) != nullptr) return verify_machine(reader, threads);
   const auto* stages = dynamic_cast<const vectors::StageSuite*>(&suite);
-  const auto judge = stage_judges.find(suite.info().name);
-  if (stages == nullptr || judge == stage_judges.end())
+  const auto judge =
+      std::ranges::find(stage_judges, suite.info().name, &std::pair<std::string_view, StageJudge>::first);
+  if (stages == nullptr || judge == std::end(stage_judges))
     throw golden::InputError("suite " + suite.info().name + ": neither exact integers nor the truth can judge it");
   return stages->check(reader, threads,
                        [&, judges = Judges(config)](const vectors::StageUnderTest& stage, const Record& stimulus,
