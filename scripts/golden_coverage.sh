@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Branches of the model's stage functions that a level of the golden stage suites does not take.
 #   scripts/golden_coverage.sh [LEVEL]
-# Builds the model with gcov's counters in build/coverage, generates for the default configuration, and lists line and
-# branch of what was never taken, exceptions apart, and what no vector can take, with the reason. Status 1 if anything
-# else is left.
+# Builds the model with gcov's counters in build/golden_coverage, generates for the default configuration, and lists
+# line and branch of what was never taken, exceptions apart, and what no vector can take, with the reason. Status 1 if
+# anything else is left.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 level=${1:-1}
@@ -22,9 +22,10 @@ import os, sys
 import coverage
 
 stages = {f"model/{name}" for name in (
-    "snap.cpp", "quad_setup.cpp", "tile_context.cpp", "stamp_coverage.cpp", "forward_difference.cpp", "normalise.cpp", "sqrt.hpp", "reciprocal.hpp",
-    "table_polynomial.hpp", "significand.hpp", "mean_value_ratios.cpp", "root_ratio.hpp", "weight_factors.cpp", "mean_value_weights.cpp", "interpolate.cpp",
-    "fragment_output.cpp")}
+    "port/snap.cpp", "front/quad_setup.cpp", "front/tile_context.cpp", "front/stamp_coverage.cpp",
+    "pixel/forward_difference.cpp", "pixel/normalise.cpp", "pixel/sqrt.hpp", "pixel/reciprocal.hpp",
+    "pixel/table_polynomial.hpp", "pixel/significand.hpp", "pixel/mean_value_ratios.cpp", "pixel/root_ratio.hpp",
+    "pixel/weight_factors.cpp", "pixel/mean_value_weights.cpp", "pixel/interpolate.cpp", "pixel/fragment_output.cpp")}
 # (file, piece of the source line): why no stimulus gets there in the default configuration.
 unreachable = {
     ("model/pixel/fragment_output.cpp", "shift >= 0 ? r.p << shift"): "2S - 2 = 34 exceeds the bits of either output format",
@@ -32,7 +33,7 @@ unreachable = {
     ("model/pixel/normalise.cpp", "c.config.notch_exact &&"): "a constant of the configuration",
     ("model/front/quad_setup.cpp", "int quad_setup_steps"): "clocks, not values",
     ("model/port/snap.cpp", "a product with k is too large"): "k is below 2^96 and z at most 2^80; the port reaches 2^256",
-    ("model/port/snap.cpp", "extent == 0"): "w = 0 here leaves x and y as given, which are not both 0",
+    ("model/port/snap.cpp", "extent_.zero()"): "w = 0 here leaves x and y as given, which are not both 0",
     ("model/port/snap.cpp", "quad_id_bits"): "ids belong to quads; the suite snaps vertices",
     ("model/port/snap.cpp", "SnapError(quad.id"): "as above",
     ("model/port/snap.cpp", "is_ordinary"): "a query of the test bench",

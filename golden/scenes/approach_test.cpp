@@ -216,7 +216,7 @@ TEST(Approach, PixelsNearTheCaseAreDrawn) {
   });
 }
 
-/// S of a snapped vertex at a pixel: section 1 of DESIGN.md.
+/// S of a snapped vertex at a pixel: X - W x and Y - W y.
 std::array<std::int64_t, 2> seen_from(const SnappedVertex& v, const ApproachPlace& place) {
   const auto x = static_cast<std::int64_t>(std::floor(place.near_x)),
              y = static_cast<std::int64_t>(std::floor(place.near_y));

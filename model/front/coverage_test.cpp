@@ -270,7 +270,7 @@ TEST(QuadSetup, FormsEqualDirectEvaluation) {
             r.hull ? 15 : (d012 > 0 ? 1 : 0) | (d023 > 0 ? 2 : 0) | (d012 < 0 ? 4 : 0) | (d023 < 0 ? 8 : 0);
         ASSERT_EQ(r.visible, expected);
       }
-      // The box of tiles, from the text of section 4.
+      // The box of tiles, from the text of rtl/SPEC.md.
       int lo[2] = {0, 0}, hi[2] = {state.scissor_x1 - 1, state.scissor_y1 - 1};
       const int scissor[2] = {state.scissor_x0, state.scissor_y0};
       bool empty = false;

@@ -5,7 +5,7 @@
 namespace quadrille::tb {
 namespace {
 
-/// Members and connections of each kind, by hand from section 6 of rtl/README.md and the signals of rtl/. Of the others
+/// Members and connections of each kind, by hand from rtl/SPEC.md, Probes, and the signals of rtl/. Of the others
 /// Verilator refuses a member that is missing, or that is not as wide as its signal, whenever it builds a simulator.
 TEST(Probes, MembersAndConnectionsOfEachKind) {
   const std::string text = probes_header();

@@ -1,4 +1,4 @@
-// The front in exact integers: sections 3 and 4 of rtl/README.md.
+// The front in exact integers: rtl/SPEC.md from Snapping to stamp_coverage.
 #include "tb/judge/stage_judge.hpp"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// The stages of a pixel behind the front: every bit by section 5 of rtl/README.md in exact numbers.
+// The stages of a pixel behind the front: every bit by rtl/SPEC.md, Pixel pipeline, in exact
+// numbers.
 #include "tb/judge/judged_quad.hpp"
 #include "tb/judge/stage_judge.hpp"
 

@@ -1,4 +1,4 @@
-// What every stage must make of its input, in exact integers and numbers (exact_number.hpp), from rtl/README.md alone.
+// What every stage must make of its input, in exact integers and numbers (exact_number.hpp), from rtl/SPEC.md alone.
 // check_functions() holds the model's functions to it, verify_exact() the vectors of the stage suites. Each function
 // says what is wrong, or nothing.
 #pragma once
@@ -99,7 +99,7 @@ class PixelJudge {
   Output output(const PixelTrace& t, const QuadData& quad, const DrawState& state) const;
   static std::string values_fault(const Fragment& fragment, const Output& expected);
 
-  /// The singular class by A, D and r², as section 5 defines it.
+  /// The singular class by A, D and r², as rtl/SPEC.md defines it.
   struct Class {
     explicit Class(const PixelTrace& t);
 

@@ -339,7 +339,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       "With --peers: CPU time, one thread each, model and shader in turn; scripts/peers_plot.py draws the JSON.\n\n"
       "With --cliffs: CPU time of one thread for a fragment, divided by the engine's least, on every family and\n"
       "scene, on a mesh from within and from outside, at significand_bits 8 to 26, in viewports of 64 to 4096.\n"
-      "What is above 8, and why: tb/commands/README.md.\n\n"
+      "What is above 8, and why: tb/studies/README.md.\n\n"
       "Examples:\n"
       "  quadrille bench\n"
       "  quadrille bench --no-rtl --set significand_bits=24 --json bench.json\n"
