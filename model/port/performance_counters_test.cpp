@@ -110,7 +110,7 @@ TEST(PerformanceCounters, NamesAreThoseOfTheEnumeration) {
 }
 
 TEST(PerformanceCounters, TheSpecificationListsThem) {
-  std::ifstream spec(QUADRILLE_RTL_SPEC);
+  std::ifstream spec(QUADRILLE_SOURCE_DIR "/rtl/SPEC.md");
   std::size_t next = 0;
   for (std::string line; std::getline(spec, line);) {
     if (next == counter_count) break;
