@@ -1,16 +1,16 @@
 #!/usr/bin/python3
 """Fit of the hardware cost's weights (golden/analysis/hardware_cost.hpp) to synthesis of the RTL.
 
-golden/analysis/synthesised.csv has what scripts/size.py gave for a list of configurations, for each target; those marked `fit` are
-fitted, those marked `check` are not. LUTs = sum of weight * bits (not negative, no constant, least relative squares), multipliers as
-logic or as DSP blocks, which are counted like block RAMs and not fitted. Prints the weights, the residuals, and how well estimates rank
-configurations that the fit has not seen: each fitted row by the fit to the others, and the rows to check.
+golden/analysis/synthesised.csv has the sizes that scripts/size.py gave for a list of configurations, for each target. Rows marked `fit`
+are fitted, rows marked `check` are not. LUTs = sum of weight * bits (not negative, no constant, least relative squares). Multipliers are
+logic or DSP blocks; DSP blocks and block RAMs are counted, not fitted. Prints the weights, the residuals, and the rank correlation of
+estimates for rows that the fit has not seen: each fitted row by a fit to the others, and the rows to check.
 
-  scripts/calibrate_cost.py                        from the figures that are there: seconds
+  scripts/calibrate_cost.py                        fits the recorded figures: seconds
   scripts/calibrate_cost.py --target ecp5-nodsp    with multipliers in logic
   scripts/calibrate_cost.py --check                also fails where the program's weights are not this fit, a count of blocks is wrong, or a
                                                    rank correlation is below 0.95
-  scripts/calibrate_cost.py --synthesise --target ecp5    makes the figures of a target anew with Yosys: minutes each
+  scripts/calibrate_cost.py --synthesise --target ecp5    measures the figures of a target again with Yosys: minutes each
 
 The fitted weights are printed as the table [cost] of a configuration file. Exit status: 1 a check or a synthesis failed, 2 usage or
 input, 3 a missing tool."""

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every `quadrille` command and script that a Markdown page quotes is there: subcommands, options, configuration keys, scenes, files.
+"""Fails when a Markdown page quotes an unknown `quadrille` command, option, configuration key, scene or script.
 
   scripts/check_commands.py PATH_TO_QUADRILLE [FOLDER]      (a part of the test `readme`; default: the source tree)
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The lists of the RTL's files: quadrille.f names every file of rtl/, packages first; the FuseSoC core and Bender's manifest name the
-same files in the same order; the kept default tables are those that the program writes; Verilator takes the list.
+"""Checks the lists of the RTL's files. quadrille.f must name every file of rtl/, packages first; the FuseSoC core and Bender's manifest
+the same files in the same order. The kept default tables must be those that the program writes. Verilator must accept the list.
 
   scripts/check_file_lists.py PATH_TO_QUADRILLE
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Fails when a folder includes what lies above it, when folders include each other in a circle, or when one name stands for two classes.
+"""Fails when a folder includes one above it, when folders include each other in a circle, or when two classes share a name.
 
     scripts/check_layers.py [ROOT]      default: the source tree
 
 Every folder of model/, golden/ and tb/ that holds C++ sources is a node, and an #include "…" of another folder's file
 an edge. model/ may include model/ only, golden/ also golden/, tb/ everything. Tests (*_test.cpp, *_test_support.hpp)
 stand beside their sources and may include anything of model/ and golden/. Prints the folders from the lowest up, each
-with what it includes; status 1 and the guilty lines otherwise.
+with what it includes; on failure the lines at fault, with status 1.
 
-Two classes of one name in one namespace are undefined behaviour in a program that links both, and no compiler sees it.
+Two classes of one name in one namespace are undefined behaviour in a program that links both; no compiler reports it.
 """
 import pathlib
 import re

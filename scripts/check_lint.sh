@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # `verilator --lint-only -Wall` over rtl/, and over the machine with probes, for a spread of configurations; any warning fails.
 #   scripts/check_lint.sh PATH_TO_QUADRILLE [--default]
-# --default, for that tier of tests: four configurations, which have every `generate` branch. The machine with probes is left to the whole: simulators
-# are built of it with the same warnings.
+# --default, for that tier of tests: only four configurations, which have every `generate` branch, and not the machine with probes, of
+# which simulators are built with the same warnings.
 set -euo pipefail
 quadrille=$(realpath "$1") default=${2:-}
 cd "$(dirname "$0")/../rtl"

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Two things that only objects show, of the libraries that users link (a test).
+"""Checks objects of the libraries that users link (a test).
 
   scripts/check_objects.py LIBRARY.a...
 
 An object with AVX code has no weak function outside the namespace of its target: of several copies the linker keeps
-one, and a processor without AVX must not run into it. No object initialises anything when the program starts: another
-one, initialised earlier, may draw.
+one, and a processor without AVX must not run it. No object initialises anything when the program starts, since code
+that runs earlier may draw.
 """
 import collections
 import os

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tables between "<!-- quadrille ... -->" and "<!-- end -->" in a Markdown page are what that command prints, and every command
-# that one quotes is there. `--fix` writes the tables.
+# Fails when a table between "<!-- quadrille ... -->" and "<!-- end -->" of a Markdown page is not what that command prints, or when a
+# page quotes an unknown command. `--fix` writes the tables.
 #   scripts/check_readme.sh PATH_TO_QUADRILLE [--fix]
 set -euo pipefail
 quadrille=$(realpath "$1")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A wrong configuration stops Verilator, Yosys and Icarus Verilog at elaboration, with the rule that it breaks: every rule of
-# rtl/config_check.sv in every tool, and the whole machine once in each; the default passes.
+# Fails unless each rule of rtl/config_check.sv stops Verilator, Yosys and Icarus Verilog at elaboration with its text. The whole
+# machine is tried once in each; the default configuration must pass.
 #   scripts/check_rules.sh PATH_TO_QUADRILLE
 set -euo pipefail
 [ $# = 1 ] || { echo "usage: scripts/check_rules.sh PATH_TO_QUADRILLE" >&2; exit 2; }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Builds with counters, runs the tests that reach most, merges gcov's and Verilator's counts and holds them to floors (README.md, Coverage).
-#   scripts/coverage.sh            lines and branches of model, golden and RTL, toggles of the RTL; 20 minutes
-#   scripts/coverage.sh --judge    judges again what the last run counted: after a change of coverage.toml
-# What is printed is in build/coverage/coverage/coverage.json too.
+# Builds with counters, runs tests, merges the counts of gcov and Verilator and compares them with floors (scripts/README.md, Coverage).
+#   scripts/coverage.sh            lines and branches of model, golden and RTL, toggles of the RTL; 45 minutes
+#   scripts/coverage.sh --judge    judges the last run's counts again, after a change of coverage.toml
+# build/coverage/coverage/coverage.json has what is printed.
 # Exit status: 0 floors held and exceptions right, 1 not, or a test failed, 2 usage, 3 a tool is missing.
 set -euo pipefail
 case "${1:-}" in

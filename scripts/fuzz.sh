@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Sets everything up and fuzzes the readers of files, and the machine with any four vertices, under Clang's libFuzzer with
-# AddressSanitizer and UndefinedBehaviorSanitizer. What it finds worth keeping stays in build/fuzz_corpus, where a later run goes on.
-#   scripts/fuzz.sh --hours 2                  all targets, one after the other, two hours together
+# AddressSanitizer and UndefinedBehaviorSanitizer. The corpus stays in build/fuzz_corpus for later runs.
+#   scripts/fuzz.sh --hours 2                  all targets in turn, two hours in all
 #   scripts/fuzz.sh --seconds 60 any_quad obj  these alone; tb/verify/fuzz/README.md lists them
-# Options: --seed N (default 1), --jobs N processes of a target (default: one a processor).
-# Exit status: 1 a target found something, its input is named; 2 usage; 3 a missing package.
+# Options: --seed N (default 1), --jobs N processes per target (default: one per processor).
+# Exit status: 1 a target failed, its input is named; 2 usage; 3 a missing package.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
 

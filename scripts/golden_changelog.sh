@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Whether the changelog of a set of golden vectors knows the set: its newest line has the set's hash, and a larger version than
-# every other one.
+# Fails unless the newest line of a changelog has the hash of a set of golden vectors, and a larger version than every other
+# line.
 #   scripts/golden_changelog.sh CHANGELOG SET
 set -euo pipefail
 hash=$(sha256sum "$2/manifest.json" | cut -c1-16)

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Branches of the model's stage functions that a level of the golden stage suites does not take.
+# Lists branches of the model's stage functions that no vector of a level of the golden stage suites takes.
 #   scripts/golden_coverage.sh [LEVEL]
-# Builds the model with gcov's counters in build/golden_coverage, generates for the default configuration, and lists
-# line and branch of what was never taken, exceptions apart, and what no vector can take, with the reason. Status 1 if
-# anything else is left.
+# Builds the model with gcov's counters in build/golden_coverage and generates for the default configuration. Branches of
+# exceptions are left out. Branches that no vector can take are listed with the reason. Exit status: 1 if another branch
+# was never taken.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 level=${1:-1}

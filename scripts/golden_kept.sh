@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The kept golden vectors (golden/vectors/kept): generated again they are the same bytes, the model and floating point agree with
-# them, the RTL does under two simulators, and a change has its line with a larger version in golden/CHANGELOG.md.
+# Checks the kept golden vectors (golden/vectors/kept): generating them again gives the same bytes; the model, floating point and the
+# RTL under two simulators agree with them; golden/CHANGELOG.md has a line with a larger version for a change.
 #   scripts/golden_kept.sh PATH_TO_QUADRILLE [--update | --quick | --default]
-# --update replaces the set; then add the line that the script asks for. The other two are for tiers of tests: --quick without simulators,
-# --default with each suite under one of them, the machine's under Verilator.
+# --update replaces the set; then add the line that the script asks for. --quick and --default are for tiers of tests: without simulators,
+# and with one for each suite, Verilator for the machine's.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export QUADRILLE

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs from a build directory, from all that was built and from a copy in which only the program was, and runs what
-# was installed. Usage: install_test.sh BUILD-DIRECTORY
+# Installs from a build directory: all that was built, then the program alone. Runs what was installed.
+# Usage: install_test.sh BUILD-DIRECTORY
 set -euo pipefail
 build=$(cd "$1" && pwd)
 work=$(mktemp -d)

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# Puts the generated faults of RTL and model, one build with each selected at run time, through the checks (tb/verify/faults/README.md): a table of
-# which check sees how many, and every survivor with file, line and change.
+# Puts the generated faults of RTL and model through the checks (tb/verify/faults/README.md). One build has them all, selected at run
+# time. Prints which check sees how many, and each survivor with file, line and change.
 #   scripts/mutate.sh                   all 330
 #   scripts/mutate.sh --count N         so many, drawn by the seed, half of them in the RTL
 #   scripts/mutate.sh --seed S          another draw
 #   scripts/mutate.sh --file F          those of one file
 #   scripts/mutate.sh --class C         those of one class: operator constant width sign index enable reset priority comparison
-#   scripts/mutate.sh --jobs J          so many at a time (all processors)
-#   scripts/mutate.sh --json FILE       keeps the results; stopped, the same command goes on (folder FILE.part)
+#   scripts/mutate.sh --jobs J          so many at a time (default: one per processor)
+#   scripts/mutate.sh --json FILE       keeps the results; after a stop the same command resumes (folder FILE.part)
 #   scripts/mutate.sh --shard I/N --json PART      every N-th mutant, on one of N machines
-#   scripts/mutate.sh --record          every check from the first on; what saw each is written down in tb/verify/faults/caught_by.json
-#   tb/verify/faults/report_mutants.py --from PART… --json FILE      puts kept results together and prints the table
+#   scripts/mutate.sh --record          tries every check in turn and writes what saw each to tb/verify/faults/caught_by.json
+#   tb/verify/faults/report_mutants.py --from PART… --json FILE      merges kept results and prints the table
 # Exit status: 0 each is seen by a check or argued equivalent, 1 not, 2 usage, 3 a tool is missing.
 set -euo pipefail
 case "${1:-}" in -h | --help) sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;; esac

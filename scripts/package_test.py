@@ -4,8 +4,8 @@
     scripts/package_test.py BUILD-DIRECTORY [--full]
 
 Everything happens in a temporary directory: the examples (model/examples) are built there against the installed tree, with strict and
-with unsafe flags, and what they print is compared with the fragments of the program. --full builds the libraries by add_subdirectory
-too, of which the short form compiles a user only. Status 0: all as it should be, 1: not, 3: a tool is missing.
+with unsafe flags, and their output is compared with the fragments of the program. --full also builds the libraries by
+add_subdirectory; without it only a user of them is compiled. Exit status: 0 passed, 1 failed, 3 a tool is missing.
 """
 import argparse
 import csv

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Proves properties of the RTL with Yosys' SMT back end and z3: each proof of tb/verify/formal/proofs.toml, a line of a table for each.
+"""Proves properties of the RTL with Yosys' SMT back end and z3. Prints a line for each proof of tb/verify/formal/proofs.toml.
 
     scripts/prove.py [--only NAME]... [--tier default] [--list]
     scripts/prove.py --faults [--only NAME]... [--tier default] [--count N] [--record FAULT]...
 
 Kinds of proof (tb/verify/formal/README.md):
-  induction  holds always: base case from reset over `depth` clocks, then any state in which it held for `depth` clocks leads to one where it does
-  pipeline   holds always: from any contents of all registers, `depth` clocks on, when what was in them has left
+  induction  holds always: for `depth` clocks from reset, and in the clock after any `depth` clocks in which it held
+  pipeline   holds always: `depth` clocks after any contents of all registers, when these have left
   bounded    holds for `depth` clocks from reset
-A proof by induction with `bounded` has a line more in the tier all: so many clocks from reset, whatever the induction says.
+In the tier all an induction with `bounded` is also run for that many clocks from reset.
 
---faults: every fault of the registry (tb/verify/faults/faults.py) that a proof is recorded to find, put into a copy of the RTL, must give a counterexample
-that starts from reset (pipeline: from any contents). --count: so many, drawn by $QUADRILLE_TEST_SEED. --record FAULT: this one instead, by each
-proof of its files; those that find it are written down.
+--faults: each fault of the registry (tb/verify/faults/faults.py) that a proof is recorded to find is put into a copy of the RTL. It must give a
+counterexample that starts from reset (pipeline: from any contents). --count: so many faults, drawn by $QUADRILLE_TEST_SEED. --record FAULT: tries
+this fault with each proof of its files and records those that find it.
 Exit status: 0 all proved (all faults found), 1 not, 2 usage, 3 a tool is missing."""
 import argparse
 import concurrent.futures

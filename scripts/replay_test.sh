@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Tests of replay.sh: it agrees with an intact set under both simulators, and every damage and every fault is seen.
+# Tests of replay.sh: an intact set passes under both simulators; damaged vectors and faulty RTL fail.
 #   scripts/replay_test.sh [--default] PATH_TO_QUADRILLE [SET]      (a small set, generated, unless one is given)
-# --default, for that tier of tests: what stage suites under Icarus show; Verilator and the machine are left to the whole.
+# --default, for that tier of tests: the stage suites under Icarus alone.
 set -euo pipefail
 sample=false
 if [ "${1:-}" = --default ]; then

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Long work in numbered units, each of which follows from a plan and its number. The same command goes on where it was stopped.
+"""Long work in numbered units, each of which follows from a plan and its number. After a stop the same command resumes.
 
   scripts/run_long.py PLAN --out DIR                  every unit; PLAN --help has the plan's own options
   scripts/run_long.py PLAN --shard 0/4 --out A        every fourth unit; the others elsewhere, or in the same folder
-  scripts/run_long.py PLAN --merge A B C D --out W    byte for byte what one run gives, times aside
+  scripts/run_long.py PLAN --merge A B C D --out W    the bytes of one run, times aside
   scripts/run_long.py PLAN --status A B C D           sums of shards, or of runs of any seeds; writes nothing
 
-PLAN is a TOML file, or the name of one in scripts/plans/. DIR/plan.json holds what all units follow from; a run with another plan is
-refused. DIR/units/00000042.json is the result of one unit, there whole or not at all; DIR/times.jsonl has seconds.
+PLAN is a TOML file, or the name of one in scripts/plans/. DIR/plan.json holds the plan; a run with another plan is refused.
+DIR/units/00000042.json is the result of one unit, there whole or not at all; DIR/times.jsonl has seconds.
 
-SIGTERM, SIGINT and SIGHUP end the units under way at once: they are lost, all that were done are kept. A unit in which the program dies is
-kept as a fault. A unit that something else kills (SIGKILL: out of memory) is not kept; the next run does it again.
+SIGTERM, SIGINT and SIGHUP end the running units at once; these are lost, finished units are kept. A crash of the program in a unit is kept
+as a fault. A unit killed from outside (SIGKILL: out of memory) is reported and rerun by the next run.
 
 Exit status: 0 all agreed; 1 a fault, a lost unit, or less was compared than is promised; 2 bad input; 3 a missing tool; 130 stopped."""
 import argparse

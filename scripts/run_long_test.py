@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of run_long.py, its plans and slurm/: the same bytes from one run, from shards and from runs that were stopped; faults are found and kept.
+"""Tests of run_long.py, its plans and slurm/: one run, shards and stopped runs give the same bytes; faults are found and kept.
 
   run_long_test.py PROGRAM"""
 import json

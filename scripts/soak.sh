@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets everything up and runs RTL and model in lockstep for hours; the totals stay in a folder that a later run goes on with.
+# Sets everything up and runs RTL and model in lockstep for hours. A later run continues in the same folder.
 #   scripts/soak.sh --hours 8        any options of scripts/soak.py (--help)
 set -euo pipefail
 caller=$PWD

@@ -3,12 +3,12 @@
 
   scripts/stress_plot.py stress.json [DIR]      writes stress.png (weights), stress_attribute.png, stress_depth.png to DIR (default: beside it)
 
-Both axes are logarithmic: the length that the knob is (of a family its factor), and the largest error in units of the bound, 2^-6 to 2^6 of it;
-what is more is an arrow at that end, what is less one in the body's row below. An approach ends at its limit, the special case itself, behind a gap; solid lines are one side of
-it, dashed ones the other. Lines with marks are of the pixels near the case, faint ones of all pixels, both sides. Above stands a row for each
-body, too: crosses where it is undefined at some pixel, plus signs where it misses some, faint where only away from the case. Families whose knob
-changes nothing share a panel. Exit status: 0 done, 2 usage, input or output error, 3 a Python package is missing. Needs Debian's
-python3-matplotlib.
+Both axes are logarithmic. The knob is a length (of a family its factor). Errors are the largest in units of the bound, from 2^-6 to 2^6;
+greater ones are arrows at the top, smaller ones arrows in the body's row below. An approach ends, after a gap, at its limit, the special
+case itself. Solid lines are one side of it, dashed lines the other. Lines with marks are of the pixels near the case, faint lines of all
+pixels on both sides. A row above for each body has crosses where it is undefined at some pixel and plus signs where it misses some, faint if
+only away from the case. Families whose knob changes nothing share a panel. Exit status: 0 done, 2 usage, input or output error, 3 a
+Python package is missing. Needs Debian's python3-matplotlib.
 """
 import math
 

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Bits that switch in each unit of the RTL while it draws: with no skip, and with skips.
+"""Counts the bits that switch in each unit of the RTL while it draws, with no skip and with skips.
 
   scripts/switching.py [--quadrille PATH] [--skip LIST ...] [--json F.json] -- COSIM OPTIONS
 
   scripts/switching.py -- --scene closed_mesh --size 64x64
   scripts/switching.py --skip tiles --skip all -- --scene room --size 64x64 --limit-fragments 2000
 
-Each run is a lockstep run with a waveform (`quadrille cosim --trace`), from the end of reset to its last clock; a bit that changes between two
-clocks is a toggle, the clock's own apart. Waveforms have every register and net that Verilator keeps, in its own time step, so a bit toggles
-at most once a clock edge: glitches of gates are not in it, nor is capacitance. Nets that are the same count once, at the unit that drives them.
-Memories above 32 words are not in a waveform.
+Each run is a lockstep run with a waveform (`quadrille cosim --trace`), from the end of reset to its last clock. A bit that changes between
+two clocks is a toggle; the clock itself is not counted. Waveforms have every register and net that Verilator keeps. A bit toggles at most
+once a clock edge, so glitches are not counted, nor is capacitance. A net counts once, at the unit that drives it. Memories above 32 words
+are not in a waveform.
 
 Exit status: 1 a run failed, 2 usage or input, 3 a missing tool."""
 import json

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of size.py, timing.py and unit_table.py: what they make of the tools' output, and their errors.
+"""Tests of size.py, timing.py and unit_table.py: how they read the tools' output, and their errors.
 
   scripts/synthesis_test.py PROGRAM            without the tools: a second
   scripts/synthesis_test.py PROGRAM --tools    on small units with Yosys and OpenSTA: a minute"""

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What a run of the tests took: the ten slowest entries, those whose time limit is too near, the tests that were skipped, and what only --full runs.
+"""Summary of a run of the tests: the ten slowest entries, entries too near their time limit, skipped tests, and what only --full runs.
 
   scripts/test_summary.py BUILD_DIRECTORY REPORT.xml     (ctest --output-junit REPORT.xml)
 
-On an idle machine no entry may take more than a fifth of its limit, so that a slow and busy one still passes; on a busy one the note means
-nothing. Exit status: 0, or 1 when no entry was run.
+On an idle machine an entry should take at most a fifth of its limit, so that it also passes on a slow, busy one. On a busy machine ignore
+the note. Exit status: 0, or 1 when no entry was run.
 """
 import json
 import re

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Commands that run threads, with four of them: for a program that ThreadSanitizer watches (scripts/sanitizers.sh --thread).
+# Runs the commands that use threads, with four of them, for ThreadSanitizer (scripts/sanitizers.sh --thread).
 #   scripts/threaded_commands.sh PATH_TO_QUADRILLE
 set -euo pipefail
 quadrille=$(realpath "$1")

@@ -3,14 +3,14 @@
 
   scripts/timing.py fp_sum -P TERMS=4            a unit of rtl/, with its parameters
   scripts/timing.py normalise significand_bits=24   with configuration keys, as of quadrille --set
-  scripts/timing.py quadrille                    the whole machine: the better part of an hour
+  scripts/timing.py quadrille                    the whole machine: about ten minutes
   scripts/timing.py fp_multiply --target ecp5 --seed 1 --seed 2 --seed 3    the median of three placements
 
 Standard cells (--target cells, the default): Yosys maps onto the OSU 0.18 um library (typical, 1.8 V, 25 C) and buffers what drives more
-than ten inputs, OpenSTA finds the slowest path. Wires have no load, so the figures compare designs; they promise no chip. Memories
+than ten inputs, OpenSTA finds the slowest path. Wires have no load, so the figures compare designs and promise no chip. Memories
 become flip-flops. ECP5 (--target ecp5): Yosys' synth_ecp5 with DSP blocks, then nextpnr-ecp5 on the smallest of LFE5U-25F, -45F and -85F
-that is large enough; where none is on PATH, the build for Python is installed under build/ (30 MB). Ports count as registers: a path
-starts at an input and ends at an output as it does at a register.
+that is large enough. Without one on PATH, the build for Python is installed under build/ (30 MB). Ports count as registers: paths
+start at inputs and end at outputs too.
 
 Exit status: 1 a tool failed, or the unit fits no device; 2 usage; 3 a missing tool, with the command that installs it."""
 import json

@@ -7,9 +7,9 @@ other configurations. Latencies and widths are evaluated from rtl/quadrille_pkg.
   scripts/unit_table.py                        checks that the page has this table, that the list has every unit that the machine
                                                instantiates, and that latencies are those of model/port/latency.hpp and add up; no tools needed
   scripts/unit_table.py --update               writes the table
-  scripts/unit_table.py --measure size         sizes of the default configuration anew (Yosys, minutes)
-  scripts/unit_table.py --measure UNIT ...     clocks anew: place and route with seeds 1 to 3 (nextpnr-ecp5); --seed N for others;
-                                               of a unit that the default configuration has not (`keys` in the list) its size too
+  scripts/unit_table.py --measure size         measures sizes of the default configuration (Yosys, minutes)
+  scripts/unit_table.py --measure UNIT ...     measures clocks: place and route with seeds 1 to 3 (nextpnr-ecp5); --seed N for others;
+                                               of a unit of an option (`keys` in the list) its size too
 
 Exit status: 1 a check or a tool failed, 2 usage or input, 3 a missing tool."""
 import csv

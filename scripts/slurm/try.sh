@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Tries array.sbatch on a Slurm of one node, which it starts and stops: a soak and a sweep, of each of which one task is requeued and one killed
-# and submitted again; what was done by then must be there untouched at the end, and all put together be byte for byte what one run leaves. Then golden vectors, of which a task that was done is requeued. As root; installs slurm-wlm and munge; minutes.
+# Tries array.sbatch on a Slurm of one node, which it starts and stops. Of a soak and a sweep one task is requeued, and one is killed and
+# submitted again. What was done by then must stay untouched, and the merged results must have the bytes of one run. Then a task of
+# golden vectors is requeued after its end. Needs root; installs slurm-wlm and munge; takes minutes.
 #   scripts/slurm/try.sh [--quadrille PROGRAM] [SOAK OPTIONS]    default: --units 40 --limit 20000 --machines 0
 set -euo pipefail
 source "$(dirname "$0")/../setup.sh"
