@@ -498,8 +498,8 @@ TEST(TableErrors, HoldForEveryArgument) {
       }
 }
 
-/// Largest |Δλ'| in units of 2^-s that `quadrille stress --search --leave` has found: README.md, "Headline
-/// figures".
+/// Largest |Δλ'| in units of 2^-s that `quadrille stress --search --leave` has found: tb/MEASUREMENTS.md,
+/// Errors.
 TEST(ErrorBound, LiesAboveWhatClimbingFindsAndNotFar) {
   const std::pair<int, double> found[] = {{8, 3.39}, {12, 3.50}, {18, 3.46}, {26, 3.66}};
   for (const auto& [s, units] : found) {

@@ -331,7 +331,7 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("generate", "Write a set of vectors");
   command->footer(
       "Stimulus and response of every stage and of the machine, as hexadecimal lines for $readmemh with manifests\n"
-      "that describe each bit; golden/vectors/README.md has the format. Level 1 of all suites takes seconds and 47 "
+      "that describe each bit; golden/vectors/README.md has the format. Level 1 of all suites takes seconds and 53 "
       "MB,\n"
       "level 2 about sixty times as much. The same level, seed, limit and configuration give the same bytes\n"
       "everywhere.\n\n"

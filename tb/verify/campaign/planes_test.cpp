@@ -1,5 +1,5 @@
 // What base and difference give to people: which of two parallel planes close together a depth buffer shows, and what
-// texture coordinates and depths that vary little over a quad are off by. Prints the tables of README.md and
+// texture coordinates and depths that vary little over a quad are off by. Prints the tables of tb/MEASUREMENTS.md and
 // golden/analysis/README.md.
 #include "golden/analysis/error_bound.hpp"
 #include "golden/scenes/plane_pair.hpp"
