@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Sets everything up and runs a tier of the tests (scripts/README.md says what each covers):
 #   scripts/test.sh --quick     a minute once built
-#   scripts/test.sh             the default, also CI's: every area, about 10 minutes from an empty clone
+#   scripts/test.sh             the default, also CI's: every area, 20 minutes from an empty clone
 #   scripts/test.sh --full      everything, about an hour
 # Times are aims on an idle 2-core machine. Other arguments go to ctest: scripts/test.sh -R Lockstep, scripts/test.sh -L model.
 # After a tier they narrow it: scripts/test.sh --quick -L model.
