@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view failed_prefix = "failed-";
 
-std::string meaning(const tb::CacheItem& item) {
+std::string meaning(const CacheItem& item) {
   if (!item.description.empty()) return item.description;
   return item.name.starts_with(failed_prefix) ? "log of a failed build" : "of another version";
 }
@@ -40,22 +40,22 @@ std::string readable(std::chrono::seconds age) {
   return std::to_string(s / 86400) + " days";
 }
 
-int show(const std::vector<tb::CacheItem>& items, const char* what, const std::string& json_file) {
+int show(const std::vector<CacheItem>& items, const char* what, const std::string& json_file) {
   const auto now = std::chrono::system_clock::now();
-  const auto age = [&](const tb::CacheItem& item) {
+  const auto age = [&](const CacheItem& item) {
     return std::max(std::chrono::seconds{0}, std::chrono::duration_cast<std::chrono::seconds>(now - item.used));
   };
   std::uintmax_t total = 0;
-  for (const tb::CacheItem& item : items) total += item.bytes;
+  for (const CacheItem& item : items) total += item.bytes;
   if (!json_file.empty()) {
     nlohmann::ordered_json json;
     json["schema_version"] = 1;
     json["version"] = golden::program_version();
-    json["directory"] = tb::cache_directory().string();
-    json["limit_bytes"] = tb::cache_limit();
+    json["directory"] = cache_directory().string();
+    json["limit_bytes"] = cache_limit();
     json["bytes"] = total;
     json[what] = nlohmann::ordered_json::array();
-    for (const tb::CacheItem& item : items)
+    for (const CacheItem& item : items)
       json[what].push_back({{"name", item.name},
                             {"what", meaning(item)},
                             {"bytes", item.bytes},
@@ -64,13 +64,13 @@ int show(const std::vector<tb::CacheItem>& items, const char* what, const std::s
     golden::save_json(json_file, json);
   }
   if (json_file == "-") return exit_ok;
-  for (const tb::CacheItem& item : items)
+  for (const CacheItem& item : items)
     std::printf("%11s  %8s%s  %s\n", readable(item.bytes).c_str(), readable(age(item)).c_str(),
                 item.in_use ? " in use" : "       ", meaning(item).c_str());
-  const std::uintmax_t limit = tb::cache_limit();
+  const std::uintmax_t limit = cache_limit();
   std::printf("%s%zu %s, %s; limit %s; %s\n", std::string_view(what) == "removed" ? "removed " : "", items.size(),
               items.size() == 1 ? "entry" : "entries", readable(total).c_str(),
-              limit == 0 ? "none" : readable(limit).c_str(), tb::cache_directory().c_str());
+              limit == 0 ? "none" : readable(limit).c_str(), cache_directory().c_str());
   return exit_ok;
 }
 
@@ -93,7 +93,7 @@ void add_cache_command(CLI::App& app, Invocation& invocation) {
   command->callback([json, clear, &invocation] {
     const bool remove = clear->parsed();
     invocation.run = [json, remove] {
-      return remove ? show(tb::clear_cache(), "removed", *json) : show(tb::cache_items(), "entries", *json);
+      return remove ? show(clear_cache(), "removed", *json) : show(cache_items(), "entries", *json);
     };
   });
 }

@@ -118,7 +118,7 @@ std::string symbol(const Bits& bits, bool symbols) {
 std::string boundary_listing(const std::string& which, const Config& given, bool markdown) {
   Config config = given;
   if (markdown) config.attribute_slots = slots_of_tables;
-  if (which == "sv") return tb::probes_header();
+  if (which == "sv") return probes_header();
   std::string text;
   for (const auto& [name, bits, fields] : which == "ports" ? describe_ports(config) : describe_probes(config)) {
     text += text.empty() ? "" : "\n";

@@ -59,10 +59,10 @@ int run_cosim(const CosimOptions& options, const std::vector<std::string>& argum
   options.check(config);
   try {
     return options.battery.empty() ? run_inputs(options, config, arguments) : run_battery(options, config, arguments);
-  } catch (const tb::VerilateError& error) {
+  } catch (const VerilateError& error) {
     if (options.rtl.empty()) throw;
     throw UsageError("--rtl " + options.rtl + ": " + error.what());  // the user's sources
-  } catch (const tb::WatchdogError&) {
+  } catch (const WatchdogError&) {
     // Both sides hang alike (the RTL alone would have differed), each time for as long as it takes to be sure of it.
     if (!options.no_shrink) std::fputs("quadrille: not shrunk: a hang of RTL and model is not searched\n", stderr);
     throw;

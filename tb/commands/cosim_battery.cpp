@@ -36,8 +36,8 @@ void place(PlannedDraw& draw, std::size_t number, const Config& config, std::uin
   draw.id_bits = random_id_bits(config, rng);
   draw.seed = seed + number;
   draw.flush = flush_chance(number);
-  draw.waits = static_cast<tb::WaitKind>(number % tb::wait_kind_names().size());
-  if (draw.waits == tb::WaitKind::chance && number % 2 == 1) draw.stall = 0.5, draw.gap = 0.1;
+  draw.waits = static_cast<WaitKind>(number % wait_kind_names().size());
+  if (draw.waits == WaitKind::chance && number % 2 == 1) draw.stall = 0.5, draw.gap = 0.1;
   draw.clears = 1;
 }
 
@@ -56,7 +56,7 @@ std::vector<PlannedDraw> corners(const Config& config, std::uint64_t seed) {
     PlannedDraw draw = port_draw(std::move(corner.quads), corner.state);
     place(draw, draws.size(), config, seed);
     if (corner.stall > 0) {
-      draw.waits = tb::WaitKind::chance;
+      draw.waits = WaitKind::chance;
       draw.stall = corner.stall;
       draw.gap = 0;
     }
@@ -92,14 +92,14 @@ std::vector<PlannedDraw> random_draws(const Config& config, std::uint64_t seed) 
   std::vector<PlannedDraw> draws;
   constexpr std::size_t count = 48;
   for (std::size_t d = 0; d < count; ++d) {
-    DrawState base = tb::small_state(config, 24 + static_cast<int>(rng.below(40)));
+    DrawState base = small_state(config, 24 + static_cast<int>(rng.below(40)));
     if (d % 5 == 3) {  // a few pixels
       base.width = base.scissor_x1 = 1 + static_cast<int>(rng.below(9));
       base.height = base.scissor_y1 = 1 + static_cast<int>(rng.below(9));
     }
     if (d % 8 == 0) base.skip &= ~std::uint32_t{skip_operands};
     const DrawState state = d % 4 == 0 ? base : random_state(config, base, {}, rng);
-    PlannedDraw draw = port_draw(tb::random_quads(config, state, seed + d, 30), state);
+    PlannedDraw draw = port_draw(random_quads(config, state, seed + d, 30), state);
     place(draw, d, config, seed);
     draw.power_on = d % 4 == 2;
     draw.reset = d % 4 == 1;
@@ -113,10 +113,10 @@ std::vector<PlannedDraw> random_draws(const Config& config, std::uint64_t seed) 
 std::vector<PlannedDraw> power_on_draws(const Config& config, std::uint64_t seed) {
   std::vector<PlannedDraw> draws;
   for (std::size_t d = 0; d < 24; ++d) {
-    DrawState state = tb::small_state(config, 20);
+    DrawState state = small_state(config, 20);
     if (config.hierarchical_z_bits != 0) state.skip |= skip_hidden;
     if (config.plane_quads != 0) state.skip |= skip_plane;
-    PlannedDraw draw = port_draw(tb::random_quads(config, state, seed + 40 + d, 5), state);
+    PlannedDraw draw = port_draw(random_quads(config, state, seed + 40 + d, 5), state);
     draw.power_on = true;
     draw.seed = seed + d;
     draws.push_back(std::move(draw));
@@ -148,7 +148,7 @@ std::vector<PlannedDraw> families(const Config& config, std::uint64_t seed) {
   std::vector<PlannedDraw> draws;
   for (std::size_t n = 0; n < 3 * golden::stress_families().size(); ++n) {
     const golden::StressFamilyInfo& family = golden::stress_families()[n % golden::stress_families().size()];
-    DrawState state = tb::small_state(config, 40);
+    DrawState state = small_state(config, 40);
     state.height = state.scissor_y1 = 27;  // no multiple of a tile
     PlannedDraw draw;
     draw.quads = that_snap(golden::make_stress_without_weights(family.family, 8, seed + n, state.width, state.height,
@@ -203,13 +203,13 @@ std::vector<PlannedDraw> phases(const Config& config, std::uint64_t seed) {
   for (const golden::StressFamily family : {golden::StressFamily::eye_in_hull, golden::StressFamily::any_w}) {
     for (const std::uint32_t skip : {skip_default & ~skip_walk, skip_default, std::uint32_t{0}}) {
       PlannedDraw draw;
-      DrawState state = tb::small_state(config, 16);
+      DrawState state = small_state(config, 16);
       state.skip = skip;
       draw.quads = that_snap(
           golden::make_stress_without_weights(family, 100, seed, state.width, state.height, attributes_of(config)),
           config, state);
       draw.state = state;
-      draw.waits = draws.size() % 2 == 0 ? tb::WaitKind::locked : tb::WaitKind::sparse;
+      draw.waits = draws.size() % 2 == 0 ? WaitKind::locked : WaitKind::sparse;
       draw.seed = seed + draws.size();
       draws.push_back(std::move(draw));
     }
@@ -228,7 +228,7 @@ std::vector<PlannedDraw> far_scissors(const Config& config, std::uint64_t seed) 
   for (std::size_t n = 0; n < 3 * kinds.size(); ++n) {
     const golden::StressFamily family = kinds[n % kinds.size()];
     PlannedDraw draw;
-    DrawState state = tb::small_state(config, size);
+    DrawState state = small_state(config, size);
     draw.quads = that_snap(golden::make_stress_without_weights(family, 8, seed + n, size, size, attributes_of(config)),
                            config, state);
     state = random_state(config, state, draw.quads, rng);

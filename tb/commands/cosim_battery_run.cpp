@@ -70,11 +70,11 @@ void run_group(GroupRun& group, bool with_functions) {
     DrawInput input;
     input.name = group.group.name;
     input.attributes = group.config.attribute_slots;
-    const tb::Stopwatch start;
+    const Stopwatch start;
     group.run.run_draws(input, group.group.draws(group.config, group.options.common.seed), group.result);
     group.result.seconds = start.seconds();
     if (with_functions) group.model = check_model(group.config);
-  } catch (const tb::WatchdogError& error) {
+  } catch (const WatchdogError& error) {
     group.error = error.what();
   }
 }
@@ -105,13 +105,13 @@ nlohmann::ordered_json battery_report(const std::deque<GroupRun>& groups, bool o
 }  // namespace
 
 int run_battery(const CosimOptions& options, const Config& config, const std::vector<std::string>& arguments) {
-  const tb::Stopwatch start;
+  const Stopwatch start;
   std::deque<GroupRun> groups = chosen_groups(options);
   std::vector<std::vector<std::string>> built;
   for (const GroupRun& group : groups) {  // one after the other: each build takes all processors
     if (std::ranges::find(built, group.group.settings) != built.end()) continue;
     built.push_back(group.group.settings);
-    tb::simulator_in_lockstep(group.options.lockstep(group.config, {}));
+    simulator_in_lockstep(group.options.lockstep(group.config, {}));
   }
   const double building = start.seconds();
 

@@ -68,7 +68,7 @@ std::vector<PlannedDraw> plan_draws(std::span<const WindowQuad> quads, std::size
     draw.id_bits = random_id_bits(config, rng);
     draw.seed = seed + d;
     draw.flush = flush_chance(d);
-    draw.waits = static_cast<tb::WaitKind>(rng.below(tb::wait_kind_names().size()));
+    draw.waits = static_cast<WaitKind>(rng.below(wait_kind_names().size()));
     reset = rng.chance(0.15);
     if (reset && d + 1 < count && rng.chance(0.7)) draw.limit = 1 + rng.below(200);
     draws.push_back(std::move(draw));

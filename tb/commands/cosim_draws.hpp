@@ -24,7 +24,7 @@ struct PlannedDraw {
   std::uint64_t limit = 0;    ///< the draw is cut off after so many fragments, and a reset follows; 0: it is complete
   std::uint32_t id_bits = 0;  ///< flipped in the position of each quad: the id that the port gets
   std::uint64_t seed = 1;     ///< of its waits
-  tb::WaitKind waits = tb::WaitKind::chance;
+  WaitKind waits = WaitKind::chance;
   double stall = 0, gap = 0;  ///< chances of waits
   double flush = 0;           ///< chance per clock that an incomplete quad is discarded, which comes again
 };

@@ -41,7 +41,7 @@ TEST(CosimDraws, ClearsResetsAndStates) {
   for (const int tiles_log2 : {6, 12}) {
     std::set<unsigned> clears;
     int resets = 0, cut = 0, hidden = 0, again_after_half = 0;
-    std::set<tb::WaitKind> waits;
+    std::set<WaitKind> waits;
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
       for (const PlannedDraw& draw : plan_draws(quads, 20, hiding(tiles_log2), 64, 64, seed)) {
         clears.insert(draw.clears);

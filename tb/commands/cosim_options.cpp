@@ -29,9 +29,9 @@ bool holds_verilog(const std::string& directory) {
 }  // namespace
 
 void CosimOptions::check(const Config& config) const {
-  parsed_option("--stall-clocks", stall_clocks, tb::parse_stall_clocks);
-  parsed_option("--gap-beats", gap_beats, tb::parse_gap_beats);
-  parsed_option("--waits", waits, tb::parse_wait_kind);
+  parsed_option("--stall-clocks", stall_clocks, parse_stall_clocks);
+  parsed_option("--gap-beats", gap_beats, parse_gap_beats);
+  parsed_option("--waits", waits, parse_wait_kind);
   probability("--stall", stall);
   probability("--gap", gap);
   if (attributes > config.attribute_slots)
@@ -89,16 +89,16 @@ std::vector<InputOptions> CosimOptions::inputs() const {
   return list;
 }
 
-tb::LockstepOptions CosimOptions::lockstep(const Config& config, const DrawState& draw) const {
-  tb::LockstepOptions lockstep;
+LockstepOptions CosimOptions::lockstep(const Config& config, const DrawState& draw) const {
+  LockstepOptions lockstep;
   lockstep.config = config;
   lockstep.state = draw;
   lockstep.seed = common.seed;
   lockstep.stall = stall;
   lockstep.gap = gap;
-  lockstep.waits = {parsed_option("--stall-clocks", stall_clocks, tb::parse_stall_clocks),
-                    parsed_option("--gap-beats", gap_beats, tb::parse_gap_beats)};
-  lockstep.pattern = parsed_option("--waits", waits, tb::parse_wait_kind);
+  lockstep.waits = {parsed_option("--stall-clocks", stall_clocks, parse_stall_clocks),
+                    parsed_option("--gap-beats", gap_beats, parse_gap_beats)};
+  lockstep.pattern = parsed_option("--waits", waits, parse_wait_kind);
   lockstep.limit_fragments = limit_fragments;
   lockstep.source = rtl;
   lockstep.probes = !std::filesystem::is_regular_file(rtl);  // one file has none: ports alone are compared

@@ -30,7 +30,7 @@ struct CosimOptions {
   std::vector<InputOptions> inputs() const;
   /// The seed of --draw-state: after the colon, or the command's.
   std::uint64_t drawn_state_seed() const;
-  tb::LockstepOptions lockstep(const Config& config, const DrawState& state) const;
+  LockstepOptions lockstep(const Config& config, const DrawState& state) const;
 };
 
 }  // namespace quadrille::tb

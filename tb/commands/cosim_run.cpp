@@ -32,13 +32,13 @@ Pass pass_of(const DrawInput& input, const PlannedDraw& draw, std::size_t number
 }
 
 /// The RTL without probes and comparison, on the same quads; its fragments must be the same ones.
-void time_alone(const tb::Simulator& simulator, std::span<const SnappedQuad> snapped, tb::LockstepOptions options,
-                const tb::LockstepReport& lockstep, InputResult& result) {
+void time_alone(const Simulator& simulator, std::span<const SnappedQuad> snapped, LockstepOptions options,
+                const LockstepReport& lockstep, InputResult& result) {
   options.trace.reset();
   options.progress = nullptr;
   const bool whole = options.limit_fragments == 0 && lockstep.fragments <= alone_fragments;
   if (!whole) options.limit_fragments = std::min(alone_fragments, std::max<std::uint64_t>(1, lockstep.fragments));
-  const tb::AloneRun alone = tb::run_rtl_alone(simulator, snapped, options);
+  const AloneRun alone = run_rtl_alone(simulator, snapped, options);
   result["alone_cycles"] = alone.cycles;
   result.alone_seconds = alone.seconds;
   if (whole && alone.fragment_hash != lockstep.fragment_hash) {
@@ -84,7 +84,7 @@ void count_quads(std::span<const SnappedQuad> drawn, const Config& config, const
 }  // namespace
 
 InputResult CosimRun::run_input(const InputOptions& input_options) {
-  const tb::Stopwatch start;
+  const Stopwatch start;
   DrawState state = options_.state.state(options_.common, config_);
   int slots = options_.attributes > 0 ? options_.attributes : config_.attribute_slots;
   const auto load = [&] {
@@ -147,11 +147,11 @@ void CosimRun::run_draws(const DrawInput& input, const std::vector<PlannedDraw>&
       width = std::max(width, draw.state.width);
       height = std::max(height, draw.state.height);
     }
-  tb::LockstepOptions lockstep = options_.lockstep(config_, draws.front().state);
+  LockstepOptions lockstep = options_.lockstep(config_, draws.front().state);
   PartialFile trace(options_.trace);
   if (trace.active()) lockstep.trace = trace.path();
-  const tb::Simulator simulator = tb::simulator_in_lockstep(lockstep);
-  std::optional<tb::LockstepSession> session;
+  const Simulator simulator = simulator_in_lockstep(lockstep);
+  std::optional<LockstepSession> session;
   HiddenDepths depths(width, height);
   PerformanceCounters counters;
   bool fresh = true;  // a power-on or reset comes before the draw
@@ -192,7 +192,7 @@ void CosimRun::run_draws(const DrawInput& input, const std::vector<PlannedDraw>&
 }
 
 /// What a draw of several has of its own.
-void CosimRun::set_place(const DrawPlace& place, tb::LockstepOptions& lockstep) const {
+void CosimRun::set_place(const DrawPlace& place, LockstepOptions& lockstep) const {
   lockstep.seed = place.draw.seed;
   lockstep.flush = place.draw.flush;
   if (place.draw.limit > 0) lockstep.limit_fragments = place.draw.limit;
@@ -247,7 +247,7 @@ void CosimRun::run_pass(const DrawInput& input, const DrawState& draw_state, con
     throw UsageError(describe(error, input));
   }
 
-  tb::LockstepOptions lockstep = options_.lockstep(config_, state);
+  LockstepOptions lockstep = options_.lockstep(config_, state);
   PartialFile trace(first && draw == nullptr ? options_.trace : std::string{});
   if (trace.active()) lockstep.trace = trace.path();
   if (draw != nullptr) set_place(*draw, lockstep);
@@ -273,7 +273,7 @@ void CosimRun::run_pass(const DrawInput& input, const DrawState& draw_state, con
     sent = snapped;
     for (SnappedQuad& quad : sent) quad.id ^= id_bits;
   }
-  const tb::FragmentSink sink = [&](const Fragment& given) {
+  const FragmentSink sink = [&](const Fragment& given) {
     Fragment fragment = given;
     fragment.quad ^= id_bits;
     checker.fragment(fragment);
@@ -283,13 +283,13 @@ void CosimRun::run_pass(const DrawInput& input, const DrawState& draw_state, con
           (state.znear > 0 && fragment.depth == znear) || (state.zfar < 1 && fragment.depth == zfar);
     if (picture != nullptr) picture->fragment(fragment);
   };
-  std::optional<tb::Simulators> simulators;
-  if (first && draw == nullptr && !options_.no_alone) simulators = tb::build_simulators(lockstep);
-  tb::LockstepReport report =
-      simulators        ? tb::run_lockstep(simulators->in_lockstep, snapped, lockstep, sink)
-      : draw == nullptr ? tb::run_lockstep(snapped, lockstep, sink)
-                        : draw->session.draw(id_bits != 0 ? sent : snapped, lockstep, draw->draw.clears, sink);
-  const tb::Stopwatch drawn;
+  std::optional<Simulators> simulators;
+  if (first && draw == nullptr && !options_.no_alone) simulators = build_simulators(lockstep);
+  LockstepReport report = simulators ? run_lockstep(simulators->in_lockstep, snapped, lockstep, sink)
+                          : draw == nullptr
+                              ? run_lockstep(snapped, lockstep, sink)
+                              : draw->session.draw(id_bits != 0 ? sent : snapped, lockstep, draw->draw.clears, sink);
+  const Stopwatch drawn;
   checker.finish(report.complete);
   queue.drain();
   SkipResult skips;

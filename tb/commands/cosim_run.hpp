@@ -31,7 +31,7 @@ class CosimRun {
   struct DrawPlace {
     const PlannedDraw& draw;
     std::size_t number;  ///< of the draw, from 1
-    tb::LockstepSession& session;
+    LockstepSession& session;
     HiddenDepths& depths;
     PerformanceCounters& counters;  ///< since the reset
   };
@@ -43,7 +43,7 @@ class CosimRun {
     const DrawPlace* draw = nullptr;  ///< nullptr: in a machine of its own
   };
 
-  void set_place(const DrawPlace& place, tb::LockstepOptions& lockstep) const;
+  void set_place(const DrawPlace& place, LockstepOptions& lockstep) const;
   FragmentChecker::Settings checker_settings(const DrawState& state, const PassPlace& place) const;
   FailedPass failed_pass(const DrawInput& input, const DrawState& draw_state, int slots, const PassPlace& place,
                          bool lockstep_ok) const;

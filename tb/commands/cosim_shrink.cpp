@@ -33,7 +33,7 @@ class FailedPassRuns {
   FailedPassRuns(const FailedPass& failed, const ShrinkOptions& options, bool show)
       : failed_(failed),
         seconds_(options.seconds),
-        simulator_(tb::simulator_in_lockstep(failed.lockstep)),
+        simulator_(simulator_in_lockstep(failed.lockstep)),
         progress_(failed.input + ", shrinking", 0, show) {}
 
   /// As shrink() wants it. The first run, of the whole, does not count in the time.
@@ -44,7 +44,7 @@ class FailedPassRuns {
     if (!failed) return std::nullopt;
     Failure failure{report_.quads, {}};
     failure.waits =
-        draw.waits ? *draw.waits : tb::recorded_waits(snapped_, options_of(draw), clocks() + 1, 4 * report_.quads + 4);
+        draw.waits ? *draw.waits : recorded_waits(snapped_, options_of(draw), clocks() + 1, 4 * report_.quads + 4);
     return failure;
   }
   bool out_of_time() const { return clock_ && clock_->seconds() > seconds_; }
@@ -55,41 +55,41 @@ class FailedPassRuns {
 
   /// Writes the last clocks of a draw that failed just now; false when the machine with waveforms does not fail.
   bool trace(const FailingDraw& draw, const std::string& file) {
-    tb::LockstepOptions options = options_of(draw);
+    LockstepOptions options = options_of(draw);
     options.trace = file;
     options.trace_from = clocks() > clocks_shown ? clocks() - clocks_shown : 0;
     options.optimise = 0;  // a few hundred clocks are nothing beside what compiling them well takes
-    return fails(draw, tb::simulator_in_lockstep(options), options, false);
+    return fails(draw, simulator_in_lockstep(options), options, false);
   }
 
   std::uint64_t runs() const { return runs_; }
   void finish() { progress_.finish(); }
 
  private:
-  tb::LockstepOptions options_of(const FailingDraw& draw) const {
-    tb::LockstepOptions o = failed_.lockstep;
+  LockstepOptions options_of(const FailingDraw& draw) const {
+    LockstepOptions o = failed_.lockstep;
     const int attributes = o.state.attributes;
     o.state = draw.state;
     o.state.attributes = attributes;
     o.seed = draw.seed;
     o.stall = draw.waits ? 0 : draw.stall;
     o.gap = draw.waits ? 0 : draw.gap;
-    o.waits = draw.waits.value_or(tb::PortWaits{});
-    if (draw.waits || draw.stall > 0 || draw.gap > 0) o.pattern = tb::WaitKind::chance;  // else: the run that failed
+    o.waits = draw.waits.value_or(PortWaits{});
+    if (draw.waits || draw.stall > 0 || draw.gap > 0) o.pattern = WaitKind::chance;  // else: the run that failed
     return o;
   }
 
   bool fails_in_time(const FailingDraw& draw) {
     try {
       return fails(draw, simulator_, options_of(draw), true);
-    } catch (const tb::WatchdogError&) {  // both sides hang: not what is looked for
+    } catch (const WatchdogError&) {  // both sides hang: not what is looked for
       return false;
     } catch (const OutOfTime&) {
       return false;
     }
   }
 
-  bool fails(const FailingDraw& draw, const tb::Simulator& simulator, tb::LockstepOptions options, bool in_time) {
+  bool fails(const FailingDraw& draw, const Simulator& simulator, LockstepOptions options, bool in_time) {
     options.progress = nullptr;
     if (in_time)
       options.progress = [this](double) {
@@ -100,14 +100,14 @@ class FailedPassRuns {
       snapped_.push_back(snap_as(pass_quad(draw.quads[i], failed_.check.pass), static_cast<std::uint32_t>(i),
                                  options.config, options.state));
     if (!failed_.lockstep_ok) {
-      report_ = tb::run_lockstep(simulator, snapped_, options);
+      report_ = run_lockstep(simulator, snapped_, options);
       return !report_.agreed();
     }
     FragmentChecker::Settings settings = failed_.check;
     settings.state = options.state;
     settings.snapping = false;
     const CheckResult check = check_here(settings, draw.quads, snapped_, [&](const auto& sink) {
-      report_ = tb::run_lockstep(simulator, snapped_, options, sink);
+      report_ = run_lockstep(simulator, snapped_, options, sink);
       return report_.complete;
     });
     return report_.agreed() && check.faults() != 0;
@@ -115,12 +115,12 @@ class FailedPassRuns {
 
   const FailedPass& failed_;
   double seconds_;
-  tb::Simulator simulator_;
+  Simulator simulator_;
   Progress progress_;
-  std::optional<tb::Stopwatch> clock_;  ///< from the end of the first run on
+  std::optional<Stopwatch> clock_;  ///< from the end of the first run on
   std::uint64_t runs_ = 0;
   std::vector<SnappedQuad> snapped_;
-  tb::LockstepReport report_;
+  LockstepReport report_;
 };
 
 std::string command_of(const FailingDraw& draw, const FailedPass& failed, const ShrinkOptions& options,
@@ -132,9 +132,8 @@ std::string command_of(const FailingDraw& draw, const FailedPass& failed, const 
              std::to_string(draw.seed) + StateOptions::of(draw.state).spelled();
   if (failed.slots < failed.lockstep.config.attribute_slots) command += " --attributes " + std::to_string(failed.slots);
   if (draw.waits) {
-    if (!draw.waits->stall_clocks.empty())
-      command += " --stall-clocks " + tb::spell_stall_clocks(draw.waits->stall_clocks);
-    if (!draw.waits->gap_beats.empty()) command += " --gap-beats " + tb::spell_gap_beats(draw.waits->gap_beats);
+    if (!draw.waits->stall_clocks.empty()) command += " --stall-clocks " + spell_stall_clocks(draw.waits->stall_clocks);
+    if (!draw.waits->gap_beats.empty()) command += " --gap-beats " + spell_gap_beats(draw.waits->gap_beats);
   } else {
     if (draw.stall > 0) command += " --stall " + nlohmann::json(draw.stall).dump();
     if (draw.gap > 0) command += " --gap " + nlohmann::json(draw.gap).dump();
@@ -154,13 +153,13 @@ std::string counted(std::size_t count, const char* thing) {
 std::string quoted(const std::string& argument) { return golden::command_line(std::span(&argument, 1)); }
 
 void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, const CommonOptions& common) {
-  const tb::LockstepOptions& lockstep = failed.lockstep;
+  const LockstepOptions& lockstep = failed.lockstep;
   FailedPassRuns runs(failed, options, common.show_progress());
   FailingDraw whole{failed.quads, lockstep.state, lockstep.seed, lockstep.stall, lockstep.gap, std::nullopt};
   if (!lockstep.waits.empty()) whole.waits = lockstep.waits;
   ShrinkLimits limits;
   limits.out_of_time = [&] { return runs.out_of_time(); };
-  const tb::Stopwatch start;
+  const Stopwatch start;
   const FailingRun run = [&](const FailingDraw& draw) { return runs(draw); };
   const std::optional<Shrunk> shrunk = shrink(std::move(whole), run, limits);
   if (!shrunk) throw std::runtime_error("the same draw again does not fail: the fault depends on more than the draw");
@@ -169,7 +168,7 @@ void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, 
   FailingDraw kept = shrunk->draw;
   kept.quads = golden::load_quads(options.quads);
   // Waits of which none could be left out are said in short, where the chances that drew them still do.
-  const tb::PortWaits waits = *kept.waits;
+  const PortWaits waits = *kept.waits;
   bool fails = false;
   if (kept.stall > 0 || kept.gap > 0) {
     kept.waits.reset();

@@ -15,7 +15,7 @@ namespace quadrille::tb {
 struct FailedPass {
   std::string input;              ///< its name
   std::vector<WindowQuad> quads;  ///< of the whole input
-  tb::LockstepOptions lockstep;   ///< with the pass's draw state
+  LockstepOptions lockstep;       ///< with the pass's draw state
   FragmentChecker::Settings check;
   int slots = 0;             ///< attributes in use per pass
   bool lockstep_ok = false;  ///< the truth alone differs

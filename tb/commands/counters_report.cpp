@@ -36,7 +36,7 @@ std::optional<PerformanceCounters> count_draw(const EngineSettings& settings, st
                                               int attributes) {
   if (!engine_info(settings.kind).machine) return std::nullopt;
   const Pass pass = plan_passes(attributes, true, settings.config).front();
-  tb::LockstepOptions options;
+  LockstepOptions options;
   options.config = settings.config;
   options.state = settings.state;
   options.state.attributes = static_cast<int>(pass.columns.size());
@@ -46,7 +46,7 @@ std::optional<PerformanceCounters> count_draw(const EngineSettings& settings, st
   std::vector<SnappedQuad> snapped;
   for (std::size_t i = 0; i < quads.size(); ++i)
     snapped.push_back(snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), options.config, options.state));
-  return tb::run_clocked_model_alone(snapped, options).counters;
+  return run_clocked_model_alone(snapped, options).counters;
 }
 
 }  // namespace quadrille::tb

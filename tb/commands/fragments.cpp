@@ -51,7 +51,7 @@ std::pair<int, int> parse_pixel(const std::string& text, const DrawState& state)
 }
 
 int fragments(const FragmentsOptions& options, const Invocation& invocation) {
-  const tb::Stopwatch start;
+  const Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
   if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
   MethodEngineMaker make_method_engine;

@@ -131,7 +131,7 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
   const std::vector<const Suite*> chosen =
       shard_of(own != nullptr ? std::vector<const Suite*>{own.get()} : choose_suites(options.suites),
                Shard::parse(options.shard));
-  const tb::Stopwatch start;
+  const Stopwatch start;
   SetWriter writer(options.out, info, options.force);
   Progress progress("golden", chosen.size(), options.common.show_progress());
   std::FILE* text = options.common.text();
@@ -142,7 +142,7 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const Suite& suite = *chosen[i];
     progress.set(i, suite.info().name);
-    const tb::Stopwatch suite_start;
+    const Stopwatch suite_start;
     std::uint64_t vectors = 0;
     writer.add(suite.info(), [&](SuiteWriter& out) {
       suite.write(out, generation);
@@ -285,7 +285,7 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
   bool ok = true;
   std::uint64_t compared = 0;
   for (const std::string& name : chosen) {
-    const tb::Stopwatch start;
+    const Stopwatch start;
     const SuiteReader reader = set.suite(name);
     const Suite& suite = find_suite(name);
     if (engine.verify == nullptr && !replayed.contains(name)) {

@@ -30,9 +30,9 @@ std::string text_of(const fs::path& file) {
 
 std::map<std::string, vectors::VerifyResult> replay_rtl(const std::string& directory,
                                                         const std::vector<std::string>& suites) {
-  const fs::path script = tb::rtl_directory().parent_path() / "scripts" / "replay.sh";
+  const fs::path script = rtl_directory().parent_path() / "scripts" / "replay.sh";
   if (!fs::exists(script))
-    throw tb::EnvironmentError("cannot find " + script.string() + "; the engine rtl needs the source tree");
+    throw EnvironmentError("cannot find " + script.string() + "; the engine rtl needs the source tree");
   std::vector<std::string> command{script.string(), fs::absolute(directory).string(), "verilator"};
   for (const std::string& suite : suites) {
     command.emplace_back("--suite");
@@ -40,12 +40,12 @@ std::map<std::string, vectors::VerifyResult> replay_rtl(const std::string& direc
   }
   const fs::path log = fs::temp_directory_path() / ("quadrille_replay_" + std::to_string(::getpid()) + ".log");
   ::setenv("QUADRILLE", fs::read_symlink("/proc/self/exe").c_str(), 1);
-  const int status = tb::run_logged(command, fs::current_path(), log);
+  const int status = run_logged(command, fs::current_path(), log);
   std::string output = text_of(log);
   output.erase(0, output.find('\n') + 1);  // the command
   fs::remove(log);
   if (status == bad_input) throw golden::InputError(output);
-  if (status == missing_tool) throw tb::EnvironmentError(output);
+  if (status == missing_tool) throw EnvironmentError(output);
 
   // "SUITE: N vectors, M mismatches …", or what stopped the run or the build; after it what differs.
   std::map<std::string, vectors::VerifyResult> results;

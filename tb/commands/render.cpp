@@ -33,7 +33,7 @@ struct RenderOptions {
 };
 
 int render(const RenderOptions& options, const Invocation& invocation) {
-  const tb::Stopwatch start;
+  const Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
   MethodEngineMaker make_method_engine;
   if (!options.method.empty()) {

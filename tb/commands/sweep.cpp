@@ -90,7 +90,7 @@ class SweepRun {
         shard_(Shard::parse(options.shards.shard)) {}
 
   int run() {
-    const tb::Stopwatch start;
+    const Stopwatch start;
     prepare();
     golden::set_interrupt_hint("the points finished so far are kept in " + options_.out + ", the same command goes on");
     sweep::Store store(options_.out, identity(),
@@ -155,7 +155,7 @@ class SweepRun {
       throw UsageError("--shard " + options_.shards.shard + ": the grid has " + std::to_string(grid_.size()) +
                        " points; at most so many shards have some each");
     if (options_.exhaustive && options_.targets.empty()) throw UsageError("--exhaustive goes with --target-error");
-    synth_target_ = tb::parse_synthesis_target(options_.synth_target);
+    synth_target_ = parse_synthesis_target(options_.synth_target);
     weights_ = sweep::weights_of(synth_target_);
     if (!options_.common.config_file.empty()) golden::load_cost_weights(options_.common.config_file, weights_);
     for (const std::string& target : options_.targets) targets_.push_back(parse_target(target));
@@ -413,7 +413,7 @@ class SweepRun {
     for (const sweep::Selected& s : chosen)
       cosim.push_back({s.row, s.why, row_of(s.row).config, row_of(s.row).result.cycles});
     {
-      const tb::Stopwatch start;
+      const Stopwatch start;
       Progress progress("co-simulation of " + std::to_string(cosim.size()) + " points", cosim.size(),
                         options_.common.show_progress());
       cosim_ = cosimulate(cosim, input_.quads, input_.attributes, input_.state, options_.cosim_fragments,
@@ -424,7 +424,7 @@ class SweepRun {
     std::vector<sweep::SynthesisPoint> synthesis;
     for (const sweep::Selected& s : sweep::select_points(options_.synth, candidates))
       synthesis.push_back({s.row, row_of(s.row).config});
-    const tb::Stopwatch start;
+    const Stopwatch start;
     Progress progress("synthesis of " + std::to_string(synthesis.size()) + " points", synthesis.size(),
                       options_.common.show_progress());
     synthesis_ = sweep::synthesise(synthesis, synth_target_, weights_, threads,
@@ -565,7 +565,7 @@ class SweepRun {
     }
     if (target_) print_target(out, findings(), *target_, parts_, draw_.name, !options_.no_confirm);
     std::error_code far;  // from the working directory where that is possible
-    const std::filesystem::path report = tb::scripts_directory() / "sweep_report.py",
+    const std::filesystem::path report = scripts_directory() / "sweep_report.py",
                                 near = std::filesystem::relative(report, far);
     std::fprintf(out, "\n%s/points.csv, manifest.json; %s %s draws them\n", options_.out.c_str(),
                  (far || near.native().starts_with("..") ? report : near).c_str(), options_.out.c_str());
@@ -619,7 +619,7 @@ class SweepRun {
   const Config base_;
   const sweep::Grid grid_;
   const Shard shard_;
-  tb::SynthesisTarget synth_target_{};
+  SynthesisTarget synth_target_{};
   CostWeights weights_;
   std::vector<ErrorTarget> targets_;
   sweep::ErrorColumn objective_;

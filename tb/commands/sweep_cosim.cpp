@@ -20,7 +20,7 @@ CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> q
   for (std::size_t i = 0; i < quads.size(); ++i)
     snapped.push_back(snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), point.config, state));
 
-  tb::LockstepOptions options;
+  LockstepOptions options;
   options.config = point.config;
   options.state = state;
   options.seed = seed;
@@ -30,9 +30,9 @@ CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> q
   settings.state = state;
   settings.pass = pass;
   settings.snapping = false;
-  tb::LockstepReport report;
+  LockstepReport report;
   const CheckResult check = check_here(settings, quads, snapped, [&](const auto& sink) {
-    report = tb::run_lockstep(snapped, options, sink);
+    report = run_lockstep(snapped, options, sink);
     return report.complete;
   });
   CosimRow row;

@@ -15,9 +15,9 @@ constexpr std::size_t quads_per_run = 256;
 class RtlEngine final : public Engine {
  public:
   explicit RtlEngine(const EngineSettings& settings) : settings_(settings) {
-    tb::LockstepOptions options;
+    LockstepOptions options;
     options.config = settings.config;
-    simulator_ = tb::simulator_alone(options);
+    simulator_ = simulator_alone(options);
   }
 
   void draw(std::span<const WindowQuad> quads, int attributes, bool weights, const SampleSink& sink) override {
@@ -42,7 +42,7 @@ class RtlEngine final : public Engine {
                                 const std::vector<Pass>& passes) const {
     std::vector<EngineSample> samples;
     for (const Pass& pass : passes) {
-      tb::LockstepOptions options;
+      LockstepOptions options;
       options.config = settings_.config;
       const bool first_pass = &pass == &passes.front(), plane = (settings_.state.skip & skip_plane) != 0;
       options.state = state_of_pass(settings_.state, pass, first_pass);
@@ -54,7 +54,7 @@ class RtlEngine final : public Engine {
         snapped.push_back(
             snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), options.config, options.state));
       std::size_t next = 0;
-      tb::run_rtl_alone(simulator_, snapped, options, [&](const Fragment& fragment) {
+      run_rtl_alone(simulator_, snapped, options, [&](const Fragment& fragment) {
         if (first_pass) {
           EngineSample& sample = samples.emplace_back();
           sample.index = fragment.quad;
@@ -72,7 +72,7 @@ class RtlEngine final : public Engine {
   }
 
   EngineSettings settings_;
-  tb::Simulator simulator_;
+  Simulator simulator_;
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(RtlEngine, TakesLessTimeThanLockstep) {
   const int attributes = settings.config.attribute_slots;
   settings.state.attributes = attributes;
 
-  tb::LockstepOptions options;
+  LockstepOptions options;
   options.config = settings.config;
   options.state = settings.state;
   std::vector<SnappedQuad> snapped;
@@ -56,7 +56,7 @@ TEST(RtlEngine, TakesLessTimeThanLockstep) {
     drawn = 0;
     engine->draw(quads, attributes, false, [&](std::span<const EngineSample> samples) { drawn += samples.size(); });
   });
-  const double lockstep_seconds = shortest([&] { compared = tb::run_lockstep(snapped, options).fragments; });
+  const double lockstep_seconds = shortest([&] { compared = run_lockstep(snapped, options).fragments; });
   EXPECT_GT(drawn, 10'000u);
   EXPECT_EQ(drawn, compared);
   EXPECT_LT(engine_seconds, lockstep_seconds);

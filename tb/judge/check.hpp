@@ -21,8 +21,6 @@
 
 namespace quadrille::tb {
 
-using tb::ErrorStats;
-
 /// Where the fragments are, for counting and naming.
 struct Place {
   std::uint32_t index = 0, quad = 0;  ///< position in the draw, and id
@@ -40,7 +38,7 @@ struct QuantityErrors {
 /// ends; `mean` is signed, positive away from the base, and includes it.
 struct RelativeErrors {
   double max = 0;
-  tb::MeanError mean;
+  MeanError mean;
 
   void add(double part) { add(std::fabs(part), part); }
   void add(double part, double signed_part) {

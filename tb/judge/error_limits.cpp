@@ -23,7 +23,7 @@ double rounded(double value, bool up) {
   return (up ? std::ceil(value * scale) : std::floor(value * scale)) / scale;
 }
 
-std::array<const RelativeErrors*, tb::output_names.size()> outputs_of(const CheckResult& result) {
+std::array<const RelativeErrors*, output_names.size()> outputs_of(const CheckResult& result) {
   return {&result.weight, &result.attribute, &result.depth};
 }
 
@@ -47,7 +47,7 @@ void ErrorLimits::set(golden::StressFamily family, int significand_bits, const s
                       double headroom) {
   if (draws.size() < 2) throw std::invalid_argument("limits need at least two draws");
   Family& limits = families_[std::string(golden::stress_family_name(family))][significand_bits];
-  for (std::size_t i = 0; i < tb::output_names.size(); ++i) {
+  for (std::size_t i = 0; i < output_names.size(); ++i) {
     std::vector<double> max, mean;
     for (const MeasuredErrors& draw : draws) {
       max.push_back(draw.max[i]);
@@ -73,9 +73,8 @@ std::string ErrorLimits::text() const {
     const char* width_comma = "";
     for (const auto& [bits, limits] : widths) {
       nlohmann::ordered_json of_outputs;
-      for (std::size_t i = 0; i < tb::output_names.size(); ++i)
-        of_outputs[std::string(tb::output_names[i])] = {limits.max[i].high(), limits.mean[i].low(),
-                                                        limits.mean[i].high()};
+      for (std::size_t i = 0; i < output_names.size(); ++i)
+        of_outputs[std::string(output_names[i])] = {limits.max[i].high(), limits.mean[i].low(), limits.mean[i].high()};
       out += width_comma + ("\n   \"" + std::to_string(bits)) + "\": " + of_outputs.dump();
       width_comma = ",";
     }
@@ -92,8 +91,8 @@ ErrorLimits ErrorLimits::parse(std::string_view text) {
     for (const auto& [name, widths] : json.at("families").items())
       for (const auto& [bits, of_outputs] : widths.items()) {
         Family& limits = out.families_[name][std::stoi(bits)];
-        for (std::size_t i = 0; i < tb::output_names.size(); ++i) {
-          const auto& output = of_outputs.at(std::string(tb::output_names[i]));
+        for (std::size_t i = 0; i < output_names.size(); ++i) {
+          const auto& output = of_outputs.at(std::string(output_names[i]));
           limits.max[i] = {0, output.at(0).get<double>()};
           limits.mean[i] = {output.at(1).get<double>(), output.at(2).get<double>()};
         }
@@ -182,7 +181,7 @@ std::vector<std::string> beyond_limits(const ErrorLimits::Family& limits, const 
       if (range.holds(value)) return;
       char text[160];
       std::snprintf(text, sizeof text, "%s %s error %.4g of its bound, limits %.4g to %.4g", what,
-                    std::string(tb::output_names[i]).c_str(), value, range.low(), range.high());
+                    std::string(output_names[i]).c_str(), value, range.low(), range.high());
       out.emplace_back(text);
     };
     check("largest", limits.max[i], measured.max[i]);

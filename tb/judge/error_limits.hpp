@@ -34,7 +34,7 @@ double limit_climb(golden::StressFamily family, int significand_bits, std::uint6
 
 /// Errors of one draw, as parts of what the bound allows each of them (RelativeErrors).
 struct MeasuredErrors {
-  std::array<double, tb::output_names.size()> max{}, mean{};
+  std::array<double, output_names.size()> max{}, mean{};
 
   explicit MeasuredErrors(const CheckResult& result);
 };
@@ -59,7 +59,7 @@ class ErrorLimits {
  public:
   /// Of one family at one width. A largest error below `max` is no fault, a mean on either side of `mean` is.
   struct Family {
-    std::array<LimitRange, tb::output_names.size()> max, mean;
+    std::array<LimitRange, output_names.size()> max, mean;
   };
 
   /// The file in the source tree as it was when the program was built (error_limits.json).

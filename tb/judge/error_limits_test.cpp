@@ -75,7 +75,7 @@ TEST(ErrorLimits, AreRecordedAndTighterThanTheBound) {
       for (std::size_t i = 0; i < 3; ++i)
         // Few quads of any_w have every W > 0, hence a bound of depth: in some draws none, so their interval is wide.
         EXPECT_LT(limits->max[i].high(), info.family == golden::StressFamily::any_w && i == 2 ? 1 : 0.75)
-            << info.name << ", s = " << s << " " << tb::output_names[i];
+            << info.name << ", s = " << s << " " << output_names[i];
       // A mean of weights 1 to 3 is known to half a unit of 2^-s, of which the bound has 8; of 30 quads no better.
       EXPECT_LT(limits->mean[0].high() - limits->mean[0].low(), 0.5 / 8) << info.name << ", s = " << s;
     }

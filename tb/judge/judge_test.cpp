@@ -91,8 +91,8 @@ TEST(JudgeUntimed, PassesQuadsAtThePort) {
   for (const int s : {10, 18}) {
     Config config;
     config.set("significand_bits", s);
-    const DrawState state = tb::small_state(config);
-    const CheckResult result = judge_untimed(tb::random_quads(config, state, 3, 400), config, state);
+    const DrawState state = small_state(config);
+    const CheckResult result = judge_untimed(random_quads(config, state, 3, 400), config, state);
     EXPECT_TRUE(result.ok()) << "s = " << s << ": " << faults(result);
   }
 }

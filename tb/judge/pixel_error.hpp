@@ -22,9 +22,6 @@ struct PixelAlone {
 PixelAlone pixel_alone(const SnappedQuad& quad, const Config& config, const DrawState& state,
                        const PipelineContext& context, int x, int y);
 
-using tb::Output;
-using tb::output_names;
-
 /// What the bound allows, in units of 2^-s of weights 1 to 3. Of weight 0, attributes and depth a unit is an eighth of
 /// what their bound allows them at the pixel (judged_quad.hpp), and the error begins where the output's rounding ends:
 /// 8 is where the judge finds a fault, for values of any spread.

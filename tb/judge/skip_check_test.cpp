@@ -19,13 +19,13 @@ struct Drawn {
   explicit Drawn(std::uint64_t seed, bool hides = false) {
     config.set("significand_bits", 12);
     if (hides) config.set("hierarchical_z_bits", 12);
-    state = tb::small_state(config);
+    state = small_state(config);
     if (seed > 0) state = golden::random_draw_state(config, 48, 40, {}, seed);
     if (hides) {
       state.depth = true;
       state.skip |= skip_hidden;
     }
-    quads = tb::random_quads(config, state, seed, 150);
+    quads = random_quads(config, state, seed, 150);
     UntimedModel model(config, state);
     for (const SnappedQuad& quad : quads)
       model.draw(quad, [&](std::span<const Fragment> f) { fragments.insert(fragments.end(), f.begin(), f.end()); });

@@ -29,11 +29,11 @@ class Shrinking {
  public:
   Shrinking(FailingDraw draw, const FailingRun& run, const ShrinkLimits& limits)
       : draw_(std::move(draw)), run_(run), limits_(limits), next_seed_(draw_.seed) {
-    const auto chance = [&](double drawn, auto tb::PortWaits::*listed) {
+    const auto chance = [&](double drawn, auto PortWaits::*listed) {
       return drawn > 0 ? drawn : draw_.waits && !((*draw_.waits).*listed).empty() ? usual_chance : 0;
     };
-    stall_ = chance(draw_.stall, &tb::PortWaits::stall_clocks);
-    gap_ = chance(draw_.gap, &tb::PortWaits::gap_beats);
+    stall_ = chance(draw_.stall, &PortWaits::stall_clocks);
+    gap_ = chance(draw_.gap, &PortWaits::gap_beats);
   }
 
   std::optional<Shrunk> run() {
@@ -196,7 +196,7 @@ class Shrinking {
   void fewer_waits() {
     if (draw_.waits->empty()) return;
     without_waits();
-    for (const auto member : {&tb::PortWaits::gap_beats, &tb::PortWaits::stall_clocks})
+    for (const auto member : {&PortWaits::gap_beats, &PortWaits::stall_clocks})
       fewer(
           0, [&] { return ((*draw_.waits).*member).size(); },
           [&](std::size_t begin, std::size_t end) {

@@ -15,15 +15,15 @@ namespace quadrille::tb {
 struct FailingDraw {
   std::vector<WindowQuad> quads;
   DrawState state;
-  std::uint64_t seed = 1;              ///< of the waits at random, and of what the machine must not look at
-  double stall = 0, gap = 0;           ///< chances of waits. With `waits`: what drew them, 0 once they are others
-  std::optional<tb::PortWaits> waits;  ///< the waits one by one: these are driven
+  std::uint64_t seed = 1;          ///< of the waits at random, and of what the machine must not look at
+  double stall = 0, gap = 0;       ///< chances of waits. With `waits`: what drew them, 0 once they are others
+  std::optional<PortWaits> waits;  ///< the waits one by one: these are driven
 };
 
 /// What a run that fails says of itself.
 struct Failure {
   std::uint64_t quads = 0;  ///< that the machine had taken whole
-  tb::PortWaits waits;      ///< that its ports had, drawn or listed: with these listed it must fail alike
+  PortWaits waits;          ///< that its ports had, drawn or listed: with these listed it must fail alike
 };
 
 /// Runs a draw; nothing when it does not fail.

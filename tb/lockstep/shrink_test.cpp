@@ -26,9 +26,9 @@ FailingDraw draw_of(std::size_t quads) {
 }
 
 /// The waits of a draw, at random or listed.
-tb::PortWaits waits_of(const FailingDraw& draw) {
+PortWaits waits_of(const FailingDraw& draw) {
   if (draw.waits) return *draw.waits;
-  tb::PortWaits waits;
+  PortWaits waits;
   golden::Prng stalls(draw.seed, 2), gaps(draw.seed, 1);
   for (std::uint64_t clock = 0; clock < clocks; ++clock)
     if (stalls.chance(draw.stall)) waits.stall_clocks.push_back(clock);
@@ -108,7 +108,7 @@ TEST(Shrink, WhatIsNeededStays) {
   const FailingDraw left = least(draw_of(200), failing(fails));
   ASSERT_EQ(left.quads.size(), 3u);
   EXPECT_TRUE(fails(left));
-  EXPECT_EQ(*left.waits, (tb::PortWaits{{early, late}, {}}));
+  EXPECT_EQ(*left.waits, (PortWaits{{early, late}, {}}));
   EXPECT_EQ(left.stall, 0);
   EXPECT_EQ(left.gap, 0);
   EXPECT_EQ(left.state.znear, 0);
@@ -139,7 +139,7 @@ TEST(Shrink, FewerQuadsWantOtherWaits) {
     const FailingDraw left = least(draw, failing(fails));
     EXPECT_EQ(left.quads.size(), 1u) << seed;
     EXPECT_EQ(left.state.scissor_y1 - left.state.scissor_y0, 1) << seed;
-    EXPECT_EQ(*left.waits, (tb::PortWaits{{9, 10, 11}, {}})) << seed;
+    EXPECT_EQ(*left.waits, (PortWaits{{9, 10, 11}, {}})) << seed;
   }
 }
 
@@ -147,7 +147,7 @@ TEST(Shrink, FewerQuadsWantOtherWaits) {
 TEST(Shrink, GapsStayBeforeTheirBeats) {
   FailingDraw draw = draw_of(8);
   draw.stall = draw.gap = 0;
-  draw.waits = tb::PortWaits{{}, {1, 4, 21, 21, 22, 30}};
+  draw.waits = PortWaits{{}, {1, 4, 21, 21, 22, 30}};
   const auto fails = [](const FailingDraw& d) {
     for (std::size_t i = 0; i < d.quads.size(); ++i)
       if (d.quads[i].id == 5 && std::ranges::count(d.waits->gap_beats, 4 * i + 1) == 2) return true;
@@ -158,7 +158,7 @@ TEST(Shrink, GapsStayBeforeTheirBeats) {
   const FailingDraw left = least(draw, failing(fails), as_listed);
   ASSERT_EQ(left.quads.size(), 1u);
   EXPECT_EQ(left.quads[0].id, 5u);
-  EXPECT_EQ(*left.waits, (tb::PortWaits{{}, {1, 1}}));
+  EXPECT_EQ(*left.waits, (PortWaits{{}, {1, 1}}));
 }
 
 /// Nothing that is left can be left out by itself, whatever the fault asks for.
@@ -168,7 +168,7 @@ TEST(Shrink, NothingCanBeLeftOutByItself) {
     FailingDraw draw = draw_of(40);
     draw.seed = static_cast<std::uint64_t>(i);
     if (i % 2 == 1) draw.gap = 0;
-    const tb::PortWaits all = waits_of(draw);
+    const PortWaits all = waits_of(draw);
     std::vector<std::uint32_t> ids;
     std::vector<std::uint64_t> stalls;
     for (std::uint64_t n = 1 + random.below(3); n > 0; --n) ids.push_back(static_cast<std::uint32_t>(random.below(40)));
@@ -184,7 +184,7 @@ TEST(Shrink, NothingCanBeLeftOutByItself) {
     std::ranges::sort(stalls);
     stalls.erase(std::ranges::unique(stalls).begin(), stalls.end());
     EXPECT_EQ(left.quads.size(), ids.size());
-    EXPECT_EQ(*left.waits, (tb::PortWaits{stalls, {}}));
+    EXPECT_EQ(*left.waits, (PortWaits{stalls, {}}));
     EXPECT_EQ(left.stall, 0);  // which would draw others
   }
 }

@@ -136,7 +136,7 @@ void CommonOptions::add_to(CLI::App& app, bool draws) {
   }
   writes_file(app, app.add_option("--json", json, "Write a JSON report (- for standard output)"), "json")->group(group);
   auto* be_quiet = app.add_flag("--quiet", quiet, "Print nothing but errors")
-                       ->each([](const std::string&) { tb::BuildNotice::silence(); })
+                       ->each([](const std::string&) { BuildNotice::silence(); })
                        ->group(group);
   app.add_flag("--verbose", verbose, "Print more")->excludes(be_quiet)->group(group);
 }

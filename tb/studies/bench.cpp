@@ -49,10 +49,10 @@ std::string power(double value) {
 }
 
 /// The largest error; "-" of nothing.
-std::string power(const tb::ErrorStats& errors) { return errors.count() == 0 ? "-" : power(errors.max()); }
+std::string power(const ErrorStats& errors) { return errors.count() == 0 ? "-" : power(errors.max()); }
 
 /// null of nothing.
-nlohmann::ordered_json or_null(const tb::ErrorStats& errors, double value) {
+nlohmann::ordered_json or_null(const ErrorStats& errors, double value) {
   if (errors.count() == 0) return nullptr;
   return value;
 }
@@ -215,7 +215,7 @@ class ErrorCommand {
         missing += r.missing;
         if (r.lambda.count() != 0 && !(r.lambda.max() <= worst->result(body).lambda.max())) worst = &input;
       }
-      const tb::ErrorStats& error = worst->result(body).lambda;
+      const ErrorStats& error = worst->result(body).lambda;
       const double seconds = seconds_per_fragment(body);
       std::fprintf(text, "%-14s %11.1f %12.3f %12s  %-24s %9llu %9llu\n", name(body), seconds * 1e9,
                    base > 0 ? seconds / base : 0, power(error).c_str(),

@@ -131,12 +131,11 @@ struct Snapped {
 /// The clocked model, whose clocks are the RTL's.
 Draw clocked(const Load& load) {
   const auto snapped = std::make_shared<const Snapped>(load);
-  tb::LockstepOptions options;
+  LockstepOptions options;
   options.config = load.config;
   options.state = snapped->state;
   return [snapped, options](bool all) {
-    return tb::run_clocked_model_alone(std::span(snapped->quads).first(all ? snapped->quads.size() : 0), options)
-        .fragments;
+    return run_clocked_model_alone(std::span(snapped->quads).first(all ? snapped->quads.size() : 0), options).fragments;
   };
 }
 
@@ -164,9 +163,9 @@ Draw judged(const Load& load) {
 
 bool has_shader() {
   try {
-    tb::PaperShader::require();
+    PaperShader::require();
     return true;
-  } catch (const tb::EnvironmentError&) {
+  } catch (const EnvironmentError&) {
     return false;
   }
 }
@@ -319,9 +318,9 @@ class CliffBench {
     if (!draw) return {};
     const auto quickest = [&](bool all) {
       Cost cost{0, std::numeric_limits<double>::infinity(), 0};
-      const tb::CpuStopwatch whole;
+      const CpuStopwatch whole;
       for (int n = 0; n < options_.repeat && (n == 0 || whole.seconds() < most_seconds); ++n) {
-        const tb::CpuStopwatch stopwatch;
+        const CpuStopwatch stopwatch;
         int draws = 0;
         do cost.samples = draw(all);
         while (++draws, stopwatch.seconds() < shortest_run);

@@ -27,8 +27,8 @@ constexpr std::size_t truth_samples = 2000;  ///< per timed run, about
 constexpr std::size_t truth_stretch = 250;   ///< that follow one another, so that set-up has its share
 constexpr double shortest_run = 2e-3;        ///< seconds; quicker draws are repeated within a run
 
-tb::LockstepOptions alone(const Config& config, const DrawState& state) {
-  tb::LockstepOptions options;
+LockstepOptions alone(const Config& config, const DrawState& state) {
+  LockstepOptions options;
   options.config = config;
   options.state = state;
   return options;
@@ -95,7 +95,7 @@ std::string complaint(const CheckResult& result) {
 std::vector<Fragment> draw_body(EngineKind body, std::span<const SnappedQuad> quads, const Config& config,
                                 const DrawState& state) {
   std::vector<Fragment> fragments;
-  const tb::FragmentSink sink = [&](const Fragment& fragment) { fragments.push_back(fragment); };
+  const FragmentSink sink = [&](const Fragment& fragment) { fragments.push_back(fragment); };
   switch (body) {
     case EngineKind::model:
     case EngineKind::model_plain: {
@@ -105,10 +105,10 @@ std::vector<Fragment> draw_body(EngineKind body, std::span<const SnappedQuad> qu
       return fragments;
     }
     case EngineKind::model_clocked:
-      tb::run_clocked_model_alone(quads, alone(config, state), sink);
+      run_clocked_model_alone(quads, alone(config, state), sink);
       return fragments;
     case EngineKind::rtl:
-      tb::run_rtl_alone(quads, alone(config, state), sink);
+      run_rtl_alone(quads, alone(config, state), sink);
       return fragments;
     default:
       throw std::logic_error("draw_body: not a machine");
@@ -298,14 +298,13 @@ ErrorBench::Run ErrorBench::run_once(EngineKind body) const {
 ErrorBench::Run ErrorBench::run_machine(EngineKind body) const {
   const DrawState state = pass_state(first_pass_);
   if (body == EngineKind::model_clocked || body == EngineKind::rtl) {
-    const tb::AloneRun run = body == EngineKind::rtl
-                                 ? tb::run_rtl_alone(timed_, alone(settings_.config, state))
-                                 : tb::run_clocked_model_alone(timed_, alone(settings_.config, state));
+    const AloneRun run = body == EngineKind::rtl ? run_rtl_alone(timed_, alone(settings_.config, state))
+                                                 : run_clocked_model_alone(timed_, alone(settings_.config, state));
     return {run.fragments, run.seconds, run.counters, {}};
   }
   UntimedModel model(settings_.config, state, pixel_engine(body));
   Run run;
-  const tb::CpuStopwatch stopwatch;
+  const CpuStopwatch stopwatch;
   for (const SnappedQuad& quad : timed_)
     model.draw_arrays(quad, [&](const FragmentArrays& fragments) { run.fragments += fragments.size; });
   run.seconds = stopwatch.seconds();
@@ -320,7 +319,7 @@ ErrorBench::Run ErrorBench::run_reference(std::size_t stride, Visit&& visit) con
   Run run;
   std::optional<Quad> quad;
   std::uint32_t current = 0;
-  const tb::CpuStopwatch stopwatch;
+  const CpuStopwatch stopwatch;
   for (std::size_t i = 0; i < timed_pixels_; ++i) {
     if (i / truth_stretch % stride != 0) continue;
     const Pixel& pixel = pixels_[i];

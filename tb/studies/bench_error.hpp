@@ -38,7 +38,7 @@ struct BodyResult {
   /// the attributes, and window z. As in `cosim`, weights and attributes leave out what the bound does not speak of
   /// (perspective off and a vertex behind the eye). With fewer than four attribute slots the machine's weights come in
   /// several draws, each of which counts.
-  tb::ErrorStats lambda, attribute, depth;
+  ErrorStats lambda, attribute, depth;
   double seconds_per_fragment = 0;
   PerformanceCounters counters;  ///< of the clocked model, over the quads that are timed
   LanePixels lanes;              ///< of the model in lanes, over the same

@@ -66,7 +66,7 @@ TEST_F(ErrorBenchTest, CountsOfASquare) {
     EXPECT_EQ(r.fragments, square_fragments);
     EXPECT_EQ(r.undefined, square_on_edge);
     EXPECT_EQ(r.missing, 0u);
-    for (const tb::ErrorStats* stats : {&r.lambda, &r.attribute, &r.depth})
+    for (const ErrorStats* stats : {&r.lambda, &r.attribute, &r.depth})
       EXPECT_EQ(stats->count(), square_fragments - square_on_edge);
     // Some ulps times |v|^2/|A| <= 2 * 20^2 / 16 one pixel from an edge, and not those of the other precision.
     const double ulp = body == EngineKind::paper_single ? 0x1p-23 : 0x1p-52;

@@ -25,8 +25,6 @@
 namespace quadrille::tb {
 namespace {
 
-using tb::PaperShader;
-
 constexpr std::array<int, 2> sphere_sides{100, 300};
 constexpr std::size_t batch_quads = 10'000;  ///< held at a time: the series need no more memory for more quads
 constexpr std::uint64_t most_quads_of_a_size = 20'000;
@@ -58,7 +56,7 @@ struct Seconds {
 
 template <class Work>
 Seconds measure(Work&& work) {
-  const tb::CpuStopwatch cpu;
+  const CpuStopwatch cpu;
   const Stopwatch wall;
   work();
   return {cpu.seconds(), wall.seconds()};
@@ -176,7 +174,7 @@ class PeerBench {
     return fragments;
   }
 
-  static tb::ShaderRect all_of(const DrawState& state) { return {0, 0, state.width, state.height}; }
+  static ShaderRect all_of(const DrawState& state) { return {0, 0, state.width, state.height}; }
 
   /// The goal's three pictures. The quads lie ready, snapped for the one, in a vertex buffer for the other.
   void draw_pictures(PaperShader& shader) {
@@ -189,7 +187,7 @@ class PeerBench {
     std::uint64_t done = 0;
     for (Picture& picture : pictures_) {
       const std::vector<SnappedQuad> snapped = snap(picture.quads, config_, picture_state_);
-      tb::ShaderQuads vertices(peer_attributes);
+      ShaderQuads vertices(peer_attributes);
       for (const SnappedQuad& quad : snapped) vertices.add(quad, config_);
       shader.load(vertices);
       UntimedModel model(config_, picture_state_);
@@ -226,7 +224,7 @@ class PeerBench {
       for (std::uint64_t first = 0; first < quads; first += batch_quads) {
         const std::uint64_t last = std::min<std::uint64_t>(quads, first + batch_quads);
         std::vector<SnappedQuad> snapped;
-        tb::ShaderQuads vertices(peer_attributes);
+        ShaderQuads vertices(peer_attributes);
         for (std::uint64_t i = first; i < last; ++i) {
           snapped.push_back(snap_as(scattered.quad(static_cast<std::uint32_t>(i)), 0, config_, series_state_));
           vertices.add(snapped.back(), config_);
@@ -249,14 +247,13 @@ class PeerBench {
   }
 
   void draw_clocked(std::span<const SnappedQuad> quads, Point& point) const {
-    tb::LockstepOptions options;
+    LockstepOptions options;
     options.config = config_;
     options.state = series_state_;
     // A quad at least, none cut off.
     const auto area = static_cast<std::uint64_t>(std::max(1.0, point.side * point.side));
     const std::uint64_t enough = std::max<std::uint64_t>(1, options_.fragments / clocked_share / area);
-    const tb::AloneRun run =
-        tb::run_clocked_model_alone(quads.first(std::min<std::size_t>(quads.size(), enough)), options);
+    const AloneRun run = run_clocked_model_alone(quads.first(std::min<std::size_t>(quads.size(), enough)), options);
     point.clocked_fragments = run.fragments;
     point.clocks = run.cycles;
   }
@@ -279,7 +276,7 @@ class PeerBench {
     Progress progress("bench --peers: numbers", 6, options_.common.show_progress());
     for (std::uint64_t quads = 10; quads <= std::min(largest_number, fitting); quads *= 10) {
       numbers_.push_back(draw_series(shader, number_side, quads));
-      numbers_.back().resident = tb::resident_bytes();
+      numbers_.back().resident = resident_bytes();
       progress.set(numbers_.size(), std::to_string(quads));
     }
   }
@@ -344,7 +341,7 @@ class PeerBench {
     std::vector<WindowQuad> quads;
     for (const WindowQuad& quad : given) quads.push_back(pass_quad(quad, weights));
     const std::vector<SnappedQuad> snapped = snap(quads, config, state);
-    tb::ShaderQuads vertices(state.attributes);
+    ShaderQuads vertices(state.attributes);
     for (const SnappedQuad& quad : snapped) vertices.add(quad, config);
     PaperShader shader({.state = state});
     shader.load(vertices);
@@ -355,7 +352,7 @@ class PeerBench {
           snapped[q].vertex, [&](const SnappedVertex& v) { return v.w == std::int32_t{1} << config.frac(); });
       const golden::PixelRect b = near ? truth.bounds() : golden::scissor_of(state);
       if (b.empty()) continue;
-      const tb::ShaderRect rect{b.x0, b.y0, b.x1, b.y1};
+      const ShaderRect rect{b.x0, b.y0, b.x1, b.y1};
       shader.clear(rect);
       shader.draw(q, 1);
       const auto pixels = shader.read(rect);

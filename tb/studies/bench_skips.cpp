@@ -199,12 +199,12 @@ class SkipBench {
         runs, options_.common.thread_count(),
         [&](std::size_t i) {
           const SkipScene& scene = scenes_[i / sets_.size()];
-          tb::LockstepOptions lockstep;
+          LockstepOptions lockstep;
           lockstep.config = sets_[i % sets_.size()].config;
           lockstep.state = state_of(scene, i % sets_.size());
           NearestFragments nearest(lockstep.config, lockstep.state);
           std::uint64_t places = hash_of_nothing;
-          const tb::AloneRun alone = tb::run_clocked_model_alone(scene.quads, lockstep, [&](const Fragment& f) {
+          const AloneRun alone = run_clocked_model_alone(scene.quads, lockstep, [&](const Fragment& f) {
             nearest.draw(f);
             add_word(places, std::uint64_t{f.quad} << 32 | static_cast<std::uint64_t>(f.y) << 16 |
                                  static_cast<std::uint64_t>(f.x));

@@ -62,15 +62,15 @@ class SpeedBench {
                                   {"float", "the paper's formulas in double, one core",
                                    [this] { return reference<golden::PaperFp64Quad>(options_.fragments / 4); }},
                                   {"clocked", "clocked model alone", [this] {
-                                     const tb::AloneRun run = tb::run_clocked_model_alone(snapped_, lockstep());
+                                     const AloneRun run = run_clocked_model_alone(snapped_, lockstep());
                                      counters_ = run.counters;
                                      return from(run);
                                    }}};
     if (!options_.no_rtl) {
       subjects.push_back({"rtl", "RTL alone (Verilator, without probes)",
-                          [this] { return from(tb::run_rtl_alone(snapped_, lockstep())); }});
+                          [this] { return from(run_rtl_alone(snapped_, lockstep())); }});
       subjects.push_back({"lockstep", "RTL and clocked model in lockstep, every boundary compared", [this] {
-                            const tb::LockstepReport r = tb::run_lockstep(snapped_, lockstep());
+                            const LockstepReport r = run_lockstep(snapped_, lockstep());
                             if (!r.agreed())
                               throw std::runtime_error("lockstep: " + r.first_divergence.value_or("differs"));
                             return Measure{r.fragments, r.cycles_rtl, r.wall_seconds};
@@ -100,8 +100,8 @@ class SpeedBench {
     }
   }
 
-  tb::LockstepOptions lockstep() const {
-    tb::LockstepOptions options;
+  LockstepOptions lockstep() const {
+    LockstepOptions options;
     options.config = config_;
     options.state = state_;
     options.seed = options_.common.seed;
@@ -110,7 +110,7 @@ class SpeedBench {
     return options;
   }
 
-  static Measure from(const tb::AloneRun& run) { return {run.fragments, run.cycles, run.seconds}; }
+  static Measure from(const AloneRun& run) { return {run.fragments, run.cycles, run.seconds}; }
 
   /// Every thread draws the mesh until together they have enough.
   Measure model(unsigned threads) const {
@@ -129,7 +129,7 @@ class SpeedBench {
       }
       drawn[part] = count + (check == 1 ? 1 : 0);  // keeps the depths alive
     };
-    const tb::Stopwatch stopwatch;
+    const Stopwatch stopwatch;
     parallel_for(threads, threads, work);
     Measure m;
     m.seconds = stopwatch.seconds();
@@ -142,7 +142,7 @@ class SpeedBench {
   Measure reference(std::uint64_t limit) const {
     Measure m;
     double check = 0;
-    const tb::Stopwatch stopwatch;
+    const Stopwatch stopwatch;
     while (m.fragments < limit) {
       for (const SnappedQuad& snapped : snapped_) {
         const Quad quad(snapped, config_, state_);
@@ -172,9 +172,9 @@ class SpeedBench {
     settings.pass = {{}};
     for (int slot = 0; slot < state_.attributes; ++slot) settings.pass.columns.push_back(slot);
     FragmentChecker checker(settings, quads_, snapped_, queue);
-    const tb::LockstepReport report =
-        tb::run_lockstep(snapped_, lockstep(), [&](const Fragment& fragment) { checker.fragment(fragment); });
-    const tb::Stopwatch stopwatch;
+    const LockstepReport report =
+        run_lockstep(snapped_, lockstep(), [&](const Fragment& fragment) { checker.fragment(fragment); });
+    const Stopwatch stopwatch;
     checker.finish(report.complete);
     queue.drain();
     if (!report.agreed() || !checker.result().ok())

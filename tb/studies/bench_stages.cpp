@@ -88,7 +88,7 @@ StageTimes time_stages(std::span<const SnappedQuad> quads, const Config& config,
   std::array<std::vector<double>, count> seconds, cycles;
   for (int round = -1; round < repeat; ++round)  // the first one warms up
     for (std::size_t stage = 0; stage < count; ++stage) {
-      const tb::CpuStopwatch stopwatch;
+      const CpuStopwatch stopwatch;
       const std::uint64_t start = time_stamp();
       times.fragments = 0;
       for (const SnappedQuad& quad : taken) {

@@ -8,8 +8,6 @@
 
 namespace quadrille::tb {
 
-using tb::Stopwatch;
-
 /// The upper one of two middle values; 0 of nothing.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0;

@@ -228,7 +228,7 @@ class Compare {
     const compare::AttributeImage truth = attribute_image(draw_truth(scene.input, scene.settings), scene.input);
     progress.set(++done);
     const compare::AttributeImage reference =
-        attribute_image(tb::draw_method(options_.reference, scene.input, scene.settings), scene.input);
+        attribute_image(draw_method(options_.reference, scene.input, scene.settings), scene.input);
     progress.set(++done);
 
     compare::Sheet sheet = sheet_frame(scene);
@@ -340,7 +340,7 @@ class Compare {
   compare::Row compare_method(const std::string& method, const Scene& scene, const compare::AttributeImage& reference,
                               const compare::AttributeImage& truth, compare::Sheet& sheet) const {
     const EngineSettings& settings = scene.settings;
-    const FrameBuffer frame = tb::draw_method(method, scene.input, settings);
+    const FrameBuffer frame = draw_method(method, scene.input, settings);
     golden::FrameImage picture = shade_frame(frame, scene.shading);
     add_error_layers(frame, scene.input.quads, settings.config, settings.state, false, settings.threads, picture);
     golden::save_exr(stage_->path(picture_name(method)), picture);
@@ -393,7 +393,7 @@ class Compare {
     for (const Scene& scene : sized) {
       const std::vector<methods::Quad> quads = method_quads(scene.input, method);
       const compare::AttributeImage image =
-          attribute_image(tb::draw_method(method, scene.input, scene.settings), scene.input);
+          attribute_image(draw_method(method, scene.input, scene.settings), scene.input);
       creases.push_back(compare::measure_quad_diagonals(image, quads));
       const compare::DiagonalSet measured = compare::measured_diagonals(creases.back());
       use = creases.size() == 1 ? measured : compare::in_both(use, measured);

@@ -95,9 +95,9 @@ void write_plot(const DrawInput& input, const EngineSettings& settings, const st
   progress.finish();
   golden::save_json((fs::path(directory) / "plot.json").string(), json);
   // Debian's interpreter is the one that Debian's matplotlib belongs to.
-  const fs::path script = tb::scripts_directory() / "compare_plot.py";
-  tb::run_captured(std::vector<std::string>{tb::find_program("/usr/bin/python3", "python3").string(), script.string(),
-                                            (fs::path(directory) / "plot.json").string()});
+  const fs::path script = scripts_directory() / "compare_plot.py";
+  run_captured(std::vector<std::string>{find_program("/usr/bin/python3", "python3").string(), script.string(),
+                                        (fs::path(directory) / "plot.json").string()});
 }
 
 }  // namespace quadrille::tb

@@ -17,7 +17,7 @@ MethodTime time_method(const std::string& name, const DrawInput& input, const Dr
   std::vector<golden::methods::MethodSample> samples;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     time.samples = 0;
-    const tb::Stopwatch start;
+    const Stopwatch start;
     for (const golden::methods::Quad& quad : quads) {
       samples.clear();
       method->draw(quad, view, samples);

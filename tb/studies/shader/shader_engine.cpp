@@ -14,15 +14,15 @@ constexpr std::size_t quads_at_a_time = 4096;
 /// A frame buffer keeps one fragment a pixel, and an engine hands out all: a quad is drawn alone and read back.
 class ShaderEngine final : public Engine {
  public:
-  explicit ShaderEngine(const EngineSettings& settings) : settings_(settings) { tb::PaperShader::require(); }
+  explicit ShaderEngine(const EngineSettings& settings) : settings_(settings) { PaperShader::require(); }
 
   void draw(std::span<const WindowQuad> quads, int attributes, bool weights, const SampleSink& sink) override {
-    tb::PaperShader shader(shader_settings(attributes, weights));
+    PaperShader shader(shader_settings(attributes, weights));
     const Config config = snapping_config(settings_.config, attributes);
     const DrawState state = draw_state(attributes);
     for (std::size_t first = 0; first < quads.size(); first += quads_at_a_time) {
       const std::size_t last = std::min(quads.size(), first + quads_at_a_time);
-      tb::ShaderQuads vertices(attributes);
+      ShaderQuads vertices(attributes);
       std::vector<Place> places;
       for (std::size_t i = first; i < last; ++i) {
         const SnappedQuad snapped = snap_as(quads[i], 0, config, state);  // refuses what no engine draws
@@ -40,7 +40,7 @@ class ShaderEngine final : public Engine {
       for (std::size_t i = first; i < last; ++i) {
         const Place& place = places[i - first];
         if (!place.far && is_empty(place.rect)) continue;
-        const auto read = [&](const tb::ShaderRect& rect) {
+        const auto read = [&](const ShaderRect& rect) {
           return samples_of(shader.read(rect), rect, static_cast<std::uint32_t>(i), quads[i].id, weights, attributes);
         };
         shader.clear(place.rect);
@@ -49,7 +49,7 @@ class ShaderEngine final : public Engine {
         std::vector<EngineSample> samples;
         if (!is_empty(place.rect)) samples = read(place.rect);
         if (place.far && samples.size() < fragments) {
-          const tb::ShaderRect all{state.scissor_x0, state.scissor_y0, state.scissor_x1, state.scissor_y1};
+          const ShaderRect all{state.scissor_x0, state.scissor_y0, state.scissor_x1, state.scissor_y1};
           shader.clear(all);
           shader.draw(i - first, 1);
           samples = read(all);
@@ -66,18 +66,18 @@ class ShaderEngine final : public Engine {
     return state;
   }
 
-  tb::PaperShader::Settings shader_settings(int attributes, bool weights) const {
+  PaperShader::Settings shader_settings(int attributes, bool weights) const {
     return {.state = draw_state(attributes), .weights = weights, .snapped = settings_.snap};
   }
 
   struct Place {
-    tb::ShaderRect rect;
+    ShaderRect rect;
     /// A vertex is beyond the guard band or not before the eye: what OpenGL makes of that in single precision may be
     /// elsewhere. Then fragments that the rectangle does not show (or two at a pixel) have the whole picture read.
     bool far = false;
   };
 
-  static bool is_empty(const tb::ShaderRect& rect) { return rect.x0 >= rect.x1 || rect.y0 >= rect.y1; }
+  static bool is_empty(const ShaderRect& rect) { return rect.x0 >= rect.x1 || rect.y0 >= rect.y1; }
 
   /// The implementation's own grid of positions may move an edge over the next pixel centre.
   static Place place_of(const golden::CoverageRows& rows, const DrawState& state) {
@@ -87,12 +87,12 @@ class ShaderEngine final : public Engine {
              std::min(state.scissor_x1, bounds.x1 + 1), std::min(state.scissor_y1, bounds.y1 + 1)}};
   }
 
-  static std::vector<EngineSample> samples_of(std::span<const tb::ShaderPixel> pixels, const tb::ShaderRect& rect,
+  static std::vector<EngineSample> samples_of(std::span<const ShaderPixel> pixels, const ShaderRect& rect,
                                               std::uint32_t index, std::uint32_t quad, bool weights, int attributes) {
     std::vector<EngineSample> samples;
     const int width = rect.x1 - rect.x0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const tb::ShaderPixel& pixel = pixels[i];
+      const ShaderPixel& pixel = pixels[i];
       if (!pixel.drawn) continue;
       EngineSample sample;
       sample.index = index;

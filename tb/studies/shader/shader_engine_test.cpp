@@ -153,7 +153,7 @@ double distance(const SnappedQuad& quad, int x, int y) {
 }
 
 /// Draws a scene by both, quad by quad.
-Agreement compare(const std::string& name, tb::PaperShader& shader, const DrawState& state) {
+Agreement compare(const std::string& name, PaperShader& shader, const DrawState& state) {
   const Config config;
   Agreement result;
   for (WindowQuad quad : golden::scene_quads(golden::make_scene(name), size, size)) {
@@ -161,7 +161,7 @@ Agreement compare(const std::string& name, tb::PaperShader& shader, const DrawSt
       quad.attribute[v] = {1.0 - quad.attribute[v][0], 0.25 * static_cast<double>(v), 1.5};
     const SnappedQuad snapped = snap_as(quad, 0, config, state);
     const golden::PaperFp64Quad paper(snapped, config, state);
-    tb::ShaderQuads quads(attributes);
+    ShaderQuads quads(attributes);
     quads.add(snapped, config, state.perspective);
     // One pixel more than the exact rule has; everywhere with vertices that are far or behind the eye.
     const bool near = std::ranges::all_of(
@@ -169,16 +169,15 @@ Agreement compare(const std::string& name, tb::PaperShader& shader, const DrawSt
     const golden::PixelRect bounds =
         near ? golden::TruthQuad(snapped, config, state).bounds() : golden::scissor_of(state);
     if (bounds.empty()) continue;
-    const tb::ShaderRect rect{std::max(0, bounds.x0 - 1), std::max(0, bounds.y0 - 1), std::min(size, bounds.x1 + 1),
-                              std::min(size, bounds.y1 + 1)};
+    const ShaderRect rect{std::max(0, bounds.x0 - 1), std::max(0, bounds.y0 - 1), std::min(size, bounds.x1 + 1),
+                          std::min(size, bounds.y1 + 1)};
     shader.load(quads);
     shader.clear(rect);
     shader.draw(0, 1);
     const auto pixels = shader.read(rect);
     for (int y = rect.y0; y < rect.y1; ++y) {
       for (int x = rect.x0; x < rect.x1; ++x) {
-        const tb::ShaderPixel& actual =
-            pixels[static_cast<std::size_t>((y - rect.y0) * (rect.x1 - rect.x0) + x - rect.x0)];
+        const ShaderPixel& actual = pixels[static_cast<std::size_t>((y - rect.y0) * (rect.x1 - rect.x0) + x - rect.x0)];
         const golden::ReferenceSample expected = paper.sample(x, y);
         if (expected.covered && expected.undefined) {
           ++result.undefined;
@@ -229,13 +228,13 @@ std::vector<std::string> figures() {
 }
 
 TEST(Shader, WithoutOpenGlSaysWhatIsMissing) {
-  if (tb::PaperShader::in_build()) GTEST_SKIP() << "in this build";
+  if (PaperShader::in_build()) GTEST_SKIP() << "in this build";
   EngineSettings settings;
   settings.kind = EngineKind::shader;
   try {
     make_shader_engine(settings);
     FAIL() << "an engine without OpenGL";
-  } catch (const tb::EnvironmentError& error) {
+  } catch (const EnvironmentError& error) {
     EXPECT_NE(std::string(error.what()).find("libepoxy-dev"), std::string::npos) << error.what();
   }
 }
@@ -243,7 +242,7 @@ TEST(Shader, WithoutOpenGlSaysWhatIsMissing) {
 class OpenGl : public testing::Test {
  protected:
   void SetUp() override {
-    if (!tb::PaperShader::in_build()) GTEST_SKIP() << "the engine shader is not in this build";
+    if (!PaperShader::in_build()) GTEST_SKIP() << "the engine shader is not in this build";
   }
 };
 
@@ -251,7 +250,7 @@ TEST_F(OpenGl, TheShaderAgreesWithTheFormulasInDouble) {
   Agreement all;
   for (const bool perspective : {true, false}) {
     const DrawState state = draw_state(perspective);
-    tb::PaperShader shader({.state = state, .weights = true});
+    PaperShader shader({.state = state, .weights = true});
     for (const std::string& name : figures()) {
       const Agreement one = compare(name, shader, state);
       EXPECT_EQ(one.wrong, 0u) << name << ": " << one.first;
@@ -272,66 +271,65 @@ std::string replaced(std::string text, const std::string& search, const std::str
   return text.replace(place, search.size(), by);
 }
 
-using Source = tb::ShaderSource (*)(tb::ShaderSource);
+using Source = ShaderSource (*)(ShaderSource);
 
 /// Each fault in a scene that shows it.
 TEST_F(OpenGl, AWrongShaderDoesNotAgree) {
   const std::map<std::string, std::pair<const char*, Source>> faults{
       {"sign of w",
        {"fig9_a",
-        [](tb::ShaderSource s) {
+        [](ShaderSource s) {
           s.fragment = replaced(s.fragment, " * sign(inverse_w)", "");
           return s;
         }}},
       {"neighbour of t",
        {"fig10_convex",
-        [](tb::ShaderSource s) {
+        [](ShaderSource s) {
           s.fragment = replaced(s.fragment, "t.wxyz + t", "t.yzwx + t");
           return s;
         }}},
       {"z by eq. (10)",
        {"fig7_floor",
-        [](tb::ShaderSource s) {
+        [](ShaderSource s) {
           s.fragment = replaced(s.fragment, "sum(lambda * value[0])", "sum(over_w * value[0])");
           return s;
         }}},
       {"facing",
        {"fig10_crossed",
-        [](tb::ShaderSource s) {
+        [](ShaderSource s) {
           s.fragment = replaced(s.fragment, "sum_mu < 0.0", "sum_mu > 0.0");
           return s;
         }}},
       {"centre of the pixel off by 1e-4",
        {"fig10_convex",
-        [](tb::ShaderSource s) {
+        [](ShaderSource s) {
           s.fragment = replaced(s.fragment, "gl_FragCoord.xy - 0.5", "gl_FragCoord.xy - 0.4999");
           return s;
         }}},
       {"one of the quad's triangles",
        {"fig1_flat",
-        [](tb::ShaderSource s) {
+        [](ShaderSource s) {
           s.geometry = replaced(s.geometry, "i < 4; ++i) {\n    gl_Position", "i < 3; ++i) {\n    gl_Position");
           return s;
         }}},
       {"nothing killed",
        {"fig10_crossed",
-        [](tb::ShaderSource s) {
+        [](ShaderSource s) {
           s.fragment = replaced(s.fragment, "any(lessThan(over_w, vec4(0.0))) || ", "");
           return s;
         }}},
       {"corners of a texture coordinate",
        {"fig7_floor",
-        [](tb::ShaderSource s) {
+        [](ShaderSource s) {
           s.geometry = replaced(s.geometry, "corner[2].values[a], corner[3]", "corner[3].values[a], corner[2]");
           return s;
         }}},
   };
   for (const auto& [what, fault] : faults) {
     const DrawState state = draw_state(true);
-    tb::PaperShader shader(
-        {.state = state,
-         .weights = true,
-         .source = fault.second(tb::paper_shader_source({.attributes = attributes, .weights = true}))});
+    PaperShader shader({.state = state,
+                        .weights = true,
+                        .source = fault.second(paper_shader_source({.attributes = attributes, .weights = true}))});
     const Agreement found = compare(fault.first, shader, state);
     EXPECT_GT(found.wrong + found.far_apart, 10u) << what;
   }

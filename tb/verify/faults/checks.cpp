@@ -68,10 +68,10 @@ Found assertions(const Scenario* s) { return rtl_alone(*s).assertion; }
 
 // ---- fragments against the truth ----
 
-Found said(const tb::CheckResult& result, bool invisible) {
+Found said(const CheckResult& result, bool invisible) {
   if (result.ok()) return {};
   if (result.first.any) return result.first.text;
-  for (const auto& counter : tb::fault_counters)
+  for (const auto& counter : fault_counters)
     if (result.*counter.value != 0) return std::to_string(result.*counter.value) + " " + counter.key;
   if (invisible) return {};
   return "nothing was compared";
@@ -82,14 +82,14 @@ bool truth_speaks_of(const Scenario& s) { return s.options.config.qdrop() == 0; 
 
 Found truth(const Scenario* s) {
   if (!truth_speaks_of(*s)) return {};
-  return said(tb::judge_untimed(s->quads, s->options.config, s->options.state, PixelEngine::plain), s->invisible);
+  return said(judge_untimed(s->quads, s->options.config, s->options.state, PixelEngine::plain), s->invisible);
 }
 
 Found truth_of_rtl(const Scenario* s) {
   if (!truth_speaks_of(*s)) return {};
   std::vector<WindowQuad> names(s->quads.size());
   for (std::size_t i = 0; i < names.size(); ++i) names[i].id = s->quads[i].id;
-  tb::FragmentChecker::Settings settings;
+  FragmentChecker::Settings settings;
   settings.config = s->options.config;
   settings.state = s->options.state;
   for (int j = 0; j < settings.state.attributes; ++j) settings.pass.columns.push_back(4 + j);
@@ -98,11 +98,11 @@ Found truth_of_rtl(const Scenario* s) {
   rtl_runs.erase(s);             // it is the last to look
   if (run.assertion) return {};  // that is the assertions' finding
   if (run.hang) return run.hang;
-  return said(tb::check_here(settings, names, s->quads,
-                             [&](const FragmentSink& sink) {
-                               std::ranges::for_each(run.fragments, sink);
-                               return true;
-                             }),
+  return said(check_here(settings, names, s->quads,
+                         [&](const FragmentSink& sink) {
+                           std::ranges::for_each(run.fragments, sink);
+                           return true;
+                         }),
               s->invisible);
 }
 
@@ -114,7 +114,7 @@ Found functions(const Scenario*) {
     for (const Scenario& s : list)
       if (std::ranges::find(configs, s.options.config) == configs.end()) configs.push_back(s.options.config);
   for (const Config& config : configs)
-    if (const tb::FunctionReport report = tb::check_functions(config); !report.ok())
+    if (const FunctionReport report = check_functions(config); !report.ok())
       return summary(config) + ": " + report.first();
   return {};
 }
@@ -126,9 +126,9 @@ Found limits(const Scenario*) {
     for (const golden::StressFamily family : {golden::StressFamily::general, golden::StressFamily::perspective,
                                               golden::StressFamily::near_vertex, golden::StressFamily::reflex}) {
       const std::string_view name = golden::stress_family_name(family);
-      const tb::ErrorLimits::Family* recorded = tb::ErrorLimits::recorded().find(name, significand_bits);
+      const ErrorLimits::Family* recorded = ErrorLimits::recorded().find(name, significand_bits);
       if (recorded == nullptr) return "no limits of " + std::string(name);
-      const tb::CheckResult result = tb::judge_limit_draw(family, significand_bits, 1, PixelEngine::plain);
+      const CheckResult result = judge_limit_draw(family, significand_bits, 1, PixelEngine::plain);
       if (const std::vector<std::string> beyond = beyond_limits(*recorded, result); !beyond.empty())
         return std::string(name) + ", s = " + std::to_string(significand_bits) + ": " + beyond.front();
     }
@@ -180,7 +180,7 @@ Found float_vectors(const Scenario*) {
     writer.add(suite->info(), [&](vectors::SuiteWriter& out) { suite->write(out, generation); });
   writer.commit(true);
   return verified(directory, [](const vectors::Suite& suite, const vectors::SuiteReader& reader) {
-    return tb::verify_exact(suite, reader, 1);
+    return verify_exact(suite, reader, 1);
   });
 }
 

@@ -228,7 +228,7 @@ std::span<const Scenario> scenarios() {
         all.push_back({name, o, std::move(draw.quads), draw.group == "at_infinity"});
     };
     for (golden::CornerDraw& draw : golden::corner_draws(exact(), 11)) add(exact(), "", std::move(draw));
-    for (golden::CornerDraw& draw : tb::directed_draws(exact())) add(exact(), "", std::move(draw));  // those not there
+    for (golden::CornerDraw& draw : directed_draws(exact())) add(exact(), "", std::move(draw));  // those not there
     for (golden::CornerDraw& draw : golden::corner_draws(reduced(), 11)) add(reduced(), "reduced, ", std::move(draw));
     // What a pixel leaves out hides faults of it: in one of them, with faults of their own.
     for (Scenario& s : all) s.options.state.skip &= ~std::uint32_t{skip_operands};
