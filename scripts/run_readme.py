@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the blocks of the READMEs that are marked `sh`, in a fresh clone, in the order in which they stand.
+"""Runs the blocks of the Markdown pages that are marked `sh`, in a fresh clone, in the order in which they stand.
 
   scripts/run_readme.py BUILD-FOLDER [README...] --left-out N
 
-Without names: every README.md of the tree. Each has a clone and a shell of its own, from the clone's top folder.
+Without names: every README.md of the tree, and the three starts that the top one names (PAGES). Each has a clone and
+a shell of its own, from the clone's top folder.
 In a block with a `$ ` in front of a line only such lines are commands; the others are what they print.
 A comment before a block says what is done in its place:
   <!-- long: COMMAND -->   more than 60 s: COMMAND, with smaller parameters, is run
@@ -23,6 +24,7 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGES = ("README.md", "DECIDE.md", "INTEGRATE.md", "EXPLORE.md")
 LONG = 60       # seconds from which a command is marked
 LIMIT = 5 * LONG  # of any command, on a machine that does other work too
 BLOCK = re.compile(r"(?:<!-- (long|not run): (.*?) -->\n)?```sh\n(.*?)```\n", re.DOTALL)
@@ -117,7 +119,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", metavar="BUILD-FOLDER", type=pathlib.Path, help="has the program quadrille")
     parser.add_argument("readmes", metavar="README", nargs="*", type=pathlib.Path,
-                        help="default: every README.md of the tree")
+                        help="default: every README.md, and the three starts")
     parser.add_argument("--left-out", metavar="N", type=int, required=True,
                         help="commands that are not run: as many as this, or the test fails")
     options = parser.parse_args()
@@ -125,7 +127,7 @@ def main():
     if not (build / "quadrille").exists():
         fail(f"{build}: no program quadrille; build it first")
     readmes = [path.resolve() for path in options.readmes] or sorted(
-        path for path in ROOT.rglob("README.md") if "build" not in path.relative_to(ROOT).parts)
+        path for path in ROOT.rglob("*.md") if path.name in PAGES and "build" not in path.relative_to(ROOT).parts)
     ran = reduced = 0
     left_out = []
     for readme in readmes:
