@@ -71,18 +71,14 @@ int list(const ScenesOptions& options) {
 }  // namespace
 
 void add_scenes_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes");
-  command->footer(
-      "Examples:\n  quadrille scenes\n  quadrille scenes --json\n  quadrille scenes --stress\n  quadrille scenes "
-      "--corner");
+  CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes, stress families or corner groups");
+  end_help(*command, "", "0 done, 2 usage error", {"scenes", "scenes --json", "scenes --stress"});
   const auto options = std::make_shared<ScenesOptions>();
-  CLI::Option* json = command->add_option(
-      "--json", options->json, "Write an array of name, title, paper, quads (- or nothing: standard output)");
-  writes_file(*command, json, "json")->type_name("[F.json]")->expected(0, 1);
-  CLI::Option* stress = command->add_flag("--stress", options->stress,
-                                          "The stress families, and the approaches of `quadrille stress`, instead");
-  command->add_flag("--corner", options->corner, "The corner groups instead: directed quads of rare cases")
-      ->excludes(stress);
+  CLI::Option* json = command->add_option("--json", options->json, "JSON list (default: standard output)");
+  writes_file(*command, json, "json")->type_name("[F.json]")->expected(0, 1)->group(output_group);
+  CLI::Option* stress =
+      command->add_flag("--stress", options->stress, "Stress families, and approaches of `quadrille stress`");
+  command->add_flag("--corner", options->corner, "Corner groups: directed quads of rare cases")->excludes(stress);
   command->callback([options, json, &invocation] {
     if (json->count() > 0 && options->json.empty()) options->json = "-";
     invocation.run = [options] {

@@ -642,79 +642,67 @@ class SweepRun {
 }  // namespace
 
 void add_sweep_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("sweep", "Errors, hardware cost and clocks over a grid of configurations");
-  command->footer(
-      "Every configuration key is an axis (`quadrille config` lists them); nothing is recompiled between points.\n"
-      "Without --axis: each of the usual keys one at a time around the configuration; without an input: --scene "
-      "sphere.\n"
-      "The same command goes on where a sweep was interrupted, and takes over the results of a finished one.\n"
-      "An axis of plane_quads also shows the share of quads that take areas for weights; its input, if none is given,\n"
-      "is --scene sprites_turned.\n"
-      "A co-simulated point builds a simulator the first time (about 20 s), a synthesised one needs minutes.\n"
-      "Selections: all, none, pareto, corners, default, knees, row numbers (3,7,10-12), or several with commas.\n"
-      "Exit status 1: a co-simulation differs, or no point meets the target.\n\n"
-      "Examples:\n"
-      "  quadrille sweep --out sweep\n"
-      "  quadrille sweep --axis significand_bits=10:26:2 --axis subpixel_bits=4,6,8 --scene fig7_floor --out floor\n"
-      "  quadrille sweep --axis significand_bits=12:24:4 --synth all --cosim none --out synth\n"
-      "  quadrille sweep --axis significand_bits=8,12 --synth all --synth-target cells --cosim none --out clocks\n"
-      "  quadrille sweep --axis plane_quads=0,1 --objective attribute --out plane\n"
-      "  quadrille sweep --target-error colour=0.5/255 --size 1920x1080 --out colour\n"
-      "  quadrille sweep --axis significand_bits=10:26 --shard 0/2 --out part0\n"
-      "  quadrille sweep --axis significand_bits=10:26 --merge part0 part1 --out whole");
+  CLI::App* command = app.add_subcommand("sweep", "Measure errors, hardware cost and clocks of many configurations");
+  end_help(*command,
+           "Without --axis the usual keys vary, one at a time. Without an input --scene sphere is drawn; with an axis "
+           "of plane_quads, --scene sprites_turned. The same command resumes an interrupted sweep.\n\n"
+           "SELECTION: all, none, pareto, corners, default, knees, rows (3,7,10-12), or several with commas. A point "
+           "takes about 20 s to co-simulate the first time, and minutes to synthesize.",
+           "0 done; 1 mismatch in co-simulation, or no point meets the target; 2 usage or input error; 3 missing tool",
+           {"sweep --axis significand_bits=10:26:2 --scene fig7_floor --out floor",
+            "sweep --target-error colour=0.5/255 --size 1920x1080 --out colour",
+            "sweep --axis significand_bits=10:26 --merge part0 part1 --out whole"});
   const auto options = std::make_shared<SweepOptions>();
   options->input.add_to(*command);
+  add_attributes_option(*command, options->shade);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  command->add_option("--axis", options->axes, "Values of one key: A:B[:STEP], lists, auto; may be given several times")
+  command->add_option("--axis", options->axes, "Values of a key: A:B[:STEP], a list or auto; repeatable")
       ->type_name("KEY=VALUES")
       ->allow_extra_args(false);
-  command->add_flag("--one-at-a-time", options->one_at_a_time, "Vary one axis at a time around the configuration");
-  writes_folder(command->add_option("--out", options->out, "Directory of the results; made if missing"));
+  command->add_flag("--one-at-a-time", options->one_at_a_time, "Vary one axis at a time");
   command
       ->add_option("--target-error", options->targets,
-                   "Find the cheapest point with at most this error; several must all hold. COLUMN as in points.csv; "
-                   "lambda, attribute, depth or colour is its largest arithmetic error (what the machine adds to the "
-                   "snapped quads), total_lambda_max and the like include snapping; VALUE as 2^-12, 0.5/255 or 1e-6")
+                   "Find the cheapest point with at most this error; repeatable\n"
+                   "  lambda, attribute, depth, colour  largest arithmetic error\n"
+                   "  total_lambda_max or another       a column of points.csv\n"
+                   "  VALUE                             such as 2^-12, 0.5/255 or 1e-6")
       ->type_name("COLUMN=VALUE")
       ->allow_extra_args(false);
-  command->add_flag("--exhaustive", options->exhaustive,
-                    "--target-error: evaluate the whole grid instead of searching");
-  command->add_flag("--no-confirm", options->no_confirm,
-                    "--target-error: do not try the winner on the stress families");
+  command->add_flag("--exhaustive", options->exhaustive, "Evaluate the whole grid for --target-error");
+  command->add_flag("--no-confirm", options->no_confirm, "Do not check the found point on the stress families");
   command
-      ->add_option(
-          "--objective", options->objective,
-          "Error of the Pareto front and its knees: arithmetic (of the weights: the default), snapping, total (their "
-          "sum), a quantity such as colour (its arithmetic error), or a column of points.csv; with --target-error its "
-          "first column unless given")
+      ->add_option("--objective", options->objective,
+                   "Error of the Pareto front (default: arithmetic, or the first --target-error)\n"
+                   "  arithmetic  of the weights\n"
+                   "  snapping    of the weights\n"
+                   "  total       sum of both\n"
+                   "  colour      arithmetic error of a quantity\n"
+                   "  COLUMN      of points.csv")
       ->type_name("ERROR");
-  command
-      ->add_option("--cosim", options->cosim,
-                   "Points to co-simulate with the RTL; default: default, knees and corners, 8 at most")
+  command->add_option("--cosim", options->cosim, "Points to co-simulate (default: default, knees, corners; at most 8)")
       ->type_name("SELECTION");
-  command->add_option("--cosim-fragments", options->cosim_fragments, "Fragments of a co-simulation at most; 0: all")
+  command->add_option("--cosim-fragments", options->cosim_fragments, "Fragments per co-simulation; 0: all")
       ->check(whole_number())
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--synth", options->synth, "Points to synthesise with Yosys (minutes each the first time)")
+  command->add_option("--synth", options->synth, "Points to synthesize with Yosys")
       ->type_name("SELECTION")
       ->capture_default_str();
   command
       ->add_option("--synth-target", options->synth_target,
-                   "What for, and what cost means: ecp5 (LUTs, flip-flops, DSPs, block RAMs of a Lattice ECP5), "
-                   "ecp5-nodsp (multipliers in "
-                   "logic) or cells (area and clock on standard cells; needs OpenSTA)")
+                   "Technology of cost and synthesis\n"
+                   "  ecp5        Lattice ECP5: LUTs, flip-flops, DSPs, block RAMs\n"
+                   "  ecp5-nodsp  the same, multipliers in logic\n"
+                   "  cells       standard cells: area and clock (needs OpenSTA)")
       ->type_name("TARGET")
       ->capture_default_str();
-  command
-      ->add_option("--shade", options->shade,
-                   "Attributes of a scene or mesh: uv, texture, normal, planes, colour; default: what suits the input")
-      ->type_name("MODE");
   command->add_flag("--no-cycles", options->no_cycles, "Do not count clocks");
   command->add_flag("--force", options->force, "Allow more than a million points");
-  options->shards.add_to(*command, "the grid's points", "the --out of each, and the sweep's other options again");
-  command->add_flag("--fresh", options->fresh, "Start over in a directory that holds a sweep");
+  options->shards.add_to(*command, "the grid's points", "their --out, and the same options");
+  writes_folder(command->add_option("--out", options->out, "Directory of the results; made if missing"))
+      ->group(output_group);
+  command->add_flag("--fresh", options->fresh, "Replace the sweep in --out")->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return SweepRun(*options, invocation.arguments).run(); };
   });

@@ -515,7 +515,7 @@ class Compare {
 };
 
 std::string method_list() {
-  std::string text = "Methods (--methods a,b,c; a knob follows after a colon):\n";
+  std::string text = "Methods, with a knob after a colon:\n";
   for (const methods::MethodInfo& info : methods::list_methods()) {
     text += "  " + std::string(info.name) + std::string(12 - std::min<std::size_t>(11, info.name.size()), ' ') +
             std::string(info.what);
@@ -529,50 +529,44 @@ std::string method_list() {
 
 void add_compare_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("compare", compare_description);
-  command->footer(method_list() +
-                  "\nWrites sheet.png (methods in columns), METHOD.exr, table.json, table.csv and table.md into DIR. A "
-                  "crease is the\nlargest change of an attribute's slope from pixel to pixel within 4 pixels of the "
-                  "middle half of a quad's\ndiagonal, in attribute per picture side, measured at half, the same and "
-                  "twice the size; tb/studies/compare/README.md.\n\n"
-                  "Examples:\n"
-                  "  quadrille compare --scene fig10_convex --out fig10\n"
-                  "  quadrille compare --scene phong_mesh --methods split02,split13,refine:20,mvc --wireframe --out "
-                  "fig11\n"
-                  "  quadrille compare --mesh spot.obj --methods split02,mvc --shade uv --plot --out spot\n"
-                  "  quadrille compare --quads some.quads --out some");
+  end_help(*command,
+           method_list() +
+               "\nWrites sheet.png (a column per method), METHOD.exr, table.json, table.csv and table.md. A crease is "
+               "the largest change of an attribute's slope across a quad's diagonal (tb/studies/compare/README.md).",
+           "0 done, 2 usage or input error, 3 missing tool",
+           {"compare --scene fig10_convex --out fig10",
+            "compare --scene phong_mesh --methods split02,mvc --wireframe --out fig11",
+            "compare --mesh spot.obj --shade uv --plot --out spot"});
   const auto options = std::make_shared<CompareOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  command
-      ->add_option("--methods", options->methods,
-                   "Methods, in the order of the columns; default: all, but for quads without an object in space "
-                   "adaptive and affine")
+  command->add_option("--methods", options->methods, "Methods in the order of the columns (default: all that apply)")
       ->delimiter(',')
       ->type_name("A,B,…");
-  writes_folder(command->add_option("--out", options->out, "Directory for what is written; made if it is not there"));
-  command->add_option("--reference", options->reference, "Method that the differences are taken from")
+  command->add_option("--reference", options->reference, "Method to measure differences from")
       ->type_name("METHOD")
       ->capture_default_str();
-  command->add_option("--shade", options->shade, "As for render; default: what suits the input")->type_name("MODE");
-  command->add_option("--texture", options->texture, "Picture for --shade texture instead of the input's own pattern")
-      ->type_name("F.png");
-  options->input.add_light_to(*command);
-  command->add_option("--crease-sizes", options->crease_sizes, "Longer sides, in pixels, to measure creases at")
+  command
+      ->add_option("--crease-sizes", options->crease_sizes,
+                   "Longer sides of the viewports for creases (default: half, same, double)")
       ->delimiter(',')
       ->type_name("N,N,…");
-  command->add_option("--cell", options->cell, "Width of a picture on the sheet, in pixels")
-      ->check(CLI::Range(32, 2048))
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--repeats", options->repeats, "Times to draw for the timing; the quickest counts")
+  command->add_option("--repeats", options->repeats, "Timed draws; the fastest counts")
       ->check(CLI::Range(1, 100))
       ->capture_default_str()
       ->type_name("N");
-  command->add_flag("--wireframe", options->wireframe, "Draw over the pictures what each method sets up");
-  command->add_flag("--plot", options->plot,
-                    "Also error from refine:200 against time and against triangles set up, every method, knobs as "
-                    "curves");
+  options->input.add_picture_options(*command, options->shade, options->texture);
+  writes_folder(command->add_option("--out", options->out, "Directory of the results; made if missing"))
+      ->group(output_group);
+  command->add_option("--cell", options->cell, "Width of a picture on the sheet in pixels")
+      ->check(CLI::Range(32, 2048))
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(output_group);
+  command->add_flag("--wireframe", options->wireframe, "Draw each method's triangles over its picture")
+      ->group(output_group);
+  command->add_flag("--plot", options->plot, "Plot error against time and against triangles")->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] {
       if (options->methods.empty()) {

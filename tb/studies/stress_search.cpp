@@ -89,22 +89,19 @@ int finish(const CommonOptions& common, const std::string& keep, const WorstQuad
 
 void StressSearchOptions::add_to(CLI::App& app) {
   constexpr const char* group = "Search";
-  CLI::Option* one = app.add_flag("--search", search, "Look for the worst quads of the stress families")->group(group);
-  app.add_option("--evaluations", evaluations, "Pixels looked at for each family and output")
+  CLI::Option* one = app.add_flag("--search", search, "Search the worst quads of the stress families")->group(group);
+  app.add_option("--evaluations", evaluations, "Pixels per family and output")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
       ->capture_default_str()
       ->group(group)
       ->needs(one);
-  app.add_flag("--leave", leave, "Climb by moving vertices, out of the family's shape")->group(group)->needs(one);
-  CLI::Option* replay = app.add_option("--kept", kept, "Check the quads of such a file, errors too")
+  app.add_flag("--leave", leave, "Move vertices freely, beyond the family's shape")->group(group)->needs(one);
+  CLI::Option* replay = app.add_option("--kept", kept, "Check quads and errors of a file of --keep")
                             ->type_name("F.quads")
                             ->group(group)
                             ->excludes(one);
-  writes_file(
-      app,
-      app.add_option("--keep", keep, "Write the quads found, or those of --kept with their errors as they are now"),
-      "quads")
+  writes_file(app, app.add_option("--keep", keep, "Write the quads found or checked, with their errors"), "quads")
       ->group(group);
   for (const char* other : {"--engines", "--count", "--csv", "--shard", "--merge"}) {
     one->excludes(app.get_option(other));
