@@ -45,7 +45,7 @@ int run_inputs(const CosimOptions& options, const Config& config, const std::vec
   if (!options.common.json.empty())
     golden::save_json(options.common.json, report.all(total, results, model, ok, arguments));
   for (const InputResult& result : results) complain(result);
-  if (!model.ok()) std::fprintf(stderr, "quadrille: the model alone: %s\n", model.fault().c_str());
+  if (!model.ok()) std::fprintf(stderr, "quadrille: model check: %s\n", model.fault().c_str());
   if (!ok && !options.no_shrink) run.shrink_failure(results, model);
   return ok ? exit_ok : exit_mismatch;
 }
@@ -64,7 +64,7 @@ int run_cosim(const CosimOptions& options, const std::vector<std::string>& argum
     throw UsageError("--rtl " + options.rtl + ": " + error.what());  // the user's sources
   } catch (const WatchdogError&) {
     // Both sides hang alike (the RTL alone would have differed), each time for as long as it takes to be sure of it.
-    if (!options.no_shrink) std::fputs("quadrille: not shrunk: a hang of RTL and model is not searched\n", stderr);
+    if (!options.no_shrink) std::fputs("quadrille: not minimized: RTL and model hang alike\n", stderr);
     throw;
   }
 }

@@ -53,17 +53,16 @@ std::pair<int, int> parse_pixel(const std::string& text, const DrawState& state)
 int fragments(const FragmentsOptions& options, const Invocation& invocation) {
   const Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
-  if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
+  if (options.out.empty()) throw UsageError("--out F.csv is missing (- is standard output)");
   MethodEngineMaker make_method_engine;
   if (!options.method.empty()) {
     make_method_engine = invocation.method(options.method);
-    if (options.errors) throw UsageError("--errors with --method: the bound is on the machine's errors");
+    if (options.errors) throw UsageError("--errors and --method conflict: the bound is the machine's");
     settings.snap = false;
   }
-  if (options.errors && !settings.snap)
-    throw UsageError("--errors with --snap off: the bound is on errors against the truth on snapped quads");
+  if (options.errors && !settings.snap) throw UsageError("--errors needs --snap on: the bound is for snapped quads");
   if (options.errors && settings.config.qdrop() != 0)
-    throw UsageError("--errors: quadratic_frac_bits drops bits of D and R²; no bound is claimed then");
+    throw UsageError("--errors: no bound with quadratic_frac_bits that drops bits of D and R²");
   std::vector<std::string> read = options.input.files();
   read.push_back(options.common.config_file);
   check_outputs({options.out, options.input.save_camera, options.common.json}, read);

@@ -65,9 +65,8 @@ std::vector<const Suite*> choose_suites(const std::vector<std::string>& names) {
 /// Those of a shard, in the same order.
 std::vector<const Suite*> shard_of(const std::vector<const Suite*>& suites, const Shard& shard) {
   if (shard.count > suites.size())
-    throw UsageError("--shard: " + std::to_string(suites.size()) +
-                     (suites.size() == 1 ? " suite is written; it has no parts"
-                                         : " suites are written; at most so many shards have some each"));
+    throw UsageError("--shard: " + std::to_string(shard.count) + " shards are more than the number of suites, " +
+                     std::to_string(suites.size()));
   std::vector<const Suite*> part;
   for (std::size_t i = 0; i < suites.size(); ++i)
     if (shard.holds(i)) part.push_back(suites[i]);
@@ -78,8 +77,8 @@ std::vector<const Suite*> shard_of(const std::vector<const Suite*>& suites, cons
 /// needs none, the weights.
 std::unique_ptr<InputSuite> input_suite(const GenerateCommandOptions& options, const Config& config,
                                         std::string& spelled) {
-  if (!options.suites.empty()) throw UsageError("--suite is for the program's own inputs; leave it out with an input");
-  if (options.level != 1) throw UsageError("--level is for the program's own inputs; an input is drawn as it is");
+  if (!options.suites.empty()) throw UsageError("--suite conflicts with an input of your own");
+  if (options.level != 1) throw UsageError("--level conflicts with an input of your own");
   CommonOptions common = options.common;
   if (!options.size.empty()) common.size = options.size;
   DrawState state = options.state.state(common, config);
@@ -114,7 +113,7 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
     for (const auto& suite : vectors::suites()) std::printf("%s\n", suite->info().name.c_str());
     return exit_ok;
   }
-  if (options.out.empty()) throw UsageError("--out DIR is missing: the directory of the set");
+  if (options.out.empty()) throw UsageError("--out DIR is missing");
   std::vector<std::string> read = options.input.files();
   read.push_back(options.common.config_file);
   check_outputs({options.input.save_camera, options.common.json}, read);
@@ -174,7 +173,7 @@ int merge(const std::vector<std::string>& parts, const std::string& out, bool fo
     if (command != first)
       throw golden::input_error(sets.back().manifest_file(), 0,
                                 "is of the set `" + command + "`, " + sets.front().manifest_file() + " of `" + first +
-                                    "`; parts of one set are expected");
+                                    "`; expected parts of one set");
   }
   std::map<std::string, SuiteReader> suites;
   for (const SetReader& set : sets)
@@ -184,7 +183,7 @@ int merge(const std::vector<std::string>& parts, const std::string& out, bool fo
       const auto [other, added] = suites.emplace(name, reader);
       if (!added && other->second.manifest() != reader.manifest())
         throw golden::input_error(reader.manifest_file(), 0,
-                                  "differs from " + other->second.manifest_file() + "; the same suite was expected");
+                                  "differs from " + other->second.manifest_file() + "; expected the same suite");
     }
   SetWriter writer(out, sets.front().info(), force);
   std::size_t known = 0;
@@ -310,10 +309,10 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
       std::fprintf(text, "\n");
     }
     if (result.mismatches > 0) std::fprintf(stderr, "quadrille: %s\n", result.first_difference.c_str());
-    if (!result.judged()) std::fprintf(stderr, "quadrille: suite %s: no vector was compared\n", name.c_str());
+    if (!result.judged()) std::fprintf(stderr, "quadrille: suite %s: no vectors compared\n", name.c_str());
   }
   if (compared == 0) {
-    std::fprintf(stderr, "quadrille: no vector was compared\n");
+    std::fprintf(stderr, "quadrille: no vectors compared\n");
     ok = false;
   }
   report["ok"] = ok;

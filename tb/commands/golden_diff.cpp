@@ -102,7 +102,7 @@ void compare_records(const vectors::SuiteReader& a, const vectors::SuiteReader& 
                      Findings& findings) {
   const std::string name = a.info().name + "/" + role + ".hex";
   if (a.layout(role) != b.layout(role)) {
-    findings.differs(name + ": the records have other fields");
+    findings.differs(name + ": the records have different fields");
     return;
   }
   const std::uint64_t common = std::min(a.lines(role), b.lines(role));
@@ -181,8 +181,8 @@ void compare_sets(const std::string& a, const std::string& b, Findings& findings
 int run_diff(const DiffOptions& options, const std::vector<std::string>& arguments) {
   const bool sets = fs::is_directory(options.a);
   if (sets != fs::is_directory(options.b))
-    throw UsageError("golden diff compares two sets (directories) or two EXR pictures, not one with the other");
-  if (sets && !options.heat_map.empty()) throw UsageError("--heat-map is for two pictures");
+    throw UsageError("golden diff: expected two sets (directories) or two EXR pictures, not one of each");
+  if (sets && !options.heat_map.empty()) throw UsageError("--heat-map needs two pictures");
   check_outputs({options.heat_map, options.json}, {options.a, options.b});
 
   Findings findings;

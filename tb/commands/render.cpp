@@ -40,7 +40,8 @@ int render(const RenderOptions& options, const Invocation& invocation) {
     make_method_engine = invocation.method(options.method);
     settings.snap = false;
   }
-  if (options.out.empty() && options.png.empty()) throw UsageError("--out F.exr or --png F.png (or both) is needed");
+  if (options.out.empty() && options.png.empty())
+    throw UsageError("--out F.exr and --png F.png are missing; give one or both");
   std::vector<std::string> read = options.input.files();
   read.insert(read.end(), {options.common.config_file, options.texture});
   check_outputs({options.out, options.png, options.input.save_camera, options.common.json}, read);
@@ -126,13 +127,12 @@ int render(const RenderOptions& options, const Invocation& invocation) {
       std::fprintf(text, "%zu faces with more than four corners were cut into %zu primitives\n", input.fanned_faces,
                    input.fan_primitives);
     if (input.crossed_faces)
-      std::fprintf(text, "%zu of them cross themselves: fans from their first corners, which may paint outside\n",
-                   input.crossed_faces);
+      std::fprintf(text, "%zu of these faces cross themselves; their pictures may be wrong\n", input.crossed_faces);
     if (input.skipped_lines && options.common.verbose)
       std::fprintf(text, "%zu lines of the mesh were skipped\n", input.skipped_lines);
   }
   if (frame.fragments() == 0)
-    std::fprintf(stderr, "quadrille: %s: nothing is visible, the picture is empty\n", input.name.c_str());
+    std::fprintf(stderr, "quadrille: %s: no fragments drawn, the picture is empty\n", input.name.c_str());
   return exit_ok;
 }
 

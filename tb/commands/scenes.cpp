@@ -30,11 +30,11 @@ int list(const ScenesOptions& options) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     const auto add = [&](const char* kind, std::string_view name, std::string_view what) {
       json.push_back({{"name", name}, {"stresses", what}, {"kind", kind}});
-      if (options.json != "-") std::printf("%-18s %s\n", std::string(name).c_str(), std::string(what).c_str());
+      if (options.json != "-") std::printf("%-20s %s\n", std::string(name).c_str(), std::string(what).c_str());
     };
     for (const golden::StressFamilyInfo& family : golden::stress_families())
       add("family", family.name, family.stresses);
-    if (options.json != "-") std::printf("\nApproaches, drawn by `quadrille stress` alone: a knob leads to\n");
+    if (options.json != "-") std::printf("\nApproaches (only of `quadrille stress`), each with its special case\n");
     for (const golden::Approach& approach : golden::approaches())
       add("approach", approach.name, approach.special.empty() ? approach.knob : approach.special);
     if (!options.json.empty()) golden::save_json(options.json, json);

@@ -22,7 +22,7 @@ TEST_F(Cli, DrawStatesAtRandomSayWhatIsWrong) {
 
 TEST_F(Cli, HiddenTilesAskForDepthsAndADepthTest) {
   refuses(2, "fragments --scene bowtie --out a.csv --skip tiles,hidden",
-          {"--skip hidden", "holds no depths of tiles", "--set hierarchical_z_bits=12"});
+          {"--skip hidden", "--set hierarchical_z_bits=12"});
   refuses(2, "fragments --scene bowtie --out a.csv --set hierarchical_z_bits=12 --no-depth --skip hidden",
           {"--skip hidden", "--no-depth"});
 }

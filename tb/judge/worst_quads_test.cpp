@@ -56,8 +56,8 @@ TEST(WorstQuads, BadFilesAreRefused) {
   };
   expect(quad, "w.quads:1: a quad without a record");
   expect(record + quad + quad, "w.quads:3: a quad without a record");
-  expect(record + record + quad, "w.quads:2: a record without a quad");
-  expect(record + quad + record, "a record without a quad");
+  expect(record + record + quad, "w.quads:2: record without a quad");
+  expect(record + quad + record, "record without a quad");
   expect("# reflex weight 1.25 10,11\n" + quad, "w.quads:1: expected # reflex weight ERROR at X,Y");
   expect("# reflex weight nan at 10,11\n" + quad, "expected # reflex weight");
   expect("# reflex weight -1 at 10,11\n" + quad, "expected # reflex weight");

@@ -70,13 +70,9 @@ std::uint32_t parse_skips(std::string_view list, const Config& config, bool dept
     const std::size_t comma = std::min(list.find(','), list.size());
     skips |= 1u << choose("--skip value (all, none, or names with commas between)", list.substr(0, comma), names);
     if ((skips & skip_hidden) != 0 && !can_hide)
-      throw UsageError(
-          "--skip hidden: this configuration holds no depths of tiles; --set hierarchical_z_bits=12 for example");
-    if ((skips & skip_hidden) != 0 && !depth) throw UsageError("--skip hidden: there is no depth test with --no-depth");
-    if ((skips & skip_plane) != 0 && !can_plane)
-      throw UsageError(
-          "--skip plane: this configuration has mean value weights alone; --set plane_quads=1 for quads that "
-          "are exactly plane");
+      throw UsageError("--skip hidden needs hierarchical_z_bits, such as --set hierarchical_z_bits=12");
+    if ((skips & skip_hidden) != 0 && !depth) throw UsageError("--skip hidden conflicts with --no-depth");
+    if ((skips & skip_plane) != 0 && !can_plane) throw UsageError("--skip plane needs --set plane_quads=1");
     if (comma == list.size()) return skips;
     list.remove_prefix(comma + 1);
   }
@@ -161,7 +157,7 @@ Config CommonOptions::config() const {
     else if (const std::optional<int> number = toml_integer(value))
       result.set(key, *number);
     else
-      throw UsageError("--set " + key + ": \"" + value + "\" is not a whole number in range, as TOML writes it");
+      throw UsageError("--set " + key + ": \"" + value + "\" is not a whole number in range");
     if (const std::string note = Config::note(key); !note.empty()) notes.push_back(note);
   }
   result.validate();
@@ -289,7 +285,7 @@ std::string StateOptions::spelled() const {
 }
 
 double probability(const char* name, double value) {
-  if (!(value >= 0 && value < 1)) throw UsageError(std::string(name) + ": a probability from 0 to below 1 is required");
+  if (!(value >= 0 && value < 1)) throw UsageError(std::string(name) + ": expected a probability, 0 <= P < 1");
   return value;
 }
 
@@ -379,9 +375,9 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
   s.stall = probability("--stall", stall);
   s.gap = probability("--gap", gap);
   if (s.kind != EngineKind::rtl && (stall != 0 || gap != 0))
-    throw UsageError("--stall and --gap are for --engine rtl; " + engine + " has no clock");
+    throw UsageError("--stall and --gap need --engine rtl, not " + engine);
   if (engine_info(s.kind).machine && !s.snap)
-    throw UsageError("--snap off is for the engines float, shader and truth; the machine takes snapped quads only");
+    throw UsageError("--snap off needs engine float, fp32, shader or truth; the machine takes snapped quads");
   return s;
 }
 

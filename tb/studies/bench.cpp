@@ -410,7 +410,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   command->callback([options, size, fragments, of_input, &invocation] {
     if (!options->error && !options->skips)
       for (const CLI::Option* input : of_input)
-        if (input->count() != 0) throw UsageError(input->get_name() + " goes with --error or --skips");
+        if (input->count() != 0) throw UsageError(input->get_name() + " needs --error or --skips");
     invocation.run = [options, size, fragments, &invocation] {
       return bench(*options, size->count() != 0, fragments->count() != 0, invocation.arguments);
     };

@@ -267,13 +267,13 @@ class Compare {
 
  private:
   void check_options() {
-    if (options_.out.empty()) throw UsageError("--out DIR is needed");
+    if (options_.out.empty()) throw UsageError("--out DIR is missing");
     if (fs::exists(options_.out) && !fs::is_directory(options_.out))
-      throw UsageError("--out " + options_.out + ": is a file; a directory is wanted");
+      throw UsageError("--out " + options_.out + ": is a file; expected a directory");
     if (inputs_given(options_.input) != 1)
       throw UsageError(
           "one input is needed: --scene NAME, --mesh F.obj, --quads F.quads, --stress FAMILY or --corner GROUP");
-    if (options_.methods.empty()) throw UsageError("--methods: no method is named");
+    if (options_.methods.empty()) throw UsageError("--methods: expected at least one method");
     method_name("--reference", options_.reference);
     std::set<std::string> seen;
     for (const std::string& method : options_.methods)
@@ -281,8 +281,7 @@ class Compare {
         throw UsageError("--methods: " + method + " is named twice");
     if (const int most = compare::most_columns(options_.cell); static_cast<int>(options_.methods.size()) > most)
       throw UsageError("--methods: " + std::to_string(options_.methods.size()) + " columns of --cell " +
-                       std::to_string(options_.cell) + " pixels do not fit one sheet; at most " + std::to_string(most) +
-                       " do");
+                       std::to_string(options_.cell) + " pixels do not fit the sheet; at most " + std::to_string(most));
     std::vector<std::string> read = options_.input.files();
     read.insert(read.end(), {options_.common.config_file, options_.texture});
     check_outputs({options_.input.save_camera, options_.common.json}, read);
@@ -302,8 +301,8 @@ class Compare {
     std::erase_if(sizes, [&](int size) { return options_.crease_sizes.empty() && (size < 16 || size > limit); });
     for (const int size : sizes)
       if (size < 16 || size > limit)
-        throw UsageError("--crease-sizes: from 16 to " + std::to_string(limit) + " pixels, not " +
-                         std::to_string(size));
+        throw UsageError("--crease-sizes " + std::to_string(size) + ": expected 16 to " + std::to_string(limit) +
+                         " pixels");
     std::ranges::sort(sizes);
     const auto same = std::ranges::unique(sizes);
     sizes.erase(same.begin(), same.end());
@@ -486,25 +485,22 @@ class Compare {
                    text(row["ns_per_pixel"], "%.3g").c_str());
     std::fprintf(
         out,
-        "wrong: pixels whose attributes are off by more than %g from exact mean value coordinates (exact MV), "
-        "which is what mvc\ncomputes: its nearness to them is by definition and no merit; from %s says how near "
-        "a method is to %s\n",
-        compare::default_wrong_above, options_.reference.c_str(),
-        options_.reference.starts_with("refine") ? "the refined surface" : "that one");
+        "wrong: pixels with an attribute error above %g from exact mean value coordinates (exact MV), which mvc "
+        "computes by definition\n",
+        compare::default_wrong_above);
     const bool no_crease = !sizes.empty() && std::ranges::all_of(rows, [&](const compare::Row& row) {
       return row["crease02_" + size].is_null() && row["crease13_" + size].is_null();
     });
     if (no_crease)
       std::fprintf(
           out,
-          "No crease: the middle half of a diagonal needs a row or column of eight pixels of its quad at every "
-          "size,\nand the quads are too small or not convex in front of the eye; larger --crease-sizes may "
-          "help\n");
+          "No crease: the quads are too small or not convex in front of the eye (eight pixels of a row or column at "
+          "each size are needed); larger --crease-sizes may help\n");
     for (const compare::Row& row : rows)
       if (row["refused"].get<std::uint64_t>() > 0)
         std::fprintf(out, "%s refuses %llu of %llu quads\n", row["method"].get<std::string>().c_str(),
                      row["refused"].get<unsigned long long>(), row["quads"].get<unsigned long long>());
-    std::fprintf(out, "%s: sheet.png, METHOD.exr, table.json, table.csv, table.md%s\n", options_.out.c_str(),
+    std::fprintf(out, "wrote %s: sheet.png, METHOD.exr, table.json, table.csv, table.md%s\n", options_.out.c_str(),
                  options_.plot ? ", plot.json, plot_time.png, plot_setup.png" : "");
   }
 

@@ -81,8 +81,7 @@ class StressCommand {
         arguments_(without_outputs(arguments)),
         config_(common_.config()),
         shard_(Shard::parse(options.shards.shard)) {
-    if (config_.qdrop() != 0)
-      throw UsageError("stress: quadratic_frac_bits drops bits of D and R²; no bound is claimed then");
+    if (config_.qdrop() != 0) throw UsageError("stress: no bound with quadratic_frac_bits that drops bits of D and R²");
     choose_bodies();
     choose_series();
   }
@@ -111,11 +110,11 @@ class StressCommand {
     const auto [width, height] = common_.viewport(config_);
     for (const std::string& name : wanted) {
       choose("family", name, all);
-      if (std::ranges::count(wanted, name) > 1) throw UsageError("--families: " + name + " stands there twice");
+      if (std::ranges::count(wanted, name) > 1) throw UsageError("--families: " + name + " is named twice");
     }
     if (shard_.count > wanted.size())
-      throw UsageError("--shard " + options_.shards.shard + ": " + std::to_string(wanted.size()) +
-                       " families are asked for; at most so many shards have some each");
+      throw UsageError("--shard " + options_.shards.shard + ": more shards than families (" +
+                       std::to_string(wanted.size()) + ")");
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (!shard_.holds(i)) continue;
       const std::string& name = wanted[i];
@@ -134,12 +133,13 @@ class StressCommand {
         s.state.width = s.approach->width;
         s.state.height = s.approach->height;
         if (s.state.width > 1 << config_.viewport_bits)
-          throw UsageError(name + " is drawn " + std::to_string(s.state.width) + " pixels wide: viewport_bits = " +
-                           std::to_string(config_.viewport_bits) + " is too few; leave it out with --families");
+          throw UsageError(name + " is " + std::to_string(s.state.width) +
+                           " pixels wide, too many for viewport_bits = " + std::to_string(config_.viewport_bits) +
+                           "; leave it out with --families");
         if (s.approach->attribute >= std::ldexp(1.0, config_.attribute_int_bits))
           throw UsageError(name + " has attributes up to " + std::to_string(static_cast<int>(s.approach->attribute)) +
-                           ": attribute_int_bits = " + std::to_string(config_.attribute_int_bits) +
-                           " is too few; leave it out with --families");
+                           ", too large for attribute_int_bits = " + std::to_string(config_.attribute_int_bits) +
+                           "; leave it out with --families");
       } else {
         s.family = golden::parse_stress_family(name);
         const golden::StressFamilyInfo& info = golden::stress_families()[static_cast<std::size_t>(*s.family)];
@@ -443,7 +443,7 @@ void add_stress_command(CLI::App& app, Invocation& invocation) {
       if (!options->shards.merge.empty()) return merge_reports(*options);
       if (options->search.search) return search_stress(options->common, options->families, options->search);
       if (!options->search.kept.empty()) return check_kept_stress(options->common, options->search);
-      if (!options->search.keep.empty()) throw UsageError("--keep: --search or --kept is expected with it");
+      if (!options->search.keep.empty()) throw UsageError("--keep needs --search or --kept");
       return StressCommand(*options, invocation.arguments).run();
     };
   });

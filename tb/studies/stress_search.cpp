@@ -30,7 +30,7 @@ std::vector<golden::StressFamily> families_in(const std::string& list) {
   std::vector<golden::StressFamily> families;
   for (const std::string& name : list.empty() ? all : names_in_list(list)) {
     if (golden::find_approach(name) != nullptr)
-      throw UsageError("--search: " + name + " is an approach, of one quad a step; stress families can be searched");
+      throw UsageError("--search: " + name + " is an approach; expected a stress family");
     families.push_back(golden::parse_stress_family(all[choose("family", name, all)]));
   }
   return families;
@@ -41,7 +41,7 @@ std::string_view name_of(Output output) { return output_names[static_cast<std::s
 /// The report's text: a line for each family and output, with the command that draws its pixel.
 void print_table(std::FILE* text, const Json& report) {
   const bool kept = report.contains("kept");
-  std::fprintf(text, "%s; errors in units of which the bound allows %g (2^-s of a weight)\n\n%-16s %-9s %9s%s\n",
+  std::fprintf(text, "%s; errors in units of 2^-s (of a weight); bound %g\n\n%-16s %-9s %9s%s\n",
                report["title"].get<std::string>().c_str(), bound_units, "", "output", "error",
                kept ? "  recorded" : "      knob");
   const Json* worst = nullptr;
@@ -50,7 +50,7 @@ void print_table(std::FILE* text, const Json& report) {
     std::fprintf(text, "%-16s %-9s", row["family"].get<std::string>().c_str(),
                  row["output"].get<std::string>().c_str());
     if (units < 0) {
-      std::fprintf(text, " nothing was drawn\n");
+      std::fprintf(text, " no fragments\n");
       continue;
     }
     std::fprintf(text, " %9.6f %9.*f  %s\n", units, kept ? 6 : 3, row[kept ? "recorded" : "knob"].get<double>(),
@@ -114,8 +114,7 @@ void StressSearchOptions::add_to(CLI::App& app) {
 
 int search_stress(const CommonOptions& common, const std::string& list, const StressSearchOptions& options) {
   const Config config = common.config();
-  if (config.qdrop() != 0)
-    throw UsageError("stress: quadratic_frac_bits drops bits of D and R²; no bound is claimed then");
+  if (config.qdrop() != 0) throw UsageError("stress: no bound with quadratic_frac_bits that drops bits of D and R²");
   const std::vector<golden::StressFamily> families = families_in(list);
   const auto [width, height] = common.viewport(config);
   check_outputs({options.keep, common.json}, {common.config_file});
