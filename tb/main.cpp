@@ -95,9 +95,9 @@ int run(int argc, char** argv) {
   app.name("quadrille");
   app.require_subcommand(1);
   const std::string version = "quadrille " + std::string(golden::program_version());
-  app.set_version_flag("--version", version, "Print the version");
+  app.set_version_flag("--version", version, "Print the version")->group(general_group);
   end_help(app, "`quadrille COMMAND --help` has the options of a command.",
-           "0 done and within bounds, 1 mismatch or bound exceeded, 2 usage or input error, 3 missing tool",
+           "0 done and within bounds; 1 mismatch or bound exceeded; 2 usage or input error; 3 missing tool",
            {"scenes", "cosim --scene fig7_floor", "render --scene sphere --png sphere.png"});
   add_cosim_command(app, invocation);
   add_render_command(app, invocation);
@@ -111,10 +111,10 @@ int run(int argc, char** argv) {
     add_studies(app, invocation);
   else
     name_studies(app, invocation);
+  group_help(app);
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands({})) {
     command->set_version_flag("--version", version, "Print the version")->group(general_group);
-    group_help(*command);
     commands.push_back(command->get_name());
   }
 

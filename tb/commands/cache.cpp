@@ -82,15 +82,15 @@ void add_cache_command(CLI::App& app, Invocation& invocation) {
   end_help(*command,
            "Directory: $QUADRILLE_CACHE, else $XDG_CACHE_HOME/quadrille, else $HOME/.cache/quadrille. Above "
            "$QUADRILLE_CACHE_SIZE (default: 1G; 0: no limit) the least recently used entries are removed.",
-           "0 done, 2 usage error", {"cache", "cache --json -", "cache clear"});
+           "0 done; 2 usage error", {"cache", "cache --json -", "cache clear"});
   const auto json = std::make_shared<std::string>();
   writes_file(*command, command->add_option("--json", *json, "JSON report; - is standard output"), "json")
       ->group(output_group);
   command->require_subcommand(0, 1);
   CLI::App* list = command->add_subcommand("list", "List entries, least recently used first (default)");
   CLI::App* clear = command->add_subcommand("clear", "Remove entries that no program uses");
-  end_help(*list, "", "0 done, 2 usage error", {"cache list --json -"});
-  end_help(*clear, "", "0 done, 2 usage error", {"cache clear"});
+  end_help(*list, "", "0 done; 2 usage error", {"cache list --json -"});
+  end_help(*clear, "", "0 done; 2 usage error", {"cache clear"});
   for (CLI::App* sub : {list, clear}) sub->fallthrough();
   command->callback([json, clear, &invocation] {
     const bool remove = clear->parsed();

@@ -44,7 +44,7 @@ TEST_F(Cli, Help) {
     EXPECT_LE(extent(wide.out).first, 120u) << wide.out;
     narrow_lines += extent(narrow.out).second;
     wide_lines += extent(wide.out).second;
-    const std::size_t status = narrow.out.find("\nExit status: 0 "),
+    const std::size_t status = narrow.out.find("\nExit status:\n  0  "),
                       examples = narrow.out.find("\nExamples:\n  quadrille ");
     EXPECT_LT(status, examples) << narrow.out;
     EXPECT_LE(std::ranges::count(narrow.out.substr(std::min(examples, narrow.out.size())), '\n'), 5) << narrow.out;

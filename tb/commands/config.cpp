@@ -184,7 +184,7 @@ int list_config(const ConfigOptions& options, const std::vector<std::string>& ar
 void add_config_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("config", "List configuration keys, derived widths and error bounds");
   end_help(*command, "* marks keys with another value than their default. \"auto\" is also written as -1.",
-           "0 done, 2 usage or input error",
+           "0 done; 2 usage or input error",
            {"config --set significand_bits=24", "config --set significand_bits=24 --toml >wide.toml",
             "config --config wide.toml --emit-tables quadrille_tables_pkg.sv"});
   const auto options = std::make_shared<ConfigOptions>();

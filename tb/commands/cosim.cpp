@@ -120,9 +120,10 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->check(whole_number())
       ->type_name("N")
       ->excludes("--stall-clocks", "--gap-beats");
-  command->add_option("--attributes", options->attributes, "Attributes per pass (default: attribute_slots)")
+  command->add_option("--attributes", options->attributes, "Attributes per pass")
       ->check(CLI::Range(1, max_attribute_slots))
       ->type_name("N")
+      ->default_str("attribute_slots")
       ->group(state_group);
   command
       ->add_option("--draw-state", options->draw_state, "Random draw state, printed as options (default seed: --seed)")
@@ -131,7 +132,7 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--limit-fragments", options->limit_fragments, "Fragments per input; 0: no limit (default: 0)")
       ->check(whole_number())
       ->type_name("N");
-  command->add_option("--rtl", options->rtl, "Other Verilog: a directory, or one file (only its ports are compared)")
+  command->add_option("--rtl", options->rtl, "Your RTL: a directory, or one file (only its ports are compared)")
       ->type_name("PATH");
   command->add_flag("--compare-skips,!--no-compare-skips", options->compare_skips,
                     "Do not compare draws with and without each skip");

@@ -166,7 +166,7 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
            "   64  notch: neighbouring areas differ in sign (with notch_exact)\n"
            "  128  saturated\n"
            "  256  undefined: the numbers are invalid (float, fp32, shader)",
-           "0 done, 2 usage or input error, 3 missing tool",
+           "0 done; 2 usage or input error; 3 missing tool",
            {"fragments --quads some.quads --out some.csv", "fragments --engine rtl --mesh pawn.obj --quad 17 --out -",
             "fragments --engine fp32 --scene bowtie --pixel 160,160 --errors --out -"});
   const auto options = std::make_shared<FragmentsOptions>();

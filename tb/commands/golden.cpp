@@ -205,7 +205,7 @@ void add_merge(CLI::App& golden, Invocation& invocation) {
   end_help(*command,
            "All sets need the same level, seed, limit and configuration; their hashes are checked. The bytes equal one "
            "run's.",
-           "0 done, 2 usage or input error",
+           "0 done; 2 usage or input error",
            {"golden generate --shard 0/2 --out part0", "golden generate --shard 1/2 --out part1",
             "golden merge part0 part1 --out vectors"});
   struct Options {
@@ -329,7 +329,7 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
       "as much. The same options give the same bytes.\n\n"
       "Your own input (--scene, --mesh, --quads, --stress or --corner) gives one suite, `input`. Its attributes "
       "are those of --shade, else the weights.",
-      "0 done, 2 usage or input error",
+      "0 done; 2 usage or input error",
       {"golden generate --level 1 --out vectors", "golden generate --suite sqrt --set significand_bits=12 --out v12",
        "golden generate --mesh pawn.obj --shade uv --cull back --out pawn"});
   const auto options = std::make_shared<GenerateCommandOptions>();
@@ -353,7 +353,7 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
   command
       ->add_option(
           "--limit", options->limit,
-          "About this many vectors per suite; 0: all of the level (at most " + std::to_string(largest_limit) + ")")
+          "About this many vectors per suite, at most " + std::to_string(largest_limit) + "; 0: all of the level")
       ->check(whole_number(largest_limit))
       ->type_name("N")
       ->capture_default_str();
@@ -372,7 +372,7 @@ void add_verify(CLI::App& golden, Invocation& invocation) {
   end_help(*command,
            "Hashes and manifests of the whole set are checked, responses and pictures of the chosen suites. Vectors "
            "with fields that the engine float cannot decide count as undefined; their other fields are compared.",
-           "0 all vectors agree, 1 difference or no vectors compared, 2 usage or input error (damaged set, unknown "
+           "0 all vectors agree; 1 difference or no vectors compared; 2 usage or input error (damaged set, unknown "
            "suite), 3 missing tool",
            {"golden verify vectors", "golden verify vectors --suite weights --json -"});
   const auto options = std::make_shared<VerifyCommandOptions>();
@@ -424,7 +424,7 @@ void add_seal(CLI::App& golden, Invocation& invocation) {
            "Copy a set, write your implementation's answers into response.hex (and beats.hex of machine suites), a "
            "record per line, as in the set or by $writememh. `golden seal` rewrites the records in the set's form and "
            "updates hashes, sizes and counts. Leave the rest as generated; pictures are not checked.",
-           "0 done, 2 usage or input error", {"golden seal mine", "golden diff vectors mine"});
+           "0 done; 2 usage or input error", {"golden seal mine", "golden diff vectors mine"});
   struct Options {
     std::string directory;
     bool quiet = false;
@@ -442,7 +442,7 @@ void add_golden_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("golden", "Write and check golden vectors of the stages and the machine");
   command->require_subcommand(1);
   end_help(*command, "`quadrille golden COMMAND --help` has the options of a command.",
-           "0 done, 1 difference, 2 usage or input error, 3 missing tool",
+           "0 done; 1 difference; 2 usage or input error; 3 missing tool",
            {"golden generate --level 1 --out vectors", "golden verify vectors"});
   add_generate(*command, invocation);
   add_merge(*command, invocation);

@@ -210,7 +210,7 @@ int run_diff(const DiffOptions& options, const std::vector<std::string>& argumen
 
 void add_golden_diff_command(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("diff", "Compare two sets of golden vectors, or two EXR pictures");
-  end_help(*command, "", "0 equal, 1 different, 2 usage or input error",
+  end_help(*command, "", "0 equal; 1 different; 2 usage or input error",
            {"golden diff mine theirs", "golden diff rtl.exr model.exr --heat-map difference.png"});
   const auto options = std::make_shared<DiffOptions>();
   command->add_option("A", options->a, "Set (directory) or picture")->required()->check(CLI::ExistingPath);

@@ -143,7 +143,7 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
   end_help(*command,
            "The EXR holds R G B A, Z, the weights L0 to L3, the quad id, and error.L0 to error.L3 (weights minus the "
            "truth's). With --json or --verbose the engines rtl and model also report performance counters.",
-           "0 done, 2 usage or input error, 3 missing tool",
+           "0 done; 2 usage or input error; 3 missing tool",
            {"render --scene sphere --png sphere.png",
             "render --engine rtl --mesh spot.obj --texture spot.png --png spot.png",
             "render --method refine:20 --scene fig10_convex --png refined.png"});

@@ -72,7 +72,7 @@ int list(const ScenesOptions& options) {
 
 void add_scenes_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes, stress families or corner groups");
-  end_help(*command, "", "0 done, 2 usage error", {"scenes", "scenes --json", "scenes --stress"});
+  end_help(*command, "", "0 done; 2 usage error", {"scenes", "scenes --json", "scenes --stress"});
   const auto options = std::make_shared<ScenesOptions>();
   CLI::Option* json = command->add_option("--json", options->json, "JSON list (default: standard output)");
   writes_file(*command, json, "json")->type_name("[F.json]")->expected(0, 1)->group(output_group);

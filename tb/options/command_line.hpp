@@ -22,7 +22,7 @@ constexpr const char *state_group = "Draw state", *config_group = "Configuration
 /// it. After the first line of a description each line is a value and its meaning, with two spaces between.
 std::shared_ptr<CLI::FormatterBase> help_formatter();
 
-/// The end of a command's help. `status`: "0 done, 1 mismatch, …"; `examples` without the program's name.
+/// The end of a command's help. `status`: "0 done; 1 mismatch"; `examples` without the program's name.
 void end_help(CLI::App& command, const std::string& notes, std::string_view status,
               std::initializer_list<std::string_view> examples);
 

@@ -64,6 +64,12 @@ std::string notes_of(const std::string& text, std::size_t indent) {
   return result;
 }
 
+/// Where in "N:INT in [1 - 8]" the validator begins; not in "random[:SEED]".
+std::size_t validator_of(const std::string& type) {
+  const std::size_t colon = type.find(':');
+  return colon != 0 && colon < type.size() && type[colon - 1] == '[' ? std::string::npos : colon;
+}
+
 /// "1 to 8" of "N:INT in [1 - 8]"; empty when there are no limits that a person would reach.
 std::string range_of(const std::string& type) {
   const std::size_t begin = type.find(" in ["), dash = type.find(" - ", begin), end = type.find(']', begin);
@@ -85,8 +91,11 @@ class HelpFormatter : public CLI::Formatter {
     });
     std::string text = wrapped("", app->get_description(), 0) + make_usage(app, name) + make_positionals(app);
     for (const std::string& group : groups) {
-      const auto options = app->get_options(
+      auto options = app->get_options(
           [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
+      std::ranges::stable_partition(options, [](const CLI::Option* option) {  // what is common comes last
+        return !option->check_name("--json") && !option->check_name("--quiet") && !option->check_name("--verbose");
+      });
       if (!group.empty() && !options.empty())
         text += make_group(group == "Options" && app->get_parent() != nullptr ? "Options of " + app->get_name() : group,
                            false, options);
@@ -100,7 +109,7 @@ class HelpFormatter : public CLI::Formatter {
     if (const std::size_t negated = head.find(",--no-"); negated != std::string::npos)
       head = "  " + head.substr(negated + 1, head.find('{') - negated - 1);
     if (const std::size_t comma = head.find(','); comma != std::string::npos) head.insert(comma + 1, " ");
-    if (!positional && option->get_type_size() != 0) head += " " + type.substr(0, type.find(':'));
+    if (!positional && option->get_type_size() != 0) head += " " + type.substr(0, validator_of(type));
     if (option->get_expected_max() == CLI::detail::expected_max_vector_size) head += " ...";
 
     const std::string all = option->get_description();
@@ -128,7 +137,12 @@ std::shared_ptr<CLI::FormatterBase> help_formatter() { return std::make_shared<H
 
 void end_help(CLI::App& command, const std::string& notes, std::string_view status,
               std::initializer_list<std::string_view> examples) {
-  std::string text = notes + (notes.empty() ? "" : "\n\n") + "Exit status: " + std::string(status) + ".\n\nExamples:";
+  std::string text = notes + (notes.empty() ? "" : "\n\n") + "Exit status:";
+  for (const std::string& line : CLI::detail::split(std::string(status), ';')) {
+    const std::string one = CLI::detail::trim_copy(line);
+    text += "\n  " + one.substr(0, 1) + " " + one.substr(1);
+  }
+  text += "\n\nExamples:";
   for (const std::string_view example : examples) text += "\n  quadrille " + std::string(example);
   command.footer(text);
 }

@@ -348,11 +348,12 @@ void InputOptions::add_picture_options(CLI::App& app, std::string& shade, std::s
 
 void EngineOptions::add_to(CLI::App& app, std::string& method, bool fp32) {
   single = fp32;
-  std::string help = "What draws";
+  std::string help = "Engine that draws";
   for (const std::string& name : engine_choices(fp32))
     help += "\n  " + name + std::string(8 - name.size(), ' ') + std::string(engine_info(engine_kind(name, fp32)).help);
   app.add_option("--engine", engine, help)->type_name("ENGINE")->capture_default_str();
-  app.add_option("--snap", snap, "Snapped or given quads for float, fp32, shader and truth")
+  app.add_option("--snap", snap,
+                 std::string("Draw snapped quads: float, ") + (fp32 ? "fp32, " : "") + "shader and truth")
       ->type_name("on|off")
       ->capture_default_str();
   app.add_option("--stall", stall, "rtl: probability per clock that the output is not ready (default: 0)")
