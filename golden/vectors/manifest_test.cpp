@@ -183,7 +183,7 @@ TEST_F(Set, DamageOfManifestsIsNamed) {
   EXPECT_EQ(with("--seed 1", "--seed 01"), other);
   EXPECT_EQ(with("--limit 30", "--limit 30 --set significand_bits=12"), other);
   EXPECT_NE(with("--limit 30", "--limit 30 --set significand_bits=18"), "") << "the default is not spelled";
-  EXPECT_EQ(with("quadrille golden generate", "rm -rf"), set + ": \"command\" is no \"quadrille golden generate\"");
+  EXPECT_EQ(with("quadrille golden generate", "rm -rf"), set + ": \"command\" is not \"quadrille golden generate\"");
   EXPECT_EQ(with("--suite coverage", "--suite weights"), set + ": \"command\" generates other suites than the set has");
   EXPECT_EQ(with("quadrille 0", "gremlin 0").find(set + ": \"generator\" is \"gremlin 0"), 0u);
   EXPECT_EQ(with("\"seed\": 1", "\"seed\": 1.5"), set + ": \"seed\" is not a whole number from 0");

@@ -191,7 +191,7 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
   options->common.add_to(*command, false);
   writes_file(*command,
               command->add_option("--emit-tables", options->emit_tables,
-                                  "Write the package of the sqrt and reciprocal tables; - is standard output"),
+                                  "Package of sqrt and reciprocal tables; - is standard output"),
               "sv")
       ->group(output_group);
   auto* boundaries = command

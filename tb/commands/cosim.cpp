@@ -93,12 +93,10 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command
       ->add_option("--stall-clocks", options->stall_clocks,
-                   "Clocks after reset in which the output is not ready, such as 17,40-43")
+                   "Clocks after reset without a ready output, such as 17,40-43")
       ->type_name("LIST")
       ->excludes("--stall");
-  command
-      ->add_option("--gap-beats", options->gap_beats,
-                   "BEAT:CLOCKS to wait before a beat (a vertex, from 0), such as 5:2,9")
+  command->add_option("--gap-beats", options->gap_beats, "BEAT:CLOCKS to wait before a vertex (from 0), such as 5:2,9")
       ->type_name("LIST")
       ->excludes("--gap");
   command
@@ -115,8 +113,7 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
           ->add_option("--battery", options->battery, "Regression of 3 minutes, or one GROUP, MACHINE or INPUT of it")
           ->expected(0, 1)
           ->type_name("[GROUP]");
-  command
-      ->add_option("--draws", options->draws, "Cut each input into N draws of one machine; clears and resets between")
+  command->add_option("--draws", options->draws, "Cut each input into N draws, with clears and resets between")
       ->check(whole_number())
       ->type_name("N")
       ->excludes("--stall-clocks", "--gap-beats");

@@ -168,7 +168,7 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
            "  256  undefined: the numbers are invalid (float, fp32, shader)",
            "0 done; 2 usage or input error; 3 missing tool",
            {"fragments --quads some.quads --out some.csv", "fragments --engine rtl --mesh pawn.obj --quad 17 --out -",
-            "fragments --engine fp32 --scene bowtie --pixel 160,160 --errors --out -"});
+            "fragments --scene bowtie --pixel 160,160 --errors --out -"});
   const auto options = std::make_shared<FragmentsOptions>();
   options->input.add_to(*command);
   add_attributes_option(*command, options->shade);

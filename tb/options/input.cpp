@@ -288,7 +288,7 @@ int inputs_given(const InputOptions& options) {
 std::string shade_of(const std::string& shade, const std::string& texture) {
   if (texture.empty()) return shade;
   if (!shade.empty() && shade != "texture")
-    throw UsageError("--texture " + texture + " conflicts with --shade " + shade);
+    throw UsageError("--texture " + texture + " needs --shade texture, not --shade " + shade);
   return "texture";
 }
 

@@ -157,7 +157,7 @@ Config CommonOptions::config() const {
     else if (const std::optional<int> number = toml_integer(value))
       result.set(key, *number);
     else
-      throw UsageError("--set " + key + ": \"" + value + "\" is not a whole number in range");
+      throw UsageError("--set " + key + ": expected a TOML integer in range, not \"" + value + "\"");
     if (const std::string note = Config::note(key); !note.empty()) notes.push_back(note);
   }
   result.validate();

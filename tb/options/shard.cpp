@@ -27,10 +27,7 @@ void ShardOptions::add_to(CLI::App& app, const std::string& what, const std::str
   constexpr const char* group = "Shards";
   CLI::Option* one = app.add_option("--shard", shard, "Part I (from 0) of N of " + what)->type_name("I/N");
   one->group(group);
-  app.add_option("--merge", merge, "Join shards: " + part + "; the bytes equal one run's")
-      ->type_name("PART")
-      ->group(group)
-      ->excludes(one);
+  app.add_option("--merge", merge, "Join shards: " + part)->type_name("PART")->group(group)->excludes(one);
 }
 
 std::vector<std::string> without_outputs(std::span<const std::string> arguments) {

@@ -530,8 +530,7 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
                "\nWrites sheet.png (a column per method), METHOD.exr, table.json, table.csv and table.md. A crease is "
                "the largest change of an attribute's slope across a quad's diagonal (tb/studies/compare/README.md).",
            "0 done; 2 usage or input error; 3 missing tool",
-           {"compare --scene fig10_convex --out fig10",
-            "compare --scene phong_mesh --methods split02,mvc --wireframe --out fig11",
+           {"compare --scene fig10_convex --out fig10", "compare --scene phong_mesh --methods split02,mvc --out fig11",
             "compare --mesh spot.obj --shade uv --plot --out spot"});
   const auto options = std::make_shared<CompareOptions>();
   options->input.add_to(*command);
