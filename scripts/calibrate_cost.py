@@ -1,19 +1,21 @@
 #!/usr/bin/python3
-"""Fit of the hardware cost's weights (golden/analysis/hardware_cost.hpp) to synthesis of the RTL.
+"""Fits the weights of the hardware cost to synthesis.
 
-golden/analysis/synthesised.csv has the sizes that scripts/size.py gave for a list of configurations, for each target. Rows marked `fit`
-are fitted, rows marked `check` are not. LUTs = sum of weight * bits (not negative, no constant, least relative squares). Multipliers are
-logic or DSP blocks; DSP blocks and block RAMs are counted, not fitted. Prints the weights, the residuals, and the rank correlation of
-estimates for rows that the fit has not seen: each fitted row by a fit to the others, and the rows to check.
+  scripts/calibrate_cost.py --target ecp5-nodsp
+  scripts/calibrate_cost.py --check
+  scripts/calibrate_cost.py --synthesise --target ecp5      minutes per row
 
-  scripts/calibrate_cost.py                        fits the recorded figures: seconds
-  scripts/calibrate_cost.py --target ecp5-nodsp    with multipliers in logic
-  scripts/calibrate_cost.py --check                also fails where the program's weights are not this fit, a count of blocks is wrong, or a
-                                                   rank correlation is below 0.95
-  scripts/calibrate_cost.py --synthesise --target ecp5    measures the figures of a target again with Yosys: minutes each
+golden/analysis/synthesised.csv has sizes by scripts/size.py. Rows `fit` are
+fitted, rows `check` are not. LUTs = sum of weight * bits (not negative, no
+constant, least relative squares). DSP blocks and block RAMs are counted.
 
-The fitted weights are printed as the table [cost] of a configuration file. Exit status: 1 a check or a synthesis failed, 2 usage or
-input, 3 a missing tool."""
+Prints the weights as the table [cost] of a configuration file, the residuals,
+and the rank correlation on rows outside the fit (each `fit` row by a fit to the
+others, and the `check` rows).
+
+Exit status: 0 done, 1 check or synthesis failed, 2 usage or input error,
+3 missing tool.
+"""
 import csv
 import itertools
 import json
@@ -47,11 +49,11 @@ GOOD_RANK = 0.95
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("--target", choices=FITTED, help="default: each of which there are figures")
-    parser.add_argument("--figures", default=FIGURES, metavar="FILE", help="default: %(default)s")
-    parser.add_argument("--check", action="store_true", help="compare with the program's weights and demand good ranks")
-    parser.add_argument("--synthesise", action="store_true", help="make the figures of --target (or all) anew first")
-    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program")
+    parser.add_argument("--target", choices=FITTED, help="only this target (default: all measured)")
+    parser.add_argument("--figures", default=FIGURES, metavar="FILE", help="measured sizes (default: golden/analysis/synthesised.csv)")
+    parser.add_argument("--check", action="store_true", help="fail if the program's weights differ, a count is wrong or a rank correlation is below 0.95")
+    parser.add_argument("--synthesise", action="store_true", help="first measure --target (or all) again")
+    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="program (default: build/release/quadrille)")
     args = parser.parse_args()
     try:
         if args.synthesise:

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Draws plot.json of `quadrille compare --plot`: error against run time, and error against triangles set up.
+"""Plots plot.json of `quadrille compare --plot`: error against time and triangles.
 
-  scripts/compare_plot.py DIR/plot.json [OUTDIR]      writes plot_time.png and plot_setup.png to OUTDIR (default: beside it)
+  scripts/compare_plot.py DIR/plot.json [OUTDIR]
 
-Times are shown as multiples of the time of `mvc` in the same run. Exit status: 0 done, 2 usage, input or output error, 3 a Python package
-is missing.
-Needs Debian's python3-matplotlib.
+Writes plot_time.png and plot_setup.png to OUTDIR (default: beside plot.json).
+Times are multiples of the time of `mvc` in the same run.
+
+Exit status: 0 done, 2 usage, input or output error, 3 missing Python package
+(python3-matplotlib).
 """
 import math
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Sets everything up and co-simulates RTL and model on a scene, with a picture to look at.
-#   scripts/cosim.sh                    the default scene
-#   scripts/cosim.sh --scene fig8_behind --stall 0.5 …   any options of `quadrille cosim`
+# Installs packages, builds, and co-simulates RTL and model; build/cosim.png is the picture.
+#   scripts/cosim.sh
+#   scripts/cosim.sh --scene fig8_behind --stall 0.5      options of `quadrille cosim`
+# Exit status: that of `quadrille cosim`.
 set -euo pipefail
 caller=$PWD
 source "$(dirname "$0")/setup.sh"

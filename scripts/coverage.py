@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Merges what a build for coverage counted and judges it: the second half of scripts/coverage.sh.
+"""Merges and judges the counts of a coverage build, for scripts/coverage.sh.
 
-  scripts/coverage.py BUILD_DIRECTORY RTL_COUNTS [--out DIR] [--exceptions FILE] [--list N]
+  scripts/coverage.py BUILD_DIRECTORY RTL_COUNTS [--out DIR]
 
-BUILD_DIRECTORY has gcov's notes and counters, RTL_COUNTS the files that the simulators wrote (Verilator's coverage points, one file for each device).
-DIR (default BUILD_DIRECTORY/coverage) gets coverage.json. What counts as covered, the floors and the list of exceptions are
-described in scripts/README.md. Exit status: 0 floors held and exceptions right, 1 not, 2 usage or input error, 3 gcov is missing.
+BUILD_DIRECTORY has gcov's notes and counters. RTL_COUNTS has Verilator's
+coverage points, one file per device. DIR (default: BUILD_DIRECTORY/coverage)
+gets coverage.json. Floors and exceptions: scripts/README.md.
+
+Exit status: 0 floors held and exceptions valid, 1 not, 2 usage or input error,
+3 missing gcov.
 """
 import collections
 import concurrent.futures
@@ -118,7 +121,7 @@ class Verilator:
         fields = dict(field.split("\2", 1) for field in record[3:-1].split("\1")[1:] if "\2" in field)
         page = fields.get("page", "").partition("/")[0]
         if not record.startswith("C '") or page not in ("v_line", "v_branch", "v_toggle") or not {"f", "l", "o"} <= set(fields):
-            raise InputError(f"none of Verilator's coverage: {record[:80]!r}")
+            raise InputError(f"not a coverage record of Verilator: {record[:80]!r}")
         path = os.path.relpath(os.path.realpath(fields["f"]), self.root)
         if not judged(path):
             return []
@@ -180,7 +183,7 @@ def read_exceptions(path):
         what = [key for key in ("text", "signal", "whole") if key in entry]
         unknown = set(entry) - {"file", "why", "text", "signal", "bits", "whole"}
         if len(what) != 1 or unknown or not entry.get("file") or not entry.get("why") or ("bits" in entry and "signal" not in entry):
-            raise InputError(f"{path}: an exception has file, why and one of text, signal (and bits), whole: {entry}")
+            raise InputError(f"{path}: expected an exception with file, why and one of text, signal (and bits), whole: {entry}")
     return entries
 
 
@@ -350,11 +353,11 @@ def judge(counts, root, exceptions, out, most=40):
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("build")
-    parser.add_argument("rtl_counts")
-    parser.add_argument("--out")
-    parser.add_argument("--exceptions", default=EXCEPTIONS)
-    parser.add_argument("--list", type=int, default=40, metavar="N", help="signals to name for each file (default 40)")
+    parser.add_argument("build", metavar="BUILD_DIRECTORY", help="gcov's notes and counters")
+    parser.add_argument("rtl_counts", metavar="RTL_COUNTS", help="Verilator's coverage points")
+    parser.add_argument("--out", metavar="DIR", help="folder of coverage.json")
+    parser.add_argument("--exceptions", metavar="FILE", default=EXCEPTIONS, help="default: scripts/coverage.toml")
+    parser.add_argument("--list", type=int, default=40, metavar="N", help="signals named per file (default: 40)")
     arguments = parser.parse_args()
     if shutil.which("gcov") is None:
         raise MissingTool("gcov is missing; on Debian: apt-get install g++")

@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# Builds with counters, runs tests, merges the counts of gcov and Verilator and compares them with floors (scripts/README.md, Coverage).
-#   scripts/coverage.sh            lines and branches of model, golden and RTL, toggles of the RTL; 45 minutes
-#   scripts/coverage.sh --judge    judges the last run's counts again, after a change of coverage.toml
-# build/coverage/coverage/coverage.json has what is printed.
-# Exit status: 0 floors held and exceptions right, 1 not, or a test failed, 2 usage, 3 a tool is missing.
+# Coverage by the tests, against floors (scripts/README.md).
+#   scripts/coverage.sh            builds, runs, judges: 45 minutes
+#   scripts/coverage.sh --judge    judges the last run's counts again
+# Writes build/coverage/coverage/coverage.json.
+# Exit status: 0 floors held and exceptions valid, 1 not, or a test failed,
+# 2 usage error, 3 missing tool.
 set -euo pipefail
 case "${1:-}" in
   "" | --judge) ;;
   -h | --help) sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;;
-  *) echo "coverage.sh: no option $1 (--help)" >&2; exit 2 ;;
+  *) echo "coverage.sh: unknown option $1; --help lists them" >&2; exit 2 ;;
 esac
 source "$(dirname "$0")/setup.sh"
 folder=$root/build/coverage

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""Renders the figures of the papers with `quadrille compare`, with a page that says what each shows.
+"""Renders the figures of the papers with `quadrille compare`, and a page of them.
 
-  scripts/figures.py                                every figure of scripts/figures.toml into build/figures
-  scripts/figures.py --only oliveira13 bloomenthal9 these alone, also on the page
-  scripts/figures.py --quadrille PATH --out DIR     another program, another folder
+  scripts/figures.py
+  scripts/figures.py --only oliveira13 bloomenthal9
+  scripts/figures.py --quadrille PATH --out DIR
 
-Writes DIR/index.html and, for every figure and sheet, DIR/FIGURE/SHEET/ as `quadrille compare` does, without the EXR files. Sheets
-are drawn aside and moved into place when all of them are done, the page last. Exit status: 0 done, 1 a command failed, 2 usage or
-input error; DIR keeps what it had then.
+Writes DIR/index.html and DIR/FIGURE/SHEET/ for every figure of figures.toml.
+After a failure DIR keeps its former contents.
+
+Exit status: 0 done, 1 a command failed, 2 usage or input error.
 """
 import argparse
 import json
@@ -218,11 +219,11 @@ def size_of(argument):
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("--quadrille", metavar="PATH", default=PROGRAM, help="the program")
-    parser.add_argument("--out", metavar="DIR", default=OUT, help="default build/figures, installed ./figures")
-    parser.add_argument("--only", metavar="NAME", nargs="+", action="extend", default=[], help="figures, by their names in figures.toml")
-    parser.add_argument("--size", metavar="WxH", type=size_of, default="512x512", help="viewport in pixels, default 512x512")
-    parser.add_argument("--keep-exr", action="store_true", help="keep METHOD.exr of every sheet, 7 MB each at 512x512")
+    parser.add_argument("--quadrille", metavar="PATH", default=PROGRAM, help="program (default: build/release/quadrille)")
+    parser.add_argument("--out", metavar="DIR", default=OUT, help="folder of the page (default: build/figures; installed: ./figures)")
+    parser.add_argument("--only", metavar="NAME", nargs="+", action="extend", default=[], help="figures, by their names in figures.toml (default: all)")
+    parser.add_argument("--size", metavar="WxH", type=size_of, default="512x512", help="viewport in pixels (default: 512x512)")
+    parser.add_argument("--keep-exr", action="store_true", help="keep METHOD.exr of every sheet (7 MB each at 512x512)")
     args = parser.parse_args()
     papers, figures = read_table()
     figures = chosen(figures, args.only)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Sets everything up and renders every figure of the papers into build/figures, with index.html to look at.
-#   scripts/figures.sh                       all figures
-#   scripts/figures.sh --only oliveira13 …   any options of scripts/figures.py
+# Sets up and renders every figure of the papers; build/figures/index.html shows them.
+#   scripts/figures.sh
+#   scripts/figures.sh --only oliveira13       options of scripts/figures.py
 set -euo pipefail
 caller=$PWD
 source "$(dirname "$0")/setup.sh"

@@ -82,7 +82,7 @@ class Table(unittest.TestCase):
                 self.assertIn(source, {paper_of[sheet.scene] for sheet in figure.sheet}, figure.name)
 
     def test_the_program_knows_every_method(self):
-        listing = quadrille("compare", "--help").split("Methods (--methods", 1)[1].split("\n\n", 1)[0]
+        listing = quadrille("compare", "--help").split("Methods,", 1)[1].split("\n\n", 1)[0]
         known = set(re.findall(r"^  ([a-z]\w*) ", listing, re.MULTILINE))
         self.assertIn("mvc", known)
         used = {method.split(":")[0] for figure in self.figures for sheet in figure.sheet for method in sheet.methods}

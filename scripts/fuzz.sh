@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Sets everything up and fuzzes the readers of files, and the machine with any four vertices, under Clang's libFuzzer with
-# AddressSanitizer and UndefinedBehaviorSanitizer. The corpus stays in build/fuzz_corpus for later runs.
-#   scripts/fuzz.sh --hours 2                  all targets in turn, two hours in all
-#   scripts/fuzz.sh --seconds 60 any_quad obj  these alone; tb/verify/fuzz/README.md lists them
-# Options: --seed N (default 1), --jobs N processes per target (default: one per processor).
-# Exit status: 1 a target failed, its input is named; 2 usage; 3 a missing package.
+# Fuzzes file readers and the machine (libFuzzer, ASan, UBSan).
+#   scripts/fuzz.sh --hours 2                  all targets in turn
+#   scripts/fuzz.sh --seconds 60 any_quad obj  targets of tb/verify/fuzz/README.md
+# --seed N (default: 1), --jobs N processes per target (default: processors).
+# The corpus is kept in build/fuzz_corpus.
+# Exit status: 0 done, 1 a target failed (its input is named), 2 usage error,
+# 3 missing package.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
 
@@ -13,10 +14,10 @@ known=$(sed -n 's/^  foreach(target \(.*\))$/\1/p' tb/verify/fuzz/CMakeLists.txt
 seconds="" seed=1 jobs=$(nproc) targets=()
 while [ $# -gt 0 ]; do
   case "$1" in
-    --help | -h) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    --help | -h) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
     --hours | --seconds | --seed | --jobs)
-      [[ ${2:-} =~ ^[0-9]+([.][0-9]+)?$ ]] || usage "$1 '${2:-}': a number is expected"
-      [[ $1 = --hours || $2 =~ ^[0-9]+$ ]] || usage "$1 $2: a whole number is expected"
+      [[ ${2:-} =~ ^[0-9]+([.][0-9]+)?$ ]] || usage "$1 '${2:-}': expected a number"
+      [[ $1 = --hours || $2 =~ ^[0-9]+$ ]] || usage "$1 $2: expected a whole number"
       case "$1" in
         --hours) seconds=$(awk "BEGIN { print int(3600 * $2) }") ;;
         --seconds) seconds=$2 ;;
@@ -26,12 +27,12 @@ while [ $# -gt 0 ]; do
       shift 2 ;;
     -*) usage "unknown option $1; --help lists them" ;;
     *)
-      [[ " $known " == *" $1 "* ]] || usage "unknown target '$1'; there are $known"
+      [[ " $known " == *" $1 "* ]] || usage "unknown target '$1'; expected one of $known"
       targets+=("$1")
       shift ;;
   esac
 done
-[ -n "$seconds" ] || usage "--hours or --seconds says how long"
+[ -n "$seconds" ] || usage "expected --hours or --seconds"
 [ ${#targets[@]} -gt 0 ] || read -ra targets <<<"$known"
 each=$((seconds / ${#targets[@]}))
 [ "$each" -gt 0 ] && [ "$jobs" -gt 0 ] || usage "$seconds s for ${#targets[@]} targets in $jobs processes: at least a second for each is expected"

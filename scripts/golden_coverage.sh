@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Lists branches of the model's stage functions that no vector of a level of the golden stage suites takes.
+# Lists branches of the model's stages that no golden vector takes.
 #   scripts/golden_coverage.sh [LEVEL]
-# Builds the model with gcov's counters in build/golden_coverage and generates for the default configuration. Branches of
-# exceptions are left out. Branches that no vector can take are listed with the reason. Exit status: 1 if another branch
-# was never taken.
+# Builds in build/golden_coverage, default configuration. Branches of exceptions
+# do not count; unreachable ones are listed with the reason.
+# Exit status: 0 all others taken, 1 not.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 level=${1:-1}

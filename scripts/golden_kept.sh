@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Checks the kept golden vectors (golden/vectors/kept): generating them again gives the same bytes; the model, floating point and the
-# RTL under two simulators agree with them; golden/CHANGELOG.md has a line with a larger version for a change.
+# Checks the kept golden vectors (golden/vectors/kept): same bytes when generated
+# again; model, float and RTL agree; golden/CHANGELOG.md has a new version.
 #   scripts/golden_kept.sh PATH_TO_QUADRILLE [--update | --quick | --default]
-# --update replaces the set; then add the line that the script asks for. --quick and --default are for tiers of tests: without simulators,
-# and with one for each suite, Verilator for the machine's.
+# --update replaces the set; then add the line that the script names.
+# --quick: no simulators; --default: one per suite; otherwise both.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export QUADRILLE

@@ -1,28 +1,29 @@
 #!/usr/bin/env bash
-# Puts the generated faults of RTL and model through the checks (tb/verify/faults/README.md). One build has them all, selected at run
-# time. Prints which check sees how many, and each survivor with file, line and change.
-#   scripts/mutate.sh                   all 330
-#   scripts/mutate.sh --count N         so many, drawn by the seed, half of them in the RTL
-#   scripts/mutate.sh --seed S          another draw
-#   scripts/mutate.sh --file F          those of one file
-#   scripts/mutate.sh --class C         those of one class: operator constant width sign index enable reset priority comparison
-#   scripts/mutate.sh --jobs J          so many at a time (default: one per processor)
-#   scripts/mutate.sh --json FILE       keeps the results; after a stop the same command resumes (folder FILE.part)
-#   scripts/mutate.sh --shard I/N --json PART      every N-th mutant, on one of N machines
-#   scripts/mutate.sh --record          tries every check in turn and writes what saw each to tb/verify/faults/caught_by.json
-#   tb/verify/faults/report_mutants.py --from PART… --json FILE      merges kept results and prints the table
-# Exit status: 0 each is seen by a check or argued equivalent, 1 not, 2 usage, 3 a tool is missing.
+# Runs generated mutants of RTL and model through the checks
+# (tb/verify/faults/README.md). Prints how many each check sees, and survivors.
+#   scripts/mutate.sh --count 20
+#   scripts/mutate.sh --json FILE       after a stop the same command resumes
+#   tb/verify/faults/report_mutants.py --from PART… --json FILE
+# Options (default: all mutants):
+#   --count N, --seed S   N mutants drawn by the seed, half of them in the RTL
+#   --file F, --class C   those of a file; of a class (operator constant width
+#                         sign index enable reset priority comparison)
+#   --shard I/N           every N-th mutant
+#   --jobs J              parallel mutants (default: processors)
+#   --record              every check; writes tb/verify/faults/caught_by.json
+# Exit status: 0 all seen or argued equivalent, 1 not, 2 usage error,
+# 3 missing tool.
 set -euo pipefail
 case "${1:-}" in -h | --help) sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;; esac
 caller=$PWD
 report=()
 while [ $# -gt 0 ]; do
   if [ "$1" = --record ]; then report+=("$1"); shift; continue; fi
-  [ $# -ge 2 ] || { echo "mutate.sh: $1 needs a value, or is no option (--help)" >&2; exit 2; }
+  [ $# -ge 2 ] || { echo "mutate.sh: $1: unknown option or no value; --help lists options" >&2; exit 2; }
   case $1 in
     --json) case $2 in /*) report+=("$1" "$2") ;; *) report+=("$1" "$caller/$2") ;; esac ;;
     --count | --seed | --file | --class | --jobs | --shard) report+=("$1" "$2") ;;
-    *) echo "mutate.sh: no option $1 (--help)" >&2; exit 2 ;;
+    *) echo "mutate.sh: unknown option $1; --help lists options" >&2; exit 2 ;;
   esac
   shift 2
 done

@@ -1,11 +1,16 @@
 #!/usr/bin/python3
-"""Draws the JSON of `quadrille bench --peers`: the model beside the papers' fp32 shader.
+"""Plots the JSON of `quadrille bench --peers`: the model against the fp32 shader.
 
-  scripts/peers_plot.py peers.json [DIR]      writes peers_error.png, peers_size.png and peers_number.png to DIR (default: beside it)
+  scripts/peers_plot.py peers.json [DIR]
 
-peers_error: largest error of a weight against time per fragment. peers_size: cost of a fragment over the pixels of a quad. peers_number:
-cost of a fragment over the number of quads. All axes are logarithmic; numbers beside the lines are slopes. Exit status: 0 done, 2
-usage, input or output error, 3 a Python package is missing. Needs Debian's python3-matplotlib.
+Writes to DIR (default: beside the JSON), all axes logarithmic:
+  peers_error.png   largest weight error against time per fragment
+  peers_size.png    time per fragment against pixels per quad
+  peers_number.png  time per fragment against number of quads
+Numbers beside the lines are slopes.
+
+Exit status: 0 done, 2 usage, input or output error, 3 missing Python package
+(python3-matplotlib).
 """
 import math
 

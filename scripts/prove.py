@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
-"""Proves properties of the RTL with Yosys' SMT back end and z3. Prints a line for each proof of tb/verify/formal/proofs.toml.
+"""Proves properties of the RTL with Yosys and z3, a line per proof of proofs.toml.
 
-    scripts/prove.py [--only NAME]... [--tier default] [--list]
-    scripts/prove.py --faults [--only NAME]... [--tier default] [--count N] [--record FAULT]...
+  scripts/prove.py --tier default
+  scripts/prove.py --only NAME
+  scripts/prove.py --faults --count N
 
 Kinds of proof (tb/verify/formal/README.md):
-  induction  holds always: for `depth` clocks from reset, and in the clock after any `depth` clocks in which it held
-  pipeline   holds always: `depth` clocks after any contents of all registers, when these have left
-  bounded    holds for `depth` clocks from reset
-In the tier all an induction with `bounded` is also run for that many clocks from reset.
+  induction  always: `depth` clocks from reset, then one clock more by induction
+  pipeline   always: `depth` clocks after any register contents
+  bounded    `depth` clocks from reset
+With --tier all, an induction with `bounded` also runs for that many clocks.
 
---faults: each fault of the registry (tb/verify/faults/faults.py) that a proof is recorded to find is put into a copy of the RTL. It must give a
-counterexample that starts from reset (pipeline: from any contents). --count: so many faults, drawn by $QUADRILLE_TEST_SEED. --record FAULT: tries
-this fault with each proof of its files and records those that find it.
-Exit status: 0 all proved (all faults found), 1 not, 2 usage, 3 a tool is missing."""
+--faults puts each recorded fault (tb/verify/faults/faults.py) into a copy of
+the RTL. The proof must then give a counterexample.
+
+Exit status: 0 all proved or all faults found, 1 not, 2 usage error,
+3 missing tool.
+"""
 import argparse
 import concurrent.futures
 import os
@@ -181,14 +184,14 @@ def attempt(task):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--list", action="store_true", help="what is proved, without proving it")
-    parser.add_argument("--only", action="append", metavar="NAME", help="this proof; may be repeated")
-    parser.add_argument("--tier", choices=("default", "all"), default="all", help="default: the proofs of seconds")
-    parser.add_argument("--faults", action="store_true", help="the faults instead of the proofs")
-    parser.add_argument("--count", type=int, default=0, metavar="N", help="so many faults")
-    parser.add_argument("--record", action="append", default=[], metavar="FAULT", help="this fault; may be repeated")
-    parser.add_argument("--limit", type=int, default=900, metavar="SECONDS", help="of wall clock for a run of a tool (900)")
-    parser.add_argument("-j", "--jobs", type=int, default=1, metavar="N", help="at once (1)")
+    parser.add_argument("--list", action="store_true", help="only list the proofs")
+    parser.add_argument("--only", action="append", metavar="NAME", help="only this proof; repeatable")
+    parser.add_argument("--tier", choices=("default", "all"), default="all", help="default tier: proofs that take seconds (default: all)")
+    parser.add_argument("--faults", action="store_true", help="check recorded faults instead of proofs")
+    parser.add_argument("--count", type=int, default=0, metavar="N", help="number of faults, drawn by $QUADRILLE_TEST_SEED (default: all)")
+    parser.add_argument("--record", action="append", default=[], metavar="FAULT", help="record the proofs that find this fault; repeatable")
+    parser.add_argument("--limit", type=int, default=900, metavar="SECONDS", help="wall clock per run of a tool (default: 900)")
+    parser.add_argument("-j", "--jobs", type=int, default=1, metavar="N", help="parallel proofs (default: 1)")
     args = parser.parse_args()
     proofs = [proof for proof in load() if args.tier == "all" or proof.get("tier") == "default"]
     if args.only:

@@ -201,7 +201,7 @@ expect 1 "reciprocal: no vectors" "the bench itself, without vectors" \
   vvp -N "$work/stage" +suite=reciprocal +stimulus="$set/reciprocal/stimulus.hex" +response="$set/reciprocal/response.hex" +vectors=0
 
 # ---- Through golden verify: damage with right hashes ----
-expect 1 "^quadrille: no vector was compared" "verify: only a suite without RTL" "$QUADRILLE" golden verify "$set" --engine rtl --suite snapping
+expect 1 "^quadrille: no vectors compared" "verify: only a suite without RTL" "$QUADRILLE" golden verify "$set" --engine rtl --suite snapping
 damage sqrt 'flip("response.hex", 2, 0); sign()'
 expect 1 "^sqrt: [0-9]+ vectors, 1 mismatches" "verify: a bit of a response" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite sqrt
 damage $machine 'lines = read("response.hex"); write("response.hex", lines + lines[-1:]); sign(vectors=len(lines) + 1)'

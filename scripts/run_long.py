@@ -1,18 +1,23 @@
 #!/usr/bin/env python3
-"""Long work in numbered units, each of which follows from a plan and its number. After a stop the same command resumes.
+"""Long work in numbered units of a plan. After a stop the same command resumes.
 
-  scripts/run_long.py PLAN --out DIR                  every unit; PLAN --help has the plan's own options
-  scripts/run_long.py PLAN --shard 0/4 --out A        every fourth unit; the others elsewhere, or in the same folder
-  scripts/run_long.py PLAN --merge A B C D --out W    the bytes of one run, times aside
-  scripts/run_long.py PLAN --status A B C D           sums of shards, or of runs of any seeds; writes nothing
+  scripts/run_long.py PLAN --out DIR
+  scripts/run_long.py PLAN --shard 0/4 --out A
+  scripts/run_long.py PLAN --merge A B C D --out W      the bytes of one run
+  scripts/run_long.py PLAN --status A B C D             sums; writes nothing
 
-PLAN is a TOML file, or the name of one in scripts/plans/. DIR/plan.json holds the plan; a run with another plan is refused.
-DIR/units/00000042.json is the result of one unit, there whole or not at all; DIR/times.jsonl has seconds.
+PLAN is a TOML file or a name in scripts/plans/; PLAN --help has its options.
+  DIR/plan.json             the plan; another plan is refused
+  DIR/units/00000042.json   result of a unit, complete or absent
+  DIR/times.jsonl           seconds per unit
 
-SIGTERM, SIGINT and SIGHUP end the running units at once; these are lost, finished units are kept. A crash of the program in a unit is kept
-as a fault. A unit killed from outside (SIGKILL: out of memory) is reported and rerun by the next run.
+SIGTERM, SIGINT and SIGHUP stop the running units; finished units are kept. A
+crash of the program is kept as a fault of its unit. A unit killed from outside
+is reported and rerun.
 
-Exit status: 0 all agreed; 1 a fault, a lost unit, or less was compared than is promised; 2 bad input; 3 a missing tool; 130 stopped."""
+Exit status: 0 no fault, 1 a fault, a lost unit or too little compared, 2 usage
+or input error, 3 missing tool, 130 stopped.
+"""
 import argparse
 import concurrent.futures
 import contextlib
@@ -25,6 +30,7 @@ import pathlib
 import re
 import sys
 import tempfile
+import textwrap
 import time
 import tomllib
 
@@ -273,27 +279,27 @@ def work_on(work, units):
 
 def common_options(parser, table):
     parser.add_argument("--out", metavar="DIR", help="folder of the run (default: %(default)s)", default=table.get("out") and os.path.join(ROOT, table["out"]))
-    parser.add_argument("--shard", type=shard, default=(0, 1), metavar="I/N", help="units I, I + N, … alone, 0 <= I < N")
-    parser.add_argument("--jobs", type=int, default=table.get("jobs") or processors(), help="units at a time (default: %(default)s)")
-    parser.add_argument("--hours", type=float, help="end after so many, each unit begun being finished")
-    parser.add_argument("--units", type=int, metavar="N", help="end when the first N units are done")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--merge", nargs="+", metavar="DIR", help="put shards together into --out")
-    parser.add_argument("--status", nargs="+", metavar="DIR", help="only report on a run, its shards, or several runs together; writes nothing")
-    parser.add_argument("--quadrille", default=PROGRAM, help="the program")
+    parser.add_argument("--shard", type=shard, default=(0, 1), metavar="I/N", help="only units I, I + N, …; 0 <= I < N")
+    parser.add_argument("--jobs", type=int, metavar="N", default=table.get("jobs") or processors(), help="parallel units (default: %(default)s)")
+    parser.add_argument("--hours", type=float, metavar="H", help="stop after this time; running units finish")
+    parser.add_argument("--units", type=int, metavar="N", help="stop after the first N units")
+    parser.add_argument("--seed", type=int, default=1, help="seed of all random choices (default: 1)")
+    parser.add_argument("--merge", nargs="+", metavar="DIR", help="join shards into --out")
+    parser.add_argument("--status", nargs="+", metavar="DIR", help="only report sums of runs or shards")
+    parser.add_argument("--quadrille", metavar="PATH", default=PROGRAM, help="program (default: build/release/quadrille)")
 
 
 def check_options(parser, args, table):
     for name, least in (("jobs", 1), ("units", 1), ("limit", 1), ("machines", 0), ("parts", 1)):
         if (value := getattr(args, name, None)) is not None and value < least:
-            parser.error(f"--{name} {value}: at least {least} is expected")
+            parser.error(f"--{name} {value}: expected at least {least}")
     if args.hours is not None and not args.hours > 0:
-        parser.error(f"--hours {args.hours}: more than 0 is expected")
+        parser.error(f"--hours {args.hours}: expected more than 0")
     if args.status is None and args.merge is None:
         if not os.access(args.quadrille, os.X_OK):
-            parser.error(f"--quadrille {args.quadrille}: no such program; scripts/setup.sh builds it")
+            parser.error(f"--quadrille {args.quadrille}: not found; scripts/setup.sh builds it")
         if table.get("endless") and args.hours is None and args.units is None:
-            parser.error("--hours or --units says how long; or --status DIR, or --merge DIR… --out DIR")
+            parser.error("expected --hours or --units, --status DIR, or --merge DIR… --out DIR")
     if args.merge and args.out == parser.get_default("out") or args.shard[1] > 1 and args.out is None:
         parser.error("--shard and --merge need a folder: --out DIR")
 
@@ -303,7 +309,7 @@ def read_plan(name):
     try:
         return {"name": path.stem} | tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, tomllib.TOMLDecodeError) as error:
-        sys.exit(f"{path}: {error}; a plan is expected, such as those in {PLANS}")
+        sys.exit(f"{path}: {error}; expected a plan such as those in {PLANS}")
 
 
 def do(work):
@@ -328,14 +334,14 @@ def do(work):
         print(f"{work.table['name']}: {error}", file=sys.stderr)
         return error.status
     except Stopped:
-        print("stopped" + ("; what was done is kept, the same command goes on" if args.out else ""), file=sys.stderr)
+        print("stopped" + ("; finished units are kept, the same command resumes" if args.out else ""), file=sys.stderr)
         return 130
 
 
 def main(name, arguments):
     table = read_plan(name)
     kind = importlib.import_module(table["kind"]).Kind
-    parser = options(f"{table['about']}\n\n{__doc__}", prog=table["name"])
+    parser = options(f"{textwrap.fill(table['about'], 80)}\n\n{__doc__}", prog=table["name"])
     common_options(parser, table)
     kind.options(parser, table)
     args = parser.parse_args(arguments)

@@ -316,7 +316,7 @@ class Parts(WithStub):
             self.assertEqual((self.folder / out / "0").stat().st_mtime_ns, before)
             self.assertEqual(self.files("one"), self.files(out))
         (self.folder / "other/1").mkdir(parents=True)
-        self.assertIn("is no part of this run", self.run_plan("other", status=2).stderr)
+        self.assertIn("is not of this run", self.run_plan("other", status=2).stderr)
         shutil.rmtree(self.folder / "one/1")  # wanted anew
         self.run_plan("one")
         self.assertEqual(self.files("one"), self.files("out2"))

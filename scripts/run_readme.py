@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Runs the blocks of the Markdown pages that are marked `sh`, in a fresh clone, in the order in which they stand.
+"""Runs the blocks marked `sh` of the pages, in order, in a fresh clone.
 
   scripts/run_readme.py BUILD-FOLDER [README...] --left-out N
 
-Without names: every README.md of the tree, and the three starts that the top one names (PAGES). Each has a clone and
-a shell of its own, from the clone's top folder.
-In a block with a `$ ` in front of a line only such lines are commands; the others are what they print.
-A comment before a block says what is done in its place:
-  <!-- long: COMMAND -->   more than 60 s: COMMAND, with smaller parameters, is run
-  <!-- not run: REASON -->   nothing
-The clone has the working tree as it is. Its build folder has links to what BUILD-FOLDER has, so that nothing is
-compiled twice; scripts/setup.sh takes a program that is a link as built. N is the number of commands that are not run.
+Without names: every README.md and the three starts (PAGES). Each page has its
+own clone and shell. In a block with `$ ` lines, only these
+are commands; the others are output. A comment before a block:
+  <!-- long: COMMAND -->    over 60 s; runs the smaller COMMAND instead
+  <!-- not run: REASON -->  runs nothing
+The clone has the working tree; its build folder links to BUILD-FOLDER.
+
+Exit status: 0 done, 1 a command failed or another number was left out, 2 usage
+error.
 """
 import argparse
 import os
@@ -117,11 +118,11 @@ def run_commands(readme, commands, folder, log):
 def main():
     parser = argparse.ArgumentParser(prog="run_readme.py", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("build", metavar="BUILD-FOLDER", type=pathlib.Path, help="has the program quadrille")
+    parser.add_argument("build", metavar="BUILD-FOLDER", type=pathlib.Path, help="folder of the program quadrille")
     parser.add_argument("readmes", metavar="README", nargs="*", type=pathlib.Path,
                         help="default: every README.md, and the three starts")
     parser.add_argument("--left-out", metavar="N", type=int, required=True,
-                        help="commands that are not run: as many as this, or the test fails")
+                        help="expected number of commands not run")
     options = parser.parse_args()
     build = options.build.resolve()
     if not (build / "quadrille").exists():
@@ -153,7 +154,7 @@ def main():
     if not ran:
         fail("no command was run")
     if len(left_out) != options.left_out:
-        fail(f"{len(left_out)} commands are not run; expected {options.left_out} (CMakeLists.txt)")
+        fail(f"{len(left_out)} commands not run; expected {options.left_out} (CMakeLists.txt)")
 
 
 if __name__ == "__main__":

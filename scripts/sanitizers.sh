@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds with sanitizers and runs tests in that build.
-#   scripts/sanitizers.sh            AddressSanitizer and UndefinedBehaviorSanitizer: the readers of files and the C interface, without AVX
-#   scripts/sanitizers.sh --full     the same with every test but those of mutants, Yosys and of the tree
-#   scripts/sanitizers.sh --thread   ThreadSanitizer: everything that runs threads
+#   scripts/sanitizers.sh            ASan, UBSan: file readers and C interface
+#   scripts/sanitizers.sh --full     all tests but mutants, Yosys and the tree
+#   scripts/sanitizers.sh --thread   ThreadSanitizer: all that uses threads
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=1

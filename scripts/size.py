@@ -1,12 +1,17 @@
 #!/usr/bin/env python3
-"""Size of the machine on a Lattice ECP5, by unit: Yosys' synth_ecp5, the units kept apart.
+"""Size of the machine on a Lattice ECP5, by unit.
 
-  scripts/size.py [KEY=VALUE ...]        configuration keys as for quadrille; minutes
-  scripts/size.py --target ecp5-nodsp    with multipliers in logic instead of DSP blocks
+  scripts/size.py significand_bits=24                    minutes
+  scripts/size.py --target ecp5-nodsp
 
-LUT counts LUT4 + 2 CCU2C (two bits of a carry chain each) + 6 DPR16X4 (16 words of four bits: four hold them, two go to the write
-port), DSP counts MULT18X18D, BRAM DP16KD. A row has every instance of its unit, with what they instantiate. The longest path is counted
-in cells: LUT4, CCU2C, a DSP, a read of a memory. Exit status: 1 synthesis failed, 2 usage, 3 no Yosys."""
+  LUT   LUT4 + 2 CCU2C (two carry bits) + 6 DPR16X4 (16 words of four bits)
+  DSP   MULT18X18D
+  BRAM  DP16KD
+A row counts all instances of a unit with their contents. The longest path is in
+cells: LUT4, CCU2C, DSP, memory read.
+
+Exit status: 0 done, 1 synthesis failed, 2 usage error, 3 missing Yosys.
+"""
 import tempfile
 
 from report import synthesis
@@ -19,7 +24,7 @@ JSON_NAMES = {"LUT": "luts", "FF": "flip_flops", "DSP": "dsps", "BRAM": "block_r
 def main():
     parser = options(__doc__)
     synthesis.add_arguments(parser)
-    parser.add_argument("--target", choices=TARGETS, default="ecp5")
+    parser.add_argument("--target", choices=TARGETS, default="ecp5", help="default: ecp5; ecp5-nodsp: multipliers in logic")
     args = parser.parse_intermixed_args()
     with tempfile.TemporaryDirectory() as work:
         rows, path = synthesis.ecp5(synthesis.Machine(args, work), TARGETS[args.target])

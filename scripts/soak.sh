@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Sets everything up and runs RTL and model in lockstep for hours. A later run continues in the same folder.
-#   scripts/soak.sh --hours 8        any options of scripts/soak.py (--help)
+# Sets up and runs RTL and model in lockstep for hours; a later run resumes.
+#   scripts/soak.sh --hours 8        options of scripts/soak.py
 set -euo pipefail
 caller=$PWD
 source "$(dirname "$0")/setup.sh"

@@ -1,14 +1,17 @@
 #!/usr/bin/python3
-"""Draws the JSON of `quadrille stress`: error against the knob, a panel for each family and approach, a page for each output.
+"""Plots the JSON of `quadrille stress`: error against knob, a panel per family.
 
-  scripts/stress_plot.py stress.json [DIR]      writes stress.png (weights), stress_attribute.png, stress_depth.png to DIR (default: beside it)
+  scripts/stress_plot.py stress.json [DIR]
 
-Both axes are logarithmic. The knob is a length (of a family its factor). Errors are the largest in units of the bound, from 2^-6 to 2^6;
-greater ones are arrows at the top, smaller ones arrows in the body's row below. An approach ends, after a gap, at its limit, the special
-case itself. Solid lines are one side of it, dashed lines the other. Lines with marks are of the pixels near the case, faint lines of all
-pixels on both sides. A row above for each body has crosses where it is undefined at some pixel and plus signs where it misses some, faint if
-only away from the case. Families whose knob changes nothing share a panel. Exit status: 0 done, 2 usage, input or output error, 3 a
-Python package is missing. Needs Debian's python3-matplotlib.
+Writes stress.png (weights), stress_attribute.png and stress_depth.png to DIR
+(default: beside the JSON). Axes are logarithmic; errors are the largest, in
+units of the bound. Arrows mark values off the axis.
+  solid, dashed  the two sides of an approach; its end is the special case
+  marked, faint  pixels near the case; all pixels
+  crosses, plus  undefined; missing (a row per body)
+
+Exit status: 0 done, 2 usage, input or output error, 3 missing Python package
+(python3-matplotlib).
 """
 import math
 

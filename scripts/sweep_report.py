@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""The report of a sweep: one HTML page that needs no network, and the same plots as PNG.
+"""Report of a sweep: one HTML page without network access, and its plots as PNG.
 
-  scripts/sweep_report.py DIR                       DIR as written by `quadrille sweep` (tb/sweep/README.md)
-  scripts/sweep_report.py DIR --bench bench.json    adds run times, from `quadrille bench --error --json bench.json`
-  scripts/sweep_report.py DIR --out OUTDIR          default DIR/report
+  scripts/sweep_report.py DIR
+  scripts/sweep_report.py DIR --bench bench.json --out OUTDIR
 
-The same input gives the same bytes. Exit status: 0 done, 2 usage or input error (nothing is written), 3 a Python package is missing.
-Needs Debian's python3-matplotlib and python3-plotly.
+DIR is the --out of `quadrille sweep`, bench.json of `quadrille bench --error`.
+The same input gives the same bytes.
+
+Exit status: 0 done, 2 usage or input error, 3 missing Python package
+(python3-matplotlib, python3-plotly).
 """
 import contextlib
 import os
@@ -174,9 +176,9 @@ def render(sweep, bench):
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("directory", metavar="DIR", help="what `quadrille sweep` wrote")
-    parser.add_argument("--bench", metavar="FILE", help="JSON of `quadrille bench --error`")
-    parser.add_argument("--out", metavar="OUTDIR", help="where the report goes (default: DIR/report)")
+    parser.add_argument("directory", metavar="DIR", help="--out of `quadrille sweep`")
+    parser.add_argument("--bench", metavar="FILE", help="JSON of `quadrille bench --error`; adds run times")
+    parser.add_argument("--out", metavar="OUTDIR", help="folder of the report (default: DIR/report)")
     args = parser.parse_args()
     out = args.out or os.path.join(args.directory, "report")
     with reading(args.bench, "`quadrille bench --error --json FILE`"):

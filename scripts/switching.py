@@ -1,17 +1,15 @@
 #!/usr/bin/env python3
-"""Counts the bits that switch in each unit of the RTL while it draws, with no skip and with skips.
-
-  scripts/switching.py [--quadrille PATH] [--skip LIST ...] [--json F.json] -- COSIM OPTIONS
+"""Counts bits that switch in each unit of the RTL, with no skip and with skips.
 
   scripts/switching.py -- --scene closed_mesh --size 64x64
-  scripts/switching.py --skip tiles --skip all -- --scene room --size 64x64 --limit-fragments 2000
+  scripts/switching.py --skip tiles --skip all -- --scene room --size 64x64
 
-Each run is a lockstep run with a waveform (`quadrille cosim --trace`), from the end of reset to its last clock. A bit that changes between
-two clocks is a toggle; the clock itself is not counted. Waveforms have every register and net that Verilator keeps. A bit toggles at most
-once a clock edge, so glitches are not counted, nor is capacitance. A net counts once, at the unit that drives it. Memories above 32 words
-are not in a waveform.
+Each run is a `quadrille cosim` with a waveform from reset to its last clock. A
+toggle is a bit that differs between two clocks. A net counts once, at the unit
+that drives it. Clocks, glitches and memories above 32 words are not counted.
 
-Exit status: 1 a run failed, 2 usage or input, 3 a missing tool."""
+Exit status: 0 done, 1 a run failed, 2 usage or input error, 3 missing tool.
+"""
 import json
 import os
 import re
@@ -28,14 +26,14 @@ READER = ("fstapi.c", "fastlz.c", "lz4.c")  # of Verilator
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program")
-    parser.add_argument("--skip", action="append", metavar="LIST", help="compared with none, as cosim takes it (default: all)")
-    parser.add_argument("--json", metavar="F.json", help="write the counts")
+    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="program (default: build/release/quadrille)")
+    parser.add_argument("--skip", action="append", metavar="LIST", help="skips to compare with none; repeatable (default: all)")
+    parser.add_argument("--json", metavar="F.json", help="JSON of the counts")
     parser.add_argument("cosim", nargs="+", metavar="OPTION", help="options of quadrille cosim, after --")
     args = parser.parse_args()
     for option in ("--skip", "--trace", "--json", "--no-alone", "--no-snapping-error", "--quiet"):
         if option in args.cosim:
-            parser.error(f"{option} is this script's own")
+            parser.error(f"{option} is set by this script; leave it out")
     runs = ["none", *(args.skip or ["all"])]
     with tempfile.TemporaryDirectory() as work:
         reader = build_reader(work)
@@ -105,7 +103,7 @@ def by_unit(lines):
         unit["toggles"] += int(toggles)
         unit["bits"] += int(bits)
     if not units:
-        raise InputError("the waveform has no machine in it")
+        raise InputError("no machine in the waveform")
     return units
 
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Sets everything up and runs a tier of the tests (scripts/README.md says what each covers):
+# Sets up and runs a tier of the tests (scripts/README.md):
 #   scripts/test.sh --quick     a minute once built
-#   scripts/test.sh             the default, also CI's: every area, 20 minutes from an empty clone
-#   scripts/test.sh --full      everything, about an hour
-# Times are aims on an idle 2-core machine. Other arguments go to ctest: scripts/test.sh -R Lockstep, scripts/test.sh -L model.
-# After a tier they narrow it: scripts/test.sh --quick -L model.
+#   scripts/test.sh             default tier, as in CI: 20 minutes
+#   scripts/test.sh --full      everything, an hour
+# Other arguments go to ctest, alone or after a tier: --quick -L model.
+# Exit status: 0 all passed, 1 not.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
 case "${1:-}" in

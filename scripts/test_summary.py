@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Summary of a run of the tests: the ten slowest entries, entries too near their time limit, skipped tests, and what only --full runs.
+"""Summary of a test run: slowest, near their time limit, skipped, only in --full.
 
-  scripts/test_summary.py BUILD_DIRECTORY REPORT.xml     (ctest --output-junit REPORT.xml)
+  scripts/test_summary.py BUILD_DIRECTORY REPORT.xml
 
-On an idle machine an entry should take at most a fifth of its limit, so that it also passes on a slow, busy one. On a busy machine ignore
-the note. Exit status: 0, or 1 when no entry was run.
+REPORT.xml is of ctest --output-junit. On an idle machine an entry takes at most
+a fifth of its limit; on a busy machine ignore the note.
+
+Exit status: 0 done, 1 no entry was run, 2 usage error.
 """
 import json
 import re
@@ -73,7 +75,9 @@ def summary(times, limit):
 
 def main():
     if len(sys.argv) != 3:
-        sys.exit(__doc__)
+        asked = sys.argv[1:] in (["--help"], ["-h"])
+        print(__doc__, file=sys.stdout if asked else sys.stderr)
+        return 0 if asked else 2
     times = entries(sys.argv[2])
     if not times:
         print("no test was run", file=sys.stderr)

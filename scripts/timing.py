@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
-"""Clock and area of one unit of the RTL, or of the whole machine: static timing of standard cells, and place and route on an ECP5.
+"""Clock and area of a unit of the RTL, or of the whole machine.
 
-  scripts/timing.py fp_sum -P TERMS=4            a unit of rtl/, with its parameters
-  scripts/timing.py normalise significand_bits=24   with configuration keys, as of quadrille --set
-  scripts/timing.py quadrille                    the whole machine: about ten minutes
-  scripts/timing.py fp_multiply --target ecp5 --seed 1 --seed 2 --seed 3    the median of three placements
+  scripts/timing.py fp_sum -P TERMS=4 significand_bits=24
+  scripts/timing.py quadrille                            ten minutes
+  scripts/timing.py fp_multiply --target ecp5 --seed 1 --seed 2 --seed 3
 
-Standard cells (--target cells, the default): Yosys maps onto the OSU 0.18 um library (typical, 1.8 V, 25 C) and buffers what drives more
-than ten inputs, OpenSTA finds the slowest path. Wires have no load, so the figures compare designs and promise no chip. Memories
-become flip-flops. ECP5 (--target ecp5): Yosys' synth_ecp5 with DSP blocks, then nextpnr-ecp5 on the smallest of LFE5U-25F, -45F and -85F
-that is large enough. Without one on PATH, the build for Python is installed under build/ (30 MB). Ports count as registers: paths
-start at inputs and end at outputs too.
+--target cells: Yosys with the OSU 0.18 um library (typical, 1.8 V, 25 C), then
+OpenSTA. Wires have no load, so the figures only compare designs. Memories
+become flip-flops.
+--target ecp5: Yosys synth_ecp5, then nextpnr-ecp5 on the smallest LFE5U-25F,
+-45F or -85F that fits. Without nextpnr-ecp5 on PATH its Python build (30 MB) is
+installed under build/. Ports count as registers.
 
-Exit status: 1 a tool failed, or the unit fits no device; 2 usage; 3 a missing tool, with the command that installs it."""
+Exit status: 0 done, 1 a tool failed or the unit does not fit, 2 usage error,
+3 missing tool (with the command that installs it).
+"""
 import json
 import os
 import re
@@ -35,12 +37,12 @@ DEVICES = {"25k": (24_288, 28, 56), "45k": (43_848, 72, 108), "85k": (83_640, 15
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("unit", metavar="UNIT", help="a module of rtl/; quadrille is the whole machine")
+    parser.add_argument("unit", metavar="UNIT", help="module of rtl/; quadrille: the whole machine")
     synthesis.add_arguments(parser)
-    parser.add_argument("-P", dest="parameters", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the unit")
-    parser.add_argument("--target", choices=["cells", "ecp5"], default="cells", help="default: %(default)s")
-    parser.add_argument("--seed", action="append", type=int, metavar="N", help="of nextpnr; given several times, the median counts (default: 1)")
-    parser.add_argument("--speed", choices=["6", "7", "8"], default="6", help="speed grade of the ECP5 (default: %(default)s)")
+    parser.add_argument("-P", dest="parameters", action="append", default=[], metavar="NAME=VALUE", help="parameter of the unit; repeatable")
+    parser.add_argument("--target", choices=["cells", "ecp5"], default="cells", help="technology (default: cells)")
+    parser.add_argument("--seed", action="append", type=int, metavar="N", help="seed of nextpnr; repeatable, the median counts (default: 1)")
+    parser.add_argument("--speed", choices=["6", "7", "8"], default="6", help="speed grade of the ECP5 (default: 6)")
     parser.add_argument("--path", action="store_true", help="print the slowest path cell by cell")
     args = parser.parse_intermixed_args()
     result = measure(args)

@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
-"""The table of the machine's units in rtl/MEASUREMENTS.md: bits, latency, LUT, FF, DSP, BRAM, MHz, and the whole.
+"""The table of the machine's units in rtl/MEASUREMENTS.md.
 
-rtl/units.toml lists the units, rtl/units_measured.json has what size.py and timing.py gave, golden/analysis/synthesised.csv the whole in
-other configurations. Latencies and widths are evaluated from rtl/quadrille_pkg.sv, bits counted from the units' ports.
+  scripts/unit_table.py                      checks the page; needs no tools
+  scripts/unit_table.py --update             writes the page
+  scripts/unit_table.py --measure size       sizes (Yosys, minutes)
 
-  scripts/unit_table.py                        checks that the page has this table, that the list has every unit that the machine
-                                               instantiates, and that latencies are those of model/port/latency.hpp and add up; no tools needed
-  scripts/unit_table.py --update               writes the table
-  scripts/unit_table.py --measure size         measures sizes of the default configuration (Yosys, minutes)
-  scripts/unit_table.py --measure UNIT ...     measures clocks: place and route with seeds 1 to 3 (nextpnr-ecp5); --seed N for others;
-                                               of a unit of an option (`keys` in the list) its size too
+rtl/units.toml lists the units, rtl/units_measured.json has results of size.py
+and timing.py, golden/analysis/synthesised.csv the machine in other
+configurations. Latencies and widths follow from rtl/quadrille_pkg.sv, bits from
+the ports. The check also demands every instantiated unit and the latencies of
+model/port/latency.hpp. --measure UNIT measures its clock (nextpnr-ecp5), for a
+unit of an option also its size.
 
-Exit status: 1 a check or a tool failed, 2 usage or input, 3 a missing tool."""
+Exit status: 0 done, 1 check or tool failed, 2 usage or input error, 3 missing
+tool.
+"""
 import csv
 import json
 import os
@@ -34,10 +37,10 @@ SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("--update", action="store_true", help="write the table")
-    parser.add_argument("--measure", nargs="+", metavar="WHAT", help="size, or units whose clock is wanted")
-    parser.add_argument("--seed", action="append", type=int, metavar="N", help="of nextpnr with --measure (default: 1, 2, 3)")
-    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program, with --measure")
+    parser.add_argument("--update", action="store_true", help="write the page")
+    parser.add_argument("--measure", nargs="+", metavar="WHAT", help="size, or units to place and route")
+    parser.add_argument("--seed", action="append", type=int, metavar="N", help="seed of nextpnr; repeatable (default: 1, 2, 3)")
+    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="program (default: build/release/quadrille)")
     args = parser.parse_args()
     try:
         units = read_units()

@@ -9,11 +9,10 @@
 #include "tb/commands/commands.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/lockstep/lockstep.hpp"
+#include "tb/options/command_line.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/environment_error.hpp"
 #include "tb/support/errors.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <unistd.h>
 
@@ -80,23 +79,26 @@ void name_studies(CLI::App& app, Invocation& invocation) {
   }
 }
 
+/// --help of a command and of its own commands.
+void group_help(CLI::App& command) {
+  if (CLI::Option* help = command.get_help_ptr()) help->description("Print this help")->group(general_group);
+  for (CLI::App* sub : command.get_subcommands({})) group_help(*sub);
+}
+
 int run(int argc, char** argv) {
   Invocation invocation;
   invocation.arguments.assign(argv, argv + argc);
   if (!invocation.arguments.empty()) invocation.arguments[0] = "quadrille";
 
-  CLI::App app("Quadrille: a rasterizer that draws quadrilaterals as one primitive (mean value coordinates).");
+  CLI::App app("Quadrille draws a quadrilateral as one primitive, with mean value coordinates.");
+  app.formatter(help_formatter());
   app.name("quadrille");
   app.require_subcommand(1);
   const std::string version = "quadrille " + std::string(golden::program_version());
-  app.set_version_flag("--version", version);
-  app.footer(
-      "Exit status: 0 done and within bounds, 1 a mismatch or a bound exceeded, 2 usage or input, 3 a missing tool.\n\n"
-      "Examples:\n"
-      "  quadrille scenes\n"
-      "  quadrille cosim --scene fig7_floor\n"
-      "  quadrille render --scene sphere --png sphere.png\n"
-      "Each command has its own --help.");
+  app.set_version_flag("--version", version, "Print the version")->group(general_group);
+  end_help(app, "`quadrille COMMAND --help` has the options of a command.",
+           "0 done and within bounds; 1 mismatch or bound exceeded; 2 usage or input error; 3 missing tool",
+           {"scenes", "cosim --scene fig7_floor", "render --scene sphere --png sphere.png"});
   add_cosim_command(app, invocation);
   add_render_command(app, invocation);
   add_fragments_command(app, invocation);
@@ -109,9 +111,10 @@ int run(int argc, char** argv) {
     add_studies(app, invocation);
   else
     name_studies(app, invocation);
+  group_help(app);
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands({})) {
-    command->set_version_flag("--version", version)->group("Common options");
+    command->set_version_flag("--version", version, "Print the version")->group(general_group);
     commands.push_back(command->get_name());
   }
 
@@ -143,8 +146,7 @@ int main(int argc, char** argv) {
   try {
     const int status = run(argc, argv);
     golden::yield_to_interrupt();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      return fail(exit_usage, "standard output cannot be written");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return fail(exit_usage, "cannot write standard output");
     return status;
   } catch (const StudyNeeded& needed) {
     return run_studies(argv, needed.what());

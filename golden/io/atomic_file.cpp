@@ -27,7 +27,7 @@ std::string directory_of(const std::string& path) {
 
 void require_writable(const std::string& path) {
   namespace fs = std::filesystem;
-  if (path.empty()) throw InputError("output path is empty; the name of a file is expected");
+  if (path.empty()) throw InputError("output path is empty; a file name is expected");
   const auto refuse = [&](const std::string& reason) {
     throw InputError(path + ": cannot be written: " + reason + "; a path that can be written is expected");
   };

@@ -53,7 +53,7 @@ std::string read_file(const std::string& path, std::string_view what) {
   std::error_code error;
   const std::filesystem::path real = std::filesystem::canonical(path, error);
   if (!error && std::filesystem::is_fifo(std::filesystem::symlink_status(real, error)))
-    throw failure("it is a named pipe, which may never be written to (`cat " + path + " |` and /dev/stdin can be)");
+    throw failure("it is a named pipe (use `cat " + path + " |` with /dev/stdin)");
   // Not blocking: a device may wait as well.
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   struct stat status {};

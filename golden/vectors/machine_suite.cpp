@@ -140,7 +140,7 @@ std::size_t most_quads(const Config& config) { return std::size_t{1} << config.q
 [[noreturn]] void refuse_empty(const std::string& suite, const GenerateOptions& options, std::size_t quads) {
   throw golden::InputError("suite " + suite + ": the first " + std::to_string(quads) +
                            " quads draw no fragment with this seed and configuration (limit " +
-                           std::to_string(options.limit) + "); a set without vectors proves nothing");
+                           std::to_string(options.limit) + "); expected vectors");
 }
 
 std::uint64_t fragment_limit(const GenerateOptions& options) {
@@ -421,8 +421,7 @@ VerifyResult MachineSuite::verify(const SuiteReader& reader, unsigned threads) c
   std::vector<StallClock> stalls;
   for (const Record& record : whole("stalls")) stalls.push_back(unpacked<StallClock>(record, config));
   if (std::ranges::none_of(stalls, &StallClock::offer) || std::ranges::none_of(stalls, &StallClock::ready))
-    throw golden::InputError(reader.place("stalls", 0) +
-                             ": the pattern never offers or never takes anything; the machine would wait for ever");
+    throw golden::InputError(reader.place("stalls", 0) + ": no clock offers a vertex, or none takes a fragment");
 
   std::vector<Record> beats, fragments;
   ordered_parallel(
@@ -452,13 +451,11 @@ MachineDraw MachineSuite::limited(MachineDraw draw, const GenerateOptions& optio
   const std::uint64_t fragments =
       limit_draw(draw, options.config, options.limit != 0 ? options.limit : largest_limit + 1, true);
   if (fragments == 0)
-    throw golden::InputError("none of the input's quads (" + std::to_string(quads) +
-                             ") draws a fragment; a set without vectors proves nothing");
+    throw golden::InputError("none of the input's quads (" + std::to_string(quads) + ") draws a fragment");
   if (options.limit == 0 && (fragments > largest_limit || draw.quads.size() < quads))
     throw golden::InputError("the input's " + std::to_string(quads) +
                              " quads are too many for a set, or draw more than " + std::to_string(largest_limit) +
-                             " fragments; --limit N ends it with the quad that " +
-                             "reaches N, a smaller --size has fewer");
+                             " fragments; use --limit N or a smaller --size");
   return draw;
 }
 

@@ -46,7 +46,7 @@ Json parse_manifest(const std::string& file, const std::string& text) {
   try {
     // Values this deep do not occur, and writing back is recursive.
     json = Json::parse(text, [&](int depth, Json::parse_event_t, Json&) {
-      if (depth > 16) throw input_error(file, 0, "is nested too deeply for a manifest");
+      if (depth > 16) throw input_error(file, 0, "is nested too deeply; expected a manifest");
       return true;
     });
   } catch (const nlohmann::json::parse_error& error) {
@@ -55,7 +55,7 @@ Json parse_manifest(const std::string& file, const std::string& text) {
   } catch (const nlohmann::json::exception& error) {
     throw input_error(file, 0, "is not JSON: " + golden::printable(error.what()));
   }
-  if (!json.is_object()) throw input_error(file, 1, "is no JSON object; expected a manifest");
+  if (!json.is_object()) throw input_error(file, 1, "is not a JSON object; expected a manifest");
   return json;
 }
 
@@ -64,7 +64,7 @@ void require_canonical(const std::string& file, const std::string& text, const J
   if (canonical == text) return;
   const auto [a, b] = std::mismatch(canonical.begin(), canonical.end(), text.begin(), text.end());
   throw input_error(file, golden::line_at(text, static_cast<std::size_t>(b - text.begin())),
-                    "is not written as a manifest is (indented by 2, each key once, a newline at the end)");
+                    "has another form than a manifest (indented by 2, each key once, a newline at the end)");
 }
 
 const Json& member(const std::string& file, const Json& object, const std::string& key) {
@@ -116,7 +116,7 @@ SetInfo read_command(const std::string& file, const std::string& command) {
   std::istringstream words(command);
   const auto refuse = [&](const std::string& what) -> void { throw input_error(file, 0, "\"command\" " + what); };
   for (const char* expected : {"quadrille", "golden", "generate"})
-    if (std::string word; !(words >> word) || word != expected) refuse("is no \"quadrille golden generate\"");
+    if (std::string word; !(words >> word) || word != expected) refuse("is not \"quadrille golden generate\"");
   for (std::string option, value; words >> option;) {
     if (option == "--scene" || option == "--mesh" || option == "--quads" || option == "--stress") {
       info.input = command.substr(command.find(" " + option) + 1);
@@ -131,7 +131,7 @@ SetInfo read_command(const std::string& file, const std::string& command) {
       int number = 0;
       const char *first = value.data() + std::min(equals, value.size() - 1) + 1, *last = value.data() + value.size();
       if (equals == std::string::npos || std::from_chars(first, last, number).ptr != last)
-        refuse("has no KEY=VALUE behind --set");
+        refuse("has no KEY=VALUE after --set");
       info.config.set(value.substr(0, equals), number);
     }
   }
@@ -165,7 +165,7 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
   try {
     for (const auto& [key, value] : config.items()) {
       if (!value.is_number_integer() || value < -1 || value > 1000)
-        throw input_error(file, 0, "config: " + golden::in_quotes(key) + " is no configuration value");
+        throw input_error(file, 0, "config: " + golden::in_quotes(key) + " is not a configuration value");
       info.config.set(key, value.get<int>());
     }
     info.config.validate();
@@ -422,7 +422,7 @@ std::string SuiteWriter::finish() {
 
 SetWriter::SetWriter(fs::path directory, SetInfo info, bool replace)
     : directory_(std::move(directory)), replace_(replace), info_(std::move(info)) {
-  if (directory_.empty()) throw InputError("a set of vectors needs a directory");
+  if (directory_.empty()) throw InputError("a set of vectors needs a directory name");
   if (directory_.filename().empty()) directory_ = directory_.parent_path();  // a slash at the end
   target_ = resolve_target(directory_);
   std::error_code error;
@@ -431,7 +431,7 @@ SetWriter::SetWriter(fs::path directory, SetInfo info, bool replace)
     if (error) fail(directory_, "cannot be listed", error);
     if (!empty && !replace)
       throw input_error(directory_.string(), 0,
-                        "is not empty; --force replaces a set of vectors, another directory keeps it");
+                        "is not empty; use --force to replace a set of vectors, or another directory");
     if (!empty) {
       // Only what a set consists of is ever removed.
       const SetReader old(directory_);
@@ -474,7 +474,7 @@ void SetWriter::copy(const SuiteReader& suite) {
 }
 
 void SetWriter::commit(bool complete) {
-  if (names_.empty()) throw InputError("no suite was selected; a set without vectors proves nothing");
+  if (names_.empty()) throw InputError("no suite selected; expected at least one");
   std::string command = set_command(info_);
   if (!complete)
     for (const std::string& name : names_) command = with_suite(command, name);
@@ -492,7 +492,7 @@ void SetWriter::commit(bool complete) {
   } catch (const std::system_error& failure) {
     if (failure.code() == std::errc::directory_not_empty || failure.code() == std::errc::file_exists)
       throw input_error(directory_.string(), 0,
-                        "was filled by another run in the meantime; --force replaces it, another directory keeps it");
+                        "was written by another run meanwhile; use --force or another directory");
     fail(directory_, "cannot be made", failure.code());
   }
   temporary_.reset();
@@ -649,7 +649,7 @@ SetReader::SetReader(fs::path directory) : directory_(std::move(directory)) {
   require_format(file, manifest_);
   require_canonical(file, text, manifest_);
   if (manifest_.contains("suite"))
-    throw input_error(file, 0, "is the manifest of one suite; name the directory of its set, which is above");
+    throw input_error(file, 0, "is the manifest of one suite; expected its set, the directory above");
   only_keys(file, manifest_, {"format", "generator", "seed", "level", "command", "config", "derived", "suites"});
   std::string suites, selected;
   info_ = read_set_info(file, manifest_, suites);
@@ -663,10 +663,10 @@ SetReader::SetReader(fs::path directory) : directory_(std::move(directory)) {
     names_.push_back(name);
     selected = with_suite(selected, name);
   }
-  if (names_.empty()) throw input_error(file, 0, "names no suite; a set without vectors proves nothing");
+  if (names_.empty()) throw input_error(file, 0, "names no suite; expected at least one");
   says_complete_ = suites.empty() && info_.input.empty();
   if (!says_complete_ && suites != (info_.input.empty() ? selected : ""))
-    throw input_error(file, 0, "\"command\" generates other suites than those of the set");
+    throw input_error(file, 0, "\"command\" generates other suites than the set has");
   require_names(directory_, entries(directory_, true), expected);
 }
 
@@ -734,7 +734,7 @@ std::string sealed_manifest(const fs::path& directory, Contents& contents) {
     }
     if (!is_response(name) && digest.sha256 != text_member(file, entry, "sha256"))
       throw input_error(path.string(), 0,
-                        "is not the generated file; only response.hex and beats.hex may be one's own");
+                        "differs from the generated file; only response.hex and beats.hex may change");
     entry["sha256"] = digest.sha256;
     entry["bytes"] = digest.bytes;
     if (lines.contains(name)) entry["lines"] = lines[name];

@@ -39,7 +39,7 @@ void require_known(const SetReader& set) {
   std::vector<std::string> all;
   for (const auto& suite : suites()) all.push_back(suite->info().name);
   if (set.suites() != all)
-    throw golden::input_error(set.manifest_file(), 0, "\"command\" generates other suites than those of the set");
+    throw golden::input_error(set.manifest_file(), 0, "\"command\" generates other suites than the set has");
 }
 
 void require_known(const SuiteReader& reader) {
@@ -48,7 +48,7 @@ void require_known(const SuiteReader& reader) {
   const auto require = [&](bool same, const char* key) {
     if (!same)
       throw golden::input_error(reader.manifest_file(), 0,
-                                std::string("\"") + key + "\" is not what this program says of suite " + expected.name);
+                                std::string("\"") + key + "\" differs from this program's for suite " + expected.name);
   };
   require(given.kind == expected.kind, "kind");
   require(given.title == expected.title, "title");
@@ -62,8 +62,7 @@ void require_known(const SuiteReader& reader) {
 
 void require_layout(const SuiteReader& reader, const std::string& role, const RecordLayout& expected) {
   if (reader.layout(role) != expected)
-    throw golden::input_error(reader.manifest_file(), 0,
-                              "record " + role + " is not laid out as this program lays it out");
+    throw golden::input_error(reader.manifest_file(), 0, "record " + role + " has other fields than this program's");
 }
 
 void require_counts(const SuiteReader& reader, const nlohmann::ordered_json& expected) {
@@ -77,7 +76,8 @@ void require_files(const SuiteReader& reader, std::vector<std::string> roles, co
   for (const std::string& role : roles) expected.insert(role + ".hex");
   for (const auto& [name, entry] : reader.manifest().at("files").items()) given.insert(name);
   if (reader.roles() != roles || given != expected)
-    throw golden::input_error(reader.manifest_file(), 0, "has other records or files than suite " + reader.info().name);
+    throw golden::input_error(reader.manifest_file(), 0,
+                              "has other records or files than this program's suite " + reader.info().name);
 }
 
 void VerifyResult::add(const VectorOutcome& outcome, const SuiteReader& reader, std::uint64_t line) {

@@ -35,11 +35,11 @@ void check_draw_state(const DrawState& s, const Config& c) {
   require(s.attributes >= 0 && s.attributes <= c.attribute_slots, "attributes", std::to_string(s.attributes),
           "from 0 to " + std::to_string(c.attribute_slots) + " (attribute_slots)");
   require((s.skip & ~every_skip) == 0, "skip", std::to_string(s.skip),
-          "only bits of " + std::to_string(every_skip) + " have a meaning");
+          "only the bits of " + std::to_string(every_skip) + " are defined");
   require((s.skip & skip_hidden) == 0 || (c.hierarchical_z_bits != 0 && s.depth), "skip", std::to_string(s.skip),
-          "to skip what is hidden needs depth, and hierarchical_z_bits in the configuration");
+          "skip hidden needs depth and hierarchical_z_bits");
   require((s.skip & skip_plane) == 0 || c.plane_quads != 0, "skip", std::to_string(s.skip),
-          "to skip the weights of plane quads needs plane_quads in the configuration");
+          "skip plane needs plane_quads");
 }
 
 DrawState draw_state_for(const Config& config, int width, int height) {

@@ -60,7 +60,7 @@ void set_lane_target(std::string_view wanted) {
     if (name(target) == wanted) return set_lane_target(target);
     names += (names.empty() ? "" : ", ") + std::string(name(target));
   }
-  throw std::invalid_argument("no lanes \"" + std::string(wanted) + "\"; there are " + names);
+  throw std::invalid_argument("unknown instruction set \"" + std::string(wanted) + "\"; expected one of " + names);
 }
 
 }  // namespace quadrille

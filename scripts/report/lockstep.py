@@ -121,12 +121,12 @@ class Kind(Work):
 
     @staticmethod
     def options(parser, table):
-        parser.add_argument("--meshes", metavar="DIR", help="folder with OBJ files (default: ../shared/meshes when it is there)")
-        parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="configuration, as for quadrille, after those at random")
-        parser.add_argument("--machines", type=int, help="configurations at random, beside the default and one with every skip")
-        parser.add_argument("--limit", type=int, help="fragments of a unit at random, at most; a part of them where ports wait")
+        parser.add_argument("--meshes", metavar="DIR", help="folder of OBJ files (default: ../shared/meshes, if present)")
+        parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="configuration key, after the random ones; repeatable")
+        parser.add_argument("--machines", type=int, metavar="N", help="random configurations, besides two fixed ones")
+        parser.add_argument("--limit", type=int, metavar="N", help="most fragments of a random unit; fewer with stalls or gaps")
         for form in table.get("form", {}):
-            parser.add_argument(f"--{form}", action="store_true", help=f"with the values of [form.{form}] of the plan")
+            parser.add_argument(f"--{form}", action="store_true", help=f"use [form.{form}] of the plan")
 
     def plan(self):
         args = self.args
@@ -141,7 +141,7 @@ class Kind(Work):
             listed[kind], _ = json_report([args.quadrille, "scenes", *option, "--json"])
         meshes = sorted(glob.glob(os.path.join(self.folder, "*.obj")))
         if args.meshes and not meshes:
-            raise InputError(f"--meshes {args.meshes}: no OBJ file there")
+            raise InputError(f"--meshes {args.meshes}: no OBJ files")
         rng, machines = random.Random(f"{args.seed} machines"), plan["machines"] if args.machines is None else args.machines
         drawn = [random_configuration(args.quadrille, rng, plan.get("dropped_bits", False) and number % 2 == 0) for number in range(machines)]
         return plan | {"seed": args.seed, "forms": forms, "order": list(plan["phase"]), "set": args.set, "configurations": [[], SKIPPING, *drawn], "machines": machines,

@@ -16,7 +16,7 @@ class Kind(Work):
 
     @staticmethod
     def options(parser, table):
-        parser.add_argument("--parts", type=int, default=table["parts"], metavar="N", help="into which the work is cut (default: %(default)s)")
+        parser.add_argument("--parts", type=int, default=table["parts"], metavar="N", help="number of parts (default: %(default)s)")
         parser.add_argument("words", nargs="*", metavar="OPTION", help=f"options of quadrille {table['command']}, after --")
 
     def plan(self):
@@ -40,7 +40,7 @@ class Kind(Work):
     def unit(self, number):
         whole, aside = self.place(number)
         if whole.exists():
-            raise InputError(f"{whole}: is no part of this run; remove it, or give another folder")
+            raise InputError(f"{whole}: is not of this run; remove it or use another folder")
         if not self.table.get("resumes"):
             shutil.rmtree(aside, ignore_errors=True)
         threads = ["--threads", str(max(1, processors() // self.args.jobs))]
@@ -62,7 +62,7 @@ class Kind(Work):
 
     def merge(self, directory, shards):
         if not self.table.get("merge"):
-            raise InputError("the parts of this plan are not put together")
+            raise InputError("parts of this plan cannot be merged")
         places = {number: self.place(number, shards.parts[number].directory)[0] for number in shards.done()}
         missing = [number for number in range(shards.plan["parts"]) if number not in places or not places[number].exists()]
         if missing:

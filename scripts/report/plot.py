@@ -292,8 +292,9 @@ def program(doc, writer, draw_report):
     """The whole of a script that draws a report: FILE [DIR]. `draw_report` gives figures by file name. Returns the exit status."""
     given = sys.argv[1:]
     if len(given) not in (1, 2) or given[0].startswith("-"):
-        print(doc, file=sys.stderr)
-        return 0 if given in (["--help"], ["-h"]) else 2
+        asked = given in (["--help"], ["-h"])
+        print(doc, file=sys.stdout if asked else sys.stderr)
+        return 0 if asked else 2
     with reading(given[0], writer):
         files = {file: png(drawn) for file, drawn in draw_report(read_report(given[0])).items()}
     write_files(given[1] if len(given) == 2 else os.path.dirname(os.path.abspath(given[0])), files)

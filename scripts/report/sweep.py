@@ -47,7 +47,7 @@ class Sweep:
 
         writer = "`quadrille sweep --out DIR`"
         if os.path.exists(path("journal.jsonl")) and not os.path.exists(path("manifest.json")):
-            raise InputError(f"{path('journal.jsonl')}: the sweep is unfinished; run its command again, it goes on where it was interrupted")
+            raise InputError(f"{path('journal.jsonl')}: unfinished sweep; the same command resumes it")
         with reading(path("manifest.json"), writer):
             self.manifest = read_report(path("manifest.json"))
             self.axes = {axis["key"]: axis["values"] for axis in self.manifest["axes"]}

@@ -56,12 +56,12 @@ def write_json(name, result):
 
 
 def add_arguments(parser):
-    parser.add_argument("settings", nargs="*", metavar="KEY=VALUE", help="configuration keys, as of quadrille --set")
-    parser.add_argument("--rtl", default=os.path.join(ROOT, "rtl"), metavar="DIR", help="folder of the RTL")
-    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program, for the tables")
-    parser.add_argument("--tables", metavar="FILE", help="quadrille_tables_pkg.sv of this configuration, instead of asking the program for it")
-    parser.add_argument("--json", metavar="FILE", help="write the result as JSON too (- for standard output, alone)")
-    parser.add_argument("--quiet", action="store_true", help="no table")
+    parser.add_argument("settings", nargs="*", metavar="KEY=VALUE", help="configuration key, as of quadrille --set")
+    parser.add_argument("--rtl", default=os.path.join(ROOT, "rtl"), metavar="DIR", help="folder of the RTL (default: rtl)")
+    parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="program (default: build/release/quadrille)")
+    parser.add_argument("--tables", metavar="FILE", help="quadrille_tables_pkg.sv (default: by the program)")
+    parser.add_argument("--json", metavar="FILE", help="JSON report; - is standard output, without the table")
+    parser.add_argument("--quiet", action="store_true", help="print no table")
 
 
 def run(command, work, log):

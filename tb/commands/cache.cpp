@@ -1,5 +1,6 @@
 // quadrille cache: what was built on demand, and making room.
 #include "tb/commands/commands.hpp"
+#include "tb/options/command_line.hpp"
 #include "tb/options/written_file.hpp"
 
 #include "golden/io/json_report.hpp"
@@ -77,18 +78,19 @@ int show(const std::vector<CacheItem>& items, const char* what, const std::strin
 }  // namespace
 
 void add_cache_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("cache", "What was built on demand: list it, clear it");
-  command->footer(
-      "Columns: size, time since the last use, what it is. The cache is $QUADRILLE_CACHE, else\n"
-      "$XDG_CACHE_HOME/quadrille, else $HOME/.cache/quadrille; beyond $QUADRILLE_CACHE_SIZE (1G; 0: no limit) what "
-      "was\n"
-      "not used for longest goes.\n\n"
-      "Examples:\n  quadrille cache\n  quadrille cache --json -\n  quadrille cache clear");
+  CLI::App* command = app.add_subcommand("cache", "List or clear the cache of simulators");
+  end_help(*command,
+           "Directory: $QUADRILLE_CACHE, else $XDG_CACHE_HOME/quadrille, else $HOME/.cache/quadrille. Above "
+           "$QUADRILLE_CACHE_SIZE (default: 1G; 0: no limit) the least recently used entries are removed.",
+           "0 done; 2 usage error", {"cache", "cache --json -", "cache clear"});
   const auto json = std::make_shared<std::string>();
-  writes_file(*command, command->add_option("--json", *json, "Report as JSON (- for standard output)"), "json");
+  writes_file(*command, command->add_option("--json", *json, "JSON report; - is standard output"), "json")
+      ->group(output_group);
   command->require_subcommand(0, 1);
-  CLI::App* list = command->add_subcommand("list", "What there is, longest unused first (the default)");
-  CLI::App* clear = command->add_subcommand("clear", "Remove everything that no program uses");
+  CLI::App* list = command->add_subcommand("list", "List entries, least recently used first (default)");
+  CLI::App* clear = command->add_subcommand("clear", "Remove entries that no program uses");
+  end_help(*list, "", "0 done; 2 usage error", {"cache list --json -"});
+  end_help(*clear, "", "0 done; 2 usage error", {"cache clear"});
   for (CLI::App* sub : {list, clear}) sub->fallthrough();
   command->callback([json, clear, &invocation] {
     const bool remove = clear->parsed();

@@ -18,10 +18,8 @@ void add_golden_diff_command(CLI::App& golden, Invocation& invocation);  ///< be
 /// Adds the commands of the studies and sets what else they bring; null in the core (no_studies.cpp). The program
 /// quadrille-studies has the same main().
 extern void (*const add_studies)(CLI::App& app, Invocation& invocation);
-inline constexpr const char* bench_description =
-    "Speeds of model, references, RTL and lockstep in one run, as ratios; --error: errors beside them";
-inline constexpr const char* compare_description = "The papers' methods side by side: pictures, errors, creases";
-inline constexpr const char* stress_description =
-    "Errors against a knob, towards every special case, of the model, the paper's formulas and others";
+inline constexpr const char *bench_description = "Measure the speed of the engines; with --error also their errors",
+                            *compare_description = "Compare the papers' methods: pictures, errors, creases",
+                            *stress_description = "Measure errors of the engines towards special cases";
 
 }  // namespace quadrille::tb

@@ -182,33 +182,32 @@ int list_config(const ConfigOptions& options, const std::vector<std::string>& ar
 }  // namespace
 
 void add_config_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command =
-      app.add_subcommand("config", "List the configuration: every key, every derived width with its reason");
-  command->footer(
-      "A star marks keys that differ from their defaults; \"auto\" is written as -1 or auto.\n\n"
-      "Examples:\n"
-      "  quadrille config --set significand_bits=24\n"
-      "  quadrille config --set significand_bits=24 --toml >wide.toml\n"
-      "  quadrille config --config wide.toml --emit-tables quadrille_tables_pkg.sv\n"
-      "  quadrille config --boundaries probes --set significand_bits=12\n"
-      "  quadrille config --json -");
+  CLI::App* command = app.add_subcommand("config", "List configuration keys, derived widths and error bounds");
+  end_help(*command, "* marks keys with another value than their default. \"auto\" is also written as -1.",
+           "0 done; 2 usage or input error",
+           {"config --set significand_bits=24", "config --set significand_bits=24 --toml >wide.toml",
+            "config --config wide.toml --emit-tables quadrille_tables_pkg.sv"});
   const auto options = std::make_shared<ConfigOptions>();
   options->common.add_to(*command, false);
   writes_file(*command,
               command->add_option("--emit-tables", options->emit_tables,
-                                  "Write the package of the sqrt and reciprocal tables; - is standard output"),
-              "sv");
-  auto* boundaries =
-      command
-          ->add_option("--boundaries", options->boundaries,
-                       "Instead list the fields of the machine's ports or probes, most significant first; sv: the "
-                       "probes' structs and connections that quadrille_probed.sv includes")
-          ->type_name("ports|probes|sv")
-          ->check(CLI::IsMember({"ports", "probes", "sv"}));
-  auto* markdown = command->add_flag("--markdown", options->markdown, "The listing as Markdown tables");
-  command->add_flag("--toml", options->toml, "The configuration as a file that --config reads")
+                                  "Package of sqrt and reciprocal tables; - is standard output"),
+              "sv")
+      ->group(output_group);
+  auto* boundaries = command
+                         ->add_option("--boundaries", options->boundaries,
+                                      "List bit fields instead, most significant first\n"
+                                      "  ports   of the machine's ports\n"
+                                      "  probes  of the boundaries between stages\n"
+                                      "  sv      SystemVerilog of the probes, for quadrille_probed.sv")
+                         ->type_name("WHICH")
+                         ->check(CLI::IsMember({"ports", "probes", "sv"}))
+                         ->group(output_group);
+  auto* markdown = command->add_flag("--markdown", options->markdown, "Print Markdown tables")->group(output_group);
+  command->add_flag("--toml", options->toml, "Print a file for --config")
       ->excludes(markdown)
-      ->excludes(boundaries);
+      ->excludes(boundaries)
+      ->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return list_config(*options, invocation.arguments); };
   });

@@ -45,7 +45,7 @@ int run_inputs(const CosimOptions& options, const Config& config, const std::vec
   if (!options.common.json.empty())
     golden::save_json(options.common.json, report.all(total, results, model, ok, arguments));
   for (const InputResult& result : results) complain(result);
-  if (!model.ok()) std::fprintf(stderr, "quadrille: the model alone: %s\n", model.fault().c_str());
+  if (!model.ok()) std::fprintf(stderr, "quadrille: model check: %s\n", model.fault().c_str());
   if (!ok && !options.no_shrink) run.shrink_failure(results, model);
   return ok ? exit_ok : exit_mismatch;
 }
@@ -64,7 +64,7 @@ int run_cosim(const CosimOptions& options, const std::vector<std::string>& argum
     throw UsageError("--rtl " + options.rtl + ": " + error.what());  // the user's sources
   } catch (const WatchdogError&) {
     // Both sides hang alike (the RTL alone would have differed), each time for as long as it takes to be sure of it.
-    if (!options.no_shrink) std::fputs("quadrille: not shrunk: a hang of RTL and model is not searched\n", stderr);
+    if (!options.no_shrink) std::fputs("quadrille: not minimized: RTL and model hang alike\n", stderr);
     throw;
   }
 }
@@ -72,22 +72,15 @@ int run_cosim(const CosimOptions& options, const std::vector<std::string>& argum
 }  // namespace
 
 void add_cosim_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("cosim", "RTL and model in lockstep, their fragments against the truth");
-  command->footer(
-      "Without an input all built-in scenes run. Exit status 0 only if at least one fragment was compared, nothing\n"
-      "differed and the error bound held. A run that fails in lockstep or before the truth shrinks itself: the fewest\n"
-      "quads, pixels, stalls and gaps that still fail are written, with a waveform of their last 200 clocks, and the "
-      "one\n"
-      "command that repeats it is printed.\n\n"
-      "Examples:\n"
-      "  quadrille cosim --scene fig7_floor --png floor.png\n"
-      "  quadrille cosim --mesh pawn.obj --stall 0.5 --gap 0.1 --json report.json\n"
-      "  quadrille cosim --stress eye_crossing --count 200 --set significand_bits=24\n"
-      "  quadrille cosim --corner z_limits --znear 0.25 --zfar 0.75 --size 64x64\n"
-      "  quadrille cosim --stress general --draw-state random:7\n"
-      "  quadrille cosim --scene sphere --limit-fragments 2000 --trace sphere.fst\n"
-      "  quadrille cosim --scene sphere --size 64x64 --stall 0.3 --gap 0.2 --rtl changed_rtl --shrink fails.quads\n"
-      "  quadrille cosim --quads fails.quads --size 34x56 --stall-clocks 80-83 --gap-beats 5:2,9");
+  CLI::App* command = app.add_subcommand("cosim", "Compare RTL and model in lockstep, and fragments with the truth");
+  end_help(
+      *command,
+      "Without an input all built-in scenes run. A failure is minimized to the fewest quads, pixels, stalls and "
+      "gaps that still fail. The command that repeats it is printed.",
+      "0 fragments compared, no mismatch, errors within bounds; 1 mismatch, bound exceeded or no fragments "
+      "compared; 2 usage or input error; 3 missing tool",
+      {"cosim --scene fig7_floor --png floor.png", "cosim --mesh pawn.obj --stall 0.5 --gap 0.1 --json report.json",
+       "cosim --quads fails.quads --stall-clocks 80-83 --gap-beats 5:2,9"});
   const auto options = std::make_shared<CosimOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
@@ -100,82 +93,65 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   command
       ->add_option("--stall-clocks", options->stall_clocks,
-                   "The clocks in which the output is not ready, one by one: 17,40-43, counted from the end of reset")
+                   "Clocks after reset without a ready output, such as 17,40-43")
       ->type_name("LIST")
       ->excludes("--stall");
-  command
-      ->add_option("--gap-beats", options->gap_beats,
-                   "The beats (vertices, from 0) before which none is offered, and for how many clocks: 5:2,9")
+  command->add_option("--gap-beats", options->gap_beats, "BEAT:CLOCKS to wait before a vertex (from 0), such as 5:2,9")
       ->type_name("LIST")
       ->excludes("--gap");
   command
       ->add_option("--waits", options->waits,
-                   "Pattern of stalls and gaps: bursts, sparse (nearly always), locked (a fixed number of clocks for a "
-                   "while) or mixed (all in turn)")
+                   "Pattern of stalls and gaps\n"
+                   "  bursts  long waits and long runs\n"
+                   "  sparse  waits in nearly every clock\n"
+                   "  locked  waits of a fixed length for a while\n"
+                   "  mixed   all of these in turn")
       ->type_name("PATTERN")
       ->excludes("--stall", "--gap", "--stall-clocks", "--gap-beats");
   CLI::Option* const battery =
       command
-          ->add_option(
-              "--battery", options->battery,
-              "Run the groups of draws that a developer of the RTL runs after a change (3 minutes), all of them "
-              "or GROUP, MACHINE or INPUT of MACHINE.INPUT")
+          ->add_option("--battery", options->battery, "Regression of 3 minutes, or one GROUP, MACHINE or INPUT of it")
           ->expected(0, 1)
           ->type_name("[GROUP]");
-  command
-      ->add_option("--draws", options->draws,
-                   "Cut each input into N draws of one machine. Draw states, stalls and gaps are drawn from the seed, "
-                   "and clears and resets between draws")
+  command->add_option("--draws", options->draws, "Cut each input into N draws, with clears and resets between")
       ->check(whole_number())
       ->type_name("N")
       ->excludes("--stall-clocks", "--gap-beats");
-  command
-      ->add_option("--attributes", options->attributes,
-                   "Attributes in use in one pass; fewer of them make more passes. Default: attribute_slots")
+  command->add_option("--attributes", options->attributes, "Attributes per pass")
       ->check(CLI::Range(1, max_attribute_slots))
-      ->type_name("N");
+      ->type_name("N")
+      ->default_str("attribute_slots")
+      ->group(state_group);
   command
-      ->add_option("--draw-state", options->draw_state,
-                   "random or random:SEED: draws scissor, culling, perspective, depth, znear, zfar, attributes in use "
-                   "and the skips, and says which (default seed: --seed)")
-      ->type_name("random[:SEED]");
-  command
-      ->add_option("--limit-fragments", options->limit_fragments, "End each input after so many fragments; 0: no limit")
+      ->add_option("--draw-state", options->draw_state, "Random draw state, printed as options (default seed: --seed)")
+      ->type_name("random[:SEED]")
+      ->group(state_group);
+  command->add_option("--limit-fragments", options->limit_fragments, "Fragments per input; 0: no limit (default: 0)")
       ->check(whole_number())
       ->type_name("N");
-  writes_file(*command, command->add_option("--trace", options->trace, "Waveform of the RTL"), "fst");
+  command->add_option("--rtl", options->rtl, "Your RTL: a directory, or one file (only its ports are compared)")
+      ->type_name("PATH");
+  command->add_flag("--compare-skips,!--no-compare-skips", options->compare_skips,
+                    "Do not compare draws with and without each skip");
+  command->add_flag("--no-snapping-error", options->no_snapping, "Do not measure the snapping error");
+  command->add_flag("--no-alone", options->no_alone, "Do not time the RTL alone");
   writes_file(*command,
-              command->add_option(
-                  "--shrink", options->shrink,
-                  "Where a run that fails writes the fewest quads that still do, beside them the waveform (F.fst) of "
-                  "their last 200 clocks. Default: cosim_failure.quads"),
+              command->add_option("--shrink", options->shrink,
+                                  "Minimized failing quads, F.fst beside them (default: cosim_failure.quads)"),
               "quads");
-  command
-      ->add_option("--shrink-time", options->shrink_seconds,
-                   "Seconds after which the search for less ends with what it has")
+  command->add_option("--shrink-time", options->shrink_seconds, "Minimization time limit in seconds")
       ->check(CLI::NonNegativeNumber)
       ->type_name("S")
       ->capture_default_str();
-  command->add_flag("--no-shrink", options->no_shrink, "Do not shrink a run that fails")->excludes("--shrink");
-  writes_file(*command,
-              command->add_option("--out", options->out, "Picture of the RTL's fragments, with weights and errors"),
-              "exr");
-  writes_file(*command, command->add_option("--png", options->png, "The same to look at"), "png");
-  command->add_option("--texture", options->texture, "Picture instead of the scene's own pattern")->type_name("F.png");
-  command
-      ->add_option("--shade", options->shade,
-                   "uv, texture, normal, lambda, depth, quad, planes or colour; default: what suits the input")
-      ->type_name("MODE");
-  options->input.add_light_to(*command);
-  command
-      ->add_option("--rtl", options->rtl,
-                   "Verilog instead of the project's: a directory, or one file, of which the ports alone are compared")
-      ->type_name("PATH");
-  command->add_flag("--compare-skips,!--no-compare-skips", options->compare_skips,
-                    "Compare draws with and without each skip that must not change a fragment. Default: yes");
-  command->add_flag("--no-snapping-error", options->no_snapping, "Do not measure the error of snapping (quicker)");
-  command->add_flag("--list-metrics", options->list_metrics, "Instead list what the report counts, as Markdown");
-  command->add_flag("--no-alone", options->no_alone, "Do not time the RTL alone");
+  command->add_flag("--no-shrink", options->no_shrink, "Do not minimize a failure")->excludes("--shrink");
+  options->input.add_picture_options(*command, options->shade, options->texture);
+  writes_file(*command, command->add_option("--out", options->out, "Picture of the RTL with weights and errors"), "exr")
+      ->group(output_group);
+  writes_file(*command, command->add_option("--png", options->png, "Picture of the RTL"), "png")->group(output_group);
+  writes_file(*command, command->add_option("--trace", options->trace, "Waveform of the RTL"), "fst")
+      ->group(output_group);
+  command->add_flag("--list-metrics", options->list_metrics, "Only list the fields of --json, as Markdown")
+      ->group(output_group);
   command->callback([options, battery, &invocation] {
     if (battery->count() > 0 && options->battery.empty()) options->battery = "all";
     invocation.run = [options, &invocation] { return run_cosim(*options, invocation.arguments); };

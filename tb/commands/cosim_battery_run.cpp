@@ -150,14 +150,13 @@ int run_battery(const CosimOptions& options, const Config& config, const std::ve
     if (!group.error.empty())
       std::fprintf(stderr, "quadrille: %s: %s\n", group.group.name.c_str(), group.error.c_str());
     if (group.model && !group.model->ok())
-      std::fprintf(stderr, "quadrille: %s: the model alone: %s\n", group.group.name.c_str(),
-                   group.model->fault().c_str());
+      std::fprintf(stderr, "quadrille: %s: model check: %s\n", group.group.name.c_str(), group.model->fault().c_str());
   }
   if (failed != nullptr) {
     std::string command =
         "quadrille cosim --battery " + failed->group.name + " --seed " + std::to_string(options.common.seed);
     if (!options.rtl.empty()) command += " --rtl " + quoted(options.rtl);
-    std::fprintf(stderr, "quadrille: the first group that fails, alone:\n  %s\n", command.c_str());
+    std::fprintf(stderr, "quadrille: to repeat the first failing group:\n  %s\n", command.c_str());
     if (!options.no_shrink && failed->run.failed())
       failed->run.shrink_failure({failed->result}, failed->model.value_or(ModelCheck{}));
   }

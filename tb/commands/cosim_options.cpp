@@ -35,36 +35,35 @@ void CosimOptions::check(const Config& config) const {
   probability("--stall", stall);
   probability("--gap", gap);
   if (attributes > config.attribute_slots)
-    throw UsageError("--attributes " + std::to_string(attributes) + ": attribute_slots is " +
-                     std::to_string(config.attribute_slots));
+    throw UsageError("--attributes " + std::to_string(attributes) +
+                     ": more than attribute_slots = " + std::to_string(config.attribute_slots));
   if (!draw_state.empty()) {
     drawn_state_seed();
     const std::string given = state.spelled() + (attributes > 0 ? " --attributes " + std::to_string(attributes) : "");
-    if (!given.empty())
-      throw UsageError("--draw-state " + draw_state + " draws what" + given + " sets; give one of them");
+    if (!given.empty()) throw UsageError("--draw-state " + draw_state + " conflicts with" + given);
   }
   if (!battery.empty()) {
     if (inputs_given(input) > 0 || draws > 0 || limit_fragments > 0 || !common.settings.empty() ||
         !common.config_file.empty() || !state.spelled().empty() || !draw_state.empty() || attributes > 0 ||
         !out.empty() || !png.empty() || !trace.empty())
       throw UsageError(
-          "--battery has inputs, configurations and draw states of its own; it takes --rtl, --seed, "
-          "--threads, --json, --shrink and --quiet");
+          "--battery sets inputs, configurations and draw states; use it only with --rtl, --seed, --threads, "
+          "--json, --shrink and --quiet");
   }
   if (draws > 0) {
     const std::string given = state.spelled() + (attributes > 0 ? " --attributes" : "") +
                               (draw_state.empty() ? "" : " --draw-state") + (out.empty() ? "" : " --out") +
                               (png.empty() ? "" : " --png");
-    if (!given.empty()) throw UsageError("--draws draws the state of each draw and no picture; leave out" + given);
+    if (!given.empty()) throw UsageError("--draws conflicts with" + given);
   }
   std::vector<std::string> read = input.files();
   read.insert(read.end(), {common.config_file, texture});
   check_outputs({trace, shrink, out, png, input.save_camera, common.json}, read);
   if (!rtl.empty() && !std::filesystem::exists(rtl)) throw UsageError("--rtl " + rtl + ": no such file or directory");
   if (std::filesystem::is_directory(rtl) && !holds_verilog(rtl))
-    throw UsageError("--rtl " + rtl + ": no SystemVerilog file (*.sv) is in this directory");
+    throw UsageError("--rtl " + rtl + ": no SystemVerilog file (*.sv) in this directory");
   if (all_scenes() && (!out.empty() || !png.empty() || !trace.empty()))
-    throw UsageError("--out, --png and --trace are for one input, not for all scenes");
+    throw UsageError("--out, --png and --trace need one input, not all scenes");
 }
 
 std::uint64_t CosimOptions::drawn_state_seed() const {
@@ -80,7 +79,7 @@ std::uint64_t CosimOptions::drawn_state_seed() const {
 
 std::vector<InputOptions> CosimOptions::inputs() const {
   if (!all_scenes()) return {input};
-  if (inputs_given(input) > 1) throw UsageError("--scene all goes with no other input");
+  if (inputs_given(input) > 1) throw UsageError("--scene all conflicts with another input");
   std::vector<InputOptions> list;
   for (const std::string& name : scene_names()) {
     list.push_back(input);

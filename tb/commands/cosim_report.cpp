@@ -64,6 +64,16 @@ nlohmann::ordered_json model_json(const ModelCheck& model) {
   return json;
 }
 
+/// The outcome in a few words.
+const char* outcome(const InputResult& r, const ModelCheck& model, bool ok) {
+  if (ok) return "OK: RTL and model agree, errors within bounds";
+  if (!r.lockstep_ok()) return "FAILED: RTL and model differ";
+  if (r.check.compared == 0) return "FAILED: no fragments compared";
+  if (!r.check.ok()) return "FAILED: fragments differ from the truth or exceed a bound";
+  if (r.skips.differences > 0) return "FAILED: a skip changes fragments";
+  return model.ok() ? "FAILED: regression limits exceeded" : "FAILED: model checks";
+}
+
 }  // namespace
 
 std::string CosimReport::reproduce(const InputResult& result, const CheckResult::Worst& worst) const {
@@ -162,9 +172,9 @@ void print_row(std::FILE* out, const InputResult& r, bool head) {
 void CosimReport::print_summary(std::FILE* out, const InputResult& r, const ModelCheck& model, bool ok) const {
   const CheckResult& c = r.check;
   const auto print = [&](MetricLine line) { std::fputs(line_of(line, r).c_str(), out); };
-  std::fprintf(out, "\n%s  (%s; seed %llu, stall %g, gap %g; configuration %s)\n\n", r.name.c_str(),
-               options_.common.size.c_str(), llu(options_.common.seed), options_.stall, options_.gap,
-               summary(config_).c_str());
+  std::fprintf(out, "\n%s: %s\n(%s; seed %llu, stall %g, gap %g; configuration %s)\n\n", r.name.c_str(),
+               outcome(r, model, ok), options_.common.size.c_str(), llu(options_.common.seed), options_.stall,
+               options_.gap, summary(config_).c_str());
   if (const std::string state = r.state + r.attributes; !state.empty())
     std::fprintf(out, "  draw state    %s\n", state.c_str());
   if (r["draws"] > 0) print(MetricLine::draws);
@@ -185,11 +195,10 @@ void CosimReport::print_summary(std::FILE* out, const InputResult& r, const Mode
     print(MetricLine::tolerated_depth);
     print(MetricLine::tolerated_visible);
   }
-  std::fprintf(out,
-               "  functions      %llu directed arguments, %llu beyond their limit; directed draws %llu fragments, %llu "
-               "faults (of the configuration, whatever the input)\n",
-               llu(model.functions.arguments()), llu(model.functions.beyond()), llu(model.directed.compared),
-               llu(model.directed.faults()));
+  std::fprintf(
+      out, "  model checks   %llu function arguments, %llu beyond the limit; %llu directed fragments, %llu faults\n",
+      llu(model.functions.arguments()), llu(model.functions.beyond()), llu(model.directed.compared),
+      llu(model.directed.faults()));
   if (c.compared > 0) std::fprintf(out, "  throughput     %.3f covered pixels per clock\n", per_clock(r));
   print_counters(
       out, r.counters,
@@ -197,7 +206,7 @@ void CosimReport::print_summary(std::FILE* out, const InputResult& r, const Mode
   if (c.compared > 0) print_errors(out, r);
   std::fprintf(out, "\n  speed          %.0f cycles/s with all comparisons", rate(r));
   if (alone_rate(r) > 0) std::fprintf(out, "; RTL alone %.0f (%.1f x)", alone_rate(r), ratio(alone_rate(r), rate(r)));
-  std::fprintf(out, "; %.1f s in all\n\n%s\n", r.seconds, ok ? "OK" : "FAILED");
+  std::fprintf(out, "; %.1f s in all\n", r.seconds);
 }
 
 /// The errors of what was compared, and where its fragments lie.
@@ -214,8 +223,7 @@ void CosimReport::print_errors(std::FILE* out, const InputResult& r) const {
     std::fprintf(out, "    bound              none: quadratic_frac_bits drops bits of D and R^2\n");
   else
     std::fprintf(out,
-                 "    bound              %9.2e  %s; worst weight %.1f %%, attribute %.1f %%, depth %.1f %% of theirs; "
-                 "c = %.3f\n",
+                 "    bound              %9.2e  %s; weight %.1f %%, attribute %.1f %%, depth %.1f %% of it; c = %.3f\n",
                  weight_bound(config_), c.within_bound() ? "held" : "EXCEEDED", 100 * std::max(0.0, c.worst.ratio),
                  100 * c.attribute.max, 100 * c.depth.max, value_bound_factor(config_));
   if (r["limits_checked"] > 0)
@@ -238,13 +246,13 @@ void complain(const InputResult& r) {
         r.name.c_str(), llu(r.check.beyond_bound), r.check.worst.place.quad, r.check.worst.place.x,
         r.check.worst.place.y, r.check.worst.error, r.check.worst.bound);
   if (r.check.beyond_attribute || r.check.beyond_depth)
-    std::fprintf(stderr, "quadrille: %s: %llu attributes and %llu depths are further off than their bound allows\n",
-                 r.name.c_str(), llu(r.check.beyond_attribute), llu(r.check.beyond_depth));
+    std::fprintf(stderr, "quadrille: %s: %llu attributes and %llu depths beyond the bound\n", r.name.c_str(),
+                 llu(r.check.beyond_attribute), llu(r.check.beyond_depth));
   if (r.skips.differences > 0)
     std::fprintf(stderr, "quadrille: %s: a skip changes the fragments of %llu quads; the first: %s\n", r.name.c_str(),
                  llu(r.skips.differences), r.skips.first.c_str());
   for (const std::string& text : r.beyond_limits)
-    std::fprintf(stderr, "quadrille: %s: beyond its regression limit: %s\n", r.name.c_str(), text.c_str());
+    std::fprintf(stderr, "quadrille: %s: regression limit exceeded: %s\n", r.name.c_str(), text.c_str());
   if (r.check.compared == 0) std::fprintf(stderr, "quadrille: %s: no fragments compared\n", r.name.c_str());
 }
 

@@ -45,7 +45,7 @@ TEST(CosimReport, LinesShowTheirMetrics) {
   const std::string all(text, size);
   std::free(text);
   for (const char* line :
-       {"  draws          2 in one machine, each in a state of its own; 3 clears, 4 resets\n",
+       {"  draws          2 of one machine, each with its draw state; 3 clears, 4 resets\n",
         "  lockstep       5 quads, 6 fragments, 7 cycles\n", "                 8 quads left out: 0 without",
         " 9 on a line, ", "                 10 faces with more than four corners cut into 11 primitives\n",
         "                 12 bit mismatches, 13 cycle mismatches; 14 bits compared\n",

@@ -338,18 +338,18 @@ void CosimRun::shrink_failure(const std::vector<InputResult>& results, const Mod
   if (!failed_) {  // the draw itself is right
     const bool limits = std::ranges::any_of(results, [](const InputResult& r) { return !r.beyond_limits.empty(); });
     const bool skips = std::ranges::any_of(results, [](const InputResult& r) { return r.skips.differences > 0; });
-    const char* const why = skips         ? "the machine draws this input right; with other skips it does not"
-                            : limits      ? "errors are beyond their regression limits, which are of the whole draw"
-                            : !model.ok() ? "the model alone failed, which draws nothing of this input"
-                                          : "there is no fragment";
-    std::fprintf(stderr, "quadrille: nothing to shrink: %s\n", why);
+    const char* const why = skips         ? "only draws with other skips differ"
+                            : limits      ? "only regression limits are exceeded"
+                            : !model.ok() ? "only input-independent model checks failed"
+                                          : "no fragments compared";
+    std::fprintf(stderr, "quadrille: not minimized: %s\n", why);
     return;
   }
   if (failed_->at_port) return;
   try {
     shrink_failed_pass(*failed_, {shrunk_file(options_), options_.shrink_seconds}, options_.common);
   } catch (const std::exception& error) {  // the run has failed and is reported, whatever becomes of this
-    std::fprintf(stderr, "quadrille: %s was not shrunk: %s\n", failed_->input.c_str(), error.what());
+    std::fprintf(stderr, "quadrille: %s not minimized: %s\n", failed_->input.c_str(), error.what());
   }
 }
 

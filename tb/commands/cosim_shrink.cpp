@@ -34,7 +34,7 @@ class FailedPassRuns {
       : failed_(failed),
         seconds_(options.seconds),
         simulator_(simulator_in_lockstep(failed.lockstep)),
-        progress_(failed.input + ", shrinking", 0, show) {}
+        progress_(failed.input + ", minimizing", 0, show) {}
 
   /// As shrink() wants it. The first run, of the whole, does not count in the time.
   std::optional<Failure> operator()(const FailingDraw& draw) {
@@ -162,7 +162,7 @@ void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, 
   const Stopwatch start;
   const FailingRun run = [&](const FailingDraw& draw) { return runs(draw); };
   const std::optional<Shrunk> shrunk = shrink(std::move(whole), run, limits);
-  if (!shrunk) throw std::runtime_error("the same draw again does not fail: the fault depends on more than the draw");
+  if (!shrunk) throw std::runtime_error("the failure did not repeat");
 
   golden::save_quads(options.quads, shrunk->draw.quads);
   FailingDraw kept = shrunk->draw;
@@ -175,8 +175,7 @@ void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, 
     fails = runs.fails(kept);
     if (!fails) kept.waits = waits;
   }
-  if (!fails && !runs.fails(kept))
-    throw std::runtime_error("what is left does not fail when it is read from " + options.quads);
+  if (!fails && !runs.fails(kept)) throw std::runtime_error("no failure with the minimized quads in " + options.quads);
   const std::uint64_t clocks = runs.clocks();
   const std::string waveform = std::filesystem::path(options.quads).replace_extension(".fst").string();
   PartialFile trace(waveform);
@@ -184,19 +183,18 @@ void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, 
   trace.commit();
   runs.finish();
 
-  std::string text = "quadrille: " + failed.input + " fails with " + std::to_string(kept.quads.size()) + " of " +
-                     counted(failed.quads.size(), "quad") + ", in " +
+  std::string text = "quadrille: " + failed.input + " minimized to " + std::to_string(kept.quads.size()) + " of " +
+                     counted(failed.quads.size(), "quad") + ", " +
                      std::to_string(kept.state.scissor_x1 - kept.state.scissor_x0) + "x" +
-                     std::to_string(kept.state.scissor_y1 - kept.state.scissor_y0) + " pixels, with " +
-                     counted(waits.stall_clocks.size(), "stall") + " and " + counted(waits.gap_beats.size(), "gap") +
-                     ", in " + counted(clocks, "clock");
+                     std::to_string(kept.state.scissor_y1 - kept.state.scissor_y0) + " pixels, " +
+                     counted(waits.stall_clocks.size(), "stall") + ", " + counted(waits.gap_beats.size(), "gap") +
+                     ", " + counted(clocks, "clock");
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.1f", start.seconds());
   text += " (" + counted(runs.runs(), "run") + ", " + seconds + " s):\n  " + command_of(kept, failed, options, common) +
-          "\n  the last " + counted(std::min(clocks, clocks_shown), "clock") + " of it: " + waveform + "\n";
-  if (!traced)
-    text += "  the waveform's machine does not fail: the fault depends on what registers hold before reset\n";
-  if (shrunk->ended) text += "  the search was ended by --shrink-time: there may be less\n";
+          "\n  waveform of its last " + counted(std::min(clocks, clocks_shown), "clock") + ": " + waveform + "\n";
+  if (!traced) text += "  no failure in the waveform: the fault depends on register contents before reset\n";
+  if (shrunk->ended) text += "  time limit reached (--shrink-time): fewer may also fail\n";
   std::fputs(text.c_str(), stderr);
 }
 

@@ -15,21 +15,24 @@ nlohmann::ordered_json counters_json(const PerformanceCounters& counters) {
 void print_counters(std::FILE* out, const PerformanceCounters& counters, std::string_view whose) {
   using enum PerformanceCounter;
   const auto number = [&](PerformanceCounter counter) { return static_cast<unsigned long long>(counters[counter]); };
-  std::fprintf(
-      out,
-      "  counters       blocks %llu of %llu (%llu hidden), tiles %llu of %llu (%llu hidden, %llu masked), rows %llu of "
-      "%llu, pixels %llu "
-      "(%llu of plane quads); %s\n",
-      number(blocks_entered), number(blocks_tested), number(blocks_hidden), number(tiles_entered), number(tiles_tested),
-      number(tiles_hidden), number(tiles_masked), number(stamps), number(rows_tested),
-      static_cast<unsigned long long>(counters.pixels()), number(pixels_plane), std::string(whose).c_str());
+  std::fprintf(out,
+               "  counters       %s\n"
+               "                 blocks %llu of %llu (%llu hidden)\n"
+               "                 tiles %llu of %llu (%llu hidden, %llu masked)\n"
+               "                 rows %llu of %llu, pixels %llu (%llu of plane quads), %llu products\n",
+               std::string(whose).c_str(), number(blocks_entered), number(blocks_tested), number(blocks_hidden),
+               number(tiles_entered), number(tiles_tested), number(tiles_hidden), number(tiles_masked), number(stamps),
+               number(rows_tested), static_cast<unsigned long long>(counters.pixels()), number(pixels_plane),
+               static_cast<unsigned long long>(counters.products()));
   const auto all = static_cast<double>(counters[clocks]);
-  std::fputs("                 clocks bound by", out);
-  for (auto i = static_cast<std::size_t>(bound_pixels); i < counter_count; ++i)
-    std::fprintf(out, "%s %s %.1f %%", i == static_cast<std::size_t>(bound_pixels) ? "" : ",",
-                 std::string(counter_info[i].name.substr(6)).c_str(),
-                 all > 0 ? 100 * static_cast<double>(counters.value[i]) / all : 0);
-  std::fprintf(out, "\n                 %llu products\n", static_cast<unsigned long long>(counters.products()));
+  std::string bounds;
+  for (auto i = static_cast<std::size_t>(bound_pixels); i < counter_count; ++i) {
+    if (counters.value[i] == 0) continue;
+    char percent[32];
+    std::snprintf(percent, sizeof percent, " %.1f %%", 100 * static_cast<double>(counters.value[i]) / all);
+    bounds += (bounds.empty() ? " " : ", ") + std::string(counter_info[i].name.substr(6)) + percent;
+  }
+  if (!bounds.empty()) std::fprintf(out, "                 clocks bound by%s\n", bounds.c_str());
 }
 
 std::optional<PerformanceCounters> count_draw(const EngineSettings& settings, std::span<const WindowQuad> quads,

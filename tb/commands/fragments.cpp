@@ -53,17 +53,16 @@ std::pair<int, int> parse_pixel(const std::string& text, const DrawState& state)
 int fragments(const FragmentsOptions& options, const Invocation& invocation) {
   const Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
-  if (options.out.empty()) throw UsageError("--out F.csv is needed (- for standard output)");
+  if (options.out.empty()) throw UsageError("--out F.csv is missing (- is standard output)");
   MethodEngineMaker make_method_engine;
   if (!options.method.empty()) {
     make_method_engine = invocation.method(options.method);
-    if (options.errors) throw UsageError("--errors with --method: the bound is on the machine's errors");
+    if (options.errors) throw UsageError("--errors and --method conflict: the bound is the machine's");
     settings.snap = false;
   }
-  if (options.errors && !settings.snap)
-    throw UsageError("--errors with --snap off: the bound is on errors against the truth on snapped quads");
+  if (options.errors && !settings.snap) throw UsageError("--errors needs --snap on: the bound is for snapped quads");
   if (options.errors && settings.config.qdrop() != 0)
-    throw UsageError("--errors: quadratic_frac_bits drops bits of D and R²; no bound is claimed then");
+    throw UsageError("--errors: no bound with quadratic_frac_bits that drops bits of D and R²");
   std::vector<std::string> read = options.input.files();
   read.push_back(options.common.config_file);
   check_outputs({options.out, options.input.save_camera, options.common.json}, read);
@@ -152,38 +151,38 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
 
 void add_fragments_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("fragments", "Write every fragment as a table, without depth test");
-  command->footer(
-      "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,a0,...; sorted by quad, y, x; 17 significant digits.\n"
-      "Flags: 1 on an edge, 2 on a vertex, 4 two corners, 8 two edges, 16 tie, 32 homogeneous, 64 notch (an edge\n"
-      "turns backward as seen from the pixel: neighbouring areas differ in sign; with notch_exact), 128 saturated;\n"
-      "float, fp32 and shader: 256 undefined (its numbers are not to be used).\n"
-      "--errors writes a row for each value instead: quad,x,y,value,drawn,truth,error,of_bound; values are the\n"
-      "weights l0 to l3, z and the attributes, of_bound is |error| in units of what the bound allows the value.\n"
-      "With --json or --verbose the clocked model draws once more, for the counters of a machine (engines model\n"
-      "and rtl).\n\n"
-      "Examples:\n"
-      "  quadrille fragments --quads some.quads --out some.csv\n"
-      "  quadrille fragments --engine truth --snap off --scene bowtie --size 64x64 --out -\n"
-      "  quadrille fragments --engine rtl --mesh pawn.obj --quad 17 --out pawn17.csv\n"
-      "  quadrille fragments --method split02 --scene fig10_convex --size 64x64 --out split.csv\n"
-      "  quadrille fragments --engine fp32 --scene bowtie --size 64x64 --pixel 20,20 --errors --out -");
+  end_help(*command,
+           "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,a0,... sorted by quad, y, x.\n"
+           "Columns with --errors, a row per value: quad,x,y,value,drawn,truth,error,of_bound. A value is l0 to l3, z "
+           "or an attribute; of_bound is |error| / bound.\n"
+           "With --json or --verbose the engines rtl and model also report performance counters.\n\n"
+           "Flags (their sum):\n"
+           "    1  on an edge\n"
+           "    2  on a vertex\n"
+           "    4  on two corners\n"
+           "    8  on two edges\n"
+           "   16  decided by the tie rule\n"
+           "   32  of a homogeneous quad\n"
+           "   64  notch: neighbouring areas differ in sign (with notch_exact)\n"
+           "  128  saturated\n"
+           "  256  undefined: the numbers are invalid (float, fp32, shader)",
+           "0 done; 2 usage or input error; 3 missing tool",
+           {"fragments --quads some.quads --out some.csv", "fragments --engine rtl --mesh pawn.obj --quad 17 --out -",
+            "fragments --scene bowtie --pixel 160,160 --errors --out -"});
   const auto options = std::make_shared<FragmentsOptions>();
   options->input.add_to(*command);
+  add_attributes_option(*command, options->shade);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  options->engine.add_to(*command, true);
-  add_method_option(*command, options->method);
-  writes_file(*command, command->add_option("--out", options->out, "The table; - is standard output"), "csv");
-  command->add_option("--quad", options->quad, "Only the quad at this position, counted from 0")
+  options->engine.add_to(*command, options->method, true);
+  command->add_option("--quad", options->quad, "Only the quad with this id (from 0)")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));
   command->add_option("--pixel", options->pixel, "Only this pixel")->type_name("X,Y");
-  command->add_flag("--errors", options->errors,
-                    "The truth and the errors in units of the bound, a row for each value");
-  command
-      ->add_option("--shade", options->shade,
-                   "Attributes of a scene or mesh: uv, texture, normal, planes, colour; default: what suits the input")
-      ->type_name("MODE");
+  writes_file(*command, command->add_option("--out", options->out, "The table; - is standard output"), "csv")
+      ->group(output_group);
+  command->add_flag("--errors", options->errors, "Truth and error of each value, in units of its bound")
+      ->group(output_group);
   command->callback(
       [options, &invocation] { invocation.run = [options, &invocation] { return fragments(*options, invocation); }; });
 }

@@ -65,9 +65,8 @@ std::vector<const Suite*> choose_suites(const std::vector<std::string>& names) {
 /// Those of a shard, in the same order.
 std::vector<const Suite*> shard_of(const std::vector<const Suite*>& suites, const Shard& shard) {
   if (shard.count > suites.size())
-    throw UsageError("--shard: " + std::to_string(suites.size()) +
-                     (suites.size() == 1 ? " suite is written; it has no parts"
-                                         : " suites are written; at most so many shards have some each"));
+    throw UsageError("--shard: " + std::to_string(shard.count) + " shards are more than the number of suites, " +
+                     std::to_string(suites.size()));
   std::vector<const Suite*> part;
   for (std::size_t i = 0; i < suites.size(); ++i)
     if (shard.holds(i)) part.push_back(suites[i]);
@@ -78,8 +77,8 @@ std::vector<const Suite*> shard_of(const std::vector<const Suite*>& suites, cons
 /// needs none, the weights.
 std::unique_ptr<InputSuite> input_suite(const GenerateCommandOptions& options, const Config& config,
                                         std::string& spelled) {
-  if (!options.suites.empty()) throw UsageError("--suite is for the program's own inputs; leave it out with an input");
-  if (options.level != 1) throw UsageError("--level is for the program's own inputs; an input is drawn as it is");
+  if (!options.suites.empty()) throw UsageError("--suite conflicts with an input of your own");
+  if (options.level != 1) throw UsageError("--level conflicts with an input of your own");
   CommonOptions common = options.common;
   if (!options.size.empty()) common.size = options.size;
   DrawState state = options.state.state(common, config);
@@ -114,7 +113,7 @@ int generate(const GenerateCommandOptions& options, const std::vector<std::strin
     for (const auto& suite : vectors::suites()) std::printf("%s\n", suite->info().name.c_str());
     return exit_ok;
   }
-  if (options.out.empty()) throw UsageError("--out DIR is missing: the directory of the set");
+  if (options.out.empty()) throw UsageError("--out DIR is missing");
   std::vector<std::string> read = options.input.files();
   read.push_back(options.common.config_file);
   check_outputs({options.input.save_camera, options.common.json}, read);
@@ -174,7 +173,7 @@ int merge(const std::vector<std::string>& parts, const std::string& out, bool fo
     if (command != first)
       throw golden::input_error(sets.back().manifest_file(), 0,
                                 "is of the set `" + command + "`, " + sets.front().manifest_file() + " of `" + first +
-                                    "`; parts of one set are expected");
+                                    "`; expected parts of one set");
   }
   std::map<std::string, SuiteReader> suites;
   for (const SetReader& set : sets)
@@ -184,7 +183,7 @@ int merge(const std::vector<std::string>& parts, const std::string& out, bool fo
       const auto [other, added] = suites.emplace(name, reader);
       if (!added && other->second.manifest() != reader.manifest())
         throw golden::input_error(reader.manifest_file(), 0,
-                                  "differs from " + other->second.manifest_file() + "; the same suite was expected");
+                                  "differs from " + other->second.manifest_file() + "; expected the same suite");
     }
   SetWriter writer(out, sets.front().info(), force);
   std::size_t known = 0;
@@ -194,8 +193,7 @@ int merge(const std::vector<std::string>& parts, const std::string& out, bool fo
     writer.copy(found->second);
     ++known;
   }
-  if (known < suites.size())
-    throw UsageError("golden merge: the set of an input of one's own has one suite and no parts");
+  if (known < suites.size()) throw UsageError("golden merge: a set made from your own input cannot be merged");
   writer.commit(known == vectors::suites().size());
   if (!quiet)
     std::printf("%s: %zu %s of %zu sets\n", out.c_str(), known, known == 1 ? "suite" : "suites", parts.size());
@@ -203,24 +201,25 @@ int merge(const std::vector<std::string>& parts, const std::string& out, bool fo
 }
 
 void add_merge(CLI::App& golden, Invocation& invocation) {
-  CLI::App* command = golden.add_subcommand("merge", "Put the sets of shards together");
-  command->footer(
-      "Every set is checked first, its hashes too; all must be of one level, seed, limit and configuration.\n"
-      "The bytes are those of one run.\n\n"
-      "Examples:\n"
-      "  quadrille golden generate --shard 0/2 --out part0\n"
-      "  quadrille golden generate --shard 1/2 --out part1\n"
-      "  quadrille golden merge part0 part1 --out vectors");
+  CLI::App* command = golden.add_subcommand("merge", "Join the sets of shards");
+  end_help(*command,
+           "All sets need the same level, seed, limit and configuration; their hashes are checked. The bytes equal one "
+           "run's.",
+           "0 done; 2 usage or input error",
+           {"golden generate --shard 0/2 --out part0", "golden generate --shard 1/2 --out part1",
+            "golden merge part0 part1 --out vectors"});
   struct Options {
     std::vector<std::string> parts;
     std::string out;
     bool force = false, quiet = false;
   };
   const auto options = std::make_shared<Options>();
-  command->add_option("sets", options->parts, "The sets of the shards")->type_name("DIR ...")->required();
-  writes_folder(command->add_option("--out", options->out, "Directory of the whole set; made if missing"))->required();
-  command->add_flag("--force", options->force, "Replace the set that DIR holds");
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->add_option("sets", options->parts, "Sets of the shards")->type_name("DIR")->required();
+  writes_folder(command->add_option("--out", options->out, "Directory of the joined set; made if missing"))
+      ->required()
+      ->group(output_group);
+  command->add_flag("--force", options->force, "Replace the set in --out")->group(output_group);
+  command->add_flag("--quiet", options->quiet, "Print only errors")->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options] { return merge(options->parts, options->out, options->force, options->quiet); };
   });
@@ -240,12 +239,6 @@ constexpr VerifyEngine engines[] = {
     {"float", verify_exact},
     {"rtl", nullptr},
 };
-
-std::string engine_names() {
-  std::string names;
-  for (const VerifyEngine& engine : engines) names.append(names.empty() ? "" : ", ").append(engine.name);
-  return names;
-}
 
 struct VerifyCommandOptions {
   std::string directory, engine = "model", json;
@@ -316,10 +309,10 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
       std::fprintf(text, "\n");
     }
     if (result.mismatches > 0) std::fprintf(stderr, "quadrille: %s\n", result.first_difference.c_str());
-    if (!result.judged()) std::fprintf(stderr, "quadrille: suite %s: no vector was compared\n", name.c_str());
+    if (!result.judged()) std::fprintf(stderr, "quadrille: suite %s: no vectors compared\n", name.c_str());
   }
   if (compared == 0) {
-    std::fprintf(stderr, "quadrille: no vector was compared\n");
+    std::fprintf(stderr, "quadrille: no vectors compared\n");
     ok = false;
   }
   report["ok"] = ok;
@@ -329,96 +322,79 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
 
 void add_generate(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("generate", "Write a set of vectors");
-  command->footer(
-      "Stimulus and response of every stage and of the machine, as hexadecimal lines for $readmemh with manifests\n"
-      "that describe each bit; golden/vectors/README.md has the format. Level 1 of all suites takes seconds and 53 "
-      "MB,\n"
-      "level 2 about sixty times as much. The same level, seed, limit and configuration give the same bytes\n"
-      "everywhere.\n\n"
-      "An input of your own (--scene, --mesh, --quads, --stress or --corner) gives one suite, `input`: its vertices\n"
-      "as given, the integers of the port, and fragments with their clocks; all of it unless --limit says less.\n"
-      "--size, --shade and the draw state go with it. Attributes are those of the shading, or the weights where it\n"
-      "needs none.\n\n"
-      "Examples:\n"
-      "  quadrille golden generate --level 1 --out vectors\n"
-      "  quadrille golden generate --suite sqrt --suite weights --set significand_bits=12 --out vectors12\n"
-      "  quadrille golden generate --scene bowtie --size 64x64 --out mine\n"
-      "  quadrille golden generate --mesh pawn.obj --shade uv --cull back --set significand_bits=16 --out pawn\n"
-      "  quadrille golden generate --list-suites");
+  end_help(
+      *command,
+      "A set holds stimulus and response of every stage and of the machine as lines for $readmemh, with manifests "
+      "that describe each bit (golden/vectors/README.md). Level 1 takes seconds and 53 MB, level 2 about 60 times "
+      "as much. The same options give the same bytes.\n\n"
+      "Your own input (--scene, --mesh, --quads, --stress or --corner) gives one suite, `input`. Its attributes "
+      "are those of --shade, else the weights.",
+      "0 done; 2 usage or input error",
+      {"golden generate --level 1 --out vectors", "golden generate --suite sqrt --set significand_bits=12 --out v12",
+       "golden generate --mesh pawn.obj --shade uv --cull back --out pawn"});
   const auto options = std::make_shared<GenerateCommandOptions>();
   options->common.add_to(*command, false);
   options->input.add_to(*command);
+  add_attributes_option(*command, options->shade);
   options->state.add_to(*command);
-  constexpr const char* input_group = "Input";
   command
-      ->add_option("--size", options->size, "Viewport of an input in pixels, " + options->common.size + " unless given")
+      ->add_option("--size", options->size, "Viewport in pixels, of an input (default: " + options->common.size + ")")
       ->type_name("WxH")
-      ->group(input_group);
-  command->add_option("--shade", options->shade, "Attributes of an input: those of a shading; default: what suits it")
-      ->type_name("MODE")
-      ->group(input_group);
-  command->add_option("--level", options->level, "1: seconds; 2: about sixty times as much")
+      ->group(state_group);
+  command->add_option("--level", options->level, "Number of vectors: 1 or 2")
       ->check(CLI::Range(1, 2))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--suite", options->suites, "Only this suite; may be given several times")
+  command->add_option("--suite", options->suites, "Only this suite; repeatable")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  command
-      ->add_option("--shard", options->shard,
-                   "Only part I of N, 0 <= I < N, of the suites; `golden merge` puts them together")
+  command->add_option("--shard", options->shard, "Part I (from 0) of N of the suites; `golden merge` joins them")
       ->type_name("I/N");
-  command->add_option("--seed", options->common.seed, "Seed of everything random")
-      ->check(whole_number())
-      ->type_name("N")
-      ->capture_default_str();
   command
       ->add_option("--limit", options->limit,
-                   "About this many vectors a suite, at most " + std::to_string(largest_limit) +
-                       "; a draw of the machine ends with the quad that reaches its share. 0: as many as the level has")
+                   "Vectors per suite, at most " + std::to_string(largest_limit) + "; 0: all of the level")
       ->check(whole_number(largest_limit))
       ->type_name("N")
       ->capture_default_str();
-  command
-      ->add_option("--threads", options->common.threads,
-                   "Threads, 0 for one per processor; the bytes do not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  writes_folder(command->add_option("--out", options->out, "Directory of the set; made if missing"));
-  command->add_flag("--force", options->force, "Replace the set that DIR holds");
-  command->add_flag("--list-suites", options->list, "Print the names of the suites, one a line");
+  command->add_flag("--list-suites", options->list, "Only print the names of the suites");
+  options->common.add_seed_and_threads(*command);
+  writes_folder(command->add_option("--out", options->out, "Directory of the set; made if missing"))
+      ->group(output_group);
+  command->add_flag("--force", options->force, "Replace the set in --out")->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return generate(*options, invocation.arguments); };
   });
 }
 
 void add_verify(CLI::App& golden, Invocation& invocation) {
-  CLI::App* command = golden.add_subcommand("verify", "Check a set: hashes, then every response recomputed");
-  command->footer(
-      "Hashes and manifests of the whole set are always checked, responses and pictures of the chosen suites. The\n"
-      "engine float judges stages by exact integers and fragments by the truth, without clocks; a vector of which it\n"
-      "cannot decide every field counts as undefined, and what it can is compared. Exit status: 0 every vector\n"
-      "agrees, 1 a vector or a picture differs, or of a suite nothing was compared, 2 the set is damaged, or no judge\n"
-      "knows a suite.\n\n"
-      "Examples:\n"
-      "  quadrille golden verify vectors\n"
-      "  quadrille golden verify vectors --suite weights --json -");
+  CLI::App* command = golden.add_subcommand("verify", "Check the hashes of a set and recompute its responses");
+  end_help(*command,
+           "Hashes and manifests of the whole set are checked, responses and pictures of the chosen suites. Vectors "
+           "with fields that the engine float cannot decide count as undefined; their other fields are compared.",
+           "0 all vectors agree; 1 difference or no vectors compared; 2 usage or input error (damaged set, unknown "
+           "suite), 3 missing tool",
+           {"golden verify vectors", "golden verify vectors --suite weights --json -"});
   const auto options = std::make_shared<VerifyCommandOptions>();
-  command->add_option("directory", options->directory, "The set")->type_name("DIR")->required();
-  command->add_option("--engine", options->engine, "Who recomputes: " + engine_names())
-      ->type_name("NAME")
+  command->add_option("directory", options->directory, "Directory of the set")->type_name("DIR")->required();
+  command
+      ->add_option("--engine", options->engine,
+                   "What recomputes\n"
+                   "  model  the model\n"
+                   "  float  exact integers for stages, truth for fragments; no clocks\n"
+                   "  rtl    the RTL under Verilator")
+      ->type_name("ENGINE")
       ->capture_default_str();
-  command->add_option("--suite", options->suites, "Only this suite; may be given several times")
+  command->add_option("--suite", options->suites, "Only this suite; repeatable")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  command->add_option("--threads", options->threads, "Threads, 0 for one per processor")
+  command->add_option("--threads", options->threads, "Threads, 0: one per processor")
       ->type_name("N")
       ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  writes_file(*command, command->add_option("--json", options->json, "Write a JSON report (- for standard output)"),
-              "json");
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+      ->capture_default_str()
+      ->group(general_group);
+  writes_file(*command, command->add_option("--json", options->json, "JSON report; - is standard output"), "json")
+      ->group(output_group);
+  command->add_flag("--quiet", options->quiet, "Print only errors")->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return verify(*options, invocation.arguments); };
   });
@@ -443,22 +419,18 @@ int seal(const std::string& directory, bool quiet) {
 
 void add_seal(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("seal", "Make a set of your own responses comparable");
-  command->footer(
-      "Copy a set, put what your implementation answers into response.hex (of machine suites beats.hex too), a\n"
-      "record a line as in the set or as $writememh writes it, and seal the copy: the records are then written as in\n"
-      "the set; hashes, sizes and counts become those of your files. Then `golden diff` compares it with the set and\n"
-      "`golden verify` with the engines. Everything else must be as generated; malformed files are refused with file\n"
-      "and line, exit status 2. Pictures stay as they are.\n\n"
-      "Examples:\n"
-      "  quadrille golden seal mine\n"
-      "  quadrille golden diff vectors mine");
+  end_help(*command,
+           "Copy a set, write your implementation's answers into response.hex (and beats.hex of machine suites), a "
+           "record per line, as in the set or by $writememh. `golden seal` rewrites the records in the set's form and "
+           "updates hashes, sizes and counts. Leave the rest as generated; pictures are not checked.",
+           "0 done; 2 usage or input error", {"golden seal mine", "golden diff vectors mine"});
   struct Options {
     std::string directory;
     bool quiet = false;
   };
   const auto options = std::make_shared<Options>();
-  command->add_option("directory", options->directory, "The set")->type_name("DIR")->required();
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->add_option("directory", options->directory, "Directory of the set")->type_name("DIR")->required();
+  command->add_flag("--quiet", options->quiet, "Print only errors")->group(output_group);
   command->callback(
       [options, &invocation] { invocation.run = [options] { return seal(options->directory, options->quiet); }; });
 }
@@ -466,9 +438,11 @@ void add_seal(CLI::App& golden, Invocation& invocation) {
 }  // namespace
 
 void add_golden_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("golden", "Golden vectors of every stage and of the machine");
+  CLI::App* command = app.add_subcommand("golden", "Write and check golden vectors of the stages and the machine");
   command->require_subcommand(1);
-  command->footer("Examples:\n  quadrille golden generate --level 1 --out vectors\n  quadrille golden verify vectors");
+  end_help(*command, "`quadrille golden COMMAND --help` has the options of a command.",
+           "0 done; 1 difference; 2 usage or input error; 3 missing tool",
+           {"golden generate --level 1 --out vectors", "golden verify vectors"});
   add_generate(*command, invocation);
   add_merge(*command, invocation);
   add_verify(*command, invocation);

@@ -102,7 +102,7 @@ void compare_records(const vectors::SuiteReader& a, const vectors::SuiteReader& 
                      Findings& findings) {
   const std::string name = a.info().name + "/" + role + ".hex";
   if (a.layout(role) != b.layout(role)) {
-    findings.differs(name + ": the records have other fields");
+    findings.differs(name + ": the records have different fields");
     return;
   }
   const std::uint64_t common = std::min(a.lines(role), b.lines(role));
@@ -181,8 +181,8 @@ void compare_sets(const std::string& a, const std::string& b, Findings& findings
 int run_diff(const DiffOptions& options, const std::vector<std::string>& arguments) {
   const bool sets = fs::is_directory(options.a);
   if (sets != fs::is_directory(options.b))
-    throw UsageError("golden diff compares two sets (directories) or two EXR pictures, not one with the other");
-  if (sets && !options.heat_map.empty()) throw UsageError("--heat-map is for two pictures");
+    throw UsageError("golden diff: expected two sets (directories) or two EXR pictures, not one of each");
+  if (sets && !options.heat_map.empty()) throw UsageError("--heat-map needs two pictures");
   check_outputs({options.heat_map, options.json}, {options.a, options.b});
 
   Findings findings;
@@ -210,21 +210,19 @@ int run_diff(const DiffOptions& options, const std::vector<std::string>& argumen
 
 void add_golden_diff_command(CLI::App& golden, Invocation& invocation) {
   CLI::App* command = golden.add_subcommand("diff", "Compare two sets of golden vectors, or two EXR pictures");
-  command->footer(
-      "Exit status: 0 equal, 1 different, 2 usage or a damaged input.\n\n"
-      "Examples:\n"
-      "  quadrille golden diff mine theirs\n"
-      "  quadrille golden diff rtl.exr model.exr --heat-map difference.png");
+  end_help(*command, "", "0 equal; 1 different; 2 usage or input error",
+           {"golden diff mine theirs", "golden diff rtl.exr model.exr --heat-map difference.png"});
   const auto options = std::make_shared<DiffOptions>();
-  command->add_option("A", options->a, "A set or a picture")->required()->check(CLI::ExistingPath);
-  command->add_option("B", options->b, "The other")->required()->check(CLI::ExistingPath);
+  command->add_option("A", options->a, "Set (directory) or picture")->required()->check(CLI::ExistingPath);
+  command->add_option("B", options->b, "The other set or picture")->required()->check(CLI::ExistingPath);
   writes_file(
       *command,
-      command->add_option("--heat-map", options->heat_map, "Picture of where they differ: logarithmic, black is equal"),
-      "png");
-  writes_file(*command, command->add_option("--json", options->json, "Write a JSON report (- for standard output)"),
-              "json");
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+      command->add_option("--heat-map", options->heat_map, "Picture of the differences: logarithmic, black is equal"),
+      "png")
+      ->group(output_group);
+  writes_file(*command, command->add_option("--json", options->json, "JSON report; - is standard output"), "json")
+      ->group(output_group);
+  command->add_flag("--quiet", options->quiet, "Print only errors")->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return run_diff(*options, invocation.arguments); };
   });

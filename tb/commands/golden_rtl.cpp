@@ -69,7 +69,7 @@ std::map<std::string, vectors::VerifyResult> replay_rtl(const std::string& direc
   if (status != 0) {
     bool explained = false;
     for (const auto& [name, result] : results) explained = explained || result.mismatches > 0;
-    if (!explained) throw golden::InputError("the replay failed:\n" + output);
+    if (!explained) throw golden::InputError("replay failed:\n" + output);
   }
   return results;
 }

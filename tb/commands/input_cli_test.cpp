@@ -57,7 +57,8 @@ TEST_F(Cli, NumbersOfAConfigurationAreThoseOfToml) {
     EXPECT_EQ(bits("--config c.toml"), 12) << value;
   }
   for (const std::string value : {"012", "0X0c", "1e1", "12.0", "_12"}) {
-    refuses(2, "config --set significand_bits=" + value, {"--set significand_bits", "as TOML writes it"});
+    refuses(2, "config --set significand_bits=" + value,
+            {"--set significand_bits", "TOML integer", "\"" + value + "\""});
     write("c.toml", "significand_bits = " + value + "\n");
     EXPECT_EQ(run("config --config c.toml").status, 2) << value;
   }

@@ -40,7 +40,8 @@ int render(const RenderOptions& options, const Invocation& invocation) {
     make_method_engine = invocation.method(options.method);
     settings.snap = false;
   }
-  if (options.out.empty() && options.png.empty()) throw UsageError("--out F.exr or --png F.png (or both) is needed");
+  if (options.out.empty() && options.png.empty())
+    throw UsageError("--out F.exr and --png F.png are missing; give one or both");
   std::vector<std::string> read = options.input.files();
   read.insert(read.end(), {options.common.config_file, options.texture});
   check_outputs({options.out, options.png, options.input.save_camera, options.common.json}, read);
@@ -126,13 +127,12 @@ int render(const RenderOptions& options, const Invocation& invocation) {
       std::fprintf(text, "%zu faces with more than four corners were cut into %zu primitives\n", input.fanned_faces,
                    input.fan_primitives);
     if (input.crossed_faces)
-      std::fprintf(text, "%zu of them cross themselves: fans from their first corners, which may paint outside\n",
-                   input.crossed_faces);
+      std::fprintf(text, "%zu of these faces cross themselves; their pictures may be wrong\n", input.crossed_faces);
     if (input.skipped_lines && options.common.verbose)
       std::fprintf(text, "%zu lines of the mesh were skipped\n", input.skipped_lines);
   }
   if (frame.fragments() == 0)
-    std::fprintf(stderr, "quadrille: %s: nothing is visible, the picture is empty\n", input.name.c_str());
+    std::fprintf(stderr, "quadrille: %s: no fragments drawn, the picture is empty\n", input.name.c_str());
   return exit_ok;
 }
 
@@ -140,33 +140,24 @@ int render(const RenderOptions& options, const Invocation& invocation) {
 
 void add_render_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("render", "Draw a depth-tested picture with any engine");
-  command->footer(
-      "The EXR holds R G B A, Z, the weights L0-L3, the quad id and error.L0-L3 (weights minus the truth's). The\n"
-      "bytes do not depend on --threads. With --json or --verbose the clocked model draws once more, for the\n"
-      "counters of a machine (engines model and rtl).\n\n"
-      "Examples:\n"
-      "  quadrille render --scene sphere --png sphere.png\n"
-      "  quadrille render --engine rtl --mesh spot.obj --texture spot.png --shade texture --out spot.exr --png "
-      "spot.png\n"
-      "  quadrille render --engine float --snap off --scene fig8_behind --out behind.exr\n"
-      "  quadrille render --method refine:20 --scene fig10_convex --png refined.png");
+  end_help(
+      *command,
+      "The EXR holds R G B A, Z, the weights L0 to L3, the quad id, and error.L0 to error.L3 (weights minus the "
+      "truth's). With --json or --verbose the engines rtl and model also report performance counters.",
+      "0 done; 2 usage or input error; 3 missing tool",
+      {"render --scene sphere --png sphere.png", "render --engine rtl --mesh spot.obj --texture t.png --png spot.png",
+       "render --method refine:20 --scene fig10_convex --png refined.png"});
   const auto options = std::make_shared<RenderOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  options->engine.add_to(*command);
-  add_method_option(*command, options->method);
+  options->engine.add_to(*command, options->method);
+  options->input.add_picture_options(*command, options->shade, options->texture);
   writes_file(*command, command->add_option("--out", options->out, "Picture with depth, weights, ids and errors"),
-              "exr");
-  writes_file(*command, command->add_option("--png", options->png, "Picture to look at"), "png");
-  command
-      ->add_option("--shade", options->shade,
-                   "uv, texture, normal, lambda, depth, quad, planes or colour; default: what suits the input")
-      ->type_name("MODE");
-  command->add_option("--texture", options->texture, "Picture for --shade texture instead of the input's own pattern")
-      ->type_name("F.png");
-  options->input.add_light_to(*command);
-  command->add_flag("--no-error", options->no_error, "Leave the error layers out (quicker)");
+              "exr")
+      ->group(output_group);
+  writes_file(*command, command->add_option("--png", options->png, "Picture"), "png")->group(output_group);
+  command->add_flag("--no-error", options->no_error, "No error layers in --out")->group(output_group);
   command->callback(
       [options, &invocation] { invocation.run = [options, &invocation] { return render(*options, invocation); }; });
 }

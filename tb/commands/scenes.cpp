@@ -30,11 +30,11 @@ int list(const ScenesOptions& options) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     const auto add = [&](const char* kind, std::string_view name, std::string_view what) {
       json.push_back({{"name", name}, {"stresses", what}, {"kind", kind}});
-      if (options.json != "-") std::printf("%-18s %s\n", std::string(name).c_str(), std::string(what).c_str());
+      if (options.json != "-") std::printf("%-20s %s\n", std::string(name).c_str(), std::string(what).c_str());
     };
     for (const golden::StressFamilyInfo& family : golden::stress_families())
       add("family", family.name, family.stresses);
-    if (options.json != "-") std::printf("\nApproaches, drawn by `quadrille stress` alone: a knob leads to\n");
+    if (options.json != "-") std::printf("\nApproaches (only of `quadrille stress`), each with its special case\n");
     for (const golden::Approach& approach : golden::approaches())
       add("approach", approach.name, approach.special.empty() ? approach.knob : approach.special);
     if (!options.json.empty()) golden::save_json(options.json, json);
@@ -71,18 +71,14 @@ int list(const ScenesOptions& options) {
 }  // namespace
 
 void add_scenes_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes");
-  command->footer(
-      "Examples:\n  quadrille scenes\n  quadrille scenes --json\n  quadrille scenes --stress\n  quadrille scenes "
-      "--corner");
+  CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes, stress families or corner groups");
+  end_help(*command, "", "0 done; 2 usage error", {"scenes", "scenes --json", "scenes --stress"});
   const auto options = std::make_shared<ScenesOptions>();
-  CLI::Option* json = command->add_option(
-      "--json", options->json, "Write an array of name, title, paper, quads (- or nothing: standard output)");
-  writes_file(*command, json, "json")->type_name("[F.json]")->expected(0, 1);
-  CLI::Option* stress = command->add_flag("--stress", options->stress,
-                                          "The stress families, and the approaches of `quadrille stress`, instead");
-  command->add_flag("--corner", options->corner, "The corner groups instead: directed quads of rare cases")
-      ->excludes(stress);
+  CLI::Option* json = command->add_option("--json", options->json, "JSON list (default: standard output)");
+  writes_file(*command, json, "json")->type_name("[F.json]")->expected(0, 1)->group(output_group);
+  CLI::Option* stress =
+      command->add_flag("--stress", options->stress, "Stress families, and approaches of `quadrille stress`");
+  command->add_flag("--corner", options->corner, "Corner groups: directed quads of rare cases")->excludes(stress);
   command->callback([options, json, &invocation] {
     if (json->count() > 0 && options->json.empty()) options->json = "-";
     invocation.run = [options] {

@@ -92,11 +92,11 @@ class SweepRun {
   int run() {
     const Stopwatch start;
     prepare();
-    golden::set_interrupt_hint("the points finished so far are kept in " + options_.out + ", the same command goes on");
+    golden::set_interrupt_hint("finished points are kept in " + options_.out + "; the same command resumes");
     sweep::Store store(options_.out, identity(),
                        options_.fresh ? sweep::Store::Existing::discard : sweep::Store::Existing::resume);
     if (std::FILE* text = options_.common.text(); text && !store.results().empty())
-      std::fprintf(text, "%s holds %zu of the points already\n", options_.out.c_str(), store.results().size());
+      std::fprintf(text, "resumed: %s has %zu points\n", options_.out.c_str(), store.results().size());
 
     for (const std::string& part : options_.shards.merge) store.merge(part);
     if (!options_.shards.merge.empty()) require_whole(store);
@@ -113,7 +113,7 @@ class SweepRun {
     if (shard_.is_part()) {
       golden::write_file(store.file("stages.csv"), stage_table(store), golden::AtomicFile::Dash::refused);
       if (std::FILE* text = options_.common.text())
-        std::fprintf(text, "shard %s: %zu of %zu points in %.1f s; --merge puts the shards together\n",
+        std::fprintf(text, "shard %s: %zu of %zu points in %.1f s; --merge joins shards\n",
                      options_.shards.shard.c_str(), store.results().size(), grid_.size(), evaluation_seconds);
       return exit_ok;
     }
@@ -141,20 +141,19 @@ class SweepRun {
   }
 
   void prepare() {
-    if (options_.out.empty()) throw UsageError("--out DIR is needed");
+    if (options_.out.empty()) throw UsageError("--out DIR is missing");
     std::vector<std::string> read = options_.input.files();
     read.push_back(options_.common.config_file);
     check_outputs({options_.input.save_camera, options_.common.json}, read);
     if (grid_.size() > point_limit && !options_.force)
       throw UsageError("the axes span " + std::to_string(grid_.size()) +
-                       " points, more than a million; --force if that "
-                       "is meant, or --one-at-a-time");
+                       " points, more than a million; use --force or --one-at-a-time");
     if (shard_.is_part() && !options_.targets.empty())
-      throw UsageError("--shard: a search takes each point from the results before; only a grid has parts");
+      throw UsageError("--shard conflicts with --target-error: a search has no parts");
     if (shard_.count > grid_.size())
-      throw UsageError("--shard " + options_.shards.shard + ": the grid has " + std::to_string(grid_.size()) +
-                       " points; at most so many shards have some each");
-    if (options_.exhaustive && options_.targets.empty()) throw UsageError("--exhaustive goes with --target-error");
+      throw UsageError("--shard " + options_.shards.shard + ": more shards than points (" +
+                       std::to_string(grid_.size()) + ")");
+    if (options_.exhaustive && options_.targets.empty()) throw UsageError("--exhaustive needs --target-error");
     synth_target_ = parse_synthesis_target(options_.synth_target);
     weights_ = sweep::weights_of(synth_target_);
     if (!options_.common.config_file.empty()) golden::load_cost_weights(options_.common.config_file, weights_);
@@ -259,9 +258,8 @@ class SweepRun {
   void require_whole(const sweep::Store& store) const {
     for (std::size_t row = 0; row < grid_.size(); ++row)
       if (!store.results().contains(row) && grid_.point(row).refused.empty())
-        throw UsageError("--merge: row " + std::to_string(row) +
-                         " is in none of the shards; those that are there are in " + options_.out +
-                         " now, where the same command without --merge does the rest");
+        throw UsageError("--merge: row " + std::to_string(row) + " is in no shard; the others are in " + options_.out +
+                         ", where the same command without --merge adds the rest");
   }
 
   void evaluate_grid(sweep::Evaluator& evaluator, sweep::Store& store) {
@@ -301,8 +299,7 @@ class SweepRun {
       search.costs.push_back(scalar_cost(hardware_cost(point.config), weights_));
       search.ordinary.push_back(ordinary_(point.config));
     }
-    if (search.rows.empty())
-      throw UsageError("every point of the grid is refused; the first: " + refused_.begin()->second);
+    if (search.rows.empty()) throw UsageError("no valid point in the grid; the first: " + refused_.begin()->second);
     Progress progress("search in " + std::to_string(grid_.size()) + " points", 0, options_.common.show_progress());
     std::uint64_t steps = 0;
     search.targets = targets_;
@@ -532,11 +529,11 @@ class SweepRun {
     const auto refused =
         std::ranges::count_if(rows_, [](const sweep::PointRow& r) { return !r.result.refused.empty(); });
     std::fprintf(out,
-                 "%s  (%s; seed %llu; base configuration %s)\n%zu points%s in %.1f s, %zu refused; %.1f s in all\n\n",
-                 draw_.name.c_str(), options_.common.size.c_str(),
-                 static_cast<unsigned long long>(options_.common.seed), summary(base_).c_str(), rows_.size(),
+                 "%s: %zu points%s in %.1f s, %zu refused; %.1f s in all\n(%s; seed %llu; base configuration %s)\n\n",
+                 draw_.name.c_str(), rows_.size(),
                  rows_.size() < grid_.size() ? (" of " + std::to_string(grid_.size())).c_str() : "", evaluation_seconds,
-                 static_cast<std::size_t>(refused), seconds);
+                 static_cast<std::size_t>(refused), seconds, options_.common.size.c_str(),
+                 static_cast<unsigned long long>(options_.common.seed), summary(base_).c_str());
     print_front(out, findings());
     for (const CosimRow& row : cosim_)
       if (!row.ok())
@@ -544,17 +541,17 @@ class SweepRun {
                      varied(grid_, row_of(row.row).config).c_str(),
                      row.fragments == 0 ? "no fragments" : row.first_difference.c_str());
     if (!cosim_.empty()) {
-      std::string found = cosim_ok() ? "no difference" : "DIFFERENCES";
+      std::string found = cosim_ok() ? "no mismatch" : "MISMATCH";
       if (cosim_ok() && !std::ranges::all_of(cosim_, &CosimRow::complete))
         found += " in the first " + std::to_string(options_.cosim_fragments) + " fragments of each";
       std::fprintf(out, "\nco-simulated %zu points (%s): %s\n", cosim_.size(),
                    options_.cosim.empty() ? "default, knees and corners" : options_.cosim.c_str(), found.c_str());
     }
     if (!synthesis_.empty()) {
-      std::fprintf(out, "synthesised %zu points for %s; rank correlation of estimated cost and %s ", synthesis_.size(),
+      std::fprintf(out, "synthesized %zu points for %s; rank correlation of estimated cost and %s ", synthesis_.size(),
                    options_.synth_target.c_str(), options_.synth_target == "cells" ? "area" : "LUTs");
       if (std::isnan(correlation_))
-        std::fprintf(out, "needs two different ones\n");
+        std::fprintf(out, "needs two different points\n");
       else
         std::fprintf(out, "%.3f\n", correlation_);
     }
@@ -567,7 +564,7 @@ class SweepRun {
     std::error_code far;  // from the working directory where that is possible
     const std::filesystem::path report = scripts_directory() / "sweep_report.py",
                                 near = std::filesystem::relative(report, far);
-    std::fprintf(out, "\n%s/points.csv, manifest.json; %s %s draws them\n", options_.out.c_str(),
+    std::fprintf(out, "\nwrote %s/points.csv, manifest.json; %s %s plots them\n", options_.out.c_str(),
                  (far || near.native().starts_with("..") ? report : near).c_str(), options_.out.c_str());
   }
 
@@ -575,7 +572,7 @@ class SweepRun {
     if (!has_fragments()) {
       const auto refused =
           std::ranges::find_if(rows_, [](const sweep::PointRow& r) { return !r.result.refused.empty(); });
-      std::fprintf(stderr, "quadrille: no point drew a fragment, so nothing was measured%s\n",
+      std::fprintf(stderr, "quadrille: no fragments drawn%s\n",
                    refused != rows_.end()
                        ? ("; row " + std::to_string(refused->row) + ": " + refused->result.refused).c_str()
                        : "");
@@ -583,30 +580,26 @@ class SweepRun {
     }
     if (std::ranges::all_of(rows_, [&](const sweep::PointRow& r) { return std::isnan(objective_.value(r.result)); })) {
       std::fprintf(stderr,
-                   "quadrille: %s was not measured on this input (without perspective, quads with a vertex behind the "
-                   "eye are left out)\n",
+                   "quadrille: %s not measured on this input (quads with a vertex behind the eye need perspective)\n",
                    objective_.name().c_str());
       return exit_usage;
     }
     if (!cosim_ok()) return exit_mismatch;
     if (target_ && !target_->winner) {
-      std::fprintf(stderr,
-                   "quadrille: no point of the grid meets the target; the closest, row %zu (%s), has %.3g times it\n",
+      std::fprintf(stderr, "quadrille: no point meets the target; closest: row %zu (%s), %.3g times the target\n",
                    target_->closest_row, varied(grid_, row_of(target_->closest_row).config).c_str(), target_->closest);
       return exit_mismatch;
     }
     if (target_ && !options_.no_confirm && !target_->confirmed && std::isnan(target_->confirm_closest)) {
       std::fprintf(stderr,
-                   "quadrille: no stress family measures every target, so nothing confirms row %zu; --no-confirm asks "
-                   "for the input alone\n",
+                   "quadrille: row %zu not confirmed: no stress family measures all targets; --no-confirm skips this\n",
                    *target_->winner);
       return exit_mismatch;
     }
     if (target_ && !options_.no_confirm && !target_->confirmed) {
       std::fprintf(stderr,
-                   "quadrille: no point of the grid meets the target on the input and on all stress families; the "
-                   "closest of those "
-                   "that meet it on the input, row %zu (%s), has %.3g times it\n",
+                   "quadrille: no point meets the target on the input and all stress families; closest: row %zu (%s), "
+                   "%.3g times the target\n",
                    target_->confirm_closest_row, varied(grid_, row_of(target_->confirm_closest_row).config).c_str(),
                    target_->confirm_closest);
       return exit_mismatch;
@@ -642,79 +635,67 @@ class SweepRun {
 }  // namespace
 
 void add_sweep_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("sweep", "Errors, hardware cost and clocks over a grid of configurations");
-  command->footer(
-      "Every configuration key is an axis (`quadrille config` lists them); nothing is recompiled between points.\n"
-      "Without --axis: each of the usual keys one at a time around the configuration; without an input: --scene "
-      "sphere.\n"
-      "The same command goes on where a sweep was interrupted, and takes over the results of a finished one.\n"
-      "An axis of plane_quads also shows the share of quads that take areas for weights; its input, if none is given,\n"
-      "is --scene sprites_turned.\n"
-      "A co-simulated point builds a simulator the first time (about 20 s), a synthesised one needs minutes.\n"
-      "Selections: all, none, pareto, corners, default, knees, row numbers (3,7,10-12), or several with commas.\n"
-      "Exit status 1: a co-simulation differs, or no point meets the target.\n\n"
-      "Examples:\n"
-      "  quadrille sweep --out sweep\n"
-      "  quadrille sweep --axis significand_bits=10:26:2 --axis subpixel_bits=4,6,8 --scene fig7_floor --out floor\n"
-      "  quadrille sweep --axis significand_bits=12:24:4 --synth all --cosim none --out synth\n"
-      "  quadrille sweep --axis significand_bits=8,12 --synth all --synth-target cells --cosim none --out clocks\n"
-      "  quadrille sweep --axis plane_quads=0,1 --objective attribute --out plane\n"
-      "  quadrille sweep --target-error colour=0.5/255 --size 1920x1080 --out colour\n"
-      "  quadrille sweep --axis significand_bits=10:26 --shard 0/2 --out part0\n"
-      "  quadrille sweep --axis significand_bits=10:26 --merge part0 part1 --out whole");
+  CLI::App* command = app.add_subcommand("sweep", "Measure errors, hardware cost and clocks of many configurations");
+  end_help(*command,
+           "Without --axis the usual keys vary, one at a time. Without an input --scene sphere is drawn; with an axis "
+           "of plane_quads, --scene sprites_turned. The same command resumes an interrupted sweep.\n\n"
+           "SELECTION: all, none, pareto, corners, default, knees, rows (3,7,10-12), or several with commas. A point "
+           "takes about 20 s to co-simulate the first time, and minutes to synthesize.",
+           "0 done; 1 mismatch in co-simulation, or no point meets the target; 2 usage or input error; 3 missing tool",
+           {"sweep --axis significand_bits=10:26:2 --scene fig7_floor --out floor",
+            "sweep --target-error colour=0.5/255 --size 1920x1080 --out colour",
+            "sweep --axis significand_bits=10:26 --merge part0 part1 --out whole"});
   const auto options = std::make_shared<SweepOptions>();
   options->input.add_to(*command);
+  add_attributes_option(*command, options->shade);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  command->add_option("--axis", options->axes, "Values of one key: A:B[:STEP], lists, auto; may be given several times")
+  command->add_option("--axis", options->axes, "Values of a key: A:B[:STEP], a list or auto; repeatable")
       ->type_name("KEY=VALUES")
       ->allow_extra_args(false);
-  command->add_flag("--one-at-a-time", options->one_at_a_time, "Vary one axis at a time around the configuration");
-  writes_folder(command->add_option("--out", options->out, "Directory of the results; made if missing"));
+  command->add_flag("--one-at-a-time", options->one_at_a_time, "Vary one axis at a time");
   command
       ->add_option("--target-error", options->targets,
-                   "Find the cheapest point with at most this error; several must all hold. COLUMN as in points.csv; "
-                   "lambda, attribute, depth or colour is its largest arithmetic error (what the machine adds to the "
-                   "snapped quads), total_lambda_max and the like include snapping; VALUE as 2^-12, 0.5/255 or 1e-6")
+                   "Find the cheapest point with at most this error; repeatable\n"
+                   "  lambda, attribute, depth, colour  largest arithmetic error\n"
+                   "  total_lambda_max or another       a column of points.csv\n"
+                   "  VALUE                             such as 2^-12, 0.5/255 or 1e-6")
       ->type_name("COLUMN=VALUE")
       ->allow_extra_args(false);
-  command->add_flag("--exhaustive", options->exhaustive,
-                    "--target-error: evaluate the whole grid instead of searching");
-  command->add_flag("--no-confirm", options->no_confirm,
-                    "--target-error: do not try the winner on the stress families");
+  command->add_flag("--exhaustive", options->exhaustive, "Evaluate the whole grid for --target-error");
+  command->add_flag("--no-confirm", options->no_confirm, "Do not check the found point on the stress families");
   command
-      ->add_option(
-          "--objective", options->objective,
-          "Error of the Pareto front and its knees: arithmetic (of the weights: the default), snapping, total (their "
-          "sum), a quantity such as colour (its arithmetic error), or a column of points.csv; with --target-error its "
-          "first column unless given")
+      ->add_option("--objective", options->objective,
+                   "Error of the Pareto front (default: arithmetic, or the first --target-error)\n"
+                   "  arithmetic  of the weights\n"
+                   "  snapping    of the weights\n"
+                   "  total       sum of both\n"
+                   "  colour      arithmetic error of a quantity\n"
+                   "  COLUMN      of points.csv")
       ->type_name("ERROR");
-  command
-      ->add_option("--cosim", options->cosim,
-                   "Points to co-simulate with the RTL; default: default, knees and corners, 8 at most")
+  command->add_option("--cosim", options->cosim, "Points to co-simulate (default: default, knees, corners; at most 8)")
       ->type_name("SELECTION");
-  command->add_option("--cosim-fragments", options->cosim_fragments, "Fragments of a co-simulation at most; 0: all")
+  command->add_option("--cosim-fragments", options->cosim_fragments, "Fragments per co-simulation; 0: all")
       ->check(whole_number())
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--synth", options->synth, "Points to synthesise with Yosys (minutes each the first time)")
+  command->add_option("--synth", options->synth, "Points to synthesize with Yosys")
       ->type_name("SELECTION")
       ->capture_default_str();
   command
       ->add_option("--synth-target", options->synth_target,
-                   "What for, and what cost means: ecp5 (LUTs, flip-flops, DSPs, block RAMs of a Lattice ECP5), "
-                   "ecp5-nodsp (multipliers in "
-                   "logic) or cells (area and clock on standard cells; needs OpenSTA)")
+                   "Technology of cost and synthesis\n"
+                   "  ecp5        Lattice ECP5: LUTs, flip-flops, DSPs, block RAMs\n"
+                   "  ecp5-nodsp  the same, multipliers in logic\n"
+                   "  cells       standard cells: area and clock (needs OpenSTA)")
       ->type_name("TARGET")
       ->capture_default_str();
-  command
-      ->add_option("--shade", options->shade,
-                   "Attributes of a scene or mesh: uv, texture, normal, planes, colour; default: what suits the input")
-      ->type_name("MODE");
   command->add_flag("--no-cycles", options->no_cycles, "Do not count clocks");
   command->add_flag("--force", options->force, "Allow more than a million points");
-  options->shards.add_to(*command, "the grid's points", "the --out of each, and the sweep's other options again");
-  command->add_flag("--fresh", options->fresh, "Start over in a directory that holds a sweep");
+  options->shards.add_to(*command, "the grid's points", "their --out, and the same options");
+  writes_folder(command->add_option("--out", options->out, "Directory of the results; made if missing"))
+      ->group(output_group);
+  command->add_flag("--fresh", options->fresh, "Replace the sweep in --out")->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return SweepRun(*options, invocation.arguments).run(); };
   });

@@ -48,8 +48,8 @@ std::string varied(const sweep::Grid& grid, const Config& config) {
 
 std::string cost_words(const CostWeights& weights) {
   std::string text = "LUTs";
-  if (weights.dsp > 0) text += " + " + format("%g", weights.dsp) + " a DSP block";
-  if (weights.block_ram > 0) text += " + " + format("%g", weights.block_ram) + " a block RAM";
+  if (weights.dsp > 0) text += " + " + format("%g", weights.dsp) + " per DSP block";
+  if (weights.block_ram > 0) text += " + " + format("%g", weights.block_ram) + " per block RAM";
   return text;
 }
 
@@ -57,7 +57,7 @@ void print_front(std::FILE* out, const SweepSummary& summary) {
   const bool arithmetic = summary.objective.kind == sweep::ErrorKind::arithmetic;
   sweep::ErrorColumn whole = summary.objective;
   whole.kind = sweep::ErrorKind::total;
-  std::fprintf(out, "Pareto front of cost against %s (* knee); cost = %s\n", summary.objective.name().c_str(),
+  std::fprintf(out, "Pareto front of cost and %s (* knee); cost = %s\n", summary.objective.name().c_str(),
                cost_words(summary.weights).c_str());
   std::fprintf(out, "  %6s %10s %11s %9s%s %8s %7s %5s %5s %8s\n", "row", "cost", "error", "=",
                arithmetic ? "     total" : "", "LUT", "FF", "DSP", "BRAM", "px/clock");
@@ -81,7 +81,7 @@ void print_front(std::FILE* out, const SweepSummary& summary) {
 
 void print_planes(std::FILE* out, const SweepSummary& summary, bool skipped, const char* scene_with_such) {
   constexpr std::size_t most = 40;
-  std::fprintf(out, "\nquads with areas for weights (plane_quads), errors against mean values\n");
+  std::fprintf(out, "\nplane quads (plane_quads): share, and errors against mean value coordinates\n");
   std::fprintf(out, "  %6s %7s %12s %12s %10s  %s\n", "row", "share", "attribute", "depth", "cost", "");
   std::size_t lines = 0;
   bool taken = false;
@@ -98,10 +98,9 @@ void print_planes(std::FILE* out, const SweepSummary& summary, bool skipped, con
                  error(point.result, sweep::Output::depth).c_str(), point.scalar_cost,
                  varied(summary.grid, point.config).c_str());
   }
-  if (lines > most) std::fprintf(out, "  and %zu more: points.csv\n", lines - most);
+  if (lines > most) std::fprintf(out, "  %zu more in points.csv\n", lines - most);
   if (!taken)
-    std::fprintf(out, "  no quad of this input is taken%s; %s has such\n", skipped ? ", as --skip says" : "",
-                 scene_with_such);
+    std::fprintf(out, "  no plane quads in this input%s; %s has some\n", skipped ? " (--skip)" : "", scene_with_such);
 }
 
 void print_target(std::FILE* out, const SweepSummary& summary, const TargetResult& t,
@@ -127,14 +126,14 @@ void print_target(std::FILE* out, const SweepSummary& summary, const TargetResul
     return std::ranges::max_element(t.families, {}, [&](const FamilyCheck& c) { return std::fmax(c.*miss, 0); });
   };
   if (const auto worst = worst_by(&FamilyCheck::miss); worst != t.families.end())
-    std::fprintf(out, "  worst input: family %s, %.0f %% of the target; its worst weight:\n    %s\n",
-                 worst->family.c_str(), 100 * worst->miss, worst->worst.c_str());
+    std::fprintf(out, "  worst family: %s, %.0f %% of the target; worst weight:\n    %s\n", worst->family.c_str(),
+                 100 * worst->miss, worst->worst.c_str());
   if (const auto worst = worst_by(&FamilyCheck::total); worst != t.families.end() && worst->total > 1)
-    std::fprintf(out, "  total error on the families, which have tiny quads: up to %.3g times the target (%s)\n",
-                 worst->total, worst->family.c_str());
-  if (t.winner && !confirms) std::fprintf(out, "  not tried on the stress families (--no-confirm)\n");
+    std::fprintf(out, "  total error on the families (tiny quads): up to %.3g times the target (%s)\n", worst->total,
+                 worst->family.c_str());
+  if (t.winner && !confirms) std::fprintf(out, "  not checked on the stress families (--no-confirm)\n");
   for (const TargetParts& p : parts) {
-    std::fprintf(out, "  row %zu on %s beside %s, %.3e:\n", answer_row(t), input.c_str(), p.target.text.c_str(),
+    std::fprintf(out, "  row %zu on %s, target %s = %.3e:\n", answer_row(t), input.c_str(), p.target.text.c_str(),
                  p.target.limit);
     for (const auto& [kind, error] : {std::pair{sweep::ErrorKind::arithmetic, p.arithmetic},
                                       {sweep::ErrorKind::snapping, p.snapping},
@@ -142,7 +141,7 @@ void print_target(std::FILE* out, const SweepSummary& summary, const TargetResul
       std::fprintf(out, "    %-11s %11s %10s%s\n",
                    std::string(sweep::error_kind_names[static_cast<std::size_t>(kind)]).c_str(),
                    format("%.3e", error).c_str(), format("%.0f %%", 100 * error / p.target.limit).c_str(),
-                   kind == p.target.column.kind ? "  the target's" : "");
+                   kind == p.target.column.kind ? "  target" : "");
     std::fprintf(out, "    %s\n", verdict(p).c_str());
   }
 }

@@ -27,7 +27,7 @@ double number(std::string_view text, const std::string& whole) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
     throw UsageError("--target-error " + whole + ": \"" + std::string(text) +
-                     "\" is not a number; give lambda=2^-12, colour=0.5/255 or depth=1e-6, say");
+                     "\" is not a number; expected such as lambda=2^-12, colour=0.5/255 or depth=1e-6");
   return value;
 }
 

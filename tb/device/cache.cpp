@@ -297,9 +297,8 @@ std::uintmax_t cache_limit() {
   const std::string unit(end, text.data() + text.size());
   const int shift = unit == "K" ? 10 : unit == "M" ? 20 : unit == "G" ? 30 : 0;
   if (error != std::errc{} || (shift == 0 && !unit.empty()) || value > UINTMAX_MAX >> shift)
-    throw SystemError(
-        "QUADRILLE_CACHE_SIZE is a number of bytes, with K, M or G behind it or none, 0 for no limit, not '" + text +
-        "'");
+    throw SystemError("QUADRILLE_CACHE_SIZE: expected bytes, or a number with K, M or G (0: no limit), not '" + text +
+                      "'");
   return value << shift;
 }
 
@@ -316,11 +315,11 @@ CacheEntry cached(const std::string& name, const std::string& description,
     const std::string why = damage(found.path_);
     if (why.empty()) return true;
     found.lock_.reset();
-    BuildNotice::say("what the cache has of " + description +
-                     " is damaged, and is built again: " + (found.path_ / "").string() + ": " + why);
+    BuildNotice::say("damaged cache entry of " + description + ", built again: " + (found.path_ / "").string() + ": " +
+                     why);
     if (!remove_unused(found.path_) && fs::exists(found.path_))
-      throw SystemError("the damaged entry " + found.path_.string() +
-                        " of the cache cannot be removed: another program uses it, or the cache cannot be written");
+      throw SystemError("cannot remove the damaged cache entry " + found.path_.string() +
+                        ": it is in use or not writable");
     return false;
   };
   if (in_use() && good()) return found;

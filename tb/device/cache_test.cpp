@@ -90,7 +90,7 @@ TEST_F(Cache, ADamagedEntryIsBuiltAgain) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(entry("kind-1", 10).path(), directory / "kind-1") << c.what;
     const std::string said = testing::internal::GetCapturedStderr();
-    EXPECT_NE(said.find("what kind-1 is is damaged, and is built again"), said.npos) << c.what << ": " << said;
+    EXPECT_NE(said.find("what kind-1 is, built again"), said.npos) << c.what << ": " << said;
     EXPECT_NE(said.find(c.said), said.npos) << c.what << ": " << said;
     EXPECT_EQ(built, ++count) << c.what;
     EXPECT_EQ(read_text(data), std::string(10 * 1024, 'x')) << c.what;

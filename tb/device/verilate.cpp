@@ -281,7 +281,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
   const std::vector<fs::path> sources = sources_of(options);
   const bool one_file = !options.source.empty() && !fs::is_directory(options.source);
   if (one_file && options.probes)
-    throw std::invalid_argument("a machine in one file has no probes: they name the modules and packages of rtl/");
+    throw std::invalid_argument("a machine in one file has no probes; expected the directory rtl/");
   const std::string tables = one_file ? "" : tables_package(config), probes = options.probes ? probes_header() : "";
 
   // 1. Everything that decides the result.

@@ -30,7 +30,7 @@ class Library {
     const auto function = reinterpret_cast<quadrille_device_api_function>(dlsym(handle_, "quadrille_device_api"));
     const quadrille_device_table* found = function == nullptr ? nullptr : function();
     if (found == nullptr || found->abi_version != quadrille_device_abi_version) {
-      throw SystemError(file.string() + " is no device of this program; empty the cache");
+      throw SystemError(file.string() + " is not a device of this program; run `quadrille cache clear`");
     }
     return found;
   }
@@ -53,7 +53,7 @@ struct VerilatedDevice::Impl {
         library(simulator.object()),
         table(library.table(simulator.object())),
         device(table->create(seed)) {
-    if (device == nullptr) throw DeviceError(std::string("the RTL could not be set up: ") + table->last_error(nullptr));
+    if (device == nullptr) throw DeviceError(std::string("cannot set up the RTL: ") + table->last_error(nullptr));
   }
   ~Impl() { table->destroy(device); }
   Impl(const Impl&) = delete;

@@ -337,25 +337,25 @@ class FragmentChecker::FragmentJudge {
       return false;
     }
     if (!truth_.covered) {
-      differs("drawn, but the truth does not cover it");
+      differs("drawn, but not covered in the truth");
       return false;
     }
     if (!truth_.visible) {
       if (reference_->tolerates_visibility(truth_))
         ++part_.tolerated_visible;
       else
-        differs("drawn, but the truth has it behind the eye");
+        differs("drawn, but behind the eye in the truth");
       return false;
     }
     if (truth_.front != fragment.front) differs(fragment.front ? "drawn as front face" : "drawn as back face");
-    if (state_.cull == (truth_.front ? Cull::front : Cull::back)) differs("drawn, but culled by its facing");
+    if (state_.cull == (truth_.front ? Cull::front : Cull::back)) differs("drawn, but culled");
     return true;
   }
 
   /// The code itself decides whether it may be drawn; the truth says what it stands for.
   void judge_depth(const Fragment& fragment) {
     if (!state_.depth) {
-      if (fragment.depth != 0) differs("depth is off, but its code is " + std::to_string(fragment.depth));
+      if (fragment.depth != 0) differs("depth is off, but the depth code is " + std::to_string(fragment.depth));
       return;
     }
     if (!limits_.holds(fragment.depth))
@@ -396,7 +396,7 @@ class FragmentChecker::FragmentJudge {
     int weights = 0, differences = 0, attributes = 0;
     CheckResult::Worst worst;
     for (std::size_t slot = columns_.size(); slot < fragment.attribute.size(); ++slot)
-      if (fragment.attribute[slot] != 0) differs("slot " + std::to_string(slot) + " is not in use, but not 0");
+      if (fragment.attribute[slot] != 0) differs("slot " + std::to_string(slot) + " is unused, but not 0");
 
     for (std::size_t slot = 0; slot < columns_.size(); ++slot) {
       const std::int64_t code = fragment.attribute[slot], base = reference_->quad().base.attribute[slot];
@@ -464,7 +464,8 @@ class FragmentChecker::FragmentJudge {
     if (exact_) {
       part_.beyond_bound += !weights_hold;
       part_.beyond_attribute += !attributes_hold;
-      if (must_saturate && (fragment.flags & flag_saturated) == 0) differs("an attribute is clamped, but not flagged");
+      if (must_saturate && (fragment.flags & flag_saturated) == 0)
+        differs("an attribute is clamped, but not flagged saturated");
     }
     return may_saturate;
   }
@@ -599,10 +600,10 @@ void FragmentChecker::cover(std::size_t first, const std::vector<std::vector<std
             ++part.hidden;
             continue;
           }
-          differs(x, y, "left out, but the truth is in front of what the depth buffer holds");
+          differs(x, y, "not drawn, but in front of the depth buffer in the truth");
           continue;
         }
-        differs(x, y, "the truth covers it, but it was not drawn");
+        differs(x, y, "not drawn, but covered in the truth");
       }
     }
   }

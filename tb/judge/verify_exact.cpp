@@ -233,7 +233,7 @@ VerifyResult verify_exact(const vectors::Suite& suite, const vectors::SuiteReade
   const auto judge =
       std::ranges::find(stage_judges, suite.info().name, &std::pair<std::string_view, StageJudge>::first);
   if (stages == nullptr || judge == std::end(stage_judges))
-    throw golden::InputError("suite " + suite.info().name + ": neither exact integers nor the truth can judge it");
+    throw golden::InputError("suite " + suite.info().name + ": the engine float cannot judge it");
   return stages->check(reader, threads,
                        [&, judges = Judges(config)](const vectors::StageUnderTest& stage, const Record& stimulus,
                                                     const Record& response) {

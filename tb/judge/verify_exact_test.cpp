@@ -167,8 +167,7 @@ TEST_F(VerifyExact, SeesWrongFragments) {
     const VerifyResult result =
         damaged([&](std::uint64_t line, Record&) { return line % every == chosen ? copies : 1; });
     EXPECT_GE(result.mismatches, lines / every - 1);
-    EXPECT_NE(result.first_difference.find(copies == 0 ? "the truth covers it, but it was not drawn" : "drawn twice"),
-              std::string::npos)
+    EXPECT_NE(result.first_difference.find(copies == 0 ? "not drawn, but covered" : "drawn twice"), std::string::npos)
         << result.first_difference;
   }
 }
@@ -182,9 +181,7 @@ TEST_F(VerifyExact, RefusesWhatItCannotJudge) {
   info.name = "cube_root";
   const StageSuite unknown(
       info, [](const Config& config) { return dynamic_cast<const StageSuite&>(find_suite("sqrt")).stage(config); });
-  EXPECT_NE(golden::input_error_of([&] {
-              verify_exact(unknown, set.suite("sqrt"), 1);
-            }).find("suite cube_root: neither exact integers nor the truth can judge it"),
+  EXPECT_NE(golden::input_error_of([&] { verify_exact(unknown, set.suite("sqrt"), 1); }).find("suite cube_root: "),
             std::string::npos);
 }
 

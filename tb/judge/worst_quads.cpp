@@ -42,7 +42,7 @@ class Reader {
       else if (line.find_first_not_of(" \t") != std::string::npos)
         quad(quads[out_.quads.size()]);
     }
-    if (pending_) throw failure("a record without a quad behind it");
+    if (pending_) throw failure("record without a quad after it");
     try {
       out_.config.validate();
     } catch (const ConfigError& error) {
@@ -104,7 +104,7 @@ class Reader {
         static_cast<std::size_t>(end) != rest.size() || !std::isfinite(worst.units) || worst.units < 0 ||
         worst.at.x < 0 || worst.at.y < 0)
       throw failure("expected # " + family + " " + output + " ERROR at X,Y");
-    if (pending_) throw failure("a record without a quad behind it");
+    if (pending_) throw failure("record without a quad after it");
     worst.family = known->family;
     worst.output = static_cast<Output>(which - output_names.begin());
     next_ = worst;
@@ -112,7 +112,7 @@ class Reader {
   }
 
   void quad(const WindowQuad& quad) {
-    if (!pending_) throw failure("a quad without a record before it; expected # FAMILY OUTPUT ERROR at X,Y");
+    if (!pending_) throw failure("quad without a record; expected # FAMILY OUTPUT ERROR at X,Y before it");
     if (quad.attribute[0].size() != 1)
       throw failure("the quad has " + std::to_string(quad.attribute[0].size()) + " attributes; one is expected");
     next_.quad = quad;

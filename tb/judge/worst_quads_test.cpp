@@ -54,16 +54,16 @@ TEST(WorstQuads, BadFilesAreRefused) {
   const auto expect = [](const std::string& text, const std::string& piece) {
     EXPECT_NE(refusal(text).find(piece), std::string::npos) << refusal(text) << "\nof " << text;
   };
-  expect(quad, "w.quads:1: a quad without a record");
-  expect(record + quad + quad, "w.quads:3: a quad without a record");
-  expect(record + record + quad, "w.quads:2: a record without a quad");
-  expect(record + quad + record, "a record without a quad");
+  expect(quad, "w.quads:1: quad without a record");
+  expect(record + quad + quad, "w.quads:3: quad without a record");
+  expect(record + record + quad, "w.quads:2: record without a quad");
+  expect(record + quad + record, "record without a quad");
   expect("# reflex weight 1.25 10,11\n" + quad, "w.quads:1: expected # reflex weight ERROR at X,Y");
   expect("# reflex weight nan at 10,11\n" + quad, "expected # reflex weight");
   expect("# reflex weight -1 at 10,11\n" + quad, "expected # reflex weight");
   expect("# reflex weight 1.25 at 10,11 px\n" + quad, "expected # reflex weight");
   expect("# reflex weight 1.25 at 10,64\n" + quad, "outside 64x64");
-  expect("# reflexes weight 1.25 at 10,11\n" + quad, "a quad without a record");
+  expect("# reflexes weight 1.25 at 10,11\n" + quad, "quad without a record");
   expect("# size 0x7\n" + record + quad, "w.quads:1: expected # size");
   expect("# set significand_bits=twelve\n" + record + quad, "w.quads:1: expected # set");
   expect("# set significand_bit=12\n" + record + quad, "w.quads:1: ");

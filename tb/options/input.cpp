@@ -124,8 +124,8 @@ void need_colours(const golden::Mesh& mesh, const DrawInput& input) {
 void need_no_object(const DrawInput& input) {
   if (input.shade == "planes" || input.shade == "colour")
     throw UsageError("--shade " + input.shade + ": the quads of " + input.name + " have no " +
-                     (input.shade == "planes" ? "positions in space" : "colours") + "; it goes with --scene" +
-                     (input.shade == "planes" ? " and --mesh" : ""));
+                     (input.shade == "planes" ? "positions in space" : "colours") + "; use --scene" +
+                     (input.shade == "planes" ? " or --mesh" : ""));
 }
 
 /// A machine's attributes have few integer bits: positions are halved until none is above 2, and the spacing with them.
@@ -288,7 +288,7 @@ int inputs_given(const InputOptions& options) {
 std::string shade_of(const std::string& shade, const std::string& texture) {
   if (texture.empty()) return shade;
   if (!shade.empty() && shade != "texture")
-    throw UsageError("--texture " + texture + ": needs --shade texture, not --shade " + shade);
+    throw UsageError("--texture " + texture + " needs --shade texture, not --shade " + shade);
   return "texture";
 }
 
@@ -300,10 +300,9 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, cons
         std::to_string(inputs_given(options)) + " were given)");
   for (const auto& [name, value] : {std::pair{"--camera", &options.camera}, std::pair{"--view", &options.view},
                                     std::pair{"--up", &options.up}, std::pair{"--save-camera", &options.save_camera}}) {
-    if (!value->empty() && options.mesh.empty()) throw UsageError(std::string(name) + " goes with --mesh");
+    if (!value->empty() && options.mesh.empty()) throw UsageError(std::string(name) + " needs --mesh");
     if ((value == &options.view || value == &options.up) && !value->empty() && !options.camera.empty())
-      throw UsageError(std::string(name) + " is for the automatic camera; --camera " + options.camera +
-                       " has its own view");
+      throw UsageError(std::string(name) + " conflicts with --camera " + options.camera);
   }
   if (!shade.empty()) choose("shading", shade, shade_modes());
   DrawInput input;

@@ -70,13 +70,9 @@ std::uint32_t parse_skips(std::string_view list, const Config& config, bool dept
     const std::size_t comma = std::min(list.find(','), list.size());
     skips |= 1u << choose("--skip value (all, none, or names with commas between)", list.substr(0, comma), names);
     if ((skips & skip_hidden) != 0 && !can_hide)
-      throw UsageError(
-          "--skip hidden: this configuration holds no depths of tiles; --set hierarchical_z_bits=12 for example");
-    if ((skips & skip_hidden) != 0 && !depth) throw UsageError("--skip hidden: there is no depth test with --no-depth");
-    if ((skips & skip_plane) != 0 && !can_plane)
-      throw UsageError(
-          "--skip plane: this configuration has mean value weights alone; --set plane_quads=1 for quads that "
-          "are exactly plane");
+      throw UsageError("--skip hidden needs hierarchical_z_bits, such as --set hierarchical_z_bits=12");
+    if ((skips & skip_hidden) != 0 && !depth) throw UsageError("--skip hidden conflicts with --no-depth");
+    if ((skips & skip_plane) != 0 && !can_plane) throw UsageError("--skip plane needs --set plane_quads=1");
     if (comma == list.size()) return skips;
     list.remove_prefix(comma + 1);
   }
@@ -113,32 +109,35 @@ CLI::Validator whole_number(std::uint64_t most) {
 }
 
 void CommonOptions::add_to(CLI::App& app, bool draws) {
-  constexpr const char* group = "Common options";
-  app.add_option("--config", config_file, "Configuration file (TOML); `quadrille config` lists the keys")
+  app.add_option("--config", config_file, "Configuration file; `quadrille config` lists the keys")
       ->type_name("F.toml")
-      ->group(group);
-  app.add_option("--set", settings, "Set one configuration key (after --config); may be given several times")
+      ->group(config_group);
+  app.add_option("--set", settings, "One configuration key, after --config; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
-      ->group(group);
+      ->group(config_group);
   if (draws) {
-    app.add_option("--size", size, "Viewport in pixels")->type_name("WxH")->capture_default_str()->group(group);
-    app.add_option("--seed", seed, "Seed of everything random")
-        ->check(whole_number())
-        ->type_name("N")
-        ->capture_default_str()
-        ->group(group);
-    app.add_option("--threads", threads, "Threads, 0 for one per processor; results do not depend on it")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str()
-        ->group(group);
+    app.add_option("--size", size, "Viewport in pixels")->type_name("WxH")->capture_default_str()->group(state_group);
+    add_seed_and_threads(app);
   }
-  writes_file(app, app.add_option("--json", json, "Write a JSON report (- for standard output)"), "json")->group(group);
-  auto* be_quiet = app.add_flag("--quiet", quiet, "Print nothing but errors")
+  writes_file(app, app.add_option("--json", json, "JSON report; - is standard output"), "json")->group(output_group);
+  auto* be_quiet = app.add_flag("--quiet", quiet, "Print only errors")
                        ->each([](const std::string&) { BuildNotice::silence(); })
-                       ->group(group);
-  app.add_flag("--verbose", verbose, "Print more")->excludes(be_quiet)->group(group);
+                       ->group(output_group);
+  app.add_flag("--verbose", verbose, "Print more")->excludes(be_quiet)->group(output_group);
+}
+
+void CommonOptions::add_seed_and_threads(CLI::App& app) {
+  app.add_option("--seed", seed, "Seed of all random choices")
+      ->check(whole_number())
+      ->type_name("N")
+      ->capture_default_str()
+      ->group(general_group);
+  app.add_option("--threads", threads, "Threads, 0: one per processor; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str()
+      ->group(general_group);
 }
 
 Config CommonOptions::config() const {
@@ -158,7 +157,7 @@ Config CommonOptions::config() const {
     else if (const std::optional<int> number = toml_integer(value))
       result.set(key, *number);
     else
-      throw UsageError("--set " + key + ": \"" + value + "\" is not a whole number in range, as TOML writes it");
+      throw UsageError("--set " + key + ": expected a TOML integer in range, not \"" + value + "\"");
     if (const std::string note = Config::note(key); !note.empty()) notes.push_back(note);
   }
   result.validate();
@@ -194,32 +193,34 @@ std::FILE* CommonOptions::text() const {
 }
 
 void StateOptions::add_to(CLI::App& app) {
-  constexpr const char* group = "Draw state";
-  app.add_option("--cull", cull, "Faces to leave out: none, front, back")
+  app.add_option("--cull", cull, "Faces to cull: none, front or back")
       ->type_name("FACES")
       ->capture_default_str()
-      ->group(group);
-  app.add_flag("--no-perspective", no_perspective, "Interpolate attributes in screen space")->group(group);
-  app.add_flag("--no-depth", no_depth, "No window z: no depth output, no near and far discard")->group(group);
-  app.add_option("--znear", znear, "Discard fragments with window z below this")
+      ->group(state_group);
+  app.add_flag("--no-perspective", no_perspective, "Interpolate attributes in screen space")->group(state_group);
+  app.add_flag("--no-depth", no_depth, "No window z: no depth output, near or far discard")->group(state_group);
+  app.add_option("--znear", znear, "Discard fragments with smaller window z")
       ->type_name("Z")
       ->capture_default_str()
-      ->group(group);
-  app.add_option("--zfar", zfar, "Discard fragments with window z above this")
+      ->group(state_group);
+  app.add_option("--zfar", zfar, "Discard fragments with larger window z")
       ->type_name("Z")
       ->capture_default_str()
-      ->group(group);
-  app.add_option("--scissor", scissor, "Half-open pixel rectangle to draw in")->type_name("X0,Y0,X1,Y1")->group(group);
-  app.add_option(
-         "--skip", skip,
-         "What the machine may leave out: all, none, or a list of tiles (blocks and tiles that no covered pixel "
-         "can be in), quads (those that cannot give a fragment), walk (of homogeneous quads what misses the scissor), "
-         "operands (work inside a pixel that its fragment does not depend on) and hidden (tiles behind what was drawn, "
-         "with hierarchical_z_bits) and plane (mean value weights of quads whose values are plane, with "
-         "plane_quads); without hidden and plane the fragments are the same, with it the picture is")
+      ->group(state_group);
+  app.add_option("--scissor", scissor, "Pixel rectangle to draw in, without column X1 and row Y1")
+      ->type_name("X0,Y0,X1,Y1")
+      ->group(state_group);
+  app.add_option("--skip", skip,
+                 "Work to leave out: all, none or a list\n"
+                 "  tiles     blocks and tiles without covered pixels\n"
+                 "  quads     quads without fragments\n"
+                 "  walk      parts of homogeneous quads outside the scissor\n"
+                 "  operands  work that a pixel's fragment does not depend on\n"
+                 "  hidden    tiles behind earlier quads (the picture stays; needs hierarchical_z_bits)\n"
+                 "  plane     weights of plane quads (needs plane_quads)")
       ->type_name("LIST")
       ->capture_default_str()
-      ->group(group);
+      ->group(state_group);
 }
 
 DrawState StateOptions::state(const CommonOptions& common, const Config& config) const {
@@ -284,7 +285,7 @@ std::string StateOptions::spelled() const {
 }
 
 double probability(const char* name, double value) {
-  if (!(value >= 0 && value < 1)) throw UsageError(std::string(name) + ": a probability from 0 to below 1 is required");
+  if (!(value >= 0 && value < 1)) throw UsageError(std::string(name) + ": expected a probability, 0 <= P < 1");
   return value;
 }
 
@@ -292,29 +293,27 @@ void InputOptions::add_to(CLI::App& app) {
   constexpr const char* group = "Input";
   app.add_option("--scene", scene, "Built-in scene; `quadrille scenes` lists them")->type_name("NAME")->group(group);
   app.add_option("--mesh", mesh, "Polygon mesh (Wavefront OBJ)")->type_name("F.obj")->group(group);
-  app.add_option("--camera", camera, "Camera for --mesh; without it the mesh is framed automatically")
-      ->type_name("F.json")
-      ->group(group);
+  app.add_option("--camera", camera, "Camera for --mesh (default: frames the mesh)")->type_name("F.json")->group(group);
   app.add_option("--view", view,
-                 "Where the automatic camera looks from: front, back, left, right, top, bottom, an axis such as -z, or "
-                 "a direction X,Y,Z from the mesh to the eye; default: front, half from the right, a little above")
+                 "From where the default camera looks (default: front, slightly right and above)\n"
+                 "  front, back, left, right, top, bottom\n"
+                 "  -z     an axis, with or without sign\n"
+                 "  X,Y,Z  a direction from the mesh to the eye")
       ->type_name("SIDE")
       ->group(group);
   app.add_option("--up", up,
-                 "What is up for the automatic camera: y (the default; the front is then +z), z (the front is -y), any "
-                 "axis with a sign, or X,Y,Z")
+                 "Axis or X,Y,Z that points up (default: y)\n"
+                 "  y  the front is +z\n"
+                 "  z  the front is -y")
       ->type_name("AXIS")
       ->group(group);
-  writes_file(
-      app,
-      app.add_option("--save-camera", save_camera, "Write the camera of --mesh; --camera reads it and draws the same"),
-      "json")
+  writes_file(app, app.add_option("--save-camera", save_camera, "Write the camera of --mesh for --camera"), "json")
       ->group(group);
   app.add_option("--quads", quads, "Quads in homogeneous window coordinates")->type_name("F.quads")->group(group);
-  app.add_option("--stress", stress, "Random quads of a stress family, such as general or eye_crossing")
+  app.add_option("--stress", stress, "Random quads of a family; `quadrille scenes --stress` lists them")
       ->type_name("FAMILY")
       ->group(group);
-  app.add_option("--count", count, "Quads of --stress")
+  app.add_option("--count", count, "Number of quads of --stress")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 10'000'000))
@@ -322,36 +321,45 @@ void InputOptions::add_to(CLI::App& app) {
   app.add_option("--corner", corner, "Directed quads of a rare case; `quadrille scenes --corner` lists them")
       ->type_name("GROUP")
       ->group(group);
-  app.add_flag("--strict", strict, "Refuse faces with more than four corners instead of cutting them up")->group(group);
+  app.add_flag("--strict", strict, "Refuse faces with more than four corners")->group(group);
 }
 
-void InputOptions::add_light_to(CLI::App& app) {
-  app.add_option(
-         "--light", light,
-         "headlight (at the eye: the default with --mesh), or where the light comes from: an axis such as -z or "
-         "a direction X,Y,Z (0.35,0.8,0.6: the default otherwise); for --shade normal and planes")
-      ->type_name("LIGHT");
+void add_attributes_option(CLI::App& app, std::string& shade) {
+  app.add_option("--shade", shade, "Attributes: uv, texture, normal, planes or colour (default: by input)")
+      ->type_name("MODE")
+      ->group("Input");
 }
 
-void EngineOptions::add_to(CLI::App& app, bool fp32) {
+void InputOptions::add_picture_options(CLI::App& app, std::string& shade, std::string& texture) {
+  app.add_option("--shade", shade, "uv, texture, normal, lambda, depth, quad, planes or colour (default: by input)")
+      ->type_name("MODE")
+      ->group(output_group);
+  app.add_option("--texture", texture, "Texture for --shade texture (default: a pattern of the input)")
+      ->type_name("F.png")
+      ->group(output_group);
+  app.add_option("--light", light,
+                 "Light for --shade normal and planes (default: headlight with --mesh, else 0.35,0.8,0.6)\n"
+                 "  headlight  at the eye\n"
+                 "  -z         from an axis, with or without sign\n"
+                 "  X,Y,Z      from a direction")
+      ->type_name("LIGHT")
+      ->group(output_group);
+}
+
+void EngineOptions::add_to(CLI::App& app, std::string& method, bool fp32) {
   single = fp32;
-  std::string help;
+  std::string help = "Engine that draws";
   for (const std::string& name : engine_choices(fp32))
-    help += (help.empty() ? "" : ", ") + name + " (" + std::string(engine_info(engine_kind(name, fp32)).help) + ")";
+    help += "\n  " + name + std::string(8 - name.size(), ' ') + std::string(engine_info(engine_kind(name, fp32)).help);
   app.add_option("--engine", engine, help)->type_name("ENGINE")->capture_default_str();
   app.add_option("--snap", snap,
-                 std::string("on or off: float, ") + (fp32 ? "fp32, " : "") +
-                     "shader and truth draw the snapped or the given quads")
+                 std::string("Draw snapped quads: float, ") + (fp32 ? "fp32, " : "") + "shader and truth")
       ->type_name("on|off")
       ->capture_default_str();
-  app.add_option("--stall", stall, "rtl: probability per clock that the output is not ready")->type_name("P");
-  app.add_option("--gap", gap, "rtl: probability per clock that no vertex is offered")->type_name("P");
-}
-
-void add_method_option(CLI::App& app, std::string& method) {
-  app.add_option(
-         "--method", method,
-         "A method of the papers instead of an engine, on the quads as given; `quadrille compare --help` lists them")
+  app.add_option("--stall", stall, "rtl: probability per clock that the output is not ready (default: 0)")
+      ->type_name("P");
+  app.add_option("--gap", gap, "rtl: probability per clock that no vertex is offered (default: 0)")->type_name("P");
+  app.add_option("--method", method, "Method of the papers as engine; `quadrille compare --help` lists them")
       ->type_name("METHOD")
       ->excludes("--engine")
       ->excludes("--snap");
@@ -368,9 +376,9 @@ EngineSettings EngineOptions::settings(const CommonOptions& common, const StateO
   s.stall = probability("--stall", stall);
   s.gap = probability("--gap", gap);
   if (s.kind != EngineKind::rtl && (stall != 0 || gap != 0))
-    throw UsageError("--stall and --gap are for --engine rtl; " + engine + " has no clock");
+    throw UsageError("--stall and --gap need --engine rtl, not " + engine);
   if (engine_info(s.kind).machine && !s.snap)
-    throw UsageError("--snap off is for the engines float, shader and truth; the machine takes snapped quads only");
+    throw UsageError("--snap off needs engine float, fp32, shader or truth; the machine takes snapped quads");
   return s;
 }
 

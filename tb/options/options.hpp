@@ -50,6 +50,7 @@ struct CommonOptions {
 
   /// `draws` false: a command that draws nothing (no --size, --seed, --threads).
   void add_to(CLI::App& app, bool draws = true);
+  void add_seed_and_threads(CLI::App& app);
   /// Config file, then --set, then validated.
   Config config() const;
   /// Width and height, checked against the configuration.
@@ -87,8 +88,8 @@ struct InputOptions {
   std::vector<std::string> files() const { return {mesh, camera, quads}; }
 
   void add_to(CLI::App& app);
-  /// --light, for a command that draws pictures.
-  void add_light_to(CLI::App& app);
+  /// --shade, --texture and --light, for a command that draws pictures.
+  void add_picture_options(CLI::App& app, std::string& shade, std::string& texture);
 };
 
 /// `value` if it is in [0, 1); throws UsageError naming the option otherwise.
@@ -100,14 +101,14 @@ struct EngineOptions {
   double stall = 0, gap = 0;
   bool single = false;  ///< the engine fp32 is one, too
 
-  /// `fp32`: for a command that has this engine, too.
-  void add_to(CLI::App& app, bool fp32 = false);
+  /// With --method, which replaces an engine. `fp32`: for a command that has this engine, too.
+  void add_to(CLI::App& app, std::string& method, bool fp32 = false);
   /// Checked; throws UsageError where the engine and --snap do not go together.
   EngineSettings settings(const CommonOptions& common, const StateOptions& state) const;
 };
 
-/// --method in the place of an engine; after EngineOptions::add_to().
-void add_method_option(CLI::App& app, std::string& method);
+/// --shade for a command that draws no picture.
+void add_attributes_option(CLI::App& app, std::string& shade);
 
 /// The keys that differ from their defaults as a command line gives them, " --set key=value" each.
 std::string spelled(const Config& config);

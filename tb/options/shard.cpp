@@ -19,18 +19,15 @@ Shard Shard::parse(const std::string& text) {
     const auto [last, bad_count] = std::from_chars(slash + 1, end, shard.count);
     good = bad_count == std::errc{} && last == end && shard.index < shard.count && shard.count <= 1'000'000;
   }
-  if (!good) throw UsageError("--shard " + text + ": I/N with 0 <= I < N is expected, such as 0/4");
+  if (!good) throw UsageError("--shard " + text + ": expected I/N with 0 <= I < N, such as 0/4");
   return shard;
 }
 
 void ShardOptions::add_to(CLI::App& app, const std::string& what, const std::string& part) {
   constexpr const char* group = "Shards";
-  CLI::Option* one = app.add_option("--shard", shard, "Only part I of N, 0 <= I < N, of " + what)->type_name("I/N");
+  CLI::Option* one = app.add_option("--shard", shard, "Part I (from 0) of N of " + what)->type_name("I/N");
   one->group(group);
-  app.add_option("--merge", merge, "Put shards together: " + part + "; the same bytes as one run leaves")
-      ->type_name("PART ...")
-      ->group(group)
-      ->excludes(one);
+  app.add_option("--merge", merge, "Join shards: " + part)->type_name("PART")->group(group)->excludes(one);
 }
 
 std::vector<std::string> without_outputs(std::span<const std::string> arguments) {

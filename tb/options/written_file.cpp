@@ -85,9 +85,9 @@ CLI::Option* writes_file(const CLI::App& command, CLI::Option* option, const std
         const std::string given = ending_of(path);
         const std::string_view format = format_of(given);
         if (given == ending || format.empty()) return {};
-        std::string text = path + ": this option writes " + std::string(format_of(ending)) + ", and ." + given +
-                           " is for " + std::string(format) + "; a name such as " +
-                           std::filesystem::path(path).replace_extension(ending).string() + " is right";
+        std::string text = path + ": this option writes " + std::string(format_of(ending)) + ", not " +
+                           std::string(format) + "; expected a name such as " +
+                           std::filesystem::path(path).replace_extension(ending).string();
         if (const std::string other = writer_of(command, given); !other.empty())
           text += ", or " + other + " for " + std::string(format);
         return text;
@@ -102,8 +102,8 @@ CLI::Option* writes_folder(CLI::Option* option) {
         const std::string_view format = format_of(ending_of(path));
         std::error_code ignored;
         if (format.empty() || std::filesystem::is_directory(path, ignored)) return {};
-        return path + ": this option names a folder for several files, not one file with " + std::string(format) +
-               "; a name such as " + std::filesystem::path(path).replace_extension().string() + " is right";
+        return path + ": this option writes a folder, not " + std::string(format) + "; expected a name such as " +
+               std::filesystem::path(path).replace_extension().string();
       },
       "", validator_name);
   return option->type_name("DIR")->check(validator);

@@ -69,7 +69,7 @@ SnappedQuad snap_as(const WindowQuad& quad, std::uint32_t id, const Config& conf
 void check_quad_count(std::size_t quads, const Config& config) {
   if (config.quad_id_bits < 32 && quads > std::size_t{1} << config.quad_id_bits)
     throw UsageError(std::to_string(quads) + " quads are more than quad_id_bits = " +
-                     std::to_string(config.quad_id_bits) + " can number; use --set quad_id_bits=32");
+                     std::to_string(config.quad_id_bits) + " allows; use --set quad_id_bits=32");
 }
 
 DrawState state_of_pass(DrawState state, const Pass& pass, bool first) {

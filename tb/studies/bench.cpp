@@ -323,73 +323,55 @@ int bench(BenchOptions& options, bool size_given, bool fragments_given, const st
 
 void add_bench_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("bench", bench_description);
-  command->footer(
-      "Without --error all draw the same mesh, one after the other and that several times; the median counts.\n\n"
-      "With --error: run time per fragment and errors against exact arithmetic on the same snapped quads, of the\n"
-      "paper's formulas as printed in single (fp32) and double precision (fp64), the truth, the untimed model\n"
-      "with plain integers (model-plain) and with lanes (model), the clocked model alone (model-clocked) and the\n"
-      "RTL (rtl). Times are of one core and hold set-up, weights, attributes and depth; the machine's also\n"
-      "traversal and coverage, the truth's coverage. Errors are the same in every run. Exit status 1: a machine\n"
-      "is beyond its bound, or two machines differ.\n\n"
-      "With --skips: the clocked model's clocks and counters, the untimed model's time with lanes on one core. In\n"
-      "the pictures grey tiles were entered, violet ones were hidden, green ones were not hit, blue ones lie in a\n"
-      "block that was not, and those of quads left out are orange (depth), yellow (on a line), red (culled); a\n"
-      "mixture where quads differ, beside them each alone and a legend; the EXR has the numbers of each in a\n"
-      "layer (skip.hidden, say). Exit status 1: a skip that must keep the list of fragments changed it.\n\n"
-      "With --peers: CPU time, one thread each, model and shader in turn; scripts/peers_plot.py draws the JSON.\n\n"
-      "With --cliffs: CPU time of one thread for a fragment, divided by the engine's least, on every family and\n"
-      "scene, on a mesh from within and from outside, at significand_bits 8 to 26, in viewports of 64 to 4096.\n"
-      "What is above 8, and why: tb/studies/README.md.\n\n"
-      "Examples:\n"
-      "  quadrille bench\n"
-      "  quadrille bench --no-rtl --set significand_bits=24 --json bench.json\n"
-      "  quadrille bench --error --no-rtl --json error.json\n"
-      "  quadrille bench --skips --json skips.json --pictures skips\n"
-      "  quadrille bench --peers --json peers.json\n"
-      "  quadrille bench --skips --mesh pawn.obj --size 512x512\n"
-      "  quadrille bench --cliffs --json cliffs.json\n"
-      "  quadrille bench --error --stress sliver --count 200 --verbose");
+  end_help(*command,
+           "Without a study all engines draw the same mesh in turn, several times. The median counts.\n\n"
+           "--error: run time per fragment on one core, and errors against exact arithmetic on the snapped quads.\n"
+           "--skips: clocks and counters of the clocked model, time of the untimed model on one core. Colours of "
+           "tiles in the pictures:\n"
+           "  grey    entered\n"
+           "  violet  hidden\n"
+           "  green   not hit\n"
+           "  blue    in a block that was not hit\n"
+           "  orange  of a quad left out by depth\n"
+           "  yellow  of a quad left out because it is a line\n"
+           "  red     of a culled quad\n"
+           "--peers: CPU time on one thread; scripts/peers_plot.py draws the JSON.\n"
+           "--cliffs: CPU time per fragment on one thread, divided by the engine's least (tb/studies/README.md).",
+           "0 done; 1 bound exceeded, engines differ, or a skip changed fragments that it must keep; 2 usage or input "
+           "error; 3 missing tool",
+           {"bench --no-rtl --set significand_bits=24 --json bench.json",
+            "bench --error --stress sliver --count 200 --verbose", "bench --skips --json skips.json --pictures skips"});
   const auto options = std::make_shared<BenchOptions>();
   SpeedOptions& speed = options->speed;
-  CLI::Option* error =
-      command->add_flag("--error", options->error,
-                        "Errors and run times of all engines; without an input on all built-in scenes and stress "
-                        "families. --size is 128x128 unless it is given");
+  constexpr const char* studies = "Studies";
+  CLI::Option* error = command
+                           ->add_flag("--error", options->error,
+                                      "Errors and run times of all engines (default input: all scenes and families)")
+                           ->group(studies);
   CLI::Option* skips =
-      command
-          ->add_flag(
-              "--skips", options->skips,
-              "What each skip saves: clocks, pixels, products and model time with none, each alone and all; without an "
-              "input on all loads (`quadrille scenes`). --size is 256x256 unless it is given")
+      command->add_flag("--skips", options->skips, "Clocks and work without skips, with each and with all")
+          ->group(studies)
           ->excludes(error);
-  CLI::Option* peers =
-      command
-          ->add_flag("--peers", options->peers,
-                     "The model beside the papers' fp32 shader on OpenGL: pictures, cost over the size and the number "
-                     "of quads, error against time. --size is 1920x1080 unless it is given")
-          ->excludes(error)
-          ->excludes(skips);
+  CLI::Option* peers = command->add_flag("--peers", options->peers, "The model against the papers' shader on OpenGL")
+                           ->group(studies)
+                           ->excludes(error)
+                           ->excludes(skips);
   CLI::Option* cliffs =
-      command
-          ->add_flag("--cliffs", options->cliffs,
-                     "Where an engine takes longer for a fragment than elsewhere: over families, scenes, views, widths "
-                     "and viewports")
+      command->add_flag("--cliffs", options->cliffs, "Inputs and configurations with unusually slow fragments")
+          ->group(studies)
           ->excludes(error)
           ->excludes(skips)
           ->excludes(peers);
-  writes_folder(
-      command->add_option(
-          "--pictures", options->pictures,
-          "With --skips: folder for a PNG and an EXR of each scene, its tiles coloured by what became of them"))
+  writes_folder(command->add_option("--pictures", options->pictures, "PNG and EXR of the tiles of each scene"))
+      ->group(output_group)
       ->needs(skips);
   options->input.add_to(*command);
   speed.common.add_to(*command);
   command
-      ->add_option("--repeat", options->repeat,
-                   "Runs of each; default 5, with --error, --skips or --cliffs 3, with --peers 9")
+      ->add_option("--repeat", options->repeat, "Runs of each (default: 5; --error, --skips, --cliffs: 3; --peers: 9)")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--quad-size", speed.quad_size, "Size of the mesh's quads in pixels")
+  command->add_option("--quad-size", speed.quad_size, "Side of the mesh's quads in pixels")
       ->type_name("PX")
       ->check(CLI::Range(2, 4096))
       ->capture_default_str()
@@ -400,17 +382,13 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   CLI::Option* fragments =
       command
           ->add_option("--fragments", speed.fragments,
-                       "Fragments of the model per run, with --peers of a point, with --cliffs of an input (default "
-                       "10000); slower bodies get a part of that")
+                       "Fragments per run of the model (--cliffs: 10000); fewer for slower engines")
           ->type_name("N")
           ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40))
           ->capture_default_str()
           ->excludes(error)
           ->excludes(skips);
-  command
-      ->add_option("--limit-fragments", options->limit_fragments,
-                   "With --error: draw the quads of an input in order until there are so many fragments and 16 quads; "
-                   "none is cut off")
+  command->add_option("--limit-fragments", options->limit_fragments, "Fragments per input, whole quads, at least 16")
       ->type_name("N")
       ->check(whole_number())
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
@@ -419,11 +397,12 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   command
       ->add_option_function<std::string>(
           "--lanes", [](const std::string& wanted) { set_lane_target(wanted); },
-          "Instruction set of the model's lanes: baseline, v3 or v4 (x86-64); default the best that the processor has")
+          "Instruction set of the model: baseline, v3 or v4 (default: the processor's best)")
       ->type_name("NAME");
-  command->add_flag("--no-rtl", speed.no_rtl, "Leave the RTL out (no Verilator needed)");
+  command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator");
   CLI::Option* size = command->get_option("--size");
   size->excludes(cliffs);
+  size->default_str("512x512; --error: 128x128; --skips: 256x256; --peers: 1920x1080");
   std::vector<const CLI::Option*> of_input;
   for (const char* input : {"--scene", "--mesh", "--camera", "--view", "--up", "--save-camera", "--quads", "--stress",
                             "--count", "--corner", "--strict"})
@@ -431,7 +410,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   command->callback([options, size, fragments, of_input, &invocation] {
     if (!options->error && !options->skips)
       for (const CLI::Option* input : of_input)
-        if (input->count() != 0) throw UsageError(input->get_name() + " goes with --error or --skips");
+        if (input->count() != 0) throw UsageError(input->get_name() + " needs --error or --skips");
     invocation.run = [options, size, fragments, &invocation] {
       return bench(*options, size->count() != 0, fragments->count() != 0, invocation.arguments);
     };

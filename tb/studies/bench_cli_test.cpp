@@ -27,11 +27,11 @@ TEST_F(Cli, BenchErrorRefuses) {
   refuses(2, "bench --error --limit-fragments -5", {"--limit-fragments", "whole number"});
   refuses(2, "bench --error --limit-fragments 0", {"--limit-fragments"});
   refuses(2, "bench --error --repeat 0", {"--repeat"});
-  refuses(2, "bench --error --no-rtl --lanes v5", {"no lanes \"v5\"", "baseline, v3, v4"});
+  refuses(2, "bench --error --no-rtl --lanes v5", {"\"v5\"", "baseline, v3, v4"});
   refuses(2, "bench --error --no-rtl --scene shpere", {"unknown scene", "did you mean \"sphere\""});
   refuses(2, "bench --error --no-rtl --stress slivers", {"unknown stress family", "did you mean \"sliver\""});
   refuses(2, "bench --error --no-rtl --scene sphere --stress sliver", {"one input is needed"});
-  refuses(2, "bench --error --no-rtl --camera c.json", {"--camera goes with --mesh"});
+  refuses(2, "bench --error --no-rtl --camera c.json", {"--camera needs --mesh"});
   refuses(2, "bench --error --no-rtl --mesh nothing.obj", {"nothing.obj"});
   refuses(2, "bench --error --no-rtl --scene sphere --size 9999x2", {"--size"});
   refuses(2, "bench --error --no-rtl --scene sphere --json nowhere/e.json", {"nowhere"});

@@ -196,7 +196,7 @@ class CliffBench {
     if (!options_.common.json.empty()) golden::save_json(options_.common.json, report());
     for (std::size_t s = 0; s < subjects_.size(); ++s)
       if (!std::isfinite(best(s))) {
-        std::fprintf(stderr, "quadrille: %s drew nothing\n", subjects_[s].name.c_str());
+        std::fprintf(stderr, "quadrille: %s: no fragments\n", subjects_[s].name.c_str());
         return exit_mismatch;
       }
     return exit_ok;

@@ -133,7 +133,7 @@ class PeerBench {
     picture_state_ = state_options.state(options.common, config_);
     picture_state_.attributes = peer_attributes;
     if (config_.attribute_slots < peer_attributes)
-      throw UsageError("bench --peers draws two attributes; attribute_slots is " +
+      throw UsageError("bench --peers needs two attributes; attribute_slots = " +
                        std::to_string(config_.attribute_slots));
     const auto longest = static_cast<unsigned>(std::max(picture_state_.width, picture_state_.height));
     square_ = static_cast<int>(std::min(std::bit_ceil(longest), 1u << config_.viewport_bits));

@@ -178,7 +178,7 @@ class SpeedBench {
     checker.finish(report.complete);
     queue.drain();
     if (!report.agreed() || !checker.result().ok())
-      throw std::runtime_error("cosim: the bench's mesh fails; run `quadrille cosim`");
+      throw std::runtime_error("RTL and model differ on the mesh; run `quadrille cosim`");
     return {report.fragments, report.cycles_rtl, report.wall_seconds + stopwatch.seconds()};
   }
 

@@ -267,13 +267,13 @@ class Compare {
 
  private:
   void check_options() {
-    if (options_.out.empty()) throw UsageError("--out DIR is needed");
+    if (options_.out.empty()) throw UsageError("--out DIR is missing");
     if (fs::exists(options_.out) && !fs::is_directory(options_.out))
-      throw UsageError("--out " + options_.out + ": is a file; a directory is wanted");
+      throw UsageError("--out " + options_.out + ": is a file; expected a directory");
     if (inputs_given(options_.input) != 1)
       throw UsageError(
           "one input is needed: --scene NAME, --mesh F.obj, --quads F.quads, --stress FAMILY or --corner GROUP");
-    if (options_.methods.empty()) throw UsageError("--methods: no method is named");
+    if (options_.methods.empty()) throw UsageError("--methods: expected at least one method");
     method_name("--reference", options_.reference);
     std::set<std::string> seen;
     for (const std::string& method : options_.methods)
@@ -281,8 +281,7 @@ class Compare {
         throw UsageError("--methods: " + method + " is named twice");
     if (const int most = compare::most_columns(options_.cell); static_cast<int>(options_.methods.size()) > most)
       throw UsageError("--methods: " + std::to_string(options_.methods.size()) + " columns of --cell " +
-                       std::to_string(options_.cell) + " pixels do not fit one sheet; at most " + std::to_string(most) +
-                       " do");
+                       std::to_string(options_.cell) + " pixels do not fit the sheet; at most " + std::to_string(most));
     std::vector<std::string> read = options_.input.files();
     read.insert(read.end(), {options_.common.config_file, options_.texture});
     check_outputs({options_.input.save_camera, options_.common.json}, read);
@@ -302,8 +301,8 @@ class Compare {
     std::erase_if(sizes, [&](int size) { return options_.crease_sizes.empty() && (size < 16 || size > limit); });
     for (const int size : sizes)
       if (size < 16 || size > limit)
-        throw UsageError("--crease-sizes: from 16 to " + std::to_string(limit) + " pixels, not " +
-                         std::to_string(size));
+        throw UsageError("--crease-sizes " + std::to_string(size) + ": expected 16 to " + std::to_string(limit) +
+                         " pixels");
     std::ranges::sort(sizes);
     const auto same = std::ranges::unique(sizes);
     sizes.erase(same.begin(), same.end());
@@ -486,25 +485,22 @@ class Compare {
                    text(row["ns_per_pixel"], "%.3g").c_str());
     std::fprintf(
         out,
-        "wrong: pixels whose attributes are off by more than %g from exact mean value coordinates (exact MV), "
-        "which is what mvc\ncomputes: its nearness to them is by definition and no merit; from %s says how near "
-        "a method is to %s\n",
-        compare::default_wrong_above, options_.reference.c_str(),
-        options_.reference.starts_with("refine") ? "the refined surface" : "that one");
+        "wrong: pixels with an attribute error above %g from exact mean value coordinates (exact MV), which mvc "
+        "computes by definition\n",
+        compare::default_wrong_above);
     const bool no_crease = !sizes.empty() && std::ranges::all_of(rows, [&](const compare::Row& row) {
       return row["crease02_" + size].is_null() && row["crease13_" + size].is_null();
     });
     if (no_crease)
       std::fprintf(
           out,
-          "No crease: the middle half of a diagonal needs a row or column of eight pixels of its quad at every "
-          "size,\nand the quads are too small or not convex in front of the eye; larger --crease-sizes may "
-          "help\n");
+          "No crease: the quads are too small or not convex in front of the eye (eight pixels of a row or column at "
+          "each size are needed); larger --crease-sizes may help\n");
     for (const compare::Row& row : rows)
       if (row["refused"].get<std::uint64_t>() > 0)
         std::fprintf(out, "%s refuses %llu of %llu quads\n", row["method"].get<std::string>().c_str(),
                      row["refused"].get<unsigned long long>(), row["quads"].get<unsigned long long>());
-    std::fprintf(out, "%s: sheet.png, METHOD.exr, table.json, table.csv, table.md%s\n", options_.out.c_str(),
+    std::fprintf(out, "wrote %s: sheet.png, METHOD.exr, table.json, table.csv, table.md%s\n", options_.out.c_str(),
                  options_.plot ? ", plot.json, plot_time.png, plot_setup.png" : "");
   }
 
@@ -515,7 +511,7 @@ class Compare {
 };
 
 std::string method_list() {
-  std::string text = "Methods (--methods a,b,c; a knob follows after a colon):\n";
+  std::string text = "Methods, with a knob after a colon:\n";
   for (const methods::MethodInfo& info : methods::list_methods()) {
     text += "  " + std::string(info.name) + std::string(12 - std::min<std::size_t>(11, info.name.size()), ' ') +
             std::string(info.what);
@@ -529,50 +525,43 @@ std::string method_list() {
 
 void add_compare_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("compare", compare_description);
-  command->footer(method_list() +
-                  "\nWrites sheet.png (methods in columns), METHOD.exr, table.json, table.csv and table.md into DIR. A "
-                  "crease is the\nlargest change of an attribute's slope from pixel to pixel within 4 pixels of the "
-                  "middle half of a quad's\ndiagonal, in attribute per picture side, measured at half, the same and "
-                  "twice the size; tb/studies/compare/README.md.\n\n"
-                  "Examples:\n"
-                  "  quadrille compare --scene fig10_convex --out fig10\n"
-                  "  quadrille compare --scene phong_mesh --methods split02,split13,refine:20,mvc --wireframe --out "
-                  "fig11\n"
-                  "  quadrille compare --mesh spot.obj --methods split02,mvc --shade uv --plot --out spot\n"
-                  "  quadrille compare --quads some.quads --out some");
+  end_help(*command,
+           method_list() +
+               "\nWrites sheet.png (a column per method), METHOD.exr, table.json, table.csv and table.md. A crease is "
+               "the largest change of an attribute's slope across a quad's diagonal (tb/studies/compare/README.md).",
+           "0 done; 2 usage or input error; 3 missing tool",
+           {"compare --scene fig10_convex --out fig10", "compare --scene phong_mesh --methods split02,mvc --out fig11",
+            "compare --mesh spot.obj --shade uv --plot --out spot"});
   const auto options = std::make_shared<CompareOptions>();
   options->input.add_to(*command);
   options->common.add_to(*command);
   options->state.add_to(*command);
-  command
-      ->add_option("--methods", options->methods,
-                   "Methods, in the order of the columns; default: all, but for quads without an object in space "
-                   "adaptive and affine")
+  command->add_option("--methods", options->methods, "Methods in the order of the columns (default: all that apply)")
       ->delimiter(',')
       ->type_name("A,B,…");
-  writes_folder(command->add_option("--out", options->out, "Directory for what is written; made if it is not there"));
-  command->add_option("--reference", options->reference, "Method that the differences are taken from")
+  command->add_option("--reference", options->reference, "Method to measure differences from")
       ->type_name("METHOD")
       ->capture_default_str();
-  command->add_option("--shade", options->shade, "As for render; default: what suits the input")->type_name("MODE");
-  command->add_option("--texture", options->texture, "Picture for --shade texture instead of the input's own pattern")
-      ->type_name("F.png");
-  options->input.add_light_to(*command);
-  command->add_option("--crease-sizes", options->crease_sizes, "Longer sides, in pixels, to measure creases at")
+  command
+      ->add_option("--crease-sizes", options->crease_sizes,
+                   "Longer sides of the viewports for creases (default: half, same, double)")
       ->delimiter(',')
       ->type_name("N,N,…");
-  command->add_option("--cell", options->cell, "Width of a picture on the sheet, in pixels")
-      ->check(CLI::Range(32, 2048))
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--repeats", options->repeats, "Times to draw for the timing; the quickest counts")
+  command->add_option("--repeats", options->repeats, "Timed draws; the fastest counts")
       ->check(CLI::Range(1, 100))
       ->capture_default_str()
       ->type_name("N");
-  command->add_flag("--wireframe", options->wireframe, "Draw over the pictures what each method sets up");
-  command->add_flag("--plot", options->plot,
-                    "Also error from refine:200 against time and against triangles set up, every method, knobs as "
-                    "curves");
+  options->input.add_picture_options(*command, options->shade, options->texture);
+  writes_folder(command->add_option("--out", options->out, "Directory of the results; made if missing"))
+      ->group(output_group);
+  command->add_option("--cell", options->cell, "Width of a picture on the sheet in pixels")
+      ->check(CLI::Range(32, 2048))
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(output_group);
+  command->add_flag("--wireframe", options->wireframe, "Draw each method's triangles over its picture")
+      ->group(output_group);
+  command->add_flag("--plot", options->plot, "Plot error against time and against triangles")->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] {
       if (options->methods.empty()) {

@@ -34,9 +34,7 @@ TEST_F(CompareCli, WhatIsExactIsNamed) {
   const Outcome outcome = run("compare --repeats 1 --scene fig10_convex --size 64x64 --methods mvc,split02 --out d");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("from exact MV"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("wrong: pixels whose attributes are off by more than 0.001 from exact mean value"),
-            std::string::npos)
-      << outcome.out;
+  EXPECT_NE(outcome.out.find("above 0.001 from exact mean value"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("by definition"), std::string::npos) << outcome.out;
   const std::string markdown = read(file("d/table.md"));
   EXPECT_NE(markdown.find("from exact mean value"), std::string::npos) << markdown;

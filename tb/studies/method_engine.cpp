@@ -70,7 +70,7 @@ class MethodEngine final : public Engine {
 std::vector<methods::Quad> method_quads(const DrawInput& input, const std::string& method) {
   const bool has_object_space = input.corners.size() == input.quads.size();
   if (!has_object_space && methods::make_method(method)->needs_object_space())
-    throw UsageError("method " + method + " looks at the corners in object space, which " + input.name +
+    throw UsageError("method " + method + " needs corners in object space, which " + input.name +
                      " does not have; use --scene or --mesh");
   std::vector<methods::Quad> quads(input.quads.size());
   for (std::size_t i = 0; i < quads.size(); ++i) {

@@ -81,8 +81,7 @@ class StressCommand {
         arguments_(without_outputs(arguments)),
         config_(common_.config()),
         shard_(Shard::parse(options.shards.shard)) {
-    if (config_.qdrop() != 0)
-      throw UsageError("stress: quadratic_frac_bits drops bits of D and R²; no bound is claimed then");
+    if (config_.qdrop() != 0) throw UsageError("stress: no bound with quadratic_frac_bits that drops bits of D and R²");
     choose_bodies();
     choose_series();
   }
@@ -111,11 +110,11 @@ class StressCommand {
     const auto [width, height] = common_.viewport(config_);
     for (const std::string& name : wanted) {
       choose("family", name, all);
-      if (std::ranges::count(wanted, name) > 1) throw UsageError("--families: " + name + " stands there twice");
+      if (std::ranges::count(wanted, name) > 1) throw UsageError("--families: " + name + " is named twice");
     }
     if (shard_.count > wanted.size())
-      throw UsageError("--shard " + options_.shards.shard + ": " + std::to_string(wanted.size()) +
-                       " families are asked for; at most so many shards have some each");
+      throw UsageError("--shard " + options_.shards.shard + ": more shards than families (" +
+                       std::to_string(wanted.size()) + ")");
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (!shard_.holds(i)) continue;
       const std::string& name = wanted[i];
@@ -134,12 +133,13 @@ class StressCommand {
         s.state.width = s.approach->width;
         s.state.height = s.approach->height;
         if (s.state.width > 1 << config_.viewport_bits)
-          throw UsageError(name + " is drawn " + std::to_string(s.state.width) + " pixels wide: viewport_bits = " +
-                           std::to_string(config_.viewport_bits) + " is too few; leave it out with --families");
+          throw UsageError(name + " is " + std::to_string(s.state.width) +
+                           " pixels wide, too many for viewport_bits = " + std::to_string(config_.viewport_bits) +
+                           "; leave it out with --families");
         if (s.approach->attribute >= std::ldexp(1.0, config_.attribute_int_bits))
           throw UsageError(name + " has attributes up to " + std::to_string(static_cast<int>(s.approach->attribute)) +
-                           ": attribute_int_bits = " + std::to_string(config_.attribute_int_bits) +
-                           " is too few; leave it out with --families");
+                           ", too large for attribute_int_bits = " + std::to_string(config_.attribute_int_bits) +
+                           "; leave it out with --families");
       } else {
         s.family = golden::parse_stress_family(name);
         const golden::StressFamilyInfo& info = golden::stress_families()[static_cast<std::size_t>(*s.family)];
@@ -404,63 +404,46 @@ class StressCommand {
 
 void add_stress_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("stress", stress_description);
-  command->footer(
-      "Stress families take the knobs 2^-6 to 2^6 (those whose knob scales nothing, 1), quads at random.\n"
-      "Approaches walk quads towards a special case: knob k is a distance of 2^-k from it, on either side (of long\n"
-      "edges a length of 2^k), and the case itself. What each is: `quadrille scenes --stress`, "
-      "golden/scenes/README.md,\n"
-      "and in the JSON.\n\n"
-      "Errors are those against exact arithmetic on the same snapped quads, in units of what the bound allows: a\n"
-      "weight 1 to 3 2^-(s-3); weight 0, attributes and depth c 2^-(s-3) of their spread. Bodies: model; float and\n"
-      "fp32, the paper's formulas as printed in double and single precision; shader, on OpenGL; rtl, which must equal\n"
-      "the model.\n"
-      "In the table: near, the model's largest error of a weight at the pixels near the special case; jump, how far\n"
-      "an error of a weight, an attribute or depth of the model changes at one pixel from any step to the special\n"
-      "case, or from side to side where that draws nothing. Of the other bodies: the largest error of a weight,\n"
-      "fragments beyond the bound in any output, pixels where it divides by zero (undefined), and that it does not\n"
-      "draw (missing). --json has for each family, body and output the command that shows the worst pixel.\n"
-      "scripts/stress_plot.py draws it.\n\n"
-      "--search looks for the worst weight, attribute and depth of the model in each stress family instead:\n"
-      "an eighth of --evaluations pixels of quads as the family draws them, the rest climbs from the worst of\n"
-      "those, by the knob, by the random numbers that the family's code draws the quad from, so that its shape\n"
-      "remains, by the attribute and by the pixel. Errors are in units of which the bound allows 8: 2^-s of a\n"
-      "weight. --keep writes what it found as a .quads file with the errors in comments; --kept reads such a\n"
-      "file and compares, --kept F --keep F records the errors of its quads anew.\n\n"
-      "Exit status 1: the model is beyond its bound or draws other pixels, its error jumps by more than twice the\n"
-      "bound, no quad of an approach's step has a pixel near the case, the RTL differs from the model, or an error\n"
-      "is not the one kept.\n\n"
-      "Examples:\n"
-      "  quadrille stress\n"
-      "  quadrille stress --families edge_distance,eye_plane --set significand_bits=24 --csv stress.csv\n"
-      "  quadrille stress --families reflex --count 8 --engines rtl,shader --json stress.json\n"
-      "  quadrille stress --search --evaluations 100000 --set significand_bits=12 --keep worst.quads\n"
-      "  quadrille stress --kept worst.quads\n"
-      "  quadrille stress --shard 0/2 --json part0.json\n"
-      "  quadrille stress --merge part0.json part1.json --json stress.json --csv stress.csv");
+  end_help(*command,
+           "Stress families draw random quads, with the knobs 2^-6 to 2^6 where they have one. Approaches move quads "
+           "to a special case: knob k is a distance of 2^-k, on either side (for long edges, a length of 2^k). "
+           "`quadrille scenes --stress` lists both.\n\n"
+           "Errors are against exact arithmetic on the snapped quads, in units of the bound.\n"
+           "  near       largest weight error at pixels near the special case\n"
+           "  jump       largest change of an error from a step to the special case\n"
+           "  undefined  pixels with a division by zero\n"
+           "  missing    pixels not drawn\n"
+           "--json adds a command that shows each worst pixel; scripts/stress_plot.py draws the JSON.\n\n"
+           "--search takes 1/8 of --evaluations at random and climbs from the worst. Its errors are in units of 2^-s "
+           "for a weight; the bound is 8.",
+           "0 within bounds; 1 bound exceeded, other pixels drawn, jump above twice the bound, no pixel near the case, "
+           "RTL and model differ, or another error than the kept one; 2 usage or input error; 3 missing tool",
+           {"stress --families edge_distance,eye_plane --csv stress.csv",
+            "stress --search --evaluations 100000 --keep worst.quads",
+            "stress --merge part0.json part1.json --json stress.json"});
   const auto options = std::make_shared<StressOptions>();
   options->common.size = stress_size;
   options->common.add_to(*command);
-  command
-      ->add_option("--families", options->families,
-                   "Stress families and approaches (`quadrille scenes --stress` lists them), with commas; default: all")
+  command->add_option("--families", options->families, "Stress families and approaches, with commas (default: all)")
       ->type_name("LIST");
-  command->add_option("--engines", options->engines, "Beside the model: float, fp32, shader, rtl")
+  command->add_option("--engines", options->engines, "Engines beside the model: float, fp32, shader, rtl")
       ->type_name("LIST")
       ->capture_default_str();
-  command->add_option("--count", options->count, "Quads of each step")
+  command->add_option("--count", options->count, "Quads per step")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}))
       ->capture_default_str();
-  options->shards.add_to(*command, "the families, in turn", "the --json of each");
-  writes_file(*command,
-              command->add_option("--csv", options->csv, "A row for each step and body; - is standard output"), "csv");
+  options->shards.add_to(*command, "the families", "their --json files");
+  writes_file(*command, command->add_option("--csv", options->csv, "A row per step and engine; - is standard output"),
+              "csv")
+      ->group(output_group);
   options->search.add_to(*command);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] {
       if (!options->shards.merge.empty()) return merge_reports(*options);
       if (options->search.search) return search_stress(options->common, options->families, options->search);
       if (!options->search.kept.empty()) return check_kept_stress(options->common, options->search);
-      if (!options->search.keep.empty()) throw UsageError("--keep: --search or --kept is expected with it");
+      if (!options->search.keep.empty()) throw UsageError("--keep needs --search or --kept");
       return StressCommand(*options, invocation.arguments).run();
     };
   });

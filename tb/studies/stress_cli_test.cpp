@@ -292,8 +292,8 @@ TEST_F(CliStress, Summary) {
   const Outcome outcome = run("stress --families on_vertex,vertex_distance --count 2 --engines fp32 --json r.json");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* piece :
-       {"on_vertex", "vertex_distance", "jump", "\nfp32, of 2 families: beyond the bound in ",
-        "\nmodel, of 2 families: beyond the bound in 0, undefined pixels in 0, missing pixels in 0\n",
+       {"on_vertex", "vertex_distance", "jump", "\nfp32: of 2 families, ",
+        "\nmodel: of 2 families, 0 beyond the bound, 0 with undefined pixels, 0 with missing pixels\n",
         "largest errors: weight "})
     EXPECT_NE(outcome.out.find(piece), std::string::npos) << piece << " in: " << outcome.out;
   EXPECT_EQ(outcome.out.find("float"), outcome.out.npos);

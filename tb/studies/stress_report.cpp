@@ -39,7 +39,8 @@ Json read_part(const std::string& file, Shard& where) {
   } catch (const std::exception&) {
     throw input_error(file, 0, "is not the --json of `quadrille stress --shard`");
   }
-  if (!where.is_part()) throw input_error(file, 0, "is not of a shard; there is nothing to put it together with");
+  if (!where.is_part())
+    throw input_error(file, 0, "is not of a shard; expected the --json of `quadrille stress --shard`");
   return part;
 }
 
@@ -100,9 +101,9 @@ struct BodySummary {
 };
 
 void print_body(std::FILE* text, const std::string& name, const BodySummary& body, std::size_t families) {
-  std::fprintf(text, "\n%s, of %zu families: beyond the bound in %zu, undefined pixels in %zu, missing pixels in %zu",
+  std::fprintf(text, "\n%s: of %zu families, %zu beyond the bound, %zu with undefined pixels, %zu with missing pixels",
                name.c_str(), families, body.beyond, body.undefined, body.missing);
-  if (body.drawn_nothing != 0) std::fprintf(text, ", no pixel at all in %zu", body.drawn_nothing);
+  if (body.drawn_nothing != 0) std::fprintf(text, ", %zu without pixels", body.drawn_nothing);
   std::fprintf(text, "\n");
   const char* before = "  largest errors: ";
   for (std::size_t o = 0; o < output_names.size(); ++o) {
@@ -114,7 +115,7 @@ void print_body(std::FILE* text, const std::string& name, const BodySummary& bod
     before = ", ";
   }
   if (!body.worst[0]) return;
-  std::fprintf(text, "; that weight:\n  %s\n",
+  std::fprintf(text, "; command for the weight:\n  %s\n",
                BodySummary::entry(*body.worst[0], name, 0)["reproduce"].get<std::string>().c_str());
 }
 
@@ -164,7 +165,7 @@ Json merge_stress(const std::vector<std::string>& files) {
       if (part[key] != first[key])
         throw input_error(file, 0,
                           std::string(key) + " is " + part[key].dump() + ", in " + names.begin()->second + " " +
-                              first[key].dump() + "; shards of one command are expected");
+                              first[key].dump() + "; expected shards of one command");
     if (where.count != count)
       throw input_error(file, 0,
                         "is of " + std::to_string(where.count) + " shards, " + names.begin()->second + " of " +
@@ -241,12 +242,12 @@ void print_stress(std::FILE* text, const Json& report) {
     }
   }
 
-  std::fprintf(text,
-               "%s\n%llu quads a step, configuration %s; errors in units of the bound, 2^%.0f of a weight, the "
-               "largest over all steps\n\n%-18s %9s %7s %9s %7s %7s %7s",
-               report["command"].get<std::string>().c_str(), report["count"].get<unsigned long long>(),
-               summary(config).c_str(), std::log2(report["weight_bound"].get<double>()), "", "fragments", "weight",
-               "attribute", "depth", "near", "jump");
+  std::fprintf(
+      text,
+      "%s\n%llu quads per step, configuration %s; largest errors over all steps in units of the bound (weight: 2^%.0f)"
+      "\n\n%-18s %9s %7s %9s %7s %7s %7s",
+      report["command"].get<std::string>().c_str(), report["count"].get<unsigned long long>(), summary(config).c_str(),
+      std::log2(report["weight_bound"].get<double>()), "", "fragments", "weight", "attribute", "depth", "near", "jump");
   for (std::size_t b = 1; b < bodies.size(); ++b)
     std::fprintf(text, " | %8s %8s %9s %7s", bodies[b].c_str(), "beyond", "undefined", "missing");
   std::fprintf(text, "\n");

@@ -30,7 +30,7 @@ std::vector<golden::StressFamily> families_in(const std::string& list) {
   std::vector<golden::StressFamily> families;
   for (const std::string& name : list.empty() ? all : names_in_list(list)) {
     if (golden::find_approach(name) != nullptr)
-      throw UsageError("--search: " + name + " is an approach, of one quad a step; stress families can be searched");
+      throw UsageError("--search: " + name + " is an approach; expected a stress family");
     families.push_back(golden::parse_stress_family(all[choose("family", name, all)]));
   }
   return families;
@@ -41,7 +41,7 @@ std::string_view name_of(Output output) { return output_names[static_cast<std::s
 /// The report's text: a line for each family and output, with the command that draws its pixel.
 void print_table(std::FILE* text, const Json& report) {
   const bool kept = report.contains("kept");
-  std::fprintf(text, "%s; errors in units of which the bound allows %g (2^-s of a weight)\n\n%-16s %-9s %9s%s\n",
+  std::fprintf(text, "%s; errors in units of 2^-s (of a weight); bound %g\n\n%-16s %-9s %9s%s\n",
                report["title"].get<std::string>().c_str(), bound_units, "", "output", "error",
                kept ? "  recorded" : "      knob");
   const Json* worst = nullptr;
@@ -50,7 +50,7 @@ void print_table(std::FILE* text, const Json& report) {
     std::fprintf(text, "%-16s %-9s", row["family"].get<std::string>().c_str(),
                  row["output"].get<std::string>().c_str());
     if (units < 0) {
-      std::fprintf(text, " nothing was drawn\n");
+      std::fprintf(text, " no fragments\n");
       continue;
     }
     std::fprintf(text, " %9.6f %9.*f  %s\n", units, kept ? 6 : 3, row[kept ? "recorded" : "knob"].get<double>(),
@@ -89,22 +89,19 @@ int finish(const CommonOptions& common, const std::string& keep, const WorstQuad
 
 void StressSearchOptions::add_to(CLI::App& app) {
   constexpr const char* group = "Search";
-  CLI::Option* one = app.add_flag("--search", search, "Look for the worst quads of the stress families")->group(group);
-  app.add_option("--evaluations", evaluations, "Pixels looked at for each family and output")
+  CLI::Option* one = app.add_flag("--search", search, "Search the worst quads of the stress families")->group(group);
+  app.add_option("--evaluations", evaluations, "Pixels per family and output")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
       ->capture_default_str()
       ->group(group)
       ->needs(one);
-  app.add_flag("--leave", leave, "Climb by moving vertices, out of the family's shape")->group(group)->needs(one);
-  CLI::Option* replay = app.add_option("--kept", kept, "Check the quads of such a file, errors too")
+  app.add_flag("--leave", leave, "Move vertices freely, beyond the family's shape")->group(group)->needs(one);
+  CLI::Option* replay = app.add_option("--kept", kept, "Check quads and errors of a file of --keep")
                             ->type_name("F.quads")
                             ->group(group)
                             ->excludes(one);
-  writes_file(
-      app,
-      app.add_option("--keep", keep, "Write the quads found, or those of --kept with their errors as they are now"),
-      "quads")
+  writes_file(app, app.add_option("--keep", keep, "Write the quads found or checked, with their errors"), "quads")
       ->group(group);
   for (const char* other : {"--engines", "--count", "--csv", "--shard", "--merge"}) {
     one->excludes(app.get_option(other));
@@ -117,8 +114,7 @@ void StressSearchOptions::add_to(CLI::App& app) {
 
 int search_stress(const CommonOptions& common, const std::string& list, const StressSearchOptions& options) {
   const Config config = common.config();
-  if (config.qdrop() != 0)
-    throw UsageError("stress: quadratic_frac_bits drops bits of D and R²; no bound is claimed then");
+  if (config.qdrop() != 0) throw UsageError("stress: no bound with quadratic_frac_bits that drops bits of D and R²");
   const std::vector<golden::StressFamily> families = families_in(list);
   const auto [width, height] = common.viewport(config);
   check_outputs({options.keep, common.json}, {common.config_file});

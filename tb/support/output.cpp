@@ -28,10 +28,10 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
     if (!outputs[i].empty() && outputs[i] != "-") golden::require_writable(outputs[i]);
     for (std::size_t j = 0; j < i; ++j)
       if (same(outputs[i], outputs[j]))
-        throw UsageError(outputs[i] + ": two outputs want this file; give each its own");
+        throw UsageError(outputs[i] + ": two outputs have this name; give each its own");
     for (const std::string& input : inputs)
       if (same(outputs[i], input))
-        throw UsageError(outputs[i] + ": is an input of this command; write to another file");
+        throw UsageError(outputs[i] + ": is an input of this command; use another output file");
   }
   for (const std::string& output : outputs) golden::announce_output(output);
 }

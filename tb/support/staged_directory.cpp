@@ -28,7 +28,7 @@ void StagedDirectory::commit(const std::vector<std::string>& stale) const {
   std::ranges::sort(files);
   for (const fs::path& file : files)
     if (fs::is_directory(directory_ / file))
-      throw UsageError((directory_ / file).string() + ": is a directory; a file of this name is to be written");
+      throw UsageError((directory_ / file).string() + ": is a directory; a file is expected");
   std::exception_ptr failure;
   golden::without_interrupt([&] {  // all of it or nothing
     try {

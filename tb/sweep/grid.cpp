@@ -57,7 +57,7 @@ std::vector<int> range_values(const ConfigKey& key, std::string_view text) {
   const std::int64_t step = parts.size() == 3 ? whole_number(parts[2]) : 1;
   if (step == 0) throw ConfigError("the step of " + quoted(text) + " is 0");
   if (step > 0 ? first > last : first < last)
-    throw ConfigError("the range " + quoted(text) + " is empty; its step leads away from its end");
+    throw ConfigError("the range " + quoted(text) + " is empty: its step has the wrong sign");
   const std::int64_t count = first == last ? 1 : (std::int64_t{last} - first) / step + 1;
   std::vector<int> values;
   for (std::int64_t i = 0; i < count; ++i) values.push_back(static_cast<int>(first + i * step));

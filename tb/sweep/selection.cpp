@@ -40,7 +40,7 @@ std::size_t row_number(std::string_view text, const Candidates& candidates) {
   if (error != std::errc{} || end != text.data() + text.size())
     throw ConfigError(
         "\"" + std::string(text) +
-        "\" selects nothing: all, none, pareto, corners, default, knees, or row numbers such as 3,7,10-12");
+        "\" selects nothing; expected all, none, pareto, corners, default, knees, or row numbers such as 3,7,10-12");
   if (row >= candidates.grid.size())
     throw ConfigError("row " + std::to_string(row) + " is not in the grid, whose rows are 0 to " +
                       std::to_string(candidates.grid.size() - 1));

@@ -119,7 +119,7 @@ Store::Store(fs::path directory, Ordered identity, Existing existing)
   fs::create_directories(directory_, error);
   if (error || !fs::is_directory(directory_))
     throw golden::InputError("cannot make the directory " + directory_.string() +
-                             (error ? ": " + error.message() : ": there is a file of that name"));
+                             (error ? ": " + error.message() : ": a file of this name exists"));
   fd_ = ::open(journal().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (fd_ < 0) throw golden::InputError("cannot write " + journal() + ": " + reason(errno));
   if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) {
@@ -152,7 +152,7 @@ void Store::read_journal() {
     const auto damaged = [&](const std::string& why) {
       const std::string keep = std::to_string(number - 1);
       throw golden::InputError(journal() + ":" + std::to_string(number) + ": damaged (" + why +
-                               "); --fresh starts over; `head -n " + keep + "` of it keeps the lines before");
+                               "); use --fresh, or keep the lines before with `head -n " + keep + "`");
     };
     // {"crc":"xxxxxxxx","content":…}: the sum is over the content's bytes, as they stand in the file.
     const std::string line = text.substr(begin, end - begin);
@@ -163,8 +163,8 @@ void Store::read_journal() {
     if (number == 1) {
       const Json mine = Json::parse(identity_.dump());
       if (content != mine)
-        throw golden::InputError(directory_.string() + " holds another sweep, which differs in " +
-                                 differences(content, mine) + "; choose another --out, or --fresh to replace it");
+        throw golden::InputError(directory_.string() + " holds another sweep (it differs in " +
+                                 differences(content, mine) + "); use another --out, or --fresh to replace it");
     } else {
       try {
         take(content);
@@ -205,8 +205,7 @@ void Store::append(const Batch& batch, std::span<const std::size_t> rows) {
 
 void Store::merge(const fs::path& shard) {
   if (!fs::exists(shard / "journal.jsonl"))
-    throw golden::InputError(shard.string() +
-                             ": no journal.jsonl there; the --out of `quadrille sweep --shard` is expected");
+    throw golden::InputError(shard.string() + ": no journal.jsonl; expected the --out of `quadrille sweep --shard`");
   const Store part(shard, identity_, Existing::resume);
   Ordered content;
   content["results"] = Ordered::array();
@@ -215,8 +214,7 @@ void Store::merge(const fs::path& shard) {
     if (mine == results_.end())
       content["results"].push_back(result_json(row, result));
     else if (result_json(row, result) != result_json(row, mine->second))
-      throw golden::InputError(part.journal() + ": row " + std::to_string(row) + " has another result than in " +
-                               journal() + ", where the same was expected");
+      throw golden::InputError(part.journal() + ": row " + std::to_string(row) + " differs from " + journal());
   }
   if (content["results"].empty()) return;
   content["settings"] = part.counters_.settings;
@@ -242,8 +240,7 @@ void Store::write_line(const Ordered& content) {
   if (error != 0) {
     if (::ftruncate(fd_, static_cast<off_t>(length_)) != 0) error = errno;
     throw golden::InputError("cannot write " + journal() + ": " + reason(error) + "; the " +
-                             std::to_string(results_.size()) +
-                             " points finished so far are kept, the same command goes on");
+                             std::to_string(results_.size()) + " finished points are kept; the same command resumes");
   }
   length_ += text.size();
 }

@@ -238,7 +238,7 @@ TEST_F(StoreTest, FullDiskKeepsWhatIsFinished) {
       store.append(batch(), rows);
     } catch (const golden::InputError& error) {
       const std::string text = error.what();
-      ::_exit(text.find("points finished so far are kept") != std::string::npos ? 7 : 8);
+      ::_exit(text.find("points are kept") != std::string::npos ? 7 : 8);
     }
     ::_exit(9);
   }

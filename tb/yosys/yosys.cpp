@@ -143,7 +143,7 @@ void run_flow(const Config& config, const TargetFlow& flow, const fs::path& dire
 SynthesisTarget parse_synthesis_target(std::string_view name) {
   const auto found = std::ranges::find(synthesis_target_names, name);
   if (found == synthesis_target_names.end())
-    throw ConfigError("\"" + std::string(name) + "\" is no target of synthesis; there are ecp5, ecp5-nodsp and cells");
+    throw ConfigError("\"" + std::string(name) + "\" is not a synthesis target; expected ecp5, ecp5-nodsp or cells");
   return static_cast<SynthesisTarget>(found - synthesis_target_names.begin());
 }
 

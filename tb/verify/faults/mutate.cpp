@@ -199,10 +199,10 @@ int run(int argc, char** argv) {
   unsigned jobs = 1;
   double limit = 60;
   bool afresh = false;
-  app.add_option("--name", names, "these; else all");
-  app.add_option("--jobs", jobs, "at a time")->check(CLI::Range(1, 64));
-  app.add_option("--limit", limit, "seconds after which a check of one scenario hangs");
-  app.add_flag("--afresh", afresh, "without looking at what the record says first");
+  app.add_option("--name", names, "only these (default: all)");
+  app.add_option("--jobs", jobs, "parallel mutants")->check(CLI::Range(1, 64));
+  app.add_option("--limit", limit, "time limit in seconds per check of a scenario");
+  app.add_flag("--afresh", afresh, "try all checks, not first the recorded one");
   CLI11_PARSE(app, argc, argv);
 
   std::vector<Mutant> mutants = read_mutants();
@@ -210,7 +210,7 @@ int run(int argc, char** argv) {
     return names.empty() ? !m.generated : std::ranges::find(names, m.name) == names.end();
   });
   if (mutants.empty()) {
-    std::fprintf(stderr, "mutate: no mutant is so\n");
+    std::fprintf(stderr, "mutate: no mutant has these properties\n");
     return 2;
   }
 

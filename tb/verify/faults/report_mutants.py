@@ -127,16 +127,16 @@ def judge(arguments, drawn, mutants):
 class Kind(run_long.Work):
     @staticmethod
     def options(parser, table):
-        parser.add_argument("build", nargs="?", type=pathlib.Path, default=ROOT / "build/release/tb/verify/faults", help="(default: %(default)s)")
-        parser.add_argument("--side", default="", choices=("",) + tuple(SIDES))
-        parser.add_argument("--file", default="")
-        parser.add_argument("--class", dest="fault_class", default="", choices=("",) + CLASSES)
-        parser.add_argument("--name", default="")
-        parser.add_argument("--only", type=pathlib.Path, help="those named in this file")
-        parser.add_argument("--count", type=int, default=0, help="so many, drawn by the seed")
-        parser.add_argument("--json", type=pathlib.Path, help="keeps the results there; until they are whole in FILE.part")
-        parser.add_argument("--quiet", action="store_true")
-        parser.add_argument("--record", action="store_true", help="every check from the first on, and write down what saw each")
+        parser.add_argument("build", nargs="?", type=pathlib.Path, default=ROOT / "build/release/tb/verify/faults", help="build of mutate (default: build/release/tb/verify/faults)")
+        parser.add_argument("--side", default="", choices=("",) + tuple(SIDES), help="only mutants of this side")
+        parser.add_argument("--file", default="", help="only mutants of this file")
+        parser.add_argument("--class", dest="fault_class", default="", choices=("",) + CLASSES, help="only mutants of this class")
+        parser.add_argument("--name", default="", help="only this mutant")
+        parser.add_argument("--only", type=pathlib.Path, metavar="FILE", help="only mutants named in this file")
+        parser.add_argument("--count", type=int, default=0, metavar="N", help="number of mutants, drawn by the seed (default: all)")
+        parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="results; partial ones are in FILE.part")
+        parser.add_argument("--quiet", action="store_true", help="print only survivors and faults")
+        parser.add_argument("--record", action="store_true", help="run every check and record what each sees")
         parser.set_defaults(seed=int(os.environ.get("QUADRILLE_TEST_SEED", "1")), quadrille=sys.executable)
 
     def __init__(self, args, table):
@@ -153,7 +153,7 @@ class Kind(run_long.Work):
 
     def plan(self):
         if not self.wanted:
-            raise InputError("no mutant is so")
+            raise InputError("no mutant has these properties")
         files = b"".join(hashlib.sha256((self.args.build / name).read_bytes()).digest() for name in ("mutate", "faults.json"))
         return {"build": hashlib.sha256(files).hexdigest(), "mutants": self.wanted, "record": self.args.record}
 
@@ -185,13 +185,13 @@ def put_together(files):
         try:
             kept = json.loads(file.read_text())
             if drawn not in (None, kept["drawn"]):
-                sys.exit(f"{file}: of a draw of {kept['drawn']} mutants, {files[0]} of {drawn}; shards of one draw are expected")
+                sys.exit(f"{file}: of a draw of {kept['drawn']} mutants, {files[0]} of {drawn}; expected shards of one draw")
             drawn = kept["drawn"]
             for m in kept["mutants"]:
                 if found.setdefault(m["number"], m) != m:
-                    sys.exit(f"{file}: {m['name']} has another result than in another file, where the same was expected")
+                    sys.exit(f"{file}: {m['name']} has different results in two files")
         except (OSError, ValueError, KeyError, TypeError) as error:
-            sys.exit(f"{file}: is not what --json keeps ({error})")
+            sys.exit(f"{file}: not a file of --json ({error})")
     return drawn, [found[number] for number in sorted(found)]
 
 

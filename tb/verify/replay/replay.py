@@ -51,7 +51,7 @@ def load_json(path):
     if not isinstance(value, dict):
         raise InputError(f"{path}: not a JSON object")
     if value.get("format") != FORMAT:
-        raise InputError(f"{path}: format {value.get('format')!r}, this is a replay of format {FORMAT} (golden/CONVERTING.md)")
+        raise InputError(f"{path}: format {value.get('format')!r}, expected format {FORMAT} (golden/CONVERTING.md)")
     return value
 
 
@@ -96,12 +96,12 @@ class Suite:
     def check_machine(self):
         """What would keep the bench waiting, or leave it without expectations."""
         if self.lines["beats.hex"] != self.lines["stimulus.hex"]:
-            raise InputError(f"{self.path('beats.hex')}: {self.lines['beats.hex']} lines, a beat each of {self.lines['stimulus.hex']} is needed")
+            raise InputError(f"{self.path('beats.hex')}: {self.lines['beats.hex']} lines; expected {self.lines['stimulus.hex']}, one per beat")
         with open(self.path("stalls.hex"), encoding="ascii") as file:
             pattern = [int(line, 16) for line in file]
         for bit, what in ((1, "offers"), (0, "takes")):
             if not any(line >> bit & 1 for line in pattern):
-                raise InputError(f"{self.path('stalls.hex')}: the pattern never {what} anything; the machine would wait for ever")
+                raise InputError(f"{self.path('stalls.hex')}: no clock {what} anything")
 
     def path(self, file):
         return os.path.join(self.directory, file)
@@ -375,15 +375,15 @@ def plan(options, suites, work):
 def main():
     parser = argparse.ArgumentParser(
         prog="replay.sh", formatter_class=argparse.RawDescriptionHelpFormatter, description="Replays golden vectors against the RTL.",
-        epilog="Exit status: 0 all agree, 1 a mismatch, 2 usage, a damaged set or nothing to replay, 3 a missing tool.\n\nExamples:\n"
+        epilog="Exit status: 0 all agree, 1 mismatch, 2 usage or input error, 3 missing tool.\n\nExamples:\n"
                "  scripts/replay.sh golden/vectors/kept\n  scripts/replay.sh DIR icarus --suite sqrt --netlist")
-    parser.add_argument("directory", metavar="DIR", help="a set of golden vectors")
+    parser.add_argument("directory", metavar="DIR", help="set of golden vectors")
     parser.add_argument("simulator", nargs="?", choices=("verilator", "icarus"), default="verilator")
-    parser.add_argument("--suite", action="append", metavar="NAME", help="only this one; may be repeated")
+    parser.add_argument("--suite", action="append", metavar="NAME", help="only this suite; repeatable")
     parser.add_argument("--netlist", action="store_true",
-                        help=f"also the synthesized gates under Icarus: of {', '.join(NETLISTS)}, or of what --suite names")
-    parser.add_argument("--rtl", metavar="DIR", default=os.path.join(ROOT, "rtl"), help="other RTL with the same modules")
-    parser.add_argument("--jobs", type=int, metavar="N", default=os.cpu_count(), help="builds and runs side by side (default: processors)")
+                        help=f"also synthesized gates under Icarus (default suites: {', '.join(NETLISTS)})")
+    parser.add_argument("--rtl", metavar="DIR", default=os.path.join(ROOT, "rtl"), help="RTL with the same modules (default: rtl)")
+    parser.add_argument("--jobs", type=int, metavar="N", default=os.cpu_count(), help="parallel builds and runs (default: processors)")
     options = parser.parse_args()
     options.rtl = os.path.abspath(options.rtl)
     options.quadrille = os.environ.get("QUADRILLE") or PROGRAM
@@ -396,7 +396,7 @@ def main():
             raise MissingTool(f"no program {options.quadrille}, which makes the tables of {others[0]}: its widths are not the default ones. "
                               "Build it (scripts/cosim.sh) or name it in $QUADRILLE")
         if not os.path.exists(os.path.join(options.rtl, "quadrille_pkg.sv")):
-            raise InputError(f"{options.rtl}: no RTL there")
+            raise InputError(f"{options.rtl}: no RTL")
         for name in skipped:
             print(f"{name}: no RTL, not replayed")
         with tempfile.TemporaryDirectory(prefix="replay.") as work, concurrent.futures.ThreadPoolExecutor(max(1, options.jobs)) as pool:
