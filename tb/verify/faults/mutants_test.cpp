@@ -32,8 +32,8 @@ const std::vector<Mutant>& recorded() {
   return all;
 }
 
-/// `count` of the mutants, which `seed` draws, at most one of them equivalent: that one runs every check to its end, for
-/// most of a minute, where another is seen in milliseconds.
+/// `count` of the mutants, which `seed` draws, at most one of them equivalent: that one runs every check to its end,
+/// for most of a minute, where another is seen in milliseconds.
 std::vector<Mutant> sample(std::uint64_t count, std::uint64_t seed) {
   std::vector<Mutant> list = recorded();
   golden::Prng random(seed);
