@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""The table of the machine's units in rtl/MEASUREMENTS.md.
-
-  scripts/unit_table.py                      checks the page; needs no tools
-  scripts/unit_table.py --update             writes the page
-  scripts/unit_table.py --measure size       sizes (Yosys, minutes)
+"""Print the table of the machine's units for rtl/MEASUREMENTS.md.
 
 rtl/units.toml lists the units, rtl/units_measured.json has results of size.py
 and timing.py, golden/analysis/synthesised.csv the machine in other
 configurations. Latencies and widths follow from rtl/quadrille_pkg.sv, bits from
-the ports. The check also demands every instantiated unit and the latencies of
-model/port/latency.hpp. --measure UNIT measures its clock (nextpnr-ecp5), for a
-unit of an option also its size.
+the ports. Every instantiated unit must be listed, and latencies must be those of
+model/port/latency.hpp.
+
+  scripts/unit_table.py                  prints the table; needs no tools
+  scripts/unit_table.py --measure size   sizes of all units (Yosys, minutes)
+  scripts/unit_table.py --measure UNIT   clock of a unit (nextpnr-ecp5); of an
+                                         option's unit also its size
 
 Exit status: 0 done, 1 check or tool failed, 2 usage or input error, 3 missing
 tool.
@@ -28,16 +28,14 @@ from report.files import InputError, write_files
 from report.program import PROGRAM, ROOT, end, options
 
 RTL = os.path.join(ROOT, "rtl")
-LIST, MEASURED, PAGE = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json", "MEASUREMENTS.md"))
+LIST, MEASURED = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json"))
 CONFIGURATIONS = os.path.join(ROOT, "golden/analysis/synthesised.csv")
-BEGIN, END = "<!-- scripts/unit_table.py -->\n", "<!-- end -->\n"
 SIZES = {"lut": "luts", "ff": "flip_flops", "dsp": "dsps", "bram": "block_rams"}  # here -> in size.py's report
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("--update", action="store_true", help="write the page")
     parser.add_argument("--measure", nargs="+", metavar="WHAT", help="size, or units to place and route")
     parser.add_argument("--seed", action="append", type=int, metavar="N", help="seed of nextpnr; repeatable (default: 1, 2, 3)")
     parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="program (default: build/release/quadrille)")
@@ -52,16 +50,7 @@ def main():
             print(f"unit_table.py: {fault}", file=sys.stderr)
         if faults:
             return 1
-        old = read_text(PAGE)
-        if old.count(BEGIN) != 1:
-            raise InputError(f"{PAGE}: no line {BEGIN.strip()}, or several")
-        head, rest = old.split(BEGIN)
-        new = head + BEGIN + table(units, package) + rest[rest.index(END):]
-        if args.update:
-            write_files(RTL, {"MEASUREMENTS.md": new.encode()})
-        elif old != new:
-            print("unit_table.py: rtl/MEASUREMENTS.md: the table is not what its data give; run scripts/unit_table.py --update", file=sys.stderr)
-            return 1
+        print(table(units, package), end="")
     except (OSError, tomllib.TOMLDecodeError, KeyError) as error:
         raise InputError(error) from None
     return 0
