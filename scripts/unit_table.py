@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""The table of the machine's units in rtl/MEASUREMENTS.md: bits, latency, LUT, FF, DSP, BRAM, MHz, and the whole.
+"""The table of the machine's units: bits, latency, LUT, FF, DSP, BRAM, MHz, and the whole. scripts/measure.py writes it into rtl/MEASUREMENTS.md.
 
 rtl/units.toml lists the units, rtl/units_measured.json has what size.py and timing.py gave, golden/analysis/synthesised.csv the whole in
 other configurations. Latencies and widths are evaluated from rtl/quadrille_pkg.sv, bits counted from the units' ports.
 
-  scripts/unit_table.py                        checks that the page has this table, that the list has every unit that the machine
-                                               instantiates, and that latencies are those of model/port/latency.hpp and add up; no tools needed
-  scripts/unit_table.py --update               writes the table
+  scripts/unit_table.py                        prints the table; checks that the list has every unit that the machine instantiates, and that
+                                               latencies are those of model/port/latency.hpp and add up; no tools needed
   scripts/unit_table.py --measure size         measures sizes of the default configuration (Yosys, minutes)
   scripts/unit_table.py --measure UNIT ...     measures clocks: place and route with seeds 1 to 3 (nextpnr-ecp5); --seed N for others;
                                                of a unit of an option (`keys` in the list) its size too
@@ -25,16 +24,14 @@ from report.files import InputError, write_files
 from report.program import PROGRAM, ROOT, end, options
 
 RTL = os.path.join(ROOT, "rtl")
-LIST, MEASURED, PAGE = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json", "MEASUREMENTS.md"))
+LIST, MEASURED = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json"))
 CONFIGURATIONS = os.path.join(ROOT, "golden/analysis/synthesised.csv")
-BEGIN, END = "<!-- scripts/unit_table.py -->\n", "<!-- end -->\n"
 SIZES = {"lut": "luts", "ff": "flip_flops", "dsp": "dsps", "bram": "block_rams"}  # here -> in size.py's report
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("--update", action="store_true", help="write the table")
     parser.add_argument("--measure", nargs="+", metavar="WHAT", help="size, or units whose clock is wanted")
     parser.add_argument("--seed", action="append", type=int, metavar="N", help="of nextpnr with --measure (default: 1, 2, 3)")
     parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program, with --measure")
@@ -49,16 +46,7 @@ def main():
             print(f"unit_table.py: {fault}", file=sys.stderr)
         if faults:
             return 1
-        old = read_text(PAGE)
-        if old.count(BEGIN) != 1:
-            raise InputError(f"{PAGE}: no line {BEGIN.strip()}, or several")
-        head, rest = old.split(BEGIN)
-        new = head + BEGIN + table(units, package) + rest[rest.index(END):]
-        if args.update:
-            write_files(RTL, {"MEASUREMENTS.md": new.encode()})
-        elif old != new:
-            print("unit_table.py: rtl/MEASUREMENTS.md: the table is not what its data give; run scripts/unit_table.py --update", file=sys.stderr)
-            return 1
+        print(table(units, package), end="")
     except (OSError, tomllib.TOMLDecodeError, KeyError) as error:
         raise InputError(error) from None
     return 0

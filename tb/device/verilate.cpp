@@ -222,7 +222,7 @@ std::string description(const Config& config, const VerilateOptions& options) {
 
 /// Writes files that include Verilator's, so that its headers, most of what a small file costs, are read in few
 /// compilations: code that runs once in one file, the simulated clock in as few as a compiler digests well.
-/// Returns their names, the slow ones first. (tb/MEASUREMENTS.md: what was measured.)
+/// Returns their names, the slow ones first.
 std::vector<std::string> write_groups(const fs::path& work, const fs::path& generated) {
   constexpr std::uintmax_t group_bytes = 3'000'000;
   struct Part {

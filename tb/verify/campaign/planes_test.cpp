@@ -5,7 +5,6 @@
 #include "golden/scenes/plane_pair.hpp"
 #include "model/support/prng.hpp"
 #include "tb/engines/engine.hpp"
-#include "tb/support/environment_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -150,21 +149,13 @@ TEST_P(PlanesOfBits, AreToldApartWithinTheBounds) {
 INSTANTIATE_TEST_SUITE_P(Campaign, PlanesOfBits, testing::Values(8, 10, 12, 14, 16, 18, 20, 22, 24, 26),
                          testing::PrintToStringParamName());
 
-std::optional<Depths> draw_shader(const std::vector<WindowQuad>& quads) {
-  try {
-    return draw(EngineKind::shader, Config{}, quads, false);
-  } catch (const tb::EnvironmentError&) {  // no OpenGL
-    return std::nullopt;
-  }
-}
-
 /// The table: how many pixels show the wrong plane.
 TEST(Planes, WrongPixels) {
   const int bits = Config{}.depth_bits;
   std::printf("wrong pixels of %d x %d, depth buffer of %d bits; planes at distance 50, near 0.1, far 100\n", size,
               size, bits);
-  std::printf("%-16s %6s %7s %6s | %7s %7s %7s %7s | %7s %7s | %8s %8s\n", "view", "apart", "pixels", "codes", "s = 12",
-              "s = 18", "fp32", "shader", "snapped", "given", "order 12", "order 18");
+  std::printf("%-16s %6s %7s %6s | %7s %7s %7s | %7s %7s | %8s %8s\n", "view", "apart", "pixels", "codes", "s = 12",
+              "s = 18", "fp32", "snapped", "given", "order 12", "order 18");
   for (const PlaneView view : golden::plane_views)
     for (const bool reversed : directions)
       for (const double distance : golden::plane_distances) {
@@ -175,14 +166,12 @@ TEST(Planes, WrongPixels) {
         double codes = 1e9;
         for (const auto& [pixel, z] : given) codes = std::min(codes, std::ldexp(std::fabs(z[1] - z[0]), bits));
         const Depths snapped = draw(EngineKind::truth, of_bits(18), quads, true);
-        const auto shader = draw_shader(quads);
         // Snapping alone: exact depths of the snapped quads in another order than those of the given ones.
         const auto order = [&](const Depths& depths) { return wrong_order(depths, reversed); };
-        std::printf("%-16s %6g %7zu %6.1f | %7d %7d %7d %7s | %7d %7d | %8d %8d\n", title(pair).c_str(), distance,
+        std::printf("%-16s %6g %7zu %6.1f | %7d %7d %7d | %7d %7d | %8d %8d\n", title(pair).c_str(), distance,
                     given.size(), codes, wrong(draw(EngineKind::model, of_bits(12), quads, true)),
                     wrong(draw(EngineKind::model, of_bits(18), quads, true)),
-                    wrong(draw(EngineKind::paper_single, Config{}, quads, false)),
-                    shader ? std::to_string(wrong(*shader)).c_str() : "-", wrong(snapped), wrong(given),
+                    wrong(draw(EngineKind::paper_single, Config{}, quads, false)), wrong(snapped), wrong(given),
                     order(draw(EngineKind::truth, of_bits(12), quads, true)), order(snapped));
         EXPECT_EQ(wrong_order(given, reversed), 0) << title(pair);
         EXPECT_GT(given.size(), 10'000u) << title(pair);

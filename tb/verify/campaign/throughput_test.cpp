@@ -28,7 +28,7 @@ constexpr double setup_clocks_four_units = 6, setup_clocks_homogeneous_four_unit
 constexpr std::uint64_t most_small_quad_clocks = 8;
 constexpr std::uint64_t most_setup_latency = 17, most_setup_latency_homogeneous = 31,
                         most_setup_latency_homogeneous_walk = 51;
-/// What tb/MEASUREMENTS.md claims, 0.999 and 0.982, to its last digit: clocks are exact, so any loss is one of the
+/// What rtl/MEASUREMENTS.md claims to its last digit: clocks are exact, so any loss is one of the
 /// machine.
 constexpr double turned_squares_per_clock = 0.9985, concave_per_clock = 0.9815;
 /// Quads of 6x6 pixels; homogeneous ones of 12x12, whose pixels take three clocks each, with two tiles in flight.

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes down which checks see which faults of faults.toml, and the tables.
+"""Writes down which checks see which faults of faults.toml; prints the tables of the pages, where scripts/measure.py --write writes them.
 
     tb/verify/faults/record_mutants.py PATH_TO_MUTANTS_TEST [FILTER]  runs every check on every mutant (of a GoogleTest filter), writes
-                                                                caught_by.json and the tables
-    tb/verify/faults/record_mutants.py --table                        writes the tables of tb/README.md and README.md from caught_by.json
-    tb/verify/faults/record_mutants.py --check                        fails when that would change them
+                                                                caught_by.json
+    tb/verify/faults/record_mutants.py recorded                       prints how many of faults.toml each check sees
+    tb/verify/faults/record_mutants.py generated                      prints what was seen of the generated ones
 
 What is recorded is held by mutants_test: a check that begins to see a mutant, or sees it no more, fails it. Of generated ones: scripts/mutate.sh --record.
 """
@@ -12,7 +12,6 @@ import collections
 import json
 import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -84,24 +83,13 @@ def generated_table():
     return f"{len(mutants)} in all: {seen} are seen, {sum(bool(m['equivalent']) for m in mutants)} are argued equivalent.\n\n{class_table(mutants)}\n"
 
 
-def write_tables(check_only):
-    for readme, mark, text in ((HERE.parents[1] / "README.md", "mutants", recorded_table()), (HERE / "README.md", "generated", generated_table())):
-        old = readme.read_text()
-        new, count = re.subn(f"(<!-- {mark} -->\n)(.*?)(<!-- end -->\n)", lambda m: m[1] + text + m[3], old, flags=re.DOTALL)
-        if count != 1:
-            sys.exit(f"{readme}: no place for the table of {mark}")
-        if check_only and old != new:
-            sys.exit(f"{readme}: the table of {mark} is not what caught_by.json says; run tb/verify/faults/record_mutants.py --table")
-        if not check_only:
-            readme.write_text(new)
-
-
 def main():
-    if sys.argv[1:] in (["--table"], ["--check"]):
-        write_tables(sys.argv[1] == "--check")
+    tables = {"recorded": recorded_table, "generated": generated_table}
+    if len(sys.argv) == 2 and sys.argv[1] in tables:
+        print(tables[sys.argv[1]](), end="")
     elif len(sys.argv) in (2, 3) and not sys.argv[1].startswith("-"):
         record(sys.argv[1], sys.argv[2] if len(sys.argv) == 3 else "*IsSeen*")
-        write_tables(False)
+        print("scripts/measure.py --write writes the tables of the pages")
     else:
         sys.exit(__doc__)
     return 0
