@@ -121,7 +121,8 @@ def script_options(path):
         todo += [p for p in SCRIPTS if re.search(rf"(?:import |report\.|faults\.|/){'plans' if p.suffix == '.toml' else p.stem}\b", text) and p not in texts]
     text = "\n".join(texts.values())
     found = re.findall(r"""add_argument\("(--?\w[\w-]*)"(?:, "(--\w[\w-]*)")?|^ *(?:"" \| )?(--\w[\w-]*(?: \| --\w[\w-]*)*)\)|= (--\w[\w-]*) \]""", text, re.M)
-    return set(re.findall(r"--?\w[\w-]*", " ".join(map(" ".join, found)))) | {f"--{form}" for form in re.findall(r"^\[form\.(\w+)\]", text, re.M)}
+    looped = re.findall(r'for \w+ in \((.*)\):\n *parser.add_argument\(f"--\{', text) + re.findall(r"^\[form\.(\w+)\]", text, re.M)
+    return set(re.findall(r"--?\w[\w-]*", " ".join(map(" ".join, found)))) | {f"--{name}" for name in re.findall(r"\w+", " ".join(looped))}
 
 
 def wanted():

@@ -170,8 +170,10 @@ def documents(text):
 def main():
     parser = options(__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help="runs or groups")
-    for flag in ("list", "all", "write", "check"):
-        parser.add_argument(f"--{flag}", action="store_true")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--check", action="store_true")
     parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="the program (default: %(default)s)")
     args = parser.parse_args()
     book = Book(ROOT, args.quadrille)

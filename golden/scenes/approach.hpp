@@ -46,7 +46,7 @@ struct ApproachPlace {
   /// The pixels whose centre is at most so far away are those near the case: 0 where it is of one pixel, infinite where
   /// it is of the whole quad.
   double near_radius = std::numeric_limits<double>::infinity();
-  /// Which corner of the quad is the one that the approach's definition (README.md) calls 0, 1, 2, 3.
+  /// Which corner of the quad is the one that the definition (approach.cpp) calls 0, 1, 2, 3.
   std::array<std::size_t, 4> corner{0, 1, 2, 3};
 
   bool is_near(int x, int y) const;

@@ -1,7 +1,7 @@
 // The bit-accurate model of Quadrille for a SystemVerilog bench, through DPI-C: link with the shared library quadrille_dpi.
 //
-// A stimulus and a response are one unsigned number each, laid out as the records of golden/vectors/README.md (table "Records of the
-// stage suites"): fields from the most significant one down, element i of an array of width W at [i*W +: W]. A record_t holds
+// A stimulus and a response are one unsigned number each, laid out as in the suite's manifest (golden/vectors/README.md, "Records of
+// the stage suites"): fields from the most significant one down, element i of an array of width W at [i*W +: W]. A record_t holds
 // the record in its low bits; the bits above are 0. Widths follow from the model's configuration.
 //
 // Every function that returns a status_t gives OK or a code; quadrille_error() then says what was wrong, in words.

@@ -53,22 +53,21 @@ def record(program, test_filter):
 
 
 def recorded_table():
-    """A row for each fault class and side, a column for each check: how many of the mutants the check sees."""
+    """A table for each side with a row for each fault class, a column for each check of that side: how many of the mutants the check sees."""
     rows = collections.defaultdict(list)
     for fault in registry().values():
         if "checks" in fault.caught and not fault.generated:
             rows[fault.side, fault.fault_class].append(fault.caught["checks"])
-    lines = ["| fault in | class | mutants | " + " | ".join(CHECKS) + " |", "|---" * (3 + len(CHECKS)) + "|"]
+    tables = []
     for side, name in SIDES.items():
+        checks = {"rtl": CHECKS[:3], "model": (CHECKS[0], *CHECKS[3:]), "common": CHECKS[3:]}[side]
+        lines = [f"| {name}: class | mutants | " + " | ".join(checks) + " |", "|---" * (2 + len(checks)) + "|"]
         for fault_class in sorted(c for s, c in rows if s == side):
             caught = rows[side, fault_class]
-            cells = []
-            for check in CHECKS:
-                blind = {"rtl": check not in CHECKS[:3], "model": check in CHECKS[1:3], "common": check in CHECKS[:3]}[side]
-                count = sum(check in checks for checks in caught)
-                cells.append("–" if blind else "all" if count == len(caught) else str(count))
-            lines.append(f"| {name} | {fault_class} | {len(caught)} | " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+            counts = [sum(check in seen for seen in caught) for check in checks]
+            lines.append(f"| {fault_class} | {len(caught)} | " + " | ".join("all" if n == len(caught) else str(n) for n in counts) + " |")
+        tables.append("\n".join(lines) + "\n")
+    return "\n".join(tables)
 
 
 def generated_table():

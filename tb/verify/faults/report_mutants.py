@@ -68,13 +68,15 @@ HEAD = ["mutants", *CHECKS, "of these by an assertion", "hung", "crashed", "equi
 
 
 def class_table(mutants):
-    """A row for each side and class, and in words how many of both alike are one fault."""
-    rows = []
+    """A table for each side with a row for each class, without empty columns, and in words how many of both alike are one fault."""
+    tables = []
     for side, name in SIDES.items():
-        of_side = [m for m in mutants if m["side"] == side]
-        rows += [[name, c, *counts(chosen)] for c in CLASSES if (chosen := [m for m in of_side if m["class"] == c])]
-        rows += [[name, "all", *counts(of_side)]] if of_side else []
-    text = table(["fault in", "class", *HEAD], [*rows, ["all", "", *counts(mutants)]])
+        if of_side := [m for m in mutants if m["side"] == side]:
+            rows = [[c, *counts(chosen)] for c in CLASSES if (chosen := [m for m in of_side if m["class"] == c])] + [["all", *counts(of_side)]]
+            used = [n for n, cell in enumerate(rows[-1]) if cell != ""]
+            head, *rows = [[row[n] for n in used] for row in [[f"{name}: class", *HEAD], *rows]]
+            tables.append(table(head, rows))
+    text = "\n\n".join(tables)
     if common := [m for m in mutants if m["side"] == "common"]:
         twins = [m["result"]["twin"] for m in common if "twin" in m["result"]]
         text += f"\n\nBoth alike: {len(common)}, in {len(twins)} of them an expression of the RTL changed too; with both changes on lockstep sees nothing of {sum(twins)}."
