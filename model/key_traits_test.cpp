@@ -2,6 +2,7 @@
 // value shows.
 #include "golden/analysis/error_bound.hpp"
 #include "golden/analysis/hardware_cost.hpp"
+#include "golden/analysis/range_proof.hpp"
 #include "model/clocked.hpp"
 #include "model/every_key_test_support.hpp"
 #include "model/port/draw_state.hpp"

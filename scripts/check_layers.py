@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when a folder includes one above it, when folders include each other in a circle, or when two classes share a name.
+"""Fails when a folder includes one above it, when folders include each other in a circle, when two classes share a name, or
+when a hand-written source has more than 400 lines and no reason in LONG.
 
     scripts/check_layers.py [ROOT]      default: the source tree
 
@@ -17,6 +18,30 @@ import sys
 LAYERS = ("model", "golden", "tb")
 SUFFIXES = {".c", ".cpp", ".hpp", ".h"}
 TEST = re.compile(r"_test\.cpp$|test_support\.hpp$")
+LIMIT = 400  # lines of a source
+SOURCES = ("cpp", "hpp", "c", "h", "sv", "svh", "py", "sh")
+# Sources above it: what each may grow to, and why it is one file.
+COMMAND = "one command: its options, input and output"
+LONG = {
+    "golden/reference/truth.cpp": (610, "a pixel's truth is inlined as a whole, which its speed needs"),
+    "model/fast/pixel_lanes.cpp": (570, "a pixel's stages are inlined as a whole, which their speed needs"),
+    "rtl/pixel_lane.sv": (480, "a pixel's stages and the registers between them"),
+    "rtl/quad_setup.sv": (710, "one schedule of a quad's products"),
+    "rtl/quadrille.sv": (1000, "the machine: every unit and what connects them"),
+    "rtl/tile_walk.sv": (410, "one state machine"),
+    "tb/commands/cli_test.cpp": (560, "a test for each rule of command lines"),
+    "tb/commands/golden.cpp": (480, COMMAND),
+    "tb/commands/golden_cli_test.cpp": (490, "a test for each subcommand and its errors"),
+    "tb/commands/sweep.cpp": (730, COMMAND),
+    "tb/studies/bench.cpp": (450, COMMAND),
+    "tb/studies/bench_cliffs.cpp": (430, COMMAND),
+    "tb/studies/bench_peers.cpp": (600, COMMAND),
+    "tb/studies/compare.cpp": (600, COMMAND),
+    "tb/studies/stress.cpp": (470, COMMAND),
+    "tb/studies/stress_cli_test.cpp": (450, "a test for each option of one command"),
+    "tb/sweep/evaluator.cpp": (430, "the tree of stages that configurations share"),
+    "tb/sweep/evaluator_test.cpp": (860, "a test for each stage of that tree"),
+}
 INCLUDE = re.compile(r'\s*#\s*include\s*"([^"]+)"')
 
 
@@ -66,6 +91,15 @@ def classes(root):
     return places
 
 
+def lengths(root):
+    """What is wrong with the sources' lengths."""
+    counts = {str(path.relative_to(root)): len(path.read_text().splitlines())
+              for layer in (*LAYERS, "rtl", "scripts") for suffix in SOURCES for path in (root / layer).rglob("*." + suffix)}
+    faults = [f"{path}: {count} lines; at most {LONG.get(path, (LIMIT,))[0]}" for path, count in sorted(counts.items())
+              if count > LONG.get(path, (LIMIT,))[0]]
+    return faults + [f"{path} is listed, but has no more than {LIMIT} lines" for path in LONG if counts.get(path, 0) <= LIMIT]
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     edges = includes(root)
@@ -82,6 +116,10 @@ def main():
     twice = [f"{name}: {', '.join(where)}" for name, where in sorted(places.items()) if len(where) > 1]
     if twice or not places:
         print("classes of one name in one namespace:", *twice, sep="\n  ")
+
+    long = lengths(root)
+    if long:
+        print("lengths of sources (LONG in check_layers.py):", *long, sep="\n  ")
 
     # Take away the folders that include nothing that is left; what cannot be taken away holds a circle.
     order, left = [], dict(below)
@@ -100,7 +138,7 @@ def main():
                 print(f"  {user} -> {used}: {edges[user, used][0]}, {len(edges[user, used])} in all")
     if not order:
         print(f"no sources below {root}")
-    if faults or twice or not places or left or not order:
+    if faults or twice or not places or long or left or not order:
         return 1
     for folder in order:
         print(f"{folder}: {', '.join(map(str, sorted(below[folder]))) or 'nothing'}")

@@ -45,6 +45,18 @@ inline std::array<WindowVertex, 4> lattice_polygon(Batch& b) {
   return quad;
 }
 
+// The groups about positions: corner_geometry.cpp.
+void face_plane(Batch& b);
+void flat(Batch& b);
+void den_w_zero(Batch& b);
+void negative_r2(Batch& b);
+void two_corner(Batch& b);
+void two_edge(Batch& b);
+void tall(Batch& b);
+void burst(Batch& b);
+void extreme(Batch& b);
+void far_corner(Batch& b);
+
 // The groups about depth and attributes: corner_values.cpp.
 void z_limits(Batch& b);
 void minus_zero(Batch& b);

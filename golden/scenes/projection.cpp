@@ -290,7 +290,6 @@ Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int h
 
   Projection result;
   const auto emit = [&](std::size_t face, bool textured, const std::array<const Corner*, 4>& corners) {
-    static constexpr std::array<Vec2, 4> unit_square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     const bool triangle = corners[2] == corners[3];
     WindowQuad quad;
     quad.id = static_cast<std::uint32_t>(face);

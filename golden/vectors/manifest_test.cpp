@@ -1,74 +1,9 @@
 // Sets on the disk: every damage is seen, and none of them crashes the reader.
-#include "golden/vectors/manifest.hpp"
-#include "golden/io/test_support.hpp"
-#include "golden/vectors/suite.hpp"
+#include "golden/vectors/manifest_test_support.hpp"
 #include "model/port/latency.hpp"
-#include "model/support/prng.hpp"
 
-#include <sys/stat.h>
-
-#include <algorithm>
-#include <map>
-
+namespace quadrille::vectors {
 namespace {
-
-using namespace quadrille;
-using namespace quadrille::vectors;
-namespace fs = std::filesystem;
-
-/// A small set of three suites, and ways to damage it.
-class Set : public golden::InDirectory {
- protected:
-  static GenerateOptions options() {
-    GenerateOptions o;
-    o.limit = 30;
-    return o;
-  }
-  static SetInfo info() { return {1, 1, Config{}, 30}; }
-
-  void generate(const std::string& name, const std::vector<std::string>& suite_names, bool replace = false,
-                unsigned threads = 1) const {
-    SetWriter writer(path(name), info(), replace);
-    for (const std::string& suite : suite_names) {
-      GenerateOptions o = options();
-      o.threads = threads;
-      writer.add(find_suite(suite).info(), [&](SuiteWriter& out) { find_suite(suite).write(out, o); });
-    }
-    writer.commit(false);
-  }
-  void SetUp() override { generate("set", {"sqrt", "coverage", "depth"}); }
-
-  /// Reads all of a set; the number of its vectors.
-  static std::uint64_t check(const std::string& directory) {
-    const SetReader set(directory);
-    std::uint64_t lines = 0;
-    for (const std::string& suite : set.suites()) lines += set.suite(suite).lines("stimulus");
-    return lines;
-  }
-  /// The message of the InputError that reading the set must throw.
-  std::string complaint() const {
-    return golden::input_error_of([&] { check(path("set")); });
-  }
-  std::vector<std::string> all_files() const {
-    std::vector<std::string> files;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path("set")))
-      if (entry.is_regular_file()) files.push_back(entry.path().string());
-    std::ranges::sort(files);
-    return files;
-  }
-  void replace_text(const std::string& file, const std::string& from, const std::string& to) const {
-    std::string text = read(path(file));
-    const std::size_t at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    write(file, text.replace(at, from.size(), to));
-  }
-  /// Puts the right hash of a suite's changed manifest into the set's.
-  void sign(const std::string& suite) const {
-    nlohmann::ordered_json set = nlohmann::ordered_json::parse(read(path("set/manifest.json")));
-    set["suites"][suite]["sha256"] = sha256(read(path("set/" + suite + "/manifest.json")));
-    write("set/manifest.json", set.dump(2) + "\n");
-  }
-};
 
 TEST_F(Set, ReadsBackWhatWasWritten) {
   const SetReader set(path("set"));
@@ -336,100 +271,6 @@ TEST_F(Set, FuzzedManifests) {
   EXPECT_GT(refused, 500);
 }
 
-TEST_F(Set, NothingIsReplacedUnasked) {
-  const std::string before = read(path("set/manifest.json"));
-  EXPECT_NE(golden::input_error_of([&] { generate("set", {"sqrt"}); }).find("--force"), std::string::npos);
-  EXPECT_EQ(read(path("set/manifest.json")), before);
-  generate("set", {"sqrt"}, true);
-  EXPECT_EQ(SetReader(path("set")).suites(), std::vector<std::string>{"sqrt"});
-  // What is no set stays, even when asked to replace it.
-  write("set/thesis.txt", "mine");
-  EXPECT_NE(golden::input_error_of([&] { generate("set", {"sqrt"}, true); }).find("does not belong"),
-            std::string::npos);
-  EXPECT_EQ(read(path("set/thesis.txt")), "mine");
-  fs::remove(path("set/thesis.txt"));
-  write("set/sqrt/thesis.txt", "mine");
-  EXPECT_NE(golden::input_error_of([&] { generate("set", {"sqrt"}, true); }), "");
-  EXPECT_EQ(read(path("set/sqrt/thesis.txt")), "mine");
-  fs::create_directory(path("other"));
-  write("other/file", "mine");
-  EXPECT_NE(golden::input_error_of([&] { generate("other", {"sqrt"}, true); }), "");
-  fs::create_directory(path("empty"));
-  generate("empty", {"sqrt"});
-  EXPECT_EQ(check(path("empty")), check(path("empty")));
-}
-
-TEST_F(Set, AnUnfinishedSetLeavesNothing) {
-  const std::size_t before = entries();
-  {
-    SetWriter writer(path("new"), info(), false);
-    writer.add(find_suite("sqrt").info(), [&](SuiteWriter& out) { find_suite("sqrt").write(out, options()); });
-  }
-  EXPECT_EQ(entries(), before);
-  SetWriter empty(path("new"), info(), false);
-  EXPECT_NE(golden::input_error_of([&] { empty.commit(false); }).find("no suite"), std::string::npos);
-  EXPECT_FALSE(fs::exists(path("new")));
-}
-
-// Two runs that found the name free: the set that is there first stays.
-TEST_F(Set, ASetThatAppearsMeanwhileIsNotReplaced) {
-  SetWriter late(path("new"), info(), false);
-  late.add(find_suite("depth").info(), [&](SuiteWriter& out) { find_suite("depth").write(out, options()); });
-  generate("new", {"sqrt"});
-  const std::string message = golden::input_error_of([&] { late.commit(false); });
-  EXPECT_EQ(message.find(path("new") + ": was written by another run"), 0u) << message;
-  EXPECT_EQ(SetReader(path("new")).suites(), std::vector<std::string>{"sqrt"});
-  // With --force the last one wins, whole.
-  SetWriter forced(path("new"), info(), true);
-  forced.add(find_suite("depth").info(), [&](SuiteWriter& out) { find_suite("depth").write(out, options()); });
-  generate("new", {"coverage"}, true);
-  forced.commit(false);
-  EXPECT_EQ(SetReader(path("new")).suites(), std::vector<std::string>{"depth"});
-}
-
-TEST_F(Set, LinksLeadToTheSetAndNotOutOfIt) {
-  fs::create_directory(path("target"));
-  fs::create_directory_symlink("target", path("link"));
-  generate("link", {"sqrt"});
-  EXPECT_TRUE(fs::is_symlink(path("link")));
-  EXPECT_EQ(SetReader(path("target")).suites(), std::vector<std::string>{"sqrt"});
-  generate("link", {"depth"}, true);
-  EXPECT_TRUE(fs::is_symlink(path("link")));
-  EXPECT_EQ(check(path("link")), check(path("target")));
-  fs::create_directory_symlink("nothing", path("dangling"));
-  EXPECT_EQ(golden::input_error_of([&] { generate("dangling", {"sqrt"}); }),
-            path("dangling") + ": is a symbolic link to nothing");
-
-  for (const char* name : {"set/sqrt/response.hex", "set/sqrt/manifest.json", "set/depth", "set/manifest.json"}) {
-    fs::rename(path(name), path("outside"));
-    fs::create_symlink(path("outside"), path(name));
-    EXPECT_EQ(complaint().find(path(name) + ": "), 0u) << complaint();
-    fs::remove(path(name));
-    fs::rename(path("outside"), path(name));
-  }
-  EXPECT_GT(check(path("set")), 0u);
-}
-
-TEST_F(Set, OnlyRegularFilesAreOpened) {
-  for (const char* name : {"set/sqrt/response.hex", "set/sqrt/manifest.json", "set/manifest.json"}) {
-    fs::rename(path(name), path("outside"));
-    ASSERT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
-    EXPECT_EQ(complaint().find(path(name) + ": "), 0u);
-    fs::remove(path(name));
-    fs::rename(path("outside"), path(name));
-  }
-}
-
-TEST_F(Set, TheCurrentDirectoryIsNotReplaced) {
-  const fs::path before = fs::current_path();
-  fs::create_directories(path("here/below"));
-  fs::current_path(path("here/below"));
-  for (const char* name : {".", "..", "../"})
-    EXPECT_NE(golden::input_error_of([&] { SetWriter(name, info(), false); }).find("holds the current directory"),
-              std::string::npos);
-  fs::current_path(before);
-}
-
 TEST_F(Set, ASuiteIsNoSet) {
   EXPECT_EQ(golden::input_error_of([&] { SetReader(path("set/sqrt")); }),
             path("set/sqrt/manifest.json") + ": is the manifest of one suite; expected its set, the directory above");
@@ -460,3 +301,4 @@ TEST(Suites, UnknownNamesTheNearest) {
 }
 
 }  // namespace
+}  // namespace quadrille::vectors

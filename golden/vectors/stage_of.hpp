@@ -32,9 +32,4 @@ class StageOf : public StageUnderTest {
   }
 };
 
-template <class S>
-std::unique_ptr<const StageUnderTest> make_stage(const Config& config) {
-  return std::make_unique<const S>(config);
-}
-
 }  // namespace quadrille::vectors

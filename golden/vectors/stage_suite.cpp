@@ -2,7 +2,6 @@
 
 #include "golden/io/error.hpp"
 #include "golden/vectors/pipeline_tap.hpp"
-#include "golden/vectors/stage_suites.hpp"
 #include "model/support/parallel.hpp"
 
 #include <algorithm>
@@ -290,11 +289,6 @@ StageSuite::Stimuli StageSuite::stimuli(const GenerateOptions& options) const {
     std::move(records.begin(), records.end(), std::back_inserter(list));
   }
   return all;
-}
-
-void add_stage_suites(std::vector<std::unique_ptr<Suite>>& suites) {
-  add_front_stages(suites);
-  add_pixel_stages(suites);
 }
 
 }  // namespace quadrille::vectors

@@ -11,7 +11,18 @@ namespace quadrille::vectors {
 /// Appends snapping to depth, in order.
 void add_stage_suites(std::vector<std::unique_ptr<Suite>>& suites);
 
-void add_front_stages(std::vector<std::unique_ptr<Suite>>& suites);  ///< snapping to forward_difference
-void add_pixel_stages(std::vector<std::unique_ptr<Suite>>& suites);  ///< normalise to depth
+using Stage = std::unique_ptr<const StageUnderTest>;
+Stage make_snapping(const Config& config);
+Stage make_setup(const Config& config);
+Stage make_tile_context(const Config& config);
+Stage make_coverage(const Config& config);
+Stage make_forward_difference(const Config& config);
+Stage make_normalise(const Config& config);
+Stage make_sqrt(const Config& config);
+Stage make_reciprocal(const Config& config);
+Stage make_ratios(const Config& config);
+Stage make_weights(const Config& config);
+Stage make_interpolation(const Config& config);
+Stage make_depth(const Config& config);
 
 }  // namespace quadrille::vectors

@@ -21,6 +21,7 @@ list(TRANSFORM model_headers PREPEND model/)
 set(golden_headers
   analysis/error_bound.hpp
   analysis/hardware_cost.hpp
+  analysis/range_proof.hpp
   methods/method.hpp
   reference/exact_coverage.hpp
   reference/coverage_rows.hpp

@@ -1,5 +1,6 @@
 #include "tb/sweep/point_table.hpp"
 
+#include "golden/analysis/range_proof.hpp"
 #include "model/support/edit_distance.hpp"
 #include "tb/support/csv.hpp"
 

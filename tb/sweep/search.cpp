@@ -1,6 +1,6 @@
 #include "tb/sweep/search.hpp"
 
-#include "golden/analysis/error_bound.hpp"
+#include "golden/analysis/range_proof.hpp"
 
 #include <algorithm>
 #include <array>

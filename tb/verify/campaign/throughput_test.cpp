@@ -1,89 +1,16 @@
 // Throughput and latency of the clocked model without stalls or gaps: covered pixels per clock, clocks of the setup,
 // and that setup hides behind drawing.
 #include "golden/scenes/scenes.hpp"
-#include "model/drive.hpp"
-#include "model/port/latency.hpp"
-#include "model/port/snap.hpp"
-#include "model/support/prng.hpp"
 #include "model/untimed.hpp"
-
-#include <gtest/gtest.h>
+#include "tb/verify/campaign/throughput_test_support.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <map>
 
 namespace quadrille::campaign {
 namespace {
-
-using golden::Prng;
-
-/// From quad to quad: beats and bounding box, or the steps. The pipeline of the dot units is not in it.
-/// A homogeneous quad's depend on skip_walk, whether it is asked whether it misses the scissor.
-constexpr double setup_clocks = 7, setup_clocks_homogeneous = 20, setup_clocks_homogeneous_walk = 40;
-constexpr double setup_clocks_four_units = 6, setup_clocks_homogeneous_four_units = 12,
-                 setup_clocks_homogeneous_walk_four_units = 25;
-constexpr std::uint64_t most_small_quad_clocks = 8;
-constexpr std::uint64_t most_setup_latency = 17, most_setup_latency_homogeneous = 31,
-                        most_setup_latency_homogeneous_walk = 51;
-/// What rtl/MEASUREMENTS.md claims to its last digit: clocks are exact, so any loss is one of the
-/// machine.
-constexpr double turned_squares_per_clock = 0.9985, concave_per_clock = 0.9815;
-/// Quads of 6x6 pixels; homogeneous ones of 12x12, whose pixels take three clocks each, with two tiles in flight.
-constexpr double small_per_clock = 0.964, small_homogeneous_per_clock = 0.266;
-constexpr std::uint64_t most_clocks = 100'000'000;
-
-struct Session {
-  std::uint64_t clocks = 0;                    ///< from the first beat until idle
-  std::uint64_t fragments = 0;                 ///< accepted at the port
-  std::vector<Fragment> stream;                ///< they, in order
-  std::vector<std::uint64_t> accepted, taken;  ///< per quad: clock of the fourth beat, clock of the setup probe
-};
-
-Session run(const std::vector<SnappedQuad>& quads, const Config& config, const DrawState& state) {
-  DrivenModel model(config, state);
-  SteadyBeats beats(quads);
-  Session r;
-  r.clocks = drive(model, beats, [&](std::uint64_t cycle, const ClockedOutputs& o, bool taken) {
-    o.for_each_fragment([&](const Fragment& f) { r.stream.push_back(f); });
-    if (o.probes.setup != nullptr) r.taken.push_back(cycle);
-    if (taken && beats.taken() % 4 == 3) r.accepted.push_back(cycle);
-    return (!beats.done() || o.busy) && cycle < most_clocks;
-  });
-  r.fragments = r.stream.size();
-  EXPECT_LT(r.clocks, most_clocks) << "the machine does not become idle";
-  return r;
-}
-
-DrawState draw_state() {
-  DrawState s;
-  s.depth = false;  // every covered pixel becomes a fragment
-  return s;
-}
-
-SnappedQuad snapped(const double (&p)[4][2], std::uint32_t id, const Config& config) {
-  WindowQuad q;
-  q.id = id;
-  for (std::size_t i = 0; i < 4; ++i) q.vertex[i] = {p[i][0], p[i][1], 0.5, 1};
-  return snap_quad(q, config, draw_state());
-}
-
-std::vector<SnappedQuad> turned_squares(int count, const Config& config, std::uint64_t seed) {
-  Prng rng(seed);
-  std::vector<SnappedQuad> out;
-  for (int n = 0; n < count; ++n) {
-    const double angle = rng.uniform(0, 2 * std::acos(-1.0)), cx = rng.uniform(30, 480), cy = rng.uniform(30, 480);
-    double p[4][2];
-    for (int i = 0; i < 4; ++i) {
-      p[i][0] = cx + 16 * std::sqrt(2.0) * std::cos(angle + i * std::acos(0.0));
-      p[i][1] = cy + 16 * std::sqrt(2.0) * std::sin(angle + i * std::acos(0.0));
-    }
-    out.push_back(snapped(p, static_cast<std::uint32_t>(n), config));
-  }
-  return out;
-}
 
 /// Simple quads with one reflex corner, scaled to a bounding box of 32x32 pixels.
 std::vector<SnappedQuad> concave_quads(int count, const Config& config, std::uint64_t seed) {
@@ -110,24 +37,6 @@ std::vector<SnappedQuad> concave_quads(int count, const Config& config, std::uin
   }
   return out;
 }
-
-/// Convex quads of about `extent` pixels with one vertex that is homogeneous (W < 1) but where the ordinary one would
-/// be.
-std::vector<SnappedQuad> homogeneous_quads(int count, double extent, const Config& config, std::uint64_t seed) {
-  Prng rng(seed);
-  std::vector<SnappedQuad> out;
-  for (int n = 0; n < count; ++n) {
-    const double x = rng.uniform(0, 60), y = rng.uniform(0, 60);
-    const double p[4][2] = {{x, y}, {x + extent, y}, {x + extent, y + extent}, {x, y + extent}};
-    SnappedQuad q = snapped(p, static_cast<std::uint32_t>(n), config);
-    q.vertex[2].x /= 2, q.vertex[2].y /= 2, q.vertex[2].w /= 2;
-    q.vertex[2].k.exp -= 1;
-    out.push_back(q);
-  }
-  return out;
-}
-
-double pixels_per_clock(const Session& r) { return static_cast<double>(r.fragments) / static_cast<double>(r.clocks); }
 
 TEST(Throughput, TurnedSquares) {
   const Config config;
@@ -200,69 +109,6 @@ TEST(Throughput, PixelsPerClock) {
   }
 }
 
-/// One quad in an idle machine: clocks from the accepted fourth beat to the setup probe.
-std::uint64_t setup_latency(const SnappedQuad& quad, const Config& config, std::uint32_t skip = skip_default) {
-  DrawState state = draw_state();
-  state.skip = skip;
-  const Session r = run({quad}, config, state);
-  EXPECT_EQ(r.taken.size(), 1u);
-  EXPECT_EQ(r.accepted.size(), 1u);
-  return r.taken.empty() || r.accepted.empty() ? 0 : r.taken[0] - r.accepted[0];
-}
-
-TEST(Throughput, SetupLatency) {
-  const Config config;
-  std::uint64_t ordinary = 0, homogeneous = 0, homogeneous_walk = 0;
-  for (const SnappedQuad& q : turned_squares(20, config, 3)) ordinary = std::max(ordinary, setup_latency(q, config));
-  for (const SnappedQuad& q : homogeneous_quads(20, 8, config, 3)) {
-    homogeneous = std::max(homogeneous, setup_latency(q, config, skip_default & ~std::uint32_t{skip_walk}));
-    homogeneous_walk = std::max(homogeneous_walk, setup_latency(q, config));
-  }
-  std::printf("fourth beat to taken: %llu clocks ordinary, %llu homogeneous, with the scissor's test %llu\n",
-              static_cast<unsigned long long>(ordinary), static_cast<unsigned long long>(homogeneous),
-              static_cast<unsigned long long>(homogeneous_walk));
-  EXPECT_GT(ordinary, 0u);
-  EXPECT_LE(ordinary, most_setup_latency);
-  EXPECT_GT(homogeneous, ordinary);
-  EXPECT_LE(homogeneous, most_setup_latency_homogeneous);
-  EXPECT_GT(homogeneous_walk, homogeneous);
-  EXPECT_LE(homogeneous_walk, most_setup_latency_homogeneous_walk);
-}
-
-/// Quads without a pixel, back to back, with quads enough in flight: the interval between two of them is the setup's
-/// own.
-TEST(Throughput, SetupInitiationInterval) {
-  for (const int units : {2, 4}) {
-    for (const bool homogeneous : {false, true}) {
-      Config config;
-      config.dot_units = units;
-      config.quad_slots_log2 = 4;
-      auto quads = homogeneous ? homogeneous_quads(200, 8, config, 4) : turned_squares(200, config, 4);
-      DrawState state = draw_state();
-      state.scissor_x1 = state.scissor_x0 = 100;  // empty
-      state.skip = skip_tiles;
-      const Session r = run(quads, config, state);
-      ASSERT_EQ(r.taken.size(), quads.size());
-      const double interval = static_cast<double>(r.taken[199] - r.taken[9]) / 190;  // the first ones find it empty
-      std::printf("setup interval, %s, %d dot units: %.2f clocks\n", homogeneous ? "homogeneous" : "ordinary", units,
-                  interval);
-      if (units == 2)
-        EXPECT_LE(interval, homogeneous ? setup_clocks_homogeneous : setup_clocks);
-      else
-        EXPECT_LE(interval, homogeneous ? setup_clocks_homogeneous_four_units : setup_clocks_four_units);
-      EXPECT_EQ(r.fragments, 0u);
-      if (!homogeneous) continue;
-      state.skip = skip_tiles | skip_walk;
-      const Session left_out = run(quads, config, state);
-      EXPECT_TRUE(left_out.taken.empty()) << "they miss the scissor";
-      const double left_out_interval = static_cast<double>(left_out.accepted[199] - left_out.accepted[9]) / 190;
-      std::printf("that miss the scissor, %d dot units: %.2f clocks\n", units, left_out_interval);
-      EXPECT_LE(left_out_interval,
-                units == 2 ? setup_clocks_homogeneous_walk : setup_clocks_homogeneous_walk_four_units);
-    }
-  }
-}
-
 /// Quads of about 2x2 pixels within `tiles` x `tiles` tiles: one has them inside a tile, of two the corner that four
 /// tiles share is inside.
 std::vector<SnappedQuad> small_quads(int count, int tiles, const Config& config, std::uint64_t seed) {
@@ -308,99 +154,6 @@ TEST(Throughput, SmallQuads) {
                   static_cast<double>(clocks) / (count - 1), static_cast<double>(rows) / count);
       EXPECT_LE(clocks, tiles == 1 ? most_small_quad_clocks * count : rows + count);
     }
-  }
-}
-
-/// Runs of quads that are left out: clocks a quad, over 200 of them. Those that their vertices show take the clocks of
-/// their beats.
-TEST(Throughput, QuadsLeftOut) {
-  struct Run {
-    const char* what;
-    bool by_vertices;
-    std::array<std::array<double, 3>, 4> vertex;  ///< x, y, z
-    double w;
-    Cull cull;
-  };
-  const Run runs[] = {
-      {"beside the scissor", true, {{{600, 10, .5}, {640, 10, .5}, {640, 40, .5}, {600, 40, .5}}}, 1, Cull::none},
-      {"between pixel centres", true, {{{9.6, 9, .5}, {10.4, 9, .5}, {10.4, 30, .5}, {9.6, 30, .5}}}, 1, Cull::none},
-      {"behind the eye", true, {{{1, 1, .5}, {9, 1, .5}, {9, 9, .5}, {1, 9, .5}}}, -2, Cull::none},
-      {"too far", true, {{{1, 1, .8}, {9, 1, .9}, {9, 9, .8}, {1, 9, .8}}}, 1, Cull::none},
-      {"on one line", false, {{{1, 1, .5}, {9, 9, .5}, {4, 4, .5}, {7, 7, .5}}}, 1, Cull::none},
-      {"culled", false, {{{1, 1, .5}, {90, 1, .5}, {90, 90, .5}, {1, 90, .5}}}, 1, Cull::back},
-  };
-  for (const Run& kind : runs)
-    for (const int dot_units : {2, 4}) {
-      Config config;
-      config.set("dot_units", dot_units);
-      DrawState state = draw_state();
-      state.depth = true;
-      state.zfar = 0.75;
-      state.cull = kind.cull;
-      std::vector<SnappedQuad> quads;
-      for (std::uint32_t id = 0; id < 210; ++id) {
-        WindowQuad q;
-        q.id = id;
-        for (std::size_t i = 0; i < 4; ++i) {
-          const auto& [x, y, z] = kind.vertex[i];
-          q.vertex[i] = {x * kind.w, y * kind.w, z * kind.w, kind.w};
-        }
-        quads.push_back(snap_quad(q, config, state));
-      }
-      const auto clocks_a_quad = [&](const Session& r) {
-        EXPECT_EQ(r.fragments, 0u);
-        if (r.accepted.size() != quads.size()) return 0.0;
-        return static_cast<double>(r.accepted[209] - r.accepted[9]) / 200;
-      };
-      const Session with = run(quads, config, state);
-      state.skip = skip_tiles;
-      const Session without = run(quads, config, state);
-      const double clocks = clocks_a_quad(with);
-      std::printf("%s, %d dot units: %.2f clocks a quad, %.2f without the skip\n", kind.what, dot_units, clocks,
-                  clocks_a_quad(without));
-      EXPECT_TRUE(with.taken.empty());
-      EXPECT_EQ(without.taken.size(), quads.size());
-      EXPECT_GT(clocks, 0);
-      EXPECT_LE(clocks, kind.by_vertices ? 4 : 6);
-      EXPECT_GT(clocks_a_quad(without), clocks);
-    }
-}
-
-/// Setup of the next quad runs while this one is drawn: quads whose drawing takes longer than their setup cost their
-/// drawing alone; a machine without overlap would need the sum of the single runs.
-TEST(Throughput, SetupHidesBehindDrawing) {
-  const Config config;
-  for (const bool homogeneous : {false, true}) {
-    std::vector<SnappedQuad> quads = homogeneous ? homogeneous_quads(300, 12, config, 5) : std::vector<SnappedQuad>();
-    if (!homogeneous) {
-      Prng rng(6);
-      for (std::uint32_t n = 0; n < 300; ++n) {
-        const double x = rng.uniform(0, 400), y = rng.uniform(0, 400);
-        const double p[4][2] = {{x, y}, {x + 6, y}, {x + 6, y + 6}, {x, y + 6}};
-        quads.push_back(snapped(p, n, config));
-      }
-    }
-    DrawState state = draw_state();
-    if (homogeneous) {
-      // Such quads walk all tiles up to the scissor's far corner; a small one keeps the walk below the drawing.
-      state.scissor_x1 = state.scissor_y1 = 80;
-    }
-    std::uint64_t alone = 0, setup = 0;
-    for (const SnappedQuad& q : quads) {
-      const Session single = run({q}, config, state);
-      alone += single.clocks;
-      setup += single.taken.at(0) - single.accepted.at(0);
-    }
-    const Session r = run(quads, config, state);
-    std::printf("%s: %llu pixels, %llu clocks overlapped, %llu one by one, of these %llu setup\n",
-                homogeneous ? "homogeneous 12x12" : "ordinary 6x6", static_cast<unsigned long long>(r.fragments),
-                static_cast<unsigned long long>(r.clocks), static_cast<unsigned long long>(alone),
-                static_cast<unsigned long long>(setup));
-    // Pixels alone bound it from below; all of the setup and pipeline latency must have gone.
-    EXPECT_LE(r.clocks,
-              alone - setup - quads.size() * static_cast<std::uint64_t>(latency::emission + latency::pipeline - 4));
-    // What is left over the pixels is the walk over empty tiles.
-    EXPECT_GE(pixels_per_clock(r), homogeneous ? small_homogeneous_per_clock : small_per_clock);
   }
 }
 
