@@ -150,6 +150,7 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
       if (!value.is_number_integer() || value < -1 || value > 1000)
         throw input_error(file, 0, "config: " + golden::in_quotes(key) + " is not a configuration value");
       info.config.set(key, value.get<int>());
+      if (const std::string note = Config::note(key); !note.empty()) info.notes.push_back("config: " + note);
     }
     info.config.validate();
   } catch (const ConfigError& error) {
@@ -159,7 +160,10 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
   Json stated = resolved_values(info.config);
   for (const ConfigKey& key : Config::keys())
     if (!config.contains(key.name)) stated.erase(key.name);
-  if (config != stated) throw input_error(file, 0, "config does not hold its keys in order");
+  Json known = config;
+  for (const auto& [key, value] : config.items())
+    if (Config::removed(key) != nullptr) known.erase(key);
+  if (known != stated) throw input_error(file, 0, "config does not hold its keys in order");
   if (object_member(file, manifest, "derived") != derived_json(info.config))
     throw input_error(file, 0, "\"derived\" does not follow from \"config\"");
 

@@ -41,6 +41,7 @@ struct SetInfo {
   Config config;
   std::uint64_t limit = 0;  ///< GenerateOptions::limit
   std::string input{};      ///< one's own: the options that name it, as a command line gives them; empty: the suites'
+  std::vector<std::string> notes{};  ///< of a manifest's keys that were removed (Config::note)
 };
 
 /// The command that generates a set of every suite, without --out. Each --suite NAME follows it in the order of the

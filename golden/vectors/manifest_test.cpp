@@ -159,6 +159,24 @@ TEST_F(Set, KeysThatItDoesNotNameHaveTheirDefaults) {
   EXPECT_EQ(complaint(), path("set/manifest.json") + ": \"config\" differs from that of suite sqrt");
 }
 
+TEST_F(Set, ARemovedKeyIsReadAtItsOffValueWithANote) {
+  const auto change = [&](const std::string& from, const std::string& to) {
+    for (const std::string suite : {"sqrt", "coverage", "depth"}) {
+      replace_text("set/" + suite + "/manifest.json", from, to);
+      sign(suite);
+    }
+    replace_text("set/manifest.json", from, to);
+  };
+  change("\"config\": {\n", "\"config\": {\n    \"plane_tolerance_bits\": 0,\n");
+  EXPECT_GT(check(path("set")), 0u);
+  const SetInfo info = SetReader(path("set")).info();
+  EXPECT_EQ(info.config, Config());
+  ASSERT_EQ(info.notes.size(), 1u);
+  EXPECT_EQ(info.notes[0].find("config: plane_tolerance_bits = 0 is no longer needed"), 0u) << info.notes[0];
+  change("plane_tolerance_bits\": 0", "plane_tolerance_bits\": 7");
+  EXPECT_NE(complaint().find("plane_tolerance_bits = 7"), std::string::npos) << complaint();
+}
+
 // A set whose hashes are right but whose contents are not: what someone else's generator may write.
 TEST_F(Set, ConsistentNonsenseIsRefused) {
   const std::string manifest = path("set/sqrt/manifest.json"), text = read(manifest),
@@ -191,7 +209,7 @@ TEST_F(Set, ConsistentNonsenseIsRefused) {
     sign("sqrt");
     return golden::input_error_of([&] { require_known(SetReader(path("set")).suite("sqrt")); });
   };
-  const std::string says = "\" is not what this program says of suite sqrt";
+  const std::string says = "\" differs from this program's for suite sqrt";
   EXPECT_EQ(known("\"kind\": \"stage\"", "\"kind\": \"machine\""), manifest + ": \"kind" + says);
   EXPECT_EQ(known("\"latency\": " + std::to_string(latency::sqrt_stages), "\"latency\": 99"),
             manifest + ": \"latency" + says);

@@ -66,7 +66,7 @@ nlohmann::ordered_json model_json(const ModelCheck& model) {
 
 /// The outcome in a few words.
 const char* outcome(const InputResult& r, const ModelCheck& model, bool ok) {
-  if (ok) return "OK: RTL and model agree, errors within bounds";
+  if (ok) return "RTL and model agree, errors within bounds";
   if (!r.lockstep_ok()) return "FAILED: RTL and model differ";
   if (r.check.compared == 0) return "FAILED: no fragments compared";
   if (!r.check.ok()) return "FAILED: fragments differ from the truth or exceed a bound";
@@ -206,7 +206,7 @@ void CosimReport::print_summary(std::FILE* out, const InputResult& r, const Mode
   if (c.compared > 0) print_errors(out, r);
   std::fprintf(out, "\n  speed          %.0f cycles/s with all comparisons", rate(r));
   if (alone_rate(r) > 0) std::fprintf(out, "; RTL alone %.0f (%.1f x)", alone_rate(r), ratio(alone_rate(r), rate(r)));
-  std::fprintf(out, "; %.1f s in all\n", r.seconds);
+  std::fprintf(out, "; %.1f s in all\n\n%s\n", r.seconds, ok ? "OK" : "FAILED");
 }
 
 /// The errors of what was compared, and where its fragments lie.

@@ -259,6 +259,8 @@ int verify(const VerifyCommandOptions& options, const std::vector<std::string>& 
   std::FILE* text = common.text();
 
   const SetReader set(options.directory);
+  for (const std::string& note : set.info().notes)
+    if (!options.quiet) std::fprintf(stderr, "note: %s\n", note.c_str());
   for (const std::string& name : options.suites) choose("suite of " + options.directory, name, set.suites());
   nlohmann::ordered_json report = golden::begin_report(set.info().config, set.info().seed, arguments);
   report["engine"] = engine.name;

@@ -316,7 +316,7 @@ TEST_F(GoldenCli, SealRefusesMalformedFiles) {
           "response.hex:2: column 1 is an unknown digit");
   refused("response.hex", response.substr(0, line) + "0" + response.substr(line), "response.hex:2: has 31 characters");
   refused("response.hex", response.substr(line), "each needs one");
-  refused("stimulus.hex", response, "stimulus.hex: is not the generated file");
+  refused("stimulus.hex", response, "stimulus.hex: differs from the generated file");
   EXPECT_EQ(run("golden seal " + file("nowhere").string()).status, 2);
 }
 

@@ -111,7 +111,7 @@ TEST_F(ViewOptions, BadOptions) {
   refuses(2, "render --png a.png --scene sphere --view top", {"--view needs --mesh"});
   refuses(2, "render --png a.png --scene sphere --save-camera c.json", {"--save-camera needs --mesh"});
   write("c.json", R"({"eye": [0, 0, 5], "target": [0, 0, 0], "up": [0, 1, 0], "fovy": 40, "near": 1, "far": 9})");
-  refuses(2, render + "--camera c.json --up z", {"--up is for the automatic camera", "c.json"});
+  refuses(2, render + "--camera c.json --up z", {"--up", "--camera c.json"});
 }
 
 }  // namespace

@@ -273,7 +273,7 @@ TEST_F(Cli, StressShardsPutTogetherAreOneRun) {
   refuses(2, "stress --merge part0.json nowhere.json", {"nowhere.json"});
   refuses(2, "stress --merge part0.json part1.json part2.json --json part1.json", {"part1.json"});
   refuses(2, "stress --shard 0/3 --merge part0.json", {"--shard", "--merge"});
-  refuses(2, "stress --families bowtie --shard 0/2", {"--shard 0/2", "1 families"});
+  refuses(2, "stress --families bowtie --shard 0/2", {"--shard 0/2", "families (1)"});
   refuses(2, "stress --shard 2/2", {"0 <= I < N"});
   ASSERT_EQ(run(arguments + "--seed 2 --shard 1/3 --json other.json").status, 0);
   refuses(2, "stress --merge part0.json other.json part2.json", {"other.json", "seed"});
@@ -348,7 +348,7 @@ TEST_F(CliStress, FragmentsWithErrors) {
   const std::string rows = run("fragments --quads q.quads --size 64x64 --out -").out;
   EXPECT_EQ(std::count(model.out.begin(), model.out.end(), '\n') - 1,
             6 * (std::count(rows.begin(), rows.end(), '\n') - 1));
-  refuses(2, line + "float --snap off", {"--errors", "--snap off"});
+  refuses(2, line + "float --snap off", {"--errors", "--snap"});
   refuses(2, line + "model --set quadratic_frac_bits=10", {"--errors", "quadratic_frac_bits"});
   refuses(2, line + "fp64", {"unknown engine", "fp32"});
   refuses(2, "render --engine fp32 --quads q.quads --png p.png", {"unknown engine"});

@@ -127,7 +127,7 @@ class Report(unittest.TestCase):
         part, other, text = self.build / "part.json", self.build / "other.json", self.build / "text.json"
         self.report(self.build, "--json", part)
         self.report(self.build, "--json", other, status=1, survives="m3")
-        self.assertIn("m3 has another result", self.report("--from", part, other, status=1).stderr)
+        self.assertIn("m3 has different results", self.report("--from", part, other, status=1).stderr)
         other.write_text(part.read_text().replace('"drawn": 11', '"drawn": 12'))
         self.assertIn("of a draw of 12", self.report("--from", part, other, status=1).stderr)
         text.write_text("[]")
