@@ -29,7 +29,7 @@ LONG = {
     "rtl/quad_setup.sv": (710, "one schedule of a quad's products"),
     "rtl/quadrille.sv": (1000, "the machine: every unit and what connects them"),
     "rtl/tile_walk.sv": (410, "one state machine"),
-    "tb/commands/cli_test.cpp": (560, "a test for each rule of command lines"),
+    "tb/commands/cli_test.cpp": (430, "a test for each rule of command lines"),
     "tb/commands/golden.cpp": (480, COMMAND),
     "tb/commands/golden_cli_test.cpp": (490, "a test for each subcommand and its errors"),
     "tb/commands/sweep.cpp": (730, COMMAND),

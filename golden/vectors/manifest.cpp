@@ -176,6 +176,7 @@ SetInfo read_set_info(const std::string& file, const Json& manifest, std::string
   }
   named.level = info.level;
   named.seed = info.seed;
+  named.notes = std::move(info.notes);
   const std::string spelled = set_command(named);
   if (!command.starts_with(spelled) || resolved_values(named.config) != resolved_values(info.config))
     throw input_error(file, 0, "\"command\" does not generate this level, seed and configuration");

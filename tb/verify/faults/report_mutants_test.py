@@ -131,7 +131,7 @@ class Report(unittest.TestCase):
         other.write_text(part.read_text().replace('"drawn": 11', '"drawn": 12'))
         self.assertIn("of a draw of 12", self.report("--from", part, other, status=1).stderr)
         text.write_text("[]")
-        self.assertIn("text.json: is not what --json keeps", self.report("--from", part, text, status=1).stderr)
+        self.assertIn("text.json: not a file of --json", self.report("--from", part, text, status=1).stderr)
         self.assertIn("no such", self.report("--from", self.build / "none", status=1).stderr.lower())
         self.report(self.build, "--shard", "3/3", status=2)
 
