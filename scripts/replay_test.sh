@@ -178,7 +178,7 @@ expect 2 "manifest.json: not a regular file" "a pipe as manifest" timeout 20 $re
 damage sqrt 'import os; os.remove(f"{suite}/stimulus.hex")'
 expect 2 "stimulus.hex" "a missing file" $replay "$work/bad" $tool --suite sqrt
 damage sqrt 'text = open(f"{suite}/manifest.json").read(); open(f"{suite}/manifest.json", "w").write(text.replace("\"format\": 2", "\"format\": 1"))'
-expect 2 "manifest.json: format 1, this is a replay of format 2" "a set of an older format" $replay "$work/bad" $tool --suite sqrt
+expect 2 "manifest.json: format 1, expected format 2" "a set of an older format" $replay "$work/bad" $tool --suite sqrt
 expect 2 "no suite rsqr" "an unknown suite" $replay "$set" $tool --suite rsqr
 expect 2 "nothing to replay: snapping has no RTL" "only a suite without RTL" $replay "$set" $tool --suite snapping
 expect 2 "manifest.json" "no set" $replay "$work" $tool
