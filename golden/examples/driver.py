@@ -87,7 +87,11 @@ def main(config_file, quads):
         report = json.load(file)
     config = {entry["name"]: entry["value"] for entry in report["keys"] + report["derived"]}
     lines = [numbers for line in quads if (numbers := line.split("#")[0].split())]
+    if not lines:
+        sys.exit("no quads on standard input")
     for quad, numbers in enumerate(lines):
+        if len(numbers) < 16 or len(numbers) % 4:
+            sys.exit(f"quad {quad}: {len(numbers)} numbers; expected 16, and 4 for each attribute")
         n = (len(numbers) - 16) // 4  # attributes of a vertex
         numbers = [*map(float, numbers)]
         vertices, attributes = [numbers[4 * i:4 * i + 4] for i in range(4)], [numbers[16 + n * i:16 + n * (i + 1)] for i in range(4)]

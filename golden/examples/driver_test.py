@@ -132,6 +132,10 @@ class Driver(unittest.TestCase):
             refused = subprocess.run(driver, input=quads.replace("-30 -20 0.25 -1", "0 0 1 0"), capture_output=True, text=True)
             self.assertNotEqual(refused.returncode, 0)
             self.assertIn("quad 0: vertex 2: (x, y, w) is no point", refused.stderr)
+            for text, message in [(quads.rstrip() + " 1\n", "expected 16, and 4 for each attribute"), ("# none\n", "no quads")]:
+                refused = subprocess.run(driver, input=text, capture_output=True, text=True)
+                self.assertEqual((refused.returncode, refused.stdout), (1, ""))
+                self.assertIn(message, refused.stderr)
 
 
     def test_example_of_the_page_on_converting(self):

@@ -302,6 +302,10 @@ TEST_F(Cli, FragmentTable) {
   const Outcome one = run("fragments --size 64x64 --quads a.quads --out - --pixel 10,10 --no-depth --quad 0");
   EXPECT_EQ(std::count(one.out.begin(), one.out.end(), '\n'), 2);
   EXPECT_NE(one.out.find(",,"), std::string::npos) << "z is empty with depth off";
+  EXPECT_EQ(one.err, "");
+  const Outcome none = run("fragments --size 64x64 --quads a.quads --out - --pixel 40,41");
+  EXPECT_EQ(std::count(none.out.begin(), none.out.end(), '\n'), 1);
+  EXPECT_NE(none.err.find("no fragments at pixel 40,41"), std::string::npos) << none.err;
   // More attributes than the machine's slots, and weights where slots are few.
   write("b.quads",
         "10 10 0.5 1  20 10 0.5 1  20 20 0.5 1  10 20 0.5 1   0 0 1 2 3 4  1 0 1 2 3 4  1 1 1 2 3 4  0 1 1 2 3 4\n");

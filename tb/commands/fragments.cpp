@@ -120,6 +120,9 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
   else
     golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
 
+  if (rows.empty() && !options.common.quiet)
+    std::fprintf(stderr, "note: no fragments%s\n", pixel.first < 0 ? "" : (" at pixel " + options.pixel).c_str());
+
   const std::string& drawn_by = options.method.empty() ? options.engine.engine : options.method;
   const double seconds = start.seconds();
   std::optional<PerformanceCounters> counters;
