@@ -141,7 +141,7 @@ std::string command_of(const FailingDraw& draw, const FailedPass& failed, const 
   if (failed.lockstep.limit_fragments != 0)
     command += " --limit-fragments " + std::to_string(failed.lockstep.limit_fragments);
   if (!failed.lockstep.source.empty()) command += " --rtl " + quoted(failed.lockstep.source.string());
-  return command + " --no-shrink";  // there is nothing less to be looked for
+  return command + " --no-alone --no-shrink";  // nothing is timed, and there is nothing less to be looked for
 }
 
 std::string counted(std::size_t count, const char* thing) {
