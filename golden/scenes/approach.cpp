@@ -1,6 +1,7 @@
 #include "golden/scenes/approach.hpp"
 
 #include "golden/scenes/approach_step.hpp"
+#include "golden/scenes/generators.hpp"
 
 #include <algorithm>
 #include <array>
@@ -93,11 +94,7 @@ constexpr std::array<Generator, 23> generators{{
      Window::mirror},
 }};
 
-constexpr auto infos = [] {
-  std::array<Approach, generators.size()> all{};
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = generators[i].info;
-  return all;
-}();
+constexpr auto infos = infos_of(generators);
 
 /// The window mirrored and turned, all numbers exact: a pixel centre becomes another one.
 void turn_window(Step& s, Vertices& v, Window window) {

@@ -1,6 +1,7 @@
 #include "golden/scenes/corner_quads.hpp"
 
 #include "golden/scenes/corner_batch.hpp"
+#include "golden/scenes/generators.hpp"
 #include "golden/scenes/random_quads.hpp"
 #include "model/port/snap.hpp"
 
@@ -100,11 +101,7 @@ constexpr std::array<Generator, 21> generators{{
      far_depth},
 }};
 
-constexpr auto infos = [] {
-  std::array<CornerGroupInfo, generators.size()> all{};
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = generators[i].info;
-  return all;
-}();
+constexpr auto infos = infos_of(generators);
 
 }  // namespace
 

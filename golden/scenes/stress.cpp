@@ -1,5 +1,6 @@
 #include "golden/scenes/stress.hpp"
 
+#include "golden/scenes/generators.hpp"
 #include "golden/scenes/stress_batch.hpp"
 #include "model/support/prng.hpp"
 
@@ -81,11 +82,7 @@ constexpr std::array<Generator, 22> generators{{
      coincident},
 }};
 
-constexpr auto infos = [] {
-  std::array<StressFamilyInfo, generators.size()> all{};
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = generators[i].info;
-  return all;
-}();
+constexpr auto infos = infos_of(generators);
 
 void check_arguments(double knob, int width, int height) {
   if (!(knob >= 0x1p-6 && knob <= 0x1p6)) throw std::invalid_argument("stress: the knob lies between 1/64 and 64");
