@@ -16,6 +16,9 @@ namespace quadrille::cli_test {
 
 namespace fs = std::filesystem;
 
+/// A line of a quads file.
+inline constexpr const char* good_quad = "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n";
+
 inline std::string read(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

@@ -16,8 +16,6 @@ namespace {
 using namespace quadrille::cli_test;
 using nlohmann::json;
 
-constexpr const char* good_quad = "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n";
-
 /// Characters of the longest line, and the number of lines.
 std::pair<std::size_t, std::size_t> extent(const std::string& text) {
   std::istringstream lines(text);

@@ -109,8 +109,7 @@ TEST_F(CliCosim, TheCacheIsListedAndCleared) {
 
 TEST_F(CliCosim, AntipodalEdgesAreCountedAndCoverNothing) {
   // Vertex 1 is minus vertex 0: the eye lies on that edge. The second quad is an ordinary one.
-  write("antipodal.quads", std::string("20 20 0.5 1  -20 -20 -0.5 -1  40 44 0.5 1  8 40 0.5 1\n") +
-                               "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n");
+  write("antipodal.quads", std::string("20 20 0.5 1  -20 -20 -0.5 -1  40 44 0.5 1  8 40 0.5 1\n") + good_quad);
   const Outcome outcome = run("cosim --quads antipodal.quads --size 64x64 --no-alone --json -");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json report = json::parse(outcome.out);

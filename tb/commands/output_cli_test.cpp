@@ -54,7 +54,7 @@ TEST_F(Cli, RenderSaysWhatItWrote) {
 // Latin-1, as older file systems have it.
 TEST_F(Cli, AFileNameNeedNotBeUtf8) {
   const std::string name = "caf\xe9.quads";
-  write(name, "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n");
+  write(name, good_quad);
   for (const std::string command : {"render --size 64x64 --png p.png", "fragments --size 64x64 --out f.csv",
                                     "golden generate --size 64x64 --out set",
                                     "sweep --axis significand_bits=12,18 --size 64x64 --cosim none --out d",

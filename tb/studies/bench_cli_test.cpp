@@ -16,8 +16,6 @@ using nlohmann::json;
 /// All loads by all engines: half a minute.
 class CliBenchWhole : public Cli {};
 
-constexpr const char* good_quad = "10 10 0.5 1  40 12 0.5 1  42 44 0.5 1  8 40 0.5 1\n";
-
 TEST_F(Cli, BenchErrorRefuses) {
   refuses(2, "bench --scene sphere", {"--scene", "--error"});
   refuses(2, "bench --count 5", {"--count", "--error"});

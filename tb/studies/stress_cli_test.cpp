@@ -348,7 +348,7 @@ TEST_F(CliStress, FragmentsWithErrors) {
   const std::string rows = run("fragments --quads q.quads --size 64x64 --out -").out;
   EXPECT_EQ(std::count(model.out.begin(), model.out.end(), '\n') - 1,
             6 * (std::count(rows.begin(), rows.end(), '\n') - 1));
-  refuses(2, line + "float --snap off", {"--errors", "--snap"});
+  refuses(2, line + "float --snap off", {"--errors", "--snap on"});
   refuses(2, line + "model --set quadratic_frac_bits=10", {"--errors", "quadratic_frac_bits"});
   refuses(2, line + "fp64", {"unknown engine", "fp32"});
   refuses(2, "render --engine fp32 --quads q.quads --png p.png", {"unknown engine"});
