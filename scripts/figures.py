@@ -16,7 +16,6 @@ import os
 import re
 import shlex
 import shutil
-import signal
 import struct
 import subprocess
 import sys
@@ -229,7 +228,6 @@ def main():
     papers, figures = read_table()
     figures = chosen(figures, args.only)
     out = os.path.abspath(args.out)
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that the folder aside goes
     try:
         os.makedirs(out, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=out, prefix=".figures-") as aside:

@@ -108,6 +108,15 @@ class Drawing(unittest.TestCase):
     def draw(self, *arguments, **keywords):
         return run("--out", self.out, "--size", "64x64", *arguments, **keywords)
 
+    def test_sigterm_leaves_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "program")
+            with open(program, "w", encoding="utf-8") as file:
+                file.write("#!/bin/sh\nkill $PPID\nexec sleep 60\n")
+            os.chmod(program, 0o755)
+            self.assertEqual(self.draw("--only", "bloomenthal14", program=program).returncode, 143)
+        self.assertEqual(os.listdir(self.out), [])
+
     def test_pages_and_links(self):
         # Between them: two sheets of one scene, a wireframe, no perspective correction, methods with knobs, values that are missing.
         names = ["bloomenthal14", "hormann_tarini7", "oliveira15"]

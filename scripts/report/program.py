@@ -1,6 +1,7 @@
 """The program and the data that belong to these scripts, in a source tree or installed (PREFIX/share/quadrille); how a script begins and ends."""
 import argparse
 import os
+import signal
 import sys
 
 from report.files import Failed
@@ -15,7 +16,9 @@ def options(doc, **more):
 
 
 def end(main):
-    """Ends the script with the status that `main` returns, or with that of its exception and the message."""
+    """Ends the script with the status that `main` returns, or with that of its exception and the message. SIGTERM ends it as an exception
+    does, so that temporary folders go."""
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     try:
         sys.exit(main())
     except Failed as error:
