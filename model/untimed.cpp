@@ -1,7 +1,7 @@
 #include "model/untimed.hpp"
 
 #include "model/fast/float_lanes.hpp"
-#include "model/fast/pixel_lanes.hpp"
+#include "model/fast/wide_lanes.hpp"
 #include "model/front/covered_pixels.hpp"
 #include "model/front/quad_reject.hpp"
 #include "model/front/quad_setup.hpp"
@@ -41,8 +41,8 @@ DrawStats& DrawStats::operator+=(const DrawStats& o) {
 
 struct UntimedModel::Impl {
   PipelineContext context;
-  LaneTables tables;
   FloatLanes floats;
+  WideLanes wide;
   bool plain;
   TileWalk walk;
   WholeTiles whole;
@@ -58,24 +58,28 @@ struct UntimedModel::Impl {
   std::size_t drawn = 0;
   FragmentBuffer batch;
 
-  // Of a quad by FloatLanes.
+  // Of a quad by lanes.
+  bool by_floats = false;  ///< else by wide lanes
   FloatQuad float_quad;
+  WideQuad wide_quad;
   SmallQuad small_quad;
   SmallWalk small_walk;
   PixelList list;
-  FloatResults results;
+  LaneResults results;
+  SmallPixels small_pixels;
 
   Impl(const Config& config, const DrawState& state, PixelEngine engine)
       : context(config, state),
-        tables(context),
         floats(context),
+        wide(context),
         plain(engine == PixelEngine::plain),
         walk(config, state),
         whole(config, state),
         memory(config),
         masked(config),
         batch(PixelList::widest, state.attributes),
-        results(state.attributes) {}
+        results(state.attributes),
+        small_pixels(state.attributes) {}
 
   /// Every flag but tie, which coverage gives.
   void tally(unsigned flags) {
@@ -105,83 +109,79 @@ struct UntimedModel::Impl {
     deliver(p.fragment, p.drawn);
   }
 
-  void draw_lanes(const TileEntry& tile, const QuadData& data, const QuadLanes& values, int begin) {
-    const int count = std::min(lane_count, pixels - begin);
-    int lane_dx[lane_count], lane_row[lane_count];
-    for (int l = 0; l < lane_count; ++l) {
-      const CoveredPixel& at = pixel[static_cast<std::size_t>(begin + std::min(l, count - 1))];
-      lane_dx[l] = at.dx;
-      lane_row[l] = at.row;
-    }
-    LaneResult r;
-    pixel_lanes(tile, walk.constants(), data, values, context, tables, lane_dx, lane_row, r);
-    for (int l = 0; l < count; ++l) {
-      const int i = begin + l;
-      if (r.singular >> l & 1) {
-        draw_plain(tile, data, i);
-        continue;
-      }
-      ++by_lane.wide;
-      deliver(lane_fragment(r, l, tile, pixel[static_cast<std::size_t>(i)], data, context), r.drawn >> l & 1);
-    }
-  }
-
   using Sink = std::function<void(const FragmentArrays&)>;
 
   /// Draws the list's whole blocks, with `all` its rest too.
-  void draw_floats(const SnappedQuad& quad, bool all, const Sink& sink) {
+  void draw_list(const SnappedQuad& quad, bool all, const Sink& sink) {
     const int count = all ? list.count : list.count / FloatLanes::block * FloatLanes::block;
     if (count == 0) return;
-    floats.draw(float_quad, list, count, results);
-    by_lane.single += static_cast<std::uint64_t>(count);
+    auto size = static_cast<std::size_t>(count);
+    if (by_floats) {
+      floats.draw(float_quad, list, count, results);
+      by_lane.single += size;
+    } else {
+      wide.draw(wide_quad, list, count, results);
+      by_lane.wide += size;
+    }
+    if (results.any_plain || results.any_small || !results.all_drawn) size = settle(quad, count);
     stats.on_edge += results.on_edge;
     stats.notch += results.notch;
     stats.saturated += results.saturated;
-    auto size = static_cast<std::size_t>(count);
-    if (results.any_plain || !results.all_drawn) size = settle_floats(quad, count);
     stats.fragments += size;
     if (size != 0) sink(results.fragments.view(quad.id, size));
     list.drop(count);
   }
 
-  /// Draws what is left to the plain pipeline, and closes the gaps of what is not drawn. Returns what is.
-  std::size_t settle_floats(const SnappedQuad& quad, int count) {
+  /// Draws what the lanes left, and closes the gaps of what is not drawn. Returns what is.
+  std::size_t settle(const SnappedQuad& quad, int count) {
     SetupResult setup;
     QuadConstants constants;
     QuadData data;
-    if (results.any_plain) {
+    if (results.any_plain || results.any_small) {
       setup = quad_setup(quad, context.config, context.state);
       constants = QuadConstants(setup);
       data = quad_data(quad, setup, context.config, context.state);
     }
+    if (results.any_small) {
+      wide.take(setup, data, QuadLanes(data, context), wide_quad);
+      const int small = small_pixels.draw(wide, wide_quad, list, count, results);
+      by_lane.single -= static_cast<std::uint64_t>(small);
+      by_lane.wide += static_cast<std::uint64_t>(small);
+    }
     std::size_t kept = 0;
     for (int i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      bool draws = results.drawn[at / 8] >> at % 8 & 1;
-      if (results.plain[at / 8] >> at % 8 & 1) {
-        const int x = list.place[at] & 0xffff, y = list.place[at] >> 16;
-        const int tile = context.config.tile(), column = x / tile, row = y / tile;
-        TileEntry entry;
-        entry.tile_x = setup.tile_x0 + column;
-        entry.tile_y = setup.tile_y0 + row;
-        WalkState linear;
-        for (std::size_t k = 0; k < linear_count; ++k) linear.linear[k] = setup.linear[k].value;
-        walk_step(linear, constants, column * tile, row * tile);
-        entry.linear = linear.linear;
-        entry.quadratic = tile_context(constants, column * tile, row * tile, context.config.qdrop());
-        PixelTrace p;
-        p.front = results.fragments.marks(at).front;
-        p.tie = (results.fragments.marks(at).flags & flag_tie) != 0;
-        pixel_pipeline(p, entry, constants, data, x % tile, y % tile, context);
-        --by_lane.single;
-        ++by_lane.plain;
-        results.fragments.put(at, p.fragment);
-        draws = p.drawn;
-        tally(p.fragment.flags);
-      }
+      bool draws = LaneResults::has(results.drawn, at);
+      if (LaneResults::has(results.plain, at)) draws = draw_singular(at, setup, constants, data);
       if (draws) results.fragments.move(at, kept++);
     }
     return kept;
+  }
+
+  /// Pixel `at` of the list by the plain pipeline; returns whether it is drawn.
+  bool draw_singular(std::size_t at, const SetupResult& setup, const QuadConstants& constants, const QuadData& data) {
+    const int tile = context.config.tile();
+    const PixelBounds& origin = by_floats ? static_cast<const PixelBounds&>(float_quad) : wide_quad;
+    const int x = origin.x0 + static_cast<int>(list.place[at] & 0xffff),
+              y = origin.y0 + static_cast<int>(list.place[at] >> 16);
+    TileEntry entry;
+    entry.tile_x = x / tile;
+    entry.tile_y = y / tile;
+    const int dx = (entry.tile_x - setup.tile_x0) * tile, dy = (entry.tile_y - setup.tile_y0) * tile;
+    WalkState linear;
+    for (std::size_t k = 0; k < linear_count; ++k) linear.linear[k] = setup.linear[k].value;
+    walk_step(linear, constants, dx, dy);
+    entry.linear = linear.linear;
+    entry.quadratic = tile_context(constants, dx, dy, context.config.qdrop());
+    PixelTrace p;
+    p.front = results.fragments.marks(at).front;
+    p.tie = (results.fragments.marks(at).flags & flag_tie) != 0;
+    pixel_pipeline(p, entry, constants, data, x % tile, y % tile, context);
+    --(by_floats ? by_lane.single : by_lane.wide);
+    ++by_lane.plain;
+    results.fragments.put(at, p.fragment);
+    tally(p.fragment.flags);
+    return p.drawn;
   }
 
   /// The pixels of a tile are in the list.
@@ -190,7 +190,7 @@ struct UntimedModel::Impl {
     stats.stamps_covered += static_cast<std::uint64_t>(tile.stamps);
     stats.pixels += static_cast<std::uint64_t>(tile.pixels);
     stats.tie += static_cast<std::uint64_t>(tile.ties);
-    if (list.count > PixelList::capacity - PixelList::widest) draw_floats(quad, false, sink);
+    if (list.count > PixelList::capacity - PixelList::widest) draw_list(quad, false, sink);
   }
 
   /// A quad that FloatLanes::take_small took.
@@ -208,7 +208,7 @@ struct UntimedModel::Impl {
             floats.cover_small(float_quad, small_quad, small_walk.hit[static_cast<std::size_t>(i)], nullptr, list),
             sink);
     }
-    draw_floats(quad, true, sink);
+    draw_list(quad, true, sink);
   }
 
   /// Its tiles in the walk's order, without what is hidden: each test of one teaches what is known of tiles.
@@ -261,31 +261,28 @@ struct UntimedModel::Impl {
   }
 
   /// FloatLanes::cover of the tile under test. `depth`: of the quad, or nullptr where nothing is hidden.
-  FloatLanes::TileCounts cover_floats(const DepthInterval* depth) {
+  FloatLanes::TileCounts cover_lanes(const DepthInterval* depth) {
     const TileCorner corner = walk.corner();
-    if (depth == nullptr) return floats.cover(float_quad, corner, walk.constants(), nullptr, list);
+    const PixelBounds& bounds = by_floats ? static_cast<const PixelBounds&>(float_quad) : wide_quad;
+    if (depth == nullptr) return floats.cover(bounds, corner, walk.constants(), nullptr, list);
     masked.begin(corner.tile_x, corner.tile_y, *depth);
     if (masked.hidden()) {
       ++stats.tiles_masked;
       return {};
     }
-    const FloatLanes::TileCounts counts = floats.cover(float_quad, corner, walk.constants(), &masked, list);
+    const FloatLanes::TileCounts counts = floats.cover(bounds, corner, walk.constants(), &masked, list);
     masked.end();
     return counts;
   }
 
-  void draw_tile(const TileEntry& tile, const QuadData& data, const QuadLanes& values, const DepthInterval* depth) {
+  void draw_tile(const TileEntry& tile, const QuadData& data, const DepthInterval* depth) {
     ++stats.tiles_entered;
     pixels = 0;
     drawn = 0;
     const int stamps =
         cover_tile(tile, depth, [&](const CoveredPixel& at) { pixel[static_cast<std::size_t>(pixels++)] = at; });
     stats.stamps_covered += static_cast<std::uint64_t>(stamps);
-    if (plain) {
-      for (int i = 0; i < pixels; ++i) draw_plain(tile, data, i);
-    } else {
-      for (int i = 0; i < pixels; i += lane_count) draw_lanes(tile, data, values, i);
-    }
+    for (int i = 0; i < pixels; ++i) draw_plain(tile, data, i);
   }
 };
 
@@ -305,11 +302,12 @@ void UntimedModel::set_state(const DrawState& state) {
   const Config config = impl_->context.config;
   check_draw_state(state, config);
   impl_->context = PipelineContext(config, state);
-  impl_->tables = LaneTables(impl_->context);
   impl_->floats = FloatLanes(impl_->context);
+  impl_->wide = WideLanes(impl_->context);
   impl_->records.clear();
   impl_->batch = FragmentBuffer(PixelList::widest, state.attributes);
-  impl_->results = FloatResults(state.attributes);
+  impl_->results = LaneResults(state.attributes);
+  impl_->small_pixels = SmallPixels(state.attributes);
   impl_->walk = TileWalk(config, state);
   impl_->whole = WholeTiles(config, state);
 }
@@ -335,6 +333,7 @@ void UntimedModel::draw_arrays(const SnappedQuad& quad, const std::function<void
   if (!m.plain && m.floats.small() && m.floats.usable())
     if (const auto taken = m.floats.take_small(quad, m.float_quad, m.small_quad)) {
       ++m.stats.rejected[static_cast<std::size_t>(*taken)];
+      m.by_floats = true;
       if (*taken == QuadReject::none) m.draw_small(quad, hidden, sink);
       return;
     }
@@ -347,24 +346,31 @@ void UntimedModel::draw_arrays(const SnappedQuad& quad, const std::function<void
   ++m.stats.rejected[static_cast<std::size_t>(reject)];
   if (reject != QuadReject::none) return;
   const QuadData data = quad_data(quad, setup, m.context.config, m.context.state);
-  const QuadLanes values(data, m.context);
   m.stats.homogeneous_quads += setup.homogeneous;
   m.stats.hull_quads += setup.hull;
   const DepthInterval depth = hidden ? depth_interval(quad, m.context.config, m.context.state) : DepthInterval{};
-  const bool by_floats = !m.plain && m.floats.usable() && m.floats.take(setup, data, values, m.float_quad);
+  const bool by_lanes = !m.plain && WideLanes::usable();
+  if (by_lanes) {
+    const QuadLanes values(data, m.context);
+    m.by_floats = m.floats.usable() && m.floats.take(setup, data, values, m.float_quad);
+    if (!m.by_floats) m.wide.take(setup, data, values, m.wide_quad);
+  }
+  const bool by_tile = by_lanes && !m.by_floats && m.wide.by_tile();
   m.list.count = 0;  // a sink that threw left some
   const WalkCounts counts = walk_quad(
       m.walk, setup,
       [&] {
-        if (by_floats) {
-          m.count_tile(quad, m.cover_floats(hidden ? &depth : nullptr), sink);
+        if (by_tile) m.wide.move_to(m.walk.entry(), m.wide_quad);
+        if (by_lanes) {
+          m.count_tile(quad, m.cover_lanes(hidden ? &depth : nullptr), sink);
+          if (by_tile) m.draw_list(quad, true, sink);
           return;
         }
-        m.draw_tile(m.walk.entry(), data, values, hidden ? &depth : nullptr);
+        m.draw_tile(m.walk.entry(), data, hidden ? &depth : nullptr);
         if (m.drawn != 0) sink(m.batch.view(quad.id, m.drawn));
       },
       hidden ? &m.memory : nullptr, depth);
-  if (by_floats) m.draw_floats(quad, true, sink);
+  if (by_lanes) m.draw_list(quad, true, sink);
   m.stats.blocks_hidden += counts.blocks_hidden;
   m.stats.tiles_hidden += counts.tiles_hidden;
   m.stats.blocks_tested += counts.blocks_tested;

@@ -29,7 +29,7 @@ struct PixelEmit {
     for (std::size_t n = 0; n < stamps.words() && !ahead.full(); ++n) {
       const StampEntry& row = stamps.word(n);
       if (row.end) break;
-      ahead.add(ring.at(row.tile_ptr), row, quad);
+      ahead.add(ring.at(row.tile_ptr), row);
     }
     ahead.compute(quad);
   }

@@ -97,10 +97,10 @@ struct Coefficients {
 /// No permutation reaches so far.
 constexpr bool looks_up_columns = false;
 template <std::size_t n>
-void look_up_columns(const FloatTable&, const F (&)[n], Coefficients (&)[n]) {}
+void look_up_columns(const LaneTableOf<float>&, const F (&)[n], Coefficients (&)[n]) {}
 
 /// `a` says which.
-inline Coefficients look_up(const FloatTable& table, F a) {
+inline Coefficients look_up(const LaneTableOf<float>& table, F a) {
   const I offset =
       shift_right(bits(a), table.rest_bits - 4) & splat(static_cast<std::int32_t>(table.offset_mask));  // in bytes
   const __m128i low = _mm256_castsi256_si128(offset), high = _mm256_extracti128_si256(offset, 1);

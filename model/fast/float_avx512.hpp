@@ -98,7 +98,7 @@ struct Coefficients {
 constexpr bool looks_up_columns = true;
 
 /// `a` says which.
-inline Coefficients look_up(const FloatTable& table, F a) {
+inline Coefficients look_up(const LaneTableOf<float>& table, F a) {
   const I offset =
       shift_right(bits(a), table.rest_bits - 4) & splat(static_cast<std::int32_t>(table.offset_mask));  // in bytes
   const auto gather = [&](const float& first) { return _mm512_i32gather_ps(offset, &first, 1); };
@@ -107,7 +107,7 @@ inline Coefficients look_up(const FloatTable& table, F a) {
 
 /// The same of a table in columns, by permutes, of several at once: a column is loaded once.
 template <std::size_t n>
-void look_up_columns(const FloatTable& table, const F (&a)[n], Coefficients (&out)[n]) {
+void look_up_columns(const LaneTableOf<float>& table, const F (&a)[n], Coefficients (&out)[n]) {
   I index[n];
   __mmask16 second[n];
   for (std::size_t i = 0; i < n; ++i) {

@@ -9,10 +9,10 @@ struct Range {
 };
 
 /// Those that the quad's corners reach, in the scissor.
-inline Range rows_in_tile(const FloatQuad& bounds, int y0, int tile) {
+inline Range rows_in_tile(const PixelBounds& bounds, int y0, int tile) {
   return {std::max(bounds.top - y0, 0), std::min(bounds.bottom - y0, tile - 1) + 1};
 }
-inline Range columns_in_tile(const FloatQuad& bounds, int x0, int tile) {
+inline Range columns_in_tile(const PixelBounds& bounds, int x0, int tile) {
   return {std::max(bounds.left - x0, 0), std::min(bounds.right - x0, tile - 1) + 1};
 }
 
@@ -124,7 +124,7 @@ inline void keep_seen(int tile, MaskedDepth& masked, TileWord* words) {
   }
 }
 
-FloatLanes::TileCounts cover(const FloatLanes::Format& format, const FloatQuad& bounds, const TileCorner& corner,
+FloatLanes::TileCounts cover(const FloatLanes::Format& format, const PixelBounds& bounds, const TileCorner& corner,
                              const QuadConstants& quad, MaskedDepth* masked, PixelList& list) {
   FloatLanes::TileCounts counts;
   const int tile = 1 << format.tile_log2;
@@ -155,7 +155,7 @@ inline bool covers_tile(const SignWords<std::uint64_t> (&e)[5], Cull cull) {
 }
 
 /// The same of a small quad, tile (column, row) of its block.
-FloatLanes::TileCounts cover_small(const FloatLanes::Format& format, const FloatQuad& bounds, const SmallQuad& quad,
+FloatLanes::TileCounts cover_small(const FloatLanes::Format& format, const PixelBounds& bounds, const SmallQuad& quad,
                                    int column, int row, MaskedDepth* masked, PixelList& list) {
   constexpr int tile = 1 << SmallQuad::tile_log2;
   FloatLanes::TileCounts counts;

@@ -1,5 +1,6 @@
 #include "model/fast/float_lanes.hpp"
 
+#include "model/fast/toward_zero.hpp"
 #include "model/port/lane_target.hpp"
 #include "model/skips/plane_quad.hpp"
 
@@ -16,7 +17,7 @@ namespace quadrille {
 namespace {
 
 /// Exponents of the port's numbers that the lanes take, of k either sign; differences below the least one count for
-/// nothing (float_kernel.hpp, range).
+/// nothing (float_front.hpp, range).
 constexpr int largest_exponent = 30, least_difference = -90;
 
 double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
@@ -66,7 +67,8 @@ bool float_codes(const FloatLanes::Format& format, const QuadBase& base, FloatQu
 namespace v3 {
 #include "model/fast/float_avx2.hpp"
 #include "model/fast/float_cover.hpp"
-#include "model/fast/float_kernel.hpp"
+#include "model/fast/float_front.hpp"
+#include "model/fast/kernel.hpp"
 #include "model/fast/float_small_quad.hpp"
 }  // namespace v3
 #pragma GCC pop_options
@@ -75,22 +77,11 @@ namespace v3 {
 namespace v4 {
 #include "model/fast/float_avx512.hpp"
 #include "model/fast/float_cover.hpp"
-#include "model/fast/float_kernel.hpp"
+#include "model/fast/float_front.hpp"
+#include "model/fast/kernel.hpp"
 #include "model/fast/float_small_quad.hpp"
 }  // namespace v4
 #pragma GCC pop_options
-
-/// Rounds toward zero and takes results below the normal numbers for 0, until it is gone.
-class TowardZero {
- public:
-  TowardZero() : before_(_mm_getcsr()) { _mm_setcsr(_MM_MASK_MASK | _MM_ROUND_TOWARD_ZERO | _MM_FLUSH_ZERO_ON); }
-  ~TowardZero() { _mm_setcsr(before_); }
-  TowardZero(const TowardZero&) = delete;
-  TowardZero& operator=(const TowardZero&) = delete;
-
- private:
-  unsigned before_;
-};
 #endif
 
 /// Whether the integers of polynomial() stay exact with 2^23 added.
@@ -101,26 +92,17 @@ bool fits(const Table& table) {
 }
 
 /// False when an exponent is out of range.
-bool float_column(const std::array<double, 4>& values, int prec, FloatColumnOf what, FloatColumn& out) {
-  out = {};
+bool float_column(std::array<double, 4> values, int prec, FloatColumnOf what, LaneColumnOf<float>& out) {
   const bool differences = what != FloatColumnOf::weight;
-  bool negative = false, positive = false;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double v = values[i];
+  for (double& v : values) {
     if (v == 0) continue;
-    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(v) >> 52 & 0x7ff) - 1023;
-    if (differences && exponent < least_difference) continue;
-    if (exponent > largest_exponent || (!differences && exponent < -largest_exponent)) return false;
-    (v < 0 ? out.negative : out.positive)[i] = static_cast<float>(std::fabs(v));
-    out.align[i] = std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 23 - prec + 127) << 23);
-    (v < 0 ? negative : positive) = true;
+    const int exponent = std::ilogb(v);
+    if (differences && exponent < least_difference)
+      v = 0;
+    else if (exponent > largest_exponent || (!differences && exponent < -largest_exponent))
+      return false;
   }
-  out.any = negative || positive;
-  out.mixed = negative && positive;
-  if (negative && !positive) {
-    std::swap(out.positive, out.negative);
-    out.flip = INT32_MIN;
-  }
+  out = LaneColumnOf<float>(values, prec);
   return true;
 }
 
@@ -130,41 +112,12 @@ bool fits(const QuadLanes::Factor& factor) {
 
 }  // namespace
 
-FloatTable::FloatTable(const Table& table, int octave_bits)
-    : rest_bits(23 - table.segments_log2),
-      last_place(static_cast<float>(power_of_two(23 - rest_bits))),
-      offset_mask(((1u << (table.segments_log2 + octave_bits)) - 1) * static_cast<std::uint32_t>(sizeof(Entry))),
-      in_columns(table.entries.size() <= column_size) {
-  const std::size_t size = table.entries.size(), octave = octave_bits == 0 ? 0 : size / 2;
-  const auto scale = static_cast<float>(power_of_two(-rest_bits));
-  for (std::size_t i = 0; i < size; ++i) {
-    const TableEntry& e = table.entries[i ^ octave];
-    entries.push_back({static_cast<float>(e.c0 + (1u << 23)), static_cast<float>(e.c1 + (1u << 23)) * scale,
-                       static_cast<float>(e.c2) * scale * scale});
-  }
-  if (!in_columns) return;
-  for (std::size_t i = 0; i < column_size; ++i) {
-    const Entry& e = entries[i % size];
-    column[0][i] = e.c0;
-    column[1][i] = e.c1;
-    column[2][i] = e.c2;
-  }
-}
-
 FloatLanes::FloatLanes(const PipelineContext& c)
     : config_(c.config), state_(c.state), depth_limits_(c.config, c.state) {
   const Config& config = c.config;
-  format_.s = c.format.s;
-  format_.prec = config.prec_bits();
-  format_.attributes = c.state.attributes;
+  static_cast<LaneFormatOf<float>&>(format_) = LaneFormatOf<float>(c);
   format_.attribute_int_bits = config.attribute_int_bits;
-  format_.attribute_frac = c.attribute_frac;
-  format_.depth_bits = config.depth_bits;
   format_.tile_log2 = config.tile_log2;
-  format_.depth = c.state.depth;
-  format_.notch = config.notch_exact != 0;
-  format_.znear = static_cast<std::int32_t>(c.znear);
-  format_.zfar = static_cast<std::int32_t>(c.zfar);
   format_.scissor_x0 = c.state.scissor_x0;
   format_.scissor_y0 = c.state.scissor_y0;
   format_.scissor_x1 = c.state.scissor_x1;
@@ -185,8 +138,6 @@ FloatLanes::FloatLanes(const PipelineContext& c)
            config.tile_log2 == SmallQuad::tile_log2 && (c.state.skip & skip_tiles) != 0 &&
            (c.state.skip & skip_quads) != 0;
   format_.may_face = may_face();
-  format_.sqrt = FloatTable(c.sqrt_table, 1);
-  format_.recip = FloatTable(c.recip_table, 0);
 }
 
 bool FloatLanes::usable() const { return fits_ && lane_target() != LaneTarget::baseline; }
@@ -208,7 +159,7 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
   const int low = std::min(frac_, std::countr_zero(positions));
   if (val_bits_ - 2 * low > 53 || 2 * low < qdrop_) return false;
 
-  // Less than 1 wide, and exponents of products as float_kernel.hpp's upper_halves wants them.
+  // Less than 1 wide, and exponents of products as float_front.hpp's upper_halves wants them.
   const int scale = -(1023 - 127) / 2 - static_cast<int>(std::bit_width(extent));
   const double last_place2 = power_of_two(2 * scale), of_pixel = power_of_two(2 * scale + frac_);
   const double of_length2 = power_of_two(2 * scale + qdrop_);
@@ -240,7 +191,7 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
   out.sum_w = values.sum_w;
   out.w_of_k = values.w_of_k;
   using Of = FloatColumnOf;
-  const auto column = [&](bool wanted, const std::array<double, 4>& v, Of what, FloatColumn& to) {
+  const auto column = [&](bool wanted, const std::array<double, 4>& v, Of what, LaneColumnOf<float>& to) {
     return !wanted || float_column(v, format_.prec, what, to);
   };
   bool fit = float_codes(format_, data.base, out) && fits(values.w_of_k) &&
@@ -256,7 +207,7 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
 }
 
 #ifdef QUADRILLE_LANE_TARGETS
-FloatLanes::TileCounts FloatLanes::cover(const FloatQuad& bounds, const TileCorner& corner, const QuadConstants& quad,
+FloatLanes::TileCounts FloatLanes::cover(const PixelBounds& bounds, const TileCorner& corner, const QuadConstants& quad,
                                          MaskedDepth* masked, PixelList& list) const {
   return lane_target() == LaneTarget::v4 ? v4::cover(format_, bounds, corner, quad, masked, list)
                                          : v3::cover(format_, bounds, corner, quad, masked, list);
@@ -276,16 +227,14 @@ void FloatLanes::walk_small(const SmallQuad& quad, SmallWalk& out) const {
     v3::walk_small(format_, quad, out);
 }
 
-FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad& bounds, const SmallQuad& quad, SmallWalk::Tile tile,
+FloatLanes::TileCounts FloatLanes::cover_small(const PixelBounds& bounds, const SmallQuad& quad, SmallWalk::Tile tile,
                                                MaskedDepth* masked, PixelList& list) const {
   return lane_target() == LaneTarget::v4 ? v4::cover_small(format_, bounds, quad, tile.x, tile.y, masked, list)
                                          : v3::cover_small(format_, bounds, quad, tile.x, tile.y, masked, list);
 }
 
-void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, FloatResults& out) const {
-  out.all_drawn = true;
-  out.any_plain = false;
-  out.on_edge = out.notch = out.saturated = 0;
+void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, LaneResults& out) const {
+  out.begin();
   const TowardZero mode;
   if (lane_target() == LaneTarget::v4)
     v4::draw(format_, quad, list, count, out);
@@ -303,7 +252,7 @@ FloatLanes::TileCounts FloatLanes::cover(const FloatQuad&, const TileCorner&, co
                                          PixelList&) const {
   return {};
 }
-void FloatLanes::draw(const FloatQuad&, const PixelList&, int, FloatResults&) const {}
+void FloatLanes::draw(const FloatQuad&, const PixelList&, int, LaneResults&) const {}
 #endif
 
 }  // namespace quadrille

@@ -4,7 +4,7 @@
 
 /// Four numbers of the port, `place` bytes from the begin of each vertex, as a column; false when one does not fit.
 inline bool port_column(const FloatLanes::Format& format, const SnappedQuad& quad, std::size_t place,
-                        FloatColumnOf what, FloatColumn& out) {
+                        FloatColumnOf what, LaneColumnOf<float>& out) {
   // Vertex by vertex {what is before it, neg, exp, sig}: behind the last number of the last vertex there is nothing.
   static_assert(sizeof(PortNumber) == 12 && offsetof(PortNumber, neg) == 0 && offsetof(PortNumber, exp) == 4 &&
                 offsetof(PortNumber, sig) == 8 && offsetof(SnappedVertex, k) >= 4);
@@ -62,7 +62,7 @@ inline bool small_columns(const FloatLanes::Format& format, const SnappedQuad& q
     out.sum_k |= out.sum_b[j];
   }
   out.sum_w = out.sum_z;
-  FloatColumn ones;
+  LaneColumnOf<float> ones;
   ones.positive.fill(1);
   ones.align.fill(static_cast<float>(1 << (23 - format.prec)));
   out.w = ones;

@@ -1,13 +1,31 @@
-// The stages of pixel_lanes one at a time, each over many blocks of eight pixels, with the results kept between them:
-// configurations that agree up to a stage share what comes out of it. The bits are those of pixel_pipeline.hpp.
+// The pixel pipeline's stages one at a time, each over many blocks of eight pixels in double precision, with the results
+// kept between them: configurations that agree up to a stage share what comes out of it. The bits are those of
+// pixel_pipeline.hpp.
+//
+// A significand number is a double whose mantissa is cut to S bits by an AND mask, so truncation toward zero costs one
+// instruction; products of two S-bit significands (S <= 26) are exact in 53 bits, aligned sums are too, and all
+// exponents stay far inside a double's range. Nothing here ever rounds but what the output's codes round.
 #pragma once
 
-#include "model/fast/pixel_lanes.hpp"
+#include "model/fast/lane_quad.hpp"
 
 #include <cstddef>
 #include <span>
 
 namespace quadrille {
+
+inline constexpr int lane_count = 8;
+
+/// A table as doubles.
+struct LaneTable {
+  struct Entry {
+    double c0, c1, c2;
+  };
+  int segments_log2, rest_bits;
+  std::vector<Entry> entries;
+
+  explicit LaneTable(const Table& table);
+};
 
 using LaneReals = double __attribute__((vector_size(8 * lane_count)));
 using LaneIntegers = std::int64_t __attribute__((vector_size(8 * lane_count)));
@@ -65,8 +83,6 @@ struct LaneOutputFormat {
 struct LaneMasks {
   std::uint8_t drawn, saturated;
 };
-
-double to_double(const PipelineFloat& v, int s);
 
 /// Lanes that the lane stages do not compute: corner and two-edge pixels.
 unsigned singular_lanes(const DifferenceLanes& d);

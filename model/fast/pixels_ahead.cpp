@@ -1,6 +1,5 @@
 #include "model/fast/pixels_ahead.hpp"
 
-#include <algorithm>
 #include <bit>
 
 namespace quadrille {
@@ -13,16 +12,30 @@ std::uint8_t kind_of(const PixelTrace& p) {
 }
 
 PixelsAhead::PixelsAhead(const PipelineContext& context)
-    : context_(context), tables_(context), floats_(context), results_(context.state.attributes) {}
+    : context_(context),
+      floats_(context),
+      wide_(context),
+      results_(context.state.attributes),
+      of_tile_(context.state.attributes),
+      small_pixels_(context.state.attributes) {}
 
 void PixelsAhead::set_state() {
   floats_ = FloatLanes(context_);
-  results_ = FloatResults(context_.state.attributes);
+  wide_ = WideLanes(context_);
+  results_ = LaneResults(context_.state.attributes);
+  of_tile_ = LaneResults(context_.state.attributes);
+  small_pixels_ = SmallPixels(context_.state.attributes);
 }
 
 void PixelsAhead::take(const SetupResult& setup, PixelQuad& quad) const {
-  quad.lanes = QuadLanes(quad.data, context_);
-  quad.by_floats = floats_.usable() && floats_.take(setup, quad.data, quad.lanes, quad.floats);
+  quad.by_lanes = WideLanes::usable();
+  if (!quad.by_lanes) return;
+  const QuadLanes values(quad.data, context_);
+  quad.by_floats = floats_.usable() && floats_.take(setup, quad.data, values, quad.floats);
+  if (quad.by_floats)
+    quad.setup = setup;
+  else
+    wide_.take(setup, quad.data, values, quad.wide);
 }
 
 void PixelsAhead::begin() {
@@ -30,16 +43,7 @@ void PixelsAhead::begin() {
   pixels_ = 0;
 }
 
-void PixelsAhead::add(const TileEntry& tile, const StampEntry& stamp, const PixelQuad& quad) {
-  if (quad.by_floats) {
-    if (pixels_ == 0) list_.count = 0;
-    const int log2 = context_.config.tile_log2;
-    const int x = (tile.tile_x << log2) - quad.floats.x0, y = (tile.tile_y << log2) + stamp.row - quad.floats.y0;
-    for (std::uint32_t mask = stamp.mask; mask != 0; mask &= mask - 1) {
-      const int dx = std::countr_zero(mask);
-      list_.add(x + dx, y, (stamp.front >> dx & 1) != 0, (stamp.tie >> dx & 1) != 0);
-    }
-  }
+void PixelsAhead::add(const TileEntry& tile, const StampEntry& stamp) {
   rows_.push_back({&tile, &stamp});
   pixels_ += std::popcount(stamp.mask);
 }
@@ -47,67 +51,81 @@ void PixelsAhead::add(const TileEntry& tile, const StampEntry& stamp, const Pixe
 void PixelsAhead::compute(const PixelQuad& quad) {
   next_ = 0;
   kind_.clear();
-  if (quad.by_floats) {
-    compute_floats(quad);
+  list_.count = 0;
+  if (!quad.by_lanes) {
+    for (const Row& row : rows_)
+      for (std::uint32_t mask = row.stamp->mask; mask != 0; mask &= mask - 1) {
+        kind_.push_back(0);
+        plain(row, std::countr_zero(mask), quad, kind_.size() - 1);
+      }
+  } else if (!quad.by_floats && wide_.by_tile()) {
+    compute_by_tile(quad);
   } else {
-    for (const Row& row : rows_) compute_row(row, quad);
+    compute_lanes(quad);
   }
   batch_ = results_.fragments.view(quad.data.id, kind_.size());
 }
 
-void PixelsAhead::compute_floats(const PixelQuad& quad) {
-  floats_.draw(quad.floats, list_, list_.count, results_);
-  const auto count = static_cast<std::size_t>(list_.count);
-  const std::uint8_t kind = quad.floats.areas ? pixel_plane | pixel_areas : 0;
-  kind_.resize(count, kind | pixel_drawn);
-  if (results_.all_drawn && !results_.any_plain) return;
-  for (std::size_t i = 0; i < count; ++i)
-    if ((results_.drawn[i / 8] >> i % 8 & 1) == 0) kind_[i] = kind;
-  if (!results_.any_plain) return;
-  std::size_t i = 0;
-  for (const Row& row : rows_)
-    for (std::uint32_t mask = row.stamp->mask; mask != 0; mask &= mask - 1, ++i) {
-      if ((results_.plain[i / 8] >> i % 8 & 1) == 0) continue;
-      const int dx = std::countr_zero(mask);
-      plain(row, {dx, row.stamp->row, (row.stamp->front >> dx & 1) != 0, (row.stamp->tie >> dx & 1) != 0}, quad, i);
-    }
-}
-
-void PixelsAhead::compute_row(const Row& row, const PixelQuad& quad) {
-  const StampEntry& s = *row.stamp;
-  const auto common =
-      static_cast<std::uint8_t>((quad.data.plane ? pixel_plane | pixel_areas : 0) | (quad.data.hull ? pixel_hull : 0));
-  std::uint32_t mask = s.mask;
-  while (mask != 0) {
-    std::array<CoveredPixel, lane_count> at;
-    int dx[lane_count], rows[lane_count], count = 0;
-    for (; count < lane_count && mask != 0; ++count, mask &= mask - 1) {
-      const int column = std::countr_zero(mask);
-      at[static_cast<std::size_t>(count)] = {column, s.row, (s.front >> column & 1) != 0, (s.tie >> column & 1) != 0};
-    }
-    for (int l = 0; l < lane_count; ++l) {
-      dx[l] = at[static_cast<std::size_t>(std::min(l, count - 1))].dx;
-      rows[l] = s.row;
-    }
-    LaneResult r;
-    pixel_lanes(*row.tile, quad.constants, quad.data, quad.lanes, context_, tables_, dx, rows, r);
-    for (int l = 0; l < count; ++l) {
-      const CoveredPixel& pixel = at[static_cast<std::size_t>(l)];
-      const std::size_t place = kind_.size();
-      kind_.push_back(static_cast<std::uint8_t>(common | ((r.drawn >> l & 1) != 0 ? pixel_drawn : 0)));
-      if ((r.singular >> l & 1) != 0)
-        plain(row, pixel, quad, place);
-      else
-        results_.fragments.put(place, lane_fragment(r, l, *row.tile, pixel, quad.data, context_));
-    }
+void PixelsAhead::list_row(const Row& row, const PixelBounds& bounds) {
+  const StampEntry& stamp = *row.stamp;
+  const int log2 = context_.config.tile_log2;
+  const int x = (row.tile->tile_x << log2) - bounds.x0, y = (row.tile->tile_y << log2) + stamp.row - bounds.y0;
+  for (std::uint32_t mask = stamp.mask; mask != 0; mask &= mask - 1) {
+    const int dx = std::countr_zero(mask);
+    list_.add(x + dx, y, (stamp.front >> dx & 1) != 0, (stamp.tie >> dx & 1) != 0);
   }
 }
 
-void PixelsAhead::plain(const Row& row, const CoveredPixel& at, const PixelQuad& quad, std::size_t place) {
+void PixelsAhead::compute_lanes(const PixelQuad& quad) {
+  const PixelBounds& bounds = quad.by_floats ? static_cast<const PixelBounds&>(quad.floats) : quad.wide;
+  for (const Row& row : rows_) list_row(row, bounds);
+  if (quad.by_floats)
+    floats_.draw(quad.floats, list_, list_.count, results_);
+  else
+    wide_.draw(quad.wide, list_, list_.count, results_);
+  if (results_.any_small) {
+    WideQuad wide;
+    wide_.take(quad.setup, quad.data, QuadLanes(quad.data, context_), wide);
+    small_pixels_.draw(wide_, wide, list_, list_.count, results_);
+  }
+  take_kinds(results_, 0, quad);
+}
+
+void PixelsAhead::compute_by_tile(const PixelQuad& quad) {
+  WideQuad at_tile = quad.wide;
+  for (std::size_t begin = 0, end = 0; begin < rows_.size(); begin = end) {
+    wide_.move_to(*rows_[begin].tile, at_tile);
+    list_.count = 0;
+    for (; end < rows_.size() && rows_[end].tile == rows_[begin].tile; ++end) list_row(rows_[end], at_tile);
+    wide_.draw(at_tile, list_, list_.count, of_tile_);
+    const std::size_t from = kind_.size();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(list_.count); ++i)
+      results_.fragments.copy(of_tile_.fragments, i, from + i);
+    take_kinds(of_tile_, begin, quad);
+  }
+}
+
+void PixelsAhead::take_kinds(const LaneResults& results, std::size_t first_row, const PixelQuad& quad) {
+  const auto kind = static_cast<std::uint8_t>((quad.data.plane ? pixel_plane | pixel_areas : 0) |
+                                              (quad.data.hull ? pixel_hull : 0));
+  const std::size_t from = kind_.size();
+  const auto count = static_cast<std::size_t>(list_.count);
+  kind_.resize(from + count, kind | pixel_drawn);
+  if (!results.all_drawn)
+    for (std::size_t i = 0; i < count; ++i)
+      if (!LaneResults::has(results.drawn, i)) kind_[from + i] = kind;
+  if (!results.any_plain) return;
+  std::size_t i = 0;
+  for (std::size_t n = first_row; i < count; ++n)
+    for (std::uint32_t mask = rows_[n].stamp->mask; mask != 0; mask &= mask - 1, ++i)
+      if (LaneResults::has(results.plain, i)) plain(rows_[n], std::countr_zero(mask), quad, from + i);
+}
+
+void PixelsAhead::plain(const Row& row, int dx, const PixelQuad& quad, std::size_t place) {
   PixelTrace p;
-  p.front = at.front;
-  p.tie = at.tie;
-  pixel_pipeline(p, *row.tile, quad.constants, quad.data, at.dx, at.row, context_);
+  p.front = (row.stamp->front >> dx & 1) != 0;
+  p.tie = (row.stamp->tie >> dx & 1) != 0;
+  pixel_pipeline(p, *row.tile, quad.constants, quad.data, dx, row.stamp->row, context_);
   kind_[place] = kind_of(p);
   results_.fragments.put(place, p.fragment);
 }

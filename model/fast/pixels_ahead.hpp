@@ -3,7 +3,7 @@
 #pragma once
 
 #include "model/fast/float_lanes.hpp"
-#include "model/fast/pixel_lanes.hpp"
+#include "model/fast/wide_lanes.hpp"
 #include "model/front/covered_pixels.hpp"
 #include "model/pixel/pixel_pipeline.hpp"
 
@@ -29,9 +29,10 @@ std::uint8_t kind_of(const PixelTrace& pixel);
 struct PixelQuad {
   QuadConstants constants;
   QuadData data;
-  QuadLanes lanes;
-  bool by_floats = false;  ///< `floats` holds it too
+  SetupResult setup;                         ///< by floats
+  bool by_lanes = false, by_floats = false;  ///< of lanes `floats` has it, else `wide`
   FloatQuad floats;
+  WideQuad wide;
 };
 
 class PixelsAhead {
@@ -53,7 +54,7 @@ class PixelsAhead {
 
   /// A batch, once the one before is empty: begin(), its rows in the order of emission, compute().
   void begin();
-  void add(const TileEntry& tile, const StampEntry& row, const PixelQuad& quad);
+  void add(const TileEntry& tile, const StampEntry& row);
   bool full() const { return pixels_ >= enough; }
   void compute(const PixelQuad& quad);
 
@@ -68,17 +69,23 @@ class PixelsAhead {
     const StampEntry* stamp;
   };
 
-  void compute_floats(const PixelQuad& quad);
-  void compute_row(const Row& row, const PixelQuad& quad);
-  void plain(const Row& row, const CoveredPixel& at, const PixelQuad& quad, std::size_t place);
+  /// Its pixels to the list, from the origin of `bounds`.
+  void list_row(const Row& row, const PixelBounds& bounds);
+  void compute_lanes(const PixelQuad& quad);
+  void compute_by_tile(const PixelQuad& quad);
+  /// Of the list, whose rows begin with `first_row`.
+  void take_kinds(const LaneResults& results, std::size_t first_row, const PixelQuad& quad);
+  void plain(const Row& row, int dx, const PixelQuad& quad, std::size_t place);
 
   const PipelineContext& context_;
-  LaneTables tables_;
   FloatLanes floats_;
+  WideLanes wide_;
   std::vector<Row> rows_;
   int pixels_ = 0;  ///< of the rows
   PixelList list_;
-  FloatResults results_;  ///< of all lanes: `fragments`
+  LaneResults results_;     ///< of all lanes: `fragments`
+  LaneResults of_tile_;     ///< where each tile is a list
+  SmallPixels small_pixels_;
   FragmentArrays batch_;  ///< of these
   std::vector<std::uint8_t> kind_;
   std::size_t next_ = 0;

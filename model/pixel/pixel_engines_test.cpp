@@ -1,4 +1,4 @@
-#include "model/fast/pixel_lanes.hpp"
+#include "model/fast/wide_lanes.hpp"
 #include "model/pixel/pixel_pipeline.hpp"
 #include "model/pixel/pixel_pipeline_test_support.hpp"
 
@@ -87,7 +87,7 @@ QuadBase random_base(Prng& rng, const Config& c) {
 /// Bit patterns that rounding anywhere would betray: long runs of ones and single bits, up to 2^62, straight into the
 /// pipeline's front. A, D <= r² as in a real quad; everything else random. An ordinary quad's D comes of the law of
 /// cosines: its squared lengths are those that give D, or one less than twice that.
-TEST(PixelLanes, HardBitPatterns) {
+TEST(WideLanes, HardBitPatterns) {
   Prng rng(150);
   const auto pattern = [&](int top) {
     const int n = static_cast<int>(rng.integer(0, top));
@@ -110,7 +110,7 @@ TEST(PixelLanes, HardBitPatterns) {
     DrawState s = square(64);
     s.depth = rng.chance(0.7);
     const PipelineContext context(c, s);
-    const LaneTables tables(context);
+    const WideLanes lanes(context);
     const int S = c.significand_bits;
     const auto number = [&](bool sign) {
       const std::uint32_t low = 1u << (S - 1), ones = static_cast<std::uint32_t>((std::uint64_t{1} << S) - 1);
@@ -143,23 +143,30 @@ TEST(PixelLanes, HardBitPatterns) {
             r2(vertex_pair[k][0]) + r2(vertex_pair[k][1]) - 2 * static_cast<std::uint64_t>(d) - rng.below(2);
         if (!constants.homogeneous) d = pattern(60);  // nobody's
       }
-      const int zero[lane_count] = {};
+      data.homogeneous = constants.homogeneous;
+      SetupResult setup;
+      setup.homogeneous = constants.homogeneous;
+      setup.length2 = constants.length2;
+      WideQuad wide;
+      lanes.take(setup, data, values, wide);
+      lanes.move_to(tile, wide);
+      PixelList list;
+      while (list.count < 9) list.add(0, 0, false, false);  // a vector and one more
       PixelTrace p;
       pixel_pipeline(p, tile, constants, data, 0, 0, context);
       on_each_lane_target([&] {
-        LaneResult quick;
-        pixel_lanes(tile, constants, data, values, context, tables, zero, zero, quick);
-        ASSERT_EQ(quick.singular, p.two_corner || p.on_vertex || p.two_edge ? 0xffu : 0u);
-        if (quick.singular != 0) return;
-        ++compared;
-        for (std::size_t l = 0; l < lane_count; ++l) {
-          ASSERT_EQ(quick.drawn >> l & 1, p.drawn ? 1u : 0u);
-          ASSERT_EQ(quick.on_edge >> l & 1, p.on_edge ? 1u : 0u);
-          ASSERT_EQ(quick.notch >> l & 1, p.notch ? 1u : 0u);
-          ASSERT_EQ(quick.saturated >> l & 1, p.fragment.flags & flag_saturated ? 1u : 0u);
-          ASSERT_EQ(quick.depth[l], p.fragment.depth);
-          for (std::size_t j = 0; j < 4; ++j) ASSERT_EQ(quick.attribute[j][l], p.fragment.attribute[j]);
+        if (!WideLanes::usable()) return;
+        LaneResults quick(s.attributes);
+        lanes.draw(wide, list, list.count, quick);
+        const bool singular = p.two_corner || p.on_vertex || p.two_edge;
+        const FragmentArrays fragments = quick.fragments.view(0, 9);
+        for (std::size_t l = 0; l < 9; ++l) {
+          ASSERT_EQ(LaneResults::has(quick.plain, l), singular);
+          if (singular) continue;
+          ASSERT_EQ(LaneResults::has(quick.drawn, l), p.drawn);
+          ASSERT_EQ(fragments[l], p.fragment);
         }
+        ++compared;
       });
       if (HasFatalFailure()) return;
     }

@@ -1,7 +1,7 @@
 // The pixel pipeline: both engines give the same bits, the clocked shell the same stream as the untimed model, the ends
 // of the pipeline (exact front, fixed-point back) what their definitions say, and tiny widths exhaustively.
 #include "model/pixel/pixel_pipeline.hpp"
-#include "model/fast/pixel_lanes.hpp"
+#include "model/fast/lane_quad.hpp"
 #include "model/front/quad_setup.hpp"
 #include "model/front/tile_context.hpp"
 #include "model/pixel/pixel_pipeline_test_support.hpp"

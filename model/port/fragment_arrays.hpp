@@ -82,11 +82,12 @@ class FragmentBuffer {
     for (std::size_t j = 0; j < static_cast<std::size_t>(attributes_); ++j) attribute_[j][i] = f.attribute[j];
   }
 
-  void move(std::size_t from, std::size_t to) {
-    place_[to] = place_[from];
-    marks_[to] = marks_[from];
-    depth_[to] = depth_[from];
-    for (std::size_t j = 0; j < static_cast<std::size_t>(attributes_); ++j) attribute_[j][to] = attribute_[j][from];
+  void move(std::size_t from, std::size_t to) { copy(*this, from, to); }
+  void copy(const FragmentBuffer& of, std::size_t from, std::size_t to) {
+    place_[to] = of.place_[from];
+    marks_[to] = of.marks_[from];
+    depth_[to] = of.depth_[from];
+    for (std::size_t j = 0; j < static_cast<std::size_t>(attributes_); ++j) attribute_[j][to] = of.attribute_[j][from];
   }
 
  private:

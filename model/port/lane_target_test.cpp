@@ -1,5 +1,5 @@
 // The lanes' code as compiled for each instruction set that this processor has: every stage of lane_stages.hpp against
-// the plain pipeline. (pixel_pipeline_test.cpp does the same with pixel_lanes.)
+// the plain pipeline. (pixel_engines_test.cpp does the same with the other lanes.)
 #include "model/port/lane_target.hpp"
 #include "model/fast/each_lane_target.hpp"
 #include "model/fast/lane_stages.hpp"
@@ -86,7 +86,7 @@ TEST(LaneStages, EachIsThePlainOne) {
     state.depth = rng.chance(0.7);
     if (rng.chance(0.3)) state.zfar = 0.75;
     const PipelineContext context(c, state);
-    const LaneTables tables(context);
+    const LaneTable sqrt_table(context.sqrt_table), recip_table(context.recip_table);
     const int s = c.significand_bits, g = c.align_guard_bits;
 
     std::vector<DifferenceLanes> difference(blocks);
@@ -133,11 +133,11 @@ TEST(LaneStages, EachIsThePlainOne) {
       std::vector<ReciprocalLanes> reciprocals(blocks);
       std::vector<LaneMasks> masks(blocks);
       normalise_blocks(difference, s, context.quadratic_bias, normalised.data());
-      sqrt_blocks(normalised, s, tables.sqrt, sqrt.data());
+      sqrt_blocks(normalised, s, sqrt_table, sqrt.data());
       ratio_blocks(normalised, sqrt.data(), s, g, ratio.data());
-      weight_blocks(difference, ratio.data(), s, g, tables.sqrt, weight.data());
+      weight_blocks(difference, ratio.data(), s, g, sqrt_table, weight.data());
       interpolate_blocks(weight, quad.data(), values.data(), columns, state.depth, s, g, sums.data());
-      reciprocal_blocks(blocks, sums.data(), columns, s, tables.recip, reciprocals.data());
+      reciprocal_blocks(blocks, sums.data(), columns, s, recip_table, reciprocals.data());
       const LaneOutputFormat format{c.attribute_int_bits, context.attribute_frac, c.depth_bits,
                                     state.depth,          context.znear,          context.zfar};
       output_blocks(blocks, sums.data(), reciprocals.data(), quad.data(), values.data(), columns, format, out.data(),

@@ -1,6 +1,5 @@
-#include "model/fast/pixel_lanes.hpp"
-
 #include "model/fast/lane_stages.hpp"
+
 #include "model/port/lane_target.hpp"
 
 #include <algorithm>
@@ -167,36 +166,6 @@ LANE_INLINE V recip_lanes(V a, const LaneTable& table, int s) {
 
 // ---- the stages ----
 
-/// Stage 1. Lanes of unsigned integers, since partial sums wrap.
-LANE_INLINE void difference_stage(const TileEntry& tile, const QuadConstants& constants, const int* dx, const int* row,
-                                  DifferenceLanes& out) {
-  I x, y;
-  for (int l = 0; l < lane_count; ++l) {
-    x[l] = dx[l];
-    y[l] = row[l];
-  }
-  const I square = x * x + y * y;
-  using U = std::uint64_t __attribute__((vector_size(8 * lane_count)));
-  const auto quadratic = [&](std::size_t k) LANE_LAMBDA {
-    const QuadraticForm& f = tile.quadratic[k];
-    return I(U(U{} + static_cast<std::uint64_t>(f.value)) + U(x) * static_cast<std::uint64_t>(f.gx) +
-             U(y) * static_cast<std::uint64_t>(f.gy) + U(square) * static_cast<std::uint64_t>(f.q));
-  };
-  for (std::size_t i = 0; i < 4; ++i) out.r2[i] = quadratic(6 + i);
-  for (std::size_t k = 0; k < 6; ++k) {
-    out.a[k] =
-        I(U(U{} + static_cast<std::uint64_t>(tile.linear[k])) + U(x) * static_cast<std::uint64_t>(constants.gx[k]) +
-          U(y) * static_cast<std::uint64_t>(constants.gy[k]));
-    // The law of cosines: half of a sum that may have 65 bits, by halves.
-    const I& ri = out.r2[vertex_pair[k][0]];
-    const I& rj = out.r2[vertex_pair[k][1]];
-    const auto length2 = static_cast<std::int64_t>(constants.length2[k]);
-    const auto half = static_cast<std::int64_t>(constants.length2[k] >> 1);
-    out.d[k] = constants.homogeneous ? quadratic(k)
-                                     : (ri >> 1) + (rj >> 1) - half + (((ri & 1) + (rj & 1) - (length2 & 1)) >> 1);
-  }
-}
-
 struct SingularMasks {
   I singular, on_edge;
 };
@@ -230,17 +199,6 @@ LANE_INLINE void ratio_stage(const NormalisedLanes& p, const SqrtLanes& r, const
     out.u[k] = arithmetic.sum2(r.root[vertex_pair[k][0]], r.root[vertex_pair[k][1]], p.d[k], one);
     out.v[k] = p.a[k];
   }
-}
-
-/// Lanes in which neighbouring A have opposite signs.
-LANE_INLINE I notch_lanes(const DifferenceLanes& signs) {
-  const I* a = signs.a;
-  I any{};
-  for (int i = 0; i < 4; ++i) {
-    const int h = (i + 3) % 4;
-    any |= ((a[h] < 0) & (a[i] > 0)) | ((a[h] > 0) & (a[i] < 0));
-  }
-  return any;
 }
 
 /// sqrt(q_far / q_near) as num / den (root_ratio.hpp).
@@ -286,9 +244,6 @@ LANE_INLINE void area_stage(const DifferenceLanes& signs, const NormalisedLanes&
   out.m[3] = select(behind_diagonal, p.a[4], V{});
 }
 
-/// A code below 2^51 either way, held as a double.
-LANE_INLINE I to_signed_integer(V code) { return bits(code + 0x1.8p52) - 0x4338000000000000; }
-
 /// base + num·rec as a code, the quotient rounded to nearest, halves away from zero. A quotient of 2^int_bits or more
 /// becomes one of 2^(int_bits + 2): beyond every code, of its sign.
 ///
@@ -330,127 +285,10 @@ LANE_INLINE DepthLanes depth_stage(V num_z, V den_w, V rec_w, const QuadBase& ba
 
 }  // namespace
 
-double to_double(const PipelineFloat& v, int s) {
-  const double size = v.neg ? -static_cast<double>(v.sig) : static_cast<double>(v.sig);
-  const int exponent = v.exp - (s - 1);
-  return std::abs(exponent) < 1000 ? size * power_of_two(exponent) : std::ldexp(size, exponent);
-}
-
-namespace {
-
-bool all_zero(const std::array<double, 4>& values) { return values == std::array<double, 4>{}; }
-
-/// The factor ±2^n or 0 by which `of` gives `values`, if there is one.
-QuadLanes::Factor power_of_two_factor(const std::array<double, 4>& values, const std::array<double, 4>& of) {
-  double factor = 0;
-  for (std::size_t i = 0; i < 4 && factor == 0; ++i)
-    if (of[i] != 0) factor = values[i] / of[i];
-  constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
-  if ((std::bit_cast<std::uint64_t>(factor) & fraction) != 0) return std::nullopt;
-  for (std::size_t i = 0; i < 4; ++i)
-    if (values[i] != of[i] * factor) return std::nullopt;
-  return factor;
-}
-
-}  // namespace
-
-QuadLanes::QuadLanes(const QuadData& quad, const PipelineContext& c) {
-  const int s = c.format.s;
-  for (std::size_t i = 0; i < 4; ++i) {
-    k[i] = to_double(quad.k[i], s);
-    w[i] = to_double(quad.w[i], s);
-    z[i] = to_double(quad.z[i], s);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) b[j][i] = to_double(quad.b[i][j], s);
-  }
-  constant_depth = quad.base.depth_low == quad.base.depth_high;
-  sum_z = c.state.depth && !constant_depth && !all_zero(z);
-  for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j)
-    sum_b[j] = !all_zero(b[j]) || std::abs(quad.base.attribute[j]) > c.config.attribute_limit();
-  if ((c.state.skip & skip_operands) == 0) return;
-  sum_k = quad.sum_k && std::ranges::any_of(sum_b, std::identity());
-  sum_w = (c.state.depth && !constant_depth) || quad.hull;
-  if (sum_k && sum_w)
-    if (const Factor factor = power_of_two_factor(w, k); factor && *factor != 0) w_of_k = factor;
-}
-
 LaneTable::LaneTable(const Table& table) : segments_log2(table.segments_log2), rest_bits(table.rest_bits) {
   for (const TableEntry& e : table.entries)
     entries.push_back({static_cast<double>(e.c0), static_cast<double>(e.c1), static_cast<double>(e.c2)});
 }
-
-void pixel_lanes(const TileEntry& tile, const QuadConstants& constants, const QuadData& quad, const QuadLanes& values,
-                 const PipelineContext& c, const LaneTables& tables, const int* dx, const int* row, LaneResult& out) {
-  on_lane_target([&]() LANE_LAMBDA {
-    const int s = c.format.s;
-    const LaneArithmetic arithmetic(s, c.format.g);
-
-    DifferenceLanes difference;
-    difference_stage(tile, constants, dx, row, difference);
-    const SingularMasks masks = singular_masks(difference);
-    out.singular = to_mask(masks.singular);
-    out.on_edge = to_mask(masks.on_edge);
-    NormalisedLanes normalised;
-    normalise_stage(difference, arithmetic, power_of_two(c.quadratic_bias), normalised);
-    WeightLanes weights;
-    if (quad.plane) {
-      area_stage(difference, normalised, weights);
-    } else {
-      SqrtLanes sqrt;
-      sqrt_stage(normalised, tables.sqrt, s, sqrt);
-      RatioLanes ratios;
-      ratio_stage(normalised, sqrt, arithmetic, ratios);
-      weight_stage(difference, ratios, arithmetic, tables.sqrt, s, weights);
-    }
-    out.notch = c.config.notch_exact ? to_mask(notch_lanes(difference)) & ~out.singular : 0;
-    I exponent_m[4];
-    for (int i = 0; i < 4; ++i) exponent_m[i] = exponent(weights.m[i]);
-
-    // Sums, reciprocals, fixed point.
-    const auto sum = [&](const std::array<double, 4>& v)
-                         LANE_LAMBDA { return arithmetic.sum(weights.m, exponent_m, v.data()); };
-    V den_k{}, rec_k{}, den_w{};
-    if (values.sum_k) {
-      den_k = sum(values.k);
-      rec_k = recip_lanes(den_k, tables.recip, s);
-    }
-    if (values.w_of_k)
-      den_w = den_k * *values.w_of_k;
-    else if (values.sum_w)
-      den_w = sum(values.w);
-    I saturated{};
-    for (std::size_t j = 0; j < static_cast<std::size_t>(c.state.attributes); ++j) {
-      if (!values.sum_b[j]) {
-        out.attribute[j].fill(quad.base.attribute[j]);
-        continue;
-      }
-      const V num = arithmetic.sum<1>(weights.m, exponent_m, values.b[j].data());
-      const FixedLanes f =
-          attribute_stage(num, rec_k, quad.base.attribute[j], c.config.attribute_int_bits, c.attribute_frac);
-      saturated |= f.over;
-      const I code = to_signed_integer(f.code);
-      for (int l = 0; l < lane_count; ++l) out.attribute[j][static_cast<std::size_t>(l)] = code[l];
-    }
-    out.saturated = to_mask(saturated);
-    I discard{};
-    if (quad.hull) discard = ~(den_w > 0);
-    if (c.state.depth) {
-      V num_z{}, rec_w{};
-      if (values.sum_z) {
-        num_z = sum(values.z);
-        rec_w = values.w_of_k ? rec_k * (1 / *values.w_of_k) : recip_lanes(den_w, tables.recip, s);
-      }
-      const DepthLanes z = depth_stage(num_z, den_w, rec_w, quad.base, c.config.depth_bits, c.znear, c.zfar);
-      discard |= z.discard;
-      const I code = to_signed_integer(z.code);
-      for (int l = 0; l < lane_count; ++l) out.depth[static_cast<std::size_t>(l)] = static_cast<std::uint32_t>(code[l]);
-    } else {
-      out.depth = {};
-    }
-    out.drawn = to_mask(~discard);
-  });
-}
-
-// ---- the same stages one by one ----
 
 unsigned singular_lanes(const DifferenceLanes& d) { return to_mask(singular_masks(d).singular); }
 

@@ -1,0 +1,127 @@
+#include "model/fast/wide_lanes.hpp"
+
+#include "model/fast/toward_zero.hpp"
+#include "model/front/tile_context.hpp"
+#include "model/port/lane_target.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace quadrille {
+namespace {
+
+#ifdef QUADRILLE_LANE_TARGETS
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v3")
+namespace v3 {
+#include "model/fast/wide_avx2.hpp"
+#include "model/fast/wide_front.hpp"
+#include "model/fast/kernel.hpp"
+}  // namespace v3
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v4")
+namespace v4 {
+#include "model/fast/wide_avx512.hpp"
+#include "model/fast/wide_front.hpp"
+#include "model/fast/kernel.hpp"
+}  // namespace v4
+#pragma GCC pop_options
+#endif
+
+}  // namespace
+
+WideLanes::WideLanes(const PipelineContext& c)
+    : format_(c),
+      state_(c.state),
+      attribute_limit_(static_cast<double>(c.config.attribute_limit())),
+      a_scale_(std::ldexp(1.0, c.quadratic_bias)),
+      tile_log2_(c.config.tile_log2),
+      qdrop_(c.config.qdrop()),
+      by_tile_(c.config.qdrop() != 0) {}
+
+bool WideLanes::usable() { return lane_target() != LaneTarget::baseline; }
+
+void WideLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, WideQuad& out) const {
+  out.homogeneous = setup.homogeneous;
+  out.hull = setup.hull;
+  out.marks = setup.homogeneous ? flag_homogeneous << 8 : 0;
+  out.a_scale = a_scale_;
+  out.areas = data.plane;
+  out.x0 = setup.tile_x0 << tile_log2_;
+  out.y0 = setup.tile_y0 << tile_log2_;
+  // Whatever the tiles have.
+  out.left = state_.scissor_x0 - out.x0;
+  out.top = state_.scissor_y0 - out.y0;
+  out.right = state_.scissor_x1 - 1 - out.x0;
+  out.bottom = state_.scissor_y1 - 1 - out.y0;
+  out.linear = setup.linear;
+  out.length2 = setup.length2;
+  out.quadratic = tile_context(QuadConstants(setup), 0, 0, qdrop_);
+
+  out.sum_k = values.sum_k;
+  out.sum_w = values.sum_w;
+  out.sum_z = values.sum_z;
+  out.sum_b = values.sum_b;
+  out.w_of_k = values.w_of_k;
+  out.w_may_vanish = !values.constant_depth && values.sum_w;
+  out.k = LaneColumnOf<double>(values.k, format_.prec);
+  out.w = LaneColumnOf<double>(values.w, format_.prec);
+  out.z = LaneColumnOf<double>(values.z, format_.prec);
+  out.depth = {static_cast<double>(data.base.depth), static_cast<double>(data.base.depth_low),
+               static_cast<double>(data.base.depth_high)};
+  for (std::size_t j = 0; j < static_cast<std::size_t>(format_.attributes); ++j) {
+    out.b[j] = LaneColumnOf<double>(values.b[j], format_.prec);
+    out.attribute[j] = {static_cast<double>(data.base.attribute[j]), -attribute_limit_, attribute_limit_};
+  }
+}
+
+void WideLanes::move_to(const TileEntry& tile, WideQuad& quad) const {
+  const int x = tile.tile_x << tile_log2_, y = tile.tile_y << tile_log2_;
+  quad.left += quad.x0 - x;
+  quad.right += quad.x0 - x;
+  quad.top += quad.y0 - y;
+  quad.bottom += quad.y0 - y;
+  quad.x0 = x;
+  quad.y0 = y;
+  for (std::size_t k = 0; k < linear_count; ++k) quad.linear[k].value = tile.linear[k];
+  quad.quadratic = tile.quadratic;
+}
+
+void WideLanes::draw(const WideQuad& quad, const PixelList& list, int count, LaneResults& out) const {
+  out.begin();
+#ifdef QUADRILLE_LANE_TARGETS
+  const TowardZero mode;
+  if (lane_target() == LaneTarget::v4)
+    v4::draw(format_, quad, list, count, out);
+  else
+    v3::draw(format_, quad, list, count, out);
+#endif
+}
+
+int SmallPixels::draw(const WideLanes& lanes, const WideQuad& quad, const PixelList& list, int count,
+                      LaneResults& results) {
+  const auto each = [&](auto&& use) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+      if (LaneResults::has(results.small, i)) use(i);
+  };
+  list_.count = 0;
+  each([&](std::size_t i) {
+    const auto to = static_cast<std::size_t>(list_.count++);
+    list_.place[to] = list.place[i];
+    list_.marks[to] = list.marks[i];
+  });
+  lanes.draw(quad, list_, list_.count, drawn_);
+  std::size_t from = 0;
+  each([&](std::size_t i) {
+    results.fragments.copy(drawn_.fragments, from, i);
+    LaneResults::put(results.drawn, i, LaneResults::has(drawn_.drawn, from++));
+  });
+  results.all_drawn &= drawn_.all_drawn;
+  results.on_edge += drawn_.on_edge;
+  results.notch += drawn_.notch;
+  results.saturated += drawn_.saturated;
+  return list_.count;
+}
+
+}  // namespace quadrille
