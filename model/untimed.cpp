@@ -153,7 +153,8 @@ struct UntimedModel::Impl {
       const auto at = static_cast<std::size_t>(i);
       bool draws = LaneResults::has(results.drawn, at);
       if (LaneResults::has(results.plain, at)) draws = draw_singular(at, setup, constants, data);
-      if (draws) results.fragments.move(at, kept++);
+      if (draws && at != kept) results.fragments.move(at, kept);
+      kept += draws;
     }
     return kept;
   }

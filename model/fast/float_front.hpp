@@ -7,11 +7,11 @@
 //    -0.
 //  - Numbers scale: the quad is drawn about one unit large.
 //  - Range: u, v, r <= 4, M <= 2^12; those functions are far from the smallest double. Products of three can
-//    go below 2^-126 and become 0. Where the sums of M k and of M W are at least 2^-26, their E is at least -30, a term
-//    with such an M is below 2^-126 * 2^6 * 2^30 = 2^-90 (numbers of the port are taken up to 2^30), and a quotient of
-//    2^-31 or more is of a sum with E >= -64: the term is below its quantum 2^-83 and is nothing there either. A
-//    smaller quotient, less than half of the last bit that an output can have, is 0 in both: so nothing hangs on
-//    differences below 2^-90, nor on a C that went to 0. Lanes with a smaller sum are for wide_lanes.hpp.
+//    go below 2^-126 and become 0: such an M is below 2^-120, a term with it below 2^(e - 119), e the largest exponent of
+//    the quad's numbers. Where the sums of M k and of M W are at least 2^t, t = e - 65, their E is at least t - 4, and
+//    a quotient of 2^-31 or more is of a sum with E >= t - 35: the term is below its quantum 2^(t - 54) and is nothing
+//    there either. A smaller quotient, less than half of the last bit that an output can have, is 0 in both. Lanes with
+//    a sum below FloatQuad::least_sum are for wide_lanes.hpp.
 
 using Real = float;
 using Code = std::int32_t;
@@ -29,7 +29,9 @@ inline F magnitude(F v) { return v; }
 inline F signed_like(F v, F) { return v; }
 inline Mask not_above(F a, F b) { return at_least(b, a); }
 /// Lanes of which this range does not hold everything.
-inline unsigned out_of_range(F den_k, F den_w) { return lanes(not_at_least(least(den_k, den_w), splat(0x1p-26f))); }
+inline unsigned out_of_range(F den_k, F den_w, const FloatQuad& quad) {
+  return lanes(not_at_least(least(den_k, den_w), splat(quad.least_sum)));
+}
 
 /// base + num * rec * per_unit, the quotient rounded to nearest, halves away from zero. The half is fused in: of a sum
 /// below 2^24 cutting it to 24 bits takes nothing but fraction. Others, and what 32 bits may not hold, are left to

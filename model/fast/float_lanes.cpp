@@ -106,6 +106,21 @@ bool float_column(std::array<double, 4> values, int prec, FloatColumnOf what, La
   return true;
 }
 
+/// FloatQuad::least_sum (float_front.hpp, range), of the columns in use.
+float least_sum(const FloatQuad& quad, const LaneFormatOf<float>& format) {
+  float largest = 0;
+  const auto add = [&](bool used, const LaneColumnOf<float>& column) {
+    if (used)
+      for (const float align : column.align) largest = std::max(largest, align);
+  };
+  add(quad.sum_k, quad.k);
+  add(quad.sum_w && !quad.w_of_k, quad.w);
+  add(quad.sum_z, quad.z);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) add(quad.sum_b[j], quad.b[j]);
+  // `align` is 2^(e + 23 - prec).
+  return std::max(largest * static_cast<float>(power_of_two(format.prec - 23 - 65)), 0x1p-80f);
+}
+
 bool fits(const QuadLanes::Factor& factor) {
   return !factor || *factor == 0 || std::abs(std::ilogb(*factor)) <= largest_exponent;
 }
@@ -203,6 +218,7 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
     fit = fit && column(values.sum_b[j], values.b[j], Of::attribute, out.b[j]);
     out.sum_b[j] = values.sum_b[j] && out.b[j].any;
   }
+  out.least_sum = least_sum(out, format_);
   return fit;
 }
 
@@ -216,7 +232,10 @@ FloatLanes::TileCounts FloatLanes::cover(const PixelBounds& bounds, const TileCo
 std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const {
   const auto taken = lane_target() == LaneTarget::v4 ? v4::take_small(format_, depth_limits_, quad, out, small)
                                                      : v3::take_small(format_, depth_limits_, quad, out, small);
-  if (taken == QuadReject::none) out.areas = plane_quad(quad, config_, state_);
+  if (taken == QuadReject::none) {
+    out.areas = plane_quad(quad, config_, state_);
+    out.least_sum = least_sum(out, format_);
+  }
   return taken;
 }
 

@@ -36,6 +36,7 @@ struct FloatQuad : LaneQuadOf<float> {
   static constexpr std::int32_t marks = 0;
 
   double unit2 = 0;                            ///< unit squared
+  float least_sum = 0;                         ///< of M k or M W: below it single precision has lost terms
   FloatForms a;                                ///< A
   FloatForms r2;                               ///< the four r² without dx² + dy²
   std::array<double, linear_count> length2{};  ///< SetupResult::length2

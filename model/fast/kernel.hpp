@@ -222,7 +222,7 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
       else if (recip_w)
         reciprocal(den_w, rec_w);
     }
-    const unsigned small = out_of_range(den_k, den_w);
+    const unsigned small = out_of_range(den_k, den_w, quad);
 
     C attribute[max_attribute_slots];
     for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) {

@@ -25,7 +25,7 @@ inline F signed_like(F v, F of) {
   return select(equal(of, zero), zero, real(bits(v) | (bits(of) & splat(INT64_MIN))));
 }
 inline Mask not_above(F a, F b) { return at_least(b, a); }
-inline unsigned out_of_range(F, F) { return 0; }
+inline unsigned out_of_range(F, F, const WideQuad&) { return 0; }
 
 /// base + num * rec * per_unit, the quotient rounded to nearest, halves away from zero: the half is added before the
 /// unit cuts what is below 53 bits, fraction. What has no integer part of 52 bits is beyond every limit.

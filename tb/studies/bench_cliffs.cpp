@@ -10,6 +10,7 @@
 #include "tb/options/input.hpp"
 #include "tb/options/written_file.hpp"
 #include "tb/studies/bench_timing.hpp"
+#include "tb/studies/bench_widths.hpp"
 #include "tb/studies/method_engine.hpp"
 #include "tb/studies/shader/paper_shader.hpp"
 #include "tb/support/environment_error.hpp"
@@ -33,7 +34,6 @@ constexpr std::array<int, 4> viewports{64, 256, 1024, 4096};
 constexpr std::array<const char*, 6> viewport_families{"general", "sliver",       "tiny",
                                                        "reflex",  "eye_crossing", "long_span"};
 constexpr int terrain_side = 60;
-constexpr int least_bits = 8, most_bits = 26;  ///< significand_bits
 constexpr std::uint64_t family_quads = 800;
 constexpr int scissor_side = 128;                     ///< of quads that cover most of any viewport
 constexpr const char* setup_scene = "subpixel_mesh";  ///< 75 quads a fragment: what setting up a quad takes
@@ -192,7 +192,11 @@ class CliffBench {
     check_outputs({options_.common.json}, {options_.common.config_file});
     make_loads();
     measure();
-    if (std::FILE* text = options_.common.text()) print(text);
+    widths_ = measure_widths(config_, options_.common.seed, options_.repeat);
+    if (std::FILE* text = options_.common.text()) {
+      print(text);
+      print_widths(text, widths_);
+    }
     if (!options_.common.json.empty()) golden::save_json(options_.common.json, report());
     for (std::size_t s = 0; s < subjects_.size(); ++s)
       if (!std::isfinite(best(s))) {
@@ -241,12 +245,6 @@ class CliffBench {
       load.input.textures = std::move(p.textures);
       count(load, every_one, every_one);
       loads_.push_back(std::move(load));
-    }
-    for (int bits = least_bits; bits <= most_bits; bits += 2) {
-      Config config = config_;
-      config.set("significand_bits", bits);
-      config.validate();
-      add(family("width", "perspective, s = " + std::to_string(bits), "perspective", plain_side, config));
     }
     for (const int side : viewports)
       for (const char* name : viewport_families) {
@@ -410,6 +408,7 @@ class CliffBench {
       }
       json["cliffs"].push_back(std::move(row));
     }
+    json["widths"] = widths_report(widths_);
     return json;
   }
 
@@ -417,6 +416,7 @@ class CliffBench {
   const std::vector<std::string>& arguments_;
   const Config config_;
   const std::vector<Subject> subjects_;
+  std::vector<WidthCost> widths_;
   std::vector<Load> loads_;
   std::vector<std::vector<Cost>> costs_;  ///< by load and subject
 };
