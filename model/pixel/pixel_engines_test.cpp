@@ -1,4 +1,6 @@
+#include "model/fast/float_lanes.hpp"
 #include "model/fast/wide_lanes.hpp"
+#include "model/front/tile_context.hpp"
 #include "model/pixel/pixel_pipeline.hpp"
 #include "model/pixel/pixel_pipeline_test_support.hpp"
 
@@ -172,6 +174,69 @@ TEST(WideLanes, HardBitPatterns) {
     }
   }
   EXPECT_GT(compared, 50'000u);
+}
+
+/// Areas of a few units of the last place beside distances of the whole guard band, whatever the corners say: sums of
+/// weights down to where single precision loses terms. What floats keep has the bits, the rest is for wide lanes.
+TEST(FloatLanes, TinySums) {
+  Prng rng(151);
+  std::uint64_t kept = 0, tiny = 0, left = 0;
+  for (int n = 0; n < 6000; ++n) {
+    Config c;
+    c.significand_bits = static_cast<int>(rng.integer(8, 18));
+    DrawState s = square(64);
+    s.depth = false;
+    s.attributes = 1;
+    const PipelineContext context(c, s);
+    const int S = c.significand_bits;
+    QuadData data;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto sig = static_cast<std::uint32_t>((std::uint64_t{1} << (S - 1)) + rng.below(std::uint64_t{1} << (S - 1)));
+      data.k[i] = {false, static_cast<int>(rng.integer(-8, 8)), sig};
+      data.w[i] = {false, 0, 1u << (S - 1)};
+      if (i != 0) data.b[i][0] = {rng.chance(0.5), static_cast<int>(rng.integer(-2, 6)), sig};
+    }
+    SetupResult setup;
+    for (RelativeVertex& v : setup.vertex)
+      v = {rng.integer(-(1 << 15), 1 << 15) << c.frac(), rng.integer(-(1 << 15), 1 << 15) << c.frac(), 1 << c.frac()};
+    TileEntry tile;
+    for (std::size_t k = 0; k < linear_count; ++k)
+      tile.linear[k] = setup.linear[k].value =
+          (std::int64_t{1} + static_cast<std::int64_t>(rng.log2_spread(0, 40))) * (rng.chance(0.5) ? 1 : -1);
+    const auto r2 = [&](std::size_t i) {
+      return setup.vertex[i].x * setup.vertex[i].x + setup.vertex[i].y * setup.vertex[i].y;
+    };
+    for (std::size_t k = 0; k < linear_count; ++k) {
+      const auto [i, j] = vertex_pair[k];
+      const auto shared = static_cast<std::int64_t>(
+          rng.uniform(-1, 1) * std::sqrt(static_cast<double>(r2(i))) * std::sqrt(static_cast<double>(r2(j))));
+      setup.length2[k] = static_cast<std::uint64_t>(r2(i) + r2(j) - 2 * (shared >> 20 << 20));
+    }
+    const QuadConstants constants(setup);
+    tile.quadratic = tile_context(constants, 0, 0, 0);
+    PixelTrace p;
+    pixel_pipeline(p, tile, constants, data, 0, 0, context);
+    const FloatLanes lanes(context);
+    const QuadLanes values(data, context);
+    on_each_lane_target([&] {
+      FloatQuad quad;
+      if (!lanes.usable()) return;
+      ASSERT_TRUE(lanes.take(setup, data, values, quad));
+      PixelList list;
+      list.add(0, 0, false, false);
+      LaneResults quick(1);
+      lanes.draw(quad, list, 1, quick);
+      if (LaneResults::has(quick.small, 0)) return void(++left);
+      ++kept;
+      // The sum of M k with r of the quad's size, as floats have it.
+      tiny += std::ldexp(to_double(p.den_k, S), -3 * 62) < 0x1p-40;
+      ASSERT_EQ(quick.fragments.view(0, 1)[0].attribute[0], p.fragment.attribute[0]) << "round " << n;
+    });
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(kept, 1'000u);
+  EXPECT_GT(tiny, 100u);
+  EXPECT_GT(left, 100u);
 }
 
 /// All quads with corners on a small grid at tiny widths: no crash, weights in [0, 1], their sum 1 within the bound.
