@@ -350,7 +350,7 @@ void UntimedModel::draw_arrays(const SnappedQuad& quad, const std::function<void
   m.stats.homogeneous_quads += setup.homogeneous;
   m.stats.hull_quads += setup.hull;
   const DepthInterval depth = hidden ? depth_interval(quad, m.context.config, m.context.state) : DepthInterval{};
-  const bool by_lanes = !m.plain && WideLanes::usable();
+  const bool by_lanes = !m.plain;
   if (by_lanes) {
     const QuadLanes values(data, m.context);
     m.by_floats = m.floats.usable() && m.floats.take(setup, data, values, m.float_quad);

@@ -153,10 +153,10 @@ expect 1 "first difference in line 5 of the beats, draw 0: expected clock" "the 
 damage $machine 'flip("beats.hex", 4, 0)'
 expect 1 "in line 5 of the beats, draw 0 with stalls: expected clock" "the clock of a beat under stalls" $replay "$work/bad" $tool --suite $machine
 damage $machine 'write("beats.hex", read("beats.hex")[:-1]); lines_in_manifest("beats.hex", -1)'
-expect 2 "beats.hex: [0-9]+ lines, a beat each" "a beat less" $replay "$work/bad" $tool --suite $machine
+expect 2 "beats.hex: [0-9]+ lines; expected [0-9]+, one per beat" "a beat less" $replay "$work/bad" $tool --suite $machine
 for bit in 0 1; do
   damage $machine "write('stalls.hex', [f'{int(line, 16) & ~(1 << $bit):x}' for line in read('stalls.hex')])"
-  expect 2 "stalls.hex: the pattern never (offers|takes) anything" "a pattern without bit $bit" $replay "$work/bad" $tool --suite $machine
+  expect 2 "stalls.hex: no clock (offers|takes) anything" "a pattern without bit $bit" $replay "$work/bad" $tool --suite $machine
 done
 
 for suite in sqrt $machine; do
@@ -207,7 +207,7 @@ expect 1 "^sqrt: [0-9]+ vectors, 1 mismatches" "verify: a bit of a response" "$Q
 damage $machine 'lines = read("response.hex"); write("response.hex", lines + lines[-1:]); sign(vectors=len(lines) + 1)'
 expect 1 "^quadrille: $machine: FAILED" "verify: a run that stops" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite $machine
 damage $machine "write('stalls.hex', ['1'] * len(read('stalls.hex'))); sign()"
-expect 2 "stalls.hex: the pattern never offers" "verify: a pattern that never offers" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite $machine
+expect 2 "stalls.hex: no clock offers" "verify: a pattern that never offers" "$QUADRILLE" golden verify "$work/bad" --engine rtl --suite $machine
 
 # ---- The examples ----
 if ! $sample; then

@@ -1,5 +1,7 @@
 #include "golden/scenes/polygon.hpp"
 
+#include "model/support/float113.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -23,7 +25,7 @@ struct Outline {
     const double area = left - right;
     // Six roundings of at most 2^-53 each, so far from zero the sign is right; near it 113 bits decide.
     if (std::fabs(area) > (std::fabs(left) + std::fabs(right)) * 0x1p-49) return area > 0 ? 1 : -1;
-    using Wide = __float128;
+    using Wide = Float113;
     const Wide exact = (Wide{b[0]} - a[0]) * (Wide{c[1]} - a[1]) - (Wide{b[1]} - a[1]) * (Wide{c[0]} - a[0]);
     return (exact > 0) - (exact < 0);
   }

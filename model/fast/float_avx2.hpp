@@ -23,6 +23,7 @@ inline I load(const std::uint32_t* aligned) { return _mm256_load_si256(reinterpr
 
 inline F fma(F a, F b, F c) { return _mm256_fmadd_ps(a, b, c); }
 inline D fma(D a, D b, D c) { return _mm256_fmadd_pd(a, b, c); }
+constexpr bool fused = true;
 /// a b - c.
 inline F fms(F a, F b, F c) { return _mm256_fmsub_ps(a, b, c); }
 inline F least(F a, F b) { return _mm256_min_ps(a, b); }

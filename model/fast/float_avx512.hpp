@@ -22,6 +22,7 @@ inline I load(const std::uint32_t* aligned) { return _mm512_load_si512(aligned);
 
 inline F fma(F a, F b, F c) { return _mm512_fmadd_ps(a, b, c); }
 inline D fma(D a, D b, D c) { return _mm512_fmadd_pd(a, b, c); }
+constexpr bool fused = true;
 /// a b - c.
 inline F fms(F a, F b, F c) { return _mm512_fmsub_ps(a, b, c); }
 inline F least(F a, F b) { return _mm512_min_ps(a, b); }

@@ -1,12 +1,5 @@
 // Coverage of a quad's tiles and the list of their pixels, for float_lanes.cpp, which includes this once for each
-// instruction set behind float_avx2.hpp or float_avx512.hpp.
-
-constexpr int most_words = PixelList::widest / 64;  ///< of a tile
-
-/// Rows and columns of a tile, from .. to - 1.
-struct Range {
-  int from, to;
-};
+// instruction set, behind its vectors and edge_signs.
 
 /// Those that the quad's corners reach, in the scissor.
 inline Range rows_in_tile(const PixelBounds& bounds, int y0, int tile) {
@@ -35,7 +28,6 @@ inline void tile_masks(const FloatLanes::Format& format, const TileCorner& corne
                        Range rows, Range columns, TileMasks& out) {
   const int tile = 1 << format.tile_log2, words = std::max(1, tile * tile / 64);
   const std::uint64_t whole = tile == 4 ? 0xffffu : ~std::uint64_t{0};
-  const int rows_of_word = 64 / tile, first_four = columns.from & ~3;
   std::uint64_t positive[5][most_words], negative[5][most_words], zeros[most_words] = {};
   for (std::size_t k = 0; k < 5; ++k) {
     const std::int64_t gx = quad.gx[k], gy = quad.gy[k], value = corner.linear[k];
@@ -49,32 +41,8 @@ inline void tile_masks(const FloatLanes::Format& format, const TileCorner& corne
       }
       continue;
     }
-    std::uint64_t below[most_words], zero[most_words] = {};
-    const std::int64_t start = wrap_add(value, first_four * gx + rows.from * gy);
-    const __m256i first = _mm256_add_epi64(_mm256_set1_epi64x(start), _mm256_set_epi64x(3 * gx, 2 * gx, gx, 0));
-    const __m256i right = _mm256_set1_epi64x(4 * gx), down = _mm256_set1_epi64x(gy);
-    const auto mask = [](__m256i v) { return static_cast<std::uint64_t>(_mm256_movemask_pd(_mm256_castsi256_pd(v))); };
-    const __m256i none = _mm256_setzero_si256();
-    __m256i e = first, any_zero = none;
-    for (int w = 0, row = rows.from; w < words; ++w) {
-      std::uint64_t bits_below = 0;
-      for (; row < std::min(rows.to, (w + 1) * rows_of_word); ++row, e = _mm256_add_epi64(e, down)) {
-        __m256i at = e;
-        for (int dx = first_four; dx < columns.to; dx += 4, at = _mm256_add_epi64(at, right)) {
-          bits_below |= mask(at) << ((row * tile + dx) & 63);
-          any_zero = _mm256_or_si256(any_zero, _mm256_cmpeq_epi64(at, none));
-        }
-      }
-      below[w] = bits_below;
-    }
-    if (_mm256_testz_si256(any_zero, any_zero) == 0) [[unlikely]] {
-      e = first;
-      for (int row = rows.from; row < rows.to; ++row, e = _mm256_add_epi64(e, down)) {
-        __m256i at = e;
-        for (int dx = first_four; dx < columns.to; dx += 4, at = _mm256_add_epi64(at, right))
-          zero[(row * tile) >> 6] |= mask(_mm256_cmpeq_epi64(at, none)) << ((row * tile + dx) & 63);
-      }
-    }
+    std::uint64_t below[most_words] = {}, zero[most_words] = {};
+    edge_signs(value, gx, gy, rows, columns.from & ~3, columns.to, tile, below, zero);
     const std::uint64_t tie_pos = quad.tie_pos[k] ? whole : 0, tie_neg = quad.tie_neg[k] ? whole : 0;
     for (int w = 0; w < words; ++w) {
       positive[k][w] = (whole & ~(below[w] | zero[w])) | (zero[w] & tie_pos);
@@ -136,47 +104,5 @@ FloatLanes::TileCounts cover(const FloatLanes::Format& format, const PixelBounds
   if (masked != nullptr) keep_seen(tile, *masked, masks.data());
   for (int w = 0; w < std::max(1, tile * tile / 64); ++w)
     append_word(masks[static_cast<std::size_t>(w)], x0, y0 + w * (64 / tile), format.tile_log2, counts, list);
-  return counts;
-}
-
-/// tile_walk's `covers`, by the signs at all pixels of a tile: a linear function is least and greatest at some of them.
-inline bool covers_tile(const SignWords<std::uint64_t> (&e)[5], Cull cull) {
-  constexpr std::uint64_t all = ~std::uint64_t{0};
-  const auto face = [&e](std::uint64_t SignWords<std::uint64_t>::*inner,
-                         std::uint64_t SignWords<std::uint64_t>::*outer) {
-    const auto everywhere = [&](std::size_t k) { return e[k].*inner == all; };
-    const bool first = everywhere(0) && everywhere(1) && (everywhere(2) || everywhere(3));
-    const bool second = everywhere(2) && everywhere(3) && (everywhere(0) || everywhere(1));
-    const bool on_first = e[4].*inner != 0, on_second = e[4].*outer != 0;
-    return (on_first || on_second) && (first || !on_first) && (second || !on_second);
-  };
-  return (cull != Cull::back && face(&SignWords<std::uint64_t>::positive, &SignWords<std::uint64_t>::negative)) ||
-         (cull != Cull::front && face(&SignWords<std::uint64_t>::negative, &SignWords<std::uint64_t>::positive));
-}
-
-/// The same of a small quad, tile (column, row) of its block.
-FloatLanes::TileCounts cover_small(const FloatLanes::Format& format, const PixelBounds& bounds, const SmallQuad& quad,
-                                   int column, int row, MaskedDepth* masked, PixelList& list) {
-  constexpr int tile = 1 << SmallQuad::tile_log2;
-  FloatLanes::TileCounts counts;
-  const int x0 = column * tile, y0 = row * tile;
-  SignWords<std::uint64_t> signs[5];
-  std::uint64_t zeros = 0;
-  for (std::size_t k = 0; k < 5; ++k) {
-    const TileSigns at = tile_signs(quad.value[k] + x0 * quad.gx[k] + y0 * quad.gy[k], quad.gx[k], quad.gy[k]);
-    const std::uint64_t tie_positive = quad.tie_positive[k], tie_negative = quad.tie_negative[k];
-    signs[k] = {~(at.negative | at.zero) | (at.zero & tie_positive), at.negative | (at.zero & tie_negative)};
-    zeros |= at.zero & (tie_positive | tie_negative);  // an all-zero edge decides nothing
-  }
-  const PlaceWords<std::uint64_t> inside = inside_expression(signs, 0xf, format.cull);
-  const std::uint64_t seen = seen_pixels(rows_in_tile(bounds, y0, tile), columns_in_tile(bounds, x0, tile), tile, 0);
-  const std::uint64_t mask = (inside.back | inside.front) & seen;
-  TileWord word{mask, inside.front & seen, zeros & mask};
-  if (masked != nullptr) {
-    counts.covered = covers_tile(signs, format.cull);
-    if (masked->hidden()) return counts;
-    keep_seen(tile, *masked, &word);
-  }
-  append_word(word, x0, y0, SmallQuad::tile_log2, counts, list);
   return counts;
 }

@@ -35,12 +35,12 @@ inline unsigned out_of_range(F den_k, F den_w, const FloatQuad& quad) {
 
 /// base + num * rec * per_unit, the quotient rounded to nearest, halves away from zero. The half is fused in: of a sum
 /// below 2^24 cutting it to 24 bits takes nothing but fraction. Others, and what 32 bits may not hold, are left to
-/// doubles, which also clamp; `clamped` gains their lanes.
+/// doubles, which also clamp; `clamped` gains their lanes. Not fused, a half has a place below 2^23 alone.
 [[gnu::always_inline]] inline I to_codes(F num, F rec, F per_unit, const LaneCodes<float>& to, Mask& clamped) {
   const F scaled = num * per_unit;
   const F half = real((bits(num) & splat(INT32_MIN)) | bits(splat(0.5f)));
   const F sum = fma(scaled, rec, half);
-  if (none(at_least(keep(sum, real(splat(INT32_MAX))), splat(to.bound)))) [[likely]]
+  if (none(at_least(keep(sum, real(splat(INT32_MAX))), splat(fused ? to.bound : std::min(to.bound, 0x1p23f))))) [[likely]]
     return add(truncated(sum), splat(to.base));
   const D base = splat(static_cast<double>(to.base)), low = splat(static_cast<double>(to.low)),
           high = splat(static_cast<double>(to.high));

@@ -1,17 +1,14 @@
 #include "model/fast/float_lanes.hpp"
 
+#include "model/fast/targets.hpp"
 #include "model/fast/toward_zero.hpp"
-#include "model/port/lane_target.hpp"
 #include "model/skips/plane_quad.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
-
-#ifdef QUADRILLE_LANE_TARGETS
-#include <immintrin.h>
-#endif
+#include <cstring>
 
 namespace quadrille {
 namespace {
@@ -60,29 +57,83 @@ bool float_codes(const FloatLanes::Format& format, const QuadBase& base, FloatQu
   return true;
 }
 
-#ifdef QUADRILLE_LANE_TARGETS
+constexpr int most_words = PixelList::widest / 64;  ///< of a tile
+
+/// Rows and columns of a tile, from .. to - 1.
+struct Range {
+  int from, to;
+};
+
+/// What there is once for each target.
+struct Functions {
+  using Format = FloatLanes::Format;
+  using Counts = FloatLanes::TileCounts;
+
+  Counts (*cover)(const Format&, const PixelBounds&, const TileCorner&, const QuadConstants&, MaskedDepth*, PixelList&);
+  void (*draw)(const LaneFormatOf<float>&, const FloatQuad&, const PixelList&, int, LaneResults&);
+  // From v3 on.
+  std::optional<QuadReject> (*take_small)(const Format&, const DepthLimits&, const SnappedQuad&, FloatQuad&,
+                                          SmallQuad&);
+  void (*walk_small)(const Format&, const SmallQuad&, SmallWalk&);
+  Counts (*cover_small)(const Format&, const PixelBounds&, const SmallQuad&, int, int, MaskedDepth*, PixelList&);
+};
+
 // Each function of the kernel is compiled for the target around it.
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v3")
+namespace baseline {
+#include "model/fast/float_portable.hpp"
+#include "model/fast/float_cover.hpp"
+#include "model/fast/float_front.hpp"
+#include "model/fast/kernel.hpp"
+constexpr Functions functions{cover, draw, nullptr, nullptr, nullptr};
+}  // namespace baseline
+#ifdef QUADRILLE_LANE_TARGETS
+QUADRILLE_TARGET_V2
+namespace v2 {
+#include "model/fast/float_portable.hpp"
+#include "model/fast/float_cover.hpp"
+#include "model/fast/float_front.hpp"
+#include "model/fast/kernel.hpp"
+constexpr Functions functions{cover, draw, nullptr, nullptr, nullptr};
+}  // namespace v2
+QUADRILLE_TARGET_END
+QUADRILLE_TARGET_V3
 namespace v3 {
 #include "model/fast/float_avx2.hpp"
+#include "model/fast/edge_signs_avx2.hpp"
 #include "model/fast/float_cover.hpp"
 #include "model/fast/float_front.hpp"
 #include "model/fast/kernel.hpp"
 #include "model/fast/float_small_quad.hpp"
+constexpr Functions functions{cover, draw, take_small, walk_small, cover_small};
 }  // namespace v3
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v4")
+QUADRILLE_TARGET_END
+QUADRILLE_TARGET_V4
 namespace v4 {
 #include "model/fast/float_avx512.hpp"
+#include "model/fast/edge_signs_avx2.hpp"
 #include "model/fast/float_cover.hpp"
 #include "model/fast/float_front.hpp"
 #include "model/fast/kernel.hpp"
 #include "model/fast/float_small_quad.hpp"
+constexpr Functions functions{cover, draw, take_small, walk_small, cover_small};
 }  // namespace v4
-#pragma GCC pop_options
+QUADRILLE_TARGET_END
 #endif
+
+const Functions& functions() {
+  switch (lane_target()) {
+#ifdef QUADRILLE_LANE_TARGETS
+    case LaneTarget::v4:
+      return v4::functions;
+    case LaneTarget::v3:
+      return v3::functions;
+    case LaneTarget::v2:
+      return v2::functions;
+#endif
+    default:
+      return baseline::functions;
+  }
+}
 
 /// Whether the integers of polynomial() stay exact with 2^23 added.
 bool fits(const Table& table) {
@@ -155,7 +206,7 @@ FloatLanes::FloatLanes(const PipelineContext& c)
   format_.may_face = may_face();
 }
 
-bool FloatLanes::usable() const { return fits_ && lane_target() != LaneTarget::baseline; }
+bool FloatLanes::usable() const { return fits_; }
 
 bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const {
   if (setup.homogeneous) return false;
@@ -222,16 +273,15 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
   return fit;
 }
 
-#ifdef QUADRILLE_LANE_TARGETS
 FloatLanes::TileCounts FloatLanes::cover(const PixelBounds& bounds, const TileCorner& corner, const QuadConstants& quad,
                                          MaskedDepth* masked, PixelList& list) const {
-  return lane_target() == LaneTarget::v4 ? v4::cover(format_, bounds, corner, quad, masked, list)
-                                         : v3::cover(format_, bounds, corner, quad, masked, list);
+  return functions().cover(format_, bounds, corner, quad, masked, list);
 }
 
+bool FloatLanes::small() const { return small_ && functions().take_small != nullptr; }
+
 std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const {
-  const auto taken = lane_target() == LaneTarget::v4 ? v4::take_small(format_, depth_limits_, quad, out, small)
-                                                     : v3::take_small(format_, depth_limits_, quad, out, small);
+  const auto taken = functions().take_small(format_, depth_limits_, quad, out, small);
   if (taken == QuadReject::none) {
     out.areas = plane_quad(quad, config_, state_);
     out.least_sum = least_sum(out, format_);
@@ -240,38 +290,18 @@ std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad& quad, FloatQ
 }
 
 void FloatLanes::walk_small(const SmallQuad& quad, SmallWalk& out) const {
-  if (lane_target() == LaneTarget::v4)
-    v4::walk_small(format_, quad, out);
-  else
-    v3::walk_small(format_, quad, out);
+  functions().walk_small(format_, quad, out);
 }
 
 FloatLanes::TileCounts FloatLanes::cover_small(const PixelBounds& bounds, const SmallQuad& quad, SmallWalk::Tile tile,
                                                MaskedDepth* masked, PixelList& list) const {
-  return lane_target() == LaneTarget::v4 ? v4::cover_small(format_, bounds, quad, tile.x, tile.y, masked, list)
-                                         : v3::cover_small(format_, bounds, quad, tile.x, tile.y, masked, list);
+  return functions().cover_small(format_, bounds, quad, tile.x, tile.y, masked, list);
 }
 
 void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, LaneResults& out) const {
   out.begin();
   const TowardZero mode;
-  if (lane_target() == LaneTarget::v4)
-    v4::draw(format_, quad, list, count, out);
-  else
-    v3::draw(format_, quad, list, count, out);
+  functions().draw(format_, quad, list, count, out);
 }
-#else
-std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad&, FloatQuad&, SmallQuad&) const { return {}; }
-void FloatLanes::walk_small(const SmallQuad&, SmallWalk&) const {}
-FloatLanes::TileCounts FloatLanes::cover_small(const FloatQuad&, const SmallQuad&, SmallWalk::Tile, MaskedDepth*,
-                                               PixelList&) const {
-  return {};
-}
-FloatLanes::TileCounts FloatLanes::cover(const FloatQuad&, const TileCorner&, const QuadConstants&, MaskedDepth*,
-                                         PixelList&) const {
-  return {};
-}
-void FloatLanes::draw(const FloatQuad&, const PixelList&, int, LaneResults&) const {}
-#endif
 
 }  // namespace quadrille

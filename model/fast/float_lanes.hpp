@@ -80,7 +80,7 @@ class FloatLanes {
 
   explicit FloatLanes(const PipelineContext& c);
 
-  /// Whether the configuration fits, and the instruction set in use has the code (v3 on).
+  /// Whether the configuration fits.
   bool usable() const;
   /// False: the quad is not ordinary, or a number of it does not fit; what `out` holds then is nobody's.
   bool take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const;
@@ -93,9 +93,9 @@ class FloatLanes {
   TileCounts cover(const PixelBounds& bounds, const TileCorner& corner, const QuadConstants& quad, MaskedDepth* masked,
                    PixelList& list) const;
 
-  /// Small quads, of configurations and draw states that small() says, without SetupResult and the like: what comes is
+  /// Small quads, of configurations, draw states and targets (v3 on) that small() says, without SetupResult and the like: what comes is
   /// the same. Nothing: it is none, or does not fit. Else none, or why it is left out.
-  bool small() const { return small_; }
+  bool small() const;
   std::optional<QuadReject> take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const;
   void walk_small(const SmallQuad& quad, SmallWalk& out) const;
   TileCounts cover_small(const PixelBounds& bounds, const SmallQuad& quad, SmallWalk::Tile tile, MaskedDepth* masked,
@@ -122,7 +122,7 @@ class FloatLanes {
   Format format_;
   DepthLimits depth_limits_;
   bool fits_ = false, small_ = false;
-  int frac_ = 0, val_bits_ = 0, qdrop_ = 0, viewport_bits_ = 0;
+  int frac_ = 0, val_bits_ = 0, qdrop_ = 0;
 };
 
 }  // namespace quadrille

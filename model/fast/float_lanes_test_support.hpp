@@ -125,7 +125,5 @@ inline std::vector<std::uint64_t> counts(const DrawStats& d) {
   return all;
 }
 
-inline bool can_run_here() { return lane_target() != LaneTarget::baseline; }
-
 }  // namespace
 }  // namespace quadrille

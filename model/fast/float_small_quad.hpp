@@ -236,3 +236,45 @@ void walk_small(const FloatLanes::Format& format, const SmallQuad& quad, SmallWa
   }
   out.tiles_tested = quad.tiles_x * quad.tiles_y;
 }
+
+/// tile_walk's `covers`, by the signs at all pixels of a tile: a linear function is least and greatest at some of them.
+inline bool covers_tile(const SignWords<std::uint64_t> (&e)[5], Cull cull) {
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  const auto face = [&e](std::uint64_t SignWords<std::uint64_t>::*inner,
+                         std::uint64_t SignWords<std::uint64_t>::*outer) {
+    const auto everywhere = [&](std::size_t k) { return e[k].*inner == all; };
+    const bool first = everywhere(0) && everywhere(1) && (everywhere(2) || everywhere(3));
+    const bool second = everywhere(2) && everywhere(3) && (everywhere(0) || everywhere(1));
+    const bool on_first = e[4].*inner != 0, on_second = e[4].*outer != 0;
+    return (on_first || on_second) && (first || !on_first) && (second || !on_second);
+  };
+  return (cull != Cull::back && face(&SignWords<std::uint64_t>::positive, &SignWords<std::uint64_t>::negative)) ||
+         (cull != Cull::front && face(&SignWords<std::uint64_t>::negative, &SignWords<std::uint64_t>::positive));
+}
+
+/// The same of a small quad, tile (column, row) of its block.
+FloatLanes::TileCounts cover_small(const FloatLanes::Format& format, const PixelBounds& bounds, const SmallQuad& quad,
+                                   int column, int row, MaskedDepth* masked, PixelList& list) {
+  constexpr int tile = 1 << SmallQuad::tile_log2;
+  FloatLanes::TileCounts counts;
+  const int x0 = column * tile, y0 = row * tile;
+  SignWords<std::uint64_t> signs[5];
+  std::uint64_t zeros = 0;
+  for (std::size_t k = 0; k < 5; ++k) {
+    const TileSigns at = tile_signs(quad.value[k] + x0 * quad.gx[k] + y0 * quad.gy[k], quad.gx[k], quad.gy[k]);
+    const std::uint64_t tie_positive = quad.tie_positive[k], tie_negative = quad.tie_negative[k];
+    signs[k] = {~(at.negative | at.zero) | (at.zero & tie_positive), at.negative | (at.zero & tie_negative)};
+    zeros |= at.zero & (tie_positive | tie_negative);  // an all-zero edge decides nothing
+  }
+  const PlaceWords<std::uint64_t> inside = inside_expression(signs, 0xf, format.cull);
+  const std::uint64_t seen = seen_pixels(rows_in_tile(bounds, y0, tile), columns_in_tile(bounds, x0, tile), tile, 0);
+  const std::uint64_t mask = (inside.back | inside.front) & seen;
+  TileWord word{mask, inside.front & seen, zeros & mask};
+  if (masked != nullptr) {
+    counts.covered = covers_tile(signs, format.cull);
+    if (masked->hidden()) return counts;
+    keep_seen(tile, *masked, &word);
+  }
+  append_word(word, x0, y0, SmallQuad::tile_log2, counts, list);
+  return counts;
+}

@@ -183,7 +183,7 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
     F power[4];
     for (std::size_t i = 0; i < 4; ++i) power[i] = Arithmetic::power(m[i]);
 
-    const auto sum_from = [&](std::size_t first, const Column& column) __attribute__((always_inline)) {
+    const auto sum_from = [&](std::size_t first, const Column& column) LANE_LAMBDA {
       F c = greatest(power[2] * splat(column.align[2]), power[3] * splat(column.align[3]));
       for (std::size_t i = first; i < 2; ++i) c = greatest(power[i] * splat(column.align[i]), c);
       F positive = c;
@@ -193,10 +193,10 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
         for (std::size_t i = first; i < 4; ++i) negative = fma(m[i], splat(column.negative[i]), negative);
       return arithmetic.cut(positive - negative);
     };
-    const auto sum = [&](const Column& column) __attribute__((always_inline)) { return sum_from(0, column); };
+    const auto sum = [&](const Column& column) LANE_LAMBDA { return sum_from(0, column); };
     const auto flipped = [](F value, const Column& column) { return real(bits(value) ^ splat(column.flip)); };
     F den_k = one, den_w = one, rec_k = one, rec_w = one;
-    const auto denominator = [&](const Column& column) __attribute__((always_inline)) {
+    const auto denominator = [&](const Column& column) LANE_LAMBDA {
       return Front::any_w ? flipped(sum(column), column) : sum(column);
     };
     if (quad.sum_k) den_k = denominator(quad.k);

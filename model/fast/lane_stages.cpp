@@ -10,6 +10,11 @@
 // The vector type is wider than some targets' registers; everything that passes it is inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
+// GCC's attributes choose targets beyond the baseline.
+#if defined(QUADRILLE_LANE_TARGETS) && !defined(__clang__)
+#define QUADRILLE_STAGE_TARGETS
+#endif
+
 namespace quadrille {
 namespace {
 
@@ -62,7 +67,7 @@ LANE_INLINE V leading_magnitude(I v) {
   return high + low;
 }
 
-#ifdef QUADRILLE_LANE_TARGETS
+#ifdef QUADRILLE_STAGE_TARGETS
 template <class Body>
 [[gnu::target("arch=x86-64-v4")]] void run_v4(const Body& body) {
   body();
@@ -76,13 +81,13 @@ template <class Body>
 /// Runs `body`, an always-inlined lambda, as compiled for the target in use.
 template <class Body>
 LANE_INLINE void on_lane_target(const Body& body) {
-#ifdef QUADRILLE_LANE_TARGETS
+#ifdef QUADRILLE_STAGE_TARGETS
   switch (lane_target()) {
     case LaneTarget::v4:
       return run_v4(body);
     case LaneTarget::v3:
       return run_v3(body);
-    case LaneTarget::baseline:
+    default:
       break;
   }
 #endif

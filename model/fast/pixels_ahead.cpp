@@ -28,8 +28,6 @@ void PixelsAhead::set_state() {
 }
 
 void PixelsAhead::take(const SetupResult& setup, PixelQuad& quad) const {
-  quad.by_lanes = WideLanes::usable();
-  if (!quad.by_lanes) return;
   const QuadLanes values(quad.data, context_);
   quad.by_floats = floats_.usable() && floats_.take(setup, quad.data, values, quad.floats);
   if (quad.by_floats)
@@ -52,13 +50,7 @@ void PixelsAhead::compute(const PixelQuad& quad) {
   next_ = 0;
   kind_.clear();
   list_.count = 0;
-  if (!quad.by_lanes) {
-    for (const Row& row : rows_)
-      for (std::uint32_t mask = row.stamp->mask; mask != 0; mask &= mask - 1) {
-        kind_.push_back(0);
-        plain(row, std::countr_zero(mask), quad, kind_.size() - 1);
-      }
-  } else if (!quad.by_floats && wide_.by_tile()) {
+  if (!quad.by_floats && wide_.by_tile()) {
     compute_by_tile(quad);
   } else {
     compute_lanes(quad);

@@ -30,7 +30,7 @@ struct PixelQuad {
   QuadConstants constants;
   QuadData data;
   SetupResult setup;                         ///< by floats
-  bool by_lanes = false, by_floats = false;  ///< of lanes `floats` has it, else `wide`
+  bool by_floats = false;                    ///< `floats` has it, else `wide`
   FloatQuad floats;
   WideQuad wide;
 };

@@ -1,32 +1,44 @@
 #include "model/fast/wide_lanes.hpp"
 
+#include "model/fast/targets.hpp"
 #include "model/fast/toward_zero.hpp"
 #include "model/front/tile_context.hpp"
-#include "model/port/lane_target.hpp"
 
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 namespace quadrille {
 namespace {
 
+// Each function of the kernel is compiled for the target around it.
+namespace baseline {
+#include "model/fast/wide_portable.hpp"
+#include "model/fast/wide_front.hpp"
+#include "model/fast/kernel.hpp"
+}  // namespace baseline
 #ifdef QUADRILLE_LANE_TARGETS
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v3")
+QUADRILLE_TARGET_V2
+namespace v2 {
+#include "model/fast/wide_portable.hpp"
+#include "model/fast/wide_front.hpp"
+#include "model/fast/kernel.hpp"
+}  // namespace v2
+QUADRILLE_TARGET_END
+QUADRILLE_TARGET_V3
 namespace v3 {
 #include "model/fast/wide_avx2.hpp"
 #include "model/fast/wide_front.hpp"
 #include "model/fast/kernel.hpp"
 }  // namespace v3
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v4")
+QUADRILLE_TARGET_END
+QUADRILLE_TARGET_V4
 namespace v4 {
 #include "model/fast/wide_avx512.hpp"
 #include "model/fast/wide_front.hpp"
 #include "model/fast/kernel.hpp"
 }  // namespace v4
-#pragma GCC pop_options
+QUADRILLE_TARGET_END
 #endif
 
 }  // namespace
@@ -39,8 +51,6 @@ WideLanes::WideLanes(const PipelineContext& c)
       tile_log2_(c.config.tile_log2),
       qdrop_(c.config.qdrop()),
       by_tile_(c.config.qdrop() != 0) {}
-
-bool WideLanes::usable() { return lane_target() != LaneTarget::baseline; }
 
 void WideLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, WideQuad& out) const {
   out.homogeneous = setup.homogeneous;
@@ -90,13 +100,19 @@ void WideLanes::move_to(const TileEntry& tile, WideQuad& quad) const {
 
 void WideLanes::draw(const WideQuad& quad, const PixelList& list, int count, LaneResults& out) const {
   out.begin();
-#ifdef QUADRILLE_LANE_TARGETS
   const TowardZero mode;
-  if (lane_target() == LaneTarget::v4)
-    v4::draw(format_, quad, list, count, out);
-  else
-    v3::draw(format_, quad, list, count, out);
+  switch (lane_target()) {
+#ifdef QUADRILLE_LANE_TARGETS
+    case LaneTarget::v4:
+      return v4::draw(format_, quad, list, count, out);
+    case LaneTarget::v3:
+      return v3::draw(format_, quad, list, count, out);
+    case LaneTarget::v2:
+      return v2::draw(format_, quad, list, count, out);
 #endif
+    default:
+      return baseline::draw(format_, quad, list, count, out);
+  }
 }
 
 int SmallPixels::draw(const WideLanes& lanes, const WideQuad& quad, const PixelList& list, int count,

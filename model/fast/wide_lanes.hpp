@@ -22,8 +22,6 @@ class WideLanes {
  public:
   explicit WideLanes(const PipelineContext& c);
 
-  /// Whether the target in use has the code.
-  static bool usable();
   void take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, WideQuad& out) const;
   /// Bits are dropped: each tile is a list of its own, from its own origin pixel.
   bool by_tile() const { return by_tile_; }

@@ -157,7 +157,6 @@ TEST(WideLanes, HardBitPatterns) {
       PixelTrace p;
       pixel_pipeline(p, tile, constants, data, 0, 0, context);
       on_each_lane_target([&] {
-        if (!WideLanes::usable()) return;
         LaneResults quick(s.attributes);
         lanes.draw(wide, list, list.count, quick);
         const bool singular = p.two_corner || p.on_vertex || p.two_edge;
@@ -220,7 +219,6 @@ TEST(FloatLanes, TinySums) {
     const QuadLanes values(data, context);
     on_each_lane_target([&] {
       FloatQuad quad;
-      if (!lanes.usable()) return;
       ASSERT_TRUE(lanes.take(setup, data, values, quad));
       PixelList list;
       list.add(0, 0, false, false);

@@ -9,7 +9,7 @@ namespace quadrille {
 namespace {
 
 #ifdef QUADRILLE_LANE_TARGETS
-constexpr std::array compiled{LaneTarget::baseline, LaneTarget::v3, LaneTarget::v4};
+constexpr std::array compiled{LaneTarget::baseline, LaneTarget::v2, LaneTarget::v3, LaneTarget::v4};
 #else
 constexpr std::array compiled{LaneTarget::baseline};
 #endif
@@ -27,14 +27,22 @@ constinit std::atomic<LaneTarget> in_use = unknown;
 std::span<const LaneTarget> lane_targets() { return compiled; }
 
 std::string_view name(LaneTarget target) {
-  constexpr std::array<std::string_view, 3> names{"baseline", "v3", "v4"};
+  constexpr std::array<std::string_view, 4> names{"baseline", "v2", "v3", "v4"};
   return names[static_cast<std::size_t>(target)];
 }
 
 bool can_run(LaneTarget target) {
 #ifdef QUADRILLE_LANE_TARGETS
-  if (target == LaneTarget::v3) return __builtin_cpu_supports("x86-64-v3");
-  if (target == LaneTarget::v4) return __builtin_cpu_supports("x86-64-v4");
+  // Features by name, as Clang 14 knows no levels; those that are left out come with the others.
+  const bool v2 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
+  const bool v3 = v2 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                  __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  if (target == LaneTarget::v2) return v2;
+  if (target == LaneTarget::v3) return v3;
+  if (target == LaneTarget::v4)
+    return v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
 #endif
   return target == LaneTarget::baseline;
 }

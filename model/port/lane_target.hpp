@@ -8,17 +8,17 @@
 
 namespace quadrille {
 
-// Targets beyond the baseline are chosen by GCC's pragmas, function by function; what another compiler builds has the
-// baseline alone, and so has the short build with sanitizers.
-#if defined(__x86_64__) && !defined(__clang__) && !defined(QUADRILLE_BASELINE_LANES)
+// The short build with sanitizers has the baseline alone.
+#if defined(__x86_64__) && !defined(QUADRILLE_BASELINE_LANES)
 #define QUADRILLE_LANE_TARGETS
 #endif
 
-enum class LaneTarget { baseline, v3, v4 };  ///< what the compiler's base ABI has; x86-64-v3: AVX2; x86-64-v4: AVX-512
+/// What the compiler's base ABI has: SSE2, NEON; x86-64-v2: SSE4; x86-64-v3: AVX2; x86-64-v4: AVX-512.
+enum class LaneTarget { baseline, v2, v3, v4 };
 
 /// Targets that the code is compiled for, from the plainest on.
 std::span<const LaneTarget> lane_targets();
-/// "baseline", "v3", "v4".
+/// "baseline", "v2", "v3", "v4".
 std::string_view name(LaneTarget target);
 /// Whether the code is compiled for it and this processor can run it.
 bool can_run(LaneTarget target);

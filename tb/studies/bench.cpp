@@ -397,7 +397,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   command
       ->add_option_function<std::string>(
           "--lanes", [](const std::string& wanted) { set_lane_target(wanted); },
-          "Instruction set of the model: baseline, v3 or v4 (default: the processor's best)")
+          "Instruction set of the model: baseline, v2, v3 or v4 (default: the processor's best)")
       ->type_name("NAME");
   command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator");
   CLI::Option* size = command->get_option("--size");
