@@ -11,7 +11,7 @@
 #include "tb/studies/bench_stages.hpp"
 #include "tb/studies/bench_timing.hpp"
 #include "tb/studies/peer_loads.hpp"
-#include "tb/studies/shader/paper_shader.hpp"
+#include "tb/studies/shader/quad_shader.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/memory.hpp"
 #include "tb/support/output.hpp"
@@ -144,13 +144,13 @@ class PeerBench {
   int run() {
     check_outputs({options_.common.json}, {options_.common.config_file});
     {
-      PaperShader shader({.state = picture_state_});
+      QuadShader shader({.state = picture_state_});
       renderer_ = shader.renderer();
       version_ = shader.version();
       draw_pictures(shader);
     }
     {
-      PaperShader shader({.state = series_state_});
+      QuadShader shader({.state = series_state_});
       draw_sizes(shader);
       draw_numbers(shader);
     }
@@ -177,7 +177,7 @@ class PeerBench {
   static ShaderRect all_of(const DrawState& state) { return {0, 0, state.width, state.height}; }
 
   /// The goal's three pictures. The quads lie ready, snapped for the one, in a vertex buffer for the other.
-  void draw_pictures(PaperShader& shader) {
+  void draw_pictures(QuadShader& shader) {
     const int width = picture_state_.width, height = picture_state_.height;
     pictures_.push_back({"one large quad", large_quad(width, height)});
     pictures_.push_back({"sphere of 100x100", sphere_quads(sphere_sides[0], width, height)});
@@ -208,7 +208,7 @@ class PeerBench {
   }
 
   /// `quads` quads of a side, by all three. Only the drawing counts.
-  Point draw_series(PaperShader& shader, double side, std::uint64_t quads) {
+  Point draw_series(QuadShader& shader, double side, std::uint64_t quads) {
     const ScatteredQuads scattered(options_.common.seed, side, square_);
     Point point;
     point.side = side;
@@ -258,7 +258,7 @@ class PeerBench {
     point.clocks = run.cycles;
   }
 
-  void draw_sizes(PaperShader& shader) {
+  void draw_sizes(QuadShader& shader) {
     Progress progress("bench --peers: sizes",
                       static_cast<std::uint64_t>(std::bit_width(static_cast<unsigned>(square_))) - 1,
                       options_.common.show_progress());
@@ -270,7 +270,7 @@ class PeerBench {
     }
   }
 
-  void draw_numbers(PaperShader& shader) {
+  void draw_numbers(QuadShader& shader) {
     const auto fitting =
         static_cast<std::uint64_t>(32.0 * static_cast<double>(options_.fragments) / (number_side * number_side));
     Progress progress("bench --peers: numbers", 6, options_.common.show_progress());
@@ -343,7 +343,7 @@ class PeerBench {
     const std::vector<SnappedQuad> snapped = snap(quads, config, state);
     ShaderQuads vertices(state.attributes);
     for (const SnappedQuad& quad : snapped) vertices.add(quad, config);
-    PaperShader shader({.state = state});
+    QuadShader shader({.state = state});
     shader.load(vertices);
     for (std::size_t q = 0; q < snapped.size(); ++q) {
       const golden::TruthQuad truth(snapped[q], config, state);
@@ -587,7 +587,7 @@ class PeerBench {
 }  // namespace
 
 int run_peer_bench(const PeerBenchOptions& options, const std::vector<std::string>& arguments) {
-  PaperShader::require();
+  QuadShader::require();
   return PeerBench(options, arguments).run();
 }
 
