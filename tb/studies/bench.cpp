@@ -301,9 +301,7 @@ int bench(BenchOptions& options, bool size_given, bool fragments_given, const st
   }
   if (options.peers) {
     if (!size_given) options.speed.common.size = peers_size;
-    return run_peer_bench(
-        {options.speed.common, options.repeat.value_or(peers_repeat), options.speed.fragments, options.speed.no_rtl},
-        arguments);
+    return run_peer_bench({options.speed.common, options.repeat.value_or(peers_repeat)}, arguments);
   }
   if (options.skips) {
     if (!size_given) options.speed.common.size = skips_size;
@@ -335,7 +333,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
            "  orange  of a quad left out by depth\n"
            "  yellow  of a quad left out because it is a line\n"
            "  red     of a culled quad\n"
-           "--peers: CPU time on one thread; scripts/peers_plot.py draws the JSON.\n"
+           "--peers: CPU time of a picture on one thread, for each instruction set; errors of shaders in fp32.\n"
            "--cliffs: CPU time per fragment on one thread, divided by the engine's least (tb/studies/README.md).",
            "0 done; 1 bound exceeded, engines differ, or a skip changed fragments that it must keep; 2 usage or input "
            "error; 3 missing tool",
@@ -352,7 +350,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       command->add_flag("--skips", options->skips, "Clocks and work without skips, with each and with all")
           ->group(studies)
           ->excludes(error);
-  CLI::Option* peers = command->add_flag("--peers", options->peers, "The model against the papers' shader on OpenGL")
+  CLI::Option* peers = command->add_flag("--peers", options->peers, "The model against shaders on OpenGL")
                            ->group(studies)
                            ->excludes(error)
                            ->excludes(skips);

@@ -6,6 +6,7 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <map>
 #include <stdexcept>
 
 namespace quadrille::tb {
@@ -16,7 +17,8 @@ constexpr std::array<std::array<GLuint, indices_per_quad>, 2> corners_of{{{0, 1,
 
 /// Clearing a target of floats by drawing takes llvmpipe two thirds of the time of glClear.
 const ShaderSource clear_source{
-    "#version 450 core\nvoid main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }",
+    "#version 450 core\nvoid main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); "
+    "}",
     "#version 450 core\nlayout(location = 0) out vec4 target;\nvoid main() { target = vec4(0); }"};
 
 GLuint compile(GLenum stage, const std::string& text) {
@@ -60,14 +62,18 @@ struct QuadShader::Impl {
   ShaderVariant variant;
   ShaderTargets targets;
   DrawState state;
+  bool snapped;
+  ShaderSource source;
   Triangles triangles;
+  std::map<ShaderForm, GLuint> programs;  ///< those that were chosen
   GLuint program = 0, clear_program = 0, corners = 0, frame = 0, depth = 0;
   std::size_t loaded = 0;  ///< quads
   std::vector<GLuint> textures;
   std::vector<float> numbers;
   std::vector<ShaderPixel> pixels;
 
-  explicit Impl(const Settings& settings) : state(settings.state), triangles(settings.triangles) {
+  explicit Impl(const Settings& settings)
+      : state(settings.state), snapped(settings.snapped), source(settings.source), triangles(settings.triangles) {
     variant = {.form = settings.form,
                .picture = settings.picture,
                .attributes = state.attributes,
@@ -77,8 +83,7 @@ struct QuadShader::Impl {
                .attributes_over_w = settings.snapped || state.perspective};
     targets = shader_targets(variant);
     make_targets();
-    program = link(settings.source.fragment.empty() ? quad_shader_source(variant) : settings.source);
-    set_uniforms(settings.snapped);
+    choose(settings.form, settings.triangles);
     make_vertices();
     glViewport(0, 0, state.width, state.height);
     if (variant.picture) {
@@ -125,8 +130,17 @@ struct QuadShader::Impl {
                              std::to_string(state.height));
   }
 
-  void set_uniforms(bool snapped) const {
+  void choose(ShaderForm form, Triangles of_quad) {
+    triangles = of_quad;
+    variant.form = form;
+    GLuint& own = programs[form];
+    if (own == 0) own = link(source.fragment.empty() ? quad_shader_source(variant) : source);
+    program = own;
     glUseProgram(program);
+    set_uniforms();
+  }
+
+  void set_uniforms() const {
     const auto place = [&](const char* name) { return glGetUniformLocation(program, name); };
     glUniform2f(place("viewport"), static_cast<float>(state.width), static_cast<float>(state.height));
     glUniform1f(place("to_centre"), snapped ? 0.5F : 0.0F);
@@ -175,6 +189,8 @@ void QuadShader::require() { GlContext(); }
 std::string QuadShader::renderer() const { return impl_->context.renderer(); }
 std::string QuadShader::version() const { return impl_->context.version(); }
 
+void QuadShader::choose(ShaderForm form, Triangles triangles) { impl_->choose(form, triangles); }
+
 void QuadShader::load(const ShaderQuads& quads) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
@@ -184,9 +200,9 @@ void QuadShader::load(const ShaderQuads& quads) {
   glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(quads.numbers().size_bytes()), quads.numbers().data(),
                GL_STATIC_DRAW);
   std::vector<GLuint> indices;
-  for (std::size_t q = 0; q < impl_->loaded; ++q)
-    for (const GLuint corner : corners_of[static_cast<std::size_t>(impl_->triangles)])
-      indices.push_back(static_cast<GLuint>(4 * q) + corner);
+  for (const auto& corners : corners_of)
+    for (std::size_t q = 0; q < impl_->loaded; ++q)
+      for (const GLuint corner : corners) indices.push_back(static_cast<GLuint>(4 * q) + corner);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(GLuint)), indices.data(),
                GL_STATIC_DRAW);
   Impl::no_error("loading vertices");
@@ -212,6 +228,7 @@ void QuadShader::draw_picture() {
 }
 
 void QuadShader::draw(std::size_t first, std::size_t count) {
+  first += impl_->triangles == Triangles::split_012_023 ? impl_->loaded : 0;
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count * indices_per_quad), GL_UNSIGNED_INT,
                  reinterpret_cast<const void*>(first * indices_per_quad * sizeof(GLuint)));
   glFinish();

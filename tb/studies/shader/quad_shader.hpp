@@ -45,18 +45,18 @@ struct ShaderPixel {
   std::array<float, max_attribute_slots> attribute{};
 };
 
-/// Draws into RGBA32F targets of the viewport's size. Without a depth buffer the last fragment of a pixel stays, and the
-/// shader kills what the two triangles of a quad have outside it. To be used on the thread that made it.
+/// Draws into RGBA32F targets of the viewport's size. Without a depth buffer the last fragment of a pixel stays, and
+/// the shader kills what the two triangles of a quad have outside it. To be used on the thread that made it.
 class QuadShader {
  public:
   struct Settings {
     DrawState state;  ///< its attributes count
     bool weights = false;
-    bool snapped = true;       ///< which of the two forms of ShaderQuads is drawn
+    bool snapped = true;  ///< which of the two forms of ShaderQuads is drawn
     ShaderForm form = ShaderForm::printed;
     Triangles triangles = Triangles::split_012_023;  ///< where an eye in the hull needs them, as coverage says
-    bool picture = false;      ///< ShaderVariant::picture, with a depth buffer
-    ShaderSource source = {};  ///< a test puts faults here; empty: quad_shader_source()
+    bool picture = false;                            ///< ShaderVariant::picture, with a depth buffer
+    ShaderSource source = {};                        ///< a test puts faults here; empty: quad_shader_source()
   };
   /// Throws EnvironmentError where there is no OpenGL: not in this build, or not on this machine.
   explicit QuadShader(const Settings& settings);
@@ -71,6 +71,8 @@ class QuadShader {
   std::string renderer() const;
   std::string version() const;
 
+  /// Another form and other triangles from now on; a form is compiled when it is first chosen.
+  void choose(ShaderForm form, Triangles triangles);
   /// Hands the quads to OpenGL; draw() takes them from there.
   void load(const ShaderQuads& quads);
   /// Makes the pixels of `rect` undrawn, and waits for that.

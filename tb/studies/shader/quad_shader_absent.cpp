@@ -18,6 +18,7 @@ QuadShader::~QuadShader() = default;
 bool QuadShader::in_build() { return false; }
 std::string QuadShader::renderer() const { return {}; }
 std::string QuadShader::version() const { return {}; }
+void QuadShader::choose(ShaderForm, Triangles) {}
 void QuadShader::load(const ShaderQuads&) {}
 void QuadShader::clear(const ShaderRect&) {}
 void QuadShader::draw_picture() {}

@@ -27,9 +27,9 @@ flat LINK vec2 origin;
 #endif
 )";
 
-/// Every vertex fetches its quad. The position is in homogeneous window coordinates; OpenGL gets it with z = 0, so that of
-/// its clip volume |x|, |y|, |z| <= w nothing but the viewport and w >= 0 is left: what lies behind the eye goes (section
-/// 3.2), depth is the fragment shader's (section 4.3).
+/// Every vertex fetches its quad. The position is in homogeneous window coordinates; OpenGL gets it with z = 0, so that
+/// of its clip volume |x|, |y|, |z| <= w nothing but the viewport and w >= 0 is left: what lies behind the eye goes
+/// (section 3.2), depth is the fragment shader's (section 4.3).
 constexpr const char* vertex_text = R"(
 uniform samplerBuffer quads;   // of a vertex X, Y, W, k: k times the given vertex; Z, then attributes
 uniform vec2 viewport;         // pixels
@@ -237,9 +237,9 @@ ShaderSource quad_shader_source(const ShaderVariant& variant) {
       number("TARGETS", shader_targets(variant).all) + number("DEPTH", variant.depth) +
       number("WEIGHTS", variant.weights) + boolean("PERSPECTIVE", variant.perspective) +
       boolean("ATTRIBUTES_OVER_W", variant.attributes_over_w) + std::string(mean_value_quad_glsl);
-  return {head + "#define LINK out\n" + interface_text + vertex_text,
-          head + "#define LINK in\n" + interface_text + weights_text +
-              (variant.picture ? picture_text : fragment_text)};
+  return {
+      head + "#define LINK out\n" + interface_text + vertex_text,
+      head + "#define LINK in\n" + interface_text + weights_text + (variant.picture ? picture_text : fragment_text)};
 }
 
 }  // namespace quadrille::tb

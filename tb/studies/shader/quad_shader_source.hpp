@@ -11,15 +11,15 @@ enum class ShaderForm { printed, no_small_a, determinant, bilinear };
 
 struct ShaderFormInfo {
   ShaderForm form;
-  std::string_view name, summary;
-  bool mean_value;   ///< the papers' interpolation
-  bool convex_only;  ///< no other quads
+  std::string_view name;
+  bool mean_value;  ///< the papers' interpolation
 };
-inline constexpr std::array<ShaderFormInfo, 4> shader_forms{
-    {{ShaderForm::printed, "printed", "Hormann and Tarini's formulas, |A| < 1e-6 guarded as Bloomenthal does", true, false},
-     {ShaderForm::no_small_a, "no small A", "the same with A / (r r' + D) where D >= 0", true, false},
-     {ShaderForm::determinant, "determinant", "golden/shaders/mean_value_quad.glsl", true, false},
-     {ShaderForm::bilinear, "bilinear", "inverse bilinear from barycentric coordinates", false, true}}};
+inline constexpr std::array<ShaderFormInfo, 4> shader_forms{{
+    {ShaderForm::printed, "printed", true},  // Hormann and Tarini's formulas, |A| < 1e-6 guarded as Bloomenthal does
+    {ShaderForm::no_small_a, "no small A", true},    // the same with A / (r r' + D) where D >= 0
+    {ShaderForm::determinant, "determinant", true},  // golden/shaders/mean_value_quad.glsl
+    {ShaderForm::bilinear, "bilinear", false},       // inverse bilinear from barycentric coordinates, for convex quads
+}};
 
 /// The two triangles of a quad.
 enum class Triangles { split_013_123, split_012_023 };
@@ -40,8 +40,8 @@ struct ShaderVariant {
   friend bool operator==(const ShaderVariant&, const ShaderVariant&) = default;
 };
 
-/// RGBA32F targets: the first is (a0, a1, z, state), further ones four attributes each, the last the weights, if wanted.
-/// The state is 0 where nothing was drawn, 2 at a front-facing fragment of the printed form, else 1.
+/// RGBA32F targets: the first is (a0, a1, z, state), further ones four attributes each, the last the weights, if
+/// wanted. The state is 0 where nothing was drawn, 2 at a front-facing fragment of the printed form, else 1.
 struct ShaderTargets {
   static constexpr int attributes_in_first = 2;
 

@@ -309,7 +309,8 @@ TEST_F(OpenGl, AWrongShaderDoesNotAgree) {
       {"one of the quad's triangles",
        {"fig1_flat",
         [](ShaderSource s) {
-          s.vertex = replaced(s.vertex, "  vec4 x = ", "  if ((own & 3) == 2) gl_Position = vec4(0, 0, 0, 1);\n  vec4 x = ");
+          s.vertex =
+              replaced(s.vertex, "  vec4 x = ", "  if ((own & 3) == 2) gl_Position = vec4(0, 0, 0, 1);\n  vec4 x = ");
           return s;
         }}},
       {"nothing killed",
@@ -321,15 +322,16 @@ TEST_F(OpenGl, AWrongShaderDoesNotAgree) {
       {"corners of a texture coordinate",
        {"fig7_floor",
         [](ShaderSource s) {
-          s.vertex = replaced(s.vertex, "fetch(first + 2, v)[c], fetch(first + 3, v)[c]", "fetch(first + 3, v)[c], fetch(first + 2, v)[c]");
+          s.vertex = replaced(s.vertex, "fetch(first + 2, v)[c], fetch(first + 3, v)[c]",
+                              "fetch(first + 3, v)[c], fetch(first + 2, v)[c]");
           return s;
         }}},
   };
   for (const auto& [what, fault] : faults) {
     const DrawState state = draw_state(true);
     QuadShader shader({.state = state,
-                        .weights = true,
-                        .source = fault.second(quad_shader_source({.attributes = attributes, .weights = true}))});
+                       .weights = true,
+                       .source = fault.second(quad_shader_source({.attributes = attributes, .weights = true}))});
     const Agreement found = compare(fault.first, shader, state);
     EXPECT_GT(found.wrong + found.far_apart, 10u) << what;
   }
