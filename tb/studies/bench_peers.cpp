@@ -23,7 +23,6 @@ namespace {
 
 constexpr int error_side = 128;
 constexpr std::uint64_t error_pixels = 8'000;
-constexpr double alike = 0x1p-10;  ///< at most so different are u, v and depth of a pixel that both draw alike
 
 /// The model's speed in the fastest mean value form's, picture by picture.
 struct Goal {
@@ -36,6 +35,8 @@ struct ShaderRuns {
   ShaderForm form;
   Triangles triangles;
   std::vector<double> seconds{};
+  double difference = 0;           ///< largest of u, v and depth from the model's, where both draw
+  std::uint64_t other_pixels = 0;  ///< that one of the two draws
 
   std::string_view name() const { return shader_forms[static_cast<std::size_t>(form)].name; }
   bool mean_value() const { return shader_forms[static_cast<std::size_t>(form)].mean_value; }
@@ -54,7 +55,7 @@ struct Picture {
   std::vector<WindowQuad> quads;
   std::vector<ShaderRuns> shaders{};
   std::vector<TargetRuns> targets{};
-  std::uint64_t model_pixels = 0, shader_pixels = 0, alike_pixels = 0;
+  std::uint64_t pixels = 0;  ///< of the model
 
   const ShaderRuns& fastest() const {
     const auto time = [](const ShaderRuns& runs) { return runs.mean_value() ? median(runs.seconds) : INFINITY; };
@@ -174,22 +175,25 @@ class PeerBench {
         }
         progress.set(++done, picture.name);
       }
-      shader.choose(ShaderForm::determinant, Triangles::split_013_123);
-      shader.draw_picture();
-      compare(shader.read({0, 0, width, height}), image, picture);
+      picture.pixels = static_cast<std::uint64_t>(std::ranges::count_if(image.depth(), [](float z) { return z < 1; }));
+      for (ShaderRuns& runs : picture.shaders) {
+        shader.choose(runs.form, runs.triangles);
+        shader.draw_picture();
+        compare(shader.read({0, 0, width, height}), image, runs);
+      }
     }
     set_lane_target(before);
   }
 
-  static void compare(std::span<const ShaderPixel> shader, DepthImage<float>& image, Picture& picture) {
+  static void compare(std::span<const ShaderPixel> shader, DepthImage<float>& image, ShaderRuns& runs) {
     const auto z = image.depth(), u = image.attribute(0), v = image.attribute(1);
     for (std::size_t i = 0; i < shader.size(); ++i) {
       const bool drawn = z[i] < 1;
-      picture.model_pixels += drawn ? 1 : 0;
-      picture.shader_pixels += shader[i].drawn ? 1 : 0;
-      const float difference = std::max({std::fabs(shader[i].z - z[i]), std::fabs(shader[i].attribute[0] - u[i]),
-                                         std::fabs(shader[i].attribute[1] - v[i])});
-      picture.alike_pixels += drawn && shader[i].drawn && difference <= alike ? 1 : 0;
+      if (drawn != shader[i].drawn) ++runs.other_pixels;
+      if (!drawn || !shader[i].drawn) continue;
+      for (const float difference : {shader[i].z - z[i], shader[i].attribute[0] - u[i], shader[i].attribute[1] - v[i]})
+        runs.difference =
+            std::isfinite(difference) ? std::max(runs.difference, std::fabs(double{difference})) : INFINITY;
     }
   }
 
@@ -220,32 +224,26 @@ class PeerBench {
         text,
         "%s\nshader: %s, OpenGL %s; model: compiler %s; processor: %s; configuration %s\n\n"
         "A picture of %dx%d: u, v and depth, depth-tested, clear included. CPU ms on one thread, medians of %d "
-        "alternating runs\n\n%-18s %8s %9s",
+        "alternating runs;\nlargest difference of u, v and depth from the model's, pixels that one of the two "
+        "draws\n\n%-18s %8s %-12s %11s %11s %10s %9s\n",
         golden::command_line(arguments_).c_str(), renderer_.c_str(), version_.c_str(), __VERSION__, processor().c_str(),
-        summary(config_).c_str(), state_.width, state_.height, options_.repeat, "", "quads", "triangles");
-    for (const ShaderFormInfo& info : shader_forms) std::fprintf(text, " %12s", std::string(info.name).c_str());
+        summary(config_).c_str(), state_.width, state_.height, options_.repeat, "", "quads", "form", "013+123 ms",
+        "012+023 ms", "difference", "one draws");
     for (const Picture& p : pictures_)
-      for (std::size_t split = 0; split < 2; ++split) {
-        std::fprintf(text, "\n%-18s %8zu %9s", p.name, p.quads.size(), p.shaders[split].split());
-        for (std::size_t form = 0; form < shader_forms.size(); ++form)
-          std::fprintf(text, " %12.2f", 1e3 * median(p.shaders[2 * form + split].seconds));
+      for (std::size_t i = 0; i < p.shaders.size(); i += 2) {
+        const ShaderRuns &one = p.shaders[i], &other = p.shaders[i + 1];
+        std::fprintf(text, "%-18s %8zu %-12s %11.2f %11.2f %10.1e %9llu\n", p.name, p.quads.size(),
+                     std::string(one.name()).c_str(), 1e3 * median(one.seconds), 1e3 * median(other.seconds),
+                     one.difference, static_cast<unsigned long long>(one.other_pixels));
       }
     std::fprintf(text,
-                 "\n\nThe model's speed in that of the fastest mean value form\n\n%-18s %-9s %9s %9s %7s %15s %7s %s\n",
-                 "", "lanes", "model ms", "shader ms", "speed", "of a round", "goal", "");
+                 "\nThe model's speed in that of the fastest mean value form\n\n%-18s %-9s %9s %9s %7s %15s %7s\n", "",
+                 "lanes", "model ms", "shader ms", "speed", "of a round", "goal");
     for (const Picture& p : pictures_)
       for (const TargetRuns& t : p.targets) print_target(text, p, t);
-    for (const Picture& p : pictures_)
-      std::fprintf(text, "%s: pixels %llu of the model, %llu of the shader, %.3f %% alike\n", p.name,
-                   static_cast<unsigned long long>(p.model_pixels), static_cast<unsigned long long>(p.shader_pixels),
-                   100 * alike_share(p));
     print_errors(text);
   }
 
-  static double alike_share(const Picture& p) {
-    return static_cast<double>(p.alike_pixels) /
-           static_cast<double>(std::max<std::uint64_t>(1, std::max(p.model_pixels, p.shader_pixels)));
-  }
   double goal_of(const Picture& p, const TargetRuns& t) const {
     return t.goal == nullptr ? 0 : t.goal->speed[static_cast<std::size_t>(&p - pictures_.data())];
   }
@@ -294,12 +292,14 @@ class PeerBench {
     for (const Picture& p : pictures_) {
       nlohmann::ordered_json entry{{"name", p.name},
                                    {"quads", p.quads.size()},
-                                   {"model_pixels", p.model_pixels},
-                                   {"shader_pixels", p.shader_pixels},
-                                   {"alike", alike_share(p)},
+                                   {"pixels", p.pixels},
                                    {"fastest", {{"form", p.fastest().name()}, {"triangles", p.fastest().split()}}}};
       for (const ShaderRuns& s : p.shaders)
-        entry["shaders"].push_back({{"form", s.name()}, {"triangles", s.split()}, {"cpu_seconds", s.seconds}});
+        entry["shaders"].push_back({{"form", s.name()},
+                                    {"triangles", s.split()},
+                                    {"cpu_seconds", s.seconds},
+                                    {"difference", s.difference},
+                                    {"other_pixels", s.other_pixels}});
       for (const TargetRuns& t : p.targets) {
         nlohmann::ordered_json target{{"lanes", t.name}, {"measured", t.measured}};
         if (t.goal != nullptr) target["goal"] = goal_of(p, t);
