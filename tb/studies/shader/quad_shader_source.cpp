@@ -22,7 +22,7 @@ noperspective LINK vec3 linear;
 flat LINK vec4 vx, vy, vw, vk, value[VALUES];   // z, attributes
 #if NULL_VECTOR
 flat LINK vec4 n;
-flat LINK vec2 origin;
+flat LINK vec3 origin;   // a pixel near the quad, and whether it is turned
 #endif
 #endif
 )";
@@ -88,7 +88,7 @@ void main() {
   vec4 divisor = FORM == PRINTED ? w : vec4(1.0);
 #if NULL_VECTOR
   n = null;
-  origin = near;
+  origin = vec3(near, turned);
   x = sx;
   y = sy;
 #endif
@@ -120,14 +120,14 @@ float quad_t(vec2 p) {
 #elif FORM == BILINEAR
 vec4 weights(vec2 p) {
   vec4 a;
-  mean_value_t(vx, vy, vw, n, p - origin, a);
+  mean_value_t(vx, vy, vw, n, p - origin.xy, a);
   a /= -n.w;
   vec4 m = n / n.w;
   float t = bilinear_t(m.x * m.z - m.y, a.x, a.z, a.x * m.z + a.z * m.x - a.y);
   return a + t * m;
 }
 #elif FORM == DETERMINANT
-vec4 weights(vec2 p) { return mean_value_weights(vx, vy, vw, n, p - origin); }
+vec4 weights(vec2 p) { return mean_value_weights(vx, vy, vw, n, p - origin.xy); }
 #else
 #if PICTURE
 const vec4 w = vec4(1.0);
@@ -205,6 +205,9 @@ void main() {
     result[i < 3 ? i - 1 : i + 1] = sum(m * value[i]) / (PERSPECTIVE ? over_w : all);
 #if WEIGHTS
   vec4 lambda = PERSPECTIVE ? m * vk / over_w : FORM == PRINTED ? m : m * vw / all;
+#if NULL_VECTOR
+  if (origin.z != 0.0) lambda = lambda.zwxy;
+#endif
   for (int i = 0; i < 4; ++i) result[TARGETS * 4 - 4 + i] = lambda[i];
 #endif
   for (int i = 0; i < TARGETS; ++i)
