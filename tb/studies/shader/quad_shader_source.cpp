@@ -113,15 +113,10 @@ float bilinear_t(float square, float a0, float a2, float middle) {
 #if PICTURE && FORM == BILINEAR
 float quad_t(vec2 p) { return bilinear_t(square, linear.x, linear.y, linear.z); }
 #elif PICTURE && FORM == DETERMINANT
-float quad_t(vec2 p) {
-  vec4 a;
-  return mean_value_t(vx, vy, vec4(1.0), n, p, a);
-}
+float quad_t(vec2 p) { return mean_value_t(vx, vy, vec4(1.0), n, p).t; }
 #elif FORM == BILINEAR
 vec4 weights(vec2 p) {
-  vec4 a;
-  mean_value_t(vx, vy, vw, n, p - origin.xy, a);
-  a /= -n.w;
+  vec4 a = mean_value_t(vx, vy, vw, n, p - origin.xy).a / -n.w;
   vec4 m = n / n.w;
   float t = bilinear_t(m.x * m.z - m.y, a.x, a.z, a.x * m.z + a.z * m.x - a.y);
   return a + t * m;

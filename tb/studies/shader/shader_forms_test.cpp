@@ -227,7 +227,7 @@ TEST_F(ShaderForms, AWrongFormDoesNot) {
            {ShaderForm::no_small_a, "product + inner", "product + 0.9999 * inner"},
            {ShaderForm::no_small_a, "lessThan(inner", "greaterThan(inner"},
            {ShaderForm::determinant, "r.x * a.x - r.y", "r.x * a.x - 0.9999 * r.y"},
-           {ShaderForm::determinant, "a - t * n", "a - 0.9999 * t * n"}}) {
+           {ShaderForm::determinant, "result.a - result.t * n", "result.a - 0.9999 * result.t * n"}}) {
     ShaderSource source = quad_shader_source({.form = form, .weights = true});
     source.fragment = replaced(source.fragment, search, by);
     QuadShader shader({.state = draw_state(), .weights = true, .form = form, .source = source});
