@@ -385,7 +385,8 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
           ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40))
           ->capture_default_str()
           ->excludes(error)
-          ->excludes(skips);
+          ->excludes(skips)
+          ->excludes(peers);
   command->add_option("--limit-fragments", options->limit_fragments, "Fragments per input, whole quads, at least 16")
       ->type_name("N")
       ->check(whole_number())
@@ -395,9 +396,10 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   command
       ->add_option_function<std::string>(
           "--lanes", [](const std::string& wanted) { set_lane_target(wanted); },
-          "Instruction set of the model: baseline, v3 or v4 (default: the processor's best)")
-      ->type_name("NAME");
-  command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator");
+          "Instruction set of the model: baseline, v3 or v4 (default: the processor's best; --peers: each)")
+      ->type_name("NAME")
+      ->excludes(peers);
+  command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator")->excludes(peers);
   CLI::Option* size = command->get_option("--size");
   size->excludes(cliffs);
   size->default_str("512x512; --error: 128x128; --skips: 256x256; --peers: 1920x1080");

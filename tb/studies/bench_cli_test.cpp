@@ -106,7 +106,8 @@ TEST_F(Cli, BenchSkipsReports) {
 TEST_F(Cli, BenchPeersRefuses) {
   refuses(2, "bench --peers --error", {"--peers", "--error"});
   refuses(2, "bench --peers --skips", {"--peers", "--skips"});
-  refuses(2, "bench --peers --quad-size 8", {"--quad-size", "--peers"});
+  for (const std::string option : {"--quad-size 8", "--fragments 2000", "--lanes baseline", "--no-rtl"})
+    refuses(2, "bench --peers " + option, {"--peers", option.substr(0, option.find(' '))});
   refuses(2, "bench --peers --scene sphere", {"--scene", "--error"});
   const Outcome without = run("bench --peers --json peers.json", "__EGL_VENDOR_LIBRARY_DIRS=/nonexistent");
   EXPECT_EQ(without.status, 3);
