@@ -46,6 +46,7 @@ struct ShaderRuns {
 struct TargetRuns {
   std::string name;
   const Goal* goal = nullptr;
+  std::string label() const { return goal == nullptr ? name : name + " " + std::string(goal->instructions); }
   bool measured = false;  ///< or the machine, or this build, lacks it
   std::vector<double> seconds{};
 };
@@ -85,6 +86,12 @@ double cpu_seconds(Work&& work) {
   work();
   return cpu.seconds();
 }
+
+#ifdef __clang__
+constexpr const char* compiler = __VERSION__;
+#else
+constexpr const char* compiler = "GCC " __VERSION__;
+#endif
 
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
@@ -222,11 +229,11 @@ class PeerBench {
   void print(std::FILE* text) const {
     std::fprintf(
         text,
-        "%s\nshader: %s, OpenGL %s; model: compiler %s; processor: %s; configuration %s\n\n"
+        "%s\nshader: %s, OpenGL %s; model: %s; processor: %s; configuration %s\n\n"
         "A picture of %dx%d: u, v and depth, depth-tested, clear included. CPU ms on one thread, medians of %d "
         "alternating runs;\nlargest difference of u, v and depth from the model's, pixels that one of the two "
         "draws\n\n%-18s %8s %-12s %11s %11s %10s %9s\n",
-        golden::command_line(arguments_).c_str(), renderer_.c_str(), version_.c_str(), __VERSION__, processor().c_str(),
+        golden::command_line(arguments_).c_str(), renderer_.c_str(), version_.c_str(), compiler, processor().c_str(),
         summary(config_).c_str(), state_.width, state_.height, options_.repeat, "", "quads", "form", "013+123 ms",
         "012+023 ms", "difference", "one draws");
     for (const Picture& p : pictures_)
@@ -237,7 +244,7 @@ class PeerBench {
                      one.difference, static_cast<unsigned long long>(one.other_pixels));
       }
     std::fprintf(text,
-                 "\nThe model's speed in that of the fastest mean value form\n\n%-18s %-9s %9s %9s %7s %15s %7s\n", "",
+                 "\nThe model's speed in that of the fastest mean value form\n\n%-18s %-11s %9s %9s %7s %15s %7s\n", "",
                  "lanes", "model ms", "shader ms", "speed", "of a round", "goal");
     for (const Picture& p : pictures_)
       for (const TargetRuns& t : p.targets) print_target(text, p, t);
@@ -251,11 +258,11 @@ class PeerBench {
   void print_target(std::FILE* text, const Picture& p, const TargetRuns& t) const {
     const double goal = goal_of(p, t);
     if (!t.measured) {
-      std::fprintf(text, "%-18s %-9s %51.1f not measured, open\n", p.name, t.name.c_str(), goal);
+      std::fprintf(text, "%-18s %-11s %51.1f not measured, open\n", p.name, t.label().c_str(), goal);
       return;
     }
     const auto [speed, least, most] = p.speed(t);
-    std::fprintf(text, "%-18s %-9s %9.2f %9.2f %7.2f %7.2f-%7.2f", p.name, t.name.c_str(), 1e3 * median(t.seconds),
+    std::fprintf(text, "%-18s %-11s %9.2f %9.2f %7.2f %7.2f-%7.2f", p.name, t.label().c_str(), 1e3 * median(t.seconds),
                  1e3 * median(p.fastest().seconds), speed, least, most);
     if (goal > 0) std::fprintf(text, " %7.1f %s", goal, speed >= goal ? "met" : "not met");
     std::fputs("\n", text);
@@ -287,7 +294,7 @@ class PeerBench {
     json["repeat"] = options_.repeat;
     json["renderer"] = renderer_;
     json["opengl"] = version_;
-    json["compiler"] = __VERSION__;
+    json["compiler"] = compiler;
     json["processor"] = processor();
     for (const Picture& p : pictures_) {
       nlohmann::ordered_json entry{{"name", p.name},
@@ -302,7 +309,10 @@ class PeerBench {
                                     {"other_pixels", s.other_pixels}});
       for (const TargetRuns& t : p.targets) {
         nlohmann::ordered_json target{{"lanes", t.name}, {"measured", t.measured}};
-        if (t.goal != nullptr) target["goal"] = goal_of(p, t);
+        if (t.goal != nullptr) {
+          target["instructions"] = t.goal->instructions;
+          target["goal"] = goal_of(p, t);
+        }
         if (t.measured) {
           const auto [speed, least, most] = p.speed(t);
           target["cpu_seconds"] = t.seconds;
