@@ -35,7 +35,6 @@ LONG = {
     "tb/commands/sweep.cpp": (730, COMMAND),
     "tb/studies/bench.cpp": (450, COMMAND),
     "tb/studies/bench_cliffs.cpp": (430, COMMAND),
-    "tb/studies/bench_peers.cpp": (600, COMMAND),
     "tb/studies/compare.cpp": (600, COMMAND),
     "tb/studies/stress.cpp": (470, COMMAND),
     "tb/studies/stress_cli_test.cpp": (450, "a test for each option of one command"),

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Smoke tests of compare_plot.py, peers_plot.py, stress_plot.py and of the module that they draw with, on made-up reports.
+"""Smoke tests of compare_plot.py, stress_plot.py and of the module that they draw with, on made-up reports.
 
   scripts/plots_test.py
 """
@@ -18,7 +18,6 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import compare_plot  # noqa: E402
-import peers_plot  # noqa: E402
 import stress_plot  # noqa: E402
 from report import plot  # noqa: E402
 
@@ -31,19 +30,6 @@ def compare_report():
               "refine": [point(10.0 ** -n, str(n), 0.01 * n, 10 ** n) for n in range(1, 5)]}
     return {"schema_version": 1, "reference": "refine:200", "input": "made_up", "size": "32x32", "title": r"A $\up$ input",
             "curves": [{"method": method, "points": points} for method, points in curves.items()]}
-
-
-def peers_report():
-    def point(pixels, quads):
-        return {"pixels": pixels, "quads": quads, "fragments": pixels * quads, "model_seconds": 1e-7 * pixels * quads,
-                "shader_seconds": 2e-8 * pixels * quads, "clocked_fragments": pixels, "clocks": 3 * pixels}
-
-    errors = [("model", 2.0 ** -15, 18), ("model", 2.0 ** -9, 12), ("shader", 1e-6, None), ("truth", 0, None), ("rtl", None, 18)]
-    return {"schema_version": 1, "command": "quadrille bench --peers", "renderer": r"made $\up$", "lanes": "v3",
-            "sizes": [point(4 ** n, 10) for n in range(8)], "numbers": [point(64, 10 ** n) for n in range(1, 5)],
-            "size_slopes": {part: {"model": -0.5, "shader": -0.25, "clocks": -1} for part in ("small", "large")}, "number_slopes": {"many": {"model": 1, "shader": 1}},
-            "errors": [{"input": "sphere", "engine": engine, "significand_bits": bits, "missing": 12, "lambda_max": value, "seconds_per_fragment": 4e-8}
-                       for engine, value, bits in errors]}
 
 
 def stress_report():
@@ -71,12 +57,6 @@ class Numbers(unittest.TestCase):
         self.assertIn("nothing to compare: twofold", figure.texts[-1].get_text())
         self.assertIn("below", " ".join(label.get_text() for label in figure.axes[0].get_yticklabels()))  # 1e-15
 
-    def test_peers(self):
-        axes, = peers_plot.draw_errors(peers_report()).axes
-        self.assertEqual(self.points(axes, plot.ENGINES["model"][0]), {(4e-8, 2.0 ** -9), (4e-8, 2.0 ** -15)})
-        model, _ = peers_plot.draw_all(peers_report())["peers_size.png"].axes[0].get_lines()
-        np.testing.assert_allclose(model.get_xydata(), [(4.0 ** n, 1e-7) for n in range(8)])
-
     def test_stress(self):
         for output, height in (("weight", -1), ("attribute", -2), ("depth", -3)):
             reflex, edge, shared = stress_plot.draw(stress_report(), output).axes
@@ -98,8 +78,7 @@ class Numbers(unittest.TestCase):
 
 
 class Programs(unittest.TestCase):
-    SCRIPTS = {"compare_plot": (compare_report, ["plot_setup.png", "plot_time.png"]), "peers_plot": (peers_report, ["peers_error.png", "peers_number.png", "peers_size.png"]),
-               "stress_plot": (stress_report, ["stress.png", "stress_attribute.png", "stress_depth.png"])}
+    SCRIPTS = {"compare_plot": (compare_report, ["plot_setup.png", "plot_time.png"]), "stress_plot": (stress_report, ["stress.png", "stress_attribute.png", "stress_depth.png"])}
 
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))

@@ -34,7 +34,7 @@ with package("python3-matplotlib"):
 BLACK, ORANGE, SKY, GREEN, BLUE, RED, PINK, GREY, VIOLET, BROWN, WINE = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7", "#707070", "#38009A", "#62461C", "#882255")
 INK, GRID = "#555555", "#dddddd"
-# Colour and symbol of what draws quads. What `bench --peers` and `stress` call float is fp64.
+# Colour and symbol of what draws quads. What `stress` calls float is fp64.
 ENGINES = {"fp32": (RED, "square"), "fp64": (SKY, "triangle-up"), "float": (SKY, "triangle-up"), "truth": (BLACK, "star"),
            "model-plain": (GREEN, "x"), "model": (BLUE, "circle"), "model-clocked": (WINE, "triangle-down"), "rtl": (PINK, "diamond"),
            "shader": (ORANGE, "cross")}

@@ -301,9 +301,7 @@ int bench(BenchOptions& options, bool size_given, bool fragments_given, const st
   }
   if (options.peers) {
     if (!size_given) options.speed.common.size = peers_size;
-    return run_peer_bench(
-        {options.speed.common, options.repeat.value_or(peers_repeat), options.speed.fragments, options.speed.no_rtl},
-        arguments);
+    return run_peer_bench({options.speed.common, options.repeat.value_or(peers_repeat)}, arguments);
   }
   if (options.skips) {
     if (!size_given) options.speed.common.size = skips_size;
@@ -335,7 +333,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
            "  orange  of a quad left out by depth\n"
            "  yellow  of a quad left out because it is a line\n"
            "  red     of a culled quad\n"
-           "--peers: CPU time on one thread; scripts/peers_plot.py draws the JSON.\n"
+           "--peers: CPU time of a picture on one thread, for each instruction set; errors of shaders in fp32.\n"
            "--cliffs: CPU time per fragment on one thread, divided by the engine's least (tb/studies/README.md).",
            "0 done; 1 bound exceeded, engines differ, or a skip changed fragments that it must keep; 2 usage or input "
            "error; 3 missing tool",
@@ -352,7 +350,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
       command->add_flag("--skips", options->skips, "Clocks and work without skips, with each and with all")
           ->group(studies)
           ->excludes(error);
-  CLI::Option* peers = command->add_flag("--peers", options->peers, "The model against the papers' shader on OpenGL")
+  CLI::Option* peers = command->add_flag("--peers", options->peers, "The model against shaders on OpenGL")
                            ->group(studies)
                            ->excludes(error)
                            ->excludes(skips);
@@ -387,7 +385,8 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
           ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40))
           ->capture_default_str()
           ->excludes(error)
-          ->excludes(skips);
+          ->excludes(skips)
+          ->excludes(peers);
   command->add_option("--limit-fragments", options->limit_fragments, "Fragments per input, whole quads, at least 16")
       ->type_name("N")
       ->check(whole_number())
@@ -397,9 +396,10 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   command
       ->add_option_function<std::string>(
           "--lanes", [](const std::string& wanted) { set_lane_target(wanted); },
-          "Instruction set of the model: baseline, v2, v3 or v4 (default: the processor's best)")
-      ->type_name("NAME");
-  command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator");
+          "Instruction set of the model: baseline, v2, v3 or v4 (default: the processor's best; --peers: each)")
+      ->type_name("NAME")
+      ->excludes(peers);
+  command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator")->excludes(peers);
   CLI::Option* size = command->get_option("--size");
   size->excludes(cliffs);
   size->default_str("512x512; --error: 128x128; --skips: 256x256; --peers: 1920x1080");

@@ -106,7 +106,8 @@ TEST_F(Cli, BenchSkipsReports) {
 TEST_F(Cli, BenchPeersRefuses) {
   refuses(2, "bench --peers --error", {"--peers", "--error"});
   refuses(2, "bench --peers --skips", {"--peers", "--skips"});
-  refuses(2, "bench --peers --quad-size 8", {"--quad-size", "--peers"});
+  for (const std::string option : {"--quad-size 8", "--fragments 2000", "--lanes baseline", "--no-rtl"})
+    refuses(2, "bench --peers " + option, {"--peers", option.substr(0, option.find(' '))});
   refuses(2, "bench --peers --scene sphere", {"--scene", "--error"});
   const Outcome without = run("bench --peers --json peers.json", "__EGL_VENDOR_LIBRARY_DIRS=/nonexistent");
   EXPECT_EQ(without.status, 3);
@@ -114,9 +115,14 @@ TEST_F(Cli, BenchPeersRefuses) {
   EXPECT_FALSE(fs::exists(file("peers.json")));
 }
 
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
 TEST_F(Cli, BenchPeersReports) {
   if (!QUADRILLE_OPENGL_FOUND) GTEST_SKIP() << "no OpenGL in this build; BenchPeersRefuses has what it says then";
-  const Outcome outcome = run("bench --peers --size 96x64 --fragments 1000 --repeat 3 --no-rtl --json -");
+  const Outcome outcome = run("bench --peers --size 96x64 --repeat 3 --json -");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json report = json::parse(outcome.out);
   ASSERT_EQ(report["pictures"].size(), 3u);
@@ -124,56 +130,49 @@ TEST_F(Cli, BenchPeersReports) {
   EXPECT_EQ(report["pictures"][1]["quads"], 100 * 100);
   EXPECT_EQ(report["pictures"][2]["quads"], 300 * 300);
   for (const json& picture : report["pictures"]) {
-    // The same input: what rounds pixels differently lies on edges.
-    const double model = picture["model_fragments"], shader = picture["shader_fragments"];
-    EXPECT_GT(model, 2000);
-    EXPECT_NEAR(shader / model, 1, 0.05) << picture["name"];
-    for (const char* runs : {"model_cpu_seconds", "shader_cpu_seconds", "readback_cpu_seconds"})
-      EXPECT_EQ(picture[runs].size(), 3u);
-    EXPECT_GT(picture["model_over_shader"], 0);
-    const json& stages = picture["stages"];
-    EXPECT_EQ(stages["other_quads"], 0);
-    EXPECT_EQ(stages["fragments"], model);
-    double cpu = 0;
-    for (const char* stage : {"setup", "walk", "coverage", "pixels"}) cpu += stages[stage]["cpu_seconds"].get<double>();
-    EXPECT_GT(cpu, 0);
-  }
-  // A viewport of 128 x 128: sides 1 to 64; 500 quads of 64 pixels are 32 x 1000 fragments.
-  ASSERT_EQ(report["sizes"].size(), 7u);
-  for (const json& point : report["sizes"]) {
-    const double pixels = point["pixels"], quads = point["quads"], fragments = point["fragments"];
-    if (pixels * quads > 500) {
-      EXPECT_NEAR(fragments / (pixels * quads), 1, 0.3) << point;
+    const double pixels = picture["pixels"];
+    EXPECT_GT(pixels, 2000);
+    ASSERT_EQ(picture["shaders"].size(), 8u);
+    double fastest = INFINITY;
+    for (const json& shader : picture["shaders"]) {
+      ASSERT_EQ(shader["cpu_seconds"].size(), 3u);
+      EXPECT_LT(shader["other_pixels"], 0.01 * pixels) << shader;
+      if (shader["form"] == "determinant") {
+        EXPECT_LT(shader["difference"], 1e-3) << shader;
+      }
+      if (shader["form"] != "bilinear") fastest = std::min(fastest, median(shader["cpu_seconds"]));
     }
-    EXPECT_GE(point["clocks"], point["clocked_fragments"]) << point;
-    // What is timed is drawn: OpenGL moves edges by a part of a pixel, small quads are all edge.
-    const double counted = point["counted_fragments"], shader = point["shader_fragments"];
-    EXPECT_NEAR(shader / counted, 1, 0.05) << point;
+    std::map<std::string, json> targets;
+    for (const json& target : picture["targets"]) targets[target["lanes"]] = target;
+    EXPECT_TRUE(targets.contains("v3") && targets["v3"].contains("goal"));
+    EXPECT_TRUE(targets.contains("v4") && targets["v4"].contains("goal"));
+    int measured = 0;
+    for (const auto& [name, target] : targets) {
+      EXPECT_EQ(target.contains("speed"), target["measured"]) << name;
+      if (!target["measured"]) continue;
+      ++measured;
+      EXPECT_DOUBLE_EQ(target["speed"], fastest / median(target["cpu_seconds"])) << name;
+      EXPECT_LE(target["speed_of_a_round"][0], target["speed_of_a_round"][1]) << name;
+    }
+    EXPECT_GE(measured, 1);
   }
-  ASSERT_EQ(report["numbers"].size(), 2u);
-  EXPECT_EQ(report["numbers"][1]["quads"], 100);
-  EXPECT_GT(report["numbers"][1]["resident_bytes"], 10'000'000);
 
-  std::set<std::string> engines;
-  std::set<int> bits;
+  std::map<std::string, json> errors;
   for (const json& entry : report["errors"]) {
-    engines.insert(entry["engine"]);
-    if (entry["engine"] == "model") bits.insert(entry["significand_bits"].get<int>());
-    EXPECT_GT(entry["fragments"], 0) << entry;
-    EXPECT_GT(entry["seconds_per_fragment"], 0) << entry;
-    if (entry["engine"] == "truth") {
-      EXPECT_EQ(entry["lambda_max"], 0);
-    }
-    // fp32 where the formulas are well conditioned: between a unit of rounding and a thousand.
-    if (entry["engine"] == "shader" && entry["input"] == "fig10_concave") {
-      EXPECT_GT(entry["lambda_max"], 0x1p-25);
-      EXPECT_LT(entry["lambda_max"], 0x1p-14);
-    }
+    errors[entry["input"]] = entry;
+    EXPECT_GT(entry["pixels"], 0) << entry;
+    EXPECT_EQ(entry["forms"].size(), 3u) << entry;
   }
-  EXPECT_EQ(engines, (std::set<std::string>{"float", "model", "shader", "truth"}));
-  EXPECT_EQ(bits.size(), 15u);
-  EXPECT_EQ(*bits.begin(), 12);
-  EXPECT_EQ(*bits.rbegin(), 26);
+  EXPECT_GT(errors.size(), 50u);
+  for (const char* form : {"no small A", "determinant"}) {
+    const json& concave = errors["fig10_concave"]["forms"][form];
+    EXPECT_GT(concave["weight"], 0x1p-25) << form;
+    EXPECT_LT(concave["weight"], 0x1p-18) << form;
+    EXPECT_EQ(concave["undefined"], 0) << form;
+  }
+  EXPECT_GT(errors["on_edge"]["forms"]["printed"]["undefined"], 0);
+  EXPECT_EQ(errors["on_edge"]["forms"]["determinant"]["undefined"], 0);
+  EXPECT_GT(errors["reflex"]["condition"], 100 * errors["shared_edge"]["condition"].get<double>());
 }
 
 TEST_F(Cli, BenchCliffsRefuses) {

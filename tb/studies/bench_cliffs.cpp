@@ -12,7 +12,7 @@
 #include "tb/studies/bench_timing.hpp"
 #include "tb/studies/bench_widths.hpp"
 #include "tb/studies/method_engine.hpp"
-#include "tb/studies/shader/paper_shader.hpp"
+#include "tb/studies/shader/quad_shader.hpp"
 #include "tb/support/environment_error.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
@@ -163,7 +163,7 @@ Draw judged(const Load& load) {
 
 bool has_shader() {
   try {
-    PaperShader::require();
+    QuadShader::require();
     return true;
   } catch (const EnvironmentError&) {
     return false;

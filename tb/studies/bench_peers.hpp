@@ -1,9 +1,8 @@
-// The model beside what would be used instead of it: the papers' fp32 shader on OpenGL, on one thread each.
+// The model beside what would be used instead of it: quads by fp32 shaders on OpenGL, on one thread each.
 #pragma once
 
 #include "tb/options/options.hpp"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,9 +10,7 @@ namespace quadrille::tb {
 
 struct PeerBenchOptions {
   CommonOptions common;
-  int repeat = 9;                       ///< alternating runs; medians count
-  std::uint64_t fragments = 2'000'000;  ///< about, of a point of the series
-  bool no_rtl = false;
+  int repeat = 9;  ///< alternating runs; medians count
 };
 
 /// Returns the exit status; throws EnvironmentError where there is no OpenGL.

@@ -97,15 +97,16 @@ double quickest(const std::vector<WidthCost>& costs, std::size_t target) {
 }
 
 void print_widths(std::FILE* text, const std::vector<WidthCost>& costs) {
-  std::fprintf(text, "\nModel by width, ns a covered pixel, quads of %llu to %llu fragments; ratio to the quickest case\n",
+  std::fprintf(text,
+               "\nModel by width, ns a covered pixel, quads of %llu to %llu fragments; ratio to the quickest case\n",
                static_cast<unsigned long long>(least_fragments), static_cast<unsigned long long>(most_fragments));
   std::fprintf(text, "%-14s %3s %6s %6s %9s %9s", "", "s", "guard", "quads", "pixels", "fragments");
   for (const LaneTarget target : lane_targets())
     std::fprintf(text, "  %9s ratio", (std::string(name(target)) + (can_run(target) ? "" : " -")).c_str());
   std::fputs("\n", text);
   for (const WidthCost& cost : costs) {
-    std::fprintf(text, "%-14s %3d %6d %6zu %9llu %9llu", cost.family.c_str(), cost.significand_bits, cost.align_guard_bits,
-                 cost.quads, static_cast<unsigned long long>(cost.pixels),
+    std::fprintf(text, "%-14s %3d %6d %6zu %9llu %9llu", cost.family.c_str(), cost.significand_bits,
+                 cost.align_guard_bits, cost.quads, static_cast<unsigned long long>(cost.pixels),
                  static_cast<unsigned long long>(cost.fragments));
     for (std::size_t t = 0; t < cost.ns.size(); ++t) {
       if (cost.ns[t] > 0)

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 namespace quadrille::tb {
 namespace {
@@ -51,25 +50,6 @@ std::vector<WindowQuad> sphere_quads(int n, int width, int height) {
   return golden::project_mesh(mesh, golden::frame_mesh(mesh, width, height), width, height,
                               {.attributes = golden::AttributeSet::uv})
       .quads;
-}
-
-WindowQuad ScatteredQuads::quad(std::uint32_t i) const {
-  std::seed_seq sequence{static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32), i};
-  std::mt19937 random(sequence);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * 0x1p-32 * static_cast<double>(random());
-  };
-  const double angle = uniform(0, 2 * std::numbers::pi), reach = 0.9 * side_;
-  const double x = uniform(reach, size_ - reach), y = uniform(reach, size_ - reach);
-  WindowQuad quad;
-  quad.id = i;
-  for (std::size_t corner = 0; corner < 4; ++corner) {
-    const double a = side_ * (unit_square[corner][0] - 0.5 + uniform(-0.1, 0.1));
-    const double b = side_ * (unit_square[corner][1] - 0.5 + uniform(-0.1, 0.1));
-    set_vertex(quad, corner, x + a * std::cos(angle) - b * std::sin(angle),
-               y + a * std::sin(angle) + b * std::cos(angle), uniform(0.2, 0.8), uniform(1, 2));
-  }
-  return quad;
 }
 
 }  // namespace quadrille::tb

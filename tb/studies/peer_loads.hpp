@@ -3,8 +3,6 @@
 
 #include "model/port/records.hpp"
 
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace quadrille::tb {
@@ -16,19 +14,5 @@ std::vector<WindowQuad> large_quad(int width, int height);
 
 /// A sphere of `n` quads around and `n` from pole to pole, its back too.
 std::vector<WindowQuad> sphere_quads(int n, int width, int height);
-
-/// Convex quads of about side * side pixels, turned at random, anywhere in a viewport of `size` * `size`; w of their
-/// corners between 1 and 2. The i-th quad depends on seed and i alone, its id is i.
-class ScatteredQuads {
- public:
-  /// side <= size / 2.
-  ScatteredQuads(std::uint64_t seed, double side, int size) : seed_(seed), side_(side), size_(size) {}
-  WindowQuad quad(std::uint32_t i) const;
-
- private:
-  std::uint64_t seed_;
-  double side_;
-  int size_;
-};
 
 }  // namespace quadrille::tb

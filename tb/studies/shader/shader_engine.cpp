@@ -1,7 +1,7 @@
 #include "tb/studies/shader/shader_engine.hpp"
 
 #include "golden/reference/truth.hpp"
-#include "tb/studies/shader/paper_shader.hpp"
+#include "tb/studies/shader/quad_shader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,10 @@ constexpr std::size_t quads_at_a_time = 4096;
 /// A frame buffer keeps one fragment a pixel, and an engine hands out all: a quad is drawn alone and read back.
 class ShaderEngine final : public Engine {
  public:
-  explicit ShaderEngine(const EngineSettings& settings) : settings_(settings) { PaperShader::require(); }
+  explicit ShaderEngine(const EngineSettings& settings) : settings_(settings) { QuadShader::require(); }
 
   void draw(std::span<const WindowQuad> quads, int attributes, bool weights, const SampleSink& sink) override {
-    PaperShader shader(shader_settings(attributes, weights));
+    QuadShader shader(shader_settings(attributes, weights));
     const Config config = snapping_config(settings_.config, attributes);
     const DrawState state = draw_state(attributes);
     for (std::size_t first = 0; first < quads.size(); first += quads_at_a_time) {
@@ -66,7 +66,7 @@ class ShaderEngine final : public Engine {
     return state;
   }
 
-  PaperShader::Settings shader_settings(int attributes, bool weights) const {
+  QuadShader::Settings shader_settings(int attributes, bool weights) const {
     return {.state = draw_state(attributes), .weights = weights, .snapped = settings_.snap};
   }
 

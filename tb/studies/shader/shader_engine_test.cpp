@@ -5,7 +5,8 @@
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "tb/engines/engine.hpp"
-#include "tb/studies/shader/paper_shader.hpp"
+#include "tb/studies/shader/fp32_bound.hpp"
+#include "tb/studies/shader/quad_shader.hpp"
 #include "tb/support/environment_error.hpp"
 
 #include <gtest/gtest.h>
@@ -16,49 +17,6 @@
 
 namespace quadrille::tb {
 namespace {
-
-/// Half an ulp of fp32, relative; and what GLSL 4.50 (section 4.7.1) allows beyond correct rounding, in the same unit:
-/// 2.5 ulp of a division, 2 ulp of an inverse square root, sqrt(x) = 1 / inversesqrt(x).
-constexpr double unit = 0x1p-24;
-constexpr double division_units = 5, root_units = 4 + division_units;
-/// Beyond the first order in unit, for at most some 50 operations in a row: (1 + 50 unit) is less than this.
-constexpr double higher_orders = 1.00001;
-
-/// A value and a bound of its absolute error: running error analysis (Wilkinson) in double.
-struct Bounded {
-  double value = 0, error = 0;
-};
-
-Bounded rounded(double exact) { return {exact, unit * std::fabs(exact)}; }
-Bounded with_rounding(double value, double error, double units = 1) {
-  return {value, error + units * unit * (std::fabs(value) + error)};
-}
-Bounded operator+(Bounded a, Bounded b) { return with_rounding(a.value + b.value, a.error + b.error); }
-Bounded operator-(Bounded a, Bounded b) { return with_rounding(a.value - b.value, a.error + b.error); }
-Bounded operator*(Bounded a, Bounded b) {
-  return with_rounding(a.value * b.value,
-                       std::fabs(a.value) * b.error + std::fabs(b.value) * a.error + a.error * b.error);
-}
-/// Infinite where the divisor may be 0.
-Bounded operator/(Bounded a, Bounded b) {
-  const double least = std::fabs(b.value) - b.error, quotient = a.value / b.value;
-  if (!(least > 0)) return {quotient, INFINITY};
-  return with_rounding(quotient, (a.error + std::fabs(quotient) * b.error) / least, division_units);
-}
-Bounded root(Bounded a) {
-  const double value = std::sqrt(std::max(0.0, a.value)), least = std::sqrt(std::max(0.0, a.value - a.error));
-  return with_rounding(value, value > 0 ? a.error / (value + least) : std::sqrt(a.error), root_units);
-}
-/// In any order of the additions.
-Bounded sum(const std::array<Bounded, 4>& terms) {
-  double value = 0, error = 0, magnitude = 0;
-  for (const Bounded& term : terms) {
-    value += term.value;
-    error += term.error;
-    magnitude += std::fabs(term.value) + term.error;
-  }
-  return {value, error + 3 * unit * magnitude};
-}
 
 /// What the formulas of section 4.2 may lose in fp32 at one pixel of a snapped quad.
 struct Tolerance {
@@ -153,7 +111,7 @@ double distance(const SnappedQuad& quad, int x, int y) {
 }
 
 /// Draws a scene by both, quad by quad.
-Agreement compare(const std::string& name, PaperShader& shader, const DrawState& state) {
+Agreement compare(const std::string& name, QuadShader& shader, const DrawState& state) {
   const Config config;
   Agreement result;
   for (WindowQuad quad : golden::scene_quads(golden::make_scene(name), size, size)) {
@@ -228,7 +186,7 @@ std::vector<std::string> figures() {
 }
 
 TEST(Shader, WithoutOpenGlSaysWhatIsMissing) {
-  if (PaperShader::in_build()) GTEST_SKIP() << "in this build";
+  if (QuadShader::in_build()) GTEST_SKIP() << "in this build";
   EngineSettings settings;
   settings.kind = EngineKind::shader;
   try {
@@ -242,7 +200,7 @@ TEST(Shader, WithoutOpenGlSaysWhatIsMissing) {
 class OpenGl : public testing::Test {
  protected:
   void SetUp() override {
-    if (!PaperShader::in_build()) GTEST_SKIP() << "the engine shader is not in this build";
+    if (!QuadShader::in_build()) GTEST_SKIP() << "the engine shader is not in this build";
   }
 };
 
@@ -250,7 +208,7 @@ TEST_F(OpenGl, TheShaderAgreesWithTheFormulasInDouble) {
   Agreement all;
   for (const bool perspective : {true, false}) {
     const DrawState state = draw_state(perspective);
-    PaperShader shader({.state = state, .weights = true});
+    QuadShader shader({.state = state, .weights = true});
     for (const std::string& name : figures()) {
       const Agreement one = compare(name, shader, state);
       EXPECT_EQ(one.wrong, 0u) << name << ": " << one.first;
@@ -279,7 +237,7 @@ TEST_F(OpenGl, AWrongShaderDoesNotAgree) {
       {"sign of w",
        {"fig9_a",
         [](ShaderSource s) {
-          s.fragment = replaced(s.fragment, " * sign(inverse_w)", "");
+          s.fragment = replaced(s.fragment, "sqrt(sx * sx + sy * sy) * w", "sqrt(sx * sx + sy * sy)");
           return s;
         }}},
       {"neighbour of t",
@@ -291,45 +249,47 @@ TEST_F(OpenGl, AWrongShaderDoesNotAgree) {
       {"z by eq. (10)",
        {"fig7_floor",
         [](ShaderSource s) {
-          s.fragment = replaced(s.fragment, "sum(lambda * value[0])", "sum(over_w * value[0])");
+          s.fragment = replaced(s.fragment, "sum(m * value[0]) / all", "sum(m * value[0]) / over_w");
           return s;
         }}},
       {"facing",
        {"fig10_crossed",
         [](ShaderSource s) {
-          s.fragment = replaced(s.fragment, "sum_mu < 0.0", "sum_mu > 0.0");
+          s.fragment = replaced(s.fragment, "facing < 0.0", "facing > 0.0");
           return s;
         }}},
       {"centre of the pixel off by 1e-4",
        {"fig10_convex",
         [](ShaderSource s) {
-          s.fragment = replaced(s.fragment, "gl_FragCoord.xy - 0.5", "gl_FragCoord.xy - 0.4999");
+          s.fragment = replaced(s.fragment, "gl_FragCoord.xy - to_centre", "gl_FragCoord.xy - to_centre + 1e-4");
           return s;
         }}},
       {"one of the quad's triangles",
        {"fig1_flat",
         [](ShaderSource s) {
-          s.geometry = replaced(s.geometry, "i < 4; ++i) {\n    gl_Position", "i < 3; ++i) {\n    gl_Position");
+          s.vertex =
+              replaced(s.vertex, "  vec4 x = ", "  if ((own & 3) == 2) gl_Position = vec4(0, 0, 0, 1);\n  vec4 x = ");
           return s;
         }}},
       {"nothing killed",
        {"fig10_crossed",
         [](ShaderSource s) {
-          s.fragment = replaced(s.fragment, "any(lessThan(over_w, vec4(0.0))) || ", "");
+          s.fragment = replaced(s.fragment, "any(lessThan(m * vk * over_w, vec4(0.0))) || ", "");
           return s;
         }}},
       {"corners of a texture coordinate",
        {"fig7_floor",
         [](ShaderSource s) {
-          s.geometry = replaced(s.geometry, "corner[2].values[a], corner[3]", "corner[3].values[a], corner[2]");
+          s.vertex = replaced(s.vertex, "fetch(first + 2, v)[c], fetch(first + 3, v)[c]",
+                              "fetch(first + 3, v)[c], fetch(first + 2, v)[c]");
           return s;
         }}},
   };
   for (const auto& [what, fault] : faults) {
     const DrawState state = draw_state(true);
-    PaperShader shader({.state = state,
-                        .weights = true,
-                        .source = fault.second(paper_shader_source({.attributes = attributes, .weights = true}))});
+    QuadShader shader({.state = state,
+                       .weights = true,
+                       .source = fault.second(quad_shader_source({.attributes = attributes, .weights = true}))});
     const Agreement found = compare(fault.first, shader, state);
     EXPECT_GT(found.wrong + found.far_apart, 10u) << what;
   }

@@ -1,5 +1,5 @@
 #include "golden/reference/port_number.hpp"
-#include "tb/studies/shader/paper_shader.hpp"
+#include "tb/studies/shader/quad_shader.hpp"
 
 #include <cmath>
 

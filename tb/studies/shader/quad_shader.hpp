@@ -1,9 +1,9 @@
-// Hormann and Tarini's hybrid implementation on a real OpenGL: vertex, geometry and fragment shader in fp32.
+// Quads by shaders in fp32 on a real OpenGL.
 #pragma once
 
 #include "model/port/config.hpp"
 #include "model/port/records.hpp"
-#include "tb/studies/shader/paper_shader_source.hpp"
+#include "tb/studies/shader/quad_shader_source.hpp"
 
 #include <array>
 #include <cstdint>
@@ -45,22 +45,24 @@ struct ShaderPixel {
   std::array<float, max_attribute_slots> attribute{};
 };
 
-/// Draws into RGBA32F targets of the viewport's size, without depth test: the last fragment of a pixel stays. Which
-/// pixels the two triangles of a quad have is the implementation's rule, of which the shader kills those outside. To be
-/// used on the thread that made it.
-class PaperShader {
+/// Draws into RGBA32F targets of the viewport's size. Without a depth buffer the last fragment of a pixel stays, and
+/// the shader kills what the two triangles of a quad have outside it. To be used on the thread that made it.
+class QuadShader {
  public:
   struct Settings {
     DrawState state;  ///< its attributes count
     bool weights = false;
-    bool snapped = true;       ///< which of the two forms of ShaderQuads is drawn
-    ShaderSource source = {};  ///< a test puts faults here; empty: paper_shader_source()
+    bool snapped = true;  ///< which of the two forms of ShaderQuads is drawn
+    ShaderForm form = ShaderForm::printed;
+    Triangles triangles = Triangles::split_012_023;  ///< where an eye in the hull needs them, as coverage says
+    bool picture = false;                            ///< ShaderVariant::picture, with a depth buffer
+    ShaderSource source = {};                        ///< a test puts faults here; empty: quad_shader_source()
   };
   /// Throws EnvironmentError where there is no OpenGL: not in this build, or not on this machine.
-  explicit PaperShader(const Settings& settings);
-  ~PaperShader();
-  PaperShader(const PaperShader&) = delete;
-  PaperShader& operator=(const PaperShader&) = delete;
+  explicit QuadShader(const Settings& settings);
+  ~QuadShader();
+  QuadShader(const QuadShader&) = delete;
+  QuadShader& operator=(const QuadShader&) = delete;
 
   static bool in_build();
   /// Throws as the constructor does for want of OpenGL, sooner.
@@ -69,10 +71,14 @@ class PaperShader {
   std::string renderer() const;
   std::string version() const;
 
+  /// Another form and other triangles from now on; a form is compiled when it is first chosen.
+  void choose(ShaderForm form, Triangles triangles);
   /// Hands the quads to OpenGL; draw() takes them from there.
   void load(const ShaderQuads& quads);
   /// Makes the pixels of `rect` undrawn, and waits for that.
   void clear(const ShaderRect& rect);
+  /// Clears picture and depth buffer, and draws all quads that are loaded into them.
+  void draw_picture();
   /// Draws `count` of the loaded quads from the `first` one on, and waits until they are drawn.
   void draw(std::size_t first, std::size_t count);
   /// Fragments of `count` quads from the `first` one on, those that others hide too, by an occlusion query while it

@@ -1,0 +1,63 @@
+// A picture: of each pixel the depth and the attributes of the nearest fragment, in planes of floats or doubles.
+#pragma once
+
+#include "model/port/config.hpp"
+#include "model/port/fragment_arrays.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace quadrille {
+
+/// Doubles hold every code exactly. Floats round attributes to 24 bits, and so do they depths of more than 24
+/// depth_bits before these are compared.
+template <class Real>
+class DepthImage {
+ public:
+  /// Of fragments of that configuration with so many attributes, cleared. `depth`: the test is LESS, else none.
+  DepthImage(int width, int height, int attributes, const Config& config, bool depth);
+
+  /// Depth 1, attributes 0.
+  void clear();
+  void write(const FragmentArrays& fragments);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// The numbers of all pixels, row by row from the top.
+  std::span<const Real> depth() { return plane(0); }
+  std::span<const Real> attribute(int j) { return plane(1 + static_cast<std::size_t>(j)); }
+
+ private:
+  static constexpr std::size_t most_planes = 1 + max_attribute_slots;
+  static constexpr std::size_t block_size = 512;
+  /// Fragments that wait until the memory of their pixels is near.
+  struct Block {
+    std::size_t size = 0;
+    std::array<std::uint32_t, block_size> pixel;
+    std::array<std::array<Real, block_size>, most_planes> value;
+  };
+
+  std::span<const Real> plane(std::size_t i);
+  template <std::size_t planes>
+  void append(const FragmentArrays& fragments);
+  template <std::size_t planes>
+  void settle(Block& block);
+  /// Calls f with the number of planes as a constant.
+  template <class F>
+  void with_planes(F&& f);
+
+  int width_, height_;
+  bool depth_;
+  Real depth_unit_, attribute_unit_;
+  std::vector<std::vector<Real>> planes_;
+  std::array<Block, 2> blocks_;
+  std::size_t newer_ = 0;
+};
+
+extern template class DepthImage<float>;
+extern template class DepthImage<double>;
+
+}  // namespace quadrille
