@@ -24,7 +24,6 @@ SOURCES = ("cpp", "hpp", "c", "h", "sv", "svh", "py", "sh")
 COMMAND = "one command: its options, input and output"
 LONG = {
     "golden/reference/truth.cpp": (610, "a pixel's truth is inlined as a whole, which its speed needs"),
-    "model/fast/pixel_lanes.cpp": (570, "a pixel's stages are inlined as a whole, which their speed needs"),
     "rtl/pixel_lane.sv": (480, "a pixel's stages and the registers between them"),
     "rtl/quad_setup.sv": (710, "one schedule of a quad's products"),
     "rtl/quadrille.sv": (1000, "the machine: every unit and what connects them"),

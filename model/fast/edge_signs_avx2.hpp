@@ -1,7 +1,7 @@
 // Signs of an edge function at the pixels of a tile, for float_cover.hpp, by AVX2.
 
-/// Bits row * tile + dx of words where value + dx gx + row gy is below 0, and 0; `rows` and columns from `first_four`, a
-/// multiple of 4, on.
+/// Bits row * tile + dx of words where value + dx gx + row gy is below 0, and 0; `rows` and columns from `first_four`,
+/// a multiple of 4, on.
 inline void edge_signs(std::int64_t value, std::int64_t gx, std::int64_t gy, Range rows, int first_four, int to,
                        int tile, std::uint64_t* below, std::uint64_t* zero) {
   const int words = std::max(1, tile * tile / 64), rows_of_word = 64 / tile;

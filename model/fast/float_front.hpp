@@ -7,11 +7,11 @@
 //    -0.
 //  - Numbers scale: the quad is drawn about one unit large.
 //  - Range: u, v, r <= 4, M <= 2^12; those functions are far from the smallest double. Products of three can
-//    go below 2^-126 and become 0: such an M is below 2^-120, a term with it below 2^(e - 119), e the largest exponent of
-//    the quad's numbers. Where the sums of M k and of M W are at least 2^t, t = e - 65, their E is at least t - 4, and
-//    a quotient of 2^-31 or more is of a sum with E >= t - 35: the term is below its quantum 2^(t - 54) and is nothing
-//    there either. A smaller quotient, less than half of the last bit that an output can have, is 0 in both. Lanes with
-//    a sum below FloatQuad::least_sum are for wide_lanes.hpp.
+//    go below 2^-126 and become 0: such an M is below 2^-120, a term with it below 2^(e - 119), e the largest exponent
+//    of the quad's numbers. Where the sums of M k and of M W are at least 2^t, t = e - 65, their E is at least t - 4,
+//    and a quotient of 2^-31 or more is of a sum with E >= t - 35: the term is below its quantum 2^(t - 54) and is
+//    nothing there either. A smaller quotient, less than half of the last bit that an output can have, is 0 in both.
+//    Lanes with a sum below FloatQuad::least_sum are for wide_lanes.hpp.
 
 using Real = float;
 using Code = std::int32_t;
@@ -40,7 +40,8 @@ inline unsigned out_of_range(F den_k, F den_w, const FloatQuad& quad) {
   const F scaled = num * per_unit;
   const F half = real((bits(num) & splat(INT32_MIN)) | bits(splat(0.5f)));
   const F sum = fma(scaled, rec, half);
-  if (none(at_least(keep(sum, real(splat(INT32_MAX))), splat(fused ? to.bound : std::min(to.bound, 0x1p23f))))) [[likely]]
+  if (none(at_least(keep(sum, real(splat(INT32_MAX))), splat(fused ? to.bound : std::min(to.bound, 0x1p23f)))))
+      [[likely]]
     return add(truncated(sum), splat(to.base));
   const D base = splat(static_cast<double>(to.base)), low = splat(static_cast<double>(to.low)),
           high = splat(static_cast<double>(to.high));

@@ -81,8 +81,11 @@ struct Functions {
 // Each function of the kernel is compiled for the target around it.
 namespace baseline {
 #include "model/fast/float_portable.hpp"
+
 #include "model/fast/float_cover.hpp"
+
 #include "model/fast/float_front.hpp"
+
 #include "model/fast/kernel.hpp"
 constexpr Functions functions{cover, draw, nullptr, nullptr, nullptr};
 }  // namespace baseline
@@ -90,8 +93,11 @@ constexpr Functions functions{cover, draw, nullptr, nullptr, nullptr};
 QUADRILLE_TARGET_V2
 namespace v2 {
 #include "model/fast/float_portable.hpp"
+
 #include "model/fast/float_cover.hpp"
+
 #include "model/fast/float_front.hpp"
+
 #include "model/fast/kernel.hpp"
 constexpr Functions functions{cover, draw, nullptr, nullptr, nullptr};
 }  // namespace v2
@@ -99,10 +105,15 @@ QUADRILLE_TARGET_END
 QUADRILLE_TARGET_V3
 namespace v3 {
 #include "model/fast/float_avx2.hpp"
+
 #include "model/fast/edge_signs_avx2.hpp"
+
 #include "model/fast/float_cover.hpp"
+
 #include "model/fast/float_front.hpp"
+
 #include "model/fast/kernel.hpp"
+
 #include "model/fast/float_small_quad.hpp"
 constexpr Functions functions{cover, draw, take_small, walk_small, cover_small};
 }  // namespace v3
@@ -110,10 +121,15 @@ QUADRILLE_TARGET_END
 QUADRILLE_TARGET_V4
 namespace v4 {
 #include "model/fast/float_avx512.hpp"
+
 #include "model/fast/edge_signs_avx2.hpp"
+
 #include "model/fast/float_cover.hpp"
+
 #include "model/fast/float_front.hpp"
+
 #include "model/fast/kernel.hpp"
+
 #include "model/fast/float_small_quad.hpp"
 constexpr Functions functions{cover, draw, take_small, walk_small, cover_small};
 }  // namespace v4
@@ -289,9 +305,7 @@ std::optional<QuadReject> FloatLanes::take_small(const SnappedQuad& quad, FloatQ
   return taken;
 }
 
-void FloatLanes::walk_small(const SmallQuad& quad, SmallWalk& out) const {
-  functions().walk_small(format_, quad, out);
-}
+void FloatLanes::walk_small(const SmallQuad& quad, SmallWalk& out) const { functions().walk_small(format_, quad, out); }
 
 FloatLanes::TileCounts FloatLanes::cover_small(const PixelBounds& bounds, const SmallQuad& quad, SmallWalk::Tile tile,
                                                MaskedDepth* masked, PixelList& list) const {

@@ -93,8 +93,8 @@ class FloatLanes {
   TileCounts cover(const PixelBounds& bounds, const TileCorner& corner, const QuadConstants& quad, MaskedDepth* masked,
                    PixelList& list) const;
 
-  /// Small quads, of configurations, draw states and targets (v3 on) that small() says, without SetupResult and the like: what comes is
-  /// the same. Nothing: it is none, or does not fit. Else none, or why it is left out.
+  /// Small quads, of configurations, draw states and targets (v3 on) that small() says, without SetupResult and the
+  /// like: what comes is the same. Nothing: it is none, or does not fit. Else none, or why it is left out.
   bool small() const;
   std::optional<QuadReject> take_small(const SnappedQuad& quad, FloatQuad& out, SmallQuad& small) const;
   void walk_small(const SmallQuad& quad, SmallWalk& out) const;

@@ -49,7 +49,9 @@ TEST(FloatLanes, TakeWhatFits) {
     FloatQuad out;
     SmallQuad small;
     const FloatLanes lanes(context);
-    if (lanes.small()) EXPECT_EQ(lanes.take_small(bad, out, small), QuadReject::none) << "nor in what small quads read";
+    if (lanes.small()) {
+      EXPECT_EQ(lanes.take_small(bad, out, small), QuadReject::none) << "nor in what small quads read";
+    }
   }
   for (const std::int64_t beyond : {0, 1}) {  // a code that no attribute has
     bad = good;

@@ -174,7 +174,7 @@ inline void append(const TileWord& word, int x0, int y0, int tile_log2, PixelLis
   for (std::uint64_t mask = word.mask; mask != 0; mask &= mask - 1, ++end) {
     const int at = std::countr_zero(mask);
     list.place[end] = static_cast<std::uint32_t>((x0 + (at & ((1 << tile_log2) - 1))) | (y0 + (at >> tile_log2)) << 16);
-    list.marks[end] = static_cast<std::uint32_t>(word.front >> at & 1) |
-                      static_cast<std::uint32_t>(word.tie >> at & 1) << (8 + 4);
+    list.marks[end] = static_cast<std::uint32_t>(word.front >> at & 1) | static_cast<std::uint32_t>(word.tie >> at & 1)
+                                                                             << (8 + 4);
   }
 }

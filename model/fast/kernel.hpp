@@ -75,8 +75,8 @@ template <bool in_columns, std::size_t n>
   }
   arithmetic.polynomials<in_columns>(a, table, false, exponent, out);
   for (std::size_t i = 0; i < n; ++i)
-    out[i] = real(
-        select(equal(bits(a[i]), power[i]), subtract(splat((2 * bias) << fraction_bits), power[i]), bits(out[i])));
+    out[i] =
+        real(select(equal(bits(a[i]), power[i]), subtract(splat((2 * bias) << fraction_bits), power[i]), bits(out[i])));
 }
 
 /// Bits `mask` of the pixels from `at` on, eight to a byte.
@@ -196,9 +196,8 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
     const auto sum = [&](const Column& column) LANE_LAMBDA { return sum_from(0, column); };
     const auto flipped = [](F value, const Column& column) { return real(bits(value) ^ splat(column.flip)); };
     F den_k = one, den_w = one, rec_k = one, rec_w = one;
-    const auto denominator = [&](const Column& column) LANE_LAMBDA {
-      return Front::any_w ? flipped(sum(column), column) : sum(column);
-    };
+    const auto denominator = [&](const Column& column)
+                                 LANE_LAMBDA { return Front::any_w ? flipped(sum(column), column) : sum(column); };
     if (quad.sum_k) den_k = denominator(quad.k);
     if (quad.w_of_k)
       den_w = den_k * splat(static_cast<Real>(*quad.w_of_k));
@@ -242,7 +241,8 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
       z = least(greatest(z, low), high);
       if (quad.w_may_vanish) z = select(equal(den_w, zero), high, z);
       depth = greatest(z, splat(Base{0}));
-      discard |= lanes(greater(splat(static_cast<Base>(format.znear)), z) | greater(z, splat(static_cast<Base>(format.zfar))));
+      discard |=
+          lanes(greater(splat(static_cast<Base>(format.znear)), z) | greater(z, splat(static_cast<Base>(format.zfar))));
     }
 
     constexpr unsigned every_lane = (1u << width) - 1;

@@ -17,8 +17,8 @@ namespace quadrille {
 double to_double(const PipelineFloat& v, int s);
 
 /// A table for vectors of `Real`, P = 24 or 53 bits. A place is {C0 + 2^(P - 1), (C1 + 2^(P - 1)) 2^-rest_bits,
-/// C2 4^-rest_bits, 0}; its index is what the argument's bits [rest_bits +: index_bits] say: of the root also the lowest
-/// bit of the exponent's code, so its octaves lie the other way round.
+/// C2 4^-rest_bits, 0}; its index is what the argument's bits [rest_bits +: index_bits] say: of the root also the
+/// lowest bit of the exponent's code, so its octaves lie the other way round.
 template <class Real>
 struct LaneTableOf {
   struct alignas(4 * sizeof(Real)) Entry {
@@ -157,8 +157,8 @@ struct LaneResults {
   FragmentBuffer fragments;
   Bits drawn{}, plain{}, small{};
   bool all_drawn = true;
-  bool any_plain = false;  ///< pixels for the plain pipeline: on corners or two edges
-  bool any_small = false;  ///< pixels for wide lanes: out of single precision's range
+  bool any_plain = false;                               ///< pixels for the plain pipeline: on corners or two edges
+  bool any_small = false;                               ///< pixels for wide lanes: out of single precision's range
   std::uint64_t on_edge = 0, notch = 0, saturated = 0;  ///< counts, without those
 
   static bool has(const Bits& bits, std::size_t i) { return (bits[i / 8] >> i % 8 & 1) != 0; }

@@ -2,10 +2,8 @@
 
 #include "model/port/lane_target.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 
 // The vector type is wider than some targets' registers; everything that passes it is inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -82,14 +80,8 @@ template <class Body>
 template <class Body>
 LANE_INLINE void on_lane_target(const Body& body) {
 #ifdef QUADRILLE_STAGE_TARGETS
-  switch (lane_target()) {
-    case LaneTarget::v4:
-      return run_v4(body);
-    case LaneTarget::v3:
-      return run_v3(body);
-    default:
-      break;
-  }
+  if (lane_target() == LaneTarget::v4) return run_v4(body);
+  if (lane_target() == LaneTarget::v3) return run_v3(body);
 #endif
   body();
 }

@@ -1,5 +1,5 @@
-// The pixel pipeline's stages one at a time, each over many blocks of eight pixels in double precision, with the results
-// kept between them: configurations that agree up to a stage share what comes out of it. The bits are those of
+// The pixel pipeline's stages one at a time, each over many blocks of eight pixels in double precision, with the
+// results kept between them: configurations that agree up to a stage share what comes out of it. The bits are those of
 // pixel_pipeline.hpp.
 //
 // A significand number is a double whose mantissa is cut to S bits by an AND mask, so truncation toward zero costs one

@@ -98,8 +98,8 @@ void PixelsAhead::compute_by_tile(const PixelQuad& quad) {
 }
 
 void PixelsAhead::take_kinds(const LaneResults& results, std::size_t first_row, const PixelQuad& quad) {
-  const auto kind = static_cast<std::uint8_t>((quad.data.plane ? pixel_plane | pixel_areas : 0) |
-                                              (quad.data.hull ? pixel_hull : 0));
+  const auto kind =
+      static_cast<std::uint8_t>((quad.data.plane ? pixel_plane | pixel_areas : 0) | (quad.data.hull ? pixel_hull : 0));
   const std::size_t from = kind_.size();
   const auto count = static_cast<std::size_t>(list_.count);
   kind_.resize(from + count, kind | pixel_drawn);

@@ -29,8 +29,8 @@ std::uint8_t kind_of(const PixelTrace& pixel);
 struct PixelQuad {
   QuadConstants constants;
   QuadData data;
-  SetupResult setup;                         ///< by floats
-  bool by_floats = false;                    ///< `floats` has it, else `wide`
+  SetupResult setup;       ///< by floats
+  bool by_floats = false;  ///< `floats` has it, else `wide`
   FloatQuad floats;
   WideQuad wide;
 };
@@ -83,8 +83,8 @@ class PixelsAhead {
   std::vector<Row> rows_;
   int pixels_ = 0;  ///< of the rows
   PixelList list_;
-  LaneResults results_;     ///< of all lanes: `fragments`
-  LaneResults of_tile_;     ///< where each tile is a list
+  LaneResults results_;  ///< of all lanes: `fragments`
+  LaneResults of_tile_;  ///< where each tile is a list
   SmallPixels small_pixels_;
   FragmentArrays batch_;  ///< of these
   std::vector<std::uint8_t> kind_;

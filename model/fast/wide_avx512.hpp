@@ -78,9 +78,7 @@ inline Coefficients look_up(const LaneTableOf<double>& table, F a) {
   alignas(64) std::array<std::uint64_t, 8> at;
   _mm512_store_si512(at.data(), offset);
   const auto places = [&](std::size_t a0, std::size_t a1) {
-    const auto place = [&](std::size_t i) {
-      return _mm256_load_pd(reinterpret_cast<const double*>(entries + at[i]));
-    };
+    const auto place = [&](std::size_t i) { return _mm256_load_pd(reinterpret_cast<const double*>(entries + at[i])); };
     return _mm512_insertf64x4(_mm512_castpd256_pd512(place(a0)), place(a1), 1);
   };
   const F p04 = places(0, 4), p15 = places(1, 5), p26 = places(2, 6), p37 = places(3, 7);

@@ -14,28 +14,36 @@ namespace {
 // Each function of the kernel is compiled for the target around it.
 namespace baseline {
 #include "model/fast/wide_portable.hpp"
+
 #include "model/fast/wide_front.hpp"
+
 #include "model/fast/kernel.hpp"
 }  // namespace baseline
 #ifdef QUADRILLE_LANE_TARGETS
 QUADRILLE_TARGET_V2
 namespace v2 {
 #include "model/fast/wide_portable.hpp"
+
 #include "model/fast/wide_front.hpp"
+
 #include "model/fast/kernel.hpp"
 }  // namespace v2
 QUADRILLE_TARGET_END
 QUADRILLE_TARGET_V3
 namespace v3 {
 #include "model/fast/wide_avx2.hpp"
+
 #include "model/fast/wide_front.hpp"
+
 #include "model/fast/kernel.hpp"
 }  // namespace v3
 QUADRILLE_TARGET_END
 QUADRILLE_TARGET_V4
 namespace v4 {
 #include "model/fast/wide_avx512.hpp"
+
 #include "model/fast/wide_front.hpp"
+
 #include "model/fast/kernel.hpp"
 }  // namespace v4
 QUADRILLE_TARGET_END

@@ -190,7 +190,8 @@ TEST(FloatLanes, TinySums) {
     const int S = c.significand_bits;
     QuadData data;
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto sig = static_cast<std::uint32_t>((std::uint64_t{1} << (S - 1)) + rng.below(std::uint64_t{1} << (S - 1)));
+      const auto sig =
+          static_cast<std::uint32_t>((std::uint64_t{1} << (S - 1)) + rng.below(std::uint64_t{1} << (S - 1)));
       data.k[i] = {false, static_cast<int>(rng.integer(-8, 8)), sig};
       data.w[i] = {false, 0, 1u << (S - 1)};
       if (i != 0) data.b[i][0] = {rng.chance(0.5), static_cast<int>(rng.integer(-2, 6)), sig};
@@ -207,8 +208,8 @@ TEST(FloatLanes, TinySums) {
     };
     for (std::size_t k = 0; k < linear_count; ++k) {
       const auto [i, j] = vertex_pair[k];
-      const auto shared = static_cast<std::int64_t>(
-          rng.uniform(-1, 1) * std::sqrt(static_cast<double>(r2(i))) * std::sqrt(static_cast<double>(r2(j))));
+      const auto shared = static_cast<std::int64_t>(rng.uniform(-1, 1) * std::sqrt(static_cast<double>(r2(i))) *
+                                                    std::sqrt(static_cast<double>(r2(j))));
       setup.length2[k] = static_cast<std::uint64_t>(r2(i) + r2(j) - 2 * (shared >> 20 << 20));
     }
     const QuadConstants constants(setup);
