@@ -569,7 +569,7 @@ bool TruthQuad::take_lane(const detail::LaneSamples& from, std::size_t lane, int
   return true;
 }
 
-void TruthQuad::samples(std::span<const PixelPlace> pixels, std::span<ReferenceSample> out, TruthLanes lanes,
+void TruthQuad::samples(std::span<const PixelPlace> pixels, std::span<ReferenceSample> out, LaneTarget lanes,
                         std::vector<bool>* decided) const {
   const auto [det_012, det_023] = std::visit([](const auto& g) { return std::pair(g.det_012, g.det_023); }, geometry_);
   detail::LaneSamples samples;

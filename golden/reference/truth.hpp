@@ -116,8 +116,8 @@ class TruthQuad {
   /// (truth_lanes.hpp): flags and signs are the same again, values those of all bits rounded to double but for their
   /// last bit (beside the largest term, where terms of both signs are summed). The same with any `lanes`. `decided`,
   /// for tests: which pixels it decided.
-  void samples(std::span<const PixelPlace> pixels, std::span<ReferenceSample> out,
-               TruthLanes lanes = best_truth_lanes(), std::vector<bool>* decided = nullptr) const;
+  void samples(std::span<const PixelPlace> pixels, std::span<ReferenceSample> out, LaneTarget lanes = lane_target(),
+               std::vector<bool>* decided = nullptr) const;
 
   /// The filter cannot decide the pixel.
   bool needs_113_bits(int px, int py) const;

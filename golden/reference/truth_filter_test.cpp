@@ -54,8 +54,6 @@ void compare_lanes(const ReferenceSample& lane, const ReferenceSample& exact, in
   for (int a = 0; a < attributes; ++a) expect_near(lane.attribute_above[a], exact.attribute_above[a], largest_b);
 }
 
-constexpr std::array all_lanes{TruthLanes::baseline, TruthLanes::v3, TruthLanes::v4};
-
 std::vector<PixelPlace> all_pixels(int width, int height) {
   std::vector<PixelPlace> pixels;
   for (int y = 0; y < height; ++y)
@@ -70,8 +68,8 @@ void compare_lanes(const TruthQuad& truth, const std::vector<PixelPlace>& pixels
                    Seen& seen) {
   std::vector<ReferenceSample> first(pixels.size());
   std::vector<bool> decided;
-  truth.samples(pixels, first, TruthLanes::baseline, &decided);
-  for (const TruthLanes lanes : all_lanes) {
+  truth.samples(pixels, first, LaneTarget::baseline, &decided);
+  for (const LaneTarget lanes : lane_targets()) {
     if (!can_run(lanes)) continue;
     std::vector<ReferenceSample> samples(pixels.size());
     truth.samples(pixels, samples, lanes);

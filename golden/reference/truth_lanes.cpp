@@ -4,27 +4,7 @@
 
 #include <cstring>
 
-// GCC's pragmas and attributes choose targets beyond the baseline; what another compiler builds has the baseline alone.
-#if defined(__x86_64__) && !defined(__clang__)
-#define QUADRILLE_TRUTH_TARGETS
-#endif
-
 namespace quadrille::golden {
-
-bool can_run(TruthLanes lanes) {
-#ifdef QUADRILLE_TRUTH_TARGETS
-  if (lanes == TruthLanes::v3) return __builtin_cpu_supports("x86-64-v3");
-  if (lanes == TruthLanes::v4) return __builtin_cpu_supports("x86-64-v4");
-#endif
-  return lanes == TruthLanes::baseline;
-}
-
-TruthLanes best_truth_lanes() {
-  static const TruthLanes best = can_run(TruthLanes::v4)   ? TruthLanes::v4
-                                 : can_run(TruthLanes::v3) ? TruthLanes::v3
-                                                           : TruthLanes::baseline;
-  return best;
-}
 
 namespace detail {
 namespace {
@@ -146,17 +126,17 @@ QUADRILLE_INLINE void sample(const LaneQuad& q, LaneSamples& out) {
   store(certain & (1 + (first & 1) + (second & 2) + (back_first & 3) + (back_second & 4)), out.decided);
 }
 
-#ifdef QUADRILLE_TRUTH_TARGETS
+#ifdef QUADRILLE_LANE_TARGETS
 [[gnu::target("arch=x86-64-v3")]] void sample_v3(const LaneQuad& quad, LaneSamples& out) { sample<true>(quad, out); }
 [[gnu::target("arch=x86-64-v4")]] void sample_v4(const LaneQuad& quad, LaneSamples& out) { sample<true>(quad, out); }
 #endif
 
 }  // namespace
 
-void sample_lanes(const LaneQuad& quad, [[maybe_unused]] TruthLanes lanes, LaneSamples& samples) {
-#ifdef QUADRILLE_TRUTH_TARGETS
-  if (lanes == TruthLanes::v4) return sample_v4(quad, samples);
-  if (lanes == TruthLanes::v3) return sample_v3(quad, samples);
+void sample_lanes(const LaneQuad& quad, [[maybe_unused]] LaneTarget lanes, LaneSamples& samples) {
+#ifdef QUADRILLE_LANE_TARGETS
+  if (lanes == LaneTarget::v4) return sample_v4(quad, samples);
+  if (lanes == LaneTarget::v3) return sample_v3(quad, samples);
 #endif
   sample<false>(quad, samples);
 }

@@ -2,18 +2,13 @@
 #pragma once
 
 #include "model/port/records.hpp"
+#include "model/support/lane_target.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace quadrille::golden {
-
-/// What the code is compiled for: x86-64 as it is, with AVX2 and FMA, with AVX-512. All give the same bits.
-enum class TruthLanes : std::uint8_t { baseline, v3, v4 };
-bool can_run(TruthLanes lanes);
-/// The best that this processor can run.
-TruthLanes best_truth_lanes();
 
 namespace detail {
 
@@ -63,7 +58,8 @@ struct LaneSamples {
 inline constexpr double lane_least_area = 0x1p-24, lane_least_sum = 0x1p-13;
 inline constexpr double lane_least_value = 0x1p-100, lane_largest_value = 0x1p100;
 
-void sample_lanes(const LaneQuad& quad, TruthLanes lanes, LaneSamples& samples);
+/// All targets give the same bits.
+void sample_lanes(const LaneQuad& quad, LaneTarget lanes, LaneSamples& samples);
 
 }  // namespace detail
 }  // namespace quadrille::golden

@@ -1,7 +1,7 @@
 // For tests: the same check on every instruction set of the lanes that this processor has.
 #pragma once
 
-#include "model/port/lane_target.hpp"
+#include "model/support/lane_target.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "model/fast/lane_stages.hpp"
 
-#include "model/port/lane_target.hpp"
+#include "model/support/lane_target.hpp"
 
 #include <bit>
 #include <cmath>

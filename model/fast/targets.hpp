@@ -2,7 +2,7 @@
 // functions are compiled for it, lambdas with LANE_LAMBDA too, whatever the rest is compiled for.
 #pragma once
 
-#include "model/port/lane_target.hpp"
+#include "model/support/lane_target.hpp"
 
 #ifdef QUADRILLE_LANE_TARGETS
 #include <immintrin.h>

@@ -11,7 +11,7 @@ set(model_headers
   port/config_keys.h
   port/draw_state.hpp
   port/fragment_arrays.hpp
-  port/lane_target.hpp
+  support/lane_target.hpp
   port/performance_counters.hpp
   port/records.hpp
   port/snap.hpp

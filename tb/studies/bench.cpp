@@ -1,7 +1,7 @@
 // quadrille bench: speeds of all bodies; with --error the error of each against its run time.
 #include "golden/io/json_report.hpp"
-#include "model/port/lane_target.hpp"
 #include "model/port/snap.hpp"
+#include "model/support/lane_target.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/commands/commands.hpp"
 #include "tb/commands/counters_report.hpp"

@@ -2,8 +2,8 @@
 
 #include "golden/io/json_report.hpp"
 #include "model/depth_image.hpp"
-#include "model/port/lane_target.hpp"
 #include "model/port/snap.hpp"
+#include "model/support/lane_target.hpp"
 #include "model/untimed.hpp"
 #include "tb/options/input.hpp"
 #include "tb/studies/bench_timing.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/port/config.hpp"
-#include "model/port/lane_target.hpp"
+#include "model/support/lane_target.hpp"
 
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "model/port/lane_target.hpp"
+#include "model/support/lane_target.hpp"
 
 #include <algorithm>
 #include <array>

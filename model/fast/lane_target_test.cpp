@@ -1,6 +1,6 @@
 // The lanes' code as compiled for each instruction set that this processor has: every stage of lane_stages.hpp against
 // the plain pipeline. (pixel_engines_test.cpp does the same with the other lanes.)
-#include "model/port/lane_target.hpp"
+#include "model/support/lane_target.hpp"
 #include "model/fast/each_lane_target.hpp"
 #include "model/fast/lane_stages.hpp"
 
