@@ -47,7 +47,7 @@ int render(const RenderOptions& options, const Invocation& invocation) {
   check_outputs({options.out, options.png, options.input.save_camera, options.common.json}, read);
 
   const DrawInput input = load_input(options.input, shade_of(options.shade, options.texture), settings.state,
-                                     settings.config, options.common.seed);
+                                     settings.config, options.common.seed, settings.threads);
   print_remark(input, options.common);
   adjust_state(input, settings.state);
   ShadeSettings shading;
