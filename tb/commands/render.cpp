@@ -72,7 +72,7 @@ int render(const RenderOptions& options, const Invocation& invocation) {
         options.method.empty() ? make_engine(settings) : make_method_engine(input, settings);
     const bool drawn = engine->draw_quads(input.quads, input.attributes, weights, [&](const QuadFragments& quad) {
       frame.add(quad);
-      progress.set(quad.index + 1);
+      if (quad.index % 64 == 0) progress.set(quad.index);
     });
     if (!drawn)
       engine->draw(input.quads, input.attributes, weights, [&](std::span<const EngineSample> samples) {
