@@ -149,7 +149,7 @@ class Runs(WithStub):
             out = number.name
             found, error = self.stopped(out, number, "--units", 24, "--jobs", 3, STUB_WAITS="bowtie")
             self.assertEqual(found, status)
-            self.assertEqual("stopped; what was done is kept" in error, status == 130)
+            self.assertEqual("finished units are kept" in error, status == 130)
             self.assertEqual((self.folder / "told").exists(), status == 130)  # children end by themselves before they are killed
             for name in ("told", "waits"):
                 (self.folder / name).unlink(missing_ok=True)
