@@ -9,7 +9,7 @@
 namespace quadrille {
 
 template <class Real>
-DepthImage<Real>::DepthImage(int width, int height, int attributes, const Config& config, bool depth)
+DepthImage<Real>::DepthImage(int width, int height, int attributes, const Config& config, bool depth, bool ids)
     : width_(width),
       height_(height),
       depth_(depth),
@@ -19,6 +19,7 @@ DepthImage<Real>::DepthImage(int width, int height, int attributes, const Config
   if (planes_.size() > most_planes) throw std::invalid_argument("DepthImage: more than 8 attributes");
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   for (std::vector<Real>& plane : planes_) plane.resize(pixels);
+  if (ids) quads_.resize(pixels);
   clear();
 }
 
@@ -27,11 +28,12 @@ void DepthImage<Real>::clear() {
   for (Block& block : blocks_) block.size = 0;
   for (std::vector<Real>& plane : planes_)
     std::fill(plane.begin(), plane.end(), static_cast<Real>(&plane == &planes_.front()));
+  std::fill(quads_.begin(), quads_.end(), no_quad);
 }
 
 template <class Real>
 template <class F>
-void DepthImage<Real>::with_planes(F&& f) {
+void DepthImage<Real>::with_planes(F&& f) const {
   [&]<std::size_t... n>(std::index_sequence<n...>) {
     ((planes_.size() == n + 1 && (f(std::integral_constant<std::size_t, n + 1>{}), true)) || ...);
   }
@@ -44,12 +46,19 @@ void DepthImage<Real>::write(const FragmentArrays& fragments) {
 }
 
 template <class Real>
-std::span<const Real> DepthImage<Real>::plane(std::size_t i) {
+void DepthImage<Real>::overwrite(std::size_t pixel, Real depth, std::span<const Real> attributes, std::uint32_t quad) {
+  settle();
+  planes_[0][pixel] = depth;
+  for (std::size_t j = 1; j < planes_.size(); ++j) planes_[j][pixel] = attributes[j - 1];
+  if (!quads_.empty()) quads_[pixel] = quad;
+}
+
+template <class Real>
+void DepthImage<Real>::settle_all() const {
   with_planes([&](auto planes) {
     settle<planes>(blocks_[newer_ ^ 1]);
     settle<planes>(blocks_[newer_]);
   });
-  return planes_[i];
 }
 
 template <class Real>
@@ -72,6 +81,8 @@ void DepthImage<Real>::append(const FragmentArrays& fragments) {
       for (std::size_t j = 1; j < planes; ++j)
         block.value[j][at] = static_cast<Real>(fragments.attribute[j - 1][i]) * attribute_unit_;
     }
+    std::fill(block.quad.begin() + static_cast<std::ptrdiff_t>(block.size),
+              block.quad.begin() + static_cast<std::ptrdiff_t>(at), fragments.quad);
     block.size = at;
     done = end;
   }
@@ -79,13 +90,15 @@ void DepthImage<Real>::append(const FragmentArrays& fragments) {
 
 template <class Real>
 template <std::size_t planes>
-void DepthImage<Real>::settle(Block& block) {
+void DepthImage<Real>::settle(Block& block) const {
   std::array<Real*, planes> plane;
   for (std::size_t j = 0; j < planes; ++j) plane[j] = planes_[j].data();
+  std::uint32_t* const quads = quads_.empty() ? nullptr : quads_.data();
   for (std::size_t i = 0; i < block.size; ++i) {
     const std::size_t pixel = block.pixel[i];
     if (depth_ && !(block.value[0][i] < plane[0][pixel])) continue;
     for (std::size_t j = 0; j < planes; ++j) plane[j][pixel] = block.value[j][i];
+    if (quads != nullptr) quads[pixel] = block.quad[i];
   }
   block.size = 0;
 }

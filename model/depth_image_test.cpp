@@ -32,12 +32,16 @@ FragmentBuffer random_fragments(std::size_t size, int attributes, const Config& 
 template <class Real>
 void compare(int attributes, bool depth, const Config& config) {
   golden::Prng random(static_cast<std::uint64_t>(attributes));
-  DepthImage<Real> image(width, height, attributes, config, depth);
+  const bool ids = attributes % 2 == 0;
+  DepthImage<Real> image(width, height, attributes, config, depth, ids);
   Fragment clear;
+  clear.quad = DepthImage<Real>::no_quad;
   clear.depth = std::uint32_t{1} << config.depth_bits;
   std::vector<Fragment> shown(width * height, clear);
   const auto check = [&] {
+    ASSERT_EQ(image.quads().size(), ids ? shown.size() : 0);
     for (std::size_t p = 0; p < shown.size(); ++p) {
+      ASSERT_EQ(ids ? image.quads()[p] : shown[p].quad, shown[p].quad);
       ASSERT_EQ(image.depth()[p], static_cast<Real>(std::ldexp(shown[p].depth, -config.depth_bits)));
       for (int j = 0; j < attributes; ++j)
         ASSERT_EQ(image.attribute(j)[p],
@@ -48,14 +52,23 @@ void compare(int attributes, bool depth, const Config& config) {
   for (int call = 0; call < 60; ++call) {
     const std::size_t size = 1 + random.below(call % 10 == 9 ? 1500 : 30);
     const FragmentBuffer buffer = random_fragments(size, attributes, config, random);
-    const FragmentArrays fragments = buffer.view(0, size);
+    const FragmentArrays fragments = buffer.view(static_cast<std::uint32_t>(call), size);
     image.write(fragments);
     for (std::size_t i = 0; i < size; ++i) {
       const Fragment f = fragments[i];
       Fragment& before = shown[f.y * std::size_t{width} + f.x];
       if (!depth || f.depth < before.depth) before = f;
     }
-    if (call % 20 == 13) check();
+    if (call % 20 != 13) continue;
+    check();
+    const std::size_t pixel = random.below(width * height);
+    Fragment& other = shown[pixel] = fragments[0];
+    other.quad = 77;
+    std::vector<Real> numbers;
+    for (int j = 0; j < attributes; ++j)
+      numbers.push_back(static_cast<Real>(
+          std::ldexp(static_cast<double>(other.attribute[static_cast<std::size_t>(j)]), -config.attribute_frac())));
+    image.overwrite(pixel, static_cast<Real>(std::ldexp(other.depth, -config.depth_bits)), numbers, 77);
   }
   check();
   image.write(random_fragments(5, attributes, config, random).view(0, 5));

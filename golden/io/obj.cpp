@@ -3,7 +3,10 @@
 #include "golden/io/error.hpp"
 #include "golden/io/text_input.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <span>
@@ -19,7 +22,14 @@ class ObjParser {
   Mesh parse(std::string_view text) {
     TokenLines lines(text, TokenLines::Continuation::backslash);
     std::vector<Token> tokens;
-    while (lines.next(tokens)) statement(tokens);
+    for (;;) {
+      if (const auto line = lines.line(); line && plain_line(*line))
+        lines.skip_line();
+      else if (lines.next(tokens))
+        statement(tokens);
+      else
+        break;
+    }
     if (mesh_.faces.empty()) {
       throw input_error(name_, 0, "no face was found; an OBJ file with at least one 'f' statement is expected");
     }
@@ -44,6 +54,72 @@ class ObjParser {
       ++mesh_.skipped_lines;
       note_swallowed(tokens);
     }
+  }
+
+  /// Takes a line as programs write nearly all of them, three numbers or a face of positive indices with nothing else,
+  /// in a fifth of the time. False, and nothing taken: what is there is for statement().
+  bool plain_line(std::string_view line) {
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const auto is = [&](std::string_view keyword) { return line.starts_with(keyword); };
+    const char* const end = line.data() + line.size();
+    if (is("f ")) return plain_face(line.data() + 2, end);
+    Vec3 value;
+    if (is("v ") && plain_numbers(line.data() + 2, end, value)) {
+      mesh_.positions.push_back(value);
+    } else if (is("vn ") && plain_numbers(line.data() + 3, end, value)) {
+      mesh_.normals.push_back(value);
+    } else if (Vec2 uv; is("vt ") && plain_numbers(line.data() + 3, end, uv)) {
+      mesh_.texcoords.push_back(uv);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  template <class Values>
+  static bool plain_numbers(const char* at, const char* end, Values& values) {
+    for (double& value : values) {
+      while (at != end && *at == ' ') ++at;
+      const auto [rest, error] = std::from_chars(at, end, value, std::chars_format::general);
+      if (error != std::errc() || !(std::abs(value) <= max_input_magnitude)) return false;
+      if (rest != end && *rest != ' ') return false;
+      at = rest;
+    }
+    return std::all_of(at, end, [](char c) { return c == ' '; });
+  }
+
+  bool plain_face(const char* at, const char* end) {
+    constexpr auto most_elements = static_cast<std::size_t>(std::numeric_limits<int>::max());
+    std::array<Corner, 8> corners;
+    std::size_t count = 0;
+    const auto index = [&](std::size_t defined, int& out) {
+      std::size_t number = 0;
+      const auto [rest, error] = std::from_chars(at, end, number);
+      at = rest;
+      if (error != std::errc() || number == 0 || number > defined || number > most_elements) return false;
+      out = static_cast<int>(number - 1);
+      return true;
+    };
+    for (;;) {
+      while (at != end && *at == ' ') ++at;
+      if (at == end) break;
+      if (count == corners.size()) return false;
+      Corner& corner = corners[count++];
+      if (!index(mesh_.positions.size(), corner.position)) return false;
+      if (at != end && *at == '/') {
+        if (++at == end) return false;
+        if (*at != '/' && !index(mesh_.texcoords.size(), corner.texcoord)) return false;
+        if (at != end && *at == '/') {
+          ++at;
+          if (!index(mesh_.normals.size(), corner.normal)) return false;
+        }
+      }
+      if ((corner.texcoord < 0) != (corners[0].texcoord < 0) || (corner.normal < 0) != (corners[0].normal < 0))
+        return false;
+    }
+    if (count < 3) return false;
+    mesh_.faces.emplace_back(corners.begin(), corners.begin() + count);
+    return true;
   }
 
   /// A backslash at the end of a name, such as that of a folder, joins the next line to a statement that is skipped.

@@ -1,6 +1,10 @@
 #include "golden/io/obj.hpp"
 
 #include "golden/io/test_support.hpp"
+#include "golden/io/text_input.hpp"
+
+#include <algorithm>
+#include <string>
 
 namespace quadrille::golden {
 namespace {
@@ -46,6 +50,104 @@ TEST(Obj, WhatABackslashSwallowsIsNoted) {
   EXPECT_EQ(mesh.notes[0], "line 11, 'f', is not read: the backslash that ends line 10 joins it to 'usemtl'");
   EXPECT_EQ(mesh.notes[1], "line 14, 'vt', is not read: the backslash that ends line 13 joins it to 'o'");
   EXPECT_TRUE(parse_obj(square + "f 1 2 3 \\\n 4\n", "m").notes.empty());
+}
+
+/// What comes of a text: all of its mesh, or the error.
+std::string outcome(const std::string& text) {
+  std::string out;
+  const auto add = [&](const auto& values) {
+    for (const double value : values) out += number_text(value) + " ";
+    out += "; ";
+  };
+  try {
+    const Mesh mesh = parse_obj(text, "m");
+    for (const Vec3& v : mesh.positions) add(v);
+    for (const Vec2& v : mesh.texcoords) add(v);
+    for (const Vec3& v : mesh.normals) add(v);
+    for (const Face& face : mesh.faces)
+      for (const Corner& c : face)
+        out += std::to_string(c.position) + "/" + std::to_string(c.texcoord) + "/" + std::to_string(c.normal) + " ";
+    out += std::to_string(mesh.skipped_lines);
+  } catch (const InputError& error) {
+    out = error.what();
+  }
+  return out;
+}
+
+/// Blanks are quick to read and tabs are not: nothing else differs.
+TEST(Obj, ReadsLinesWithBlanksAsThoseWithTabs) {
+  for (const std::string line : {"v 1 2 3",
+                                 "v  -1.5e-3   2 .5  ",
+                                 "v 1 2",
+                                 "v 1 2 3 4",
+                                 "v 1 2 3 4 5 6",
+                                 "v 1 2 x",
+                                 "v 1 2 3x",
+                                 "v 1.5.5 2",
+                                 "v 1-2 3",
+                                 "v 1 2 3 4 5",
+                                 "v nan 0 0",
+                                 "v inf 0 0",
+                                 "v 1e400 0 0",
+                                 "v 2e24 0 0",
+                                 "v 0x1 0 0",
+                                 "v +1 +2 -3",
+                                 "v -0 1e-320 5",
+                                 "v 1 2 3 # four",
+                                 "v 1 2 3\\\n4",
+                                 "v 1 2 \\\n3",
+                                 "v",
+                                 "v ",
+                                 "vt 1 2",
+                                 "vt 1",
+                                 "vt 1 2 3",
+                                 "vt 1 2 3 4",
+                                 "vn 1 2 3",
+                                 "vn 1 2",
+                                 "vn 1 2 3 4",
+                                 "f 1 2 3",
+                                 "f 1 2 3 4  ",
+                                 "f 1 2",
+                                 "f 1",
+                                 "f",
+                                 "f 0 1 2",
+                                 "f 5 1 2",
+                                 "f 1/1 2/2 3/4",
+                                 "f 1/1 2/5 3/3",
+                                 "f 1//1 2//1 3//1",
+                                 "f 1//1 2//2 3//1",
+                                 "f 1/1/1 2/2/1 3/3/1",
+                                 "f 1/ 2/ 3/",
+                                 "f 1// 2// 3//",
+                                 "f 1/2/ 2/2/ 3/2/",
+                                 "f 1/1/1/1 2 3",
+                                 "f 1/1 2 3",
+                                 "f 1 2/2 3",
+                                 "f 1//1 2 3",
+                                 "f -1 -2 -3",
+                                 "f +1 +2 +3",
+                                 "f 1.5 2 3",
+                                 "f 1 2 3x",
+                                 "f 1 2 3/",
+                                 "f 1 2 3//",
+                                 "f 1/1/ 2/2/ 3/3/",
+                                 "f 1-2 3",
+                                 "f 1 2 3 4 3 2 1 4",
+                                 "f 1 2 3 4 3 2 1 4 3 2",
+                                 "f 99999999999999999999 1 2",
+                                 "f 4294967297 1 2",
+                                 "f 1 2 3 \\\n4",
+                                 "f 1 2\r f 1 2 3",
+                                 "fx 1 2 3",
+                                 "g 1 2 3",
+                                 "# f 1 2 3",
+                                 "v 1 2 3\rv 4 5 6"})
+    for (const std::string end : {"\n", "\r\n", "\r", "\n\n", ""}) {
+      const std::string text = square + line + end, rest = end.empty() ? "" : "f 4 3 2" + end;
+      std::string tabs = text;
+      std::ranges::replace(tabs, ' ', '\t');
+      EXPECT_EQ(outcome(text + rest), outcome(tabs + rest)) << line;
+    }
 }
 
 TEST(Obj, NegativeIndicesCountFromTheFace) {

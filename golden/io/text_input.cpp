@@ -176,6 +176,17 @@ std::size_t TokenLines::line_end_size() const {
   return pos_ + 1 < text_.size() && text_[pos_ + 1] == '\n' ? 2 : 1;
 }
 
+std::optional<std::string_view> TokenLines::line() {
+  if (!line_feed_ || *line_feed_ < pos_) line_feed_ = text_.find('\n', pos_);
+  if (*line_feed_ == std::string_view::npos) return std::nullopt;
+  return text_.substr(pos_, *line_feed_ - pos_);
+}
+
+void TokenLines::skip_line() {
+  pos_ = line_start_ = *line_feed_ + 1;
+  ++line_;
+}
+
 bool TokenLines::next(std::vector<Token>& tokens) {
   tokens.clear();
   const auto start_line = [&](std::size_t end_size) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +66,10 @@ class TokenLines {
 
   /// Replaces `tokens` by those of the next line that has any; false at the end of the text.
   bool next(std::vector<Token>& tokens);
+  /// The line that next() would begin with, without its LF; nothing where it does not end with one.
+  std::optional<std::string_view> line();
+  /// Passes over line().
+  void skip_line();
 
  private:
   std::size_t line_end_size() const;  ///< bytes of the line end at pos_, 0 if there is none
@@ -72,6 +77,7 @@ class TokenLines {
   std::string_view text_;
   Continuation continuation_;
   std::size_t pos_ = 0, line_ = 1, line_start_ = 0;
+  std::optional<std::size_t> line_feed_;  ///< the next one as line() saw it
 };
 
 }  // namespace quadrille::golden

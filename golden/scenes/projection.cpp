@@ -2,9 +2,11 @@
 
 #include "golden/scenes/polygon.hpp"
 #include "golden/scenes/scene_builders.hpp"
+#include "model/support/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -76,20 +78,24 @@ void check_face(const Mesh& mesh, std::size_t face) {
   }
 }
 
-/// The primitives of a face with checked corners. One that crosses itself, as a warped one of a mesh may, still closes
-/// the mesh as a fan.
-std::vector<Piece> pieces_of(const Mesh& mesh, std::size_t face, std::size_t& crossed_faces) {
+/// Appends the primitives of a face with checked corners. One that crosses itself, as a warped one of a mesh may, still
+/// closes the mesh as a fan.
+void add_pieces(const Mesh& mesh, std::size_t face, std::vector<Piece>& pieces, std::size_t& crossed_faces) {
   const Face& corners = mesh.faces[face];
-  if (corners.size() == 3) return {{0, 1, 2, 2}};
-  if (corners.size() == 4) return {{0, 1, 2, 3}};
+  if (corners.size() <= 4) {
+    pieces.push_back({0, 1, 2, corners.size() - 1});
+    return;
+  }
   std::vector<Vec3> positions;
   for (const Corner& corner : corners) positions.push_back(position_of(mesh, face, corner));
+  std::vector<Piece> cut;
   try {
-    return cut_polygon(positions);
+    cut = cut_polygon(positions);
   } catch (const std::invalid_argument&) {
     ++crossed_faces;
-    return polygon_fan(corners.size());
+    cut = polygon_fan(corners.size());
   }
+  pieces.insert(pieces.end(), cut.begin(), cut.end());
 }
 
 }  // namespace
@@ -290,20 +296,53 @@ Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int h
   }
 
   Projection result;
-  const auto emit = [&](std::size_t face, bool textured, const std::array<const Corner*, 4>& corners) {
-    const bool triangle = corners[2] == corners[3];
-    WindowQuad quad;
-    quad.id = static_cast<std::uint32_t>(face);
-    std::array<Vec3, 4>& positions = result.corners.emplace_back();
-    std::array<Vec2, 4>& textures = result.textures.emplace_back();
+  std::vector<Piece> pieces;  // of all faces, one after the other
+  std::vector<std::uint32_t> face_of;
+  pieces.reserve(mesh.faces.size());
+  face_of.reserve(mesh.faces.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const std::size_t corners = mesh.faces[f].size(), before = pieces.size();
+    if (corners > 4 && options.strict)
+      throw std::invalid_argument("face " + std::to_string(f) + ": " + std::to_string(corners) +
+                                  " corners (strict: at most 4)");
+    add_pieces(mesh, f, pieces, result.crossed_faces);
+    face_of.resize(pieces.size(), static_cast<std::uint32_t>(f));
+    result.triangles +=
+        static_cast<std::size_t>(std::count_if(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end(),
+                                               [](const Piece& p) { return p[2] == p[3]; }));
+    if (corners <= 4) continue;
+    ++result.fanned_faces;
+    result.fan_primitives += pieces.size() - before;
+  }
+
+  constexpr std::size_t block = 4096;
+  const auto in_blocks = [&](std::size_t count, const auto& body) {
+    parallel_for((count + block - 1) / block, options.threads, [&](std::size_t unit) {
+      for (std::size_t i = unit * block; i < std::min(count, (unit + 1) * block); ++i) body(i);
+    });
+  };
+  std::vector<WindowVertex> window(mesh.positions.size());
+  in_blocks(window.size(), [&](std::size_t i) { window[i] = project_point(matrix, mesh.positions[i], width, height); });
+  result.quads.resize(pieces.size());
+  result.corners.resize(pieces.size());
+  result.textures.resize(pieces.size());
+  in_blocks(pieces.size(), [&](std::size_t n) {
+    const Face& face = mesh.faces[face_of[n]];
+    const bool textured = std::all_of(face.begin(), face.end(), [](const Corner& c) { return c.texcoord >= 0; });
+    const bool triangle = pieces[n][2] == pieces[n][3];
+    WindowQuad& quad = result.quads[n];
+    quad.id = face_of[n];
+    std::array<Vec3, 4>& positions = result.corners[n];
+    std::array<Vec2, 4>& textures = result.textures[n];
     for (std::size_t i = 0; i < 4; ++i) {
-      const Corner& corner = *corners[i];
+      const Corner& corner = face[pieces[n][i]];
       const auto position = static_cast<std::size_t>(corner.position);
       positions[i] = mesh.positions[position];
       textures[i] = textured ? mesh.texcoords[static_cast<std::size_t>(corner.texcoord)]
                              : unit_square[triangle ? std::min<std::size_t>(i, 2) : i];
-      quad.vertex[i] = project_point(matrix, positions[i], width, height);
+      quad.vertex[i] = window[position];
       std::vector<double>& attribute = quad.attribute[i];
+      attribute.reserve(static_cast<std::size_t>(attribute_count(set)));
       if (set == AttributeSet::weights) {
         attribute.assign(4, 0.0);
         attribute[i] = 1;
@@ -319,25 +358,7 @@ Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int h
       if (set == AttributeSet::position) attribute.assign(positions[i].begin(), positions[i].end());
       if (set == AttributeSet::colour) attribute.assign(mesh.colours[position].begin(), mesh.colours[position].end());
     }
-    result.triangles += triangle ? 1 : 0;
-    result.quads.push_back(std::move(quad));
-  };
-
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const Face& face = mesh.faces[f];
-    if (face.size() > 4) {
-      if (options.strict) {
-        throw std::invalid_argument("face " + std::to_string(f) + ": " + std::to_string(face.size()) +
-                                    " corners (strict: at most 4)");
-      }
-      ++result.fanned_faces;
-    }
-    const bool textured = std::all_of(face.begin(), face.end(), [](const Corner& c) { return c.texcoord >= 0; });
-    const std::size_t before = result.quads.size();
-    for (const auto& [a, b, c, d] : pieces_of(mesh, f, result.crossed_faces))
-      emit(f, textured, {&face[a], &face[b], &face[c], &face[d]});
-    if (face.size() > 4) result.fan_primitives += result.quads.size() - before;
-  }
+  });
   return result;
 }
 

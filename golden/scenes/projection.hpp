@@ -33,6 +33,7 @@ AttributeSet attributes_for_shade(std::string_view shade);
 struct ProjectOptions {
   AttributeSet attributes = AttributeSet::weights;
   bool strict = false;  ///< refuse faces with more than four corners
+  unsigned threads = 1;
 };
 
 struct Projection {

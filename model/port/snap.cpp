@@ -1,5 +1,6 @@
 #include "model/port/snap.hpp"
 
+#include "model/port/quick_snap.hpp"
 #include "model/support/exact_quotient.hpp"
 
 #include <algorithm>
@@ -239,7 +240,13 @@ SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawSt
   }
   if (config.quad_id_bits < 32 && quad.id >> config.quad_id_bits)
     throw SnapError(quad.id, 0, "the quad id does not fit quad_id_bits = " + std::to_string(config.quad_id_bits));
-  std::size_t attributes = 0;
+  std::size_t attributes = std::min(quad.attribute[0].size(), static_cast<std::size_t>(config.attribute_slots));
+  const auto as_many = [&](const std::vector<double>& a) { return a.size() == quad.attribute[0].size(); };
+  if (std::ranges::all_of(quad.attribute, as_many)) {
+    SnappedQuad out;
+    out.id = quad.id;
+    if (quick_snap(quad, attributes, config, state, out)) return out;
+  }
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t count = std::min(quad.attribute[i].size(), static_cast<std::size_t>(config.attribute_slots));
     attributes = std::max(attributes, count);

@@ -1,67 +1,18 @@
-// Every bit of snap_quad against slow_snap.hpp: random quads of all magnitudes, ties and what lies next to them, in
-// each rounding mode, and with subnormal numbers taken for 0.
-#include "model/port/slow_snap.hpp"
-#include "model/port/snap.hpp"
+// Every bit of snap_quad against slow_snap.hpp: random quads of all magnitudes, bases and codes, in each rounding mode,
+// and with subnormal numbers taken for 0.
+#include "model/port/snap_exact_test_support.hpp"
 
 #include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cfenv>
 #include <cmath>
 #include <string>
-#include <vector>
-
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
 
 namespace quadrille {
 namespace {
 
 using golden::Prng;
-
-/// All numbers in a row, to compare and print.
-std::vector<std::int64_t> numbers(const SnappedQuad& q) {
-  std::vector<std::int64_t> all{q.id, q.base.depth, q.base.depth_low, q.base.depth_high};
-  all.insert(all.end(), q.base.attribute.begin(), q.base.attribute.end());
-  const auto add = [&](const PortNumber& n) {
-    for (const std::int64_t part : {std::int64_t{n.neg}, std::int64_t{n.exp}, std::int64_t{n.sig}}) all.push_back(part);
-  };
-  for (const SnappedVertex& v : q.vertex) {
-    for (const std::int64_t part : {v.x, v.y, v.w}) all.push_back(part);
-    add(v.k);
-    add(v.z);
-    for (const PortNumber& a : v.attribute) add(a);
-  }
-  return all;
-}
-
-/// snap_quad with each rounding mode, and with subnormal numbers taken for 0.
-std::vector<SnappedQuad> in_every_mode(const WindowQuad& quad, const Config& c, const DrawState& s) {
-  std::vector<SnappedQuad> out;
-  for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-    std::fesetround(mode);
-    out.push_back(snap_quad(quad, c, s));
-  }
-  std::fesetround(FE_TONEAREST);
-#if defined(__SSE2__)
-  const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | _MM_FLUSH_ZERO_ON | 0x40);  // denormals are zeros
-  out.push_back(snap_quad(quad, c, s));
-  _mm_setcsr(before);
-#endif
-  return out;
-}
-
-void expect_exact(const WindowQuad& quad, const Config& c, const DrawState& s, bool every_mode = true) {
-  const auto expected = numbers(slow::snap_quad(quad, c, s));
-  if (!every_mode) {
-    ASSERT_EQ(numbers(snap_quad(quad, c, s)), expected);
-    return;
-  }
-  for (const SnappedQuad& got : in_every_mode(quad, c, s)) ASSERT_EQ(numbers(got), expected);
-}
 
 double wild(Prng& rng, double low, double high) { return rng.sign() * rng.log2_spread(low, high); }
 
@@ -186,72 +137,6 @@ TEST(SnapExactly, Extremes) {
         }
 }
 
-WindowQuad square_of(double w) {
-  WindowQuad q;
-  q.vertex = {WindowVertex{w, w, 0, w}, {9 * w, w, 0, w}, {9 * w, 9 * w, 0, w}, {w, 9 * w, 0, w}};
-  for (auto& a : q.attribute) a = {0.0};
-  return q;
-}
-
-/// Three numbers: a tie, and its neighbours on either side.
-std::array<double, 3> around(double tie) { return {tie, std::nextafter(tie, 1e300), std::nextafter(tie, -1e300)}; }
-
-/// Half-way between two places of the grid, and the next doubles; w = 3/4 has a quotient that no double holds.
-TEST(SnapExactly, TiesOfPositions) {
-  const Config c;
-  Prng rng(12);
-  for (int n = 0; n < 200; ++n) {
-    const auto place = static_cast<std::int32_t>(rng.integer(-100'000, 100'000));
-    const double w = std::ldexp(rng.chance(0.5) ? 3 : 5, static_cast<int>(rng.integer(-8, 8)));
-    const auto tied = around(w * (0.5 + (place + 0.5) / 256));
-    const std::int32_t even = place + (place & 1);
-    for (std::size_t side = 0; side < 3; ++side) {
-      WindowQuad q = square_of(w);
-      q.vertex[1].x = tied[side];
-      const std::int32_t expected = side == 0 ? even : side == 1 ? place + 1 : place;
-      for (const SnappedQuad& s : in_every_mode(q, c, DrawState())) ASSERT_EQ(s.vertex[1].x >> 7, expected) << place;
-      expect_exact(q, c, DrawState(), false);
-    }
-  }
-}
-
-/// x/w is 2^-45 above a tie, less than a quotient in double precision keeps apart.
-TEST(SnapExactly, AQuotientNextToATie) {
-  WindowQuad q = square_of(0x1.d2d2d2d2f7d3fp+0);
-  q.vertex[2].x = 0x1.6428ed2d4968ap+9;
-  for (const SnappedQuad& s : in_every_mode(q, Config(), DrawState())) EXPECT_EQ(s.vertex[2].x >> 7, 99873);
-}
-
-/// Differences half-way between two significands of S bits, and the next doubles.
-TEST(SnapExactly, TiesOfDifferences) {
-  Prng rng(13);
-  for (const int s : {8, 18, 22}) {
-    Config c;
-    c.significand_bits = s;
-    for (int n = 0; n < 100; ++n) {
-      const std::uint32_t low = 1u << (s - 1),
-                          sig = n == 0 ? 2 * low - 1 : static_cast<std::uint32_t>(low + rng.below(low));
-      const int exponent = static_cast<int>(rng.integer(-4, 3));
-      const double base = 100 * rng.sign(), tie = std::ldexp(sig + 0.5, exponent - (s - 1));
-      const auto tied = around(base + tie);
-      for (std::size_t side = 0; side < 3; ++side) {
-        WindowQuad q = square_of(1);
-        q.attribute[0][0] = base;
-        q.attribute[2][0] = tied[side];
-        const std::uint32_t up = side == 1 || (side == 0 && sig % 2 == 1);
-        const bool carry = sig + up == 2 * low;
-        for (const SnappedQuad& snapped : in_every_mode(q, c, DrawState())) {
-          const PortNumber& d = snapped.vertex[2].attribute[0];
-          ASSERT_EQ(d.sig, carry ? low : sig + up);
-          ASSERT_EQ(d.exp, exponent + carry);
-          ASSERT_FALSE(d.neg);
-        }
-        expect_exact(q, c, DrawState(), false);
-      }
-    }
-  }
-}
-
 /// Bases: to nearest, ties to even, no larger than the largest code. An attribute that is vertex 0's has no difference,
 /// whatever its base was rounded to.
 TEST(SnapExactly, BasesOfAttributes) {
@@ -264,7 +149,7 @@ TEST(SnapExactly, BasesOfAttributes) {
       base = s.base.attribute[0];
       for (const SnappedVertex& v : s.vertex) EXPECT_EQ(v.attribute[0].sig, 0u) << value;
     }
-    expect_exact(q, c, DrawState(), false);
+    expect_exact(q, c, DrawState());
     return base;
   };
   EXPECT_EQ(base_of(0.1), 1677722);

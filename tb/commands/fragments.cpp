@@ -67,7 +67,8 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
   read.push_back(options.common.config_file);
   check_outputs({options.out, options.input.save_camera, options.common.json}, read);
 
-  DrawInput input = load_input(options.input, options.shade, settings.state, settings.config, options.common.seed);
+  DrawInput input =
+      load_input(options.input, options.shade, settings.state, settings.config, options.common.seed, settings.threads);
   print_remark(input, options.common);
   adjust_state(input, settings.state);
   if (options.quad >= 0) {

@@ -47,7 +47,7 @@ int render(const RenderOptions& options, const Invocation& invocation) {
   check_outputs({options.out, options.png, options.input.save_camera, options.common.json}, read);
 
   const DrawInput input = load_input(options.input, shade_of(options.shade, options.texture), settings.state,
-                                     settings.config, options.common.seed);
+                                     settings.config, options.common.seed, settings.threads);
   print_remark(input, options.common);
   adjust_state(input, settings.state);
   ShadeSettings shading;
@@ -58,23 +58,33 @@ int render(const RenderOptions& options, const Invocation& invocation) {
   shading.depth = settings.state.depth;
   shading.threads = settings.threads;
 
-  FrameBuffer frame(settings.state.width, settings.state.height, settings.state.depth);
+  const std::string& drawn_by = options.method.empty() ? options.engine.engine : options.method;
+  const bool errors = drawn_by != engine_info(EngineKind::truth).name && !options.no_error &&
+                      (!options.out.empty() || !options.common.json.empty());
+  // Of plane quads depth depends on what the first pass carries.
+  const bool weights =
+      errors || !options.out.empty() || shades_weights(shading) || (settings.state.skip & skip_plane) != 0;
+  FrameBuffer frame(settings.state.width, settings.state.height, settings.state.depth, settings.config,
+                    input.attributes, weights);
   try {
     Progress progress("render " + input.name, input.quads.size(), options.common.show_progress());
     const std::unique_ptr<Engine> engine =
         options.method.empty() ? make_engine(settings) : make_method_engine(input, settings);
-    engine->draw(input.quads, input.attributes, true, [&](std::span<const EngineSample> samples) {
-      frame.add(samples);
-      progress.set(samples.back().index + 1);
+    const bool drawn = engine->draw_quads(input.quads, input.attributes, weights, [&](const QuadFragments& quad) {
+      frame.add(quad);
+      if (quad.index % 64 == 0) progress.set(quad.index);
     });
+    if (!drawn)
+      engine->draw(input.quads, input.attributes, weights, [&](std::span<const EngineSample> samples) {
+        frame.add(samples);
+        progress.set(samples.back().index + 1);
+      });
   } catch (const SnapError& error) {
     throw UsageError(describe(error, input));
   }
 
   golden::FrameImage image = shade_frame(frame, shading);
-  const std::string& drawn_by = options.method.empty() ? options.engine.engine : options.method;
-  if (drawn_by != engine_info(EngineKind::truth).name && !options.no_error &&
-      (!options.out.empty() || !options.common.json.empty()))
+  if (errors)
     add_error_layers(frame, input.quads, settings.config, settings.state, settings.snap, settings.threads, image);
   if (!options.out.empty()) golden::save_exr(options.out, image);
   if (!options.png.empty()) save_frame_png(options.png, image);

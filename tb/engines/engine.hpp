@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/port/config.hpp"
+#include "model/port/fragment_arrays.hpp"
 #include "model/port/records.hpp"
 #include "tb/passes/pass.hpp"
 
@@ -63,6 +64,15 @@ struct EngineSample {
 /// Gets fragments in the order of the quads; within a quad in the engine's own order. The span lives for the call only.
 using SampleSink = std::function<void(std::span<const EngineSample>)>;
 
+/// Fragments of one quad as the machine gives them, over all passes.
+struct QuadFragments {
+  std::uint32_t index = 0;  ///< position of the quad in the draw
+  std::uint32_t quad = 0;   ///< its id
+  FragmentArrays common;    ///< places, flags, depths of the first pass; no attributes
+  std::array<const std::int64_t*, 4 + max_attribute_slots> column{};  ///< as in Pass; nullptr: not drawn
+};
+using QuadSink = std::function<void(const QuadFragments&)>;
+
 struct EngineSettings {
   EngineKind kind = EngineKind::model;
   Config config;
@@ -80,6 +90,11 @@ class Engine {
   /// value weights. The machine measures weights at its attribute outputs and draws as many times as its slots require.
   /// What `sink` gets does not depend on the number of threads. Throws SnapError for a quad that cannot be drawn.
   virtual void draw(std::span<const WindowQuad> quads, int attributes, bool weights, const SampleSink& sink) = 0;
+  /// The same by the model, without a record of each fragment. Other engines do nothing and return false.
+  virtual bool draw_quads(std::span<const WindowQuad> /*quads*/, int /*attributes*/, bool /*weights*/,
+                          const QuadSink& /*sink*/) {
+    return false;
+  }
 };
 
 /// Throws StudyNeeded for the engine `shader` unless set_shader_engine() was called.

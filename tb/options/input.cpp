@@ -144,8 +144,9 @@ void fit_positions(DrawInput& input) {
 
 /// Projects, with what is wrong told as an input error of `place`.
 void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, bool strict,
-             const std::string& place, DrawInput& input) {
+             unsigned threads, const std::string& place, DrawInput& input) {
   golden::ProjectOptions options;
+  options.threads = threads;
   options.attributes = attributes_for(input.shade);
   options.strict = strict;
   golden::Projection projection;
@@ -204,12 +205,13 @@ void load_scene(const InputOptions& options, const std::string& shade, int width
   input.cull = scene.cull;
   input.texture = scene.texture;
   need_colours(scene.mesh, input);
-  project(scene.mesh, scene.camera, width, height, options.strict, "scene " + scene.name, input);
+  project(scene.mesh, scene.camera, width, height, options.strict, 1, "scene " + scene.name, input);
   if (scene.planes) input.planes = *scene.planes;
   if (input.layout == AttributeLayout::position) fit_positions(input);
 }
 
-void load_mesh(const InputOptions& options, const std::string& shade, int width, int height, DrawInput& input) {
+void load_mesh(const InputOptions& options, const std::string& shade, int width, int height, unsigned threads,
+               DrawInput& input) {
   const golden::Mesh mesh = golden::load_obj(options.mesh);
   input.name = golden::readable(std::filesystem::path(options.mesh).filename().string());
   input.title = "mesh " + input.name;
@@ -225,7 +227,7 @@ void load_mesh(const InputOptions& options, const std::string& shade, int width,
                                                        : golden::load_camera(options.camera);
   if (!options.save_camera.empty())
     golden::write_file(options.save_camera, golden::camera_text(camera), golden::AtomicFile::Dash::refused);
-  project(mesh, camera, width, height, options.strict, options.mesh, input);
+  project(mesh, camera, width, height, options.strict, threads, options.mesh, input);
   remark_on_texture(mesh, input);
   remark_on_reading(mesh, input);
   if (input.layout == AttributeLayout::position) fit_positions(input);
@@ -293,7 +295,7 @@ std::string shade_of(const std::string& shade, const std::string& texture) {
 }
 
 DrawInput load_input(const InputOptions& options, const std::string& shade, const DrawState& state,
-                     const Config& config, std::uint64_t seed) {
+                     const Config& config, std::uint64_t seed, unsigned threads) {
   if (inputs_given(options) != 1)
     throw UsageError(
         "one input is needed: --scene NAME, --mesh F.obj, --quads F.quads, --stress FAMILY or --corner GROUP (" +
@@ -309,7 +311,7 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, cons
   if (!options.scene.empty())
     load_scene(options, shade, state.width, state.height, input);
   else if (!options.mesh.empty())
-    load_mesh(options, shade, state.width, state.height, input);
+    load_mesh(options, shade, state.width, state.height, threads, input);
   else if (!options.quads.empty())
     load_quads_file(options, shade, input);
   else if (!options.stress.empty())

@@ -53,7 +53,7 @@ int inputs_given(const InputOptions& options);
 /// groups look at the rest of the state and at the configuration too. Throws UsageError when not exactly one
 /// is given, a name is unknown or the input lacks what the shading needs, InputError for what a file holds.
 DrawInput load_input(const InputOptions& options, const std::string& shade, const DrawState& state,
-                     const Config& config, std::uint64_t seed);
+                     const Config& config, std::uint64_t seed, unsigned threads = 1);
 
 /// The draw state of an input: perspective off where the scene has none, the scene's culling where no other is asked
 /// for.

@@ -53,6 +53,12 @@ WindowQuad pass_quad(const WindowQuad& quad, const Pass& pass) {
   return result;
 }
 
+bool is_whole(const Pass& pass, const WindowQuad& quad) {
+  for (std::size_t i = 0; i < pass.columns.size(); ++i)
+    if (pass.columns[i] != 4 + static_cast<int>(i)) return false;
+  return std::ranges::all_of(quad.attribute, [&](const auto& a) { return a.size() == pass.columns.size(); });
+}
+
 SnappedQuad snap_as(const WindowQuad& quad, std::uint32_t id, const Config& config, const DrawState& state) {
   try {
     if (quad.id == id) return snap_quad(quad, config, state);

@@ -27,6 +27,8 @@ std::vector<Pass> plan_judged_passes(int attributes, int slots, std::size_t* wei
 
 /// The quad with the pass's columns as attributes.
 WindowQuad pass_quad(const WindowQuad& quad, const Pass& pass);
+/// pass_quad() is the quad itself.
+bool is_whole(const Pass& pass, const WindowQuad& quad);
 
 /// Snaps a quad under another id, its position in the draw say: ids of an input may repeat. Errors name the quad's own
 /// id.

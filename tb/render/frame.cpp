@@ -91,36 +91,78 @@ std::size_t slot(int first, int offset) { return static_cast<std::size_t>(first 
 
 }  // namespace
 
-FrameBuffer::FrameBuffer(int width, int height, bool depth)
-    : width_(width),
-      height_(height),
-      depth_(depth),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+FrameBuffer::FrameBuffer(int width, int height, bool depth, const Config& config, int attributes, bool weights)
+    : depth_(depth),
+      attribute_count_(attributes),
+      attributes_(width, height, attributes, config, depth, true),
+      shows_undefined_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+  if (weights) weights_.emplace(width, height, 4, config, depth);
+}
+
+void FrameBuffer::name(std::uint32_t index, std::uint32_t quad) {
+  if (index >= quad_of_index_.size()) quad_of_index_.resize(index + std::size_t{1});
+  quad_of_index_[index] = quad;
+}
+
+void FrameBuffer::show(const EngineSample& sample) {
+  const std::size_t pixel = at(sample.x, sample.y);
+  const double depth = sample.undefined ? 1 : sample.z;
+  attributes_.overwrite(pixel, depth, sample.attribute, sample.index);
+  if (weights_) weights_->overwrite(pixel, depth, sample.lambda, sample.index);
+  shows_undefined_[pixel] = sample.undefined;
+}
 
 void FrameBuffer::add(std::span<const EngineSample> samples) {
   for (const EngineSample& sample : samples) {
-    Pixel& pixel = pixels_[static_cast<std::size_t>(sample.y) * static_cast<std::size_t>(width_) + sample.x];
     ++fragments_;
-    if (sample.undefined) {
-      ++undefined_;
-      if (pixel.drawn) continue;
-    } else if (depth_) {
-      const double before = pixel.drawn && !pixel.sample.undefined ? pixel.sample.z : 1;
-      if (!(sample.z < before)) continue;
-    }
-    pixel.drawn = true;
-    pixel.sample = sample;
+    undefined_ += sample.undefined;
+    const bool in = sample.undefined ? !drawn(sample.x, sample.y)
+                                     : !depth_ || sample.z < attributes_.depth()[at(sample.x, sample.y)];
+    if (!in) continue;
+    name(sample.index, sample.quad);
+    show(sample);
   }
 }
 
+void FrameBuffer::add(const QuadFragments& fragments) {
+  fragments_ += fragments.common.size;
+  name(fragments.index, fragments.quad);
+  FragmentArrays arrays = fragments.common;
+  arrays.quad = fragments.index;
+  std::copy_n(fragments.column.begin() + 4, attribute_count_, arrays.attribute.begin());
+  attributes_.write(arrays);
+  if (!weights_) return;
+  std::copy_n(fragments.column.begin(), 4, arrays.attribute.begin());
+  weights_->write(arrays);
+}
+
 void FrameBuffer::amend(const Fragment& fragment, std::uint32_t index, const Pass& pass, const Config& config) {
-  Pixel& pixel = pixels_[static_cast<std::size_t>(fragment.y) * static_cast<std::size_t>(width_) + fragment.x];
-  if (pixel.drawn && pixel.sample.index == index) read_columns(fragment, pass, config, pixel.sample);
+  if (!drawn(fragment.x, fragment.y)) return;
+  EngineSample sample = shown(fragment.x, fragment.y);
+  if (sample.index != index) return;
+  read_columns(fragment, pass, config, sample, false);
+  show(sample);
+}
+
+EngineSample FrameBuffer::shown(int x, int y) const {
+  const std::size_t pixel = at(x, y);
+  EngineSample sample;
+  sample.x = static_cast<std::uint16_t>(x);
+  sample.y = static_cast<std::uint16_t>(y);
+  sample.index = attributes_.quads()[pixel];
+  sample.quad = sample.index < quad_of_index_.size() ? quad_of_index_[sample.index] : golden::no_quad;
+  sample.undefined = shows_undefined_[pixel] != 0;
+  sample.z = attributes_.depth()[pixel];
+  for (int j = 0; j < attribute_count_; ++j)
+    sample.attribute[static_cast<std::size_t>(j)] = attributes_.attribute(j)[pixel];
+  if (weights_)
+    for (int i = 0; i < 4; ++i) sample.lambda[static_cast<std::size_t>(i)] = weights_->attribute(i)[pixel];
+  return sample;
 }
 
 std::uint64_t FrameBuffer::pixels_drawn() const {
-  return static_cast<std::uint64_t>(
-      std::count_if(pixels_.begin(), pixels_.end(), [](const Pixel& p) { return p.drawn; }));
+  const auto quads = attributes_.quads();
+  return quads.size() - static_cast<std::uint64_t>(std::ranges::count(quads, DepthImage<double>::no_quad));
 }
 
 TextureFunction make_texture(const std::string& file, const DrawInput& input) {
@@ -154,6 +196,11 @@ ShadeSlots shade_slots(const std::string& shade, const DrawInput& input) {
   return slots;
 }
 
+bool shades_weights(const ShadeSettings& settings) {
+  const std::string& shade = settings.shade;
+  return shade == "lambda" || (settings.slots.uv < 0 && (shade == "uv" || shade == "texture"));
+}
+
 golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& settings) {
   golden::FrameImage image(frame.width(), frame.height());
   const std::size_t mode = choose("shading", settings.shade, shade_modes());
@@ -161,11 +208,12 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
 
   // Depth is shown between its extremes in the frame.
   double nearest = 1, farthest = 0;
-  for (int y = 0; y < frame.height(); ++y) {
+  for (int y = 0; settings.shade == "depth" && y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      if (!frame.drawn(x, y) || frame.shown(x, y).undefined) continue;
-      nearest = std::min(nearest, frame.shown(x, y).z);
-      farthest = std::max(farthest, frame.shown(x, y).z);
+      const EngineSample s = frame.shown(x, y);
+      if (!frame.drawn(x, y) || s.undefined) continue;
+      nearest = std::min(nearest, s.z);
+      farthest = std::max(farthest, s.z);
     }
   }
 
@@ -182,7 +230,7 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
     for (const int sign : {1, -1}) {
       const int x = s.x + sign * dx, y = s.y + sign * dy;
       if (x < 0 || y < 0 || x >= frame.width() || y >= frame.height() || !frame.drawn(x, y)) continue;
-      const EngineSample& next = frame.shown(x, y);
+      const EngineSample next = frame.shown(x, y);
       if (next.index == s.index && !next.undefined) return height(next) - height(s);
     }
     return 0.0;
@@ -230,7 +278,7 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
     const int y = static_cast<int>(row);
     for (int x = 0; x < frame.width(); ++x) {
       if (!frame.drawn(x, y)) continue;
-      const EngineSample& s = frame.shown(x, y);
+      const EngineSample s = frame.shown(x, y);
       const std::size_t i = image.index(x, y);
       const Vec3 colour = colour_of(s);
       image.r[i] = static_cast<float>(colour[0]);

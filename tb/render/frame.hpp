@@ -4,48 +4,55 @@
 #include "golden/io/frame_image.hpp"
 #include "golden/io/png.hpp"
 #include "golden/scenes/mesh.hpp"
+#include "model/depth_image.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/input.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace quadrille::tb {
 
-/// Depth test over samples in draw order: LESS against 1 at first, so of equal depths the earlier quad stays. With
+/// Depth test over fragments in draw order: LESS against 1 at first, so of equal depths the earlier quad stays. With
 /// depth off the later quad stays. An undefined sample (float engine) shows only where nothing else does.
 class FrameBuffer {
  public:
-  FrameBuffer(int width, int height, bool depth);
+  /// `config`: of the machine, where fragments come as QuadFragments.
+  FrameBuffer(int width, int height, bool depth, const Config& config = {}, int attributes = max_attribute_slots,
+              bool weights = true);
 
   void add(std::span<const EngineSample> samples);
+  void add(const QuadFragments& fragments);
   /// For attributes that come in a later pass over the same quads: writes the columns into the sample that the pixel
   /// shows, if it is of the same quad of the draw.
   void amend(const Fragment& fragment, std::uint32_t index, const Pass& pass, const Config& config);
 
-  bool drawn(int x, int y) const { return at(x, y).drawn; }
-  const EngineSample& shown(int x, int y) const { return at(x, y).sample; }
-  int width() const { return width_; }
-  int height() const { return height_; }
+  bool drawn(int x, int y) const { return attributes_.quads()[at(x, y)] != DepthImage<double>::no_quad; }
+  /// Without front and flags.
+  EngineSample shown(int x, int y) const;
+  int width() const { return attributes_.width(); }
+  int height() const { return attributes_.height(); }
   std::uint64_t fragments() const { return fragments_; }
   std::uint64_t undefined() const { return undefined_; }
   std::uint64_t pixels_drawn() const;
 
  private:
-  struct Pixel {
-    bool drawn = false;
-    EngineSample sample;
-  };
-  const Pixel& at(int x, int y) const {
-    return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x);
   }
+  void name(std::uint32_t index, std::uint32_t quad);
+  void show(const EngineSample& sample);
 
-  int width_, height_;
   bool depth_;
-  std::vector<Pixel> pixels_;
+  int attribute_count_;
+  DepthImage<double> attributes_;              ///< its ids: positions of quads in the draw
+  std::optional<DepthImage<double>> weights_;  ///< of the same depths
+  std::vector<std::uint32_t> quad_of_index_;
+  std::vector<std::uint8_t> shows_undefined_;
   std::uint64_t fragments_ = 0, undefined_ = 0;
 };
 
@@ -76,6 +83,8 @@ struct ShadeSettings {
   unsigned threads = 1;
 };
 
+/// Whether the colours are made of weights.
+bool shades_weights(const ShadeSettings& settings);
 /// Colours, depths, weights and ids of a frame.
 golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& settings);
 

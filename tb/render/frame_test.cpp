@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
+#include <tuple>
 
 namespace quadrille::tb {
 namespace {
@@ -66,6 +69,48 @@ TEST(FrameBuffer, AmendsTheSampleOfTheSameQuadAlone) {
   fragment.x = 4;
   frame.amend(fragment, 7, pass, config);
   EXPECT_FALSE(frame.drawn(4, 2));
+}
+
+/// A quad's fragments by columns are what its samples are, with weights and without.
+TEST(FrameBuffer, TakesColumnsAsItTakesSamples) {
+  const Config config;
+  const double attribute_unit = std::ldexp(1.0, -config.attribute_frac());
+  for (const bool weights : {false, true})
+    for (const bool depth : {false, true}) {
+      FrameBuffer by_columns(5, 4, depth, config, 2, weights), by_samples(5, 4, depth);
+      for (std::uint32_t quad = 0; quad < 4; ++quad) {
+        const std::array<FragmentPlace, 2> place{{{static_cast<std::uint16_t>(quad), 1}, {4, 3}}};
+        const std::array<std::uint32_t, 2> codes{100 + quad % 2, 200 - quad % 3};
+        std::array<std::array<std::int64_t, 2>, 6> column;
+        QuadFragments fragments;
+        fragments.index = quad;
+        fragments.quad = 70 + quad;
+        fragments.common = {quad, 2, place.data(), nullptr, codes.data(), 0, {}};
+        std::array<EngineSample, 2> samples;
+        for (std::size_t n = 0; n < 2; ++n) {
+          samples[n] = sample_of(quad, std::ldexp(codes[n], -config.depth_bits));
+          samples[n].quad = 70 + quad;
+          samples[n].x = place[n].x, samples[n].y = place[n].y;
+          for (std::size_t c = weights ? 0 : 4; c < 6; ++c) {
+            column[c][n] = static_cast<std::int64_t>(1000 * quad + 10 * c + n) - 1500;
+            fragments.column[c] = column[c].data();
+            (c < 4 ? samples[n].lambda[c] : samples[n].attribute[c - 4]) =
+                static_cast<double>(column[c][n]) * attribute_unit;
+          }
+        }
+        by_columns.add(fragments);
+        by_samples.add(samples);
+      }
+      EXPECT_EQ(by_columns.fragments(), 8u);
+      EXPECT_EQ(by_columns.pixels_drawn(), 5u);
+      for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 5; ++x) {
+          ASSERT_EQ(by_columns.drawn(x, y), by_samples.drawn(x, y));
+          const EngineSample a = by_columns.shown(x, y), b = by_samples.shown(x, y);
+          EXPECT_EQ(std::tie(a.index, a.quad, a.z, a.lambda, a.attribute),
+                    std::tie(b.index, b.quad, b.z, b.lambda, b.attribute));
+        }
+    }
 }
 
 /// The largest difference of a channel between two pixels of a picture, in steps of 8 bits.
