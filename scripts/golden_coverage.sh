@@ -34,7 +34,7 @@ unreachable = {
     ("model/front/quad_setup.cpp", "int quad_setup_steps"): "clocks, not values",
     ("model/port/snap.cpp", "a product with k is too large"): "k is below 2^96 and z at most 2^80; the port reaches 2^256",
     ("model/port/snap.cpp", "extent_.zero()"): "w = 0 here leaves x and y as given, which are not both 0",
-    ("model/port/snap.cpp", "as_many)"): "vertices of the suite have all attributes",
+    ("model/port/snap.cpp", "as_many) ||"): "vertices of the suite have all attributes",
     ("model/port/snap.cpp", "quad_id_bits"): "ids belong to quads; the suite snaps vertices",
     ("model/port/snap.cpp", "SnapError(quad.id"): "as above",
     ("model/port/snap.cpp", "is_ordinary"): "a query of the test bench",
