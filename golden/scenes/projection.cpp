@@ -1,6 +1,7 @@
 #include "golden/scenes/projection.hpp"
 
 #include "golden/scenes/polygon.hpp"
+#include "golden/scenes/scene_builders.hpp"
 #include "model/support/parallel.hpp"
 
 #include <algorithm>
