@@ -35,7 +35,7 @@ template <class Real>
 template <class F>
 void DepthImage<Real>::with_planes(F&& f) const {
   [&]<std::size_t... n>(std::index_sequence<n...>) {
-    ((planes_.size() == n + 1 && (f(std::integral_constant<std::size_t, n + 1>{}), true)) || ...);
+    ((planes_.size() == n + 1 ? f(std::integral_constant<std::size_t, n + 1>{}) : void()), ...);
   }
   (std::make_index_sequence<most_planes>{});
 }

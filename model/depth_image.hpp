@@ -12,8 +12,8 @@
 
 namespace quadrille {
 
-/// Doubles hold every code exactly. Floats round attributes to 24 bits, and so do they depths of more than 24
-/// depth_bits before these are compared.
+/// Doubles hold every code exactly. Floats round attributes to 24 bits. They also round depths of more than 24
+/// depth_bits, before these are compared.
 template <class Real>
 class DepthImage {
  public:
@@ -24,10 +24,15 @@ class DepthImage {
   static constexpr std::uint32_t no_quad = 0xffffffff;
   /// Depth 1, attributes 0, no_quad.
   void clear();
+  /// Of equal depths the earlier fragment stays; without the test the later one. All lie within the picture.
   void write(const FragmentArrays& fragments);
   /// What a pixel shows from now on.
   void overwrite(std::size_t pixel, Real depth, std::span<const Real> attributes, std::uint32_t quad);
 
+  /// Fragments that wait go to their pixels. Who looks settles too: after a write one thread has to before several do.
+  void settle() const {
+    if (blocks_[newer_].size != 0) settle_all();
+  }
   int width() const { return width_; }
   int height() const { return height_; }
   /// The numbers of all pixels, row by row from the top.
@@ -55,9 +60,6 @@ class DepthImage {
   }
   template <std::size_t planes>
   void append(const FragmentArrays& fragments);
-  void settle() const {
-    if (blocks_[newer_].size != 0) settle_all();
-  }
   void settle_all() const;
   template <std::size_t planes>
   void settle(Block& block) const;

@@ -223,6 +223,21 @@ SnappedQuad snap_exactly(const WindowQuad& quad, std::size_t attributes, const C
   return out;
 }
 
+SnappedQuad snap_any(const WindowQuad& quad, const Config& config, const DrawState& state) {
+  std::size_t attributes = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t count = std::min(quad.attribute[i].size(), static_cast<std::size_t>(config.attribute_slots));
+    attributes = std::max(attributes, count);
+    naming_vertex(quad, i, [&] {
+      check_vertex(quad.vertex[i]);
+      for (std::size_t j = 0; j < count; ++j) check_attribute(quad.attribute[i][j], j, config);
+    });
+  }
+  if (all_fit(128, quad, config)) return snap_exactly<NarrowInteger>(quad, attributes, config, state);
+  if (all_fit(256, quad, config)) return snap_exactly<MiddleInteger>(quad, attributes, config, state);
+  return snap_exactly<WideInteger>(quad, attributes, config, state);
+}
+
 }  // namespace
 
 SnapError::SnapError(std::uint32_t quad_id, int vertex_index, const std::string& what)
@@ -240,24 +255,13 @@ SnappedQuad snap_quad(const WindowQuad& quad, const Config& config, const DrawSt
   }
   if (config.quad_id_bits < 32 && quad.id >> config.quad_id_bits)
     throw SnapError(quad.id, 0, "the quad id does not fit quad_id_bits = " + std::to_string(config.quad_id_bits));
-  std::size_t attributes = std::min(quad.attribute[0].size(), static_cast<std::size_t>(config.attribute_slots));
+  const std::size_t attributes = std::min(quad.attribute[0].size(), static_cast<std::size_t>(config.attribute_slots));
   const auto as_many = [&](const std::vector<double>& a) { return a.size() == quad.attribute[0].size(); };
-  if (std::ranges::all_of(quad.attribute, as_many)) {
-    SnappedQuad out;
-    out.id = quad.id;
-    if (quick_snap(quad, attributes, config, state, out)) return out;
-  }
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t count = std::min(quad.attribute[i].size(), static_cast<std::size_t>(config.attribute_slots));
-    attributes = std::max(attributes, count);
-    naming_vertex(quad, i, [&] {
-      check_vertex(quad.vertex[i]);
-      for (std::size_t j = 0; j < count; ++j) check_attribute(quad.attribute[i][j], j, config);
-    });
-  }
-  if (all_fit(128, quad, config)) return snap_exactly<NarrowInteger>(quad, attributes, config, state);
-  if (all_fit(256, quad, config)) return snap_exactly<MiddleInteger>(quad, attributes, config, state);
-  return snap_exactly<WideInteger>(quad, attributes, config, state);
+  SnappedQuad out;
+  out.id = quad.id;
+  if (!std::ranges::all_of(quad.attribute, as_many) || !quick_snap(quad, attributes, config, state, out))
+    out = snap_any(quad, config, state);
+  return out;
 }
 
 bool is_ordinary(const SnappedQuad& quad, const Config& config) {

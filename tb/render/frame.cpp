@@ -202,6 +202,7 @@ bool shades_weights(const ShadeSettings& settings) {
 }
 
 golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& settings) {
+  frame.settle();
   golden::FrameImage image(frame.width(), frame.height());
   const std::size_t mode = choose("shading", settings.shade, shade_modes());
   const Lighting lighting{settings.lighting.to_eye, normalised(settings.lighting.to_light)};
@@ -296,6 +297,7 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
 
 void add_error_layers(const FrameBuffer& frame, std::span<const WindowQuad> quads, const Config& config,
                       const DrawState& state, bool snap, unsigned threads, golden::FrameImage& image) {
+  frame.settle();
   struct Shown {
     std::uint32_t index;
     int x, y;

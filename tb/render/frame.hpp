@@ -31,6 +31,11 @@ class FrameBuffer {
   /// shows, if it is of the same quad of the draw.
   void amend(const Fragment& fragment, std::uint32_t index, const Pass& pass, const Config& config);
 
+  /// After the last fragment, before several threads look.
+  void settle() const {
+    attributes_.settle();
+    if (weights_) weights_->settle();
+  }
   bool drawn(int x, int y) const { return attributes_.quads()[at(x, y)] != DepthImage<double>::no_quad; }
   /// Without front and flags.
   EngineSample shown(int x, int y) const;
