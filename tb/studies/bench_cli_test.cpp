@@ -192,11 +192,10 @@ TEST_F(CliBenchWhole, CliffsOfEveryLoadAndEngine) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json report = json::parse(outcome.out);
   std::map<std::string, int> rows, best;
-  std::set<int> bits, sides;
+  std::set<int> sides;
   for (const json& row : report["cliffs"]) {
     const std::string series = row["series"];
     ++rows[series];
-    if (series == "width") bits.insert(row["significand_bits"].get<int>());
     if (series == "viewport") sides.insert(row["side"].get<int>());
     EXPECT_EQ(row["engines"].size(), report["engines"].size()) << row;
     const double fragments = row["fragments"];
@@ -221,12 +220,28 @@ TEST_F(CliBenchWhole, CliffsOfEveryLoadAndEngine) {
   EXPECT_EQ(rows["family"], 22);
   EXPECT_GT(rows["scene"], 60);
   EXPECT_EQ(rows["view"], 2);
-  EXPECT_EQ(rows["width"], 10);
   EXPECT_EQ(rows["viewport"], 4 * 6);
-  EXPECT_EQ(bits, (std::set<int>{8, 10, 12, 14, 16, 18, 20, 22, 24, 26}));
   EXPECT_EQ(sides, (std::set<int>{64, 256, 1024, 4096}));
   for (const char* engine : {"model", "clocked", "judge", "truth", "float", "fp32", "mvc", "split02", "refine:20"})
     EXPECT_EQ(best[engine], 1) << engine;
+
+  // By family, widths and each instruction set of the processor; one case is the quickest.
+  std::map<std::string, int> widths;
+  std::map<std::string, int> quickest;
+  for (const json& row : report["widths"]) {
+    ++widths[row["family"]];
+    EXPECT_GE(row["pixels"], row["fragments"]) << row;
+    EXPECT_GT(row["fragments"], 64 * row["quads"].get<int>() - 1) << row;
+    EXPECT_TRUE(row["targets"].contains("baseline")) << row;
+    for (const auto& [target, cost] : row["targets"].items()) {
+      EXPECT_GT(cost["ns"], 0) << row;
+      EXPECT_GE(cost["of_quickest"], 1) << row;
+      quickest[target] += cost["of_quickest"] == 1;
+    }
+  }
+  EXPECT_EQ(widths.size(), 14u);
+  for (const auto& [family, count] : widths) EXPECT_EQ(count, 6) << family;
+  for (const auto& [target, count] : quickest) EXPECT_EQ(count, 1) << target;
 }
 
 TEST_F(Cli, BenchErrorReports) {

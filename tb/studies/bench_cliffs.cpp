@@ -192,7 +192,7 @@ class CliffBench {
     check_outputs({options_.common.json}, {options_.common.config_file});
     make_loads();
     measure();
-    widths_ = measure_widths(config_, options_.common.seed, options_.repeat);
+    widths_ = measure_widths(config_, options_.common.seed, options_.repeat, 5 * options_.fragments);
     if (std::FILE* text = options_.common.text()) {
       print(text);
       print_widths(text, widths_);

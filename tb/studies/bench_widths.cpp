@@ -22,12 +22,12 @@ struct Widths {
 };
 constexpr std::array<Widths, 6> widths{{{8, 2}, {12, 0}, {18, 2}, {18, 6}, {22, 2}, {26, 6}}};
 constexpr int width_side = 256, width_quads = 3000;
-constexpr std::uint64_t least_fragments = 64, most_fragments = 20'000, enough = 60'000;
+constexpr std::uint64_t least_fragments = 64, most_fragments = 20'000;
 constexpr double shortest_width_run = 2e-3;
 
 /// Quads that are neither so small that setting them up counts, nor so large that one is all.
-std::vector<SnappedQuad> quads_of(const char* family, const Config& config, const DrawState& state,
-                                  std::uint64_t seed) {
+std::vector<SnappedQuad> quads_of(const char* family, const Config& config, const DrawState& state, std::uint64_t seed,
+                                  std::uint64_t enough) {
   InputOptions options;
   options.stress = family;
   options.count = width_quads;
@@ -50,7 +50,7 @@ std::vector<SnappedQuad> quads_of(const char* family, const Config& config, cons
 
 }  // namespace
 
-std::vector<WidthCost> measure_widths(const Config& config, std::uint64_t seed, int repeat) {
+std::vector<WidthCost> measure_widths(const Config& config, std::uint64_t seed, int repeat, std::uint64_t fragments) {
   std::vector<WidthCost> costs;
   const LaneTarget before = lane_target();
   for (const char* family : families)
@@ -60,7 +60,7 @@ std::vector<WidthCost> measure_widths(const Config& config, std::uint64_t seed, 
       c.set("align_guard_bits", of.align_guard_bits);
       c.validate();
       const DrawState state = draw_state_for(c, width_side, width_side);
-      const std::vector<SnappedQuad> quads = quads_of(family, c, state, seed);
+      const std::vector<SnappedQuad> quads = quads_of(family, c, state, seed, fragments);
       WidthCost cost{family, of.significand_bits, of.align_guard_bits, quads.size(), 0, 0, {}};
       for (const LaneTarget target : lane_targets()) {
         cost.ns.push_back(0);

@@ -21,8 +21,8 @@ struct WidthCost {
   std::vector<double> ns;  ///< of a pixel, set-up included; a place for each of lane_targets(), 0 where it cannot run
 };
 
-/// Quads of at least 64 fragments, each draw `repeat` times; the quickest counts.
-std::vector<WidthCost> measure_widths(const Config& config, std::uint64_t seed, int repeat);
+/// Quads of at least 64 fragments, some `fragments` in all, each draw `repeat` times; the quickest counts.
+std::vector<WidthCost> measure_widths(const Config& config, std::uint64_t seed, int repeat, std::uint64_t fragments);
 /// The quickest case of a target, in ns.
 double quickest(const std::vector<WidthCost>& costs, std::size_t target);
 void print_widths(std::FILE* text, const std::vector<WidthCost>& costs);
