@@ -1,4 +1,4 @@
-// The instruction set that the lanes' code (pixel_lanes.hpp, lane_stages.hpp) runs on. It is compiled for each target;
+// The instruction set that the lanes' code (float_lanes.hpp, wide_lanes.hpp) runs on. It is compiled for each target;
 // all give the same bits, and the best that the processor has is in use unless another is chosen.
 #pragma once
 
