@@ -698,8 +698,7 @@ TEST(Evaluator, WhatPointsShareIsExecutedOnce) {
   EXPECT_EQ(settings(after, Stage::draw), settings(before, Stage::draw) + 1);
 }
 
-/// A quad above the size of a part is drawn in bands of rows; its pixels one by one, in scissors of their own, have the
-/// same errors.
+/// A quad above the size of a part is drawn in bands of rows: it has the errors of other, smaller bands by scissor.
 TEST(Evaluator, ALargeQuadInBandsIsItsRows) {
   SweepInput input;
   WindowQuad& quad = input.quads.emplace_back();
@@ -727,6 +726,15 @@ TEST(Evaluator, ALargeQuadInBandsIsItsRows) {
   EXPECT_EQ(whole.quads, 1u);
   EXPECT_EQ(std::tuple(whole.worst.error, whole.worst.x, whole.worst.y), std::tuple(worst.error, worst.x, worst.y));
   for (std::size_t q = 0; q < outputs.size(); ++q) EXPECT_EQ(whole.arithmetic[q].max, largest[q]);
+
+  // A plane one is one quad.
+  quad.vertex = {{{3, 2, 0.1, 1}, {603, 2, 0.1, 1}, {603, 402, 0.1, 1}, {3, 402, 0.1, 1}}};
+  input.state = state;
+  input.state.skip |= skip_plane;
+  const PointResult plane =
+      Evaluator(input, {.threads = 2, .cycles = false}).evaluate(config({{"viewport_bits", 10}, {"plane_quads", 1}}));
+  EXPECT_EQ(plane.plane_quads, 1u);
+  EXPECT_EQ(plane.plane_fragments, 600u * 400u);
 }
 
 TEST(Evaluator, MemoryIsBoundedAndForgettingIsHarmless) {

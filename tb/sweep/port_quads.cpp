@@ -94,7 +94,8 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
         for (unsigned rest = positions.singular[block]; rest != 0; rest &= rest - 1) {
           const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
           const int x = pixel_x(positions.pixel[block][lane]), y = pixel_y(positions.pixel[block][lane]);
-          SingularPixel& p = singular[q].emplace_back(block, lane, exact.cover(x, y).visible);
+          singular[q].push_back({block, lane, exact.cover(x, y).visible, {}});
+          SingularPixel& p = singular[q].back();
           const auto m = exact.homogeneous_weights(x, y);
           for (std::size_t i = 0; i < 4; ++i) p.m[i] = static_cast<double>(m[i]);
         }
