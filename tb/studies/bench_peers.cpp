@@ -49,6 +49,9 @@ struct TargetRuns {
   std::string label() const { return goal == nullptr ? name : name + " " + std::string(goal->instructions); }
   bool measured = false;  ///< or the machine, or this build, lacks it
   std::vector<double> seconds{};
+  std::vector<double> snapping_seconds{};  ///< of the same with snapping: vertices in, picture out
+
+  double snapping_over_drawing() const { return median(snapping_seconds) / median(seconds); }
 };
 
 struct Picture {
@@ -178,7 +181,13 @@ class PeerBench {
           set_lane_target(runs.name);
           UntimedModel model(config_, state_);
           const double seconds = cpu_seconds([&] { draw_into_image(model, snapped, image); });
-          if (round >= 0) runs.seconds.push_back(seconds);
+          const double with_snapping = cpu_seconds([&] {
+            for (std::size_t i = 0; i < snapped.size(); ++i) snapped[i] = snap_as(picture.quads[i], 0, config_, state_);
+            draw_into_image(model, snapped, image);
+          });
+          if (round < 0) continue;
+          runs.seconds.push_back(seconds);
+          runs.snapping_seconds.push_back(with_snapping);
         }
         progress.set(++done, picture.name);
       }
@@ -244,8 +253,9 @@ class PeerBench {
                      one.difference, static_cast<unsigned long long>(one.other_pixels));
       }
     std::fprintf(text,
-                 "\nThe model's speed in that of the fastest mean value form\n\n%-18s %-11s %9s %9s %7s %15s %7s\n", "",
-                 "lanes", "model ms", "shader ms", "speed", "of a round", "goal");
+                 "\nThe model's speed in that of the fastest mean value form; snapping: times as long with it\n\n%-18s "
+                 "%-11s %9s %9s %9s %7s %15s %7s\n",
+                 "", "lanes", "model ms", "snapping", "shader ms", "speed", "of a round", "goal");
     for (const Picture& p : pictures_)
       for (const TargetRuns& t : p.targets) print_target(text, p, t);
     print_errors(text);
@@ -258,12 +268,13 @@ class PeerBench {
   void print_target(std::FILE* text, const Picture& p, const TargetRuns& t) const {
     const double goal = goal_of(p, t);
     if (!t.measured) {
-      std::fprintf(text, "%-18s %-11s %51.1f not measured, open\n", p.name, t.label().c_str(), goal);
+      std::fprintf(text, "%-18s %-11s %61.1f not measured, open\n", p.name, t.label().c_str(), goal);
       return;
     }
     const auto [speed, least, most] = p.speed(t);
-    std::fprintf(text, "%-18s %-11s %9.2f %9.2f %7.2f %7.2f-%7.2f", p.name, t.label().c_str(), 1e3 * median(t.seconds),
-                 1e3 * median(p.fastest().seconds), speed, least, most);
+    std::fprintf(text, "%-18s %-11s %9.2f %8.2fx %9.2f %7.2f %7.2f-%7.2f", p.name, t.label().c_str(),
+                 1e3 * median(t.seconds), t.snapping_over_drawing(), 1e3 * median(p.fastest().seconds), speed, least,
+                 most);
     if (goal > 0) std::fprintf(text, " %7.1f %s", goal, speed >= goal ? "met" : "not met");
     std::fputs("\n", text);
   }
@@ -316,6 +327,7 @@ class PeerBench {
         if (t.measured) {
           const auto [speed, least, most] = p.speed(t);
           target["cpu_seconds"] = t.seconds;
+          target["snapping_over_drawing"] = t.snapping_over_drawing();
           target["speed"] = speed;
           target["speed_of_a_round"] = {least, most};
         }
