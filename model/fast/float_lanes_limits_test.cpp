@@ -219,8 +219,8 @@ TEST(FloatLanes, TermsBelowTheLeastProduct) {
   ASSERT_TRUE(taken(quad, c, s));
   UntimedModel plain(c, s, PixelEngine::plain);
   const std::vector<Fragment> expected = draw(plain, quad);
-  EXPECT_TRUE(std::ranges::any_of(
-      expected, [](const Fragment& f) { return f.x == 1976 && f.y == 2004 && f.attribute[0] == 2; }));
+  EXPECT_TRUE(std::ranges::any_of(expected,
+                                  [](const Fragment& f) { return f.x == 1976 && f.y == 2004 && f.attribute[0] == 2; }));
   on_each_lane_target([&] {
     UntimedModel quick(c, s);
     EXPECT_EQ(expected, draw(quick, quad));
