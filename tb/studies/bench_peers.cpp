@@ -240,8 +240,9 @@ class PeerBench {
         text,
         "%s\nshader: %s, OpenGL %s; model: %s; processor: %s; configuration %s\n\n"
         "A picture of %dx%d: u, v and depth, depth-tested, clear included. CPU ms on one thread, medians of %d "
-        "alternating runs;\nlargest difference of u, v and depth from the model's, pixels that one of the two "
-        "draws\n\n%-18s %8s %-12s %11s %11s %10s %9s\n",
+        "alternating runs,\nby pair of triangles. difference: the largest of u, v and depth from the model's "
+        "(bilinear: another interpolation).\none draws: pixels that only the shader or only the model draws\n\n"
+        "%-18s %8s %-12s %11s %11s %10s %9s\n",
         golden::command_line(arguments_).c_str(), renderer_.c_str(), version_.c_str(), compiler, processor().c_str(),
         summary(config_).c_str(), state_.width, state_.height, options_.repeat, "", "quads", "form", "013+123 ms",
         "012+023 ms", "difference", "one draws");
@@ -250,12 +251,15 @@ class PeerBench {
         const ShaderRuns &one = p.shaders[i], &other = p.shaders[i + 1];
         std::fprintf(text, "%-18s %8zu %-12s %11.2f %11.2f %10.1e %9llu\n", p.name, p.quads.size(),
                      std::string(one.name()).c_str(), 1e3 * median(one.seconds), 1e3 * median(other.seconds),
-                     one.difference, static_cast<unsigned long long>(one.other_pixels));
+                     std::max(one.difference, other.difference),
+                     static_cast<unsigned long long>(std::max(one.other_pixels, other.other_pixels)));
       }
-    std::fprintf(text,
-                 "\nThe model's speed in that of the fastest mean value form; snapping: times as long with it\n\n%-18s "
-                 "%-11s %9s %9s %9s %7s %15s %7s\n",
-                 "", "lanes", "model ms", "snapping", "shader ms", "speed", "of a round", "goal");
+    std::fprintf(
+        text,
+        "\nspeed: ms of the fastest mean value form / ms of the model; of a round: the least and the greatest of "
+        "a run of each.\nsnapping: time from vertices to picture / time from snapped quads\n\n%-18s "
+        "%-11s %9s %9s %9s %7s %15s %7s\n",
+        "", "lanes", "model ms", "snapping", "shader ms", "speed", "of a round", "goal");
     for (const Picture& p : pictures_)
       for (const TargetRuns& t : p.targets) print_target(text, p, t);
     print_errors(text);
@@ -280,15 +284,17 @@ class PeerBench {
   }
 
   void print_errors(std::FILE* text) const {
-    std::fprintf(text,
-                 "\nErrors of weights in fp32 against the truth, %dx%d; K: condition of the determinant form; pixels "
-                 "undefined, missing\n\n%-20s %7s %8s",
-                 error_side, error_side, "", "pixels", "K");
+    std::fprintf(
+        text,
+        "\nThe largest error of a weight in fp32 against the truth, %dx%d; undef: pixels with NaN or infinity; "
+        "miss: not drawn.\nK: condition of the determinant form, the largest of a pixel (%s)\n\n"
+        "%-32s %7s %8s",
+        error_side, error_side, "golden/shaders/README.md", "", "pixels", "K");
     for (const ShaderFormInfo& info : shader_forms)
       if (info.mean_value) std::fprintf(text, " %12s %5s %5s", std::string(info.name).c_str(), "undef", "miss");
     for (const ErrorRow& row : errors_) {
-      std::fprintf(text, "\n%-20s %7llu %8.1e", row.name.c_str(), static_cast<unsigned long long>(row.errors.pixels),
-                   row.errors.condition);
+      std::fprintf(text, "\n%-32s %7llu %8.1e", (std::string(row.kind) + " " + row.name).c_str(),
+                   static_cast<unsigned long long>(row.errors.pixels), row.errors.condition);
       for (const ShaderFormInfo& info : shader_forms) {
         const FormErrors& e = row.errors.forms[static_cast<std::size_t>(info.form)];
         if (info.mean_value)
