@@ -99,11 +99,13 @@ inline Coefficients look_up(const LaneTableOf<double>& table, F a) {
 
 /// Lanes one after the other, of numbers below 2^32.
 inline void store(std::uint32_t* to, I v) {
-  for (int l = 0; l < width; ++l) to[l] = static_cast<std::uint32_t>(v[l]);
+  const std::uint32_t words[]{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1])};
+  std::memcpy(to, words, sizeof words);
 }
 /// Of numbers below 2^16.
 inline void store_lower_halves(std::uint16_t* to, I v) {
-  for (int l = 0; l < width; ++l) to[l] = static_cast<std::uint16_t>(v[l]);
+  const std::uint16_t halves[]{static_cast<std::uint16_t>(v[0]), static_cast<std::uint16_t>(v[1])};
+  std::memcpy(to, halves, sizeof halves);
 }
 /// Codes, integers below 2^51.
 inline void store_widened(std::int64_t* to, F v) {
