@@ -13,11 +13,9 @@
 namespace quadrille {
 namespace {
 
-/// Exponents of the port's numbers that the lanes take, of k either sign; differences below the least one count for
-/// nothing (float_front.hpp, range).
+/// Exponents of the port's numbers that the lanes take, of k and W not below its negative either; lesser differences
+/// than the least one count for nothing (float_front.hpp, range).
 constexpr int largest_exponent = 30, least_difference = -90;
-
-double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
 
 /// FloatLanes::Format::may_face: all combinations of signs at once.
 std::uint64_t may_face() {

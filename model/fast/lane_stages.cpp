@@ -30,9 +30,8 @@ LANE_INLINE V select(I m, V a, V b) { return from_bits((bits(a) & m) | (bits(b) 
 LANE_INLINE I select(I m, I a, I b) { return (a & m) | (b & ~m); }
 LANE_INLINE V magnitude(V v) { return from_bits(bits(v) & INT64_MAX); }
 LANE_INLINE I exponent(V v) { return ((bits(v) >> 52) & 0x7ff) - 1023; }
+using quadrille::power_of_two;
 LANE_INLINE V power_of_two(I e) { return from_bits((e + 1023) << 52); }
-/// Without the library call, in inner loops.
-LANE_INLINE double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::int64_t>(e + 1023) << 52); }
 
 LANE_INLINE unsigned to_mask(I m) {
   unsigned r = 0;
