@@ -37,8 +37,7 @@ LONG = {
     "tb/studies/compare.cpp": (600, COMMAND),
     "tb/studies/stress.cpp": (470, COMMAND),
     "tb/studies/stress_cli_test.cpp": (450, "a test for each option of one command"),
-    "tb/sweep/evaluator.cpp": (430, "the tree of stages that configurations share"),
-    "tb/sweep/evaluator_test.cpp": (860, "a test for each stage of that tree"),
+    "tb/sweep/evaluator_test.cpp": (860, "the slow path that every statistic is held to"),
 }
 INCLUDE = re.compile(r'\s*#\s*include\s*"([^"]+)"')
 

@@ -144,9 +144,8 @@ def search(sweep):
 def work(sweep):
     lines = [[f"<code>{escape(stage)}</code>", f"{settings:,.0f}", f"{fragments:,.0f}", f"{len(sweep.ok) / settings:,.1f}" if settings else "–"]
              for stage, settings, fragments in sweep.stages]
-    return ("<p>Configurations that agree up to a stage share its results, so a stage runs once for each of its distinct settings rather than once for "
-            f"each of the {len(sweep.ok):,} points.</p>" +
-            table(["stage", "distinct settings", "fragments (cycles: clocks)", "points per setting"], lines))
+    return (f"<p>What several of the {len(sweep.ok):,} points share is done once: exact arithmetic, draws with the same fragments, and clocks.</p>" +
+            table(["work", "distinct settings", "fragments (cycles: clocks)", "points per setting"], lines))
 
 
 def details(sweep, points):

@@ -43,7 +43,7 @@ class RangeList {
   }
   void add_exponent(const std::string& name, ExponentRange e, int bits) {
     add("exponent of " + name, e.lo, e.hi, bits);
-    // lane_stages and wide_lanes carry the same number as a double, exactly: normal, products of 2 S <= 52 bits
+    // wide_lanes carry the same number as a double, exactly: normal, products of 2 S <= 52 bits
     // included.
     const bool fits = e.lo >= -1022 && e.hi <= 1023;
     proof_.signals.push_back(

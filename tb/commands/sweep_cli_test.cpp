@@ -37,8 +37,7 @@ TEST_F(SweepCli, FullGridInOrder) {
   const auto stages = settings("a");
   EXPECT_EQ(stages.at("given_truth"), 1);
   EXPECT_EQ(stages.at("snap_truth"), 1);
-  EXPECT_EQ(stages.at("normalise"), 3);
-  EXPECT_EQ(stages.at("ratios"), 6);
+  EXPECT_EQ(stages.at("draw"), 6);
   EXPECT_EQ(m.at("error_map_row"), 5);
   // The base is the last point: its counters are of the draw that its row is of.
   EXPECT_EQ(m.at("performance_counters").at("fragments").get<int>(), std::stoi(rows[5].at("fragments")));
@@ -98,7 +97,7 @@ TEST_F(SweepCli, ShardsPutTogetherAreOneRun) {
   ASSERT_EQ(merged.status, 0) << merged.err;
   for (const char* name : {"points.csv", "manifest.json", "error_map.npy", "cosim.csv", "synth.csv"})
     EXPECT_EQ(read(file("merged") / name), read(file("whole") / name)) << name;
-  EXPECT_GE(settings("merged").at("normalise"), settings("whole").at("normalise"));
+  EXPECT_EQ(settings("merged").at("draw"), settings("whole").at("draw"));
 
   refuses(2, sweep + "--merge part0 part2 --out lacking", {"--merge: row ", "no shard", "lacking"});
   refuses(2, sweep + "--merge part0 nowhere --out nothing", {"nowhere", "journal.jsonl"});

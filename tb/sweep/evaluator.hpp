@@ -1,8 +1,5 @@
-// Errors of many configurations on one input, with shared work done once.
-//
-// The machine is a chain of stages and each configuration key enters at one of them, so configurations form a tree:
-// those that agree up to a stage share that stage's results. The evaluator walks that tree; a stage is executed once
-// for each of its distinct settings, whatever comes behind it.
+// Errors of many configurations on one input. Each is drawn by the untimed model and compared with exact arithmetic,
+// which configurations share: on the quads as given, on snapped positions, on numbers at the port.
 #pragma once
 
 #include "model/port/config.hpp"
@@ -45,26 +42,15 @@ class OrdinaryInput {
   std::map<LevelKey, bool> known_;
 };
 
-/// The stages in the order of the machine; ConfigKey::Stage says which keys enter where (resolved values count, so
-/// "auto" and its value are one setting).
+/// What is executed.
 enum class Stage {
   given_truth,  ///< truth on the quads as given: once per input
   snap_truth,   ///< truth (unnormalised weights, coverage) on snapped positions
-  difference,   ///< snapping, setup, traversal, forward differences
-  normalise,
-  sqrt,
-  ratios,
-  weights,      ///< no key
-  interpolate,  ///< the sums, all columns at once, of differences to a base in the output's format
-  reciprocal,
-  output,  ///< no key
-  areas,   ///< what of plane quads is drawn with areas for weights, from the weights to the output
-  cycles,  ///< the clocked model alone: positions, and cycles_key()
+  draw,         ///< the machine, of what points draw differently
+  cycles,       ///< the clocked model alone: positions, and cycles_key()
 };
-inline constexpr std::size_t stage_count = 12;
-inline constexpr std::array<std::string_view, stage_count> stage_names{
-    "given_truth", "snap_truth",  "difference", "normalise", "sqrt",  "ratios",
-    "weights",     "interpolate", "reciprocal", "output",    "areas", "cycles"};
+inline constexpr std::size_t stage_count = 4;
+inline constexpr std::array<std::string_view, stage_count> stage_names{"given_truth", "snap_truth", "draw", "cycles"};
 
 /// How often each stage was executed.
 struct StageCounters {
@@ -94,15 +80,15 @@ class Evaluator {
     unsigned threads = 1;
     bool cycles = true;              ///< also run the clocked model
     std::size_t batch_points = 256;  ///< points that are carried at once, about; bounds memory and loss by interruption
-    std::size_t memory_bytes = std::size_t{2} << 30;  ///< of truth and differences kept; what is in use may need more
+    std::size_t memory_bytes = std::size_t{2} << 30;  ///< of truth kept; what is in use may need more
   };
 
   Evaluator(const SweepInput& input, const Settings& settings);
   ~Evaluator();
 
   /// Evaluates every configuration (each must pass Config::validate()); hands results over in batches, refused points
-  /// first, in an order that depends on the list and batch_points alone, on the calling thread. Truth and differences
-  /// stay in memory for further calls. Results do not depend on the number of threads, on the batches, or on what was
+  /// first, in an order that depends on the list and batch_points alone, on the calling thread. Truth stays in memory
+  /// for further calls. Results do not depend on the number of threads, on the batches, or on what was
   /// evaluated before. `progress` (may be empty) is called on the calling thread now and then with the part done, 0
   /// to 1. An exception thrown by a callback ends the call and passes through; the evaluator stays usable.
   void evaluate(std::span<const Config> points, const std::function<void(const Batch&)>& done,

@@ -10,7 +10,7 @@
 #include "model/support/prng.hpp"
 #include "model/untimed.hpp"
 #include "tb/lockstep/lockstep.hpp"
-#include "tb/sweep/stage_tree.hpp"
+#include "tb/sweep/point_draws.hpp"
 
 #include <gtest/gtest.h>
 
@@ -490,28 +490,6 @@ TEST(Evaluator, AFragmentOfAPlaneQuadIsTheModels) {
   EXPECT_GT(other_fragments, 500u);
 }
 
-TEST(Evaluator, PlaneQuadsShareEveryStageOfMeanValues) {
-  const SweepInput input = plane_input();
-  std::vector<Config> points;
-  for (const int depth : {16, 24})
-    for (const int on : {0, 1}) points.push_back(config({{"depth_bits", depth}, {"plane_quads", on}}));
-  Evaluator evaluator(input, {.threads = 2});
-  std::vector<PointResult> results(points.size());
-  evaluator.evaluate(points, [&](const Batch& batch) {
-    for (std::size_t n = 0; n < batch.points.size(); ++n) results[batch.points[n]] = batch.results[n];
-  });
-  // Two formats of depth from the sums on, and clocks of each.
-  EXPECT_EQ(evaluator.counters().settings,
-            (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2}));
-  const auto at = [&](Stage stage) { return evaluator.counters().fragments[static_cast<std::size_t>(stage)]; };
-  EXPECT_LT(at(Stage::areas), at(Stage::output));
-  EXPECT_EQ(at(Stage::areas), 2 * results[1].plane_fragments);
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    Evaluator fresh(input, {.threads = 1});
-    EXPECT_EQ(text(fresh.evaluate(points[n])), text(results[n]));
-  }
-}
-
 TEST(Evaluator, OfEqualErrorsTheFirstIsTheWorst) {
   SweepInput input = stress_input(golden::StressFamily::general, 1);
   const PointResult alone = Evaluator(input, {.cycles = false}).evaluate(Config{});
@@ -525,7 +503,7 @@ TEST(Evaluator, OfEqualErrorsTheFirstIsTheWorst) {
   // Whichever thread had it.
   const WorstPixel early{true, 3, 9, 5, 0.25}, late{true, 3, 8, 6, 0.25};
   for (const bool swap : {false, true}) {
-    LeafTotals a, b;
+    DrawTotals a, b;
     (swap ? b : a).worst = early;
     (swap ? a : b).worst = late;
     a.merge(b);
@@ -678,79 +656,77 @@ TEST(Evaluator, NothingToDraw) {
 
 std::uint64_t settings(const StageCounters& c, Stage stage) { return c.settings[static_cast<std::size_t>(stage)]; }
 
-TEST(Evaluator, EarlierStagesRunOnceForLaterAxes) {
+TEST(Evaluator, WhatPointsShareIsExecutedOnce) {
   const SweepInput input = mixed_input();
   std::vector<Config> points;
-  for (const int degree : {1, 2})
-    for (const int frac : {18, 20, 24})
+  // Positions vary fastest, and two keys move no error: the order of the list must not matter.
+  for (const int notch : {0, 1})
+    for (const int slots : {2, 8})
       for (const int depth : {16, 24})
-        points.push_back(config({{"recip_degree", degree}, {"attribute_frac_bits", frac}, {"depth_bits", depth}}));
-  Evaluator evaluator(input, {});
+        for (const int quadratic : {10, -1, 30})  // auto is 30
+          for (const int subpixel : {6, 8})
+            if (quadratic != 30 || subpixel == 8)
+              points.push_back(config({{"notch_exact", notch},
+                                       {"attribute_slots", slots},
+                                       {"depth_bits", depth},
+                                       {"quadratic_frac_bits", quadratic},
+                                       {"subpixel_bits", subpixel}}));
+  Evaluator evaluator(input, {.threads = 2});
   const Outcome r = run(evaluator, points);
   const StageCounters& c = evaluator.counters();
   EXPECT_EQ(c.settings, r.executed.settings);
   EXPECT_EQ(c.fragments, r.executed.fragments);
-  EXPECT_EQ(c.settings, (std::array<std::uint64_t, stage_count>{1, 1, 1, 1, 1, 1, 1, 6, 12, 12, 0, 2}));
-  // Covered pixels by the model, drawn or not.
-  std::uint64_t covered = 0;
-  for (const WindowQuad& q : input.quads) {
-    UntimedModel model(Config{}, input.state);
-    DrawState state = input.state;
-    model.draw(snap_quad(q, Config{}, state), [](auto) {});
-    covered += model.stats().pixels;
-  }
-  for (const Stage stage : {Stage::snap_truth, Stage::difference, Stage::normalise, Stage::weights})
-    EXPECT_EQ(c.fragments[static_cast<std::size_t>(stage)], covered);
-  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::interpolate)], 6 * covered) << "bases in six formats";
-  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::output)], 12 * covered);
-  // Depths may leave out other quads with 16 bits than with 24.
-  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::cycles)],
-            evaluator.evaluate(Config{}).cycles + evaluator.evaluate(config({{"depth_bits", 16}})).cycles);
+  // Two positions, of each two quadratic widths and two depths; clocks of each position and depth.
+  EXPECT_EQ(c.settings, (std::array<std::uint64_t, stage_count>{1, 2, 8, 4}));
+  std::uint64_t covered = 0;  // by the model, drawn or not
+  for (const int subpixel : {6, 8})
+    for (const WindowQuad& q : input.quads) {
+      const Config at = config({{"subpixel_bits", subpixel}});
+      UntimedModel model(at, input.state);
+      model.draw(snap_quad(q, at, input.state), [](auto) {});
+      covered += model.stats().pixels;
+    }
+  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::snap_truth)], covered);
+  EXPECT_EQ(c.fragments[static_cast<std::size_t>(Stage::draw)], 4 * covered);
 
-  // Truth, differences and clocks stay.
+  // Truth and clocks stay.
   const StageCounters before = evaluator.counters();
   evaluator.evaluate(config({{"significand_bits", 9}}));
   const StageCounters& after = evaluator.counters();
-  for (const Stage stage : {Stage::given_truth, Stage::snap_truth, Stage::difference, Stage::cycles})
+  for (const Stage stage : {Stage::given_truth, Stage::snap_truth, Stage::cycles})
     EXPECT_EQ(settings(after, stage), settings(before, stage));
-  EXPECT_EQ(settings(after, Stage::normalise), settings(before, Stage::normalise) + 1);
+  EXPECT_EQ(settings(after, Stage::draw), settings(before, Stage::draw) + 1);
 }
 
-TEST(Evaluator, AFullGridRunsTheProductOfTheSettings) {
-  const SweepInput input = stress_input(golden::StressFamily::general);
-  std::vector<Config> points;
-  // The last stage varies slowest here: the order of the list must not matter.
-  for (const int depth : {12, 16})
-    for (const int recip : {3, 4})
-      for (const int notch : {0, 1})
-        for (const int g : {0, 1, 3})
-          for (const int degree : {1, 2})
-            for (const int s : {10, 14, 18})
-              for (const int quadratic : {10, -1, 30})  // auto is 30
-                for (const int subpixel : {6, 8})
-                  if (quadratic != 30 || subpixel == 8)
-                    points.push_back(config({{"depth_bits", depth},
-                                             {"recip_segments_log2", recip},
-                                             {"notch_exact", notch},
-                                             {"align_guard_bits", g},
-                                             {"sqrt_degree", degree},
-                                             {"significand_bits", s},
-                                             {"quadratic_frac_bits", quadratic},
-                                             {"subpixel_bits", subpixel}}));
-  Evaluator evaluator(input, {.threads = 2, .batch_points = 1000});
-  run(evaluator, points);
-  // given, positions, ×2 differences (10 and all), ×3, ×2, ×3, the same whatever the flag, ×2, ×2, the same, clocks of
-  // each position and depth
-  EXPECT_EQ(evaluator.counters().settings,
-            (std::array<std::uint64_t, stage_count>{1, 2, 4, 12, 24, 72, 72, 144, 288, 288, 0, 4}));
-
-  // A batch below one subtree executes the ancestors again and says so.
-  Evaluator cut(input, {.batch_points = 16});
-  const Outcome r = run(cut, points);
-  EXPECT_EQ(settings(cut.counters(), Stage::difference), 4u);
-  EXPECT_EQ(settings(cut.counters(), Stage::output), 288u);
-  EXPECT_GT(settings(cut.counters(), Stage::normalise), 12u);
-  EXPECT_EQ(settings(cut.counters(), Stage::normalise), settings(r.executed, Stage::normalise));
+/// A quad above the size of a part is drawn in bands of rows; its pixels one by one, in scissors of their own, have the
+/// same errors.
+TEST(Evaluator, ALargeQuadInBandsIsItsRows) {
+  SweepInput input;
+  WindowQuad& quad = input.quads.emplace_back();
+  quad.vertex = {{{3, 2, 0.1, 1}, {610, 5, 0.2, 1.25}, {590, 420, 0.4, 1.5}, {8, 401, 0.3, 1}}};
+  input.state.width = input.state.scissor_x1 = 620;
+  input.state.height = input.state.scissor_y1 = 430;
+  const Config c = config({{"significand_bits", 10}, {"viewport_bits", 10}});
+  const PointResult whole = Evaluator(input, {.threads = 2, .cycles = false}).evaluate(c);
+  const DrawState state = input.state;
+  std::uint64_t fragments = 0, codes = 0;
+  WorstPixel worst;
+  std::array<double, outputs.size()> largest{};
+  for (int y = 0; y < state.height; y += 43) {
+    input.state.scissor_y0 = y;
+    input.state.scissor_y1 = std::min(y + 43, state.height);
+    const PointResult part = Evaluator(input, {.cycles = false}).evaluate(c);
+    fragments += part.fragments;
+    codes += part.colour_codes;
+    for (std::size_t q = 0; q < outputs.size(); ++q) largest[q] = std::max(largest[q], part.arithmetic[q].max);
+    if (part.worst.any && (!worst.any || part.worst.error > worst.error)) worst = part.worst;
+  }
+  EXPECT_GT(fragments, 2u << 16) << "more than two parts";
+  EXPECT_EQ(whole.fragments, fragments);
+  EXPECT_EQ(whole.colour_codes, codes);
+  EXPECT_EQ(whole.quads, 1u);
+  EXPECT_EQ(std::tuple(whole.worst.error, whole.worst.x, whole.worst.y), std::tuple(worst.error, worst.x, worst.y));
+  for (std::size_t q = 0; q < outputs.size(); ++q) EXPECT_EQ(whole.arithmetic[q].max, largest[q]);
 }
 
 TEST(Evaluator, MemoryIsBoundedAndForgettingIsHarmless) {
@@ -760,8 +736,6 @@ TEST(Evaluator, MemoryIsBoundedAndForgettingIsHarmless) {
   Evaluator ample(input, {.cycles = false});
   Evaluator tight(input, {.cycles = false, .memory_bytes = 1});
   for (const Config& point : points) EXPECT_EQ(text(ample.evaluate(point)), text(tight.evaluate(point)));
-  EXPECT_EQ(settings(ample.counters(), Stage::difference), 3u);
-  EXPECT_EQ(settings(tight.counters(), Stage::difference), 4u);
   EXPECT_EQ(settings(ample.counters(), Stage::snap_truth), 2u);
   EXPECT_EQ(settings(tight.counters(), Stage::snap_truth), 3u);
 }

@@ -1,7 +1,6 @@
 // The columns that a sweep measures, in one order everywhere: the four weights, the input's attributes, three colours.
 #pragma once
 
-#include "model/fast/lane_stages.hpp"
 #include "model/port/snap.hpp"
 #include "tb/sweep/evaluator.hpp"
 
@@ -17,7 +16,11 @@ struct Columns {
   constexpr std::size_t first_colour() const { return first_attribute + attributes; }
   constexpr std::size_t count() const { return first_colour() + 3; }
 };
-static_assert(4 + max_attribute_slots + 3 <= max_lane_columns);
+inline constexpr std::size_t max_columns = Columns{max_attribute_slots}.count();
+
+/// Truth is computed at eight pixels at a time.
+inline constexpr int lane_count = 8;
+using LaneReals = double __attribute__((vector_size(8 * lane_count)));
 
 inline std::uint32_t pack_pixel(int x, int y) {
   return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
@@ -30,6 +33,7 @@ inline int pixel_y(std::uint32_t pixel) { return static_cast<int>(pixel >> 16); 
 struct PortQuad {
   SnappedQuad own, test;
 
+  PortQuad() = default;
   PortQuad(const WindowQuad& quad, std::size_t index, std::size_t attributes, const Config& config,
            const DrawState& state);
   /// What column `column` has at the port: of a vertex the difference to the base, 0 of vertex 0, and the base, a code

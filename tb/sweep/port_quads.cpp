@@ -2,8 +2,7 @@
 
 #include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
-#include "model/front/quad_setup.hpp"
-#include "model/port/stages.hpp"
+#include "model/port/draw_state.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/sweep/work_units.hpp"
 
@@ -41,23 +40,6 @@ TruthNumbers truth_numbers(const PortQuad& quad, const Columns& columns, const C
   return out;
 }
 
-QuadColumns machine_numbers(const PortQuad& quad, const QuadData& data, const Columns& columns, int s) {
-  QuadColumns out;
-  out.hull = data.hull;
-  out.base = quad.own.base;
-  for (std::size_t i = 0; i < 4; ++i) {
-    out.k[i] = to_double(data.k[i], s);
-    out.w[i] = to_double(data.w[i], s);
-    out.z[i] = to_double(data.z[i], s);
-    for (std::size_t j = 0; j < columns.count(); ++j) {
-      const PortNumber b = quad.difference(j, i, columns);
-      out.b[j][i] = to_double({b.neg, b.exp, b.sig}, s);
-    }
-  }
-  for (std::size_t j = 0; j < columns.count(); ++j) out.attribute_base[j] = quad.base(j, columns);
-  return out;
-}
-
 [[gnu::always_inline]] inline LaneReals weighted(const LaneReals* m, const std::array<double, 4>& v) {
   return (m[0] * v[0] + m[1] * v[1]) + (m[2] * v[2] + m[3] * v[3]);
 }
@@ -88,9 +70,7 @@ void Spread::merge(const Spread& other) {
 
 PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const PositionData& positions,
                      const Config& config, unsigned threads)
-    : machine_(input.quads.size()),
-      data_(input.quads.size()),
-      truth_(input.quads.size()),
+    : truth_(input.quads.size()),
       znear_(std::ldexp(depth_code(input.state.znear, config), -config.depth_bits)),
       zfar_(std::ldexp(depth_code(input.state.zfar, config), -config.depth_bits)) {
   const Columns columns{static_cast<std::size_t>(input.attributes)};
@@ -102,12 +82,11 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
   for (std::size_t block = 0; block < positions.blocks(); ++block)
     if (positions.singular[block] != 0) singular_blocks[positions.quad[block]].push_back(block);
 
+  quads_.resize(input.quads.size());
   std::vector<std::vector<SingularPixel>> singular(input.quads.size());
   run_units(units_of(input.quads.size(), ports_per_unit), threads, [&](std::size_t unit, unsigned) {
     for (std::size_t q = unit * ports_per_unit; q < std::min((unit + 1) * ports_per_unit, input.quads.size()); ++q) {
-      const PortQuad port(input.quads[q], q, columns.attributes, config, input.state);
-      data_[q] = quadrille::quad_data(port.own, quad_setup(port.own, config, state), config, input.state);
-      machine_[q] = machine_numbers(port, data_[q], columns, config.significand_bits);
+      PortQuad& port = quads_[q] = PortQuad(input.quads[q], q, columns.attributes, config, input.state);
       truth_[q] = truth_numbers(port, columns, config, input.state.perspective);
       if (singular_blocks[q].empty()) continue;
       const golden::TruthQuad exact(port.own, config, state);
@@ -127,6 +106,7 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
   for (const std::vector<SingularPixel>& list : singular) singular_.insert(singular_.end(), list.begin(), list.end());
 
   std::vector<OutputStats> parts(std::max(1u, threads));
+  std::vector<std::uint64_t> drawn(parts.size());
   run_units(units_of(positions.blocks(), truths_per_unit), threads, [&](std::size_t unit, unsigned thread) {
     const std::size_t first = unit * truths_per_unit;
     const std::size_t count = std::min(truths_per_unit, positions.blocks() - first);
@@ -136,7 +116,8 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
     truth(input, positions, first, count, values.data(), draws.data(), measured.data());
     OutputStats& stats = parts[thread];
     const auto add = [&](Output output, double error) { stats[static_cast<std::size_t>(output)].add(error); };
-    for (std::size_t n = 0; n < count; ++n)
+    for (std::size_t n = 0; n < count; ++n) {
+      drawn[thread] += static_cast<unsigned>(std::popcount(draws[n] & ((1u << positions.count[first + n]) - 1)));
       for (unsigned rest = draws[n] & measured[n] & positions.given[first + n]; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
         const double* wanted = given.values(positions.given_at[first + n][lane]);
@@ -148,14 +129,15 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
                                            : Output::colour,
               error(1 + j));
       }
+    }
   });
   for (const OutputStats& part : parts)
     for (std::size_t q = 0; q < part.size(); ++q) snapping_[q].merge(part[q]);
+  for (const std::uint64_t part : drawn) drawn_ += part;
 }
 
 std::size_t PortQuads::bytes() const {
-  return machine_.size() * (sizeof(QuadColumns) + sizeof(QuadData) + sizeof(TruthNumbers)) +
-         singular_.size() * sizeof(SingularPixel);
+  return quads_.size() * (sizeof(PortQuad) + sizeof(TruthNumbers)) + singular_.size() * sizeof(SingularPixel);
 }
 
 void PortQuads::truth(const SweepInput& input, const PositionData& positions, std::size_t first, std::size_t count,

@@ -20,8 +20,8 @@ using OutputStats = std::array<tb::ErrorStats, outputs.size()>;
 struct TruthNumbers {
   std::array<double, 4> k{}, w{}, z{};
   double depth = 0, depth_low = 0, depth_high = 0;
-  std::array<std::array<double, 4>, max_lane_columns> b{};
-  std::array<double, max_lane_columns> base{};
+  std::array<std::array<double, 4>, max_columns> b{};
+  std::array<double, max_columns> base{};
   bool measured = true;
 };
 
@@ -42,11 +42,12 @@ class PortQuads {
   PortQuads(const SweepInput& input, const GivenTruth& given, const PositionData& positions, const Config& config,
             unsigned threads);
 
-  const QuadColumns* machine() const { return machine_.data(); }
-  const QuadData& quad_data(std::size_t quad) const { return data_[quad]; }
+  const PortQuad& quad(std::size_t quad) const { return quads_[quad]; }
   /// Truth on the snapped quads against truth on the given ones, at pixels that both draw.
   const OutputStats& snapping() const { return snapping_; }
   const Spread& spread() const { return spread_; }
+  /// Pixels that exact arithmetic on the snapped quads draws.
+  std::uint64_t drawn() const { return drawn_; }
   std::size_t bytes() const;
 
   /// Exact arithmetic at `count` blocks from `first`: truth_per_block() values each, and masks of the lanes that it
@@ -69,12 +70,12 @@ class PortQuads {
     std::array<double, 4> m;
   };
 
-  std::vector<QuadColumns> machine_;
-  std::vector<QuadData> data_;
+  std::vector<PortQuad> quads_;
   std::vector<TruthNumbers> truth_;
   std::vector<SingularPixel> singular_;  ///< by block
   double znear_, zfar_;                  ///< as the machine's codes
   OutputStats snapping_;
+  std::uint64_t drawn_ = 0;
   Spread spread_;
 };
 

@@ -106,6 +106,10 @@ PositionData::PositionData(const SweepInput& input, const GivenTruth& given_trut
   };
   ordered_parallel(units_of(snapped.size(), quads_per_unit), threads, cover, append);
 
+  first_block.assign(snapped.size() + 1, blocks());
+  for (std::size_t block = blocks(); block-- > 0;) first_block[quad[block]] = block;
+  for (std::size_t q = snapped.size(); q-- > 0;) first_block[q] = std::min(first_block[q], first_block[q + 1]);
+
   truth.resize(blocks());
   visible.resize(blocks());
   singular.resize(blocks());
@@ -123,53 +127,6 @@ PositionData::PositionData(const SweepInput& input, const GivenTruth& given_trut
 std::size_t PositionData::bytes() const {
   return snapped.size() * sizeof(SnappedQuad) +
          blocks() * (sizeof(TruthWeights) + sizeof pixel[0] + sizeof given_at[0] + sizeof quad[0] + 4);
-}
-
-DifferenceData::DifferenceData(const PositionData& positions, const Config& config, const DrawState& state,
-                               unsigned threads)
-    : blocks(positions.blocks()), quadratic_bias(-config.qdrop()), singular(positions.blocks()) {
-  // Blocks of a quad are neighbours.
-  std::vector<std::size_t> first(positions.snapped.size() + 1, positions.blocks());
-  for (std::size_t block = positions.blocks(); block-- > 0;) first[positions.quad[block]] = block;
-  for (std::size_t q = positions.snapped.size(); q-- > 0;) first[q] = std::min(first[q], first[q + 1]);
-
-  run_units(units_of(positions.snapped.size(), quads_per_unit), threads, [&](std::size_t unit, unsigned) {
-    for (std::size_t q = unit * quads_per_unit; q < std::min((unit + 1) * quads_per_unit, positions.snapped.size());
-         ++q) {
-      // The quad's pixels rise, so a pixel's lane is found by bisection over blocks, then lanes.
-      const auto begin = positions.pixel.begin() + static_cast<std::ptrdiff_t>(first[q]);
-      const auto end = positions.pixel.begin() + static_cast<std::ptrdiff_t>(first[q + 1]);
-      PixelTrace p;
-      for_each_pixel(positions.snapped[q], config, state,
-                     [&](const TileEntry& tile, const QuadConstants& constants, int dx, int row) {
-                       const std::uint32_t pixel = pixel_of(tile, dx, row, config);
-                       const auto after = std::upper_bound(
-                           begin, end, pixel, [](std::uint32_t value, const auto& block) { return value < block[0]; });
-                       const auto block = static_cast<std::size_t>(after - positions.pixel.begin()) - 1;
-                       const auto lane = static_cast<std::size_t>(
-                           std::find(positions.pixel[block].begin(), positions.pixel[block].end(), pixel) -
-                           positions.pixel[block].begin());
-                       forward_difference(p, tile, constants, dx, row);
-                       DifferenceLanes& out = blocks[block];
-                       for (std::size_t k = 0; k < 6; ++k) {
-                         out.a[k][lane] = p.a[k];
-                         out.d[k][lane] = p.d[k];
-                       }
-                       for (std::size_t i = 0; i < 4; ++i) out.r2[i][lane] = p.r2[i];
-                     });
-      for (std::size_t block = first[q]; block < first[q + 1]; ++block) {
-        DifferenceLanes& out = blocks[block];
-        const auto repeat = [&](LaneIntegers& v) {
-          for (std::size_t lane = positions.count[block]; lane < lane_count; ++lane)
-            v[lane] = v[positions.count[block] - 1u];
-        };
-        for (LaneIntegers& v : out.a) repeat(v);
-        for (LaneIntegers& v : out.d) repeat(v);
-        for (LaneIntegers& v : out.r2) repeat(v);
-        singular[block] = static_cast<std::uint8_t>(singular_lanes(out));
-      }
-    }
-  });
 }
 
 }  // namespace quadrille::sweep

@@ -29,6 +29,8 @@ struct PositionData {
   std::size_t fragments = 0;         ///< covered, not culled, in the scissor
   std::size_t covering = 0;          ///< quads with such
 
+  std::vector<std::size_t> first_block;  ///< of each quad, and the end
+
   // Per block.
   std::vector<std::uint32_t> quad;
   std::vector<std::uint8_t> count;  ///< lanes in use
@@ -39,17 +41,6 @@ struct PositionData {
   std::vector<std::uint8_t> singular;  ///< corner and two-edge pixels, whose M hold k: see PortQuads
   std::vector<std::uint8_t> given;     ///< the given quad draws the pixel too
   std::vector<std::array<std::uint32_t, lane_count>> given_at;  ///< position in GivenTruth where it does
-};
-
-/// A, D, r² of every covered pixel in the lanes of a PositionData.
-struct DifferenceData {
-  DifferenceData(const PositionData& positions, const Config& config, const DrawState& state, unsigned threads);
-
-  std::size_t bytes() const { return blocks.size() * (sizeof(DifferenceLanes) + 1); }
-
-  std::vector<DifferenceLanes> blocks;
-  int quadratic_bias;                  ///< exponent of A's bit 0 relative to D's and r²'s
-  std::vector<std::uint8_t> singular;  ///< lane masks; with quadratic_frac_bits reduced not those of the truth
 };
 
 }  // namespace quadrille::sweep

@@ -16,6 +16,13 @@ LevelKey port_key(const Config& config) {
   return values;
 }
 
+LevelKey draw_key(const Config& config) {
+  LevelKey values;
+  for (const ConfigKey& key : Config::keys())
+    if (key.stage != Level::none) values.push_back(config.resolved(key.name));
+  return values;
+}
+
 CyclesKey cycles_key(const Config& config, const DrawState& state) {
   const bool rejects_by_depth = state.depth && (state.skip & skip_quads) != 0;
   CyclesKey values;

@@ -9,10 +9,7 @@
 
 namespace quadrille::sweep {
 
-/// Levels of the tree of configurations, from the root. Those before `normalise` are computed for the whole input and
-/// kept.
 using Level = ConfigKey::Stage;
-inline constexpr auto level_count = static_cast<std::size_t>(Level::none);
 
 /// Resolved values of the keys that enter at one level, in the order of Config::keys().
 using LevelKey = std::vector<int>;
@@ -21,6 +18,9 @@ LevelKey level_key(const Config& config, Level level);
 /// What a quad's numbers at the port depend on besides its positions: significand_bits, and the formats that bases of
 /// attributes and depth are codes of.
 LevelKey port_key(const Config& config);
+
+/// What a draw depends on: resolved values of the keys that enter at some stage.
+LevelKey draw_key(const Config& config);
 
 /// What the clocks of a draw depend on: the values of the keys that move clocks. depth_bits counts where quads are left
 /// out by their depths. hierarchical_z_bits counts though a sweep hides nothing: its unit is in the way of every quad.
