@@ -76,7 +76,7 @@ void DepthImage<Real>::append(const FragmentArrays& fragments) {
       const std::uint32_t pixel = fragments.place[i].y * width + fragments.place[i].x;
       for (std::size_t j = 0; j < planes; ++j) __builtin_prefetch(plane[j] + pixel, 1, 2);
       block.pixel[at] = pixel;
-      // A code has at most 30 bits: signed numbers are the quick ones to convert.
+      // A code is at most 2^30: signed numbers are the quick ones to convert.
       block.value[0][at] = static_cast<Real>(static_cast<std::int32_t>(fragments.depth[i])) * depth_unit_;
       for (std::size_t j = 1; j < planes; ++j)
         block.value[j][at] = static_cast<Real>(fragments.attribute[j - 1][i]) * attribute_unit_;

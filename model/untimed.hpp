@@ -33,12 +33,11 @@ struct DrawStats {
 struct LanePixels {
   std::uint64_t single = 0;  ///< lanes in single precision
   std::uint64_t wide = 0;    ///< lanes in double precision
-  std::uint64_t plain = 0;   ///< one at a time: singular ones, or out of the range of the lanes that tried them
+  std::uint64_t plain = 0;   ///< one at a time: on corners and on two edges
 };
 
-/// Two forms of the pixel pipeline with the same bits: plain integers, one pixel at a time (the oracle), or eight
-/// pixels at once, or sixteen, in single precision where that is enough (float_lanes.hpp), else in double
-/// (pixel_lanes.hpp).
+/// Two forms of the pixel pipeline with the same bits: plain integers, one pixel at a time (the oracle), or a vector of
+/// pixels at once, in single precision where that is enough (float_lanes.hpp), else in double (wide_lanes.hpp).
 enum class PixelEngine { plain, lanes };
 
 class UntimedModel {

@@ -165,7 +165,7 @@ def check_subdirectory(work, full):
     changed += "\nif(CMAKE_BUILD_TYPE OR CMAKE_CXX_STANDARD OR CMAKE_POSITION_INDEPENDENT_CODE)\n  message(FATAL_ERROR \"leaked\")\nendif()\n"
     (user / "CMakeLists.txt").write_text(changed)
     build = user / "build"
-    configure(user, build, *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in PACKAGES))
+    configure(user, build, "-DCMAKE_CXX_FLAGS=-march=native -ffast-math", *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in PACKAGES))
     check_flags(build, "untimed.cpp")
     check_flags(build, "clocked.c")
     commands = run("ninja", "-C", build, "-t", "targets", "all")

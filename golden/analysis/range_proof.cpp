@@ -43,7 +43,8 @@ class RangeList {
   }
   void add_exponent(const std::string& name, ExponentRange e, int bits) {
     add("exponent of " + name, e.lo, e.hi, bits);
-    // pixel_lanes carries the same number as a double, exactly: normal, products of 2 S <= 52 bits included.
+    // wide_lanes carry the same number as a double, exactly: normal, products of 2 S <= 52 bits
+    // included.
     const bool fits = e.lo >= -1022 && e.hi <= 1023;
     proof_.signals.push_back(
         {name + " as a double", static_cast<double>(e.lo), static_cast<double>(e.hi), 11, true, fits});

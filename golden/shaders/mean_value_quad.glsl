@@ -1,16 +1,24 @@
-// Mean value coordinates of a quad in GLSL: the determinant form. Include this file behind `#version`.
+// Mean value coordinates of a quad in GLSL: the determinant form. Include this file behind `#version`. Apache-2.0.
 //
-// A corner is (x, y, w): homogeneous window coordinates in pixels, w of any sign or 0. With S_i = (x_i, y_i) - w_i p and
-// R_i = |S_i|, the weights M at the pixel centre p satisfy sum M_i S_i = 0 and sum (-1)^i R_i M_i = 0. Hence M = a - t n:
-// a are the edge functions of triangle 012, and n does not depend on p. No tangent, no guard, finite on edges and at
-// corners. Work in pixels: unequal scaling of x and y, as in normalized device coordinates, changes the weights.
+// 1. A corner is (x, y, w), homogeneous window coordinates in pixels: of clip coordinates c and a viewport at (0, 0)
+//    x = (c.x + c.w) / 2 * width, y = (c.y + c.w) / 2 * height, w = c.w, of any sign or 0. Corners 0 to 3 go around
+//    the quad, either way. p is the pixel centre in the same pixels, gl_FragCoord.xy. Not in normalized device
+//    coordinates: unequal scaling of x and y changes the weights.
+// 2. Per quad: mean_value_n, and the order that mean_value_turned asks for.
+// 3. Draw triangles 012 and 023, or 013 and 123: either pair covers the quad, also a concave or crossed one.
+// 4. Per pixel: M = mean_value_weights; a common factor does not matter. The pixel is in the quad where no two M differ
+//    in sign, and before the eye where sum(M w) has their sign, too: discard others. A convex quad before the eye needs
+//    no test.
+// 5. Perspective-correct value of corners' values f: sum(M f) / sum(M). Depth: sum(M z) / sum(M w), z homogeneous like
+//    w. If corners were divided by their w, which then is 1: sum(M k f) / sum(M k) with k = 1 / w, and
+//    sum(M z) / sum(M).
 //
-// Perspective-correct value of corners' values f: sum(M f) / sum(M); depth: sum(M z) / sum(M w). Where corners were
-// divided by their w, which then is 1: sum(M k f) / sum(M k) with k = 1 / w, and sum(M z) / sum(M).
-// A pixel is inside the quad if no two M differ in sign. Errors and when not to use this: golden/shaders/README.md.
+// Why: with S_i = (x_i, y_i) - w_i p and R_i = |S_i|, sum M_i S_i = 0 and sum (-1)^i R_i M_i = 0. Hence M = a - t n: a
+// are the edge functions of triangle 012, n does not depend on p. No tangent, no guard, finite on edges and at corners,
+// unless two corners meet there. Errors and when not to use this: golden/shaders/README.md.
 
 // Once per quad: sum n_i (x_i, y_i, w_i) = 0. Subtract w times a pixel near the quad from x and y before: n stays the
-// same, its rounding errors shrink.
+// same, its rounding errors shrink. Who weighs pixels by these corners, too, subtracts that pixel from p.
 vec4 mean_value_n(vec3 v0, vec3 v1, vec3 v2, vec3 v3) {
   vec3 v01 = cross(v0, v1);
   vec3 v23 = cross(v2, v3);
@@ -43,8 +51,8 @@ vec4 mean_value_weights(vec4 x, vec4 y, vec4 w, vec4 n, vec2 p) {
   return result.a - result.t * n;
 }
 
-// The quickest way where all w are 1: each value f is a plane plus t * twist. Interpolate f, at corner 3 f - twist, with
-// `noperspective`; a fragment adds t * twist. Weights then add up to 1.
+// The quickest way where all w are 1: each value f is a plane plus t * twist. A vertex passes f on, vertex 3 f - twist,
+// with `noperspective`; a fragment adds t * twist. For perspective do so with k f and with k, and divide.
 float mean_value_twist(vec4 n, vec4 f) {
   return dot(n, f) / n.w;
 }

@@ -1,7 +1,8 @@
-// Mean value coordinates of a quad in WGSL: the determinant form. See mean_value_quad.glsl for what the numbers mean.
+// Mean value coordinates of a quad in WGSL: the determinant form. Apache-2.0. mean_value_quad.glsl has inputs,
+// conventions and steps. Here p is @builtin(position).xy, and y = (c.w - c.y) / 2 * height.
 
 // Once per quad: sum n_i (x_i, y_i, w_i) = 0. Subtract w times a pixel near the quad from x and y before: n stays the
-// same, its rounding errors shrink.
+// same, its rounding errors shrink. Who weighs pixels by these corners, too, subtracts that pixel from p.
 fn mean_value_n(v0: vec3f, v1: vec3f, v2: vec3f, v3: vec3f) -> vec4f {
   let v01 = cross(v0, v1);
   let v23 = cross(v2, v3);
@@ -34,8 +35,8 @@ fn mean_value_weights(x: vec4f, y: vec4f, w: vec4f, n: vec4f, p: vec2f) -> vec4f
   return result.a - result.t * n;
 }
 
-// The quickest way where all w are 1: each value f is a plane plus t * twist. Interpolate f, at corner 3 f - twist, with
-// @interpolate(linear); a fragment adds t * twist. Weights then add up to 1.
+// The quickest way where all w are 1: each value f is a plane plus t * twist. A vertex passes f on, vertex 3 f - twist,
+// with @interpolate(linear); a fragment adds t * twist. For perspective do so with k f and with k, and divide.
 fn mean_value_twist(n: vec4f, f: vec4f) -> f32 {
   return dot(n, f) / n.w;
 }

@@ -1,5 +1,5 @@
-// Eight lanes of AVX2 for float_kernel.hpp, inside a namespace of its own: float_avx512.hpp has the same names.
-// Of a mask the sign bit of each lane counts.
+// Eight lanes of AVX2 for kernel.hpp, in single precision: float_avx512.hpp has the same names. Of a mask the sign bit
+// of each lane counts.
 
 constexpr int width = 8;
 using F = __m256;
@@ -24,8 +24,6 @@ inline I load(const std::uint32_t* aligned) { return _mm256_load_si256(reinterpr
 inline F fma(F a, F b, F c) { return _mm256_fmadd_ps(a, b, c); }
 inline D fma(D a, D b, D c) { return _mm256_fmadd_pd(a, b, c); }
 constexpr bool fused = true;
-/// a b - c.
-inline F fms(F a, F b, F c) { return _mm256_fmsub_ps(a, b, c); }
 inline F least(F a, F b) { return _mm256_min_ps(a, b); }
 inline F greatest(F a, F b) { return _mm256_max_ps(a, b); }
 inline D least(D a, D b) { return _mm256_min_pd(a, b); }
@@ -43,7 +41,6 @@ template <int places>
 I shift_right(I v) {
   return _mm256_srli_epi32(v, places);
 }
-inline I shift_left(I v, int places) { return _mm256_sll_epi32(v, _mm_cvtsi32_si128(places)); }
 inline I shift_right(I v, int places) { return _mm256_srl_epi32(v, _mm_cvtsi32_si128(places)); }
 /// Half of a magnitude; 0 of 0.
 inline F half(F v) { return real(_mm256_subs_epu16(bits(v), splat(1 << 23))); }
@@ -51,7 +48,6 @@ inline F converted(I v) { return _mm256_cvtepi32_ps(v); }
 inline D toward_zero(D v) { return _mm256_round_pd(v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC); }
 inline I truncated(F v) { return _mm256_cvttps_epi32(v); }
 
-inline Mask sign(F v) { return {v}; }
 inline Mask sign(I v) { return {real(v)}; }
 inline Mask equal(F a, F b) { return {_mm256_cmp_ps(a, b, _CMP_EQ_OQ)}; }
 inline Mask at_least(F a, F b) { return {_mm256_cmp_ps(a, b, _CMP_GE_OQ)}; }
@@ -97,8 +93,6 @@ struct Coefficients {
 };
 /// No permutation reaches so far.
 constexpr bool looks_up_columns = false;
-template <std::size_t n>
-void look_up_columns(const LaneTableOf<float>&, const F (&)[n], Coefficients (&)[n]) {}
 
 /// `a` says which.
 inline Coefficients look_up(const LaneTableOf<float>& table, F a) {

@@ -1,4 +1,4 @@
-// Sixteen lanes of AVX-512 for float_kernel.hpp, inside a namespace of its own: float_avx2.hpp has the same names.
+// Sixteen lanes of AVX-512 for kernel.hpp, in single precision: float_avx2.hpp has the same names.
 
 constexpr int width = 16;
 using F = __m512;
@@ -23,8 +23,6 @@ inline I load(const std::uint32_t* aligned) { return _mm512_load_si512(aligned);
 inline F fma(F a, F b, F c) { return _mm512_fmadd_ps(a, b, c); }
 inline D fma(D a, D b, D c) { return _mm512_fmadd_pd(a, b, c); }
 constexpr bool fused = true;
-/// a b - c.
-inline F fms(F a, F b, F c) { return _mm512_fmsub_ps(a, b, c); }
 inline F least(F a, F b) { return _mm512_min_ps(a, b); }
 inline F greatest(F a, F b) { return _mm512_max_ps(a, b); }
 inline D least(D a, D b) { return _mm512_min_pd(a, b); }
@@ -42,7 +40,6 @@ template <int places>
 I shift_right(I v) {
   return _mm512_srli_epi32(v, places);
 }
-inline I shift_left(I v, int places) { return _mm512_sll_epi32(v, _mm_cvtsi32_si128(places)); }
 inline I shift_right(I v, int places) { return _mm512_srl_epi32(v, _mm_cvtsi32_si128(places)); }
 /// Half of a magnitude; 0 of 0.
 inline F half(F v) { return real(_mm512_subs_epu16(bits(v), splat(1 << 23))); }
@@ -51,7 +48,6 @@ inline D toward_zero(D v) { return _mm512_roundscale_pd(v, _MM_FROUND_TO_ZERO | 
 inline I truncated(F v) { return _mm512_cvttps_epi32(v); }
 
 inline Mask sign(I v) { return {_mm512_movepi32_mask(v)}; }
-inline Mask sign(F v) { return sign(bits(v)); }
 inline Mask equal(F a, F b) { return {_mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ)}; }
 inline Mask at_least(F a, F b) { return {_mm512_cmp_ps_mask(a, b, _CMP_GE_OQ)}; }
 inline Mask not_at_least(F a, F b) { return {_mm512_cmp_ps_mask(a, b, _CMP_NGE_UQ)}; }

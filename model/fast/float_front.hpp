@@ -11,6 +11,7 @@
 //    of the quad's numbers. Where the sums of M k and of M W are at least 2^t, t = e - 65, their E is at least t - 4,
 //    and a quotient of 2^-31 or more is of a sum with E >= t - 35: the term is below its quantum 2^(t - 54) and is
 //    nothing there either. A smaller quotient, less than half of the last bit that an output can have, is 0 in both.
+//    Not fused, a term below 2^-126 becomes 0 before it is added: t is -72 at least, and no quantum smaller than that.
 //    Lanes with a sum below FloatQuad::least_sum are for wide_lanes.hpp.
 
 using Real = float;

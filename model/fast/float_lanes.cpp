@@ -13,11 +13,9 @@
 namespace quadrille {
 namespace {
 
-/// Exponents of the port's numbers that the lanes take, of k either sign; differences below the least one count for
-/// nothing (float_front.hpp, range).
+/// Exponents of the port's numbers that the lanes take, of k and W not below its negative either; lesser differences
+/// than the least one count for nothing (float_front.hpp, range).
 constexpr int largest_exponent = 30, least_difference = -90;
-
-double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
 
 /// FloatLanes::Format::may_face: all combinations of signs at once.
 std::uint64_t may_face() {
@@ -151,7 +149,7 @@ const Functions& functions() {
   }
 }
 
-/// Whether the integers of polynomial() stay exact with 2^23 added.
+/// Whether the integers of kernel.hpp's polynomials() stay exact with 2^23 added.
 bool fits(const Table& table) {
   return std::ranges::all_of(table.entries, [](const TableEntry& e) {
     return std::max({e.c0, e.c1, e.c2}) < 1u << 23;
@@ -185,7 +183,7 @@ float least_sum(const FloatQuad& quad, const LaneFormatOf<float>& format) {
   add(quad.sum_z, quad.z);
   for (std::size_t j = 0; j < static_cast<std::size_t>(format.attributes); ++j) add(quad.sum_b[j], quad.b[j]);
   // `align` is 2^(e + 23 - prec).
-  return std::max(largest * static_cast<float>(power_of_two(format.prec - 23 - 65)), 0x1p-80f);
+  return std::max(largest * static_cast<float>(power_of_two(format.prec - 23 - 65)), 0x1p-72f);
 }
 
 bool fits(const QuadLanes::Factor& factor) {

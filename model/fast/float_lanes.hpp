@@ -1,4 +1,4 @@
-// The pixel pipeline on eight or sixteen pixels of an ordinary quad at once, in single precision: the quickest twin of
+// The pixel pipeline on four to sixteen pixels of an ordinary quad at once, in single precision: the quickest twin of
 // pixel_pipeline.hpp, bit for bit, where everything fits. What does not is for wide_lanes.hpp.
 //
 // The unit rounds toward zero here. Cutting a magnitude at 24 bits and then at S < 24 is cutting it at S, so that the

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <functional>
 #include <string>
@@ -191,6 +192,39 @@ TEST(FloatLanes, LimitsOfTheRange) {
   }
   EXPECT_GE(inside, 60);
   EXPECT_GE(outside, 20);
+}
+
+/// A quotient near half a code hangs on a term below 2^-126, which no product by itself has in single precision.
+TEST(FloatLanes, TermsBelowTheLeastProduct) {
+  Config c;
+  c.attribute_int_bits = 1;
+  c.attribute_frac_bits = 30;
+  c.validate();
+  DrawState s;
+  s.width = s.height = s.scissor_x1 = s.scissor_y1 = 4096;
+  s.attributes = 1;
+  s.depth = false;
+  SnappedQuad quad;
+  constexpr std::int32_t position[4][2]{
+      {6345984, 73847040}, {127417856, 56870144}, {10696576, 73251968}, {114771584, 58649984}};
+  constexpr std::uint32_t k[4]{156515, 143160, 139378, 141667};
+  constexpr PortNumber attribute[4]{{}, {false, -75, 189784}, {false, -59, 217558}, {false, -79, 241555}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    quad.vertex[i].x = position[i][0];
+    quad.vertex[i].y = position[i][1];
+    quad.vertex[i].w = 1 << c.frac();
+    quad.vertex[i].k = {false, -30, k[i]};
+    quad.vertex[i].attribute[0] = attribute[i];
+  }
+  ASSERT_TRUE(taken(quad, c, s));
+  UntimedModel plain(c, s, PixelEngine::plain);
+  const std::vector<Fragment> expected = draw(plain, quad);
+  EXPECT_TRUE(std::ranges::any_of(expected,
+                                  [](const Fragment& f) { return f.x == 1976 && f.y == 2004 && f.attribute[0] == 2; }));
+  on_each_lane_target([&] {
+    UntimedModel quick(c, s);
+    EXPECT_EQ(expected, draw(quick, quad));
+  });
 }
 
 /// As large as a small quad may be, and a unit larger, anywhere to the scissor and to the tiles: the front in 32 bits

@@ -4,6 +4,7 @@
 constexpr int width = 4;
 using F = float __attribute__((vector_size(16)));
 using I = std::int32_t __attribute__((vector_size(16)));
+using U = std::uint32_t __attribute__((vector_size(16)));
 using D = double __attribute__((vector_size(16)));  ///< half of the lanes
 using L = std::int64_t __attribute__((vector_size(16)));
 using TwoFloats = float __attribute__((vector_size(8)));
@@ -28,7 +29,7 @@ inline I load(const std::uint32_t* from) {
   return v;
 }
 
-/// Not fused: what is added has no finer places than the product's 24 bits.
+/// Not fused: the sum ends at a place no finer than the product's last one.
 inline F fma(F a, F b, F c) { return a * b + c; }
 inline D fma(D a, D b, D c) { return a * b + c; }
 constexpr bool fused = false;
@@ -42,9 +43,9 @@ inline D greatest(D a, D b) { return select(a > b, a, b); }
 inline I least(I a, I b) { return select(Mask{a < b}, a, b); }
 inline I greatest(I a, I b) { return select(Mask{a > b}, a, b); }
 inline F keep(F v, F mask) { return real(bits(v) & bits(mask)); }
-inline I add(I a, I b) { return a + b; }
-inline I subtract(I a, I b) { return a - b; }
-using U = std::uint32_t __attribute__((vector_size(16)));
+// Codes of exponents go beyond INT32_MAX on the way.
+inline I add(I a, I b) { return I(U(a) + U(b)); }
+inline I subtract(I a, I b) { return I(U(a) - U(b)); }
 template <int places>
 I shift_left(I v) {
   return I(U(v) << places);
@@ -66,7 +67,6 @@ inline D toward_zero(D v) {
 inline I truncated(F v) { return __builtin_convertvector(v, I); }
 
 inline Mask sign(I v) { return {v < 0}; }
-inline Mask sign(F v) { return sign(bits(v)); }
 inline Mask equal(F a, F b) { return {a == b}; }
 inline Mask at_least(F a, F b) { return {a >= b}; }
 inline Mask not_at_least(F a, F b) { return {~(a >= b)}; }
@@ -124,8 +124,6 @@ struct Coefficients {
   F c0, c1, c2;
 };
 constexpr bool looks_up_columns = false;
-template <std::size_t n>
-void look_up_columns(const LaneTableOf<float>&, const F (&)[n], Coefficients (&)[n]) {}
 
 /// `a` says which.
 inline Coefficients look_up(const LaneTableOf<float>& table, F a) {

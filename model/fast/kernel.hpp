@@ -111,7 +111,7 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
     if constexpr (!areas) front.distances(sign_d, d, r2);
     front.template edges<areas ? 5 : 6>(sign_a, v);  // not E13
 
-    // Singular pixels and edges are rare: something is 0. Two A are at a corner, if no bit of r² was dropped.
+    // Singular pixels and edges are rare: an A is 0 there. Where bits of r² are dropped that may be 0 alone.
     F smallest = least(least(v[0], v[1]), least(v[2], v[3]));
     if constexpr (Front::drops_bits) {
       if constexpr (areas) front.distances(sign_d, d, r2);

@@ -8,8 +8,6 @@
 namespace quadrille {
 namespace {
 
-double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
-
 bool all_zero(const std::array<double, 4>& values) { return values == std::array<double, 4>{}; }
 
 /// The factor ±2^n or 0 by which `of` gives `values`, if there is one.

@@ -47,7 +47,7 @@ inline I times(I v, std::int64_t by) {
 }
 /// Of integers below 2^52.
 inline F converted(I v) { return real(v | splat(0x4330000000000000)) - splat(0x1p52); }
-/// Of any, rounded toward zero: both halves are exact, 2^52 above the lower one.
+/// Of any, rounded toward zero once: `low` is exact and 2^52 too large, the other one exact and as much too small.
 inline F converted_any(I v) {
   const F high = real((shift_right<32>(v) ^ splat(std::int64_t{0x80000000})) | splat(0x4530000000000000));
   const F low = real((v & splat(std::int64_t{0xffffffff})) | splat(0x4330000000000000));
@@ -76,8 +76,6 @@ struct Coefficients {
   F c0, c1, c2;
 };
 constexpr bool looks_up_columns = false;
-template <std::size_t n>
-void look_up_columns(const LaneTableOf<double>&, const F (&)[n], Coefficients (&)[n]) {}
 
 /// `a` says which.
 inline Coefficients look_up(const LaneTableOf<double>& table, F a) {

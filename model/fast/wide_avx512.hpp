@@ -68,8 +68,6 @@ struct Coefficients {
   F c0, c1, c2;
 };
 constexpr bool looks_up_columns = false;
-template <std::size_t n>
-void look_up_columns(const LaneTableOf<double>&, const F (&)[n], Coefficients (&)[n]) {}
 
 /// `a` says which.
 inline Coefficients look_up(const LaneTableOf<double>& table, F a) {

@@ -4,9 +4,9 @@
 //  - A, D and r² are integers of 64 bits, whose partial sums may wrap. What is made of them, rounded toward zero, has
 //    their first 53 bits, of which S <= 26 stay.
 //  - PREC_BITS <= 31, coefficients have 29 bits and dx 22, codes 48: all far below 53.
-//  - Range: integers below 2^63 make M below 2^192, and numbers of the port are within 2^±1023/4: nothing overflows,
-//  and
-//    nothing but 0 becomes 0.
+//  - Range: integers below 2^63 make u below 2^64 and M, a product of six of them at most, below 2^381. Numbers of the
+//    port are within 2^±256: no sum overflows, nor is one 0 that should not. Quotients beyond are clamped, or 0,
+//    anyway.
 
 using Real = double;
 using Code = std::int64_t;

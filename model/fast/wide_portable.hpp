@@ -59,7 +59,7 @@ inline I times(I v, std::int64_t by) {
 }
 /// Of integers below 2^52.
 inline F converted(I v) { return real(v | 0x4330000000000000) - splat(0x1p52); }
-/// Of any, rounded toward zero: both halves are exact, 2^52 above the lower one.
+/// Of any, rounded toward zero once: `low` is exact and 2^52 too large, the other one exact and as much too small.
 inline F converted_any(I v) {
   const F high = real((shift_right<32>(v) ^ 0x80000000) | 0x4530000000000000);
   const F low = real((v & 0xffffffff) | 0x4330000000000000);
@@ -86,8 +86,6 @@ struct Coefficients {
   F c0, c1, c2;
 };
 constexpr bool looks_up_columns = false;
-template <std::size_t n>
-void look_up_columns(const LaneTableOf<double>&, const F (&)[n], Coefficients (&)[n]) {}
 
 /// `a` says which.
 inline Coefficients look_up(const LaneTableOf<double>& table, F a) {
@@ -101,11 +99,13 @@ inline Coefficients look_up(const LaneTableOf<double>& table, F a) {
 
 /// Lanes one after the other, of numbers below 2^32.
 inline void store(std::uint32_t* to, I v) {
-  for (int l = 0; l < width; ++l) to[l] = static_cast<std::uint32_t>(v[l]);
+  const std::uint32_t words[]{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1])};
+  std::memcpy(to, words, sizeof words);
 }
 /// Of numbers below 2^16.
 inline void store_lower_halves(std::uint16_t* to, I v) {
-  for (int l = 0; l < width; ++l) to[l] = static_cast<std::uint16_t>(v[l]);
+  const std::uint16_t halves[]{static_cast<std::uint16_t>(v[0]), static_cast<std::uint16_t>(v[1])};
+  std::memcpy(to, halves, sizeof halves);
 }
 /// Codes, integers below 2^51.
 inline void store_widened(std::int64_t* to, F v) {

@@ -1,5 +1,5 @@
-// The instruction set that the lanes' code (float_lanes.hpp, wide_lanes.hpp) runs on. It is compiled for each target;
-// all give the same bits, and the best that the processor has is in use unless another is chosen.
+// The instruction set that the lanes' code (model/fast, golden/reference/truth_lanes.hpp) runs on. It is compiled for
+// each target; all give the same bits, and the best that the processor has is in use unless another is chosen.
 #pragma once
 
 #include <span>

@@ -334,7 +334,8 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
            "  yellow  of a quad left out because it is a line\n"
            "  red     of a culled quad\n"
            "--peers: CPU time of a picture on one thread, for each instruction set; errors of shaders in fp32.\n"
-           "--cliffs: CPU time per fragment on one thread, divided by the engine's least (tb/studies/README.md).",
+           "--cliffs: CPU time per fragment on one thread, divided by the engine's least (tb/studies/README.md); the "
+           "model's ns a pixel by family, significand_bits and instruction set.",
            "0 done; 1 bound exceeded, engines differ, or a skip changed fragments that it must keep; 2 usage or input "
            "error; 3 missing tool",
            {"bench --no-rtl --set significand_bits=24 --json bench.json",
@@ -396,7 +397,8 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   command
       ->add_option_function<std::string>(
           "--lanes", [](const std::string& wanted) { set_lane_target(wanted); },
-          "Instruction set of the model: baseline, v2, v3 or v4 (default: the processor's best; --peers: each)")
+          "Instruction set of the model: baseline, v2, v3 or v4 (default: the processor's best; --peers, last table of "
+          "--cliffs: each)")
       ->type_name("NAME")
       ->excludes(peers);
   command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator")->excludes(peers);

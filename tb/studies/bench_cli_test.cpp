@@ -152,6 +152,7 @@ TEST_F(Cli, BenchPeersReports) {
       if (!target["measured"]) continue;
       ++measured;
       EXPECT_DOUBLE_EQ(target["speed"], fastest / median(target["cpu_seconds"])) << name;
+      EXPECT_GT(target["snapping_over_drawing"], 0.5) << name;
       EXPECT_LE(target["speed_of_a_round"][0], target["speed_of_a_round"][1]) << name;
     }
     EXPECT_GE(measured, 1);

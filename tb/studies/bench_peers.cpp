@@ -49,6 +49,9 @@ struct TargetRuns {
   std::string label() const { return goal == nullptr ? name : name + " " + std::string(goal->instructions); }
   bool measured = false;  ///< or the machine, or this build, lacks it
   std::vector<double> seconds{};
+  std::vector<double> snapping_seconds{};  ///< of the same with snapping: vertices in, picture out
+
+  double snapping_over_drawing() const { return median(snapping_seconds) / median(seconds); }
 };
 
 struct Picture {
@@ -178,7 +181,13 @@ class PeerBench {
           set_lane_target(runs.name);
           UntimedModel model(config_, state_);
           const double seconds = cpu_seconds([&] { draw_into_image(model, snapped, image); });
-          if (round >= 0) runs.seconds.push_back(seconds);
+          const double with_snapping = cpu_seconds([&] {
+            for (std::size_t i = 0; i < snapped.size(); ++i) snapped[i] = snap_as(picture.quads[i], 0, config_, state_);
+            draw_into_image(model, snapped, image);
+          });
+          if (round < 0) continue;
+          runs.seconds.push_back(seconds);
+          runs.snapping_seconds.push_back(with_snapping);
         }
         progress.set(++done, picture.name);
       }
@@ -231,8 +240,9 @@ class PeerBench {
         text,
         "%s\nshader: %s, OpenGL %s; model: %s; processor: %s; configuration %s\n\n"
         "A picture of %dx%d: u, v and depth, depth-tested, clear included. CPU ms on one thread, medians of %d "
-        "alternating runs;\nlargest difference of u, v and depth from the model's, pixels that one of the two "
-        "draws\n\n%-18s %8s %-12s %11s %11s %10s %9s\n",
+        "alternating runs,\nby pair of triangles. difference: the largest of u, v and depth from the model's "
+        "(bilinear: another interpolation).\none draws: pixels that only the shader or only the model draws\n\n"
+        "%-18s %8s %-12s %11s %11s %10s %9s\n",
         golden::command_line(arguments_).c_str(), renderer_.c_str(), version_.c_str(), compiler, processor().c_str(),
         summary(config_).c_str(), state_.width, state_.height, options_.repeat, "", "quads", "form", "013+123 ms",
         "012+023 ms", "difference", "one draws");
@@ -241,11 +251,15 @@ class PeerBench {
         const ShaderRuns &one = p.shaders[i], &other = p.shaders[i + 1];
         std::fprintf(text, "%-18s %8zu %-12s %11.2f %11.2f %10.1e %9llu\n", p.name, p.quads.size(),
                      std::string(one.name()).c_str(), 1e3 * median(one.seconds), 1e3 * median(other.seconds),
-                     one.difference, static_cast<unsigned long long>(one.other_pixels));
+                     std::max(one.difference, other.difference),
+                     static_cast<unsigned long long>(std::max(one.other_pixels, other.other_pixels)));
       }
-    std::fprintf(text,
-                 "\nThe model's speed in that of the fastest mean value form\n\n%-18s %-11s %9s %9s %7s %15s %7s\n", "",
-                 "lanes", "model ms", "shader ms", "speed", "of a round", "goal");
+    std::fprintf(
+        text,
+        "\nspeed: ms of the fastest mean value form / ms of the model; of a round: the least and the greatest of "
+        "a run of each.\nsnapping: time from vertices to picture / time from snapped quads\n\n%-18s "
+        "%-11s %9s %9s %9s %7s %15s %7s\n",
+        "", "lanes", "model ms", "snapping", "shader ms", "speed", "of a round", "goal");
     for (const Picture& p : pictures_)
       for (const TargetRuns& t : p.targets) print_target(text, p, t);
     print_errors(text);
@@ -258,26 +272,29 @@ class PeerBench {
   void print_target(std::FILE* text, const Picture& p, const TargetRuns& t) const {
     const double goal = goal_of(p, t);
     if (!t.measured) {
-      std::fprintf(text, "%-18s %-11s %51.1f not measured, open\n", p.name, t.label().c_str(), goal);
+      std::fprintf(text, "%-18s %-11s %61.1f not measured, open\n", p.name, t.label().c_str(), goal);
       return;
     }
     const auto [speed, least, most] = p.speed(t);
-    std::fprintf(text, "%-18s %-11s %9.2f %9.2f %7.2f %7.2f-%7.2f", p.name, t.label().c_str(), 1e3 * median(t.seconds),
-                 1e3 * median(p.fastest().seconds), speed, least, most);
+    std::fprintf(text, "%-18s %-11s %9.2f %8.2fx %9.2f %7.2f %7.2f-%7.2f", p.name, t.label().c_str(),
+                 1e3 * median(t.seconds), t.snapping_over_drawing(), 1e3 * median(p.fastest().seconds), speed, least,
+                 most);
     if (goal > 0) std::fprintf(text, " %7.1f %s", goal, speed >= goal ? "met" : "not met");
     std::fputs("\n", text);
   }
 
   void print_errors(std::FILE* text) const {
-    std::fprintf(text,
-                 "\nErrors of weights in fp32 against the truth, %dx%d; K: condition of the determinant form; pixels "
-                 "undefined, missing\n\n%-20s %7s %8s",
-                 error_side, error_side, "", "pixels", "K");
+    std::fprintf(
+        text,
+        "\nThe largest error of a weight in fp32 against the truth, %dx%d; undef: pixels with NaN or infinity; "
+        "miss: not drawn.\nK: condition of the determinant form, the largest of a pixel (%s)\n\n"
+        "%-32s %7s %8s",
+        error_side, error_side, "golden/shaders/README.md", "", "pixels", "K");
     for (const ShaderFormInfo& info : shader_forms)
       if (info.mean_value) std::fprintf(text, " %12s %5s %5s", std::string(info.name).c_str(), "undef", "miss");
     for (const ErrorRow& row : errors_) {
-      std::fprintf(text, "\n%-20s %7llu %8.1e", row.name.c_str(), static_cast<unsigned long long>(row.errors.pixels),
-                   row.errors.condition);
+      std::fprintf(text, "\n%-32s %7llu %8.1e", (std::string(row.kind) + " " + row.name).c_str(),
+                   static_cast<unsigned long long>(row.errors.pixels), row.errors.condition);
       for (const ShaderFormInfo& info : shader_forms) {
         const FormErrors& e = row.errors.forms[static_cast<std::size_t>(info.form)];
         if (info.mean_value)
@@ -316,6 +333,7 @@ class PeerBench {
         if (t.measured) {
           const auto [speed, least, most] = p.speed(t);
           target["cpu_seconds"] = t.seconds;
+          target["snapping_over_drawing"] = t.snapping_over_drawing();
           target["speed"] = speed;
           target["speed_of_a_round"] = {least, most};
         }

@@ -97,9 +97,12 @@ double quickest(const std::vector<WidthCost>& costs, std::size_t target) {
 }
 
 void print_widths(std::FILE* text, const std::vector<WidthCost>& costs) {
-  std::fprintf(text,
-               "\nModel by width, ns a covered pixel, quads of %llu to %llu fragments; ratio to the quickest case\n",
-               static_cast<unsigned long long>(least_fragments), static_cast<unsigned long long>(most_fragments));
+  std::fprintf(
+      text,
+      "\nThe model by family, significand_bits (s), align_guard_bits (guard) and instruction set: ns a covered "
+      "pixel, set-up of quads included;\nratio: to the least of the column. Quads of %llu to %llu fragments "
+      "each; fragments: the pixels that are drawn\n\n",
+      static_cast<unsigned long long>(least_fragments), static_cast<unsigned long long>(most_fragments));
   std::fprintf(text, "%-14s %3s %6s %6s %9s %9s", "", "s", "guard", "quads", "pixels", "fragments");
   for (const LaneTarget target : lane_targets())
     std::fprintf(text, "  %9s ratio", (std::string(name(target)) + (can_run(target) ? "" : " -")).c_str());

@@ -1,7 +1,7 @@
 // Puts generated mutants through the checks, each in a process of its own, until one sees it. Prints a line of JSON for
 // each mutant, in the order of the list; report_mutants.py makes the table of it.
 //
-//   mutate [--only NAMES_FILE] [--jobs J] [--limit SECONDS] [--afresh]
+//   mutate [--name NAME]… [--jobs J] [--limit SECONDS] [--afresh]
 //
 // A mutant of the RTL is compared with the model in lockstep. One of the model is too, and then goes through the checks
 // that see the model alone. One of both alike goes through these only: that the RTL errs alike hides it from lockstep,
