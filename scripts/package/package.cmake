@@ -64,7 +64,7 @@ function(quadrille_package component)
   target_compile_features(${target} INTERFACE cxx_std_20)
   target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${include}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
-quadrille_package(model quadrille_model)
+quadrille_package(model quadrille_model quadrille_support)
 quadrille_package(golden quadrille_analysis quadrille_methods quadrille_reference quadrille_scenes)
 target_link_libraries(quadrille_package_golden INTERFACE quadrille_package_model quadmath)
 
