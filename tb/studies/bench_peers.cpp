@@ -104,10 +104,13 @@ std::string processor() {
 }
 
 /// What the shader's whole picture is for the model: cleared, drawn, depth-tested.
-void draw_into_image(UntimedModel& model, std::span<const SnappedQuad> quads, DepthImage<float>& image) {
+/// `snapped(i)` gives quad i.
+template <class Snapped>
+void draw_into_image(UntimedModel& model, std::size_t quads, Snapped&& snapped, DepthImage<float>& image) {
   image.clear();
   model.clear_hidden();
-  for (const SnappedQuad& quad : quads) model.draw_arrays(quad, [&](const FragmentArrays& some) { image.write(some); });
+  for (std::size_t i = 0; i < quads; ++i)
+    model.draw_arrays(snapped(i), [&](const FragmentArrays& some) { image.write(some); });
   image.depth();  // settles what waits
 }
 
@@ -180,10 +183,14 @@ class PeerBench {
           if (!runs.measured) continue;
           set_lane_target(runs.name);
           UntimedModel model(config_, state_);
-          const double seconds = cpu_seconds([&] { draw_into_image(model, snapped, image); });
+          const double seconds = cpu_seconds([&] {
+            draw_into_image(
+                model, snapped.size(), [&](std::size_t i) -> const SnappedQuad& { return snapped[i]; }, image);
+          });
           const double with_snapping = cpu_seconds([&] {
-            for (std::size_t i = 0; i < snapped.size(); ++i) snapped[i] = snap_as(picture.quads[i], 0, config_, state_);
-            draw_into_image(model, snapped, image);
+            draw_into_image(
+                model, snapped.size(), [&](std::size_t i) { return snap_quad(picture.quads[i], config_, state_); },
+                image);
           });
           if (round < 0) continue;
           runs.seconds.push_back(seconds);
