@@ -10,6 +10,7 @@ case "${1:-}" in
 esac
 install_packages "${packages[@]}" libgtest-dev
 out=$root/build/lanes_$1
+rm -rf "$out"  # objects of files that are gone
 mkdir -p "$out"
 # The tests that compare lanes with the plain pipeline on every target, and what they need.
 mapfile -t sources < <(git ls-files 'model/*.cpp' 'golden/scenes/*.cpp' | grep -v '_test\.cpp$\|^model/examples/\|^model/c_api/')
