@@ -1,7 +1,6 @@
 #include "model/untimed.hpp"
 
-#include "model/fast/float_lanes.hpp"
-#include "model/fast/wide_lanes.hpp"
+#include "model/fast/lanes.hpp"
 #include "model/front/covered_pixels.hpp"
 #include "model/front/quad_reject.hpp"
 #include "model/front/quad_setup.hpp"
@@ -41,8 +40,7 @@ DrawStats& DrawStats::operator+=(const DrawStats& o) {
 
 struct UntimedModel::Impl {
   PipelineContext context;
-  FloatLanes floats;
-  WideLanes wide;
+  Lanes lanes;
   bool plain;
   TileWalk walk;
   WholeTiles whole;
@@ -59,27 +57,22 @@ struct UntimedModel::Impl {
   FragmentBuffer batch;
 
   // Of a quad by lanes.
-  bool by_floats = false;  ///< else by wide lanes
-  FloatQuad float_quad;
-  WideQuad wide_quad;
+  LanesQuad lanes_quad;
   SmallQuad small_quad;
   SmallWalk small_walk;
   PixelList list;
   LaneResults results;
-  SmallPixels small_pixels;
 
   Impl(const Config& config, const DrawState& state, PixelEngine engine)
       : context(config, state),
-        floats(context),
-        wide(context),
+        lanes(context),
         plain(engine == PixelEngine::plain),
         walk(config, state),
         whole(config, state),
         memory(config),
         masked(config),
         batch(PixelList::widest, state.attributes),
-        results(state.attributes),
-        small_pixels(state.attributes) {}
+        results(state.attributes) {}
 
   /// Every flag but tie, which coverage gives.
   void tally(unsigned flags) {
@@ -116,13 +109,8 @@ struct UntimedModel::Impl {
     const int count = all ? list.count : list.count / FloatLanes::block * FloatLanes::block;
     if (count == 0) return;
     auto size = static_cast<std::size_t>(count);
-    if (by_floats) {
-      floats.draw(float_quad, list, count, results);
-      by_lane.single += size;
-    } else {
-      wide.draw(wide_quad, list, count, results);
-      by_lane.wide += size;
-    }
+    lanes.draw(lanes_quad, list, count, results);
+    drawn_by_lanes() += size;
     if (results.any_plain || results.any_small || !results.all_drawn) size = settle(quad, count);
     stats.on_edge += results.on_edge;
     stats.notch += results.notch;
@@ -131,6 +119,8 @@ struct UntimedModel::Impl {
     if (size != 0) sink(results.fragments.view(quad.id, size));
     list.drop(count);
   }
+
+  std::uint64_t& drawn_by_lanes() { return lanes_quad.by_floats ? by_lane.single : by_lane.wide; }
 
   /// Draws what the lanes left, and closes the gaps of what is not drawn. Returns what is.
   std::size_t settle(const SnappedQuad& quad, int count) {
@@ -143,10 +133,9 @@ struct UntimedModel::Impl {
       data = quad_data(quad, setup, context.config, context.state);
     }
     if (results.any_small) {
-      wide.take(setup, data, QuadLanes(data, context), wide_quad);
-      const int small = small_pixels.draw(wide, wide_quad, list, count, results);
-      by_lane.single -= static_cast<std::uint64_t>(small);
-      by_lane.wide += static_cast<std::uint64_t>(small);
+      const auto small = static_cast<std::uint64_t>(lanes.draw_small(setup, data, list, count, results));
+      by_lane.single -= small;
+      by_lane.wide += small;
     }
     std::size_t kept = 0;
     for (int i = 0; i < count; ++i) {
@@ -162,7 +151,7 @@ struct UntimedModel::Impl {
   /// Pixel `at` of the list by the plain pipeline; returns whether it is drawn.
   bool draw_singular(std::size_t at, const SetupResult& setup, const QuadConstants& constants, const QuadData& data) {
     const int tile = context.config.tile();
-    const PixelBounds& origin = by_floats ? static_cast<const PixelBounds&>(float_quad) : wide_quad;
+    const PixelBounds& origin = lanes_quad.bounds();
     const int x = origin.x0 + static_cast<int>(list.place[at] & 0xffff),
               y = origin.y0 + static_cast<int>(list.place[at] >> 16);
     TileEntry entry;
@@ -178,7 +167,7 @@ struct UntimedModel::Impl {
     p.front = results.fragments.marks(at).front;
     p.tie = (results.fragments.marks(at).flags & flag_tie) != 0;
     pixel_pipeline(p, entry, constants, data, x % tile, y % tile, context);
-    --(by_floats ? by_lane.single : by_lane.wide);
+    --drawn_by_lanes();
     ++by_lane.plain;
     results.fragments.put(at, p.fragment);
     tally(p.fragment.flags);
@@ -196,7 +185,7 @@ struct UntimedModel::Impl {
 
   /// A quad that FloatLanes::take_small took.
   void draw_small(const SnappedQuad& quad, bool hidden, const Sink& sink) {
-    floats.walk_small(small_quad, small_walk);
+    lanes.floats().walk_small(small_quad, small_walk);
     stats.blocks_tested += static_cast<std::uint64_t>(small_walk.blocks_tested);
     list.count = 0;  // a sink that threw left some
     if (hidden) {
@@ -204,10 +193,10 @@ struct UntimedModel::Impl {
     } else {
       stats.tiles_tested += static_cast<std::uint64_t>(small_walk.tiles_tested);
       for (int i = 0; i < small_walk.hits; ++i)
-        count_tile(
-            quad,
-            floats.cover_small(float_quad, small_quad, small_walk.hit[static_cast<std::size_t>(i)], nullptr, list),
-            sink);
+        count_tile(quad,
+                   lanes.floats().cover_small(lanes_quad.floats, small_quad,
+                                              small_walk.hit[static_cast<std::size_t>(i)], nullptr, list),
+                   sink);
     }
     draw_list(quad, true, sink);
   }
@@ -215,7 +204,7 @@ struct UntimedModel::Impl {
   /// Its tiles in the walk's order, without what is hidden: each test of one teaches what is known of tiles.
   void draw_small_seen(const SnappedQuad& quad, const Sink& sink) {
     const DepthInterval depth = depth_interval(quad, context.config, context.state);
-    const int x0 = float_quad.x0 >> SmallQuad::tile_log2, y0 = float_quad.y0 >> SmallQuad::tile_log2;
+    const int x0 = lanes_quad.floats.x0 >> SmallQuad::tile_log2, y0 = lanes_quad.floats.y0 >> SmallQuad::tile_log2;
     if (memory.block_hidden(x0, y0, small_quad.tiles_x, small_quad.tiles_y, depth)) {
       ++stats.blocks_hidden;
       return;
@@ -233,7 +222,8 @@ struct UntimedModel::Impl {
           ++stats.tiles_hidden;  // whether it is covered does not matter: it teaches nothing that is nearer
         } else if (hit) {
           masked.begin(x0 + column, y0 + row, depth);
-          const FloatLanes::TileCounts counts = floats.cover_small(float_quad, small_quad, tile, &masked, list);
+          const FloatLanes::TileCounts counts =
+              lanes.floats().cover_small(lanes_quad.floats, small_quad, tile, &masked, list);
           covered = counts.covered && whole.hold(x0 + column, y0 + row);
           if (masked.hidden())
             ++stats.tiles_masked;
@@ -264,14 +254,14 @@ struct UntimedModel::Impl {
   /// FloatLanes::cover of the tile under test. `depth`: of the quad, or nullptr where nothing is hidden.
   FloatLanes::TileCounts cover_lanes(const DepthInterval* depth) {
     const TileCorner corner = walk.corner();
-    const PixelBounds& bounds = by_floats ? static_cast<const PixelBounds&>(float_quad) : wide_quad;
-    if (depth == nullptr) return floats.cover(bounds, corner, walk.constants(), nullptr, list);
+    const PixelBounds& bounds = lanes_quad.bounds();
+    if (depth == nullptr) return lanes.floats().cover(bounds, corner, walk.constants(), nullptr, list);
     masked.begin(corner.tile_x, corner.tile_y, *depth);
     if (masked.hidden()) {
       ++stats.tiles_masked;
       return {};
     }
-    const FloatLanes::TileCounts counts = floats.cover(bounds, corner, walk.constants(), &masked, list);
+    const FloatLanes::TileCounts counts = lanes.floats().cover(bounds, corner, walk.constants(), &masked, list);
     masked.end();
     return counts;
   }
@@ -303,12 +293,10 @@ void UntimedModel::set_state(const DrawState& state) {
   const Config config = impl_->context.config;
   check_draw_state(state, config);
   impl_->context = PipelineContext(config, state);
-  impl_->floats = FloatLanes(impl_->context);
-  impl_->wide = WideLanes(impl_->context);
+  impl_->lanes = Lanes(impl_->context);
   impl_->records.clear();
   impl_->batch = FragmentBuffer(PixelList::widest, state.attributes);
   impl_->results = LaneResults(state.attributes);
-  impl_->small_pixels = SmallPixels(state.attributes);
   impl_->walk = TileWalk(config, state);
   impl_->whole = WholeTiles(config, state);
 }
@@ -331,10 +319,10 @@ void UntimedModel::draw_arrays(const SnappedQuad& quad, const std::function<void
   Impl& m = *impl_;
   ++m.stats.quads;
   const bool hidden = skips_hidden(m.context.config, m.context.state);
-  if (!m.plain && m.floats.small() && m.floats.usable())
-    if (const auto taken = m.floats.take_small(quad, m.float_quad, m.small_quad)) {
+  if (!m.plain && m.lanes.floats().small())
+    if (const auto taken = m.lanes.floats().take_small(quad, m.lanes_quad.floats, m.small_quad)) {
       ++m.stats.rejected[static_cast<std::size_t>(*taken)];
-      m.by_floats = true;
+      m.lanes_quad.by_floats = true;
       if (*taken == QuadReject::none) m.draw_small(quad, hidden, sink);
       return;
     }
@@ -351,17 +339,13 @@ void UntimedModel::draw_arrays(const SnappedQuad& quad, const std::function<void
   m.stats.hull_quads += setup.hull;
   const DepthInterval depth = hidden ? depth_interval(quad, m.context.config, m.context.state) : DepthInterval{};
   const bool by_lanes = !m.plain;
-  if (by_lanes) {
-    const QuadLanes values(data, m.context);
-    m.by_floats = m.floats.usable() && m.floats.take(setup, data, values, m.float_quad);
-    if (!m.by_floats) m.wide.take(setup, data, values, m.wide_quad);
-  }
-  const bool by_tile = by_lanes && !m.by_floats && m.wide.by_tile();
+  if (by_lanes) m.lanes.take(setup, data, m.lanes_quad);
+  const bool by_tile = by_lanes && m.lanes.by_tile(m.lanes_quad);
   m.list.count = 0;  // a sink that threw left some
   const WalkCounts counts = walk_quad(
       m.walk, setup,
       [&] {
-        if (by_tile) m.wide.move_to(m.walk.entry(), m.wide_quad);
+        if (by_tile) m.lanes.wide().move_to(m.walk.entry(), m.lanes_quad.wide);
         if (by_lanes) {
           m.count_tile(quad, m.cover_lanes(hidden ? &depth : nullptr), sink);
           if (by_tile) m.draw_list(quad, true, sink);

@@ -135,18 +135,16 @@ QUADRILLE_TARGET_END
 #endif
 
 const Functions& functions() {
-  switch (lane_target()) {
+  /// By LaneTarget.
+  static constexpr const Functions* of_target[]{
+      &baseline::functions,
 #ifdef QUADRILLE_LANE_TARGETS
-    case LaneTarget::v4:
-      return v4::functions;
-    case LaneTarget::v3:
-      return v3::functions;
-    case LaneTarget::v2:
-      return v2::functions;
+      &v2::functions,
+      &v3::functions,
+      &v4::functions,
 #endif
-    default:
-      return baseline::functions;
-  }
+  };
+  return *of_target[static_cast<std::size_t>(lane_target())];
 }
 
 /// Whether the integers of kernel.hpp's polynomials() stay exact with 2^23 added.
@@ -220,10 +218,8 @@ FloatLanes::FloatLanes(const PipelineContext& c)
   format_.may_face = may_face();
 }
 
-bool FloatLanes::usable() const { return fits_; }
-
 bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const {
-  if (setup.homogeneous) return false;
+  if (!fits_ || setup.homogeneous) return false;
   // All positions are multiples of 2^low: products of two have 2 low bits of zeros, enough for a double to hold A, r²
   // and two of the latter's sum, and for nothing to be dropped of D.
   std::uint64_t positions = 0;

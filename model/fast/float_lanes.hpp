@@ -80,9 +80,8 @@ class FloatLanes {
 
   explicit FloatLanes(const PipelineContext& c);
 
-  /// Whether the configuration fits.
-  bool usable() const;
-  /// False: the quad is not ordinary, or a number of it does not fit; what `out` holds then is nobody's.
+  /// False: the configuration or a number of the quad does not fit, or it is not ordinary; what `out` holds then is
+  /// nobody's.
   bool take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const;
 
   struct TileCounts {

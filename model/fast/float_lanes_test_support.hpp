@@ -113,7 +113,7 @@ inline bool taken(const SnappedQuad& quad, const Config& c, const DrawState& s) 
   const SetupResult setup = quad_setup(quad, c, s);
   const QuadData data = quad_data(quad, setup, c, s);
   FloatQuad out;
-  return lanes.usable() && lanes.take(setup, data, QuadLanes(data, context), out);
+  return lanes.take(setup, data, QuadLanes(data, context), out);
 }
 
 inline std::vector<std::uint64_t> counts(const DrawStats& d) {

@@ -4,10 +4,10 @@
 
 #include "model/pixel/pixel_pipeline.hpp"
 #include "model/port/fragment_arrays.hpp"
+#include "model/support/power_of_two.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <optional>
 #include <type_traits>
@@ -16,8 +16,6 @@
 namespace quadrille {
 
 double to_double(const PipelineFloat& v, int s);
-/// Of a normal number.
-constexpr double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
 
 /// A table for vectors of `Real`, P = 24 or 53 bits. A place is {C0 + 2^(P - 1), (C1 + 2^(P - 1)) 2^-rest_bits,
 /// C2 4^-rest_bits, 0}; its index is what the argument's bits [rest_bits +: index_bits] say: of the root also the

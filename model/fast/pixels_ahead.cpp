@@ -12,28 +12,17 @@ std::uint8_t kind_of(const PixelTrace& p) {
 }
 
 PixelsAhead::PixelsAhead(const PipelineContext& context)
-    : context_(context),
-      floats_(context),
-      wide_(context),
-      results_(context.state.attributes),
-      of_tile_(context.state.attributes),
-      small_pixels_(context.state.attributes) {}
+    : context_(context), lanes_(context), results_(context.state.attributes), of_tile_(context.state.attributes) {}
 
 void PixelsAhead::set_state() {
-  floats_ = FloatLanes(context_);
-  wide_ = WideLanes(context_);
+  lanes_ = Lanes(context_);
   results_ = LaneResults(context_.state.attributes);
   of_tile_ = LaneResults(context_.state.attributes);
-  small_pixels_ = SmallPixels(context_.state.attributes);
 }
 
 void PixelsAhead::take(const SetupResult& setup, PixelQuad& quad) const {
-  const QuadLanes values(quad.data, context_);
-  quad.by_floats = floats_.usable() && floats_.take(setup, quad.data, values, quad.floats);
-  if (quad.by_floats)
-    quad.setup = setup;
-  else
-    wide_.take(setup, quad.data, values, quad.wide);
+  quad.setup = setup;
+  lanes_.take(setup, quad.data, quad.lanes);
 }
 
 void PixelsAhead::begin() {
@@ -50,11 +39,10 @@ void PixelsAhead::compute(const PixelQuad& quad) {
   next_ = 0;
   kind_.clear();
   list_.count = 0;
-  if (!quad.by_floats && wide_.by_tile()) {
+  if (lanes_.by_tile(quad.lanes))
     compute_by_tile(quad);
-  } else {
+  else
     compute_lanes(quad);
-  }
   batch_ = results_.fragments.view(quad.data.id, kind_.size());
 }
 
@@ -69,27 +57,19 @@ void PixelsAhead::list_row(const Row& row, const PixelBounds& bounds) {
 }
 
 void PixelsAhead::compute_lanes(const PixelQuad& quad) {
-  const PixelBounds& bounds = quad.by_floats ? static_cast<const PixelBounds&>(quad.floats) : quad.wide;
-  for (const Row& row : rows_) list_row(row, bounds);
-  if (quad.by_floats)
-    floats_.draw(quad.floats, list_, list_.count, results_);
-  else
-    wide_.draw(quad.wide, list_, list_.count, results_);
-  if (results_.any_small) {
-    WideQuad wide;
-    wide_.take(quad.setup, quad.data, QuadLanes(quad.data, context_), wide);
-    small_pixels_.draw(wide_, wide, list_, list_.count, results_);
-  }
+  for (const Row& row : rows_) list_row(row, quad.lanes.bounds());
+  lanes_.draw(quad.lanes, list_, list_.count, results_);
+  if (results_.any_small) lanes_.draw_small(quad.setup, quad.data, list_, list_.count, results_);
   take_kinds(results_, 0, quad);
 }
 
 void PixelsAhead::compute_by_tile(const PixelQuad& quad) {
-  WideQuad at_tile = quad.wide;
+  WideQuad at_tile = quad.lanes.wide;
   for (std::size_t begin = 0, end = 0; begin < rows_.size(); begin = end) {
-    wide_.move_to(*rows_[begin].tile, at_tile);
+    lanes_.wide().move_to(*rows_[begin].tile, at_tile);
     list_.count = 0;
     for (; end < rows_.size() && rows_[end].tile == rows_[begin].tile; ++end) list_row(rows_[end], at_tile);
-    wide_.draw(at_tile, list_, list_.count, of_tile_);
+    lanes_.wide().draw(at_tile, list_, list_.count, of_tile_);
     const std::size_t from = kind_.size();
     for (std::size_t i = 0; i < static_cast<std::size_t>(list_.count); ++i)
       results_.fragments.copy(of_tile_.fragments, i, from + i);

@@ -2,8 +2,7 @@
 // one quad at a time, by the quickest lanes that the quad fits.
 #pragma once
 
-#include "model/fast/float_lanes.hpp"
-#include "model/fast/wide_lanes.hpp"
+#include "model/fast/lanes.hpp"
 #include "model/front/covered_pixels.hpp"
 #include "model/pixel/pixel_pipeline.hpp"
 
@@ -29,10 +28,8 @@ std::uint8_t kind_of(const PixelTrace& pixel);
 struct PixelQuad {
   QuadConstants constants;
   QuadData data;
-  SetupResult setup;       ///< by floats
-  bool by_floats = false;  ///< `floats` has it, else `wide`
-  FloatQuad floats;
-  WideQuad wide;
+  SetupResult setup;
+  LanesQuad lanes;
 };
 
 class PixelsAhead {
@@ -78,14 +75,12 @@ class PixelsAhead {
   void plain(const Row& row, int dx, const PixelQuad& quad, std::size_t place);
 
   const PipelineContext& context_;
-  FloatLanes floats_;
-  WideLanes wide_;
+  Lanes lanes_;
   std::vector<Row> rows_;
   int pixels_ = 0;  ///< of the rows
   PixelList list_;
-  LaneResults results_;  ///< of all lanes: `fragments`
-  LaneResults of_tile_;  ///< where each tile is a list
-  SmallPixels small_pixels_;
+  LaneResults results_;   ///< of all lanes: `fragments`
+  LaneResults of_tile_;   ///< where each tile is a list
   FragmentArrays batch_;  ///< of these
   std::vector<std::uint8_t> kind_;
   std::size_t next_ = 0;

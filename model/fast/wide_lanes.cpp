@@ -49,6 +49,16 @@ namespace v4 {
 QUADRILLE_TARGET_END
 #endif
 
+/// By LaneTarget.
+constexpr decltype(&baseline::draw) draws[]{
+    baseline::draw,
+#ifdef QUADRILLE_LANE_TARGETS
+    v2::draw,
+    v3::draw,
+    v4::draw,
+#endif
+};
+
 }  // namespace
 
 WideLanes::WideLanes(const PipelineContext& c)
@@ -109,43 +119,7 @@ void WideLanes::move_to(const TileEntry& tile, WideQuad& quad) const {
 void WideLanes::draw(const WideQuad& quad, const PixelList& list, int count, LaneResults& out) const {
   out.begin();
   const TowardZero mode;
-  switch (lane_target()) {
-#ifdef QUADRILLE_LANE_TARGETS
-    case LaneTarget::v4:
-      return v4::draw(format_, quad, list, count, out);
-    case LaneTarget::v3:
-      return v3::draw(format_, quad, list, count, out);
-    case LaneTarget::v2:
-      return v2::draw(format_, quad, list, count, out);
-#endif
-    default:
-      return baseline::draw(format_, quad, list, count, out);
-  }
-}
-
-int SmallPixels::draw(const WideLanes& lanes, const WideQuad& quad, const PixelList& list, int count,
-                      LaneResults& results) {
-  const auto each = [&](auto&& use) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-      if (LaneResults::has(results.small, i)) use(i);
-  };
-  list_.count = 0;
-  each([&](std::size_t i) {
-    const auto to = static_cast<std::size_t>(list_.count++);
-    list_.place[to] = list.place[i];
-    list_.marks[to] = list.marks[i];
-  });
-  lanes.draw(quad, list_, list_.count, drawn_);
-  std::size_t from = 0;
-  each([&](std::size_t i) {
-    results.fragments.copy(drawn_.fragments, from, i);
-    LaneResults::put(results.drawn, i, LaneResults::has(drawn_.drawn, from++));
-  });
-  results.all_drawn &= drawn_.all_drawn;
-  results.on_edge += drawn_.on_edge;
-  results.notch += drawn_.notch;
-  results.saturated += drawn_.saturated;
-  return list_.count;
+  draws[static_cast<std::size_t>(lane_target())](format_, quad, list, count, out);
 }
 
 }  // namespace quadrille

@@ -38,17 +38,4 @@ class WideLanes {
   bool by_tile_;
 };
 
-/// Draws by wide lanes what FloatLanes::draw left as small.
-class SmallPixels {
- public:
-  explicit SmallPixels(int attributes) : drawn_(attributes) {}
-
-  /// The first `count` pixels of the list are drawn in `results`; returns how many were left. `quad`: of all of it.
-  int draw(const WideLanes& lanes, const WideQuad& quad, const PixelList& list, int count, LaneResults& results);
-
- private:
-  PixelList list_;
-  LaneResults drawn_;
-};
-
 }  // namespace quadrille

@@ -1,5 +1,7 @@
 #include "model/port/quick_snap.hpp"
 
+#include "model/support/power_of_two.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -10,10 +12,6 @@ namespace quadrille {
 namespace {
 
 using Four = std::array<double, 4>;  ///< of the vertices
-
-constexpr double power(int exponent) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
-}
 
 /// An integer next to the value, which is below 2^51.
 double integer_at(double value) {
@@ -71,7 +69,7 @@ bool quick_snap(const WindowQuad& quad, std::size_t attributes, const Config& co
   if (!fits) return false;
   for (std::size_t i = 0; i < 4; ++i) k[i] = 1 / w[i];
 
-  const double grid = power(config.subpixel_bits), limit = power(config.pos_int() + config.subpixel_bits);
+  const double grid = power_of_two(config.subpixel_bits), limit = power_of_two(config.pos_int() + config.subpixel_bits);
   constexpr double sure = 0.5 - 0x1p-20;
   for (std::size_t i = 0; i < 4; ++i) {
     const double half = 0.5 * w[i], gx = (x[i] - half) * k[i] * grid, gy = (y[i] - half) * k[i] * grid;
@@ -82,8 +80,8 @@ bool quick_snap(const WindowQuad& quad, std::size_t attributes, const Config& co
   }
   if (!fits) return false;
 
-  const double one = power(config.depth_bits), depth_unit = power(-config.depth_bits);
-  const double sure_of_depth = 0.5 - power(config.depth_bits - 44);
+  const double one = power_of_two(config.depth_bits), depth_unit = power_of_two(-config.depth_bits);
+  const double sure_of_depth = 0.5 - power_of_two(config.depth_bits - 44);
   std::array<std::int32_t, 4> code;
   for (std::size_t i = 0; i < 4; ++i) {
     const double depth = std::clamp(z[i] * k[i] * one, -2.0, one + 2), n = integer_at(depth);
@@ -106,7 +104,8 @@ bool quick_snap(const WindowQuad& quad, std::size_t attributes, const Config& co
   }
 
   const int frac = config.attribute_frac();
-  const double attribute_end = power(config.attribute_int_bits), codes = power(frac), attribute_unit = power(-frac);
+  const double attribute_end = power_of_two(config.attribute_int_bits), codes = power_of_two(frac),
+               attribute_unit = power_of_two(-frac);
   for (std::size_t j = 0; j < attributes; ++j) {
     const double first = quad.attribute[0][j], scaled = first * codes, n = integer_at(scaled);
     fits &= std::fabs(first) < attribute_end && std::fabs(scaled - n) < 0.5;
