@@ -1,5 +1,5 @@
 // Four lanes of 128 bits for kernel.hpp, in single precision, in the compiler's own vectors: SSE, NEON. Same names as
-// float_avx2.hpp. A mask is 0 or -1 in each lane.
+// float_avx2.hpp.
 
 constexpr int width = 4;
 using F = float __attribute__((vector_size(16)));
@@ -7,22 +7,12 @@ using I = std::int32_t __attribute__((vector_size(16)));
 using U = std::uint32_t __attribute__((vector_size(16)));
 using D = double __attribute__((vector_size(16)));  ///< half of the lanes
 using L = std::int64_t __attribute__((vector_size(16)));
-using TwoFloats = float __attribute__((vector_size(8)));
-using TwoWords = std::int32_t __attribute__((vector_size(8)));
 
-struct Mask {
-  I lanes;
-};
-inline Mask operator&(Mask a, Mask b) { return {a.lanes & b.lanes}; }
-inline Mask operator|(Mask a, Mask b) { return {a.lanes | b.lanes}; }
-inline Mask operator^(Mask a, Mask b) { return {a.lanes ^ b.lanes}; }
-inline Mask without(Mask a, Mask b) { return {a.lanes & ~b.lanes}; }
+#include "model/fast/portable.hpp"
 
 inline F splat(float v) { return F{v, v, v, v}; }
 inline D splat(double v) { return D{v, v}; }
 inline I splat(std::int32_t v) { return I{v, v, v, v}; }
-inline F real(I v) { return (F)v; }
-inline I bits(F v) { return (I)v; }
 inline I load(const std::uint32_t* from) {
   I v;
   std::memcpy(&v, from, sizeof v);
@@ -33,28 +23,11 @@ inline I load(const std::uint32_t* from) {
 inline F fma(F a, F b, F c) { return a * b + c; }
 inline D fma(D a, D b, D c) { return a * b + c; }
 constexpr bool fused = false;
-inline F select(Mask m, F a, F b) { return real((bits(a) & m.lanes) | (bits(b) & ~m.lanes)); }
-inline I select(Mask m, I a, I b) { return (a & m.lanes) | (b & ~m.lanes); }
-inline F least(F a, F b) { return select({a < b}, a, b); }
-inline F greatest(F a, F b) { return select({a > b}, a, b); }
 inline D select(L m, D a, D b) { return (D)(((L)a & m) | ((L)b & ~m)); }
 inline D least(D a, D b) { return select(a < b, a, b); }
 inline D greatest(D a, D b) { return select(a > b, a, b); }
 inline I least(I a, I b) { return select(Mask{a < b}, a, b); }
 inline I greatest(I a, I b) { return select(Mask{a > b}, a, b); }
-inline F keep(F v, F mask) { return real(bits(v) & bits(mask)); }
-// Codes of exponents go beyond INT32_MAX on the way.
-inline I add(I a, I b) { return I(U(a) + U(b)); }
-inline I subtract(I a, I b) { return I(U(a) - U(b)); }
-template <int places>
-I shift_left(I v) {
-  return I(U(v) << places);
-}
-template <int places>
-I shift_right(I v) {
-  return I(U(v) >> places);
-}
-inline I shift_right(I v, int places) { return I(U(v) >> static_cast<std::uint32_t>(places)); }
 /// Half of a magnitude; 0 of 0.
 inline F half(F v) { return v * splat(0.5f); }
 inline F converted(I v) { return __builtin_convertvector(v, F); }
@@ -66,13 +39,8 @@ inline D toward_zero(D v) {
 }
 inline I truncated(F v) { return __builtin_convertvector(v, I); }
 
-inline Mask sign(I v) { return {v < 0}; }
-inline Mask equal(F a, F b) { return {a == b}; }
-inline Mask at_least(F a, F b) { return {a >= b}; }
 inline Mask not_at_least(F a, F b) { return {~(a >= b)}; }
-inline Mask equal(I a, I b) { return {a == b}; }
 inline Mask greater(I a, I b) { return {a > b}; }
-inline Mask no_lane() { return {I{}}; }
 /// Bit l is lane l.
 inline unsigned lanes(Mask m) {
 #ifdef __SSE2__
@@ -90,12 +58,6 @@ inline bool none(Mask m) {
   return (two[0] | two[1]) == 0;
 #endif
 }
-/// That bit in the lanes of the mask.
-template <int bit>
-I flag(Mask m) {
-  return m.lanes & splat(1 << bit);
-}
-
 struct Halves {
   D a, b;
 };
@@ -118,12 +80,6 @@ inline I truncated(Doubles v) {
   };
   return I{one(v.low[0]), one(v.low[1]), one(v.high[0]), one(v.high[1])};
 }
-
-/// Places of a table for each lane.
-struct Coefficients {
-  F c0, c1, c2;
-};
-constexpr bool looks_up_columns = false;
 
 /// `a` says which.
 inline Coefficients look_up(const LaneTableOf<float>& table, F a) {

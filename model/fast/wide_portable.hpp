@@ -1,48 +1,24 @@
 // Two lanes of 128 bits for kernel.hpp, in double precision, in the compiler's own vectors: SSE, NEON. Same names as
-// wide_avx2.hpp. A mask is 0 or -1 in each lane.
+// wide_avx2.hpp.
 
 constexpr int width = 2;
 using F = double __attribute__((vector_size(16)));
 using I = std::int64_t __attribute__((vector_size(16)));
 using U = std::uint64_t __attribute__((vector_size(16)));
 
-struct Mask {
-  I lanes;
-};
-inline Mask operator&(Mask a, Mask b) { return {a.lanes & b.lanes}; }
-inline Mask operator|(Mask a, Mask b) { return {a.lanes | b.lanes}; }
-inline Mask operator^(Mask a, Mask b) { return {a.lanes ^ b.lanes}; }
-inline Mask without(Mask a, Mask b) { return {a.lanes & ~b.lanes}; }
+#include "model/fast/portable.hpp"
 
 inline F splat(double v) { return F{v, v}; }
 inline I splat(std::int64_t v) { return I{v, v}; }
-inline F real(I v) { return (F)v; }
-inline I bits(F v) { return (I)v; }
 inline I load(const std::uint32_t* from) { return I{from[0], from[1]}; }
 
 /// Not fused: products have 52 bits.
 inline F fma(F a, F b, F c) { return a * b + c; }
-inline F select(Mask m, F a, F b) { return real((bits(a) & m.lanes) | (bits(b) & ~m.lanes)); }
-inline I select(Mask m, I a, I b) { return (a & m.lanes) | (b & ~m.lanes); }
-inline F least(F a, F b) { return select(Mask{a < b}, a, b); }
-inline F greatest(F a, F b) { return select(Mask{a > b}, a, b); }
-inline F keep(F v, F mask) { return real(bits(v) & bits(mask)); }
 /// Of magnitudes below 2^52.
 inline F toward_zero(F v) {
   const I sign = bits(v) & INT64_MIN;
   return real(bits(real(bits(v) & INT64_MAX) + splat(0x1p52) - splat(0x1p52)) | sign);
 }
-inline I add(I a, I b) { return I(U(a) + U(b)); }
-inline I subtract(I a, I b) { return I(U(a) - U(b)); }
-template <int places>
-I shift_left(I v) {
-  return I(U(v) << places);
-}
-template <int places>
-I shift_right(I v) {
-  return I(U(v) >> places);
-}
-inline I shift_right(I v, int places) { return I(U(v) >> static_cast<std::uint64_t>(places)); }
 /// Floor of half.
 inline I halved(I v) { return shift_right<1>(v) | (v & INT64_MIN); }
 /// Of numbers below 2^32.
@@ -66,27 +42,10 @@ inline F converted_any(I v) {
   return (high - splat(0x1p84 + 0x1p63 + 0x1p52)) + low;
 }
 
-inline Mask sign(I v) { return {v < 0}; }
-inline Mask equal(F a, F b) { return {a == b}; }
-inline Mask equal(I a, I b) { return {a == b}; }
-inline Mask at_least(F a, F b) { return {a >= b}; }
 inline Mask greater(F a, F b) { return {a > b}; }
-inline Mask no_lane() { return {I{}}; }
 /// Bit l is lane l.
 inline unsigned lanes(Mask m) { return static_cast<unsigned>((m.lanes[0] & 1) | (m.lanes[1] & 2)); }
 inline bool none(Mask m) { return (m.lanes[0] | m.lanes[1]) == 0; }
-/// That bit in the lanes of the mask.
-template <int bit>
-I flag(Mask m) {
-  return m.lanes & (1 << bit);
-}
-
-/// Places of a table for each lane.
-struct Coefficients {
-  F c0, c1, c2;
-};
-constexpr bool looks_up_columns = false;
-
 /// `a` says which.
 inline Coefficients look_up(const LaneTableOf<double>& table, F a) {
   const I offset = shift_right(bits(a), table.rest_bits - 5) & std::int64_t{table.offset_mask};
