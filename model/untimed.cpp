@@ -58,6 +58,7 @@ struct UntimedModel::Impl {
 
   // Of a quad by lanes.
   LanesQuad lanes_quad;
+  NarrowEdges edges;
   SmallQuad small_quad;
   SmallWalk small_walk;
   PixelList list;
@@ -67,7 +68,7 @@ struct UntimedModel::Impl {
       : context(config, state),
         lanes(context),
         plain(engine == PixelEngine::plain),
-        walk(config, state),
+        walk(config, state, FloatLanes::place_signs),
         whole(config, state),
         memory(config),
         masked(config),
@@ -255,13 +256,13 @@ struct UntimedModel::Impl {
   FloatLanes::TileCounts cover_lanes(const DepthInterval* depth) {
     const TileCorner corner = walk.corner();
     const PixelBounds& bounds = lanes_quad.bounds();
-    if (depth == nullptr) return lanes.floats().cover(bounds, corner, walk.constants(), nullptr, list);
+    if (depth == nullptr) return lanes.floats().cover(bounds, corner, walk.constants(), edges, nullptr, list);
     masked.begin(corner.tile_x, corner.tile_y, *depth);
     if (masked.hidden()) {
       ++stats.tiles_masked;
       return {};
     }
-    const FloatLanes::TileCounts counts = lanes.floats().cover(bounds, corner, walk.constants(), &masked, list);
+    const FloatLanes::TileCounts counts = lanes.floats().cover(bounds, corner, walk.constants(), edges, &masked, list);
     masked.end();
     return counts;
   }
@@ -297,7 +298,7 @@ void UntimedModel::set_state(const DrawState& state) {
   impl_->records.clear();
   impl_->batch = FragmentBuffer(PixelList::widest, state.attributes);
   impl_->results = LaneResults(state.attributes);
-  impl_->walk = TileWalk(config, state);
+  impl_->walk = TileWalk(config, state, FloatLanes::place_signs);
   impl_->whole = WholeTiles(config, state);
 }
 
@@ -339,7 +340,10 @@ void UntimedModel::draw_arrays(const SnappedQuad& quad, const std::function<void
   m.stats.hull_quads += setup.hull;
   const DepthInterval depth = hidden ? depth_interval(quad, m.context.config, m.context.state) : DepthInterval{};
   const bool by_lanes = !m.plain;
-  if (by_lanes) m.lanes.take(setup, data, m.lanes_quad);
+  if (by_lanes) {
+    m.lanes.take(setup, data, m.lanes_quad);
+    m.edges = m.lanes.floats().edges(setup);
+  }
   const bool by_tile = by_lanes && m.lanes.by_tile(m.lanes_quad);
   m.list.count = 0;  // a sink that threw left some
   const WalkCounts counts = walk_quad(

@@ -32,3 +32,15 @@ inline void edge_signs(std::int64_t value, std::int64_t gx, std::int64_t gy, Ran
     }
   }
 }
+
+/// PlaceSigns.
+std::uint64_t place_signs(std::int64_t value, std::int64_t right, std::int64_t down, int rows) {
+  const __m256i four = _mm256_set1_epi64x(4 * right), next = _mm256_set1_epi64x(down);
+  __m256i at = _mm256_add_epi64(_mm256_set1_epi64x(value), _mm256_set_epi64x(3 * right, 2 * right, right, 0));
+  const auto mask = [](__m256i v)
+                        LANE_LAMBDA { return static_cast<std::uint64_t>(_mm256_movemask_pd(_mm256_castsi256_pd(v))); };
+  std::uint64_t word = 0;
+  for (int bit = 0; bit < 8 * rows; bit += 8, at = _mm256_add_epi64(at, next))
+    word |= (mask(at) | mask(_mm256_add_epi64(at, four)) << 4) << bit;
+  return word;
+}

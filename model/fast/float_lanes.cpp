@@ -69,11 +69,13 @@ struct Functions {
 
   Counts (*cover)(const Format&, const PixelBounds&, const TileCorner&, const QuadConstants&, MaskedDepth*, PixelList&);
   void (*draw)(const LaneFormatOf<float>&, const FloatQuad&, const PixelList&, int, LaneResults&);
+  PlaceSigns place_signs;
   // From v3 on.
   std::optional<QuadReject> (*take_small)(const Format&, const DepthLimits&, const SnappedQuad&, FloatQuad&,
                                           SmallQuad&);
   void (*walk_small)(const Format&, const SmallQuad&, SmallWalk&);
-  Counts (*cover_small)(const Format&, const PixelBounds&, const SmallQuad&, int, int, MaskedDepth*, PixelList&);
+  Counts (*cover_narrow)(const Format&, const PixelBounds&, const std::array<std::int32_t, 5>&, int, int,
+                         const NarrowEdges&, MaskedDepth*, PixelList&);
 };
 
 // Each function of the kernel is compiled for the target around it.
@@ -85,7 +87,7 @@ namespace baseline {
 #include "model/fast/float_front.hpp"
 
 #include "model/fast/kernel.hpp"
-constexpr Functions functions{cover, draw, nullptr, nullptr, nullptr};
+constexpr Functions functions{cover, draw, plain_place_signs, nullptr, nullptr, nullptr};
 }  // namespace baseline
 #ifdef QUADRILLE_LANE_TARGETS
 QUADRILLE_TARGET_V2
@@ -97,7 +99,7 @@ namespace v2 {
 #include "model/fast/float_front.hpp"
 
 #include "model/fast/kernel.hpp"
-constexpr Functions functions{cover, draw, nullptr, nullptr, nullptr};
+constexpr Functions functions{cover, draw, plain_place_signs, nullptr, nullptr, nullptr};
 }  // namespace v2
 QUADRILLE_TARGET_END
 QUADRILLE_TARGET_V3
@@ -113,7 +115,7 @@ namespace v3 {
 #include "model/fast/kernel.hpp"
 
 #include "model/fast/float_small_quad.hpp"
-constexpr Functions functions{cover, draw, take_small, walk_small, cover_small};
+constexpr Functions functions{cover, draw, place_signs, take_small, walk_small, cover_narrow};
 }  // namespace v3
 QUADRILLE_TARGET_END
 QUADRILLE_TARGET_V4
@@ -129,7 +131,7 @@ namespace v4 {
 #include "model/fast/kernel.hpp"
 
 #include "model/fast/float_small_quad.hpp"
-constexpr Functions functions{cover, draw, take_small, walk_small, cover_small};
+constexpr Functions functions{cover, draw, place_signs, take_small, walk_small, cover_narrow};
 }  // namespace v4
 QUADRILLE_TARGET_END
 #endif
@@ -283,9 +285,39 @@ bool FloatLanes::take(const SetupResult& setup, const QuadData& data, const Quad
   return fit;
 }
 
+NarrowEdges::NarrowEdges(const SetupResult& setup) : visible(setup.visible), fit(true) {
+  for (std::size_t k = 0; k < 5; ++k) {
+    const LinearForm& e = setup.linear[k];
+    const int shift = std::countr_zero(static_cast<std::uint64_t>(e.value | e.gx | e.gy) | std::uint64_t{1} << 63);
+    low[k] = static_cast<std::uint8_t>(shift);
+    constexpr int most = limit >> (tile_log2 + 1);
+    fit = fit && std::abs(e.gx >> shift) < most && std::abs(e.gy >> shift) < most;
+    gx[k] = static_cast<std::int32_t>(e.gx >> shift);
+    gy[k] = static_cast<std::int32_t>(e.gy >> shift);
+    tie_positive[k] = quadrille::tie_positive(e) ? ~std::uint64_t{0} : 0;
+    tie_negative[k] = quadrille::tie_negative(e) ? ~std::uint64_t{0} : 0;
+  }
+}
+
+NarrowEdges FloatLanes::edges(const SetupResult& setup) const {
+  const bool possible = functions().cover_narrow != nullptr && format_.tile_log2 == NarrowEdges::tile_log2;
+  return possible ? NarrowEdges(setup) : NarrowEdges();
+}
+
 FloatLanes::TileCounts FloatLanes::cover(const PixelBounds& bounds, const TileCorner& corner, const QuadConstants& quad,
-                                         MaskedDepth* masked, PixelList& list) const {
-  return functions().cover(format_, bounds, corner, quad, masked, list);
+                                         const NarrowEdges& edges, MaskedDepth* masked, PixelList& list) const {
+  if (!edges.fit) return functions().cover(format_, bounds, corner, quad, masked, list);
+  std::array<std::int32_t, 5> value;
+  for (std::size_t k = 0; k < 5; ++k) {
+    const std::int64_t limit = NarrowEdges::limit;  // beyond it a function has one sign in the tile
+    value[k] = static_cast<std::int32_t>(std::clamp(corner.linear[k] >> edges.low[k], -limit, limit));
+  }
+  return functions().cover_narrow(format_, bounds, value, (corner.tile_x << NarrowEdges::tile_log2) - bounds.x0,
+                                  (corner.tile_y << NarrowEdges::tile_log2) - bounds.y0, edges, masked, list);
+}
+
+std::uint64_t FloatLanes::place_signs(std::int64_t value, std::int64_t right, std::int64_t down, int rows) {
+  return functions().place_signs(value, right, down, rows);
 }
 
 bool FloatLanes::small() const { return small_ && functions().take_small != nullptr; }
@@ -303,7 +335,10 @@ void FloatLanes::walk_small(const SmallQuad& quad, SmallWalk& out) const { funct
 
 FloatLanes::TileCounts FloatLanes::cover_small(const PixelBounds& bounds, const SmallQuad& quad, SmallWalk::Tile tile,
                                                MaskedDepth* masked, PixelList& list) const {
-  return functions().cover_small(format_, bounds, quad, tile.x, tile.y, masked, list);
+  const int x0 = tile.x << SmallQuad::tile_log2, y0 = tile.y << SmallQuad::tile_log2;
+  std::array<std::int32_t, 5> value;
+  for (std::size_t k = 0; k < 5; ++k) value[k] = quad.value[k] + x0 * quad.gx[k] + y0 * quad.gy[k];
+  return functions().cover_narrow(format_, bounds, value, x0, y0, quad, masked, list);
 }
 
 void FloatLanes::draw(const FloatQuad& quad, const PixelList& list, int count, LaneResults& out) const {

@@ -48,18 +48,30 @@ struct TileWord {
 };
 using TileMasks = std::array<TileWord, PixelList::widest / 64>;
 
-/// The front of an ordinary quad of at most 64 by 64 pixels, within a block of tiles of 8 by 8, in 32 bits. Its
-/// functions are E01 E12 E23 E30 E20, value + dx gx + dy gy from the first tile's origin pixel, in units of the square
-/// of 2^-subpixel_bits.
+/// The edge functions E01 E12 E23 E30 E20 of a quad in 32 bits, in units of 2^low of the quad's own.
+struct NarrowEdges {
+  static constexpr int tile_log2 = 3;
+  static constexpr int limit = 1 << 30;  ///< less than it is what a function spans in a tile
+
+  alignas(32) std::array<std::int32_t, 8> gx{}, gy{};
+  std::array<std::uint64_t, 5> tie_positive{}, tie_negative{};  ///< all ones where a zero counts as that
+  std::array<std::uint8_t, 5> low{};
+  unsigned visible = 0xf;  ///< SetupResult::visible
+  bool fit = false;
+
+  NarrowEdges() = default;
+  explicit NarrowEdges(const SetupResult& setup);
+};
+
+/// The front of an ordinary quad of at most 64 by 64 pixels, within a block of tiles of 8 by 8. Its functions are
+/// value + dx gx + dy gy from the first tile's origin pixel, in units of the square of 2^-subpixel_bits.
 ///
 /// From a pixel of the block no corner is 136 pixels away, of two corners one is at most 64 from the other, in x and y:
 /// a function is below 2 * 136 * 64 * 2^16 < 2^31 with the 8 subpixel_bits that there are at most.
-struct SmallQuad {
+struct SmallQuad : NarrowEdges {
   static constexpr int largest = 64;  ///< pixels
-  static constexpr int tile_log2 = 3;
 
-  alignas(32) std::array<std::int32_t, 8> value{}, gx{}, gy{};
-  std::array<std::uint64_t, 5> tie_positive{}, tie_negative{};  ///< all ones where a zero counts as that
+  alignas(32) std::array<std::int32_t, 8> value{};
   int tiles_x = 0, tiles_y = 0;
 };
 
@@ -84,13 +96,18 @@ class FloatLanes {
   /// nobody's.
   bool take(const SetupResult& setup, const QuadData& data, const QuadLanes& values, FloatQuad& out) const;
 
+  /// For TileWalk.
+  static std::uint64_t place_signs(std::int64_t value, std::int64_t right, std::int64_t down, int rows);
+
   struct TileCounts {
     int stamps = 0, pixels = 0, ties = 0;
     bool covered = false;  ///< of cover_small with `masked`: what tile_walk's `covers` says of the tile
   };
+  /// For cover(), of a quad's tiles.
+  NarrowEdges edges(const SetupResult& setup) const;
   /// Appends the covered pixels of a tile to the list: with `masked`, which has begun the tile, those that may be seen.
-  TileCounts cover(const PixelBounds& bounds, const TileCorner& corner, const QuadConstants& quad, MaskedDepth* masked,
-                   PixelList& list) const;
+  TileCounts cover(const PixelBounds& bounds, const TileCorner& corner, const QuadConstants& quad,
+                   const NarrowEdges& edges, MaskedDepth* masked, PixelList& list) const;
 
   /// Small quads, of configurations, draw states and targets (v3 on) that small() says, without SetupResult and the
   /// like: what comes is the same. Nothing: it is none, or does not fit. Else none, or why it is left out.

@@ -252,22 +252,24 @@ inline bool covers_tile(const SignWords<std::uint64_t> (&e)[5], Cull cull) {
          (cull != Cull::front && face(&SignWords<std::uint64_t>::negative, &SignWords<std::uint64_t>::positive));
 }
 
-/// The same of a small quad, tile (column, row) of its block.
-FloatLanes::TileCounts cover_small(const FloatLanes::Format& format, const PixelBounds& bounds, const SmallQuad& quad,
-                                   int column, int row, MaskedDepth* masked, PixelList& list) {
-  constexpr int tile = 1 << SmallQuad::tile_log2;
+/// FloatLanes::cover by narrow edges: `value` at the tile's first pixel, (x0, y0) from the first tile's origin pixel.
+FloatLanes::TileCounts cover_narrow(const FloatLanes::Format& format, const PixelBounds& bounds,
+                                    const std::array<std::int32_t, 5>& value, int x0, int y0, const NarrowEdges& edges,
+                                    MaskedDepth* masked, PixelList& list) {
+  constexpr int tile = 1 << NarrowEdges::tile_log2;
   FloatLanes::TileCounts counts;
-  const int x0 = column * tile, y0 = row * tile;
+  const Range rows = rows_in_tile(bounds, y0, tile), columns = columns_in_tile(bounds, x0, tile);
+  if (rows.from >= rows.to || columns.from >= columns.to) return counts;
   SignWords<std::uint64_t> signs[5];
   std::uint64_t zeros = 0;
   for (std::size_t k = 0; k < 5; ++k) {
-    const TileSigns at = tile_signs(quad.value[k] + x0 * quad.gx[k] + y0 * quad.gy[k], quad.gx[k], quad.gy[k]);
-    const std::uint64_t tie_positive = quad.tie_positive[k], tie_negative = quad.tie_negative[k];
+    const TileSigns at = tile_signs(value[k], edges.gx[k], edges.gy[k]);
+    const std::uint64_t tie_positive = edges.tie_positive[k], tie_negative = edges.tie_negative[k];
     signs[k] = {~(at.negative | at.zero) | (at.zero & tie_positive), at.negative | (at.zero & tie_negative)};
     zeros |= at.zero & (tie_positive | tie_negative);  // an all-zero edge decides nothing
   }
-  const PlaceWords<std::uint64_t> inside = inside_expression(signs, 0xf, format.cull);
-  const std::uint64_t seen = seen_pixels(rows_in_tile(bounds, y0, tile), columns_in_tile(bounds, x0, tile), tile, 0);
+  const PlaceWords<std::uint64_t> inside = inside_expression(signs, edges.visible, format.cull);
+  const std::uint64_t seen = seen_pixels(rows, columns, tile, 0);
   const std::uint64_t mask = (inside.back | inside.front) & seen;
   TileWord word{mask, inside.front & seen, zeros & mask};
   if (masked != nullptr) {
@@ -275,6 +277,6 @@ FloatLanes::TileCounts cover_small(const FloatLanes::Format& format, const Pixel
     if (masked->hidden()) return counts;
     keep_seen(tile, *masked, &word);
   }
-  append_word(word, x0, y0, SmallQuad::tile_log2, counts, list);
+  append_word(word, x0, y0, NarrowEdges::tile_log2, counts, list);
   return counts;
 }

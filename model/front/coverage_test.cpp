@@ -1,8 +1,10 @@
 // quad_setup, tile_walk, tile_context and stamp_coverage against the vertices themselves, in 128-bit integers: every
 // form at every kind of pixel, expression (12) over the whole viewport, every pixel once.
+#include "model/fast/float_lanes.hpp"
 #include "model/front/coverage_test_support.hpp"
 #include "model/front/quad_setup.hpp"
 #include "model/front/stamp_coverage.hpp"
+#include "model/support/lane_target.hpp"
 
 #include <gtest/gtest.h>
 
@@ -215,13 +217,48 @@ TEST(TileWalk, MayCoverIsConservative) {
               extent = rng.chance(0.5) ? 4 : 32;
     walk_step(at, constants, dx, dy);
     const auto cull = static_cast<Cull>(rng.below(3));
-    if (may_cover(at, constants, extent, cull)) continue;
+    if (Squares(constants, extent, cull).may_cover(at)) continue;
     ++refused;
     for (int y = 0; y < extent; ++y)
       for (int x = 0; x < extent; ++x)
         ASSERT_FALSE(brute_force(q, c, cull, setup.tile_x0 * 4 + dx + x, setup.tile_y0 * 4 + dy + y).covered);
   }
   EXPECT_GT(refused, 500);
+}
+
+/// All squares of a group at once are what they are one by one, by whatever instructions.
+TEST(TileWalk, GroupsOfSquares) {
+  Prng rng(24);
+  const Config c = small_config(6, 2);
+  const DrawState state = state_of(c);
+  const LaneTarget before = lane_target();
+  int mixed = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const QuadConstants constants(
+        quad_setup(random_quad(rng, static_cast<Kind>(n % static_cast<int>(Kind::kinds)), c), c, state));
+    const int extent = rng.chance(0.5) ? 1 : 4, rows = static_cast<int>(rng.integer(1, 8));
+    const auto cull = static_cast<Cull>(rng.below(3));
+    const Squares squares(constants, extent, cull);
+    WalkState first;
+    for (std::size_t k = 0; k < linear_count; ++k) first.linear[k] = rng.integer(-40000, 40000);
+    std::uint64_t expected = 0;
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < 8; ++column) {
+        WalkState at = first;
+        walk_step(at, constants, column * extent, row * extent);
+        expected |= std::uint64_t{squares.may_cover(at)} << (8 * row + column);
+      }
+    const std::uint64_t within = ~std::uint64_t{0} >> (64 - 8 * rows);
+    mixed += expected != 0 && expected != within;
+    ASSERT_EQ(squares.may_cover(first, rows) & within, expected);
+    for (const LaneTarget target : lane_targets())
+      if (can_run(target)) {
+        set_lane_target(target);
+        ASSERT_EQ(squares.may_cover(first, rows, FloatLanes::place_signs) & within, expected) << name(target);
+      }
+  }
+  set_lane_target(before);
+  EXPECT_GT(mixed, 200);
 }
 
 }  // namespace

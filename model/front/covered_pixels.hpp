@@ -46,12 +46,20 @@ template <class F>
 WalkCounts walk_quad(TileWalk& walk, const SetupResult& setup, F&& f, HierarchicalZ* memory = nullptr,
                      const DepthInterval& depth = {}) {
   WalkCounts counts;
-  for (walk.take(setup, memory, depth); walk.state() != TileWalk::State::end; walk.advance()) {
-    if (walk.state() == TileWalk::State::approach) continue;
+  for (walk.take(setup, memory, depth); walk.state() != TileWalk::State::end;) {
     const bool tile = walk.state() == TileWalk::State::tile;
-    ++(tile ? counts.tiles_tested : counts.blocks_tested);
-    if (walk.hidden()) ++(tile ? counts.tiles_hidden : counts.blocks_hidden);
-    if (tile && walk.hit()) f();
+    if (tile && memory == nullptr) {
+      const TileBlock block = walk.block();
+      counts.tiles_tested += static_cast<std::uint64_t>(block.columns * block.rows);
+      walk.advance_block(f);
+      continue;
+    }
+    if (walk.state() != TileWalk::State::approach) {
+      ++(tile ? counts.tiles_tested : counts.blocks_tested);
+      if (walk.hidden()) ++(tile ? counts.tiles_hidden : counts.blocks_hidden);
+      if (tile && walk.hit()) f();
+    }
+    walk.advance();
   }
   walk.advance();
   return counts;

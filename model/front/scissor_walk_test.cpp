@@ -101,7 +101,7 @@ std::vector<TileCorner> whole_walk(const SetupResult& setup, const Config& confi
     WalkState at;
     for (std::size_t k = 0; k < linear_count; ++k) at.linear[k] = setup.linear[k].value;
     walk_step(at, constants, x * config.tile(), y * config.tile());
-    if (may_cover(at, constants, config.tile(), state.cull)) entered.push_back({x, y, at.linear});
+    if (Squares(constants, config.tile(), state.cull).may_cover(at)) entered.push_back({x, y, at.linear});
   };
   const auto columns_of = [&](int bx) { return std::min(block_tiles, setup.tiles_x - bx * block_tiles); };
   const int blocks_x = (setup.tiles_x + block_tiles - 1) / block_tiles;

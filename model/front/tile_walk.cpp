@@ -3,31 +3,68 @@
 #include "model/front/tile_context.hpp"
 
 namespace quadrille {
-namespace {
 
-/// The signs that each edge function takes somewhere in the square.
-void signs_in_square(const WalkState& at, const QuadConstants& quad, int extent, EdgeSigns (&e)[5]) {
+std::uint64_t plain_place_signs(std::int64_t value, std::int64_t right, std::int64_t down, int rows) {
+  std::uint64_t word = 0;
+  for (int row = 0; row < rows; ++row) {
+    const std::int64_t at = wrap_add(value, down * row);
+#pragma GCC unroll 8
+    for (int column = 0; column < 8; ++column)
+      word |= (static_cast<std::uint64_t>(wrap_add(at, right * column)) >> 63) << (8 * row + column);
+  }
+  return word;
+}
+
+Squares::Squares(const QuadConstants& quad, int extent, Cull cull) : visible_(quad.visible), cull_(cull) {
   for (std::size_t k = 0; k < 5; ++k) {
-    const std::int64_t sx = quad.gx[k] * (extent - 1);
-    const std::int64_t sy = quad.gy[k] * (extent - 1);
-    const std::int64_t lo = wrap_add(at.linear[k], std::min<std::int64_t>(sx, 0) + std::min<std::int64_t>(sy, 0));
-    const std::int64_t hi = wrap_add(at.linear[k], std::max<std::int64_t>(sx, 0) + std::max<std::int64_t>(sy, 0));
-    e[k] = {hi > 0 || (hi == 0 && quad.tie_pos[k]), lo < 0 || (lo == 0 && quad.tie_neg[k])};
+    const std::int64_t sx = quad.gx[k] * (extent - 1), sy = quad.gy[k] * (extent - 1);
+    to_least_[k] = std::min<std::int64_t>(sx, 0) + std::min<std::int64_t>(sy, 0) - (quad.tie_neg[k] ? 1 : 0);
+    to_greatest_[k] = -(std::max<std::int64_t>(sx, 0) + std::max<std::int64_t>(sy, 0)) - (quad.tie_pos[k] ? 1 : 0);
+    right_[k] = quad.gx[k] * extent;
+    down_[k] = quad.gy[k] * extent;
   }
 }
 
+/// The signs that each edge function takes somewhere in each square.
+template <class PlaceSigns>
+void Squares::signs(const WalkState& at, Signs& e, PlaceSigns&& place_signs) const {
+  for (std::size_t k = 0; k < 5; ++k) {
+    const std::int64_t value = at.linear[k];
+    e[k] = {place_signs(wrap_add(to_greatest_[k], -value), -right_[k], -down_[k]),
+            place_signs(wrap_add(to_least_[k], value), right_[k], down_[k])};
+  }
+}
+
+namespace {
+
+std::uint64_t sign_of_one(std::int64_t value, std::int64_t, std::int64_t) { return value < 0 ? ~std::uint64_t{0} : 0; }
+
 }  // namespace
 
-bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull) {
-  EdgeSigns e[5];
-  signs_in_square(at, quad, extent, e);
-  const InsidePlaces inside = inside_expression(e, quad.visible, cull);
+bool Squares::may_cover(const WalkState& at) const {
+  Signs e;
+  signs(at, e, sign_of_one);
+  const PlaceWords<std::uint64_t> inside = inside_expression(e, visible_, cull_);
   return (inside.back | inside.front) != 0;
 }
 
-bool covers(const WalkState& at, const QuadConstants& quad, int extent, Cull cull) {
-  EdgeSigns e[5];
-  signs_in_square(at, quad, extent, e);
+std::uint64_t Squares::may_cover(const WalkState& at, int rows, PlaceSigns place_signs) const {
+  Signs e;
+  signs(at, e, [&](std::int64_t value, std::int64_t right, std::int64_t down) {
+    const std::int64_t across = 7 * right, along = down * (rows - 1);
+    if (wrap_add(value, std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(along, 0)) < 0)
+      return ~std::uint64_t{0};
+    if (wrap_add(value, std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(along, 0)) >= 0)
+      return std::uint64_t{0};
+    return place_signs(value, right, down, rows);
+  });
+  const PlaceWords<std::uint64_t> inside = inside_expression(e, visible_, cull_);
+  return inside.back | inside.front;
+}
+
+bool Squares::covers(const WalkState& at) const {
+  Signs e;
+  signs(at, e, sign_of_one);
   // An edge has one sign everywhere, or the diagonal both, and then both clauses must hold.
   const auto everywhere = [&](std::size_t k, bool positive) {
     return positive ? e[k].positive != 0 && e[k].negative == 0 : e[k].negative != 0 && e[k].positive == 0;
@@ -40,7 +77,7 @@ bool covers(const WalkState& at, const QuadConstants& quad, int extent, Cull cul
     const bool on_second = positive ? e[4].negative != 0 : e[4].positive != 0;
     return (on_first || on_second) && (first || !on_first) && (second || !on_second);
   };
-  return (cull != Cull::back && face(true)) || (cull != Cull::front && face(false));
+  return (cull_ != Cull::back && face(true)) || (cull_ != Cull::front && face(false));
 }
 
 void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy) {
@@ -54,6 +91,8 @@ void TileWalk::take(const SetupResult& setup, HierarchicalZ* memory, const Depth
   slot_ = setup.slot;
   quad_ = QuadConstants(setup);
   for (std::size_t k = 0; k < linear_count; ++k) block_.linear[k] = setup.linear[k].value;
+  blocks_ = Squares(quad_, tile_ * Config::block_tiles, cull_);
+  tiles_ = Squares(quad_, tile_, cull_);
   first_x_ = quad_.homogeneous ? scissor_x_ : 0;
   first_y_ = quad_.homogeneous ? scissor_y_ : 0;
   bx_ = by_ = 0;
@@ -63,12 +102,18 @@ void TileWalk::take(const SetupResult& setup, HierarchicalZ* memory, const Depth
 }
 
 bool TileWalk::tested() const {
-  if (state_ == State::block) return !reject_ || may_cover(block_, quad_, tile_ * Config::block_tiles, cull_);
-  if (state_ == State::tile) {
-    const bool outside = tile_x() < quad_.tile_x0 + first_x_ || tile_y() < quad_.tile_y0 + first_y_;
-    return !outside && (!reject_ || may_cover(at_, quad_, tile_, cull_));
-  }
+  if (state_ == State::block) return !reject_ || blocks_.may_cover(block_);
+  if (state_ == State::tile) return (may_cover_ >> (8 * ty_ + tx_) & 1) != 0;
   return false;
+}
+
+/// Of the block's tiles, bit 8 row + column.
+std::uint64_t TileWalk::tiles_in_scissor() const {
+  const auto from = [](int first, int block) { return std::max(first - block * Config::block_tiles, 0); };
+  const std::uint64_t row = 0xffu >> (8 - tiles_in_block(quad_.tiles_x, bx_)) & (0xffu << from(first_x_, bx_));
+  std::uint64_t word = 0;
+  for (int y = from(first_y_, by_); y < tiles_in_block(quad_.tiles_y, by_); ++y) word |= row << 8 * y;
+  return word;
 }
 
 bool TileWalk::hidden() const {
@@ -92,7 +137,7 @@ TileEntry TileWalk::entry() const {
   e.tile_x = tile_x();
   e.tile_y = tile_y();
   e.last_row = row == quad_.tiles_y - 1 ? quad_.last_row : tile_ - 1;
-  e.linear = at_.linear;
+  e.linear = at_tile().linear;
   e.quadratic = tile_context(quad_, column * tile_, row * tile_, drop_);
   return e;
 }
@@ -109,7 +154,8 @@ void TileWalk::advance() {
       break;
     case State::block:
       if (hit()) {
-        at_ = block_;
+        may_cover_ = tiles_in_scissor();
+        if (reject_) may_cover_ &= tiles_.may_cover(block_, tiles_in_block(quad_.tiles_y, by_), place_signs_);
         tx_ = ty_ = 0;
         tile_right_ = true;
         state_ = State::tile;
@@ -119,18 +165,14 @@ void TileWalk::advance() {
       break;
     case State::tile: {
       if (memory_ != nullptr)
-        memory_->tested(tile_x(), tile_y(), whole_.hold(tile_x(), tile_y()) && covers(at_, quad_, tile_, cull_),
-                        depth_);
+        memory_->tested(tile_x(), tile_y(), whole_.hold(tile_x(), tile_y()) && tiles_.covers(at_tile()), depth_);
       const int nx = tiles_in_block(quad_.tiles_x, bx_);
       const int ny = tiles_in_block(quad_.tiles_y, by_);
       if (tile_right_ ? tx_ + 1 < nx : tx_ > 0) {
-        const int step = tile_right_ ? 1 : -1;
-        tx_ += step;
-        walk_step(at_, quad_, step * tile_, 0);
+        tx_ += tile_right_ ? 1 : -1;
       } else if (ty_ + 1 < ny) {
         ++ty_;
         tile_right_ = !tile_right_;
-        walk_step(at_, quad_, 0, tile_);
       } else {
         step_block();
       }

@@ -1,9 +1,9 @@
 // Twin of rtl/tile_walk.sv: three-valued coverage of a square of pixels, and the serpentine walk over blocks and tiles.
 // Linear functions alone are walked; a tile that is hit gets its quadratic ones from tile_context.
 //
-// The walk is one state machine that both models run: the clocked shell once per clock, the untimed model in a loop. A
-// step back subtracts what a step forth adds; forward differences of exact integers are reversible, so no row start is
-// kept.
+// The walk is one state machine that both models run: the clocked shell once per clock, the untimed model in a loop.
+// The RTL tests a tile a clock by forward differences; here all tiles of a block are tested when it is entered, since
+// sums of exact integers are the same in any order.
 //
 // The tiles of a homogeneous quad begin at the screen's. With skip_walk those left of the scissor rectangle and above
 // it are left out, in the order of the whole walk.
@@ -14,6 +14,7 @@
 #include "model/skips/hierarchical_z.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace quadrille {
 
@@ -64,12 +65,36 @@ struct WalkState {
   std::array<std::int64_t, linear_count> linear{};
 };
 
-/// False only when no pixel of the extent×extent square at the state's origin can be drawn.
-bool may_cover(const WalkState& at, const QuadConstants& quad, int extent, Cull cull);
+/// Bit 8 row + column: value + column right + row down < 0, of 8 columns and `rows` rows; the other bits are anything.
+using PlaceSigns = std::uint64_t (*)(std::int64_t value, std::int64_t right, std::int64_t down, int rows);
+std::uint64_t plain_place_signs(std::int64_t value, std::int64_t right, std::int64_t down, int rows);
 
-/// True only when every pixel of that square is drawn but for its depth: of an ordinary quad, whose clauses are all
-/// visible.
-bool covers(const WalkState& at, const QuadConstants& quad, int extent, Cull cull);
+/// Squares of extent×extent pixels of a quad, and groups of them side by side.
+class Squares {
+ public:
+  Squares() = default;
+  Squares(const QuadConstants& quad, int extent, Cull cull);
+
+  /// False only when no pixel of the square at the state's origin can be drawn.
+  bool may_cover(const WalkState& at) const;
+  /// The same of 8 columns and at most 8 rows of squares from that one on: bit 8 row + column.
+  std::uint64_t may_cover(const WalkState& at, int rows, PlaceSigns place_signs = plain_place_signs) const;
+  /// True only when every pixel of the square is drawn but for its depth: of an ordinary quad, whose clauses are all
+  /// visible.
+  bool covers(const WalkState& at) const;
+
+ private:
+  using Signs = SignWords<std::uint64_t>[5];
+  template <class PlaceSigns>
+  void signs(const WalkState& at, Signs& e, PlaceSigns&& place_signs) const;
+
+  // From a value at the origin to what is below 0 where an edge function can be negative in the square, a zero counting
+  // by its tie; and from the negated value where it can be positive. VAL_BITS leave room for the ties.
+  std::array<std::int64_t, 5> to_least_{}, to_greatest_{};
+  std::array<std::int64_t, 5> right_{}, down_{};  ///< from a square to the next
+  unsigned visible_ = 0;
+  Cull cull_ = Cull::none;
+};
 
 /// Moves the origin by (dx, dy) pixels; exact.
 void walk_step(WalkState& at, const QuadConstants& quad, int dx, int dy);
@@ -91,8 +116,9 @@ class TileWalk {
   enum class State { idle, approach, block, tile, end };
 
   TileWalk() = default;
-  TileWalk(const Config& config, const DrawState& state)
-      : tile_(config.tile()),
+  TileWalk(const Config& config, const DrawState& state, PlaceSigns place_signs = plain_place_signs)
+      : place_signs_(place_signs),
+        tile_(config.tile()),
         drop_(config.qdrop()),
         cull_(state.cull),
         reject_(state.skip & skip_tiles),
@@ -113,27 +139,49 @@ class TileWalk {
   /// Ring entry of the current tile, or the end entry in state END.
   TileEntry entry() const;
   /// The current tile's, without the quadratic functions.
-  TileCorner corner() const { return {tile_x(), tile_y(), at_.linear}; }
+  TileCorner corner() const { return {tile_x(), tile_y(), at_tile().linear}; }
   /// The block under test, or that of the current tile.
   TileBlock block() const {
     return {quad_.tile_x0 + bx_ * Config::block_tiles, quad_.tile_y0 + by_ * Config::block_tiles,
             tiles_in_block(quad_.tiles_x, bx_), tiles_in_block(quad_.tiles_y, by_)};
+  }
+  /// Calls f() at each tile of the block just entered that is hit, nothing being hidden, and goes on to the next block:
+  /// what advance() does in a clock for each tile.
+  template <class F>
+  void advance_block(F&& f) {
+    const int rows = block().rows;
+    for (ty_ = 0; ty_ < rows; ++ty_)
+      for (unsigned row = may_cover_ >> 8 * ty_ & 0xff; row != 0; row &= ~(1u << tx_)) {
+        tx_ = ty_ % 2 == 0 ? std::countr_zero(row) : static_cast<int>(std::bit_width(row)) - 1;
+        f();
+      }
+    step_block();
   }
   /// One clock's work, once the entry (if any) has been accepted. Never call it for a hit tile or END while the ring is
   /// full.
   void advance();
 
  private:
+  static_assert(Config::block_tiles == 8);  // a word has a block's tiles
+
+  std::uint64_t tiles_in_scissor() const;
   void approach();
   void step_block();
   void move_block(int columns, int rows);
   bool tested() const;
+  /// At the current tile's origin pixel.
+  WalkState at_tile() const {
+    WalkState at = block_;
+    walk_step(at, quad_, tx_ * tile_, ty_ * tile_);
+    return at;
+  }
   int tile_x() const { return quad_.tile_x0 + bx_ * Config::block_tiles + tx_; }
   int tile_y() const { return quad_.tile_y0 + by_ * Config::block_tiles + ty_; }
   static int tiles_in_block(int tiles, int block) {
     return std::min(Config::block_tiles, tiles - block * Config::block_tiles);
   }
 
+  PlaceSigns place_signs_ = plain_place_signs;
   int tile_ = 8;
   int drop_ = 0;
   Cull cull_ = Cull::none;
@@ -145,8 +193,10 @@ class TileWalk {
   State state_ = State::idle;
   std::uint32_t slot_ = 0;
   QuadConstants quad_;
+  Squares blocks_, tiles_;
   int first_x_ = 0, first_y_ = 0;  ///< the same from the quad's first tile; of an ordinary quad, whose box is inside, 0
-  WalkState block_, at_;
+  WalkState block_;                ///< at the block's origin pixel
+  std::uint64_t may_cover_ = 0;    ///< of its tiles, but for those that the scissor leaves out
   int bx_ = 0, by_ = 0, tx_ = 0, ty_ = 0;
   bool block_right_ = true, tile_right_ = true;
 };
