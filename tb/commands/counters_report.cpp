@@ -30,9 +30,21 @@ void print_counters(std::FILE* out, const PerformanceCounters& counters, std::st
     if (counters.value[i] == 0) continue;
     char percent[32];
     std::snprintf(percent, sizeof percent, " %.1f %%", 100 * static_cast<double>(counters.value[i]) / all);
-    bounds += (bounds.empty() ? " " : ", ") + std::string(counter_info[i].name.substr(6)) + percent;
+    bounds += (bounds.empty() ? " " : ", ") + bound_name(static_cast<PerformanceCounter>(i)) + percent;
   }
   if (!bounds.empty()) std::fprintf(out, "                 clocks bound by%s\n", bounds.c_str());
+}
+
+PerformanceCounter most_bound(const PerformanceCounters& counters) {
+  using enum PerformanceCounter;
+  auto most = static_cast<std::size_t>(bound_pixels);
+  for (std::size_t i = most; i < static_cast<std::size_t>(bound_idle); ++i)
+    if (i != static_cast<std::size_t>(bound_wipe) && counters.value[i] > counters.value[most]) most = i;
+  return static_cast<PerformanceCounter>(most);
+}
+
+std::string bound_name(PerformanceCounter bound) {
+  return std::string(counter_info[static_cast<std::size_t>(bound)].name.substr(sizeof "bound_" - 1));
 }
 
 std::optional<PerformanceCounters> count_draw(const EngineSettings& settings, std::span<const WindowQuad> quads,

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace quadrille::tb {
@@ -19,6 +20,11 @@ nlohmann::ordered_json counters_json(const PerformanceCounters& counters);
 
 /// Some lines of a summary. `whose`: what they are of, a word or two that end the first line.
 void print_counters(std::FILE* out, const PerformanceCounters& counters, std::string_view whose);
+
+/// What most clocks are charged to, idle ones and those that wipe apart: a counter bound_*.
+PerformanceCounter most_bound(const PerformanceCounters& counters);
+/// The rest of its name.
+std::string bound_name(PerformanceCounter bound);
 
 /// Whether a draw that does not need the clocked model runs it for its counters: where there is a place for them.
 inline bool reports_counters(const CommonOptions& common) { return !common.json.empty() || common.verbose; }

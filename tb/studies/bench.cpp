@@ -11,6 +11,7 @@
 #include "tb/options/written_file.hpp"
 #include "tb/studies/bench_cliffs.hpp"
 #include "tb/studies/bench_error.hpp"
+#include "tb/studies/bench_meshes.hpp"
 #include "tb/studies/bench_peers.hpp"
 #include "tb/studies/bench_skips.hpp"
 #include "tb/studies/bench_speed.hpp"
@@ -31,13 +32,14 @@ struct BenchOptions {
   InputOptions input;
   std::optional<int> repeat;
   std::uint64_t limit_fragments = 16'000;
-  std::string pictures;
+  std::string pictures, meshes;
   bool error = false, skips = false, peers = false, cliffs = false;
 };
 
 constexpr int speed_repeat = 5, error_repeat = 3;
 constexpr int skips_repeat = 3, peers_repeat = 9;
-constexpr const char *error_size = "128x128", *skips_size = "256x256", *peers_size = "1920x1080";
+constexpr const char *error_size = "128x128", *skips_size = "256x256", *peers_size = "1920x1080",
+                     *meshes_size = "640x480";
 
 /// A magnitude as a power of two.
 std::string power(double value) {
@@ -303,6 +305,10 @@ int bench(BenchOptions& options, bool size_given, bool fragments_given, const st
     if (!size_given) options.speed.common.size = peers_size;
     return run_peer_bench({options.speed.common, options.repeat.value_or(peers_repeat)}, arguments);
   }
+  if (!options.meshes.empty()) {
+    if (!size_given) options.speed.common.size = meshes_size;
+    return run_mesh_bench({options.speed.common, options.meshes}, arguments);
+  }
   if (options.skips) {
     if (!size_given) options.speed.common.size = skips_size;
     return run_skip_bench(
@@ -333,6 +339,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
            "  orange  of a quad left out by depth\n"
            "  yellow  of a quad left out because it is a line\n"
            "  red     of a culled quad\n"
+           "--meshes: clocks of the clocked model, with 1, 2 and 4 pixels a clock, and what bound them.\n"
            "--peers: CPU time of a picture on one thread, for each instruction set; errors of shaders in fp32.\n"
            "--cliffs: CPU time per fragment on one thread, divided by the engine's least (tb/studies/README.md); the "
            "model's ns a pixel by family, significand_bits and instruction set.",
@@ -361,6 +368,14 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
           ->excludes(error)
           ->excludes(skips)
           ->excludes(peers);
+  CLI::Option* meshes =
+      command->add_option("--meshes", options->meshes, "Clocks of the machine for each *.obj of a folder, at each rate")
+          ->type_name("DIR")
+          ->group(studies)
+          ->excludes(error)
+          ->excludes(skips)
+          ->excludes(peers)
+          ->excludes(cliffs);
   writes_folder(command->add_option("--pictures", options->pictures, "PNG and EXR of the tiles of each scene"))
       ->group(output_group)
       ->needs(skips);
@@ -369,7 +384,8 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   command
       ->add_option("--repeat", options->repeat, "Runs of each (default: 5; --error, --skips, --cliffs: 3; --peers: 9)")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, 1000))
+      ->excludes(meshes);
   command->add_option("--quad-size", speed.quad_size, "Side of the mesh's quads in pixels")
       ->type_name("PX")
       ->check(CLI::Range(2, 4096))
@@ -404,7 +420,7 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
   command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator")->excludes(peers);
   CLI::Option* size = command->get_option("--size");
   size->excludes(cliffs);
-  size->default_str("512x512; --error: 128x128; --skips: 256x256; --peers: 1920x1080");
+  size->default_str("512x512; --error: 128x128; --skips: 256x256; --meshes: 640x480; --peers: 1920x1080");
   std::vector<const CLI::Option*> of_input;
   for (const char* input : {"--scene", "--mesh", "--camera", "--view", "--up", "--save-camera", "--quads", "--stress",
                             "--count", "--corner", "--strict"})

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -101,6 +102,44 @@ TEST_F(Cli, BenchSkipsReports) {
   for (const char* row :
        {" quads ", " pixels ", " pixels/clock ", " hidden tiles ", " masked tiles ", " hidden blocks "})
     EXPECT_NE(text.find(row), std::string::npos) << row << text;
+}
+
+TEST_F(Cli, BenchMeshesRefuses) {
+  refuses(2, "bench --meshes nowhere", {"--meshes nowhere"});
+  refuses(2, "bench --meshes . --skips", {"--meshes", "--skips"});
+  refuses(2, "bench --meshes . --repeat 3", {"--meshes", "--repeat"});
+  write("readme.txt", "no mesh\n");
+  refuses(2, "bench --meshes .", {"--meshes .", "no *.obj"});
+  write("bad.obj", "v 0 0 0\nf 1 2 3 4\n");
+  refuses(2, "bench --meshes .", {"bad.obj:2"});
+}
+
+/// Two squares before the camera and one of them alone: the pixels are those of `fragments`, and no clock draws more of
+/// them than the rate.
+TEST_F(Cli, BenchMeshesReports) {
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+  write("one.obj", square);
+  write("two.obj", square + "v 2 0 1\nv 2 1 1\nf 2 5 6 3\n");
+  const Outcome outcome = run("bench --meshes . --size 64x48 --json -");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const json meshes = json::parse(outcome.out)["meshes"];
+  ASSERT_EQ(meshes.size(), 6u);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const json& mesh = meshes[i];
+    const std::string name = i < 3 ? "one" : "two";
+    const int rate = 1 << i % 3;
+    EXPECT_EQ(mesh["mesh"], name);
+    EXPECT_EQ(mesh["pixels_per_clock"], rate);
+    EXPECT_EQ(mesh["quads"], i < 3 ? 1 : 2);
+    const Outcome drawn = run("fragments --mesh " + name + ".obj --size 64x48 --out -");
+    EXPECT_EQ(mesh["pixels"].get<long>(), std::count(drawn.out.begin(), drawn.out.end(), '\n') - 1) << drawn.err;
+    EXPECT_GT(mesh["pixels"].get<double>(), 100);
+    EXPECT_GE(mesh["cycles"].get<double>() * rate, mesh["pixels"].get<double>());
+    if (rate > 1) {
+      EXPECT_LT(mesh["cycles"].get<double>(), meshes[i - 1]["cycles"].get<double>());
+    }
+    EXPECT_EQ(mesh["bound"], "pixels");
+  }
 }
 
 TEST_F(Cli, BenchPeersRefuses) {

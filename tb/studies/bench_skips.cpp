@@ -3,7 +3,6 @@
 #include "golden/io/exr.hpp"
 #include "golden/io/json_report.hpp"
 #include "model/port/draw_state.hpp"
-#include "model/port/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
 #include "tb/commands/counters_report.hpp"
@@ -12,6 +11,7 @@
 #include "tb/render/frame.hpp"
 #include "tb/studies/bench_timing.hpp"
 #include "tb/studies/skip_picture.hpp"
+#include "tb/studies/snapped_input.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 #include "tb/support/progress.hpp"
@@ -33,10 +33,7 @@ struct Run {
   double model_seconds = 0;
 };
 
-struct SkipScene {
-  DrawInput input;
-  DrawState state;
-  std::vector<SnappedQuad> quads;
+struct SkipScene : SnappedInput {
   std::vector<Run> runs;  ///< by set of skips
 };
 
@@ -164,22 +161,7 @@ class SkipBench {
   }
 
   void add(const InputOptions& input_options) {
-    SkipScene scene;
-    StateOptions state;
-    scene.state = state.state(options_.common, config_);
-    scene.input = load_input(input_options, "", scene.state, config_, options_.common.seed);
-    print_remark(scene.input, options_.common);
-    adjust_state(scene.input, scene.state);
-    check_quad_count(scene.input.quads.size(), config_);
-    const Pass pass = plan_passes(scene.input.attributes, false, config_).front();
-    scene.state.attributes = static_cast<int>(pass.columns.size());
-    try {
-      for (std::size_t i = 0; i < scene.input.quads.size(); ++i)
-        scene.quads.push_back(
-            snap_as(pass_quad(scene.input.quads[i], pass), static_cast<std::uint32_t>(i), config_, scene.state));
-    } catch (const SnapError& error) {
-      throw UsageError(describe(error, scene.input));
-    }
+    SkipScene scene{SnappedInput(input_options, options_.common, config_), {}};
     scene.runs.resize(sets_.size());
     scenes_.push_back(std::move(scene));
   }
@@ -310,23 +292,13 @@ class SkipBench {
           [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::blocks_hidden]); });
       row("plane", [](const Run& run) { return std::to_string(run.counters[PerformanceCounter::pixels_plane]); });
       row("products", [](const Run& run) { return std::to_string(run.counters.products()); });
-      row("bound by", [](const Run& run) { return bound_name(run.counters); });
+      row("bound by", [](const Run& run) { return bound_name(most_bound(run.counters)); });
       row("model ms", [](const Run& run) {
         char number[32];
         std::snprintf(number, sizeof number, "%.1f", run.model_seconds * 1e3);
         return std::string(number);
       });
     }
-  }
-
-  /// What most clocks are charged to, idle ones and those that wipe apart.
-  static std::string bound_name(const PerformanceCounters& counters) {
-    const auto first = static_cast<std::size_t>(PerformanceCounter::bound_pixels);
-    std::size_t most = first;
-    for (std::size_t i = first; i < static_cast<std::size_t>(PerformanceCounter::bound_idle); ++i)
-      if (i != static_cast<std::size_t>(PerformanceCounter::bound_wipe) && counters.value[i] > counters.value[most])
-        most = i;
-    return std::string(counter_info[most].name.substr(sizeof "bound_" - 1));
   }
 
   nlohmann::ordered_json report() const {
