@@ -374,7 +374,7 @@ std::vector<Stage> pixel_stages(const Subject& s) {
   std::vector<Stage> all{
       stages.differences(), stages.significands(), stages.roots(),       stages.ratios(),
       stages.weights(),     stages.sums(),         stages.reciprocals(), stages.fragment(allowed, as_given)};
-  if (s.given != nullptr) all.push_back(stages.lambda(allowed, as_given));
+  if (s.given != nullptr && !s.machine.data.plane) all.push_back(stages.lambda(allowed, as_given));
   return all;
 }
 
