@@ -3,15 +3,17 @@
 #   scripts/test.sh --quick     a minute once built
 #   scripts/test.sh             default tier, as in CI: 20 minutes
 #   scripts/test.sh --full      everything, an hour
+#   scripts/test.sh --python    the Python package, 4 minutes from nothing built; needs PyPI
 # Other arguments go to ctest, alone or after a tier: --quick -L model.
 # Exit status: 0 all passed, 1 not.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
 case "${1:-}" in
+  --python) exec "$root/model/python/tests/run.sh" "${@:2}" ;;
   --quick) tier=quick targets=(quick_tests) select=(-L '^quick$') ;;
   --full) tier=full targets=() select=(-LE '^sample$') ;;
   "") tier=default targets=(default_tests) select=(-L '^default$') ;;
-  --help | -h) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  --help | -h) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
   *) tier="" targets=() select=() ;;
 esac
 [[ -n $tier && $# -gt 0 ]] && shift
