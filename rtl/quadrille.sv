@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+`include "quadrille_assert.svh"
+
 // Quadrille: rasterizer whose primitive is the quadrilateral, with mean value coordinates. Top level: wiring only.
 //
 //     vertex_assembly -> quad_setup -> tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit -> pixel_pipeline -> fragment_fifo
@@ -9,7 +12,7 @@
 // flush_i, in any clock, discards the beats of a quad that is not complete, that of the same clock among them, and nothing else.
 module quadrille (
     input logic clk_i,
-    input logic rst_ni,
+    input logic rst_ni,  // synchronous, active low
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
     input logic clear_hidden_i,
     input logic flush_i,
@@ -54,7 +57,7 @@ module quadrille (
   localparam int SETS = 3 + N;
   localparam int H = quadrille_pkg::DEPTH_CODE_BITS;
 
-  config_check u_config_check ();
+  quadrille_config_check u_config_check ();
 
   // ---- Draw state ---------------------------------------------------------------------------------------------------------
   typedef struct packed {
@@ -110,7 +113,7 @@ module quadrille (
 
   assign vertex_ready_o = assembly_ready && depths_ready;
 
-  vertex_assembly u_assembly (
+  quadrille_vertex_assembly u_assembly (
       .clk_i,
       .rst_ni,
       .vertex_i,
@@ -190,7 +193,7 @@ module quadrille (
   assign start = full && !drop_vertices && setup_ready && slot_available;
   assign busy_o = assembly_busy || slots_busy || fragments_busy || !depths_ready;
 
-  quad_setup u_setup (
+  quadrille_quad_setup u_setup (
       .clk_i,
       .rst_ni,
       .held_i(full && !drop_vertices),
@@ -259,7 +262,7 @@ module quadrille (
       .vertex_w_o(setup_w)
   );
 
-  vertex_products u_products (
+  quadrille_vertex_products u_products (
       .clk_i,
       .tile_valid_i(context_job),
       .tile_kind_i(context_kind),
@@ -313,7 +316,7 @@ module quadrille (
   logic output_hull, output_homogeneous;
 
   if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
-    plane_quad u_plane (
+    quadrille_plane_quad u_plane (
         .clk_i,
         .on_i(state.skip[5]),
         .perspective_i(state.perspective),
@@ -336,7 +339,7 @@ module quadrille (
     assign quad_plane = 1'b0;
   end
 
-  quad_slots u_slots (
+  quadrille_quad_slots u_slots (
       .clk_i,
       .rst_ni,
       .start_i(start),
@@ -417,7 +420,7 @@ module quadrille (
   logic [TC-1:0] test_column, test_row, block_column, block_row;
   logic [quadrille_pkg::BLOCK_LOG2-1:0] block_last_column, block_last_row;
 
-  tile_walk u_walk (
+  quadrille_tile_walk u_walk (
       .clk_i,
       .rst_ni,
       .cull_i(state.cull),
@@ -477,7 +480,7 @@ module quadrille (
   logic [quadrille_pkg::HIDDEN_EPOCH_BITS-1:0] epoch;
 
   if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_hidden
-    hierarchical_z u_hidden (
+    quadrille_hierarchical_z u_hidden (
         .clk_i,
         .rst_ni,
         .clear_i(clear_hidden_i && !busy_o),
@@ -528,7 +531,7 @@ module quadrille (
   logic [PAIRS*QCURV-1:0] word_q;
   logic complete, complete_homogeneous;
 
-  tile_context u_context (
+  quadrille_tile_context u_context (
       .clk_i,
       .rst_ni,
       .take_i(take),
@@ -584,7 +587,7 @@ module quadrille (
   logic [4*QGRAD-1:0] emit_quad_gx, emit_quad_gy;
   logic [4*QCURV-1:0] emit_quad_q;
 
-  tile_ring u_ring (
+  quadrille_tile_ring u_ring (
       .clk_i,
       .rst_ni,
       .push_i(tile_push),
@@ -652,7 +655,7 @@ module quadrille (
   logic [TILE_LOG2-1:0] issue_row;
   logic [TILE-1:0] row_covered, row_seen;
 
-  stamp_coverage u_coverage (
+  quadrille_stamp_coverage u_coverage (
       .clk_i,
       .rst_ni,
       .cull_i(state.cull),
@@ -701,7 +704,7 @@ module quadrille (
   );
 
   if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_masked
-    masked_depth u_masked (
+    quadrille_masked_depth u_masked (
         .clk_i,
         .rst_ni,
         .wipe_i(!depths_ready),
@@ -737,7 +740,7 @@ module quadrille (
 
   assign stamp = {stamp_push_end, stamp_ptr, stamp_row, stamp_mask, stamp_front, stamp_tie};
 
-  sync_fifo #(
+  quadrille_sync_fifo #(
       .WIDTH(1 + STAMP),
       .DEPTH(quadrille_pkg::STAMP_PLACES)
   ) u_fifo (
@@ -769,7 +772,7 @@ module quadrille (
   logic [1:0] pixel_part;
   logic [P*quadrille_pkg::FRAGMENT_BITS-1:0] fragment;
 
-  pixel_emit u_emit (
+  quadrille_pixel_emit u_emit (
       .clk_i,
       .rst_ni,
       .head_valid_i(head_valid),
@@ -825,7 +828,7 @@ module quadrille (
     pixel_tie
   } = pixels_q[2*PIXELS-1:PIXELS];
 
-  pixel_pipeline u_pipeline (
+  quadrille_pixel_pipeline u_pipeline (
       .clk_i,
       .rst_ni,
       .hold_i(state.skip[4]),
@@ -883,7 +886,7 @@ module quadrille (
   );
 
   // ---- Fragments ----------------------------------------------------------------------------------------------------------
-  fragment_fifo u_fragments (
+  quadrille_fragment_fifo u_fragments (
       .clk_i,
       .rst_ni,
       .push_i(drawn),
@@ -898,7 +901,7 @@ module quadrille (
 
   // ---- Performance counters -------------------------------------------------------------------------------------------------
   if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_counters
-    performance_counters u_counters (
+    quadrille_performance_counters u_counters (
         .clk_i,
         .rst_ni,
         .index_i(counter_index_i),
@@ -983,12 +986,22 @@ module quadrille (
   always_ff @(posedge clk_i) begin
     state_q <= state_i;
     if (rst_ni) begin
-      assert (!(assembly_busy || slots_busy || fragments_busy) || state_i == state_q);
-      assert (!drop_vertices || !setup_ready);  // a quad leaves in its first clock, or is not dropped: setup is ready in its third
+      `QUADRILLE_ASSERT(assert_state_static,
+          !(assembly_busy || slots_busy || fragments_busy) || state_i == state_q,
+          "the draw state is static while quads are under way")
+      `QUADRILLE_ASSERT(assert_drop_in_time,
+          !drop_vertices || !setup_ready,
+          "a quad leaves in its first clock, or is not dropped: setup is ready in its third")
       // no_rw_check in quad_slots: what a pixel reads is not written in that clock.
-      assert (!start || !pixel_at[BLEND_READ] || blend_slot != alloc_slot);
-      assert (!start || !pixel_at[BASE_READ] || base_slot != alloc_slot);
-      assert (!take || !pixel_at[LENGTH2_READ] || length2_slot != setup_slot);
+      `QUADRILLE_ASSERT(assert_blend_race,
+          !start || !pixel_at[BLEND_READ] || blend_slot != alloc_slot,
+          "blend operands are not read in the clock of their write")
+      `QUADRILLE_ASSERT(assert_base_race,
+          !start || !pixel_at[BASE_READ] || base_slot != alloc_slot,
+          "bases are not read in the clock of their write")
+      `QUADRILLE_ASSERT(assert_length2_race,
+          !take || !pixel_at[LENGTH2_READ] || length2_slot != setup_slot,
+          "lengths are not read in the clock of their write")
     end
   end
 `endif

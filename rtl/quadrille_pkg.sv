@@ -1,4 +1,5 @@
-// Widths, number formats and port structs of Quadrille: the only place where a width is computed.
+// SPDX-License-Identifier: Apache-2.0
+// Widths and number formats of Quadrille: the only place where a width is computed.
 //
 // Every configuration key is a macro QUADRILLE_<KEY> (set with -D), with its default here. -1 asks for the automatic value
 // where SPEC.md, Widths, gives one. Every derived width stands once, with its reason. All are `verilator public` so that

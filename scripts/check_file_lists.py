@@ -33,7 +33,10 @@ def main():
     def output(*command):
         return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd="/", check=False)
 
-    listed = [line for line in text("quadrille.f").splitlines() if line and not line.startswith("//")]
+    entries = [line for line in text("quadrille.f").splitlines() if line and not line.startswith("//")]
+    require(entries[0] == "+incdir+include", "rtl/quadrille.f: the first entry is not +incdir+include")
+    listed = entries[1:]
+    included = [f"include/{name}" for name in sorted(os.listdir(os.path.join(RTL, "include")))]
     modules = sorted(name for name in os.listdir(RTL) if name.endswith(".sv") and not name.endswith("_pkg.sv"))
     expected = ["quadrille_pkg.sv", TABLES, *modules]
     require(listed == expected, f"rtl/quadrille.f: {difference(listed, expected)}")
@@ -41,7 +44,11 @@ def main():
     core = text("quadrille.core")
     require(core.startswith("CAPI=2:\n"), "rtl/quadrille.core: the first line is not CAPI=2:")
     core = yaml.safe_load(core.partition("\n")[2])
-    require(core["filesets"]["rtl"]["files"] == listed, f"rtl/quadrille.core: {difference(core['filesets']['rtl']['files'], listed)}")
+    named = core["filesets"]["rtl"]["files"]
+    headers = [{name: {"is_include_file": True, "include_path": "include"}} for name in included]
+    require([name for name in named if isinstance(name, dict)] == headers, f"rtl/quadrille.core: the include files are not {included}")
+    named = [name for name in named if not isinstance(name, dict)]
+    require(named == listed, f"rtl/quadrille.core: {difference(named, listed)}")
     version = output(program, "--version").stdout.split()[-1]
     require(core["name"].split(":")[-1] == version, f"rtl/quadrille.core: version {core['name'].split(':')[-1]}, the program is {version}")
     for name, target in core["targets"].items():
@@ -49,7 +56,8 @@ def main():
 
     bender = yaml.safe_load(text("Bender.yml"))
     require(bender["package"]["name"] == "quadrille", "rtl/Bender.yml: the package is not named quadrille")
-    require(bender["sources"] == listed, f"rtl/Bender.yml: {difference(bender['sources'], listed)}")
+    require(len(bender["sources"]) == 1 and bender["sources"][0]["include_dirs"] == ["include"], "rtl/Bender.yml: include_dirs is not include")
+    require(bender["sources"][0]["files"] == listed, f"rtl/Bender.yml: {difference(bender['sources'][0]['files'], listed)}")
 
     written = output(program, "config", "--quiet", "--emit-tables", "-").stdout
     require(text(TABLES) == written, f"rtl/{TABLES} is not what `quadrille config --emit-tables` writes")

@@ -18,7 +18,7 @@ lint() {
     defines+=("-DQUADRILLE_${key^^}=${kv#*=}")
   done
   "$quadrille" config --quiet "${sets[@]}" --emit-tables "$tables/quadrille_tables_pkg.sv" >/dev/null
-  local machine=(quadrille_pkg.sv "$tables/quadrille_tables_pkg.sv" $(ls ./*.sv | grep -v _pkg.sv))
+  local machine=(-Iinclude quadrille_pkg.sv "$tables/quadrille_tables_pkg.sv" $(ls ./*.sv | grep -v _pkg.sv))
   verilator --lint-only -Wall "${defines[@]}" --top-module quadrille "${machine[@]}"
   [ -n "$default" ] || verilator --lint-only -Wall "${defines[@]}" --top-module quadrille_probed -I"$tables" "${machine[@]}" ../tb/device/quadrille_probed.sv
   count=$((count + 1))

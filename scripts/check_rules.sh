@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fails unless each rule of rtl/config_check.sv stops Verilator, Yosys and Icarus Verilog at elaboration with its text. The whole
+# Fails unless each rule of rtl/quadrille_config_check.sv stops Verilator, Yosys and Icarus Verilog at elaboration with its text. The whole
 # machine is tried once in each; the default configuration must pass.
 #   scripts/check_rules.sh PATH_TO_QUADRILLE
 set -euo pipefail
@@ -14,12 +14,12 @@ checks=0
 elaborate() {
   local tool=$1 top=$2 tables=$3
   shift 3
-  local defines=("${@/#/-DQUADRILLE_}") files=(quadrille_pkg.sv "$tables" config_check.sv)
-  [ "$top" = config_check ] || mapfile -t files < <(echo quadrille_pkg.sv; echo "$tables"; ls ./*.sv | grep -v _pkg.sv)
+  local defines=("${@/#/-DQUADRILLE_}") files=(quadrille_pkg.sv "$tables" quadrille_config_check.sv)
+  [ "$top" = quadrille_config_check ] || mapfile -t files < <(echo quadrille_pkg.sv; echo "$tables"; ls ./*.sv | grep -v _pkg.sv)
   case $tool in
-    verilator) verilator --lint-only -Wno-lint ${defines[@]+"${defines[@]}"} --top-module "$top" "${files[@]}" ;;
-    yosys) yosys -q -p "read_verilog -sv ${defines[*]-} ${files[*]}; hierarchy -check -top $top" ;;
-    icarus) iverilog -g2012 -t null ${defines[@]+"${defines[@]}"} -s "$top" "${files[@]}" ;;
+    verilator) verilator --lint-only -Wno-lint -Iinclude ${defines[@]+"${defines[@]}"} --top-module "$top" "${files[@]}" ;;
+    yosys) yosys -q -p "read_verilog -sv -Iinclude ${defines[*]-} ${files[*]}; hierarchy -check -top $top" ;;
+    icarus) iverilog -g2012 -Iinclude -t null ${defines[@]+"${defines[@]}"} -s "$top" "${files[@]}" ;;
   esac >"$work/log" 2>&1
 }
 
@@ -43,7 +43,7 @@ refuses() {
 
 "$quadrille" config --quiet --emit-tables "$work/tables.sv" >/dev/null
 tools=(verilator yosys icarus)
-passes config_check "$work/tables.sv"
+passes quadrille_config_check "$work/tables.sv"
 # A rule, and settings that break it first: as listed, and of every other key just outside the program's range.
 cat >"$work/rules" <<'RULES'
 quadratic_frac_bits_must_be_at_most_twice_the_fraction_bits QUADRATIC_FRAC_BITS=31
@@ -77,11 +77,11 @@ for key in json.load(sys.stdin)["keys"]:
         print(f"{name}_must_be_{low}_{between}_{high} {name.upper()}={value}")' "$work/rules" >"$work/ranges"
 while read -r rule settings; do
   # shellcheck disable=SC2086
-  refuses "$rule" config_check "$work/tables.sv" $settings
+  refuses "$rule" quadrille_config_check "$work/tables.sv" $settings
 done < <(cat "$work/rules" "$work/ranges")
 
 # No rule without a case.
-missing=$(grep -oE '[a-z][a-z0-9_]+_[a-z0-9_]+\)$' config_check.sv | tr -d ')' | sort -u | grep -vxFf "$work/seen" || true)
+missing=$(grep -oE '[a-z][a-z0-9_]+_[a-z0-9_]+\)$' quadrille_config_check.sv | tr -d ')' | sort -u | grep -vxFf "$work/seen" || true)
 [ -z "$missing" ] || { echo "rules without a case: $missing" >&2; exit 1; }
 
 # Among the other modules, whose widths are nonsense then.

@@ -100,6 +100,8 @@ def sources(proof, fault, work):
             shutil.copy(os.path.join(FORMAL, name), work)
             if name.endswith(".sv"):
                 names.append(name)
+    for name in os.listdir(os.path.join(ROOT, "rtl", "include")):
+        shutil.copy(os.path.join(ROOT, "rtl", "include", name), work)
     return [os.path.basename(name) for name in names]
 
 

@@ -212,9 +212,9 @@ expect 2 "stalls.hex: no clock offers" "verify: a pattern that never offers" "$Q
 # ---- The examples ----
 if ! $sample; then
 "$QUADRILLE" config --quiet --emit-tables "$work/tables.sv"
-verilator --binary -Wno-fatal --top-module sqrt_bench --Mdir "$work/obj" rtl/quadrille_pkg.sv "$work/tables.sv" -y rtl golden/examples/sqrt_bench.sv >"$work/log" 2>&1 ||
+verilator --binary -Wno-fatal --top-module sqrt_bench --Mdir "$work/obj" rtl/quadrille_pkg.sv "$work/tables.sv" -Irtl/include -y rtl golden/examples/sqrt_bench.sv >"$work/log" 2>&1 ||
   { cat "$work/log" >&2; exit 1; }
-iverilog -g2012 -o "$work/sqrt" rtl/quadrille_pkg.sv "$work/tables.sv" rtl/{sqrt,table_polynomial,delay_line}.sv golden/examples/sqrt_bench.sv
+iverilog -g2012 -o "$work/sqrt" rtl/quadrille_pkg.sv "$work/tables.sv" rtl/quadrille_{sqrt,table_polynomial,delay_line}.sv golden/examples/sqrt_bench.sv
 vectors=$(wc -l <"$set/sqrt/stimulus.hex")
 # bench STATUS PATTERN DESCRIPTION DIR VECTORS: under both simulators; Verilator's $fatal aborts.
 bench() {

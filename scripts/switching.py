@@ -108,13 +108,13 @@ def by_unit(lines):
 
 
 def instances():
-    """Module of each instance of the machine, its pipeline and its lanes."""
+    """Unit of each instance of the machine, its pipeline and its lanes."""
     modules = {}
-    for name in ("quadrille.sv", "pixel_pipeline.sv", "pixel_lane.sv"):
+    for name in ("quadrille.sv", "quadrille_pixel_pipeline.sv", "quadrille_pixel_lane.sv"):
         with open(os.path.join(ROOT, "rtl", name), encoding="utf-8") as file:
             text = re.sub(r"//[^\n]*", "", file.read())
         for module, instance in re.findall(r"\b([a-z]\w*)\s+(?:#\((?:[^()]|\([^()]*\))*\)\s*)?(u_\w+)\s*\(", text):
-            modules[instance] = module
+            modules[instance] = module.removeprefix("quadrille_")
     return modules
 
 

@@ -23,21 +23,21 @@ sys.argv = [arg for arg in sys.argv if arg != "--tools"]
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 
 STATISTICS = """
-=== $paramod\\sqrt\\N=s32'00000000000000000000000000000100 ===
+=== $paramod\\quadrille_sqrt\\N=s32'00000000000000000000000000000100 ===
 
    Number of cells:                  7
      CCU2C                           2
      LUT4                            5
      MULT18X18D                      2
 
-=== normalise ===
+=== quadrille_normalise ===
 
      LUT4                           11
      TRELLIS_FF                     13
 
 === quadrille ===
 
-     $paramod\\sqrt\\N=s32'00000000000000000000000000000100      4
+     $paramod\\quadrille_sqrt\\N=s32'00000000000000000000000000000100      4
      LUT4                          100
      TRELLIS_DPR16X4                 3
      TRELLIS_FF                      1
@@ -45,15 +45,15 @@ STATISTICS = """
 
 === wrapper ===
 
-     normalise                       2
+     quadrille_normalise             2
 
 === design hierarchy ===
 
      LUT4                       999999
 """
 
-NETLIST = """module fp_sum(clk_i, term_i);
-  \\$paramod$0123\\fp_normalise  \\gen_x[0].u_norm  (
+NETLIST = """module quadrille_fp_sum(clk_i, term_i);
+  \\$paramod$0123\\quadrille_fp_normalise  \\gen_x[0].u_norm  (
     .a(b)
   );
   DFFPOSX1 _12_ (
@@ -62,7 +62,7 @@ NETLIST = """module fp_sum(clk_i, term_i);
     .Q(\\largest_q[1] [3])
   );
 endmodule
-module \\$paramod$0123\\fp_normalise (a);
+module \\$paramod$0123\\quadrille_fp_normalise (a);
   NAND2X1 _7_ (
     .A(a),
     .Y(b)

@@ -37,7 +37,7 @@ DEVICES = {"25k": (24_288, 28, 56), "45k": (43_848, 72, 108), "85k": (83_640, 15
 
 def main():
     parser = options(__doc__)
-    parser.add_argument("unit", metavar="UNIT", help="module of rtl/; quadrille: the whole machine")
+    parser.add_argument("unit", metavar="UNIT", help="module of rtl/, without its prefix quadrille_; quadrille: the whole machine")
     synthesis.add_arguments(parser)
     parser.add_argument("-P", dest="parameters", action="append", default=[], metavar="NAME=VALUE", help="parameter of the unit; repeatable")
     parser.add_argument("--target", choices=["cells", "ecp5"], default="cells", help="technology (default: cells)")
@@ -79,7 +79,7 @@ def measure(args):
 def cells(machine, sta, args, parameters):
     with open(os.path.join(machine.work, "abc.constr"), "w", encoding="utf-8") as file:
         file.write("set_driving_cell BUFX2\nset_load 20\n")  # fF; abc knows no flip-flop to drive with
-    machine.yosys(machine.elaborate(args.unit, parameters) + f"""synth -flatten -top {args.unit}
+    machine.yosys(machine.elaborate(args.unit, parameters) + f"""synth -flatten -top {synthesis.module_name(args.unit)}
 dfflibmap -liberty "{LIBERTY}"
 opt
 abc -liberty "{LIBERTY}" -constr abc.constr -script {ABC}
@@ -97,7 +97,7 @@ write_verilog -noattr -noexpr netlist.v
     with open(os.path.join(machine.work, "timing.tcl"), "w", encoding="utf-8") as file:
         file.write(f"""read_liberty "{LIBERTY}"
 read_verilog netlist.v
-link_design {args.unit}
+link_design {synthesis.module_name(args.unit)}
 create_clock -name clock -period {PERIOD} {f'[get_ports {CLOCK}]' if clocked else ''}
 foreach port [all_inputs] {{
   if {{[get_property $port full_name] ne "{CLOCK}"}} {{
@@ -113,9 +113,10 @@ exit
     text = synthesis.run([sta, "-no_splash", "-exit", "timing.tcl"], machine.work, "timing.log")
     if error := re.search(r"^Error: .*$", text, re.M):  # it goes on with what it understood
         raise Failed(f"OpenSTA does not read the netlist: {error.group()}")
-    path = SlowestPath(text, Netlist(netlist.splitlines(keepends=True), machine.modules), args.unit)
+    path = SlowestPath(text, Netlist(netlist.splitlines(keepends=True), machine.units), args.unit)
     cells_of = synthesis.statistics(os.path.join(machine.work, "stat.txt"))
-    top = next((name for name in cells_of if name == args.unit or re.search(rf"\\{args.unit}(\\|$)", name)), args.unit)
+    module = synthesis.module_name(args.unit)
+    top = next((name for name in cells_of if re.search(rf"(^|\\){module}(\\|$)", name)), module)
     flip_flops = synthesis.size_of(cells_of, top, {"FF": {cell: 1 for module in cells_of.values() for cell in module if cell.startswith("DFF")}})["FF"]
     if not areas:
         raise Failed("Yosys gave no area")
@@ -141,8 +142,9 @@ class Netlist:
                 self.held[module, name] = unescaped(output.group(1)).replace(" ", "")
 
     def unit_of(self, module):
-        """Name in rtl/ of a module, which may be called after its parameters too."""
-        return next((part for part in reversed(re.split(r"[\\$]", module)) if part in self.units), module)
+        """The unit that a module is, which may be called after its parameters too."""
+        parts = map(synthesis.unit_name, reversed(re.split(r"[\\$]", module)))
+        return next((part for part in parts if part in self.units), module)
 
     def walk(self, top, pin):
         """Instances and units from the top to the cell of a pin `a/b/cell/pin`, and the cell's name: a register's is the bit that it holds."""
@@ -271,7 +273,7 @@ def wrapped(unit, ports_of_unit, parameters):
     fold_q <= out_q ^ {{fold_q, si}};
   end
   assign so = fold_q[{outputs - 1}];
-  {unit} {override}u_unit ({', '.join(connections)});
+  {synthesis.module_name(unit)} {override}u_unit ({', '.join(connections)});
 endmodule
 """, inputs + 2 * outputs + 1
 

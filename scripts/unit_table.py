@@ -26,6 +26,7 @@ import tomllib
 
 from report.files import InputError, write_files
 from report.program import PROGRAM, ROOT, end, options
+from report.synthesis import module_name
 
 RTL = os.path.join(ROOT, "rtl")
 LIST, MEASURED = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json"))
@@ -93,8 +94,8 @@ class Package:
 
     def ports(self, unit, parameters):
         """Bits of the inputs, clock and reset apart, and of the outputs."""
-        text = without_comments(read_text(os.path.join(RTL, unit + ".sv")))
-        header = text[text.index(f"module {unit}"):].split(");", 1)[0]
+        text = without_comments(read_text(os.path.join(RTL, module_name(unit) + ".sv")))
+        header = text[text.index(f"module {module_name(unit)}"):].split(");", 1)[0]
         names = {}
         for name, expression in re.findall(r"(?:parameter|localparam) (?:int|bit) (\w+)\s*=\s*((?:[^,()]|\((?:[^()]|\([^()]*\))*\))+)", header):
             names[name] = int(parameters[name]) if name in parameters else self.value(expression.replace("1'b", ""), names)
@@ -130,8 +131,8 @@ def faults_of(units, package):
     faults = []
     listed = [unit["name"] for unit in units]
     for top in ("quadrille", "pixel_pipeline", "pixel_lane"):
-        text = without_comments(read_text(os.path.join(RTL, top + ".sv")))
-        for module in dict.fromkeys(re.findall(r"^ +(\w+) (?:#\(.*?\) )?u_\w+ \(", text, re.M | re.DOTALL)):
+        text = without_comments(read_text(os.path.join(RTL, module_name(top) + ".sv")))
+        for module in dict.fromkeys(re.findall(r"^ +quadrille_(\w+) (?:#\(.*?\) )?u_\w+ \(", text, re.M | re.DOTALL)):
             if module not in listed and module not in ("config_check", "delay_line", "pixel_pipeline", "pixel_lane", "offset_digits", "radix4_digits"):
                 faults.append(f"rtl/units.toml: {top} instantiates {module}, which is not in the list")
     model = {}

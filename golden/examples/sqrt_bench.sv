@@ -68,7 +68,7 @@ module sqrt_bench;
 
   for (genvar i = 0; i < 4; i++) begin : gen_lane
     // Your module goes here.
-    sqrt u_sqrt (
+    quadrille_sqrt u_sqrt (
         .clk_i(clk),
         .exp_i(stimulus[4*S+E*i+:E]),
         .sig_i(stimulus[S*i+:S]),

@@ -1,4 +1,5 @@
-// Twin of rtl/inside_expression.sv: expression (12) of Hormann & Tarini 2004 and its negation, for many places at once.
+// Twin of rtl/quadrille_inside_expression.sv: expression (12) of Hormann & Tarini 2004 and its negation, for many
+// places at once.
 #pragma once
 
 #include "model/port/records.hpp"

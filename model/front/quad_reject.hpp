@@ -1,5 +1,5 @@
-// Twin of rtl/quad_reject.sv: quads that cannot give a fragment, known from their vertices before any product is
-// made, or from the areas of the two triangles of expression (12).
+// Twin of rtl/quadrille_quad_reject.sv: quads that cannot give a fragment, known from their vertices before any product
+// is made, or from the areas of the two triangles of expression (12).
 #pragma once
 
 #include "model/port/config.hpp"

@@ -1,5 +1,5 @@
-// Twin of rtl/quad_setup.sv: four snapped vertices to initial values and increments of the linear functions, lengths of
-// sides and diagonals, visibility.
+// Twin of rtl/quadrille_quad_setup.sv: four snapped vertices to initial values and increments of the linear functions,
+// lengths of sides and diagonals, visibility.
 #pragma once
 
 #include "model/port/stages.hpp"

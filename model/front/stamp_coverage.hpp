@@ -1,4 +1,4 @@
-// Twin of rtl/stamp_coverage.sv: one row of a tile, TILE×1 pixels, against the five edge functions.
+// Twin of rtl/quadrille_stamp_coverage.sv: one row of a tile, TILE×1 pixels, against the five edge functions.
 #pragma once
 
 #include "model/front/tile_walk.hpp"

@@ -1,4 +1,4 @@
-// Twin of rtl/tile_context.sv: the quadratic functions of a tile that is hit, from its quad's vertices.
+// Twin of rtl/quadrille_tile_context.sv: the quadratic functions of a tile that is hit, from its quad's vertices.
 #pragma once
 
 #include "model/front/tile_walk.hpp"

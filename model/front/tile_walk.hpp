@@ -1,5 +1,5 @@
-// Twin of rtl/tile_walk.sv: three-valued coverage of a square of pixels, and the serpentine walk over blocks and tiles.
-// Linear functions alone are walked; a tile that is hit gets its quadratic ones from tile_context.
+// Twin of rtl/quadrille_tile_walk.sv: three-valued coverage of a square of pixels, and the serpentine walk over blocks
+// and tiles. Linear functions alone are walked; a tile that is hit gets its quadratic ones from tile_context.
 //
 // The walk is one state machine that both models run: the clocked shell once per clock, the untimed model in a loop. A
 // step back subtracts what a step forth adds; forward differences of exact integers are reversible, so no row start is

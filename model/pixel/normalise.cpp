@@ -12,7 +12,7 @@ bool turns_backward(const PixelTrace& p) {
   return false;
 }
 
-/// Twin of rtl/singular_class.sv.
+/// Twin of rtl/quadrille_singular_class.sv.
 void singular_class(PixelTrace& p, const PipelineContext& c) {
   int corners = 0;
   int edges = 0;

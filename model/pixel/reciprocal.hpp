@@ -1,4 +1,4 @@
-// Twin of rtl/reciprocal.sv.
+// Twin of rtl/quadrille_reciprocal.sv.
 #pragma once
 
 #include "model/pixel/significand.hpp"
@@ -7,7 +7,7 @@
 namespace quadrille {
 
 /// 1/a with a's sign; zero gives zero, a power of two is exact. Error at most 0.81 ulp with automatic tables of degree
-/// 2, below 1 of degree 1 (bounds: rtl/reciprocal.sv).
+/// 2, below 1 of degree 1 (bounds: rtl/quadrille_reciprocal.sv).
 inline PipelineFloat reciprocal(const PipelineFloat& a, const Table& table, const SignificandFormat& f) {
   if (a.sig == 0) return {};
   const std::uint32_t fraction = a.sig - (std::uint32_t{1} << (f.s - 1));

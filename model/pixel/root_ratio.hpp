@@ -1,4 +1,4 @@
-// Twin of rtl/root_ratio.sv, and of its products in rtl/ratio_products.sv.
+// Twin of rtl/quadrille_root_ratio.sv, and of its products in rtl/quadrille_ratio_products.sv.
 #pragma once
 
 #include "model/pixel/pixel_pipeline.hpp"

@@ -1,4 +1,4 @@
-// Twin of rtl/sqrt.sv.
+// Twin of rtl/quadrille_sqrt.sv.
 #pragma once
 
 #include "model/pixel/significand.hpp"
@@ -7,7 +7,8 @@
 namespace quadrille {
 
 /// a^(1/2) for a > 0; zero gives zero, an even power of two is exact. Error at most 0.81 ulp with automatic tables of
-/// degree 2, below 1 of degree 1 (bounds: rtl/sqrt.sv). Domain [1, 4): the exponent's low bit selects the octave.
+/// degree 2, below 1 of degree 1 (bounds: rtl/quadrille_sqrt.sv). Domain [1, 4): the exponent's low bit selects the
+/// octave.
 inline PipelineFloat fp_sqrt(const PipelineFloat& a, const Table& table, const SignificandFormat& f) {
   if (a.sig == 0) return {};
   const int odd = a.exp & 1;

@@ -1,4 +1,4 @@
-// Twin of rtl/table_polynomial.sv: one segment's polynomial in integers.
+// Twin of rtl/quadrille_table_polynomial.sv: one segment's polynomial in integers.
 #pragma once
 
 #include "model/port/tables.hpp"

@@ -1,4 +1,4 @@
-// Twin of rtl/weight_factors.sv.
+// Twin of rtl/quadrille_weight_factors.sv.
 #pragma once
 
 #include "model/pixel/pixel_pipeline.hpp"

@@ -218,7 +218,7 @@ TEST(Config, ImpossibleCombinationsNameTheirRule) {
   EXPECT_TRUE(contains(refusal_of({{"significand_bits", 8}, {"sqrt_segments_log2", 7}}), "sqrt_segments_log2"));
   EXPECT_TRUE(contains(refusal_of({{"significand_bits", 8}, {"recip_segments_log2", 7}}), "recip_segments_log2"));
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 6}, {"guard_bits", 1}, {"tile_log2", 4}}), "tile_log2"));
-  // |A| could reach 2^(VAL_BITS-1) exactly, one too many; rtl/config_check.sv refuses it too.
+  // |A| could reach 2^(VAL_BITS-1) exactly, one too many; rtl/quadrille_config_check.sv refuses it too.
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 6}, {"guard_bits", 1}, {"tile_log2", 3}}), "tile_log2"));
   EXPECT_TRUE(contains(refusal_of({{"viewport_bits", 7}, {"guard_bits", 1}, {"tile_log2", 4}}), "tile_log2"));
   EXPECT_EQ(refusal_of({{"viewport_bits", 7}, {"guard_bits", 1}, {"tile_log2", 3}}), "");

@@ -1,5 +1,5 @@
-// Twin of rtl/performance_counters.sv: what the machine did, clock by clock, from what each of its units does in a
-// clock (rtl/SPEC.md, Performance counters).
+// Twin of rtl/quadrille_performance_counters.sv: what the machine did, clock by clock, from what each of its units does
+// in a clock (rtl/SPEC.md, Performance counters).
 #pragma once
 
 #include "model/port/config.hpp"

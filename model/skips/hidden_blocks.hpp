@@ -1,4 +1,5 @@
-// Twin of rtl/hidden_blocks.sv: blocks of tiles that nothing can be seen of, known before their tiles are tested.
+// Twin of rtl/quadrille_hidden_blocks.sv: blocks of tiles that nothing can be seen of, known before their tiles are
+// tested.
 //
 // A block here is 8 × 8 tiles of the viewport's own grid; a block of the walk begins at the quad's first tile and lies
 // over up to four of them. Of each there are two bounds, as masked_depth has them of a tile: `far` for all of it, and

@@ -1,5 +1,5 @@
-// Twin of rtl/hierarchical_z.sv and rtl/depth_interval.sv: tiles that nothing can be seen of, known before their
-// stamps.
+// Twin of rtl/quadrille_hierarchical_z.sv and rtl/quadrille_depth_interval.sv: tiles that nothing can be seen of, known
+// before their stamps.
 //
 // A memory holds, for a tile of pixels, a bound that no depth of the tile in the depth buffer exceeds. It is lowered by
 // a quad that covers every pixel of the tile, to the farthest depth that a fragment of that quad can have, and a tile

@@ -1,4 +1,4 @@
-// Twin of rtl/masked_depth.sv: pixels that nothing can be seen of, known when coverage comes to their tile.
+// Twin of rtl/quadrille_masked_depth.sv: pixels that nothing can be seen of, known when coverage comes to their tile.
 //
 // hierarchical_z learns from quads that cover a whole tile; of a mesh most tiles are covered by several quads, none of
 // which does. Here a tile has two bounds, after Andersson, Hasselgren, Akenine-Möller (2015), "Masked Depth Culling for

@@ -1,5 +1,5 @@
-// Twin of rtl/plane_quad.sv: quads whose values are plane, so that areas of triangles are as good weights as mean value
-// ones.
+// Twin of rtl/quadrille_plane_quad.sv: quads whose values are plane, so that areas of triangles are as good weights as
+// mean value ones.
 #pragma once
 
 #include "model/port/config.hpp"

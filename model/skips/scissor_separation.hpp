@@ -1,5 +1,5 @@
-// Twin of rtl/scissor_separation.sv: which of the two triangles of expression (12) cannot meet the scissor rectangle,
-// of a quad that has no bounding box because some w is not 1.
+// Twin of rtl/quadrille_scissor_separation.sv: which of the two triangles of expression (12) cannot meet the scissor
+// rectangle, of a quad that has no bounding box because some w is not 1.
 #pragma once
 
 #include "model/port/stages.hpp"

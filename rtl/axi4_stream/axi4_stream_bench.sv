@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Self-checking bench of quadrille_axi4_stream: plays the draws of a machine suite of golden vectors twice, first with every interface
 // open in each clock, then with pauses of the masters and backpressure of the slave at random, and of every draw but each fourth one, two or three
 // beats of a quad that does not come. Compares every fragment, their order and

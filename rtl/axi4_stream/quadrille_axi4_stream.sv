@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The machine between AXI4-Stream interfaces: a draw is a beat of state, a packet of vertices, and a packet of fragments.
 //
 //     s_axis_state     one beat a draw: state_i of `quadrille`; TUSER: the depth buffer was cleared, nothing is hidden when the draw begins

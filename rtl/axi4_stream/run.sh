@@ -23,14 +23,14 @@ trap 'rm -rf "$work"' EXIT
 lines() { wc -l <"$set/$1"; }
 plusargs=("+set=$set" "+draws=$(lines states.hex)" "+beats=$(lines stimulus.hex)" "+fragments=$(lines response.hex)")
 
-mapfile -t rtl < <(sed "/^\/\//d; s|^|$here/../|" "$here/../quadrille.f")
+mapfile -t rtl < <(sed "/^[/+]/d; s|^|$here/../|" "$here/../quadrille.f")
 # build NAME WRAPPER: the bench around that wrapper as $work/NAME.
 build() {
   local log=$work/$1.log
   case $simulator in
     verilator) verilator --binary --assert -Wall -Wno-BLKSEQ "-DQUADRILLE_PIXELS_PER_CLOCK=$lanes" -CFLAGS -O1 --top-module axi4_stream_bench --Mdir "$work/$1.obj" -o "$work/$1" \
       -F "$here/../quadrille.f" "$2" "$here/axi4_stream_bench.sv" ;;
-    icarus) iverilog -g2012 "-DQUADRILLE_PIXELS_PER_CLOCK=$lanes" -s axi4_stream_bench -o "$work/$1" "${rtl[@]}" "$2" "$here/axi4_stream_bench.sv" ;;
+    icarus) iverilog -g2012 -I"$here/../include" "-DQUADRILLE_PIXELS_PER_CLOCK=$lanes" -s axi4_stream_bench -o "$work/$1" "${rtl[@]}" "$2" "$here/axi4_stream_bench.sv" ;;
   esac >"$log" 2>&1 || { tail -25 "$log" >&2; echo "the bench does not build" >&2; exit 1; }
 }
 

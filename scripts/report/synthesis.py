@@ -76,6 +76,15 @@ def run(command, work, log):
     return text
 
 
+def module_name(unit):
+    """Of a unit, as the RTL calls it."""
+    return unit if unit == "quadrille" else "quadrille_" + unit
+
+
+def unit_name(module):
+    return module.removeprefix("quadrille_")
+
+
 class Machine:
     """The RTL with the defines and tables of a configuration; args: of add_arguments()."""
 
@@ -91,9 +100,9 @@ class Machine:
         files = sorted(glob.glob(os.path.join(rtl, "*.sv")), key=lambda name: (not name.endswith("_pkg.sv"), name))
         if not files:
             raise InputError(f"no SystemVerilog in {rtl}")
-        self.modules = {os.path.splitext(os.path.basename(name))[0] for name in files if not name.endswith("_pkg.sv")}
+        self.units = {unit_name(os.path.splitext(os.path.basename(name))[0]) for name in files if not name.endswith("_pkg.sv")}
         quoted = " ".join(f'"{name}"' for name in [files[0], tables, *files[1:]])
-        self.read = f"read_verilog -sv -DSYNTHESIS=1 {' '.join(defines)} {quoted}\n"
+        self.read = f"read_verilog -sv -DSYNTHESIS=1 -I \"{os.path.join(rtl, 'include')}\" {' '.join(defines)} {quoted}\n"
 
     def _make_tables(self, args):
         path = os.path.join(self.work, "quadrille_tables_pkg.sv")
@@ -109,12 +118,12 @@ class Machine:
     def elaborate(self, top, parameters=()):
         """Yosys commands up to the hierarchy under `top`, in which the units stay apart: each is optimised and mapped once however often it
         is instantiated. The rest is flattened, so that the constants of a table or of a feature that is off reach the logic behind them."""
-        if top not in self.modules:
-            raise InputError(f"no unit {top} in rtl/; there are: {' '.join(sorted(self.modules))}")
+        if top not in self.units:
+            raise InputError(f"no unit {top} in rtl/; there are: {' '.join(sorted(self.units))}")
         chparam = "".join(f" -chparam {name} {value}" for name, value in parameters)
-        kept = " ".join(f"*{unit}*" for unit in (*UNITS, *SHARED))
-        return (f"{self.read}hierarchy -check -top {top}{chparam}\n"
-                f"setattr -mod -set keep_hierarchy 1 {kept}\nsetattr -mod -unset keep_hierarchy *fp_normalise*\n")
+        # With its parameters behind it, in capitals, or with their hash before it.
+        kept = " ".join(f"*{module_name(unit)} *{module_name(unit)}?[A-Z]*" for unit in (*UNITS, *SHARED))
+        return f"{self.read}hierarchy -check -top {module_name(top)}{chparam}\nsetattr -mod -set keep_hierarchy 1 {kept}\n"
 
     def yosys(self, script, stem):
         tool = find_tool("yosys", packages="yosys")
@@ -151,7 +160,7 @@ def units_of(cells, top, counts):
     rows, whole = [], size_of(cells, top, counts)
     rest = collections.Counter(whole)
     for unit in UNITS:
-        instances = {cell: number for cell, number in cells[top].items() if cell in cells and re.search(rf"(^|\\){unit}(\\|$)", cell)}
+        instances = {cell: number for cell, number in cells[top].items() if cell in cells and re.search(rf"(^|\\){module_name(unit)}(\\|$)", cell)}
         total = collections.Counter({name: 0 for name in counts})
         for cell, number in instances.items():
             total.update({name: number * value for name, value in size_of(cells, cell, counts).items()})

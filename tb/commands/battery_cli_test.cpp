@@ -76,7 +76,7 @@ TEST_F(CliBattery, AllGroupsPass) {
 
 /// What a tile held half of the epochs ago hides again: only draws with many clears between them show it.
 TEST_F(CliBattery, TheHighestBitOfAnEpochIgnored) {
-  spoil("hierarchical_z.sv", "word_epoch == epoch_q", "word_epoch[EPOCH-2:0] == epoch_q[EPOCH-2:0]");
+  spoil("quadrille_hierarchical_z.sv", "word_epoch == epoch_q", "word_epoch[EPOCH-2:0] == epoch_q[EPOCH-2:0]");
   const Outcome outcome = run("cosim --battery lanes.layers --no-shrink --rtl rtl");
   EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
   EXPECT_NE(outcome.err.find("lanes.layers: lockstep: draw "), std::string::npos) << outcome.err;
@@ -86,7 +86,7 @@ TEST_F(CliBattery, TheHighestBitOfAnEpochIgnored) {
 
 /// Only quads at the right distance from one another show it.
 TEST_F(CliBattery, SetupGoesOnWhileItsMultipliersAreBusy) {
-  spoil("quad_setup.sv", "run_q && last && !wait_i", "run_q && last");
+  spoil("quadrille_quad_setup.sv", "run_q && last && !wait_i", "run_q && last");
   EXPECT_EQ(run("cosim --battery lanes.phases --no-shrink --quiet --rtl rtl").status, 1);
 }
 

@@ -39,7 +39,7 @@ class CliShrink : public Cli {
 /// A quad, its pixel and no wait are left of a scene with stalls and gaps; the command fails, as the first run did, and
 /// the same quads pass in the project's RTL.
 TEST_F(CliShrink, FaultInAFixedPointBit) {
-  spoil("fixed_point.sv", "top_q >> distance_q[NEAR-1:0]", "(top_q >> distance_q[NEAR-1:0]) & ~OUT'(4)");
+  spoil("quadrille_fixed_point.sv", "top_q >> distance_q[NEAR-1:0]", "(top_q >> distance_q[NEAR-1:0]) & ~OUT'(4)");
   const std::string input =
       "cosim --scene bowtie --size 96x96 --stall 0.5 --gap 0.3 --seed 5 --no-snapping-error --quiet --rtl rtl";
   const Outcome plain = run(input + " --no-shrink");
@@ -67,7 +67,7 @@ TEST_F(CliShrink, FaultInAFixedPointBit) {
 /// A fault that only stalls show, and that the stalls of the whole scene show at other quads than the one that is left:
 /// it, as many pixels as the place that is overwritten holds, and so many stalls.
 TEST_F(CliShrink, FaultUnderStalls) {
-  spoil("fragment_fifo.sv", "free = !valid_o || ready_i", "free = !valid_o || ready_i || (count_q == 3)");
+  spoil("quadrille_fragment_fifo.sv", "free = !valid_o || ready_i", "free = !valid_o || ready_i || (count_q == 3)");
   const Outcome whole = run("cosim --scene sphere --size 64x64 --stall 0.3 --gap 0.2 --quiet --no-alone --rtl rtl");
   EXPECT_EQ(whole.status, 1) << whole.err;
   EXPECT_NE(whole.err.find(" 1 of 128 quads, "), std::string::npos) << whole.err;

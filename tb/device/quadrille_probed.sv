@@ -69,11 +69,11 @@ module quadrille_probed
     logic norm_active, distance_active, root_active, ratio_active;
     logic ratio_v_active;  // of A alone
 
-    delay_line u_norm_active (.clk_i, .data_i(`QUADRILLE_LANE.norm_active_q), .data_o(norm_active));
-    delay_line u_distance_active (.clk_i, .data_i(`QUADRILLE_LANE.distance_active_q), .data_o(distance_active));
-    delay_line #(.DEPTH(RATIO_STAGE - NORM_STAGE)) u_ratio_v_active (.clk_i, .data_i(norm_active), .data_o(ratio_v_active));
-    delay_line #(.DEPTH(ROOT_STAGE - NORM_STAGE)) u_root_active (.clk_i, .data_i(distance_active), .data_o(root_active));
-    delay_line #(.DEPTH(RATIO_STAGE - ROOT_STAGE)) u_ratio_active (.clk_i, .data_i(root_active), .data_o(ratio_active));
+    quadrille_delay_line u_norm_active (.clk_i, .data_i(`QUADRILLE_LANE.norm_active_q), .data_o(norm_active));
+    quadrille_delay_line u_distance_active (.clk_i, .data_i(`QUADRILLE_LANE.distance_active_q), .data_o(distance_active));
+    quadrille_delay_line #(.DEPTH(RATIO_STAGE - NORM_STAGE)) u_ratio_v_active (.clk_i, .data_i(norm_active), .data_o(ratio_v_active));
+    quadrille_delay_line #(.DEPTH(ROOT_STAGE - NORM_STAGE)) u_root_active (.clk_i, .data_i(distance_active), .data_o(root_active));
+    quadrille_delay_line #(.DEPTH(RATIO_STAGE - ROOT_STAGE)) u_ratio_active (.clk_i, .data_i(root_active), .data_o(ratio_active));
 
     `QUADRILLE_LANE_PROBES
   end

@@ -282,6 +282,8 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
   const bool one_file = !options.source.empty() && !fs::is_directory(options.source);
   if (one_file && options.probes)
     throw std::invalid_argument("a machine in one file has no probes; expected the directory rtl/");
+  std::vector<fs::path> headers;
+  if (!one_file) headers = rtl_headers(rtl_includes(options.source.empty() ? rtl_directory() : options.source));
   const std::string tables = one_file ? "" : tables_package(config), probes = options.probes ? probes_header() : "";
 
   // 1. Everything that decides the result.
@@ -293,6 +295,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
   key.add(tables);
   key.add(probes);
   for (const fs::path& source : sources) key.add_file(source);
+  for (const fs::path& header : headers) key.add_file(header);
   for (const char* file : {"device_glue.cpp", "device_abi.h", "device_print.h", "device_trace.h"})
     key.add_file(glue / file);
   key.add({options.probes ? "p" : "-"});
@@ -332,6 +335,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
       command.push_back("quadrille_tables_pkg.sv");
     }
     if (options.probes) write_text(work / "quadrille_probes_pkg.svh", probes);
+    for (const fs::path& header : headers) fs::copy_file(header, work / header.filename());
     for (const std::string& source : source_arguments(sources, work)) command.push_back(source);
     if (run_watched(
             command, work, log, [](std::string_view) {}, [&] { notice.tick(); }) != 0)

@@ -47,4 +47,21 @@ std::vector<fs::path> rtl_sources(const fs::path& directory) {
   return files;
 }
 
+fs::path rtl_includes(const fs::path& directory) {
+  std::error_code error;
+  const fs::path own = directory / "include";
+  return fs::is_directory(own, error) ? own : rtl_directory() / "include";
+}
+
+std::vector<fs::path> rtl_headers(const fs::path& includes) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(includes, error)) {
+    if (entry.path().extension() == ".svh") files.push_back(entry.path());
+  }
+  if (files.empty()) throw SystemError("no SystemVerilog headers in " + includes.string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 }  // namespace quadrille::tb

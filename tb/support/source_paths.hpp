@@ -18,4 +18,10 @@ std::filesystem::path scripts_directory();
 /// Every *.sv of a directory: packages first, then the rest by name. Throws SystemError when there is none.
 std::vector<std::filesystem::path> rtl_sources(const std::filesystem::path& directory);
 
+/// Folder of the files that the sources include: `directory`/include, or the project's where there is none.
+std::filesystem::path rtl_includes(const std::filesystem::path& directory);
+
+/// The files of such a folder, by name.
+std::vector<std::filesystem::path> rtl_headers(const std::filesystem::path& includes);
+
 }  // namespace quadrille::tb

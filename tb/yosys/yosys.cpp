@@ -27,7 +27,7 @@ std::string read_commands(const Config& config, const fs::path& directory) {
   out << tables_package(config);
   out.close();
   if (!out) throw SystemError("cannot write " + tables.string());
-  std::string command = "read_verilog -sv -DSYNTHESIS=1";
+  std::string command = "read_verilog -sv -DSYNTHESIS=1 -I \"" + rtl_includes(rtl_directory()).string() + "\"";
   for (const std::string& define : key_defines(config)) command += " " + define;
   command += " \"" + tables.string() + "\"";
   for (const fs::path& source : rtl_sources(rtl_directory())) command += " \"" + fs::absolute(source).string() + "\"";
@@ -165,6 +165,7 @@ HardwareSize synthesise_for(const Config& config, SynthesisTarget target) {
     key.add(std::string(k.name) + "=" + std::to_string(config.resolved(k.name)));
   key.add(tables_package(config));
   for (const fs::path& source : rtl_sources(rtl_directory())) key.add_file(source);
+  for (const fs::path& header : rtl_headers(rtl_includes(rtl_directory()))) key.add_file(header);
   const std::string name = "synthesis-" + key.hex();
   const auto build = [&](const fs::path& work) {
     const fs::path log = writable_cache_directory() / ("failed-" + name + ".log");  // stays if it does

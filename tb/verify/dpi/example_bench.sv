@@ -1,4 +1,4 @@
-// A bench of one's own against the model: four square roots (rtl/sqrt.sv stands for yours) on random numbers and corners.
+// A bench of one's own against the model: four square roots (rtl/quadrille_sqrt.sv stands for yours) on random numbers and corners.
 //
 // Plusargs: "+settings=key=value key=value", the model's configuration (the one that the RTL was built with); +vectors=N; +seed=N.
 // Ends with a fatal error when the model refuses something, and after the last vector if any differed.
@@ -20,7 +20,7 @@ module example_bench;
   logic [4*S-1:0] sig, root_sig;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sqrt
-    sqrt u_sqrt (
+    quadrille_sqrt u_sqrt (
         .clk_i(clk),
         .exp_i(exp[g*E+:E]),
         .sig_i(sig[g*S+:S]),

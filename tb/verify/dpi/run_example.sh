@@ -28,8 +28,8 @@ done
 # build NAME SQRT: the bench around that file as $work/NAME/bench.
 build() {
   if ! verilator --binary -Wall -Wno-UNUSEDPARAM -Wno-BLKSEQ -CFLAGS -O1 --top-module example_bench --Mdir "$work/$1" -o bench \
-      ${defines[@]+"${defines[@]}"} "$rtl/quadrille_pkg.sv" "$work/quadrille_tables_pkg.sv" "$rtl/delay_line.sv" \
-      "$rtl/table_polynomial.sv" "$2" "$here/quadrille_dpi_pkg.sv" "$here/example_bench.sv" \
+      ${defines[@]+"${defines[@]}"} -I"$rtl/include" "$rtl/quadrille_pkg.sv" "$work/quadrille_tables_pkg.sv" "$rtl/quadrille_delay_line.sv" \
+      "$rtl/quadrille_table_polynomial.sv" "$2" "$here/quadrille_dpi_pkg.sv" "$here/example_bench.sv" \
       "$library" -LDFLAGS "-Wl,-rpath,$(dirname "$library")" >"$work/$1.log" 2>&1; then
     tail -25 "$work/$1.log" >&2
     echo "the bench does not build" >&2
@@ -43,7 +43,7 @@ run() {
 }
 settings="$*"
 
-build rtl "$rtl/sqrt.sv"
+build rtl "$rtl/quadrille_sqrt.sv"
 if ! run rtl || ! grep -qx "sqrt: $vectors vectors, 0 mismatches" "$work/rtl.out"; then
   cat "$work/rtl.out" >&2
   exit 1
@@ -51,12 +51,12 @@ fi
 grep '^sqrt:' "$work/rtl.out"
 
 # The fault: every power of two counts as a power of four. Only significands without fraction show it.
-sed "s/sqrt_rom({exp_i\[0\],/sqrt_rom({exp_i[0] \&\& sig_i[S-2:0] != '0,/" "$rtl/sqrt.sv" >"$work/sqrt.sv"
-if cmp -s "$rtl/sqrt.sv" "$work/sqrt.sv"; then
-  echo "the fault is not in the copy of sqrt.sv" >&2
+sed "s/sqrt_rom({exp_i\[0\],/sqrt_rom({exp_i[0] \&\& sig_i[S-2:0] != '0,/" "$rtl/quadrille_sqrt.sv" >"$work/quadrille_sqrt.sv"
+if cmp -s "$rtl/quadrille_sqrt.sv" "$work/quadrille_sqrt.sv"; then
+  echo "the fault is not in the copy of quadrille_sqrt.sv" >&2
   exit 1
 fi
-build broken "$work/sqrt.sv"
+build broken "$work/quadrille_sqrt.sv"
 if run broken || ! grep -qE "^sqrt: $vectors vectors, [1-9][0-9]* mismatches$" "$work/broken.out"; then
   cat "$work/broken.out" >&2
   echo "the fault was not found" >&2

@@ -142,6 +142,7 @@ def main():
     written = {out / "rtl/quadrille_mutant_pkg.sv": RTL_PACKAGE, out / "tree/model/selected_mutant.hpp": MODEL_HEADER}
     for side, folder in (("rtl", out), ("model", out / "tree")):
         written |= {folder / file: text for file, text in copies(side, faults)[0].items()}
+    written |= {out / path.relative_to(ROOT): path.read_text() for path in (ROOT / "rtl/include").iterdir()}
     for old in {*out.rglob("rtl/*.sv"), *out.glob("tree/model/**/*.?pp")} - set(written):
         old.unlink()
     entries = [{"name": f.name, "number": f.number, "class": f.fault_class, "side": f.side, "file": f.edits[0].file, "rtl": f.of("rtl"), "model": f.of("model"),

@@ -24,7 +24,7 @@ module edge_both_sides_proof #(
   assign gx = GRAD'($signed(yi_i)) - GRAD'($signed(yj_i));
   assign gy = GRAD'($signed(xj_i)) - GRAD'($signed(xi_i));
 
-  edge_reach u_reach (
+  quadrille_edge_reach u_reach (
       .gx_i(gx),
       .gy_i(gy),
       .tie_pos_o(tie_pos),

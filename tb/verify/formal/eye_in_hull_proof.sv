@@ -31,7 +31,7 @@ module eye_in_hull_proof #(
   assign c_pos = {negative[0], positive[3], negative[1], positive[2]};
   assign c_neg = {positive[0], negative[3], positive[1], negative[2]};
 
-  eye_in_hull u_homogeneous (
+  quadrille_eye_in_hull u_homogeneous (
       .ordinary_i(1'b0),
       .negative_i(negative),
       .zero_i(zero),
@@ -40,7 +40,7 @@ module eye_in_hull_proof #(
   );
 
   // All W are positive: the eye is outside, and all that (12) accepts is in front of it.
-  eye_in_hull u_ordinary (
+  quadrille_eye_in_hull u_ordinary (
       .ordinary_i(1'b1),
       .negative_i(negative),
       .zero_i(zero),

@@ -19,7 +19,7 @@ module fixed_point_proof #(
   logic signed [E+6:0] shift;  // to the left
   logic [WIDE-1:0] value;
 
-  fixed_point #(
+  quadrille_fixed_point #(
       .INT_BITS(INT_BITS),
       .FRAC_BITS(FRAC_BITS)
   ) u_dut (
@@ -55,7 +55,7 @@ module fixed_point_proof #(
     fixed_spec = neg_i ? (OUT + 1)'(0) - (OUT + 1)'(value) : (OUT + 1)'(value);
   end
 
-  delay_line #(.WIDTH(OUT + 2), .DEPTH(quadrille_pkg::FIXED_POINT_STAGES)) u_spec (
+  quadrille_delay_line #(.WIDTH(OUT + 2), .DEPTH(quadrille_pkg::FIXED_POINT_STAGES)) u_spec (
       .clk_i,
       .data_i({overflow_spec, fixed_spec}),
       .data_o({overflow_expected, fixed_expected})

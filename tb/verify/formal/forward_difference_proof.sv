@@ -23,12 +23,12 @@ module forward_difference_proof #(
   logic [GRAD_BITS-1:0] gx;
   logic [CURV_BITS-1:0] q;
 
-  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
+  quadrille_radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
       .number_i(row_i),
       .digits_o(row_digits)
   );
 
-  offset_digits u_offset (
+  quadrille_offset_digits u_offset (
       .clk_i,
       .row_i,
       .dx_i,
@@ -36,7 +36,7 @@ module forward_difference_proof #(
       .norm_digits_o(norm_digits)
   );
 
-  forward_difference_row #(
+  quadrille_forward_difference_row #(
       .VALUE_BITS(VALUE_BITS),
       .GRAD_BITS(GRAD_BITS),
       .CURV_BITS(CURV_BITS)
@@ -52,7 +52,7 @@ module forward_difference_proof #(
       .q_o(q)
   );
 
-  forward_difference_column #(
+  quadrille_forward_difference_column #(
       .VALUE_BITS(VALUE_BITS),
       .GRAD_BITS(GRAD_BITS),
       .CURV_BITS(CURV_BITS)
@@ -76,27 +76,27 @@ module forward_difference_proof #(
 
   assign norm = NORM_BITS'(row_i) * NORM_BITS'(row_i) + NORM_BITS'(dx_i) * NORM_BITS'(dx_i);
 
-  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_column_digits (
+  quadrille_radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_column_digits (
       .number_i(dx_i),
       .digits_o(column_digits)
   );
-  radix4_digits #(.NUMBER_BITS(NORM_BITS)) u_bend_digits (
+  quadrille_radix4_digits #(.NUMBER_BITS(NORM_BITS)) u_bend_digits (
       .number_i(norm),
       .digits_o(bend_digits)
   );
-  small_multiply #(.FACTOR_BITS(GRAD_BITS), .NUMBER_BITS(TILE_LOG2)) u_row_product (
+  quadrille_small_multiply #(.FACTOR_BITS(GRAD_BITS), .NUMBER_BITS(TILE_LOG2)) u_row_product (
       .factor_i(gy_i),
       .digits_i(row_digits),
       .product_o(row_product),
       .carry_o(row_carry)
   );
-  small_multiply #(.FACTOR_BITS(GRAD_BITS), .NUMBER_BITS(TILE_LOG2)) u_column_product (
+  quadrille_small_multiply #(.FACTOR_BITS(GRAD_BITS), .NUMBER_BITS(TILE_LOG2)) u_column_product (
       .factor_i(gx_i),
       .digits_i(column_digits),
       .product_o(column_product),
       .carry_o(column_carry)
   );
-  small_multiply #(.FACTOR_BITS(CURV_BITS), .NUMBER_BITS(NORM_BITS)) u_bend_product (
+  quadrille_small_multiply #(.FACTOR_BITS(CURV_BITS), .NUMBER_BITS(NORM_BITS)) u_bend_product (
       .factor_i(q_i),
       .digits_i(bend_digits),
       .product_o(bend_product),
@@ -109,7 +109,7 @@ module forward_difference_proof #(
   assign spec_column = spec_row + VALUE_BITS'(column_product) + VALUE_BITS'(column_carry);
   assign spec = spec_column + VALUE_BITS'(bend_product) + VALUE_BITS'(bend_carry);
 
-  delay_line #(.WIDTH(VALUE_BITS), .DEPTH(quadrille_pkg::FORWARD_DIFFERENCE_STAGES)) u_spec (
+  quadrille_delay_line #(.WIDTH(VALUE_BITS), .DEPTH(quadrille_pkg::FORWARD_DIFFERENCE_STAGES)) u_spec (
       .clk_i,
       .data_i(spec),
       .data_o(expected)

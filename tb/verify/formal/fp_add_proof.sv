@@ -23,7 +23,7 @@ module fp_add_proof #(
 
   for (genvar k = 0; k < 2; k++) begin : gen_term
     logic unused;
-    fp_term u_term (
+    quadrille_fp_term u_term (
         .clk_i,
         .neg_i(1'b0),
         .a_exp_i(a_exp_i[k*E+:E]),
@@ -38,7 +38,7 @@ module fp_add_proof #(
 
   always_ff @(posedge clk_i) rank_q <= rank;
 
-  fp_add u_dut (
+  quadrille_fp_add u_dut (
       .clk_i,
       .a_rank_i(rank_q[0+:RANK]),
       .a_term_i(term[0+:TERM]),
@@ -48,7 +48,7 @@ module fp_add_proof #(
       .sig_o(sig)
   );
 
-  delay_line #(.WIDTH(E + S), .DEPTH(quadrille_pkg::PRODUCT_STAGES + quadrille_pkg::FP_ADD_STAGES)) u_spec (
+  quadrille_delay_line #(.WIDTH(E + S), .DEPTH(quadrille_pkg::PRODUCT_STAGES + quadrille_pkg::FP_ADD_STAGES)) u_spec (
       .clk_i,
       .data_i({exp_spec, sig_spec}),
       .data_o({exp_expected, sig_expected})

@@ -13,7 +13,7 @@ module fp_multiply_proof #(
   logic [E-1:0] exp, exp_spec, exp_expected;
   logic [S-1:0] sig, sig_spec, sig_expected;
 
-  fp_multiply u_dut (
+  quadrille_fp_multiply u_dut (
       .clk_i,
       .a_exp_i,
       .a_sig_i,
@@ -41,7 +41,7 @@ module fp_multiply_proof #(
     end
   end
 
-  delay_line #(.WIDTH(E + S), .DEPTH(quadrille_pkg::PRODUCT_STAGES)) u_spec (
+  quadrille_delay_line #(.WIDTH(E + S), .DEPTH(quadrille_pkg::PRODUCT_STAGES)) u_spec (
       .clk_i,
       .data_i({exp_spec, sig_spec}),
       .data_o({exp_expected, sig_expected})

@@ -13,7 +13,7 @@ module fp_normalise_proof #(
   logic [E-1:0] exp, exp_spec, exp_q, exp_expected;
   logic [S-1:0] sig, sig_spec, sig_q, sig_expected;
 
-  fp_normalise #(.WIDTH(WIDTH)) u_dut (
+  quadrille_fp_normalise #(.WIDTH(WIDTH)) u_dut (
       .clk_i,
       .active_i,
       .magnitude_i,

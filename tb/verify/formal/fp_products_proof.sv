@@ -20,10 +20,10 @@ module fp_products_proof #(
   logic [2*S-1:0] raw_product, product_spec, product_expected;
   logic term_neg, raw_neg, neg_expected;
 
-  fp_multiply u_multiply (.clk_i, .a_exp_i, .a_sig_i, .b_exp_i, .b_sig_i, .exp_o(multiply_exp), .sig_o(multiply_sig));
-  fp_term u_term (.clk_i, .neg_i, .a_exp_i, .a_sig_i, .b_exp_i, .b_sig_i, .rank_o(term_rank), .neg_o(term_neg), .term_o(term_term));
-  fp_product u_product (.clk_i, .a_exp_i, .a_sig_i, .b_exp_i, .b_sig_i, .exp_o(exp), .sig_o(sig), .rank_o(rank), .term_o(term));
-  fp_raw_product u_raw (.clk_i, .neg_i, .a_exp_i, .a_sig_i, .b_exp_i, .b_sig_i, .neg_o(raw_neg), .exp_o(raw_exp), .prod_o(raw_product));
+  quadrille_fp_multiply u_multiply (.clk_i, .a_exp_i, .a_sig_i, .b_exp_i, .b_sig_i, .exp_o(multiply_exp), .sig_o(multiply_sig));
+  quadrille_fp_term u_term (.clk_i, .neg_i, .a_exp_i, .a_sig_i, .b_exp_i, .b_sig_i, .rank_o(term_rank), .neg_o(term_neg), .term_o(term_term));
+  quadrille_fp_product u_product (.clk_i, .a_exp_i, .a_sig_i, .b_exp_i, .b_sig_i, .exp_o(exp), .sig_o(sig), .rank_o(rank), .term_o(term));
+  quadrille_fp_raw_product u_raw (.clk_i, .neg_i, .a_exp_i, .a_sig_i, .b_exp_i, .b_sig_i, .neg_o(raw_neg), .exp_o(raw_exp), .prod_o(raw_product));
 
   always_comb begin
     exp_spec = a_exp_i + b_exp_i;

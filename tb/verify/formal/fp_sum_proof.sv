@@ -23,7 +23,7 @@ module fp_sum_proof #(
   logic [S-1:0] sig, sig_expected;
 
   for (genvar k = 0; k < 2; k++) begin : gen_term
-    fp_term u_term (
+    quadrille_fp_term u_term (
         .clk_i,
         .neg_i(neg_i[k]),
         .a_exp_i(a_exp_i[k*E+:E]),
@@ -36,7 +36,7 @@ module fp_sum_proof #(
     );
   end
 
-  fp_sum #(.TERMS(2)) u_dut (
+  quadrille_fp_sum #(.TERMS(2)) u_dut (
       .clk_i,
       .rank_i(rank),
       .neg_i(neg),
@@ -46,7 +46,7 @@ module fp_sum_proof #(
       .sig_o(sig)
   );
 
-  delay_line #(.WIDTH(1 + E + S), .DEPTH(quadrille_pkg::PRODUCT_STAGES + quadrille_pkg::FP_SUM_STAGES)) u_spec (
+  quadrille_delay_line #(.WIDTH(1 + E + S), .DEPTH(quadrille_pkg::PRODUCT_STAGES + quadrille_pkg::FP_SUM_STAGES)) u_spec (
       .clk_i,
       .data_i({negative, exp_spec, sig_spec}),
       .data_o({neg_expected, exp_expected, sig_expected})

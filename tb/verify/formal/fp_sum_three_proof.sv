@@ -40,7 +40,7 @@ module fp_sum_three_proof #(
     end
   end
 
-  fp_sum #(.TERMS(3)) u_three (
+  quadrille_fp_sum #(.TERMS(3)) u_three (
       .clk_i,
       .rank_i,
       .neg_i,
@@ -50,7 +50,7 @@ module fp_sum_three_proof #(
       .sig_o(sig3)
   );
 
-  fp_sum #(.TERMS(4)) u_four (
+  quadrille_fp_sum #(.TERMS(4)) u_four (
       .clk_i,
       .rank_i(rank_four),
       .neg_i(neg_four),

@@ -19,8 +19,8 @@
   logic below_spec, beyond_spec, discard_spec_q2;
   logic valid_q3;
 
-  delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_attr_sign (.clk_i, .data_i(gen_attribute[0].prod_neg), .data_o(attr_sign));
-  delay_line #(.WIDTH(2), .DEPTH(TO_SUM)) u_w_spec (.clk_i, .data_i({rw_sig_i == '0, rw_neg_i}), .data_o({zero_w, neg_w}));
+  quadrille_delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_attr_sign (.clk_i, .data_i(gen_attribute[0].prod_neg), .data_o(attr_sign));
+  quadrille_delay_line #(.WIDTH(2), .DEPTH(TO_SUM)) u_w_spec (.clk_i, .data_i({rw_sig_i == '0, rw_neg_i}), .data_o({zero_w, neg_w}));
 
   assign limit = (WIDE'(1) << LIMIT_SHIFT) - WIDE'(1);
   assign quotient = (WIDE'(gen_attribute[0].fixed ^ {(AO + 1) {gen_attribute[0].neg}}) + WIDE'(1)) >> 1;

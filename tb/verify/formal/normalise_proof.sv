@@ -19,7 +19,7 @@ module normalise_proof #(
   logic [WIDTH:0] magnitude;
   logic [E+S:0] early, expected;
 
-  normalise #(.WIDTH(WIDTH), .BIAS(BIAS), .CLAMP(CLAMP)) u_dut (.clk_i, .active_i, .value_i, .neg_o(neg), .exp_o(exp), .sig_o(sig));
+  quadrille_normalise #(.WIDTH(WIDTH), .BIAS(BIAS), .CLAMP(CLAMP)) u_dut (.clk_i, .active_i, .value_i, .neg_o(neg), .exp_o(exp), .sig_o(sig));
 
   always_comb begin
     value = $signed(value_i);
@@ -36,7 +36,7 @@ module normalise_proof #(
     end
   end
 
-  delay_line #(.WIDTH(1 + E + S), .DEPTH(STAGES - 1)) u_spec (.clk_i, .data_i({neg_spec, exp_spec, sig_spec}), .data_o(early));
+  quadrille_delay_line #(.WIDTH(1 + E + S), .DEPTH(STAGES - 1)) u_spec (.clk_i, .data_i({neg_spec, exp_spec, sig_spec}), .data_o(early));
   always_ff @(posedge clk_i) expected <= active_i ? early : {neg, exp, sig};
 
   always_comb assert ({neg, exp, sig} == expected);

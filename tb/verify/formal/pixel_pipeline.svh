@@ -9,9 +9,9 @@
   logic end_spec;
   logic [SLOT-1:0] slot_spec, base_slot_spec;
 
-  delay_line #(.WIDTH(P + 1), .DEPTH(CLOCKS)) u_pixel_spec (.clk_i, .data_i({valid_i, end_i}), .data_o({pixel_spec, end_spec}));
-  delay_line #(.WIDTH(SLOT), .DEPTH(CLOCKS - 2)) u_slot_spec (.clk_i, .data_i(slot_i), .data_o(slot_spec));
-  delay_line #(.WIDTH(SLOT), .DEPTH(CLOCKS - 5)) u_base_slot_spec (.clk_i, .data_i(slot_i), .data_o(base_slot_spec));
+  quadrille_delay_line #(.WIDTH(P + 1), .DEPTH(CLOCKS)) u_pixel_spec (.clk_i, .data_i({valid_i, end_i}), .data_o({pixel_spec, end_spec}));
+  quadrille_delay_line #(.WIDTH(SLOT), .DEPTH(CLOCKS - 2)) u_slot_spec (.clk_i, .data_i(slot_i), .data_o(slot_spec));
+  quadrille_delay_line #(.WIDTH(SLOT), .DEPTH(CLOCKS - 5)) u_base_slot_spec (.clk_i, .data_i(slot_i), .data_o(base_slot_spec));
 
   always_comb begin
     assert (pixel == pixel_spec);

@@ -24,7 +24,7 @@ module quad_signs #(
     );
   end
 
-  inside_expression u_inside (
+  quadrille_inside_expression u_inside (
       .cull_i(2'd0),
       .visible_i(4'b1111),
       .pos_i(pos),

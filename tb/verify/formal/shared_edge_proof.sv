@@ -47,7 +47,7 @@ module shared_edge_proof #(
     localparam int V1 = (t == 2 || t == 4) ? 2 : 1;
     localparam int V2 = (t == 0 || t == 1) ? 2 : 3;
     localparam int V3 = (t == 1) ? 2 : 3;
-    inside_expression u_inside (
+    quadrille_inside_expression u_inside (
         .cull_i(2'd0),
         .visible_i(4'b1111),
         .pos_i({pos[4*V2+V0], pos[4*V3+V0], pos[4*V2+V3], pos[4*V1+V2], pos[4*V0+V1]}),

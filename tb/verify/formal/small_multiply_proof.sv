@@ -11,12 +11,12 @@ module small_multiply_proof #(
   logic signed [PRODUCT_BITS-1:0] product;
   logic carry;
 
-  radix4_digits #(.NUMBER_BITS(NUMBER_BITS)) u_digits (
+  quadrille_radix4_digits #(.NUMBER_BITS(NUMBER_BITS)) u_digits (
       .number_i,
       .digits_o(digits)
   );
 
-  small_multiply #(
+  quadrille_small_multiply #(
       .FACTOR_BITS(FACTOR_BITS),
       .NUMBER_BITS(NUMBER_BITS)
   ) u_dut (

@@ -12,7 +12,7 @@ module table_polynomial_proof #(
 );
   logic [S-1:0] sig, spec, expected;
 
-  table_polynomial #(
+  quadrille_table_polynomial #(
       .SEGMENTS_LOG2(SEGMENTS_LOG2),
       .RISING(RISING)
   ) u_dut (
@@ -42,7 +42,7 @@ module table_polynomial_proof #(
     else spec = y[S-1:0];
   end
 
-  delay_line #(.WIDTH(S), .DEPTH(3)) u_spec (
+  quadrille_delay_line #(.WIDTH(S), .DEPTH(3)) u_spec (
       .clk_i,
       .data_i(spec),
       .data_o(expected)

@@ -16,7 +16,7 @@ module table_units_proof #(
   logic zero, one;
   logic signed [E:0] wide;
 
-  reciprocal u_reciprocal (
+  quadrille_reciprocal u_reciprocal (
       .clk_i,
       .neg_i,
       .exp_i,
@@ -26,7 +26,7 @@ module table_units_proof #(
       .sig_o(recip_sig)
   );
 
-  sqrt u_sqrt (
+  quadrille_sqrt u_sqrt (
       .clk_i,
       .exp_i,
       .sig_i,
@@ -34,7 +34,7 @@ module table_units_proof #(
       .sig_o(root_sig)
   );
 
-  delay_line #(.WIDTH(1 + E + S), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_delay (
+  quadrille_delay_line #(.WIDTH(1 + E + S), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_delay (
       .clk_i,
       .data_i({neg_i, exp_i, sig_i}),
       .data_o({neg_q, exp_q, sig_q})

@@ -40,7 +40,7 @@ module visible_clause_proof #(
     assign neg[k] = edge_neg[10+k] || (!edge_pos[10+k] && (edge_neg[k] || (!edge_pos[k] && edge_neg[5+k])));
   end
 
-  eye_in_hull u_eye_in_hull (
+  quadrille_eye_in_hull u_eye_in_hull (
       .ordinary_i,
       .negative_i(negative),
       .zero_i(zero),
@@ -53,7 +53,7 @@ module visible_clause_proof #(
   logic back_drawn, front_drawn;
 
   for (genvar k = 0; k < 4; k++) begin : gen_clause
-    inside_expression u_inside (
+    quadrille_inside_expression u_inside (
         .cull_i(2'd0),
         .visible_i(4'(1 << k)),
         .pos_i(pos),
@@ -63,7 +63,7 @@ module visible_clause_proof #(
     );
   end
 
-  inside_expression u_drawn (
+  quadrille_inside_expression u_drawn (
       .cull_i(2'd0),
       .visible_i(visible),
       .pos_i(pos),

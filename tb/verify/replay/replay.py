@@ -105,7 +105,7 @@ class Build:
     def defines(self):
         keys = [f"-DQUADRILLE_{key.upper()}={value}" for key, value in self.suites[0].config.items()]
         bench = [f"-DREPLAY_{name}={value}" for name, value in {**self.widths, **self.sizes}.items()]
-        return keys, bench + [f"-DREPLAY_DUT={self.device}"], ["-I" + BENCHES, "-I" + self.directory]
+        return keys, bench + [f"-DREPLAY_DUT={self.device}"], ["-I" + BENCHES, "-I" + self.directory, "-I" + os.path.join(self.options.rtl, "include")]
 
     def __call__(self):
         begin = time.monotonic()

@@ -19,7 +19,7 @@ module replay_coverage (
   logic [5*4*REACH-1:0] unused_reach;
 
   for (genvar g = 0; g < 5; g++) begin : gen_tie
-    edge_reach u_reach (
+    quadrille_edge_reach u_reach (
         .gx_i(lin_gx_i[g*GRAD+:GRAD]),
         .gy_i(lin_gy_i[g*GRAD+:GRAD]),
         .tie_pos_o(tie_pos_i[g]),
@@ -41,7 +41,7 @@ module replay_coverage (
   logic [TILE_LOG2-1:0] issue_row;
   logic [TILE-1:0] covered;
 
-  stamp_coverage u_coverage (
+  quadrille_stamp_coverage u_coverage (
       .wait_i(1'b0),
       .hidden_i(1'b0),
       .rows_load_o(rows_load),

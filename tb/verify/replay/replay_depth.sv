@@ -24,7 +24,7 @@ module replay_depth (
   logic [E-1:0] rk_exp, rw_exp;
   logic [S-1:0] rk_sig, rw_sig;
 
-  reciprocal u_reciprocal_k (
+  quadrille_reciprocal u_reciprocal_k (
       .clk_i,
       .neg_i(den_k_neg_i),
       .exp_i(den_k_exp_i),
@@ -34,7 +34,7 @@ module replay_depth (
       .sig_o(rk_sig)
   );
 
-  reciprocal u_reciprocal_w (
+  quadrille_reciprocal u_reciprocal_w (
       .clk_i,
       .neg_i(den_w_neg_i),
       .exp_i(den_w_exp_i),
@@ -49,12 +49,12 @@ module replay_depth (
   logic [BASES-1:0] late_base;
   logic [CORNERS-1:0] late_corners;
 
-  delay_line #(.WIDTH(NUMERATORS), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_numerator (
+  quadrille_delay_line #(.WIDTH(NUMERATORS), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_numerator (
       .clk_i, .data_i({attr_neg_i, attr_exp_i, attr_sig_i, z_neg_i, z_exp_i, z_sig_i}), .data_o(late_numerator));
-  delay_line #(.WIDTH(STATE), .DEPTH(PORT - 2)) u_state (
+  quadrille_delay_line #(.WIDTH(STATE), .DEPTH(PORT - 2)) u_state (
       .clk_i, .data_i({depth_on_i, attributes_i, hull_i}), .data_o(late_state));
-  delay_line #(.WIDTH(BASES), .DEPTH(PORT - 3)) u_base (.clk_i, .data_i({base_attr_i, base_depth_i}), .data_o(late_base));
-  delay_line #(.WIDTH(CORNERS), .DEPTH(PORT - 4)) u_corners (
+  quadrille_delay_line #(.WIDTH(BASES), .DEPTH(PORT - 3)) u_base (.clk_i, .data_i({base_attr_i, base_depth_i}), .data_o(late_base));
+  quadrille_delay_line #(.WIDTH(CORNERS), .DEPTH(PORT - 4)) u_corners (
       .clk_i, .data_i({znear_i, zfar_i, depth_low_i, depth_high_i}), .data_o(late_corners));
 
   // ---- Limits of depth. quad_reject wants a quad's corners for two clocks: two of it in turn -------------------------------
@@ -74,7 +74,7 @@ module replay_depth (
 
     assign {znear, zfar, low, high} = (turn == 1'(g)) ? late_corners : kept_corners;
 
-    quad_reject u_reject (
+    quadrille_quad_reject u_reject (
         .clk_i,
         .depth_on_i(1'b1),
         .znear_i(znear),
@@ -106,13 +106,13 @@ module replay_depth (
   assign {depth_on, attributes, early_hull} = late_state;
   assign {base_attr, base_depth} = late_base;
 
-  delay_line #(.WIDTH(1), .DEPTH(1)) u_hull (.clk_i, .data_i(early_hull), .data_o(hull));
+  quadrille_delay_line #(.WIDTH(1), .DEPTH(1)) u_hull (.clk_i, .data_i(early_hull), .data_o(hull));
 
   logic [ID+2*V:0] identity;  // quad, x, y, front
   logic [6:0] class_flags;
   logic unused;
 
-  fragment_output u_output (
+  quadrille_fragment_output u_output (
       .clk_i,
       .rst_ni,
       .depth_on_i(depth_on),

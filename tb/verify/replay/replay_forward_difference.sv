@@ -16,12 +16,12 @@ module replay_forward_difference (
   logic [2*(TILE_LOG2/2+1)-1:0] row_digits, dx_digits;
   logic [2*(TILE_LOG2+1)-1:0] norm_digits;
 
-  radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
+  quadrille_radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
       .number_i(row_i),
       .digits_o(row_digits)
   );
 
-  offset_digits u_offset (
+  quadrille_offset_digits u_offset (
       .clk_i,
       .row_i,
       .dx_i,
@@ -37,7 +37,7 @@ module replay_forward_difference (
     logic [GRAD-1:0] gx;
     logic unused;
 
-    forward_difference_row #(
+    quadrille_forward_difference_row #(
         .VALUE_BITS(VAL),
         .GRAD_BITS(GRAD)
     ) u_row (
@@ -52,7 +52,7 @@ module replay_forward_difference (
         .q_o(unused)
     );
 
-    forward_difference_column #(
+    quadrille_forward_difference_column #(
         .VALUE_BITS(VAL),
         .GRAD_BITS(GRAD),
         .QUADRATIC(1'b0)
@@ -72,7 +72,7 @@ module replay_forward_difference (
     logic [QGRAD-1:0] gx;
     logic [QCURV-1:0] q;
 
-    forward_difference_row #(
+    quadrille_forward_difference_row #(
         .VALUE_BITS(QVAL),
         .GRAD_BITS(QGRAD),
         .CURV_BITS(QCURV)
@@ -88,7 +88,7 @@ module replay_forward_difference (
         .q_o(q)
     );
 
-    forward_difference_column #(
+    quadrille_forward_difference_column #(
         .VALUE_BITS(QVAL),
         .GRAD_BITS(QGRAD),
         .CURV_BITS(QCURV)
@@ -108,7 +108,7 @@ module replay_forward_difference (
   logic homogeneous;
   logic [6*LENGTH2-1:0] length2;
 
-  delay_line #(
+  quadrille_delay_line #(
       .WIDTH(1 + 6 * LENGTH2),
       .DEPTH(FORWARD + 1)
   ) u_quad (
@@ -117,7 +117,7 @@ module replay_forward_difference (
       .data_o({homogeneous, length2})
   );
 
-  delay_line #(.WIDTH(6 * QVAL), .DEPTH(1)) u_exact (
+  quadrille_delay_line #(.WIDTH(6 * QVAL), .DEPTH(1)) u_exact (
       .clk_i,
       .data_i(quadratic[6*QVAL-1:0]),
       .data_o(exact)
@@ -126,7 +126,7 @@ module replay_forward_difference (
   for (genvar g = 0; g < 6; g++) begin : gen_d
     localparam int FIRST = 6 + {30'd0, quadrille_pkg::pair_first(4'(g))};
     localparam int SECOND = 6 + {30'd0, quadrille_pkg::pair_second(4'(g))};
-    law_of_cosines u_law (
+    quadrille_law_of_cosines u_law (
         .clk_i,
         .homogeneous_i(homogeneous),
         .exact_i(exact[g*QVAL+:QVAL]),
@@ -137,7 +137,7 @@ module replay_forward_difference (
     );
   end
 
-  delay_line #(
+  quadrille_delay_line #(
       .WIDTH(6 * VAL + 4 * QVAL),
       .DEPTH(LAW)
   ) u_beside (

@@ -5,7 +5,7 @@ module replay_interpolation (
   `include "replay_fields.svh"
 
   // sets: 0 k_eff, 1 W, 2 Z, 3.. attributes
-  interpolate u_interpolate (
+  quadrille_interpolate u_interpolate (
       .term_neg_i({b_neg_i, z_neg_i, w_neg_i, k_neg_i}),
       .term_exp_i({b_exp_i, z_exp_i, w_exp_i, k_exp_i}),
       .term_sig_i({b_sig_i, z_sig_i, w_sig_i, k_sig_i}),

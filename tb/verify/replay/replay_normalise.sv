@@ -15,7 +15,7 @@ module replay_normalise (
   assign unused = ^{r2_neg, corner, class_rest};
 
   for (genvar g = 0; g < 6; g++) begin : gen_norm
-    normalise #(
+    quadrille_normalise #(
         .WIDTH(VAL),
         .BIAS(-quadrille_pkg::QDROP)
     ) u_a (
@@ -27,7 +27,7 @@ module replay_normalise (
         .sig_o(a_sig_o[g*S+:S])
     );
 
-    normalise #(.WIDTH(QVAL)) u_d (
+    quadrille_normalise #(.WIDTH(QVAL)) u_d (
         .clk_i,
         .active_i(1'b1),
         .value_i(d_i[g*QVAL+:QVAL]),
@@ -38,7 +38,7 @@ module replay_normalise (
   end
 
   for (genvar g = 0; g < 4; g++) begin : gen_norm_r2
-    normalise #(
+    quadrille_normalise #(
         .WIDTH(QVAL),
         .CLAMP(1'b1)
     ) u_r2 (
@@ -51,7 +51,7 @@ module replay_normalise (
     );
   end
 
-  singular_class u_class (
+  quadrille_singular_class u_class (
       .active_i(1'b1),
       .corner_o(corner),
       .a_i(a_i[0+:4*VAL]),

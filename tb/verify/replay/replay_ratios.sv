@@ -9,12 +9,12 @@ module replay_ratios (
   logic [4*E-1:0] late_root_exp;
   logic [4*S-1:0] late_root_sig;
 
-  delay_line #(.WIDTH(4 * (E + S)), .DEPTH(quadrille_pkg::SQRT_STAGES)) u_root (.clk_i, .data_i({root_exp_i, root_sig_i}), .data_o({late_root_exp, late_root_sig}));
+  quadrille_delay_line #(.WIDTH(4 * (E + S)), .DEPTH(quadrille_pkg::SQRT_STAGES)) u_root (.clk_i, .data_i({root_exp_i, root_sig_i}), .data_o({late_root_exp, late_root_sig}));
 
   logic unused;
   assign unused = ^d_neg_i;  // |D|
 
-  mean_value_ratios u_ratios (.root_exp_i(late_root_exp), .root_sig_i(late_root_sig), .*);
+  quadrille_mean_value_ratios u_ratios (.root_exp_i(late_root_exp), .root_sig_i(late_root_sig), .*);
 
   replay_valid #(.LATENCY(quadrille_pkg::RATIO_STAGE - quadrille_pkg::NORM_STAGE)) u_valid (.*);
 endmodule

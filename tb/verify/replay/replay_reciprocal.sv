@@ -4,7 +4,7 @@ module replay_reciprocal (
 );
   `include "replay_fields.svh"
 
-  reciprocal u_reciprocal (.*);
+  quadrille_reciprocal u_reciprocal (.*);
 
   replay_valid #(.LATENCY(quadrille_pkg::RECIPROCAL_STAGES)) u_valid (.*);
 endmodule

@@ -66,7 +66,7 @@ module replay_setup (
   logic count_line, count_job, count_busy;  // of performance_counters
   logic [V:0] offset_x, offset_y;
 
-  vertex_products u_products (
+  quadrille_vertex_products u_products (
       .clk_i,
       .tile_valid_i(1'b0),
       .tile_kind_i((PAIRS * 3)'(0)),
@@ -96,7 +96,7 @@ module replay_setup (
       .result1_o(result1)
   );
 
-  quad_setup u_setup (
+  quadrille_quad_setup u_setup (
       .wait_i(1'b0),
       .kind_o(job_kind),
       .function_o(job_function),

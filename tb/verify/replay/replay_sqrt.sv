@@ -7,7 +7,7 @@ module replay_sqrt (
   localparam int E = quadrille_pkg::EXP_BITS;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sqrt
-    sqrt u_sqrt (
+    quadrille_sqrt u_sqrt (
         .clk_i,
         .exp_i(exp_i[g*E+:E]),
         .sig_i(sig_i[g*S+:S]),

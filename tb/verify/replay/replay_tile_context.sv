@@ -53,7 +53,7 @@ module replay_tile_context (
   localparam int APART = PAIRS * quadrille_pkg::RISE_BITS;
   logic [2*APART-1:0] apart;
 
-  vertex_products u_products (
+  quadrille_vertex_products u_products (
       .clk_i,
       .tile_valid_i(job_valid),
       .tile_kind_i(job_kind),
@@ -83,7 +83,7 @@ module replay_tile_context (
       .result1_o(result1)
   );
 
-  tile_context u_context (
+  quadrille_tile_context u_context (
       .take_i(take),
       .homogeneous_o(quad_homogeneous),
       .push_i(push),

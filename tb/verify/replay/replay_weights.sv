@@ -24,7 +24,7 @@ module replay_weights (
     assign r2[g*QVAL+:QVAL] = QVAL'(!corner_i[g]);
   end
 
-  singular_class u_class (
+  quadrille_singular_class u_class (
       .clk_i,
       .active_i(1'b1),
       .a_i(a),
@@ -46,19 +46,19 @@ module replay_weights (
   logic [4*S-1:0] k_sig, override_k_sig;
   logic unused, count_area;
 
-  delay_line #(.WIDTH(CLASS), .DEPTH(TO_RATIO - quadrille_pkg::NORMALISE_STAGES)) u_class_ratio (
+  quadrille_delay_line #(.WIDTH(CLASS), .DEPTH(TO_RATIO - quadrille_pkg::NORMALISE_STAGES)) u_class_ratio (
       .clk_i, .data_i(early_class), .data_o(ratio_class));
-  delay_line #(.WIDTH(12 * (E + S)), .DEPTH(TO_RATIO)) u_ratio (
+  quadrille_delay_line #(.WIDTH(12 * (E + S)), .DEPTH(TO_RATIO)) u_ratio (
       .clk_i, .data_i({u_exp_i, u_sig_i, v_exp_i, v_sig_i}), .data_o({u_exp, u_sig, v_exp, v_sig}));
-  delay_line #(.WIDTH(6), .DEPTH(TO_RATIO)) u_d_neg (.clk_i, .data_i(d_negative_i), .data_o(d_neg));
-  delay_line #(.WIDTH(K), .DEPTH(TO_RATIO)) u_k (
+  quadrille_delay_line #(.WIDTH(6), .DEPTH(TO_RATIO)) u_d_neg (.clk_i, .data_i(d_negative_i), .data_o(d_neg));
+  quadrille_delay_line #(.WIDTH(K), .DEPTH(TO_RATIO)) u_k (
       .clk_i, .data_i({k_neg_i, k_exp_i, k_sig_i}), .data_o({k_neg, k_exp, k_sig}));
-  delay_line #(.WIDTH(K), .DEPTH(TO_OVERRIDE)) u_override_k (
+  quadrille_delay_line #(.WIDTH(K), .DEPTH(TO_OVERRIDE)) u_override_k (
       .clk_i, .data_i({k_neg, k_exp, k_sig}), .data_o({override_k_neg, override_k_exp, override_k_sig}));
 
   assign unused = ^{override_k_neg, count_area};  // overrides take the magnitude
 
-  mean_value_weights u_weights (
+  quadrille_mean_value_weights u_weights (
       .clk_i,
       .root_exp_i,
       .root_sig_i,
