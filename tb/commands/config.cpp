@@ -215,10 +215,10 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
                          ->check(CLI::IsMember({"ports", "probes", "sv"}))
                          ->group(output_group);
   auto* markdown = command->add_flag("--markdown", options->markdown, "Print Markdown tables")->group(output_group);
-  auto* toml = command->add_flag("--toml", options->toml, "Print a file for --config")
-                   ->excludes(markdown)
-                   ->excludes(boundaries)
-                   ->group(output_group);
+  command->add_flag("--toml", options->toml, "Print a file for --config")
+      ->excludes(markdown)
+      ->excludes(boundaries)
+      ->group(output_group);
   auto* list = command->add_flag("--list", options->list, "List the named configurations")->group(output_group);
   for (CLI::Option* other : command->get_options())
     if (other != list && other->get_name() != "--help") list->excludes(other);
