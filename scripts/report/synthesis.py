@@ -102,7 +102,8 @@ class Machine:
             raise InputError(f"no SystemVerilog in {rtl}")
         self.units = {unit_name(os.path.splitext(os.path.basename(name))[0]) for name in files if not name.endswith("_pkg.sv")}
         quoted = " ".join(f'"{name}"' for name in [files[0], tables, *files[1:]])
-        self.read = f"read_verilog -sv -DSYNTHESIS=1 -I \"{os.path.join(rtl, 'include')}\" {' '.join(defines)} {quoted}\n"
+        os.symlink(os.path.join(rtl, "include"), os.path.join(work, "include"))  # Yosys takes no quotes around a folder of -I
+        self.read = f"read_verilog -sv -DSYNTHESIS=1 -I include {' '.join(defines)} {quoted}\n"
 
     def _make_tables(self, args):
         path = os.path.join(self.work, "quadrille_tables_pkg.sv")
