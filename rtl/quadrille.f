@@ -54,6 +54,7 @@ quadrille_row_functions.sv
 quadrille_scissor_separation.sv
 quadrille_setup_pair.sv
 quadrille_shift_to_top.sv
+quadrille_significand_product.sv
 quadrille_singular_class.sv
 quadrille_small_multiply.sv
 quadrille_sqrt.sv

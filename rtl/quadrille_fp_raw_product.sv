@@ -16,9 +16,17 @@ module quadrille_fp_raw_product #(
     output logic [E-1:0] exp_o,
     output logic [2*S-1:0] prod_o
 );
+  logic [2*S-1:0] product;
+
+  quadrille_significand_product u_product (
+      .a_i(a_sig_i),
+      .b_i(b_sig_i),
+      .product_o(product)
+  );
+
   always_ff @(posedge clk_i) begin
     neg_o <= neg_i;
     exp_o <= a_exp_i + b_exp_i;
-    prod_o <= (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
+    prod_o <= product;
   end
 endmodule

@@ -19,10 +19,18 @@ module quadrille_fp_term #(
     output logic neg_o,
     output logic [TERM-1:0] term_o
 );
+  logic [2*S-1:0] product;
+
+  quadrille_significand_product u_product (
+      .a_i(a_sig_i),
+      .b_i(b_sig_i),
+      .product_o(product)
+  );
+
   assign rank_o = quadrille_pkg::exponent_rank(a_exp_i + b_exp_i, a_sig_i[S-1] && b_sig_i[S-1]);
 
   always_ff @(posedge clk_i) begin
     neg_o <= neg_i;
-    term_o <= quadrille_pkg::product_term((2 * S)'(a_sig_i) * (2 * S)'(b_sig_i));
+    term_o <= quadrille_pkg::product_term(product);
   end
 endmodule

@@ -27,7 +27,10 @@ std::string read_commands(const Config& config, const fs::path& directory) {
   out << tables_package(config);
   out.close();
   if (!out) throw SystemError("cannot write " + tables.string());
-  std::string command = "read_verilog -sv -DSYNTHESIS=1 -I \"" + rtl_includes(rtl_directory()).string() + "\"";
+  const fs::path include = directory / "include";  // Yosys takes no quotes around a folder of -I
+  fs::remove(include);
+  fs::create_directory_symlink(fs::absolute(rtl_includes(rtl_directory())), include);
+  std::string command = "read_verilog -sv -DSYNTHESIS=1 -I include";
   for (const std::string& define : key_defines(config)) command += " " + define;
   command += " \"" + tables.string() + "\"";
   for (const fs::path& source : rtl_sources(rtl_directory())) command += " \"" + fs::absolute(source).string() + "\"";
