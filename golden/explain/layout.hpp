@@ -7,8 +7,10 @@
 
 namespace quadrille::explain {
 
-/// "-123 / 2^30", "183250 · 2^-9", "5".
+/// "-123 / 2^30", "183250 · 2^-9", "5", "0b11110000" of masks.
 std::string stored_text(const Number& number, const std::vector<Field>& fields);
+/// A value with its unit; empty of an integer, which stands for itself.
+std::string value_text(const Number& number);
 /// With up to ten significant digits.
 std::string real_text(double v);
 /// Of the columns exact, ulp and bound; empty where there is none.

@@ -82,6 +82,17 @@ std::string joined(const std::vector<std::string>& list, const char* between) {
   return out;
 }
 
+/// A bit for each pixel of a row, or for each clause of expression (12), or for each flag.
+bool is_mask(const Number& n) {
+  return n.name == "mask" || n.name == "visible" || n.name == "flags" ||
+         (n.stored.front().width > 1 && (n.name == "front" || n.name == "tie"));
+}
+std::string binary(const Field& field) {
+  std::string text = "0b";
+  for (int bit = field.width; bit-- > 0;) text += (field.value >> bit & 1) != 0 ? '1' : '0';
+  return text;
+}
+
 std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
   std::string out = std::to_string(place) + ". " + stage.title + "  [" + stage.name + "]";
   if (stage.compared != Stage::Compared::no)
@@ -100,11 +111,7 @@ std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
       ++left_out;
       continue;
     }
-    const bool integer = n.format == Number::Format::integer;
-    std::vector<std::string> row{n.name, stored_text(n, n.stored),
-                                 n.unused  ? "not needed"
-                                 : integer ? ""
-                                           : real_text(n.value) + (n.unit.empty() ? "" : " " + n.unit)};
+    std::vector<std::string> row{n.name, stored_text(n, n.stored), value_text(n)};
     if (beside && n.exact) row.insert(row.end(), {exact_text(n), ulp_text(n), bound_text(n)});
     table.add(std::move(row));
     if (n.differs) table.add({"  RTL", stored_text(n, n.other)});
@@ -119,12 +126,18 @@ std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
 std::string real_text(double v) { return format("%.10g", v); }
 
 std::string stored_text(const Number& n, const std::vector<Field>& fields) {
-  if (n.format == Number::Format::integer) return fields.front().text();
+  if (n.format == Number::Format::integer) return is_mask(n) ? binary(fields.front()) : fields.front().text();
   if (n.format == Number::Format::fixed) return fields.front().text() + " / 2^" + std::to_string(n.fraction_bits);
   const Field &sig = fields.back(), &exp = fields[fields.size() - 2];
   if (sig.value == 0) return "0";
   const std::string sign = fields.size() == 3 && fields.front().value != 0 ? "-" : "";
   return sign + sig.text() + " · 2^" + std::to_string(static_cast<std::int64_t>(exp.value) - n.fraction_bits);
+}
+
+std::string value_text(const Number& n) {
+  if (n.unused) return "not needed";
+  if (n.format == Number::Format::integer) return "";
+  return real_text(n.value) + (n.unit.empty() ? "" : " " + n.unit);
 }
 
 std::string exact_text(const Number& n) { return n.exact ? real_text(*n.exact) : ""; }
@@ -179,6 +192,16 @@ std::string to_text(const Explanation& e, bool whole) {
   return out;
 }
 
+namespace {
+
+std::string near_text(const Explanation& e, bool nearest) {
+  if (!nearest) return ": ";
+  return std::isfinite(e.missed_by) ? ", the nearest (its outline is " + format("%.3g", e.missed_by) + " px away): "
+                                    : ", for one: ";
+}
+
+}  // namespace
+
 std::string summary(std::span<const Explanation> all) {
   std::map<Outcome, std::size_t> count;
   const Explanation* nearest = nullptr;
@@ -195,7 +218,7 @@ std::string summary(std::span<const Explanation> all) {
       if (e.outcome == outcome && (outcome != Outcome::outside || &e == nearest)) {
         if (outcome == Outcome::left_out && e.reject == QuadReject::empty) continue;
         if (++shown > 3) break;
-        out += "    quad " + std::to_string(e.quad) + (&e == nearest ? ", the nearest: " : ": ") + e.why + "\n";
+        out += "    quad " + std::to_string(e.quad) + near_text(e, &e == nearest) + e.why + "\n";
       }
   }
   return out;
