@@ -47,7 +47,10 @@ TEST_F(CliExplain, SameNumbersAsFragments) {
         "--scene sphere --size 96x96 --pixel 40,41 --set significand_bits=12", "--scene bowtie --pixel 160,160",
         "--scene sphere --size 96x96 --pixel 40,41 --no-perspective --set attribute_slots=2",
         "--stress coplanar --count 40 --size 64x64 --pixel 30,31 --set tile_log2=2",
-        "--stress on_vertex --count 40 --size 64x64 --pixel 30,31 --cull back"}) {
+        "--stress on_vertex --count 40 --size 64x64 --pixel 37,33",
+        "--stress on_vertex --count 40 --size 64x64 --pixel 41,36",
+        "--stress on_edge --count 40 --size 64x64 --pixel 9,51 --cull none",
+        "--corner two_edge --no-perspective --size 64x64 --pixel 15,11"}) {
     SCOPED_TRACE(input);
     const Outcome fragments = run("fragments " + input + " --errors --out -");
     ASSERT_EQ(fragments.status, 0) << fragments.err;
@@ -65,10 +68,12 @@ TEST_F(CliExplain, SameNumbersAsFragments) {
     }
     ASSERT_FALSE(rows.empty());
     std::size_t drawn = 0;
-    for (const json& e : explained(input)["explanations"]) {
+    const json report = explained(input);
+    for (const json& e : report["explanations"]) {
       if (e["outcome"] != "drawn") continue;
       ++drawn;
       for (const auto& [value, cells] : rows.at(e["quad"])) {
+        if (cells[1] == "missing") continue;  // the engine truth has the pixel behind the eye, within its tolerance
         const bool weight = value[0] == 'l';
         const std::string name = weight ? "λ'" + value.substr(1) : value;
         if (value[0] == 'a' && !e["stages"].empty() && value > "a1" && input.find("slots=2") != std::string::npos)
@@ -76,11 +81,16 @@ TEST_F(CliExplain, SameNumbersAsFragments) {
         const json& n = number(e, weight ? "lambda" : "fragment", name);
         ASSERT_FALSE(n.is_null());
         EXPECT_EQ(n["value"], std::stod(cells[0])) << value;
+        ++compared;
+        // Clamped in the explanation alone.
+        if (value[0] == 'a' && e["flags"].dump().find("saturated") != std::string::npos) continue;
         EXPECT_NEAR(n["exact"].get<double>(), std::stod(cells[1]), 1e-13) << value;
-        if (!cells[2].empty()) {
+        // The weights' bound does not hold where sums of M W may cancel.
+        const bool may_cancel =
+            weight && e["homogeneous"] == true && input.find("--no-perspective") != std::string::npos;
+        if (!cells[2].empty() && !may_cancel) {
           EXPECT_NEAR(n["of_bound"].get<double>(), std::stod(cells[2]), 1e-6) << value;
         }
-        ++compared;
       }
     }
     EXPECT_EQ(drawn, rows.size());
@@ -127,7 +137,7 @@ TEST_F(CliExplain, RefusesBadInput) {
   refuses("--scene bowtie", "--pixel X,Y is missing");
   refuses("--pixel 1,1", "one input is needed");
   refuses("--scene bowtie --pixel 512,0", "expected X,Y inside the viewport");
-  refuses("--scene bowtie --pixel 1;1", "expected X,Y");
+  refuses("--scene bowtie --pixel 1:1", "expected X,Y");
   refuses("--quads q.quads --pixel 1,1 --quad 1", "has 1 quads, counted from 0");
   refuses("--quads zero.quads --pixel 1,1", "zero.quads:2");
   refuses("--scene bowtie --pixel 1,1 --engine truth", "expected model or rtl");
@@ -139,10 +149,12 @@ TEST_F(CliExplain, RefusesBadInput) {
 }
 
 TEST_F(CliExplainRtl, AgreesWithTheModelAtEveryBoundary) {
-  for (const std::string input : {"--scene bowtie --pixel 160,160", "--scene fig8_behind --pixel 256,300",
-                                  "--stress on_vertex --count 40 --size 64x64 --pixel 30,31"}) {
+  for (const std::string input :
+       {"--scene bowtie --pixel 160,160", "--scene fig8_behind --pixel 256,300",
+        "--corner two_corner --size 64x64 --pixel 10,12", "--stress on_vertex --count 40 --size 64x64 --pixel 37,33"}) {
     std::size_t covering = 0;
-    for (const json& e : explained(input + " --engine rtl")["explanations"]) {
+    const json report = explained(input + " --engine rtl");
+    for (const json& e : report["explanations"]) {
       if (e["outcome"] != "drawn") continue;
       ++covering;
       for (const json& stage : e["stages"]) {
