@@ -241,6 +241,12 @@ TEST(Explain, NoBoundWithDroppedBits) {
   const WindowQuad quad = box(10.3, 10.7, 31.1, 31.9);
   const Explanation e = explain(config, state64(), std::span(&quad, 1), 20, 20).front();
   EXPECT_NE(number(e, "diff", "R²0").error_ulp, 0);
+  // The stored units have an odd power of two; px are px.
+  const Explanation whole = of(quad, 20, 20);
+  for (const auto& [stage, name] : {std::pair{"sqrt", "r0"}, {"ratio", "u01"}, {"norm", "A12"}, {"norm", "R²3"}}) {
+    EXPECT_NEAR(*number(e, stage, name).exact, *number(whole, stage, name).exact, 1e-12) << name;
+    EXPECT_NEAR(number(e, stage, name).value, *number(e, stage, name).exact, 0.2) << name;
+  }
   EXPECT_FALSE(number(e, "diff", "R²0").of_bound);
   EXPECT_EQ(number(e, "diff", "A01").of_bound, 0);
   EXPECT_FALSE(number(e, "lambda", "λ'1").of_bound);

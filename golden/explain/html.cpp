@@ -74,8 +74,8 @@ std::string list_of(const std::vector<std::string>& items) {
   return out + "</ul>\n";
 }
 
-/// `beside`: with the columns of exact numbers.
-std::string number_row(const Number& n, bool beside) {
+/// `beside`: with the columns of exact numbers; `given`: with that of corners as given.
+std::string number_row(const Number& n, bool beside, bool given) {
   std::string fields;
   for (const Field& field : n.stored) fields += (fields.empty() ? "" : ", ") + field.label() + " = " + field.text();
   const std::string about = escaped(n.meaning + (n.meaning.empty() ? "" : ". ") + fields);
@@ -90,6 +90,7 @@ std::string number_row(const Number& n, bool beside) {
             "\" style=\"--part: " + fixed(100 * std::min(*n.of_bound, 1.0), 1) + "%\"";
     out += cell(bound_text(n), "of bound", bar);
   }
+  if (given) out += cell(n.given ? real_text(*n.given) : "", "unsnapped");
   out += "</tr>\n";
   if (n.differs)
     out += "<tr><td class=\"bad\">" + escaped(n.name) + " by the RTL</td>" +
@@ -100,6 +101,7 @@ std::string number_row(const Number& n, bool beside) {
 std::string stage_section(const Stage& s, std::size_t place) {
   double worst = 0;
   bool any = false;  // a number has an exact one beside it
+  const bool given = std::ranges::any_of(s.numbers, [](const Number& n) { return n.given.has_value(); });
   const bool differs = s.compared == Stage::Compared::differs;
   for (const Number& n : s.numbers)
     if (n.exact) any = true, worst = std::max(worst, std::fabs(n.error_ulp));
@@ -120,8 +122,9 @@ std::string stage_section(const Stage& s, std::size_t place) {
   out += list_of(s.remarks);
   out += "<table><thead><tr><th></th><th>stored</th><th>value</th>";
   if (any) out += "<th>exact</th><th>error, ulp</th><th>of bound</th>";
+  if (given) out += "<th>unsnapped</th>";
   out += "</tr></thead>\n<tbody>\n";
-  for (const Number& n : s.numbers) out += number_row(n, any);
+  for (const Number& n : s.numbers) out += number_row(n, any, given);
   return out + "</tbody></table></details>\n";
 }
 
@@ -173,7 +176,7 @@ std::string drawing(const Explanation& e) {
 std::string quad_section(const Explanation& e, bool first) {
   std::string out = std::string("<h2") + (first ? " class=\"first\"" : "") + ">" + escaped(headline(e)) +
                     "</h2>\n<div class=\"quad\"><div>\n";
-  out += "<p>" + escaped(e.why) + ".</p>\n";
+  out += "<p>" + escaped(sentence(e.why)) + "</p>\n";
   if (e.outcome == Outcome::refused) return out + "</div></div>\n";
   if (e.covered()) {
     out += "<p>The pixel centre is " + e.place + ".";
@@ -184,7 +187,9 @@ std::string quad_section(const Explanation& e, bool first) {
     }
     out += "</p>\n";
   }
-  out += list_of(e.remarks);
+  std::vector<std::string> remarks;
+  for (const std::string& remark : e.remarks) remarks.push_back(sentence(remark));
+  out += list_of(remarks);
   out +=
       "<table><thead><tr><th class=\"left\">edge function</th><th>at the pixel, px²</th><th>px from its line</th><th "
       "class=\"left\">counts as</th></tr></thead>\n<tbody>\n";
@@ -211,9 +216,11 @@ std::string to_html(std::span<const Explanation> explanations, const std::string
   out += style;
   out += "</style></head><body>\n<h1>" + escaped(title) + "</h1>\n";
   if (!command.empty()) out += "<p><code>" + escaped(command) + "</code></p>\n";
+  out += "<p class=\"soft\">" + escaped(legend) + "</p>\n";
   std::size_t shown = 0;
-  for (const Explanation& e : explanations)
-    if (e.covered() || explanations.size() == 1) out += quad_section(e, shown++ == 0);
+  for (const bool seen : {true, false})
+    for (const Explanation& e : explanations)
+      if (e.seen == seen && (e.covered() || explanations.size() == 1)) out += quad_section(e, shown++ == 0);
   if (shown == 0) out += "<p>No quad covers this pixel.</p>\n";
   if (explanations.size() > 1) {
     const std::string others = summary(explanations);
@@ -221,8 +228,7 @@ std::string to_html(std::span<const Explanation> explanations, const std::string
       out += "<h2>" + std::string(shown == 0 ? "Why not" : "The other quads") + "</h2>\n<div class=\"formula\">" +
              escaped(others) + "</div>\n";
   }
-  out += "<p class=\"soft\">" + escaped(legend) + "</p>\n</body></html>\n";
-  return out;
+  return out + "</body></html>\n";
 }
 
 }  // namespace quadrille::explain

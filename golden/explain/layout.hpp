@@ -17,11 +17,13 @@ std::string real_text(double v);
 std::string exact_text(const Number& number);
 std::string ulp_text(const Number& number);
 std::string bound_text(const Number& number);
-/// "quad 3: drawn, and seen: nothing is nearer".
+/// "quad 3: drawn".
 std::string headline(const Explanation& explanation);
+/// The rule as a sentence.
+std::string sentence(const std::string& why);
 /// A coefficient of a function, which only some readers want.
 bool is_coefficient(const Stage& stage, const Number& number);
-/// What "exact", "ulp" and "bound" say.
+/// What the columns say.
 extern const char* const legend;
 
 }  // namespace quadrille::explain

@@ -11,7 +11,9 @@ namespace quadrille::explain {
 const char* const legend =
     "exact: the same formula in 113 bits on the snapped corners. ulp: the error, value - exact, in last stored "
     "places.\n"
-    "bound: |error| as a part of what is proved or specified; 'none' means no error is possible.";
+    "bound: |error| as a part of what is proved or specified; 'none' means no error is possible. unsnapped: exact, of "
+    "the\n"
+    "corners as given, before they became integers.";
 
 namespace {
 
@@ -103,8 +105,11 @@ std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
   for (const std::string& remark : stage.remarks) out += wrapped("   - " + remark, 5);
   Table table;
   const bool beside = std::ranges::any_of(stage.numbers, [](const Number& n) { return n.exact.has_value(); });
-  table.add(beside ? std::vector<std::string>{"", "stored", "value", "exact", "ulp", "bound"}
-                   : std::vector<std::string>{"", "stored", "value"});
+  const bool given = std::ranges::any_of(stage.numbers, [](const Number& n) { return n.given.has_value(); });
+  std::vector<std::string> head{"", "stored", "value"};
+  if (beside) head.insert(head.end(), {"exact", "ulp", "bound"});
+  if (given) head.emplace_back("unsnapped");
+  table.add(std::move(head));
   std::size_t left_out = 0;
   for (const Number& n : stage.numbers) {
     if (!whole && !n.differs && is_coefficient(stage, n)) {
@@ -113,6 +118,7 @@ std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
     }
     std::vector<std::string> row{n.name, stored_text(n, n.stored), value_text(n)};
     if (beside && n.exact) row.insert(row.end(), {exact_text(n), ulp_text(n), bound_text(n)});
+    if (n.given) row.push_back(real_text(*n.given));
     table.add(std::move(row));
     if (n.differs) table.add({"  RTL", stored_text(n, n.other)});
   }
@@ -154,6 +160,12 @@ std::string bound_text(const Number& n) {
   return format("%.3f", *n.of_bound);
 }
 
+std::string sentence(const std::string& why) {
+  std::string text = why;
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text + ".";
+}
+
 std::string headline(const Explanation& e) {
   std::string text = "quad " + std::to_string(e.quad) + ": ";
   if (e.outcome == Outcome::drawn) return text + (e.seen ? "drawn" : "drawn, but another quad is in front of it");
@@ -168,14 +180,14 @@ bool is_coefficient(const Stage& stage, const Number& n) {
 
 std::string to_text(const Explanation& e, bool whole) {
   std::string out = "Pixel (" + std::to_string(e.x) + ", " + std::to_string(e.y) + "), " + headline(e) + "\n" +
-                    wrapped("  " + e.why, 4);
+                    wrapped("  " + sentence(e.why), 4);
   if (e.outcome == Outcome::refused) return out;
   if (e.covered()) {
     out += "  The pixel centre is " + e.place + ".";
     if (!e.flags.empty()) out += " Flags: " + joined(e.flags, ", ") + ".";
     out += "\n";
   }
-  for (const std::string& remark : e.remarks) out += wrapped("  " + remark, 4);
+  for (const std::string& remark : e.remarks) out += wrapped("  " + sentence(remark), 4);
   Table edges;
   edges.add({"edge function", "at the pixel", "centre is", "counts as"});
   for (const Edge& edge : e.edges)

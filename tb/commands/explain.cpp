@@ -114,8 +114,9 @@ int explain_pixel(const ExplainOptions& options, const Invocation& invocation) {
     if (static_cast<std::size_t>(input.attributes) > static_cast<std::size_t>(state.attributes))
       std::fprintf(text, "The first %d of %d attributes: the machine draws as many at a time (attribute_slots).\n\n",
                    state.attributes, input.attributes);
-    for (const Explanation& e : all)
-      if (shown(e)) std::fprintf(text, "%s\n", explain::to_text(e, options.common.verbose).c_str());
+    for (const bool seen : {true, false})
+      for (const Explanation& e : all)
+        if (e.seen == seen && shown(e)) std::fprintf(text, "%s\n", explain::to_text(e, options.common.verbose).c_str());
     if (all.size() > 1) {
       if (const std::string others = explain::summary(all); !others.empty())
         std::fprintf(text, "%s:\n%s", covering == 0 ? "No quad covers the pixel" : "The other quads", others.c_str());

@@ -121,7 +121,7 @@ TEST_F(CliExplain, ReadsMeshesAndWritesAPage) {
   write("narrow.toml", "significand_bits = 12\n");
   const Outcome outcome = run("explain --mesh m.obj --config narrow.toml --size 64x64 --pixel 32,32 --html p.html");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("Their leading 12 bits"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("The leading 12 bits"), std::string::npos) << outcome.out;
   const std::string page = read(file("p.html"));
   EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0u);
   EXPECT_NE(page.find("Pixel (32, 32) of m.obj"), std::string::npos);
