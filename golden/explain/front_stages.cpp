@@ -224,7 +224,8 @@ Stage stamp_stage(const Subject& s) {
               {},
               {},
               {}};
-  stage.remarks.push_back("This pixel is bit " + std::to_string(dx) + " of each mask.");
+  stage.remarks.push_back("A mask has a bit for each pixel of the row, the first at the right end. This pixel is bit " +
+                          std::to_string(dx) + ".");
   const StampEntry stamp{false, 0, row, s.machine.row.mask, s.machine.row.front, s.machine.row.tie};
   for (Draft& d : drafts_of([&](auto& f) { visit(stamp, s.config(), f); })) {
     if (d.stem == "end_token" || d.stem == "tile_ptr") continue;

@@ -62,7 +62,7 @@ bool ExplainByRtl::compare(Explanation& e, const WindowQuad& quad) const {
       if (!record && !e.covered()) continue;
       explain::compare(stage, boundary_layout(*boundary, config), record ? &*record : nullptr);
     }
-    if (!e.covered() && watch.at(Boundary::diff)) e.remarks.emplace_back("The RTL covers this pixel.");
+    if (!e.covered() && watch.at(Boundary::diff)) e.remarks.emplace_back("the RTL covers this pixel");
   });
 
   const auto lambda = std::ranges::find(e.stages, "lambda", &Stage::name);

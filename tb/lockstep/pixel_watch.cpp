@@ -73,8 +73,12 @@ void PixelWatch::look(const DeviceSample& sample) {
 void PixelWatch::look_at_front(const DeviceSample& sample) {
   if (auto setup = record_of(Boundary::setup, 0, sample)) record_[index_of(Boundary::setup)] = std::move(setup);
   if (auto tile = record_of(Boundary::tile, 0, sample)) {
+    // A tile of a homogeneous quad takes an entry for each part of its functions.
+    const std::optional<Record>& setup = record_[index_of(Boundary::setup)];
+    const bool parts =
+        field(Boundary::tile, *tile, "end_token") == 0 && setup && field(Boundary::setup, *setup, "homogeneous") != 0;
     ring_[ring_write_] = std::move(tile);
-    ring_write_ = (ring_write_ + 1) % ring_.size();
+    ring_write_ = (ring_write_ + (parts ? latency::homogeneous_parts : 1)) % ring_.size();
   }
   auto stamp = record_of(Boundary::stamp, 0, sample);
   if (!stamp || field(Boundary::stamp, *stamp, "end_token") != 0) return;
