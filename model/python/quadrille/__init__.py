@@ -22,7 +22,7 @@ from ._core import (
     UsageError,
     version as __version__,
 )
-from ._draw import draw, fragment_names, method, paper, port_value, snap, truth
+from ._draw import draw, fragment_names, method, paper, picture, port_value, snap, truth
 from ._inputs import (
     as_quads,
     corner,
@@ -65,6 +65,7 @@ __all__ = [
     "methods",
     "paper",
     "pick",
+    "picture",
     "port_value",
     "project",
     "save_quads",
