@@ -45,6 +45,7 @@ class Interruptible {
 void bind_config(nb::module_& m);
 void bind_input(nb::module_& m);
 void bind_draw(nb::module_& m);
+void bind_explain(nb::module_& m);
 void bind_machine(nb::module_& m);
 void bind_sweep(nb::module_& m);
 

@@ -1,8 +1,11 @@
 #include "model/python/fragment_records.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <new>
 
@@ -14,6 +17,16 @@ constexpr std::size_t quad_at = 0, x_at = 4, y_at = 6, front_at = 8, flags_at = 
 template <class T>
 void put(std::byte* at, T value) {
   std::memcpy(at, &value, sizeof value);
+}
+
+/// The first touch of each page costs more than drawing what fits on it.
+void ask_for_large_pages([[maybe_unused]] std::byte* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  constexpr std::uintptr_t page = 1 << 21;
+  const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
+  const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / page * page;
+  if (first < last) static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
+#endif
 }
 
 }  // namespace
@@ -57,13 +70,15 @@ std::size_t FragmentRecords::add_field(const std::string& name, const std::strin
 
 std::byte* FragmentRecords::extend(std::size_t count) {
   if (size_ + count > capacity_) {
-    // The C library moves large blocks by their pages' table.
-    const std::size_t capacity = std::max(size_ + count, 2 * capacity_);
+    // Pages that are never written cost nothing; growing costs as much as drawing.
+    constexpr std::size_t first_places = 1 << 21;
+    const std::size_t capacity = std::max({size_ + count, 2 * capacity_, first_places});
     auto* const larger = static_cast<std::byte*>(std::realloc(memory_.get(), capacity * bytes_));
     if (larger == nullptr) throw std::bad_alloc();
     static_cast<void>(memory_.release());
     memory_.reset(larger);
     capacity_ = capacity;
+    ask_for_large_pages(larger, capacity * bytes_);
   }
   std::byte* const at = memory_.get() + size_ * bytes_;
   size_ += count;
@@ -133,12 +148,20 @@ void FragmentRecords::add(const Fragment& fragment) {
 }
 
 FragmentRecords::Memory FragmentRecords::release() {
-  // What was reserved and not written is given back.
-  if (size_ != 0 && size_ != capacity_)
-    if (auto* const exact = static_cast<std::byte*>(std::realloc(memory_.get(), size_ * bytes_)); exact != nullptr) {
+  // What was reserved and not written is given back. A small block moves: one of few pages is no mapping of its own.
+  constexpr std::size_t small = 1 << 17;
+  const std::size_t bytes = size_ * bytes_;
+  if (bytes != 0 && bytes < small) {
+    auto* const moved = static_cast<std::byte*>(std::malloc(bytes));
+    if (moved == nullptr) throw std::bad_alloc();
+    std::memcpy(moved, memory_.get(), bytes);
+    memory_.reset(moved);
+  } else if (bytes != 0 && size_ != capacity_) {
+    if (auto* const exact = static_cast<std::byte*>(std::realloc(memory_.get(), bytes)); exact != nullptr) {
       static_cast<void>(memory_.release());
       memory_.reset(exact);
     }
+  }
   size_ = capacity_ = 0;
   return std::move(memory_);
 }

@@ -27,6 +27,7 @@ NB_MODULE(_core, m) {
   quadrille::python::bind_config(m);
   quadrille::python::bind_input(m);
   quadrille::python::bind_draw(m);
+  quadrille::python::bind_explain(m);
   quadrille::python::bind_machine(m);
   quadrille::python::bind_sweep(m);
 }

@@ -20,6 +20,7 @@
 #include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -40,13 +41,16 @@ struct FragmentsOptions {
 int fragments(const FragmentsOptions& options, const Invocation& invocation) {
   const Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
-  if (options.out.empty()) throw UsageError("--out F.csv is missing (- is standard output)");
+  if (options.out.empty()) throw UsageError("--out F.csv or F.npz is missing (- is CSV on standard output)");
   MethodEngineMaker make_method_engine;
   if (!options.method.empty()) {
     make_method_engine = invocation.method(options.method);
     if (options.errors) throw UsageError("--errors and --method conflict: the bound is the machine's");
     settings.snap = false;
   }
+  if (options.errors && has_ending(options.out, "npz"))
+    throw UsageError("--errors writes CSV; expected a name such as " +
+                     std::filesystem::path(options.out).replace_extension("csv").string());
   if (options.errors && !settings.snap) throw UsageError("--errors needs --snap on: the bound is for snapped quads");
   if (options.errors && settings.config.qdrop() != 0)
     throw UsageError("--errors: no bound with quadratic_frac_bits that drops bits of D and R²");
@@ -103,10 +107,12 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
     throw UsageError(describe(error, input));
   }
   if (options.errors)
-    golden::write_file(options.out, fragment_errors_csv(input.quads, input.attributes, settings, kept, truth),
+    golden::write_file(options.out, fragment_errors_csv(input.quads, input.attribute_names, settings, kept, truth),
                        golden::AtomicFile::Dash::standard_output);
+  else if (has_ending(options.out, "npz"))
+    golden::save_fragment_npz(options.out, rows, {input.attribute_names, settings.state.depth});
   else
-    golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
+    golden::save_fragment_csv(options.out, rows, {input.attribute_names, settings.state.depth});
 
   if (rows.empty() && !options.common.quiet)
     std::fprintf(stderr, "note: no fragments%s\n", pixel.x < 0 ? "" : (" at pixel " + options.pixel).c_str());
@@ -143,7 +149,9 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
 void add_fragments_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("fragments", "Write every fragment as a table, without depth test");
   end_help(*command,
-           "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,a0,... sorted by quad, y, x.\n"
+           "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,... sorted by quad, y, x. Attributes have their names: u,v, "
+           "nx,ny,nz, px,py,pz, red,green,blue; those of files and families are a0,a1,...\n"
+           "F.npz has an array of each column: numpy.load(\"F.npz\")[\"u\"].\n"
            "Columns with --errors, a row per value: quad,x,y,value,drawn,truth,error,of_bound. A value is l0 to l3, z "
            "or an attribute; of_bound is |error| / bound.\n"
            "With --json or --verbose the engines rtl and model also report performance counters.\n\n"
@@ -170,7 +178,7 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));
   command->add_option("--pixel", options->pixel, "Only this pixel")->type_name("X,Y");
-  writes_file(*command, command->add_option("--out", options->out, "The table; - is standard output"), "csv")
+  writes_one_of(*command, command->add_option("--out", options->out, "The table; - is standard output"), {"csv", "npz"})
       ->group(output_group);
   command->add_flag("--errors", options->errors, "Truth and error of each value, in units of its bound")
       ->group(output_group);

@@ -161,6 +161,8 @@ void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, 
   input.planes = planes_across(input.corners);
   input.attributes = golden::attribute_count(options.attributes);
   input.layout = layout_of(options.attributes);
+  const auto names = golden::attribute_names(options.attributes);
+  input.attribute_names.assign(names.begin(), names.end());
   input.lighting.to_eye = golden::direction_to_eye(camera);
   input.faces = mesh.faces.size();
   input.triangles = projection.triangles;
@@ -318,6 +320,8 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, cons
     load_stress(options, shade, state.width, state.height, seed, input);
   else
     load_corner(options, shade, state, config, seed, input);
+  for (auto j = static_cast<int>(input.attribute_names.size()); j < input.attributes; ++j)
+    input.attribute_names.push_back("a" + std::to_string(j));
   set_light(options, input.lighting);
   return input;
 }

@@ -15,6 +15,7 @@ from ._core import (
     Config,
     ConfigError,
     DrawStateError,
+    Explanation,
     InputError,
     Mesh,
     Quads,
@@ -22,7 +23,8 @@ from ._core import (
     UsageError,
     version as __version__,
 )
-from ._draw import draw, fragment_names, method, paper, port_value, snap, truth
+from ._draw import draw, fragment_names, method, paper, picture, port_value, snap, truth
+from ._explain import explain, explanation_page, explanation_stages
 from ._inputs import (
     as_quads,
     corner,
@@ -46,6 +48,7 @@ __all__ = [
     "Config",
     "ConfigError",
     "DrawStateError",
+    "Explanation",
     "InputError",
     "Machine",
     "Mesh",
@@ -58,6 +61,9 @@ __all__ = [
     "corners",
     "draw",
     "error_map",
+    "explain",
+    "explanation_page",
+    "explanation_stages",
     "fragment_names",
     "load_obj",
     "load_quads",
@@ -65,6 +71,7 @@ __all__ = [
     "methods",
     "paper",
     "pick",
+    "picture",
     "port_value",
     "project",
     "save_quads",

@@ -190,6 +190,28 @@ def fragment_names(fragments: npt.NDArray[np.void]) -> list[str]:
     return [name for name in fragments.dtype.names or () if name not in known and not name.endswith("_code")]
 
 
+def picture(
+    fragments: npt.NDArray[np.void],
+    fields: str | Sequence[str],
+    size: tuple[int, int] = (512, 512),
+    *,
+    background: float = np.nan,
+) -> npt.NDArray[np.float64]:
+    """Fields of the nearest fragment of each pixel: (height, width), or (height, width, n) of several fields.
+
+    Depth test LESS: of equal depths, and without depth, the first fragment stays.
+    """
+    width, height = size
+    position = np.arange(len(fragments))
+    depth = fragments["depth"] if "depth" in (fragments.dtype.names or ()) else np.zeros(len(fragments))
+    order = np.lexsort((position, depth))[::-1]  # farthest first: what is written last stays
+    several = [fields] if isinstance(fields, str) else list(fields)
+    image = np.full((height, width, len(several)), background)
+    for i, field in enumerate(several):
+        image[fragments["y"][order], fragments["x"][order], i] = fragments[field][order]
+    return image[:, :, 0] if isinstance(fields, str) else image
+
+
 def snap(
     quads: QuadsLike,
     attributes: npt.ArrayLike | None = None,
