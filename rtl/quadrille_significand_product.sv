@@ -45,41 +45,47 @@ module quadrille_significand_product #(
     if (LOW == 0) begin : gen_none
       assign product_o = nonzero ? {upper, block[R-1:0]} : '0;
     end else begin : gen_some
-      localparam int NUMBER = (LOW > 2) ? LOW : 2;  // the least that small_multiply takes; bits above LOW are 0
-      localparam int DIGITS = NUMBER / 2 + 1;
-      logic [2*DIGITS-1:0] a_digits, b_digits;
-      logic [R+NUMBER:0] a_strip;
-      logic [BLOCK+NUMBER:0] b_strip;
+      logic [R+LOW:0] a_strip;  // a' bl and al bh, signed: a carry that waits may be all of it
+      logic [BLOCK+LOW:0] b_strip;
       logic a_carry, b_carry;  // b_carry is one of 2^LOW
-      logic [R+LOW+1:0] strips;  // signed: without b_carry it may be negative
+      logic [R+LOW+1:0] strips;  // without b_carry
       logic [2*S-LOW-1:0] joined;  // from 2^LOW on
 
-      quadrille_radix4_digits #(.NUMBER_BITS(NUMBER)) u_a_digits (
-          .number_i(NUMBER'(a_rest[LOW-1:0])),
-          .digits_o(a_digits)
-      );
-      quadrille_radix4_digits #(.NUMBER_BITS(NUMBER)) u_b_digits (
-          .number_i(NUMBER'(b_rest[LOW-1:0])),
-          .digits_o(b_digits)
-      );
-      quadrille_small_multiply #(
-          .FACTOR_BITS(R + 1),
-          .NUMBER_BITS(NUMBER)
-      ) u_a_strip (
-          .factor_i({1'b0, a_rest}),
-          .digits_i(b_digits),
-          .product_o(a_strip),
-          .carry_o(a_carry)
-      );
-      quadrille_small_multiply #(
-          .FACTOR_BITS(BLOCK + 1),
-          .NUMBER_BITS(NUMBER)
-      ) u_b_strip (
-          .factor_i({1'b0, b_high}),
-          .digits_i(a_digits),
-          .product_o(b_strip),
-          .carry_o(b_carry)
-      );
+      if (LOW == 1) begin : gen_bit
+        assign a_strip = b_rest[0] ? {2'b0, a_rest} : '0;
+        assign b_strip = a_rest[0] ? {2'b0, b_high} : '0;
+        assign {a_carry, b_carry} = '0;
+      end else begin : gen_digits
+        localparam int DIGITS = LOW / 2 + 1;
+        logic [2*DIGITS-1:0] a_digits, b_digits;
+
+        quadrille_radix4_digits #(.NUMBER_BITS(LOW)) u_a_digits (
+            .number_i(a_rest[LOW-1:0]),
+            .digits_o(a_digits)
+        );
+        quadrille_radix4_digits #(.NUMBER_BITS(LOW)) u_b_digits (
+            .number_i(b_rest[LOW-1:0]),
+            .digits_o(b_digits)
+        );
+        quadrille_small_multiply #(
+            .FACTOR_BITS(R + 1),
+            .NUMBER_BITS(LOW)
+        ) u_a_strip (
+            .factor_i({1'b0, a_rest}),
+            .digits_i(b_digits),
+            .product_o(a_strip),
+            .carry_o(a_carry)
+        );
+        quadrille_small_multiply #(
+            .FACTOR_BITS(BLOCK + 1),
+            .NUMBER_BITS(LOW)
+        ) u_b_strip (
+            .factor_i({1'b0, b_high}),
+            .digits_i(a_digits),
+            .product_o(b_strip),
+            .carry_o(b_carry)
+        );
+      end
 
       // {x, 1} + {y, carry} is an adder whose carry-in is used.
       assign strips = (R + LOW + 2)'(({(R + LOW + 2)'($signed(a_strip)), 1'b1} + {(R + 2)'($signed(b_strip)), LOW'(0), a_carry}) >> 1);

@@ -11,6 +11,7 @@ CLOCK, RESET = "clk_i", "rst_ni"
 WRAPPER = "timing_wrapper"
 DEVICES = {"25k": (24_288, 28, 56), "45k": (43_848, 72, 108), "85k": (83_640, 156, 208)}  # LUTs, MULT18X18D, DP16KD
 BLOCKS = ("LUT", "DSP", "BRAM")  # in this order
+NEVER = float("-inf")  # when a signal comes that no register sends
 
 
 def device_name(device):
@@ -171,7 +172,7 @@ class Delays:
             if here in self.arrival:
                 stack.pop()
                 continue
-            waits, best = [], (0.0, None)
+            waits, best = [], (NEVER, None)
             for source, delay, clocked in self.through.get(here, ()):
                 if clocked:
                     best = max(best, (delay, None), key=lambda a: a[0])
