@@ -26,7 +26,10 @@ quadrille_fp_sum.sv
 quadrille_fp_term.sv
 quadrille_fragment_fifo.sv
 quadrille_fragment_output.sv
+quadrille_front.sv
+quadrille_gradient_bank.sv
 quadrille_hidden_blocks.sv
+quadrille_hidden_tiles.sv
 quadrille_hierarchical_z.sv
 quadrille_inside_expression.sv
 quadrille_interpolate.sv
@@ -38,13 +41,13 @@ quadrille_normalise.sv
 quadrille_offset_digits.sv
 quadrille_one_of_four.sv
 quadrille_performance_counters.sv
+quadrille_pixel.sv
 quadrille_pixel_emit.sv
 quadrille_pixel_lane.sv
 quadrille_pixel_pipeline.sv
 quadrille_plane_quad.sv
 quadrille_quad_reject.sv
 quadrille_quad_setup.sv
-quadrille_quad_slots.sv
 quadrille_radix4_digits.sv
 quadrille_range_empty.sv
 quadrille_ratio_products.sv
@@ -56,6 +59,7 @@ quadrille_setup_pair.sv
 quadrille_shift_to_top.sv
 quadrille_significand_product.sv
 quadrille_singular_class.sv
+quadrille_slot_allocation.sv
 quadrille_small_multiply.sv
 quadrille_sqrt.sv
 quadrille_stamp_coverage.sv
@@ -64,6 +68,8 @@ quadrille_table_polynomial.sv
 quadrille_tile_context.sv
 quadrille_tile_ring.sv
 quadrille_tile_walk.sv
+quadrille_tiles.sv
 quadrille_vertex_assembly.sv
+quadrille_vertex_bank.sv
 quadrille_vertex_products.sv
 quadrille_weight_factors.sv

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
 // Masked depth: for each tile two bounds that depths in the depth buffer do not exceed, one for all of the tile and a nearer one for the
 // pixels in a mask (SPEC.md, masked_depth), looked at and lowered by stamp_coverage.
@@ -32,24 +33,15 @@ module quadrille_masked_depth #(
     input logic [H-1:0] near_i,
     input logic [H-1:0] far_i,
     input logic lowers_i,
-    // Coverage's tag register
-    input logic end_i,
-    input logic [SLOT-1:0] slot_i,
-    input logic [TC-1:0] tile_x_i,
-    input logic [TC-1:0] tile_y_i,
-    input logic [TILE_LOG2-1:0] last_row_i,
+    // Coverage: the tile in its tag register, and what its registers do
+    input logic [quadrille_pkg::TAG_BITS-1:0] tile_i,
     output logic wait_o,
-    input logic load_i,  // it moves on to the context register,
-    input logic rows_load_i,  // from there to the rows register,
-    output logic hidden_o,  // in which nothing of it can be seen: one row, without a pixel, is issued
-    // and from there a row is issued, the last one of its tile or entry with done_i
-    input logic issue_i,
-    input logic done_i,
-    input logic [TILE_LOG2-1:0] row_i,
-    // Two clocks later
-    input logic [TILE-1:0] covered_i,
-    output logic [TILE-1:0] seen_o  // pixels of the row that may be seen
+    input logic [quadrille_pkg::ROWS_BITS-1:0] rows_i,
+    output logic hidden_o,  // nothing of the tile in the rows register can be seen: one row, without a pixel, is issued
+    output logic [TILE-1:0] seen_o  // pixels that may be seen, of the row issued two clocks before
 );
+  `QUADRILLE_IN(`QUADRILLE_TAG_T, tile)
+  `QUADRILLE_IN(`QUADRILLE_ROWS_T, rows)
   localparam int ROW = PLACE / 2;
   localparam int COLUMN = PLACE - ROW;
   localparam int TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1;
@@ -76,11 +68,11 @@ module quadrille_masked_depth #(
   logic [TAG-1:0] tag;
   logic [2*H:0] interval;
 
-  assign wide_x = WIDE'(tile_x_i);
-  assign wide_y = WIDE'(tile_y_i);
+  assign wide_x = WIDE'(tile.tile_x);
+  assign wide_y = WIDE'(tile.tile_y);
   assign place = {wide_y[ROW-1:0], wide_x[COLUMN-1:0]};
   assign tag = {wide_y[ROW+:TAG_Y], wide_x[COLUMN+:TAG_X]};
-  assign interval = interval_q[slot_i];
+  assign interval = interval_q[tile.slot];
 
   // ---- Memory: a place that is read is never the one that is written (asserted below) ---------------------------------------
   logic [TILE-1:0] rows_write, rows_clear;
@@ -94,7 +86,7 @@ module quadrille_masked_depth #(
 
   always_ff @(posedge clk_i) begin
     if (bounds_write) bounds_q[bounds_place] <= bounds_word;
-    if (load_i) bounds_read <= bounds_q[place];
+    if (rows.load) bounds_read <= bounds_q[place];
   end
 
   for (genvar r = 0; r < TILE; r++) begin : gen_mask
@@ -102,7 +94,7 @@ module quadrille_masked_depth #(
 
     always_ff @(posedge clk_i) begin
       if (rows_write[r]) row_q[place_q3] <= rows_clear[r] ? '0 : row_word_q3;
-      if (load_i) mask_read[r*TILE+:TILE] <= row_q[place];
+      if (rows.load) mask_read[r*TILE+:TILE] <= row_q[place];
     end
   end
 
@@ -116,10 +108,10 @@ module quadrille_masked_depth #(
   logic known, useful;
 
   always_ff @(posedge clk_i) begin
-    if (load_i) begin
+    if (rows.load) begin
       place_c <= place;
       tag_c <= tag;
-      last_row_c <= last_row_i;
+      last_row_c <= tile.last_row;
       {near_c, far_c} <= interval[2*H-1:0];
     end
   end
@@ -139,7 +131,7 @@ module quadrille_masked_depth #(
   logic rest_whole;  // the rows behind the last one that is issued
 
   always_ff @(posedge clk_i) begin
-    if (rows_load_i) begin
+    if (rows.rows_load) begin
       place_r <= place_c;
       tag_r <= tag_c;
       last_row_r <= last_row_c;
@@ -154,7 +146,7 @@ module quadrille_masked_depth #(
       quad_far_q <= far_c;
       mask_q <= mask_read;
     end
-    first_q <= rows_load_i || (first_q && !issue_i);
+    first_q <= rows.rows_load || (first_q && !rows.issue);
   end
 
   assign begins = useful_q && (no_mask_q || five_masked_q > rest_q);
@@ -168,7 +160,7 @@ module quadrille_masked_depth #(
     end
   end
 
-  assign old_row = mask_q[row_i*TILE+:TILE];
+  assign old_row = mask_q[rows.row*TILE+:TILE];
 
   // ---- Issued rows ----------------------------------------------------------------------------------------------------------
   localparam int TAGGED = PLACE + TAG + 2 * H + TILE_LOG2 + 3;  // {place, tag, far, masked, row, first, last, rest_whole}
@@ -188,15 +180,15 @@ module quadrille_masked_depth #(
       begins_way_q <= '0;
       joins_way_q <= '0;
     end else begin
-      begins_way_q <= {begins_way_q[1:0], issue_i && begins};
-      joins_way_q <= {joins_way_q[1:0], issue_i && joins};
+      begins_way_q <= {begins_way_q[1:0], rows.issue && begins};
+      joins_way_q <= {joins_way_q[1:0], rows.issue && joins};
     end
   end
 
   always_ff @(posedge clk_i) begin
     masked_hidden_way_q <= {masked_hidden_way_q[0], masked_hidden_q};
     hidden_way_q <= {hidden_way_q[0], hidden_o};
-    way_q1 <= {place_r, tag_r, far_q, masked, row_i, first_q, done_i, rest_whole};
+    way_q1 <= {place_r, tag_r, far_q, masked, rows.row, first_q, rows.done, rest_whole};
     way_q2 <= way_q1;
     way_q3 <= way_q2;
     old_q1 <= old_row;
@@ -209,9 +201,9 @@ module quadrille_masked_depth #(
   assign seen_o = ~({TILE{masked_hidden_way_q[1]}} & old_q2) & {TILE{!hidden_way_q[1]}};
 
   // The row's part of the mask, and whether the tile's has changed with it.
-  assign some = covered_i != '0;
-  assign more = begins_way_q[1] ? some : (covered_i & ~old_q2) != '0;
-  assign row_word = joins_way_q[1] ? covered_i | old_q2 : covered_i;
+  assign some = rows.covered != '0;
+  assign more = begins_way_q[1] ? some : (rows.covered & ~old_q2) != '0;
+  assign row_word = joins_way_q[1] ? rows.covered | old_q2 : rows.covered;
   assign changed_before = changed_q && !first_q2;
 
   always_ff @(posedge clk_i) begin
@@ -243,13 +235,13 @@ module quadrille_masked_depth #(
   logic [2*LOW-1:0] low, low_c, low_r, low_q1, low_q2, low_q3;
   logic [2:0] way_lowers_q;
 
-  assign low = {tile_y_i[LOW-1:0], tile_x_i[LOW-1:0]};
-  assign wait_o = !end_i && ((context_lowers_q && low == low_c) || (rows_lowers_q && low == low_r)
+  assign low = {tile.tile_y[LOW-1:0], tile.tile_x[LOW-1:0]};
+  assign wait_o = !tile.end_token && ((context_lowers_q && low == low_c) || (rows_lowers_q && low == low_r)
       || (way_lowers_q[0] && low == low_q1) || (way_lowers_q[1] && low == low_q2) || (way_lowers_q[2] && low == low_q3));
 
   always_ff @(posedge clk_i) begin
-    if (load_i) low_c <= low;
-    if (rows_load_i) low_r <= low_c;
+    if (rows.load) low_c <= low;
+    if (rows.rows_load) low_r <= low_c;
     low_q1 <= low_r;
     low_q2 <= low_q1;
     low_q3 <= low_q2;
@@ -258,9 +250,9 @@ module quadrille_masked_depth #(
       rows_lowers_q <= 1'b0;
       way_lowers_q <= '0;
     end else begin
-      context_lowers_q <= load_i ? interval[2*H] && !end_i : context_lowers_q && !rows_load_i;
-      rows_lowers_q <= rows_load_i ? context_lowers_q : rows_lowers_q && !done_i;
-      way_lowers_q <= {way_lowers_q[1:0], issue_i && rows_lowers_q};
+      context_lowers_q <= rows.load ? interval[2*H] && !tile.end_token : context_lowers_q && !rows.rows_load;
+      rows_lowers_q <= rows.rows_load ? context_lowers_q : rows_lowers_q && !rows.done;
+      way_lowers_q <= {way_lowers_q[1:0], rows.issue && rows_lowers_q};
     end
   end
 
@@ -271,10 +263,10 @@ module quadrille_masked_depth #(
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       `QUADRILLE_ASSERT(assert_bounds_race,
-          !load_i || end_i || !bounds_write || place != bounds_place,
+          !rows.load || tile.end_token || !bounds_write || place != bounds_place,
           "bounds are not read in the clock of their write")
       `QUADRILLE_ASSERT(assert_mask_race,
-          !load_i || end_i || !write_q3 || place != place_q3,
+          !rows.load || tile.end_token || !write_q3 || place != place_q3,
           "a mask is not read in the clock of its write")
     end
   end

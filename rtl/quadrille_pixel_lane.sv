@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
 // One pixel a clock, from the row of its tile to its fragment: what a pixel has of its own. pixel_pipeline has PIXELS_PER_CLOCK of these, and
 // what the pixels of a clock have in common: their row, their quad and its data. Never waits.
@@ -9,11 +10,8 @@
 module quadrille_pixel_lane #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
     localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int ID = quadrille_pkg::QUAD_ID_BITS,
     localparam int FB = quadrille_pkg::FRAGMENT_BITS,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
@@ -24,17 +22,11 @@ module quadrille_pixel_lane #(
     localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
     localparam int QCURV = quadrille_pkg::QCURV_BITS,
     localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
-    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
-    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS,
-    localparam int TERMS = quadrille_pkg::BLEND_TERMS,
     localparam int SETS = 3 + N
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
-    // Draw state
-    input logic hold_i,  // skip bit 4
-    input logic depth_on_i,
-    input logic [3:0] attributes_i,
+    input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
     // The pixel, at the pipeline's input. One of a homogeneous quad is valid with its last part
     input logic valid_i,
     input logic [TILE_LOG2-1:0] row_i,
@@ -42,40 +34,24 @@ module quadrille_pixel_lane #(
     input logic front_i,
     input logic tie_i,
     // Its row of the tile, a clock later
-    input logic [6*VAL-1:0] lin_row_i,
-    input logic [6*GRAD-1:0] lin_gx_i,
-    input logic [4*QVAL-1:0] quad_row_i,
-    input logic [4*QGRAD-1:0] quad_gx_i,
-    input logic [4*QCURV-1:0] quad_q_i,
-    // Its part, in step with the values of the functions; a clock later squares_i, the last part of a homogeneous pixel, and length2_i
+    input logic [quadrille_pkg::ROW_BITS-1:0] line_i,
+    // Its part, in step with the values of the functions; a clock later squares_i, the last part of a homogeneous pixel
     input logic [1:0] part_i,
     input logic squares_i,
-    input logic [6*LENGTH2-1:0] length2_i,
-    // Of its quad, each where it is used
-    input logic norm_plane_i,  // two registers before NORM_STAGE: a plane_quad
-    input logic [3:0] product_k_neg_i,
-    input logic [4*PE-1:0] product_k_exp_i,
-    input logic [4*S-1:0] product_k_sig_i,
-    input logic [4*PE-1:0] override_k_exp_i,
-    input logic [4*S-1:0] override_k_sig_i,
-    input logic [TERMS-1:0] blend_neg_i,
-    input logic [TERMS*PE-1:0] blend_exp_i,
-    input logic [TERMS*S-1:0] blend_sig_i,
-    input logic [N*AO-1:0] base_attr_i,
-    input logic [DB:0] base_depth_i,
-    input logic [LIMITS-1:0] base_limits_i,
-    input logic [ID-1:0] output_id_i,
-    input logic output_hull_i,
-    input logic output_homogeneous_i,
+    // Of its quad, each where it is used; of its tile and row, where the output is
+    input logic [quadrille_pkg::TERMS_BITS-1:0] terms_i,
     input logic [V-TILE_LOG2-1:0] output_tile_x_i,
     input logic [V-1:0] output_y_i,
     // Fragment
     output logic [quadrille_pkg::LATENCY-1:0] valid_o,  // a pixel is in register n, drawn or discarded
-    output logic count_area_o,  // at RATIO_STAGE: the weights are areas
-    output logic count_norm_o,  // for performance_counters, else 0: the numbers of this pixel are taken on
+    output logic [1:0] events_o,  // for performance_counters, else 0: numbers are taken on; at RATIO_STAGE: the weights are areas
     output logic fragment_valid_o,
     output logic [FB-1:0] fragment_o  // zero when there is none
 );
+  `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
+  `QUADRILLE_IN(`QUADRILLE_ROW_T, line)
+  `QUADRILLE_IN(`QUADRILLE_TERMS_T, terms)
+
   // Registers at the boundaries
   localparam int DIFF = quadrille_pkg::DIFF_STAGE;
   localparam int NORM = quadrille_pkg::NORM_STAGE;
@@ -133,7 +109,7 @@ module quadrille_pixel_lane #(
     );
     quadrille_delay_line #(.WIDTH(1), .DEPTH(RATIO - NORM + 2)) u_plane (
         .clk_i,
-        .data_i(norm_plane_i),
+        .data_i(terms.norm_plane),
         .data_o(ratio_plane)
     );
   end else begin : gen_no_plane
@@ -165,8 +141,8 @@ module quadrille_pixel_lane #(
         .clk_i,
         .dx_digits_i(dx_digits),
         .norm_digits_i(norm_digits),
-        .row_i(lin_row_i[g*VAL+:VAL]),
-        .gx_i(lin_gx_i[g*GRAD+:GRAD]),
+        .row_i(line.lin_value[g*VAL+:VAL]),
+        .gx_i(line.lin_gx[g*GRAD+:GRAD]),
         .q_i(1'b0),
         .value_o(a[g*VAL+:VAL])
     );
@@ -181,9 +157,9 @@ module quadrille_pixel_lane #(
         .clk_i,
         .dx_digits_i(dx_digits),
         .norm_digits_i(norm_digits),
-        .row_i(quad_row_i[g*QVAL+:QVAL]),
-        .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
-        .q_i(quad_q_i[g*QCURV+:QCURV]),
+        .row_i(line.quad_value[g*QVAL+:QVAL]),
+        .gx_i(line.quad_gx[g*QGRAD+:QGRAD]),
+        .q_i(line.quad_q[g*QCURV+:QCURV]),
         .value_o(quad[g*QVAL+:QVAL])
     );
   end
@@ -207,7 +183,7 @@ module quadrille_pixel_lane #(
         .r2_second_i(quad[J*QVAL+:QVAL]),
         .homogeneous_i(squares_i),
         .exact_i(dot_q[g*QVAL+:QVAL]),
-        .length2_i(length2_i[g*LENGTH2+:LENGTH2]),
+        .length2_i(terms.length2[g*LENGTH2+:LENGTH2]),
         .d_o(diff_d[g*QVAL+:QVAL])
     );
   end
@@ -225,15 +201,15 @@ module quadrille_pixel_lane #(
   logic corner, taken_on;
   logic norm_active_q, distance_active_q, class_active_q;
 
-  assign taken_on = !hold_i || (valid_q[NORM-2] && !corner);
+  assign taken_on = !state.skip[4] || (valid_q[NORM-2] && !corner);
 
   always_ff @(posedge clk_i) begin
     norm_active_q <= taken_on;
-    distance_active_q <= taken_on && !norm_plane_i;
-    class_active_q <= !hold_i || valid_q[NORM-2];
+    distance_active_q <= taken_on && !terms.norm_plane;
+    class_active_q <= !state.skip[4] || valid_q[NORM-2];
   end
 
-  assign count_norm_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && distance_active_q;
+  assign events_o[1] = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && distance_active_q;
 
   logic [5:0] norm_a_neg;
   logic [6*E-1:0] norm_a_exp, norm_d_exp;
@@ -338,12 +314,12 @@ module quadrille_pixel_lane #(
       .class_i(ratio_class),
       .plane_i(ratio_plane),
       .behind_diagonal_i(ratio_behind_diagonal),
-      .k_neg_i(product_k_neg_i),
-      .k_exp_i(product_k_exp_i),
-      .k_sig_i(product_k_sig_i),
-      .override_k_exp_i,
-      .override_k_sig_i,
-      .count_area_o,
+      .k_neg_i(terms.product_k_neg),
+      .k_exp_i(terms.product_k_exp),
+      .k_sig_i(terms.product_k_sig),
+      .override_k_exp_i(terms.override_k_exp),
+      .override_k_sig_i(terms.override_k_sig),
+      .count_area_o(events_o[0]),
       .m_exp_o(m_exp),
       .m_sig_o(m_sig)
   );
@@ -357,9 +333,9 @@ module quadrille_pixel_lane #(
       .clk_i,
       .m_exp_i(m_exp),
       .m_sig_i(m_sig),
-      .term_neg_i(blend_neg_i),
-      .term_exp_i(blend_exp_i),
-      .term_sig_i(blend_sig_i),
+      .term_neg_i(terms.blend_neg),
+      .term_exp_i(terms.blend_exp),
+      .term_sig_i(terms.blend_sig),
       .sum_neg_o(sum_neg),
       .sum_exp_o(sum_exp),
       .sum_sig_o(sum_sig)
@@ -406,8 +382,8 @@ module quadrille_pixel_lane #(
   quadrille_fragment_output u_output (
       .clk_i,
       .rst_ni,
-      .depth_on_i,
-      .attributes_i,
+      .depth_on_i(state.depth),
+      .attributes_i(state.attributes),
       .attr_neg_i(num_neg[NUMS-1:1]),
       .attr_exp_i(num_exp[NUMS*E-1:E]),
       .attr_sig_i(num_sig[NUMS*S-1:S]),
@@ -420,13 +396,13 @@ module quadrille_pixel_lane #(
       .rw_neg_i(rw_neg),
       .rw_exp_i(rw_exp),
       .rw_sig_i(rw_sig),
-      .base_attr_i,
-      .base_depth_i,
-      .depth_limits_i(base_limits_i),
+      .base_attr_i(terms.base_attr),
+      .base_depth_i(terms.base_depth),
+      .depth_limits_i(terms.base_limits),
       .valid_i(valid_q[LAST-1]),
-      .id_i(output_id_i),
-      .hull_i(output_hull_i),
-      .homogeneous_i(output_homogeneous_i),
+      .id_i(terms.output_id),
+      .hull_i(terms.output_hull),
+      .homogeneous_i(terms.output_homogeneous),
       .x_i({output_tile_x_i, output_meta.dx}),
       .y_i(output_y_i),
       .front_i(output_meta.front),

@@ -178,6 +178,8 @@ package quadrille_pkg;
   localparam int RANK_BITS /*verilator public*/ = EXP_BITS + 1;
   // bits of a table's accumulator below the result
   localparam int TABLE_GUARD /*verilator public*/ = 3;
+  // digits of a row in its tile (radix4_digits)
+  localparam int ROW_DIGIT_BITS = 2 * (TILE_LOG2 / 2 + 1);
   // tile edge and stamp width in pixels; a block is BLOCK_TILES x BLOCK_TILES tiles
   localparam int TILE /*verilator public*/ = 1 << TILE_LOG2;
   localparam int BLOCK_LOG2 /*verilator public*/ = 3;
@@ -295,13 +297,39 @@ package quadrille_pkg;
   // the pipeline, 2 through the FIFO, 2 until the count of free places knows)
   localparam int FRAGMENT_FIFO_LOG2 /*verilator public*/ = $clog2(LATENCY + 7);
 
-  // ---- Ports: flat vectors, whose fields README.md gives; the structs are declared where they are read -----------
-  // id, X, Y, W, k, Z, attributes; the quad's bases of attributes and depth, its corners' least and greatest depth
-  localparam int VERTEX_BITS /*verilator public*/ =
-      QUAD_ID_BITS + 2 * T_BITS + W_BITS + (PORT_EXP_BITS + SIGNIFICAND_BITS) + ATTR_PORT_BITS + ATTRIBUTE_SLOTS * ATTR_PORT_BITS +
-      ATTRIBUTE_SLOTS * ATTR_OUT_BITS + (DEPTH_BITS + 1) + 2 * CORNER_DEPTH_BITS;
-  // scissor, cull, perspective, depth, znear, zfar, attributes, skip
-  localparam int STATE_BITS /*verilator public*/ = 4 * (VIEWPORT_BITS + 1) + 2 + 1 + 1 + 2 * (DEPTH_BITS + 1) + 4 + 8;
+  // ---- Bundles, as include/quadrille_types.svh declares them: VERTEX, STATE and FRAGMENT are those of the ports (README.md) ----
+  localparam int STATE_BITS /*verilator public*/ = 4 * (VIEWPORT_BITS + 1) + 2 * (DEPTH_BITS + 1) + 16;
+  localparam int VERTEX_BITS /*verilator public*/ = QUAD_ID_BITS + 2 * T_BITS + W_BITS + 2 * PORT_EXP_BITS +
+      2 * SIGNIFICAND_BITS + ATTRIBUTE_SLOTS * ATTR_PORT_BITS + ATTRIBUTE_SLOTS * ATTR_OUT_BITS + DEPTH_BITS + 1 +
+      2 * CORNER_DEPTH_BITS + 1;
+  localparam int QUAD_BITS = QUAD_ID_BITS + 2 * 4 * T_BITS + 4 * W_BITS + 4 * T_BITS + 3 * 4 * PORT_EXP_BITS +
+      3 * 4 * SIGNIFICAND_BITS + 3 * ATTRIBUTE_SLOTS * ATTR_PORT_BITS + ATTRIBUTE_SLOTS * ATTR_OUT_BITS +
+      DEPTH_BITS + 1 + 2 * CORNER_DEPTH_BITS + 9;
+  localparam int SETUP_BITS = QUAD_SLOTS_LOG2 + 4 * TC_BITS + TILE_LOG2 + 2 * 4 * T_BITS + 4 * W_BITS + 6 * VAL_BITS +
+      2 * 6 * GRAD_BITS + 4 * 5 * REACH_BITS + 6 * LENGTH2_BITS + 16;
+  localparam int JOBS_BITS = PRODUCT_PAIRS * 3 + PRODUCT_PAIRS * 4 + 2 * 4 * T_BITS + 4 * W_BITS +
+      2 * (VIEWPORT_BITS + 1);
+  localparam int PRODUCTS_BITS = 4 * PRODUCT_PAIRS * T_BITS + 2 * PRODUCT_PAIRS * RISE_BITS +
+      2 * PRODUCT_PAIRS * DOT_OUT_BITS;
+  localparam int TILE_BITS = QUAD_SLOTS_LOG2 + 4 * TC_BITS + TILE_LOG2 + 6 * VAL_BITS;
+  localparam int TEST_BITS = 4 * TC_BITS + 2 * BLOCK_LOG2 + 4;
+  localparam int WORDS_BITS = 3 * RING_LOG2 + CONTEXT_BUSES * QVAL_BITS + 2 * CONTEXT_BUSES * QGRAD_BITS +
+      PRODUCT_PAIRS * QCURV_BITS + 14;
+  localparam int TAG_BITS = QUAD_SLOTS_LOG2 + 2 * TC_BITS + TILE_LOG2 + 2;
+  localparam int EDGES_BITS = 2 * 5 * GRAD_BITS + 14;
+  localparam int ROWS_BITS = TILE_LOG2 + TILE + 4;
+  localparam int STAMP_BITS = RING_LOG2 + 1 + TILE_LOG2 + 3 * TILE + 2;
+  localparam int PIXELS_BITS = TILE_LOG2 + ROW_DIGIT_BITS + PIXELS_PER_CLOCK * TILE_LOG2 + 3 * PIXELS_PER_CLOCK + 3;
+  localparam int CONTEXT_BITS = QUAD_SLOTS_LOG2 + 2 * TC_BITS + 6 * VAL_BITS + 4 * QVAL_BITS + 2 * 4 * QGRAD_BITS +
+      4 * QCURV_BITS;
+  localparam int ROW_BITS = 6 * VAL_BITS + 6 * GRAD_BITS + 4 * QVAL_BITS + 4 * QGRAD_BITS + 4 * QCURV_BITS;
+  localparam int READS_BITS = 7 * QUAD_SLOTS_LOG2;
+  localparam int TERMS_BITS = 6 * LENGTH2_BITS + 2 * 4 * PORT_EXP_BITS + 2 * 4 * SIGNIFICAND_BITS + BLEND_TERMS +
+      BLEND_TERMS * PORT_EXP_BITS + BLEND_TERMS * SIGNIFICAND_BITS + ATTRIBUTE_SLOTS * ATTR_OUT_BITS +
+      DEPTH_BITS + 1 + DEPTH_LIMIT_BITS + QUAD_ID_BITS + 7;
+  localparam int FRONT_EVENTS_BITS = 12;
+  localparam int TILES_EVENTS_BITS = 16;
+  localparam int PIXEL_EVENTS_BITS = PIXELS_PER_CLOCK * LATENCY + 3 * PIXELS_PER_CLOCK + 3 + ATTRIBUTE_SLOTS + 1;
   // quad, x, y, front, flags, depth, attributes: of one lane
   localparam int FRAGMENT_BITS /*verilator public*/ =
       QUAD_ID_BITS + 2 * VIEWPORT_BITS + 1 + 8 + DEPTH_BITS + 1 + ATTRIBUTE_SLOTS * ATTR_OUT_BITS;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
 // Setup of one quad: origin tile, 6 linear functions (value at the origin, first differences), squared lengths of its sides and
 // diagonals, visibility of the clauses. SPEC.md has the clocks: two for the bounding box, while vertex_assembly holds the
@@ -26,78 +27,48 @@ module quadrille_quad_setup #(
     localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
     localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
     localparam int TL = quadrille_pkg::TILE_LOG2,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int EDGE_WIDTH = VAL + 2 * GRAD
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
+    input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
     // Quad in: held until start_i, which needs ready_o
     input logic held_i,
     input logic start_i,
     output logic ready_o,
     input logic empty_i,  // no pixel centre inside scissor and bounding box
     input logic [SLOT-1:0] slot_i,
-    input logic [4*T-1:0] x_i,
-    input logic [4*T-1:0] y_i,
-    input logic [4*W-1:0] w_i,
-    input logic ordinary_i,  // all W are ONE
-    input logic [T-1:0] low_x_i,  // least and greatest coordinates
-    input logic [T-1:0] high_x_i,
-    input logic [T-1:0] low_y_i,
-    input logic [T-1:0] high_y_i,
-    input logic [V:0] scissor_x0_i,
-    input logic [V:0] scissor_y0_i,
-    input logic [V:0] scissor_x1_i,
-    input logic [V:0] scissor_y1_i,
-    // Jobs of vertex_products, one for each pair of its units; their step is repeated while wait_i
+    input logic [quadrille_pkg::QUAD_BITS-1:0] quad_i,
+    // Jobs of vertex_products; their step is repeated while wait_i. The edge functions of DET jobs: value, gx, gy
     input logic wait_i,
-    output logic [PAIRS*3-1:0] kind_o,
-    output logic [PAIRS*4-1:0] function_o,
-    output logic [4*T-1:0] x_o,
-    output logic [4*T-1:0] y_o,
-    output logic [4*W-1:0] w_o,
-    output logic [V:0] offset_x_o,  // of a MOVE, a clock after the job
-    output logic [V:0] offset_y_o,
-    output logic [PAIRS*VAL-1:0] edge_value_o,
-    output logic [PAIRS*GRAD-1:0] edge_gx_o,
-    output logic [PAIRS*GRAD-1:0] edge_gy_o,
-    input logic [PAIRS*RISE-1:0] apart_x_i,
-    input logic [PAIRS*RISE-1:0] apart_y_i,
-    input logic [PAIRS*OUT-1:0] result0_i,
-    input logic [PAIRS*OUT-1:0] result1_i,
-    // Functions out
-    input logic reject_i,  // draw state: leave out what cannot give a fragment
-    input logic separate_i,  // of homogeneous quads what misses the scissor
-    input logic [1:0] cull_i,
+    output logic [quadrille_pkg::JOBS_BITS-1:0] jobs_o,
+    output logic [PAIRS*EDGE_WIDTH-1:0] edges_o,
+    input logic [quadrille_pkg::PRODUCTS_BITS-1:0] products_i,
+    // Quad out, or left out, of this slot
+    output logic valid_o,
     input logic take_i,
-    output logic done_o,
-    output logic drop_o,  // a quad is left out, of this slot
+    output logic [quadrille_pkg::SETUP_BITS-1:0] setup_o,
+    output logic drop_o,
     output logic [SLOT-1:0] drop_slot_o,
-    output logic count_line_o,  // for performance_counters, else 0: because it is on a line
-    output logic count_job_o,  // the dot units get a job of each pair
-    output logic count_busy_o,  // a quad is here
-    output logic [SLOT-1:0] slot_o,
-    output logic [TC-1:0] tile_x0_o,
-    output logic [TC-1:0] tile_y0_o,
-    output logic [TC-1:0] tiles_x_o,
-    output logic [TC-1:0] tiles_y_o,
-    output logic [TL-1:0] last_row_o,  // last pixel row, in its tile
-    output logic homogeneous_o,
-    output logic hull_o,
-    output logic [3:0] visible_o,
-    output logic [6*VAL-1:0] lin_value_o,
-    output logic [6*GRAD-1:0] lin_gx_o,
-    output logic [6*GRAD-1:0] lin_gy_o,
-    output logic [4:0] tie_pos_o,
-    output logic [4:0] tie_neg_o,
-    output logic [5*REACH-1:0] fall_tile_o,
-    output logic [5*REACH-1:0] rise_tile_o,
-    output logic [5*REACH-1:0] fall_block_o,
-    output logic [5*REACH-1:0] rise_block_o,
-    output logic [6*LENGTH2-1:0] length2_o,
-    output logic [4*T-1:0] vertex_x_o,  // relative to the first tile's origin pixel
-    output logic [4*T-1:0] vertex_y_o,
-    output logic [4*W-1:0] vertex_w_o
+    // For performance_counters, else 0: a quad is left out for it is on a line, the dot units get a job, a quad is here
+    output logic [2:0] events_o
 );
+  `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
+  `QUADRILLE_IN(`QUADRILLE_QUAD_T, quad)
+  `QUADRILLE_IN(`QUADRILLE_PRODUCTS_T, products)
+  logic [quadrille_pkg::QUAD_SLOTS_LOG2-1:0] setup_slot;
+  logic [quadrille_pkg::TC_BITS-1:0] setup_tile_x0, setup_tile_y0, setup_tiles_x, setup_tiles_y;
+  logic [quadrille_pkg::TILE_LOG2-1:0] setup_last_row;
+  logic [4*quadrille_pkg::T_BITS-1:0] setup_x, setup_y;
+  logic [4*quadrille_pkg::W_BITS-1:0] setup_w;
+  logic setup_homogeneous, setup_hull;
+  logic [3:0] setup_visible;
+  logic [6*quadrille_pkg::VAL_BITS-1:0] setup_lin_value;
+  logic [6*quadrille_pkg::GRAD_BITS-1:0] setup_lin_gx, setup_lin_gy;
+  logic [4:0] setup_tie_pos, setup_tie_neg;
+  logic [5*quadrille_pkg::REACH_BITS-1:0] setup_fall_tile, setup_rise_tile, setup_fall_block, setup_rise_block;
+  logic [6*quadrille_pkg::LENGTH2_BITS-1:0] setup_length2;
   localparam int FRAC = quadrille_pkg::FRAC;
   localparam int QDROP = quadrille_pkg::QDROP;
   localparam int DET = quadrille_pkg::DET_BITS;
@@ -116,11 +87,11 @@ module quadrille_quad_setup #(
   quadrille_bounding_range u_range_x (
       .clk_i,
       .load_i(box_state_q == NEW),
-      .low_i(low_x_i),
-      .high_i(high_x_i),
-      .ordinary_i,
-      .scissor0_i(scissor_x0_i),
-      .scissor1_i(scissor_x1_i),
+      .low_i(quad.low_x),
+      .high_i(quad.high_x),
+      .ordinary_i(quad.ordinary),
+      .scissor0_i(state.scissor_x0),
+      .scissor1_i(state.scissor_x1),
       .first_o(first_x),
       .count_o(count_x),
       .last_o(last_column)
@@ -129,11 +100,11 @@ module quadrille_quad_setup #(
   quadrille_bounding_range u_range_y (
       .clk_i,
       .load_i(box_state_q == NEW),
-      .low_i(low_y_i),
-      .high_i(high_y_i),
-      .ordinary_i,
-      .scissor0_i(scissor_y0_i),
-      .scissor1_i(scissor_y1_i),
+      .low_i(quad.low_y),
+      .high_i(quad.high_y),
+      .ordinary_i(quad.ordinary),
+      .scissor0_i(state.scissor_y0),
+      .scissor1_i(state.scissor_y1),
       .first_o(first_y),
       .count_o(count_y),
       .last_o(last_row)
@@ -211,7 +182,7 @@ module quadrille_quad_setup #(
 
   always_ff @(posedge clk_i) begin
     if (start_i) begin
-      front_ordinary_q <= ordinary_i;
+      front_ordinary_q <= quad.ordinary;
       front_slot_q <= slot_i;
       front_tiles_q <= {box_x0_q, box_y0_q, box_x_q, box_y_q};
       front_row_q <= box_row_q;
@@ -219,8 +190,8 @@ module quadrille_quad_setup #(
     if (front_q) middle_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, tx_q, ty_q, w_q};
     if (advance) sum_place_q <= middle_place_q;
     if (hand_over) begin
-      {slot_o, tile_x0_o, tile_y0_o, tiles_x_o, tiles_y_o, last_row_o, vertex_x_o, vertex_y_o, vertex_w_o} <= sum_place_q[PLACE-2:0];
-      homogeneous_o <= !sum_ordinary;
+      {setup_slot, setup_tile_x0, setup_tile_y0, setup_tiles_x, setup_tiles_y, setup_last_row, setup_x, setup_y, setup_w} <= sum_place_q[PLACE-2:0];
+      setup_homogeneous <= !sum_ordinary;
     end
   end
 
@@ -238,7 +209,7 @@ module quadrille_quad_setup #(
   localparam logic [5:0] SIDES = DETERMINANTS + 6'(8 / PAIRS);
   localparam logic [5:0] LATE = (PAIRS == 1) ? 6'd30 : 6'd15;  // of E30; with two pairs nothing, the determinants' signs are to come
   localparam logic [5:0] CORNERS = (PAIRS == 1) ? 6'd26 : 6'd18;
-  localparam logic [5:0] LAST_TOGETHER = (PAIRS == 1) ? LATE + 6'd1 : SIDES - 6'd1;  // without separate_i
+  localparam logic [5:0] LAST_TOGETHER = (PAIRS == 1) ? LATE + 6'd1 : SIDES - 6'd1;  // without state.skip[3]
   localparam logic [5:0] LAST_SEPARATE = (PAIRS == 1) ? 6'd39 : 6'd23;
 
   logic to_late;  // the next step is LATE
@@ -250,8 +221,8 @@ module quadrille_quad_setup #(
   logic [PAIRS-1:0] corner_triangle, corner_negated;
   logic [2:0] group;
 
-  assign last = step_q == (front_ordinary_q ? LAST_ORDINARY : separate_i ? LAST_SEPARATE : LAST_TOGETHER);
-  assign to_late = PAIRS == 1 && !separate_i && step_q == SIDES - 6'd1;
+  assign last = step_q == (front_ordinary_q ? LAST_ORDINARY : state.skip[3] ? LAST_SEPARATE : LAST_TOGETHER);
+  assign to_late = PAIRS == 1 && !state.skip[3] && step_q == SIDES - 6'd1;
   assign is_late = PAIRS == 1 && step_q[5:1] == LATE[5:1];
   assign is_function = step_q < FUNCTIONS_END || is_late;
   assign is_edge = front_ordinary_q || (is_function && step_q[0]);
@@ -278,13 +249,15 @@ module quadrille_quad_setup #(
   end
 
   // ---- Corners of the scissor in a vertex's place, in pixels: chosen while the edge function's value is multiplied -------------
-  localparam int EDGE_WIDTH = VAL + 2 * GRAD;
   logic [6*VAL-1:0] lin_value_q;
   logic [6*GRAD-1:0] lin_gx_q, lin_gy_q;
   logic [PAIRS*EDGE_WIDTH-1:0] edge_words;  // value, gx, gy
   logic [3:0] negative, zero;  // of d_012, d_023, d_123, d_013
   logic [PAIRS*(V+1)-1:0] corner_x, corner_y;
   logic side_far_q;
+  logic [V:0] offset_x, offset_y;  // of a MOVE, a clock after the job
+  logic [PAIRS*3-1:0] kinds;
+  logic [PAIRS*4-1:0] functions;
 
   always_ff @(posedge clk_i) side_far_q <= side_far;
 
@@ -297,24 +270,24 @@ module quadrille_quad_setup #(
     assign corner_negated[p] = corner_triangle[p] ? negative[1] ^ is_diagonal : negative[0];
     assign far_x = edge_words[p*EDGE_WIDTH+2*GRAD-1] == corner_negated[p];
     assign far_y = edge_words[p*EDGE_WIDTH+GRAD-1] == corner_negated[p];
-    assign corner_x[p*(V+1)+:V+1] = far_x ? scissor_x1_i : scissor_x0_i;
-    assign corner_y[p*(V+1)+:V+1] = far_y ? scissor_y1_i : scissor_y0_i;
+    assign corner_x[p*(V+1)+:V+1] = far_x ? state.scissor_x1 : state.scissor_x0;
+    assign corner_y[p*(V+1)+:V+1] = far_y ? state.scissor_y1 : state.scissor_y0;
   end
 
-  assign offset_x_o = side_far_q ? scissor_x1_i : scissor_x0_i;
-  assign offset_y_o = side_far_q ? scissor_y1_i : scissor_y0_i;
+  assign offset_x = side_far_q ? state.scissor_x1 : state.scissor_x0;
+  assign offset_y = side_far_q ? state.scissor_y1 : state.scissor_y0;
 
   for (genvar g = 0; g < 4; g++) begin : gen_vertex
     localparam int P = (g == 2 && PAIRS == 2) ? 1 : 0;
     localparam bit IS_CORNER = g >= 1 && g <= PAIRS;
     logic to_corner, to_one;
 
-    assign from_origin_x[g*T+:T] = x_i[g*T+:T] - origin_x;
-    assign from_origin_y[g*T+:T] = y_i[g*T+:T] - origin_y;
+    assign from_origin_x[g*T+:T] = quad.x[g*T+:T] - origin_x;
+    assign from_origin_y[g*T+:T] = quad.y[g*T+:T] - origin_y;
 
     // All but the low bits of a corner are a synchronous reset.
     assign to_corner = IS_CORNER && run_q && is_corner && !step_q[0];
-    assign to_one = IS_CORNER && run_q && !front_ordinary_q && separate_i && step_q == CORNERS - 6'd1;
+    assign to_one = IS_CORNER && run_q && !front_ordinary_q && state.skip[3] && step_q == CORNERS - 6'd1;
 
     always_ff @(posedge clk_i) begin
       if (to_corner) begin
@@ -329,13 +302,16 @@ module quadrille_quad_setup #(
         ty_q[g*T+:V+1] <= to_corner ? corner_y[P*(V+1)+:V+1] : from_origin_y[g*T+:V+1];
       end
       if (to_one) w_q[g*W+:W] <= W'(1);
-      else if (start_i) w_q[g*W+:W] <= w_i[g*W+:W];
+      else if (start_i) w_q[g*W+:W] <= quad.w[g*W+:W];
     end
   end
 
-  assign x_o = tx_q;
-  assign y_o = ty_q;
-  assign w_o = w_q;
+  assign jobs_o = {kinds, functions, tx_q, ty_q, w_q, offset_x, offset_y};
+  assign edges_o = edge_words;
+  assign setup_o = {setup_slot, setup_tile_x0, setup_tile_y0, setup_tiles_x, setup_tiles_y, setup_last_row, setup_x,
+      setup_y, setup_w, setup_homogeneous, setup_hull, setup_visible, setup_lin_value, setup_lin_gx, setup_lin_gy,
+      setup_tie_pos, setup_tie_neg, setup_fall_tile, setup_rise_tile, setup_fall_block, setup_rise_block,
+      setup_length2};
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_job
     // d_012 = E01 . V2, d_023 = E23 . V0, d_123 = E12 . V3, d_013 = E01 . V3, or E30 . V1 where the second pair of units has it.
@@ -373,12 +349,11 @@ module quadrille_quad_setup #(
       end
     end
 
-    assign kind_o[p*3+:3] = kind;
-    assign function_o[p*4+:4] = job_function;
+    assign kinds[p*3+:3] = kind;
+    assign functions[p*4+:4] = job_function;
     assign corner_edge = (PAIRS == 1) ? (step_q[5] ? step_q[2:1] : 2'd3) :
         (p == 0) ? step_q[2:1] - 2'd2 : (step_q[2:1] == 2'd1) ? 2'd0 : step_q[2:1];
     assign edge_index = is_corner ? corner_edge : det_edge;
-    assign {edge_value_o[p*VAL+:VAL], edge_gx_o[p*GRAD+:GRAD], edge_gy_o[p*GRAD+:GRAD]} = edge_words[p*EDGE_WIDTH+:EDGE_WIDTH];
 
     quadrille_one_of_four #(.WIDTH(EDGE_WIDTH)) u_edge (
         .words_i(words),
@@ -393,7 +368,7 @@ module quadrille_quad_setup #(
 
   quadrille_delay_line #(.WIDTH(2 * PAIRS * RISE), .DEPTH(CLOCKS - 1)) u_apart (
       .clk_i,
-      .data_i({apart_x_i, apart_y_i}),
+      .data_i({products.apart_x, products.apart_y}),
       .data_o({apart_x, apart_y})
   );
 
@@ -454,8 +429,8 @@ module quadrille_quad_setup #(
     logic [REACH-1:0] fall_tile, rise_tile, fall_block, rise_block;
     logic [GRAD-1:0] reach_gx_q, reach_gy_q;
 
-    assign result0 = result0_i[p*OUT+:OUT];
-    assign result1 = result1_i[p*OUT+:OUT];
+    assign result0 = products.result0[p*OUT+:OUT];
+    assign result1 = products.result1[p*OUT+:OUT];
     assign value = VAL'(result0);
     assign length2 = LENGTH2'(result1 >> QDROP);
     assign gx = ordinary_job ? GRAD'($signed(apart_y[p*RISE+:RISE])) << FRAC : GRAD'(result0);
@@ -499,10 +474,10 @@ module quadrille_quad_setup #(
         lin_gy_q[g*GRAD+:GRAD] <= gen_result[P].gy;
       end
       if (hand_over) begin
-        lin_value_o[g*VAL+:VAL] <= lin_value_q[g*VAL+:VAL];
-        length2_o[g*LENGTH2+:LENGTH2] <= length2_q[g*LENGTH2+:LENGTH2];
-        lin_gx_o[g*GRAD+:GRAD] <= lin_gx_q[g*GRAD+:GRAD];
-        lin_gy_o[g*GRAD+:GRAD] <= lin_gy_q[g*GRAD+:GRAD];
+        setup_lin_value[g*VAL+:VAL] <= lin_value_q[g*VAL+:VAL];
+        setup_length2[g*LENGTH2+:LENGTH2] <= length2_q[g*LENGTH2+:LENGTH2];
+        setup_lin_gx[g*GRAD+:GRAD] <= lin_gx_q[g*GRAD+:GRAD];
+        setup_lin_gy[g*GRAD+:GRAD] <= lin_gy_q[g*GRAD+:GRAD];
       end
     end
 
@@ -522,12 +497,12 @@ module quadrille_quad_setup #(
         end
         if (hand_over) begin
           {
-            tie_pos_o[g],
-            tie_neg_o[g],
-            fall_tile_o[g*REACH+:REACH],
-            rise_tile_o[g*REACH+:REACH],
-            fall_block_o[g*REACH+:REACH],
-            rise_block_o[g*REACH+:REACH]
+            setup_tie_pos[g],
+            setup_tie_neg[g],
+            setup_fall_tile[g*REACH+:REACH],
+            setup_rise_tile[g*REACH+:REACH],
+            setup_fall_block[g*REACH+:REACH],
+            setup_rise_block[g*REACH+:REACH]
           } <= reach_q;
         end
       end
@@ -561,7 +536,7 @@ module quadrille_quad_setup #(
     always_ff @(posedge clk_i) begin
       if (!cornered_q) {kept_neg_q, kept_zero_q} <= {det_neg, det_zero};
       if (det_job || corner_job) begin
-        det_q <= (second_job ? det_q : '0) + DET'($signed(result0_i[p*OUT+:OUT])) + (DET'($signed(result1_i[p*OUT+:OUT])) << 32);
+        det_q <= (second_job ? det_q : '0) + DET'($signed(products.result0[p*OUT+:OUT])) + (DET'($signed(products.result1[p*OUT+:OUT])) << 32);
         if (det_job && !second_job) begin
           det_neg_q <= (DETS - 1)'({det_neg_q, det_neg});
           det_zero_q <= (DETS - 1)'({det_zero_q, det_zero});
@@ -579,7 +554,7 @@ module quadrille_quad_setup #(
   end
 
   logic hull;
-  logic [3:0] visible;  // of the clauses, as visible_o
+  logic [3:0] visible;  // of the clauses, as setup_visible
 
   quadrille_eye_in_hull u_eye_in_hull (
       .ordinary_i(sum_ordinary),
@@ -596,8 +571,8 @@ module quadrille_quad_setup #(
   logic [1:0] separated;
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_side
-    assign side_x_neg[p] = result0_i[p*OUT+OUT-1];
-    assign side_y_neg[p] = result1_i[p*OUT+OUT-1];
+    assign side_x_neg[p] = products.result0[p*OUT+OUT-1];
+    assign side_y_neg[p] = products.result1[p*OUT+OUT-1];
   end
 
   for (genvar g = 0; g < 4; g++) begin : gen_w_sign
@@ -632,14 +607,14 @@ module quadrille_quad_setup #(
 
   assign missing = {4{cornered_q && !sum_ordinary && !hull}} & {separated, separated};
 
-  always_ff @(posedge clk_i) if (hand_over) {hull_o, visible_o} <= {hull, visible};
+  always_ff @(posedge clk_i) if (hand_over) {setup_hull, setup_visible} <= {hull, visible};
 
   // ---- Left out: both triangles of expression (12) without area, or turned away -------------------------------------------------
   // An ordinary quad's triangles have the areas of E01 + E12 + E20 and E23 + E30 - E20, anywhere: added up as the values come, and known a
   // clock before all is. A homogeneous quad's clauses are those of its determinants, but for triangles that miss the scissor.
   localparam int AREA = VAL + 2;
   logic [AREA-1:0] area_012_q, area_023_q;
-  logic [3:0] area_signs_q, wanted, turned;  // as the clauses of visible_o
+  logic [3:0] area_signs_q, wanted, turned;  // as the clauses of setup_visible
 
   // By their group: with one pair of units 01, 12, 23, 30, 20; with two 01 and 12, 23 and 30, 20 (and 13, which is in neither).
   logic [AREA-1:0] area_value, area_value2;  // of the first pair of units, of the second
@@ -668,30 +643,29 @@ module quadrille_quad_setup #(
     end
   end
 
-  assign wanted = {{2{cull_i != 2'd1}}, {2{cull_i != 2'd2}}};
+  assign wanted = {{2{state.cull != 2'd1}}, {2{state.cull != 2'd2}}};
   assign turned = (sum_ordinary ? area_signs_q : visible) & wanted;
-  assign drop_summed = sum_q && (end_q[END_CLOCKS-1] || complete_q) && sum_ordinary && reject_i && (area_signs_q & wanted) == '0 && !drop_result;
+  assign drop_summed = sum_q && (end_q[END_CLOCKS-1] || complete_q) && sum_ordinary && state.skip[1] && (area_signs_q & wanted) == '0 && !drop_result;
 
   always_ff @(posedge clk_i) begin
-    if (hand_over) left_out_q <= !sum_ordinary && ((reject_i && turned == '0) || (turned != '0 && (turned & ~missing) == '0));
+    if (hand_over) left_out_q <= !sum_ordinary && ((state.skip[1] && turned == '0) || (turned != '0 && (turned & ~missing) == '0));
   end
 
   if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
-    logic line_q;
+    logic line_q, job_now;
 
     always_ff @(posedge clk_i) if (hand_over) line_q <= visible == '0;
 
-    assign count_line_o = drop_result ? line_q : area_signs_q == '0;
-    assign count_job_o = run_q && !wait_i && (is_edge || is_gradient || is_det || is_side || is_corner);
-    assign count_busy_o = front_q || middle_q || sum_q || done_q;
+    assign job_now = run_q && !wait_i && (is_edge || is_gradient || is_det || is_side || is_corner);
+    assign events_o = {drop_result ? line_q : area_signs_q == '0, job_now, front_q || middle_q || sum_q || done_q};
   end else begin : gen_no_count
-    assign {count_line_o, count_job_o, count_busy_o} = '0;
+    assign events_o = '0;
   end
 
   assign drop_result = done_q && left_out_q;
   assign drop_o = drop_result || drop_summed;
-  assign drop_slot_o = drop_result ? slot_o : sum_place_q[PLACE-2-:SLOT];
-  assign done_o = done_q && !left_out_q;
+  assign drop_slot_o = drop_result ? setup_slot : sum_place_q[PLACE-2-:SLOT];
+  assign valid_o = done_q && !left_out_q;
 
   logic unused;
   assign unused = ^{last_column, det_step[5:3], side_step[5:3]};
@@ -702,7 +676,7 @@ module quadrille_quad_setup #(
       `QUADRILLE_ASSERT(assert_start_when_ready,
           !start_i || (held_i && ready_o),
           "start comes with a quad that is held, and ready")
-      `QUADRILLE_ASSERT(assert_take_when_done, !take_i || done_o, "take comes with done")
+      `QUADRILLE_ASSERT(assert_take_when_valid, !take_i || valid_o, "take comes with valid")
       `QUADRILLE_ASSERT(assert_one_place, !front_q || !middle_q, "a quad is in one place")
       `QUADRILLE_ASSERT(assert_results_owned,
           !(edge_job || gradient_job || det_job || side_job || corner_job) || sum_q || advance,

@@ -32,6 +32,7 @@ RTL = os.path.join(ROOT, "rtl")
 LIST, MEASURED = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json"))
 CONFIGURATIONS = os.path.join(ROOT, "golden/analysis/synthesised.csv")
 SIZES = {"lut": "luts", "ff": "flip_flops", "dsp": "dsps", "bram": "block_rams"}  # here -> in size.py's report
+PARTS = ("front", "tiles", "hidden_tiles", "pixel", "pixel_pipeline", "pixel_lane")  # whose units are in the list
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 
 
@@ -130,10 +131,10 @@ def conditional(text):
 def faults_of(units, package):
     faults = []
     listed = [unit["name"] for unit in units]
-    for top in ("quadrille", "pixel_pipeline", "pixel_lane"):
+    for top in ("quadrille", *PARTS):
         text = without_comments(read_text(os.path.join(RTL, module_name(top) + ".sv")))
         for module in dict.fromkeys(re.findall(r"^ +quadrille_(\w+) (?:#\(.*?\) )?u_\w+ \(", text, re.M | re.DOTALL)):
-            if module not in listed and module not in ("config_check", "delay_line", "pixel_pipeline", "pixel_lane", "offset_digits", "radix4_digits"):
+            if module not in (*listed, *PARTS, "config_check", "delay_line", "slot_allocation", "offset_digits", "radix4_digits"):
                 faults.append(f"rtl/units.toml: {top} instantiates {module}, which is not in the list")
     model = {}
     for name, expression in re.findall(r"inline constexpr int (\w+) = ([^;]+);", without_comments(read_text(os.path.join(ROOT, "model/port/latency.hpp")))):
