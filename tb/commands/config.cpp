@@ -4,13 +4,13 @@
 #include "tb/options/written_file.hpp"
 
 #include "golden/analysis/error_bound.hpp"
+#include "golden/analysis/judged_quad.hpp"
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/config_file.hpp"
 #include "golden/io/json_report.hpp"
 #include "model/port/boundaries.hpp"
 #include "model/port/tables.hpp"
 #include "tb/device/probes.hpp"
-#include "tb/judge/judged_quad.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 

@@ -11,6 +11,7 @@
 #include "model/port/snap.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/pixel.hpp"
 #include "tb/options/written_file.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
@@ -19,7 +20,6 @@
 #include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -36,19 +36,6 @@ struct FragmentsOptions {
   std::int64_t quad = -1;
   bool errors = false;
 };
-
-/// "X,Y" inside the viewport.
-std::pair<int, int> parse_pixel(const std::string& text, const DrawState& state) {
-  int x = -1, y = -1;
-  const char* end = text.data() + text.size();
-  const auto [comma, error] = std::from_chars(text.data(), end, x);
-  const bool first = error == std::errc{} && comma != end && *comma == ',';
-  const auto [last, second] =
-      first ? std::from_chars(comma + 1, end, y) : std::from_chars_result{end, std::errc::invalid_argument};
-  if (!first || second != std::errc{} || last != end || x < 0 || y < 0 || x >= state.width || y >= state.height)
-    throw UsageError("--pixel " + text + ": expected X,Y inside the viewport, such as --pixel 10,20");
-  return {x, y};
-}
 
 int fragments(const FragmentsOptions& options, const Invocation& invocation) {
   const Stopwatch start;
@@ -82,11 +69,11 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
     }
     input.quads = {input.quads[only]};
   }
-  std::pair<int, int> pixel{-1, -1};
+  PixelOption pixel;
   if (!options.pixel.empty()) pixel = parse_pixel(options.pixel, settings.state);
 
   const auto wanted = [&](const EngineSample& sample) {
-    return pixel.first < 0 || (sample.x == pixel.first && sample.y == pixel.second);
+    return pixel.x < 0 || (sample.x == pixel.x && sample.y == pixel.y);
   };
   std::vector<golden::FragmentRow> rows;
   std::vector<EngineSample> kept, truth;  // --errors
@@ -122,7 +109,7 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
     golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
 
   if (rows.empty() && !options.common.quiet)
-    std::fprintf(stderr, "note: no fragments%s\n", pixel.first < 0 ? "" : (" at pixel " + options.pixel).c_str());
+    std::fprintf(stderr, "note: no fragments%s\n", pixel.x < 0 ? "" : (" at pixel " + options.pixel).c_str());
 
   const std::string& drawn_by = options.method.empty() ? options.engine.engine : options.method;
   const double seconds = start.seconds();

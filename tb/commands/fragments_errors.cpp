@@ -1,6 +1,6 @@
 #include "tb/commands/fragments_errors.hpp"
 
-#include "tb/judge/judged_quad.hpp"
+#include "golden/analysis/judged_quad.hpp"
 #include "tb/judge/knob_errors.hpp"
 
 #include <cmath>
