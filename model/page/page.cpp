@@ -2,14 +2,17 @@
 // returns 0, or 1 with an error; result() is its JSON, bytes() its picture or numbers.
 #include "golden/analysis/error_bound.hpp"
 #include "golden/analysis/hardware_cost.hpp"
+#include "golden/explain/explain.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "model/page/drawing.hpp"
 #include "model/page/json.hpp"
 #include "model/page/views.hpp"
 #include "model/port/snap.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -184,6 +187,26 @@ EXPORT(view) int view() {
     View view = draw_view(make_drawing(parse_request(text)));
     result_bytes = std::move(view.rgba);
     return view.json;
+  });
+}
+
+/// The request's pixel, taken apart: of each quad that covers it, or of the one that there is.
+EXPORT(pixel) int pixel() {
+  return answer([](const std::string& text) {
+    const Drawing drawing = make_drawing(parse_request(text));
+    if (!drawing.request.pixel) throw std::invalid_argument("pixel: expected pixel=X,Y");
+    const auto [x, y] = *drawing.request.pixel;
+    DrawState state = drawing.state;
+    state.attributes = std::min(drawing.attributes, drawing.request.config.attribute_slots);
+    std::vector<explain::Explanation> all = explain::explain(drawing.request.config, state, drawing.quads, x, y);
+    const std::string summary = explain::summary(all);
+    if (all.size() > 1) std::erase_if(all, [](const explain::Explanation& e) { return !e.covered(); });
+    return Json()
+        .put("x", x)
+        .put("y", y)
+        .put("summary", summary)
+        .raw("quads", Json::list(all, [](const explain::Explanation& e) { return explain::to_json(e); }))
+        .text();
   });
 }
 

@@ -70,6 +70,10 @@ void set(Request& to, std::string_view key, std::string_view value) {
     to.cull = value == "none" ? Cull::none : value == "front" ? Cull::front : Cull::back;
   } else if (key == "depth") {
     to.depth = flag(key, value);
+  } else if (key == "pixel") {
+    std::string_view rest = value;
+    const int x = integer(key, until(rest, ','), 0, 1023);
+    to.pixel = {x, integer(key, rest, 0, 1023)};
   } else if (key == "view") {
     to.view = value;
   } else {

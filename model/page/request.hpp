@@ -5,6 +5,7 @@
 #include "model/port/config.hpp"
 #include "model/port/records.hpp"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -25,14 +26,15 @@ struct Request {
   std::optional<bool> perspective;
   std::optional<Cull> cull;
   bool depth = true;
-  std::string view;  ///< what stands beside the machine's picture; empty: nothing
+  std::optional<std::array<int, 2>> pixel;  ///< to be taken apart
+  std::string view;                         ///< what stands beside the machine's picture; empty: nothing
 
   /// The quads are those of the scene as the program has it.
   bool is_scene() const { return yaw == 0 && pitch == 0 && dolly == 0 && vertices.empty(); }
 };
 
 /// Keys: scene, size=WxH, yaw, pitch, dolly, vN=X,Y,Z, shade, texture, perspective=0|1, cull=none|front|back,
-/// depth=0|1, view, and every key of the configuration. Throws std::invalid_argument for anything else, ConfigError for
+/// depth=0|1, pixel=X,Y, view, and every key of the configuration. Throws std::invalid_argument for anything else, ConfigError for
 /// a configuration that cannot be built.
 Request parse_request(std::string_view text);
 

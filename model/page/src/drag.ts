@@ -28,6 +28,8 @@ export interface Changes {
   vertex(index: number, position: number[]): void;
   turn(yaw: number, pitch: number): void;
   dolly(by: number): void;
+  /** The pixel that was clicked. */
+  pick(x: number, y: number): void;
 }
 
 /** Degrees that a picture's width of dragging turns. */
@@ -38,7 +40,10 @@ export class Drag {
   private drawn: Drawn | null = null;
   private size: [number, number] = [512, 512];
   private handles: SVGGElement[] = [];
+  private cross: SVGPathElement | null = null;
   private pointers = new Map<number, { x: number; y: number }>();
+  /** Where the only pointer went down on the picture. */
+  private pressed: { x: number; y: number } | null = null;
 
   constructor(
     private stage: HTMLElement,
@@ -48,8 +53,15 @@ export class Drag {
   ) {
     stage.addEventListener("pointerdown", (event) => this.begin(event));
     stage.addEventListener("pointermove", (event) => this.move(event));
-    for (const end of ["pointerup", "pointercancel"] as const)
-      stage.addEventListener(end, (event) => this.pointers.delete(event.pointerId));
+    stage.addEventListener("pointerup", (event) => {
+      const from = this.pressed;
+      this.pointers.delete(event.pointerId);
+      this.pressed = null;
+      if (!from || Math.hypot(event.clientX - from.x, event.clientY - from.y) > 3) return;
+      const [x, y] = this.pixel(event).map(Math.floor);
+      if (x >= 0 && y >= 0 && x < this.size[0] && y < this.size[1]) this.changes.pick(x, y);
+    });
+    stage.addEventListener("pointercancel", (event) => this.pointers.delete(event.pointerId));
     stage.addEventListener(
       "wheel",
       (event) => {
@@ -79,6 +91,18 @@ export class Drag {
       const where = `x ${x.toFixed(2)}, y ${y.toFixed(2)}${vertex.w < 0 ? ", behind the eye" : ""}`;
       handle.setAttribute("aria-label", `Vertex ${index}: ${where}`);
     });
+  }
+
+  /** A cross at the pixel; null: none. */
+  mark(pixel: [number, number] | null) {
+    this.cross?.remove();
+    this.cross = null;
+    if (!pixel) return;
+    const [x, y] = [pixel[0] + 0.5, pixel[1] + 0.5];
+    this.cross = document.createElementNS(svg, "path");
+    this.cross.setAttribute("class", "cross");
+    this.cross.setAttribute("d", `M${x - 10} ${y}h7m6 0h7M${x} ${y - 10}v7m0 6v7`);
+    this.overlay.prepend(this.cross);
   }
 
   private make_handle(index: number): SVGGElement {
@@ -115,6 +139,7 @@ export class Drag {
     if (event.button !== 0) return;
     this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     const handle = (event.target as Element).closest<SVGGElement>(".handle");
+    this.pressed = handle || this.pointers.size > 1 ? null : { x: event.clientX, y: event.clientY };
     if (!handle || this.pointers.size > 1) {
       this.stage.setPointerCapture(event.pointerId);
       return;

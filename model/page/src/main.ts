@@ -2,7 +2,8 @@
 import { element, fill_options, fill_scenes, named_configurations, show_costs, show_stats, Sliders } from "./controls";
 import { Drag } from "./drag";
 import { Latest, Model, type Configuration, type Drawn, type Lists } from "./model";
-import { command_line, config_of, parse_state, request_text, state_text, toml_text, view_text, without_view, type State } from "./state";
+import { command_line, config_of, parse_state, request_text, state_text, toml_text, view_text, without_view, pixel_text, type State } from "./state";
+import { show_explained, type Explained } from "./pixel";
 import { difference, legend, show_legend, views } from "./views";
 import type { Answer } from "./worker";
 
@@ -47,6 +48,8 @@ function show_drawn(answer: Answer, text: string) {
   if (answer.bytes!.byteLength === 4 * size[0] * size[1]) paint(canvas, size, answer.bytes!);
   const beside = view_text(state);
   if (beside !== null) look.ask(beside);
+  const pixel = pixel_text(state);
+  if (pixel !== null) explain.ask(pixel);
   drag.show(drawn, size);
   const now = performance.now();
   frames = [...frames.filter((t) => now - t < 1000), now];
@@ -79,6 +82,10 @@ function paint_compared() {
   document.body.dataset.compared = compared.text;
 }
 
+const explain = new Latest(study, "pixel", (answer) => {
+  if (answer.error) element("explained").textContent = answer.error;
+  else show_explained(element("explained"), answer.result as unknown as Explained);
+});
 const look = new Latest(study, "view", show_compared);
 const configure = new Latest(machine, "configuration", (answer) => {
   if (answer.error) return;
@@ -100,6 +107,10 @@ function show_state() {
   );
   element<HTMLSelectElement>("named").value = named?.[0] ?? "";
   document.body.classList.toggle("embed", state.values.has("embed"));
+  const pixel = state.values.get("pixel")?.split(",").map(Number) ?? null;
+  drag.mark(pixel as [number, number] | null);
+  for (const [i, id] of ["pixel_x", "pixel_y"].entries())
+    if (document.activeElement?.id !== id) element<HTMLInputElement>(id).value = pixel ? String(pixel[i]) : "";
   const view = state.values.get("view") ?? "error";
   element<HTMLSelectElement>("view").value = view;
   element<HTMLInputElement>("difference").checked = state.values.has("difference");
@@ -130,6 +141,7 @@ const drag = new Drag(element("stage"), canvas, element<SVGSVGElement>("handles"
   vertex: (index, position) => change([`v${index}`, position.map(short).join(",")]),
   turn: (yaw, pitch) => change(add("yaw", yaw), add("pitch", pitch)),
   dolly: (by) => change(add("dolly", by)),
+  pick: (x, y) => change(["pixel", `${x},${y}`]),
 });
 
 function set_theme(theme: string) {
@@ -167,6 +179,11 @@ function listen() {
   });
   for (const key of ["shade", "texture", "cull"]) on_change(key, (select) => change([key, select.value]));
   on_change("view", (select) => change(["view", select.value]));
+  element("pixel_form").addEventListener("submit", (event) => event.preventDefault());
+  element("pixel_form").addEventListener("change", () => {
+    const at = ["pixel_x", "pixel_y"].map((id) => element<HTMLInputElement>(id).value || "0");
+    change(["pixel", at.join(",")]);
+  });
   on_change("difference", (box) => {
     change(["difference", box.checked ? "1" : null]);
     paint_compared();
@@ -224,7 +241,7 @@ Object.assign(window, {
     frames: () => frames,
     hash: () => state_text(state),
     settled: () => drawn !== null && !draw.busy && !configure.busy,
-    all_settled: () => drawn !== null && !draw.busy && !configure.busy && !look.busy,
+    all_settled: () => drawn !== null && !draw.busy && !configure.busy && !look.busy && !explain.busy,
   },
 });
 start();

@@ -7,7 +7,7 @@ export interface State {
 }
 
 /** What of the state is the page's own, and no part of a request. */
-const page_keys = new Set(["view", "difference", "embed", "theme"]);
+const page_keys = new Set(["view", "difference", "pixel", "embed", "theme"]);
 /** What of a request is neither a key of the configuration nor a vertex. */
 const draw_keys = new Set(["scene", "size", "yaw", "pitch", "dolly", "shade", "texture", "perspective", "cull", "depth"]);
 const vertex_key = /^v\d+$/;
@@ -47,6 +47,12 @@ export function request_text(state: State): string {
 export function view_text(state: State): string | null {
   const view = state.values.get("view") ?? "error";
   return view === "" ? null : `${request_text(state)}\nview=${view}`;
+}
+
+/** The pixel that is taken apart; null: none is. */
+export function pixel_text(state: State): string | null {
+  const pixel = state.values.get("pixel");
+  return pixel === undefined ? null : `${request_text(state)}\npixel=${pixel}`;
 }
 
 /** Keys of the configuration that the state sets. */

@@ -40,17 +40,19 @@ const loading = (async (): Promise<Model> => {
   return model;
 })();
 
-async function answer({ id, call, text }: Call): Promise<Answer> {
+async function answer({ id, call, text: request_text }: Call): Promise<Answer> {
   try {
     const model = await loading;
-    const request = new TextEncoder().encode(text);
+    const request = new TextEncoder().encode(request_text);
     const place = model.input(request.length);  // may move the memory
     new Uint8Array(model.memory.buffer, place, request.length).set(request);
     const start = performance.now();
     const failed = (model[call] as () => number)();
     const time = performance.now() - start;
     const words = new Uint8Array(model.memory.buffer, model.result(), model.result_size());
-    const result = JSON.parse(new TextDecoder().decode(words));
+    // Integers that are no doubles stay text.
+    const text = new TextDecoder().decode(words).replace(/(: )(-?\d{16,})(?=[,}])/g, '$1"$2"');
+    const result = JSON.parse(text);
     if (failed) return { id, time, error: result.error };
     const bytes = model.memory.buffer.slice(model.bytes(), model.bytes() + model.bytes_size());
     return { id, time, result, bytes: bytes as ArrayBuffer };
