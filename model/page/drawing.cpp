@@ -1,5 +1,6 @@
 #include "model/page/drawing.hpp"
 
+#include "golden/io/texture.hpp"
 #include "golden/scenes/shading.hpp"
 #include "model/port/draw_state.hpp"
 #include "model/port/snap.hpp"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -68,10 +70,19 @@ Matrix4 moved(const Matrix4& m, const Vec3& centre, const Request& request) {
   return out;
 }
 
-golden::TextureKind texture_of(const std::string& name) {
+std::shared_ptr<const golden::Texture> own_picture;
+
+std::function<Vec3(double, double)> texture_of(const std::string& name) {
   for (const auto kind : {golden::TextureKind::checker, golden::TextureKind::fine, golden::TextureKind::globe})
-    if (golden::texture_name(kind) == name) return kind;
-  throw std::invalid_argument("texture=" + name + ": expected checker, fine or globe");
+    if (golden::texture_name(kind) == name)
+      return [kind](double u, double v) { return golden::procedural_texture(kind, u, v); };
+  if (name == "own" && own_picture)
+    return [picture = own_picture](double u, double v) {
+      const std::array<double, 4> rgba = picture->sample(u, v);
+      return Vec3{rgba[0], rgba[1], rgba[2]};
+    };
+  throw std::invalid_argument("texture=" + name + ": expected checker, fine, globe" +
+                              (name == "own" ? "; or choose a picture of your own again" : ""));
 }
 
 WindowQuad weighted(WindowQuad quad) {
@@ -84,13 +95,18 @@ WindowQuad weighted(WindowQuad quad) {
 
 }  // namespace
 
+void set_own_picture(golden::Image8 picture) {
+  own_picture = std::make_shared<const golden::Texture>(std::move(picture));
+}
+
 Drawing make_drawing(const Request& request) {
   Drawing out;
   out.request = request;
   out.scene = golden::make_scene(request.scene);
   golden::Scene& scene = out.scene;
   out.shade = request.shade.empty() ? scene.shade : request.shade;
-  out.texture = request.texture.empty() ? scene.texture : texture_of(request.texture);
+  out.texture = request.texture.empty() ? std::string(golden::texture_name(scene.texture)) : request.texture;
+  out.texel = texture_of(out.texture);
   if (out.shade == "planes" && !scene.planes)
     throw std::invalid_argument("shade=planes: the scene " + scene.name + " is not cut by planes");
 
@@ -229,7 +245,7 @@ std::vector<std::uint8_t> Shader::shade(const DepthImage<double>& image, Values 
   if (mode == "lambda" && values == Values::weights) {
     fill([&](std::size_t p) { return golden::weight_colour(lambda(p)); });
   } else if (mode == "texture") {
-    fill([&](std::size_t p) { return golden::procedural_texture(drawing_.texture, uv(p)[0], uv(p)[1]); });
+    fill([&](std::size_t p) { return drawing_.texel(uv(p)[0], uv(p)[1]); });
   } else if (mode == "uv") {
     fill([&](std::size_t p) { return Vec3{golden::wrapped(uv(p)[0]), golden::wrapped(uv(p)[1]), 0.25}; });
   } else if (mode == "normal") {

@@ -1,6 +1,7 @@
 // A request as quads with a draw state, and what the machine draws of them.
 #pragma once
 
+#include "golden/io/png.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "model/depth_image.hpp"
 #include "model/page/request.hpp"
@@ -8,6 +9,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace quadrille::page {
@@ -19,7 +22,8 @@ struct Drawing {
   golden::Matrix4 matrix;  ///< clip = matrix · (x, y, z, 1)
   DrawState state;
   std::string shade;
-  golden::TextureKind texture = golden::TextureKind::checker;
+  std::string texture;                                    ///< its name
+  std::function<golden::Vec3(double u, double v)> texel;  ///< its colour at (u, v), v up
   std::vector<WindowQuad> quads;                     ///< with the attributes of the shading
   std::vector<std::array<golden::Vec3, 4>> corners;  ///< of every quad, in the mesh's space
   std::vector<std::array<golden::Vec2, 4>> textures;
@@ -27,6 +31,9 @@ struct Drawing {
   golden::Vec3 to_eye{0, 0, 1};
   golden::CuttingPlanes planes;
 };
+
+/// A picture of the viewer's, rows from the top: the texture `own` from then on.
+void set_own_picture(golden::Image8 picture);
 
 /// Throws std::invalid_argument for an unknown scene, vertex, shading or texture.
 Drawing make_drawing(const Request& request);

@@ -6,12 +6,14 @@
 #include "golden/scenes/scenes.hpp"
 #include "model/page/drawing.hpp"
 #include "model/page/json.hpp"
+#include "model/page/stepper.hpp"
 #include "model/page/views.hpp"
 #include "model/port/snap.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,6 +25,7 @@ namespace {
 
 std::string request_text, result_text;
 std::vector<std::uint8_t> result_bytes;
+std::optional<Stepper> stepper;
 
 template <class Call>
 int answer(Call&& call) {
@@ -104,7 +107,7 @@ std::string drawing_json(const Drawing& d, const Picture& picture) {
   return Json()
       .put("scene", d.scene.name)
       .put("shade", d.shade)
-      .put("texture", golden::texture_name(d.texture))
+      .put("texture", d.texture)
       .put("perspective", d.state.perspective)
       .put("cull", d.state.cull == Cull::none    ? "none"
                    : d.state.cull == Cull::front ? "front"
@@ -162,6 +165,18 @@ EXPORT(lists) int lists() {
         .raw("workloads", scene_list(golden::list_workloads()))
         .raw("keys", key_list())
         .text();
+  });
+}
+
+/// Instead of a request: the bytes, red, green, blue, alpha, of a picture that is so wide.
+EXPORT(picture) int picture(int width) {
+  return answer([&](const std::string& text) {
+    golden::Image8 picture;
+    picture.width = width;
+    picture.height = static_cast<int>(text.size() / 4) / std::max(1, width);
+    picture.rgba.assign(text.begin(), text.end());
+    set_own_picture(std::move(picture));
+    return Json().text();
   });
 }
 
@@ -225,6 +240,23 @@ EXPORT(fragments) int fragments() {
         .put("depth_bits", drawing.request.config.depth_bits)
         .put("depth", drawing.state.depth)
         .text();
+  });
+}
+
+/// The clocked machine, before its first clock.
+EXPORT(machine_start) int machine_start() {
+  return answer([](const std::string& text) {
+    stepper.emplace(make_drawing(parse_request(text)));
+    return stepper->json();
+  });
+}
+/// Clocks; bytes are x | y << 16 of the fragments that left in them.
+EXPORT(machine_run) int machine_run(int clocks, int stall) {
+  return answer([&](const std::string&) {
+    if (!stepper) throw std::logic_error("machine_run: machine_start comes first");
+    stepper->run(clocks, stall);
+    put_bytes(stepper->take_fragments());
+    return stepper->json();
   });
 }
 

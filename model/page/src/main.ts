@@ -4,6 +4,7 @@ import { Drag } from "./drag";
 import { Latest, Model, type Configuration, type Drawn, type Lists } from "./model";
 import { command_line, config_of, parse_state, request_text, state_text, toml_text, view_text, without_view, pixel_text, type State } from "./state";
 import { show_explained, type Explained } from "./pixel";
+import { Stepping } from "./step";
 import { difference, legend, show_legend, views } from "./views";
 import type { Answer } from "./worker";
 
@@ -48,6 +49,7 @@ function show_drawn(answer: Answer, text: string) {
   if (answer.bytes!.byteLength === 4 * size[0] * size[1]) paint(canvas, size, answer.bytes!);
   const beside = view_text(state);
   if (beside !== null) look.ask(beside);
+  show_stepping();
   const pixel = pixel_text(state);
   if (pixel !== null) explain.ask(pixel);
   drag.show(drawn, size);
@@ -86,6 +88,28 @@ const explain = new Latest(study, "pixel", (answer) => {
   if (answer.error) element("explained").textContent = answer.error;
   else show_explained(element("explained"), answer.result as unknown as Explained);
 });
+const stepping = new Stepping(
+  study,
+  element<HTMLCanvasElement>("beside"),
+  element("step_list"),
+  {
+    play: element<HTMLButtonElement>("step_play"),
+    speed: element<HTMLSelectElement>("step_speed"),
+    stall: element<HTMLInputElement>("step_stall"),
+  },
+  () => new Uint8ClampedArray(picture.bytes),
+);
+let stepped = "";
+/** A machine of the state, from its first clock on, where that is what stands beside. */
+function show_stepping() {
+  const text = state.values.get("view") === "machine" ? request_text(state) : "";
+  element("stepping").hidden = text === "";
+  if (text === stepped) return;
+  stepped = text;
+  stepping.start(text || null, size_of(state));
+  if (text) show_legend(element("legend"), []);
+}
+
 const look = new Latest(study, "view", show_compared);
 const configure = new Latest(machine, "configuration", (answer) => {
   if (answer.error) return;
@@ -144,6 +168,18 @@ const drag = new Drag(element("stage"), canvas, element<SVGSVGElement>("handles"
   pick: (x, y) => change(["pixel", `${x},${y}`]),
 });
 
+/** The picture stays here: it goes to the workers alone. */
+async function take_picture(file: File) {
+  const bitmap = await createImageBitmap(file);
+  const scale = Math.min(1, 1024 / Math.max(bitmap.width, bitmap.height));
+  const width = Math.max(1, Math.round(bitmap.width * scale)), height = Math.max(1, Math.round(bitmap.height * scale));
+  const context = new OffscreenCanvas(width, height).getContext("2d")!;
+  context.drawImage(bitmap, 0, 0, width, height);
+  const bytes = context.getImageData(0, 0, width, height).data;
+  for (const model of [machine, study]) await model.call("picture", "", { width, bytes });
+  change(["texture", "own"], ["shade", "texture"]);
+}
+
 function set_theme(theme: string) {
   document.documentElement.dataset.theme = theme;
 }
@@ -188,6 +224,10 @@ function listen() {
     change(["difference", box.checked ? "1" : null]);
     paint_compared();
   });
+  element("own").addEventListener("change", async (event) => {
+    const file = (event.target as HTMLInputElement).files?.[0];
+    if (file) await take_picture(file).catch(() => show_error(`${file.name}: expected a picture that the browser knows`));
+  });
   on_change("perspective", (box) => change(["perspective", box.checked ? "1" : "0"]));
   on_change("named", (select) => {
     const keys = named_configurations.find(([name]) => name === select.value)?.[1] ?? {};
@@ -206,6 +246,15 @@ function listen() {
     set_theme(theme);
     change(["theme", theme]);
   });
+  on_click("step_start", () => {
+    stepped = "";
+    show_stepping();
+  });
+  on_click("step_one", () => {
+    stepping.pause();
+    stepping.run(1);
+  });
+  on_click("step_play", () => stepping.toggle());
   on_click("copy_link", () => copy(location.href.replace(/#.*/, "") + state_text(state), "Link"));
   on_click("copy_command", async () => copy(command_line(state, drawn!, drawn!.is_scene ? "" : await quads_text()), "Command"));
   on_click("save_png", () => canvas.toBlob((blob) => save("page.png", blob!, "image/png")));
@@ -225,7 +274,7 @@ async function start() {
   lists = answer.result as unknown as Lists;
   fill_scenes(element("scene"), lists);
   fill_options(element("shade"), ["texture", "uv", "normal", "lambda", "depth", "quad", "planes", "colour"].map((s) => [s, s]));
-  fill_options(element("texture"), ["checker", "fine", "globe"].map((s) => [s, s]));
+  fill_options(element("texture"), ["checker", "fine", "globe", "own"].map((s) => [s, s]));
   fill_options(element("cull"), ["none", "front", "back"].map((s) => [s, s]));
   fill_options(element("view"), views);
   fill_options(element("named"), [["", "own"], ...named_configurations.map(([name]) => [name, name] as [string, string])]);

@@ -17,9 +17,9 @@ export class Model {
     };
   }
 
-  call(call: string, text = ""): Promise<Answer> {
+  call(call: string, text = "", picture?: Call["picture"], numbers?: number[]): Promise<Answer> {
     const id = this.next++;
-    this.worker.postMessage({ id, call, text } satisfies Call);
+    this.worker.postMessage({ id, call, text, picture, numbers } satisfies Call);
     return new Promise((done) => this.waiting.set(id, done));
   }
 }

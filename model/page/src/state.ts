@@ -46,7 +46,7 @@ export function request_text(state: State): string {
 /** What stands beside the machine's picture; null where nothing does. */
 export function view_text(state: State): string | null {
   const view = state.values.get("view") ?? "error";
-  return view === "" ? null : `${request_text(state)}\nview=${view}`;
+  return view === "" || view === "machine" ? null : `${request_text(state)}\nview=${view}`;
 }
 
 /** The pixel that is taken apart; null: none is. */

@@ -15,6 +15,7 @@ export const views: [string, string][] = [
   ["fp32", "paper's formulas in fp32"],
   ["coverage", "coverage, ties and notches"],
   ["clocks", "clock of each pixel"],
+  ["machine", "the machine, clock by clock"],
 ];
 
 /** What the bound does not hold for it is said too. */

@@ -15,6 +15,10 @@ export interface Call {
   id: number;
   call: string;
   text: string;
+  /** Instead of the text: pixels of a picture that is so wide. */
+  picture?: { width: number; bytes: Uint8ClampedArray };
+  /** Numbers that the call takes. */
+  numbers?: number[];
 }
 
 export interface Answer {
@@ -40,14 +44,14 @@ const loading = (async (): Promise<Model> => {
   return model;
 })();
 
-async function answer({ id, call, text: request_text }: Call): Promise<Answer> {
+async function answer({ id, call, text: request_text, picture, numbers = [] }: Call): Promise<Answer> {
   try {
     const model = await loading;
-    const request = new TextEncoder().encode(request_text);
+    const request = picture?.bytes ?? new TextEncoder().encode(request_text);
     const place = model.input(request.length);  // may move the memory
     new Uint8Array(model.memory.buffer, place, request.length).set(request);
     const start = performance.now();
-    const failed = (model[call] as () => number)();
+    const failed = (model[call] as (...numbers: number[]) => number)(...(picture ? [picture.width] : numbers));
     const time = performance.now() - start;
     const words = new Uint8Array(model.memory.buffer, model.result(), model.result_size());
     // Integers that are no doubles stay text.
