@@ -11,6 +11,7 @@ set(model_headers
   port/config_keys.h
   port/draw_state.hpp
   port/fragment_arrays.hpp
+  support/float113.hpp
   support/lane_target.hpp
   port/performance_counters.hpp
   port/records.hpp

@@ -1,0 +1,165 @@
+// Pointer, touch, wheel, keyboard, settings: what is drawn then is what the address says.
+import assert from "node:assert/strict";
+import { after, before, beforeEach, afterEach, test } from "node:test";
+import { drawn, launch, open, serve } from "./support.mjs";
+
+let server, browser, opened, page;
+before(async () => {
+  server = await serve();
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+beforeEach(async () => {
+  opened = await open(browser, server.address, "#scene=fig10_convex&view=", { hasTouch: true });
+  page = opened.page;
+});
+afterEach(async () => {
+  await opened.close();
+  assert.deepEqual(opened.problems, []);
+});
+
+const values = async () => {
+  await drawn(page);
+  return new Map(new URLSearchParams((await page.evaluate(() => window.quadrille.hash())).slice(1)));
+};
+const picture = async () => {
+  await drawn(page);
+  return page.evaluate(() => document.getElementById("machine").toDataURL());
+};
+const vertex = async (index) => {
+  const label = await page.locator(`.handle[data-vertex="${index}"]`).getAttribute("aria-label");
+  const [, x, y] = label.match(/x (-?[\d.]+), y (-?[\d.]+)/);
+  return [Number(x), Number(y)];
+};
+
+test("a corner follows the pointer", async () => {
+  const before = await picture();
+  const box = await page.locator("#machine").boundingBox();
+  const scale = box.width / 512;
+  const [x, y] = await vertex(2);
+  await page.mouse.move(box.x + x * scale, box.y + y * scale);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 300 * scale, box.y + 200 * scale, { steps: 5 });
+  await page.mouse.up();
+  const state = await values();
+  assert.equal(state.get("v2").split(",").length, 3);
+  const [nx, ny] = await vertex(2);
+  assert.ok(Math.abs(nx - 300) < 1 && Math.abs(ny - 200) < 1, `${nx}, ${ny}`);
+  assert.notEqual(await picture(), before);
+  assert.equal([...state.keys()].some((key) => ["yaw", "pitch"].includes(key)), false);
+});
+
+test("the picture turns by dragging, comes nearer by the wheel, and is reset", async () => {
+  const before = await picture();
+  const box = await page.locator("#machine").boundingBox();
+  await page.mouse.move(box.x + 10, box.y + 10);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 110, box.y + 30, { steps: 4 });
+  await page.mouse.up();
+  const state = await values();
+  assert.ok(Math.abs(Number(state.get("yaw")) - (100 * 180) / box.width) < 0.01);
+  assert.ok(Math.abs(Number(state.get("pitch")) - (20 * 180) / box.width) < 0.01);
+  await page.mouse.wheel(0, -300);
+  assert.equal((await values()).get("dolly"), "0.2");
+  assert.notEqual(await picture(), before);
+  await page.click("#reset");
+  assert.equal(await picture(), before);
+});
+
+test("touch: one finger turns, two come nearer", async () => {
+  const box = await page.locator("#machine").boundingBox();
+  const client = await page.context().newCDPSession(page);
+  const touch = (type, ...points) =>
+    client.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: points.map(([x, y], id) => ({ x: box.x + x, y: box.y + y, id })),
+    });
+  await touch("touchStart", [20, 20]);
+  await touch("touchMove", [60, 20]);
+  await touch("touchEnd");
+  const yaw = Number((await values()).get("yaw"));
+  assert.ok(Math.abs(yaw - (40 * 180) / box.width) < 1, String(yaw));
+  await touch("touchStart", [20, 20], [40, 20]);
+  await touch("touchMove", [20, 20], [90, 20]);
+  await touch("touchEnd");
+  assert.ok(Number((await values()).get("dolly")) > 0.05);
+});
+
+test("keyboard alone: a corner moves by a sub-pixel step, the picture turns, a figure is chosen", async () => {
+  // From the start of the page by Tab to the picture, then to the first corner.
+  const at = () => page.evaluate(() => document.activeElement.id || document.activeElement.dataset.vertex);
+  for (let i = 0; i < 10 && (await at()) !== "machine"; i++) await page.keyboard.press("Tab");
+  assert.equal(await at(), "machine");
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("+");
+  let state = await values();
+  assert.equal(state.get("yaw"), "-1");
+  assert.equal(state.get("dolly"), "0.02");
+  await page.keyboard.press("Tab");
+  assert.equal(await at(), "0");
+  const before = await vertex(0);
+  for (let i = 0; i < 64; i++) {
+    await page.keyboard.press("ArrowRight");
+    await drawn(page);
+  }
+  await page.keyboard.press("Shift+ArrowUp");
+  await drawn(page);
+  const after = await vertex(0);
+  assert.ok(Math.abs(after[0] - before[0] - 0.25) < 0.011, `${before} → ${after}`);
+  assert.ok(Math.abs(after[1] - before[1] + 8) < 0.011, `${before} → ${after}`);
+  await page.focus("#scene");
+  await page.keyboard.press("ArrowDown");
+  state = await values();
+  assert.equal(state.get("scene"), "fig10_concave");
+  assert.equal(state.has("v0") || state.has("yaw"), false);
+});
+
+test("fewer bits: another picture, a wider bound, a smaller machine", async () => {
+  const costs = async () => Object.fromEntries(
+    await page.$$eval("#costs dt", (terms) => terms.map((t) => [t.textContent, t.nextElementSibling.textContent])));
+  const wide = await costs(), before = await picture();
+  const bound = (of) => Number(Object.entries(of).find(([term]) => term.startsWith("error bound"))[1].replace("2^−", ""));
+  assert.ok(bound(wide) >= 15 && bound(wide) < 16);
+  await page.locator("#key_significand_bits").fill("9");
+  assert.equal((await values()).get("significand_bits"), "9");
+  assert.notEqual(await picture(), before);
+  const narrow = await costs();
+  assert.ok(bound(narrow) >= 6 && bound(narrow) < 7);
+  const luts = (of) => Number(of["LUTs (ECP5, estimated)"].replaceAll(",", ""));
+  assert.ok(luts(narrow) < luts(wide));
+  await page.selectOption("#named", "default");
+  assert.equal((await values()).has("significand_bits"), false);
+  assert.equal(await picture(), before);
+});
+
+test("what is wrong is said, and the page goes on", async () => {
+  await page.evaluate(() => (location.hash = "#scene=fig10_convexx"));
+  await page.locator("#error").waitFor({ state: "visible" });
+  assert.match(await page.textContent("#error"), /fig10_convexx.*fig10_convex/);
+  await page.evaluate(() => (location.hash = "#scene=fig10_convex&viewport_bits=14"));
+  await page.waitForFunction(() => /guard_bits/.test(document.getElementById("error").textContent));
+  await page.evaluate(() => (location.hash = "#scene=sphere"));
+  await page.locator("#error").waitFor({ state: "hidden" });
+});
+
+test("dragging draws at least 30 pictures a second", async () => {
+  // A third of the time that the machine's load may take away; the best second of eight.
+  let best = 0;
+  const box = await page.locator("#machine").boundingBox();
+  const scale = box.width / 512;
+  const [x, y] = await vertex(2);
+  await page.mouse.move(box.x + x * scale, box.y + y * scale);
+  await page.mouse.down();
+  for (let second = 0; second < 8 && best < 30; second++) {
+    const end = Date.now() + 1000;
+    for (let step = 0; Date.now() < end; step++)
+      await page.mouse.move(box.x + (x + 20 * Math.sin(step / 5)) * scale, box.y + y * scale);
+    best = Math.max(best, await page.evaluate(() => window.quadrille.frames().length));
+  }
+  await page.mouse.up();
+  console.log(`pictures a second while dragging: ${best}`);
+  assert.ok(best >= 30, `${best}`);
+});
