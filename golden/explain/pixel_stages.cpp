@@ -36,7 +36,7 @@ class PixelStages {
         {"A_ij = S_i × S_j, D_ij = S_i · S_j, R²_i = |S_i|², with S_i = (X_i - W_i x, Y_i - W_i y)",
          s_.machine.setup.homogeneous ? "from the tile's functions"
                                       : "A and R² from the tile's functions; D_ij = (R²_i + R²_j - |V_i - V_j|²) / 2"},
-        "Hormann & Tarini, section 4.2",
+        "Hormann & Tarini, section 4.2: A_i, D_i, and the squares of r_i",
         {},
         {},
         {}};
@@ -88,7 +88,7 @@ class PixelStages {
                 "sqrt",
                 "sqrt",
                 {"r_i = sqrt(R²_i), from a table of quadratics"},
-                "Hormann & Tarini, section 3",
+                "Hormann & Tarini, section 3: r_i",
                 {},
                 {},
                 {}};
@@ -109,7 +109,7 @@ class PixelStages {
                 "ratio",
                 {"u = r_i r_j + |D_ij|, v = |A_ij|",
                  "|tan(α_ij/2)| = |r_i r_j - D| / |A| = v/u if D >= 0, u/v if D < 0: no difference of like numbers"},
-                "Hormann & Tarini, eq. (8): t_i",
+                "Hormann & Tarini, section 4.2: tan(α_i/2)",
                 {},
                 {},
                 {}};

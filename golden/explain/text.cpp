@@ -38,6 +38,7 @@ class Table {
  public:
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
   std::string text(const std::string& indent) const {
+    if (rows_.size() < 2) return "";  // nothing below the head
     std::vector<std::size_t> width;
     for (const auto& row : rows_)
       for (std::size_t i = 0; i < row.size(); ++i) {
@@ -110,10 +111,10 @@ std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
   if (beside) head.insert(head.end(), {"exact", "ulp", "bound"});
   if (given) head.emplace_back("unsnapped");
   table.add(std::move(head));
-  std::size_t left_out = 0;
+  std::size_t left_out = 0, not_needed = 0;
   for (const Number& n : stage.numbers) {
-    if (!whole && !n.differs && is_coefficient(stage, n)) {
-      ++left_out;
+    if (!whole && !n.differs && (n.unused || is_coefficient(stage, n))) {
+      ++(n.unused ? not_needed : left_out);
       continue;
     }
     std::vector<std::string> row{n.name, stored_text(n, n.stored), value_text(n)};
@@ -123,6 +124,7 @@ std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
     if (n.differs) table.add({"  RTL", stored_text(n, n.other)});
   }
   out += table.text("     ");
+  if (not_needed > 0) out += "     (" + std::to_string(not_needed) + " numbers are not needed at this pixel, and 0)\n";
   if (left_out > 0) out += "     (" + std::to_string(left_out) + " coefficients more with --verbose)\n";
   return out;
 }
@@ -174,8 +176,7 @@ std::string headline(const Explanation& e) {
 
 bool is_coefficient(const Stage& stage, const Number& n) {
   if (stage.name != "setup" && stage.name != "tile") return false;
-  return n.unused || n.name.ends_with(" gx") || n.name.ends_with(" gy") || n.name.ends_with(" q") ||
-         n.name.starts_with("|V");
+  return n.name.ends_with(" gx") || n.name.ends_with(" gy") || n.name.ends_with(" q") || n.name.starts_with("|V");
 }
 
 std::string to_text(const Explanation& e, bool whole) {

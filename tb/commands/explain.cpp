@@ -140,7 +140,7 @@ void add_explain_command(CLI::App& app, Invocation& invocation) {
            "0 done; 1 RTL and model differ, or a bound exceeded; 2 usage or input error; 3 missing tool",
            {"explain --scene fig10_convex --pixel 256,256", "explain --scene bowtie --pixel 160,160 --html pixel.html",
             "explain --quads some.quads --quad 2 --pixel 10,20 --json -",
-            "explain --mesh pawn.obj --set significand_bits=12 --pixel 300,240 --engine rtl"});
+            "explain --mesh pawn.obj --pixel 300,240 --engine rtl"});
   const auto options = std::make_shared<ExplainOptions>();
   options->input.add_to(*command);
   add_attributes_option(*command, options->shade);
