@@ -4,6 +4,7 @@
 #include "model/python/binding.hpp"
 
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <limits>
@@ -77,6 +78,13 @@ struct Machine {
     return array_of(std::move(offered));
   }
 
+  std::vector<std::string> words() const {
+    std::vector<std::string> words;
+    if (const ClockedOutputs now = inner.model.comb(); now.fragment_valid)
+      now.for_each_fragment([&](const Fragment& fragment) { words.push_back(fragment_word(fragment, inner.config)); });
+    return words;
+  }
+
   nb::dict counters() const {
     nb::dict result;
     const PerformanceCounters now = inner.model.counters();
@@ -113,6 +121,7 @@ void bind_machine(nb::module_& m) {
       .def("run", &Machine::run, "most"_a)
       .def("take", &Machine::take)
       .def("on_offer", &Machine::on_offer)
+      .def("words", &Machine::words)
       .def("counters", &Machine::counters)
       .def_ro("clocks", &Machine::clocks)
       .def_prop_ro("waiting", [](const Machine& self) { return self.inner.waiting.size(); })

@@ -33,6 +33,9 @@ struct Quads {
 /// The records as bytes, with the fields that numpy.dtype needs: (bytes, [(name, format, offset)], bytes of a record).
 nb::tuple array_of(FragmentRecords&& records);
 
+/// A fragment at the port: the hexadecimal digits of fragment_t.
+std::string fragment_word(const Fragment& fragment, const Config& config);
+
 /// For work without the interpreter's lock: lets Ctrl-C end it. Asks at most ten times a second.
 class Interruptible {
  public:
@@ -47,6 +50,7 @@ void bind_input(nb::module_& m);
 void bind_draw(nb::module_& m);
 void bind_explain(nb::module_& m);
 void bind_machine(nb::module_& m);
+void bind_ports(nb::module_& m);
 void bind_sweep(nb::module_& m);
 
 }  // namespace quadrille::python

@@ -29,5 +29,6 @@ NB_MODULE(_core, m) {
   quadrille::python::bind_draw(m);
   quadrille::python::bind_explain(m);
   quadrille::python::bind_machine(m);
+  quadrille::python::bind_ports(m);
   quadrille::python::bind_sweep(m);
 }

@@ -41,6 +41,7 @@ from ._inputs import (
     stress_families,
 )
 from ._machine import Machine
+from ._ports import fragments_of_words, state_word, vertex_words
 from ._sweep import error_map, sweep, sweep_columns
 
 __all__ = [
@@ -65,6 +66,7 @@ __all__ = [
     "explanation_page",
     "explanation_stages",
     "fragment_names",
+    "fragments_of_words",
     "load_obj",
     "load_quads",
     "method",
@@ -78,9 +80,11 @@ __all__ = [
     "scene",
     "scenes",
     "snap",
+    "state_word",
     "stress",
     "stress_families",
     "sweep",
     "sweep_columns",
     "truth",
+    "vertex_words",
 ]

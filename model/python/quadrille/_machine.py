@@ -72,6 +72,11 @@ class Machine:
         return as_array(self._machine.on_offer())
 
     @property
+    def words(self) -> list[str]:
+        """The fragments on offer as the digits of `fragment_t`, lane by lane."""
+        return self._machine.words()
+
+    @property
     def counters(self) -> dict[str, int]:
         """Performance counters since reset, by their names in the specification."""
         return self._machine.counters()
