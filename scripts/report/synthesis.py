@@ -134,8 +134,8 @@ class Machine:
         if top not in self.units:
             raise InputError(f"no unit {top} in rtl/; there are: {' '.join(sorted(self.units))}")
         chparam = "".join(f" -chparam {name} {value}" for name, value in parameters)
-        # With its parameters behind it, in capitals, or with their hash before it.
-        kept = " ".join(f"*{module_name(unit)} *{module_name(unit)}?[A-Z]*" for unit in (*UNITS, *SHARED, *([top] if wrapper else [])))
+        # With its parameters behind it and a backslash, or with their hash before it.
+        kept = " ".join(f"*{module_name(unit)} *{module_name(unit)}\\\\*" for unit in (*UNITS, *SHARED, *([top] if wrapper else [])))
         if wrapper:
             return f"{self.read}read_verilog -sv wrapper.sv\nhierarchy -check -top {wrapper}\nsetattr -mod -set keep_hierarchy 1 {kept}\n"
         return f"{self.read}hierarchy -check -top {module_name(top)}{chparam}\nsetattr -mod -set keep_hierarchy 1 {kept}\n"
