@@ -24,7 +24,7 @@ LINES = {"README.md": 120, "tb/DECIDE.md": 120, "rtl/INTEGRATE.md": 120, "golden
 COLUMNS, README_LINES, WORDS = 120, 200, 27_000
 APART = ("rtl/SPEC.md", "golden/CHANGELOG.md", "golden/explain/README.md", "model/python/README.md")
 INPUT = "--scene bowtie --size 16x16"
-RUNS = f"""config --json @.json|scenes --json @.json|scenes --corner --json @.json|scenes --stress --json @.json|cache --json @.json
+RUNS = f"""config --json @.json|export --out @ --json @.json|scenes --json @.json|scenes --corner --json @.json|scenes --stress --json @.json|cache --json @.json
 explain {INPUT} --pixel 3,2 --json @.json|fragments {INPUT} --out @.csv|fragments {INPUT} --errors --out @.csv --json @.json|render {INPUT} --png @.png --json @.json
 render --mesh {ROOT}/golden/examples/box.obj --size 16x16 --png @.png --save-camera @.json|bench --no-rtl --repeat 1 --fragments 1000 --json @.json
 bench --error --no-rtl --repeat 1 {INPUT} --json @.json|bench --skips --no-rtl --repeat 1 {INPUT} --json @.json

@@ -104,6 +104,7 @@ int run(int argc, char** argv) {
   add_fragments_command(app, invocation);
   add_explain_command(app, invocation);
   add_config_command(app, invocation);
+  add_export_command(app, invocation);
   add_scenes_command(app, invocation);
   add_sweep_command(app, invocation);
   add_golden_command(app, invocation);

@@ -1,9 +1,9 @@
 // The whole machine on your quads: a bench to copy. Any configuration; its structs are the ports, field by field.
 //
-//     quadrille golden generate --quads F.quads --size 64x64 --out DIR      then run this with +dir=DIR/input
+//     quadrille golden generate --quads F.quads --size 64x64 --out DIR      then run this with +files=DIR/input/
 //
 // It offers the beats of stimulus.hex, prints the first fragments field by field, and compares all with response.hex. +stall lowers
-// fragment_ready in every other clock.
+// fragment_ready in every other clock. +files=BEGIN: what the names of its files begin with.
 module machine_bench;
   localparam int S = quadrille_pkg::SIGNIFICAND_BITS;
   localparam int PE = quadrille_pkg::PORT_EXP_BITS;
@@ -60,7 +60,9 @@ module machine_bench;
   logic [LANES*LANE-1:0] fragments;
   logic [LANES-1:0] mask;
 
-  always #1 clk = !clk;
+  // Without $finish, so that benches of several machines run beside each other.
+  logic done = 1'b0;
+  initial while (!done) #1 clk = !clk;
 
   quadrille u_quadrille (
       .clk_i(clk),
@@ -81,7 +83,7 @@ module machine_bench;
   );
 
   // ---- Files: records of golden/vectors/README.md ------------------------------------------------------------------------------
-  string dir;
+  string files;
   int states, beats, responses, count = 0, differences = 0;
   logic [16+quadrille_pkg::VERTEX_BITS-1:0] beat;  // {draw, vertex_t}
   logic [80+LANE-1:0] response;  // {draw, clock, clock with stalls, fragment_t}
@@ -97,10 +99,10 @@ module machine_bench;
   initial begin
     if ($bits(state) != quadrille_pkg::STATE_BITS || $bits(vertex) != quadrille_pkg::VERTEX_BITS || $bits(fragment) != LANE)
       $fatal(1, "the structs are not the ports");
-    if (!$value$plusargs("dir=%s", dir)) $fatal(1, "+dir=DIR/input");
-    states = open({dir, "/states.hex"});
-    beats = open({dir, "/stimulus.hex"});
-    responses = open({dir, "/response.hex"});
+    if (!$value$plusargs("files=%s", files)) files = "quadrille_";
+    states = open({files, "states.hex"});
+    beats = open({files, "stimulus.hex"});
+    responses = open({files, "response.hex"});
     while ($fscanf(responses, "%h", response) == 1) all_expected.push_back(response[LANE-1:0]);
     if ($fscanf(states, "%h", state) != 1) $fatal(1, "no draw state");
     repeat (4) @(negedge clk);
@@ -114,9 +116,9 @@ module machine_bench;
     end
     vertex_valid = 1'b0;
     while (busy || fragment_valid) @(negedge clk);
-    $display("machine_bench: %0d fragments, %0d missing, %0d differences", count, all_expected.size(), differences);
+    $display("%m: %0d fragments, %0d missing, %0d differences", count, all_expected.size(), differences);
     if (count == 0 || all_expected.size() != 0 || differences != 0) $fatal(1, "failed");
-    $finish;
+    done = 1'b1;
   end
 
   always @(negedge clk) begin

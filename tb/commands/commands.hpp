@@ -10,6 +10,7 @@ void add_render_command(CLI::App& app, Invocation& invocation);
 void add_fragments_command(CLI::App& app, Invocation& invocation);
 void add_explain_command(CLI::App& app, Invocation& invocation);
 void add_config_command(CLI::App& app, Invocation& invocation);
+void add_export_command(CLI::App& app, Invocation& invocation);
 void add_scenes_command(CLI::App& app, Invocation& invocation);
 void add_sweep_command(CLI::App& app, Invocation& invocation);
 void add_golden_command(CLI::App& app, Invocation& invocation);

@@ -14,7 +14,7 @@ TEST_F(Cli, AFileHasTheFormatOfItsName) {
   const std::regex option(R"((--[a-z-]+) \[?(F\.([a-z]+)|DIR)\b)");
   std::size_t tried = 0;
   for (const std::string command :
-       {"cosim", "render", "fragments", "config", "scenes", "bench", "sweep", "compare", "stress", "cache",
+       {"cosim", "render", "fragments", "config", "scenes", "bench", "sweep", "compare", "stress", "cache", "export",
         "golden generate", "golden merge", "golden verify", "golden diff"}) {
     const std::string help = run(command + " --help").out;
     for (std::sregex_iterator match(help.begin(), help.end(), option), end; match != end; ++match) {

@@ -28,6 +28,8 @@ fs::path locate(const char* name, const char* file) {
 
 fs::path rtl_directory() { return locate("rtl", "quadrille.sv"); }
 
+fs::path bench_directory() { return locate("golden/examples", "machine_bench.sv"); }
+
 fs::path scripts_directory() { return locate("scripts", "compare_plot.py"); }
 
 fs::path glue_directory() { return locate("tb/device", "device_glue.cpp"); }

@@ -13,6 +13,8 @@ namespace quadrille::tb {
 std::filesystem::path rtl_directory();
 /// Directory with device_glue.cpp, device_abi.h and device_print.h.
 std::filesystem::path glue_directory();
+/// Directory with machine_bench.sv.
+std::filesystem::path bench_directory();
 /// Directory with the scripts that the program calls (compare_plot.py).
 std::filesystem::path scripts_directory();
 /// Every *.sv of a directory: packages first, then the rest by name. Throws SystemError when there is none.
