@@ -1,7 +1,7 @@
 // Pointer, touch, wheel, keyboard, settings: what is drawn then is what the address says.
 import assert from "node:assert/strict";
 import { after, before, beforeEach, afterEach, test } from "node:test";
-import { drawn, launch, open, serve } from "./support.mjs";
+import { drawn, launch, open, program, run, serve } from "./support.mjs";
 
 let server, browser, opened, page;
 before(async () => {
@@ -143,6 +143,88 @@ test("what is wrong is said, and the page goes on", async () => {
   await page.waitForFunction(() => /guard_bits/.test(document.getElementById("error").textContent));
   await page.evaluate(() => (location.hash = "#scene=sphere"));
   await page.locator("#error").waitFor({ state: "hidden" });
+});
+
+test("a click takes a pixel apart as the program does", async () => {
+  const box = await page.locator("#machine").boundingBox();
+  const scale = box.width / 512;
+  await page.mouse.click(box.x + 240.5 * scale, box.y + 255.5 * scale);
+  assert.equal((await values()).get("pixel"), "240,255");
+  await page.waitForFunction(() => document.querySelectorAll("#explained details").length > 8);
+  const shown = await page.$$eval("#explained tr:has(td)", (rows) =>
+    rows.map((row) => [...row.cells].map((cell) => cell.textContent)),
+  );
+  const { stdout } = await run(program, ["explain", "--scene", "fig10_convex", "--pixel", "240,255", "--json", "-", "--quiet"], { maxBuffer: 2 ** 28 });
+  const [explained] = JSON.parse(stdout).explanations;
+  const numbers = explained.stages.flatMap((stage) => stage.numbers);
+  assert.ok(numbers.length > 50);
+  assert.deepEqual(shown.map((row) => row[0]), numbers.map((n) => n.name));
+  numbers.forEach((n, i) => {
+    if (n.unused) return assert.equal(shown[i][1], "not used");
+    const stored = Object.values(n.stored);
+    const hex = [...shown[i][1].matchAll(/(−?)0x([0-9a-f]+)/g)].map((m) => Number(BigInt(`0x${m[2]}`)) * (m[1] ? -1 : 1));
+    assert.deepEqual(hex, stored, n.name);
+    assert.ok(Math.abs(parseFloat(shown[i][2]) - n.value) <= 1e-8 * Math.abs(n.value), n.name);
+  });
+  assert.ok((await page.textContent("#explained")).includes(explained.why));
+  // Where nothing is drawn it says so.
+  await page.locator("#pixel_x").fill("3");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => /^outside/.test(document.getElementById("explained").textContent));
+});
+
+test("the machine clock by clock takes the program's clocks, more with stalls", async () => {
+  await page.evaluate(() => (location.hash = "#scene=fig10_crossed&view=machine"));
+  await page.locator("#stepping").waitFor({ state: "visible" });
+  const list = async () => Object.fromEntries(
+    await page.$$eval("#step_list dt", (terms) => terms.map((t) => [t.textContent, t.nextElementSibling.textContent])));
+  const until = (text) => page.waitForFunction((t) => document.querySelector("#step_list dd")?.textContent.includes(t), text, { timeout: 120000 });
+  await until("0");
+  await page.click("#step_one");
+  await until("1");
+  assert.equal((await list()).clock, "1");
+  assert.equal((await list())["vertices taken"], "1, one now");
+  await page.selectOption("#step_speed", "4096");
+  await page.click("#step_play");
+  await until("done");
+  const { stdout } = await run(program, ["fragments", "--scene", "fig10_crossed", "--json", "-", "--out", "/dev/null", "--quiet"]);
+  const { counters, fragments } = JSON.parse(stdout);
+  const done = await list();
+  assert.equal(Number(done.clock.replace(/,(?=\d)/g, "").split(",")[0]), counters.clocks);
+  assert.equal(Number(done.fragments.replaceAll(",", "")), fragments);
+  assert.equal(done["stalled clocks"], "0");
+  await page.locator("#step_stall").fill("50");
+  await page.click("#step_start");
+  await until("0");
+  await page.click("#step_play");
+  await until("done");
+  const stalled = await list();
+  assert.ok(Number(stalled["stalled clocks"].replaceAll(",", "")) > 1000);
+  assert.equal(stalled.fragments, done.fragments);
+});
+
+test("a picture of one's own is the texture, and stays here", async () => {
+  const before = await picture();
+  const png = await page.evaluate(() => {
+    const canvas = Object.assign(document.createElement("canvas"), { width: 2, height: 1 });
+    const context = canvas.getContext("2d");
+    context.fillStyle = "#123456";
+    context.fillRect(0, 0, 2, 1);
+    return canvas.toDataURL().split(",")[1];
+  });
+  await page.setInputFiles("#own", { name: "own.png", mimeType: "image/png", buffer: Buffer.from(png, "base64") });
+  await page.waitForFunction(() => document.getElementById("texture").value === "own");
+  assert.notEqual(await picture(), before);
+  const colours = await page.evaluate(() => {
+    const canvas = document.getElementById("machine");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, 512, 512);
+    const all = new Set();
+    for (let p = 0; p < data.length; p += 4) all.add([data[p], data[p + 1], data[p + 2]].join());
+    return [...all].sort();
+  });
+  assert.deepEqual(colours, ["18,52,86", "56,56,59"]);
+  await page.setInputFiles("#own", { name: "own.txt", mimeType: "text/plain", buffer: Buffer.from("no picture") });
+  await page.waitForFunction(() => /own.txt/.test(document.getElementById("error").textContent));
 });
 
 test("dragging draws at least 30 pictures a second", async () => {
