@@ -22,7 +22,8 @@ PROGRAM, ROOT = os.path.abspath(sys.argv[1]), pathlib.Path(__file__).resolve().p
 PAGES = {p: p.read_text(encoding="utf-8") for p in sorted(ROOT.rglob("*.md")) if p.relative_to(ROOT).parts[0] != "build"}
 LINES = {"README.md": 120, "tb/DECIDE.md": 120, "rtl/INTEGRATE.md": 120, "golden/EXPLORE.md": 120, "rtl/REJECTED.md": 100}
 COLUMNS, README_LINES, WORDS = 120, 200, 27_000
-APART = ("rtl/SPEC.md", "golden/CHANGELOG.md", "golden/explain/README.md", "model/python/README.md")
+APART = (
+    "rtl/SPEC.md", "golden/CHANGELOG.md", "golden/explain/README.md", "model/page/README.md", "model/python/README.md")
 INPUT = "--scene bowtie --size 16x16"
 RUNS = f"""config --json @.json|export --out @ --json @.json|scenes --json @.json|scenes --corner --json @.json|scenes --stress --json @.json|cache --json @.json
 explain {INPUT} --pixel 3,2 --json @.json|fragments {INPUT} --out @.csv|fragments {INPUT} --errors --out @.csv --json @.json|render {INPUT} --png @.png --json @.json

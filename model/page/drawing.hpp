@@ -24,8 +24,8 @@ struct Drawing {
   std::string shade;
   std::string texture;                                    ///< its name
   std::function<golden::Vec3(double u, double v)> texel;  ///< its colour at (u, v), v up
-  std::vector<WindowQuad> quads;                     ///< with the attributes of the shading
-  std::vector<std::array<golden::Vec3, 4>> corners;  ///< of every quad, in the mesh's space
+  std::vector<WindowQuad> quads;                          ///< with the attributes of the shading
+  std::vector<std::array<golden::Vec3, 4>> corners;       ///< of every quad, in the mesh's space
   std::vector<std::array<golden::Vec2, 4>> textures;
   int attributes = 0;  ///< per vertex
   golden::Vec3 to_eye{0, 0, 1};

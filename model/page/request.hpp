@@ -34,8 +34,8 @@ struct Request {
 };
 
 /// Keys: scene, size=WxH, yaw, pitch, dolly, vN=X,Y,Z, shade, texture, perspective=0|1, cull=none|front|back,
-/// depth=0|1, pixel=X,Y, view, and every key of the configuration. Throws std::invalid_argument for anything else, ConfigError for
-/// a configuration that cannot be built.
+/// depth=0|1, pixel=X,Y, view, and every key of the configuration. Throws std::invalid_argument for anything else,
+/// ConfigError for a configuration that cannot be built.
 Request parse_request(std::string_view text);
 
 }  // namespace quadrille::page

@@ -39,12 +39,22 @@ export class Latest {
     this.pending = text;
     if (this.busy) return;
     this.busy = true;
-    while (this.pending !== null) {
-      const now = this.pending;
-      this.pending = null;
-      this.show(await this.model.call(this.name, now), now);
+    let next = this.start();
+    while (next !== null) {
+      const { answer, text } = next;
+      const made = await answer;
+      next = this.start();  // while this one is shown
+      this.show(made, text);
+      next ??= this.start();
     }
     this.busy = false;
+  }
+
+  private start() {
+    if (this.pending === null) return null;
+    const text = this.pending;
+    this.pending = null;
+    return { text, answer: this.model.call(this.name, text) };
   }
 }
 

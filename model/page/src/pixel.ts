@@ -95,7 +95,7 @@ export function show_explained(box: HTMLElement, explained: Explained) {
   for (const e of explained.quads) {
     const flags = e.flags.length ? ` Flags: ${e.flags.join(", ")}.` : "";
     const what = explained.quads.length > 1 ? `Quad ${e.quad}${e.seen ? ", seen" : ""}: ` : "";
-    parts.push(node("p", `${what}${e.outcome.replaceAll("_", " ")}. ${e.why}${flags}`));
+    parts.push(node("p", `${what}${e.outcome.replaceAll("_", " ")}: ${e.why.replace(/\.$/, "")}.${flags}`));
     for (const remark of e.remarks) parts.push(node("p", remark, [], "quiet"));
     for (const s of e.stages) {
       const made = stage(s) as HTMLDetailsElement;

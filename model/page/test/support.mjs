@@ -3,7 +3,7 @@ import { execFile } from "node:child_process";
 import { createHash } from "node:crypto";
 import { createServer } from "node:http";
 import { createRequire } from "node:module";
-import { readFile } from "node:fs/promises";
+import { readdir, readFile } from "node:fs/promises";
 import { extname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { promisify } from "node:util";
@@ -33,8 +33,34 @@ export async function serve() {
   return { address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
 }
 
-export const launch = () =>
-  chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
+const options = { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] };
+export const launch = () => chromium.launch(options);
+
+/** A browser, and the processor time in seconds that the workers of its pages took. */
+export async function launch_watched() {
+  const host = await chromium.launchServer(options);
+  const browser = await chromium.connect(host.wsEndpoint());
+  const stat = async (path) => {
+    const text = await readFile(path, "utf8").catch(() => "");
+    const [, name, rest] = text.match(/\((.*)\) (.*)/s) ?? [null, "", ""];
+    const fields = rest.split(" ");
+    return { name, parent: Number(fields[1]), ticks: Number(fields[11]) + Number(fields[12]) };
+  };
+  const worker_seconds = async () => {
+    const parents = new Map();
+    for (const pid of (await readdir("/proc")).filter((name) => /^\d+$/.test(name)))
+      parents.set(Number(pid), (await stat(`/proc/${pid}/stat`)).parent);
+    const is_ours = (pid) => pid === host.process().pid || (parents.has(pid) && pid > 1 && is_ours(parents.get(pid)));
+    let ticks = 0;
+    for (const pid of [...parents.keys()].filter(is_ours))
+      for (const task of await readdir(`/proc/${pid}/task`).catch(() => [])) {
+        const { name, ticks: own } = await stat(`/proc/${pid}/task/${task}/stat`);
+        if (name.startsWith("DedicatedWorker")) ticks += own;
+      }
+    return ticks / 100;
+  };
+  return { browser, worker_seconds, close: async () => (await browser.close(), await host.close()) };
+}
 
 /** Opens the page with that hash; `problems` collects what must not happen. */
 export async function open(browser, address, hash = "", options = {}) {
