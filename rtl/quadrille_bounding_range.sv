@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// First tile and tile count of a quad along one axis, from its least and greatest coordinate: there the clock after load_i. They mean
-// nothing when there is no pixel (range_empty).
+// First tile and tile count of a quad along one axis, from its least and greatest coordinate: there the clock after
+// load_i. They mean nothing when there is no pixel (range_empty).
 //
-// Ordinary quad: lo = max(ceil(low), scissor0), hi = min(floor(high), scissor1 - 1), in pixels.
-// Homogeneous quad: lo = 0, hi = scissor1 - 1.
+// Ordinary quad: lo = max(ceil(low), scissor0), hi = min(floor(high), scissor1 - 1), in pixels. Homogeneous quad: lo =
+// 0, hi = scissor1 - 1.
 module quadrille_bounding_range #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refuses an impossible configuration at elaboration, naming the rule it breaks. No hardware.
 
-// A rule is an identifier: Verilator and Yosys print it as an error of elaboration, Icarus 11, which has none, as the name of a
-// module that is missing.
+// A rule is an identifier: Verilator and Yosys print it as an error of elaboration, Icarus 11, which has none, as the
+// name of a module that is missing.
 `ifdef __ICARUS__
 `define QUADRILLE_REQUIRE(CONDITION, RULE) if (!(CONDITION)) RULE u_stop ();
 `else

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the denominators N = |r_j k_i + r_i k_j| of a pixel on two edges (i, j) are made of: two products each. Combinational.
+// What the denominators N = |r_j k_i + r_i k_j| of a pixel on two edges (i, j) are made of: two products each.
+// Combinational.
 //
-// Of edge CLASS_FIRST the products 0 (r_j k_i) and 1 (r_i k_j), of edge CLASS_SECOND the products 2 and 3; neg_o has the sign of k. Numbers
-// are {exp, sig}.
+// Of edge CLASS_FIRST the products 0 (r_j k_i) and 1 (r_i k_j), of edge CLASS_SECOND the products 2 and 3; neg_o has
+// the sign of k. Numbers are {exp, sig}.
 module quadrille_denominator_operands #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
     localparam int E = quadrille_pkg::EXP_BITS,
@@ -33,21 +34,9 @@ module quadrille_denominator_operands #(
   for (genvar g = 0; g < 4; g++) begin : gen_product
     assign k[g*F+:F] = {E'($signed(k_exp_i[g*PE+:PE])), k_sig_i[g*S+:S]};
 
-    quadrille_one_of_four #(.WIDTH(F)) u_root (
-        .words_i(root_i),
-        .index_i(root_index[2*g+:2]),
-        .word_o(root_o[g*F+:F])
-    );
-    quadrille_one_of_four #(.WIDTH(F)) u_k (
-        .words_i(k),
-        .index_i(k_index[2*g+:2]),
-        .word_o(k_o[g*F+:F])
-    );
-    quadrille_one_of_four #(.WIDTH(1)) u_neg (
-        .words_i(k_neg_i),
-        .index_i(k_index[2*g+:2]),
-        .word_o(neg_o[g])
-    );
+    quadrille_one_of_four #(.WIDTH(F)) u_root (.words_i(root_i), .index_i(root_index[2*g+:2]), .word_o(root_o[g*F+:F]));
+    quadrille_one_of_four #(.WIDTH(F)) u_k (.words_i(k), .index_i(k_index[2*g+:2]), .word_o(k_o[g*F+:F]));
+    quadrille_one_of_four #(.WIDTH(1)) u_neg (.words_i(k_neg_i), .index_i(k_index[2*g+:2]), .word_o(neg_o[g]));
   end
 
   logic unused;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the depths of a quad's fragments lie, for hidden tiles: the codes of its corners with H = HIERARCHICAL_Z_BITS fraction bits, the nearest one
-// rounded down, the farthest one up. There from the second clock after the fourth beat's until the second after the next quad's first beat's.
+// Where the depths of a quad's fragments lie, for hidden tiles: the codes of its corners with H = HIERARCHICAL_Z_BITS
+// fraction bits, the nearest one rounded down, the farthest one up. There from the second clock after the fourth beat's
+// until the second after the next quad's first beat's.
 //
-// far_o all ones says nothing, as that of a quad with a vertex that is not before the eye. lowers_o: a pixel that the quad covers surely is a
-// fragment with such a depth; for that its corners must lie inside [znear, zfar], and D and r^2 of an ordinary quad be exact, so that no sum
-// of weights is 0.
+// far_o all ones says nothing, as that of a quad with a vertex that is not before the eye. lowers_o: a pixel that the
+// quad covers surely is a fragment with such a depth; for that its corners must lie inside [znear, zfar], and D and r^2
+// of an ordinary quad be exact, so that no sum of weights is 0.
 module quadrille_depth_interval #(
     localparam int DB = quadrille_pkg::DEPTH_BITS,
     localparam int CODE = quadrille_pkg::CORNER_DEPTH_BITS,

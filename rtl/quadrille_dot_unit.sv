@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// One multiplier pair of the front: a*b + c*d or a*b - c*d, signed. Latency 5, one job a clock: operands; products of the halves and the
-// halves' sums; the sums' product; the whole products; the result.
+// One multiplier pair of the front: a*b + c*d or a*b - c*d, signed. Latency 5, one job a clock: operands; products of
+// the halves and the halves' sums; the sums' product; the whole products; the result.
 //
-// Operands are DOT_BITS signed. A product takes three multipliers of 18 bits (Karatsuba & Ofman 1962): with x = xh 2^LOW + xl,
-// x y = hh 2^(2 LOW) + ((xh + xl)(yh + yl) - hh - ll) 2^LOW + ll.
-// No enable and no valid: the user keeps track of which job comes out.
+// Operands are DOT_BITS signed. A product takes three multipliers of 18 bits (Karatsuba & Ofman 1962): with x = xh
+// 2^LOW + xl, x y = hh 2^(2 LOW) + ((xh + xl)(yh + yl) - hh - ll) 2^LOW + ll. No enable and no valid: the user keeps
+// track of which job comes out.
 module quadrille_dot_unit #(
     localparam int W = quadrille_pkg::DOT_BITS,
     localparam int OUT = quadrille_pkg::DOT_OUT_BITS

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first half of a forward difference, which all pixels of a row of a tile have in common: value + r gy, exact modulo 2^VALUE_BITS.
-// Latency FORWARD_DIFFERENCE_ROW_STAGES; gx and q wait beside it for forward_difference_column.
+// The first half of a forward difference, which all pixels of a row of a tile have in common: value + r gy, exact
+// modulo 2^VALUE_BITS. Latency FORWARD_DIFFERENCE_ROW_STAGES; gx and q wait beside it for forward_difference_column.
 //
 // Two's complement throughout; r comes as its radix4_digits.
 module quadrille_forward_difference_row #(
@@ -24,14 +24,8 @@ module quadrille_forward_difference_row #(
   logic carry;
   logic [VALUE_BITS-1:0] row;
 
-  quadrille_small_multiply #(
-      .FACTOR_BITS(GRAD_BITS),
-      .NUMBER_BITS(TILE_LOG2)
-  ) u_rise (
-      .factor_i(gy_i),
-      .digits_i(row_digits_i),
-      .product_o(rise),
-      .carry_o(carry)
+  quadrille_small_multiply #(.FACTOR_BITS(GRAD_BITS), .NUMBER_BITS(TILE_LOG2)) u_rise (
+      .factor_i(gy_i), .digits_i(row_digits_i), .product_o(rise), .carry_o(carry)
   );
 
   // {a, 1} + {b, carry} is an adder whose carry-in is used.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// fp_from_magnitude of SPEC.md, Numbers: an unsigned integer becomes a significand number. Latency FP_NORMALISE_STAGES (2): the long
-// shifts, then the short ones; one per clock. Combinational with REGISTERED = 0.
+// fp_from_magnitude of SPEC.md, Numbers: an unsigned integer becomes a significand number. Latency FP_NORMALISE_STAGES
+// (2): the long shifts, then the short ones; one per clock. Combinational with REGISTERED = 0.
 //
 // The last register is written in clocks with active_i, else it holds: what stands behind it does not switch.
 //
-// value = magnitude * 2^(bias) read as integer: p = index of the highest one, sig has it at bit S-1 (lower bits dropped,
-// truncation), exp = p + bias. Magnitude 0 gives exp = 0, sig = 0.
+// value = magnitude * 2^(bias) read as integer: p = index of the highest one, sig has it at bit S-1 (lower bits
+// dropped, truncation), exp = p + bias. Magnitude 0 gives exp = 0, sig = 0.
 module quadrille_fp_normalise #(
     parameter int WIDTH = 32,
     parameter bit REGISTERED = 1'b1,
@@ -33,32 +33,20 @@ module quadrille_fp_normalise #(
   assign coarse_top = KEPT'(coarse_d >> (WIDE - KEPT));
   assign top_exp_d = bias_i + E'(WIDTH - 1);
 
-  quadrille_shift_to_top #(
-      .WIDTH(WIDE),
-      .LAST(SPLIT)
-  ) u_coarse (
-      .value_i(WIDE'(magnitude_i) << (WIDE - WIDTH)),
-      .count_o(high_count_d),
-      .value_o(coarse_d)
+  quadrille_shift_to_top #(.WIDTH(WIDE), .LAST(SPLIT)) u_coarse (
+      .value_i(WIDE'(magnitude_i) << (WIDE - WIDTH)), .count_o(high_count_d), .value_o(coarse_d)
   );
 
   quadrille_delay_line #(.WIDTH(KEPT + COUNT_BITS - SPLIT + E), .DEPTH(32'(REGISTERED))) u_coarse_q (
-      .clk_i,
-      .data_i({coarse_top, high_count_d, top_exp_d}),
-      .data_o({coarse_q, high_count_q, top_exp_q})
+      .clk_i, .data_i({coarse_top, high_count_d, top_exp_d}), .data_o({coarse_q, high_count_q, top_exp_q})
   );
 
   // Stage 2
   logic [KEPT-1:0] fine;
   logic [SPLIT-1:0] low_count;
 
-  quadrille_shift_to_top #(
-      .WIDTH(KEPT),
-      .FIRST(SPLIT - 1)
-  ) u_fine (
-      .value_i(coarse_q),
-      .count_o(low_count),
-      .value_o(fine)
+  quadrille_shift_to_top #(.WIDTH(KEPT), .FIRST(SPLIT - 1)) u_fine (
+      .value_i(coarse_q), .count_o(low_count), .value_o(fine)
   );
 
   logic [E-1:0] exp;

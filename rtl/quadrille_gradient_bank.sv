@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// What coverage and emission need to know of a quad, by slot: written when the walk takes the quad, read until it leaves the
-// pipeline. Reads end in registers. Not reset.
+// What coverage and emission need to know of a quad, by slot: written when the walk takes the quad, read until it
+// leaves the pipeline. Reads end in registers. Not reset.
 module quadrille_gradient_bank #(
     localparam int GRAD = quadrille_pkg::GRAD_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2

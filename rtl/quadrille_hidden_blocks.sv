@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 
-// Hidden blocks: of blocks of 8x8 tiles of the viewport's grid, bounds that no depth of theirs exceeds in the depth buffer (SPEC.md,
-// hidden_blocks), looked at while tile_walk tests a block, and learned from what hierarchical_z says of each tile under test.
+// Hidden blocks: of blocks of 8x8 tiles of the viewport's grid, bounds that no depth of theirs exceeds in the depth
+// buffer (SPEC.md, hidden_blocks), looked at while tile_walk tests a block, and learned from what hierarchical_z says
+// of each tile under test.
 //
-// A block of the walk begins at any tile and so lies over up to four blocks of the grid. They are read at once, from four banks by the
-// lowest bit of a block's column and row: what two neighbours have in common never is that bit. hidden_o says in the clock after the test
-// that near does not lie before any of those that a tile of the walk's block is in.
+// A block of the walk begins at any tile and so lies over up to four blocks of the grid. They are read at once, from
+// four banks by the lowest bit of a block's column and row: what two neighbours have in common never is that bit.
+// hidden_o says in the clock after the test that near does not lie before any of those that a tile of the walk's block
+// is in.
 //
-// What a tile's test says goes into its block's word a step of the walk later; the word is read with the test, and those of the two
-// tiles before go around the memory. A block that is tested meanwhile does not see it, nor need it: what a quad teaches hides nothing of
-// itself, and what the walk has in hand at once lies less than four columns and rows of blocks apart, so that none of it is
-// forgotten for another (asserted). The next quad's first block is tested later.
+// What a tile's test says goes into its block's word a step of the walk later; the word is read with the test, and
+// those of the two tiles before go around the memory. A block that is tested meanwhile does not see it, nor need it:
+// what a quad teaches hides nothing of itself, and what the walk has in hand at once lies less than four columns and
+// rows of blocks apart, so that none of it is forgotten for another (asserted). The next quad's first block is tested
+// later.
 module quadrille_hidden_blocks #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
@@ -60,7 +63,7 @@ module quadrille_hidden_blocks #(
   localparam int BOUND = TAG + EPOCH + H;  // {tag, epoch, far}: what a test reads
   localparam int WORD = BOUND + H + TILES;  // {bound, masked_far, mask}: what a tile that is learned reads
 
-  // ---- The block under test -------------------------------------------------------------------------------------------------
+  // ---- The block under test ----------------------------------------------------------------------------------------
   // Columns and rows without their lowest bit: with a first column that is odd, the even one is the next.
   logic [WIDE-1:0] first_x, first_y;
   logic [BLOCK_LOG2:0] end_x, end_y;
@@ -78,7 +81,7 @@ module quadrille_hidden_blocks #(
   assign needs_x = {first_x[0] || end_x[BLOCK_LOG2], !first_x[0] || end_x[BLOCK_LOG2]};
   assign needs_y = {first_y[0] || end_y[BLOCK_LOG2], !first_y[0] || end_y[BLOCK_LOG2]};
 
-  // ---- The tile that is tested ----------------------------------------------------------------------------------------------
+  // ---- The tile that is tested -------------------------------------------------------------------------------------
   // 1: its test is known, its block's word is there; 2: what it teaches becomes the block's.
   logic learn_q2, learn_q3, again_q2;
   logic [WIDE-1:0] learn_x, learn_y;
@@ -111,9 +114,9 @@ module quadrille_hidden_blocks #(
     end
   end
 
-  // ---- What it makes of its block -------------------------------------------------------------------------------------------
-  // {far, masked_far, mask}; masked_far is 0 where the mask is empty. A word is read a step before that of the tile two before is written;
-  // tiles so near one another in the walk that have one place have one block.
+  // ---- What it makes of its block ----------------------------------------------------------------------------------
+  // {far, masked_far, mask}; masked_far is 0 where the mask is empty. A word is read a step before that of the tile two
+  // before is written; tiles so near one another in the walk that have one place have one block.
   localparam int STATE = 2 * H + TILES;
   logic [WORD-1:0] word_q1;
   logic [STATE-1:0] state_q2, before_q3, state, next;
@@ -147,7 +150,7 @@ module quadrille_hidden_blocks #(
     end
   end
 
-  // ---- Memory ---------------------------------------------------------------------------------------------------------------
+  // ---- Memory ------------------------------------------------------------------------------------------------------
   // A word that is written while it is read is not looked at, but before_q3 (asserted).
   (* no_rw_check *) logic [WORD-1:0] word_mem[0:(1<<PLACES)-1];
   logic write;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// Option hierarchical_z_bits: what of a quad nothing can be seen of, by bounds of the depths in the depth buffer. Tiles and
-// blocks for the walk (hierarchical_z), pixels for coverage (masked_depth). At 0 nothing is hidden.
+// Option hierarchical_z_bits: what of a quad nothing can be seen of, by bounds of the depths in the depth buffer. Tiles
+// and blocks for the walk (hierarchical_z), pixels for coverage (masked_depth). At 0 nothing is hidden.
 module quadrille_hidden_tiles #(
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
@@ -40,54 +40,19 @@ module quadrille_hidden_tiles #(
     logic lowers;
 
     quadrille_depth_interval u_interval (
-        .clk_i,
-        .low_i(quad.depth_low),
-        .high_i(quad.depth_high),
-        .limits_i,
-        .ordinary_i(quad.ordinary),
-        .near_o(near),
-        .far_o(far),
-        .lowers_o(lowers)
+        .clk_i, .low_i(quad.depth_low), .high_i(quad.depth_high), .limits_i, .ordinary_i(quad.ordinary), .near_o(near),
+        .far_o(far), .lowers_o(lowers)
     );
 
     quadrille_hierarchical_z u_hierarchical (
-        .clk_i,
-        .rst_ni,
-        .clear_i,
-        .ready_o,
-        .wipe_place_o(wipe_place),
-        .epoch_o(epoch),
-        .state_i,
-        .on_i,
-        .start_i,
-        .start_slot_i,
-        .near_i(near),
-        .far_i(far),
-        .lowers_i(lowers),
-        .take_i,
-        .setup_i,
-        .test_i,
-        .hidden_o,
+        .clk_i, .rst_ni, .clear_i, .ready_o, .wipe_place_o(wipe_place), .epoch_o(epoch), .state_i, .on_i, .start_i,
+        .start_slot_i, .near_i(near), .far_i(far), .lowers_i(lowers), .take_i, .setup_i, .test_i, .hidden_o,
         .block_hidden_o
     );
 
     quadrille_masked_depth u_masked (
-        .clk_i,
-        .rst_ni,
-        .wipe_i(!ready_o),
-        .wipe_place_i(wipe_place),
-        .epoch_i(epoch),
-        .on_i,
-        .start_i,
-        .start_slot_i,
-        .near_i(near),
-        .far_i(far),
-        .lowers_i(lowers),
-        .tile_i,
-        .wait_o,
-        .rows_i,
-        .hidden_o(masked_o),
-        .seen_o
+        .clk_i, .rst_ni, .wipe_i(!ready_o), .wipe_place_i(wipe_place), .epoch_i(epoch), .on_i, .start_i, .start_slot_i,
+        .near_i(near), .far_i(far), .lowers_i(lowers), .tile_i, .wait_o, .rows_i, .hidden_o(masked_o), .seen_o
     );
   end else begin : gen_nothing_hidden
     logic unused;

@@ -2,17 +2,19 @@
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
 
-// Hidden tiles: a memory of bounds that no depth of a tile exceeds in the depth buffer (SPEC.md, hierarchical_z), looked at while
-// tile_walk tests a tile.
+// Hidden tiles: a memory of bounds that no depth of a tile exceeds in the depth buffer (SPEC.md, hierarchical_z),
+// looked at while tile_walk tests a tile.
 //
-// The tile that is tested in a clock (column_i, row_i, from the quad's first) is read then; in the next, in which the walk knows the signs
-// of its functions, hidden_o says that nothing of it can be seen, and the entry is lowered if the quad covers all of it. A tile is never
-// read in the clock of a write of another one at its place: neighbours in a walk have different places, and between quads and blocks the
-// walk does not test for a clock. So what a test sees is what all tiles before it left, whatever waited.
+// The tile that is tested in a clock (column_i, row_i, from the quad's first) is read then; in the next, in which the
+// walk knows the signs of its functions, hidden_o says that nothing of it can be seen, and the entry is lowered if the
+// quad covers all of it. A tile is never read in the clock of a write of another one at its place: neighbours in a walk
+// have different places, and between quads and blocks the walk does not test for a clock. So what a test sees is what
+// all tiles before it left, whatever waited.
 //
-// A word is {tag, epoch, far}: the tile's coordinates above those of its place, the clear it belongs to, and the bound, all ones for none. A clear
-// takes a clock and then wipes the SECTION places that the epoch names: after as many clears as there are epochs every place was wiped once,
-// so that no word of an epoch is older than it. Reset wipes all of them. ready_o is low meanwhile: no vertex may be taken.
+// A word is {tag, epoch, far}: the tile's coordinates above those of its place, the clear it belongs to, and the bound,
+// all ones for none. A clear takes a clock and then wipes the SECTION places that the epoch names: after as many clears
+// as there are epochs every place was wiped once, so that no word of an epoch is older than it. Reset wipes all of
+// them. ready_o is low meanwhile: no vertex may be taken.
 module quadrille_hierarchical_z #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS,
@@ -56,7 +58,7 @@ module quadrille_hierarchical_z #(
   localparam int WORD = TAG + EPOCH + H;
   localparam int WIDE = TC + PLACE;  // so that the slices below exist
 
-  // ---- The quad -------------------------------------------------------------------------------------------------------------
+  // ---- The quad ----------------------------------------------------------------------------------------------------
   logic [2*H:0] interval_q[0:(1<<SLOT)-1];  // {lowers, near, far}
   logic start_q1, lowers_q;
   logic [SLOT-1:0] start_slot_q1;
@@ -74,7 +76,7 @@ module quadrille_hierarchical_z #(
     end
   end
 
-  // ---- The tile under test --------------------------------------------------------------------------------------------------
+  // ---- The tile under test -----------------------------------------------------------------------------------------
   logic [TC-1:0] tile_x, tile_y;
   logic [WIDE-1:0] wide_x, wide_y;
   logic [PLACE-1:0] place, place_q1;
@@ -100,7 +102,7 @@ module quadrille_hierarchical_z #(
     end
   end
 
-  // ---- Memory, epochs -------------------------------------------------------------------------------------------------------
+  // ---- Memory, epochs ----------------------------------------------------------------------------------------------
   logic [WORD-1:0] word_q[0:(1<<PLACE)-1];
   logic [WORD-1:0] word_q1, write_word;
   logic [PLACE-1:0] write_place, wipe_q;
@@ -143,7 +145,7 @@ module quadrille_hierarchical_z #(
     end
   end
 
-  // ---- Blocks of tiles ------------------------------------------------------------------------------------------------------
+  // ---- Blocks of tiles ---------------------------------------------------------------------------------------------
   logic learn, block_behind;
   logic [H-1:0] near_next_q;  // what a hidden tile teaches is behind near: a quad hides nothing of itself
 
@@ -154,25 +156,11 @@ module quadrille_hierarchical_z #(
   always_ff @(posedge clk_i) near_next_q <= near_q + H'(1);
 
   quadrille_hidden_blocks u_blocks (
-      .clk_i,
-      .rst_ni,
-      .wipe_i(wiping_q),
-      .wipe_place_i(wipe_q),
-      .epoch_i(epoch_q),
-      .go_i(test.go),
-      .test_i(test.block_test),
-      .tile_x_i(tile_x0_q + test.block_column),
-      .tile_y_i(tile_y0_q + test.block_row),
-      .last_column_i(test.block_last_column),
-      .last_row_i(test.block_last_row),
-      .near_i(near_q),
-      .hidden_o(block_behind),
-      .learn_x_i(tile_x),
-      .learn_y_i(tile_y),
-      .learn_i(learn),
-      .learn_hidden_i(hidden_o),
-      .near_next_i(near_next_q),
-      .far_i(far_q)
+      .clk_i, .rst_ni, .wipe_i(wiping_q), .wipe_place_i(wipe_q), .epoch_i(epoch_q), .go_i(test.go),
+      .test_i(test.block_test), .tile_x_i(tile_x0_q + test.block_column), .tile_y_i(tile_y0_q + test.block_row),
+      .last_column_i(test.block_last_column), .last_row_i(test.block_last_row), .near_i(near_q),
+      .hidden_o(block_behind), .learn_x_i(tile_x), .learn_y_i(tile_y), .learn_i(learn), .learn_hidden_i(hidden_o),
+      .near_next_i(near_next_q), .far_i(far_q)
   );
 
   logic unused;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expression (12) of Hormann & Tarini 2004 and its negation, for PLACES places at once: pixels, or squares of them. Combinational.
+// Expression (12) of Hormann & Tarini 2004 and its negation, for PLACES places at once: pixels, or squares of them.
+// Combinational.
 //
-// Edge k (01 12 23 30, and the diagonal 20 as 4) of place p is at bit k*PLACES+p: pos_i, it can be positive there, neg_i, negative; in a
-// square both may be, at a pixel at most one is. visible_i masks the two clauses of either sign (quad_setup). cull_i: 1 front, 2 back.
+// Edge k (01 12 23 30, and the diagonal 20 as 4) of place p is at bit k*PLACES+p: pos_i, it can be positive there,
+// neg_i, negative; in a square both may be, at a pixel at most one is. visible_i masks the two clauses of either sign
+// (quad_setup). cull_i: 1 front, 2 back.
 module quadrille_inside_expression #(
     parameter int PLACES = 1
 ) (

@@ -2,15 +2,16 @@
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
 
-// Masked depth: for each tile two bounds that depths in the depth buffer do not exceed, one for all of the tile and a nearer one for the
-// pixels in a mask (SPEC.md, masked_depth), looked at and lowered by stamp_coverage.
+// Masked depth: for each tile two bounds that depths in the depth buffer do not exceed, one for all of the tile and a
+// nearer one for the pixels in a mask (SPEC.md, masked_depth), looked at and lowered by stamp_coverage.
 //
-// An entry is read when its tile leaves coverage's tag register (load_i), and judged beside the context register. Its rows go with
-// coverage's: a row's covered pixels come two clocks after it is issued, and are written the clock after that; what holds for the tile is
-// written with its last row. wait_o keeps a tile in the tag register while one before it may still write to its place: then what a tile
-// sees is what all tiles before it left, whatever waited.
+// An entry is read when its tile leaves coverage's tag register (load_i), and judged beside the context register. Its
+// rows go with coverage's: a row's covered pixels come two clocks after it is issued, and are written the clock after
+// that; what holds for the tile is written with its last row. wait_o keeps a tile in the tag register while one before
+// it may still write to its place: then what a tile sees is what all tiles before it left, whatever waited.
 //
-// Epochs and wiped places are hierarchical_z's. A mask of another epoch, or of a bound that is all ones, is none, so masks are not wiped.
+// Epochs and wiped places are hierarchical_z's. A mask of another epoch, or of a bound that is all ones, is none, so
+// masks are not wiped.
 module quadrille_masked_depth #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
@@ -51,7 +52,7 @@ module quadrille_masked_depth #(
   localparam int BOUNDS = TAG + EPOCH + 2 * H;  // {tag, epoch, far, masked_far}
   localparam logic [H-1:0] UNKNOWN = {H{1'b1}};  // not '1, of which Yosys 0.23 makes 1 in a parameter
 
-  // ---- The quads ------------------------------------------------------------------------------------------------------------
+  // ---- The quads ---------------------------------------------------------------------------------------------------
   logic [2*H:0] interval_q[0:(1<<SLOT)-1];  // {lowers, near, far}
   logic start_q1;
   logic [SLOT-1:0] start_slot_q1;
@@ -62,7 +63,7 @@ module quadrille_masked_depth #(
     if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, near_i, far_i};
   end
 
-  // ---- The tile in the tag register -----------------------------------------------------------------------------------------
+  // ---- The tile in the tag register --------------------------------------------------------------------------------
   logic [WIDE-1:0] wide_x, wide_y;
   logic [PLACE-1:0] place;
   logic [TAG-1:0] tag;
@@ -74,7 +75,7 @@ module quadrille_masked_depth #(
   assign tag = {wide_y[ROW+:TAG_Y], wide_x[COLUMN+:TAG_X]};
   assign interval = interval_q[tile.slot];
 
-  // ---- Memory: a place that is read is never the one that is written (asserted below) ---------------------------------------
+  // ---- Memory: a place that is read is never the one that is written (asserted below) ------------------------------
   logic [TILE-1:0] rows_write, rows_clear;
   logic [TILE-1:0] row_word_q3;
   logic bounds_write;
@@ -98,7 +99,7 @@ module quadrille_masked_depth #(
     end
   end
 
-  // ---- In the context register: what holds, and what the quad makes of it ---------------------------------------------------
+  // ---- In the context register: what holds, and what the quad makes of it ------------------------------------------
   logic context_lowers_q;
   logic [PLACE-1:0] place_c, place_r;
   logic [TAG-1:0] tag_c, tag_r, bounds_tag;
@@ -120,9 +121,9 @@ module quadrille_masked_depth #(
   assign known = bounds_tag == tag_c && bounds_epoch == epoch_i;
   assign useful = context_lowers_q && (!known || far_c < bounds_far);
 
-  // ---- In the rows register -------------------------------------------------------------------------------------------------
-  // Nearer than the mask by more than a quarter of what the mask is before the rest: 4 (masked - far_c) > far - masked. As masked is
-  // below far, far_c then is below masked.
+  // ---- In the rows register ----------------------------------------------------------------------------------------
+  // Nearer than the mask by more than a quarter of what the mask is before the rest: 4 (masked - far_c) > far - masked.
+  // As masked is below far, far_c then is below masked.
   logic rows_lowers_q, first_q, masked_hidden_q, useful_q, no_mask_q, begins, joins;
   logic [H-1:0] far_q, old_masked_q, quad_far_q, masked;
   logic [H+2:0] five_masked_q, rest_q;
@@ -162,7 +163,7 @@ module quadrille_masked_depth #(
 
   assign old_row = mask_q[rows.row*TILE+:TILE];
 
-  // ---- Issued rows ----------------------------------------------------------------------------------------------------------
+  // ---- Issued rows -------------------------------------------------------------------------------------------------
   localparam int TAGGED = PLACE + TAG + 2 * H + TILE_LOG2 + 3;  // {place, tag, far, masked, row, first, last, rest_whole}
   logic [2:0] begins_way_q, joins_way_q;  // 0: a clock after the issue; neither where the quad changes nothing
   logic [1:0] masked_hidden_way_q, hidden_way_q;
@@ -229,7 +230,7 @@ module quadrille_masked_depth #(
   assign bounds_word = wipe_i ? {tag_q3, epoch_i, UNKNOWN, UNKNOWN}
       : (whole_q && rest_whole_q3) ? {tag_q3, epoch_i, masked_q3, UNKNOWN} : {tag_q3, epoch_i, far_q3, masked_q3};
 
-  // ---- Tiles that may still write: the low bits of their places are enough, of x and of y ------------------------------------
+  // ---- Tiles that may still write: the low bits of their places are enough, of x and of y --------------------------
   // Of one quad no two are so near one another in the walk that these could be the same.
   localparam int LOW = 3;
   logic [2*LOW-1:0] low, low_c, low_r, low_q1, low_q2, low_q3;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exact integer to significand number: sign and magnitude, then fp_normalise. Latency NORMALISE_STAGES, one per clock.
 //
-// value_i two's complement; exponent of the result = index of the highest one of |value| + BIAS; S bits kept, the rest dropped.
-// Zero gives neg = exp = sig = 0. With CLAMP set a negative value counts as zero. The result's register is written in clocks with
-// active_i, else it holds.
+// value_i two's complement; exponent of the result = index of the highest one of |value| + BIAS; S bits kept, the rest
+// dropped. Zero gives neg = exp = sig = 0. With CLAMP set a negative value counts as zero. The result's register is
+// written in clocks with active_i, else it holds.
 module quadrille_normalise #(
     parameter int WIDTH = 64,
     parameter int BIAS = 0,
@@ -30,11 +30,6 @@ module quadrille_normalise #(
   always_ff @(posedge clk_i) if (active_i) neg_o <= late_neg;
 
   quadrille_fp_normalise #(.WIDTH(WIDTH)) u_normalise (
-      .clk_i,
-      .active_i,
-      .magnitude_i(magnitude_q),
-      .bias_i(E'(BIAS)),
-      .exp_o,
-      .sig_o
+      .clk_i, .active_i, .magnitude_i(magnitude_q), .bias_i(E'(BIAS)), .exp_o, .sig_o
   );
 endmodule

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// What the machine did since reset: quads by what became of them, blocks and tiles, rows and stamps, pixels and fragments, products by unit,
-// and clocks by what bound them. SPEC.md says which clock counts what. Read by index; a counter wraps around at 2^COUNTER_BITS.
+// What the machine did since reset: quads by what became of them, blocks and tiles, rows and stamps, pixels and
+// fragments, products by unit, and clocks by what bound them. SPEC.md says which clock counts what. Read by index; a
+// counter wraps around at 2^COUNTER_BITS.
 //
-// All inputs are of this clock; what they say is counted at its end, but for norm_active_i, norm_plane_i and sum_active_i, which are of operands
-// on their way to the units that make products of them. Nothing of the machine depends on value_o.
+// All inputs are of this clock; what they say is counted at its end, but for norm_active_i, norm_plane_i and
+// sum_active_i, which are of operands on their way to the units that make products of them. Nothing of the machine
+// depends on value_o.
 module quadrille_performance_counters #(
     localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
     localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
@@ -35,7 +37,7 @@ module quadrille_performance_counters #(
 
     assign {lane_valid, lanes_drawn, lanes_area} = {pixel.lane_valid, pixel.drawn, pixel.area};
 
-    // ---- Pixels in front of a unit with multipliers, and its products a pixel -------------------------------------------------
+    // ---- Pixels in front of a unit with multipliers, and its products a pixel --------------------------------------
     localparam int ROOTS = 4;
     localparam int PAIRS_OF_VERTICES = 6;
     localparam int RATIOS = 3;
@@ -55,68 +57,32 @@ module quadrille_performance_counters #(
     // Lanes whose numbers are not those of a pixel before, at the units between normalise and the ratios of roots.
     logic [P-1:0] norm_active, root_active, ratio_active;
 
-    quadrille_delay_line #(
-        .WIDTH(P),
-        .DEPTH(1)
-    ) u_norm_active (
-        .clk_i,
-        .data_i(pixel.norm_active),
-        .data_o(norm_active)
+    quadrille_delay_line #(.WIDTH(P), .DEPTH(1)) u_norm_active (
+        .clk_i, .data_i(pixel.norm_active), .data_o(norm_active)
     );
-    quadrille_delay_line #(
-        .WIDTH(P),
-        .DEPTH(quadrille_pkg::ROOT_STAGE - quadrille_pkg::NORM_STAGE)
-    ) u_root_active (
-        .clk_i,
-        .data_i(norm_active),
-        .data_o(root_active)
+    quadrille_delay_line #(.WIDTH(P), .DEPTH(quadrille_pkg::ROOT_STAGE - quadrille_pkg::NORM_STAGE)) u_root_active (
+        .clk_i, .data_i(norm_active), .data_o(root_active)
     );
-    quadrille_delay_line #(
-        .WIDTH(P),
-        .DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE)
-    ) u_ratio_active (
-        .clk_i,
-        .data_i(root_active),
-        .data_o(ratio_active)
+    quadrille_delay_line #(.WIDTH(P), .DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE)) u_ratio_active (
+        .clk_i, .data_i(root_active), .data_o(ratio_active)
     );
 
     logic norm_plane;  // of the pixels in NORM_STAGE
 
-    quadrille_delay_line #(
-        .WIDTH(1),
-        .DEPTH(3)
-    ) u_norm_plane (
-        .clk_i,
-        .data_i(pixel.norm_plane),
-        .data_o(norm_plane)
-    );
+    quadrille_delay_line #(.WIDTH(1), .DEPTH(3)) u_norm_plane (.clk_i, .data_i(pixel.norm_plane), .data_o(norm_plane));
 
     // Sums that are not of zeros: k, W, Z, attributes. The pixels of a clock are of one quad.
     logic [SETS-1:0] sum_active, quotient_active, output_active;
 
-    quadrille_delay_line #(
-        .WIDTH(SETS),
-        .DEPTH(1)
-    ) u_sum_active (
-        .clk_i,
-        .data_i(pixel.sum_active),
-        .data_o(sum_active)
+    quadrille_delay_line #(.WIDTH(SETS), .DEPTH(1)) u_sum_active (
+        .clk_i, .data_i(pixel.sum_active), .data_o(sum_active)
     );
     quadrille_delay_line #(
         .WIDTH(SETS),
         .DEPTH(quadrille_pkg::SUM_STAGE - quadrille_pkg::WEIGHT_STAGE)
-    ) u_quotient_active (
-        .clk_i,
-        .data_i(sum_active),
-        .data_o(quotient_active)
-    );
-    quadrille_delay_line #(
-        .WIDTH(SETS),
-        .DEPTH(BEFORE_OUTPUT - quadrille_pkg::SUM_STAGE)
-    ) u_output_active (
-        .clk_i,
-        .data_i(quotient_active),
-        .data_o(output_active)
+    ) u_quotient_active (.clk_i, .data_i(sum_active), .data_o(quotient_active));
+    quadrille_delay_line #(.WIDTH(SETS), .DEPTH(BEFORE_OUTPUT - quadrille_pkg::SUM_STAGE)) u_output_active (
+        .clk_i, .data_i(quotient_active), .data_o(output_active)
     );
 
     logic [COUNT-1:0] at_norm, at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn;
@@ -147,7 +113,7 @@ module quadrille_performance_counters #(
     logic unused;
     assign unused = ^pixel.lane_valid;
 
-    // ---- What bounds this clock: the first that holds -------------------------------------------------------------------------
+    // ---- What bounds this clock: the first that holds --------------------------------------------------------------
     localparam int BOUNDS = 9;
     logic [BOUNDS-1:0] bound;  // from the first bit: pixels, output, stamps, walk, setup, vertices, wipe, drain, idle
 
@@ -165,7 +131,7 @@ module quadrille_performance_counters #(
       else bound = 9'd256;
     end
 
-    // ---- The counters, in the order of their indices --------------------------------------------------------------------------
+    // ---- The counters, in the order of their indices ---------------------------------------------------------------
     localparam int STEP = 8;  // bits of what a clock adds: at most 36 products of the sums in four lanes, 144
     localparam int LANES = 4;  // indices for the pixels of a lane, used or not
     localparam int COUNTERS = 41;

@@ -57,52 +57,19 @@ module quadrille_pixel #(
   end
 
   quadrille_vertex_bank u_bank (
-      .clk_i,
-      .state_i,
-      .start_i,
-      .start_slot_i,
-      .plane_i,
-      .quad_i,
-      .limits_i,
-      .take_i,
-      .setup_i,
-      .reads_i(reads),
-      .terms_o(terms),
-      .norm_plane_o(norm_plane),
-      .sum_active_o(sum_active)
+      .clk_i, .state_i, .start_i, .start_slot_i, .plane_i, .quad_i, .limits_i, .take_i, .setup_i, .reads_i(reads),
+      .terms_o(terms), .norm_plane_o(norm_plane), .sum_active_o(sum_active)
   );
 
   quadrille_pixel_pipeline u_pipeline (
-      .clk_i,
-      .rst_ni,
-      .state_i,
-      .pixels_i(pixels_q[2*PIXELS-1:PIXELS]),
-      .tile_i,
-      .lin_gx_i(gx_i),
-      .lin_gy_i(gy_i),
-      .reads_o(reads),
-      .terms_i(terms),
-      .release_o,
-      .release_slot_o,
-      .discard_o,
-      .lane_valid_o(lane_valid),
-      .count_norm_o(count_norm),
-      .count_area_o(count_area),
-      .fragment_valid_o(drawn),
-      .fragment_o(fragment)
+      .clk_i, .rst_ni, .state_i, .pixels_i(pixels_q[2*PIXELS-1:PIXELS]), .tile_i, .lin_gx_i(gx_i), .lin_gy_i(gy_i),
+      .reads_o(reads), .terms_i(terms), .release_o, .release_slot_o, .discard_o, .lane_valid_o(lane_valid),
+      .count_norm_o(count_norm), .count_area_o(count_area), .fragment_valid_o(drawn), .fragment_o(fragment)
   );
 
   quadrille_fragment_fifo u_fragments (
-      .clk_i,
-      .rst_ni,
-      .push_i(drawn),
-      .data_i(fragment),
-      .busy_o,
-      .freed_o,
-      .valid_o(fragment_valid_o),
-      .ready_i(fragment_ready_i),
-      .mask_o(fragment_mask_o),
-      .data_o(fragment_o)
+      .clk_i, .rst_ni, .push_i(drawn), .data_i(fragment), .busy_o, .freed_o, .valid_o(fragment_valid_o),
+      .ready_i(fragment_ready_i), .mask_o(fragment_mask_o), .data_o(fragment_o)
   );
 
   assign events_o = {lane_valid, drawn, count_norm, count_area, norm_plane, sum_active};

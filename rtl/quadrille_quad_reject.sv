@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Judges a quad by its vertices while they come in: wholly behind the eye, or all its depths outside [znear, zfar]. The judgement is there in
-// the clock after the fourth beat and stays until the next quad's first. The draw state is looked at in the clock of the first beat and later.
+// Judges a quad by its vertices while they come in: wholly behind the eye, or all its depths outside [znear, zfar]. The
+// judgement is there in the clock after the fourth beat and stays until the next quad's first. The draw state is looked
+// at in the clock of the first beat and later.
 //
-// Depths lie between the codes of the nearest and the farthest corner, for fragment_output clamps them there. So one interval is enough for
-// clamping and for znear and zfar: below least, near_cuts says whether a pixel is discarded or takes least; above greatest likewise.
-// limits_o = {outside, near_cuts, far_cuts, least, greatest} comes a clock later, without a sign: where a limit is negative all is outside.
+// Depths lie between the codes of the nearest and the farthest corner, for fragment_output clamps them there. So one
+// interval is enough for clamping and for znear and zfar: below least, near_cuts says whether a pixel is discarded or
+// takes least; above greatest likewise. limits_o = {outside, near_cuts, far_cuts, least, greatest} comes a clock later,
+// without a sign: where a limit is negative all is outside.
 module quadrille_quad_reject #(
     localparam int DB = quadrille_pkg::DEPTH_BITS,
     localparam int CODE = quadrille_pkg::CORNER_DEPTH_BITS,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Judges a quad by its vertices while they come in: is there no pixel centre along one axis, between its least and greatest coordinate and
-// inside the scissor? Registers: there in the clock after the fourth beat, until the next quad's first.
+// Judges a quad by its vertices while they come in: is there no pixel centre along one axis, between its least and
+// greatest coordinate and inside the scissor? Registers: there in the clock after the fourth beat, until the next
+// quad's first.
 //
-// Ordinary quad: none if every coordinate is before the scissor's first pixel, or every one behind its last, or all lie between two
-// neighbouring centres. Homogeneous quad, or any: none if the scissor has none. bounding_range gives the pixels when there are some.
+// Ordinary quad: none if every coordinate is before the scissor's first pixel, or every one behind its last, or all lie
+// between two neighbouring centres. Homogeneous quad, or any: none if the scissor has none. bounding_range gives the
+// pixels when there are some.
 module quadrille_range_empty #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int V = quadrille_pkg::VIEWPORT_BITS

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two vertices of a function, of quad_setup or tile_context (quadrille_pkg: pair_first, pair_second). Combinational.
+// The two vertices of a function, of quad_setup or tile_context (quadrille_pkg: pair_first, pair_second).
+// Combinational.
 module quadrille_setup_pair #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int W = quadrille_pkg::W_BITS
@@ -23,14 +24,10 @@ module quadrille_setup_pair #(
   end
 
   quadrille_one_of_four #(.WIDTH(VERTEX)) u_first (
-      .words_i(vertices),
-      .index_i(quadrille_pkg::pair_first(function_i)),
-      .word_o({xi_o, yi_o, wi_o})
+      .words_i(vertices), .index_i(quadrille_pkg::pair_first(function_i)), .word_o({xi_o, yi_o, wi_o})
   );
 
   quadrille_one_of_four #(.WIDTH(VERTEX)) u_second (
-      .words_i(vertices),
-      .index_i(quadrille_pkg::pair_second(function_i)),
-      .word_o({xj_o, yj_o, wj_o})
+      .words_i(vertices), .index_i(quadrille_pkg::pair_second(function_i)), .word_o({xj_o, yj_o, wj_o})
   );
 endmodule

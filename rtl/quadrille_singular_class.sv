@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, whether an edge turns
-// backward. Latency NORMALISE_STAGES, one pixel per clock.
+// Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, whether an edge
+// turns backward. Latency NORMALISE_STAGES, one pixel per clock.
 //
-// The result's register is written in clocks with active_i, else it holds. corner_o, one clock after the integers: the pixel is on a
-// corner or more.
+// The result's register is written in clocks with active_i, else it holds. corner_o, one clock after the integers: the
+// pixel is on a corner or more.
 //
-// class_o: quadrille_pkg::CLASS_* names its bits. notch: two neighbouring A have strictly opposite signs, and no override applies; it
-// is for the fragment's flag alone.
+// class_o: quadrille_pkg::CLASS_* names its bits. notch: two neighbouring A have strictly opposite signs, and no
+// override applies; it is for the fragment's flag alone.
 module quadrille_singular_class #(
     localparam int VAL = quadrille_pkg::VAL_BITS,
     localparam int QVAL = quadrille_pkg::QVAL_BITS,
@@ -76,9 +76,7 @@ module quadrille_singular_class #(
   assign word[quadrille_pkg::CLASS_SECOND+:2] = second;
 
   quadrille_delay_line #(.WIDTH(CLASS), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 2)) u_delay (
-      .clk_i,
-      .data_i(word),
-      .data_o(late_word)
+      .clk_i, .data_i(word), .data_o(late_word)
   );
 
   always_ff @(posedge clk_i) if (active_i) class_o <= late_word;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 
-// Which quad slot the next quad gets, one after the other. A slot is in use from start until its quad leaves the pipeline, or setup
-// drops it: those of dropped quads are free earlier than older ones, so that the next one may be in use.
+// Which quad slot the next quad gets, one after the other. A slot is in use from start until its quad leaves the
+// pipeline, or setup drops it: those of dropped quads are free earlier than older ones, so that the next one may be in
+// use.
 module quadrille_slot_allocation #(
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
 ) (

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 
-// First-in first-out buffer for at most DEPTH words, its output register included: the head and its valid bit are registers, a
-// word is there two clocks after its push. The user knows that there is room: a push beyond, or a pop of nothing, is an error (asserted).
-// Data is not reset.
+// First-in first-out buffer for at most DEPTH words, its output register included: the head and its valid bit are
+// registers, a word is there two clocks after its push. The user knows that there is room: a push beyond, or a pop of
+// nothing, is an error (asserted). Data is not reset.
 module quadrille_sync_fifo #(
     parameter int WIDTH = 8,
     parameter int DEPTH = 8

@@ -4,16 +4,16 @@
 
 // Ring of tile contexts between the walk and the pixels. Pointers have one extra bit.
 //
-// A tile of an ordinary quad is one entry. One of a homogeneous quad takes HOMOGENEOUS_PARTS: its quadratic functions are in as many
-// words of four, one an entry, all else in the first. The walk writes linear functions and tag, tile_context the words; only then
-// (complete_i) coverage sees the entry.
+// A tile of an ordinary quad is one entry. One of a homogeneous quad takes HOMOGENEOUS_PARTS: its quadratic functions
+// are in as many words of four, one an entry, all else in the first. The walk writes linear functions and tag,
+// tile_context the words; only then (complete_i) coverage sees the entry.
 //
-// An entry lives until the last stamp of its tile has been emitted: the tail is the tile of the stamp FIFO's head, or, when the FIFO is
-// empty, the entry of the row that coverage has at its end. It is a register: an entry is free two clocks after its last stamp was popped,
-// which is the clock in which emission reads its values for the last time (asserted).
-// Reads end in registers. Coverage: tag with fetch_i, values with load_i. Emission, every clock: the tag a clock after the pointer,
-// all else two clocks after it, so that the quad's constants, found by the tag's slot, arrive together with it; of the words that of
-// the pixel's part.
+// An entry lives until the last stamp of its tile has been emitted: the tail is the tile of the stamp FIFO's head, or,
+// when the FIFO is empty, the entry of the row that coverage has at its end. It is a register: an entry is free two
+// clocks after its last stamp was popped, which is the clock in which emission reads its values for the last time
+// (asserted). Reads end in registers. Coverage: tag with fetch_i, values with load_i. Emission, every clock: the tag a
+// clock after the pointer, all else two clocks after it, so that the quad's constants, found by the tag's slot, arrive
+// together with it; of the words that of the pixel's part.
 module quadrille_tile_ring #(
     localparam int TC = quadrille_pkg::TC_BITS,
     localparam int VAL = quadrille_pkg::VAL_BITS,

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// The multipliers of the front: pairs of dot_units, and which coordinates of a pair of vertices they multiply. A job a clock for each of
-// PRODUCT_PAIRS pairs of units, results VERTEX_PRODUCT_CLOCKS later: pair, operands, then dot_unit's other registers.
+// The multipliers of the front: pairs of dot_units, and which coordinates of a pair of vertices they multiply. A job a
+// clock for each of PRODUCT_PAIRS pairs of units, results VERTEX_PRODUCT_CLOCKS later: pair, operands, then dot_unit's
+// other registers.
 //
-// Two users: tile_context (tile_*), which comes first and then has all units, and quad_setup. A job is a kind and a function, whose pair
-// of vertices i, j (quadrille_pkg::pair_first, pair_second) it takes from its user's four vertices:
+// Two users: tile_context (tile_*), which comes first and then has all units, and quad_setup. A job is a kind and a
+// function, whose pair of vertices i, j (quadrille_pkg::pair_first, pair_second) it takes from its user's four
+// vertices:
 //
 //     kind                result0              result1
 //     EDGE                Xi Yj - Yi Xj        (Xj - Xi)^2 + (Yi - Yj)^2
@@ -17,7 +19,8 @@
 //     DET_VALUE           Wi (value's low 32 bits, unsigned)           Wi (value's high bits)
 //     DET_GRADIENT        Xi gx + Yi gy with their low 32 bits         with their high bits
 //
-// DET: the edge function that comes with the job. Flat vectors over the pairs of units: that of pair p at [p*WIDTH +: WIDTH].
+// DET: the edge function that comes with the job. Flat vectors over the pairs of units: that of pair p at [p*WIDTH +:
+// WIDTH].
 module quadrille_vertex_products #(
     localparam int T = quadrille_pkg::T_BITS,
     localparam int W = quadrille_pkg::W_BITS,
@@ -59,7 +62,7 @@ module quadrille_vertex_products #(
   always_ff @(posedge clk_i) tile_q <= tile_valid_i;
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_pair
-    // ---- Pair -------------------------------------------------------------------------------------------------------------
+    // ---- Pair -------------------------------------------------------------------------------------------------------
     logic [3:0] function_d;
     logic [T-1:0] xi_d, xj_d, yi_d, yj_d, xi, xj, yi, yj;
     logic [W-1:0] wi_d, wj_d, wi, wj;
@@ -70,16 +73,8 @@ module quadrille_vertex_products #(
     assign function_d = tile_valid_i ? tile.functions[p*4+:4] : setup.functions[p*4+:4];
 
     quadrille_setup_pair u_pair (
-        .function_i(function_d),
-        .x_i(x),
-        .y_i(y),
-        .w_i(w),
-        .xi_o(xi_d),
-        .yi_o(yi_d),
-        .wi_o(wi_d),
-        .xj_o(xj_d),
-        .yj_o(yj_d),
-        .wj_o(wj_d)
+        .function_i(function_d), .x_i(x), .y_i(y), .w_i(w), .xi_o(xi_d), .yi_o(yi_d), .wi_o(wi_d), .xj_o(xj_d),
+        .yj_o(yj_d), .wj_o(wj_d)
     );
 
     always_ff @(posedge clk_i) begin
@@ -99,7 +94,7 @@ module quadrille_vertex_products #(
     assign all_apart_x[p*RISE+:RISE] = apart_x_d;
     assign all_apart_y[p*RISE+:RISE] = apart_y_d;
 
-    // ---- Operands ---------------------------------------------------------------------------------------------------------
+    // ---- Operands --------------------------------------------------------------------------------------------------
     logic [DOT-1:0] x_i, x_j, y_i, y_j, w_i, w_j, apart_x, apart_y;
     logic [DOT-1:0] a0, b0, c0, d0, a1, b1, c1, d1;
     logic subtract0, subtract1;
@@ -153,23 +148,11 @@ module quadrille_vertex_products #(
     end
 
     quadrille_dot_unit u_dot0 (
-        .clk_i,
-        .a_i(a0),
-        .b_i(b0),
-        .c_i(c0),
-        .d_i(d0),
-        .subtract_i(subtract0),
-        .result_o(result0[p*OUT+:OUT])
+        .clk_i, .a_i(a0), .b_i(b0), .c_i(c0), .d_i(d0), .subtract_i(subtract0), .result_o(result0[p*OUT+:OUT])
     );
 
     quadrille_dot_unit u_dot1 (
-        .clk_i,
-        .a_i(a1),
-        .b_i(b1),
-        .c_i(c1),
-        .d_i(d1),
-        .subtract_i(subtract1),
-        .result_o(result1[p*OUT+:OUT])
+        .clk_i, .a_i(a1), .b_i(b1), .c_i(c1), .d_i(d1), .subtract_i(subtract1), .result_o(result1[p*OUT+:OUT])
     );
   end
 endmodule

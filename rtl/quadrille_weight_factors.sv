@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The factors x, y, z of the weights M_i = x y z: of a regular pixel from the three ratios a, b, c = num / den, of a singular one what
-// stands for them. Latency 1, one pixel per clock.
+// The factors x, y, z of the weights M_i = x y z: of a regular pixel from the three ratios a, b, c = num / den, of a
+// singular one what stands for them. Latency 1, one pixel per clock.
 //
-// regular      M_0 : M_1 : M_2 : M_3 = abc : a : c : b, each times the three denominators
-// two corners  |k| of the other one, the rest 0
-// on a vertex  1, the rest 0
-// plane_quad   z is the weight, the area opposite the corner, which comes in the place of r (area_i); x and y are held
-// two edges    r of an edge's other end, and the other edge's denominator N; see gen_corner for the corner that is on both
+// regular      M_0 : M_1 : M_2 : M_3 = abc : a : c : b, each times the three denominators two corners  |k| of the other
+// one, the rest 0 on a vertex  1, the rest 0 plane_quad   z is the weight, the area opposite the corner, which comes in
+// the place of r (area_i); x and y are held two edges    r of an edge's other end, and the other edge's denominator N;
+// see gen_corner for the corner that is on both
 //
 // Numbers are {exp, sig}, magnitudes all.
 module quadrille_weight_factors #(
@@ -46,16 +45,8 @@ module quadrille_weight_factors #(
     assign k[g*F+:F] = {E'($signed(k_exp_i[g*PE+:PE])), k_sig_i[g*S+:S]};
   end
 
-  quadrille_one_of_four #(.WIDTH(F)) u_first_k (
-      .words_i(k),
-      .index_i(first),
-      .word_o(first_k)
-  );
-  quadrille_one_of_four #(.WIDTH(F)) u_second_k (
-      .words_i(k),
-      .index_i(second),
-      .word_o(second_k)
-  );
+  quadrille_one_of_four #(.WIDTH(F)) u_first_k (.words_i(k), .index_i(first), .word_o(first_k));
+  quadrille_one_of_four #(.WIDTH(F)) u_second_k (.words_i(k), .index_i(second), .word_o(second_k));
 
   for (genvar g = 0; g < 4; g++) begin : gen_corner
     localparam int P = (g + 3) % 4;
@@ -70,8 +61,8 @@ module quadrille_weight_factors #(
     assign is_second = second == 2'(g);
     assign own_edge = is_first || is_second;
     assign edge_before = first == 2'(P) || second == 2'(P);
-    // On one of the edges: the other's. On both: that of edge g, with r of corner g-1; the other term is formed in the place of corner
-    // g+2, which is on neither and takes the denominator of edge g+1, with r of its corner before.
+    // On one of the edges: the other's. On both: that of edge g, with r of corner g-1; the other term is formed in the
+    // place of corner g+2, which is on neither and takes the denominator of edge g+1, with r of its corner before.
     assign n_of_first = (own_edge == edge_before) ? first == (own_edge ? 2'(g) : 2'(Q)) : second == 2'(g) || second == 2'(P);
 
     always_comb begin

@@ -101,8 +101,10 @@ class Machine:
         if not files:
             raise InputError(f"no SystemVerilog in {rtl}")
         self.units = {unit_name(os.path.splitext(os.path.basename(name))[0]) for name in files if not name.endswith("_pkg.sv")}
+        for name in glob.glob(os.path.join(rtl, "include", "*.svh")):  # Yosys takes no quotes around the folder of -I
+            shutil.copy(name, work)
         quoted = " ".join(f'"{name}"' for name in [files[0], tables, *files[1:]])
-        self.read = f"read_verilog -sv -DSYNTHESIS=1 -I \"{os.path.join(rtl, 'include')}\" {' '.join(defines)} {quoted}\n"
+        self.read = f"read_verilog -sv -DSYNTHESIS=1 {' '.join(defines)} {quoted}\n"
 
     def _make_tables(self, args):
         path = os.path.join(self.work, "quadrille_tables_pkg.sv")
