@@ -4,8 +4,8 @@
 
 // Quadrille: rasterizer whose primitive is the quadrilateral, with mean value coordinates. Top level: wiring only.
 //
-//     vertex_assembly -> quad_setup -> tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit -> pixel_pipeline -> fragment_fifo
-//                             \____ vertex_products ____ tile_context __/
+//     front: vertex_assembly -> quad_setup   tiles: tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit
+//     pixel: pixel_pipeline -> fragment_fifo     multipliers: vertex_products (quad_setup, tile_context)
 //
 // Ports: README.md; number formats and clocks: SPEC.md. Both streams are valid/ready: valid never depends on ready,
 // payload is stable while valid and not ready. state_i is static while quads are under way (asserted). The pixel
@@ -31,8 +31,7 @@ module quadrille (
     output logic [quadrille_pkg::COUNTER_BITS-1:0] counter_o
 );
   localparam int GRAD = quadrille_pkg::GRAD_BITS;
-  localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2;
-  localparam int PIXELS = quadrille_pkg::PIXELS_BITS;
+  localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, PIXELS = quadrille_pkg::PIXELS_BITS;
 
   quadrille_config_check u_config_check ();
 

@@ -4,8 +4,7 @@
 // where the diagonal has both.
 module quadrille_covered_square (
     input logic [1:0] cull_i,
-    input logic [4:0] some_pos_i,
-    input logic [4:0] some_neg_i,
+    input logic [4:0] some_pos_i, some_neg_i,
     output logic covered_o
 );
   logic [4:0] all_pos, all_neg;

@@ -5,19 +5,15 @@
 // Of edge CLASS_FIRST the products 0 (r_j k_i) and 1 (r_i k_j), of edge CLASS_SECOND the products 2 and 3; neg_o has
 // the sign of k. Numbers are {exp, sig}.
 module quadrille_denominator_operands #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int CLASS = quadrille_pkg::CLASS_BITS,
-    localparam int F = E + S
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, PE = quadrille_pkg::PORT_EXP_BITS,
+    localparam int CLASS = quadrille_pkg::CLASS_BITS, F = E + S
 ) (
     input logic [CLASS-1:0] class_i,
     input logic [4*F-1:0] root_i,
     input logic [3:0] k_neg_i,
     input logic [4*PE-1:0] k_exp_i,
     input logic [4*S-1:0] k_sig_i,
-    output logic [4*F-1:0] root_o,
-    output logic [4*F-1:0] k_o,
+    output logic [4*F-1:0] root_o, k_o,
     output logic [3:0] neg_o
 );
   logic [1:0] first, second, after_first, after_second;

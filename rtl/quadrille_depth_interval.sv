@@ -7,18 +7,14 @@
 // quad covers surely is a fragment with such a depth; for that its corners must lie inside [znear, zfar], and D and r^2
 // of an ordinary quad be exact, so that no sum of weights is 0.
 module quadrille_depth_interval #(
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int CODE = quadrille_pkg::CORNER_DEPTH_BITS,
-    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS
+    localparam int DB = quadrille_pkg::DEPTH_BITS, CODE = quadrille_pkg::CORNER_DEPTH_BITS,
+    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS, H = quadrille_pkg::DEPTH_CODE_BITS
 ) (
     input logic clk_i,
-    input logic [CODE-1:0] low_i,
-    input logic [CODE-1:0] high_i,
+    input logic [CODE-1:0] low_i, high_i,
     input logic [LIMITS-1:0] limits_i,  // of quad_reject
     input logic ordinary_i,
-    output logic [H-1:0] near_o,
-    output logic [H-1:0] far_o,
+    output logic [H-1:0] near_o, far_o,
     output logic lowers_o
 );
   localparam int DROP = DB - H;

@@ -6,17 +6,11 @@
 // likewise. Ties are counted in: a zero has the sign of (gx, gy), the first that is not 0, or none (tie_pos_o,
 // tie_neg_o), so that 'somewhere negative' is value + fall < 0 and 'somewhere positive' is value + rise >= 0.
 module quadrille_edge_reach #(
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int REACH = quadrille_pkg::REACH_BITS
+    localparam int GRAD = quadrille_pkg::GRAD_BITS, REACH = quadrille_pkg::REACH_BITS
 ) (
-    input logic [GRAD-1:0] gx_i,
-    input logic [GRAD-1:0] gy_i,
-    output logic tie_pos_o,
-    output logic tie_neg_o,
-    output logic [REACH-1:0] fall_tile_o,
-    output logic [REACH-1:0] rise_tile_o,
-    output logic [REACH-1:0] fall_block_o,
-    output logic [REACH-1:0] rise_block_o
+    input logic [GRAD-1:0] gx_i, gy_i,
+    output logic tie_pos_o, tie_neg_o,
+    output logic [REACH-1:0] fall_tile_o, rise_tile_o, fall_block_o, rise_block_o
 );
   localparam int TL = quadrille_pkg::TILE_LOG2;
   localparam int BL = TL + quadrille_pkg::BLOCK_LOG2;

@@ -9,8 +9,7 @@
 // right at every pixel. Twin: model/front/quad_setup.cpp, eye_in_hull.
 module quadrille_eye_in_hull (
     input logic ordinary_i,  // all W are ONE
-    input logic [3:0] negative_i,
-    input logic [3:0] zero_i,
+    input logic [3:0] negative_i, zero_i,
     output logic hull_o,  // decided at each pixel, at the end: all clauses are visible
     output logic [3:0] visible_o  // clauses 1 and 2 of (12), clauses 1 and 2 of its negation
 );

@@ -4,17 +4,13 @@
 // M: it goes around the multipliers, whose operands are held. Latency PRODUCT_STAGES + FP_ADD_STAGES + 1, one pixel per
 // clock. Numbers are {exp, sig}.
 module quadrille_factor_products #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int CLASS = quadrille_pkg::CLASS_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, CLASS = quadrille_pkg::CLASS_BITS,
     localparam int F = E + S
 ) (
     input logic clk_i,
     input logic [CLASS-1:0] class_i,  // PRODUCT_STAGES after the factors
     input logic area_i,  // z is M; x and y are those of the clock before
-    input logic [4*F-1:0] x_i,
-    input logic [4*F-1:0] y_i,
-    input logic [4*F-1:0] z_i,
+    input logic [4*F-1:0] x_i, y_i, z_i,
     output logic [4*E-1:0] m_exp_o,
     output logic [4*S-1:0] m_sig_o
 );
@@ -55,7 +51,8 @@ module quadrille_factor_products #(
     );
   end
 
-  quadrille_delay_line #(.WIDTH(4 * F), .DEPTH(quadrille_pkg::FP_ADD_STAGES - quadrille_pkg::PRODUCT_STAGES)) u_delay_weight (
+  quadrille_delay_line #(.WIDTH(4 * F), .DEPTH(quadrille_pkg::FP_ADD_STAGES -
+      quadrille_pkg::PRODUCT_STAGES)) u_delay_weight (
       .clk_i, .data_i(weight), .data_o(late_weight)
   );
 
@@ -98,5 +95,6 @@ module quadrille_factor_products #(
   end
 
   logic unused;
-  assign unused = ^{class_i[quadrille_pkg::CLASS_BITS-1:quadrille_pkg::CLASS_TWO_EDGE+1], class_i[quadrille_pkg::CLASS_TWO_EDGE-1:quadrille_pkg::CLASS_FIRST+2]};
+  assign unused = ^{class_i[quadrille_pkg::CLASS_BITS-1:quadrille_pkg::CLASS_TWO_EDGE+1],
+      class_i[quadrille_pkg::CLASS_TWO_EDGE-1:quadrille_pkg::CLASS_FIRST+2]};
 endmodule

@@ -8,16 +8,12 @@
 module quadrille_fixed_point #(
     parameter int INT_BITS = 8,
     parameter int FRAC_BITS = 25,
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int OUT = INT_BITS + FRAC_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, OUT = INT_BITS + FRAC_BITS
 ) (
-    input logic clk_i,
-    input logic neg_i,
+    input logic clk_i, neg_i,
     input logic [E-1:0] exp_i,
     input logic [2*S-1:0] prod_i,
-    output logic overflow_o,
-    output logic neg_o,
+    output logic overflow_o, neg_o,
     output logic [OUT-1:0] fixed_o
 );
   localparam int NEAR = $clog2(OUT + 1);  // bits of a distance that leaves something

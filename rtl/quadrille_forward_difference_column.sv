@@ -11,8 +11,7 @@ module quadrille_forward_difference_column #(
     parameter int GRAD_BITS = 48,
     parameter int CURV_BITS = 1,
     parameter bit QUADRATIC = 1'b1,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int NORM_BITS = 2 * TILE_LOG2 + 1,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, NORM_BITS = 2 * TILE_LOG2 + 1,
     localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
     localparam int NORM_DIGITS = NORM_BITS / 2 + 1
 ) (

@@ -4,9 +4,7 @@
 //
 // Rank and term as fp_term gives them, in the same clock here. Both zero: exp = sig = 0.
 module quadrille_fp_add #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int TERM = quadrille_pkg::TERM_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, TERM = quadrille_pkg::TERM_BITS,
     localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
     input logic clk_i,
@@ -46,7 +44,7 @@ module quadrille_fp_add #(
     exp_q <= first_exp_q;
   end
 
-  // ---- Stage 3: add. A product in [1, 4) and less than another such one: the highest one is in the upper three places ---
+  // ---- Stage 3: add. A product in [1, 4) and less than another such one: the highest one is in the upper three -----
   logic [TERM:0] sum;
 
   assign sum = (TERM + 1)'(augend_q) + (TERM + 1)'(addend_q);

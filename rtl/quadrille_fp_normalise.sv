@@ -9,18 +9,17 @@
 module quadrille_fp_normalise #(
     parameter int WIDTH = 32,
     parameter bit REGISTERED = 1'b1,
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
-    input logic clk_i,
-    input logic active_i,
+    input logic clk_i, active_i,
     input logic [WIDTH-1:0] magnitude_i,
     input logic [E-1:0] bias_i,
     output logic [E-1:0] exp_o,
     output logic [S-1:0] sig_o
 );
   localparam int SPLIT = 3;  // shifts by 2^SPLIT and more in stage 1
-  localparam int KEPT = S + (1 << SPLIT) - 1;  // bits at the top that a shorter shift can still bring into the significand
+  // bits at the top that a shorter shift can still bring into the significand
+  localparam int KEPT = S + (1 << SPLIT) - 1;
   localparam int WIDE = (WIDTH > KEPT) ? WIDTH : KEPT;  // a narrow magnitude is widened at its low end
   localparam int COUNT_BITS = $clog2(WIDE);
 

@@ -12,9 +12,7 @@
 // sticky bit.
 module quadrille_fp_sum #(
     parameter int TERMS = 4,
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int TERM = quadrille_pkg::TERM_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, TERM = quadrille_pkg::TERM_BITS,
     localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
     input logic clk_i,
@@ -38,11 +36,11 @@ module quadrille_fp_sum #(
   always_ff @(posedge clk_i) rank_q <= rank_i;
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_higher
-    localparam int FIRST = 2 * p;
-    localparam int SECOND = (FIRST + 1 < TERMS) ? FIRST + 1 : FIRST;
+    localparam int FIRST = 2 * p, SECOND = (FIRST + 1 < TERMS) ? FIRST + 1 : FIRST;
 
     always_ff @(posedge clk_i) begin
-      higher_q[p*RANK+:RANK] <= (rank_i[SECOND*RANK+:RANK] > rank_i[FIRST*RANK+:RANK]) ? rank_i[SECOND*RANK+:RANK] : rank_i[FIRST*RANK+:RANK];
+      higher_q[p*RANK+:RANK] <= (rank_i[SECOND*RANK+:RANK] > rank_i[FIRST*RANK+:RANK]) ? rank_i[SECOND*RANK+:RANK] :
+          rank_i[FIRST*RANK+:RANK];
     end
   end
 
@@ -54,7 +52,8 @@ module quadrille_fp_sum #(
   logic [TERMS-1:0] neg_q;
   logic [E-1:0] top_exp_q;
 
-  assign top = (PAIRS == 2 && higher_q[(PAIRS-1)*RANK+:RANK] > higher_q[0+:RANK]) ? higher_q[(PAIRS-1)*RANK+:RANK] : higher_q[0+:RANK];
+  assign top = (PAIRS == 2 && higher_q[(PAIRS-1)*RANK+:RANK] > higher_q[0+:RANK]) ? higher_q[(PAIRS-1)*RANK+:RANK] :
+      higher_q[0+:RANK];
 
   always_ff @(posedge clk_i) begin
     for (int k = 0; k < TERMS; k++) distance_q[k*E+:E] <= top[E-1:0] - rank_q[k*RANK+:E];  // of a zero: any
@@ -79,7 +78,7 @@ module quadrille_fp_sum #(
     aligned_exp_q <= top_exp_q;
   end
 
-  // ---- Stage 3: add by pairs, each in the sign of its first term. {a, 1} + {b, carry} is an adder whose carry-in is used ---
+  // ---- Stage 3: add by pairs, each in the sign of its first term; {a, 1} + {b, carry} is an adder with carry-in -----
   logic [PAIRS*PAIR-1:0] pair;
   logic [SUM-1:0] sum_d, sum_q;
   logic sum_neg_q;
@@ -103,7 +102,8 @@ module quadrille_fp_sum #(
     assign unused = across_q;
     assign sum_d = pair;
   end else begin : gen_two_pairs
-    assign sum_d = SUM'(({SUM'($signed(pair[0+:PAIR])), 1'b1} + {SUM'($signed(pair[PAIR+:PAIR])) ^ {SUM{across_q}}, across_q}) >> 1);
+    assign sum_d = SUM'(({SUM'($signed(pair[0+:PAIR])), 1'b1} +
+        {SUM'($signed(pair[PAIR+:PAIR])) ^ {SUM{across_q}}, across_q}) >> 1);
   end
 
   always_ff @(posedge clk_i) begin
@@ -128,7 +128,8 @@ module quadrille_fp_sum #(
 
   assign nonzero_neg = magnitude_neg_q && magnitude_q != '0;
 
-  quadrille_delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::FP_NORMALISE_STAGES)) u_neg (.clk_i, .data_i(nonzero_neg), .data_o(neg_o));
+  quadrille_delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::FP_NORMALISE_STAGES)) u_neg (.clk_i, .data_i(nonzero_neg),
+      .data_o(neg_o));
 
   quadrille_fp_normalise #(.WIDTH(MAG)) u_normalise (
       .clk_i, .active_i(1'b1), .magnitude_i(magnitude_q), .bias_i(magnitude_exp_q - E'(PREC)), .exp_o, .sig_o

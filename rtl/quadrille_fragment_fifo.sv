@@ -18,8 +18,7 @@ module quadrille_fragment_fifo #(
     input logic [LANES-1:0] push_i,  // the lanes that have a fragment
     input logic [WIDTH-1:0] data_i,
     output logic busy_o,  // holds a word
-    output logic freed_o,
-    output logic valid_o,
+    output logic freed_o, valid_o,
     input logic ready_i,
     output logic [LANES-1:0] mask_o,
     output logic [WIDTH-1:0] data_o

@@ -9,14 +9,9 @@
 // holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come one clock before the port,
 // limits and draw state two, bases three.
 module quadrille_fragment_output #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
-    localparam int ID = quadrille_pkg::QUAD_ID_BITS,
-    localparam int FB = quadrille_pkg::FRAGMENT_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, N = quadrille_pkg::ATTRIBUTE_SLOTS,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS, DB = quadrille_pkg::DEPTH_BITS, AO = quadrille_pkg::ATTR_OUT_BITS,
+    localparam int ID = quadrille_pkg::QUAD_ID_BITS, FB = quadrille_pkg::FRAGMENT_BITS,
     localparam int FLAGS = quadrille_pkg::CLASS_FLAGS
 ) (
     input logic clk_i,
@@ -45,12 +40,9 @@ module quadrille_fragment_output #(
     // One clock before the port
     input logic valid_i,
     input logic [ID-1:0] id_i,
-    input logic hull_i,
-    input logic homogeneous_i,
-    input logic [V-1:0] x_i,
-    input logic [V-1:0] y_i,
-    input logic front_i,
-    input logic tie_i,
+    input logic hull_i, homogeneous_i,
+    input logic [V-1:0] x_i, y_i,
+    input logic front_i, tie_i,
     input logic [FLAGS-1:0] flags_i,  // of the class, CLASS_NOTCH lowest
     // Port
     output logic valid_o,
@@ -113,8 +105,7 @@ module quadrille_fragment_output #(
   logic [DB+1:0] z_fixed;  // with the bit that rounds
   logic [Z_SUM-1:0] z_q;
   logic outside, near_cuts, far_cuts, below, beyond;
-  logic [DB:0] least_z, greatest_z;
-  logic [DB:0] depth_q;
+  logic [DB:0] least_z, greatest_z, depth_q;
   logic depth_discard_q, behind_q, behind_early_q;
 
   quadrille_fp_raw_product u_product_z (

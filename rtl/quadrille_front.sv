@@ -5,8 +5,7 @@
 // From vertices to quads that are set up: assembly, setup, the multipliers that it shares with tile_context, the quads'
 // slots and their gradients.
 module quadrille_front #(
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int GRAD = quadrille_pkg::GRAD_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS
 ) (
     input logic clk_i,
@@ -15,9 +14,7 @@ module quadrille_front #(
     input logic flush_i,
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
-    output logic vertex_ready_o,
-    output logic assembly_busy_o,
-    output logic slots_busy_o,
+    output logic vertex_ready_o, assembly_busy_o, slots_busy_o,
     // A quad starts, in this slot
     output logic start_o,
     output logic [SLOT-1:0] start_slot_o,
@@ -37,8 +34,7 @@ module quadrille_front #(
     input logic [SLOT-1:0] stamp_slot_i,
     output logic [quadrille_pkg::EDGES_BITS-1:0] edges_o,
     input logic [SLOT-1:0] emit_slot_i,
-    output logic [6*GRAD-1:0] emit_gx_o,
-    output logic [6*GRAD-1:0] emit_gy_o,
+    output logic [6*GRAD-1:0] emit_gx_o, emit_gy_o,
     // A quad has left the pipeline
     input logic release_i,
     input logic [SLOT-1:0] release_slot_i,

@@ -16,10 +16,8 @@
 // rows of blocks apart, so that none of it is forgotten for another (asserted). The next quad's first block is tested
 // later.
 module quadrille_hidden_blocks #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
-    localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2,
-    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
+    localparam int TC = quadrille_pkg::TC_BITS, H = quadrille_pkg::DEPTH_CODE_BITS,
+    localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2, PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
     localparam int EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
 ) (
     input logic clk_i,
@@ -31,17 +29,13 @@ module quadrille_hidden_blocks #(
     // The block under test, by its first tile and the tiles behind that
     input logic go_i,  // the walk moves
     input logic test_i,  // and tests a block
-    input logic [TC-1:0] tile_x_i,
-    input logic [TC-1:0] tile_y_i,
-    input logic [BLOCK_LOG2-1:0] last_column_i,
-    input logic [BLOCK_LOG2-1:0] last_row_i,
+    input logic [TC-1:0] tile_x_i, tile_y_i,
+    input logic [BLOCK_LOG2-1:0] last_column_i, last_row_i,
     input logic [H-1:0] near_i,  // of its quad; a clock later
     output logic hidden_o,  // if it was a block, nothing of it can be seen
     // The tile under test; a clock later: no depth of it is beyond far, or it is hidden, and none is beyond near + 1
-    input logic [TC-1:0] learn_x_i,
-    input logic [TC-1:0] learn_y_i,
-    input logic learn_i,
-    input logic learn_hidden_i,
+    input logic [TC-1:0] learn_x_i, learn_y_i,
+    input logic learn_i, learn_hidden_i,
     input logic [H-1:0] near_next_i,  // of its quad, for another step
     input logic [H-1:0] far_i
 );
@@ -51,10 +45,8 @@ module quadrille_hidden_blocks #(
   localparam int PLACES = ROW + COLUMN;
   localparam int INDEX = PLACES - 2;  // of a bank
   // Coordinates of a tile have TC - 1 bits, those of a block BLOCK_LOG2 less. A tag has one at least, which then is 0.
-  localparam int COORDINATE = TC - 1 - BLOCK_LOG2;
-  localparam int TAG_X = (COORDINATE > COLUMN) ? COORDINATE - COLUMN : 1;
-  localparam int TAG_Y = (COORDINATE > ROW) ? COORDINATE - ROW : 1;
-  localparam int TAG = TAG_X + TAG_Y;
+  localparam int COORDINATE = TC - 1 - BLOCK_LOG2, TAG_X = (COORDINATE > COLUMN) ? COORDINATE - COLUMN : 1;
+  localparam int TAG_Y = (COORDINATE > ROW) ? COORDINATE - ROW : 1, TAG = TAG_X + TAG_Y;
   localparam int WIDE = TC + PLACE;  // so that the slices below exist
   localparam int BANKS = 4;  // {lowest bit of the row, of the column}
   localparam int TILES = 1 << 2 * BLOCK_LOG2;
@@ -157,7 +149,8 @@ module quadrille_hidden_blocks #(
   logic [INDEX-1:0] wipe_index, write_index;
   logic [WORD-1:0] new_word;
   logic [PLACES-1:0] write_place;
-  logic [BANKS-1:0] behind;  // what the bank's word tells of the block under test: nothing of it can be seen, or it is not asked
+  // what the bank's word tells of the block under test: nothing of it can be seen, or it is not asked
+  logic [BANKS-1:0] behind;
 
   assign write = wipe_i || (joins && go_i);
   assign write_place = wipe_i ? wipe_place_i[PLACE-1-:PLACES] : place_q2;

@@ -4,8 +4,7 @@
 // Option hierarchical_z_bits: what of a quad nothing can be seen of, by bounds of the depths in the depth buffer. Tiles
 // and blocks for the walk (hierarchical_z), pixels for coverage (masked_depth). At 0 nothing is hidden.
 module quadrille_hidden_tiles #(
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, H = quadrille_pkg::DEPTH_CODE_BITS,
     localparam int TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
@@ -23,13 +22,11 @@ module quadrille_hidden_tiles #(
     input logic [quadrille_pkg::SETUP_BITS-1:0] setup_i,
     // Walk
     input logic [quadrille_pkg::TEST_BITS-1:0] test_i,
-    output logic hidden_o,
-    output logic block_hidden_o,
+    output logic hidden_o, block_hidden_o,
     // Coverage
     input logic [quadrille_pkg::TAG_BITS-1:0] tile_i,
     input logic [quadrille_pkg::ROWS_BITS-1:0] rows_i,
-    output logic wait_o,
-    output logic masked_o,
+    output logic wait_o, masked_o,
     output logic [TILE-1:0] seen_o
 );
   if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_hidden

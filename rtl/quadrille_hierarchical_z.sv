@@ -16,13 +16,9 @@
 // as there are epochs every place was wiped once, so that no word of an epoch is older than it. Reset wipes all of
 // them. ready_o is low meanwhile: no vertex may be taken.
 module quadrille_hierarchical_z #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int TL = quadrille_pkg::TILE_LOG2,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
-    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
-    localparam int EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
+    localparam int TC = quadrille_pkg::TC_BITS, V = quadrille_pkg::VIEWPORT_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int TL = quadrille_pkg::TILE_LOG2, H = quadrille_pkg::DEPTH_CODE_BITS,
+    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2, EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -35,15 +31,12 @@ module quadrille_hierarchical_z #(
     // Quad: depth_interval's judgement the clock after start, read at take
     input logic start_i,
     input logic [SLOT-1:0] start_slot_i,
-    input logic [H-1:0] near_i,
-    input logic [H-1:0] far_i,
-    input logic lowers_i,
-    input logic take_i,
+    input logic [H-1:0] near_i, far_i,
+    input logic lowers_i, take_i,
     input logic [quadrille_pkg::SETUP_BITS-1:0] setup_i,
     // Walk: what it tests; a clock later whether the tile is hidden, or the block
     input logic [quadrille_pkg::TEST_BITS-1:0] test_i,
-    output logic hidden_o,
-    output logic block_hidden_o
+    output logic hidden_o, block_hidden_o
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
   `QUADRILLE_IN(`QUADRILLE_SETUP_T, setup)
@@ -51,11 +44,8 @@ module quadrille_hierarchical_z #(
   localparam int ROW = PLACE / 2;
   localparam int COLUMN = PLACE - ROW;
   // Coordinates of a tile have TC - 1 bits. A tag has one at least, which then is 0.
-  localparam int TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1;
-  localparam int TAG_Y = (TC - 1 > ROW) ? TC - 1 - ROW : 1;
-  localparam int TAG = TAG_X + TAG_Y;
-  localparam int SECTION_LOG2 = quadrille_pkg::HIDDEN_SECTION_LOG2;
-  localparam int WORD = TAG + EPOCH + H;
+  localparam int TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1, TAG_Y = (TC - 1 > ROW) ? TC - 1 - ROW : 1;
+  localparam int TAG = TAG_X + TAG_Y, SECTION_LOG2 = quadrille_pkg::HIDDEN_SECTION_LOG2, WORD = TAG + EPOCH + H;
   localparam int WIDE = TC + PLACE;  // so that the slices below exist
 
   // ---- The quad ----------------------------------------------------------------------------------------------------
@@ -97,7 +87,8 @@ module quadrille_hierarchical_z #(
     if (test.go) begin
       place_q1 <= place;
       tag_q1 <= tag;
-      whole_q1 <= (V + 1)'(tile_x) << TL >= state.scissor_x0 && x_after <= state.scissor_x1 && (V + 1)'(tile_y) << TL >= state.scissor_y0 &&
+      whole_q1 <= (V + 1)'(tile_x) << TL >= state.scissor_x0 && x_after <= state.scissor_x1 && (V +
+          1)'(tile_y) << TL >= state.scissor_y0 &&
           y_after <= state.scissor_y1;
     end
   end
@@ -168,7 +159,8 @@ module quadrille_hierarchical_z #(
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
-    if (rst_ni) `QUADRILLE_ASSERT(assert_wipe_alone, !wiping_q || !test.tested, "no tile is tested while tiles are wiped")
+    if (rst_ni) `QUADRILLE_ASSERT(assert_wipe_alone, !wiping_q || !test.tested,
+        "no tile is tested while tiles are wiped")
   end
 `endif
 endmodule

@@ -10,8 +10,7 @@ module quadrille_inside_expression #(
 ) (
     input logic [1:0] cull_i,
     input logic [3:0] visible_i,
-    input logic [5*PLACES-1:0] pos_i,
-    input logic [5*PLACES-1:0] neg_i,
+    input logic [5*PLACES-1:0] pos_i, neg_i,
     output logic [PLACES-1:0] back_o,  // clockwise as one sees it
     output logic [PLACES-1:0] front_o
 );

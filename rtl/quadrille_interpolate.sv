@@ -5,11 +5,8 @@
 // An attribute is counted from corner 0's: c_t0 = 0 has no term and no multiplier. The terms of a set follow one
 // another, corner by corner, and the sets too; term exponents have the port's width. Does not divide.
 module quadrille_interpolate #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int SETS = 3 + quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int TERMS = quadrille_pkg::BLEND_TERMS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, PE = quadrille_pkg::PORT_EXP_BITS,
+    localparam int SETS = 3 + quadrille_pkg::ATTRIBUTE_SLOTS, TERMS = quadrille_pkg::BLEND_TERMS
 ) (
     input logic clk_i,
     input logic [4*E-1:0] m_exp_i,
@@ -25,8 +22,7 @@ module quadrille_interpolate #(
   localparam int RANK = quadrille_pkg::RANK_BITS;
 
   for (genvar t = 0; t < SETS; t++) begin : gen_set
-    localparam int CORNERS = (t < 3) ? 4 : 3;
-    localparam int FIRST = (t < 3) ? 4 * t : 12 + 3 * (t - 3);
+    localparam int CORNERS = (t < 3) ? 4 : 3, FIRST = (t < 3) ? 4 * t : 12 + 3 * (t - 3);
     logic [CORNERS*RANK-1:0] rank;
     logic [CORNERS-1:0] neg;
     logic [CORNERS*TERM-1:0] term;

@@ -13,13 +13,9 @@
 // Epochs and wiped places are hierarchical_z's. A mask of another epoch, or of a bound that is all ones, is none, so
 // masks are not wiped.
 module quadrille_masked_depth #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int TILE = quadrille_pkg::TILE,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
-    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
-    localparam int EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
+    localparam int TC = quadrille_pkg::TC_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, TILE = quadrille_pkg::TILE, H = quadrille_pkg::DEPTH_CODE_BITS,
+    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2, EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -28,11 +24,9 @@ module quadrille_masked_depth #(
     input logic [PLACE-1:0] wipe_place_i,
     input logic [EPOCH-1:0] epoch_i,
     // Quad: depth_interval's judgement the clock after start
-    input logic on_i,
-    input logic start_i,
+    input logic on_i, start_i,
     input logic [SLOT-1:0] start_slot_i,
-    input logic [H-1:0] near_i,
-    input logic [H-1:0] far_i,
+    input logic [H-1:0] near_i, far_i,
     input logic lowers_i,
     // Coverage: the tile in its tag register, and what its registers do
     input logic [quadrille_pkg::TAG_BITS-1:0] tile_i,
@@ -44,10 +38,8 @@ module quadrille_masked_depth #(
   `QUADRILLE_IN(`QUADRILLE_TAG_T, tile)
   `QUADRILLE_IN(`QUADRILLE_ROWS_T, rows)
   localparam int ROW = PLACE / 2;
-  localparam int COLUMN = PLACE - ROW;
-  localparam int TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1;
-  localparam int TAG_Y = (TC - 1 > ROW) ? TC - 1 - ROW : 1;
-  localparam int TAG = TAG_X + TAG_Y;
+  localparam int COLUMN = PLACE - ROW, TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1;
+  localparam int TAG_Y = (TC - 1 > ROW) ? TC - 1 - ROW : 1, TAG = TAG_X + TAG_Y;
   localparam int WIDE = TC + PLACE;  // so that the slices below exist
   localparam int BOUNDS = TAG + EPOCH + 2 * H;  // {tag, epoch, far, masked_far}
   localparam logic [H-1:0] UNKNOWN = {H{1'b1}};  // not '1, of which Yosys 0.23 makes 1 in a parameter
@@ -76,8 +68,7 @@ module quadrille_masked_depth #(
   assign interval = interval_q[tile.slot];
 
   // ---- Memory: a place that is read is never the one that is written (asserted below) ------------------------------
-  logic [TILE-1:0] rows_write, rows_clear;
-  logic [TILE-1:0] row_word_q3;
+  logic [TILE-1:0] rows_write, rows_clear, row_word_q3;
   logic bounds_write;
   logic [PLACE-1:0] place_q3, bounds_place;
   logic [BOUNDS-1:0] bounds_word, bounds_read;
@@ -164,7 +155,8 @@ module quadrille_masked_depth #(
   assign old_row = mask_q[rows.row*TILE+:TILE];
 
   // ---- Issued rows -------------------------------------------------------------------------------------------------
-  localparam int TAGGED = PLACE + TAG + 2 * H + TILE_LOG2 + 3;  // {place, tag, far, masked, row, first, last, rest_whole}
+  // {place, tag, far, masked, row, first, last, rest_whole}
+  localparam int TAGGED = PLACE + TAG + 2 * H + TILE_LOG2 + 3;
   logic [2:0] begins_way_q, joins_way_q;  // 0: a clock after the issue; neither where the quad changes nothing
   logic [1:0] masked_hidden_way_q, hidden_way_q;
   logic [TAGGED-1:0] way_q1, way_q2, way_q3;
@@ -173,8 +165,7 @@ module quadrille_masked_depth #(
   logic [TILE_LOG2-1:0] row_q3;
   logic [TAG-1:0] tag_q3;
   logic [H-1:0] far_q3, masked_q3;
-  logic some, more, changed_q, changed_before, whole_q;
-  logic write_q3, clear_q3, lowers_tile;
+  logic some, more, changed_q, changed_before, whole_q, write_q3, clear_q3, lowers_tile;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -238,7 +229,8 @@ module quadrille_masked_depth #(
 
   assign low = {tile.tile_y[LOW-1:0], tile.tile_x[LOW-1:0]};
   assign wait_o = !tile.end_token && ((context_lowers_q && low == low_c) || (rows_lowers_q && low == low_r)
-      || (way_lowers_q[0] && low == low_q1) || (way_lowers_q[1] && low == low_q2) || (way_lowers_q[2] && low == low_q3));
+      || (way_lowers_q[0] && low == low_q1) || (way_lowers_q[1] && low == low_q2) ||
+          (way_lowers_q[2] && low == low_q3));
 
   always_ff @(posedge clk_i) begin
     if (rows.load) low_c <= low;

@@ -5,8 +5,7 @@
 //
 // A and D enter at NORM_STAGE, r at ROOT_STAGE; u and v leave at RATIO_STAGE (quadrille_pkg). One pixel per clock.
 module quadrille_mean_value_ratios #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
     input logic [6*E-1:0] a_exp_i,
@@ -24,8 +23,7 @@ module quadrille_mean_value_ratios #(
   localparam int RANK = quadrille_pkg::RANK_BITS;
 
   for (genvar g = 0; g < 6; g++) begin : gen_pair
-    localparam int I = {30'd0, quadrille_pkg::pair_first(4'(g))};
-    localparam int J = {30'd0, quadrille_pkg::pair_second(4'(g))};
+    localparam int I = {30'd0, quadrille_pkg::pair_first(4'(g))}, J = {30'd0, quadrille_pkg::pair_second(4'(g))};
 
     logic [RANK-1:0] rr_rank, rr_rank_q;
     logic [TERM-1:0] rr_term;
@@ -42,7 +40,8 @@ module quadrille_mean_value_ratios #(
     logic [E-1:0] d_exp;
     logic [S-1:0] d_sig;
 
-    quadrille_delay_line #(.WIDTH(E + S), .DEPTH(quadrille_pkg::SQRT_STAGES + quadrille_pkg::PRODUCT_STAGES)) u_delay_d (
+    quadrille_delay_line #(.WIDTH(E + S), .DEPTH(quadrille_pkg::SQRT_STAGES +
+        quadrille_pkg::PRODUCT_STAGES)) u_delay_d (
         .clk_i, .data_i({d_exp_i[g*E+:E], d_sig_i[g*S+:S]}), .data_o({d_exp, d_sig})
     );
 

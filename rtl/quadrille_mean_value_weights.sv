@@ -7,7 +7,7 @@
 // with a, b, c as fractions, so that a weight is a product of three numbers: no sum of weights' terms, and nothing
 // cancels. Singular pixels take the same way with other factors. Weights are magnitudes (they have one sign).
 //
-//     RATIO_STAGE  ratio_products (denominator_operands)  root_ratio      OVERRIDE_STAGE                         WEIGHT_STAGE
+//     RATIO_STAGE  ratio_products (denominator_operands)  root_ratio      OVERRIDE_STAGE                  WEIGHT_STAGE
 //                                                         fp_sum: N       weight_factors      factor_products
 //
 // A plane_quad's weights are areas instead: of the triangle 012 or, behind the diagonal, 023, the one opposite each
@@ -16,9 +16,7 @@
 // class_i is singular_class's word; k_* are k_eff. Inputs enter at ROOT_STAGE (root), RATIO_STAGE, and one register
 // before OVERRIDE_STAGE (override_*); M leaves at WEIGHT_STAGE (quadrille_pkg).
 module quadrille_mean_value_weights #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, PE = quadrille_pkg::PORT_EXP_BITS,
     localparam int CLASS = quadrille_pkg::CLASS_BITS
 ) (
     input logic clk_i,
@@ -40,7 +38,8 @@ module quadrille_mean_value_weights #(
     // at OVERRIDE_STAGE - 1
     input logic [4*PE-1:0] override_k_exp_i,
     input logic [4*S-1:0] override_k_sig_i,
-    output logic count_area_o,  // for performance_counters, else 0; at RATIO_STAGE: the weights are areas, which are not multiplied
+    // for performance_counters, else 0; at RATIO_STAGE: the weights are areas, which are not multiplied
+    output logic count_area_o,
     // at WEIGHT_STAGE
     output logic [4*E-1:0] m_exp_o,
     output logic [4*S-1:0] m_sig_o

@@ -8,11 +8,9 @@ module quadrille_normalise #(
     parameter int WIDTH = 64,
     parameter int BIAS = 0,
     parameter bit CLAMP = 1'b0,
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
-    input logic clk_i,
-    input logic active_i,
+    input logic clk_i, active_i,
     input logic [WIDTH-1:0] value_i,
     output logic neg_o,
     output logic [E-1:0] exp_o,
@@ -26,7 +24,8 @@ module quadrille_normalise #(
 
   always_ff @(posedge clk_i) magnitude_q <= magnitude_d;
 
-  quadrille_delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 1)) u_neg (.clk_i, .data_i(neg_d), .data_o(late_neg));
+  quadrille_delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 1)) u_neg (.clk_i, .data_i(neg_d),
+      .data_o(late_neg));
   always_ff @(posedge clk_i) if (active_i) neg_o <= late_neg;
 
   quadrille_fp_normalise #(.WIDTH(WIDTH)) u_normalise (

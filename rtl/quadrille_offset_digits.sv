@@ -3,14 +3,12 @@
 // dx^2 in radix 4, shared by all of them. Those of dx at once, for a register in each forward_difference_column; of r^2
 // + dx^2 in a register, a clock later.
 module quadrille_offset_digits #(
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int NORM_BITS = 2 * TILE_LOG2 + 1,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, NORM_BITS = 2 * TILE_LOG2 + 1,
     localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
     localparam int NORM_DIGITS = NORM_BITS / 2 + 1
 ) (
     input logic clk_i,
-    input logic [TILE_LOG2-1:0] row_i,
-    input logic [TILE_LOG2-1:0] dx_i,
+    input logic [TILE_LOG2-1:0] row_i, dx_i,
     output logic [2*OFFSET_DIGITS-1:0] dx_digits_o,
     output logic [2*NORM_DIGITS-1:0] norm_digits_o
 );

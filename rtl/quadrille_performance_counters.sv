@@ -9,21 +9,16 @@
 // sum_active_i, which are of operands on their way to the units that make products of them. Nothing of the machine
 // depends on value_o.
 module quadrille_performance_counters #(
-    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
-    localparam int LATENCY = quadrille_pkg::LATENCY,
-    localparam int SETS = 3 + N,
-    localparam int INDEX = quadrille_pkg::COUNTER_INDEX_BITS,
-    localparam int WIDTH = quadrille_pkg::COUNTER_BITS
+    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK, N = quadrille_pkg::ATTRIBUTE_SLOTS,
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS, LATENCY = quadrille_pkg::LATENCY, SETS = 3 + N,
+    localparam int INDEX = quadrille_pkg::COUNTER_INDEX_BITS, WIDTH = quadrille_pkg::COUNTER_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     input logic [INDEX-1:0] index_i,
     output logic [WIDTH-1:0] value_o,  // 0 beyond the last counter
     input logic take_i,  // the walk takes a quad
-    input logic homogeneous_i,
-    input logic busy_i,
+    input logic homogeneous_i, busy_i,
     input logic [quadrille_pkg::FRONT_EVENTS_BITS-1:0] front_i,
     input logic [quadrille_pkg::TILES_EVENTS_BITS-1:0] tiles_i,
     input logic [quadrille_pkg::PIXEL_EVENTS_BITS-1:0] pixel_i
@@ -38,21 +33,17 @@ module quadrille_performance_counters #(
     assign {lane_valid, lanes_drawn, lanes_area} = {pixel.lane_valid, pixel.drawn, pixel.area};
 
     // ---- Pixels in front of a unit with multipliers, and its products a pixel --------------------------------------
-    localparam int ROOTS = 4;
-    localparam int PAIRS_OF_VERTICES = 6;
-    localparam int RATIOS = 3;
-    localparam int WEIGHTS = 4;
-    localparam int PER_SQRT = ROOTS * quadrille_pkg::SQRT_DEGREE;
-    localparam int PER_RATIO = PAIRS_OF_VERTICES;
-    localparam int PER_WEIGHT_RATIO = RATIOS * (2 + quadrille_pkg::SQRT_DEGREE + 1);  // of mean_value_weights, up to the ratios of roots
+    localparam int ROOTS = 4, PAIRS_OF_VERTICES = 6, RATIOS = 3, WEIGHTS = 4;
+    localparam int PER_SQRT = ROOTS * quadrille_pkg::SQRT_DEGREE, PER_RATIO = PAIRS_OF_VERTICES;
+    // of mean_value_weights, up to the ratios of roots
+    localparam int PER_WEIGHT_RATIO = RATIOS * (2 + quadrille_pkg::SQRT_DEGREE + 1);
     localparam int PER_WEIGHT_FACTOR = 2 * WEIGHTS;  // and behind them
     localparam int PER_SUM = WEIGHTS;  // an attribute's has one less: none of corner 0
     localparam int PER_RECIPROCAL = quadrille_pkg::RECIP_DEGREE;
     localparam int PER_JOB = 4;  // a pair: two dot units of two products each
 
     localparam int BEFORE_OUTPUT = quadrille_pkg::FRAGMENT_STAGE - quadrille_pkg::FRAGMENT_OUTPUT_STAGES;
-    localparam int COUNT = $clog2(P + 1);
-    localparam int SUMS = $clog2(quadrille_pkg::BLEND_TERMS + 1);
+    localparam int COUNT = $clog2(P + 1), SUMS = $clog2(quadrille_pkg::BLEND_TERMS + 1);
 
     // Lanes whose numbers are not those of a pixel before, at the units between normalise and the ratios of roots.
     logic [P-1:0] norm_active, root_active, ratio_active;
@@ -174,7 +165,8 @@ module quadrille_performance_counters #(
     assign step[25*STEP+:STEP] = (tiles.context_job || front.setup_job) ? STEP'(PAIRS * PER_JOB) : '0;
     assign step[26*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
     assign step[27*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
-    assign step[28*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
+    assign step[28*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) +
+        STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
     assign step[29*STEP+:STEP] = STEP'(at_sum) * STEP'(terms);
     assign step[30*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
     assign step[31*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);

@@ -11,10 +11,8 @@
 // all discarded (discard_i). An end beat takes no place. The head is popped with its last pixel; pixels leave in
 // registers.
 module quadrille_pixel_emit #(
-    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int PLACES = quadrille_pkg::FRAGMENT_FIFO_LOG2,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK, RING = quadrille_pkg::RING_LOG2,
+    localparam int PLACES = quadrille_pkg::FRAGMENT_FIFO_LOG2, TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
@@ -24,8 +22,7 @@ module quadrille_pixel_emit #(
     input logic [quadrille_pkg::STAMP_BITS-1:0] head_i,
     output logic pop_o,
     // Places of the fragment FIFO given back
-    input logic freed_i,
-    input logic discard_i,
+    input logic freed_i, discard_i,
     // Pixels, and the ring's entry of their tile
     output logic [RING:0] ptr_o,
     output logic [quadrille_pkg::PIXELS_BITS-1:0] pixels_o,
@@ -43,8 +40,7 @@ module quadrille_pixel_emit #(
 
   // Free places less one: negative when there is none, so that one bit of a register decides.
   logic [PLACES+1:0] spare_q;
-  logic [TILE-1:0] sent_q;
-  logic [TILE-1:0] remaining, chosen;
+  logic [TILE-1:0] sent_q, remaining, chosen;
   logic [1:0] part, part_q;  // part_q: the one before, of a homogeneous quad's pixels
   logic may_send, send_part, whole, send;
 

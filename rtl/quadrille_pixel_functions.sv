@@ -7,16 +7,12 @@ module quadrille_pixel_functions #(
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
     localparam int NORM_DIGITS = (2 * TILE_LOG2 + 1) / 2 + 1,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int QGRAD = quadrille_pkg::QGRAD_BITS, QCURV = quadrille_pkg::QCURV_BITS,
     localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS
 ) (
     input logic clk_i,
-    input logic [TILE_LOG2-1:0] row_i,
-    input logic [TILE_LOG2-1:0] dx_i,
+    input logic [TILE_LOG2-1:0] row_i, dx_i,
     input logic [quadrille_pkg::ROW_BITS-1:0] line_i,  // a clock later
     // In step with the functions' values; a clock later squares_i, the last part of a homogeneous pixel, and length2_i
     input logic [1:0] part_i,
@@ -59,8 +55,7 @@ module quadrille_pixel_functions #(
   end
 
   for (genvar g = 0; g < 6; g++) begin : gen_dot
-    localparam int I = {30'd0, quadrille_pkg::pair_first(4'(g))};
-    localparam int J = {30'd0, quadrille_pkg::pair_second(4'(g))};
+    localparam int I = {30'd0, quadrille_pkg::pair_first(4'(g))}, J = {30'd0, quadrille_pkg::pair_second(4'(g))};
 
     quadrille_law_of_cosines u_dot (
         .clk_i, .r2_first_i(quad[I*QVAL+:QVAL]), .r2_second_i(quad[J*QVAL+:QVAL]), .homogeneous_i(squares_i),

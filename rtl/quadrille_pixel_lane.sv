@@ -10,14 +10,9 @@
 // quadrille_pkg::DIFF_STAGE to FRAGMENT_STAGE, and signals are named after the boundary that they cross (SPEC.md, Pixel
 // pipeline).
 module quadrille_pixel_lane #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int FB = quadrille_pkg::FRAGMENT_BITS,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, N = quadrille_pkg::ATTRIBUTE_SLOTS,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS, FB = quadrille_pkg::FRAGMENT_BITS,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, VAL = quadrille_pkg::VAL_BITS, QVAL = quadrille_pkg::QVAL_BITS,
     localparam int SETS = 3 + N
 ) (
     input logic clk_i,
@@ -25,10 +20,8 @@ module quadrille_pixel_lane #(
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
     // The pixel, at the pipeline's input. One of a homogeneous quad is valid with its last part
     input logic valid_i,
-    input logic [TILE_LOG2-1:0] row_i,
-    input logic [TILE_LOG2-1:0] dx_i,
-    input logic front_i,
-    input logic tie_i,
+    input logic [TILE_LOG2-1:0] row_i, dx_i,
+    input logic front_i, tie_i,
     // Its row of the tile, a clock later
     input logic [quadrille_pkg::ROW_BITS-1:0] line_i,
     // Its part, in step with the values of the functions; a clock later squares_i, the last part of a homogeneous pixel
@@ -40,7 +33,8 @@ module quadrille_pixel_lane #(
     input logic [V-1:0] output_y_i,
     // Fragment
     output logic [quadrille_pkg::LATENCY-1:0] valid_o,  // a pixel is in register n, drawn or discarded
-    output logic [1:0] events_o,  // for performance_counters, else 0: numbers are taken on; at RATIO_STAGE: the weights are areas
+    // for performance_counters, else 0: numbers are taken on; at RATIO_STAGE: the weights are areas
+    output logic [1:0] events_o,
     output logic fragment_valid_o,
     output logic [FB-1:0] fragment_o  // zero when there is none
 );
@@ -48,9 +42,7 @@ module quadrille_pixel_lane #(
   `QUADRILLE_IN(`QUADRILLE_TERMS_T, terms)
 
   // Registers at the boundaries
-  localparam int DIFF = quadrille_pkg::DIFF_STAGE;
-  localparam int NORM = quadrille_pkg::NORM_STAGE;
-  localparam int RATIO = quadrille_pkg::RATIO_STAGE;
+  localparam int DIFF = quadrille_pkg::DIFF_STAGE, NORM = quadrille_pkg::NORM_STAGE, RATIO = quadrille_pkg::RATIO_STAGE;
   localparam int LAST = quadrille_pkg::LATENCY - 1;  // the output register
 
   logic [LAST:0] valid_q;
@@ -63,13 +55,10 @@ module quadrille_pixel_lane #(
   end
 
   // ---- Side band: column, facing, tie; from the norm boundary on the class with them -------------------------------
-  localparam int CLASS = quadrille_pkg::CLASS_BITS;
-  localparam int FLAGS = quadrille_pkg::CLASS_FLAGS;
-  localparam int TAG = TILE_LOG2 + 2;
+  localparam int CLASS = quadrille_pkg::CLASS_BITS, FLAGS = quadrille_pkg::CLASS_FLAGS, TAG = TILE_LOG2 + 2;
   typedef struct packed {
     logic [TILE_LOG2-1:0] dx;
-    logic front;
-    logic tie;
+    logic front, tie;
     logic [FLAGS-1:0] flags;  // of the class
   } meta_t;
   logic [TAG-1:0] diff_tag, norm_tag;
@@ -117,8 +106,7 @@ module quadrille_pixel_lane #(
   // numbers, and all of what is no pixel, as the first parts of a homogeneous one, are not taken on, so that the
   // operands of everything up to the weights stay as they are. Of a plane_quad the weights are areas: A alone is taken
   // on.
-  logic corner, taken_on;
-  logic norm_active_q, distance_active_q, class_active_q;
+  logic corner, taken_on, norm_active_q, distance_active_q, class_active_q;
 
   assign taken_on = !state.skip[4] || (valid_q[NORM-2] && !corner);
 
@@ -248,8 +236,7 @@ module quadrille_pixel_lane #(
 
 `ifndef SYNTHESIS
   // A regular pixel's weights are near 1.
-  localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE;
-  localparam int OVERRIDES = quadrille_pkg::CLASS_OVERRIDES;
+  localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE, OVERRIDES = quadrille_pkg::CLASS_OVERRIDES;
   logic [OVERRIDES-1:0] weight_overrides;
 
   quadrille_delay_line #(.WIDTH(OVERRIDES), .DEPTH(WEIGHT - NORM)) u_weight_overrides (
@@ -269,6 +256,9 @@ module quadrille_pixel_lane #(
     end
   end
 
+  logic [quadrille_pkg::CLASS_KINDS-1:0] kinds;
+  assign kinds = norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS];
+
   // Zero when not valid.
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
@@ -277,7 +267,7 @@ module quadrille_pixel_lane #(
           "the fragment is zero without valid")
       `QUADRILLE_ASSERT(assert_fragment_has_pixel, !fragment_valid_o || valid_q[LAST], "a fragment comes of a pixel")
       `QUADRILLE_ASSERT(assert_one_class,
-          !valid_q[NORM] || ((norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS] & (norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS] - quadrille_pkg::CLASS_KINDS'(1))) == '0),
+          !valid_q[NORM] || (kinds & (kinds - quadrille_pkg::CLASS_KINDS'(1))) == '0,
           "a pixel is of one singular kind at most")
     end
   end

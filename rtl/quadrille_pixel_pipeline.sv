@@ -11,12 +11,9 @@
 // quadrille_pkg::DIFF_STAGE to FRAGMENT_STAGE (SPEC.md, Pixel pipeline). An end beat (end, no lane valid) travels with
 // the pixels; at the last register it releases its slot.
 module quadrille_pixel_pipeline #(
-    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int FB = quadrille_pkg::FRAGMENT_BITS,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
+    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK, V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int FB = quadrille_pkg::FRAGMENT_BITS, TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int GRAD = quadrille_pkg::GRAD_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -25,8 +22,7 @@ module quadrille_pixel_pipeline #(
     // gradients
     input logic [quadrille_pkg::PIXELS_BITS-1:0] pixels_i,
     input logic [quadrille_pkg::CONTEXT_BITS-1:0] tile_i,
-    input logic [6*GRAD-1:0] lin_gx_i,
-    input logic [6*GRAD-1:0] lin_gy_i,
+    input logic [6*GRAD-1:0] lin_gx_i, lin_gy_i,
     // Vertex bank
     output logic [quadrille_pkg::READS_BITS-1:0] reads_o,
     input logic [quadrille_pkg::TERMS_BITS-1:0] terms_i,
@@ -44,10 +40,8 @@ module quadrille_pixel_pipeline #(
   `QUADRILLE_IN(`QUADRILLE_CONTEXT_T, tile)
   `QUADRILLE_READS_T reads;
   // Registers at the boundaries
-  localparam int DIFF = quadrille_pkg::DIFF_STAGE;
-  localparam int RATIO = quadrille_pkg::RATIO_STAGE;
-  localparam int OVERRIDE = quadrille_pkg::OVERRIDE_STAGE;
-  localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE;
+  localparam int DIFF = quadrille_pkg::DIFF_STAGE, RATIO = quadrille_pkg::RATIO_STAGE;
+  localparam int OVERRIDE = quadrille_pkg::OVERRIDE_STAGE, WEIGHT = quadrille_pkg::WEIGHT_STAGE;
   localparam int LAST = quadrille_pkg::LATENCY - 1;  // the output register
 
   logic [LAST:0] end_q;
@@ -77,12 +71,15 @@ module quadrille_pixel_pipeline #(
   assign tag.y = {tile.tile_y[V-TILE_LOG2-1:0], pixels.row};
 
   quadrille_delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (.clk_i, .data_i(tag), .data_o(diff_tag));
-  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(RATIO - 1 - DIFF)) u_product_tag (.clk_i, .data_i(diff_tag), .data_o(product_tag));
+  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(RATIO - 1 - DIFF)) u_product_tag (.clk_i, .data_i(diff_tag),
+      .data_o(product_tag));
   quadrille_delay_line #(.WIDTH(TAG), .DEPTH(OVERRIDE - 1 - RATIO)) u_override_tag (
       .clk_i, .data_i(product_tag), .data_o(override_tag)
   );
-  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(WEIGHT - OVERRIDE)) u_blend_tag (.clk_i, .data_i(override_tag), .data_o(blend_tag));
-  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(LAST - 3 - WEIGHT)) u_base_tag (.clk_i, .data_i(blend_tag), .data_o(base_tag));
+  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(WEIGHT - OVERRIDE)) u_blend_tag (.clk_i, .data_i(override_tag),
+      .data_o(blend_tag));
+  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(LAST - 3 - WEIGHT)) u_base_tag (.clk_i, .data_i(blend_tag),
+      .data_o(base_tag));
   quadrille_delay_line #(.WIDTH(TAG), .DEPTH(3)) u_output_tag (.clk_i, .data_i(base_tag), .data_o(output_tag));
 
   tag_t fragment_tag;  // output_tag in step with what was read

@@ -3,8 +3,8 @@
 //
 // Every configuration key is a macro QUADRILLE_<KEY> (set with -D), with its default here. -1 asks for the automatic
 // value
-// where SPEC.md, Widths, gives one. Every derived width stands once, with its reason. All are `verilator public` so that
-// the C++ model reads back the very numbers that the RTL was built with.
+// where SPEC.md, Widths, gives one. Every derived width stands once, with its reason. All are `verilator public`, so
+// that the C++ model reads back the very numbers that the RTL was built with.
 `ifndef QUADRILLE_VIEWPORT_BITS
 `define QUADRILLE_VIEWPORT_BITS 12
 `endif
@@ -141,7 +141,8 @@ package quadrille_pkg;
   // two bits below the significand, so that the output grid adds little to the arithmetic error; never fewer than 24,
   // for a base may be far greater than the differences to it
   localparam int ATTRIBUTE_FRAC_AUTO = (SIGNIFICAND_BITS + 2 < 24) ? 24 : SIGNIFICAND_BITS + 2;
-  localparam int ATTRIBUTE_FRAC_BITS /*verilator public*/ = (ATTRIBUTE_FRAC_KEY < 0) ? ATTRIBUTE_FRAC_AUTO : ATTRIBUTE_FRAC_KEY;
+  localparam int ATTRIBUTE_FRAC_BITS /*verilator public*/ = (ATTRIBUTE_FRAC_KEY < 0) ? ATTRIBUTE_FRAC_AUTO :
+      ATTRIBUTE_FRAC_KEY;
 
   // ---- Derived widths ----------------------------------------------------------------------------------------------
   // integer bits of a position, sign apart
@@ -264,23 +265,27 @@ package quadrille_pkg;
   localparam int CLASS_BITS = 9;
   localparam int CLASS_KINDS = CLASS_BITS - CLASS_ON_EDGE;  // the singular kinds, at its upper end
   localparam int CLASS_FLAGS = CLASS_BITS - CLASS_NOTCH;  // what a fragment shows: those and the notch
-  localparam int CLASS_OVERRIDES = CLASS_BITS - CLASS_TWO_EDGE;  // at its upper end: one of them is set where the pixel is not regular
+  // at its upper end: one of them is set where the pixel is not regular
+  localparam int CLASS_OVERRIDES = CLASS_BITS - CLASS_TWO_EDGE;
 
   // ---- Latency of the pixel pipeline (SPEC.md, model/port/latency.hpp) ---------------------------------------------
   // Clocks from a unit's inputs to its outputs.
   localparam int FORWARD_DIFFERENCE_ROW_STAGES /*verilator public*/ = 1;
   localparam int FORWARD_DIFFERENCE_COLUMN_STAGES /*verilator public*/ = 2;  // column, bend
-  localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = FORWARD_DIFFERENCE_ROW_STAGES + FORWARD_DIFFERENCE_COLUMN_STAGES;
+  localparam int FORWARD_DIFFERENCE_STAGES /*verilator public*/ = FORWARD_DIFFERENCE_ROW_STAGES +
+      FORWARD_DIFFERENCE_COLUMN_STAGES;
   localparam int LAW_OF_COSINES_STAGES /*verilator public*/ = 2;  // sum, difference
   localparam int FP_NORMALISE_STAGES /*verilator public*/ = 2;  // long shifts, short shifts
   localparam int NORMALISE_STAGES /*verilator public*/ = 1 + FP_NORMALISE_STAGES;  // magnitude
   localparam int SQRT_STAGES /*verilator public*/ = 4;  // table, inner product, outer product, clamp
   localparam int RECIPROCAL_STAGES /*verilator public*/ = SQRT_STAGES;  // the same polynomial
   localparam int PRODUCT_STAGES /*verilator public*/ = 1;  // fp_multiply, fp_raw_product
-  localparam int FP_SUM_STAGES /*verilator public*/ = 4 + FP_NORMALISE_STAGES;  // from the product: distances, align, add, magnitude
+  // from the product: distances, align, add, magnitude
+  localparam int FP_SUM_STAGES /*verilator public*/ = 4 + FP_NORMALISE_STAGES;
   localparam int FP_ADD_STAGES /*verilator public*/ = 3;  // order, align, add
   localparam int FIXED_POINT_STAGES /*verilator public*/ = 2;  // distance, shift
-  localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + FIXED_POINT_STAGES + 3;  // sum, clamp, output
+  // sum, clamp, output
+  localparam int FRAGMENT_OUTPUT_STAGES /*verilator public*/ = PRODUCT_STAGES + FIXED_POINT_STAGES + 3;
   // Registers at the boundaries; register 0 is written by the edge that ends the clock in which the pixel is at the
   // input.
   localparam int DIFF_STAGE /*verilator public*/ = FORWARD_DIFFERENCE_STAGES + LAW_OF_COSINES_STAGES - 1;
@@ -302,7 +307,7 @@ package quadrille_pkg;
   // clocks (3 from emission to the pipeline, 2 through the FIFO, 2 until the count of free places knows)
   localparam int FRAGMENT_FIFO_LOG2 /*verilator public*/ = $clog2(LATENCY + 7);
 
-  // ---- Bundles, as include/quadrille_types.svh declares them: VERTEX, STATE and FRAGMENT are those of the ports (README.md) ---
+  // ---- Bundles, as include/quadrille_types.svh declares them; VERTEX, STATE, FRAGMENT: the ports' (README.md) -------
   localparam int STATE_BITS /*verilator public*/ = 4 * (VIEWPORT_BITS + 1) + 2 * (DEPTH_BITS + 1) + 16;
   localparam int VERTEX_BITS /*verilator public*/ = QUAD_ID_BITS + 2 * T_BITS + W_BITS + 2 * PORT_EXP_BITS +
       2 * SIGNIFICAND_BITS + ATTRIBUTE_SLOTS * ATTR_PORT_BITS + ATTRIBUTE_SLOTS * ATTR_OUT_BITS + DEPTH_BITS + 1 +
@@ -339,7 +344,7 @@ package quadrille_pkg;
   localparam int FRAGMENT_BITS /*verilator public*/ =
       QUAD_ID_BITS + 2 * VIEWPORT_BITS + 1 + 8 + DEPTH_BITS + 1 + ATTRIBUTE_SLOTS * ATTR_OUT_BITS;
 
-  // ---- Function pairs: 0-3 the edges 01 12 23 30, 4 the diagonal 20, 5 the diagonal 13, 6-9 the squares 00 11 22 33 ---
+  // ---- Function pairs: 0-3 edges 01 12 23 30, 4 diagonal 20, 5 diagonal 13, 6-9 squares 00 11 22 33 -----------------
   function automatic logic [1:0] pair_first(input logic [3:0] k);
     case (k)
       4'd0, 4'd6: pair_first = 2'd0;
@@ -360,11 +365,12 @@ package quadrille_pkg;
 
   // ---- Products of significands, 2 SIGNIFICAND_BITS wide and, but for 0, with a one in the upper two places --------
   // fp_multiply of SPEC.md: {exponent, significand} of the product truncated; exp: sum of the factors' exponents.
-  function automatic logic [EXP_BITS+SIGNIFICAND_BITS-1:0] truncated_product(input logic [EXP_BITS-1:0] exp,
-                                                                             input logic [2*SIGNIFICAND_BITS-1:0] product, input logic nonzero);
+  function automatic logic [EXP_BITS+SIGNIFICAND_BITS-1:0] truncated_product(
+      input logic [EXP_BITS-1:0] exp, input logic [2*SIGNIFICAND_BITS-1:0] product, input logic nonzero);
     truncated_product = {
       nonzero ? exp + EXP_BITS'(product[2*SIGNIFICAND_BITS-1]) : EXP_BITS'(0),
-      product[2*SIGNIFICAND_BITS-1] ? product[2*SIGNIFICAND_BITS-1-:SIGNIFICAND_BITS] : product[2*SIGNIFICAND_BITS-2-:SIGNIFICAND_BITS]
+      product[2*SIGNIFICAND_BITS-1] ? product[2*SIGNIFICAND_BITS-1-:SIGNIFICAND_BITS] :
+          product[2*SIGNIFICAND_BITS-2-:SIGNIFICAND_BITS]
     };
   endfunction
 

@@ -10,11 +10,8 @@
 // opposite sides: v0 = v1 and v2 = v3, or v0 = v3 and v1 = v2, in every bit. Comparisons alone: sprites, text, faces of
 // boxes seen in parallel. Not found: what is plane at an angle to the sides.
 module quadrille_plane_quad #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int AP = quadrille_pkg::ATTR_PORT_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, PE = quadrille_pkg::PORT_EXP_BITS, T = quadrille_pkg::T_BITS,
+    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS, AP = quadrille_pkg::ATTR_PORT_BITS
 ) (
     input logic clk_i,
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
@@ -24,8 +21,7 @@ module quadrille_plane_quad #(
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
   `QUADRILLE_IN(`QUADRILLE_QUAD_T, quad)
   if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
-    localparam int VALUES = 2 + N;
-    localparam int SUM = T + 1;
+    localparam int VALUES = 2 + N, SUM = T + 1;
 
     // ---- Parallelogram ---------------------------------------------------------------------------------------------
     logic [4*SUM-1:0] x, y;

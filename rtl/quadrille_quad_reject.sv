@@ -8,25 +8,19 @@
 // takes least; above greatest likewise. limits_o = {outside, near_cuts, far_cuts, least, greatest} comes a clock later,
 // without a sign: where a limit is negative all is outside.
 module quadrille_quad_reject #(
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int CODE = quadrille_pkg::CORNER_DEPTH_BITS,
-    localparam int W = quadrille_pkg::W_BITS
+    localparam int DB = quadrille_pkg::DEPTH_BITS, CODE = quadrille_pkg::CORNER_DEPTH_BITS, W = quadrille_pkg::W_BITS
 ) (
     input logic clk_i,
     // Draw state
     input logic depth_on_i,
-    input logic [DB:0] znear_i,
-    input logic [DB:0] zfar_i,
+    input logic [DB:0] znear_i, zfar_i,
     // Beat
-    input logic accept_i,
-    input logic first_i,
+    input logic accept_i, first_i,
     input logic [W-1:0] w_i,
     // Depths of the quad's corners, from the clock after the first beat on
-    input logic [CODE-1:0] low_i,
-    input logic [CODE-1:0] high_i,
+    input logic [CODE-1:0] low_i, high_i,
     // Quad
-    output logic behind_o,
-    output logic depth_o,
+    output logic behind_o, depth_o,
     output logic [quadrille_pkg::DEPTH_LIMIT_BITS-1:0] limits_o
 );
   logic [CODE-1:0] znear, zfar;

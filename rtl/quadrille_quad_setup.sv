@@ -17,25 +17,17 @@
 // quad that cannot give a fragment by its triangles' areas (reject_i), or misses the scissor, is dropped: an ordinary
 // one while its last result comes, else when it is complete. An empty bounding box gives zero tiles.
 module quadrille_quad_setup #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int REACH = quadrille_pkg::REACH_BITS,
-    localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
-    localparam int TL = quadrille_pkg::TILE_LOG2,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int EDGE_WIDTH = VAL + 2 * GRAD
+    localparam int T = quadrille_pkg::T_BITS, W = quadrille_pkg::W_BITS, TC = quadrille_pkg::TC_BITS,
+    localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, REACH = quadrille_pkg::REACH_BITS,
+    localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS, OUT = quadrille_pkg::DOT_OUT_BITS,
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS, TL = quadrille_pkg::TILE_LOG2,
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, EDGE_WIDTH = VAL + 2 * GRAD
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
     // Quad in: held until start_i, which needs ready_o
-    input logic held_i,
-    input logic start_i,
+    input logic held_i, start_i,
     output logic ready_o,
     input logic empty_i,  // no pixel centre inside scissor and bounding box
     input logic [SLOT-1:0] slot_i,
@@ -69,7 +61,8 @@ module quadrille_quad_setup #(
   logic [6*LENGTH2-1:0] setup_length2;
   localparam int CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
 
-  assign setup_o = {setup_slot, setup_tiles, setup_last_row, setup_vertices, setup_homogeneous, setup_hull, setup_visible, setup_linear,
+  assign setup_o = {setup_slot, setup_tiles, setup_last_row, setup_vertices, setup_homogeneous, setup_hull,
+      setup_visible, setup_linear,
       setup_ties, setup_reaches, setup_length2};
 
   logic boxed;
@@ -89,8 +82,7 @@ module quadrille_quad_setup #(
   logic complete_q;  // all are there
   logic done_q;  // a quad is among the outputs
   logic left_out_q;  // one that cannot give a fragment
-  logic last, run_end, advance, hand_over, gone;
-  logic drop_result, drop_summed;
+  logic last, run_end, advance, hand_over, gone, drop_result, drop_summed;
   logic alone;  // one quad at most, but for one that goes and for the outputs, is before the next one
 
   // The step is the last one, and done. With one pair of units the next quad's first result then comes in the very
@@ -119,7 +111,7 @@ module quadrille_quad_setup #(
     end
   end
 
-  // ---- What goes with a quad: slot, tiles, vertices relative to the origin pixel (a shift: W = ONE or the origin is 0) ---
+  // ---- What goes with a quad: slot, tiles, vertices relative to the origin pixel ------------------------------------
   localparam int PLACE = SLOT + 4 * TC + TL + 1 + 4 * (2 * T + W);
   logic front_ordinary_q, sum_ordinary;
   logic [SLOT-1:0] front_slot_q;
@@ -164,8 +156,7 @@ module quadrille_quad_setup #(
 
   // ---- What the jobs are whose results are there -------------------------------------------------------------------
   localparam int JOB = 5 + 3 + 2 * PAIRS + 1 + 1;
-  logic step_done;
-  logic edge_job, gradient_job, det_job, side_job, corner_job, second_job, ordinary_job;
+  logic step_done, edge_job, gradient_job, det_job, side_job, corner_job, second_job, ordinary_job;
   logic [2:0] job_group;  // of sides: which corner, vertex
   logic [PAIRS-1:0] job_triangle, job_negated;
   logic [JOB-1:0] job;
@@ -180,7 +171,8 @@ module quadrille_quad_setup #(
     second,
     front_ordinary_q
   };
-  assign {edge_job, gradient_job, det_job, side_job, corner_job, job_group, job_triangle, job_negated, second_job, ordinary_job} =
+  assign {edge_job, gradient_job, det_job, side_job, corner_job, job_group, job_triangle, job_negated, second_job,
+      ordinary_job} =
       job_q[CLOCKS*JOB-1-:JOB];
 
   // From a quad's last step until all is there: its result, with two pairs of units also the reach of its last edge.
@@ -276,10 +268,12 @@ module quadrille_quad_setup #(
 
   assign wanted = {{2{state.cull != 2'd1}}, {2{state.cull != 2'd2}}};
   assign turned = (sum_ordinary ? area_signs : visible) & wanted;
-  assign drop_summed = sum_q && (end_q[END_CLOCKS-1] || complete_q) && sum_ordinary && state.skip[1] && (area_signs & wanted) == '0 && !drop_result;
+  assign drop_summed = sum_q && (end_q[END_CLOCKS-1] || complete_q) && sum_ordinary && state.skip[1] &&
+      (area_signs & wanted) == '0 && !drop_result;
 
   always_ff @(posedge clk_i) begin
-    if (hand_over) left_out_q <= !sum_ordinary && ((state.skip[1] && turned == '0) || (turned != '0 && (turned & ~missing) == '0));
+    if (hand_over) left_out_q <= !sum_ordinary && ((state.skip[1] && turned == '0) || (turned != '0 &&
+        (turned & ~missing) == '0));
   end
 
   if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count

@@ -7,16 +7,12 @@
 // between two neighbouring centres. Homogeneous quad, or any: none if the scissor has none. bounding_range gives the
 // pixels when there are some.
 module quadrille_range_empty #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS
+    localparam int T = quadrille_pkg::T_BITS, V = quadrille_pkg::VIEWPORT_BITS
 ) (
-    input logic clk_i,
-    input logic accept_i,
-    input logic first_i,
+    input logic clk_i, accept_i, first_i,
     input logic [T-1:0] coordinate_i,
     input logic [T-1:0] low_i,  // least coordinate of the beats before
-    input logic [V:0] scissor0_i,
-    input logic [V:0] scissor1_i,
+    input logic [V:0] scissor0_i, scissor1_i,
     input logic ordinary_i,  // all beats so far have W = ONE, a clock after the beat
     output logic empty_o
 );

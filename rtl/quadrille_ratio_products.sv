@@ -8,11 +8,8 @@
 // 0 on a diagonal. Products 0 to 2 are z, 3 to 5 w; the terms of N are 0 to 3, their ranks come one clock before them.
 // Numbers are {exp, sig}.
 module quadrille_ratio_products #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int TERM = quadrille_pkg::TERM_BITS,
-    localparam int RANK = quadrille_pkg::RANK_BITS,
-    localparam int F = E + S
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, TERM = quadrille_pkg::TERM_BITS,
+    localparam int RANK = quadrille_pkg::RANK_BITS, F = E + S
 ) (
     input logic clk_i,
     input logic [6*E-1:0] u_exp_i,
@@ -22,12 +19,10 @@ module quadrille_ratio_products #(
     input logic [5:0] d_neg_i,
     // Of two edges
     input logic two_edge_i,
-    input logic [4*F-1:0] edge_root_i,
-    input logic [4*F-1:0] edge_k_i,
+    input logic [4*F-1:0] edge_root_i, edge_k_i,
     input logic [3:0] edge_neg_i,
     // Of the ratios
-    output logic [2:0] near_cancels_o,
-    output logic [2:0] far_cancels_o,
+    output logic [2:0] near_cancels_o, far_cancels_o,
     output logic [3*F-1:0] own_o,
     output logic [6*F-1:0] product_o,
     // Of the denominators

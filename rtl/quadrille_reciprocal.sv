@@ -9,11 +9,9 @@
 // --gtest_filter='*Table*'); relative, proved within -0.76 to +0.65 of 2^-(S-1) (analysis_test
 // --gtest_filter='TableErrors.*').
 module quadrille_reciprocal #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
-    input logic clk_i,
-    input logic neg_i,
+    input logic clk_i, neg_i,
     input logic [E-1:0] exp_i,
     input logic [S-1:0] sig_i,
     output logic neg_o,
@@ -21,11 +19,9 @@ module quadrille_reciprocal #(
     output logic [S-1:0] sig_o
 );
   localparam int K = quadrille_pkg::RECIP_SEGMENTS_LOG2;
-  localparam int R = S - 1 - K;
-  localparam int DX_BITS = (R < 1) ? 1 : R;
+  localparam int R = S - 1 - K, DX_BITS = (R < 1) ? 1 : R;
 
-  logic zero;
-  logic exact;
+  logic zero, exact;
   logic [E-1:0] exp_d;
   logic [3*S+3:0] word;
   logic [DX_BITS-1:0] dx;

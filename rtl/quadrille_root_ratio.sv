@@ -14,12 +14,9 @@
 // and den near 2^(-e/2), and beside a zero the other is in [1, 2). So no product of three of them leaves 2^+-120
 // (SPEC.md), and the move is common to all weights.
 module quadrille_root_ratio #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
-    input logic clk_i,
-    input logic near_cancels_i,
-    input logic far_cancels_i,
+    input logic clk_i, near_cancels_i, far_cancels_i,
     input logic [E-1:0] z_exp_i,
     input logic [S-1:0] z_sig_i,
     input logic [E-1:0] w_exp_i,
@@ -57,7 +54,8 @@ module quadrille_root_ratio #(
       .clk_i, .data_i({root_exp, root_sig, own}), .data_o({late_root, late_own})
   );
 
-  quadrille_delay_line #(.WIDTH(E + S + 2), .DEPTH(quadrille_pkg::SQRT_STAGES + quadrille_pkg::PRODUCT_STAGES)) u_delay_w (
+  quadrille_delay_line #(.WIDTH(E + S + 2), .DEPTH(quadrille_pkg::SQRT_STAGES +
+      quadrille_pkg::PRODUCT_STAGES)) u_delay_w (
       .clk_i, .data_i({w_exp_i, w_sig_i, near_cancels_i, far_cancels_i}), .data_o({late_w, near_cancels, far_cancels})
   );
 

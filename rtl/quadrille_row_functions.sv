@@ -6,11 +6,8 @@
 //
 // Two's complement throughout; r comes as its radix4_digits.
 module quadrille_row_functions #(
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS
+    localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int QGRAD = quadrille_pkg::QGRAD_BITS, QCURV = quadrille_pkg::QCURV_BITS
 ) (
     input logic clk_i,
     input logic [quadrille_pkg::ROW_DIGIT_BITS-1:0] row_digits_i,

@@ -12,21 +12,13 @@
 module quadrille_scissor_separation #(
     localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS
 ) (
-    input logic clk_i,
-    input logic clear_i,
-    input logic side_i,
-    input logic far_i,
+    input logic clk_i, clear_i, side_i, far_i,
     input logic [1:0] vertex_i,
-    input logic [PAIRS-1:0] x_neg_i,
-    input logic [PAIRS-1:0] y_neg_i,
+    input logic [PAIRS-1:0] x_neg_i, y_neg_i,
     input logic [3:0] w_neg_i,
     input logic [4:0] gx_neg_i,  // of E01 E12 E23 E30 E20
     input logic [4:0] gy_neg_i,
-    input logic [PAIRS-1:0] edge_i,
-    input logic [PAIRS-1:0] triangle_i,
-    input logic [PAIRS-1:0] negated_i,
-    input logic [PAIRS-1:0] value_neg_i,
-    input logic [PAIRS-1:0] value_zero_i,
+    input logic [PAIRS-1:0] edge_i, triangle_i, negated_i, value_neg_i, value_zero_i,
     output logic [1:0] separated_o  // with what comes in this clock
 );
   localparam logic [4*2-1:0] CORNERS = {4'b1101, 4'b0111};  // vertices of 023, of 012

@@ -2,11 +2,9 @@
 // Signed areas of the triangles 012 and 023 of an ordinary quad, E01 + E12 + E20 and E23 + E30 - E20 at any place,
 // added up as the values come.
 module quadrille_setup_areas #(
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS
+    localparam int VAL = quadrille_pkg::VAL_BITS, PAIRS = quadrille_pkg::PRODUCT_PAIRS
 ) (
-    input logic clk_i,
-    input logic edge_job_i,
+    input logic clk_i, edge_job_i,
     input logic [2:0] job_group_i,
     input logic [PAIRS*VAL-1:0] value_i,
     output logic [3:0] signs_o  // as the clauses of visible: 023 negative, 012, 023 positive, 012
@@ -25,7 +23,8 @@ module quadrille_setup_areas #(
   assign diagonal = job_group_i == ((PAIRS == 1) ? 3'd4 : 3'd2);
   assign in_012 = job_group_i < ((PAIRS == 1) ? 3'd2 : 3'd1);
   assign in_023 = (PAIRS == 1) ? job_group_i[2:1] == 2'd1 : job_group_i == 3'd1;
-  assign area_012_next = (job_group_i == 3'd0 ? '0 : area_012_q) + (in_012 || diagonal ? area_value : '0) + (in_012 ? area_value2 : '0);
+  assign area_012_next = (job_group_i == 3'd0 ? '0 : area_012_q) + (in_012 || diagonal ? area_value : '0) + (in_012 ?
+      area_value2 : '0);
   assign area_023_next = (job_group_i == 3'd0 ? '0 : area_023_q) + (in_023 ? area_value : diagonal ? ~area_value : '0) +
       (in_023 ? area_value2 : '0) + AREA'(diagonal);
 

@@ -4,21 +4,17 @@
 // Bounding box of a quad and its tiles, while vertex_assembly holds the quad: clamped in the first clock, its tiles in
 // the second. An empty one has zero tiles.
 module quadrille_setup_box #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int TL = quadrille_pkg::TILE_LOG2
+    localparam int TC = quadrille_pkg::TC_BITS, TL = quadrille_pkg::TILE_LOG2
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
-    input logic held_i,
-    input logic start_i,
+    input logic held_i, start_i,
     input logic empty_i,  // no pixel centre inside scissor and bounding box
     input logic [quadrille_pkg::QUAD_BITS-1:0] quad_i,
     output logic boxed_o,  // the outputs are there
     output logic [TC-1:0] x0_o,  // first tile
-    output logic [TC-1:0] y0_o,
-    output logic [TC-1:0] columns_o,
-    output logic [TC-1:0] rows_o,
+    output logic [TC-1:0] y0_o, columns_o, rows_o,
     output logic [TL-1:0] last_row_o  // last pixel row, in its tile
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)

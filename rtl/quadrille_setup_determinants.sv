@@ -5,21 +5,16 @@
 // accumulator, and behind them the edge functions at the scissor's corners: then the last determinant's sign is kept
 // (kept_*).
 module quadrille_setup_determinants #(
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
-    localparam int DET = quadrille_pkg::DET_BITS,
+    localparam int OUT = quadrille_pkg::DOT_OUT_BITS, DET = quadrille_pkg::DET_BITS,
     localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS
 ) (
     input logic clk_i,
     input logic [quadrille_pkg::PRODUCTS_BITS-1:0] products_i,
     // The jobs whose results are there; the second of two results is added
-    input logic det_job_i,
-    input logic corner_job_i,
-    input logic second_job_i,
-    output logic [3:0] negative_o,
-    output logic [3:0] zero_o,
+    input logic det_job_i, corner_job_i, second_job_i,
+    output logic [3:0] negative_o, zero_o,
     output logic cornered_o,  // a corner came behind them
-    output logic [PAIRS-1:0] corner_neg_o,
-    output logic [PAIRS-1:0] corner_zero_o
+    output logic [PAIRS-1:0] corner_neg_o, corner_zero_o
 );
   `QUADRILLE_IN(`QUADRILLE_PRODUCTS_T, products)
 
@@ -40,7 +35,8 @@ module quadrille_setup_determinants #(
     always_ff @(posedge clk_i) begin
       if (!cornered_o) {kept_neg_q, kept_zero_q} <= {det_neg, det_zero};
       if (det_job_i || corner_job_i) begin
-        det_q <= (second_job_i ? det_q : '0) + DET'($signed(products.result0[p*OUT+:OUT])) + (DET'($signed(products.result1[p*OUT+:OUT])) << 32);
+        det_q <= (second_job_i ? det_q : '0) + DET'($signed(products.result0[p*OUT+:OUT])) +
+            (DET'($signed(products.result1[p*OUT+:OUT])) << 32);
         if (det_job_i && !second_job_i) begin
           det_neg_q <= (DETS - 1)'({det_neg_q, det_neg});
           det_zero_q <= (DETS - 1)'({det_zero_q, det_zero});

@@ -4,26 +4,20 @@
 // The linear functions of quad_setup from their results: value, gradient, what they reach over a tile and a block, tie
 // signs; squared lengths. Those of a complete quad move to the outputs with hand_over_i.
 module quadrille_setup_functions #(
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int REACH = quadrille_pkg::REACH_BITS,
-    localparam int RISE = quadrille_pkg::RISE_BITS,
-    localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS
+    localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, REACH = quadrille_pkg::REACH_BITS,
+    localparam int RISE = quadrille_pkg::RISE_BITS, LENGTH2 = quadrille_pkg::LENGTH2_BITS,
+    localparam int OUT = quadrille_pkg::DOT_OUT_BITS, PAIRS = quadrille_pkg::PRODUCT_PAIRS
 ) (
     input logic clk_i,
     input logic [quadrille_pkg::PRODUCTS_BITS-1:0] products_i,
     // The jobs whose results are there
-    input logic edge_job_i,
-    input logic gradient_job_i,
+    input logic edge_job_i, gradient_job_i,
     input logic [2:0] job_group_i,
     input logic ordinary_job_i,
     output logic [PAIRS*VAL-1:0] value_o,  // of the results
     // Functions so far
     output logic [6*VAL-1:0] lin_value_o,
-    output logic [6*GRAD-1:0] lin_gx_o,
-    output logic [6*GRAD-1:0] lin_gy_o,
+    output logic [6*GRAD-1:0] lin_gx_o, lin_gy_o,
     // Functions of the quad that is done
     input logic hand_over_i,
     output logic [6*(VAL+2*GRAD)-1:0] linear_o,  // value, gx, gy
@@ -32,8 +26,7 @@ module quadrille_setup_functions #(
     output logic [6*LENGTH2-1:0] length2_o
 );
   localparam int FRAC = quadrille_pkg::FRAC;
-  localparam int QDROP = quadrille_pkg::QDROP;
-  localparam int CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
+  localparam int QDROP = quadrille_pkg::QDROP, CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
   `QUADRILLE_IN(`QUADRILLE_PRODUCTS_T, products)
   logic [6*VAL-1:0] setup_lin_value;
   logic [6*GRAD-1:0] setup_lin_gx, setup_lin_gy;
@@ -44,7 +37,7 @@ module quadrille_setup_functions #(
   assign ties_o = {setup_tie_pos, setup_tie_neg};
   assign reaches_o = {setup_fall_tile, setup_rise_tile, setup_fall_block, setup_rise_block};
 
-  // ---- Gradients of an ordinary quad: differences of coordinates, which wait beside the products of the value's job ---
+  // ---- Gradients of an ordinary quad: differences of coordinates, which wait beside the products --------------------
   // gx = Ty_i - Ty_j, gy = Tx_j - Tx_i, both times 2^FRAC.
   logic [PAIRS*RISE-1:0] apart_x, apart_y;
 

@@ -5,14 +5,9 @@
 // The steps of quad_setup: which jobs a quad has, one for each pair of dot units a clock, and the vertices that they
 // take.
 module quadrille_setup_steps #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
-    localparam int EDGE_WIDTH = VAL + 2 * GRAD
+    localparam int T = quadrille_pkg::T_BITS, W = quadrille_pkg::W_BITS, V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, TC = quadrille_pkg::TC_BITS,
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS, EDGE_WIDTH = VAL + 2 * GRAD
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -20,11 +15,9 @@ module quadrille_setup_steps #(
     // The quad that starts, and its first tile
     input logic start_i,
     input logic [quadrille_pkg::QUAD_BITS-1:0] quad_i,
-    input logic [TC-1:0] tile_x0_i,
-    input logic [TC-1:0] tile_y0_i,
+    input logic [TC-1:0] tile_x0_i, tile_y0_i,
     // The quad that does its steps: is there one, all its W are ONE
-    input logic run_i,
-    input logic ordinary_i,
+    input logic run_i, ordinary_i,
     input logic wait_i,  // the step is repeated
     output logic last_o,  // it is the last one
     // Jobs, with the vertices relative to the origin pixel (a shift: W = ONE or the origin is 0); edge functions of DET
@@ -35,21 +28,18 @@ module quadrille_setup_steps #(
     // of an edge at a corner: in the triangle 023, negated; the second of two steps
     output logic [4:0] kind_o,
     output logic [2:0] group_o,
-    output logic [PAIRS-1:0] triangle_o,
-    output logic [PAIRS-1:0] negated_o,
+    output logic [PAIRS-1:0] triangle_o, negated_o,
     output logic second_o,
     // Functions and determinants so far
     input logic [6*VAL-1:0] lin_value_i,
-    input logic [6*GRAD-1:0] lin_gx_i,
-    input logic [6*GRAD-1:0] lin_gy_i,
+    input logic [6*GRAD-1:0] lin_gx_i, lin_gy_i,
     input logic [3:0] negative_i  // d_012, d_023, d_123, d_013
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
   `QUADRILLE_IN(`QUADRILLE_QUAD_T, quad)
   logic [5:0] step_q;
   logic [T-1:0] origin_x, origin_y;
-  logic [4*T-1:0] from_origin_x, from_origin_y;
-  logic [4*T-1:0] tx_q, ty_q;
+  logic [4*T-1:0] from_origin_x, from_origin_y, tx_q, ty_q;
   logic [4*W-1:0] w_q;
 
   assign origin_x = T'(tile_x0_i) << (quadrille_pkg::TILE_LOG2 + quadrille_pkg::FRAC);
@@ -68,7 +58,8 @@ module quadrille_setup_steps #(
   localparam logic [5:0] FUNCTIONS_END = (PAIRS == 1) ? 6'd10 : 6'd6;
   localparam logic [5:0] DETERMINANTS = (PAIRS == 1) ? 6'd10 : 6'd7;
   localparam logic [5:0] SIDES = DETERMINANTS + 6'(8 / PAIRS);
-  localparam logic [5:0] LATE = (PAIRS == 1) ? 6'd30 : 6'd15;  // of E30; with two pairs nothing, the determinants' signs are to come
+  // of E30; with two pairs nothing, the determinants' signs are to come
+  localparam logic [5:0] LATE = (PAIRS == 1) ? 6'd30 : 6'd15;
   localparam logic [5:0] CORNERS = (PAIRS == 1) ? 6'd26 : 6'd18;
   localparam logic [5:0] LAST_TOGETHER = (PAIRS == 1) ? LATE + 6'd1 : SIDES - 6'd1;  // without state.skip[3]
   localparam logic [5:0] LAST_SEPARATE = (PAIRS == 1) ? 6'd39 : 6'd23;
@@ -107,7 +98,7 @@ module quadrille_setup_steps #(
     else step_q <= wait_i ? step_q : to_late ? LATE : step_q + 6'd1;
   end
 
-  // ---- Corners of the scissor in a vertex's place, in pixels: chosen while the edge function's value is multiplied ---
+  // ---- Corners of the scissor in a vertex's place, in pixels: chosen while the edge's value is multiplied -----------
   logic [PAIRS*EDGE_WIDTH-1:0] edge_words;  // value, gx, gy
   logic [PAIRS*(V+1)-1:0] corner_x, corner_y;
   logic side_far_q;
@@ -174,7 +165,8 @@ module quadrille_setup_steps #(
     for (genvar g = 0; g < 4; g++) begin : gen_word
       localparam int F = (PAIRS == 2 && g == 3 * (1 - p)) ? 4 : g;
 
-      assign words[g*EDGE_WIDTH+:EDGE_WIDTH] = {lin_value_i[F*VAL+:VAL], lin_gx_i[F*GRAD+:GRAD], lin_gy_i[F*GRAD+:GRAD]};
+      assign words[g*EDGE_WIDTH+:EDGE_WIDTH] = {lin_value_i[F*VAL+:VAL], lin_gx_i[F*GRAD+:GRAD],
+          lin_gy_i[F*GRAD+:GRAD]};
     end
 
     assign determinant = (PAIRS == 1) ? det_step[2:1] : {1'(p), det_step[1]};

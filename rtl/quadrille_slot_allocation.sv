@@ -11,8 +11,7 @@ module quadrille_slot_allocation #(
     input logic rst_ni,  // synchronous, active low
     input logic start_i,
     output logic [SLOT-1:0] alloc_o,
-    output logic available_o,
-    output logic busy_o,
+    output logic available_o, busy_o,
     input logic release_i,
     input logic [SLOT-1:0] release_slot_i,
     input logic drop_i,

@@ -9,8 +9,7 @@
 // --gtest_filter='*Table*'). Of an argument that was itself truncated, relative: proved within -1.13 to +0.76 of
 // 2^-(S-1) (analysis_test --gtest_filter='TableErrors.*').
 module quadrille_sqrt #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
     input logic [E-1:0] exp_i,
@@ -19,8 +18,7 @@ module quadrille_sqrt #(
     output logic [S-1:0] sig_o
 );
   localparam int K = quadrille_pkg::SQRT_SEGMENTS_LOG2;
-  localparam int R = S - 1 - K;
-  localparam int DX_BITS = (R < 1) ? 1 : R;
+  localparam int R = S - 1 - K, DX_BITS = (R < 1) ? 1 : R;
 
   logic zero;
   logic [E-1:0] half;

@@ -12,13 +12,9 @@
 // Behind them a row takes three registers (values; signs; masks) that never wait: it is sent in only while the FIFO has
 // a place for it, and the place of a row without a covered pixel is given back.
 module quadrille_stamp_coverage #(
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int PLACES = quadrille_pkg::STAMP_PLACES,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS, TC = quadrille_pkg::TC_BITS, VAL = quadrille_pkg::VAL_BITS,
+    localparam int GRAD = quadrille_pkg::GRAD_BITS, RING = quadrille_pkg::RING_LOG2,
+    localparam int PLACES = quadrille_pkg::STAMP_PLACES, TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
@@ -54,9 +50,8 @@ module quadrille_stamp_coverage #(
   // ---- Control ------------------------------------------------------------------------------------------------------
   localparam logic [RING:0] PARTS = (RING + 1)'(quadrille_pkg::HOMOGENEOUS_PARTS);
   logic [RING:0] fetch_q, load_q, row_ptr_q;
-  logic tag_valid_q, context_valid_q, rows_valid_q;
-  logic rows_load, rows_done, issue;
-  logic context_end_q, rows_end_q, context_homogeneous_q, rows_homogeneous_q;
+  logic tag_valid_q, context_valid_q, rows_valid_q, rows_load, rows_done, issue, context_end_q, rows_end_q;
+  logic context_homogeneous_q, rows_homogeneous_q;
   logic [TILE_LOG2-1:0] row_q, last_row_q, context_last_row_q;
   localparam int ROOM = $clog2(PLACES + 1);
   logic [ROOM-1:0] room_q;  // places of the FIFO that no stamp has, nor a row on its way
@@ -102,11 +97,13 @@ module quadrille_stamp_coverage #(
 
   always_ff @(posedge clk_i) begin
     if (load_o) begin
-      {context_end_q, context_homogeneous_q, context_x_q, context_y_q} <= {tag.end_token, tag.homogeneous, tag.tile_x, tag.tile_y};
+      {context_end_q, context_homogeneous_q, context_x_q, context_y_q} <= {tag.end_token, tag.homogeneous, tag.tile_x,
+          tag.tile_y};
       context_last_row_q <= tag.last_row;
     end
     if (rows_load) begin
-      {rows_end_q, rows_homogeneous_q, tile_x_q, tile_y_q} <= {context_end_q, context_homogeneous_q, context_x_q, context_y_q};
+      {rows_end_q, rows_homogeneous_q, tile_x_q, tile_y_q} <= {context_end_q, context_homogeneous_q, context_x_q,
+          context_y_q};
       {tie_pos_q, tie_neg_q, visible_q} <= {edges.tie_pos, edges.tie_neg, edges.visible};
       row_q <= '0;
       last_row_q <= context_last_row_q;
@@ -149,8 +146,7 @@ module quadrille_stamp_coverage #(
 
     // Odd multiples: the neighbour that four divides, plus or minus gx.
     for (genvar k = 0; k < TILE / 2; k++) begin : gen_multiple
-      localparam int ODD = 2 * k + 1;
-      localparam int NEAR = (ODD % 4 == 3) ? ODD + 1 : ODD - 1;
+      localparam int ODD = 2 * k + 1, NEAR = (ODD % 4 == 3) ? ODD + 1 : ODD - 1;
       localparam int ZEROS = (NEAR % 16 == 0) ? 4 : (NEAR % 8 == 0) ? 3 : 2;  // NEAR = its odd part times 2^ZEROS
       logic [MULT-1:0] multiple, multiple_q;
 
@@ -166,13 +162,15 @@ module quadrille_stamp_coverage #(
     end
 
     for (genvar dx = 0; dx < TILE; dx++) begin : gen_pixel
-      localparam int ZEROS = (dx % 8 == 0) ? 3 : (dx % 4 == 0) ? 2 : (dx % 2 == 0) ? 1 : 0;  // dx = its odd part times 2^ZEROS
+      // dx = its odd part times 2^ZEROS
+      localparam int ZEROS = (dx % 8 == 0) ? 3 : (dx % 4 == 0) ? 2 : (dx % 2 == 0) ? 1 : 0;
       logic [CLOSE-1:0] value_q1;
 
       if (dx == 0) begin : gen_first
         always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0];
       end else begin : gen_next
-        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0] + (CLOSE'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
+        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0] +
+            (CLOSE'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
       end
 
       always_ff @(posedge clk_i) begin
@@ -232,7 +230,8 @@ module quadrille_stamp_coverage #(
   end
 
   always_ff @(posedge clk_i) begin
-    {end_q1, homogeneous_q1, row_q1, signs_q1} <= {rows_end_q, rows_homogeneous_q, row_q, tie_pos_q, tie_neg_q, visible_q};
+    {end_q1, homogeneous_q1, row_q1, signs_q1} <= {rows_end_q, rows_homogeneous_q, row_q, tie_pos_q, tie_neg_q,
+        visible_q};
     {end_q2, homogeneous_q2, row_q2, signs_q2} <= {end_q1, homogeneous_q1, row_q1, signs_q1};
     {end_q3, homogeneous_q3, row_q3} <= {end_q2, homogeneous_q2, row_q2};
   end
@@ -241,8 +240,7 @@ module quadrille_stamp_coverage #(
   logic [4:0] tie_pos, tie_neg;
   logic [3:0] visible;
   logic [5*TILE-1:0] pos, neg, zero;
-  logic [TILE-1:0] back, front, mask;
-  logic [TILE-1:0] mask_q3, front_q3, tie_q3;
+  logic [TILE-1:0] back, front, mask, mask_q3, front_q3, tie_q3;
 
   assign {tie_pos, tie_neg, visible} = signs_q2;
 

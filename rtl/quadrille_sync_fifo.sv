@@ -23,8 +23,7 @@ module quadrille_sync_fifo #(
   logic [WIDTH-1:0] word_q[0:(1<<POINTER)-1];
   logic [POINTER-1:0] write_q, read_q;
   logic [COUNT-1:0] count_q;  // of words behind the head
-  logic valid_q;
-  logic load;
+  logic valid_q, load;
 
   assign load = count_q != '0 && (!valid_q || pop_i);
   assign valid_o = valid_q;

@@ -9,9 +9,7 @@
 module quadrille_table_polynomial #(
     parameter int SEGMENTS_LOG2 = 5,
     parameter bit RISING = 1'b0,
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int R = S - 1 - SEGMENTS_LOG2,
-    localparam int DX_BITS = (R < 1) ? 1 : R
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, R = S - 1 - SEGMENTS_LOG2, DX_BITS = (R < 1) ? 1 : R
 ) (
     input logic clk_i,
     input logic [3*S+3:0] word_i,

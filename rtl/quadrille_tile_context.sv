@@ -14,18 +14,11 @@
 // An entry is complete, in the order of the pushes, VERTEX_PRODUCT_CLOCKS after its last step (complete_o). An end
 // entry has no step of its own but waits its turn.
 module quadrille_tile_context #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS,
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
-    localparam int BUSES = quadrille_pkg::CONTEXT_BUSES
+    localparam int T = quadrille_pkg::T_BITS, W = quadrille_pkg::W_BITS, V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int TC = quadrille_pkg::TC_BITS, GRAD = quadrille_pkg::GRAD_BITS, QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int QGRAD = quadrille_pkg::QGRAD_BITS, QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int OUT = quadrille_pkg::DOT_OUT_BITS, RING = quadrille_pkg::RING_LOG2,
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS, BUSES = quadrille_pkg::CONTEXT_BUSES
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -63,9 +56,7 @@ module quadrille_tile_context #(
   assign jobs_o = {kinds, functions, x, y, w, offset_x, offset_y};
   assign words_o = {word_value_write, word_value_entry, word_value, word_gradient_write, word_gradient_entry, word_gx,
       word_gy, word_q_write, word_q_entry, word_q, word_complete, word_complete_homogeneous};
-  localparam int FRAC = quadrille_pkg::FRAC;
-  localparam int QDROP = quadrille_pkg::QDROP;
-  localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
+  localparam int FRAC = quadrille_pkg::FRAC, QDROP = quadrille_pkg::QDROP, TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
 
   // ---- Steps -------------------------------------------------------------------------------------------------------
@@ -132,7 +123,8 @@ module quadrille_tile_context #(
   always_ff @(posedge clk_i) begin
     if (push_i) begin
       step_q <= '0;
-      {end_q, homogeneous_q, column_q, row_q, entry_q} <= {end_i, homogeneous_o && !end_i, tile.column, tile.row, entry_i};
+      {end_q, homogeneous_q, column_q, row_q, entry_q} <= {end_i, homogeneous_o && !end_i, tile.column, tile.row,
+          entry_i};
     end else begin
       step_q <= step_q + 6'd1;
     end
@@ -197,7 +189,8 @@ module quadrille_tile_context #(
 
   assign early_squares = job_q[JOB-4];
   assign {early_function, early_entry} = job_q[1+:4+RING];
-  assign {late_move, late_dot, late_gradient, late_squares, word_complete, late_function, late_entry, word_complete_homogeneous} =
+  assign {late_move, late_dot, late_gradient, late_squares, word_complete, late_function, late_entry,
+      word_complete_homogeneous} =
       job_q[CLOCKS*JOB-1-:JOB];
   assign moved = late_move;
   assign moved_vertex = late_function[1:0] - 2'd2;  // functions 6 to 9

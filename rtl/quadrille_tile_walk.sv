@@ -20,8 +20,7 @@
 // hit turns back to the block before, and the next one is ready when its tiles are done. A push that must wait stops
 // everything, but the next quad comes in while the end entry waits.
 module quadrille_tile_walk #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int TC = quadrille_pkg::TC_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2
 ) (
     input logic clk_i,
@@ -33,13 +32,11 @@ module quadrille_tile_walk #(
     input logic [quadrille_pkg::SETUP_BITS-1:0] setup_i,
     // Tile out; an end entry has a slot alone
     input logic ready_i,
-    output logic push_o,
-    output logic end_o,
+    output logic push_o, end_o,
     output logic [quadrille_pkg::TILE_BITS-1:0] tile_o,
     // Hidden tiles: what is under test; a clock later whether it is hidden, a tile or a block
     output logic [quadrille_pkg::TEST_BITS-1:0] test_o,
-    input logic hidden_i,
-    input logic block_hidden_i,
+    input logic hidden_i, block_hidden_i,
     // For performance_counters, else 0: a block was tested, its tiles will be, or it is hit and hidden; a tile was
     // tested, or is hit and hidden; a quad is here
     output logic [5:0] events_o
@@ -68,20 +65,19 @@ module quadrille_tile_walk #(
   logic more_q;
   logic [TC-1:0] tile_x0_q, tile_y0_q;
   logic [TC-1:0] last_x_q, last_y_q;  // of the quad's tiles
-  logic [TC-1:0] first_x, first_y, first_x_q, first_y_q;  // the scissor's first tile, of an ordinary quad 0: its box is inside
+  // the scissor's first tile, of an ordinary quad 0: its box is inside
+  logic [TC-1:0] first_x, first_y, first_x_q, first_y_q;
   logic [TC-1:0] block_x_q, block_y_q, block_y_next;
   logic [TC-1:0] blocks_x_q, blocks_y_q;  // blocks behind it in its row, rows of blocks behind it
   logic block_left_q;
   logic [TC-1:0] walk_x_q, walk_y_q;
-  logic [BLOCK_LOG2-1:0] tile_last_x_q, tile_last_y_q;
-  logic [BLOCK_LOG2-1:0] tile_x_q, tile_y_q;
+  logic [BLOCK_LOG2-1:0] tile_last_x_q, tile_last_y_q, tile_x_q, tile_y_q;
   logic tile_left_q;
   logic [SLOT-1:0] slot_q, slot_q1;
   logic [TILE_LOG2-1:0] last_row_q;
   logic [3:0] visible_q;
-  logic empty;
-  logic in_approach, in_block, in_walk, test_block, step_block;
-  logic tile_end, block_end, first_column, last_column, last_row, one_column;
+  logic empty, in_approach, in_block, in_walk, test_block, step_block, tile_end, block_end, first_column, last_column;
+  logic last_row, one_column;
   logic apart;  // the scissor's first block is another than the quad's
   logic arrived;
 

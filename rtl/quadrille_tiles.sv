@@ -4,10 +4,8 @@
 // From quads to pixels' positions: the walk over a quad's tiles, their quadratic functions, coverage, emission; and
 // what hides a tile.
 module quadrille_tiles #(
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int TILE = quadrille_pkg::TILE
+    localparam int VAL = quadrille_pkg::VAL_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int RING = quadrille_pkg::RING_LOG2, TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -36,8 +34,7 @@ module quadrille_tiles #(
     output logic [SLOT-1:0] emit_slot_o,
     output logic [quadrille_pkg::CONTEXT_BITS-1:0] context_o,
     // Places of the fragment FIFO given back
-    input logic freed_i,
-    input logic discard_i,
+    input logic freed_i, discard_i,
     output logic [quadrille_pkg::TILES_EVENTS_BITS-1:0] events_o
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)

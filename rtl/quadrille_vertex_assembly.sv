@@ -11,11 +11,8 @@
 // Vertex i's field is at [i*width +: width] of each flat output; attributes are those of v1, v2, v3, for v0's are the
 // bases.
 module quadrille_vertex_assembly #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, PE = quadrille_pkg::PORT_EXP_BITS, T = quadrille_pkg::T_BITS,
+    localparam int W = quadrille_pkg::W_BITS, ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -23,14 +20,10 @@ module quadrille_vertex_assembly #(
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
-    input logic flush_i,
-    input logic start_i,
-    input logic drop_i,
-    output logic full_o,
-    output logic busy_o,
+    input logic flush_i, start_i, drop_i,
+    output logic full_o, busy_o,
     output logic empty_o,  // no pixel centre inside scissor and bounding box
-    output logic behind_o,
-    output logic depth_o,
+    output logic behind_o, depth_o,
     output logic [quadrille_pkg::DEPTH_LIMIT_BITS-1:0] limits_o,
     output logic [quadrille_pkg::QUAD_BITS-1:0] quad_o
 );
@@ -49,8 +42,7 @@ module quadrille_vertex_assembly #(
   logic [quadrille_pkg::DEPTH_BITS:0] base_depth;
   logic [quadrille_pkg::CORNER_DEPTH_BITS-1:0] depth_low, depth_high;
   logic [1:0] count_q;
-  logic full_q;
-  logic accept;
+  logic full_q, accept;
 
   assign accept = vertex_valid_i && vertex_ready_o;
   assign vertex_ready_o = !full_q || start_i || drop_i;

@@ -8,18 +8,12 @@
 // Each is read by the slot that the pipeline's register has there. Reads of squared lengths, for interpolation and of
 // bases take two clocks, the others one. Not reset.
 module quadrille_vertex_bank #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int AP = quadrille_pkg::ATTR_PORT_BITS,
-    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS,
-    localparam int TERMS = quadrille_pkg::BLEND_TERMS,
-    localparam int ID = quadrille_pkg::QUAD_ID_BITS,
-    localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int SETS = 3 + N
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, PE = quadrille_pkg::PORT_EXP_BITS,
+    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS, AP = quadrille_pkg::ATTR_PORT_BITS,
+    localparam int AO = quadrille_pkg::ATTR_OUT_BITS, DB = quadrille_pkg::DEPTH_BITS,
+    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS, TERMS = quadrille_pkg::BLEND_TERMS,
+    localparam int ID = quadrille_pkg::QUAD_ID_BITS, LENGTH2 = quadrille_pkg::LENGTH2_BITS,
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, SETS = 3 + N
 ) (
     input logic clk_i,
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
@@ -73,8 +67,7 @@ module quadrille_vertex_bank #(
 
   // k_eff, which is read three times, in a small memory per vertex; the other term sets, read once for interpolation,
   // in one word.
-  localparam int WORD = 1 + PE + S;
-  localparam int BLEND = (TERMS - 4) * WORD;
+  localparam int WORD = 1 + PE + S, BLEND = (TERMS - 4) * WORD;
   // Block RAM: a slot that a pixel reads is in use, so it is never the one that is written (asserted).
   (* ram_style = "block", no_rw_check *) logic [BLEND-1:0] blend_q[0:SLOTS-1];
   logic [BLEND-1:0] write_blend, blend_word;

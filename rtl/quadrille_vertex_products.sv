@@ -22,17 +22,11 @@
 // DET: the edge function that comes with the job. Flat vectors over the pairs of units: that of pair p at [p*WIDTH +:
 // WIDTH].
 module quadrille_vertex_products #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int RISE = quadrille_pkg::RISE_BITS,
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS
+    localparam int T = quadrille_pkg::T_BITS, W = quadrille_pkg::W_BITS, V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, RISE = quadrille_pkg::RISE_BITS,
+    localparam int OUT = quadrille_pkg::DOT_OUT_BITS, PAIRS = quadrille_pkg::PRODUCT_PAIRS
 ) (
-    input logic clk_i,
-    input logic tile_valid_i,
+    input logic clk_i, tile_valid_i,
     input logic [quadrille_pkg::JOBS_BITS-1:0] tile_i,  // the offset is still there a clock later
     input logic [quadrille_pkg::JOBS_BITS-1:0] setup_i,  // taken when there is none of a tile
     input logic [PAIRS*(VAL+2*GRAD)-1:0] edges_i,  // with the setup's jobs: value, gx, gy
@@ -95,8 +89,7 @@ module quadrille_vertex_products #(
     assign all_apart_y[p*RISE+:RISE] = apart_y_d;
 
     // ---- Operands --------------------------------------------------------------------------------------------------
-    logic [DOT-1:0] x_i, x_j, y_i, y_j, w_i, w_j, apart_x, apart_y;
-    logic [DOT-1:0] a0, b0, c0, d0, a1, b1, c1, d1;
+    logic [DOT-1:0] x_i, x_j, y_i, y_j, w_i, w_j, apart_x, apart_y, a0, b0, c0, d0, a1, b1, c1, d1;
     logic subtract0, subtract1;
 
     assign x_i = DOT'($signed(xi));

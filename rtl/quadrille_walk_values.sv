@@ -4,22 +4,13 @@
 // The linear functions of tile_walk at the first pixel of its block and of its tile, and the extent test: is an edge
 // function somewhere positive, somewhere negative.
 module quadrille_walk_values #(
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int REACH = quadrille_pkg::REACH_BITS
+    localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, REACH = quadrille_pkg::REACH_BITS
 ) (
-    input logic clk_i,
-    input logic take_i,
+    input logic clk_i, take_i,
     input logic [quadrille_pkg::SETUP_BITS-1:0] setup_i,
     // The walk: everything moves; a tile is under test, a block steps on; back to the block before, a block's tiles
     // end; the step is down, or to the left
-    input logic go_i,
-    input logic in_walk_i,
-    input logic step_block_i,
-    input logic enter_walk_i,
-    input logic tile_end_i,
-    input logic row_end_i,
-    input logic back_i,
+    input logic go_i, in_walk_i, step_block_i, enter_walk_i, tile_end_i, row_end_i, back_i,
     output logic [4:0] some_pos_o,  // a clock after the test
     output logic [4:0] some_neg_o,
     output logic [6*VAL-1:0] lin_value_o  // two clocks after it: of the tile
@@ -35,8 +26,7 @@ module quadrille_walk_values #(
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     logic [GRAD-1:0] gx_q, gy_q;
-    logic [VAL-1:0] block_q, tile_q;
-    logic [VAL-1:0] slope, move, next;
+    logic [VAL-1:0] block_q, tile_q, slope, move, next;
 
     assign slope = VAL'($signed(row_end_i ? gy_q : gx_q));
     assign move = (in_walk_i ? slope << TL : slope << BL) ^ {VAL{back_i}};
