@@ -43,6 +43,7 @@ quadrille_one_of_four.sv
 quadrille_performance_counters.sv
 quadrille_pixel.sv
 quadrille_pixel_emit.sv
+quadrille_pixel_functions.sv
 quadrille_pixel_lane.sv
 quadrille_pixel_pipeline.sv
 quadrille_plane_quad.sv
@@ -55,7 +56,12 @@ quadrille_reciprocal.sv
 quadrille_root_ratio.sv
 quadrille_row_functions.sv
 quadrille_scissor_separation.sv
+quadrille_setup_areas.sv
+quadrille_setup_box.sv
+quadrille_setup_determinants.sv
+quadrille_setup_functions.sv
 quadrille_setup_pair.sv
+quadrille_setup_steps.sv
 quadrille_shift_to_top.sv
 quadrille_significand_product.sv
 quadrille_singular_class.sv
@@ -72,4 +78,5 @@ quadrille_tiles.sv
 quadrille_vertex_assembly.sv
 quadrille_vertex_bank.sv
 quadrille_vertex_products.sv
+quadrille_walk_values.sv
 quadrille_weight_factors.sv

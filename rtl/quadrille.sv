@@ -4,13 +4,14 @@
 
 // Quadrille: rasterizer whose primitive is the quadrilateral, with mean value coordinates. Top level: wiring only.
 //
-//     vertex_assembly -> quad_setup -> tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit -> pixel_pipeline -> fragment_fifo
-//                             \____ vertex_products ____ tile_context __/
+//     front: vertex_assembly -> quad_setup   tiles: tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit
+//     pixel: pixel_pipeline -> fragment_fifo     multipliers: vertex_products (quad_setup, tile_context)
 //
-// Ports: README.md; number formats and clocks: SPEC.md. Both streams are valid/ready: valid never depends on ready, payload is stable while
-// valid and not ready. state_i is static while quads are under way (asserted). The pixel pipeline never waits: pixel_emit counts the
-// places of the fragment FIFO. clear_hidden_i goes with a clear of the depth buffer (hierarchical_z) and is ignored while busy_o.
-// flush_i, in any clock, discards the beats of a quad that is not complete, that of the same clock among them, and nothing else.
+// Ports: README.md; number formats and clocks: SPEC.md. Both streams are valid/ready: valid never depends on ready,
+// payload is stable while valid and not ready. state_i is static while quads are under way (asserted). The pixel
+// pipeline never waits: pixel_emit counts the places of the fragment FIFO. clear_hidden_i goes with a clear of the
+// depth buffer (hierarchical_z) and is ignored while busy_o. flush_i, in any clock, discards the beats of a quad that
+// is not complete, that of the same clock among them, and nothing else.
 module quadrille (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -30,8 +31,7 @@ module quadrille (
     output logic [quadrille_pkg::COUNTER_BITS-1:0] counter_o
 );
   localparam int GRAD = quadrille_pkg::GRAD_BITS;
-  localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2;
-  localparam int PIXELS = quadrille_pkg::PIXELS_BITS;
+  localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, PIXELS = quadrille_pkg::PIXELS_BITS;
 
   quadrille_config_check u_config_check ();
 
@@ -44,7 +44,7 @@ module quadrille (
   assign vertex_ready_o = assembly_ready && depths_ready;
   assign busy_o = assembly_busy || slots_busy || fragments_busy || !depths_ready;
 
-  // ---- Quads ----------------------------------------------------------------------------------------------------------
+  // ---- Quads -------------------------------------------------------------------------------------------------------
   logic start, plane, setup_valid, take, jobs_valid, stamp_load, slot_release;
   logic [SLOT-1:0] start_slot, stamp_slot, emit_slot, release_slot;
   logic [quadrille_pkg::QUAD_BITS-1:0] quad;
@@ -57,109 +57,40 @@ module quadrille (
   logic [6*GRAD-1:0] emit_gx, emit_gy;
 
   quadrille_front u_front (
-      .clk_i,
-      .rst_ni,
-      .state_i,
-      .flush_i,
-      .vertex_i,
-      .vertex_valid_i(vertex_valid_i && depths_ready),
-      .vertex_ready_o(assembly_ready),
-      .assembly_busy_o(assembly_busy),
-      .slots_busy_o(slots_busy),
-      .start_o(start),
-      .start_slot_o(start_slot),
-      .plane_o(plane),
-      .quad_o(quad),
-      .limits_o(limits),
-      .setup_valid_o(setup_valid),
-      .take_i(take),
-      .setup_o(setup_i),
-      .jobs_valid_i(jobs_valid),
-      .jobs_i(jobs),
-      .products_o(products),
-      .stamp_load_i(stamp_load),
-      .stamp_slot_i(stamp_slot),
-      .edges_o(edges),
-      .emit_slot_i(emit_slot),
-      .emit_gx_o(emit_gx),
-      .emit_gy_o(emit_gy),
-      .release_i(slot_release),
-      .release_slot_i(release_slot),
+      .clk_i, .rst_ni, .state_i, .flush_i, .vertex_i, .vertex_valid_i(vertex_valid_i && depths_ready),
+      .vertex_ready_o(assembly_ready), .assembly_busy_o(assembly_busy), .slots_busy_o(slots_busy), .start_o(start),
+      .start_slot_o(start_slot), .plane_o(plane), .quad_o(quad), .limits_o(limits), .setup_valid_o(setup_valid),
+      .take_i(take), .setup_o(setup_i), .jobs_valid_i(jobs_valid), .jobs_i(jobs), .products_o(products),
+      .stamp_load_i(stamp_load), .stamp_slot_i(stamp_slot), .edges_o(edges), .emit_slot_i(emit_slot),
+      .emit_gx_o(emit_gx), .emit_gy_o(emit_gy), .release_i(slot_release), .release_slot_i(release_slot),
       .events_o(front_events)
   );
 
-  // ---- Tiles ----------------------------------------------------------------------------------------------------------
+  // ---- Tiles -------------------------------------------------------------------------------------------------------
   logic [PIXELS-1:0] pixels;
   logic [quadrille_pkg::CONTEXT_BITS-1:0] tile;
   logic freed, discard;
 
   quadrille_tiles u_tiles (
-      .clk_i,
-      .rst_ni,
-      .state_i,
-      .clear_hidden_i(clear_hidden_i && !busy_o),
-      .depths_ready_o(depths_ready),
-      .start_i(start),
-      .start_slot_i(start_slot),
-      .quad_i(quad),
-      .limits_i(limits),
-      .setup_valid_i(setup_valid),
-      .take_o(take),
-      .setup_i,
-      .jobs_valid_o(jobs_valid),
-      .jobs_o(jobs),
-      .products_i(products),
-      .stamp_load_o(stamp_load),
-      .stamp_slot_o(stamp_slot),
-      .edges_i(edges),
-      .pixels_o(pixels),
-      .emit_slot_o(emit_slot),
-      .context_o(tile),
-      .freed_i(freed),
-      .discard_i(discard),
-      .events_o(tiles_events)
+      .clk_i, .rst_ni, .state_i, .clear_hidden_i(clear_hidden_i && !busy_o), .depths_ready_o(depths_ready),
+      .start_i(start), .start_slot_i(start_slot), .quad_i(quad), .limits_i(limits), .setup_valid_i(setup_valid),
+      .take_o(take), .setup_i, .jobs_valid_o(jobs_valid), .jobs_o(jobs), .products_i(products),
+      .stamp_load_o(stamp_load), .stamp_slot_o(stamp_slot), .edges_i(edges), .pixels_o(pixels), .emit_slot_o(emit_slot),
+      .context_o(tile), .freed_i(freed), .discard_i(discard), .events_o(tiles_events)
   );
 
-  // ---- Pixels ---------------------------------------------------------------------------------------------------------
+  // ---- Pixels ------------------------------------------------------------------------------------------------------
   quadrille_pixel u_pixel (
-      .clk_i,
-      .rst_ni,
-      .state_i,
-      .start_i(start),
-      .start_slot_i(start_slot),
-      .plane_i(plane),
-      .quad_i(quad),
-      .limits_i(limits),
-      .take_i(take),
-      .setup_i,
-      .pixels_i(pixels),
-      .tile_i(tile),
-      .gx_i(emit_gx),
-      .gy_i(emit_gy),
-      .freed_o(freed),
-      .discard_o(discard),
-      .release_o(slot_release),
-      .release_slot_o(release_slot),
-      .fragment_o,
-      .fragment_mask_o,
-      .fragment_valid_o,
-      .fragment_ready_i,
-      .busy_o(fragments_busy),
-      .events_o(pixel_events)
+      .clk_i, .rst_ni, .state_i, .start_i(start), .start_slot_i(start_slot), .plane_i(plane), .quad_i(quad),
+      .limits_i(limits), .take_i(take), .setup_i, .pixels_i(pixels), .tile_i(tile), .gx_i(emit_gx), .gy_i(emit_gy),
+      .freed_o(freed), .discard_o(discard), .release_o(slot_release), .release_slot_o(release_slot), .fragment_o,
+      .fragment_mask_o, .fragment_valid_o, .fragment_ready_i, .busy_o(fragments_busy), .events_o(pixel_events)
   );
 
-  // ---- Performance counters ---------------------------------------------------------------------------------------------
+  // ---- Performance counters ----------------------------------------------------------------------------------------
   quadrille_performance_counters u_counters (
-      .clk_i,
-      .rst_ni,
-      .index_i(counter_index_i),
-      .value_o(counter_o),
-      .take_i(take),
-      .homogeneous_i(setup.homogeneous),
-      .busy_i(busy_o),
-      .front_i(front_events),
-      .tiles_i(tiles_events),
-      .pixel_i(pixel_events)
+      .clk_i, .rst_ni, .index_i(counter_index_i), .value_o(counter_o), .take_i(take), .homogeneous_i(setup.homogeneous),
+      .busy_i(busy_o), .front_i(front_events), .tiles_i(tiles_events), .pixel_i(pixel_events)
   );
 
 `ifndef SYNTHESIS

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Product of two unsigned significand numbers, truncated and normalised. Latency 1, one result per clock.
 //
-// value = sig * 2^(exp-(S-1)), sig's top bit set or sig = exp = 0. Zero if either factor is zero. Signs are the user's business.
+// value = sig * 2^(exp-(S-1)), sig's top bit set or sig = exp = 0. Zero if either factor is zero. Signs are the user's
+// business.
 module quadrille_fp_multiply #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
     input logic [E-1:0] a_exp_i,

@@ -3,11 +3,9 @@
 //
 // value = product * 2^(exp-(2S-2)). product = 0 if either factor is zero; neg and exp mean nothing then.
 module quadrille_fp_raw_product #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
-    input logic clk_i,
-    input logic neg_i,
+    input logic clk_i, neg_i,
     input logic [E-1:0] a_exp_i,
     input logic [S-1:0] a_sig_i,
     input logic [E-1:0] b_exp_i,

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A term of fp_sum: the product of two significand numbers as its window, latency 1, and its rank, which is there at once.
+// A term of fp_sum: the product of two significand numbers as its window, latency 1, and its rank, which is there at
+// once.
 //
-// term_o = the product's bits that an alignment by 0 keeps (quadrille_pkg::TERM_BITS, two of them integer bits); 0 if either factor is
-// zero. rank_o is combinational, so that fp_sum compares exponents while the multiplier runs.
+// term_o = the product's bits that an alignment by 0 keeps (quadrille_pkg::TERM_BITS, two of them integer bits); 0 if
+// either factor is zero. rank_o is combinational, so that fp_sum compares exponents while the multiplier runs.
 module quadrille_fp_term #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int TERM = quadrille_pkg::TERM_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, TERM = quadrille_pkg::TERM_BITS,
     localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
-    input logic clk_i,
-    input logic neg_i,
+    input logic clk_i, neg_i,
     input logic [E-1:0] a_exp_i,
     input logic [S-1:0] a_sig_i,
     input logic [E-1:0] b_exp_i,

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// What coverage and emission need to know of a quad, by slot: written when the walk takes the quad, read until it leaves the
-// pipeline. Reads end in registers. Not reset.
+// What coverage and emission need to know of a quad, by slot: written when the walk takes the quad, read until it
+// leaves the pipeline. Reads end in registers. Not reset.
 module quadrille_gradient_bank #(
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
+    localparam int GRAD = quadrille_pkg::GRAD_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
 ) (
-    input logic clk_i,
-    input logic take_i,
+    input logic clk_i, take_i,
     input logic [quadrille_pkg::SETUP_BITS-1:0] setup_i,
     // Read for coverage: there a clock after stamp_load_i, until the next
     input logic stamp_load_i,
@@ -16,8 +14,7 @@ module quadrille_gradient_bank #(
     output logic [quadrille_pkg::EDGES_BITS-1:0] edges_o,
     // Read for emission: there a clock after the slot
     input logic [SLOT-1:0] emit_slot_i,
-    output logic [6*GRAD-1:0] emit_gx_o,
-    output logic [6*GRAD-1:0] emit_gy_o
+    output logic [6*GRAD-1:0] emit_gx_o, emit_gy_o
 );
   localparam int SLOTS = 1 << SLOT;
   `QUADRILLE_IN(`QUADRILLE_SETUP_T, setup)

@@ -2,23 +2,20 @@
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
 
-// Masked depth: for each tile two bounds that depths in the depth buffer do not exceed, one for all of the tile and a nearer one for the
-// pixels in a mask (SPEC.md, masked_depth), looked at and lowered by stamp_coverage.
+// Masked depth: for each tile two bounds that depths in the depth buffer do not exceed, one for all of the tile and a
+// nearer one for the pixels in a mask (SPEC.md, masked_depth), looked at and lowered by stamp_coverage.
 //
-// An entry is read when its tile leaves coverage's tag register (load_i), and judged beside the context register. Its rows go with
-// coverage's: a row's covered pixels come two clocks after it is issued, and are written the clock after that; what holds for the tile is
-// written with its last row. wait_o keeps a tile in the tag register while one before it may still write to its place: then what a tile
-// sees is what all tiles before it left, whatever waited.
+// An entry is read when its tile leaves coverage's tag register (load_i), and judged beside the context register. Its
+// rows go with coverage's: a row's covered pixels come two clocks after it is issued, and are written the clock after
+// that; what holds for the tile is written with its last row. wait_o keeps a tile in the tag register while one before
+// it may still write to its place: then what a tile sees is what all tiles before it left, whatever waited.
 //
-// Epochs and wiped places are hierarchical_z's. A mask of another epoch, or of a bound that is all ones, is none, so masks are not wiped.
+// Epochs and wiped places are hierarchical_z's. A mask of another epoch, or of a bound that is all ones, is none, so
+// masks are not wiped.
 module quadrille_masked_depth #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int TILE = quadrille_pkg::TILE,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
-    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
-    localparam int EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
+    localparam int TC = quadrille_pkg::TC_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, TILE = quadrille_pkg::TILE, H = quadrille_pkg::DEPTH_CODE_BITS,
+    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2, EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -27,11 +24,9 @@ module quadrille_masked_depth #(
     input logic [PLACE-1:0] wipe_place_i,
     input logic [EPOCH-1:0] epoch_i,
     // Quad: depth_interval's judgement the clock after start
-    input logic on_i,
-    input logic start_i,
+    input logic on_i, start_i,
     input logic [SLOT-1:0] start_slot_i,
-    input logic [H-1:0] near_i,
-    input logic [H-1:0] far_i,
+    input logic [H-1:0] near_i, far_i,
     input logic lowers_i,
     // Coverage: the tile in its tag register, and what its registers do
     input logic [quadrille_pkg::TAG_BITS-1:0] tile_i,
@@ -43,15 +38,13 @@ module quadrille_masked_depth #(
   `QUADRILLE_IN(`QUADRILLE_TAG_T, tile)
   `QUADRILLE_IN(`QUADRILLE_ROWS_T, rows)
   localparam int ROW = PLACE / 2;
-  localparam int COLUMN = PLACE - ROW;
-  localparam int TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1;
-  localparam int TAG_Y = (TC - 1 > ROW) ? TC - 1 - ROW : 1;
-  localparam int TAG = TAG_X + TAG_Y;
+  localparam int COLUMN = PLACE - ROW, TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1;
+  localparam int TAG_Y = (TC - 1 > ROW) ? TC - 1 - ROW : 1, TAG = TAG_X + TAG_Y;
   localparam int WIDE = TC + PLACE;  // so that the slices below exist
   localparam int BOUNDS = TAG + EPOCH + 2 * H;  // {tag, epoch, far, masked_far}
   localparam logic [H-1:0] UNKNOWN = {H{1'b1}};  // not '1, of which Yosys 0.23 makes 1 in a parameter
 
-  // ---- The quads ------------------------------------------------------------------------------------------------------------
+  // ---- The quads ---------------------------------------------------------------------------------------------------
   logic [2*H:0] interval_q[0:(1<<SLOT)-1];  // {lowers, near, far}
   logic start_q1;
   logic [SLOT-1:0] start_slot_q1;
@@ -62,7 +55,7 @@ module quadrille_masked_depth #(
     if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, near_i, far_i};
   end
 
-  // ---- The tile in the tag register -----------------------------------------------------------------------------------------
+  // ---- The tile in the tag register --------------------------------------------------------------------------------
   logic [WIDE-1:0] wide_x, wide_y;
   logic [PLACE-1:0] place;
   logic [TAG-1:0] tag;
@@ -74,9 +67,8 @@ module quadrille_masked_depth #(
   assign tag = {wide_y[ROW+:TAG_Y], wide_x[COLUMN+:TAG_X]};
   assign interval = interval_q[tile.slot];
 
-  // ---- Memory: a place that is read is never the one that is written (asserted below) ---------------------------------------
-  logic [TILE-1:0] rows_write, rows_clear;
-  logic [TILE-1:0] row_word_q3;
+  // ---- Memory: a place that is read is never the one that is written (asserted below) ------------------------------
+  logic [TILE-1:0] rows_write, rows_clear, row_word_q3;
   logic bounds_write;
   logic [PLACE-1:0] place_q3, bounds_place;
   logic [BOUNDS-1:0] bounds_word, bounds_read;
@@ -98,7 +90,7 @@ module quadrille_masked_depth #(
     end
   end
 
-  // ---- In the context register: what holds, and what the quad makes of it ---------------------------------------------------
+  // ---- In the context register: what holds, and what the quad makes of it ------------------------------------------
   logic context_lowers_q;
   logic [PLACE-1:0] place_c, place_r;
   logic [TAG-1:0] tag_c, tag_r, bounds_tag;
@@ -120,9 +112,9 @@ module quadrille_masked_depth #(
   assign known = bounds_tag == tag_c && bounds_epoch == epoch_i;
   assign useful = context_lowers_q && (!known || far_c < bounds_far);
 
-  // ---- In the rows register -------------------------------------------------------------------------------------------------
-  // Nearer than the mask by more than a quarter of what the mask is before the rest: 4 (masked - far_c) > far - masked. As masked is
-  // below far, far_c then is below masked.
+  // ---- In the rows register ----------------------------------------------------------------------------------------
+  // Nearer than the mask by more than a quarter of what the mask is before the rest: 4 (masked - far_c) > far - masked.
+  // As masked is below far, far_c then is below masked.
   logic rows_lowers_q, first_q, masked_hidden_q, useful_q, no_mask_q, begins, joins;
   logic [H-1:0] far_q, old_masked_q, quad_far_q, masked;
   logic [H+2:0] five_masked_q, rest_q;
@@ -162,8 +154,9 @@ module quadrille_masked_depth #(
 
   assign old_row = mask_q[rows.row*TILE+:TILE];
 
-  // ---- Issued rows ----------------------------------------------------------------------------------------------------------
-  localparam int TAGGED = PLACE + TAG + 2 * H + TILE_LOG2 + 3;  // {place, tag, far, masked, row, first, last, rest_whole}
+  // ---- Issued rows -------------------------------------------------------------------------------------------------
+  // {place, tag, far, masked, row, first, last, rest_whole}
+  localparam int TAGGED = PLACE + TAG + 2 * H + TILE_LOG2 + 3;
   logic [2:0] begins_way_q, joins_way_q;  // 0: a clock after the issue; neither where the quad changes nothing
   logic [1:0] masked_hidden_way_q, hidden_way_q;
   logic [TAGGED-1:0] way_q1, way_q2, way_q3;
@@ -172,8 +165,7 @@ module quadrille_masked_depth #(
   logic [TILE_LOG2-1:0] row_q3;
   logic [TAG-1:0] tag_q3;
   logic [H-1:0] far_q3, masked_q3;
-  logic some, more, changed_q, changed_before, whole_q;
-  logic write_q3, clear_q3, lowers_tile;
+  logic some, more, changed_q, changed_before, whole_q, write_q3, clear_q3, lowers_tile;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -229,7 +221,7 @@ module quadrille_masked_depth #(
   assign bounds_word = wipe_i ? {tag_q3, epoch_i, UNKNOWN, UNKNOWN}
       : (whole_q && rest_whole_q3) ? {tag_q3, epoch_i, masked_q3, UNKNOWN} : {tag_q3, epoch_i, far_q3, masked_q3};
 
-  // ---- Tiles that may still write: the low bits of their places are enough, of x and of y ------------------------------------
+  // ---- Tiles that may still write: the low bits of their places are enough, of x and of y --------------------------
   // Of one quad no two are so near one another in the walk that these could be the same.
   localparam int LOW = 3;
   logic [2*LOW-1:0] low, low_c, low_r, low_q1, low_q2, low_q3;
@@ -237,7 +229,8 @@ module quadrille_masked_depth #(
 
   assign low = {tile.tile_y[LOW-1:0], tile.tile_x[LOW-1:0]};
   assign wait_o = !tile.end_token && ((context_lowers_q && low == low_c) || (rows_lowers_q && low == low_r)
-      || (way_lowers_q[0] && low == low_q1) || (way_lowers_q[1] && low == low_q2) || (way_lowers_q[2] && low == low_q3));
+      || (way_lowers_q[0] && low == low_q1) || (way_lowers_q[1] && low == low_q2) ||
+          (way_lowers_q[2] && low == low_q3));
 
   always_ff @(posedge clk_i) begin
     if (rows.load) low_c <= low;

@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// What the machine did since reset: quads by what became of them, blocks and tiles, rows and stamps, pixels and fragments, products by unit,
-// and clocks by what bound them. SPEC.md says which clock counts what. Read by index; a counter wraps around at 2^COUNTER_BITS.
+// What the machine did since reset: quads by what became of them, blocks and tiles, rows and stamps, pixels and
+// fragments, products by unit, and clocks by what bound them. SPEC.md says which clock counts what. Read by index; a
+// counter wraps around at 2^COUNTER_BITS.
 //
-// All inputs are of this clock; what they say is counted at its end, but for norm_active_i, norm_plane_i and sum_active_i, which are of operands
-// on their way to the units that make products of them. Nothing of the machine depends on value_o.
+// All inputs are of this clock; what they say is counted at its end, but for norm_active_i, norm_plane_i and
+// sum_active_i, which are of operands on their way to the units that make products of them. Nothing of the machine
+// depends on value_o.
 module quadrille_performance_counters #(
-    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
-    localparam int LATENCY = quadrille_pkg::LATENCY,
-    localparam int SETS = 3 + N,
-    localparam int INDEX = quadrille_pkg::COUNTER_INDEX_BITS,
-    localparam int WIDTH = quadrille_pkg::COUNTER_BITS
+    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK, N = quadrille_pkg::ATTRIBUTE_SLOTS,
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS, LATENCY = quadrille_pkg::LATENCY, SETS = 3 + N,
+    localparam int INDEX = quadrille_pkg::COUNTER_INDEX_BITS, WIDTH = quadrille_pkg::COUNTER_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     input logic [INDEX-1:0] index_i,
     output logic [WIDTH-1:0] value_o,  // 0 beyond the last counter
     input logic take_i,  // the walk takes a quad
-    input logic homogeneous_i,
-    input logic busy_i,
+    input logic homogeneous_i, busy_i,
     input logic [quadrille_pkg::FRONT_EVENTS_BITS-1:0] front_i,
     input logic [quadrille_pkg::TILES_EVENTS_BITS-1:0] tiles_i,
     input logic [quadrille_pkg::PIXEL_EVENTS_BITS-1:0] pixel_i
@@ -35,88 +32,48 @@ module quadrille_performance_counters #(
 
     assign {lane_valid, lanes_drawn, lanes_area} = {pixel.lane_valid, pixel.drawn, pixel.area};
 
-    // ---- Pixels in front of a unit with multipliers, and its products a pixel -------------------------------------------------
-    localparam int ROOTS = 4;
-    localparam int PAIRS_OF_VERTICES = 6;
-    localparam int RATIOS = 3;
-    localparam int WEIGHTS = 4;
-    localparam int PER_SQRT = ROOTS * quadrille_pkg::SQRT_DEGREE;
-    localparam int PER_RATIO = PAIRS_OF_VERTICES;
-    localparam int PER_WEIGHT_RATIO = RATIOS * (2 + quadrille_pkg::SQRT_DEGREE + 1);  // of mean_value_weights, up to the ratios of roots
+    // ---- Pixels in front of a unit with multipliers, and its products a pixel --------------------------------------
+    localparam int ROOTS = 4, PAIRS_OF_VERTICES = 6, RATIOS = 3, WEIGHTS = 4;
+    localparam int PER_SQRT = ROOTS * quadrille_pkg::SQRT_DEGREE, PER_RATIO = PAIRS_OF_VERTICES;
+    // of mean_value_weights, up to the ratios of roots
+    localparam int PER_WEIGHT_RATIO = RATIOS * (2 + quadrille_pkg::SQRT_DEGREE + 1);
     localparam int PER_WEIGHT_FACTOR = 2 * WEIGHTS;  // and behind them
     localparam int PER_SUM = WEIGHTS;  // an attribute's has one less: none of corner 0
     localparam int PER_RECIPROCAL = quadrille_pkg::RECIP_DEGREE;
     localparam int PER_JOB = 4;  // a pair: two dot units of two products each
 
     localparam int BEFORE_OUTPUT = quadrille_pkg::FRAGMENT_STAGE - quadrille_pkg::FRAGMENT_OUTPUT_STAGES;
-    localparam int COUNT = $clog2(P + 1);
-    localparam int SUMS = $clog2(quadrille_pkg::BLEND_TERMS + 1);
+    localparam int COUNT = $clog2(P + 1), SUMS = $clog2(quadrille_pkg::BLEND_TERMS + 1);
 
     // Lanes whose numbers are not those of a pixel before, at the units between normalise and the ratios of roots.
     logic [P-1:0] norm_active, root_active, ratio_active;
 
-    quadrille_delay_line #(
-        .WIDTH(P),
-        .DEPTH(1)
-    ) u_norm_active (
-        .clk_i,
-        .data_i(pixel.norm_active),
-        .data_o(norm_active)
+    quadrille_delay_line #(.WIDTH(P), .DEPTH(1)) u_norm_active (
+        .clk_i, .data_i(pixel.norm_active), .data_o(norm_active)
     );
-    quadrille_delay_line #(
-        .WIDTH(P),
-        .DEPTH(quadrille_pkg::ROOT_STAGE - quadrille_pkg::NORM_STAGE)
-    ) u_root_active (
-        .clk_i,
-        .data_i(norm_active),
-        .data_o(root_active)
+    quadrille_delay_line #(.WIDTH(P), .DEPTH(quadrille_pkg::ROOT_STAGE - quadrille_pkg::NORM_STAGE)) u_root_active (
+        .clk_i, .data_i(norm_active), .data_o(root_active)
     );
-    quadrille_delay_line #(
-        .WIDTH(P),
-        .DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE)
-    ) u_ratio_active (
-        .clk_i,
-        .data_i(root_active),
-        .data_o(ratio_active)
+    quadrille_delay_line #(.WIDTH(P), .DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE)) u_ratio_active (
+        .clk_i, .data_i(root_active), .data_o(ratio_active)
     );
 
     logic norm_plane;  // of the pixels in NORM_STAGE
 
-    quadrille_delay_line #(
-        .WIDTH(1),
-        .DEPTH(3)
-    ) u_norm_plane (
-        .clk_i,
-        .data_i(pixel.norm_plane),
-        .data_o(norm_plane)
-    );
+    quadrille_delay_line #(.WIDTH(1), .DEPTH(3)) u_norm_plane (.clk_i, .data_i(pixel.norm_plane), .data_o(norm_plane));
 
     // Sums that are not of zeros: k, W, Z, attributes. The pixels of a clock are of one quad.
     logic [SETS-1:0] sum_active, quotient_active, output_active;
 
-    quadrille_delay_line #(
-        .WIDTH(SETS),
-        .DEPTH(1)
-    ) u_sum_active (
-        .clk_i,
-        .data_i(pixel.sum_active),
-        .data_o(sum_active)
+    quadrille_delay_line #(.WIDTH(SETS), .DEPTH(1)) u_sum_active (
+        .clk_i, .data_i(pixel.sum_active), .data_o(sum_active)
     );
     quadrille_delay_line #(
         .WIDTH(SETS),
         .DEPTH(quadrille_pkg::SUM_STAGE - quadrille_pkg::WEIGHT_STAGE)
-    ) u_quotient_active (
-        .clk_i,
-        .data_i(sum_active),
-        .data_o(quotient_active)
-    );
-    quadrille_delay_line #(
-        .WIDTH(SETS),
-        .DEPTH(BEFORE_OUTPUT - quadrille_pkg::SUM_STAGE)
-    ) u_output_active (
-        .clk_i,
-        .data_i(quotient_active),
-        .data_o(output_active)
+    ) u_quotient_active (.clk_i, .data_i(sum_active), .data_o(quotient_active));
+    quadrille_delay_line #(.WIDTH(SETS), .DEPTH(BEFORE_OUTPUT - quadrille_pkg::SUM_STAGE)) u_output_active (
+        .clk_i, .data_i(quotient_active), .data_o(output_active)
     );
 
     logic [COUNT-1:0] at_norm, at_sqrt, at_ratio, at_weight_ratio, at_weight, at_sum, at_reciprocal, at_output, drawn;
@@ -147,7 +104,7 @@ module quadrille_performance_counters #(
     logic unused;
     assign unused = ^pixel.lane_valid;
 
-    // ---- What bounds this clock: the first that holds -------------------------------------------------------------------------
+    // ---- What bounds this clock: the first that holds --------------------------------------------------------------
     localparam int BOUNDS = 9;
     logic [BOUNDS-1:0] bound;  // from the first bit: pixels, output, stamps, walk, setup, vertices, wipe, drain, idle
 
@@ -165,7 +122,7 @@ module quadrille_performance_counters #(
       else bound = 9'd256;
     end
 
-    // ---- The counters, in the order of their indices --------------------------------------------------------------------------
+    // ---- The counters, in the order of their indices ---------------------------------------------------------------
     localparam int STEP = 8;  // bits of what a clock adds: at most 36 products of the sums in four lanes, 144
     localparam int LANES = 4;  // indices for the pixels of a lane, used or not
     localparam int COUNTERS = 41;
@@ -208,7 +165,8 @@ module quadrille_performance_counters #(
     assign step[25*STEP+:STEP] = (tiles.context_job || front.setup_job) ? STEP'(PAIRS * PER_JOB) : '0;
     assign step[26*STEP+:STEP] = STEP'(at_sqrt) * STEP'(PER_SQRT);
     assign step[27*STEP+:STEP] = STEP'(at_ratio) * STEP'(PER_RATIO);
-    assign step[28*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) + STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
+    assign step[28*STEP+:STEP] = STEP'(at_weight_ratio) * STEP'(PER_WEIGHT_RATIO) +
+        STEP'(at_weight) * STEP'(PER_WEIGHT_FACTOR);
     assign step[29*STEP+:STEP] = STEP'(at_sum) * STEP'(terms);
     assign step[30*STEP+:STEP] = STEP'(at_reciprocal) * STEP'(denominators) * STEP'(PER_RECIPROCAL);
     assign step[31*STEP+:STEP] = STEP'(at_output) * STEP'(quotients);

@@ -4,10 +4,8 @@
 
 // From pixels' positions to fragments: what the quads' slots have for it, the pipeline, the fragment FIFO.
 module quadrille_pixel #(
-    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int PIXELS = quadrille_pkg::PIXELS_BITS,
+    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK, GRAD = quadrille_pkg::GRAD_BITS,
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, PIXELS = quadrille_pkg::PIXELS_BITS,
     localparam int FB = quadrille_pkg::FRAGMENT_BITS
 ) (
     input logic clk_i,
@@ -25,12 +23,9 @@ module quadrille_pixel #(
     // Pixels; two clocks later their tile and their quad's gradients
     input logic [PIXELS-1:0] pixels_i,
     input logic [quadrille_pkg::CONTEXT_BITS-1:0] tile_i,
-    input logic [6*GRAD-1:0] gx_i,
-    input logic [6*GRAD-1:0] gy_i,
+    input logic [6*GRAD-1:0] gx_i, gy_i,
     // Places of the fragment FIFO given back, and slots
-    output logic freed_o,
-    output logic discard_o,
-    output logic release_o,
+    output logic freed_o, discard_o, release_o,
     output logic [SLOT-1:0] release_slot_o,
     // Fragments
     output logic [P*FB-1:0] fragment_o,
@@ -57,61 +52,28 @@ module quadrille_pixel #(
   end
 
   quadrille_vertex_bank u_bank (
-      .clk_i,
-      .state_i,
-      .start_i,
-      .start_slot_i,
-      .plane_i,
-      .quad_i,
-      .limits_i,
-      .take_i,
-      .setup_i,
-      .reads_i(reads),
-      .terms_o(terms),
-      .norm_plane_o(norm_plane),
-      .sum_active_o(sum_active)
+      .clk_i, .state_i, .start_i, .start_slot_i, .plane_i, .quad_i, .limits_i, .take_i, .setup_i, .reads_i(reads),
+      .terms_o(terms), .norm_plane_o(norm_plane), .sum_active_o(sum_active)
   );
 
   quadrille_pixel_pipeline u_pipeline (
-      .clk_i,
-      .rst_ni,
-      .state_i,
-      .pixels_i(pixels_q[2*PIXELS-1:PIXELS]),
-      .tile_i,
-      .lin_gx_i(gx_i),
-      .lin_gy_i(gy_i),
-      .reads_o(reads),
-      .terms_i(terms),
-      .release_o,
-      .release_slot_o,
-      .discard_o,
-      .lane_valid_o(lane_valid),
-      .count_norm_o(count_norm),
-      .count_area_o(count_area),
-      .fragment_valid_o(drawn),
-      .fragment_o(fragment)
+      .clk_i, .rst_ni, .state_i, .pixels_i(pixels_q[2*PIXELS-1:PIXELS]), .tile_i, .lin_gx_i(gx_i), .lin_gy_i(gy_i),
+      .reads_o(reads), .terms_i(terms), .release_o, .release_slot_o, .discard_o, .lane_valid_o(lane_valid),
+      .count_norm_o(count_norm), .count_area_o(count_area), .fragment_valid_o(drawn), .fragment_o(fragment)
   );
 
   quadrille_fragment_fifo u_fragments (
-      .clk_i,
-      .rst_ni,
-      .push_i(drawn),
-      .data_i(fragment),
-      .busy_o,
-      .freed_o,
-      .valid_o(fragment_valid_o),
-      .ready_i(fragment_ready_i),
-      .mask_o(fragment_mask_o),
-      .data_o(fragment_o)
+      .clk_i, .rst_ni, .push_i(drawn), .data_i(fragment), .busy_o, .freed_o, .valid_o(fragment_valid_o),
+      .ready_i(fragment_ready_i), .mask_o(fragment_mask_o), .data_o(fragment_o)
   );
 
   assign events_o = {lane_valid, drawn, count_norm, count_area, norm_plane, sum_active};
 
 `ifndef SYNTHESIS
   localparam int LATENCY = quadrille_pkg::LATENCY;
-  localparam int LENGTH2_READ = quadrille_pkg::FORWARD_DIFFERENCE_STAGES - 2;  // a read goes with the pixel in this register
-  localparam int BLEND_READ = quadrille_pkg::WEIGHT_STAGE - 2;
-  localparam int BASE_READ = LATENCY - 6;
+  // a read goes with the pixel in this register
+  localparam int LENGTH2_READ = quadrille_pkg::FORWARD_DIFFERENCE_STAGES - 2;
+  localparam int BLEND_READ = quadrille_pkg::WEIGHT_STAGE - 2, BASE_READ = LATENCY - 6;
   /* verilator lint_off UNUSEDSIGNAL */
   `QUADRILLE_SETUP_T setup;
   `QUADRILLE_READS_T read;

@@ -2,17 +2,17 @@
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
 
-// Takes stamps apart: the PIXELS_PER_CLOCK lowest pixels a clock, lowest x in lane 0; an end entry becomes an end beat without a pixel. The
-// pixels of a homogeneous quad go in their three parts, one a clock (quadrille_pkg: PART_*); they are pixels, valid, with the last.
+// Takes stamps apart: the PIXELS_PER_CLOCK lowest pixels a clock, lowest x in lane 0; an end entry becomes an end beat
+// without a pixel. The pixels of a homogeneous quad go in their three parts, one a clock (quadrille_pkg: PART_*); they
+// are pixels, valid, with the last.
 //
-// Pixels are sent only when a place of fragment_fifo is surely free, since the pipeline behind never waits: free places are counted here,
-// less one for the pixels of a clock, one more for each hand-over (freed_i) and for pixels that were all discarded (discard_i). An end beat
-// takes no place. The head is popped with its last pixel; pixels leave in registers.
+// Pixels are sent only when a place of fragment_fifo is surely free, since the pipeline behind never waits: free places
+// are counted here, less one for the pixels of a clock, one more for each hand-over (freed_i) and for pixels that were
+// all discarded (discard_i). An end beat takes no place. The head is popped with its last pixel; pixels leave in
+// registers.
 module quadrille_pixel_emit #(
-    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int PLACES = quadrille_pkg::FRAGMENT_FIFO_LOG2,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK, RING = quadrille_pkg::RING_LOG2,
+    localparam int PLACES = quadrille_pkg::FRAGMENT_FIFO_LOG2, TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
@@ -22,8 +22,7 @@ module quadrille_pixel_emit #(
     input logic [quadrille_pkg::STAMP_BITS-1:0] head_i,
     output logic pop_o,
     // Places of the fragment FIFO given back
-    input logic freed_i,
-    input logic discard_i,
+    input logic freed_i, discard_i,
     // Pixels, and the ring's entry of their tile
     output logic [RING:0] ptr_o,
     output logic [quadrille_pkg::PIXELS_BITS-1:0] pixels_o,
@@ -41,8 +40,7 @@ module quadrille_pixel_emit #(
 
   // Free places less one: negative when there is none, so that one bit of a register decides.
   logic [PLACES+1:0] spare_q;
-  logic [TILE-1:0] sent_q;
-  logic [TILE-1:0] remaining, chosen;
+  logic [TILE-1:0] sent_q, remaining, chosen;
   logic [1:0] part, part_q;  // part_q: the one before, of a homogeneous quad's pixels
   logic may_send, send_part, whole, send;
 
@@ -55,8 +53,9 @@ module quadrille_pixel_emit #(
   assign event_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && head_valid_i && !head.end_token && !may_send;
   assign pop_o = head_valid_i && (head.end_token || (may_send && whole && remaining == chosen));
 
-  // ---- Ranks: bit n of a pixel's P bits says that more than n remaining pixels lie in a range that ends with it ---------------
-  // Ranges double from level to level: up to the pixel's 2^l-th place, the range of the block before is joined to its own.
+  // ---- Ranks: bit n of a pixel's P bits says that more than n remaining pixels lie in a range that ends with it ----
+  // Ranges double from level to level: up to the pixel's 2^l-th place, the range of the block before is joined to its
+  // own.
   for (genvar l = 0; l <= TILE_LOG2; l++) begin : gen_level
     logic [TILE*P-1:0] more;
 
@@ -79,7 +78,7 @@ module quadrille_pixel_emit #(
     end
   endfunction
 
-  // ---- Lanes: lane g has the pixel that has g remaining ones below it -------------------------------------------------------
+  // ---- Lanes: lane g has the pixel that has g remaining ones below it ----------------------------------------------
   for (genvar i = 0; i < TILE; i++) begin : gen_chosen
     if (i == 0) begin : gen_lowest
       assign chosen[i] = remaining[i];
@@ -110,7 +109,8 @@ module quadrille_pixel_emit #(
 
     assign present = g == 0 || own != '0;  // a head that is no end has a pixel left
 
-    // Bit b of the place of a single one. (A loop that adds up dx would read what it writes: Icarus would repeat it for ever.)
+    // Bit b of the place of a single one. (A loop that adds up dx would read what it writes: Icarus would repeat it for
+    // ever.)
     for (genvar b = 0; b < TILE_LOG2; b++) begin : gen_dx
       logic [TILE-1:0] with_bit;
       for (genvar i = 0; i < TILE; i++) begin : gen_place
@@ -150,10 +150,7 @@ module quadrille_pixel_emit #(
 
   logic [quadrille_pkg::ROW_DIGIT_BITS-1:0] row_digits;
 
-  quadrille_radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
-      .number_i(head.row),
-      .digits_o(row_digits)
-  );
+  quadrille_radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (.number_i(head.row), .digits_o(row_digits));
 
   always_ff @(posedge clk_i) begin
     ptr_o <= head.tile_ptr;

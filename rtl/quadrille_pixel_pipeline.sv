@@ -2,28 +2,27 @@
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
 
-// From pixels' positions to their fragments, PIXELS_PER_CLOCK a clock: a pipeline of LATENCY registers that never waits.
+// From pixels' positions to their fragments, PIXELS_PER_CLOCK a clock: a pipeline of LATENCY registers that never
+// waits.
 //
-// The pixels of a clock are of one row of one tile. What they have in common is here: that row's values, the slot index, which travels
-// with them, and what is read from the slot bank by it, one register before its users; all else is in pixel_lane.
-// Register n is written n clocks after the pixels enter. The boundaries between units have the registers quadrille_pkg::DIFF_STAGE to
-// FRAGMENT_STAGE (SPEC.md, Pixel pipeline). An end beat (end, no lane valid) travels with the pixels; at the last register it releases its slot.
+// The pixels of a clock are of one row of one tile. What they have in common is here: that row's values, the slot
+// index, which travels with them, and what is read from the slot bank by it, one register before its users; all else is
+// in pixel_lane. Register n is written n clocks after the pixels enter. The boundaries between units have the registers
+// quadrille_pkg::DIFF_STAGE to FRAGMENT_STAGE (SPEC.md, Pixel pipeline). An end beat (end, no lane valid) travels with
+// the pixels; at the last register it releases its slot.
 module quadrille_pixel_pipeline #(
-    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int FB = quadrille_pkg::FRAGMENT_BITS,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
+    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK, V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int FB = quadrille_pkg::FRAGMENT_BITS, TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int GRAD = quadrille_pkg::GRAD_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
-    // Emission: pixels of a row, those of a homogeneous quad valid with their last part; their tile, its quad's gradients
+    // Emission: pixels of a row, those of a homogeneous quad valid with their last part; their tile, its quad's
+    // gradients
     input logic [quadrille_pkg::PIXELS_BITS-1:0] pixels_i,
     input logic [quadrille_pkg::CONTEXT_BITS-1:0] tile_i,
-    input logic [6*GRAD-1:0] lin_gx_i,
-    input logic [6*GRAD-1:0] lin_gy_i,
+    input logic [6*GRAD-1:0] lin_gx_i, lin_gy_i,
     // Vertex bank
     output logic [quadrille_pkg::READS_BITS-1:0] reads_o,
     input logic [quadrille_pkg::TERMS_BITS-1:0] terms_i,
@@ -41,10 +40,8 @@ module quadrille_pixel_pipeline #(
   `QUADRILLE_IN(`QUADRILLE_CONTEXT_T, tile)
   `QUADRILLE_READS_T reads;
   // Registers at the boundaries
-  localparam int DIFF = quadrille_pkg::DIFF_STAGE;
-  localparam int RATIO = quadrille_pkg::RATIO_STAGE;
-  localparam int OVERRIDE = quadrille_pkg::OVERRIDE_STAGE;
-  localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE;
+  localparam int DIFF = quadrille_pkg::DIFF_STAGE, RATIO = quadrille_pkg::RATIO_STAGE;
+  localparam int OVERRIDE = quadrille_pkg::OVERRIDE_STAGE, WEIGHT = quadrille_pkg::WEIGHT_STAGE;
   localparam int LAST = quadrille_pkg::LATENCY - 1;  // the output register
 
   logic [LAST:0] end_q;
@@ -58,9 +55,9 @@ module quadrille_pixel_pipeline #(
     else end_q <= {end_q[LAST-1:0], pixels.end_token};
   end
 
-  // ---- Side band: slot, tile column, row -----------------------------------------------------------------------------------
-  // A read of the slot bank ends in a register: the slot leaves two registers before the data's user; three for interpolation, bases
-  // and squared lengths, whose memories have a register of their own.
+  // ---- Side band: slot, tile column, row ---------------------------------------------------------------------------
+  // A read of the slot bank ends in a register: the slot leaves two registers before the data's user; three for
+  // interpolation, bases and squared lengths, whose memories have a register of their own.
   typedef struct packed {
     logic [SLOT-1:0] slot;
     logic [V-TILE_LOG2-1:0] tile_x;
@@ -74,14 +71,15 @@ module quadrille_pixel_pipeline #(
   assign tag.y = {tile.tile_y[V-TILE_LOG2-1:0], pixels.row};
 
   quadrille_delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (.clk_i, .data_i(tag), .data_o(diff_tag));
-  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(RATIO - 1 - DIFF)) u_product_tag (.clk_i, .data_i(diff_tag), .data_o(product_tag));
+  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(RATIO - 1 - DIFF)) u_product_tag (.clk_i, .data_i(diff_tag),
+      .data_o(product_tag));
   quadrille_delay_line #(.WIDTH(TAG), .DEPTH(OVERRIDE - 1 - RATIO)) u_override_tag (
-      .clk_i,
-      .data_i(product_tag),
-      .data_o(override_tag)
+      .clk_i, .data_i(product_tag), .data_o(override_tag)
   );
-  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(WEIGHT - OVERRIDE)) u_blend_tag (.clk_i, .data_i(override_tag), .data_o(blend_tag));
-  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(LAST - 3 - WEIGHT)) u_base_tag (.clk_i, .data_i(blend_tag), .data_o(base_tag));
+  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(WEIGHT - OVERRIDE)) u_blend_tag (.clk_i, .data_i(override_tag),
+      .data_o(blend_tag));
+  quadrille_delay_line #(.WIDTH(TAG), .DEPTH(LAST - 3 - WEIGHT)) u_base_tag (.clk_i, .data_i(blend_tag),
+      .data_o(base_tag));
   quadrille_delay_line #(.WIDTH(TAG), .DEPTH(3)) u_output_tag (.clk_i, .data_i(base_tag), .data_o(output_tag));
 
   tag_t fragment_tag;  // output_tag in step with what was read
@@ -103,16 +101,11 @@ module quadrille_pixel_pipeline #(
     {release_slot_o, output_slot_q} <= {output_slot_q, output_tag.slot};
   end
 
-  // ---- The row: value + r gy of all functions ---------------------------------------------------------------------------------
+  // ---- The row: value + r gy of all functions ----------------------------------------------------------------------
   logic [quadrille_pkg::ROW_BITS-1:0] line;
 
   quadrille_row_functions u_row (
-      .clk_i,
-      .row_digits_i(pixels.row_digits),
-      .tile_i,
-      .gx_i(lin_gx_i),
-      .gy_i(lin_gy_i),
-      .row_o(line)
+      .clk_i, .row_digits_i(pixels.row_digits), .tile_i, .gx_i(lin_gx_i), .gy_i(lin_gy_i), .row_o(line)
   );
 
   // What law_of_cosines needs of quad and part; both come to it a clock after the squared distances.
@@ -120,41 +113,23 @@ module quadrille_pixel_pipeline #(
   logic [1:0] part;
   logic squares_q;
 
-  quadrille_delay_line #(.WIDTH(2), .DEPTH(DIFFERENCE)) u_part (
-      .clk_i,
-      .data_i(pixels.part),
-      .data_o(part)
-  );
+  quadrille_delay_line #(.WIDTH(2), .DEPTH(DIFFERENCE)) u_part (.clk_i, .data_i(pixels.part), .data_o(part));
   quadrille_delay_line #(.WIDTH(SLOT), .DEPTH(DIFFERENCE - 1)) u_length2_slot (
-      .clk_i,
-      .data_i(tile.slot),
-      .data_o(length2_slot)
+      .clk_i, .data_i(tile.slot), .data_o(length2_slot)
   );
 
   always_ff @(posedge clk_i) squares_q <= part == quadrille_pkg::PART_SQUARES;
 
-  // ---- The pixels -------------------------------------------------------------------------------------------------------------
+  // ---- The pixels --------------------------------------------------------------------------------------------------
   for (genvar g = 0; g < P; g++) begin : gen_lane
     assign pixel[g] = lane_valid_o[g*quadrille_pkg::LATENCY+LAST];
 
     quadrille_pixel_lane u_lane (
-        .clk_i,
-        .rst_ni,
-        .state_i,
-        .valid_i(pixels.valid[g]),
-        .row_i(pixels.row),
-        .dx_i(pixels.dx[g*TILE_LOG2+:TILE_LOG2]),
-        .front_i(pixels.front[g]),
-        .tie_i(pixels.tie[g]),
-        .line_i(line),
-        .part_i(part),
-        .squares_i(squares_q),
-        .terms_i,
-        .output_tile_x_i(fragment_tag.tile_x),
-        .output_y_i(fragment_tag.y),
-        .valid_o(lane_valid_o[g*quadrille_pkg::LATENCY+:quadrille_pkg::LATENCY]),
-        .events_o({count_norm_o[g], count_area_o[g]}),
-        .fragment_valid_o(fragment_valid_o[g]),
+        .clk_i, .rst_ni, .state_i, .valid_i(pixels.valid[g]), .row_i(pixels.row),
+        .dx_i(pixels.dx[g*TILE_LOG2+:TILE_LOG2]), .front_i(pixels.front[g]), .tie_i(pixels.tie[g]), .line_i(line),
+        .part_i(part), .squares_i(squares_q), .terms_i, .output_tile_x_i(fragment_tag.tile_x),
+        .output_y_i(fragment_tag.y), .valid_o(lane_valid_o[g*quadrille_pkg::LATENCY+:quadrille_pkg::LATENCY]),
+        .events_o({count_norm_o[g], count_area_o[g]}), .fragment_valid_o(fragment_valid_o[g]),
         .fragment_o(fragment_o[g*FB+:FB])
     );
   end

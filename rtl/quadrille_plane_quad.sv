@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// Whether a quad's values are plane over it, so that any weights give them that reproduce linear functions: areas of triangles in the place of
-// mean value weights (mean_value_weights). Latency 2 from the quad, which vertex_assembly holds at least that long before start.
+// Whether a quad's values are plane over it, so that any weights give them that reproduce linear functions: areas of
+// triangles in the place of mean value weights (mean_value_weights). Latency 2 from the quad, which vertex_assembly
+// holds at least that long before start.
 //
-// Taken: an ordinary quad that is a parallelogram, V0 + V2 = V1 + V3 exactly, over which each value in use (k with perspective, Z with
-// depth, differences of attributes times k_eff, 0 in vertex 0) is constant along one pair of opposite sides: v0 = v1 and v2 = v3, or v0 = v3 and v1 = v2, in every bit. Comparisons
-// alone: sprites, text, faces of boxes seen in parallel. Not found: what is plane at an angle to the sides.
+// Taken: an ordinary quad that is a parallelogram, V0 + V2 = V1 + V3 exactly, over which each value in use (k with
+// perspective, Z with depth, differences of attributes times k_eff, 0 in vertex 0) is constant along one pair of
+// opposite sides: v0 = v1 and v2 = v3, or v0 = v3 and v1 = v2, in every bit. Comparisons alone: sprites, text, faces of
+// boxes seen in parallel. Not found: what is plane at an angle to the sides.
 module quadrille_plane_quad #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int AP = quadrille_pkg::ATTR_PORT_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, PE = quadrille_pkg::PORT_EXP_BITS, T = quadrille_pkg::T_BITS,
+    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS, AP = quadrille_pkg::ATTR_PORT_BITS
 ) (
     input logic clk_i,
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
@@ -22,10 +21,9 @@ module quadrille_plane_quad #(
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
   `QUADRILLE_IN(`QUADRILLE_QUAD_T, quad)
   if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
-    localparam int VALUES = 2 + N;
-    localparam int SUM = T + 1;
+    localparam int VALUES = 2 + N, SUM = T + 1;
 
-    // ---- Parallelogram ------------------------------------------------------------------------------------------------------
+    // ---- Parallelogram ---------------------------------------------------------------------------------------------
     logic [4*SUM-1:0] x, y;
     logic parallelogram_q;
 
@@ -39,7 +37,7 @@ module quadrille_plane_quad #(
           y[0+:SUM] + y[2*SUM+:SUM] == y[SUM+:SUM] + y[3*SUM+:SUM];
     end
 
-    // ---- Values: k, Z, attributes ---------------------------------------------------------------------------------------------
+    // ---- Values: k, Z, attributes ----------------------------------------------------------------------------------
     logic [VALUES-1:0] used, plane_q;
 
     for (genvar t = 0; t < VALUES; t++) begin : gen_value

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 
-// Which quad slot the next quad gets, one after the other. A slot is in use from start until its quad leaves the pipeline, or setup
-// drops it: those of dropped quads are free earlier than older ones, so that the next one may be in use.
+// Which quad slot the next quad gets, one after the other. A slot is in use from start until its quad leaves the
+// pipeline, or setup drops it: those of dropped quads are free earlier than older ones, so that the next one may be in
+// use.
 module quadrille_slot_allocation #(
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2
 ) (
@@ -10,8 +11,7 @@ module quadrille_slot_allocation #(
     input logic rst_ni,  // synchronous, active low
     input logic start_i,
     output logic [SLOT-1:0] alloc_o,
-    output logic available_o,
-    output logic busy_o,
+    output logic available_o, busy_o,
     input logic release_i,
     input logic [SLOT-1:0] release_slot_i,
     input logic drop_i,

@@ -2,22 +2,19 @@
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
 
-// Coverage of one tile row (a TILE x 1 stamp) a clock: the five edge functions at each pixel, the two clauses in both orientations,
-// culling, the scissor rectangle. Stamps with a covered pixel go to the stamp FIFO, an end entry passes through.
+// Coverage of one tile row (a TILE x 1 stamp) a clock: the five edge functions at each pixel, the two clauses in both
+// orientations, culling, the scissor rectangle. Stamps with a covered pixel go to the stamp FIFO, an end entry passes
+// through.
 //
-// Ties: E = 0 counts as the sign of (dE/dx, dE/dy), the first that is not 0 (tie_pos_i, tie_neg_i); an edge function without
-// gradient has no sign.
-// An entry comes in three registers: its tag (read with fetch_o), then its values and its quad's constants (read with load_o), then
-// the rows' own, with the multiples of gx that the pixels of a row need. Behind them a row takes three registers (values; signs; masks)
-// that never wait: it is sent in only while the FIFO has a place for it, and the place of a row without a covered pixel is given back.
+// Ties: E = 0 counts as the sign of (dE/dx, dE/dy), the first that is not 0 (tie_pos_i, tie_neg_i); an edge function
+// without gradient has no sign. An entry comes in three registers: its tag (read with fetch_o), then its values and its
+// quad's constants (read with load_o), then the rows' own, with the multiples of gx that the pixels of a row need.
+// Behind them a row takes three registers (values; signs; masks) that never wait: it is sent in only while the FIFO has
+// a place for it, and the place of a row without a covered pixel is given back.
 module quadrille_stamp_coverage #(
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int PLACES = quadrille_pkg::STAMP_PLACES,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS, TC = quadrille_pkg::TC_BITS, VAL = quadrille_pkg::VAL_BITS,
+    localparam int GRAD = quadrille_pkg::GRAD_BITS, RING = quadrille_pkg::RING_LOG2,
+    localparam int PLACES = quadrille_pkg::STAMP_PLACES, TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
@@ -43,18 +40,18 @@ module quadrille_stamp_coverage #(
     input logic freed_i,
     output logic push_o,
     output logic [quadrille_pkg::STAMP_BITS-1:0] stamp_o,
-    // For performance_counters, else 0: a tile's rows are left out, a row is tested; the rows register has a tile, another is behind it
+    // For performance_counters, else 0: a tile's rows are left out, a row is tested; the rows register has a tile,
+    // another is behind it
     output logic [3:0] events_o
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
   `QUADRILLE_IN(`QUADRILLE_TAG_T, tag)
   `QUADRILLE_IN(`QUADRILLE_EDGES_T, edges)
-  // ---- Control ------------------------------------------------------------------------------------------------------------
+  // ---- Control ------------------------------------------------------------------------------------------------------
   localparam logic [RING:0] PARTS = (RING + 1)'(quadrille_pkg::HOMOGENEOUS_PARTS);
   logic [RING:0] fetch_q, load_q, row_ptr_q;
-  logic tag_valid_q, context_valid_q, rows_valid_q;
-  logic rows_load, rows_done, issue;
-  logic context_end_q, rows_end_q, context_homogeneous_q, rows_homogeneous_q;
+  logic tag_valid_q, context_valid_q, rows_valid_q, rows_load, rows_done, issue, context_end_q, rows_end_q;
+  logic context_homogeneous_q, rows_homogeneous_q;
   logic [TILE_LOG2-1:0] row_q, last_row_q, context_last_row_q;
   localparam int ROOM = $clog2(PLACES + 1);
   logic [ROOM-1:0] room_q;  // places of the FIFO that no stamp has, nor a row on its way
@@ -100,11 +97,13 @@ module quadrille_stamp_coverage #(
 
   always_ff @(posedge clk_i) begin
     if (load_o) begin
-      {context_end_q, context_homogeneous_q, context_x_q, context_y_q} <= {tag.end_token, tag.homogeneous, tag.tile_x, tag.tile_y};
+      {context_end_q, context_homogeneous_q, context_x_q, context_y_q} <= {tag.end_token, tag.homogeneous, tag.tile_x,
+          tag.tile_y};
       context_last_row_q <= tag.last_row;
     end
     if (rows_load) begin
-      {rows_end_q, rows_homogeneous_q, tile_x_q, tile_y_q} <= {context_end_q, context_homogeneous_q, context_x_q, context_y_q};
+      {rows_end_q, rows_homogeneous_q, tile_x_q, tile_y_q} <= {context_end_q, context_homogeneous_q, context_x_q,
+          context_y_q};
       {tie_pos_q, tie_neg_q, visible_q} <= {edges.tie_pos, edges.tie_neg, edges.visible};
       row_q <= '0;
       last_row_q <= context_last_row_q;
@@ -113,8 +112,9 @@ module quadrille_stamp_coverage #(
     end
   end
 
-  // ---- Values, and their signs --------------------------------------------------------------------------------------------
-  // A row's values differ from its first by less than TILE |gx|: if that is further from zero than they reach, all have its sign.
+  // ---- Values, and their signs -------------------------------------------------------------------------------------
+  // A row's values differ from its first by less than TILE |gx|: if that is further from zero than they reach, all have
+  // its sign.
   localparam int MULT = GRAD + TILE_LOG2;  // TILE gx
   localparam int CLOSE = (MULT + 2 < VAL) ? MULT + 2 : VAL;  // a first value that is close, and what it reaches
   logic [5*TILE-1:0] is_neg_q2, is_zero_q2;
@@ -146,8 +146,7 @@ module quadrille_stamp_coverage #(
 
     // Odd multiples: the neighbour that four divides, plus or minus gx.
     for (genvar k = 0; k < TILE / 2; k++) begin : gen_multiple
-      localparam int ODD = 2 * k + 1;
-      localparam int NEAR = (ODD % 4 == 3) ? ODD + 1 : ODD - 1;
+      localparam int ODD = 2 * k + 1, NEAR = (ODD % 4 == 3) ? ODD + 1 : ODD - 1;
       localparam int ZEROS = (NEAR % 16 == 0) ? 4 : (NEAR % 8 == 0) ? 3 : 2;  // NEAR = its odd part times 2^ZEROS
       logic [MULT-1:0] multiple, multiple_q;
 
@@ -163,13 +162,15 @@ module quadrille_stamp_coverage #(
     end
 
     for (genvar dx = 0; dx < TILE; dx++) begin : gen_pixel
-      localparam int ZEROS = (dx % 8 == 0) ? 3 : (dx % 4 == 0) ? 2 : (dx % 2 == 0) ? 1 : 0;  // dx = its odd part times 2^ZEROS
+      // dx = its odd part times 2^ZEROS
+      localparam int ZEROS = (dx % 8 == 0) ? 3 : (dx % 4 == 0) ? 2 : (dx % 2 == 0) ? 1 : 0;
       logic [CLOSE-1:0] value_q1;
 
       if (dx == 0) begin : gen_first
         always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0];
       end else begin : gen_next
-        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0] + (CLOSE'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
+        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0] +
+            (CLOSE'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
       end
 
       always_ff @(posedge clk_i) begin
@@ -179,7 +180,7 @@ module quadrille_stamp_coverage #(
     end
   end
 
-  // ---- Scissor, beside the values -----------------------------------------------------------------------------------------
+  // ---- Scissor, beside the values ----------------------------------------------------------------------------------
   logic [V:0] y;
   logic [TC-1:0] first_tile, end_tile;  // of the rectangle's columns
   logic [TILE_LOG2-1:0] first_dx, end_dx;
@@ -206,7 +207,7 @@ module quadrille_stamp_coverage #(
     end
   end
 
-  // ---- What goes with a row -----------------------------------------------------------------------------------------------
+  // ---- What goes with a row ----------------------------------------------------------------------------------------
   localparam int SIGNS = 5 + 5 + 4;
   logic [2:0] row_valid_q;
   logic end_q1, end_q2, end_q3, homogeneous_q1, homogeneous_q2, homogeneous_q3;
@@ -229,17 +230,17 @@ module quadrille_stamp_coverage #(
   end
 
   always_ff @(posedge clk_i) begin
-    {end_q1, homogeneous_q1, row_q1, signs_q1} <= {rows_end_q, rows_homogeneous_q, row_q, tie_pos_q, tie_neg_q, visible_q};
+    {end_q1, homogeneous_q1, row_q1, signs_q1} <= {rows_end_q, rows_homogeneous_q, row_q, tie_pos_q, tie_neg_q,
+        visible_q};
     {end_q2, homogeneous_q2, row_q2, signs_q2} <= {end_q1, homogeneous_q1, row_q1, signs_q1};
     {end_q3, homogeneous_q3, row_q3} <= {end_q2, homogeneous_q2, row_q2};
   end
 
-  // ---- Clauses ------------------------------------------------------------------------------------------------------------
+  // ---- Clauses -----------------------------------------------------------------------------------------------------
   logic [4:0] tie_pos, tie_neg;
   logic [3:0] visible;
   logic [5*TILE-1:0] pos, neg, zero;
-  logic [TILE-1:0] back, front, mask;
-  logic [TILE-1:0] mask_q3, front_q3, tie_q3;
+  logic [TILE-1:0] back, front, mask, mask_q3, front_q3, tie_q3;
 
   assign {tie_pos, tie_neg, visible} = signs_q2;
 
@@ -254,12 +255,7 @@ module quadrille_stamp_coverage #(
   end
 
   quadrille_inside_expression #(.PLACES(TILE)) u_inside (
-      .cull_i(state.cull),
-      .visible_i(visible),
-      .pos_i(pos),
-      .neg_i(neg),
-      .back_o(back),
-      .front_o(front)
+      .cull_i(state.cull), .visible_i(visible), .pos_i(pos), .neg_i(neg), .back_o(back), .front_o(front)
   );
 
   assign covered = end_q2 ? '0 : (back | front) & in_scissor_q2;
@@ -271,7 +267,7 @@ module quadrille_stamp_coverage #(
     tie_q3 <= (zero[0+:TILE] | zero[TILE+:TILE] | zero[2*TILE+:TILE] | zero[3*TILE+:TILE] | zero[4*TILE+:TILE]) & mask;
   end
 
-  // ---- Push ---------------------------------------------------------------------------------------------------------------
+  // ---- Push --------------------------------------------------------------------------------------------------------
   assign push_o = row_valid_q[2] && (end_q3 || mask_q3 != '0);
   assign drop = row_valid_q[2] && !push_o;
   assign stamp_o = {homogeneous_q3, end_q3, ptr_q3, row_q3, mask_q3, front_q3, tie_q3};  // an end entry's row is 0

@@ -2,28 +2,23 @@
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
 
-// The quadratic functions of a tile that is hit, from its quad's vertices relative to the tile: value, gx, gy, q of f(dx, dy) = value
-// + dx gx + dy gy + q (dx^2 + dy^2), each without its QDROP lowest bits, written into the tile's entry of the ring as they come.
+// The quadratic functions of a tile that is hit, from its quad's vertices relative to the tile: value, gx, gy, q of
+// f(dx, dy) = value + dx gx + dy gy + q (dx^2 + dy^2), each without its QDROP lowest bits, written into the tile's
+// entry of the ring as they come.
 //
-// Ordinary quad: the four squared distances, gx = -2 X ONE, gy = -2 Y ONE, q = ONE^2; 3 clocks a tile. Homogeneous quad: all ten, in three
-// words of the ring (quadrille_pkg: PART_*), 29 clocks a tile. With two pairs of dot units 2 and 19: in a step each has a job. SPEC.md
-// has the steps. The multipliers are those of vertex_products; a step with jobs here takes the clock from the setup.
+// Ordinary quad: the four squared distances, gx = -2 X ONE, gy = -2 Y ONE, q = ONE^2; 3 clocks a tile. Homogeneous
+// quad: all ten, in three words of the ring (quadrille_pkg: PART_*), 29 clocks a tile. With two pairs of dot units 2
+// and 19: in a step each has a job. SPEC.md has the steps. The multipliers are those of vertex_products; a step with
+// jobs here takes the clock from the setup.
 //
-// An entry is complete, in the order of the pushes, VERTEX_PRODUCT_CLOCKS after its last step (complete_o). An end entry has no step
-// of its own but waits its turn.
+// An entry is complete, in the order of the pushes, VERTEX_PRODUCT_CLOCKS after its last step (complete_o). An end
+// entry has no step of its own but waits its turn.
 module quadrille_tile_context #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS,
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
-    localparam int BUSES = quadrille_pkg::CONTEXT_BUSES
+    localparam int T = quadrille_pkg::T_BITS, W = quadrille_pkg::W_BITS, V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int TC = quadrille_pkg::TC_BITS, GRAD = quadrille_pkg::GRAD_BITS, QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int QGRAD = quadrille_pkg::QGRAD_BITS, QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int OUT = quadrille_pkg::DOT_OUT_BITS, RING = quadrille_pkg::RING_LOG2,
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS, BUSES = quadrille_pkg::CONTEXT_BUSES
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -61,16 +56,14 @@ module quadrille_tile_context #(
   assign jobs_o = {kinds, functions, x, y, w, offset_x, offset_y};
   assign words_o = {word_value_write, word_value_entry, word_value, word_gradient_write, word_gradient_entry, word_gx,
       word_gy, word_q_write, word_q_entry, word_q, word_complete, word_complete_homogeneous};
-  localparam int FRAC = quadrille_pkg::FRAC;
-  localparam int QDROP = quadrille_pkg::QDROP;
-  localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
+  localparam int FRAC = quadrille_pkg::FRAC, QDROP = quadrille_pkg::QDROP, TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
 
-  // ---- Steps --------------------------------------------------------------------------------------------------------------
-  // Step 0 loads the vertices, an ordinary quad's moved to the tile; then SQUARES of two pairs. A homogeneous quad: MOVE of four vertices;
-  // when those of the first products are there (each next one finds its vertices in time) DOT and DOT_GRADIENT of the ten functions. In a
-  // step pair p of the units has the function or vertex PAIRS n + p. The next tile may come then: its own results come later than the
-  // last ones of this.
+  // ---- Steps -------------------------------------------------------------------------------------------------------
+  // Step 0 loads the vertices, an ordinary quad's moved to the tile; then SQUARES of two pairs. A homogeneous quad:
+  // MOVE of four vertices; when those of the first products are there (each next one finds its vertices in time) DOT
+  // and DOT_GRADIENT of the ten functions. In a step pair p of the units has the function or vertex PAIRS n + p. The
+  // next tile may come then: its own results come later than the last ones of this.
   localparam logic [5:0] MOVE_END = 6'(1 + 4 / PAIRS);
   localparam logic [5:0] PRODUCT = 6'd3 + 6'(CLOCKS);
   localparam logic [5:0] GRADIENT = PRODUCT + 6'(10 / PAIRS);
@@ -130,13 +123,14 @@ module quadrille_tile_context #(
   always_ff @(posedge clk_i) begin
     if (push_i) begin
       step_q <= '0;
-      {end_q, homogeneous_q, column_q, row_q, entry_q} <= {end_i, homogeneous_o && !end_i, tile.column, tile.row, entry_i};
+      {end_q, homogeneous_q, column_q, row_q, entry_q} <= {end_i, homogeneous_o && !end_i, tile.column, tile.row,
+          entry_i};
     end else begin
       step_q <= step_q + 6'd1;
     end
   end
 
-  // ---- Vertices -----------------------------------------------------------------------------------------------------------
+  // ---- Vertices ----------------------------------------------------------------------------------------------------
   logic [4*T-1:0] quad_x_q, quad_y_q;
   logic [4*W-1:0] quad_w_q;
   logic moved;
@@ -165,7 +159,7 @@ module quadrille_tile_context #(
     end
   end
 
-  // ---- What the jobs under way are ------------------------------------------------------------------------------------------
+  // ---- What the jobs under way are ---------------------------------------------------------------------------------
   // A clock after the job an ordinary quad's gradients and q are there; with the results all else.
   localparam int JOB = 5 + 4 + RING + 1;
   logic [JOB-1:0] job;
@@ -195,12 +189,13 @@ module quadrille_tile_context #(
 
   assign early_squares = job_q[JOB-4];
   assign {early_function, early_entry} = job_q[1+:4+RING];
-  assign {late_move, late_dot, late_gradient, late_squares, word_complete, late_function, late_entry, word_complete_homogeneous} =
+  assign {late_move, late_dot, late_gradient, late_squares, word_complete, late_function, late_entry,
+      word_complete_homogeneous} =
       job_q[CLOCKS*JOB-1-:JOB];
   assign moved = late_move;
   assign moved_vertex = late_function[1:0] - 2'd2;  // functions 6 to 9
 
-  // ---- Where a function is in the ring: its word of four functions, and which of them ---------------------------------------
+  // ---- Where a function is in the ring: its word of four functions, and which of them ------------------------------
   // late_*, early_*: the first pair's function, and the lanes that it and the other pairs' fill.
   logic [3:0] late_lanes, late_squares_lanes, early_lanes;
   logic [RING-1:0] late_word;
@@ -220,8 +215,8 @@ module quadrille_tile_context #(
   assign late_squares_lanes = (PAIRS == 2) ? 4'b1111 : (late_function == 4'd0) ? 4'b0011 : 4'b1100;
   assign early_lanes = (PAIRS == 2) ? 4'b1111 : (early_function == 4'd0) ? 4'b0011 : 4'b1100;
 
-  // On bus b a product of pair b mod PAIRS, or of the squares of pair b / 2 of the units the one of its first or second vertex.
-  // gx = -(Xi Wj + Wi Xj); of an ordinary quad's square -2 X ONE.
+  // On bus b a product of pair b mod PAIRS, or of the squares of pair b / 2 of the units the one of its first or second
+  // vertex. gx = -(Xi Wj + Wi Xj); of an ordinary quad's square -2 X ONE.
   localparam int CURV = quadrille_pkg::CURV_BITS;
 
   for (genvar b = 0; b < BUSES; b++) begin : gen_bus

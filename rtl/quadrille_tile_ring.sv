@@ -4,26 +4,21 @@
 
 // Ring of tile contexts between the walk and the pixels. Pointers have one extra bit.
 //
-// A tile of an ordinary quad is one entry. One of a homogeneous quad takes HOMOGENEOUS_PARTS: its quadratic functions are in as many
-// words of four, one an entry, all else in the first. The walk writes linear functions and tag, tile_context the words; only then
-// (complete_i) coverage sees the entry.
+// A tile of an ordinary quad is one entry. One of a homogeneous quad takes HOMOGENEOUS_PARTS: its quadratic functions
+// are in as many words of four, one an entry, all else in the first. The walk writes linear functions and tag,
+// tile_context the words; only then (complete_i) coverage sees the entry.
 //
-// An entry lives until the last stamp of its tile has been emitted: the tail is the tile of the stamp FIFO's head, or, when the FIFO is
-// empty, the entry of the row that coverage has at its end. It is a register: an entry is free two clocks after its last stamp was popped,
-// which is the clock in which emission reads its values for the last time (asserted).
-// Reads end in registers. Coverage: tag with fetch_i, values with load_i. Emission, every clock: the tag a clock after the pointer,
-// all else two clocks after it, so that the quad's constants, found by the tag's slot, arrive together with it; of the words that of
-// the pixel's part.
+// An entry lives until the last stamp of its tile has been emitted: the tail is the tile of the stamp FIFO's head, or,
+// when the FIFO is empty, the entry of the row that coverage has at its end. It is a register: an entry is free two
+// clocks after its last stamp was popped, which is the clock in which emission reads its values for the last time
+// (asserted). Reads end in registers. Coverage: tag with fetch_i, values with load_i. Emission, every clock: the tag a
+// clock after the pointer, all else two clocks after it, so that the quad's constants, found by the tag's slot, arrive
+// together with it; of the words that of the pixel's part.
 module quadrille_tile_ring #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
+    localparam int TC = quadrille_pkg::TC_BITS, VAL = quadrille_pkg::VAL_BITS, QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int QGRAD = quadrille_pkg::QGRAD_BITS, QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, RING = quadrille_pkg::RING_LOG2,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, PAIRS = quadrille_pkg::PRODUCT_PAIRS,
     localparam int BUSES = quadrille_pkg::CONTEXT_BUSES
 ) (
     input logic clk_i,
@@ -32,8 +27,7 @@ module quadrille_tile_ring #(
     input logic push_i,
     output logic full_o,  // no room for the entry
     output logic [RING-1:0] entry_o,  // that a push takes
-    input logic end_i,
-    input logic homogeneous_i,
+    input logic end_i, homogeneous_i,
     input logic [quadrille_pkg::TILE_BITS-1:0] tile_i,
     input logic [quadrille_pkg::WORDS_BITS-1:0] words_i,
     // Read for coverage
@@ -47,8 +41,7 @@ module quadrille_tile_ring #(
     output logic [5*VAL-1:0] stamp_lin_value_o,
     // Tail
     input logic [RING:0] stamp_ptr_i,
-    input logic stamps_empty_i,
-    input logic head_valid_i,
+    input logic stamps_empty_i, head_valid_i,
     input logic [RING:0] head_ptr_i,
     // Read for emission
     input logic emit_valid_i,

@@ -2,27 +2,25 @@
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
 
-// Walks a quad's tiles, blocks of 8x8 tiles first, both in serpentine order, and pushes the tiles that may hold a covered pixel
-// into the tile ring. One step a clock, block or tile; after the last block an end entry.
+// Walks a quad's tiles, blocks of 8x8 tiles first, both in serpentine order, and pushes the tiles that may hold a
+// covered pixel into the tile ring. One step a clock, block or tile; after the last block an end entry.
 //
-// State is the values of the linear functions at the first pixel of the current block and of the current tile, moved by exact
-// forward differences. The test is conservative over the extent: each edge function is 'somewhere positive', 'somewhere negative'
-// or both, by its value and edge_reach. The quadratic functions of a tile that is pushed are tile_context's.
+// State is the values of the linear functions at the first pixel of the current block and of the current tile, moved by
+// exact forward differences. The test is conservative over the extent: each edge function is 'somewhere positive',
+// 'somewhere negative' or both, by its value and edge_reach. The quadratic functions of a tile that is pushed are
+// tile_context's.
 //
-// A homogeneous quad has no bounding box: its tiles begin at the screen's. With bound_i those left of the scissor rectangle and above it
-// are left out: the walk approaches the scissor's first block, a block a clock without a test, stays in its columns of blocks, and pushes no
-// tile before its first one. The order is that of the whole walk: in rows of blocks that go to the left, the approach ends at the right.
+// A homogeneous quad has no bounding box: its tiles begin at the screen's. With bound_i those left of the scissor
+// rectangle and above it are left out: the walk approaches the scissor's first block, a block a clock without a test,
+// stays in its columns of blocks, and pushes no tile before its first one. The order is that of the whole walk: in rows
+// of blocks that go to the left, the approach ends at the right.
 //
-// The walk steps on before it knows what a test says: the test's signs come in a register, the hit is known the clock after, and a tile
-// that is hit is in the register that pushes in the clock after that. Blocks are walked one ahead: a hit turns back to the block
-// before, and the next one is ready when its tiles are done. A push that must wait stops everything, but the next quad comes in while the
-// end entry waits.
+// The walk steps on before it knows what a test says: the test's signs come in a register, the hit is known the clock
+// after, and a tile that is hit is in the register that pushes in the clock after that. Blocks are walked one ahead: a
+// hit turns back to the block before, and the next one is ready when its tiles are done. A push that must wait stops
+// everything, but the next quad comes in while the end entry waits.
 module quadrille_tile_walk #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int REACH = quadrille_pkg::REACH_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int TC = quadrille_pkg::TC_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2
 ) (
     input logic clk_i,
@@ -34,15 +32,13 @@ module quadrille_tile_walk #(
     input logic [quadrille_pkg::SETUP_BITS-1:0] setup_i,
     // Tile out; an end entry has a slot alone
     input logic ready_i,
-    output logic push_o,
-    output logic end_o,
+    output logic push_o, end_o,
     output logic [quadrille_pkg::TILE_BITS-1:0] tile_o,
     // Hidden tiles: what is under test; a clock later whether it is hidden, a tile or a block
     output logic [quadrille_pkg::TEST_BITS-1:0] test_o,
-    input logic hidden_i,
-    input logic block_hidden_i,
-    // For performance_counters, else 0: a block was tested, its tiles will be, or it is hit and hidden; a tile was tested, or is hit and
-    // hidden; a quad is here
+    input logic hidden_i, block_hidden_i,
+    // For performance_counters, else 0: a block was tested, its tiles will be, or it is hit and hidden; a tile was
+    // tested, or is hit and hidden; a quad is here
     output logic [5:0] events_o
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
@@ -53,14 +49,10 @@ module quadrille_tile_walk #(
   logic [6*quadrille_pkg::VAL_BITS-1:0] tile_lin_value;
   localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2;
   localparam int TL = TILE_LOG2;  // log2 of a tile step in pixels
-  localparam int BL = TILE_LOG2 + BLOCK_LOG2;  // log2 of a block step in pixels
 
-  localparam logic [2:0] IDLE = 3'd0;
-  localparam logic [2:0] BLOCK = 3'd1;
-  localparam logic [2:0] WALK = 3'd2;
-  localparam logic [2:0] FINISH = 3'd3;
-  localparam logic [2:0] FLUSH = 3'd4;  // until the end entry is in the ring, or the next quad comes
-  localparam logic [2:0] APPROACH = 3'd5;  // to the scissor's first block
+  // FLUSH: until the end entry is in the ring, or the next quad comes. APPROACH: to the scissor's first block.
+  typedef enum logic [2:0] {IDLE, BLOCK, WALK, FINISH, FLUSH, APPROACH} state_t;
+  state_t state_q;
 
   logic [TC-1:0] test_column, test_row, block_column, block_row;
   logic [BLOCK_LOG2-1:0] block_last_column, block_last_row;
@@ -68,30 +60,29 @@ module quadrille_tile_walk #(
   logic go;  // everything moves
   logic may_cover, hit, hit_tile, enter_walk;
 
-  // ---- Position and control -----------------------------------------------------------------------------------------------
+  // ---- Position and control ----------------------------------------------------------------------------------------
   // block_*: the next block to test, while more_q; walk_*: the block whose tiles are tested.
-  logic [2:0] state_q;
   logic more_q;
   logic [TC-1:0] tile_x0_q, tile_y0_q;
   logic [TC-1:0] last_x_q, last_y_q;  // of the quad's tiles
-  logic [TC-1:0] first_x, first_y, first_x_q, first_y_q;  // the scissor's first tile, of an ordinary quad 0: its box is inside
+  // the scissor's first tile, of an ordinary quad 0: its box is inside
+  logic [TC-1:0] first_x, first_y, first_x_q, first_y_q;
   logic [TC-1:0] block_x_q, block_y_q, block_y_next;
   logic [TC-1:0] blocks_x_q, blocks_y_q;  // blocks behind it in its row, rows of blocks behind it
   logic block_left_q;
   logic [TC-1:0] walk_x_q, walk_y_q;
-  logic [BLOCK_LOG2-1:0] tile_last_x_q, tile_last_y_q;
-  logic [BLOCK_LOG2-1:0] tile_x_q, tile_y_q;
+  logic [BLOCK_LOG2-1:0] tile_last_x_q, tile_last_y_q, tile_x_q, tile_y_q;
   logic tile_left_q;
   logic [SLOT-1:0] slot_q, slot_q1;
   logic [TILE_LOG2-1:0] last_row_q;
   logic [3:0] visible_q;
-  logic empty;
-  logic in_approach, in_block, in_walk, test_block, step_block;
-  logic tile_end, block_end, first_column, last_column, last_row, one_column;
+  logic empty, in_approach, in_block, in_walk, test_block, step_block, tile_end, block_end, first_column, last_column;
+  logic last_row, one_column;
   logic apart;  // the scissor's first block is another than the quad's
   logic arrived;
 
-  // The step after this clock's test: from the end of a row down, or to the left. Known a clock ahead, for it steers the adders.
+  // The step after this clock's test: from the end of a row down, or to the left. Known a clock ahead, for it steers
+  // the adders.
   logic row_end_q, back_q;
   logic [BLOCK_LOG2-1:0] tiles_q;  // behind the tile in its row
 
@@ -248,78 +239,25 @@ module quadrille_tile_walk #(
     end
   end
 
-  // ---- Linear functions and the extent test -------------------------------------------------------------------------------
-  // Outside WALK the tile is the first of the block to test. One set of adders steps blocks and tiles: a step to the left subtracts: ~x,
-  // and the one that is missing enters as carry ({a, 1} + {b, carry}). After a block's last tile comes the next block, which is there.
+  // ---- Extent test -------------------------------------------------------------------------------------------------
   logic [4:0] some_pos_q1, some_neg_q1;
-  logic [6*VAL-1:0] lin_value_q1;
 
-  for (genvar g = 0; g < 6; g++) begin : gen_linear
-    logic [GRAD-1:0] gx_q, gy_q;
-    logic [VAL-1:0] block_q, tile_q;
-    logic [VAL-1:0] slope, move, next;
-
-    assign slope = VAL'($signed(row_end_q ? gy_q : gx_q));
-    assign move = (in_walk ? slope << TL : slope << BL) ^ {VAL{back_q}};
-    assign next = VAL'(({tile_q, 1'b1} + {move, back_q}) >> 1);
-
-    always_ff @(posedge clk_i) begin
-      if (take_o) begin
-        gx_q <= setup.lin_gx[g*GRAD+:GRAD];
-        gy_q <= setup.lin_gy[g*GRAD+:GRAD];
-        block_q <= setup.lin_value[g*VAL+:VAL];
-        tile_q <= setup.lin_value[g*VAL+:VAL];
-      end else if (go) begin
-        if (step_block) block_q <= next;
-        if (enter_walk) tile_q <= lin_value_q1[g*VAL+:VAL];
-        else if (tile_end) tile_q <= block_q;
-        else if (in_walk || step_block) tile_q <= next;
-      end
-      if (go) begin
-        lin_value_q1[g*VAL+:VAL] <= tile_q;
-        tile_lin_value[g*VAL+:VAL] <= lin_value_q1[g*VAL+:VAL];
-      end
-    end
-
-    if (g < 5) begin : gen_test
-      logic [REACH-1:0] fall_tile_q, fall_block_q, rise_tile_q, rise_block_q;
-      logic [VAL-1:0] low, high;
-
-      always_ff @(posedge clk_i) begin
-        if (take_o) begin
-          fall_tile_q <= setup.fall_tile[g*REACH+:REACH];
-          fall_block_q <= setup.fall_block[g*REACH+:REACH];
-          rise_tile_q <= setup.rise_tile[g*REACH+:REACH];
-          rise_block_q <= setup.rise_block[g*REACH+:REACH];
-        end
-        if (go) begin
-          some_neg_q1[g] <= low[VAL-1];
-          some_pos_q1[g] <= !high[VAL-1];
-        end
-      end
-
-      assign low = tile_q + VAL'($signed(in_walk ? fall_tile_q : fall_block_q));
-      assign high = tile_q + VAL'($signed(in_walk ? rise_tile_q : rise_block_q));
-
-      logic unused;
-      assign unused = ^{low, high};
-    end
-  end
+  quadrille_walk_values u_values (
+      .clk_i, .take_i(take_o), .setup_i, .go_i(go), .in_walk_i(in_walk), .step_block_i(step_block),
+      .enter_walk_i(enter_walk), .tile_end_i(tile_end), .row_end_i(row_end_q), .back_i(back_q),
+      .some_pos_o(some_pos_q1), .some_neg_o(some_neg_q1), .lin_value_o(tile_lin_value)
+  );
 
   logic back, front;
 
   quadrille_inside_expression u_inside (
-      .cull_i(state.cull),
-      .visible_i(visible_q),
-      .pos_i(some_pos_q1),
-      .neg_i(some_neg_q1),
-      .back_o(back),
+      .cull_i(state.cull), .visible_i(visible_q), .pos_i(some_pos_q1), .neg_i(some_neg_q1), .back_o(back),
       .front_o(front)
   );
 
   assign may_cover = back || front;
 
-  // ---- Push ---------------------------------------------------------------------------------------------------------------
+  // ---- Push --------------------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
     if (!rst_ni) {push_q2, end_q2} <= '0;
     else if (go) {push_q2, end_q2} <= {(hit_tile && !hidden_i) || end_q1, end_q1};
@@ -366,10 +304,7 @@ module quadrille_tile_walk #(
 
   if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_covered
     quadrille_covered_square u_covered (
-        .cull_i(state.cull),
-        .some_pos_i(some_pos_q1),
-        .some_neg_i(some_neg_q1),
-        .covered_o(covered)
+        .cull_i(state.cull), .some_pos_i(some_pos_q1), .some_neg_i(some_neg_q1), .covered_o(covered)
     );
   end else begin : gen_not_covered
     assign covered = 1'b0;

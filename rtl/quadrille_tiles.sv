@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// From quads to pixels' positions: the walk over a quad's tiles, their quadratic functions, coverage, emission; and what hides a
-// tile.
+// From quads to pixels' positions: the walk over a quad's tiles, their quadratic functions, coverage, emission; and
+// what hides a tile.
 module quadrille_tiles #(
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int TILE = quadrille_pkg::TILE
+    localparam int VAL = quadrille_pkg::VAL_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int RING = quadrille_pkg::RING_LOG2, TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -36,8 +34,7 @@ module quadrille_tiles #(
     output logic [SLOT-1:0] emit_slot_o,
     output logic [quadrille_pkg::CONTEXT_BITS-1:0] context_o,
     // Places of the fragment FIFO given back
-    input logic freed_i,
-    input logic discard_i,
+    input logic freed_i, discard_i,
     output logic [quadrille_pkg::TILES_EVENTS_BITS-1:0] events_o
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
@@ -46,29 +43,18 @@ module quadrille_tiles #(
   logic [3:0] coverage_events;
   logic head_waits;
 
-  // ---- Walk ---------------------------------------------------------------------------------------------------------
+  // ---- Walk --------------------------------------------------------------------------------------------------------
   logic ring_full, context_ready, tile_push, tile_end, tile_homogeneous, tile_hidden, block_hidden;
   logic [quadrille_pkg::TILE_BITS-1:0] tile;
   logic [quadrille_pkg::TEST_BITS-1:0] test;
 
   quadrille_tile_walk u_walk (
-      .clk_i,
-      .rst_ni,
-      .state_i,
-      .setup_valid_i,
-      .take_o,
-      .setup_i,
-      .ready_i(context_ready && !ring_full),
-      .push_o(tile_push),
-      .end_o(tile_end),
-      .tile_o(tile),
-      .test_o(test),
-      .hidden_i(tile_hidden),
-      .block_hidden_i(block_hidden),
-      .events_o(walk_events)
+      .clk_i, .rst_ni, .state_i, .setup_valid_i, .take_o, .setup_i, .ready_i(context_ready && !ring_full),
+      .push_o(tile_push), .end_o(tile_end), .tile_o(tile), .test_o(test), .hidden_i(tile_hidden),
+      .block_hidden_i(block_hidden), .events_o(walk_events)
   );
 
-  // ---- Tiles: quadratic functions, and the ring ---------------------------------------------------------------------
+  // ---- Tiles: quadratic functions, and the ring --------------------------------------------------------------------
   logic [RING-1:0] tile_entry;
   logic [quadrille_pkg::WORDS_BITS-1:0] words;
   logic [RING:0] fetch_ptr, load_ptr, emit_ptr;
@@ -86,127 +72,48 @@ module quadrille_tiles #(
   assign pixels_o = pixels_i;
 
   quadrille_tile_context u_context (
-      .clk_i,
-      .rst_ni,
-      .take_i(take_o),
-      .setup_i,
-      .homogeneous_o(tile_homogeneous),
-      .push_i(tile_push),
-      .ready_o(context_ready),
-      .end_i(tile_end),
-      .tile_i(tile),
-      .entry_i(tile_entry),
-      .job_valid_o(jobs_valid_o),
-      .jobs_o,
-      .products_i,
-      .words_o(words)
+      .clk_i, .rst_ni, .take_i(take_o), .setup_i, .homogeneous_o(tile_homogeneous), .push_i(tile_push),
+      .ready_o(context_ready), .end_i(tile_end), .tile_i(tile), .entry_i(tile_entry), .job_valid_o(jobs_valid_o),
+      .jobs_o, .products_i, .words_o(words)
   );
 
   quadrille_tile_ring u_ring (
-      .clk_i,
-      .rst_ni,
-      .push_i(tile_push),
-      .full_o(ring_full),
-      .entry_o(tile_entry),
-      .end_i(tile_end),
-      .homogeneous_i(tile_homogeneous),
-      .tile_i(tile),
-      .words_i(words),
-      .fetch_i(fetch),
-      .fetch_ptr_i(fetch_ptr),
-      .stamp_present_o(stamp_present),
-      .fetch_homogeneous_o(fetch_homogeneous),
-      .tag_o(tag_i),
-      .load_i(stamp_load_o),
-      .load_ptr_i(load_ptr),
-      .stamp_lin_value_o(stamp_lin_value),
-      .stamp_ptr_i(stamp.tile_ptr),
-      .stamps_empty_i(stamps_empty),
-      .head_valid_i(head_valid),
-      .head_ptr_i(head.tile_ptr),
-      .emit_valid_i(pixels.valid != '0),
-      .emit_ptr_i(emit_ptr),
-      .emit_part_i(pixels.part),
-      .tag_slot_o(emit_slot_o),
+      .clk_i, .rst_ni, .push_i(tile_push), .full_o(ring_full), .entry_o(tile_entry), .end_i(tile_end),
+      .homogeneous_i(tile_homogeneous), .tile_i(tile), .words_i(words), .fetch_i(fetch), .fetch_ptr_i(fetch_ptr),
+      .stamp_present_o(stamp_present), .fetch_homogeneous_o(fetch_homogeneous), .tag_o(tag_i), .load_i(stamp_load_o),
+      .load_ptr_i(load_ptr), .stamp_lin_value_o(stamp_lin_value), .stamp_ptr_i(stamp.tile_ptr),
+      .stamps_empty_i(stamps_empty), .head_valid_i(head_valid), .head_ptr_i(head.tile_ptr),
+      .emit_valid_i(pixels.valid != '0), .emit_ptr_i(emit_ptr), .emit_part_i(pixels.part), .tag_slot_o(emit_slot_o),
       .context_o
   );
 
-  // ---- Coverage, what it leaves out, its FIFO, emission ---------------------------------------------------------------
+  // ---- Coverage, what it leaves out, its FIFO, emission ------------------------------------------------------------
   logic [quadrille_pkg::ROWS_BITS-1:0] rows;
   logic coverage_wait, tile_masked;
   logic [TILE-1:0] row_seen;
 
   quadrille_stamp_coverage u_coverage (
-      .clk_i,
-      .rst_ni,
-      .state_i,
-      .present_i(stamp_present),
-      .fetch_o(fetch),
-      .fetch_ptr_o(fetch_ptr),
-      .fetch_homogeneous_i(fetch_homogeneous),
-      .tag_i,
-      .load_o(stamp_load_o),
-      .load_ptr_o(load_ptr),
-      .lin_value_i(stamp_lin_value),
-      .edges_i,
-      .rows_o(rows),
-      .wait_i(coverage_wait),
-      .hidden_i(tile_masked),
-      .seen_i(row_seen),
-      .freed_i(pop),
-      .push_o(stamp_push),
-      .stamp_o(stamp_i),
-      .events_o(coverage_events)
+      .clk_i, .rst_ni, .state_i, .present_i(stamp_present), .fetch_o(fetch), .fetch_ptr_o(fetch_ptr),
+      .fetch_homogeneous_i(fetch_homogeneous), .tag_i, .load_o(stamp_load_o), .load_ptr_o(load_ptr),
+      .lin_value_i(stamp_lin_value), .edges_i, .rows_o(rows), .wait_i(coverage_wait), .hidden_i(tile_masked),
+      .seen_i(row_seen), .freed_i(pop), .push_o(stamp_push), .stamp_o(stamp_i), .events_o(coverage_events)
   );
 
   quadrille_hidden_tiles u_hidden (
-      .clk_i,
-      .rst_ni,
-      .clear_i(clear_hidden_i),
-      .ready_o(depths_ready_o),
-      .on_i(state.depth && state.skip[2]),
-      .state_i,
-      .start_i,
-      .start_slot_i,
-      .quad_i,
-      .limits_i,
-      .take_i(take_o),
-      .setup_i,
-      .test_i(test),
-      .hidden_o(tile_hidden),
-      .block_hidden_o(block_hidden),
-      .tile_i(tag_i),
-      .rows_i(rows),
-      .wait_o(coverage_wait),
-      .masked_o(tile_masked),
-      .seen_o(row_seen)
+      .clk_i, .rst_ni, .clear_i(clear_hidden_i), .ready_o(depths_ready_o), .on_i(state.depth && state.skip[2]),
+      .state_i, .start_i, .start_slot_i, .quad_i, .limits_i, .take_i(take_o), .setup_i, .test_i(test),
+      .hidden_o(tile_hidden), .block_hidden_o(block_hidden), .tile_i(tag_i), .rows_i(rows), .wait_o(coverage_wait),
+      .masked_o(tile_masked), .seen_o(row_seen)
   );
 
-  quadrille_sync_fifo #(
-      .WIDTH(quadrille_pkg::STAMP_BITS),
-      .DEPTH(quadrille_pkg::STAMP_PLACES)
-  ) u_fifo (
-      .clk_i,
-      .rst_ni,
-      .push_i(stamp_push),
-      .data_i(stamp_i),
-      .pop_i(pop),
-      .empty_o(stamps_empty),
-      .valid_o(head_valid),
+  quadrille_sync_fifo #(.WIDTH(quadrille_pkg::STAMP_BITS), .DEPTH(quadrille_pkg::STAMP_PLACES)) u_fifo (
+      .clk_i, .rst_ni, .push_i(stamp_push), .data_i(stamp_i), .pop_i(pop), .empty_o(stamps_empty), .valid_o(head_valid),
       .data_o(head_i)
   );
 
   quadrille_pixel_emit u_emit (
-      .clk_i,
-      .rst_ni,
-      .head_valid_i(head_valid),
-      .head_i,
-      .pop_o(pop),
-      .freed_i,
-      .discard_i,
-      .ptr_o(emit_ptr),
-      .pixels_o(pixels_i),
-      .event_o(head_waits)
+      .clk_i, .rst_ni, .head_valid_i(head_valid), .head_i, .pop_o(pop), .freed_i, .discard_i, .ptr_o(emit_ptr),
+      .pixels_o(pixels_i), .event_o(head_waits)
   );
 
   assign events_o = {

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i or drop_i clears it, in whose clock the
-// next quad's first beat is taken. flush_i discards the beats of a quad of which fewer than four came before, and one that comes with it.
+// Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i or drop_i
+// clears it, in whose clock the next quad's first beat is taken. flush_i discards the beats of a quad of which fewer
+// than four came before, and one that comes with it.
 //
-// vertex_ready_o depends on registers, start_i and drop_i, not on vertex_valid_i. The quad's id, bases and depth codes are those of v0.
-// Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X and Y, kept up with each beat; and
-// the judgements of its vertices by quad_reject, range_empty and depth_interval. Vertex i's field is at [i*width +: width] of each flat output;
-// attributes are those of v1, v2, v3, for v0's are the bases.
+// vertex_ready_o depends on registers, start_i and drop_i, not on vertex_valid_i. The quad's id, bases and depth codes
+// are those of v0. Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X
+// and Y, kept up with each beat; and the judgements of its vertices by quad_reject, range_empty and depth_interval.
+// Vertex i's field is at [i*width +: width] of each flat output; attributes are those of v1, v2, v3, for v0's are the
+// bases.
 module quadrille_vertex_assembly #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, PE = quadrille_pkg::PORT_EXP_BITS, T = quadrille_pkg::T_BITS,
+    localparam int W = quadrille_pkg::W_BITS, ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -21,14 +20,10 @@ module quadrille_vertex_assembly #(
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
-    input logic flush_i,
-    input logic start_i,
-    input logic drop_i,
-    output logic full_o,
-    output logic busy_o,
+    input logic flush_i, start_i, drop_i,
+    output logic full_o, busy_o,
     output logic empty_o,  // no pixel centre inside scissor and bounding box
-    output logic behind_o,
-    output logic depth_o,
+    output logic behind_o, depth_o,
     output logic [quadrille_pkg::DEPTH_LIMIT_BITS-1:0] limits_o,
     output logic [quadrille_pkg::QUAD_BITS-1:0] quad_o
 );
@@ -47,8 +42,7 @@ module quadrille_vertex_assembly #(
   logic [quadrille_pkg::DEPTH_BITS:0] base_depth;
   logic [quadrille_pkg::CORNER_DEPTH_BITS-1:0] depth_low, depth_high;
   logic [1:0] count_q;
-  logic full_q;
-  logic accept;
+  logic full_q, accept;
 
   assign accept = vertex_valid_i && vertex_ready_o;
   assign vertex_ready_o = !full_q || start_i || drop_i;
@@ -96,27 +90,13 @@ module quadrille_vertex_assembly #(
   assign empty_o = empty_x || empty_y;
 
   quadrille_range_empty u_empty_x (
-      .clk_i,
-      .accept_i(accept),
-      .first_i(first),
-      .coordinate_i(vertex.x),
-      .low_i(low_x),
-      .scissor0_i(state.scissor_x0),
-      .scissor1_i(state.scissor_x1),
-      .ordinary_i(ordinary),
-      .empty_o(empty_x)
+      .clk_i, .accept_i(accept), .first_i(first), .coordinate_i(vertex.x), .low_i(low_x), .scissor0_i(state.scissor_x0),
+      .scissor1_i(state.scissor_x1), .ordinary_i(ordinary), .empty_o(empty_x)
   );
 
   quadrille_range_empty u_empty_y (
-      .clk_i,
-      .accept_i(accept),
-      .first_i(first),
-      .coordinate_i(vertex.y),
-      .low_i(low_y),
-      .scissor0_i(state.scissor_y0),
-      .scissor1_i(state.scissor_y1),
-      .ordinary_i(ordinary),
-      .empty_o(empty_y)
+      .clk_i, .accept_i(accept), .first_i(first), .coordinate_i(vertex.y), .low_i(low_y), .scissor0_i(state.scissor_y0),
+      .scissor1_i(state.scissor_y1), .ordinary_i(ordinary), .empty_o(empty_y)
   );
 
   // W as a significand number: exponent -FRAC..0, which fits the port's width.
@@ -129,15 +109,8 @@ module quadrille_vertex_assembly #(
   assign w_neg = vertex.w[W-1];
   assign w_magnitude = w_neg ? W'(0) - vertex.w : vertex.w;
 
-  quadrille_fp_normalise #(
-      .WIDTH(W),
-      .REGISTERED(1'b0)
-  ) u_w (
-      .clk_i,
-      .active_i(1'b1),
-      .magnitude_i(w_magnitude),
-      .bias_i(E'(0) - E'(quadrille_pkg::FRAC)),
-      .exp_o(w_exp),
+  quadrille_fp_normalise #(.WIDTH(W), .REGISTERED(1'b0)) u_w (
+      .clk_i, .active_i(1'b1), .magnitude_i(w_magnitude), .bias_i(E'(0) - E'(quadrille_pkg::FRAC)), .exp_o(w_exp),
       .sig_o(w_sig)
   );
 
@@ -145,18 +118,8 @@ module quadrille_vertex_assembly #(
   assign unused = ^w_exp[E-1:PE];
 
   quadrille_quad_reject u_reject (
-      .clk_i,
-      .depth_on_i(state.depth),
-      .znear_i(state.znear),
-      .zfar_i(state.zfar),
-      .accept_i(accept),
-      .first_i(first),
-      .w_i(vertex.w),
-      .low_i(depth_low),
-      .high_i(depth_high),
-      .behind_o,
-      .depth_o,
-      .limits_o(limits_o)
+      .clk_i, .depth_on_i(state.depth), .znear_i(state.znear), .zfar_i(state.zfar), .accept_i(accept), .first_i(first),
+      .w_i(vertex.w), .low_i(depth_low), .high_i(depth_high), .behind_o, .depth_o, .limits_o(limits_o)
   );
 
   for (genvar g = 0; g < 4; g++) begin : gen_vertex

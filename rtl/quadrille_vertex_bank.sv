@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// What a pixel needs to know of its quad, by slot: written at start id, k_eff (k, or W without perspective), W, Z, attributes as
-// significand numbers with port exponents, bases, depth limits; when the walk takes the quad squared lengths and class.
+// What a pixel needs to know of its quad, by slot: written at start id, k_eff (k, or W without perspective), W, Z,
+// attributes as significand numbers with port exponents, bases, depth limits; when the walk takes the quad squared
+// lengths and class.
 //
-// Each is read by the slot that the pipeline's register has there. Reads of squared lengths, for interpolation and of bases take two
-// clocks, the others one. Not reset.
+// Each is read by the slot that the pipeline's register has there. Reads of squared lengths, for interpolation and of
+// bases take two clocks, the others one. Not reset.
 module quadrille_vertex_bank #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int AP = quadrille_pkg::ATTR_PORT_BITS,
-    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS,
-    localparam int TERMS = quadrille_pkg::BLEND_TERMS,
-    localparam int ID = quadrille_pkg::QUAD_ID_BITS,
-    localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int SETS = 3 + N
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, PE = quadrille_pkg::PORT_EXP_BITS,
+    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS, AP = quadrille_pkg::ATTR_PORT_BITS,
+    localparam int AO = quadrille_pkg::ATTR_OUT_BITS, DB = quadrille_pkg::DEPTH_BITS,
+    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS, TERMS = quadrille_pkg::BLEND_TERMS,
+    localparam int ID = quadrille_pkg::QUAD_ID_BITS, LENGTH2 = quadrille_pkg::LENGTH2_BITS,
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, SETS = 3 + N
 ) (
     input logic clk_i,
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
@@ -70,9 +65,9 @@ module quadrille_vertex_bank #(
     assign sum_active_o[g] = !hold || state.attributes > 4'(g - 3);
   end
 
-  // k_eff, which is read three times, in a small memory per vertex; the other term sets, read once for interpolation, in one word.
-  localparam int WORD = 1 + PE + S;
-  localparam int BLEND = (TERMS - 4) * WORD;
+  // k_eff, which is read three times, in a small memory per vertex; the other term sets, read once for interpolation,
+  // in one word.
+  localparam int WORD = 1 + PE + S, BLEND = (TERMS - 4) * WORD;
   // Block RAM: a slot that a pixel reads is in use, so it is never the one that is written (asserted).
   (* ram_style = "block", no_rw_check *) logic [BLEND-1:0] blend_q[0:SLOTS-1];
   logic [BLEND-1:0] write_blend, blend_word;
@@ -96,8 +91,8 @@ module quadrille_vertex_bank #(
       localparam int PLACE = (t < 3) ? 4 * t + v : 12 + 3 * (t - 3) + v - 1;
       logic [WORD-1:0] read_word;
 
-      // Sums that the fragment does not depend on are those of zeros, by the registers' reset: neither their products nor what
-      // follows from them switches.
+      // Sums that the fragment does not depend on are those of zeros, by the registers' reset: neither their products
+      // nor what follows from them switches.
       always_ff @(posedge clk_i) begin
         blend_neg[PLACE] <= read_word[WORD-1];
         blend_exp[PLACE*PE+:PE] <= read_word[S+:PE];

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 
-// The multipliers of the front: pairs of dot_units, and which coordinates of a pair of vertices they multiply. A job a clock for each of
-// PRODUCT_PAIRS pairs of units, results VERTEX_PRODUCT_CLOCKS later: pair, operands, then dot_unit's other registers.
+// The multipliers of the front: pairs of dot_units, and which coordinates of a pair of vertices they multiply. A job a
+// clock for each of PRODUCT_PAIRS pairs of units, results VERTEX_PRODUCT_CLOCKS later: pair, operands, then dot_unit's
+// other registers.
 //
-// Two users: tile_context (tile_*), which comes first and then has all units, and quad_setup. A job is a kind and a function, whose pair
-// of vertices i, j (quadrille_pkg::pair_first, pair_second) it takes from its user's four vertices:
+// Two users: tile_context (tile_*), which comes first and then has all units, and quad_setup. A job is a kind and a
+// function, whose pair of vertices i, j (quadrille_pkg::pair_first, pair_second) it takes from its user's four
+// vertices:
 //
 //     kind                result0              result1
 //     EDGE                Xi Yj - Yi Xj        (Xj - Xi)^2 + (Yi - Yj)^2
@@ -17,19 +19,14 @@
 //     DET_VALUE           Wi (value's low 32 bits, unsigned)           Wi (value's high bits)
 //     DET_GRADIENT        Xi gx + Yi gy with their low 32 bits         with their high bits
 //
-// DET: the edge function that comes with the job. Flat vectors over the pairs of units: that of pair p at [p*WIDTH +: WIDTH].
+// DET: the edge function that comes with the job. Flat vectors over the pairs of units: that of pair p at [p*WIDTH +:
+// WIDTH].
 module quadrille_vertex_products #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int RISE = quadrille_pkg::RISE_BITS,
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS
+    localparam int T = quadrille_pkg::T_BITS, W = quadrille_pkg::W_BITS, V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, RISE = quadrille_pkg::RISE_BITS,
+    localparam int OUT = quadrille_pkg::DOT_OUT_BITS, PAIRS = quadrille_pkg::PRODUCT_PAIRS
 ) (
-    input logic clk_i,
-    input logic tile_valid_i,
+    input logic clk_i, tile_valid_i,
     input logic [quadrille_pkg::JOBS_BITS-1:0] tile_i,  // the offset is still there a clock later
     input logic [quadrille_pkg::JOBS_BITS-1:0] setup_i,  // taken when there is none of a tile
     input logic [PAIRS*(VAL+2*GRAD)-1:0] edges_i,  // with the setup's jobs: value, gx, gy
@@ -59,7 +56,7 @@ module quadrille_vertex_products #(
   always_ff @(posedge clk_i) tile_q <= tile_valid_i;
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_pair
-    // ---- Pair -------------------------------------------------------------------------------------------------------------
+    // ---- Pair -------------------------------------------------------------------------------------------------------
     logic [3:0] function_d;
     logic [T-1:0] xi_d, xj_d, yi_d, yj_d, xi, xj, yi, yj;
     logic [W-1:0] wi_d, wj_d, wi, wj;
@@ -70,16 +67,8 @@ module quadrille_vertex_products #(
     assign function_d = tile_valid_i ? tile.functions[p*4+:4] : setup.functions[p*4+:4];
 
     quadrille_setup_pair u_pair (
-        .function_i(function_d),
-        .x_i(x),
-        .y_i(y),
-        .w_i(w),
-        .xi_o(xi_d),
-        .yi_o(yi_d),
-        .wi_o(wi_d),
-        .xj_o(xj_d),
-        .yj_o(yj_d),
-        .wj_o(wj_d)
+        .function_i(function_d), .x_i(x), .y_i(y), .w_i(w), .xi_o(xi_d), .yi_o(yi_d), .wi_o(wi_d), .xj_o(xj_d),
+        .yj_o(yj_d), .wj_o(wj_d)
     );
 
     always_ff @(posedge clk_i) begin
@@ -99,9 +88,8 @@ module quadrille_vertex_products #(
     assign all_apart_x[p*RISE+:RISE] = apart_x_d;
     assign all_apart_y[p*RISE+:RISE] = apart_y_d;
 
-    // ---- Operands ---------------------------------------------------------------------------------------------------------
-    logic [DOT-1:0] x_i, x_j, y_i, y_j, w_i, w_j, apart_x, apart_y;
-    logic [DOT-1:0] a0, b0, c0, d0, a1, b1, c1, d1;
+    // ---- Operands --------------------------------------------------------------------------------------------------
+    logic [DOT-1:0] x_i, x_j, y_i, y_j, w_i, w_j, apart_x, apart_y, a0, b0, c0, d0, a1, b1, c1, d1;
     logic subtract0, subtract1;
 
     assign x_i = DOT'($signed(xi));
@@ -153,23 +141,11 @@ module quadrille_vertex_products #(
     end
 
     quadrille_dot_unit u_dot0 (
-        .clk_i,
-        .a_i(a0),
-        .b_i(b0),
-        .c_i(c0),
-        .d_i(d0),
-        .subtract_i(subtract0),
-        .result_o(result0[p*OUT+:OUT])
+        .clk_i, .a_i(a0), .b_i(b0), .c_i(c0), .d_i(d0), .subtract_i(subtract0), .result_o(result0[p*OUT+:OUT])
     );
 
     quadrille_dot_unit u_dot1 (
-        .clk_i,
-        .a_i(a1),
-        .b_i(b1),
-        .c_i(c1),
-        .d_i(d1),
-        .subtract_i(subtract1),
-        .result_o(result1[p*OUT+:OUT])
+        .clk_i, .a_i(a1), .b_i(b1), .c_i(c1), .d_i(d1), .subtract_i(subtract1), .result_o(result1[p*OUT+:OUT])
     );
   end
 endmodule

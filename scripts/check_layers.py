@@ -25,8 +25,6 @@ SOURCES = ("cpp", "hpp", "c", "h", "sv", "svh", "py", "sh")
 COMMAND = "one command: its options, input and output"
 LONG = {
     "golden/reference/truth.cpp": (610, "a pixel's truth is inlined as a whole, which its speed needs"),
-    "rtl/quadrille_pixel_lane.sv": (460, "a pixel's stages and the registers between them"),
-    "rtl/quadrille_quad_setup.sv": (700, "one schedule of a quad's products"),
     "tb/commands/cli_test.cpp": (430, "a test for each rule of command lines"),
     "tb/commands/golden.cpp": (480, COMMAND),
     "tb/commands/golden_cli_test.cpp": (490, "a test for each subcommand and its errors"),

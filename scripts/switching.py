@@ -87,7 +87,7 @@ def measure(args, skip, reader, work):
     return {"cycles": result["cycles_rtl"], "pixels": result["covered_pixels"], "units": by_unit(lines)}
 
 
-PARTS = ("front", "tiles", "hidden_tiles", "pixel", "pixel_pipeline", "pixel_lane")  # whose units are counted
+PARTS = ("front", "tiles", "hidden_tiles", "pixel", "pixel_pipeline", "pixel_lane", "pixel_functions")  # whose units are counted
 
 
 def by_unit(lines):

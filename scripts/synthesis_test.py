@@ -152,7 +152,7 @@ class UnitTable(unittest.TestCase):
         slower = [unit | ({"latency": "5"} if unit["name"] == "sqrt" else {}) for unit in self.units]
         self.assertIn("add up to 48, LATENCY is 47", " ".join(unit_table.faults_of(slower, self.package)))
         fewer = [unit for unit in self.units if unit["name"] != "tile_walk"]
-        self.assertIn("quadrille instantiates tile_walk", " ".join(unit_table.faults_of(fewer, self.package)))
+        self.assertIn("tiles instantiates tile_walk", " ".join(unit_table.faults_of(fewer, self.package)))
         self.package.constants["FP_SUM_STAGES"] += 1
         self.assertIn("fp_sum_stages is 6 in model/port/latency.hpp and 7", " ".join(unit_table.faults_of(self.units, self.package)))
 

@@ -32,7 +32,7 @@ RTL = os.path.join(ROOT, "rtl")
 LIST, MEASURED = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json"))
 CONFIGURATIONS = os.path.join(ROOT, "golden/analysis/synthesised.csv")
 SIZES = {"lut": "luts", "ff": "flip_flops", "dsp": "dsps", "bram": "block_rams"}  # here -> in size.py's report
-PARTS = ("front", "tiles", "hidden_tiles", "pixel", "pixel_pipeline", "pixel_lane")  # whose units are in the list
+PARTS = ("front", "tiles", "hidden_tiles", "pixel", "pixel_pipeline", "pixel_lane", "pixel_functions")  # whose units are in the list
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 
 
@@ -98,12 +98,12 @@ class Package:
         text = without_comments(read_text(os.path.join(RTL, module_name(unit) + ".sv")))
         header = text[text.index(f"module {module_name(unit)}"):].split(");", 1)[0]
         names = {}
-        for name, expression in re.findall(r"(?:parameter|localparam) (?:int|bit) (\w+)\s*=\s*((?:[^,()]|\((?:[^()]|\([^()]*\))*\))+)", header):
+        for name, expression in re.findall(r"(?:(?:parameter|localparam) (?:int|bit)|,) (\w+)\s*=\s*((?:[^,()]|\((?:[^()]|\([^()]*\))*\))+)", header):
             names[name] = int(parameters[name]) if name in parameters else self.value(expression.replace("1'b", ""), names)
         bits = {"input": 0, "output": 0}
-        for direction, high, name in re.findall(r"(input|output) logic (?:\[([^\]]+):0\] )?(\w+)", header):
-            if name not in ("clk_i", "rst_ni"):
-                bits[direction] += 1 + self.value(high, names) if high else 1
+        for direction, high, ports in re.findall(r"(input|output) logic (?:\[([^\]]+):0\] )?(\w+(?:, \w+)*)", header):
+            count = len(set(ports.split(", ")) - {"clk_i", "rst_ni"})
+            bits[direction] += count * (1 + self.value(high, names) if high else 1)
         return bits["input"], bits["output"]
 
 

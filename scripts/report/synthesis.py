@@ -109,12 +109,10 @@ class Machine:
         if not files:
             raise InputError(f"no SystemVerilog in {rtl}")
         self.units = {unit_name(os.path.splitext(os.path.basename(name))[0]) for name in files if not name.endswith("_pkg.sv")}
+        for name in glob.glob(os.path.join(rtl, "include", "*.svh")):  # Yosys takes no quotes around the folder of -I
+            shutil.copy(name, work)
         quoted = " ".join(f'"{name}"' for name in [files[0], tables, *files[1:]])
-        include = os.path.join(work, "include")  # a link: Yosys takes no quotes around a folder of -I
-        if os.path.lexists(include):
-            os.remove(include)
-        os.symlink(os.path.join(rtl, "include"), include)
-        self.read = f"read_verilog -sv -DSYNTHESIS=1 -I include {' '.join(defines)} {quoted}\n"
+        self.read = f"read_verilog -sv -DSYNTHESIS=1 {' '.join(defines)} {quoted}\n"
 
     @staticmethod
     def _program(args, *options):

@@ -12,7 +12,7 @@ namespace {
 struct Place {
   const char *valid, *scope;
 };
-constexpr Place places[]{{"u_quadrille.take", "u_quadrille.u_front.u_setup.setup_"},
+constexpr Place places[]{{"u_quadrille.take", "u_quadrille.setup."},
                          {nullptr, nullptr},  // the tile ring's words: quadrille_probed.sv
                          {"u_quadrille.u_tiles.stamp_push", "u_quadrille.u_tiles.stamp."},
                          {"`QUADRILLE_LANE.valid_q[DIFF_STAGE]", "`QUADRILLE_LANE.diff_"},
