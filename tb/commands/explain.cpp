@@ -134,12 +134,13 @@ void add_explain_command(CLI::App& app, Invocation& invocation) {
   end_help(*command,
            "For each quad that covers the pixel: which rule covers it, then each stage's formula and numbers, as "
            "stored, as real values, and beside exact arithmetic. A pixel that no quad covers has the rule that "
-           "rejected it. Quads are taken one by one: what an earlier one hides is not looked at.\n"
+           "rejected it. Quads are taken one by one: what an earlier one hides is not looked at. --verbose prints all "
+           "coefficients.\n"
            "With --engine rtl the RTL draws each of these quads alone, after a reset; a difference from the model is "
            "shown beside the number.",
            "0 done; 1 RTL and model differ, or a bound exceeded; 2 usage or input error; 3 missing tool",
-           {"explain --scene fig10_convex --pixel 256,256", "explain --scene bowtie --pixel 160,160 --html pixel.html",
-            "explain --quads some.quads --quad 2 --pixel 10,20 --json -",
+           {"explain --scene fig10_convex --pixel 256,256",
+            "explain --quads some.quads --quad 2 --pixel 10,20 --html pixel.html",
             "explain --mesh pawn.obj --pixel 300,240 --engine rtl"});
   const auto options = std::make_shared<ExplainOptions>();
   options->input.add_to(*command);
