@@ -1,7 +1,6 @@
 """Arrays in, arrays out: shapes, fields, memory, errors, threads."""
 
 import os
-import pathlib
 import pickle
 import subprocess
 import sys
@@ -72,6 +71,19 @@ def test_depth_off_and_wide_codes():
     wide = quadrille.draw(SQUARE, POSITION * 60, size=(64, 64), config=quadrille.Config(attribute_frac_bits=30))
     assert wide.dtype["a0_code"] == np.int64
     assert np.array_equal(wide["a1"], wide["a1_code"] * 2.0**-30) and wide["a0_code"].max() > 2**31
+
+
+def test_picture_has_the_nearest_fragment():
+    far, near = SQUARE.copy(), SQUARE + [5, 0, -0.25, 0]
+    quads = quadrille.as_quads(np.concatenate([far, near, near]), np.arange(12.0).reshape(3, 4) / 16, names=["shade"])
+    drawn = quadrille.draw(quads, size=(64, 64))
+    ids = quadrille.picture(drawn, "quad", (64, 64), background=-1)
+    assert ids.shape == (64, 64) and ids[15, 12] == 0 and ids[15, 32] == 1 and ids[15, 20] == 1 and ids[15, 40] == -1
+    both = quadrille.picture(drawn, ["depth", "shade"], (64, 64))
+    assert both.shape == (64, 64, 2) and both[15, 20, 0] == 0.25 and np.isnan(both[0, 0]).all()
+    # Of equal depths, and without depth, the first stays.
+    flat = quadrille.draw(quads, size=(64, 64), depth=False)
+    assert quadrille.picture(flat, "quad", (64, 64))[15, 20] == 0
 
 
 def test_no_copies():
@@ -274,21 +286,6 @@ def test_interrupt_ends_a_draw():
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=120)
     assert "KeyboardInterrupt" in result.stderr and result.returncode != 0, result.stderr
     assert time.perf_counter() - start < 60
-
-
-def test_types_are_there():
-    package = pathlib.Path(quadrille.__file__).parent
-    assert (package / "py.typed").exists()
-    stub = (package / "_core.pyi").read_text(encoding="utf-8")
-    assert "def significand_bits(self) -> int:" in stub and "s: bits of every multiplier operand" in stub
-    assert "std::" not in stub  # a C++ type that the stub cannot name
-
-
-def test_everything_has_a_docstring():
-    for name in quadrille.__all__:
-        thing = getattr(quadrille, name)
-        if callable(thing):
-            assert (thing.__doc__ or "").strip(), name
 
 
 def test_import_and_first_draw_are_quick():
